@@ -1,0 +1,23 @@
+//! Documents of the event stream (`GET /v1/jobs/{id}/events`).
+//!
+//! Event names: `snapshot` (a [`crate::job::Job`], first on a fresh connection, without an id),
+//! `progress` ([`crate::job::Progress`]), `cycle` ([`crate::results::CycleRow`]) and `done` ([`Done`]).
+
+use serde::{Deserialize, Serialize};
+use utoipa::ToSchema;
+
+use crate::job::{Outcome, Status};
+use crate::results::Summary;
+
+/// The last event of a stream.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct Done {
+    /// How the job ended.
+    pub status: Status,
+    /// Why, in words.
+    pub status_reason: Option<String>,
+    /// How the solve ended.
+    pub outcome: Option<Outcome>,
+    /// The result in short.
+    pub summary: Option<Summary>,
+}

@@ -1,0 +1,10 @@
+#![doc = include_str!("../README.md")]
+#![forbid(unsafe_code)]
+
+pub mod event;
+pub mod job;
+pub mod plan;
+pub mod problem;
+pub mod results;
+pub mod spec;
+pub mod system;

@@ -1,0 +1,11 @@
+//! Result documents.
+
+mod history;
+mod snapshot;
+mod summary;
+
+pub use history::{CycleRow, SideRow, SideSeries, Station, WearHistory};
+pub use snapshot::{
+    Loop, Pressure, PressurePosition, Profile, SideProfile, SlidePosition, Snapshot,
+};
+pub use summary::{AccuracyReached, Checks, Cost, Initial, SideSummary, Summary};

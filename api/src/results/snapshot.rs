@@ -1,0 +1,82 @@
+//! Profiles, pressures and friction loops at stored cycles.
+
+use serde::{Deserialize, Serialize};
+use utoipa::ToSchema;
+
+/// Worn depth along one surface.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct SideProfile {
+    /// Places along the surface, mm, in the frame of its own body.
+    pub x_mm: Vec<f64>,
+    /// Worn depth, mm.
+    pub depth_mm: Vec<f64>,
+}
+
+/// Worn depth along both surfaces.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct Profile {
+    /// The cycle it belongs to.
+    pub cycle: u64,
+    /// The receptacle's surface.
+    pub receptacle: SideProfile,
+    /// The slider's surface.
+    pub slider: SideProfile,
+}
+
+/// Named positions of a cycle.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum SlidePosition {
+    /// Slider at x = 0 on its way to +x (the end of the cycle).
+    Neutral,
+    /// Slider at its rightmost place.
+    Rightmost,
+    /// Slider at its leftmost place.
+    Leftmost,
+}
+
+/// Contact tractions at one position of the slider.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct PressurePosition {
+    /// Where in the cycle.
+    pub phase: SlidePosition,
+    /// Imposed displacement of the slider relative to the receptacle, mm.
+    pub slider_x_mm: f64,
+    /// Places on the receptacle, mm.
+    pub x_mm: Vec<f64>,
+    /// Normal pressure, MPa.
+    pub pressure_mpa: Vec<f64>,
+    /// Shear traction on the receptacle, MPa.
+    pub shear_mpa: Vec<f64>,
+}
+
+/// Contact tractions at the positions of a cycle.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct Pressure {
+    /// The cycle it belongs to.
+    pub cycle: u64,
+    /// The positions.
+    pub positions: Vec<PressurePosition>,
+}
+
+/// Friction force over the imposed displacement during one cycle.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct Loop {
+    /// The cycle it belongs to.
+    pub cycle: u64,
+    /// Imposed displacement, mm.
+    pub displacement_mm: Vec<f64>,
+    /// Force of the slider on the receptacle along x, N/mm.
+    pub tangential_force_n_per_mm: Vec<f64>,
+}
+
+/// Everything stored at one cycle.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct Snapshot {
+    /// Worn depth.
+    pub profile: Profile,
+    /// Contact tractions.
+    pub pressure: Pressure,
+    /// Friction loop.
+    pub friction_loop: Loop,
+}

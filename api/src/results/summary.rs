@@ -1,0 +1,108 @@
+//! The result in short.
+
+use std::collections::BTreeMap;
+
+use serde::{Deserialize, Serialize};
+use utoipa::ToSchema;
+
+use crate::job::{Outcome, Phase};
+
+/// One side's wear at the end.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct SideSummary {
+    /// Largest worn depth, mm.
+    pub max_depth_mm: f64,
+    /// Worn area of the section, mm^2.
+    pub worn_area_mm2: f64,
+    /// k P' `s_total`, mm^2; null where the law has no such identity.
+    pub ideal_area_mm2: Option<f64>,
+    /// Half the width of the scar, mm.
+    pub scar_half_width_mm: f64,
+}
+
+/// The unworn, loaded state.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct Initial {
+    /// Highest pressure, MPa.
+    pub peak_pressure_mpa: f64,
+    /// Half the width of the contact, mm.
+    pub contact_half_width_mm: f64,
+}
+
+/// What the accuracy settings came to.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct AccuracyReached {
+    /// Accumulated estimate of the relative error of worn depth made by cycle jumps.
+    pub estimated_relative_error: f64,
+    /// Elements along the receptacle's contact surface.
+    pub contact_elements: u64,
+    /// Surface element size under the contact, mm.
+    pub contact_element_mm: f64,
+    /// Increments a computed cycle (the most that were used).
+    pub increments_per_cycle: u32,
+    /// Computed cycles.
+    pub computed_cycles: u64,
+    /// Contact increments that were solved.
+    pub increments: u64,
+    /// How often the operators were rebuilt after the first time.
+    pub relocations: u64,
+}
+
+/// What the run cost.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct Cost {
+    /// Wall-clock seconds.
+    pub wall_s: f64,
+    /// Processor seconds of the solving process.
+    pub cpu_s: f64,
+    /// Wall-clock seconds by phase.
+    pub phases_s: BTreeMap<Phase, f64>,
+    /// Largest resident memory of the solving process, MiB.
+    pub peak_memory_mb: f64,
+    /// Degrees of freedom of both meshes.
+    pub dofs: u64,
+}
+
+/// Worst residuals that were met, each relative to its scale.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct Checks {
+    /// |sum of vertical forces - load| / load.
+    pub force_balance: f64,
+    /// |worn area of the profile - k times the integral of p |slip|| / worn area.
+    pub worn_area: f64,
+    /// Largest violation of gap >= 0, p >= 0, p gap = 0, over its scale.
+    pub complementarity: f64,
+    /// Largest excess of |q| over mu p, over the peak pressure.
+    pub friction_cone: f64,
+    /// Largest |Q| / (mu P).
+    pub friction_use: f64,
+}
+
+/// The result in short.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct Summary {
+    /// Physical cycles done.
+    pub cycles_done: u64,
+    /// Accumulated imposed sliding distance, mm.
+    pub sliding_distance_mm: f64,
+    /// Why it ended.
+    pub outcome: Outcome,
+    /// The receptacle's wear.
+    pub receptacle: SideSummary,
+    /// The slider's wear.
+    pub slider: SideSummary,
+    /// Highest contact pressure at the end, MPa.
+    pub peak_pressure_mpa: f64,
+    /// Half the width of the contact at the end, mm.
+    pub contact_half_width_mm: f64,
+    /// The unworn, loaded state.
+    pub initial: Initial,
+    /// Accumulated energy dissipated by friction, mJ per mm of depth.
+    pub dissipated_energy_mj_per_mm: f64,
+    /// What the accuracy settings came to.
+    pub accuracy: AccuracyReached,
+    /// What the run cost.
+    pub cost: Cost,
+    /// The residuals that were reached.
+    pub checks: Checks,
+}

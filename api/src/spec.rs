@@ -1,0 +1,86 @@
+//! The specification of a study, as users write it.
+//!
+//! Only `system.kind` is required; what is left out comes from the system's preset. Variants are told apart by
+//! `kind` or `law` inside one flat object, so that every fault keeps its JSON pointer.
+
+mod choice;
+mod interface;
+mod load;
+mod materials;
+mod motion;
+mod read;
+mod settings;
+mod system;
+
+use std::collections::BTreeMap;
+
+use serde::{Deserialize, Serialize};
+use utoipa::ToSchema;
+
+pub use choice::{Choice, Named};
+pub use interface::{Friction, FrictionLaw, Interface, Sides, WearLaw, WearLawName};
+pub use load::{Load, LoadKind};
+pub use materials::{Material, MaterialProperties, Materials};
+pub use motion::{Drive, Motion, MotionKind, Waveform};
+pub use read::{Broken, pointer_token};
+pub use settings::{Accuracy, CycleJump, Output, Overrides, Preset, Stop, Switch};
+pub use system::{System, SystemKind};
+
+/// Where a value of a resolved specification comes from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Provenance {
+    /// Written by the user.
+    Given,
+    /// Stated by the source the preset follows.
+    Source,
+    /// Typical of the parts or materials in question, from the literature.
+    Typical,
+    /// Assumed; replace it by a measured value where it matters.
+    Assumed,
+}
+
+/// The specification of a study.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct Spec {
+    /// A name for people.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub name: Option<String>,
+    /// Labels for finding it again.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub labels: BTreeMap<String, String>,
+    /// The contact system and its dimensions.
+    pub system: System,
+    /// What both parts are made of.
+    #[serde(default)]
+    pub materials: Materials,
+    /// Friction and wear.
+    #[serde(default)]
+    pub interface: Interface,
+    /// The normal load.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub load: Option<Load>,
+    /// The imposed motion.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub motion: Option<Motion>,
+    /// Number of cycles of a reciprocating motion.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub cycles: Option<u64>,
+    /// Physical effects by name.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    #[schema(value_type = BTreeMap<String, Switch>)]
+    pub effects: BTreeMap<String, Choice<Switch>>,
+    /// How accurate, or how fast.
+    #[serde(default)]
+    pub accuracy: Accuracy,
+    /// What is recorded.
+    #[serde(default)]
+    pub output: Output,
+    /// Conditions that end the run.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub stop: Vec<Stop>,
+    /// Where each value comes from, by JSON pointer. Filled in by the service; accepted and replaced when submitted,
+    /// so that a resolved specification can be submitted again.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub provenance: BTreeMap<String, Provenance>,
+}

@@ -1,0 +1,85 @@
+//! A name out of a closed list, where an unknown name is kept so that it can be reported with all other faults.
+
+use serde::de::value::{Error as ValueError, StrDeserializer};
+use serde::de::{DeserializeOwned, IntoDeserializer};
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+/// A closed list of names.
+pub trait Named: Sized + Copy + 'static {
+    /// Every member with its name.
+    const NAMES: &'static [&'static str];
+}
+
+/// A member of the list `T`, or a text that names none.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Choice<T> {
+    /// A member.
+    Known(T),
+    /// Not a member; refused later, together with all other faults.
+    Unknown(String),
+}
+
+impl<T: Copy> Choice<T> {
+    /// The member, if it is one.
+    pub fn known(&self) -> Option<T> {
+        match self {
+            Self::Known(member) => Some(*member),
+            Self::Unknown(_) => None,
+        }
+    }
+}
+
+impl<T> From<T> for Choice<T> {
+    fn from(member: T) -> Self {
+        Self::Known(member)
+    }
+}
+
+impl<T: Serialize> Serialize for Choice<T> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        match self {
+            Self::Known(member) => member.serialize(serializer),
+            Self::Unknown(text) => text.serialize(serializer),
+        }
+    }
+}
+
+impl<'de, T: DeserializeOwned> Deserialize<'de> for Choice<T> {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let text = String::deserialize(deserializer)?;
+        let member: StrDeserializer<'_, ValueError> = text.as_str().into_deserializer();
+        Ok(match T::deserialize(member) {
+            Ok(member) => Self::Known(member),
+            Err(_) => Self::Unknown(text),
+        })
+    }
+}
+
+/// Declares a closed list of names: the enum, its serde names and [`Named`].
+macro_rules! named {
+    ($(#[$outer:meta])* $name:ident { $($(#[$inner:meta])* $member:ident = $text:literal),+ $(,)? }) => {
+        $(#[$outer])*
+        #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize, utoipa::ToSchema)]
+        pub enum $name {
+            $($(#[$inner])* #[serde(rename = $text)] $member),+
+        }
+
+        impl crate::spec::Named for $name {
+            const NAMES: &'static [&'static str] = &[$($text),+];
+        }
+
+        impl $name {
+            /// Every member.
+            pub const ALL: &'static [Self] = &[$(Self::$member),+];
+
+            /// The member as it is written.
+            pub fn as_str(self) -> &'static str {
+                match self {
+                    $(Self::$member => $text),+
+                }
+            }
+        }
+    };
+}
+
+pub(crate) use named;

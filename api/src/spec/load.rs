@@ -1,0 +1,42 @@
+//! The normal load.
+
+use serde::{Deserialize, Serialize};
+use utoipa::ToSchema;
+
+use super::choice::{Choice, named};
+
+named! {
+    /// Ways to state a load.
+    LoadKind {
+        /// A pressure on the slider's top face.
+        Pressure = "pressure",
+        /// A force per mm of depth.
+        LineForce = "line_force",
+        /// A force over a width.
+        Force = "force",
+    }
+}
+
+/// The normal load. Which fields belong to it depends on its kind.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct Load {
+    /// How it is stated.
+    #[schema(value_type = LoadKind)]
+    pub kind: Choice<LoadKind>,
+    /// `pressure`: on the slider's top face, MPa.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub mpa: Option<f64>,
+    /// `line_force`: N per mm of depth.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub n_per_mm: Option<f64>,
+    /// `force`: N.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub n: Option<f64>,
+    /// `force`: the width (depth of the section) that carries it, mm.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub width_mm: Option<f64>,
+    /// Stiffness of the spring that holds the slider down, N per mm of deflection and per mm of depth: the load
+    /// falls by it as the contact wears.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub spring_n_per_mm: Option<f64>,
+}

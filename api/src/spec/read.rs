@@ -1,0 +1,109 @@
+//! Bytes to [`Spec`]: all unknown fields at once, and the place of whatever cannot be read at all.
+
+use serde::Deserialize;
+use serde_ignored::Path as IgnoredPath;
+use serde_path_to_error::{Path as TrackedPath, Segment, Track};
+
+use super::Spec;
+use crate::problem::Fault;
+
+/// The bytes are not a specification: broken JSON, a number out of range, or a wrong type.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("{detail} at line {line}, column {column}{}", at_pointer(.pointer))]
+pub struct Broken {
+    /// JSON pointer of the value in question; empty for broken JSON.
+    pub pointer: String,
+    /// What is wrong.
+    pub detail: String,
+    /// Line, from 1.
+    pub line: usize,
+    /// Column, from 1.
+    pub column: usize,
+}
+
+impl Spec {
+    /// Reads a specification and lists its unknown fields.
+    ///
+    /// # Errors
+    /// [`Broken`] for what cannot be read at all: broken JSON, a wrong type, a missing `system.kind`, a field
+    /// given twice.
+    pub fn read(bytes: &[u8]) -> Result<(Self, Vec<Fault>), Broken> {
+        let mut faults = Vec::new();
+        let mut json = serde_json::Deserializer::from_slice(bytes);
+        let mut track = Track::new();
+        let spec = {
+            let tracked = serde_path_to_error::Deserializer::new(&mut json, &mut track);
+            let mut note = |path: IgnoredPath<'_>| {
+                let pointer = ignored_pointer(&path);
+                let field = pointer.rsplit('/').next().unwrap_or_default().to_owned();
+                faults.push(Fault::new(pointer, format!("unknown field `{field}`")));
+            };
+            Self::deserialize(serde_ignored::Deserializer::new(tracked, &mut note))
+        };
+        let spec = spec.map_err(|error| broken(&error, &tracked_pointer(&track.path())))?;
+        json.end().map_err(|error| broken(&error, ""))?;
+        Ok((spec, faults))
+    }
+}
+
+/// A key as a token of a JSON pointer (RFC 6901).
+pub fn pointer_token(key: &str) -> String {
+    key.replace('~', "~0").replace('/', "~1")
+}
+
+fn at_pointer(pointer: &str) -> String {
+    if pointer.is_empty() {
+        String::new()
+    } else {
+        format!(" ({pointer})")
+    }
+}
+
+fn broken(error: &serde_json::Error, pointer: &str) -> Broken {
+    let mut detail = error.to_string();
+    if let Some(end) = detail.rfind(" at line ") {
+        detail.truncate(end);
+    }
+    // Where the text itself is broken the reached path is an accident of reading order.
+    let pointer = if error.is_data() {
+        pointer.to_owned()
+    } else {
+        String::new()
+    };
+    Broken {
+        pointer,
+        detail,
+        line: error.line(),
+        column: error.column(),
+    }
+}
+
+fn tracked_pointer(path: &TrackedPath) -> String {
+    let mut pointer = String::new();
+    for segment in path {
+        let token = match segment {
+            Segment::Seq { index } => index.to_string(),
+            Segment::Map { key } => pointer_token(key),
+            Segment::Enum { .. } | Segment::Unknown => continue,
+        };
+        pointer.push('/');
+        pointer.push_str(&token);
+    }
+    pointer
+}
+
+fn ignored_pointer(path: &IgnoredPath<'_>) -> String {
+    match path {
+        IgnoredPath::Root => String::new(),
+        IgnoredPath::Seq { parent, index } => format!("{}/{index}", ignored_pointer(parent)),
+        IgnoredPath::Map { parent, key } => {
+            format!("{}/{}", ignored_pointer(parent), pointer_token(key))
+        }
+        IgnoredPath::Some { parent }
+        | IgnoredPath::NewtypeStruct { parent }
+        | IgnoredPath::NewtypeVariant { parent } => ignored_pointer(parent),
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,140 @@
+//! Places of faults while reading.
+
+use super::*;
+use crate::spec::{Material, SystemKind};
+
+fn unknown(text: &str) -> Vec<String> {
+    let (_, faults) = Spec::read(text.as_bytes()).expect("readable");
+    faults.into_iter().map(|fault| fault.pointer).collect()
+}
+
+fn refused(text: &str) -> Broken {
+    Spec::read(text.as_bytes()).expect_err("not readable")
+}
+
+#[test]
+fn only_the_kind_is_required() {
+    let (spec, faults) = Spec::read(br#"{"system":{"kind":"sd_card"}}"#).expect("readable");
+    assert!(faults.is_empty());
+    assert_eq!(spec.system.kind.known(), Some(SystemKind::SdCard));
+    assert_eq!(refused("{}").detail, "missing field `system`");
+    assert_eq!(refused(r#"{"system":{}}"#).pointer, "/system");
+}
+
+#[test]
+fn unknown_fields_are_all_listed_wherever_they_are() {
+    let text = r#"{
+        "frobnicate": 1,
+        "system": {"kind": "dimm", "colour": "red"},
+        "materials": {"slider": {"youngs_modulus_mpa": 1, "poisson_ratio": 0.3, "smell": {}}, "lid": "copper"},
+        "interface": {"friction": {"law": "coulomb", "coefficient": 1, "x": 0},
+                      "wear": {"slider": {"law": "archard", "kk": 1}, "lid": null}},
+        "load": {"kind": "pressure", "mpa": 1, "psi": 3},
+        "motion": {"kind": "reciprocating", "jitter": 1},
+        "accuracy": {"overrides": {"mesh": 1}},
+        "output": {"plots/x~y": true},
+        "stop": [{"worn_depth_mm": 1}, {"hours": 3}]
+    }"#;
+    let expected = [
+        "/frobnicate",
+        "/system/colour",
+        "/materials/slider/smell",
+        "/materials/lid",
+        "/interface/friction/x",
+        "/interface/wear/slider/kk",
+        "/interface/wear/lid",
+        "/load/psi",
+        "/motion/jitter",
+        "/accuracy/overrides/mesh",
+        "/output/plots~1x~0y",
+        "/stop/1/hours",
+    ];
+    assert_eq!(unknown(text), expected);
+}
+
+#[test]
+fn wrong_types_name_their_pointer() {
+    let cases = [
+        (
+            r#"{"system":{"kind":"dimm","contact_radius_mm":"big"}}"#,
+            "/system/contact_radius_mm",
+        ),
+        (r#"{"system":{"kind":7}}"#, "/system/kind"),
+        (
+            r#"{"system":{"kind":"dimm"},"materials":{"slider":3}}"#,
+            "/materials/slider",
+        ),
+        (
+            r#"{"system":{"kind":"dimm"},"materials":{"slider":{"poisson_ratio":[]}}}"#,
+            "/materials/slider/poisson_ratio",
+        ),
+        (
+            r#"{"system":{"kind":"dimm"},"interface":{"wear":{"slider":{"law":"archard","k":{}}}}}"#,
+            "/interface/wear/slider/k",
+        ),
+        (
+            r#"{"system":{"kind":"dimm"},"output":{"stations_mm":[0, "a"]}}"#,
+            "/output/stations_mm/1",
+        ),
+        (r#"{"system":{"kind":"dimm"},"cycles":-3}"#, "/cycles"),
+        (
+            r#"{"system":{"kind":"dimm"},"accuracy":{"overrides":{"cycle_jump":1.5}}}"#,
+            "/accuracy/overrides/cycle_jump",
+        ),
+    ];
+    for (text, pointer) in cases {
+        assert_eq!(refused(text).pointer, pointer, "{text}");
+    }
+}
+
+#[test]
+fn broken_json_names_line_and_column() {
+    let error = refused("{\"system\": {\"kind\": \"dimm\"},\n \"cycles\": NaN}");
+    assert_eq!((error.line, error.pointer.as_str()), (2, ""));
+    assert!(error.column > 1, "{error}");
+    assert_eq!(refused("{\"system\"").line, 1);
+    assert!(
+        refused(r#"{"system":{"kind":"dimm"}} x"#)
+            .detail
+            .contains("trailing")
+    );
+    assert!(
+        refused(r#"{"system":{"kind":"dimm","contact_radius_mm":1e400}}"#)
+            .detail
+            .contains("out of range")
+    );
+    assert!(
+        refused(r#"{"system":{"kind":"dimm"},"cycles":1,"cycles":2}"#)
+            .detail
+            .contains("duplicate field")
+    );
+    assert!(refused(&"[".repeat(100_000)).line == 1);
+    let nested = format!(r#"{{"labels":{}"#, r#"{"a":"#.repeat(10_000));
+    assert_eq!(refused(&nested).line, 1);
+}
+
+#[test]
+fn unknown_names_are_kept_for_later() {
+    let (spec, faults) =
+        Spec::read(br#"{"system":{"kind":"toaster"},"materials":{"slider":"cheese"}}"#)
+            .expect("readable");
+    assert!(faults.is_empty());
+    assert_eq!(spec.system.kind.known(), None);
+    assert_eq!(
+        spec.materials.slider,
+        Some(Material::Named("cheese".into()))
+    );
+}
+
+#[test]
+fn null_wear_differs_from_absent_wear() {
+    let (spec, _) =
+        Spec::read(br#"{"system":{"kind":"dimm"},"interface":{"wear":{"slider":null}}}"#)
+            .expect("readable");
+    assert_eq!(spec.interface.wear.slider, Some(None));
+    assert_eq!(spec.interface.wear.receptacle, None);
+    let written = serde_json::to_string(&spec).expect("writable");
+    assert!(written.contains(r#""wear":{"slider":null}"#), "{written}");
+    let (again, _) = Spec::read(written.as_bytes()).expect("readable");
+    assert_eq!(again, spec);
+}

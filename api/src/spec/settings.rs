@@ -1,0 +1,141 @@
+//! Effects, accuracy, output and stop conditions.
+
+use serde::de::{Unexpected, Visitor};
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use utoipa::ToSchema;
+
+use super::choice::{Choice, named};
+
+named! {
+    /// Whether an effect is simulated.
+    Switch {
+        /// Decided by the plan.
+        Auto = "auto",
+        /// Simulated.
+        On = "on",
+        /// Left out.
+        Off = "off",
+    }
+}
+
+named! {
+    /// Named tolerances.
+    Preset {
+        /// 10 %.
+        Draft = "draft",
+        /// 2 %.
+        Standard = "standard",
+        /// 0.3 %.
+        Fine = "fine",
+    }
+}
+
+/// How accurate: a preset or a tolerance.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct Accuracy {
+    /// A named tolerance.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schema(value_type = Option<Preset>)]
+    pub preset: Option<Choice<Preset>>,
+    /// Relative tolerance on worn depth and scar width.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub tolerance: Option<f64>,
+    /// Settings fixed by hand instead of chosen from the tolerance.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub overrides: Option<Overrides>,
+}
+
+/// Settings fixed by hand.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct Overrides {
+    /// Surface element size under the contact, mm.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub contact_element_mm: Option<f64>,
+    /// Increments a computed cycle.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub increments_per_cycle: Option<u32>,
+    /// Physical cycles per computed cycle.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schema(value_type = Option<serde_json::Value>)]
+    pub cycle_jump: Option<CycleJump>,
+}
+
+/// Physical cycles per computed cycle: `"adaptive"` or a count.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum CycleJump {
+    /// Chosen from the tolerance.
+    Adaptive,
+    /// Fixed.
+    Fixed(u64),
+    /// A text other than `adaptive`; refused later, together with all other faults.
+    Unknown(String),
+}
+
+impl Serialize for CycleJump {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        match self {
+            Self::Adaptive => serializer.serialize_str("adaptive"),
+            Self::Fixed(count) => serializer.serialize_u64(*count),
+            Self::Unknown(text) => serializer.serialize_str(text),
+        }
+    }
+}
+
+struct CycleJumpVisitor;
+
+impl Visitor<'_> for CycleJumpVisitor {
+    type Value = CycleJump;
+
+    fn expecting(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        formatter.write_str("\"adaptive\" or a count of cycles")
+    }
+
+    fn visit_str<E>(self, text: &str) -> Result<CycleJump, E> {
+        Ok(if text == "adaptive" {
+            CycleJump::Adaptive
+        } else {
+            CycleJump::Unknown(text.to_owned())
+        })
+    }
+
+    fn visit_u64<E>(self, count: u64) -> Result<CycleJump, E> {
+        Ok(CycleJump::Fixed(count))
+    }
+
+    fn visit_i64<E: serde::de::Error>(self, count: i64) -> Result<CycleJump, E> {
+        u64::try_from(count)
+            .map(CycleJump::Fixed)
+            .map_err(|_| E::invalid_value(Unexpected::Signed(count), &self))
+    }
+}
+
+impl<'de> Deserialize<'de> for CycleJump {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_any(CycleJumpVisitor)
+    }
+}
+
+/// What is recorded.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct Output {
+    /// Places on the receptacle whose worn depth is followed, mm.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub stations_mm: Option<Vec<f64>>,
+    /// Cycles at which profile, pressure and loop are kept.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub snapshots_at_cycles: Option<Vec<u64>>,
+    /// Sliding distances at which they are kept, mm; for continuous motion.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub snapshots_at_distance_mm: Option<Vec<f64>>,
+    /// Whether fields in the bodies are written at the snapshots.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub fields: Option<bool>,
+}
+
+/// A condition that ends the run; exactly one field.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct Stop {
+    /// The deepest wear of either side has reached this depth, mm.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub worn_depth_mm: Option<f64>,
+}

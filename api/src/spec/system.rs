@@ -1,0 +1,100 @@
+//! The contact system and its dimensions.
+
+use serde::{Deserialize, Serialize};
+use utoipa::ToSchema;
+
+use super::choice::{Choice, named};
+
+named! {
+    /// The kinds of contact system.
+    SystemKind {
+        /// A wire's lower half on a circuit board's block.
+        FuzzButton = "fuzz_button",
+        /// A rounded spring contact on a card's flat pad.
+        SdCard = "sd_card",
+        /// A semicircular socket contact on a memory module's pad.
+        Dimm = "dimm",
+        /// A sprung socket contact on the pin of an integrated circuit.
+        Zif = "zif",
+        /// A cylinder on a block, the bench geometry of the literature.
+        CylinderOnFlat = "cylinder_on_flat",
+    }
+}
+
+/// The contact system. Which dimensions belong to it depends on its kind.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct System {
+    /// Its kind.
+    #[schema(value_type = SystemKind)]
+    pub kind: Choice<SystemKind>,
+    /// `fuzz_button`: diameter of the wire, mm.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub wire_diameter_mm: Option<f64>,
+    /// `fuzz_button`: length of the circuit board's block along the sliding direction, mm.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub pcb_length_mm: Option<f64>,
+    /// `fuzz_button`: height of the circuit board's block, mm.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub pcb_height_mm: Option<f64>,
+    /// `cylinder_on_flat`: radius of the cylinder, mm.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub radius_mm: Option<f64>,
+    /// `cylinder_on_flat`: length of the block, mm.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub flat_length_mm: Option<f64>,
+    /// `cylinder_on_flat`: height of the block, mm.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub flat_height_mm: Option<f64>,
+    /// `cylinder_on_flat`: half the width of the modelled part of the cylinder, mm.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub slider_half_width_mm: Option<f64>,
+    /// `cylinder_on_flat`: height of the modelled part, from the contact point to the top face, mm.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub slider_height_mm: Option<f64>,
+    /// `sd_card`, `dimm`, `zif`: radius of the sprung contact, mm.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub contact_radius_mm: Option<f64>,
+    /// `sd_card`, `dimm`: length of the pad, mm.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub pad_length_mm: Option<f64>,
+    /// `sd_card`, `dimm`: height of the pad and what carries it, mm.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub pad_height_mm: Option<f64>,
+    /// `zif`: length of the modelled part of the pin, mm.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub pin_length_mm: Option<f64>,
+    /// `zif`: thickness of the pin, mm.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub pin_thickness_mm: Option<f64>,
+}
+
+impl System {
+    /// A system of that kind, all dimensions left to its preset.
+    pub fn of_kind(kind: SystemKind) -> Self {
+        Self {
+            kind: kind.into(),
+            ..Self::default()
+        }
+    }
+}
+
+impl Default for System {
+    fn default() -> Self {
+        Self {
+            kind: SystemKind::FuzzButton.into(),
+            wire_diameter_mm: None,
+            pcb_length_mm: None,
+            pcb_height_mm: None,
+            radius_mm: None,
+            flat_length_mm: None,
+            flat_height_mm: None,
+            slider_half_width_mm: None,
+            slider_height_mm: None,
+            contact_radius_mm: None,
+            pad_length_mm: None,
+            pad_height_mm: None,
+            pin_length_mm: None,
+            pin_thickness_mm: None,
+        }
+    }
+}

@@ -1,0 +1,24 @@
+//! The list of contact systems.
+
+use serde::{Deserialize, Serialize};
+use utoipa::ToSchema;
+
+use crate::spec::{Spec, SystemKind};
+
+/// A contact system and what its preset fills in.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct SystemDocument {
+    /// Its kind.
+    pub kind: SystemKind,
+    /// What it is, in words.
+    pub description: String,
+    /// The specification that `{"system": {"kind": ..}}` resolves to, with the provenance of each value.
+    pub preset: Spec,
+}
+
+/// Every contact system.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct SystemList {
+    /// The systems.
+    pub systems: Vec<SystemDocument>,
+}

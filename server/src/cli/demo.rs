@@ -1,0 +1,159 @@
+//! `fretwear demo`: the main job, end to end, through the service's own HTTP API.
+
+use std::net::SocketAddr;
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use api::event::Done;
+use api::job::{Job, Progress, Status};
+use api::results::WearHistory;
+use eventsource_stream::Eventsource;
+use futures_util::StreamExt;
+use uuid::Uuid;
+
+use super::serve::until_signal;
+use super::solve::phase_name;
+use super::terminal::{bar, failed, say, tell};
+use super::{runtime, table, workers};
+use crate::service::{Config, Service, ServiceError};
+
+/// The study: the source's fuzz button.
+const SPEC: &str = include_str!("../../examples/fuzz_button.json");
+
+/// Why the demonstration failed.
+#[derive(Debug, thiserror::Error)]
+enum DemoError {
+    #[error("{0}")]
+    Io(#[from] std::io::Error),
+    #[error("{0}")]
+    Service(#[from] ServiceError),
+    #[error("asking the service: {0}")]
+    Http(#[from] reqwest::Error),
+    #[error("the event stream broke off: {0}")]
+    Stream(String),
+    #[error("an event could not be read: {0}")]
+    Event(#[from] serde_json::Error),
+    #[error("the job ended as {}: {}", .0.status.as_str(), .0.status_reason.as_deref().unwrap_or("no reason given"))]
+    Ended(Box<Done>),
+}
+
+pub(super) fn run(listen: SocketAddr, exit: bool) -> ExitCode {
+    let runtime = match runtime() {
+        Ok(runtime) => runtime,
+        Err(cause) => return failed(cause),
+    };
+    match runtime.block_on(demonstrate(listen, exit)) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => failed(error),
+    }
+}
+
+async fn demonstrate(listen: SocketAddr, exit: bool) -> Result<(), DemoError> {
+    let folder = PathBuf::from("fretwear-data").join(format!("demo-{}", Uuid::now_v7()));
+    std::fs::create_dir_all(&folder)?;
+    let database = format!("sqlite://{}", folder.join("fretwear.db").display());
+    let program = std::env::current_exe()?;
+    let service = Service::start(Config {
+        listen,
+        database,
+        workers: workers(None),
+        program,
+    })
+    .await?;
+    let base = format!("http://{}", service.address);
+    tell(format_args!(
+        "fretwear serves on {base}, its data in {}",
+        folder.display()
+    ));
+    let told = tokio::select! {
+        told = study(&base) => told,
+        signal = until_signal() => {
+            service.stop().await;
+            return Ok(signal?);
+        }
+    };
+    if let (Ok(()), false) = (&told, exit) {
+        tell("serving on; Ctrl-C ends it");
+        until_signal().await?;
+    }
+    service.stop().await;
+    told
+}
+
+/// Submits the study, follows it and shows what came of it.
+async fn study(base: &str) -> Result<(), DemoError> {
+    let client = reqwest::Client::new();
+    let request = client
+        .post(format!("{base}/v1/jobs"))
+        .header("content-type", "application/json")
+        .body(SPEC);
+    let job: Job = request.send().await?.error_for_status()?.json().await?;
+    let own = format!("{base}/v1/jobs/{}", job.id);
+    let done = follow(&client, &own, job.progress.cycles).await?;
+    if done.status != Status::Succeeded {
+        return Err(DemoError::Ended(Box::new(done)));
+    }
+    let job: Job = client
+        .get(&own)
+        .send()
+        .await?
+        .error_for_status()?
+        .json()
+        .await?;
+    let url = format!("{own}/results/wear-history");
+    let history: WearHistory = client
+        .get(url)
+        .send()
+        .await?
+        .error_for_status()?
+        .json()
+        .await?;
+    for line in table::report(&job, &history) {
+        say(line);
+    }
+    for line in next_steps(base, &own) {
+        say(line);
+    }
+    Ok(())
+}
+
+/// Feeds a progress bar from the event stream until `done`.
+async fn follow(client: &reqwest::Client, own: &str, cycles: u64) -> Result<Done, DemoError> {
+    let bar = bar(cycles);
+    let response = client
+        .get(format!("{own}/events"))
+        .send()
+        .await?
+        .error_for_status()?;
+    let mut events = response.bytes_stream().eventsource();
+    while let Some(event) = events.next().await {
+        let event = event.map_err(|error| DemoError::Stream(error.to_string()))?;
+        match event.event.as_str() {
+            "progress" => {
+                let progress: Progress = serde_json::from_str(&event.data)?;
+                bar.set_position(progress.cycle);
+                if let Some(phase) = progress.phase {
+                    bar.set_message(phase_name(phase));
+                }
+            }
+            "done" => {
+                bar.finish_and_clear();
+                return Ok(serde_json::from_str(&event.data)?);
+            }
+            _ => {}
+        }
+    }
+    Err(DemoError::Stream("it ended before the job".to_owned()))
+}
+
+fn next_steps(base: &str, own: &str) -> [String; 7] {
+    [
+        String::new(),
+        "Where to look next:".to_owned(),
+        format!("  curl {own}"),
+        format!("  curl -N {own}/events"),
+        format!("  curl '{own}/results/wear-history?format=csv'"),
+        format!("  curl '{own}/results/profile?cycle=240'"),
+        format!("  curl --json @SPEC.json {base}/v1/jobs        (and {base}/openapi.json)"),
+    ]
+}

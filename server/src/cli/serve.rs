@@ -1,0 +1,55 @@
+//! `fretwear serve`.
+
+use std::net::SocketAddr;
+use std::process::ExitCode;
+
+use tokio::signal::unix::{SignalKind, signal};
+
+use super::runtime;
+use super::terminal::{failed, tell};
+use crate::service::{Config, Service};
+
+pub(super) fn run(listen: SocketAddr, database: String, workers: usize) -> ExitCode {
+    let runtime = match runtime() {
+        Ok(runtime) => runtime,
+        Err(cause) => return failed(cause),
+    };
+    let program = match std::env::current_exe() {
+        Ok(program) => program,
+        Err(cause) => return failed(cause),
+    };
+    runtime.block_on(async {
+        let service = match Service::start(Config {
+            listen,
+            database,
+            workers,
+            program,
+        })
+        .await
+        {
+            Ok(service) => service,
+            Err(error) => return failed(error),
+        };
+        tell(format_args!(
+            "fretwear serves on http://{}",
+            service.address
+        ));
+        let ended = until_signal().await;
+        service.stop().await;
+        match ended {
+            Ok(()) => ExitCode::SUCCESS,
+            Err(cause) => failed(cause),
+        }
+    })
+}
+
+/// Returns at an interrupt (Ctrl-C) or a request to terminate.
+pub(super) async fn until_signal() -> std::io::Result<()> {
+    let mut interrupt = signal(SignalKind::interrupt())?;
+    let mut terminate = signal(SignalKind::terminate())?;
+    tokio::select! {
+        _ = interrupt.recv() => {}
+        _ = terminate.recv() => {}
+    }
+    Ok(())
+}

@@ -1,0 +1,91 @@
+//! `fretwear solve SPEC [--out DIR]`: no server; progress on standard error, the summary on standard output.
+
+use std::path::Path;
+use std::process::ExitCode;
+
+use api::job::{Outcome, Phase};
+use api::results::{CycleRow, Snapshot, Summary};
+use indicatif::ProgressBar;
+use solver::observer::Flow;
+
+use super::terminal::{bar, failed, refused, say, tell};
+use crate::files::{self, Results};
+use crate::solve::{self, Failure, Line};
+use crate::translate::{self, Resolved};
+
+pub(super) fn run(spec: &Path, out: Option<&Path>) -> ExitCode {
+    let bytes = match std::fs::read(spec) {
+        Ok(bytes) => bytes,
+        Err(cause) => return failed(format_args!("{}: {cause}", spec.display())),
+    };
+    let resolved = match translate::read(&bytes) {
+        Ok(resolved) => resolved,
+        Err(error) => return refused(&error),
+    };
+    let mut recorded = Recorded::default();
+    let solved = solve(&resolved, &mut recorded);
+    if let Some(folder) = out {
+        let results = Results {
+            spec: &resolved.spec,
+            summary: solved.as_ref().ok(),
+            rows: &recorded.rows,
+            snapshots: &recorded.snapshots,
+        };
+        if let Err(error) = files::write(folder, &results) {
+            return failed(error);
+        }
+    }
+    match solved {
+        Ok(summary) => report(&summary),
+        Err(failure) => failed(failure),
+    }
+}
+
+#[derive(Default)]
+struct Recorded {
+    rows: Vec<CycleRow>,
+    snapshots: Vec<Snapshot>,
+}
+
+fn solve(resolved: &Resolved, recorded: &mut Recorded) -> Result<Summary, Failure> {
+    let bar = bar(resolved.scene.cycles);
+    let solved = solve::run(&resolved.scene, &mut |line| {
+        take(line, recorded, &bar);
+        Flow::Continue
+    });
+    bar.finish_and_clear();
+    solved
+}
+
+fn take(line: Line, recorded: &mut Recorded, bar: &ProgressBar) {
+    match line {
+        Line::Phase(phase) => bar.set_message(phase_name(phase)),
+        Line::Cycle(row) => {
+            bar.set_position(row.cycle);
+            recorded.rows.push(row);
+        }
+        Line::Snapshot(snapshot) => recorded.snapshots.push(*snapshot),
+        Line::Summary(_) | Line::Failed(_) => {}
+    }
+}
+
+pub(super) fn phase_name(phase: Phase) -> &'static str {
+    match phase {
+        Phase::Mesh => "mesh",
+        Phase::Condense => "condense",
+        Phase::Cycles => "cycles",
+        Phase::Relocate => "relocate",
+    }
+}
+
+fn report(summary: &Summary) -> ExitCode {
+    match serde_json::to_string_pretty(summary) {
+        Ok(text) => say(text),
+        Err(cause) => return failed(cause),
+    }
+    if summary.outcome == Outcome::Stopped {
+        tell("fretwear: the run was stopped");
+        return ExitCode::FAILURE;
+    }
+    ExitCode::SUCCESS
+}

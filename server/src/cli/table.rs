@@ -1,0 +1,134 @@
+//! The demonstration's table: worn depth by cycle and station, and what it should be.
+
+use api::job::Job;
+use api::results::{Station, WearHistory};
+use comfy_table::{CellAlignment, Table};
+
+/// mm to um and to nm.
+const UM: f64 = 1e3;
+const NM: f64 = 1e6;
+
+/// A wear history and its checks, as lines of text.
+pub(super) fn report(job: &Job, history: &WearHistory) -> Vec<String> {
+    let mut lines = vec![String::new(), job.spec.name.clone().unwrap_or_default()];
+    lines.push("Worn depth of the receptacle, um, by cycle and place x:".to_owned());
+    let rows = shown(job, history);
+    lines.push(depths(history, &rows).to_string());
+    lines.extend(growth(job, history, &rows));
+    lines.extend(area(job));
+    lines
+}
+
+/// The rows nearest to the cycles of the snapshots.
+fn shown(job: &Job, history: &WearHistory) -> Vec<usize> {
+    let wanted = job
+        .spec
+        .output
+        .snapshots_at_cycles
+        .clone()
+        .unwrap_or_default();
+    let nearest = |cycle: u64| {
+        let distance = |index: &usize| history.cycle[*index].abs_diff(cycle);
+        (0..history.cycle.len()).min_by_key(distance)
+    };
+    let mut rows: Vec<_> = wanted.into_iter().filter_map(nearest).collect();
+    rows.sort_unstable();
+    rows.dedup();
+    rows
+}
+
+fn depths(history: &WearHistory, rows: &[usize]) -> Table {
+    let mut table = Table::new();
+    table.load_style(comfy_table::presets::ASCII_MARKDOWN);
+    let mut header = vec!["cycle".to_owned()];
+    header.extend(
+        history
+            .stations
+            .iter()
+            .map(|station| format!("{} mm", station.x_mm)),
+    );
+    header.extend(["deepest".to_owned(), "middle, nm a cycle".to_owned()]);
+    table.set_header(header);
+    for (place, &row) in rows.iter().enumerate() {
+        let mut cells = vec![history.cycle[row].to_string()];
+        cells.extend(
+            history
+                .stations
+                .iter()
+                .map(|station| format!("{:.3}", UM * station.depth_mm[row])),
+        );
+        cells.push(format!("{:.3}", UM * history.receptacle.max_depth_mm[row]));
+        let before = place.checked_sub(1).map(|place| rows[place]);
+        cells.push(
+            before
+                .and_then(|before| slope(history, before, row))
+                .map_or_else(String::new, |nm| format!("{nm:.3}")),
+        );
+        table.add_row(cells);
+    }
+    for column in table.column_iter_mut() {
+        column.set_cell_alignment(CellAlignment::Right);
+    }
+    table
+}
+
+/// The station in the middle of the block.
+fn middle(history: &WearHistory) -> Option<&Station> {
+    history
+        .stations
+        .iter()
+        .min_by(|a, b| a.x_mm.abs().total_cmp(&b.x_mm.abs()))
+}
+
+/// Growth of the worn depth in the middle between two rows, nm a cycle.
+#[expect(clippy::cast_precision_loss, reason = "cycles stay below 1e9")]
+fn slope(history: &WearHistory, from: usize, to: usize) -> Option<f64> {
+    let cycles = history.cycle[to]
+        .checked_sub(history.cycle[from])
+        .filter(|cycles| *cycles > 0)?;
+    let depth = &middle(history)?.depth_mm;
+    Some(NM * (depth[to] - depth[from]) / cycles as f64)
+}
+
+/// Each cycle the contact crosses the middle twice, and each crossing wears (k/H) P', as long as the whole load lies
+/// on the flat floor of the groove: between the first two rows shown. Later the walls carry a part of it.
+fn growth(job: &Job, history: &WearHistory, rows: &[usize]) -> Option<String> {
+    let plan = job.plan.as_ref()?;
+    let expected = 2.0 * NM * plan.estimates.get("receptacle_full_pass_depth_mm")?;
+    let mut worn = rows.iter().copied().filter(|row| history.cycle[*row] > 0);
+    let (first, second) = (worn.next()?, worn.next()?);
+    let found = slope(history, first, second)?;
+    Some(format!(
+        "In the middle, from cycle {} to {}: {found:.3} nm a cycle; 2 (k/H) P' = {expected:.3} nm ({:+.2} %).",
+        history.cycle[first],
+        history.cycle[second],
+        100.0 * (found / expected - 1.0)
+    ))
+}
+
+fn area(job: &Job) -> Option<String> {
+    let summary = job.summary.as_ref()?;
+    let cost = &summary.cost;
+    let ratio = summary
+        .receptacle
+        .ideal_area_mm2
+        .filter(|ideal| *ideal > 0.0)
+        .map_or_else(String::new, |ideal| {
+            format!(
+                " ({:.4} of k P' s / H)",
+                summary.receptacle.worn_area_mm2 / ideal
+            )
+        });
+    Some(format!(
+        "Worn area {:.6e} mm^2{ratio}; it equals (k/H) times the integral of p |slip| within {:.1e}.\n\
+         {} contact elements, {} increments a cycle, {} computed cycles; {:.2} s, {:.2} s of CPU, {:.0} MB.",
+        summary.receptacle.worn_area_mm2,
+        summary.checks.worn_area,
+        summary.accuracy.contact_elements,
+        summary.accuracy.increments_per_cycle,
+        summary.accuracy.computed_cycles,
+        cost.wall_s,
+        cost.cpu_s,
+        cost.peak_memory_mb
+    ))
+}

@@ -1,0 +1,59 @@
+//! `GET /healthz` and `GET /readyz`: whether the service lives, and whether it can work.
+
+use api::problem::Problem;
+use axum::Json;
+use axum::extract::State;
+use axum::response::{IntoResponse, Response};
+use serde_json::{Value, json};
+
+use super::App;
+use super::problem::Refusal;
+use crate::store::StoreError;
+
+/// Why the service cannot work.
+#[derive(Debug, thiserror::Error)]
+pub(super) enum ReadyError {
+    /// The store failed.
+    #[error(transparent)]
+    Store(#[from] StoreError),
+}
+
+impl IntoResponse for ReadyError {
+    fn into_response(self) -> Response {
+        let Self::Store(error) = &self;
+        Refusal::from(error).into_response()
+    }
+}
+
+/// Whether the service lives.
+#[utoipa::path(get, path = "/healthz", tag = "operation", responses((status = 200, description = "It does")))]
+pub(super) async fn healthz() -> Json<Value> {
+    Json(json!({ "status": "ok" }))
+}
+
+/// Whether the service can work: its database takes a write lock.
+#[utoipa::path(
+    get,
+    path = "/readyz",
+    tag = "operation",
+    responses(
+        (status = 200, description = "It can"),
+        (status = 500, description = "It cannot", body = Problem),
+    )
+)]
+pub(super) async fn readyz(State(app): State<App>) -> Result<Json<Value>, ReadyError> {
+    app.store.ready().await?;
+    Ok(Json(json!({ "status": "ready" })))
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::http::tests::Service;
+
+    #[tokio::test]
+    async fn a_working_service_is_alive_and_ready() {
+        let service = Service::new().await;
+        assert_eq!(service.get("/healthz").await.2["status"], "ok");
+        assert_eq!(service.get("/readyz").await.2["status"], "ready");
+    }
+}

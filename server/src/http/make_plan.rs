@@ -1,0 +1,78 @@
+//! `POST /v1/plans`: the plan of a specification; nothing is queued.
+
+use api::plan::PlanDocument;
+use api::problem::Problem;
+use api::spec::Spec;
+use axum::Json;
+use axum::response::{IntoResponse, Response};
+
+use super::extract::JsonBody;
+use super::submit::refusal;
+use crate::translate::{self, Refused};
+
+/// Why there is no plan.
+#[derive(Debug, thiserror::Error)]
+pub(super) enum PlanError {
+    /// It is not a study.
+    #[error(transparent)]
+    Refused(#[from] Refused),
+}
+
+impl IntoResponse for PlanError {
+    fn into_response(self) -> Response {
+        let Self::Refused(refused) = self;
+        refusal(refused).into_response()
+    }
+}
+
+/// The plan of a specification; nothing is queued.
+#[utoipa::path(
+    post,
+    path = "/v1/plans",
+    tag = "plans",
+    request_body = Spec,
+    responses(
+        (status = 200, description = "The resolved specification and its plan", body = PlanDocument),
+        (status = 400, description = "The body cannot be read", body = Problem),
+        (status = 413, description = "The body is too large", body = Problem),
+        (status = 415, description = "The body is not declared as JSON", body = Problem),
+        (status = 422, description = "The specification has faults", body = Problem),
+    )
+)]
+pub(super) async fn make_plan(JsonBody(body): JsonBody) -> Result<Json<PlanDocument>, PlanError> {
+    let resolved = translate::read(&body)?;
+    let plan = translate::plan(&resolved);
+    Ok(Json(PlanDocument {
+        spec: resolved.spec,
+        plan,
+    }))
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::http::tests::Service;
+
+    #[tokio::test]
+    async fn a_plan_queues_nothing() {
+        let service = Service::new().await;
+        let (status, _, document) = service
+            .post("/v1/plans", r#"{"system":{"kind":"fuzz_button"}}"#)
+            .await;
+        assert_eq!(status, 200);
+        let load = document["plan"]["estimates"]["line_load_n_per_mm"]
+            .as_f64()
+            .expect("a number");
+        assert!((load - 0.508).abs() < 1e-12);
+        assert_eq!(
+            service.get("/v1/jobs").await.2["jobs"],
+            serde_json::json!([])
+        );
+        assert_eq!(
+            service
+                .post("/v1/plans", r#"{"system":{"kind":"x"}}"#)
+                .await
+                .0,
+            422
+        );
+    }
+}

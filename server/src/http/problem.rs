@@ -1,0 +1,161 @@
+//! The table of problem types. A name, once given, is never changed.
+
+use api::problem::{Fault, Problem};
+use axum::http::{HeaderValue, StatusCode, header};
+use axum::response::{IntoResponse, Response};
+
+use crate::store::StoreError;
+
+/// Media type of a problem document.
+const MEDIA_TYPE: &str = "application/problem+json";
+
+/// Kinds of problem.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Kind {
+    /// The body is not JSON, or has a wrong type somewhere.
+    Unreadable,
+    /// The specification has faults.
+    InvalidSpecification,
+    /// A query parameter cannot be read.
+    InvalidQuery,
+    /// The body is too large.
+    TooLarge,
+    /// The body is not declared as JSON.
+    MediaType,
+    /// There is nothing at this path.
+    NoRoute,
+    /// The path does not take this method.
+    WrongMethod,
+    /// There is no such job.
+    NoJob,
+    /// The job has no such result (yet).
+    NoResult,
+    /// There is no such system.
+    NoSystem,
+    /// The job has not ended.
+    Active,
+    /// The request was made for another host or from another origin.
+    Host,
+    /// The service failed.
+    Internal,
+}
+
+impl Kind {
+    /// Type, title and status.
+    fn row(self) -> (&'static str, &'static str, StatusCode) {
+        match self {
+            Self::Unreadable => (
+                "unreadable-body",
+                "the body cannot be read",
+                StatusCode::BAD_REQUEST,
+            ),
+            Self::InvalidSpecification => (
+                "invalid-specification",
+                "the specification has faults",
+                StatusCode::UNPROCESSABLE_ENTITY,
+            ),
+            Self::InvalidQuery => (
+                "invalid-query",
+                "a query parameter cannot be read",
+                StatusCode::BAD_REQUEST,
+            ),
+            Self::TooLarge => (
+                "body-too-large",
+                "the body is too large",
+                StatusCode::PAYLOAD_TOO_LARGE,
+            ),
+            Self::MediaType => (
+                "media-type",
+                "the body is not declared as JSON",
+                StatusCode::UNSUPPORTED_MEDIA_TYPE,
+            ),
+            Self::NoRoute => ("no-such-path", "nothing is here", StatusCode::NOT_FOUND),
+            Self::WrongMethod => (
+                "wrong-method",
+                "the path does not take this method",
+                StatusCode::METHOD_NOT_ALLOWED,
+            ),
+            Self::NoJob => ("no-such-job", "there is no such job", StatusCode::NOT_FOUND),
+            Self::NoResult => (
+                "no-such-result",
+                "the job has no such result",
+                StatusCode::NOT_FOUND,
+            ),
+            Self::NoSystem => (
+                "no-such-system",
+                "there is no such system",
+                StatusCode::NOT_FOUND,
+            ),
+            Self::Active => ("job-active", "the job has not ended", StatusCode::CONFLICT),
+            Self::Host => (
+                "foreign-host",
+                "the request was not made for this service",
+                StatusCode::FORBIDDEN,
+            ),
+            Self::Internal => (
+                "internal",
+                "the service failed",
+                StatusCode::INTERNAL_SERVER_ERROR,
+            ),
+        }
+    }
+
+    /// This kind with this occurrence in words.
+    pub(super) fn because(self, detail: impl Into<String>) -> Refusal {
+        Refusal {
+            kind: self,
+            detail: Some(detail.into()),
+            faults: Vec::new(),
+        }
+    }
+}
+
+/// A problem on its way to the client.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) struct Refusal {
+    kind: Kind,
+    detail: Option<String>,
+    faults: Vec<Fault>,
+}
+
+impl Refusal {
+    /// With faults of the submitted document.
+    pub(super) fn with_faults(mut self, faults: Vec<Fault>) -> Self {
+        self.faults = faults;
+        self
+    }
+
+    /// A failure of the service: logged here, hidden from the client.
+    pub(super) fn internal(cause: &dyn std::error::Error) -> Self {
+        tracing::error!(%cause, "a request failed");
+        Self {
+            kind: Kind::Internal,
+            detail: None,
+            faults: Vec::new(),
+        }
+    }
+}
+
+impl From<&StoreError> for Refusal {
+    fn from(error: &StoreError) -> Self {
+        Self::internal(error)
+    }
+}
+
+impl IntoResponse for Refusal {
+    fn into_response(self) -> Response {
+        let (name, title, status) = self.kind.row();
+        let problem = Problem {
+            kind: format!("/problems/{name}"),
+            title: title.to_owned(),
+            status: status.as_u16(),
+            detail: self.detail,
+            faults: self.faults,
+        };
+        let mut response = (status, axum::Json(problem)).into_response();
+        response
+            .headers_mut()
+            .insert(header::CONTENT_TYPE, HeaderValue::from_static(MEDIA_TYPE));
+        response
+    }
+}

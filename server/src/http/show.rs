@@ -1,0 +1,214 @@
+//! `GET /v1/jobs/{id}`: a job, with `ETag` and long poll.
+
+use std::time::Duration;
+
+use api::job::Job;
+use api::problem::Problem;
+use axum::Json;
+use axum::extract::State;
+use axum::http::{HeaderMap, StatusCode, header};
+use axum::response::{IntoResponse, Response};
+use serde::Deserialize;
+use tokio::time::Instant;
+use utoipa::IntoParams;
+use uuid::Uuid;
+
+use super::App;
+use super::extract::{JobId, Params};
+use super::problem::{Kind, Refusal};
+use crate::store::{StoreError, StoredJob};
+
+/// Longest wait, s.
+const WAIT_LIMIT: u64 = 60;
+/// A missed change is found at the latest after this long.
+const LOOK: Duration = Duration::from_secs(1);
+
+/// Why there is no job.
+#[derive(Debug, thiserror::Error)]
+pub(super) enum ShowError {
+    /// There is none of that id.
+    #[error("there is no job {0}")]
+    Missing(Uuid),
+    /// Not a duration.
+    #[error("`{0}` is not a wait such as 25s, up to {WAIT_LIMIT}s")]
+    Wait(String),
+    /// The store failed.
+    #[error(transparent)]
+    Store(#[from] StoreError),
+}
+
+impl IntoResponse for ShowError {
+    fn into_response(self) -> Response {
+        match &self {
+            Self::Missing(_) => Kind::NoJob.because(self.to_string()),
+            Self::Wait(_) => Kind::InvalidQuery.because(self.to_string()),
+            Self::Store(error) => Refusal::from(error),
+        }
+        .into_response()
+    }
+}
+
+/// How long to wait.
+#[derive(Debug, Deserialize, IntoParams)]
+#[into_params(parameter_in = Query)]
+pub(super) struct ShowQuery {
+    /// Answer when the job has changed (with `If-None-Match`) or ended (without), or after this long; such as `25s`.
+    wait: Option<String>,
+}
+
+/// A job.
+#[utoipa::path(
+    get,
+    path = "/v1/jobs/{id}",
+    tag = "jobs",
+    params(("id" = Uuid, Path, description = "The job"), ShowQuery),
+    responses(
+        (status = 200, description = "The job", body = Job, headers(("ETag" = String, description = "Its version"))),
+        (status = 304, description = "Not changed since the version in `If-None-Match`"),
+        (status = 400, description = "A query parameter cannot be read", body = Problem),
+        (status = 404, description = "No such job", body = Problem),
+    )
+)]
+pub(super) async fn show(
+    State(app): State<App>,
+    JobId(id): JobId,
+    Params(query): Params<ShowQuery>,
+    headers: HeaderMap,
+) -> Result<Response, ShowError> {
+    let wait = query.wait.as_deref().map(duration).transpose()?;
+    let known = headers
+        .get(header::IF_NONE_MATCH)
+        .and_then(|value| value.to_str().ok())
+        .map(str::to_owned);
+    let mut changes = app.store.changes();
+    let mut job = app.store.job(id).await?.ok_or(ShowError::Missing(id))?;
+    if let Some(wait) = wait {
+        let deadline = Instant::now() + wait;
+        while !worth_telling(&job, known.as_deref())
+            && Instant::now() < deadline
+            && !app.stopping.is_cancelled()
+        {
+            tokio::select! {
+                _ = changes.recv() => {}
+                () = tokio::time::sleep_until(deadline.min(Instant::now() + LOOK)) => {}
+                () = app.stopping.cancelled() => {}
+            }
+            job = app.store.job(id).await?.ok_or(ShowError::Missing(id))?;
+        }
+    }
+    let etag = [
+        (header::ETAG, etag(&job)),
+        (header::CACHE_CONTROL, "no-cache".to_owned()),
+    ];
+    if known.is_some_and(|known| matches(&known, &job)) {
+        return Ok((StatusCode::NOT_MODIFIED, etag).into_response());
+    }
+    Ok((etag, Json(job.document)).into_response())
+}
+
+fn worth_telling(job: &StoredJob, known: Option<&str>) -> bool {
+    match known {
+        Some(known) => !matches(known, job),
+        None => job.document.status.is_terminal(),
+    }
+}
+
+fn etag(job: &StoredJob) -> String {
+    format!("\"{}\"", job.version)
+}
+
+fn matches(known: &str, job: &StoredJob) -> bool {
+    let own = etag(job);
+    known
+        .split(',')
+        .map(|tag| tag.trim().trim_start_matches("W/"))
+        .any(|tag| tag == "*" || tag == own)
+}
+
+/// `25s`, `500ms` or `25`.
+fn duration(text: &str) -> Result<Duration, ShowError> {
+    let wrong = || ShowError::Wait(text.chars().take(20).collect());
+    let (digits, scale_ms) = match text.strip_suffix("ms") {
+        Some(digits) => (digits, 1),
+        None => (text.strip_suffix('s').unwrap_or(text), 1000),
+    };
+    let count: u64 = digits.parse().map_err(|_| wrong())?;
+    let milliseconds = count
+        .checked_mul(scale_ms)
+        .filter(|total| *total <= WAIT_LIMIT * 1000)
+        .ok_or_else(wrong)?;
+    Ok(Duration::from_millis(milliseconds))
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::http::tests::Service;
+
+    #[tokio::test]
+    async fn an_unchanged_job_is_a_304() {
+        let service = Service::new().await;
+        let id = service.queued(r#"{"system":{"kind":"dimm"}}"#).await;
+        let path = format!("/v1/jobs/{id}");
+        let (status, headers, job) = service.get(&path).await;
+        assert_eq!(
+            (status.as_u16(), job["id"].as_str()),
+            (200, Some(id.as_str()))
+        );
+        let etag = headers["etag"].to_str().expect("text").to_owned();
+        let known = [("if-none-match", etag.as_str())];
+        assert_eq!(service.send("GET", &path, &known, "").await.0, 304);
+        service.post(&format!("{path}/cancel"), "").await;
+        let (status, _, job) = service.send("GET", &path, &known, "").await;
+        assert_eq!(
+            (status.as_u16(), job["status"].as_str()),
+            (200, Some("cancelled"))
+        );
+    }
+
+    #[tokio::test]
+    async fn a_long_poll_ends_with_the_job() {
+        let service = Service::new().await;
+        let id = service.queued(r#"{"system":{"kind":"dimm"}}"#).await;
+        let path = format!("/v1/jobs/{id}?wait=30s");
+        let (waited, _) = tokio::join!(service.get(&path), async {
+            tokio::task::yield_now().await;
+            service.post(&format!("/v1/jobs/{id}/cancel"), "").await
+        });
+        assert_eq!(waited.2["status"], "cancelled");
+    }
+
+    #[tokio::test]
+    async fn a_long_poll_gives_up() {
+        let service = Service::new().await;
+        let id = service.queued(r#"{"system":{"kind":"dimm"}}"#).await;
+        let (status, _, job) = service.get(&format!("/v1/jobs/{id}?wait=20ms")).await;
+        assert_eq!(
+            (status.as_u16(), job["status"].as_str()),
+            (200, Some("queued"))
+        );
+        for wait in ["61s", "soon", "-1s", "99999999999999999999s"] {
+            assert_eq!(
+                service.get(&format!("/v1/jobs/{id}?wait={wait}")).await.0,
+                400,
+                "{wait}"
+            );
+        }
+    }
+
+    #[tokio::test]
+    async fn unknown_jobs_are_404_problems() {
+        let service = Service::new().await;
+        for id in [
+            "00000000-0000-7000-8000-000000000000",
+            "..%2F..%2Fetc%2Fpasswd",
+            "1",
+        ] {
+            let (status, _, problem) = service.get(&format!("/v1/jobs/{id}")).await;
+            assert_eq!(
+                (status.as_u16(), problem["type"].as_str()),
+                (404, Some("/problems/no-such-job")),
+                "{id}"
+            );
+        }
+    }
+}

@@ -1,0 +1,177 @@
+//! `POST /v1/jobs`: queues a study.
+
+use api::job::Job;
+use api::plan::Plan;
+use api::problem::{Fault, Problem};
+use api::spec::Spec;
+use axum::Json;
+use axum::extract::State;
+use axum::http::{StatusCode, header};
+use axum::response::{IntoResponse, Response};
+
+use super::App;
+use super::extract::JsonBody;
+use super::problem::{Kind, Refusal};
+use crate::clock::now_ms;
+use crate::store::{NewJob, StoreError};
+use crate::translate::{self, Refused, Resolved};
+
+/// Why a study was not queued.
+#[derive(Debug, thiserror::Error)]
+pub(super) enum SubmitError {
+    /// It is not a study.
+    #[error(transparent)]
+    Refused(#[from] Refused),
+    /// The store failed.
+    #[error(transparent)]
+    Store(#[from] StoreError),
+    /// The job is gone again.
+    #[error("the job was deleted at once")]
+    Gone,
+}
+
+impl IntoResponse for SubmitError {
+    fn into_response(self) -> Response {
+        match self {
+            Self::Refused(refused) => refusal(refused).into_response(),
+            Self::Store(error) => Refusal::from(&error).into_response(),
+            Self::Gone => Kind::NoJob
+                .because("the job was deleted at once")
+                .into_response(),
+        }
+    }
+}
+
+/// A refused document as a problem.
+pub(super) fn refusal(refused: Refused) -> Refusal {
+    match refused {
+        Refused::Broken(broken) => {
+            let fault = Fault::new(broken.pointer.clone(), broken.detail.clone());
+            Kind::Unreadable
+                .because(broken.to_string())
+                .with_faults(vec![fault])
+        }
+        Refused::Faults(faults) => Kind::InvalidSpecification
+            .because(format!("{} fault(s); nothing was queued", faults.len()))
+            .with_faults(faults),
+    }
+}
+
+/// Queues a study.
+#[utoipa::path(
+    post,
+    path = "/v1/jobs",
+    tag = "jobs",
+    request_body = Spec,
+    responses(
+        (status = 202, description = "Queued", body = Job, headers(("Location" = String, description = "The job"))),
+        (status = 400, description = "The body cannot be read", body = Problem),
+        (status = 413, description = "The body is too large", body = Problem),
+        (status = 415, description = "The body is not declared as JSON", body = Problem),
+        (status = 422, description = "The specification has faults", body = Problem),
+    )
+)]
+pub(super) async fn submit(
+    State(app): State<App>,
+    JsonBody(body): JsonBody,
+) -> Result<Response, SubmitError> {
+    let resolved = translate::read(&body)?;
+    let plan: Plan = translate::plan(&resolved);
+    let Resolved { spec, .. } = resolved;
+    let id = app.store.submit(&NewJob { spec, plan }, now_ms()).await?;
+    let job = app.store.job(id).await?.ok_or(SubmitError::Gone)?;
+    let location = [(header::LOCATION, format!("/v1/jobs/{id}"))];
+    Ok((StatusCode::ACCEPTED, location, Json(job.document)).into_response())
+}
+
+#[cfg(test)]
+mod tests {
+    use serde_json::Value;
+
+    use crate::http::tests::Service;
+
+    #[tokio::test]
+    async fn a_study_is_queued_and_located() {
+        let service = Service::new().await;
+        let (status, headers, job) = service
+            .post("/v1/jobs", r#"{"system":{"kind":"sd_card"}}"#)
+            .await;
+        assert_eq!(status, 202);
+        let location = headers["location"].to_str().expect("text").to_owned();
+        assert_eq!(
+            location,
+            format!("/v1/jobs/{}", job["id"].as_str().expect("an id"))
+        );
+        assert_eq!(job["status"], "queued");
+        assert_eq!(job["status_reason"], "waiting for a worker");
+        assert_eq!(job["spec"]["provenance"]["/load/n"], "assumed");
+    }
+
+    #[tokio::test]
+    async fn all_faults_come_at_once_and_nothing_is_queued() {
+        let service = Service::new().await;
+        let text = r#"{"frobnicate":1,"system":{"kind":"cylinder_on_flat","radius_mm":-6},"materials":{"slider":"cheese"}}"#;
+        let (status, headers, problem) = service.post("/v1/jobs", text).await;
+        assert_eq!(status, 422);
+        assert_eq!(headers["content-type"], "application/problem+json");
+        assert_eq!(problem["type"], "/problems/invalid-specification");
+        let mut pointers: Vec<_> = problem["faults"]
+            .as_array()
+            .expect("faults")
+            .iter()
+            .map(|fault| fault["pointer"].as_str().expect("a pointer").to_owned())
+            .collect();
+        pointers.sort();
+        assert_eq!(
+            pointers,
+            ["/frobnicate", "/materials/slider", "/system/radius_mm"]
+        );
+        let (_, _, list) = service.get("/v1/jobs").await;
+        assert_eq!(list["jobs"], Value::Array(Vec::new()));
+    }
+
+    #[tokio::test]
+    async fn what_cannot_be_read_is_a_400_with_its_place() {
+        let service = Service::new().await;
+        let cases = [
+            ("{\"system\":{\"kind\":\"dimm\"},\"cycles\":NaN}", ""),
+            ("{\"system\":", ""),
+            ("", ""),
+            (r#"{"system":{"kind":"dimm"},"cycles":"many"}"#, "/cycles"),
+            (
+                r#"{"system":{"kind":"dimm","contact_radius_mm":1e400}}"#,
+                "",
+            ),
+        ];
+        for (text, pointer) in cases {
+            let (status, _, problem) = service.post("/v1/jobs", text).await;
+            assert_eq!(status, 400, "{text}");
+            assert_eq!(problem["faults"][0]["pointer"], pointer, "{text}");
+            assert!(
+                problem["detail"]
+                    .as_str()
+                    .expect("words")
+                    .contains("line 1, column"),
+                "{problem}"
+            );
+        }
+    }
+
+    #[tokio::test]
+    async fn large_and_undeclared_bodies_are_refused() {
+        let service = Service::new().await;
+        let large = format!(r#"{{"name":"{}"}}"#, "x".repeat(2 << 20));
+        let (status, _, problem) = service.post("/v1/jobs", &large).await;
+        assert_eq!(
+            (status.as_u16(), problem["type"].as_str()),
+            (413, Some("/problems/body-too-large"))
+        );
+        let (status, _, problem) = service
+            .send("POST", "/v1/jobs", &[("content-type", "text/plain")], "{}")
+            .await;
+        assert_eq!(
+            (status.as_u16(), problem["type"].as_str()),
+            (415, Some("/problems/media-type"))
+        );
+    }
+}

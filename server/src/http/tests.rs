@@ -1,0 +1,230 @@
+//! A service on a database in a temporary folder, without workers; and what concerns all routes.
+
+use std::sync::Arc;
+
+use api::results::{
+    CycleRow, Loop, Pressure, PressurePosition, Profile, SideProfile, SideRow, SlidePosition,
+    Snapshot,
+};
+use axum::body::Body;
+use axum::http::{HeaderMap, Request, StatusCode};
+use http_body_util::BodyExt;
+use serde_json::Value;
+use tempfile::TempDir;
+use tokio_util::sync::CancellationToken;
+use tower::ServiceExt;
+
+use super::{App, router};
+use crate::store::{Batch, Store};
+
+/// All routes over a fresh store.
+pub(crate) struct Service {
+    pub(crate) app: App,
+    _folder: TempDir,
+}
+
+impl Service {
+    pub(crate) async fn new() -> Self {
+        let folder = TempDir::new().expect("a temporary folder");
+        let url = format!("sqlite://{}", folder.path().join("test.db").display());
+        let store = Arc::new(Store::open(&url).await.expect("a store"));
+        Self {
+            app: App {
+                store,
+                stopping: CancellationToken::new(),
+            },
+            _folder: folder,
+        }
+    }
+
+    pub(crate) async fn text(
+        &self,
+        method: &str,
+        path: &str,
+        headers: &[(&str, &str)],
+        body: &str,
+    ) -> (StatusCode, HeaderMap, String) {
+        let mut request = Request::builder()
+            .method(method)
+            .uri(path)
+            .header("host", "127.0.0.1");
+        for (name, value) in headers {
+            request = request.header(*name, *value);
+        }
+        let request = request
+            .body(Body::from(body.to_owned()))
+            .expect("a request");
+        let response = router(self.app.clone())
+            .oneshot(request)
+            .await
+            .expect("an answer");
+        let (parts, body) = response.into_parts();
+        let bytes = body.collect().await.expect("a body").to_bytes();
+        (
+            parts.status,
+            parts.headers,
+            String::from_utf8(bytes.to_vec()).expect("text"),
+        )
+    }
+
+    pub(crate) async fn send(
+        &self,
+        method: &str,
+        path: &str,
+        headers: &[(&str, &str)],
+        body: &str,
+    ) -> (StatusCode, HeaderMap, Value) {
+        let (status, headers, text) = self.text(method, path, headers, body).await;
+        (
+            status,
+            headers,
+            serde_json::from_str(&text).unwrap_or(Value::Null),
+        )
+    }
+
+    pub(crate) async fn get(&self, path: &str) -> (StatusCode, HeaderMap, Value) {
+        self.send("GET", path, &[], "").await
+    }
+
+    pub(crate) async fn post(&self, path: &str, body: &str) -> (StatusCode, HeaderMap, Value) {
+        self.send("POST", path, &[("content-type", "application/json")], body)
+            .await
+    }
+
+    /// Queues a study and returns its id.
+    pub(crate) async fn queued(&self, spec: &str) -> String {
+        let (status, _, job) = self.post("/v1/jobs", spec).await;
+        assert_eq!(status, 202, "{job}");
+        job["id"].as_str().expect("an id").to_owned()
+    }
+
+    /// A running job with rows and snapshots at the cycles 10 and 20.
+    pub(crate) async fn with_results(&self) -> String {
+        let id = self.queued(r#"{"system":{"kind":"dimm"}}"#).await;
+        let claim = self
+            .app
+            .store
+            .claim(0, i64::MAX)
+            .await
+            .expect("the store")
+            .expect("a job");
+        let batch = Batch {
+            rows: [10, 20].map(row).to_vec(),
+            snapshots: [10, 20].map(snapshot).to_vec(),
+            ..Batch::default()
+        };
+        self.app
+            .store
+            .record(&claim, &batch, i64::MAX)
+            .await
+            .expect("the store");
+        id
+    }
+}
+
+/// A row of the history.
+pub(crate) fn row(cycle: u64) -> CycleRow {
+    CycleRow {
+        cycle,
+        jump: 1,
+        jump_error: 0.0,
+        sliding_distance_mm: 1.0,
+        receptacle: SideRow::default(),
+        slider: SideRow::default(),
+        station_depth_mm: vec![0.0, 0.5, 0.0],
+        peak_pressure_mpa: 3.0,
+        contact_half_width_mm: 0.1,
+        dissipated_energy_mj_per_mm: 2.0,
+    }
+}
+
+fn snapshot(cycle: u64) -> Snapshot {
+    let side = |values: &[f64]| SideProfile {
+        x_mm: values.to_vec(),
+        depth_mm: values.to_vec(),
+    };
+    let position = PressurePosition {
+        phase: SlidePosition::Neutral,
+        slider_x_mm: 0.0,
+        x_mm: vec![0.0, 1.0],
+        pressure_mpa: vec![1.0, 2.0],
+        shear_mpa: vec![0.5, 1.0],
+    };
+    Snapshot {
+        profile: Profile {
+            cycle,
+            receptacle: side(&[0.0]),
+            slider: side(&[1.0]),
+        },
+        pressure: Pressure {
+            cycle,
+            positions: vec![position],
+        },
+        friction_loop: Loop {
+            cycle,
+            displacement_mm: vec![0.0, 1.0],
+            tangential_force_n_per_mm: vec![1.0, -1.0],
+        },
+    }
+}
+
+#[tokio::test]
+async fn paths_and_methods_that_do_not_exist_are_problems() {
+    let service = Service::new().await;
+    let (status, headers, problem) = service.get("/v1/nothing").await;
+    assert_eq!(
+        (status.as_u16(), problem["type"].as_str()),
+        (404, Some("/problems/no-such-path"))
+    );
+    assert_eq!(headers["content-type"], "application/problem+json");
+    assert_eq!(headers["x-content-type-options"], "nosniff");
+    let (status, _, problem) = service.send("PUT", "/v1/jobs", &[], "").await;
+    assert_eq!(
+        (status.as_u16(), problem["type"].as_str()),
+        (405, Some("/problems/wrong-method"))
+    );
+}
+
+#[tokio::test]
+async fn a_foreign_host_is_refused() {
+    let service = Service::new().await;
+    let request = Request::builder()
+        .uri("/healthz")
+        .header("host", "attacker.test")
+        .body(Body::empty());
+    let response = router(service.app.clone())
+        .oneshot(request.expect("a request"))
+        .await
+        .expect("an answer");
+    assert_eq!(response.status(), 403);
+}
+
+#[tokio::test]
+async fn the_api_describes_itself() {
+    let service = Service::new().await;
+    let (status, _, document) = service.get("/openapi.json").await;
+    assert_eq!(status, 200);
+    assert!(
+        document["openapi"]
+            .as_str()
+            .expect("a version")
+            .starts_with("3.")
+    );
+    for path in [
+        "/v1/jobs",
+        "/v1/jobs/{id}/events",
+        "/v1/jobs/{id}/results/loop",
+        "/healthz",
+    ] {
+        assert!(document["paths"][path].is_object(), "{path}");
+    }
+    assert!(document["components"]["schemas"]["Spec"].is_object());
+    let text = document.to_string();
+    for reference in text.split("#/components/schemas/").skip(1) {
+        let name = reference.split('"').next().expect("a name");
+        assert!(
+            document["components"]["schemas"][name].is_object(),
+            "{name} is not described"
+        );
+    }
+}

@@ -1,0 +1,102 @@
+//! `GET /v1/jobs/{id}/results/wear-history`: wear over the cycles, there while the job runs.
+
+use api::problem::Problem;
+use api::results::WearHistory;
+use axum::Json;
+use axum::extract::State;
+use axum::http::header;
+use axum::response::{IntoResponse, Response};
+use serde::Deserialize;
+use utoipa::IntoParams;
+
+use super::App;
+use super::extract::{JobId, Params};
+use super::stored_part::{CSV, Format, ResultError};
+use crate::translate::{csv, history};
+
+/// How the history is written.
+#[derive(Debug, Clone, Copy, Deserialize, IntoParams)]
+#[into_params(parameter_in = Query)]
+pub(super) struct HistoryQuery {
+    /// `json` or `csv`.
+    #[serde(default)]
+    format: Format,
+}
+
+/// Wear over the computed cycles so far, as columns.
+#[utoipa::path(
+    get,
+    path = "/v1/jobs/{id}/results/wear-history",
+    tag = "results",
+    params(("id" = Uuid, Path, description = "The job"), HistoryQuery),
+    responses(
+        (status = 200, description = "The history", body = WearHistory),
+        (status = 400, description = "A query parameter cannot be read", body = Problem),
+        (status = 404, description = "No such job", body = Problem),
+    )
+)]
+pub(super) async fn wear_history(
+    State(app): State<App>,
+    JobId(id): JobId,
+    Params(query): Params<HistoryQuery>,
+) -> Result<Response, ResultError> {
+    let job = app.store.job(id).await?.ok_or(ResultError::Missing(id))?;
+    let rows = app.store.history(id).await?;
+    let stations = job.document.spec.output.stations_mm.unwrap_or_default();
+    let columns = history::columns(&rows, &stations);
+    Ok(match query.format {
+        Format::Json => Json(columns).into_response(),
+        Format::Csv => {
+            ([(header::CONTENT_TYPE, CSV)], csv::wear_history(&columns)?).into_response()
+        }
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::http::tests::Service;
+
+    #[tokio::test]
+    async fn the_rows_so_far_come_as_columns() {
+        let service = Service::new().await;
+        let id = service.with_results().await;
+        let (status, _, history) = service
+            .get(&format!("/v1/jobs/{id}/results/wear-history"))
+            .await;
+        assert_eq!(status, 200);
+        assert_eq!(history["cycle"], serde_json::json!([10, 20]));
+        assert_eq!(
+            history["stations"][1]["depth_mm"],
+            serde_json::json!([0.5, 0.5])
+        );
+        assert_eq!(history["stations"][1]["side"], "receptacle");
+    }
+
+    #[tokio::test]
+    async fn csv_has_the_same_columns() {
+        let service = Service::new().await;
+        let id = service.with_results().await;
+        let path = format!("/v1/jobs/{id}/results/wear-history?format=csv");
+        let (_, headers, text) = service.text("GET", &path, &[], "").await;
+        assert_eq!(headers["content-type"], "text/csv; charset=utf-8");
+        let header = text.lines().next().expect("a header");
+        assert!(
+            header.starts_with("cycle,jump,sliding_distance_mm,receptacle_depth_at_"),
+            "{header}"
+        );
+        assert!(
+            header.ends_with("peak_pressure_mpa,contact_half_width_mm,dissipated_energy_mj_per_mm"),
+            "{header}"
+        );
+        assert_eq!(text.lines().count(), 3);
+    }
+
+    #[tokio::test]
+    async fn before_the_first_row_the_columns_are_empty() {
+        let service = Service::new().await;
+        let id = service.queued(r#"{"system":{"kind":"dimm"}}"#).await;
+        let path = format!("/v1/jobs/{id}/results/wear-history");
+        assert_eq!(service.get(&path).await.2["cycle"], serde_json::json!([]));
+        assert_eq!(service.get(&format!("{path}?format=xml")).await.0, 400);
+    }
+}

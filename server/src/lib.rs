@@ -1,0 +1,12 @@
+#![doc = include_str!("../README.md")]
+
+pub mod cli;
+pub mod clock;
+pub mod files;
+pub mod http;
+pub mod queue;
+pub mod service;
+pub mod solve;
+pub mod store;
+pub mod translate;
+pub mod worker;

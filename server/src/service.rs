@@ -1,0 +1,151 @@
+//! The running service: store, workers, maintenance and HTTP, started and stopped together.
+
+use std::net::SocketAddr;
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::time::Duration;
+
+use tokio::net::TcpListener;
+use tokio::task::JoinSet;
+use tokio_util::sync::CancellationToken;
+
+use crate::clock::now_ms;
+use crate::http::{self, App};
+use crate::store::{Store, StoreError};
+use crate::worker;
+
+/// How often expired leases are looked for.
+const RESCUE_EVERY: Duration = Duration::from_secs(1);
+/// How long a stop waits for open requests.
+const GRACE: Duration = Duration::from_secs(10);
+/// How often the write-ahead log is moved into the database, in rounds of the above.
+const CHECKPOINT_ROUNDS: u32 = 60;
+
+/// How the service is to run.
+#[derive(Debug, Clone)]
+pub struct Config {
+    /// Where it listens; a loopback address.
+    pub listen: SocketAddr,
+    /// Its database, `sqlite://PATH`.
+    pub database: String,
+    /// How many jobs are solved at once.
+    pub workers: usize,
+    /// The binary that has the hidden subcommand `solve-child`.
+    pub program: PathBuf,
+}
+
+/// Why the service cannot run.
+#[derive(Debug, thiserror::Error)]
+pub enum ServiceError {
+    /// Listening elsewhere than on loopback is not safe without a token, and there are none yet.
+    #[error(
+        "{0} is not a loopback address; listening elsewhere needs access tokens, which are not available yet"
+    )]
+    NotLoopback(SocketAddr),
+    /// The address cannot be taken.
+    #[error("cannot listen on {address}: {cause}")]
+    Listen {
+        /// The address.
+        address: SocketAddr,
+        /// Why.
+        cause: std::io::Error,
+    },
+    /// The store cannot be used.
+    #[error(transparent)]
+    Store(#[from] StoreError),
+}
+
+/// A running service.
+#[derive(Debug)]
+pub struct Service {
+    /// Where it listens.
+    pub address: SocketAddr,
+    store: Arc<Store>,
+    stopping: CancellationToken,
+    tasks: JoinSet<()>,
+}
+
+impl Service {
+    /// Starts everything. Jobs that an ended process left running are queued again first.
+    ///
+    /// # Errors
+    /// [`ServiceError`]; nothing keeps running then.
+    pub async fn start(config: Config) -> Result<Self, ServiceError> {
+        if !config.listen.ip().is_loopback() {
+            return Err(ServiceError::NotLoopback(config.listen));
+        }
+        let listen = |cause| ServiceError::Listen {
+            address: config.listen,
+            cause,
+        };
+        let listener = TcpListener::bind(config.listen).await.map_err(listen)?;
+        let address = listener.local_addr().map_err(listen)?;
+        let store = Arc::new(Store::open(&config.database).await?);
+        let rescued = store.rescue_all(now_ms()).await?;
+        tracing::info!(%address, database = config.database, workers = config.workers, rescued, "service started");
+        let stopping = CancellationToken::new();
+        let mut tasks = JoinSet::new();
+        for _ in 0..config.workers {
+            tasks.spawn(worker::work(
+                Arc::clone(&store),
+                config.program.clone(),
+                stopping.clone(),
+            ));
+        }
+        tasks.spawn(maintain(Arc::clone(&store), stopping.clone()));
+        let router = http::router(App {
+            store: Arc::clone(&store),
+            stopping: stopping.clone(),
+        });
+        let stopped = stopping.clone().cancelled_owned();
+        tasks.spawn(async move {
+            if let Err(error) = axum::serve(listener, router)
+                .with_graceful_shutdown(stopped)
+                .await
+            {
+                tracing::error!(%error, "the HTTP server failed");
+            }
+        });
+        Ok(Self {
+            address,
+            store,
+            stopping,
+            tasks,
+        })
+    }
+
+    /// Stops everything: streams end, running jobs go back to the queue without costing an attempt.
+    pub async fn stop(mut self) {
+        self.stopping.cancel();
+        let ended = async { while self.tasks.join_next().await.is_some() {} };
+        if tokio::time::timeout(GRACE, ended).await.is_err() {
+            // A client that neither sends nor receives must not keep the service alive.
+            tracing::warn!("connections that would not end are broken off");
+            self.tasks.shutdown().await;
+        }
+        self.store.close().await;
+        tracing::info!("service stopped");
+    }
+}
+
+/// Takes jobs back from lost workers, and keeps the write-ahead log short.
+async fn maintain(store: Arc<Store>, stopping: CancellationToken) {
+    let mut round = 0_u32;
+    loop {
+        tokio::select! {
+            () = stopping.cancelled() => return,
+            () = tokio::time::sleep(RESCUE_EVERY) => {}
+        }
+        match store.rescue_expired(now_ms()).await {
+            Ok(0) => {}
+            Ok(rescued) => tracing::warn!(rescued, "jobs taken back from lost workers"),
+            Err(error) => tracing::error!(%error, "expired leases could not be looked for"),
+        }
+        round = (round + 1) % CHECKPOINT_ROUNDS;
+        if round == 0
+            && let Err(error) = store.checkpoint().await
+        {
+            tracing::warn!(%error, "the write-ahead log could not be moved");
+        }
+    }
+}

@@ -1,0 +1,81 @@
+//! Running the engine in this process: its events as documents, and what it cost.
+
+mod cost;
+
+use api::job::{Outcome, Phase};
+use api::results::{CycleRow, Snapshot, Summary};
+use serde::{Deserialize, Serialize};
+use solver::SolveError;
+use solver::observer::{Event, Flow, Observer};
+use solver::scene::Scene;
+
+use crate::translate::history;
+use cost::Stopwatch;
+
+/// One line of a solving process, in order; the last one is `Summary` or `Failed`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "event", content = "data", rename_all = "snake_case")]
+pub enum Line {
+    /// Another phase begins.
+    Phase(Phase),
+    /// A computed cycle is done.
+    Cycle(CycleRow),
+    /// A requested snapshot.
+    Snapshot(Box<Snapshot>),
+    /// The run ended with a result.
+    Summary(Box<Summary>),
+    /// The run failed; the same input would fail again.
+    Failed(Failure),
+}
+
+/// A solver's own failure.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, thiserror::Error)]
+#[error("{reason}")]
+pub struct Failure {
+    /// How the solve ended.
+    pub outcome: Outcome,
+    /// Why, with numbers.
+    pub reason: String,
+}
+
+impl From<SolveError> for Failure {
+    fn from(error: SolveError) -> Self {
+        Self {
+            outcome: Outcome::NotConverged,
+            reason: error.to_string(),
+        }
+    }
+}
+
+/// Solves a scene. `on` receives each line but the last, and may stop the run.
+///
+/// # Errors
+/// [`Failure`] with the engine's numbers.
+pub fn run(scene: &Scene, on: &mut dyn FnMut(Line) -> Flow) -> Result<Summary, Failure> {
+    let mut recorder = Recorder {
+        on,
+        watch: Stopwatch::start(),
+    };
+    let summary = solver::run::solve(scene, &mut recorder)?;
+    Ok(history::summary(&summary, recorder.watch.cost()))
+}
+
+struct Recorder<'a> {
+    on: &'a mut dyn FnMut(Line) -> Flow,
+    watch: Stopwatch,
+}
+
+impl Observer for Recorder<'_> {
+    fn on(&mut self, event: Event<'_>) -> Flow {
+        let line = match event {
+            Event::Phase(phase) => {
+                let phase = history::phase(phase);
+                self.watch.enter(phase);
+                Line::Phase(phase)
+            }
+            Event::Cycle(report) => Line::Cycle(history::row(report)),
+            Event::Snapshot(snapshot) => Line::Snapshot(Box::new(history::snapshot(snapshot))),
+        };
+        (self.on)(line)
+    }
+}

@@ -1,0 +1,83 @@
+//! What a run cost: measured here, because the engine knows no clock.
+
+use std::collections::BTreeMap;
+use std::time::Instant;
+
+use api::job::Phase;
+use api::results::Cost;
+use nix::sys::resource::{Usage, UsageWho, getrusage};
+use nix::sys::time::TimeVal;
+
+/// Wall-clock time by phase, from the start of a run.
+#[derive(Debug)]
+pub(super) struct Stopwatch {
+    started: Instant,
+    cpu_at_start: f64,
+    phases: BTreeMap<Phase, f64>,
+    current: Option<(Phase, Instant)>,
+}
+
+impl Stopwatch {
+    /// Starts.
+    pub(super) fn start() -> Self {
+        let cpu_at_start = usage().map_or(0.0, |usage| cpu_seconds(&usage));
+        Self {
+            started: Instant::now(),
+            cpu_at_start,
+            phases: BTreeMap::new(),
+            current: None,
+        }
+    }
+
+    /// Another phase begins.
+    pub(super) fn enter(&mut self, phase: Phase) {
+        self.close();
+        self.current = Some((phase, Instant::now()));
+    }
+
+    /// The cost so far; degrees of freedom are the engine's to tell.
+    pub(super) fn cost(mut self) -> Cost {
+        self.close();
+        let usage = usage();
+        Cost {
+            wall_s: self.started.elapsed().as_secs_f64(),
+            cpu_s: usage
+                .as_ref()
+                .map_or(0.0, |usage| cpu_seconds(usage) - self.cpu_at_start),
+            phases_s: self.phases,
+            peak_memory_mb: usage.as_ref().map_or(0.0, peak_memory_mb),
+            dofs: 0,
+        }
+    }
+
+    fn close(&mut self) {
+        if let Some((phase, since)) = self.current.take() {
+            *self.phases.entry(phase).or_default() += since.elapsed().as_secs_f64();
+        }
+    }
+}
+
+fn usage() -> Option<Usage> {
+    getrusage(UsageWho::RUSAGE_SELF).ok()
+}
+
+fn cpu_seconds(usage: &Usage) -> f64 {
+    seconds(usage.user_time()) + seconds(usage.system_time())
+}
+
+#[expect(
+    clippy::cast_precision_loss,
+    reason = "seconds of a process stay far below 2^53"
+)]
+fn seconds(time: TimeVal) -> f64 {
+    time.tv_sec() as f64 + 1e-6 * time.tv_usec() as f64
+}
+
+/// The kernel counts KiB.
+#[expect(
+    clippy::cast_precision_loss,
+    reason = "KiB of a process stay far below 2^53"
+)]
+fn peak_memory_mb(usage: &Usage) -> f64 {
+    usage.max_rss() as f64 / 1024.0
+}

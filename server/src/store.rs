@@ -1,0 +1,61 @@
+//! The store: the only place with SQL.
+//!
+//! One writing connection and a pool of readers on an embedded database in WAL mode. A lock file beside the database
+//! makes sure that one process serves it; so at start-up every lease in it belongs to a process that is gone.
+
+mod conclusion;
+mod document;
+mod error;
+mod events;
+mod jobs;
+mod leases;
+mod open;
+mod queries;
+mod results;
+
+use std::fs::File;
+
+use sqlx::sqlite::SqlitePool;
+use tokio::sync::{Notify, broadcast};
+use uuid::Uuid;
+
+pub use conclusion::End;
+pub use error::StoreError;
+pub use events::StoredEvent;
+pub use jobs::{Cancelled, Deleted, Filter, NewJob, StoredJob};
+pub use leases::{Batch, Claim, Held};
+pub use results::SnapshotPart;
+
+/// How many job ids may wait in a listener's channel before it has to look for itself.
+const CHANGES_KEPT: usize = 1024;
+
+/// Jobs, events and results, durable.
+#[derive(Debug)]
+pub struct Store {
+    writer: SqlitePool,
+    readers: SqlitePool,
+    changes: broadcast::Sender<Uuid>,
+    waiting: Notify,
+    /// Held as long as the store is open.
+    _lock: File,
+}
+
+impl Store {
+    /// A channel of the ids of jobs that changed.
+    pub fn changes(&self) -> broadcast::Receiver<Uuid> {
+        self.changes.subscribe()
+    }
+
+    /// Returns when a job may be waiting in the queue.
+    pub async fn job_waiting(&self) {
+        self.waiting.notified().await;
+    }
+
+    fn changed(&self, id: Uuid) {
+        // Nobody listening is not an error.
+        let _ = self.changes.send(id);
+    }
+}
+
+#[cfg(test)]
+pub(crate) mod tests;

@@ -1,0 +1,270 @@
+//! Submitting, reading, listing, cancelling and deleting jobs.
+
+use api::event::Done;
+use api::job::{Job, Progress, Status};
+use api::plan::Plan;
+use api::spec::Spec;
+use sqlx::{QueryBuilder, Sqlite, SqliteConnection};
+use uuid::Uuid;
+
+use super::document::{JobRow, timestamp};
+use super::queries::{BEGIN, insert_event};
+use super::{Store, StoreError};
+use crate::queue::{Move, after};
+
+const COLUMNS: &str = "SELECT id, spec, plan, status, status_reason, outcome, created_at, started_at, finished_at, \
+                       progress, summary, attempts, last_event, version FROM jobs";
+
+/// A job to be queued.
+#[derive(Debug, Clone, PartialEq)]
+pub struct NewJob {
+    /// The resolved specification.
+    pub spec: Spec,
+    /// Its plan.
+    pub plan: Plan,
+}
+
+/// A job as it is stored.
+#[derive(Debug, Clone, PartialEq)]
+pub struct StoredJob {
+    /// The document.
+    pub document: Job,
+    /// Raised by every change.
+    pub version: i64,
+    /// Number of its newest event.
+    pub last_event: i64,
+}
+
+/// Which jobs a list holds.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Filter {
+    /// Any of these; all if empty.
+    pub statuses: Vec<Status>,
+    /// This kind of system.
+    pub system: Option<String>,
+    /// This label.
+    pub label: Option<(String, String)>,
+    /// Older than this job.
+    pub before: Option<Uuid>,
+    /// At most so many.
+    pub limit: u32,
+}
+
+/// What a cancel request did.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Cancelled {
+    /// The job was waiting and is cancelled.
+    AtOnce,
+    /// The job runs; its worker ends it.
+    Requested,
+    /// The job had ended already.
+    Already,
+}
+
+/// What a delete request did.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Deleted {
+    /// The job and its results are gone.
+    Done,
+    /// The job has not ended.
+    Active,
+    /// There is no such job.
+    Missing,
+}
+
+impl Store {
+    /// Queues a job. `now` in milliseconds since 1970.
+    ///
+    /// # Errors
+    /// [`StoreError`] if the database fails.
+    pub async fn submit(&self, job: &NewJob, now: i64) -> Result<Uuid, StoreError> {
+        let id = Uuid::now_v7();
+        let system = job
+            .spec
+            .system
+            .kind
+            .known()
+            .map_or("", api::spec::SystemKind::as_str);
+        let progress = Progress {
+            cycles: job.spec.cycles.unwrap_or(0),
+            updated_at: Some(timestamp(now)),
+            ..Progress::default()
+        };
+        let progress = serde_json::to_string(&progress)?;
+        let mut transaction = self.writer.begin_with(BEGIN).await?;
+        sqlx::query(
+            "INSERT INTO jobs (id, system, spec, plan, status, status_reason, created_at, progress, last_event) \
+             VALUES (?, ?, ?, ?, 'queued', 'waiting for a worker', ?, ?, 1)",
+        )
+        .bind(id.to_string())
+        .bind(system)
+        .bind(serde_json::to_string(&job.spec)?)
+        .bind(serde_json::to_string(&job.plan)?)
+        .bind(now)
+        .bind(&progress)
+        .execute(&mut *transaction)
+        .await?;
+        for (key, value) in &job.spec.labels {
+            sqlx::query("INSERT INTO labels (job_id, key, value) VALUES (?, ?, ?)")
+                .bind(id.to_string())
+                .bind(key)
+                .bind(value)
+                .execute(&mut *transaction)
+                .await?;
+        }
+        insert_event(&mut transaction, id, 1, "progress", &progress).await?;
+        transaction.commit().await?;
+        self.changed(id);
+        self.waiting.notify_one();
+        Ok(id)
+    }
+
+    /// A job.
+    ///
+    /// # Errors
+    /// [`StoreError`] if the database fails.
+    pub async fn job(&self, id: Uuid) -> Result<Option<StoredJob>, StoreError> {
+        let mut query = QueryBuilder::<Sqlite>::new(COLUMNS);
+        query.push(" WHERE id = ").push_bind(id.to_string());
+        let row: Option<JobRow> = query.build_query_as().fetch_optional(&self.readers).await?;
+        row.map(|row| stored(&row)).transpose()
+    }
+
+    /// Jobs, newest first.
+    ///
+    /// # Errors
+    /// [`StoreError`] if the database fails.
+    pub async fn list(&self, filter: &Filter) -> Result<Vec<Job>, StoreError> {
+        let mut query = QueryBuilder::<Sqlite>::new(COLUMNS);
+        query.push(" WHERE 1");
+        if !filter.statuses.is_empty() {
+            query.push(" AND status IN (");
+            let mut list = query.separated(", ");
+            for status in &filter.statuses {
+                list.push_bind(status.as_str());
+            }
+            query.push(")");
+        }
+        if let Some(system) = &filter.system {
+            query.push(" AND system = ").push_bind(system.clone());
+        }
+        if let Some((key, value)) = &filter.label {
+            query
+                .push(" AND id IN (SELECT job_id FROM labels WHERE key = ")
+                .push_bind(key.clone());
+            query
+                .push(" AND value = ")
+                .push_bind(value.clone())
+                .push(")");
+        }
+        if let Some(before) = filter.before {
+            query.push(" AND id < ").push_bind(before.to_string());
+        }
+        query
+            .push(" ORDER BY id DESC LIMIT ")
+            .push_bind(filter.limit);
+        let rows: Vec<JobRow> = query.build_query_as().fetch_all(&self.readers).await?;
+        rows.iter().map(JobRow::document).collect()
+    }
+
+    /// Asks for the end of a job: a waiting one ends at once, a running one is ended by its worker. Nothing if there is
+    /// no such job.
+    ///
+    /// # Errors
+    /// [`StoreError`] if the database fails.
+    pub async fn cancel(&self, id: Uuid, now: i64) -> Result<Option<Cancelled>, StoreError> {
+        let mut transaction = self.writer.begin_with(BEGIN).await?;
+        let Some(status) = status(&mut transaction, id).await? else {
+            return Ok(None);
+        };
+        let did = if status == Status::Queued {
+            debug_assert_eq!(
+                after(status, Move::Cancel, 0, true),
+                Some(Status::Cancelled),
+                "a queued job can be cancelled"
+            );
+            end_queued(&mut transaction, id, now).await?;
+            Cancelled::AtOnce
+        } else if status == Status::Running {
+            sqlx::query("UPDATE jobs SET cancel_requested = 1, status_reason = 'cancel requested', version = version + 1 WHERE id = ?")
+                .bind(id.to_string())
+                .execute(&mut *transaction)
+                .await?;
+            Cancelled::Requested
+        } else {
+            Cancelled::Already
+        };
+        transaction.commit().await?;
+        self.changed(id);
+        Ok(Some(did))
+    }
+
+    /// Deletes a job that has ended, with its events and results.
+    ///
+    /// # Errors
+    /// [`StoreError`] if the database fails.
+    pub async fn delete(&self, id: Uuid) -> Result<Deleted, StoreError> {
+        let mut transaction = self.writer.begin_with(BEGIN).await?;
+        let did = match status(&mut transaction, id).await? {
+            None => Deleted::Missing,
+            Some(status) if !status.is_terminal() => Deleted::Active,
+            Some(_) => {
+                sqlx::query("DELETE FROM jobs WHERE id = ?")
+                    .bind(id.to_string())
+                    .execute(&mut *transaction)
+                    .await?;
+                Deleted::Done
+            }
+        };
+        transaction.commit().await?;
+        self.changed(id);
+        Ok(did)
+    }
+}
+
+fn stored(row: &JobRow) -> Result<StoredJob, StoreError> {
+    Ok(StoredJob {
+        document: row.document()?,
+        version: row.version,
+        last_event: row.last_event,
+    })
+}
+
+async fn status(connection: &mut SqliteConnection, id: Uuid) -> Result<Option<Status>, StoreError> {
+    let name: Option<String> = sqlx::query_scalar("SELECT status FROM jobs WHERE id = ?")
+        .bind(id.to_string())
+        .fetch_optional(connection)
+        .await?;
+    name.map(|name| {
+        Status::from_name(&name).ok_or(StoreError::Corrupt {
+            id,
+            what: "status",
+            cause: name,
+        })
+    })
+    .transpose()
+}
+
+async fn end_queued(
+    connection: &mut SqliteConnection,
+    id: Uuid,
+    now: i64,
+) -> Result<(), StoreError> {
+    const REASON: &str = "cancelled while waiting";
+    let seq: i64 = sqlx::query_scalar(
+        "UPDATE jobs SET status = 'cancelled', status_reason = ?, cancel_requested = 1, finished_at = ?, \
+         last_event = last_event + 1, version = version + 1 WHERE id = ? AND status = 'queued' RETURNING last_event",
+    )
+    .bind(REASON)
+    .bind(now)
+    .bind(id.to_string())
+    .fetch_one(&mut *connection)
+    .await?;
+    let done = Done {
+        status: Status::Cancelled,
+        status_reason: Some(REASON.to_owned()),
+        outcome: None,
+        summary: None,
+    };
+    insert_event(connection, id, seq, "done", &serde_json::to_string(&done)?).await
+}

@@ -1,0 +1,272 @@
+//! Leases: claiming jobs, writing about them, ending them, and taking them back from lost workers.
+//!
+//! Every write of a worker says `WHERE id = ? AND lease = ? AND status = 'running'` and counts for nothing if no row
+//! matches: the lease number, raised by each claim, is the fence.
+
+use api::job::{Progress, Status};
+use api::results::{CycleRow, Snapshot};
+use sqlx::{Sqlite, Transaction};
+use uuid::Uuid;
+
+use super::conclusion::{End, Standing, conclude};
+use super::queries::{BEGIN, insert_event};
+use super::{Store, StoreError};
+use crate::queue::Move;
+
+/// A job in a worker's hands.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Claim {
+    /// The job.
+    pub id: Uuid,
+    /// The number of the lease; the fence of every write.
+    pub lease: i64,
+    /// The resolved specification, JSON.
+    pub spec: String,
+}
+
+/// What a worker writes at once.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Batch {
+    /// How far the job is.
+    pub progress: Progress,
+    /// New rows of the wear history.
+    pub rows: Vec<CycleRow>,
+    /// New snapshots.
+    pub snapshots: Vec<Snapshot>,
+    /// New events: name and JSON document.
+    pub events: Vec<(&'static str, String)>,
+}
+
+/// Whether a worker still holds its job.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Held {
+    /// It does.
+    Yes {
+        /// The user no longer wants the job.
+        cancel_requested: bool,
+    },
+    /// It does not: what it wanted to write was thrown away.
+    No,
+}
+
+impl Store {
+    /// Hands out the job that has waited longest, under a new lease that ends at `expires_at`.
+    ///
+    /// # Errors
+    /// [`StoreError`] if the database fails.
+    pub async fn claim(&self, now: i64, expires_at: i64) -> Result<Option<Claim>, StoreError> {
+        let mut transaction = self.writer.begin_with(BEGIN).await?;
+        let claimed: Option<(String, i64, String)> = sqlx::query_as(
+            "UPDATE jobs SET status = 'running', lease = lease + 1, lease_expires_at = ?, attempts = attempts + 1, \
+             started_at = COALESCE(started_at, ?), status_reason = NULL, version = version + 1 \
+             WHERE id = (SELECT id FROM jobs WHERE status = 'queued' ORDER BY created_at, id LIMIT 1) \
+             RETURNING id, lease, spec",
+        )
+        .bind(expires_at)
+        .bind(now)
+        .fetch_optional(&mut *transaction)
+        .await?;
+        let Some((text, lease, spec)) = claimed else {
+            return Ok(None);
+        };
+        // What an earlier, lost attempt left is computed again from the start.
+        sqlx::query("DELETE FROM history_rows WHERE job_id = ?")
+            .bind(&text)
+            .execute(&mut *transaction)
+            .await?;
+        sqlx::query("DELETE FROM snapshots WHERE job_id = ?")
+            .bind(&text)
+            .execute(&mut *transaction)
+            .await?;
+        transaction.commit().await?;
+        let id = Uuid::parse_str(&text).map_err(|cause| StoreError::Corrupt {
+            id: Uuid::nil(),
+            what: "id",
+            cause: cause.to_string(),
+        })?;
+        self.changed(id);
+        Ok(Some(Claim { id, lease, spec }))
+    }
+
+    /// Writes a batch and renews the lease until `expires_at`.
+    ///
+    /// # Errors
+    /// [`StoreError`] if the database fails.
+    pub async fn record(
+        &self,
+        claim: &Claim,
+        batch: &Batch,
+        expires_at: i64,
+    ) -> Result<Held, StoreError> {
+        let mut transaction = self.writer.begin_with(BEGIN).await?;
+        let events = count(batch.events.len());
+        let held: Option<(i64, bool)> = sqlx::query_as(
+            "UPDATE jobs SET progress = ?, lease_expires_at = ?, last_event = last_event + ?, version = version + 1 \
+             WHERE id = ? AND lease = ? AND status = 'running' RETURNING last_event, cancel_requested",
+        )
+        .bind(serde_json::to_string(&batch.progress)?)
+        .bind(expires_at)
+        .bind(events)
+        .bind(claim.id.to_string())
+        .bind(claim.lease)
+        .fetch_optional(&mut *transaction)
+        .await?;
+        let Some((last_event, cancel_requested)) = held else {
+            return Ok(Held::No);
+        };
+        write_results(&mut transaction, claim.id, batch).await?;
+        for (seq, (name, data)) in (last_event - events + 1..).zip(&batch.events) {
+            insert_event(&mut transaction, claim.id, seq, name, data).await?;
+        }
+        transaction.commit().await?;
+        self.changed(claim.id);
+        Ok(Held::Yes { cancel_requested })
+    }
+
+    /// Whether the worker holds the job and is wanted to go on; writes nothing.
+    ///
+    /// # Errors
+    /// [`StoreError`] if the database fails.
+    pub async fn held(&self, claim: &Claim) -> Result<Held, StoreError> {
+        let row: Option<bool> = sqlx::query_scalar(
+            "SELECT cancel_requested FROM jobs WHERE id = ? AND lease = ? AND status = 'running'",
+        )
+        .bind(claim.id.to_string())
+        .bind(claim.lease)
+        .fetch_optional(&self.readers)
+        .await?;
+        Ok(row.map_or(Held::No, |cancel_requested| Held::Yes { cancel_requested }))
+    }
+
+    /// Writes the last batch and ends the job, in one transaction. Returns the status it came to, or nothing if the
+    /// worker no longer held it.
+    ///
+    /// # Errors
+    /// [`StoreError`] if the database fails.
+    pub async fn end(
+        &self,
+        claim: &Claim,
+        batch: &Batch,
+        end: &End,
+        now: i64,
+    ) -> Result<Option<Status>, StoreError> {
+        let mut transaction = self.writer.begin_with(BEGIN).await?;
+        let standing: Option<Standing> = sqlx::query_as(
+            "SELECT attempts, cancel_requested FROM jobs WHERE id = ? AND lease = ? AND status = 'running'",
+        )
+        .bind(claim.id.to_string())
+        .bind(claim.lease)
+        .fetch_optional(&mut *transaction)
+        .await?;
+        let Some(standing) = standing else {
+            return Ok(None);
+        };
+        write_results(&mut transaction, claim.id, batch).await?;
+        let progress = serde_json::to_string(&batch.progress)?;
+        let status = conclude(
+            &mut transaction,
+            claim.id,
+            &standing,
+            end,
+            Some(&progress),
+            now,
+        )
+        .await?;
+        transaction.commit().await?;
+        self.concluded(claim.id, status);
+        Ok(status)
+    }
+
+    /// Takes running jobs back whose lease has ended by `now`. Returns how many.
+    ///
+    /// # Errors
+    /// [`StoreError`] if the database fails.
+    pub async fn rescue_expired(&self, now: i64) -> Result<usize, StoreError> {
+        self.rescue(now, now, "its worker was lost").await
+    }
+
+    /// Takes all running jobs back, at start-up: the process that held them is gone. Returns how many.
+    ///
+    /// # Errors
+    /// [`StoreError`] if the database fails.
+    pub async fn rescue_all(&self, now: i64) -> Result<usize, StoreError> {
+        self.rescue(i64::MAX, now, "the service was ended while it ran")
+            .await
+    }
+
+    async fn rescue(&self, expired_by: i64, now: i64, reason: &str) -> Result<usize, StoreError> {
+        let mut transaction = self.writer.begin_with(BEGIN).await?;
+        let lost: Vec<(String, i64, bool)> = sqlx::query_as(
+            "SELECT id, attempts, cancel_requested FROM jobs WHERE status = 'running' AND lease_expires_at <= ?",
+        )
+        .bind(expired_by)
+        .fetch_all(&mut *transaction)
+        .await?;
+        let mut ends = Vec::with_capacity(lost.len());
+        for (text, attempts, cancel_requested) in lost {
+            let id = Uuid::parse_str(&text).map_err(|cause| StoreError::Corrupt {
+                id: Uuid::nil(),
+                what: "id",
+                cause: cause.to_string(),
+            })?;
+            let end = End {
+                step: Move::Lose,
+                reason: Some(reason.to_owned()),
+                outcome: None,
+                summary: None,
+            };
+            let standing = Standing {
+                attempts,
+                cancel_requested,
+            };
+            ends.push((
+                id,
+                conclude(&mut transaction, id, &standing, &end, None, now).await?,
+            ));
+        }
+        transaction.commit().await?;
+        for (id, status) in &ends {
+            self.concluded(*id, *status);
+        }
+        Ok(ends.len())
+    }
+
+    fn concluded(&self, id: Uuid, status: Option<Status>) {
+        self.changed(id);
+        if status == Some(Status::Queued) {
+            self.waiting.notify_one();
+        }
+    }
+}
+
+async fn write_results(
+    transaction: &mut Transaction<'_, Sqlite>,
+    id: Uuid,
+    batch: &Batch,
+) -> Result<(), StoreError> {
+    for row in &batch.rows {
+        sqlx::query("INSERT OR REPLACE INTO history_rows (job_id, cycle, data) VALUES (?, ?, ?)")
+            .bind(id.to_string())
+            .bind(i64::try_from(row.cycle).unwrap_or(i64::MAX))
+            .bind(serde_json::to_string(row)?)
+            .execute(&mut **transaction)
+            .await?;
+    }
+    for snapshot in &batch.snapshots {
+        sqlx::query(
+            "INSERT OR REPLACE INTO snapshots (job_id, cycle, profile, pressure, friction_loop) VALUES (?, ?, ?, ?, ?)",
+        )
+        .bind(id.to_string())
+        .bind(i64::try_from(snapshot.profile.cycle).unwrap_or(i64::MAX))
+        .bind(serde_json::to_string(&snapshot.profile)?)
+        .bind(serde_json::to_string(&snapshot.pressure)?)
+        .bind(serde_json::to_string(&snapshot.friction_loop)?)
+        .execute(&mut **transaction)
+        .await?;
+    }
+    Ok(())
+}
+
+fn count(length: usize) -> i64 {
+    i64::try_from(length).unwrap_or(i64::MAX)
+}

@@ -1,0 +1,126 @@
+//! Opening the store: lock file, connections, version check, migrations.
+
+use std::fs::{File, TryLockError};
+use std::path::{Path, PathBuf};
+use std::str::FromStr;
+use std::time::Duration;
+
+use sqlx::sqlite::{
+    SqliteConnectOptions, SqliteJournalMode, SqlitePool, SqlitePoolOptions, SqliteSynchronous,
+};
+use tokio::sync::{Notify, broadcast};
+
+use super::{CHANGES_KEPT, Store, StoreError, queries};
+
+/// Older ones can corrupt the write-ahead log when it is reset.
+const OLDEST_SQLITE: (u32, u32, u32) = (3, 51, 3);
+const OLDEST_SQLITE_TEXT: &str = "3.51.3";
+/// Readers wait for nobody in WAL mode; the writer waits for a checkpoint at most.
+const BUSY_TIMEOUT: Duration = Duration::from_secs(10);
+const READERS: u32 = 4;
+
+impl Store {
+    /// Opens the database at `url` (`sqlite://PATH`), makes it if it is missing, and brings its schema up to date.
+    ///
+    /// # Errors
+    /// [`StoreError`], among others if another process serves the database.
+    pub async fn open(url: &str) -> Result<Self, StoreError> {
+        let options = SqliteConnectOptions::from_str(url)
+            .map_err(|_| StoreError::Address {
+                url: url.to_owned(),
+            })?
+            .create_if_missing(true)
+            .journal_mode(SqliteJournalMode::Wal)
+            .synchronous(SqliteSynchronous::Full)
+            .foreign_keys(true)
+            .busy_timeout(BUSY_TIMEOUT);
+        let path = options.get_filename().to_owned();
+        // A database in memory would lose every job, and has no place for a lock file.
+        let in_memory = path.to_string_lossy().starts_with("file:sqlx-in-memory");
+        if !url.starts_with("sqlite:") || in_memory || path.as_os_str().is_empty() {
+            return Err(StoreError::Address {
+                url: url.to_owned(),
+            });
+        }
+        let lock = locked(&path)?;
+        let writer = SqlitePoolOptions::new()
+            .max_connections(1)
+            .connect_with(options.clone())
+            .await?;
+        check_version(&queries::sqlite_version(&writer).await?)?;
+        sqlx::migrate!("../migrations").run(&writer).await?;
+        queries::checkpoint(&writer).await?;
+        let readers = readers(options.read_only(true)).await?;
+        let (changes, _) = broadcast::channel(CHANGES_KEPT);
+        Ok(Self {
+            writer,
+            readers,
+            changes,
+            waiting: Notify::new(),
+            _lock: lock,
+        })
+    }
+
+    /// Closes all connections.
+    pub async fn close(&self) {
+        self.readers.close().await;
+        self.writer.close().await;
+    }
+}
+
+async fn readers(options: SqliteConnectOptions) -> Result<SqlitePool, StoreError> {
+    Ok(SqlitePoolOptions::new()
+        .max_connections(READERS)
+        .connect_with(options)
+        .await?)
+}
+
+/// Takes the lock file beside the database; the operating system gives it back when the process ends, however it ends.
+fn locked(database: &Path) -> Result<File, StoreError> {
+    let mut name = database.as_os_str().to_owned();
+    name.push(".lock");
+    let path = PathBuf::from(name);
+    let prepare = |cause| StoreError::Prepare {
+        path: path.clone(),
+        cause,
+    };
+    if let Some(folder) = database.parent() {
+        std::fs::create_dir_all(folder).map_err(prepare)?;
+    }
+    let file = File::options()
+        .create(true)
+        .truncate(false)
+        .write(true)
+        .open(&path)
+        .map_err(prepare)?;
+    match file.try_lock() {
+        Ok(()) => Ok(file),
+        Err(TryLockError::WouldBlock) => Err(StoreError::Locked { path }),
+        Err(TryLockError::Error(cause)) => Err(prepare(cause)),
+    }
+}
+
+fn check_version(found: &str) -> Result<(), StoreError> {
+    let mut parts = found.split('.').map(|part| part.parse().unwrap_or(0));
+    let mut next = || parts.next().unwrap_or(0);
+    if (next(), next(), next()) < OLDEST_SQLITE {
+        return Err(StoreError::OldSqlite {
+            found: found.to_owned(),
+            wanted: OLDEST_SQLITE_TEXT,
+        });
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn old_versions_are_refused() {
+        assert!(check_version("3.51.2").is_err());
+        assert!(check_version("3.9.99").is_err());
+        assert!(check_version("3.51.3").is_ok());
+        assert!(check_version("3.60.0").is_ok());
+    }
+}

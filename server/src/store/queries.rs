@@ -1,0 +1,65 @@
+//! Statements that several parts of the store share.
+
+use sqlx::SqliteConnection;
+use sqlx::sqlite::SqlitePool;
+use uuid::Uuid;
+
+use super::{Store, StoreError};
+
+/// Takes the write lock at once: a transaction that reads first and writes later would fail under contention.
+pub(super) const BEGIN: &str = "BEGIN IMMEDIATE";
+
+/// The version of the linked SQLite.
+pub(super) async fn sqlite_version(pool: &SqlitePool) -> Result<String, StoreError> {
+    Ok(sqlx::query_scalar("SELECT sqlite_version()")
+        .fetch_one(pool)
+        .await?)
+}
+
+/// Moves the write-ahead log into the database and empties it; for start-up, when nobody reads.
+pub(super) async fn checkpoint(pool: &SqlitePool) -> Result<(), StoreError> {
+    sqlx::query("PRAGMA wal_checkpoint(TRUNCATE)")
+        .execute(pool)
+        .await?;
+    Ok(())
+}
+
+impl Store {
+    /// Whether the database takes a write lock.
+    ///
+    /// # Errors
+    /// [`StoreError`] if it does not.
+    pub async fn ready(&self) -> Result<(), StoreError> {
+        self.writer.begin_with(BEGIN).await?.rollback().await?;
+        Ok(())
+    }
+
+    /// Moves the write-ahead log into the database, as far as readers let it and without waiting for them.
+    ///
+    /// # Errors
+    /// [`StoreError`] if the database fails.
+    pub async fn checkpoint(&self) -> Result<(), StoreError> {
+        sqlx::query("PRAGMA wal_checkpoint(PASSIVE)")
+            .execute(&self.writer)
+            .await?;
+        Ok(())
+    }
+}
+
+/// Appends an event and returns nothing; the caller has raised `jobs.last_event` to `seq` in the same transaction.
+pub(super) async fn insert_event(
+    connection: &mut SqliteConnection,
+    id: Uuid,
+    seq: i64,
+    name: &str,
+    data: &str,
+) -> Result<(), StoreError> {
+    sqlx::query("INSERT INTO events (job_id, seq, name, data) VALUES (?, ?, ?, ?)")
+        .bind(id.to_string())
+        .bind(seq)
+        .bind(name)
+        .bind(data)
+        .execute(connection)
+        .await?;
+    Ok(())
+}

@@ -1,0 +1,159 @@
+//! Result documents as CSV: one header line with the units in the names, then numbers only.
+
+use ::csv::Writer;
+use api::results::{Loop, Pressure, Profile, SlidePosition, WearHistory};
+
+/// Numbers could not be written as CSV.
+#[derive(Debug, thiserror::Error)]
+#[error("writing CSV: {0}")]
+pub struct CsvError(String);
+
+type Table = Vec<(String, Vec<String>)>;
+
+fn write(table: &Table) -> Result<Vec<u8>, CsvError> {
+    let mut writer = Writer::from_writer(Vec::new());
+    let fail = |error: ::csv::Error| CsvError(error.to_string());
+    writer
+        .write_record(table.iter().map(|(header, _)| header))
+        .map_err(fail)?;
+    let rows = table
+        .iter()
+        .map(|(_, column)| column.len())
+        .min()
+        .unwrap_or(0);
+    for row in 0..rows {
+        writer
+            .write_record(table.iter().map(|(_, column)| &column[row]))
+            .map_err(fail)?;
+    }
+    writer
+        .into_inner()
+        .map_err(|error| CsvError(error.to_string()))
+}
+
+fn numbers<T: ToString>(header: impl Into<String>, values: &[T]) -> (String, Vec<String>) {
+    (
+        header.into(),
+        values.iter().map(ToString::to_string).collect(),
+    )
+}
+
+/// The wear history, one line a computed cycle.
+///
+/// # Errors
+/// [`CsvError`] if the writer fails.
+pub fn wear_history(history: &WearHistory) -> Result<Vec<u8>, CsvError> {
+    let mut table = vec![
+        numbers("cycle", &history.cycle),
+        numbers("jump", &history.jump),
+        numbers("sliding_distance_mm", &history.sliding_distance_mm),
+    ];
+    for station in &history.stations {
+        table.push(numbers(
+            format!("{}_depth_at_{}_mm", station.side, station.x_mm),
+            &station.depth_mm,
+        ));
+    }
+    for (side, series) in [
+        ("receptacle", &history.receptacle),
+        ("slider", &history.slider),
+    ] {
+        table.push(numbers(
+            format!("{side}_max_depth_mm"),
+            &series.max_depth_mm,
+        ));
+        table.push(numbers(
+            format!("{side}_worn_area_mm2"),
+            &series.worn_area_mm2,
+        ));
+        table.push(numbers(
+            format!("{side}_scar_half_width_mm"),
+            &series.scar_half_width_mm,
+        ));
+    }
+    table.push(numbers("peak_pressure_mpa", &history.peak_pressure_mpa));
+    table.push(numbers(
+        "contact_half_width_mm",
+        &history.contact_half_width_mm,
+    ));
+    table.push(numbers(
+        "dissipated_energy_mj_per_mm",
+        &history.dissipated_energy_mj_per_mm,
+    ));
+    write(&table)
+}
+
+/// A profile: side, place, worn depth.
+///
+/// # Errors
+/// [`CsvError`] if the writer fails.
+pub fn profile(profile: &Profile) -> Result<Vec<u8>, CsvError> {
+    let (mut sides, mut x_mm, mut depth_mm) = (Vec::new(), Vec::new(), Vec::new());
+    for (side, surface) in [
+        ("receptacle", &profile.receptacle),
+        ("slider", &profile.slider),
+    ] {
+        for (x, depth) in surface.x_mm.iter().zip(&surface.depth_mm) {
+            sides.push(side);
+            x_mm.push(*x);
+            depth_mm.push(*depth);
+        }
+    }
+    write(&vec![
+        numbers("side", &sides),
+        numbers("x_mm", &x_mm),
+        numbers("depth_mm", &depth_mm),
+    ])
+}
+
+/// Tractions: position, slider's displacement, place, pressure, shear.
+///
+/// # Errors
+/// [`CsvError`] if the writer fails.
+pub fn pressure(pressure: &Pressure) -> Result<Vec<u8>, CsvError> {
+    let mut table: Table = ["phase", "slider_x_mm", "x_mm", "pressure_mpa", "shear_mpa"]
+        .map(|header| (header.to_owned(), Vec::new()))
+        .to_vec();
+    for position in &pressure.positions {
+        for ((x, p), q) in position
+            .x_mm
+            .iter()
+            .zip(&position.pressure_mpa)
+            .zip(&position.shear_mpa)
+        {
+            let cells = [
+                phase_name(position.phase).to_owned(),
+                position.slider_x_mm.to_string(),
+                x.to_string(),
+                p.to_string(),
+                q.to_string(),
+            ];
+            for ((_, column), cell) in table.iter_mut().zip(cells) {
+                column.push(cell);
+            }
+        }
+    }
+    write(&table)
+}
+
+/// A friction loop: displacement, force.
+///
+/// # Errors
+/// [`CsvError`] if the writer fails.
+pub fn friction_loop(friction_loop: &Loop) -> Result<Vec<u8>, CsvError> {
+    write(&vec![
+        numbers("displacement_mm", &friction_loop.displacement_mm),
+        numbers(
+            "tangential_force_n_per_mm",
+            &friction_loop.tangential_force_n_per_mm,
+        ),
+    ])
+}
+
+fn phase_name(phase: SlidePosition) -> &'static str {
+    match phase {
+        SlidePosition::Neutral => "neutral",
+        SlidePosition::Rightmost => "rightmost",
+        SlidePosition::Leftmost => "leftmost",
+    }
+}

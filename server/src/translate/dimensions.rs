@@ -1,0 +1,234 @@
+//! Dimensions: which belong to which kind of system, their defaults, and the shapes they make.
+
+use api::spec::{Provenance, System, SystemKind};
+use solver::scene::{BlockShape, SliderShape};
+
+use super::ledger::{Ledger, Range};
+
+use Provenance::{Assumed, Source, Typical};
+
+/// Lengths that make a contact system, mm: from 1 nm to 10 m.
+const LENGTH_MM: Range = Range {
+    from: 1e-6,
+    to: 1e4,
+};
+
+/// The shapes of both bodies.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Shapes {
+    pub(super) slider: SliderShape,
+    pub(super) block: BlockShape,
+}
+
+/// A dimension of a kind: its field, default (from the dimensions before it) and provenance.
+struct Dimension {
+    field: &'static str,
+    default: fn(&System) -> f64,
+    from: Provenance,
+}
+
+const fn dimension(
+    field: &'static str,
+    default: fn(&System) -> f64,
+    from: Provenance,
+) -> Dimension {
+    Dimension {
+        field,
+        default,
+        from,
+    }
+}
+
+/// Every dimension of the specification, by field.
+const FIELDS: [&str; 13] = [
+    "wire_diameter_mm",
+    "pcb_length_mm",
+    "pcb_height_mm",
+    "radius_mm",
+    "flat_length_mm",
+    "flat_height_mm",
+    "slider_half_width_mm",
+    "slider_height_mm",
+    "contact_radius_mm",
+    "pad_length_mm",
+    "pad_height_mm",
+    "pin_length_mm",
+    "pin_thickness_mm",
+];
+
+const FUZZ_BUTTON: &[Dimension] = &[
+    dimension("wire_diameter_mm", |_| 0.0508, Source),
+    dimension("pcb_length_mm", |_| 0.084_67, Source),
+    dimension("pcb_height_mm", |_| 0.0635, Assumed),
+];
+
+const CYLINDER_ON_FLAT: &[Dimension] = &[
+    dimension("radius_mm", |_| 6.0, Assumed),
+    dimension("flat_length_mm", |_| 12.0, Assumed),
+    dimension("flat_height_mm", |_| 6.0, Assumed),
+    dimension(
+        "slider_half_width_mm",
+        |system| 0.75 * system.radius_mm.unwrap_or_default(),
+        Assumed,
+    ),
+    dimension(
+        "slider_height_mm",
+        |system| system.radius_mm.unwrap_or_default(),
+        Assumed,
+    ),
+];
+
+const SD_CARD: &[Dimension] = &[
+    dimension("contact_radius_mm", |_| 0.4, Assumed),
+    dimension("pad_length_mm", |_| 2.0, Assumed),
+    dimension("pad_height_mm", |_| 0.3, Assumed),
+];
+
+const DIMM: &[Dimension] = &[
+    dimension("contact_radius_mm", |_| 0.3, Assumed),
+    dimension("pad_length_mm", |_| 2.5, Typical),
+    dimension("pad_height_mm", |_| 0.6, Assumed),
+];
+
+const ZIF: &[Dimension] = &[
+    dimension("contact_radius_mm", |_| 0.25, Assumed),
+    dimension("pin_length_mm", |_| 1.5, Assumed),
+    dimension("pin_thickness_mm", |_| 0.46, Typical),
+];
+
+fn of_kind(kind: SystemKind) -> &'static [Dimension] {
+    match kind {
+        SystemKind::FuzzButton => FUZZ_BUTTON,
+        SystemKind::CylinderOnFlat => CYLINDER_ON_FLAT,
+        SystemKind::SdCard => SD_CARD,
+        SystemKind::Dimm => DIMM,
+        SystemKind::Zif => ZIF,
+    }
+}
+
+/// Fills in the dimensions of a kind and makes the shapes.
+pub(super) fn resolve(kind: SystemKind, given: &System, ledger: &mut Ledger) -> (System, Shapes) {
+    let mut given = given.clone();
+    let mut system = System::of_kind(kind);
+    ledger.note("/system/kind", Provenance::Given);
+    for dimension in of_kind(kind) {
+        let pointer = format!("/system/{}", dimension.field);
+        let default = (dimension.default)(&system);
+        let stated = field(&mut given, dimension.field).take();
+        // A default made from a faulty dimension is no fault of its own.
+        if let Some(value) = stated {
+            ledger.check(&pointer, value, LENGTH_MM);
+        }
+        let value = ledger.take(&pointer, stated, default, dimension.from);
+        *field(&mut system, dimension.field) = Some(value);
+    }
+    for name in FIELDS {
+        let left_over = field(&mut given, name).is_some();
+        ledger.misplaced("/system", &[(name, left_over)], kind.as_str());
+    }
+    let shapes = shapes(kind, &system);
+    fits(kind, &shapes, ledger);
+    (system, shapes)
+}
+
+fn shapes(kind: SystemKind, system: &System) -> Shapes {
+    let length = |value: Option<f64>| value.unwrap_or_default();
+    let arc = |radius_mm: f64, half_width_mm: f64, height_mm: f64| SliderShape {
+        radius_mm,
+        half_width_mm,
+        height_mm,
+    };
+    let (slider, length_mm, height_mm) = match kind {
+        SystemKind::FuzzButton => {
+            // The lower half of the wire, cut at its axis.
+            let radius = 0.5 * length(system.wire_diameter_mm);
+            (
+                arc(radius, radius, radius),
+                system.pcb_length_mm,
+                system.pcb_height_mm,
+            )
+        }
+        SystemKind::CylinderOnFlat => {
+            let (width, height) = (
+                length(system.slider_half_width_mm),
+                length(system.slider_height_mm),
+            );
+            (
+                arc(length(system.radius_mm), width, height),
+                system.flat_length_mm,
+                system.flat_height_mm,
+            )
+        }
+        SystemKind::SdCard | SystemKind::Dimm => (
+            pad_contact(length(system.contact_radius_mm)),
+            system.pad_length_mm,
+            system.pad_height_mm,
+        ),
+        SystemKind::Zif => (
+            pad_contact(length(system.contact_radius_mm)),
+            system.pin_length_mm,
+            system.pin_thickness_mm,
+        ),
+    };
+    Shapes {
+        slider,
+        block: BlockShape {
+            length_mm: length(length_mm),
+            height_mm: length(height_mm),
+        },
+    }
+}
+
+/// The rounded end of a sprung contact: three quarters of its radius to each side, one radius high.
+fn pad_contact(radius_mm: f64) -> SliderShape {
+    SliderShape {
+        radius_mm,
+        half_width_mm: 0.75 * radius_mm,
+        height_mm: radius_mm,
+    }
+}
+
+/// The modelled part of a cylinder must be a body: not wider than the cylinder, and with some height at its sides.
+fn fits(kind: SystemKind, shapes: &Shapes, ledger: &mut Ledger) {
+    let SliderShape {
+        radius_mm,
+        half_width_mm,
+        height_mm,
+    } = shapes.slider;
+    if kind != SystemKind::CylinderOnFlat || !(radius_mm > 0.0 && half_width_mm > 0.0) {
+        return;
+    }
+    if half_width_mm > radius_mm {
+        ledger.fault(
+            "/system/slider_half_width_mm",
+            format!("{half_width_mm} exceeds the radius of {radius_mm}"),
+        );
+        return;
+    }
+    let sagitta = radius_mm - (radius_mm * radius_mm - half_width_mm * half_width_mm).sqrt();
+    if height_mm < sagitta {
+        ledger.fault(
+            "/system/slider_height_mm",
+            format!("{height_mm} is below the arc's own height of {sagitta} at the half width {half_width_mm}"),
+        );
+    }
+}
+
+fn field<'a>(system: &'a mut System, name: &str) -> &'a mut Option<f64> {
+    match name {
+        "wire_diameter_mm" => &mut system.wire_diameter_mm,
+        "pcb_length_mm" => &mut system.pcb_length_mm,
+        "pcb_height_mm" => &mut system.pcb_height_mm,
+        "radius_mm" => &mut system.radius_mm,
+        "flat_length_mm" => &mut system.flat_length_mm,
+        "flat_height_mm" => &mut system.flat_height_mm,
+        "slider_half_width_mm" => &mut system.slider_half_width_mm,
+        "slider_height_mm" => &mut system.slider_height_mm,
+        "contact_radius_mm" => &mut system.contact_radius_mm,
+        "pad_length_mm" => &mut system.pad_length_mm,
+        "pad_height_mm" => &mut system.pad_height_mm,
+        "pin_length_mm" => &mut system.pin_length_mm,
+        "pin_thickness_mm" => &mut system.pin_thickness_mm,
+        other => unreachable!("`{other}` is not a dimension"),
+    }
+}

@@ -1,0 +1,193 @@
+//! Cycles, effects and accuracy.
+
+use std::collections::BTreeMap;
+
+use api::spec::{Accuracy, Choice, CycleJump, Overrides, Preset as Tolerance, Provenance, Switch};
+use solver::effects::Effect;
+use solver::scene;
+
+use super::dimensions::Shapes;
+use super::ledger::{Ledger, Range, shortened};
+use super::preset::Preset;
+
+/// Most cycles of a job.
+const CYCLE_LIMIT: u64 = 1_000_000_000;
+/// Most surface elements that the block would be divided into at an overridden element size.
+const CONTACT_ELEMENT_LIMIT: f64 = 20_000.0;
+/// Relative.
+const TOLERANCE: Range = Range {
+    from: 1e-6,
+    to: 0.5,
+};
+const INCREMENT_RANGE: (u32, u32) = (4, 1_000_000);
+
+/// Effects that the engine's plan decides about, and effects that are still to come.
+const PLANNED: [Effect; 5] = [
+    Effect::Elasticity,
+    Effect::Friction,
+    Effect::ReceptacleWear,
+    Effect::SliderWear,
+    Effect::Relocation,
+];
+const TO_COME: [&str; 6] = [
+    "frictional_heating",
+    "geometric_nonlinearity",
+    "oxidation",
+    "plasticity",
+    "plating",
+    "resistance",
+];
+
+/// Fills in the number of cycles.
+pub(super) fn cycles(given: Option<u64>, preset: &Preset, ledger: &mut Ledger) -> u64 {
+    let cycles = ledger.take("/cycles", given, preset.cycles.value, preset.cycles.from);
+    if !(1..=CYCLE_LIMIT).contains(&cycles) {
+        ledger.fault("/cycles", format!("{cycles} is outside 1 to {CYCLE_LIMIT}"));
+    }
+    cycles
+}
+
+/// Checks the effects; what is left out is `auto`.
+pub(super) fn effects(
+    given: &BTreeMap<String, Choice<Switch>>,
+    ledger: &mut Ledger,
+) -> BTreeMap<String, Choice<Switch>> {
+    for (name, switch) in given {
+        let pointer = format!("/effects/{}", api::spec::pointer_token(name));
+        let planned = PLANNED.iter().any(|effect| effect.name() == name);
+        if !planned && !TO_COME.contains(&name.as_str()) {
+            let names: Vec<_> = PLANNED
+                .iter()
+                .map(|effect| effect.name())
+                .chain(TO_COME)
+                .collect();
+            ledger.fault(
+                &pointer,
+                format!(
+                    "`{}` is no effect; effects are {}",
+                    shortened(name),
+                    names.join(", ")
+                ),
+            );
+            continue;
+        }
+        match ledger.known(&pointer, switch) {
+            Some(Switch::On) if !planned => {
+                ledger.fault(&pointer, format!("`{name}` is not available yet"));
+            }
+            Some(Switch::Off) if planned => {
+                ledger.fault(
+                    &pointer,
+                    "switching it off is not available yet; leave it out of the scene instead",
+                );
+            }
+            _ => {}
+        }
+    }
+    given.clone()
+}
+
+/// Fills in the accuracy.
+pub(super) fn accuracy(
+    given: &Accuracy,
+    shapes: &Shapes,
+    cycles: u64,
+    ledger: &mut Ledger,
+) -> (Accuracy, scene::Accuracy) {
+    let preset = given
+        .preset
+        .as_ref()
+        .and_then(|preset| ledger.known("/accuracy/preset", preset));
+    let mut filled = given.clone();
+    let tolerance = match (preset, given.tolerance) {
+        (_, Some(tolerance)) => {
+            if given.preset.is_some() {
+                ledger.fault(
+                    "/accuracy/tolerance",
+                    "stands beside `preset`; write one of them",
+                );
+            }
+            ledger.note("/accuracy/tolerance", Provenance::Given);
+            ledger.check("/accuracy/tolerance", tolerance, TOLERANCE)
+        }
+        (preset, None) => {
+            let preset = ledger.take(
+                "/accuracy/preset",
+                preset,
+                Tolerance::Standard,
+                Provenance::Assumed,
+            );
+            filled.preset = Some(preset.into());
+            preset_tolerance(preset)
+        }
+    };
+    let empty = Overrides::default();
+    let overrides = given.overrides.as_ref().unwrap_or(&empty);
+    let numerical = scene::Accuracy {
+        tolerance,
+        contact_element_mm: contact_element(overrides, shapes, ledger),
+        increments_per_cycle: increments(overrides, ledger),
+        cycle_jump: cycle_jump(overrides, cycles, ledger),
+    };
+    (filled, numerical)
+}
+
+fn preset_tolerance(preset: Tolerance) -> f64 {
+    match preset {
+        Tolerance::Draft => 0.1,
+        Tolerance::Standard => 0.02,
+        Tolerance::Fine => 0.003,
+    }
+}
+
+fn contact_element(overrides: &Overrides, shapes: &Shapes, ledger: &mut Ledger) -> Option<f64> {
+    const POINTER: &str = "/accuracy/overrides/contact_element_mm";
+    let size = overrides.contact_element_mm?;
+    ledger.note(POINTER, Provenance::Given);
+    let length = shapes.block.length_mm;
+    let smallest = length / CONTACT_ELEMENT_LIMIT;
+    if !(size.is_finite() && size >= smallest && size <= 0.5 * length) {
+        let limits = format!(
+            "{smallest} (1/{CONTACT_ELEMENT_LIMIT} of the block's length) to {}",
+            0.5 * length
+        );
+        ledger.fault(POINTER, format!("{size} is outside {limits}"));
+    }
+    Some(size)
+}
+
+fn increments(overrides: &Overrides, ledger: &mut Ledger) -> Option<u32> {
+    const POINTER: &str = "/accuracy/overrides/increments_per_cycle";
+    let count = overrides.increments_per_cycle?;
+    ledger.note(POINTER, Provenance::Given);
+    let (from, to) = INCREMENT_RANGE;
+    if !(from..=to).contains(&count) {
+        ledger.fault(POINTER, format!("{count} is outside {from} to {to}"));
+    }
+    Some(count)
+}
+
+fn cycle_jump(overrides: &Overrides, cycles: u64, ledger: &mut Ledger) -> Option<u64> {
+    const POINTER: &str = "/accuracy/overrides/cycle_jump";
+    let jump = overrides.cycle_jump.as_ref()?;
+    ledger.note(POINTER, Provenance::Given);
+    match jump {
+        CycleJump::Adaptive => None,
+        CycleJump::Fixed(count) => {
+            if !(1..=cycles.max(1)).contains(count) {
+                ledger.fault(
+                    POINTER,
+                    format!("{count} is outside 1 to the number of cycles, {cycles}"),
+                );
+            }
+            Some(*count)
+        }
+        CycleJump::Unknown(text) => {
+            ledger.fault(
+                POINTER,
+                format!("`{}` is neither `adaptive` nor a count", shortened(text)),
+            );
+            None
+        }
+    }
+}

@@ -1,0 +1,229 @@
+//! Resolution of whole specifications.
+
+use super::*;
+use api::spec::Provenance;
+use solver::scene::{Drive, Friction, Motion, WearLaw};
+
+const FUZZ_BUTTON: &str = include_str!("../../examples/fuzz_button.json");
+
+fn accepted(text: &str) -> Resolved {
+    read(text.as_bytes()).expect("accepted")
+}
+
+fn faults(text: &str) -> Vec<Fault> {
+    match read(text.as_bytes()) {
+        Err(Refused::Faults(faults)) => faults,
+        other => panic!("expected faults, got {other:?}"),
+    }
+}
+
+fn pointers(text: &str) -> Vec<String> {
+    faults(text)
+        .into_iter()
+        .map(|fault| fault.pointer)
+        .collect()
+}
+
+#[test]
+fn the_base_scene_is_the_source_s() {
+    let scene = accepted(FUZZ_BUTTON).scene;
+    assert!((scene.load_n_per_mm - 0.508).abs() < 1e-12);
+    assert!((scene.slider.shape.half_width_mm - 0.0254).abs() < 1e-15);
+    assert_eq!(scene.friction, Friction::Coulomb { coefficient: 1.21 });
+    assert_eq!(scene.slider.wear, None);
+    assert_eq!(
+        scene.receptacle.wear,
+        Some(WearLaw::Archard {
+            k_over_h_per_mpa: 0.011 / 427.0
+        })
+    );
+    assert_eq!(
+        scene.motion,
+        Motion::Reciprocating {
+            amplitude_mm: 0.033_868,
+            period_s: 16.0
+        }
+    );
+    assert_eq!((scene.cycles, scene.drive), (2000, Drive::Handle));
+    assert_eq!(scene.output.stations_mm.len(), 7);
+}
+
+#[test]
+fn every_kind_resolves_from_its_name_alone() {
+    for kind in SystemKind::ALL {
+        let resolved = accepted(&format!(r#"{{"system":{{"kind":"{}"}}}}"#, kind.as_str()));
+        assert!(resolved.spec.provenance.len() > 20, "{kind:?}");
+        assert!(resolved.scene.load_n_per_mm > 0.0);
+    }
+}
+
+#[test]
+fn the_preset_of_the_fuzz_button_is_the_base_scene() {
+    let preset = accepted(r#"{"system":{"kind":"fuzz_button"}}"#);
+    let mut given = accepted(FUZZ_BUTTON).scene;
+    given.output = preset.scene.output.clone();
+    assert_eq!(preset.scene, given);
+}
+
+#[test]
+fn a_resolved_specification_resolves_to_the_same_scene() {
+    for kind in SystemKind::ALL {
+        let first = accepted(&format!(r#"{{"system":{{"kind":"{}"}}}}"#, kind.as_str()));
+        let written = serde_json::to_string(&first.spec).expect("writable");
+        assert_eq!(accepted(&written).scene, first.scene);
+    }
+}
+
+#[test]
+fn provenance_tells_given_from_sourced_from_assumed() {
+    let provenance = accepted(r#"{"system":{"kind":"fuzz_button","pcb_length_mm":0.1}}"#)
+        .spec
+        .provenance;
+    assert_eq!(provenance["/system/pcb_length_mm"], Provenance::Given);
+    assert_eq!(provenance["/system/wire_diameter_mm"], Provenance::Source);
+    assert_eq!(provenance["/system/pcb_height_mm"], Provenance::Assumed);
+    assert_eq!(
+        provenance["/materials/slider/hardness_mpa"],
+        Provenance::Source
+    );
+}
+
+#[test]
+fn unknown_field_negative_radius_and_unknown_material_are_three_faults() {
+    let text = r#"{"frobnicate": true, "system": {"kind": "cylinder_on_flat", "radius_mm": -6},
+                   "materials": {"slider": "unobtainium"}}"#;
+    let mut found = pointers(text);
+    found.sort();
+    assert_eq!(
+        found,
+        ["/frobnicate", "/materials/slider", "/system/radius_mm"]
+    );
+}
+
+#[test]
+fn faults_name_value_and_limit() {
+    let found = faults(
+        r#"{"system":{"kind":"fuzz_button"},"cycles":0,"interface":{"friction":{"law":"coulomb","coefficient":7}}}"#,
+    );
+    assert_eq!(found.len(), 2);
+    assert!(
+        found
+            .iter()
+            .any(|fault| fault.detail == "7 is outside 0 to 2"),
+        "{found:?}"
+    );
+    assert!(
+        found
+            .iter()
+            .any(|fault| fault.detail == "0 is outside 1 to 1000000000"),
+        "{found:?}"
+    );
+}
+
+#[test]
+fn what_the_engine_cannot_do_yet_is_refused_by_name() {
+    let cases = [
+        (
+            r#""motion":{"kind":"continuous","speed_mm_s":1,"distance_mm":1}"#,
+            "/motion/kind",
+        ),
+        (
+            r#""load":{"kind":"pressure","mpa":1,"spring_n_per_mm":2}"#,
+            "/load/spring_n_per_mm",
+        ),
+        (r#""output":{"fields":true}"#, "/output/fields"),
+        (
+            r#""output":{"snapshots_at_distance_mm":[1]}"#,
+            "/output/snapshots_at_distance_mm",
+        ),
+        (r#""effects":{"plasticity":"on"}"#, "/effects/plasticity"),
+    ];
+    for (part, pointer) in cases {
+        let found = faults(&format!(r#"{{"system":{{"kind":"fuzz_button"}},{part}}}"#));
+        assert_eq!(found.len(), 1, "{found:?}");
+        assert_eq!(found[0].pointer, pointer);
+        assert!(found[0].detail.contains("not available yet"), "{found:?}");
+    }
+}
+
+#[test]
+fn fields_of_another_variant_are_faults() {
+    let text = r#"{"system":{"kind":"fuzz_button","radius_mm":1},
+        "load":{"kind":"line_force","n_per_mm":1,"mpa":2},
+        "motion":{"kind":"reciprocating","speed_mm_s":1,"period_s":1,"frequency_hz":1},
+        "interface":{"friction":{"law":"frictionless","coefficient":1},
+                     "wear":{"slider":{"law":"archard","k":0.1,"k_over_h_per_mpa":1e-6},"receptacle":{"law":"archard"}}},
+        "accuracy":{"preset":"fine","tolerance":0.1},
+        "output":{"stations_mm":[9],"snapshots_at_cycles":[5000]},
+        "stop":[{}]}"#;
+    let expected = [
+        "/accuracy/tolerance",
+        "/interface/friction/coefficient",
+        "/interface/wear/receptacle/k",
+        "/interface/wear/slider/k_over_h_per_mpa",
+        "/load/mpa",
+        "/motion/period_s",
+        "/motion/speed_mm_s",
+        "/output/snapshots_at_cycles/0",
+        "/output/stations_mm/0",
+        "/stop/0",
+        "/system/radius_mm",
+    ];
+    let mut found = pointers(text);
+    found.sort();
+    assert_eq!(found, expected);
+}
+
+#[test]
+fn unknown_names_are_faults_among_the_others() {
+    let found = pointers(
+        r#"{"system":{"kind":"dimm"},"motion":{"kind":"wobbling","drive":"belt"},"load":{"kind":"weight"},
+            "interface":{"friction":{"law":"stiction"}},"accuracy":{"preset":"perfect"},"effects":{"magic":"on"}}"#,
+    );
+    for pointer in [
+        "/motion/kind",
+        "/motion/drive",
+        "/load/kind",
+        "/interface/friction/law",
+        "/accuracy/preset",
+        "/effects/magic",
+    ] {
+        assert!(
+            found.iter().any(|found| found == pointer),
+            "{pointer} in {found:?}"
+        );
+    }
+    assert_eq!(
+        pointers(r#"{"system":{"kind":"toaster"},"x":1}"#),
+        ["/x", "/system/kind"]
+    );
+}
+
+#[test]
+fn long_lists_and_fine_meshes_are_refused_before_work() {
+    let stations = vec!["0"; 5000].join(",");
+    let text = format!(
+        r#"{{"system":{{"kind":"fuzz_button"}},"output":{{"stations_mm":[{stations}]}},
+            "accuracy":{{"overrides":{{"contact_element_mm":1e-9,"increments_per_cycle":1,"cycle_jump":"often"}}}}}}"#
+    );
+    assert_eq!(
+        pointers(&text),
+        [
+            "/accuracy/overrides/contact_element_mm",
+            "/accuracy/overrides/increments_per_cycle",
+            "/accuracy/overrides/cycle_jump",
+            "/output/stations_mm"
+        ]
+    );
+}
+
+#[test]
+fn the_plan_estimates_hertz() {
+    let mccoll = r#"{"system":{"kind":"cylinder_on_flat","radius_mm":6},
+        "materials":{"slider":{"youngs_modulus_mpa":200000,"poisson_ratio":0.3},
+                     "receptacle":{"youngs_modulus_mpa":200000,"poisson_ratio":0.3}},
+        "load":{"kind":"line_force","n_per_mm":18.5}}"#;
+    let estimates = plan(&accepted(mccoll)).estimates;
+    assert!((estimates["hertz_half_width_mm"] - 0.035_86).abs() < 1e-5);
+    assert!((estimates["hertz_peak_pressure_mpa"] - 328.4).abs() < 0.1);
+}

@@ -1,0 +1,177 @@
+//! Gathers a solving process's lines into batches, and decides which of them become events.
+//!
+//! All rows of the wear history are stored, but an event is only made every half per cent of the work or every few
+//! seconds: a stream of a long job stays a stream of hundreds of events.
+
+use std::time::{Duration, Instant};
+
+use api::job::Progress;
+use api::results::CycleRow;
+use jiff::Timestamp;
+
+use crate::solve::Line;
+use crate::store::Batch;
+
+/// Share of the work between two events.
+const EVENT_SHARE: f64 = 0.005;
+/// Shortest time between two events.
+const EVENT_PAUSE: Duration = Duration::from_millis(100);
+/// Longest time between two events while something changes.
+const EVENT_WAIT: Duration = Duration::from_secs(5);
+/// Rows kept back at most.
+const ROW_LIMIT: usize = 1000;
+
+/// Lines on their way to the store.
+#[derive(Debug)]
+pub(super) struct Batcher {
+    progress: Progress,
+    batch: Batch,
+    newest: Option<CycleRow>,
+    started: Instant,
+    last_event: Option<(Instant, f64)>,
+    dirty: bool,
+}
+
+impl Batcher {
+    /// For a job of so many cycles.
+    pub(super) fn new(cycles: u64) -> Self {
+        Self {
+            progress: Progress {
+                cycles,
+                ..Progress::default()
+            },
+            batch: Batch::default(),
+            newest: None,
+            started: Instant::now(),
+            last_event: None,
+            dirty: false,
+        }
+    }
+
+    /// Takes a line that is neither summary nor failure.
+    pub(super) fn take(&mut self, line: Line) {
+        self.dirty = true;
+        match line {
+            Line::Phase(phase) => self.progress.phase = Some(phase),
+            Line::Cycle(row) => {
+                self.progress.cycle = row.cycle;
+                self.progress.fraction = fraction(row.cycle, self.progress.cycles);
+                self.batch.rows.push(row.clone());
+                self.newest = Some(row);
+            }
+            Line::Snapshot(snapshot) => self.batch.snapshots.push(*snapshot),
+            Line::Summary(_) | Line::Failed(_) => {}
+        }
+    }
+
+    /// Whether there is something to write.
+    pub(super) fn is_dirty(&self) -> bool {
+        self.dirty
+    }
+
+    /// Whether so much has gathered that it should be written at once.
+    pub(super) fn is_full(&self) -> bool {
+        self.batch.rows.len() >= ROW_LIMIT
+    }
+
+    /// What has gathered; with events if they are due, or if this is the `last` batch.
+    pub(super) fn batch(&mut self, last: bool) -> Batch {
+        self.dirty = false;
+        self.progress.eta_s = self.eta_s();
+        self.progress.updated_at = Some(Timestamp::now().to_string());
+        let mut batch = std::mem::take(&mut self.batch);
+        batch.progress = self.progress.clone();
+        if last || self.event_due() {
+            self.last_event = Some((Instant::now(), self.progress.fraction));
+            batch.events = self.events();
+        }
+        batch
+    }
+
+    fn events(&mut self) -> Vec<(&'static str, String)> {
+        // Plain numbers and texts always become JSON; were it not so, the event would be left out.
+        let progress = serde_json::to_string(&self.progress)
+            .ok()
+            .map(|data| ("progress", data));
+        let cycle = self
+            .newest
+            .take()
+            .and_then(|row| serde_json::to_string(&row).ok())
+            .map(|data| ("cycle", data));
+        progress.into_iter().chain(cycle).collect()
+    }
+
+    fn event_due(&self) -> bool {
+        let Some((at, fraction)) = self.last_event else {
+            return true;
+        };
+        let waited = at.elapsed();
+        waited >= EVENT_WAIT
+            || (waited >= EVENT_PAUSE && self.progress.fraction >= fraction + EVENT_SHARE)
+    }
+
+    fn eta_s(&self) -> Option<f64> {
+        let done = self.progress.fraction;
+        (done > 0.0).then(|| self.started.elapsed().as_secs_f64() * (1.0 - done) / done)
+    }
+}
+
+#[expect(clippy::cast_precision_loss, reason = "cycles stay below 1e9")]
+fn fraction(cycle: u64, cycles: u64) -> f64 {
+    if cycles == 0 {
+        0.0
+    } else {
+        (cycle as f64 / cycles as f64).min(1.0)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use api::results::SideRow;
+
+    use super::*;
+
+    fn row(cycle: u64) -> Line {
+        Line::Cycle(CycleRow {
+            cycle,
+            jump: 1,
+            jump_error: 0.0,
+            sliding_distance_mm: 0.0,
+            receptacle: SideRow::default(),
+            slider: SideRow::default(),
+            station_depth_mm: Vec::new(),
+            peak_pressure_mpa: 0.0,
+            contact_half_width_mm: 0.0,
+            dissipated_energy_mj_per_mm: 0.0,
+        })
+    }
+
+    #[test]
+    fn every_row_is_stored_but_few_become_events() {
+        let mut batcher = Batcher::new(2000);
+        let (mut rows, mut events) = (0, 0);
+        for cycle in 0..=2000 {
+            batcher.take(row(cycle));
+            let batch = batcher.batch(false);
+            rows += batch.rows.len();
+            events += batch.events.len();
+        }
+        assert_eq!(rows, 2001);
+        assert!(events < 900, "{events}");
+        assert!(!batcher.is_dirty());
+    }
+
+    #[test]
+    fn the_last_batch_tells_where_it_ended() {
+        let mut batcher = Batcher::new(10);
+        batcher.take(row(1));
+        batcher.batch(false);
+        batcher.take(row(10));
+        let batch = batcher.batch(true);
+        assert!((batch.progress.fraction - 1.0).abs() < 1e-15);
+        assert_eq!(
+            batch.events.iter().map(|event| event.0).collect::<Vec<_>>(),
+            ["progress", "cycle"]
+        );
+    }
+}

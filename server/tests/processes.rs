@@ -1,0 +1,376 @@
+//! The binary as users run it: real servers, real solving processes, real kills.
+
+use std::io::{BufRead, BufReader};
+use std::path::{Path, PathBuf};
+use std::process::{Child, Command, Output, Stdio};
+use std::time::Duration;
+
+use nix::sys::signal::{Signal, kill};
+use nix::unistd::Pid;
+use serde_json::{Value, json};
+use tempfile::TempDir;
+
+const FRETWEAR: &str = env!("CARGO_BIN_EXE_fretwear");
+/// Pause between two looks at a job.
+const LOOK: Duration = Duration::from_millis(20);
+/// A job that should have moved on by now never will.
+const PATIENCE: usize = 15_000;
+
+/// A served database in a temporary folder; killed with the value.
+struct Server {
+    child: Child,
+    base: String,
+    client: reqwest::Client,
+}
+
+impl Server {
+    fn start(folder: &Path) -> Self {
+        let mut child = Command::new(FRETWEAR)
+            .args([
+                "serve",
+                "--listen",
+                "127.0.0.1:0",
+                "--workers",
+                "1",
+                "--database",
+            ])
+            .arg(format!("sqlite://{}", folder.join("test.db").display()))
+            .env("RUST_LOG", "off")
+            .stderr(Stdio::piped())
+            .spawn()
+            .expect("a server");
+        let stderr = child.stderr.take().expect("a pipe");
+        let line = BufReader::new(stderr)
+            .lines()
+            .next()
+            .expect("a line")
+            .expect("text");
+        let base = line
+            .split_whitespace()
+            .last()
+            .expect("an address")
+            .to_owned();
+        assert!(base.starts_with("http://127.0.0.1:"), "{line}");
+        Self {
+            child,
+            base,
+            client: reqwest::Client::new(),
+        }
+    }
+
+    fn signal(&self, signal: Signal) {
+        let id = i32::try_from(self.child.id()).expect("a process id");
+        kill(Pid::from_raw(id), signal).expect("a signal");
+    }
+
+    async fn get(&self, path: &str) -> Value {
+        let response = self
+            .client
+            .get(format!("{}{path}", self.base))
+            .send()
+            .await
+            .expect("an answer");
+        response.json().await.expect("JSON")
+    }
+
+    async fn post(&self, path: &str, body: &Value) -> Value {
+        let response = self
+            .client
+            .post(format!("{}{path}", self.base))
+            .json(body)
+            .send()
+            .await
+            .expect("an answer");
+        response.json().await.expect("JSON")
+    }
+
+    async fn submit(&self, spec: &Value) -> String {
+        let job = self.post("/v1/jobs", spec).await;
+        job["id"]
+            .as_str()
+            .unwrap_or_else(|| panic!("{job}"))
+            .to_owned()
+    }
+
+    /// Looks at a job until it is as wanted.
+    async fn until(&self, id: &str, wanted: impl Fn(&Value) -> bool) -> Value {
+        for _ in 0..PATIENCE {
+            let job = self.get(&format!("/v1/jobs/{id}")).await;
+            if wanted(&job) {
+                return job;
+            }
+            tokio::time::sleep(LOOK).await;
+        }
+        panic!(
+            "the job never became as wanted: {}",
+            self.get(&format!("/v1/jobs/{id}")).await
+        );
+    }
+
+    async fn until_computing(&self, id: &str) -> Value {
+        self.until(id, |job| {
+            job["status"] != "queued" && job["progress"]["cycle"].as_u64() > Some(0)
+        })
+        .await
+    }
+
+    async fn until_ended(&self, id: &str) -> Value {
+        self.until(id, |job| !job["finished_at"].is_null()).await
+    }
+}
+
+impl Drop for Server {
+    fn drop(&mut self) {
+        // Already gone is as good.
+        let _ = self.child.kill();
+        let _ = self.child.wait();
+    }
+}
+
+/// A study of so many computed cycles.
+fn study(cycles: u64) -> Value {
+    json!({
+        "system": {"kind": "fuzz_button"},
+        "cycles": cycles,
+        "accuracy": {"preset": "draft", "overrides": {"cycle_jump": 1}},
+        "output": {"snapshots_at_cycles": [1, cycles]}
+    })
+}
+
+fn folder() -> TempDir {
+    TempDir::new().expect("a temporary folder")
+}
+
+/// Ids of solving processes of a server: its children.
+fn solving_processes(server: &Server) -> Vec<i32> {
+    let id = server.child.id();
+    let tasks = std::fs::read_dir(format!("/proc/{id}/task")).expect("a list of threads");
+    let children =
+        tasks.filter_map(|task| std::fs::read_to_string(task.ok()?.path().join("children")).ok());
+    children
+        .flat_map(|list| {
+            list.split_whitespace()
+                .filter_map(|id| id.parse().ok())
+                .collect::<Vec<_>>()
+        })
+        .collect()
+}
+
+#[tokio::test]
+async fn a_job_goes_from_submission_to_results() {
+    let folder = folder();
+    let server = Server::start(folder.path());
+    let id = server.submit(&study(3)).await;
+    let job = server.until_ended(&id).await;
+    assert_eq!(
+        (&job["status"], &job["outcome"]),
+        (&json!("succeeded"), &json!("completed")),
+        "{job}"
+    );
+    assert_eq!(job["summary"]["cycles_done"], 3);
+    let history = server
+        .get(&format!("/v1/jobs/{id}/results/wear-history"))
+        .await;
+    assert_eq!(history["cycle"], json!([0, 1, 2, 3]));
+    let profile = server
+        .get(&format!("/v1/jobs/{id}/results/profile?cycle=3"))
+        .await;
+    assert_eq!(profile["cycle"], 3);
+    let url = format!("{}/v1/jobs/{id}/events", server.base);
+    let stream = server
+        .client
+        .get(url)
+        .send()
+        .await
+        .expect("a stream")
+        .text()
+        .await
+        .expect("text");
+    assert!(stream.starts_with("event: snapshot"), "{stream}");
+    assert!(
+        stream.contains("event: cycle") && stream.contains("event: done"),
+        "{stream}"
+    );
+}
+
+#[tokio::test]
+async fn killing_the_server_loses_no_job() {
+    let folder = folder();
+    let server = Server::start(folder.path());
+    let id = server.submit(&study(500)).await;
+    server.until_computing(&id).await;
+    server.signal(Signal::SIGKILL);
+    drop(server);
+    let server = Server::start(folder.path());
+    let job = server.until_ended(&id).await;
+    assert_eq!(
+        (&job["status"], &job["attempts"]),
+        (&json!("succeeded"), &json!(2)),
+        "{job}"
+    );
+    let history = server
+        .get(&format!("/v1/jobs/{id}/results/wear-history"))
+        .await;
+    let expected: Vec<u64> =
+        (0..=job["summary"]["cycles_done"].as_u64().expect("a count")).collect();
+    assert_eq!(history["cycle"], json!(expected));
+}
+
+#[tokio::test]
+async fn a_killed_solving_process_is_tried_again() {
+    let folder = folder();
+    let server = Server::start(folder.path());
+    let id = server.submit(&study(500)).await;
+    server.until_computing(&id).await;
+    for process in solving_processes(&server) {
+        kill(Pid::from_raw(process), Signal::SIGKILL).expect("a signal");
+    }
+    let job = server.until_ended(&id).await;
+    assert_eq!(
+        (&job["status"], &job["attempts"]),
+        (&json!("succeeded"), &json!(2)),
+        "{job}"
+    );
+}
+
+#[tokio::test]
+async fn a_killed_server_takes_its_solving_processes_with_it() {
+    let folder = folder();
+    let server = Server::start(folder.path());
+    let id = server.submit(&study(1_000_000)).await;
+    server.until_computing(&id).await;
+    let processes = solving_processes(&server);
+    assert_eq!(processes.len(), 1);
+    server.signal(Signal::SIGKILL);
+    drop(server);
+    let alive = || processes.iter().any(|id| runs(*id));
+    for _ in 0..PATIENCE {
+        if !alive() {
+            return;
+        }
+        tokio::time::sleep(LOOK).await;
+    }
+    panic!("a solving process outlives its server");
+}
+
+/// Whether a process runs; a dead one that nobody has waited for does not.
+fn runs(id: i32) -> bool {
+    std::fs::read_to_string(format!("/proc/{id}/stat")).is_ok_and(|stat| {
+        stat.rsplit(')')
+            .next()
+            .is_some_and(|rest| !rest.trim_start().starts_with('Z'))
+    })
+}
+
+#[tokio::test]
+async fn a_cancelled_job_keeps_what_was_computed() {
+    let folder = folder();
+    let server = Server::start(folder.path());
+    let id = server.submit(&study(1_000_000)).await;
+    server.until_computing(&id).await;
+    server
+        .post(&format!("/v1/jobs/{id}/cancel"), &json!(null))
+        .await;
+    let job = server.until_ended(&id).await;
+    assert_eq!(job["status"], "cancelled");
+    let history = server
+        .get(&format!("/v1/jobs/{id}/results/wear-history"))
+        .await;
+    assert!(history["cycle"].as_array().expect("a list").len() > 1);
+    assert_eq!(solving_processes(&server), Vec::<i32>::new());
+}
+
+#[tokio::test]
+async fn a_graceful_stop_costs_no_attempt_and_ends_open_streams() {
+    let folder = folder();
+    let mut server = Server::start(folder.path());
+    let id = server.submit(&study(1_000_000)).await;
+    server.until_computing(&id).await;
+    let url = format!("{}/v1/jobs/{id}/events", server.base);
+    let stream = server.client.get(url).send().await.expect("a stream");
+    server.signal(Signal::SIGTERM);
+    assert!(!stream.text().await.expect("an end").contains("event: done"));
+    assert!(server.child.wait().expect("an end").success());
+    drop(server);
+    let server = Server::start(folder.path());
+    let job = server.until_computing(&id).await;
+    assert_eq!(
+        (&job["status"], &job["attempts"]),
+        (&json!("running"), &json!(1)),
+        "{job}"
+    );
+}
+
+fn solve(spec: &str, arguments: &[&str]) -> (Output, TempDir) {
+    let folder = folder();
+    let path: PathBuf = folder.path().join("spec.json");
+    std::fs::write(&path, spec).expect("a file");
+    let output = Command::new(FRETWEAR)
+        .arg("solve")
+        .arg(&path)
+        .args(arguments)
+        .current_dir(folder.path())
+        .output()
+        .expect("a run");
+    (output, folder)
+}
+
+#[test]
+fn refused_specifications_exit_with_2_and_all_faults() {
+    let spec = r#"{"frobnicate":1,"system":{"kind":"cylinder_on_flat","radius_mm":-6},"materials":{"slider":"cheese"}}"#;
+    let (output, _folder) = solve(spec, &[]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(output.stdout.is_empty());
+    let told = String::from_utf8(output.stderr).expect("text");
+    for pointer in ["/frobnicate", "/system/radius_mm", "/materials/slider"] {
+        assert!(told.contains(pointer), "{told}");
+    }
+    let (output, _folder) = solve(r#"{"system":{"kind":"dimm"},"cycles":NaN}"#, &[]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(
+        String::from_utf8(output.stderr)
+            .expect("text")
+            .contains("line 1, column")
+    );
+}
+
+#[test]
+fn solve_writes_summary_and_files() {
+    let (output, folder) = solve(&study(2).to_string(), &["--out", "results"]);
+    assert_eq!(
+        output.status.code(),
+        Some(0),
+        "{}",
+        String::from_utf8_lossy(&output.stderr)
+    );
+    let summary: Value = serde_json::from_slice(&output.stdout).expect("JSON");
+    assert_eq!(summary["cycles_done"], 2);
+    assert!(summary["cost"]["wall_s"].as_f64() > Some(0.0));
+    assert!(summary["cost"]["peak_memory_mb"].as_f64() > Some(1.0));
+    for name in [
+        "summary.json",
+        "spec.resolved.json",
+        "wear-history.csv",
+        "profile-2.csv",
+        "pressure-2.csv",
+        "loop-1.csv",
+    ] {
+        assert!(folder.path().join("results").join(name).is_file(), "{name}");
+    }
+}
+
+#[test]
+fn other_addresses_than_loopback_are_refused() {
+    let folder = folder();
+    let output = Command::new(FRETWEAR)
+        .args(["serve", "--listen", "0.0.0.0:0"])
+        .current_dir(folder.path())
+        .output()
+        .expect("a run");
+    assert_eq!(output.status.code(), Some(1));
+    assert!(
+        String::from_utf8(output.stderr)
+            .expect("text")
+            .contains("not a loopback address")
+    );
+}

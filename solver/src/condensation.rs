@@ -1,0 +1,149 @@
+//! Condensation: each body is linear elastic, so during a cycle only its contact surface matters.
+//!
+//! The stiffness is assembled with the contact unknowns last and factored once; the trailing block of the factor
+//! gives the compliance of the contact surface, C = S^-1 with S = K_cc - K_ci K_ii^-1 K_ic.
+//! A body keeps its operator in its own frame, so large sliding changes only the coupling of both surfaces.
+
+mod assembly;
+
+use crate::linear::{CholeskyFactor, CholeskyPattern, FactorError, SquareMatrix};
+use crate::model::{BodyModel, Model, Profile, Support};
+use assembly::Numbering;
+use std::sync::Arc;
+
+/// Why operators cannot be built.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+pub enum OperatorError {
+    /// An element is inverted.
+    #[error("element {element} of the {body} is inverted")]
+    Inverted {
+        /// Which body.
+        body: &'static str,
+        /// Its number, columns first.
+        element: usize,
+    },
+    /// The stiffness matrix cannot be factored.
+    #[error("{body}: {source}")]
+    Factor {
+        /// Which body.
+        body: &'static str,
+        /// Why.
+        source: FactorError,
+    },
+}
+
+/// Condensed operators of both bodies.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Operators {
+    /// The slider's.
+    pub slider: BodyOperators,
+    /// The receptacle's.
+    pub receptacle: BodyOperators,
+}
+
+/// One body seen from its contact surface.
+#[derive(Debug, Clone, PartialEq)]
+pub struct BodyOperators {
+    /// Places of the contact nodes in the body's frame, mm, ascending.
+    pub x: Vec<f64>,
+    /// Length of surface that belongs to each node, projected on x, mm.
+    pub widths: Vec<f64>,
+    /// The unworn surface.
+    pub profile: Profile,
+    /// Displacement of surface unknown (2 i + d) per nodal force at (2 j + e), mm per N/mm.
+    pub compliance: SquareMatrix,
+    /// Displacement of the surface unknowns per unit of normal load on the far face, mm per N/mm; zero where the
+    /// far face is held.
+    pub load_response: Vec<f64>,
+}
+
+/// Condensed operators, and the factors behind them.
+#[derive(Debug)]
+pub struct Condensed {
+    /// What the contact needs.
+    pub operators: Operators,
+    /// The slider's interior.
+    pub slider: Interior,
+    /// The receptacle's interior.
+    pub receptacle: Interior,
+}
+
+/// The factored stiffness of a body: gives interior displacements back.
+#[derive(Debug)]
+pub struct Interior {
+    numbering: Numbering,
+    factor: CholeskyFactor,
+    far_load: Vec<f64>,
+}
+
+/// Condenses both bodies; the patterns of an earlier condensation of the same topology are used again.
+///
+/// # Errors
+/// [`OperatorError`] if an element is inverted or a body is not held.
+pub fn condense(model: &Model, earlier: Option<&Condensed>) -> Result<Condensed, OperatorError> {
+    let pattern = |of: fn(&Condensed) -> &Interior| earlier.map(|e| of(e).factor.pattern().clone());
+    let (slider, inside) = condense_body(&model.slider, "slider", pattern(|e| &e.slider))?;
+    let (receptacle, below) =
+        condense_body(&model.receptacle, "receptacle", pattern(|e| &e.receptacle))?;
+    let operators = Operators { slider, receptacle };
+    Ok(Condensed {
+        operators,
+        slider: inside,
+        receptacle: below,
+    })
+}
+
+fn condense_body(
+    model: &BodyModel,
+    body: &'static str,
+    pattern: Option<Arc<CholeskyPattern>>,
+) -> Result<(BodyOperators, Interior), OperatorError> {
+    let numbering = Numbering::new(model);
+    let matrix = assembly::assemble(model, &numbering)
+        .map_err(|element| OperatorError::Inverted { body, element })?;
+    let factor_error = |source| OperatorError::Factor { body, source };
+    let pattern = match pattern {
+        Some(pattern) => pattern,
+        None => Arc::new(
+            CholeskyPattern::new(matrix.starts, matrix.rows, numbering.kept)
+                .map_err(factor_error)?,
+        ),
+    };
+    let factor = pattern.factor(&matrix.values).map_err(factor_error)?;
+    let compliance = numbering.spread(&factor.kept_inverse());
+    let far_load = match model.support {
+        Support::FarFaceHeld => vec![0.0; numbering.order()],
+        Support::GuidedUnderPressure => assembly::far_face_load(model, &numbering),
+    };
+    let mut response = far_load.clone();
+    factor.solve(&mut response);
+    let operators = BodyOperators {
+        x: model.contact_x().to_vec(),
+        widths: model.contact_widths(),
+        profile: model.profile,
+        compliance,
+        load_response: numbering.spread_vector(&response),
+    };
+    Ok((
+        operators,
+        Interior {
+            numbering,
+            factor,
+            far_load,
+        },
+    ))
+}
+
+impl Interior {
+    /// Displacements of all nodes, mm, under nodal forces on the contact surface (x, y for each contact node, N/mm)
+    /// and a normal load on the far face where that carries one (N/mm).
+    pub fn displacements(&self, contact_force: &[f64], load: f64) -> Vec<[f64; 2]> {
+        let mut u: Vec<f64> = self.far_load.iter().map(|f| load * f).collect();
+        self.numbering.add_contact_force(contact_force, &mut u);
+        self.factor.solve(&mut u);
+        self.numbering.nodal(&u)
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,339 @@
+//! One increment of sliding: which nodes may touch, the solve, and what it transmits and wears.
+
+use super::mortar::{self, Coupling};
+use super::newton::{End, Iterate, Newton, Problem, slider_recession};
+use super::response::Response;
+use super::{ContactError, ContactState, GAP_TOLERANCE, MOST_ITERATIONS, Pair, Status, Surfaces};
+
+/// A node whose undeformed gap is smaller than this part of the indentation is watched: the free surface beside a
+/// contact sinks, so a node with a positive undeformed gap closes only if shear lifts it, by far less than this.
+const WATCHED: f64 = 0.3;
+/// Nodes watched beyond that at either end.
+const MARGIN_NODES: usize = 2;
+/// How often the watched range may grow within one increment.
+const MOST_EXTENSIONS: usize = 60;
+
+/// Solves increments; keeps its buffers from one to the next.
+#[derive(Default)]
+pub struct Solver {
+    coupling: Coupling,
+    response: Response,
+    newton: Newton,
+    iterate: Iterate,
+    /// Undeformed vertical gap at height 0 of every covered node, mm.
+    undeformed: Vec<f64>,
+    gap: Vec<f64>,
+    recession: Vec<f64>,
+}
+
+/// What an increment did; arrays begin at `first`.
+#[derive(Debug, Clone, Copy)]
+pub struct Increment<'a> {
+    /// First coupled node of the receptacle.
+    pub first: usize,
+    /// p |sigma| at the coupled nodes of the receptacle, MPa mm: vertical recession per k.
+    pub path: &'a [f64],
+    /// First coupled node of the slider.
+    pub slider_first: usize,
+    /// The same at the slider's nodes, MPa mm.
+    pub slider_path: &'a [f64],
+    /// Energy dissipated by friction, N/mm mm.
+    pub energy: f64,
+    /// |sum of vertical forces - load| / load.
+    pub force_balance: f64,
+    /// Largest gap of a closed node or penetration of an open one, over the indentation.
+    pub complementarity: f64,
+    /// Largest |q| - mu p over the peak pressure.
+    pub friction_cone: f64,
+}
+
+impl Solver {
+    /// Moves the slider to `slider_x`, each slip standing for `cycles` equal ones; writes the new state to `next`.
+    ///
+    /// # Errors
+    /// [`ContactError`]; `next` is then of no use.
+    pub fn advance(
+        &mut self,
+        pair: &Pair<'_>,
+        surfaces: &Surfaces<'_>,
+        last: &ContactState,
+        (slider_x, cycles): (f64, f64),
+        next: &mut ContactState,
+    ) -> Result<Increment<'_>, ContactError> {
+        let covered = mortar::covered(pair.operators, slider_x);
+        if covered.0 == covered.1 {
+            return Err(ContactError::NothingBelow {
+                slider_x_mm: slider_x,
+            });
+        }
+        lay_undeformed_gaps(pair, surfaces, slider_x, covered, &mut self.undeformed);
+        let mut range = first_range(pair, last, slider_x, covered, &self.undeformed);
+        for _ in 0..MOST_EXTENSIONS {
+            self.solve_range(pair, surfaces, last, (slider_x, cycles), range)?;
+            let threshold = WATCHED * self.iterate.indentation - self.iterate.height;
+            let needed = watched(&self.undeformed, covered.0, threshold);
+            let wanted = (needed.0.min(range.0), needed.1.max(range.1));
+            if wanted == range {
+                self.write(pair, slider_x, next);
+                return Ok(self.report(pair, next));
+            }
+            range = widened(wanted, covered);
+        }
+        Err(ContactError::NotConverged {
+            slider_x_mm: slider_x,
+            iterations: MOST_EXTENSIONS * MOST_ITERATIONS,
+            residual: f64::INFINITY,
+            tolerance: GAP_TOLERANCE,
+            changes: range.1 - range.0,
+        })
+    }
+
+    fn solve_range(
+        &mut self,
+        pair: &Pair<'_>,
+        surfaces: &Surfaces<'_>,
+        last: &ContactState,
+        (slider_x, cycles): (f64, f64),
+        (first, end): (usize, usize),
+    ) -> Result<(), ContactError> {
+        self.coupling
+            .integrate(pair.operators, slider_x, first, end);
+        self.response
+            .gather(pair, &self.coupling, surfaces.slope, last);
+        self.lay_gap(pair, surfaces);
+        let interface = &pair.interface;
+        let problem = Problem {
+            coupling: &self.coupling,
+            response: &self.response,
+            gap: &self.gap,
+            width: &pair.operators.receptacle.widths[first..end],
+            slope: &surfaces.slope[first..end],
+            slider_width: &pair.operators.slider.widths,
+            friction: interface.friction,
+            load: interface.load,
+            kappa: [
+                interface.receptacle_wear * cycles,
+                interface.slider_wear * cycles,
+            ],
+            step: slider_x - last.slider_x,
+            last_height: last.height,
+        };
+        guess(&mut self.iterate, pair, last, &problem);
+        match self.newton.solve(&problem, &mut self.iterate) {
+            End::Settled => Ok(()),
+            End::Singular { active } => Err(ContactError::NoEquilibrium {
+                slider_x_mm: slider_x,
+                active,
+            }),
+            End::Unsettled { residual, changes } => Err(ContactError::NotConverged {
+                slider_x_mm: slider_x,
+                iterations: MOST_ITERATIONS,
+                residual,
+                tolerance: GAP_TOLERANCE,
+                changes,
+            }),
+        }
+    }
+
+    /// Gap of the worn, undeformed (but loaded from the far face) bodies at height 0.
+    fn lay_gap(&mut self, pair: &Pair<'_>, surfaces: &Surfaces<'_>) {
+        let coupling = &self.coupling;
+        let response = &pair.operators.slider.load_response;
+        self.gap.clear();
+        for i in coupling.first..coupling.end {
+            let (from, weights) = coupling.dual_row(i);
+            let mut gap = coupling.gap[i - coupling.first] + surfaces.receptacle_depth[i];
+            for (offset, weight) in weights.iter().enumerate() {
+                let j = from + offset;
+                let y = response[2 * j + 1] - surfaces.slope[i] * response[2 * j];
+                gap += weight * (surfaces.slider_depth[j] + pair.interface.load * y);
+            }
+            self.gap.push(gap);
+        }
+    }
+
+    fn write(&mut self, pair: &Pair<'_>, slider_x: f64, next: &mut ContactState) {
+        let (coupling, it) = (&self.coupling, &self.iterate);
+        next.slider_x = slider_x;
+        next.height = it.height;
+        next.indentation = it.indentation;
+        next.status.fill(Status::Open);
+        for values in [
+            &mut next.pressure,
+            &mut next.shear,
+            &mut next.receptacle_force,
+            &mut next.slider_force,
+        ] {
+            values.fill(0.0);
+        }
+        let span = coupling.first..coupling.end;
+        next.status[span.clone()].copy_from_slice(&it.status);
+        next.pressure[span.clone()].copy_from_slice(&it.pressure);
+        next.shear[span.clone()].copy_from_slice(&it.shear);
+        for i in span {
+            let width = pair.operators.receptacle.widths[i];
+            let (p, q, s) = (next.pressure[i], next.shear[i], self.slope_at(i));
+            let force = [width * (-p * s - q), width * (p - q * s)];
+            next.receptacle_force[2 * i..2 * i + 2].copy_from_slice(&force);
+            let (from, weights) = coupling.dual_row(i);
+            for (offset, weight) in weights.iter().enumerate() {
+                next.slider_force[2 * (from + offset)] += weight * force[0];
+                next.slider_force[2 * (from + offset) + 1] += weight * force[1];
+            }
+        }
+    }
+
+    fn slope_at(&self, i: usize) -> f64 {
+        self.response.slope[i - self.coupling.first]
+    }
+
+    fn report(&mut self, pair: &Pair<'_>, next: &ContactState) -> Increment<'_> {
+        let (coupling, it) = (&self.coupling, &self.iterate);
+        let widths = &pair.operators.receptacle.widths[coupling.first..coupling.end];
+        slider_recession(
+            coupling,
+            &pair.operators.slider.widths,
+            1.0,
+            &it.path,
+            &mut self.recession,
+        );
+        let energy = widths
+            .iter()
+            .zip(it.shear.iter().zip(&it.slip))
+            .zip(&it.status)
+            .filter(|(_, status)| status.direction() != 0.0)
+            .map(|((d, (q, slip)), _)| d * (q * slip).abs())
+            .sum();
+        let vertical: f64 = next.receptacle_force.iter().skip(1).step_by(2).sum();
+        let load = pair.interface.load;
+        let peak = next.peak_pressure().max(f64::MIN_POSITIVE);
+        let (mut complementarity, mut cone) = (0.0_f64, 0.0_f64);
+        for (i, status) in it.status.iter().enumerate() {
+            let violation = if *status == Status::Open {
+                -it.gap[i]
+            } else {
+                it.gap[i].abs()
+            };
+            complementarity = complementarity.max(violation);
+            cone = cone.max(it.shear[i].abs() - pair.interface.friction * it.pressure[i]);
+        }
+        Increment {
+            first: coupling.first,
+            path: &it.path,
+            slider_first: coupling.slider_range.0,
+            slider_path: &self.recession,
+            energy,
+            force_balance: (vertical - load).abs() / load,
+            complementarity: complementarity / it.indentation.max(f64::MIN_POSITIVE),
+            friction_cone: cone / peak,
+        }
+    }
+}
+
+/// Nodes to begin with: the last contact as it travels with the slider, and what the last height reaches.
+fn first_range(
+    pair: &Pair<'_>,
+    last: &ContactState,
+    slider_x: f64,
+    covered: (usize, usize),
+    undeformed: &[f64],
+) -> (usize, usize) {
+    let x = &pair.operators.receptacle.x;
+    let Some((first, end)) = last.active_range() else {
+        let gaps = undeformed.iter().enumerate();
+        let lowest = gaps.fold(
+            (0, f64::INFINITY),
+            |m, (i, g)| if *g < m.1 { (i, *g) } else { m },
+        );
+        let node = covered.0 + lowest.0;
+        return widened((node, node + 1), covered);
+    };
+    let step = slider_x - last.slider_x;
+    let begin = x.partition_point(|&at| at < x[first] + step);
+    let stop = x.partition_point(|&at| at <= x[end - 1] + step);
+    let threshold = WATCHED * last.indentation - last.height;
+    let reached = watched(undeformed, covered.0, threshold);
+    let begin = begin.clamp(covered.0, covered.1 - 1).min(reached.0);
+    widened(
+        (begin, stop.min(covered.1).max(reached.1).max(begin + 1)),
+        covered,
+    )
+}
+
+/// Undeformed vertical gap of the covered nodes at height 0, mm: exact shapes, worn depths interpolated.
+fn lay_undeformed_gaps(
+    pair: &Pair<'_>,
+    surfaces: &Surfaces<'_>,
+    slider_x: f64,
+    covered: (usize, usize),
+    gaps: &mut Vec<f64>,
+) {
+    let (slave, master) = (&pair.operators.receptacle, &pair.operators.slider);
+    let last = master.x.len() - 1;
+    gaps.clear();
+    let mut m = 1;
+    for i in covered.0..covered.1 {
+        let local = slave.x[i] - slider_x;
+        while m < last && master.x[m] < local {
+            m += 1;
+        }
+        let t = (local - master.x[m - 1]) / (master.x[m] - master.x[m - 1]);
+        let worn = (1.0 - t) * surfaces.slider_depth[m - 1] + t * surfaces.slider_depth[m];
+        let shape = master.profile.height(local) - slave.profile.height(slave.x[i]);
+        gaps.push(shape + worn + surfaces.receptacle_depth[i]);
+    }
+}
+
+/// Nodes from `offset` on whose undeformed gap is below a threshold: first and one past the last.
+fn watched(undeformed: &[f64], offset: usize, threshold: f64) -> (usize, usize) {
+    let below = |gap: &f64| *gap < threshold;
+    match (
+        undeformed.iter().position(below),
+        undeformed.iter().rposition(below),
+    ) {
+        (Some(first), Some(last)) => (offset + first, offset + last + 1),
+        _ => (usize::MAX, 0),
+    }
+}
+
+fn widened((first, end): (usize, usize), covered: (usize, usize)) -> (usize, usize) {
+    (
+        first.saturating_sub(MARGIN_NODES).max(covered.0),
+        (end + MARGIN_NODES).min(covered.1),
+    )
+}
+
+/// Begins with the last contact as it travels with the slider.
+fn guess(it: &mut Iterate, pair: &Pair<'_>, last: &ContactState, problem: &Problem<'_>) {
+    let (first, end) = (problem.coupling.first, problem.coupling.end);
+    let x = &pair.operators.receptacle.x;
+    let n = end - first;
+    it.status.clear();
+    it.pressure.clear();
+    it.slip.clear();
+    for values in [&mut it.shear, &mut it.path, &mut it.gap] {
+        values.clear();
+        values.resize(n, 0.0);
+    }
+    let active = last.active_range();
+    for i in first..end {
+        let from = x[i] - problem.step;
+        let travelled = active.is_none_or(|(a, b)| from >= x[a] && from <= x[b - 1]);
+        let near = x.partition_point(|&at| at < from).min(x.len() - 1);
+        let was = last.status[near].direction();
+        let status = if !travelled {
+            Status::Open
+        } else if problem.friction <= 0.0 || was * problem.step > 0.0 {
+            Status::slip(problem.step)
+        } else {
+            Status::Stick
+        };
+        it.status.push(status);
+        it.pressure
+            .push(if travelled { last.pressure[near] } else { 0.0 });
+        it.slip.push(problem.step);
+    }
+    if it.status.iter().all(|s| *s == Status::Open) {
+        it.status.fill(Status::Stick);
+    }
+}

@@ -1,0 +1,255 @@
+//! Dual mortar coupling of two graphs, integrated exactly on the common segments of both meshes.
+//!
+//! On a slave element with linear shape functions phi the dual ones are psi_1 = 2 phi_1 - phi_2,
+//! psi_2 = 2 phi_2 - phi_1 (Wohlmuth 2000): integral psi_i phi_k = delta_ik integral phi_i. Their averages
+//! Mhat_ij = (1/d_i) integral psi_i phi_j reproduce constants and, on covered elements, linear functions, so the
+//! patch test holds at any position.
+
+use crate::condensation::{BodyOperators, Operators};
+
+/// Three-point Gauss rule on [0, 1]: exact for the products, accurate for curved profiles.
+const GAUSS: [(f64, f64); 3] = [
+    (0.112_701_665_379_258_3, 5.0 / 18.0),
+    (0.5, 8.0 / 18.0),
+    (0.887_298_334_620_741_7, 5.0 / 18.0),
+];
+
+/// A slave node is covered if the slider ends at most this part of its length before it: the last slider element is
+/// then continued, which moves nothing by more than round-off.
+const ROUND_OFF: f64 = 1e-10;
+
+/// Coupling of the slave nodes `first..end` with the slider at one position.
+#[derive(Debug, Default)]
+pub(super) struct Coupling {
+    /// First slave node.
+    pub(super) first: usize,
+    /// One past the last slave node.
+    pub(super) end: usize,
+    /// First slider node that any row touches, and one past the last.
+    pub(super) slider_range: (usize, usize),
+    /// For each slave node: first slider node of its row, and where its weights begin.
+    rows: Vec<(usize, usize)>,
+    /// Mhat_ij.
+    dual: Vec<f64>,
+    /// integral phi_i phi_j, mm.
+    standard: Vec<f64>,
+    /// Average of the unworn gap at height 0, mm.
+    pub(super) gap: Vec<f64>,
+}
+
+/// Slave nodes whose whole support lies under the slider: first and one past the last.
+pub(super) fn covered(operators: &Operators, slider_x: f64) -> (usize, usize) {
+    let (slave, master) = (&operators.receptacle.x, &operators.slider.x);
+    let round_off = ROUND_OFF * (master[master.len() - 1] - master[0]);
+    let left = master[0] + slider_x - round_off;
+    let right = master[master.len() - 1] + slider_x + round_off;
+    let begin = slave.partition_point(|&x| x < left);
+    let end = slave.partition_point(|&x| x <= right);
+    let first = if begin == 0 { 0 } else { begin + 1 };
+    let end = if end == slave.len() {
+        end
+    } else {
+        end.saturating_sub(1)
+    };
+    (first, end.max(first))
+}
+
+impl Coupling {
+    /// Integrates the coupling of the slave nodes `first..end`, which must be covered.
+    pub(super) fn integrate(
+        &mut self,
+        operators: &Operators,
+        slider_x: f64,
+        first: usize,
+        end: usize,
+    ) {
+        let (slave, master) = (&operators.receptacle, &operators.slider);
+        (self.first, self.end) = (first, end);
+        self.lay_out(&slave.x, &master.x, slider_x);
+        for element in first.saturating_sub(1)..end.min(slave.x.len() - 1) {
+            self.integrate_element(slave, master, slider_x, element);
+        }
+        for i in first..end {
+            let width = slave.widths[i];
+            self.gap[i - first] /= width;
+            let row = self.row_span(i);
+            self.dual[row].iter_mut().for_each(|m| *m /= width);
+        }
+    }
+
+    fn lay_out(&mut self, slave: &[f64], master: &[f64], slider_x: f64) {
+        self.rows.clear();
+        self.gap.clear();
+        self.gap.resize(self.end - self.first, 0.0);
+        let (mut begin, mut total) = (usize::MAX, 0);
+        let mut last = 0;
+        for i in self.first..self.end {
+            let left = slave[i.saturating_sub(1)] - slider_x;
+            let right = slave[(i + 1).min(slave.len() - 1)] - slider_x;
+            let from = master.partition_point(|&x| x <= left).saturating_sub(1);
+            let to = master.partition_point(|&x| x < right).min(master.len() - 1);
+            self.rows.push((from, total));
+            total += to + 1 - from;
+            begin = begin.min(from);
+            last = last.max(to + 1);
+        }
+        self.rows.push((0, total));
+        self.slider_range = (begin.min(last), last);
+        self.dual.clear();
+        self.dual.resize(total, 0.0);
+        self.standard.clear();
+        self.standard.resize(total, 0.0);
+    }
+
+    fn integrate_element(
+        &mut self,
+        slave: &BodyOperators,
+        master: &BodyOperators,
+        slider_x: f64,
+        element: usize,
+    ) {
+        let (a, b) = (slave.x[element], slave.x[element + 1]);
+        let mut j = master
+            .x
+            .partition_point(|&x| x <= a - slider_x)
+            .clamp(1, master.x.len() - 1);
+        let mut left = a;
+        while left < b {
+            let last = j == master.x.len() - 1;
+            let right = if last {
+                b
+            } else {
+                b.min(master.x[j] + slider_x)
+            };
+            if right > left {
+                self.integrate_segment(slave, master, slider_x, (element, j - 1), (left, right));
+            }
+            left = right;
+            j = (j + 1).min(master.x.len() - 1);
+        }
+    }
+
+    fn integrate_segment(
+        &mut self,
+        slave: &BodyOperators,
+        master: &BodyOperators,
+        slider_x: f64,
+        (e, m): (usize, usize),
+        (left, right): (f64, f64),
+    ) {
+        for (at, weight) in GAUSS {
+            let x = left + at * (right - left);
+            let dx = weight * (right - left);
+            let t = (x - slave.x[e]) / (slave.x[e + 1] - slave.x[e]);
+            let u = (x - slider_x - master.x[m]) / (master.x[m + 1] - master.x[m]);
+            let gap = master.profile.height(x - slider_x) - slave.profile.height(x);
+            let standard = [1.0 - t, t];
+            let dual = [2.0 - 3.0 * t, 3.0 * t - 1.0];
+            for side in 0..2 {
+                let i = e + side;
+                if i < self.first || i >= self.end {
+                    continue;
+                }
+                let (from, offset) = self.rows[i - self.first];
+                let place = offset + m - from;
+                self.gap[i - self.first] += dual[side] * gap * dx;
+                self.dual[place] += dual[side] * (1.0 - u) * dx;
+                self.dual[place + 1] += dual[side] * u * dx;
+                self.standard[place] += standard[side] * (1.0 - u) * dx;
+                self.standard[place + 1] += standard[side] * u * dx;
+            }
+        }
+    }
+
+    fn row_span(&self, i: usize) -> std::ops::Range<usize> {
+        self.rows[i - self.first].1..self.rows[i - self.first + 1].1
+    }
+
+    /// Number of coupled slave nodes.
+    pub(super) fn len(&self) -> usize {
+        self.end - self.first
+    }
+
+    /// Averaging row of slave node `i`: its first slider node and the weights Mhat_ij.
+    pub(super) fn dual_row(&self, i: usize) -> (usize, &[f64]) {
+        (self.rows[i - self.first].0, &self.dual[self.row_span(i)])
+    }
+
+    /// Transfer row of slave node `i`: its first slider node and the integrals of phi_i phi_j, mm.
+    pub(super) fn standard_row(&self, i: usize) -> (usize, &[f64]) {
+        (
+            self.rows[i - self.first].0,
+            &self.standard[self.row_span(i)],
+        )
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::linear::SquareMatrix;
+    use crate::model::Profile;
+
+    fn body(x: Vec<f64>, profile: Profile) -> BodyOperators {
+        let widths = (0..x.len())
+            .map(|i| 0.5 * (x[(i + 1).min(x.len() - 1)] - x[i.saturating_sub(1)]))
+            .collect();
+        BodyOperators {
+            x,
+            widths,
+            profile,
+            compliance: SquareMatrix::default(),
+            load_response: Vec::new(),
+        }
+    }
+
+    fn pair() -> Operators {
+        Operators {
+            slider: body(
+                vec![-4.0, -1.3, 0.2, 0.9, 5.0],
+                Profile::Arc { radius: 10.0 },
+            ),
+            receptacle: body(vec![-2.0, -1.0, -0.4, 0.5, 1.0, 2.0], Profile::Flat),
+        }
+    }
+
+    #[test]
+    fn averages_reproduce_linear_functions_at_any_position() {
+        let operators = pair();
+        for slider_x in [-2.5, -0.37, 0.0, 0.41, 1.9] {
+            let mut coupling = Coupling::default();
+            let (first, end) = covered(&operators, slider_x);
+            coupling.integrate(&operators, slider_x, first, end);
+            for i in first..end {
+                let (from, row) = coupling.dual_row(i);
+                let linear: f64 = row
+                    .iter()
+                    .zip(&operators.slider.x[from..])
+                    .map(|(m, x)| m * (3.0 + 0.5 * (x + slider_x)))
+                    .sum();
+                let expected = 3.0 + 0.5 * operators.receptacle.x[i];
+                assert!((linear - expected).abs() < 1e-13, "{slider_x} {i}");
+            }
+        }
+    }
+
+    #[test]
+    fn transfers_keep_the_area() {
+        let operators = pair();
+        let mut coupling = Coupling::default();
+        coupling.integrate(&operators, 0.3, 0, 6);
+        for i in 0..6 {
+            let sum: f64 = coupling.standard_row(i).1.iter().sum();
+            assert!((sum - operators.receptacle.widths[i]).abs() < 1e-14);
+        }
+    }
+
+    #[test]
+    fn nodes_that_the_slider_does_not_cover_are_left_out() {
+        let operators = pair();
+        assert_eq!(covered(&operators, 0.0), (0, 6));
+        assert_eq!(covered(&operators, 2.5), (2, 6));
+        let (first, end) = covered(&operators, 100.0);
+        assert_eq!(first, end);
+    }
+}

@@ -1,0 +1,345 @@
+//! The cycle integrator: sweeps of contact increments in which one computed cycle stands for many physical ones.
+//!
+//! The motion begins at the neutral position and goes to +x. Its first quarter only brings the contact into gross
+//! slip; cycles are then computed from turning point to turning point, and the wear of the first quarter is made
+//! up by the last one of the last cycle. After N cycles every place has been passed 2 N times either way.
+//!
+//! Normals are taken from the worn surface at the beginning of a computed cycle. The step that a single pass digs
+//! in front of the slider belongs to the wear law, not to the geometry of the scar: with a jump it would be
+//! `jump` times too high, and its slope would load the contact like a wall.
+
+mod jump;
+mod path;
+mod record;
+
+use crate::condensation::Operators;
+use crate::contact::{ContactError, ContactState, Pair, Solver, Surfaces};
+use crate::history::{Checks, FrictionLoop, Position, TractionField};
+use crate::model::Model;
+use crate::number::{real, real_cycles};
+use crate::scene::{Motion, Scene};
+
+pub(crate) use record::worn_area_residual;
+pub use record::{report, snapshot};
+
+/// How often an increment may be halved before it is given up.
+const MOST_HALVINGS: u32 = 8;
+
+/// A stroke whose amplitude is larger than this many half-widths of the contact leaves it behind.
+const RUNS_FROM: f64 = 2.0;
+
+/// Why a cycle could not be integrated.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+pub enum CycleError {
+    /// An increment failed however often it was halved.
+    #[error(
+        "cycle {cycle}, increment {increment}: {source}; the increment was halved {halvings} times"
+    )]
+    Increment {
+        /// Physical cycles done before.
+        cycle: u64,
+        /// Increment within the cycle.
+        increment: usize,
+        /// How often it was halved.
+        halvings: u32,
+        /// What went wrong in the smallest one.
+        source: ContactError,
+    },
+}
+
+/// Everything that the next cycle depends on.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CycleState {
+    /// Physical cycles done.
+    pub cycle: u64,
+    /// Contact at the end of the last increment.
+    pub contact: ContactState,
+    /// Vertical worn depth at the receptacle's contact nodes, mm.
+    pub receptacle_depth: Vec<f64>,
+    /// Vertical worn depth at the slider's contact nodes, mm.
+    pub slider_depth: Vec<f64>,
+    /// Imposed sliding distance, mm.
+    pub sliding_distance: f64,
+    /// Accumulated integral of p |slip|, N/mm mm.
+    pub friction_path: f64,
+    /// Accumulated energy dissipated by friction, mJ/mm.
+    pub energy: f64,
+    /// Jump control.
+    pub jump: jump::JumpControl,
+    /// Contact at the last passage of the neutral position.
+    pub neutral: Neutral,
+    /// Mean half-width of the contact over the last computed cycle, mm.
+    pub mean_half_width: f64,
+    /// Computed cycles, increments, and the most increments in one cycle.
+    pub computed_cycles: u64,
+    /// Increments solved.
+    pub increments: u64,
+    /// The most increments that a cycle was cut into.
+    pub most_increments: usize,
+    /// Worst residuals so far.
+    pub checks: Checks,
+}
+
+impl CycleState {
+    /// The unworn, unloaded state.
+    pub fn start(operators: &Operators) -> Self {
+        Self {
+            cycle: 0,
+            contact: ContactState::untouched(operators),
+            receptacle_depth: vec![0.0; operators.receptacle.x.len()],
+            slider_depth: vec![0.0; operators.slider.x.len()],
+            sliding_distance: 0.0,
+            friction_path: 0.0,
+            energy: 0.0,
+            jump: jump::JumpControl::default(),
+            neutral: Neutral::default(),
+            mean_half_width: 0.0,
+            computed_cycles: 0,
+            increments: 0,
+            most_increments: 0,
+            checks: Checks::default(),
+        }
+    }
+}
+
+/// Contact at the neutral position on the way to +x.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Neutral {
+    /// Highest pressure, MPa.
+    pub peak_pressure: f64,
+    /// Half-width of the contact, mm.
+    pub half_width: f64,
+}
+
+impl Neutral {
+    fn of(contact: &ContactState, x: &[f64]) -> Self {
+        Self {
+            peak_pressure: contact.peak_pressure(),
+            half_width: contact.half_width(x),
+        }
+    }
+}
+
+/// What one computed cycle recorded besides the state.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Sweep {
+    /// Friction force over the imposed displacement.
+    pub friction_loop: FrictionLoop,
+    /// Tractions at the rightmost, leftmost and neutral position.
+    pub positions: Vec<TractionField>,
+}
+
+/// Integrates cycles of one scene on one set of operators.
+pub struct Integrator<'a> {
+    scene: &'a Scene,
+    pair: Pair<'a>,
+    solver: Solver,
+    slope: Vec<f64>,
+    next: ContactState,
+}
+
+impl<'a> Integrator<'a> {
+    /// An integrator for a scene on its condensed model.
+    pub fn new(scene: &'a Scene, model: &Model, operators: &'a Operators) -> Self {
+        let pair = Pair {
+            operators,
+            interface: model.interface,
+        };
+        let next = ContactState::untouched(operators);
+        Self {
+            scene,
+            pair,
+            solver: Solver::default(),
+            slope: Vec::new(),
+            next,
+        }
+    }
+
+    /// Applies the load at the neutral position without sliding: cycle 0.
+    ///
+    /// # Errors
+    /// [`CycleError`] if there is no equilibrium.
+    pub fn settle(&mut self, state: &mut CycleState) -> Result<Sweep, CycleError> {
+        self.slope = slopes(&self.pair.operators.receptacle.x, &state.receptacle_depth);
+        self.increment(state, 0.0, 0.0)
+            .map_err(|source| CycleError::Increment {
+                cycle: 0,
+                increment: 0,
+                halvings: 0,
+                source,
+            })?;
+        let x = &self.pair.operators.receptacle.x;
+        state.mean_half_width = state.contact.half_width(x);
+        state.neutral = Neutral::of(&state.contact, x);
+        let positions = vec![record::tractions(Position::Neutral, x, &state.contact)];
+        Ok(Sweep {
+            friction_loop: FrictionLoop::default(),
+            positions,
+        })
+    }
+
+    /// Moves from the neutral to the rightmost position without wear.
+    ///
+    /// # Errors
+    /// [`CycleError`] if an increment fails however small it is.
+    pub fn set_out(&mut self, state: &mut CycleState) -> Result<(), CycleError> {
+        let Motion::Reciprocating {
+            amplitude_mm: amplitude,
+            ..
+        } = self.scene.motion;
+        let targets = path::targets(&self.scene.accuracy, amplitude, state.mean_half_width);
+        for (increment, &target) in targets[3 * targets.len() / 4..].iter().enumerate() {
+            self.reach(state, target, 0.0, 0)
+                .map_err(|(halvings, source)| CycleError::Increment {
+                    cycle: 0,
+                    increment,
+                    halvings,
+                    source,
+                })?;
+        }
+        Ok(())
+    }
+
+    /// One computed cycle; it stands for as many physical ones as the jump control and `until` allow.
+    ///
+    /// # Errors
+    /// [`CycleError`] if an increment fails however small it is.
+    pub fn sweep(&mut self, state: &mut CycleState, until: u64) -> Result<Sweep, CycleError> {
+        let Motion::Reciprocating {
+            amplitude_mm: amplitude,
+            ..
+        } = self.scene.motion;
+        let runs = amplitude > RUNS_FROM * state.mean_half_width;
+        let jump = state
+            .jump
+            .next(&self.scene.accuracy, runs, until - state.cycle);
+        let targets = path::targets(&self.scene.accuracy, amplitude, state.mean_half_width);
+        self.slope = slopes(&self.pair.operators.receptacle.x, &state.receptacle_depth);
+        let before = state.receptacle_depth.clone();
+        let mut sweep = Sweep::default();
+        let mut half_widths = 0.0;
+        for (increment, &target) in targets.iter().enumerate() {
+            self.reach(state, target, real_cycles(jump), 0)
+                .map_err(|(halvings, source)| CycleError::Increment {
+                    cycle: state.cycle,
+                    increment,
+                    halvings,
+                    source,
+                })?;
+            half_widths += state.contact.half_width(&self.pair.operators.receptacle.x);
+            self.record(&mut sweep, state, increment, targets.len());
+        }
+        sweep.friction_loop.begin_at(3 * targets.len() / 4);
+        state.cycle += jump;
+        state.sliding_distance += 4.0 * amplitude * real_cycles(jump);
+        state.mean_half_width = half_widths / real(targets.len());
+        state.computed_cycles += 1;
+        state.most_increments = state.most_increments.max(targets.len());
+        let widths = &self.pair.operators.receptacle.widths;
+        state
+            .jump
+            .learn(widths, &before, &state.receptacle_depth, jump);
+        Ok(sweep)
+    }
+
+    /// Moves to a displacement, in halves if it cannot be reached at once.
+    fn reach(
+        &mut self,
+        state: &mut CycleState,
+        target: f64,
+        cycles: f64,
+        halvings: u32,
+    ) -> Result<(), (u32, ContactError)> {
+        let Err(error) = self.increment(state, target, cycles) else {
+            return Ok(());
+        };
+        if halvings == MOST_HALVINGS {
+            return Err((halvings, error));
+        }
+        let middle = 0.5 * (state.contact.slider_x + target);
+        self.reach(state, middle, cycles, halvings + 1)?;
+        self.reach(state, target, cycles, halvings + 1)
+    }
+
+    fn increment(
+        &mut self,
+        state: &mut CycleState,
+        target: f64,
+        cycles: f64,
+    ) -> Result<(), ContactError> {
+        let surfaces = Surfaces {
+            receptacle_depth: &state.receptacle_depth,
+            slider_depth: &state.slider_depth,
+            slope: &self.slope,
+        };
+        let place = (target, cycles);
+        let last = &state.contact;
+        let done = self
+            .solver
+            .advance(&self.pair, &surfaces, last, place, &mut self.next)?;
+        let interface = &self.pair.interface;
+        let widths = &self.pair.operators.receptacle.widths[done.first..];
+        let depths = &mut state.receptacle_depth[done.first..];
+        for ((depth, path), width) in depths.iter_mut().zip(done.path).zip(widths) {
+            *depth += interface.receptacle_wear * cycles * path;
+            state.friction_path += cycles * width * path;
+        }
+        let depths = &mut state.slider_depth[done.slider_first..];
+        for (depth, path) in depths.iter_mut().zip(done.slider_path) {
+            *depth += interface.slider_wear * cycles * path;
+        }
+        state.energy += cycles * done.energy;
+        state.increments += 1;
+        let checks = &mut state.checks;
+        checks.force_balance = checks.force_balance.max(done.force_balance);
+        checks.complementarity = checks.complementarity.max(done.complementarity);
+        checks.friction_cone = checks.friction_cone.max(done.friction_cone);
+        std::mem::swap(&mut state.contact, &mut self.next);
+        if interface.friction > 0.0 {
+            let used = state
+                .contact
+                .friction_use(&self.pair.operators.receptacle.widths)
+                / interface.friction;
+            state.checks.friction_use = state.checks.friction_use.max(used);
+        }
+        Ok(())
+    }
+
+    fn record(
+        &self,
+        sweep: &mut Sweep,
+        state: &mut CycleState,
+        increment: usize,
+        increments: usize,
+    ) {
+        let contact = &state.contact;
+        sweep.friction_loop.displacement_mm.push(contact.slider_x);
+        sweep
+            .friction_loop
+            .tangential_force_n_per_mm
+            .push(contact.tangential_force());
+        let position = match increment + 1 {
+            done if done == increments / 2 => Position::Leftmost,
+            done if done == 3 * increments / 4 => Position::Neutral,
+            done if done == increments => Position::Rightmost,
+            _ => return,
+        };
+        let x = &self.pair.operators.receptacle.x;
+        sweep
+            .positions
+            .push(record::tractions(position, x, contact));
+        if position == Position::Neutral {
+            state.neutral = Neutral::of(contact, x);
+        }
+    }
+}
+
+/// Slopes dy/dx of a surface that has receded by `depth`, by central differences.
+fn slopes(x: &[f64], depth: &[f64]) -> Vec<f64> {
+    (0..x.len())
+        .map(|i| {
+            let (left, right) = (i.saturating_sub(1), (i + 1).min(x.len() - 1));
+            -(depth[right] - depth[left]) / (x[right] - x[left])
+        })
+        .collect()
+}

@@ -1,0 +1,127 @@
+//! From the state of the integrator to what the histories keep.
+
+use super::{CycleState, Sweep};
+use crate::contact::ContactState;
+use crate::history::{CycleReport, DepthProfile, Position, SideReport, Snapshot, TractionField};
+use crate::model::Model;
+use crate::scene::Scene;
+
+/// A scar ends where its depth falls below this part of the largest one; outside the reach of the contact it is
+/// exactly zero.
+const SCAR_EDGE: f64 = 1e-3;
+
+/// The report of the present state.
+pub fn report(scene: &Scene, model: &Model, state: &CycleState) -> CycleReport {
+    let x = model.receptacle.contact_x();
+    let interface = &model.interface;
+    let ideal = |k: f64| (k > 0.0).then_some(k * interface.load * state.sliding_distance);
+    let side = |x: &[f64], widths: &[f64], depth: &[f64], k: f64| SideReport {
+        max_depth_mm: depth.iter().fold(0.0, |m: f64, d| m.max(*d)),
+        worn_area_mm2: widths.iter().zip(depth).map(|(w, d)| w * d).sum(),
+        ideal_area_mm2: ideal(k),
+        scar_half_width_mm: scar_half_width(x, depth),
+    };
+    let slider_x = model.slider.contact_x();
+    CycleReport {
+        cycle: state.cycle,
+        jump: state.jump.last,
+        jump_error: state.jump.error,
+        sliding_distance_mm: state.sliding_distance,
+        receptacle: side(
+            x,
+            &model.receptacle.contact_widths(),
+            &state.receptacle_depth,
+            interface.receptacle_wear,
+        ),
+        slider: side(
+            slider_x,
+            &model.slider.contact_widths(),
+            &state.slider_depth,
+            interface.slider_wear,
+        ),
+        station_depth_mm: scene
+            .output
+            .stations_mm
+            .iter()
+            .map(|&station| interpolate(x, &state.receptacle_depth, station))
+            .collect(),
+        peak_pressure_mpa: state.neutral.peak_pressure,
+        contact_half_width_mm: state.neutral.half_width,
+        dissipated_energy_mj_per_mm: state.energy,
+    }
+}
+
+/// The snapshot of the present state with what the last sweep recorded.
+pub fn snapshot(model: &Model, state: &CycleState, sweep: Sweep) -> Snapshot {
+    let profile = |x: &[f64], depth: &[f64]| DepthProfile {
+        x_mm: x.to_vec(),
+        depth_mm: depth.to_vec(),
+    };
+    Snapshot {
+        cycle: state.cycle,
+        receptacle: profile(model.receptacle.contact_x(), &state.receptacle_depth),
+        slider: profile(model.slider.contact_x(), &state.slider_depth),
+        positions: sweep.positions,
+        friction_loop: sweep.friction_loop,
+    }
+}
+
+/// Tractions of the present contact, with one unloaded node at either end.
+pub(super) fn tractions(position: Position, x: &[f64], contact: &ContactState) -> TractionField {
+    let (first, end) = contact.active_range().unwrap_or((0, 0));
+    let span = first.saturating_sub(1)..(end + 1).min(x.len());
+    TractionField {
+        position,
+        slider_x_mm: contact.slider_x,
+        x_mm: x[span.clone()].to_vec(),
+        pressure_mpa: contact.pressure[span.clone()].to_vec(),
+        shear_mpa: contact.shear[span].to_vec(),
+    }
+}
+
+/// Linear interpolation; the end values beyond the ends.
+fn interpolate(x: &[f64], y: &[f64], at: f64) -> f64 {
+    let i = x.partition_point(|&x| x < at).clamp(1, x.len() - 1);
+    let t = ((at - x[i - 1]) / (x[i] - x[i - 1])).clamp(0.0, 1.0);
+    (1.0 - t) * y[i - 1] + t * y[i]
+}
+
+/// Half the distance between the places where the depth falls below the edge's share of the largest depth, mm.
+fn scar_half_width(x: &[f64], depth: &[f64]) -> f64 {
+    let limit = SCAR_EDGE * depth.iter().fold(0.0, |m: f64, d| m.max(*d));
+    let worn = |d: &f64| *d > limit;
+    let (Some(first), Some(last)) = (depth.iter().position(worn), depth.iter().rposition(worn))
+    else {
+        return 0.0;
+    };
+    let crossing = |inner: usize, outer: usize| {
+        let t = (depth[inner] - limit) / (depth[inner] - depth[outer]);
+        x[inner] + t * (x[outer] - x[inner])
+    };
+    let left = if first == 0 {
+        x[0]
+    } else {
+        crossing(first, first - 1)
+    };
+    let right = if last + 1 == x.len() {
+        x[last]
+    } else {
+        crossing(last, last + 1)
+    };
+    0.5 * (right - left)
+}
+
+/// |worn area of the profiles - k times the accumulated integral of p |slip||, over the latter; 0 without wear.
+pub(crate) fn worn_area_residual(model: &Model, state: &CycleState, report: &CycleReport) -> f64 {
+    let relative = |area: f64, k: f64| {
+        let expected = k * state.friction_path;
+        if expected > 0.0 {
+            (area - expected).abs() / expected
+        } else {
+            0.0
+        }
+    };
+    let interface = &model.interface;
+    relative(report.receptacle.worn_area_mm2, interface.receptacle_wear)
+        .max(relative(report.slider.worn_area_mm2, interface.slider_wear))
+}

@@ -1,0 +1,149 @@
+//! The effects plan: what a scene calls for, and nothing else, is simulated.
+
+use crate::material::contact_modulus;
+use crate::model::resolution;
+use crate::scene::{Friction, Motion, Scene};
+use crate::wear;
+
+/// Which effects take part, and why.
+#[derive(Debug, Clone, PartialEq)]
+pub struct EffectsPlan {
+    /// One decision an effect, always in the same order.
+    pub decisions: Vec<Decision>,
+}
+
+/// One effect's part in the simulation.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Decision {
+    /// The effect.
+    pub effect: Effect,
+    /// Whether it is simulated.
+    pub simulated: bool,
+    /// Why, with the numbers that decided.
+    pub reason: String,
+}
+
+/// Effects that can be simulated.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Effect {
+    /// Elastic deformation of both bodies.
+    Elasticity,
+    /// Shear traction at the contact.
+    Friction,
+    /// Wear of the receptacle.
+    ReceptacleWear,
+    /// Wear of the slider.
+    SliderWear,
+    /// Moving mesh and rebuilt stiffness.
+    Relocation,
+}
+
+impl Effect {
+    /// Its stable name.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Elasticity => "elasticity",
+            Self::Friction => "friction",
+            Self::ReceptacleWear => "receptacle_wear",
+            Self::SliderWear => "slider_wear",
+            Self::Relocation => "relocation",
+        }
+    }
+}
+
+/// Decides which effects a scene calls for. Relocation is decided anew after every computed cycle, from the
+/// geometry; the plan tells what to expect.
+pub fn plan(scene: &Scene) -> EffectsPlan {
+    let sizes = resolution::choose(scene);
+    let modulus = contact_modulus(scene.slider.elastic, scene.receptacle.elastic);
+    let Motion::Reciprocating { amplitude_mm, .. } = scene.motion;
+    let elasticity = Decision {
+        effect: Effect::Elasticity,
+        simulated: true,
+        reason: format!(
+            "contact modulus {modulus:.0} MPa, unworn Hertz half-width {:.3e} mm",
+            sizes.hertz_half_width
+        ),
+    };
+    let friction = match scene.friction {
+        Friction::Coulomb { coefficient } if coefficient > 0.0 => {
+            (true, format!("Coulomb friction {coefficient}"))
+        }
+        _ => (
+            false,
+            "no friction in the scene: the shear unknowns are left out".to_owned(),
+        ),
+    };
+    let wear = |effect, law, side: &str| {
+        let k = wear::coefficient(law);
+        let (simulated, reason) = if k <= 0.0 {
+            (false, format!("the {side} has no wear law"))
+        } else if amplitude_mm <= 0.0 {
+            (false, "nothing slides: the amplitude is 0".to_owned())
+        } else {
+            (true, format!("Archard, k/H = {k:.4e} per MPa"))
+        };
+        Decision {
+            effect,
+            simulated,
+            reason,
+        }
+    };
+    let receptacle = wear(Effect::ReceptacleWear, scene.receptacle.wear, "receptacle");
+    let slider = wear(Effect::SliderWear, scene.slider.wear, "slider");
+    let wears = receptacle.simulated || slider.simulated;
+    let relocation = Decision {
+        effect: Effect::Relocation,
+        simulated: wears,
+        reason: if wears {
+            "the mesh follows the worn surface once it has drifted".to_owned()
+        } else {
+            "nothing wears, so nothing moves the mesh".to_owned()
+        },
+    };
+    let friction = Decision {
+        effect: Effect::Friction,
+        simulated: friction.0,
+        reason: friction.1,
+    };
+    EffectsPlan {
+        decisions: vec![elasticity, friction, receptacle, slider, relocation],
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::model::tests::fuzz_button;
+
+    fn simulated(scene: &Scene) -> Vec<&'static str> {
+        let plan = plan(scene);
+        plan.decisions
+            .iter()
+            .filter(|d| d.simulated)
+            .map(|d| d.effect.name())
+            .collect()
+    }
+
+    #[test]
+    fn only_what_the_scene_calls_for_is_simulated() {
+        let mut scene = fuzz_button();
+        assert_eq!(
+            simulated(&scene),
+            ["elasticity", "friction", "receptacle_wear", "relocation"]
+        );
+        scene.friction = Friction::Frictionless;
+        scene.receptacle.wear = None;
+        assert_eq!(simulated(&scene), ["elasticity"]);
+    }
+
+    #[test]
+    fn nothing_wears_where_nothing_slides() {
+        let mut scene = fuzz_button();
+        scene.motion = Motion::Reciprocating {
+            amplitude_mm: 0.0,
+            period_s: 1.0,
+        };
+        assert_eq!(simulated(&scene), ["elasticity", "friction"]);
+    }
+}

@@ -1,0 +1,19 @@
+//! What can end a solve without a result: one variant a stage.
+
+use crate::condensation::OperatorError;
+use crate::cycle::CycleError;
+use crate::mesh::MeshError;
+
+/// Why a solve failed.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum SolveError {
+    /// The mesh cannot be built or moved.
+    #[error("mesh: {0}")]
+    Mesh(#[from] MeshError),
+    /// The condensed operators cannot be built.
+    #[error("operators: {0}")]
+    Operators(#[from] OperatorError),
+    /// A cycle could not be integrated.
+    #[error("cycle: {0}")]
+    Cycle(#[from] CycleError),
+}

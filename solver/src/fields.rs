@@ -1,0 +1,174 @@
+//! Fields inside a body at one position: displacement and stress at the nodes, by back-substitution.
+//!
+//! Stress is evaluated at the corners of every element and averaged over the elements of a node, by area. In plane
+//! strain sigma_zz = lambda (eps_xx + eps_yy).
+
+use crate::condensation::Interior;
+use crate::element::{Element, Quad4, Tri3, physical_gradient};
+use crate::material::Lame;
+use crate::mesh::columns::Cell;
+use crate::model::BodyModel;
+
+/// Fields of one body.
+#[derive(Debug, Clone, PartialEq)]
+pub struct BodyFields {
+    /// Places of the nodes in the body's frame, undeformed, mm.
+    pub nodes: Vec<[f64; 2]>,
+    /// Elements by their nodes.
+    pub cells: Vec<Cell>,
+    /// Displacements, mm.
+    pub displacement_mm: Vec<[f64; 2]>,
+    /// Stress at the nodes.
+    pub stress: Vec<Stress>,
+}
+
+/// A stress in plane strain, MPa.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Stress {
+    /// sigma_xx.
+    pub xx: f64,
+    /// sigma_yy.
+    pub yy: f64,
+    /// sigma_zz.
+    pub zz: f64,
+    /// sigma_xy.
+    pub xy: f64,
+}
+
+impl Stress {
+    /// Von Mises' equivalent stress, MPa.
+    pub fn von_mises(&self) -> f64 {
+        let differences =
+            (self.xx - self.yy).powi(2) + (self.yy - self.zz).powi(2) + (self.zz - self.xx).powi(2);
+        (0.5 * differences + 3.0 * self.xy * self.xy).sqrt()
+    }
+
+    /// Largest shear stress, half the difference of the extreme principal stresses, MPa.
+    pub fn largest_shear(&self) -> f64 {
+        let centre = 0.5 * (self.xx + self.yy);
+        let radius = (0.5 * (self.xx - self.yy)).hypot(self.xy);
+        let highest = (centre + radius).max(self.zz);
+        let lowest = (centre - radius).min(self.zz);
+        0.5 * (highest - lowest)
+    }
+}
+
+/// Recovers the fields of a body under forces on its contact nodes (x, y for each, N/mm) and its far-face load (N/mm).
+pub fn recover(
+    model: &BodyModel,
+    interior: &Interior,
+    contact_force: &[f64],
+    load: f64,
+) -> BodyFields {
+    let nodes = model.mesh.coordinates();
+    let cells = model.mesh.cells();
+    let displacement_mm = interior.displacements(contact_force, load);
+    let mut sums = vec![(Stress::default(), 0.0); nodes.len()];
+    for cell in &cells {
+        match cell {
+            Cell::Quad(n) => add::<Quad4, 4>(&mut sums, n, &nodes, &displacement_mm, model.lame),
+            Cell::Tri(n) => add::<Tri3, 3>(&mut sums, n, &nodes, &displacement_mm, model.lame),
+        }
+    }
+    let stress = sums
+        .iter()
+        .map(|(s, w)| Stress {
+            xx: s.xx / w,
+            yy: s.yy / w,
+            zz: s.zz / w,
+            xy: s.xy / w,
+        })
+        .collect();
+    BodyFields {
+        nodes,
+        cells,
+        displacement_mm,
+        stress,
+    }
+}
+
+/// Adds an element's corner stresses to the sums of its nodes, weighted by the Jacobian there.
+fn add<E: Element<N>, const N: usize>(
+    sums: &mut [(Stress, f64)],
+    cell: &[usize; N],
+    nodes: &[[f64; 2]],
+    displacement: &[[f64; 2]],
+    lame: Lame,
+) {
+    let places = cell.map(|n| nodes[n]);
+    let u = cell.map(|n| displacement[n]);
+    for (corner, node) in E::CORNERS.iter().zip(cell) {
+        // A corner of a quadrilateral that has become a triangle has no gradient; its neighbours speak for it.
+        let Some((g, det)) = physical_gradient(&places, &E::gradient(*corner)) else {
+            continue;
+        };
+        let mut strain = [[0.0; 2]; 2];
+        for (u, g) in u.iter().zip(&g) {
+            for i in 0..2 {
+                for j in 0..2 {
+                    strain[i][j] += 0.5 * (u[i] * g[j] + u[j] * g[i]);
+                }
+            }
+        }
+        let volumetric = lame.lambda * (strain[0][0] + strain[1][1]);
+        let (sum, weight) = &mut sums[*node];
+        sum.xx += det * (volumetric + 2.0 * lame.mu * strain[0][0]);
+        sum.yy += det * (volumetric + 2.0 * lame.mu * strain[1][1]);
+        sum.zz += det * volumetric;
+        sum.xy += det * 2.0 * lame.mu * strain[0][1];
+        *weight += det;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::condensation::condense;
+    use crate::model;
+    use crate::model::tests::fuzz_button;
+
+    #[test]
+    fn equivalent_stresses_of_pure_shear_and_of_pressure() {
+        let shear = Stress {
+            xy: 2.0,
+            ..Stress::default()
+        };
+        assert!((shear.von_mises() - 12.0_f64.sqrt()).abs() < 1e-14);
+        assert!((shear.largest_shear() - 2.0).abs() < 1e-14);
+        let pressure = Stress {
+            xx: -3.0,
+            yy: -3.0,
+            zz: -3.0,
+            xy: 0.0,
+        };
+        assert!(pressure.von_mises() < 1e-14 && pressure.largest_shear() < 1e-14);
+    }
+
+    /// A wide block under an even pressure: sigma_yy = -p, sigma_xx = sigma_zz = -p nu/(1 - nu), no shear.
+    #[test]
+    fn stress_under_an_even_pressure_is_uniaxial_strain() {
+        let mut scene = fuzz_button();
+        scene.receptacle.shape.length_mm = 2.0;
+        scene.receptacle.shape.height_mm = 0.05;
+        scene.accuracy.contact_element_mm = Some(0.002);
+        let model = model::build(&scene).expect("the block can be meshed");
+        let condensed = condense(&model, None).expect("the block can be condensed");
+        let force: Vec<f64> = model
+            .receptacle
+            .contact_widths()
+            .iter()
+            .flat_map(|w| [0.0, -7.0 * w])
+            .collect();
+        let fields = recover(&model.receptacle, &condensed.receptacle, &force, 0.0);
+        let middle = model
+            .receptacle
+            .mesh
+            .surface_node(model.receptacle.mesh.spines() / 2);
+        let s = fields.stress[middle + 2];
+        assert!((s.yy + 7.0).abs() < 1e-5 && s.xy.abs() < 1e-5, "{s:?}");
+        assert!(
+            (s.xx + 7.0 * 0.34 / 0.66).abs() < 1e-5 && (s.zz - s.xx).abs() < 1e-5,
+            "{s:?}"
+        );
+    }
+}

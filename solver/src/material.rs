@@ -1,0 +1,58 @@
+//! Isotropic linear elasticity in plane strain.
+//!
+//! sigma = lambda tr(eps) I + 2 mu eps with eps_zz = 0;
+//! lambda = E nu / ((1 + nu)(1 - 2 nu)), mu = E / (2 (1 + nu)), both in MPa.
+//! Valid for 0 <= nu < 0.5; as nu -> 0.5 lambda grows without bound and the volume is kept.
+
+use crate::scene::Elastic;
+
+/// Lame's constants, MPa.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Lame {
+    /// First constant, lambda.
+    pub lambda: f64,
+    /// Shear modulus, mu.
+    pub mu: f64,
+}
+
+impl From<Elastic> for Lame {
+    fn from(elastic: Elastic) -> Self {
+        let (e, nu) = (elastic.youngs_modulus_mpa, elastic.poisson_ratio);
+        Self {
+            lambda: e * nu / ((1.0 + nu) * (1.0 - 2.0 * nu)),
+            mu: e / (2.0 * (1.0 + nu)),
+        }
+    }
+}
+
+/// Contact modulus of two bodies, MPa: 1/E* = (1 - nu1^2)/E1 + (1 - nu2^2)/E2 (Johnson, Contact Mechanics, 1985, eq. 4.20).
+pub fn contact_modulus(a: Elastic, b: Elastic) -> f64 {
+    let compliance = |m: Elastic| (1.0 - m.poisson_ratio * m.poisson_ratio) / m.youngs_modulus_mpa;
+    1.0 / (compliance(a) + compliance(b))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lame_constants_give_back_young_and_poisson() {
+        let lame = Lame::from(Elastic {
+            youngs_modulus_mpa: 200e3,
+            poisson_ratio: 0.3,
+        });
+        let e = lame.mu * (3.0 * lame.lambda + 2.0 * lame.mu) / (lame.lambda + lame.mu);
+        let nu = lame.lambda / (2.0 * (lame.lambda + lame.mu));
+        assert!((e - 200e3).abs() < 1e-9 * 200e3 && (nu - 0.3).abs() < 1e-14);
+    }
+
+    #[test]
+    fn contact_modulus_of_equal_bodies_is_half_the_plane_strain_modulus() {
+        let steel = Elastic {
+            youngs_modulus_mpa: 200e3,
+            poisson_ratio: 0.3,
+        };
+        let expected = 0.5 * 200e3 / (1.0 - 0.09);
+        assert!((contact_modulus(steel, steel) - expected).abs() < 1e-9 * expected);
+    }
+}

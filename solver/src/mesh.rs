@@ -1,0 +1,30 @@
+//! Structured meshes: columns of quadrilaterals hanging on straight spines, with triangles where a column
+//! shrinks to a point. A mesh knows no law.
+
+pub mod columns;
+pub mod grading;
+
+pub use columns::{ColumnMesh, Quality};
+
+/// Why a mesh cannot be built or moved.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+pub enum MeshError {
+    /// An element is inverted.
+    #[error("element {element} near x = {x_mm:.6} mm is inverted")]
+    Inverted {
+        /// Its number, columns first.
+        element: usize,
+        /// Where it is, mm.
+        x_mm: f64,
+    },
+    /// The mesh would be larger than the engine takes.
+    #[error(
+        "{nodes} surface nodes are more than the limit of {limit}; ask for larger contact elements"
+    )]
+    TooLarge {
+        /// Surface nodes asked for.
+        nodes: usize,
+        /// The limit.
+        limit: usize,
+    },
+}

@@ -1,0 +1,41 @@
+//! Unworn surfaces as graphs y(x) in the frame of their body.
+//!
+//! The gap uses these exact shapes minus the worn depth, not the chords of the mesh: a moving contact would
+//! otherwise feel every element of the other surface.
+
+/// An unworn surface.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Profile {
+    /// y = 0.
+    Flat,
+    /// Lower arc of a circle whose lowest point is the origin: y = R - sqrt(R^2 - x^2).
+    Arc {
+        /// Radius R, mm.
+        radius: f64,
+    },
+}
+
+impl Profile {
+    /// Height at x, mm; at and beyond the rim of an arc the height of its centre.
+    pub fn height(self, x: f64) -> f64 {
+        match self {
+            Self::Flat => 0.0,
+            // x^2 / (R + sqrt(R^2 - x^2)) is the same without cancellation near x = 0.
+            Self::Arc { radius } => x * x / (radius + (radius * radius - x * x).max(0.0).sqrt()),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_arc_is_a_circle_without_cancellation_at_its_lowest_point() {
+        let arc = Profile::Arc { radius: 6.0 };
+        assert!((arc.height(3.0) - (6.0 - 27.0_f64.sqrt())).abs() < 1e-14);
+        let x = 1e-6;
+        assert!((arc.height(x) / (x * x / 12.0) - 1.0).abs() < 1e-12);
+        assert!((arc.height(6.0) - 6.0).abs() < 1e-14);
+    }
+}

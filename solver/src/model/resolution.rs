@@ -1,0 +1,118 @@
+//! Which lengths the contact has, and from them the spacing of the meshes.
+//!
+//! * Hertz half-width a = sqrt(4 P R / (pi E*)) (Johnson 1985, eq. 4.43);
+//! * front of one pass, where a rigid round slider wears the floor it runs over: the swept section k P equals
+//!   b^2 / (2 R), so b = sqrt(2 R k P);
+//! * scar of a short stroke: the circular segment that was worn off, b = (3 R W / 2)^(1/3) with the worn area
+//!   W = (k_s + k_r) P s (parabola of height b^2/(2R) over 2 b);
+//! * ends of the groove of a long stroke 2 A, W/(2 A) deep: the slider's arc reaches b = sqrt(R W / A) up them.
+
+use crate::material::contact_modulus;
+use crate::mesh::grading::Spacing;
+use crate::number::real_cycles;
+use crate::scene::{Motion, Scene};
+use crate::wear;
+use std::f64::consts::PI;
+
+/// The estimate of the largest scar is widened by this factor before it sizes the mesh.
+const SCAR_MARGIN: f64 = 1.3;
+
+/// Lengths of the contact and what follows from them for the mesh, mm.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Sizes {
+    /// Hertz half-width of the unworn contact.
+    pub hertz_half_width: f64,
+    /// Half-width that the contact itself has at the end.
+    pub final_half_width: f64,
+    /// Surface element size under the contact.
+    pub contact_element: f64,
+    /// Growth of the layers away from the surface.
+    pub layer_growth: f64,
+    /// Spacing along the receptacle's surface.
+    pub receptacle: Spacing,
+    /// Spacing along the slider's surface.
+    pub slider: Spacing,
+}
+
+/// Elements across the narrowest half-width, and growth of elements, by tolerance.
+struct Rule {
+    elements: f64,
+    zone_growth: f64,
+    layer_growth: f64,
+}
+
+fn rule(tolerance: f64) -> Rule {
+    match tolerance {
+        t if t > 0.05 => Rule {
+            elements: 4.0,
+            zone_growth: 0.10,
+            layer_growth: 1.4,
+        },
+        t if t > 0.01 => Rule {
+            elements: 8.0,
+            zone_growth: 0.06,
+            layer_growth: 1.25,
+        },
+        _ => Rule {
+            elements: 14.0,
+            zone_growth: 0.03,
+            layer_growth: 1.15,
+        },
+    }
+}
+
+/// Chooses the spacing of a scene's meshes.
+pub fn choose(scene: &Scene) -> Sizes {
+    let radius = scene.slider.shape.radius_mm;
+    let load = scene.load_n_per_mm;
+    let modulus = contact_modulus(scene.slider.elastic, scene.receptacle.elastic);
+    let hertz = (4.0 * load * radius / (PI * modulus)).sqrt();
+    let Motion::Reciprocating {
+        amplitude_mm: amplitude,
+        ..
+    } = scene.motion;
+    let k_receptacle = wear::coefficient(scene.receptacle.wear);
+    let k_slider = wear::coefficient(scene.slider.wear);
+    let sliding = 4.0 * amplitude * real_cycles(scene.cycles);
+    let worn = (k_receptacle + k_slider) * load * sliding;
+    let front = (2.0 * radius * (k_receptacle + k_slider) * load).sqrt();
+    let narrowest = hertz.max(front);
+    // A stroke that leaves the contact behind wears a groove, at whose ends the contact climbs the walls; a shorter
+    // one wears a scar around the contact.
+    let runs = amplitude > 2.0 * narrowest;
+    let last = if runs {
+        (radius * worn / amplitude).sqrt().min(radius)
+    } else {
+        (1.5 * radius * worn).cbrt().min(radius)
+    }
+    .max(narrowest);
+    let narrowest = if runs { narrowest } else { hertz };
+
+    let rule = rule(scene.accuracy.tolerance);
+    let given = scene.accuracy.contact_element_mm;
+    let element = given.unwrap_or(narrowest / rule.elements);
+    let reach = SCAR_MARGIN * last + element;
+    let core = if given.is_some() {
+        reach
+    } else {
+        2.0 * narrowest
+    };
+    let spacing = |travel: f64, half: f64| Spacing {
+        core: element,
+        core_half: (core + travel).min(half),
+        zone_growth: rule.zone_growth,
+        zone_half: reach + travel,
+        outer_growth: 0.25,
+        largest: 0.1 * half,
+    };
+    let half_block = 0.5 * scene.receptacle.shape.length_mm;
+    let half_arc = radius * (scene.slider.shape.half_width_mm / radius).min(1.0).asin();
+    Sizes {
+        hertz_half_width: hertz,
+        final_half_width: last,
+        contact_element: element.min(half_block),
+        layer_growth: rule.layer_growth,
+        receptacle: spacing(amplitude, half_block),
+        slider: spacing(0.0, half_arc),
+    }
+}

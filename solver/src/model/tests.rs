@@ -1,0 +1,83 @@
+use super::*;
+use crate::scene::{
+    Accuracy, BlockShape, Body, Friction, Motion, Output, SliderShape, StopCondition, WearLaw,
+};
+
+pub(crate) fn fuzz_button() -> Scene {
+    let copper = Elastic {
+        youngs_modulus_mpa: 117e3,
+        poisson_ratio: 0.34,
+    };
+    Scene {
+        slider: Body {
+            shape: SliderShape {
+                radius_mm: 0.0254,
+                half_width_mm: 0.0254,
+                height_mm: 0.0254,
+            },
+            elastic: copper,
+            wear: None,
+        },
+        receptacle: Body {
+            shape: BlockShape {
+                length_mm: 0.08467,
+                height_mm: 0.0635,
+            },
+            elastic: copper,
+            wear: Some(WearLaw::Archard {
+                k_over_h_per_mpa: 0.011 / 427.0,
+            }),
+        },
+        friction: Friction::Coulomb { coefficient: 1.21 },
+        load_n_per_mm: 0.508,
+        drive: Drive::Handle,
+        motion: Motion::Reciprocating {
+            amplitude_mm: 0.033_868,
+            period_s: 16.0,
+        },
+        cycles: 2000,
+        accuracy: Accuracy {
+            tolerance: 0.02,
+            contact_element_mm: None,
+            increments_per_cycle: None,
+            cycle_jump: None,
+        },
+        output: Output {
+            stations_mm: vec![0.0],
+            snapshots_at_cycles: vec![],
+        },
+        stop: vec![StopCondition::WornDepth(1.0)],
+    }
+}
+
+#[test]
+fn a_half_round_slider_ends_in_tips_on_its_top_face() {
+    let model = build(&fuzz_button()).expect("the preset can be meshed");
+    let x = model.slider.mesh.x();
+    assert!((x[0] + 0.0254).abs() < 1e-15);
+    assert_eq!(
+        model.slider.mesh.surface_node(0),
+        model.slider.mesh.far_node(0)
+    );
+    assert!(model.slider.contact.0 > 0);
+}
+
+#[test]
+fn widths_of_contact_nodes_add_up_to_the_surface() {
+    let model = build(&fuzz_button()).expect("the preset can be meshed");
+    let sum: f64 = model.receptacle.contact_widths().iter().sum();
+    assert!((sum - 0.08467).abs() < 1e-14);
+}
+
+#[test]
+fn too_fine_an_element_is_refused_with_the_limit() {
+    let mut scene = fuzz_button();
+    scene.accuracy.contact_element_mm = Some(1e-6);
+    assert!(matches!(
+        build(&scene),
+        Err(MeshError::TooLarge {
+            limit: MOST_SURFACE_NODES,
+            ..
+        })
+    ));
+}

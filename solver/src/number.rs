@@ -1,0 +1,29 @@
+//! Conversions between counts and reals, in one place because the lints forbid lossy casts elsewhere.
+
+/// A count as a real number; exact below 2^53.
+#[expect(
+    clippy::cast_precision_loss,
+    reason = "counts of nodes and cycles stay far below 2^53"
+)]
+pub(crate) fn real(count: usize) -> f64 {
+    count as f64
+}
+
+/// A number of cycles as a real number; exact below 2^53.
+#[expect(clippy::cast_precision_loss, reason = "cycles stay far below 2^53")]
+pub(crate) fn real_cycles(cycles: u64) -> f64 {
+    cycles as f64
+}
+
+/// The smallest count that is not below `value`, and at least 1; `value` is clamped to 2^31.
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "the value is clamped to a range that fits"
+)]
+pub(crate) fn count_at_least(value: f64) -> usize {
+    if value.is_nan() {
+        return 1;
+    }
+    value.clamp(1.0, 2_147_483_648.0).ceil() as usize
+}

@@ -1,0 +1,188 @@
+//! The run: integrate until the geometry has drifted, relocate, condense again.
+
+use crate::SolveError;
+use crate::ale;
+use crate::condensation::{self, Operators};
+use crate::cycle::{self, CycleState, Integrator, Sweep};
+use crate::history::{CycleReport, Initial, Outcome, Resolution, Summary};
+use crate::model::{self, Model};
+use crate::number::count_at_least;
+use crate::observer::{Event, Flow, Observer, Phase};
+use crate::scene::{Scene, StopCondition};
+
+/// Solves a scene from the unworn bodies to its end, telling the observer what happens.
+///
+/// # Errors
+/// [`SolveError`]; everything told to the observer before stays true.
+pub fn solve(scene: &Scene, observer: &mut dyn Observer) -> Result<Summary, SolveError> {
+    observer.on(Event::Phase(Phase::Mesh));
+    let mut model = model::build(scene)?;
+    observer.on(Event::Phase(Phase::Condense));
+    let mut condensed = condensation::condense(&model, None)?;
+    let mut state = CycleState::start(&condensed.operators);
+    let initial = load(scene, &model, &condensed.operators, &mut state, observer)?;
+    let mut relocations = 0;
+    loop {
+        observer.on(Event::Phase(Phase::Cycles));
+        let end = integrate(scene, &model, &condensed.operators, &mut state, observer)?;
+        if let Some(outcome) = end {
+            return Ok(summary(
+                scene,
+                &model,
+                &state,
+                outcome,
+                initial,
+                relocations,
+            ));
+        }
+        observer.on(Event::Phase(Phase::Relocate));
+        model = ale::relocate(&model, &state)?;
+        relocations += 1;
+        observer.on(Event::Phase(Phase::Condense));
+        condensed = condensation::condense(&model, Some(&condensed))?;
+    }
+}
+
+/// Cycle 0: the unworn, loaded state.
+fn load(
+    scene: &Scene,
+    model: &Model,
+    operators: &Operators,
+    state: &mut CycleState,
+    observer: &mut dyn Observer,
+) -> Result<Initial, SolveError> {
+    let mut integrator = Integrator::new(scene, model, operators);
+    let sweep = integrator.settle(state)?;
+    let report = cycle::report(scene, model, state);
+    observer.on(Event::Cycle(&report));
+    observer.on(Event::Snapshot(&cycle::snapshot(model, state, sweep)));
+    integrator.set_out(state)?;
+    Ok(Initial {
+        peak_pressure_mpa: report.peak_pressure_mpa,
+        contact_half_width_mm: report.contact_half_width_mm,
+    })
+}
+
+/// Computed cycles until the run ends (an outcome) or the geometry has drifted (none).
+fn integrate(
+    scene: &Scene,
+    model: &Model,
+    operators: &Operators,
+    state: &mut CycleState,
+    observer: &mut dyn Observer,
+) -> Result<Option<Outcome>, SolveError> {
+    let mut integrator = Integrator::new(scene, model, operators);
+    while state.cycle < scene.cycles {
+        let sweep = integrator.sweep(state, next_stop(scene, model, state))?;
+        let report = cycle::report(scene, model, state);
+        let ended = end_of(scene, model, state, &report);
+        let flow = tell(
+            scene,
+            model,
+            state,
+            &report,
+            sweep,
+            ended.is_some(),
+            observer,
+        );
+        if ended.is_some() {
+            return Ok(ended);
+        }
+        if flow == Flow::Stop {
+            return Ok(Some(Outcome::Stopped));
+        }
+        if ale::has_drifted(model, state) {
+            return Ok(None);
+        }
+    }
+    Ok(Some(Outcome::Completed))
+}
+
+/// The next cycle that must be hit exactly, or beyond which the depths of stop conditions and of the bodies
+/// themselves would be passed at the present rate.
+fn next_stop(scene: &Scene, model: &Model, state: &CycleState) -> u64 {
+    let snapshots = &scene.output.snapshots_at_cycles;
+    let next = snapshots
+        .iter()
+        .copied()
+        .find(|&at| at > state.cycle)
+        .unwrap_or(scene.cycles);
+    let deepest = |depth: &[f64]| depth.iter().fold(0.0, |m: f64, d| m.max(*d));
+    let worn = deepest(&state.receptacle_depth).max(deepest(&state.slider_depth));
+    let limits = scene
+        .stop
+        .iter()
+        .map(|StopCondition::WornDepth(limit)| limit - worn);
+    let left = limits.fold(ale::least_left_mm(model, state), f64::min);
+    let cycles = left / state.jump.fastest_rate().max(f64::MIN_POSITIVE);
+    let reach = u64::try_from(count_at_least(cycles.floor())).unwrap_or(u64::MAX);
+    next.min(scene.cycles)
+        .min(state.cycle.saturating_add(reach))
+}
+
+fn end_of(
+    scene: &Scene,
+    model: &Model,
+    state: &CycleState,
+    report: &CycleReport,
+) -> Option<Outcome> {
+    let deepest = report
+        .receptacle
+        .max_depth_mm
+        .max(report.slider.max_depth_mm);
+    let stopped = scene.stop.iter().any(|condition| match condition {
+        StopCondition::WornDepth(limit) => deepest >= *limit,
+    });
+    if stopped {
+        Some(Outcome::StopCondition)
+    } else if ale::is_worn_through(model, state) {
+        Some(Outcome::WornThrough)
+    } else {
+        (state.cycle >= scene.cycles).then_some(Outcome::Completed)
+    }
+}
+
+fn tell(
+    scene: &Scene,
+    model: &Model,
+    state: &CycleState,
+    report: &CycleReport,
+    sweep: Sweep,
+    last: bool,
+    observer: &mut dyn Observer,
+) -> Flow {
+    let flow = observer.on(Event::Cycle(report));
+    if last || scene.output.snapshots_at_cycles.contains(&state.cycle) {
+        observer.on(Event::Snapshot(&cycle::snapshot(model, state, sweep)));
+    }
+    flow
+}
+
+fn summary(
+    scene: &Scene,
+    model: &Model,
+    state: &CycleState,
+    outcome: Outcome,
+    initial: Initial,
+    relocations: u64,
+) -> Summary {
+    let last = cycle::report(scene, model, state);
+    let mut checks = state.checks;
+    checks.worn_area = cycle::worn_area_residual(model, state, &last);
+    Summary {
+        outcome,
+        initial,
+        resolution: Resolution {
+            contact_element_mm: model.sizes.contact_element,
+            contact_elements: model.receptacle.contact_x().len() - 1,
+            increments_per_cycle: u32::try_from(state.most_increments).unwrap_or(u32::MAX),
+            computed_cycles: state.computed_cycles,
+            increments: state.increments,
+            dofs: model.slider.dofs() + model.receptacle.dofs(),
+            relocations,
+            estimated_relative_error: state.jump.mean_error(),
+        },
+        last,
+        checks,
+    }
+}

@@ -1,0 +1,144 @@
+//! The scene: everything the engine needs to know about a contact system, in engine units.
+//!
+//! Units: mm, N, MPa. In two dimensions forces are per mm of depth (N/mm). x runs along the sliding
+//! direction with its origin at the neutral position, y points up. A scene is plain data that was checked
+//! where it was made; the engine does not look behind it.
+
+/// A contact system with its loads, motion and numerical settings.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Scene {
+    /// The sprung or vibrating part, above.
+    pub slider: Body<SliderShape>,
+    /// The fixed part, below.
+    pub receptacle: Body<BlockShape>,
+    /// Friction between both.
+    pub friction: Friction,
+    /// Normal load, N per mm of depth.
+    pub load_n_per_mm: f64,
+    /// Where the load enters the slider and how its motion is imposed.
+    pub drive: Drive,
+    /// The imposed relative motion (slider minus receptacle).
+    pub motion: Motion,
+    /// Number of physical cycles.
+    pub cycles: u64,
+    /// Mesh and integration settings.
+    pub accuracy: Accuracy,
+    /// What is recorded.
+    pub output: Output,
+    /// The run ends when one of these is met.
+    pub stop: Vec<StopCondition>,
+}
+
+/// A deformable body: shape, elasticity, wear.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Body<S> {
+    /// Its geometry.
+    pub shape: S,
+    /// Its elastic constants.
+    pub elastic: Elastic,
+    /// How its surface wears; `None` does not wear.
+    pub wear: Option<WearLaw>,
+}
+
+/// Isotropic linear elasticity.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Elastic {
+    /// Young's modulus E, MPa.
+    pub youngs_modulus_mpa: f64,
+    /// Poisson's ratio nu, -.
+    pub poisson_ratio: f64,
+}
+
+/// The slider: a circular arc around x = 0 whose lowest point touches y = 0, under a flat top face.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SliderShape {
+    /// Radius of the arc, mm.
+    pub radius_mm: f64,
+    /// Half the modelled width, mm; the radius itself for a half-round.
+    pub half_width_mm: f64,
+    /// Height of the top face over the contact point, mm.
+    pub height_mm: f64,
+}
+
+/// The receptacle: a rectangular block centred on x = 0 whose top face is y = 0.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct BlockShape {
+    /// Length along x, mm.
+    pub length_mm: f64,
+    /// Height, mm.
+    pub height_mm: f64,
+}
+
+/// Friction laws.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Friction {
+    /// No shear traction.
+    Frictionless,
+    /// |q| <= mu p.
+    Coulomb {
+        /// Coefficient of friction mu, -.
+        coefficient: f64,
+    },
+}
+
+/// Wear laws: normal recession rate of a surface.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum WearLaw {
+    /// Archard: recession = (k/H) p |slip| (thesis, equations 5 and 6).
+    Archard {
+        /// k/H, 1/MPa.
+        k_over_h_per_mpa: f64,
+    },
+}
+
+/// How load and motion enter the slider.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Drive {
+    /// The top face is a rigid handle: it does not rotate, carries the load, and moves against the block.
+    /// It makes no difference to the quasi-static contact which of the two is held.
+    Handle,
+    /// The thesis' drive: `u_x` of every slider node prescribed, `u_y` free, pressure on the top face.
+    WholeBody,
+}
+
+/// Imposed relative motion.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Motion {
+    /// Back and forth around the neutral position, to +x first. The contact problem does not depend on time,
+    /// so the wave's shape matters only for where increments may be placed.
+    Reciprocating {
+        /// Amplitude, mm.
+        amplitude_mm: f64,
+        /// Duration of a cycle, s.
+        period_s: f64,
+    },
+}
+
+/// Mesh and integration settings.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Accuracy {
+    /// Requested relative accuracy of worn depth and scar width.
+    pub tolerance: f64,
+    /// Surface element size under the contact, mm; chosen from the tolerance if absent.
+    pub contact_element_mm: Option<f64>,
+    /// Increments a computed cycle; chosen from the contact width if absent.
+    pub increments_per_cycle: Option<u32>,
+    /// Physical cycles per computed cycle; chosen from the tolerance if absent.
+    pub cycle_jump: Option<u64>,
+}
+
+/// What is recorded.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Output {
+    /// Places on the receptacle whose worn depth is followed, mm.
+    pub stations_mm: Vec<f64>,
+    /// Cycles at which profile, pressure and loop are kept, ascending.
+    pub snapshots_at_cycles: Vec<u64>,
+}
+
+/// Conditions that end a run.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum StopCondition {
+    /// The deepest wear of either side has reached this depth, mm.
+    WornDepth(f64),
+}

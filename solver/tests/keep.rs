@@ -1,0 +1,39 @@
+//! An observer that keeps everything.
+
+use solver::SolveError;
+use solver::history::{CycleReport, Snapshot, Summary};
+use solver::observer::{Event, Flow, Observer};
+use solver::scene::Scene;
+
+/// All reports and snapshots of a run.
+#[derive(Default)]
+pub(crate) struct Keep {
+    pub(crate) reports: Vec<CycleReport>,
+    pub(crate) snapshots: Vec<Snapshot>,
+}
+
+impl Observer for Keep {
+    fn on(&mut self, event: Event<'_>) -> Flow {
+        match event {
+            Event::Phase(_) => {}
+            Event::Cycle(report) => self.reports.push(report.clone()),
+            Event::Snapshot(snapshot) => self.snapshots.push(snapshot.clone()),
+        }
+        Flow::Continue
+    }
+}
+
+impl Keep {
+    /// The report at a physical cycle.
+    pub(crate) fn at(&self, cycle: u64) -> &CycleReport {
+        let found = self.reports.iter().find(|report| report.cycle == cycle);
+        found.expect("the cycle was asked for")
+    }
+}
+
+/// Solves a scene and keeps what it told.
+pub(crate) fn solve(scene: &Scene) -> Result<(Summary, Keep), SolveError> {
+    let mut keep = Keep::default();
+    let summary = solver::run::solve(scene, &mut keep)?;
+    Ok((summary, keep))
+}

@@ -1,0 +1,105 @@
+//! The scenes of the suite.
+
+use solver::scene::{
+    Accuracy, BlockShape, Body, Drive, Elastic, Friction, Motion, Output, Scene, SliderShape,
+    WearLaw,
+};
+
+const STEEL: Elastic = Elastic {
+    youngs_modulus_mpa: 200e3,
+    poisson_ratio: 0.3,
+};
+const COPPER: Elastic = Elastic {
+    youngs_modulus_mpa: 117e3,
+    poisson_ratio: 0.34,
+};
+
+/// k/H of copper on copper as the thesis uses it, 1/MPa (its table 5 and section 5.3).
+pub(crate) const COPPER_WEAR: f64 = 0.011 / 427.0;
+
+/// Everything chosen from the tolerance.
+pub(crate) fn accuracy(tolerance: f64) -> Accuracy {
+    Accuracy {
+        tolerance,
+        contact_element_mm: None,
+        increments_per_cycle: None,
+        cycle_jump: None,
+    }
+}
+
+/// Cylinder of 6 mm on a flat, 18.5 N/mm, +-25 um, both sides wear (McColl, Ding and Leen 2004).
+pub(crate) fn mccoll() -> Scene {
+    let wear = |k_over_h_per_mpa| Some(WearLaw::Archard { k_over_h_per_mpa });
+    Scene {
+        slider: Body {
+            shape: SliderShape {
+                radius_mm: 6.0,
+                half_width_mm: 4.5,
+                height_mm: 6.0,
+            },
+            elastic: STEEL,
+            wear: wear(1.9e-8),
+        },
+        receptacle: Body {
+            shape: BlockShape {
+                length_mm: 12.0,
+                height_mm: 6.0,
+            },
+            elastic: STEEL,
+            wear: wear(2.9e-8),
+        },
+        friction: Friction::Coulomb { coefficient: 0.9 },
+        load_n_per_mm: 18.5,
+        drive: Drive::Handle,
+        motion: Motion::Reciprocating {
+            amplitude_mm: 0.025,
+            period_s: 0.05,
+        },
+        cycles: 18_000,
+        accuracy: accuracy(0.02),
+        output: Output {
+            stations_mm: vec![0.0, 0.05, 0.1, 0.2],
+            snapshots_at_cycles: vec![1_000, 5_000, 10_000, 18_000],
+        },
+        stop: Vec::new(),
+    }
+}
+
+/// The thesis' fuzz button: half-round wire of 0.0508 mm on a block of 0.08467 mm, copper on copper.
+pub(crate) fn fuzz_button() -> Scene {
+    Scene {
+        slider: Body {
+            shape: SliderShape {
+                radius_mm: 0.0254,
+                half_width_mm: 0.0254,
+                height_mm: 0.0254,
+            },
+            elastic: COPPER,
+            wear: None,
+        },
+        receptacle: Body {
+            shape: BlockShape {
+                length_mm: 0.08467,
+                height_mm: 0.0635,
+            },
+            elastic: COPPER,
+            wear: Some(WearLaw::Archard {
+                k_over_h_per_mpa: COPPER_WEAR,
+            }),
+        },
+        friction: Friction::Coulomb { coefficient: 1.21 },
+        load_n_per_mm: 0.508,
+        drive: Drive::Handle,
+        motion: Motion::Reciprocating {
+            amplitude_mm: 0.033_868,
+            period_s: 16.0,
+        },
+        cycles: 2_000,
+        accuracy: accuracy(0.02),
+        output: Output {
+            stations_mm: vec![-0.04, -0.02, -0.008, 0.0, 0.008, 0.02, 0.04],
+            snapshots_at_cycles: vec![1, 150, 240, 360, 480, 585, 800, 1_600, 2_000],
+        },
+        stop: Vec::new(),
+    }
+}

@@ -1,0 +1,16 @@
+//! Verification of the engine against closed solutions, published codes and measurements: one problem a file.
+
+#![expect(
+    clippy::print_stdout,
+    reason = "the suite prints the figures that the READMEs quote"
+)]
+
+mod keep;
+mod scenes;
+mod verify_cattaneo_mindlin;
+mod verify_contact_patch;
+mod verify_fuzz_button_groove;
+mod verify_hertz_line_contact;
+mod verify_invariance;
+mod verify_mccoll;
+mod verify_repeatability;

@@ -1,0 +1,84 @@
+//! Contact patch test: an even pressure passes through non-matching meshes unchanged.
+//!
+//! ```text
+//!     p = 10 MPa           both bodies 1 mm wide, nu = 0, so the exact stress is even;
+//!   v v v v v v v          the slider's mesh is laid so that at its position s it stands
+//!   +--+---+--+-+          exactly over the receptacle
+//!   +-+--+----+-+
+//!   ~~~~ fixed ~~
+//! ```
+
+use solver::condensation::condense;
+use solver::contact::{ContactState, Pair, Solver, Surfaces};
+use solver::material::Lame;
+use solver::mesh::ColumnMesh;
+use solver::model::{BodyModel, Interface, Model, Profile, Support};
+use solver::scene::Elastic;
+
+use crate::scenes::mccoll;
+
+fn body(x: Vec<f64>, far_y: f64, support: Support) -> BodyModel {
+    let spines = x.len();
+    let fractions = vec![0.0, 0.2, 0.5, 1.0];
+    BodyModel {
+        mesh: ColumnMesh::new(x, vec![0.0; spines], far_y, fractions),
+        profile: Profile::Flat,
+        lame: Lame::from(Elastic {
+            youngs_modulus_mpa: 100e3,
+            poisson_ratio: 0.0,
+        }),
+        b_bar: false,
+        support,
+        contact: (0, spines),
+    }
+}
+
+#[test]
+fn an_even_pressure_passes_through_non_matching_meshes_at_any_position() {
+    let (pressure, friction) = (10.0, 0.5);
+    let sizes = solver::model::build(&mccoll())
+        .expect("the scene can be meshed")
+        .sizes;
+    for slider_x in [-0.731, -0.05, 0.0, 0.2, 1.37] {
+        let upper = [-0.5, -0.33, -0.21, 0.02, 0.09, 0.31, 0.5].map(|x| x - slider_x);
+        let lower = vec![-0.5, -0.4, -0.15, -0.1, 0.13, 0.24, 0.4, 0.5];
+        let model = Model {
+            slider: body(upper.to_vec(), 0.7, Support::GuidedUnderPressure),
+            receptacle: body(lower, -0.6, Support::FarFaceHeld),
+            interface: Interface {
+                friction,
+                receptacle_wear: 0.0,
+                slider_wear: 0.0,
+                load: pressure * 1.0,
+            },
+            sizes,
+        };
+        let operators = condense(&model, None)
+            .expect("the blocks can be condensed")
+            .operators;
+        let pair = Pair {
+            operators: &operators,
+            interface: model.interface,
+        };
+        let zero = vec![0.0; 8];
+        let surfaces = Surfaces {
+            receptacle_depth: &zero,
+            slider_depth: &zero,
+            slope: &zero,
+        };
+        let mut last = ContactState::untouched(&operators);
+        last.slider_x = slider_x;
+        let mut next = last.clone();
+        Solver::default()
+            .advance(&pair, &surfaces, &last, (slider_x, 0.0), &mut next)
+            .expect("the blocks are in equilibrium");
+        for p in &next.pressure {
+            assert!(
+                (p / pressure - 1.0).abs() < 1e-10,
+                "{slider_x}: {:?}",
+                next.pressure
+            );
+        }
+        assert!(next.shear.iter().all(|q| q.abs() < 1e-9 * pressure));
+    }
+}

@@ -1,0 +1,77 @@
+//! The groove of a slider that runs over the block: the thesis' fuzz button.
+//!
+//! ```text
+//!            <-- 2 A = 67.7 um -->
+//!             .-.                        P' = 0.508 N/mm, k/H = 2.5761e-5 per MPa
+//!            (   )  R = 25.4 um          k P' = 13.09 nm a pass, two passes a cycle
+//!   |~~~~~~~~~`-'~~~~~~~~~|
+//!   |                     | 84.67 um
+//! ```
+//! A contact that passes a point altogether wears it by the integral of k p ds over the pass, which is k P' if the
+//! contact moves with the slider: on a flat floor, whatever the pressure's shape (the thesis' check with 10 MPa in
+//! place of the pressure is not this). As the floor becomes hollow with radius rho the contact travels faster than
+//! the slider, dX/ds = 1/(1 - R/rho), and wears less: the flatness is lost by diffusion from the ends with
+//! D = 2 k P' R a cycle, which reaches the middle after some A^2/(4 D) = 430 cycles.
+
+use crate::keep::solve;
+use crate::scenes::{COPPER_WEAR, fuzz_button};
+use solver::scene::Scene;
+
+const LOAD: f64 = 0.508;
+
+#[test]
+fn a_flat_floor_sinks_by_two_passes_of_k_p_a_cycle() {
+    let scene = Scene {
+        cycles: 150,
+        ..fuzz_button()
+    };
+    let (summary, keep) = solve(&scene).expect("the scene can be solved");
+    let ideal = 2.0 * COPPER_WEAR * LOAD;
+    assert!((ideal - 26.17e-6).abs() < 0.01e-6);
+    let middle = |cycle: u64| keep.at(cycle).station_depth_mm[3];
+    println!(
+        "middle: {:.3} nm after 1 cycle, {:.3} nm a cycle to 150",
+        1e6 * middle(1),
+        1e6 * middle(150) / 150.0
+    );
+    assert!((middle(1) / ideal - 1.0).abs() < 0.01);
+    assert!((middle(150) / 150.0 / ideal - 1.0).abs() < 0.01);
+    assert!(summary.checks.worn_area < 1e-9);
+}
+
+/// Where nothing sets left apart from right, the groove is symmetric but for the pass that came last.
+#[test]
+fn the_groove_is_symmetric_within_the_tolerance() {
+    let scene = Scene {
+        cycles: 240,
+        ..fuzz_button()
+    };
+    let (_, keep) = solve(&scene).expect("the scene can be solved");
+    let depth = &keep.at(240).station_depth_mm;
+    let deepest = keep.at(240).receptacle.max_depth_mm;
+    for i in 0..3 {
+        assert!(
+            (depth[i] - depth[6 - i]).abs() < 0.02 * deepest,
+            "{depth:?}"
+        );
+    }
+}
+
+/// Once the whole block wears at one rate, that rate is the worn area over the block's length; the contact leans
+/// by then, so the area exceeds k P' s by the factor (1 + t^2)/(1 - mu^2 t^2) averaged over the floor's slopes t.
+#[test]
+fn a_block_shorter_than_the_groove_sinks_evenly_in_the_end() {
+    let (summary, keep) = solve(&fuzz_button()).expect("the scene can be solved");
+    let (early, late) = (keep.at(1_600), keep.at(2_000));
+    let area = (late.receptacle.worn_area_mm2 - early.receptacle.worn_area_mm2) / 400.0;
+    let middle = (late.station_depth_mm[3] - early.station_depth_mm[3]) / 400.0;
+    println!(
+        "at the end: {:.2} nm a cycle in the middle, {:.2} nm on average",
+        1e6 * middle,
+        1e6 * area / 0.08467
+    );
+    assert!((middle / (area / 0.08467) - 1.0).abs() < 0.01);
+    let ratio = late.receptacle.worn_area_mm2 / late.receptacle.ideal_area_mm2.expect("it wears");
+    assert!(ratio > 1.0 && ratio < 1.1, "{ratio}");
+    assert!(summary.checks.worn_area < 1e-9 && summary.checks.force_balance < 1e-9);
+}

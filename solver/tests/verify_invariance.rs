@@ -1,0 +1,100 @@
+//! What must not matter: the unit of length, and whether wear comes from a large k or a long way.
+
+use crate::keep::solve;
+use crate::scenes::mccoll;
+use solver::scene::{Motion, Scene, WearLaw};
+
+/// All lengths times 4 (and the line load with them) at the same stresses: all depths times 4, exactly but for
+/// round-off in the mesh grading.
+#[test]
+fn lengths_scale() {
+    let scene = Scene {
+        cycles: 300,
+        ..mccoll()
+    };
+    let mut large = scene.clone();
+    large.slider.shape.radius_mm *= 4.0;
+    large.slider.shape.half_width_mm *= 4.0;
+    large.slider.shape.height_mm *= 4.0;
+    large.receptacle.shape.length_mm *= 4.0;
+    large.receptacle.shape.height_mm *= 4.0;
+    large.load_n_per_mm *= 4.0;
+    large.motion = Motion::Reciprocating {
+        amplitude_mm: 0.1,
+        period_s: 0.05,
+    };
+    let depth = |scene: &Scene| {
+        let (summary, _) = solve(scene).expect("the scene can be solved");
+        summary.last.receptacle.max_depth_mm
+    };
+    let (small, large) = (depth(&scene), depth(&large));
+    assert!(
+        (large / (4.0 * small) - 1.0).abs() < 1e-9,
+        "{small} {large}"
+    );
+}
+
+/// Half the wear coefficient over twice the cycles digs the same scar, within the tolerance of both runs.
+#[test]
+fn half_the_coefficient_over_twice_the_way_digs_the_same_scar() {
+    let scene = Scene {
+        cycles: 4_000,
+        ..mccoll()
+    };
+    let mut slow = Scene {
+        cycles: 8_000,
+        ..mccoll()
+    };
+    let half = |k| {
+        Some(WearLaw::Archard {
+            k_over_h_per_mpa: 0.5 * k,
+        })
+    };
+    slow.slider.wear = half(1.9e-8);
+    slow.receptacle.wear = half(2.9e-8);
+    let run = |scene: &Scene| {
+        solve(scene)
+            .expect("the scene can be solved")
+            .0
+            .last
+            .receptacle
+    };
+    let (fast, slow) = (run(&scene), run(&slow));
+    let depth = slow.max_depth_mm / fast.max_depth_mm - 1.0;
+    let width = slow.scar_half_width_mm / fast.scar_half_width_mm - 1.0;
+    println!("half k over twice the way: depth {depth:.1e}, half-width {width:.1e}");
+    assert!(depth.abs() < 0.01 && width.abs() < 0.01, "{depth} {width}");
+}
+
+/// What friction dissipates in a cycle is the area of the force-displacement loop. Backward Euler takes the force at
+/// the end of an increment, so the loop of 40 increments is met to some per cent of its elastic corners.
+#[test]
+fn dissipated_energy_is_the_area_of_the_loop() {
+    let mut scene = Scene {
+        cycles: 2,
+        ..mccoll()
+    };
+    scene.accuracy.increments_per_cycle = Some(160);
+    scene.output.snapshots_at_cycles = vec![1, 2];
+    let (_, keep) = solve(&scene).expect("the scene can be solved");
+    let dissipated =
+        keep.at(2).dissipated_energy_mj_per_mm - keep.at(1).dissipated_energy_mj_per_mm;
+    let friction_loop = &keep
+        .snapshots
+        .last()
+        .expect("cycle 2 is kept")
+        .friction_loop;
+    let (x, q) = (
+        &friction_loop.displacement_mm,
+        &friction_loop.tangential_force_n_per_mm,
+    );
+    let n = x.len();
+    let area: f64 = (0..n)
+        .map(|i| 0.5 * (q[i] + q[(i + 1) % n]) * (x[(i + 1) % n] - x[i]))
+        .sum();
+    println!("dissipated {dissipated:.4} mJ/mm, loop {area:.4} mJ/mm");
+    assert!(
+        (dissipated / area - 1.0).abs() < 0.01,
+        "{dissipated} {area}"
+    );
+}

@@ -1,0 +1,7 @@
+//! What every end-to-end case needs: the real binary, run as a user would run it, in a folder of its own.
+
+pub mod program;
+pub mod server;
+
+pub use program::{Ran, fretwear, spec};
+pub use server::Server;

@@ -1,0 +1,63 @@
+//! The binary under test.
+
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+/// What a command left behind.
+#[derive(Debug)]
+pub struct Ran {
+    /// Its exit code; `None` if a signal ended it.
+    pub code: Option<i32>,
+    /// Standard output.
+    pub stdout: String,
+    /// Standard error.
+    pub stderr: String,
+}
+
+/// Path of the binary that `cargo test --workspace` built beside this test.
+///
+/// # Panics
+/// If the tests run outside of cargo's target folder.
+pub fn binary() -> PathBuf {
+    let test = std::env::current_exe().expect("a test knows where it is");
+    let deps = test.parent().expect("a test is in a folder");
+    let path = deps
+        .parent()
+        .expect("deps is in the profile's folder")
+        .join("fretwear");
+    assert!(
+        path.exists(),
+        "{} is not built; run cargo test --workspace",
+        path.display()
+    );
+    path
+}
+
+/// Runs `fretwear` with arguments in a folder, to its end.
+///
+/// # Panics
+/// If it cannot be started.
+pub fn fretwear(folder: &Path, arguments: &[&str]) -> Ran {
+    let output = Command::new(binary())
+        .current_dir(folder)
+        .args(arguments)
+        .output()
+        .expect("the binary can be started");
+    Ran {
+        code: output.status.code(),
+        stdout: String::from_utf8_lossy(&output.stdout).into_owned(),
+        stderr: String::from_utf8_lossy(&output.stderr).into_owned(),
+    }
+}
+
+/// One of the specifications in `tests/specs`.
+///
+/// # Panics
+/// If there is none of that name.
+pub fn spec(name: &str) -> PathBuf {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("specs")
+        .join(name);
+    assert!(path.exists(), "{} is missing", path.display());
+    path
+}

@@ -1,0 +1,151 @@
+//! A real `fretwear serve` on a free loopback port, killed when it goes out of scope.
+
+use std::io::{BufRead, BufReader};
+use std::path::Path;
+use std::process::{Child, Command, Stdio};
+use std::time::Duration;
+
+use nix::sys::signal::{Signal, kill};
+use nix::unistd::Pid;
+use serde_json::Value;
+
+use crate::program::binary;
+
+/// How long anything may take before a test gives up; it is no measure of speed.
+const PATIENCE: Duration = Duration::from_mins(4);
+
+/// A running service.
+#[derive(Debug)]
+pub struct Server {
+    child: Child,
+    /// Its address, `http://127.0.0.1:PORT`.
+    pub base: String,
+    /// A client.
+    pub client: reqwest::Client,
+}
+
+impl Server {
+    /// Starts a service with its database in a folder.
+    ///
+    /// # Panics
+    /// If it does not start.
+    pub fn start(folder: &Path) -> Self {
+        let database = format!("sqlite://{}", folder.join("fretwear.db").display());
+        let arguments = [
+            "serve",
+            "--listen",
+            "127.0.0.1:0",
+            "--workers",
+            "1",
+            "--database",
+            &database,
+        ];
+        let mut child = Command::new(binary())
+            .args(arguments)
+            .stderr(Stdio::piped())
+            .spawn()
+            .expect("the service can be started");
+        let mut lines = BufReader::new(child.stderr.take().expect("a pipe was asked for")).lines();
+        let base = loop {
+            let line = lines.next().expect("the service says where it serves");
+            let line = line.expect("its words are text");
+            if let Some(at) = line.find("http://127.0.0.1:") {
+                break line[at..].trim().to_owned();
+            }
+        };
+        // Its further words are read and dropped, so that it never waits for a full pipe.
+        std::thread::spawn(move || lines.for_each(drop));
+        Self {
+            child,
+            base,
+            client: reqwest::Client::new(),
+        }
+    }
+
+    /// Sends a signal to the service alone, not to its children.
+    ///
+    /// # Panics
+    /// If it is gone already.
+    pub fn signal(&self, signal: Signal) {
+        let id = i32::try_from(self.child.id()).expect("process ids are small");
+        kill(Pid::from_raw(id), signal).expect("the service is there");
+    }
+
+    /// Waits for the service to end; its exit code.
+    ///
+    /// # Panics
+    /// If it cannot be waited for.
+    pub fn wait(mut self) -> Option<i32> {
+        self.child
+            .wait()
+            .expect("the service can be waited for")
+            .code()
+    }
+
+    /// Submits a specification; its status and body.
+    ///
+    /// # Panics
+    /// If the service does not answer.
+    pub async fn submit(&self, body: impl Into<reqwest::Body>) -> (u16, Value) {
+        let request = self.client.post(format!("{}/v1/jobs", self.base));
+        let request = request
+            .header("content-type", "application/json")
+            .body(body);
+        answer(request).await
+    }
+
+    /// Gets a path; its status and body.
+    ///
+    /// # Panics
+    /// If the service does not answer.
+    pub async fn get(&self, path: &str) -> (u16, Value) {
+        answer(self.client.get(format!("{}{path}", self.base))).await
+    }
+
+    /// Posts nothing to a path; its status and body.
+    ///
+    /// # Panics
+    /// If the service does not answer.
+    pub async fn post(&self, path: &str) -> (u16, Value) {
+        answer(self.client.post(format!("{}{path}", self.base))).await
+    }
+
+    /// Asks for a job until it meets a condition.
+    ///
+    /// # Panics
+    /// If it does not in four minutes.
+    pub async fn job_when(&self, id: &str, condition: impl Fn(&Value) -> bool) -> Value {
+        let path = format!("/v1/jobs/{id}");
+        let asked = async {
+            loop {
+                let (_, job) = self.get(&path).await;
+                if condition(&job) {
+                    return job;
+                }
+                tokio::time::sleep(Duration::from_millis(20)).await;
+            }
+        };
+        tokio::time::timeout(PATIENCE, asked)
+            .await
+            .expect("the job gets there")
+    }
+}
+
+async fn answer(request: reqwest::RequestBuilder) -> (u16, Value) {
+    let response = request.send().await.expect("the service answers");
+    let status = response.status().as_u16();
+    let text = response.text().await.expect("the answer is text");
+    (
+        status,
+        serde_json::from_str(&text).unwrap_or(Value::String(text)),
+    )
+}
+
+impl Drop for Server {
+    fn drop(&mut self) {
+        // Already ended is fine: there is nothing left to end then.
+        if self.child.kill().is_ok() {
+            let _ = self.child.wait();
+        }
+    }
+}
