@@ -1,0 +1,9 @@
+//! End-to-end cases: the real binary, real processes, real files.
+
+mod architecture;
+mod cancel_running_job;
+mod command_line;
+mod main_job;
+mod refused_specifications;
+mod replayed_events;
+mod server_killed;

@@ -1,0 +1,56 @@
+//! Requirement: killing the server with SIGKILL in the middle of a job and starting it again finishes that job.
+
+use nix::sys::signal::Signal;
+use tests::{Server, spec};
+
+#[tokio::test]
+async fn a_job_outlives_the_server_that_was_killed_under_it() {
+    let folder = tempfile::tempdir().expect("a folder can be made");
+    let server = Server::start(folder.path());
+    let body = std::fs::read(spec("fuzz_button.json")).expect("the study is there");
+    let (_, job) = server.submit(body).await;
+    let id = job["id"].as_str().expect("a job has an id").to_owned();
+    let under_way = |job: &serde_json::Value| job["progress"]["cycle"].as_u64() > Some(20);
+    let before = server.job_when(&id, under_way).await;
+    assert_eq!(before["status"], "running");
+    server.signal(Signal::SIGKILL);
+    assert_eq!(server.wait(), None);
+
+    let server = Server::start(folder.path());
+    let job = server
+        .job_when(&id, |job| job["finished_at"].is_string())
+        .await;
+    assert_eq!(job["status"], "succeeded", "{job}");
+    assert_eq!(job["attempts"], 2, "{job}");
+    let (status, history) = server
+        .get(&format!("/v1/jobs/{id}/results/wear-history"))
+        .await;
+    assert_eq!(status, 200);
+    let cycles: Vec<u64> = history["cycle"]
+        .as_array()
+        .into_iter()
+        .flatten()
+        .filter_map(serde_json::Value::as_u64)
+        .collect();
+    assert!(
+        cycles.windows(2).all(|w| w[0] < w[1]),
+        "rows of both attempts are not mixed"
+    );
+    assert_eq!(cycles.last(), Some(&2000));
+}
+
+#[tokio::test]
+async fn a_server_that_is_asked_to_end_gives_its_job_back_without_an_attempt() {
+    let folder = tempfile::tempdir().expect("a folder can be made");
+    let server = Server::start(folder.path());
+    let body = std::fs::read(spec("fuzz_button.json")).expect("the study is there");
+    let (_, job) = server.submit(body).await;
+    let id = job["id"].as_str().expect("a job has an id").to_owned();
+    server.job_when(&id, |job| job["status"] == "running").await;
+    server.signal(Signal::SIGTERM);
+    assert_eq!(server.wait(), Some(0));
+
+    let server = Server::start(folder.path());
+    let job = server.job_when(&id, |job| job["status"] == "running").await;
+    assert_eq!(job["attempts"], 1, "{job}");
+}
