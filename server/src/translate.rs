@@ -94,15 +94,23 @@ pub fn scene(spec: &Spec) -> Result<Resolved, Vec<Fault>> {
         &mut ledger,
     );
     let (load, line_load) = load::resolve(spec.load.as_ref(), &preset, &shapes, &mut ledger);
-    let (motion, drive, imposed) = motion::resolve(spec.motion.as_ref(), &preset, &mut ledger);
-    let cycles = settings::cycles(spec.cycles, &preset, &mut ledger);
+    let imposed = motion::resolve(spec.motion.as_ref(), &preset, &mut ledger);
+    let continuous = imposed.distance_mm().is_some();
+    let cycles = settings::cycles(spec.cycles, continuous, &preset, &mut ledger);
+    if continuous && laws.slider.is_some() {
+        ledger.fault(
+            "/interface/wear/slider",
+            "a slider whose surface runs past continuously cannot wear yet; write null",
+        );
+    }
     let (accuracy, numerical) = settings::accuracy(&spec.accuracy, &shapes, cycles, &mut ledger);
-    let (output, recorded) = output::resolve(&spec.output, &motion, &shapes, cycles, &mut ledger);
+    let (output, recorded) = output::resolve(&spec.output, &imposed, &shapes, cycles, &mut ledger);
     let stop = output::stop(&spec.stop, &mut ledger);
     out.effects = settings::effects(&spec.effects, &mut ledger);
 
     (out.system, out.materials, out.interface) = (system, materials, interface);
-    (out.load, out.motion, out.cycles) = (Some(load), Some(motion), Some(cycles));
+    (out.load, out.motion) = (Some(load), Some(imposed.motion));
+    out.cycles = (!continuous).then_some(cycles);
     (out.accuracy, out.output, out.stop) = (accuracy, output, spec.stop.clone());
     out.provenance = ledger.finish()?;
     let scene = Scene {
@@ -117,9 +125,10 @@ pub fn scene(spec: &Spec) -> Result<Resolved, Vec<Fault>> {
             wear: laws.receptacle,
         },
         friction: laws.friction,
-        load_n_per_mm: line_load,
-        drive,
-        motion: imposed,
+        load_n_per_mm: line_load.n_per_mm,
+        spring_n_per_mm2: line_load.spring_n_per_mm2,
+        drive: imposed.drive,
+        motion: imposed.engine,
         cycles,
         accuracy: numerical,
         output: recorded,
@@ -130,6 +139,11 @@ pub fn scene(spec: &Spec) -> Result<Resolved, Vec<Fault>> {
         kind,
         scene,
     })
+}
+
+/// Cycles that the histories of a resolved specification count to.
+pub fn cycles(spec: &Spec) -> u64 {
+    spec.cycles.unwrap_or(motion::CONTINUOUS_PARTS)
 }
 
 fn names(spec: &Spec, ledger: &mut Ledger) {

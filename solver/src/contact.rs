@@ -75,6 +75,17 @@ pub struct Pair<'a> {
     pub interface: Interface,
 }
 
+/// Where an increment goes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Move {
+    /// Imposed displacement of the slider at its end, mm.
+    pub slider_x: f64,
+    /// How far the slider's surface runs past besides, without moving the contact, mm.
+    pub run: f64,
+    /// How many equal slips each slip stands for in the wear.
+    pub cycles: f64,
+}
+
 /// Worn surfaces, at the contact nodes.
 #[derive(Debug, Clone, Copy)]
 pub struct Surfaces<'a> {
@@ -105,6 +116,8 @@ pub struct ContactState {
     pub slider_force: Vec<f64>,
     /// Largest indentation of the last increment, mm: the scale of gaps.
     pub indentation: f64,
+    /// Height of the loaded, unworn contact, from which a spring in the load counts; `None` before the first load.
+    pub reference_height: Option<f64>,
 }
 
 impl ContactState {
@@ -120,6 +133,7 @@ impl ContactState {
             receptacle_force: vec![0.0; 2 * n],
             slider_force: vec![0.0; 2 * m],
             indentation: 0.0,
+            reference_height: None,
         }
     }
 
@@ -147,6 +161,14 @@ impl ContactState {
         } else {
             0.0
         }
+    }
+
+    /// Normal load that the spring leaves at the present height, N/mm.
+    pub fn load(&self, interface: &Interface) -> f64 {
+        interface.load
+            + self
+                .reference_height
+                .map_or(0.0, |h| interface.spring * (self.height - h))
     }
 
     /// Highest pressure, MPa.

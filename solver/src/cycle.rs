@@ -12,12 +12,12 @@ mod jump;
 mod path;
 mod record;
 
-use crate::condensation::Operators;
-use crate::contact::{ContactError, ContactState, Pair, Solver, Surfaces};
+use crate::condensation::{BodyOperators, Operators};
+use crate::contact::{ContactError, ContactState, Move, Pair, Solver, Surfaces};
 use crate::history::{Checks, FrictionLoop, Position, TractionField};
 use crate::model::Model;
 use crate::number::{real, real_cycles};
-use crate::scene::{Motion, Scene};
+use crate::scene::Scene;
 
 pub(crate) use record::worn_area_residual;
 pub use record::{report, snapshot};
@@ -105,6 +105,8 @@ impl CycleState {
 /// Contact at the neutral position on the way to +x.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Neutral {
+    /// Normal load, N/mm.
+    pub load: f64,
     /// Highest pressure, MPa.
     pub peak_pressure: f64,
     /// Half-width of the contact, mm.
@@ -112,8 +114,10 @@ pub struct Neutral {
 }
 
 impl Neutral {
-    fn of(contact: &ContactState, x: &[f64]) -> Self {
+    fn of(contact: &ContactState, pair: &Pair<'_>) -> Self {
+        let x = &pair.operators.receptacle.x;
         Self {
+            load: contact.load(&pair.interface),
             peak_pressure: contact.peak_pressure(),
             half_width: contact.half_width(x),
         }
@@ -160,17 +164,25 @@ impl<'a> Integrator<'a> {
     /// # Errors
     /// [`CycleError`] if there is no equilibrium.
     pub fn settle(&mut self, state: &mut CycleState) -> Result<Sweep, CycleError> {
-        self.slope = slopes(&self.pair.operators.receptacle.x, &state.receptacle_depth);
-        self.increment(state, 0.0, 0.0)
-            .map_err(|source| CycleError::Increment {
-                cycle: 0,
-                increment: 0,
-                halvings: 0,
-                source,
-            })?;
+        self.slope = slopes(&self.pair.operators.receptacle, &state.receptacle_depth);
+        self.increment(
+            state,
+            Move {
+                slider_x: 0.0,
+                run: 0.0,
+                cycles: 0.0,
+            },
+        )
+        .map_err(|source| CycleError::Increment {
+            cycle: 0,
+            increment: 0,
+            halvings: 0,
+            source,
+        })?;
         let x = &self.pair.operators.receptacle.x;
+        state.contact.reference_height = Some(state.contact.height);
         state.mean_half_width = state.contact.half_width(x);
-        state.neutral = Neutral::of(&state.contact, x);
+        state.neutral = Neutral::of(&state.contact, &self.pair);
         let positions = vec![record::tractions(Position::Neutral, x, &state.contact)];
         Ok(Sweep {
             friction_loop: FrictionLoop::default(),
@@ -178,24 +190,15 @@ impl<'a> Integrator<'a> {
         })
     }
 
-    /// Moves from the neutral to the rightmost position without wear.
+    /// Brings the contact to where cycles begin, slipping, without wear.
     ///
     /// # Errors
     /// [`CycleError`] if an increment fails however small it is.
     pub fn set_out(&mut self, state: &mut CycleState) -> Result<(), CycleError> {
-        let Motion::Reciprocating {
-            amplitude_mm: amplitude,
-            ..
-        } = self.scene.motion;
-        let targets = path::targets(&self.scene.accuracy, amplitude, state.mean_half_width);
-        for (increment, &target) in targets[3 * targets.len() / 4..].iter().enumerate() {
-            self.reach(state, target, 0.0, 0)
-                .map_err(|(halvings, source)| CycleError::Increment {
-                    cycle: 0,
-                    increment,
-                    halvings,
-                    source,
-                })?;
+        let (motion, accuracy) = (self.scene.motion, &self.scene.accuracy);
+        let steps = path::steps(motion, accuracy, state.mean_half_width);
+        for (increment, step) in path::set_out(&steps).iter().enumerate() {
+            self.step(state, step, 0.0, increment)?;
         }
         Ok(())
     }
@@ -205,36 +208,27 @@ impl<'a> Integrator<'a> {
     /// # Errors
     /// [`CycleError`] if an increment fails however small it is.
     pub fn sweep(&mut self, state: &mut CycleState, until: u64) -> Result<Sweep, CycleError> {
-        let Motion::Reciprocating {
-            amplitude_mm: amplitude,
-            ..
-        } = self.scene.motion;
-        let runs = amplitude > RUNS_FROM * state.mean_half_width;
-        let jump = state
-            .jump
-            .next(&self.scene.accuracy, runs, until - state.cycle);
-        let targets = path::targets(&self.scene.accuracy, amplitude, state.mean_half_width);
-        self.slope = slopes(&self.pair.operators.receptacle.x, &state.receptacle_depth);
+        let (motion, accuracy) = (self.scene.motion, &self.scene.accuracy);
+        let runs = motion.amplitude_mm() > RUNS_FROM * state.mean_half_width;
+        let jump = state.jump.next(accuracy, runs, until - state.cycle);
+        let steps = path::steps(motion, accuracy, state.mean_half_width);
+        self.slope = slopes(&self.pair.operators.receptacle, &state.receptacle_depth);
         let before = state.receptacle_depth.clone();
         let mut sweep = Sweep::default();
         let mut half_widths = 0.0;
-        for (increment, &target) in targets.iter().enumerate() {
-            self.reach(state, target, real_cycles(jump), 0)
-                .map_err(|(halvings, source)| CycleError::Increment {
-                    cycle: state.cycle,
-                    increment,
-                    halvings,
-                    source,
-                })?;
+        for (increment, step) in steps.iter().enumerate() {
+            self.step(state, step, real_cycles(jump), increment)?;
             half_widths += state.contact.half_width(&self.pair.operators.receptacle.x);
-            self.record(&mut sweep, state, increment, targets.len());
+            self.record(&mut sweep, state, step.at);
         }
-        sweep.friction_loop.begin_at(3 * targets.len() / 4);
+        sweep
+            .friction_loop
+            .begin_at(steps.len() - path::set_out(&steps).len());
         state.cycle += jump;
-        state.sliding_distance += 4.0 * amplitude * real_cycles(jump);
-        state.mean_half_width = half_widths / real(targets.len());
+        state.sliding_distance += motion.distance_per_cycle_mm() * real_cycles(jump);
+        state.mean_half_width = half_widths / real(steps.len());
         state.computed_cycles += 1;
-        state.most_increments = state.most_increments.max(targets.len());
+        state.most_increments = state.most_increments.max(steps.len());
         let widths = &self.pair.operators.receptacle.widths;
         state
             .jump
@@ -242,41 +236,66 @@ impl<'a> Integrator<'a> {
         Ok(sweep)
     }
 
-    /// Moves to a displacement, in halves if it cannot be reached at once.
+    fn step(
+        &mut self,
+        state: &mut CycleState,
+        step: &path::Step,
+        cycles: f64,
+        increment: usize,
+    ) -> Result<(), CycleError> {
+        let to = Move {
+            slider_x: step.slider_x,
+            run: step.run,
+            cycles,
+        };
+        let cycle = state.cycle;
+        self.reach(state, to, 0)
+            .map_err(|(halvings, source)| CycleError::Increment {
+                cycle,
+                increment,
+                halvings,
+                source,
+            })
+    }
+
+    /// Makes a move, in halves if it cannot be made at once.
     fn reach(
         &mut self,
         state: &mut CycleState,
-        target: f64,
-        cycles: f64,
+        to: Move,
         halvings: u32,
     ) -> Result<(), (u32, ContactError)> {
-        let Err(error) = self.increment(state, target, cycles) else {
+        let Err(error) = self.increment(state, to) else {
             return Ok(());
         };
         if halvings == MOST_HALVINGS {
             return Err((halvings, error));
         }
-        let middle = 0.5 * (state.contact.slider_x + target);
-        self.reach(state, middle, cycles, halvings + 1)?;
-        self.reach(state, target, cycles, halvings + 1)
+        let slider_x = 0.5 * (state.contact.slider_x + to.slider_x);
+        let run = 0.5 * to.run;
+        self.reach(
+            state,
+            Move {
+                slider_x,
+                run,
+                ..to
+            },
+            halvings + 1,
+        )?;
+        self.reach(state, Move { run, ..to }, halvings + 1)
     }
 
-    fn increment(
-        &mut self,
-        state: &mut CycleState,
-        target: f64,
-        cycles: f64,
-    ) -> Result<(), ContactError> {
+    fn increment(&mut self, state: &mut CycleState, to: Move) -> Result<(), ContactError> {
+        let cycles = to.cycles;
         let surfaces = Surfaces {
             receptacle_depth: &state.receptacle_depth,
             slider_depth: &state.slider_depth,
             slope: &self.slope,
         };
-        let place = (target, cycles);
         let last = &state.contact;
         let done = self
             .solver
-            .advance(&self.pair, &surfaces, last, place, &mut self.next)?;
+            .advance(&self.pair, &surfaces, last, to, &mut self.next)?;
         let interface = &self.pair.interface;
         let widths = &self.pair.operators.receptacle.widths[done.first..];
         let depths = &mut state.receptacle_depth[done.first..];
@@ -305,41 +324,32 @@ impl<'a> Integrator<'a> {
         Ok(())
     }
 
-    fn record(
-        &self,
-        sweep: &mut Sweep,
-        state: &mut CycleState,
-        increment: usize,
-        increments: usize,
-    ) {
+    fn record(&self, sweep: &mut Sweep, state: &mut CycleState, at: Option<Position>) {
         let contact = &state.contact;
         sweep.friction_loop.displacement_mm.push(contact.slider_x);
         sweep
             .friction_loop
             .tangential_force_n_per_mm
             .push(contact.tangential_force());
-        let position = match increment + 1 {
-            done if done == increments / 2 => Position::Leftmost,
-            done if done == 3 * increments / 4 => Position::Neutral,
-            done if done == increments => Position::Rightmost,
-            _ => return,
-        };
+        let Some(position) = at else { return };
         let x = &self.pair.operators.receptacle.x;
         sweep
             .positions
             .push(record::tractions(position, x, contact));
         if position == Position::Neutral {
-            state.neutral = Neutral::of(contact, x);
+            state.neutral = Neutral::of(contact, &self.pair);
         }
     }
 }
 
-/// Slopes dy/dx of a surface that has receded by `depth`, by central differences.
-fn slopes(x: &[f64], depth: &[f64]) -> Vec<f64> {
+/// Slopes dy/dx of a surface that has receded by `depth`: of the unworn shape exactly, of the depth by central
+/// differences.
+fn slopes(body: &BodyOperators, depth: &[f64]) -> Vec<f64> {
+    let x = &body.x;
     (0..x.len())
         .map(|i| {
             let (left, right) = (i.saturating_sub(1), (i + 1).min(x.len() - 1));
-            -(depth[right] - depth[left]) / (x[right] - x[left])
+            body.profile.slope(x[i]) - (depth[right] - depth[left]) / (x[right] - x[left])
         })
         .collect()
 }

@@ -2,7 +2,7 @@
 
 use crate::material::contact_modulus;
 use crate::model::resolution;
-use crate::scene::{Friction, Motion, Scene};
+use crate::scene::{Friction, Scene};
 use crate::wear;
 
 /// Which effects take part, and why.
@@ -56,7 +56,6 @@ impl Effect {
 pub fn plan(scene: &Scene) -> EffectsPlan {
     let sizes = resolution::choose(scene);
     let modulus = contact_modulus(scene.slider.elastic, scene.receptacle.elastic);
-    let Motion::Reciprocating { amplitude_mm, .. } = scene.motion;
     let elasticity = Decision {
         effect: Effect::Elasticity,
         simulated: true,
@@ -78,7 +77,7 @@ pub fn plan(scene: &Scene) -> EffectsPlan {
         let k = wear::coefficient(law);
         let (simulated, reason) = if k <= 0.0 {
             (false, format!("the {side} has no wear law"))
-        } else if amplitude_mm <= 0.0 {
+        } else if scene.motion.distance_per_cycle_mm() <= 0.0 {
             (false, "nothing slides: the amplitude is 0".to_owned())
         } else {
             (true, format!("Archard, k/H = {k:.4e} per MPa"))
@@ -115,6 +114,7 @@ pub fn plan(scene: &Scene) -> EffectsPlan {
 mod tests {
     use super::*;
     use crate::model::tests::fuzz_button;
+    use crate::scene::Motion;
 
     fn simulated(scene: &Scene) -> Vec<&'static str> {
         let plan = plan(scene);

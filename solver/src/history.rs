@@ -17,6 +17,8 @@ pub struct CycleReport {
     pub slider: SideReport,
     /// Worn depth of the receptacle at the stations of the scene, mm.
     pub station_depth_mm: Vec<f64>,
+    /// Normal load that a spring leaves at the neutral position, N/mm.
+    pub load_n_per_mm: f64,
     /// Highest contact pressure at the neutral position, on the way to +x, MPa.
     pub peak_pressure_mpa: f64,
     /// Half the width of the contact at the neutral position, mm.
@@ -32,7 +34,8 @@ pub struct SideReport {
     pub max_depth_mm: f64,
     /// Worn area of the section, mm^2.
     pub worn_area_mm2: f64,
-    /// k P' s for the whole load sliding the whole imposed distance, mm^2; `None` where nothing wears.
+    /// k P' s for the whole load sliding the whole imposed distance, mm^2; `None` where nothing wears or a spring
+    /// changes the load.
     pub ideal_area_mm2: Option<f64>,
     /// Half the width of the scar, mm.
     pub scar_half_width_mm: f64,
@@ -166,7 +169,7 @@ pub struct Resolution {
 /// Worst residuals over the run, each relative to its scale.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Checks {
-    /// |sum of vertical forces - load| / load.
+    /// |sum of vertical forces - load| over the load on the unworn contact.
     pub force_balance: f64,
     /// |worn area of the profile - accumulated k times integral of p |slip|| / worn area.
     pub worn_area: f64,

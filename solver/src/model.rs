@@ -12,8 +12,8 @@ use crate::{element, friction, wear};
 pub use profile::Profile;
 pub use resolution::Sizes;
 
-/// The slider's contact surface ends where the arc is steeper than this; beyond it the surface is no graph.
-const STEEPEST_SLIDER_ANGLE_DEG: f64 = 80.0;
+/// A contact surface ends where its arc is steeper than this; beyond it the surface is no graph.
+const STEEPEST_ANGLE_DEG: f64 = 80.0;
 /// More surface nodes than this on one body are refused: the compliance alone would take 2 GB.
 const MOST_SURFACE_NODES: usize = 8_000;
 
@@ -66,8 +66,10 @@ pub struct Interface {
     pub receptacle_wear: f64,
     /// Recession of the slider per pressure and slip, 1/MPa.
     pub slider_wear: f64,
-    /// Normal load, N/mm.
+    /// Normal load on the unworn contact, N/mm.
     pub load: f64,
+    /// What it loses as the slider sinks, N/mm per mm.
+    pub spring: f64,
 }
 
 /// Meshes both bodies of a scene.
@@ -92,6 +94,7 @@ pub fn build(scene: &Scene) -> Result<Model, MeshError> {
         receptacle_wear: wear::coefficient(scene.receptacle.wear),
         slider_wear: wear::coefficient(scene.slider.wear),
         load: scene.load_n_per_mm,
+        spring: scene.spring_n_per_mm2,
     };
     Ok(Model {
         slider,
@@ -103,57 +106,88 @@ pub fn build(scene: &Scene) -> Result<Model, MeshError> {
 
 fn receptacle(scene: &Scene, sizes: &Sizes) -> Result<BodyModel, MeshError> {
     let shape = scene.receptacle.shape;
-    let x = grading::symmetric(0.5 * shape.length_mm, &sizes.receptacle);
+    let half = 0.5 * shape.length_mm;
+    let (profile, x) = match shape.crown_radius_mm {
+        None => (Profile::Flat, grading::symmetric(half, &sizes.receptacle)),
+        Some(radius) => (
+            Profile::Crown { radius },
+            on_arc(radius, half, &sizes.receptacle),
+        ),
+    };
     let fractions = grading::layers(sizes.contact_element / shape.height_mm, sizes.layer_growth);
-    let surface = vec![0.0; x.len()];
-    let contact = (0, x.len());
-    let mesh = checked(ColumnMesh::new(x, surface, -shape.height_mm, fractions))?;
-    let elastic = scene.receptacle.elastic;
-    Ok(BodyModel {
-        mesh,
-        profile: Profile::Flat,
-        lame: elastic.into(),
-        b_bar: b_bar(elastic),
-        support: Support::FarFaceHeld,
-        contact,
-    })
+    let support = Support::FarFaceHeld;
+    body(
+        x,
+        profile,
+        -shape.height_mm,
+        fractions,
+        scene.receptacle.elastic,
+        support,
+    )
 }
 
 fn slider(scene: &Scene, sizes: &Sizes) -> Result<BodyModel, MeshError> {
     let shape = scene.slider.shape;
-    let radius = shape.radius_mm;
-    let end_angle = (shape.half_width_mm / radius).min(1.0).asin();
-    let arc = grading::symmetric(radius * end_angle, &sizes.slider);
-    let profile = Profile::Arc { radius };
-    let half = radius.min(shape.half_width_mm);
-    let last = arc.len() - 1;
-    let x: Vec<f64> = arc
-        .iter()
-        .enumerate()
-        .map(|(i, s)| match i {
-            0 => -half,
-            i if i == last => half,
-            _ => radius * (s / radius).sin(),
-        })
-        .collect();
-    let surface: Vec<f64> = x.iter().map(|&x| profile.height(x)).collect();
+    let profile = Profile::Arc {
+        radius: shape.radius_mm,
+    };
+    let x = on_arc(shape.radius_mm, shape.half_width_mm, &sizes.slider);
     let fractions = grading::layers(sizes.contact_element / shape.height_mm, sizes.layer_growth);
-    let reach = radius * STEEPEST_SLIDER_ANGLE_DEG.to_radians().sin();
-    let begin = x.partition_point(|&x| x < -reach);
-    let end = x.partition_point(|&x| x <= reach);
-    let mesh = checked(ColumnMesh::new(x, surface, shape.height_mm, fractions))?;
-    let elastic = scene.slider.elastic;
+    let support = match scene.drive {
+        Drive::Handle => Support::FarFaceHeld,
+        Drive::WholeBody => Support::GuidedUnderPressure,
+    };
+    body(
+        x,
+        profile,
+        shape.height_mm,
+        fractions,
+        scene.slider.elastic,
+        support,
+    )
+}
+
+fn body(
+    x: Vec<f64>,
+    profile: Profile,
+    far_y: f64,
+    fractions: Vec<f64>,
+    elastic: Elastic,
+    support: Support,
+) -> Result<BodyModel, MeshError> {
+    let reach = match profile {
+        Profile::Flat => f64::INFINITY,
+        Profile::Arc { radius } | Profile::Crown { radius } => {
+            radius * STEEPEST_ANGLE_DEG.to_radians().sin()
+        }
+    };
+    let contact = (
+        x.partition_point(|&x| x < -reach),
+        x.partition_point(|&x| x <= reach),
+    );
+    let surface = x.iter().map(|&x| profile.height(x)).collect();
+    let mesh = checked(ColumnMesh::new(x, surface, far_y, fractions))?;
+    let lame = elastic.into();
     Ok(BodyModel {
         mesh,
         profile,
-        lame: elastic.into(),
+        lame,
         b_bar: b_bar(elastic),
-        support: match scene.drive {
-            Drive::Handle => Support::FarFaceHeld,
-            Drive::WholeBody => Support::GuidedUnderPressure,
-        },
-        contact: (begin, end),
+        support,
+        contact,
     })
+}
+
+/// Node places over an arc, spaced along its length, on [-half, half] or to its rim.
+fn on_arc(radius: f64, half: f64, spacing: &grading::Spacing) -> Vec<f64> {
+    let half = half.min(radius);
+    let mut x = grading::symmetric(radius * (half / radius).asin(), spacing);
+    for place in &mut x {
+        *place = radius * (*place / radius).sin();
+    }
+    let last = x.len() - 1;
+    (x[0], x[last]) = (-half, half);
+    x
 }
 
 fn checked(mesh: ColumnMesh) -> Result<ColumnMesh, MeshError> {

@@ -13,8 +13,11 @@ pub struct Scene {
     pub receptacle: Body<BlockShape>,
     /// Friction between both.
     pub friction: Friction,
-    /// Normal load, N per mm of depth.
+    /// Normal load on the unworn contact, N per mm of depth.
     pub load_n_per_mm: f64,
+    /// Stiffness of the spring that makes the load: it loses this much as the slider sinks, N per mm of depth and mm
+    /// of sinking; 0 for a dead load.
+    pub spring_n_per_mm2: f64,
     /// Where the load enters the slider and how its motion is imposed.
     pub drive: Drive,
     /// The imposed relative motion (slider minus receptacle).
@@ -60,13 +63,15 @@ pub struct SliderShape {
     pub height_mm: f64,
 }
 
-/// The receptacle: a rectangular block centred on x = 0 whose top face is y = 0.
+/// The receptacle: a block centred on x = 0, its top face flat at y = 0 or crowned with its highest point there.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BlockShape {
     /// Length along x, mm.
     pub length_mm: f64,
-    /// Height, mm.
+    /// Height in the middle, mm.
     pub height_mm: f64,
+    /// Radius of a convex top face, mm; flat if absent.
+    pub crown_radius_mm: Option<f64>,
 }
 
 /// Friction laws.
@@ -112,6 +117,30 @@ pub enum Motion {
         /// Duration of a cycle, s.
         period_s: f64,
     },
+    /// The slider's surface runs past a contact that stays at one place of the receptacle, as a ring turning on a
+    /// block. A cycle of the run is the distance `step_mm`; the slider must not wear.
+    Continuous {
+        /// Distance of one cycle, mm.
+        step_mm: f64,
+    },
+}
+
+impl Motion {
+    /// Imposed sliding distance of a cycle, mm.
+    pub fn distance_per_cycle_mm(self) -> f64 {
+        match self {
+            Self::Reciprocating { amplitude_mm, .. } => 4.0 * amplitude_mm,
+            Self::Continuous { step_mm } => step_mm,
+        }
+    }
+
+    /// How far the contact travels over the receptacle to either side, mm.
+    pub fn amplitude_mm(self) -> f64 {
+        match self {
+            Self::Reciprocating { amplitude_mm, .. } => amplitude_mm,
+            Self::Continuous { .. } => 0.0,
+        }
+    }
 }
 
 /// Mesh and integration settings.

@@ -44,12 +44,14 @@ pub(crate) fn mccoll() -> Scene {
             shape: BlockShape {
                 length_mm: 12.0,
                 height_mm: 6.0,
+                crown_radius_mm: None,
             },
             elastic: STEEL,
             wear: wear(2.9e-8),
         },
         friction: Friction::Coulomb { coefficient: 0.9 },
         load_n_per_mm: 18.5,
+        spring_n_per_mm2: 0.0,
         drive: Drive::Handle,
         motion: Motion::Reciprocating {
             amplitude_mm: 0.025,
@@ -81,6 +83,7 @@ pub(crate) fn fuzz_button() -> Scene {
             shape: BlockShape {
                 length_mm: 0.08467,
                 height_mm: 0.0635,
+                crown_radius_mm: None,
             },
             elastic: COPPER,
             wear: Some(WearLaw::Archard {
@@ -89,6 +92,7 @@ pub(crate) fn fuzz_button() -> Scene {
         },
         friction: Friction::Coulomb { coefficient: 1.21 },
         load_n_per_mm: 0.508,
+        spring_n_per_mm2: 0.0,
         drive: Drive::Handle,
         motion: Motion::Reciprocating {
             amplitude_mm: 0.033_868,

@@ -7,6 +7,7 @@
 
 mod keep;
 mod scenes;
+mod verify_block_on_ring;
 mod verify_cattaneo_mindlin;
 mod verify_contact_patch;
 mod verify_fuzz_button_groove;
@@ -14,3 +15,4 @@ mod verify_hertz_line_contact;
 mod verify_invariance;
 mod verify_mccoll;
 mod verify_repeatability;
+mod verify_spring_load;

@@ -11,7 +11,7 @@
 
 use crate::scenes::mccoll;
 use solver::condensation::{Condensed, condense};
-use solver::contact::{ContactState, Pair, Solver, Status, Surfaces};
+use solver::contact::{ContactState, Move, Pair, Solver, Status, Surfaces};
 use solver::model::{Interface, Model};
 use solver::scene::Friction;
 
@@ -66,7 +66,11 @@ impl Bench {
             slope: &self.zero[0],
         };
         let mut next = last.clone();
-        let place = (slider_x, 0.0);
+        let place = Move {
+            slider_x,
+            run: 0.0,
+            cycles: 0.0,
+        };
         self.solver
             .advance(&pair, &surfaces, last, place, &mut next)
             .expect("partial slip is in equilibrium");

@@ -9,7 +9,7 @@
 //! ```
 
 use solver::condensation::condense;
-use solver::contact::{ContactState, Pair, Solver, Surfaces};
+use solver::contact::{ContactState, Move, Pair, Solver, Surfaces};
 use solver::material::Lame;
 use solver::mesh::ColumnMesh;
 use solver::model::{BodyModel, Interface, Model, Profile, Support};
@@ -50,6 +50,7 @@ fn an_even_pressure_passes_through_non_matching_meshes_at_any_position() {
                 receptacle_wear: 0.0,
                 slider_wear: 0.0,
                 load: pressure * 1.0,
+                spring: 0.0,
             },
             sizes,
         };
@@ -70,7 +71,17 @@ fn an_even_pressure_passes_through_non_matching_meshes_at_any_position() {
         last.slider_x = slider_x;
         let mut next = last.clone();
         Solver::default()
-            .advance(&pair, &surfaces, &last, (slider_x, 0.0), &mut next)
+            .advance(
+                &pair,
+                &surfaces,
+                &last,
+                Move {
+                    slider_x,
+                    run: 0.0,
+                    cycles: 0.0,
+                },
+                &mut next,
+            )
             .expect("the blocks are in equilibrium");
         for p in &next.pressure {
             assert!(

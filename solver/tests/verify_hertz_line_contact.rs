@@ -10,7 +10,7 @@
 
 use crate::keep::solve;
 use crate::scenes::mccoll;
-use solver::scene::Scene;
+use solver::scene::{Elastic, Friction, Scene};
 use std::f64::consts::PI;
 
 fn hertz() -> (f64, f64) {
@@ -63,4 +63,29 @@ fn refinement_converges_to_hertz() {
         "{coarse:?} {fine:?}"
     );
     assert!(fine.1 < (0.25 * coarse.1).max(2e-3), "{coarse:?} {fine:?}");
+}
+
+/// Two convex bodies of unequal materials: 1/R = 1/6 + 1/4, so R = 2.4 mm; 1/E* adds up both compliances. Without
+/// friction, because unequal bodies under normal load also want to slip.
+#[test]
+fn two_convex_bodies_of_unequal_materials_meet_hertz() {
+    let mut scene = Scene {
+        cycles: 1,
+        friction: Friction::Frictionless,
+        ..mccoll()
+    };
+    scene.receptacle.shape.length_mm = 6.0;
+    scene.receptacle.shape.crown_radius_mm = Some(4.0);
+    scene.receptacle.elastic = Elastic {
+        youngs_modulus_mpa: 117e3,
+        poisson_ratio: 0.34,
+    };
+    let (summary, _) = solve(&scene).expect("the scene can be solved");
+    let compliance = (1.0 - 0.09) / 200e3 + (1.0 - 0.34 * 0.34) / 117e3;
+    let half_width = (4.0_f64 * 18.5 * 2.4 * compliance / PI).sqrt();
+    let peak = 2.0 * 18.5 / (PI * half_width);
+    let width = summary.initial.contact_half_width_mm / half_width - 1.0;
+    let peak = summary.initial.peak_pressure_mpa / peak - 1.0;
+    println!("Hertz, two convex bodies: half-width off by {width:.2e}, peak by {peak:.2e}");
+    assert!(width.abs() < 0.02 && peak.abs() < 0.02);
 }

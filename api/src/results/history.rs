@@ -31,6 +31,9 @@ pub struct CycleRow {
     pub slider: SideRow,
     /// Worn depth of the receptacle at the stations of the specification, mm, in their order.
     pub station_depth_mm: Vec<f64>,
+    /// Normal load that a spring leaves, N per mm of depth.
+    #[serde(default)]
+    pub load_n_per_mm: f64,
     /// Highest contact pressure, MPa.
     pub peak_pressure_mpa: f64,
     /// Half the width of the contact, mm.
@@ -76,6 +79,8 @@ pub struct WearHistory {
     pub receptacle: SideSeries,
     /// The slider's wear.
     pub slider: SideSeries,
+    /// Normal load that a spring leaves, N per mm of depth.
+    pub load_n_per_mm: Vec<f64>,
     /// Highest contact pressure, MPa.
     pub peak_pressure_mpa: Vec<f64>,
     /// Half the width of the contact, mm.

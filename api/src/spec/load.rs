@@ -35,7 +35,8 @@ pub struct Load {
     /// `force`: the width (depth of the section) that carries it, mm.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub width_mm: Option<f64>,
-    /// Stiffness of the spring that holds the slider down, N per mm of deflection and per mm of depth: the load
+    /// Stiffness of the spring that holds the slider down, N per mm of deflection: of the whole contact beside
+    /// `force`, else of each mm of depth. The load
     /// falls by it as the contact wears.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub spring_n_per_mm: Option<f64>,

@@ -51,6 +51,9 @@ pub struct System {
     /// `cylinder_on_flat`: height of the modelled part, from the contact point to the top face, mm.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub slider_height_mm: Option<f64>,
+    /// `cylinder_on_flat`: radius of a convex top of the block, mm; flat if left out.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub crown_radius_mm: Option<f64>,
     /// `sd_card`, `dimm`, `zif`: radius of the sprung contact, mm.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub contact_radius_mm: Option<f64>,
@@ -66,6 +69,9 @@ pub struct System {
     /// `zif`: thickness of the pin, mm.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub pin_thickness_mm: Option<f64>,
+    /// `zif`: radius of a round pin, mm; a flat pin if left out.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub pin_radius_mm: Option<f64>,
 }
 
 impl System {
@@ -90,11 +96,13 @@ impl Default for System {
             flat_height_mm: None,
             slider_half_width_mm: None,
             slider_height_mm: None,
+            crown_radius_mm: None,
             contact_radius_mm: None,
             pad_length_mm: None,
             pad_height_mm: None,
             pin_length_mm: None,
             pin_thickness_mm: None,
+            pin_radius_mm: None,
         }
     }
 }

@@ -58,12 +58,9 @@ fn depths(history: &WearHistory, rows: &[usize]) -> Table {
                 .map(|station| format!("{:.3}", UM * station.depth_mm[row])),
         );
         cells.push(format!("{:.3}", UM * history.receptacle.max_depth_mm[row]));
-        let before = place.checked_sub(1).map(|place| rows[place]);
-        cells.push(
-            before
-                .and_then(|before| slope(history, before, row))
-                .map_or_else(String::new, |nm| format!("{nm:.3}")),
-        );
+        // The first row of a history is the unworn state.
+        let before = place.checked_sub(1).map_or(0, |place| rows[place]);
+        cells.push(slope(history, before, row).map_or_else(String::new, |nm| format!("{nm:.3}")));
         table.add_row(cells);
     }
     for column in table.column_iter_mut() {
@@ -90,8 +87,9 @@ fn slope(history: &WearHistory, from: usize, to: usize) -> Option<f64> {
     Some(NM * (depth[to] - depth[from]) / cycles as f64)
 }
 
-/// Each cycle the contact crosses the middle twice, and each crossing wears (k/H) P', as long as the whole load lies
-/// on the flat floor of the groove: between the first two rows shown. Later the walls carry a part of it.
+/// Each cycle the contact crosses the middle twice, and each crossing wears (k/H) P' as long as the floor of the groove
+/// is flat: between the first two rows shown. A hollow floor is crossed faster than the slider moves and wears less;
+/// worn area is conserved, so a block that is all worn cannot sink faster than worn area over length.
 fn growth(job: &Job, history: &WearHistory, rows: &[usize]) -> Option<String> {
     let plan = job.plan.as_ref()?;
     let expected = 2.0 * NM * plan.estimates.get("receptacle_full_pass_depth_mm")?;
@@ -99,7 +97,8 @@ fn growth(job: &Job, history: &WearHistory, rows: &[usize]) -> Option<String> {
     let (first, second) = (worn.next()?, worn.next()?);
     let found = slope(history, first, second)?;
     Some(format!(
-        "In the middle, from cycle {} to {}: {found:.3} nm a cycle; 2 (k/H) P' = {expected:.3} nm ({:+.2} %).",
+        "On the flat floor, cycle {} to {}: {found:.3} nm a cycle in the middle; 2 (k/H) P' = {expected:.3} nm ({:+.2} %).\n\
+         Then the ends are felt: the whole block sinks, and worn area over length sets the pace (solver/README.md).",
         history.cycle[first],
         history.cycle[second],
         100.0 * (found / expected - 1.0)

@@ -132,6 +132,7 @@ pub(crate) fn row(cycle: u64) -> CycleRow {
         receptacle: SideRow::default(),
         slider: SideRow::default(),
         station_depth_mm: vec![0.0, 0.5, 0.0],
+        load_n_per_mm: 0.5,
         peak_pressure_mpa: 3.0,
         contact_half_width_mm: 0.1,
         dissipated_energy_mj_per_mm: 2.0,

@@ -85,7 +85,9 @@ mod tests {
             "{header}"
         );
         assert!(
-            header.ends_with("peak_pressure_mpa,contact_half_width_mm,dissipated_energy_mj_per_mm"),
+            header.ends_with(
+                "load_n_per_mm,peak_pressure_mpa,contact_half_width_mm,dissipated_energy_mj_per_mm"
+            ),
             "{header}"
         );
         assert_eq!(text.lines().count(), 3);

@@ -86,7 +86,7 @@ impl Store {
             .known()
             .map_or("", api::spec::SystemKind::as_str);
         let progress = Progress {
-            cycles: job.spec.cycles.unwrap_or(0),
+            cycles: crate::translate::cycles(&job.spec),
             updated_at: Some(timestamp(now)),
             ..Progress::default()
         };

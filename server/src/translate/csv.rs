@@ -71,6 +71,7 @@ pub fn wear_history(history: &WearHistory) -> Result<Vec<u8>, CsvError> {
             &series.scar_half_width_mm,
         ));
     }
+    table.push(numbers("load_n_per_mm", &history.load_n_per_mm));
     table.push(numbers("peak_pressure_mpa", &history.peak_pressure_mpa));
     table.push(numbers(
         "contact_half_width_mm",

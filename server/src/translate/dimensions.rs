@@ -40,7 +40,7 @@ const fn dimension(
 }
 
 /// Every dimension of the specification, by field.
-const FIELDS: [&str; 13] = [
+const FIELDS: [&str; 15] = [
     "wire_diameter_mm",
     "pcb_length_mm",
     "pcb_height_mm",
@@ -54,7 +54,13 @@ const FIELDS: [&str; 13] = [
     "pad_height_mm",
     "pin_length_mm",
     "pin_thickness_mm",
+    CROWN,
+    ROUND_PIN,
 ];
+
+/// Radii of convex tops, which need not be given: without them the top is flat.
+const CROWN: &str = "crown_radius_mm";
+const ROUND_PIN: &str = "pin_radius_mm";
 
 const FUZZ_BUTTON: &[Dimension] = &[
     dimension("wire_diameter_mm", |_| 0.0508, Source),
@@ -122,12 +128,29 @@ pub(super) fn resolve(kind: SystemKind, given: &System, ledger: &mut Ledger) -> 
         let value = ledger.take(&pointer, stated, default, dimension.from);
         *field(&mut system, dimension.field) = Some(value);
     }
+    let crown = match kind {
+        SystemKind::CylinderOnFlat => Some(CROWN),
+        SystemKind::Zif => Some(ROUND_PIN),
+        SystemKind::FuzzButton | SystemKind::SdCard | SystemKind::Dimm => None,
+    };
+    if let Some(name) = crown {
+        let radius = field(&mut given, name).take();
+        if let Some(radius) = radius {
+            let pointer = format!("/system/{name}");
+            ledger.note(&pointer, Provenance::Given);
+            ledger.check(&pointer, radius, LENGTH_MM);
+        }
+        *field(&mut system, name) = radius;
+    }
     for name in FIELDS {
         let left_over = field(&mut given, name).is_some();
         ledger.misplaced("/system", &[(name, left_over)], kind.as_str());
     }
     let shapes = shapes(kind, &system);
     fits(kind, &shapes, ledger);
+    if let Some(name) = crown {
+        crown_fits(name, &shapes.block, ledger);
+    }
     (system, shapes)
 }
 
@@ -175,6 +198,7 @@ fn shapes(kind: SystemKind, system: &System) -> Shapes {
         block: BlockShape {
             length_mm: length(length_mm),
             height_mm: length(height_mm),
+            crown_radius_mm: system.crown_radius_mm.or(system.pin_radius_mm),
         },
     }
 }
@@ -214,6 +238,27 @@ fn fits(kind: SystemKind, shapes: &Shapes, ledger: &mut Ledger) {
     }
 }
 
+/// A convex top must be as wide as the block is long, and leave some of the block's sides.
+fn crown_fits(name: &str, block: &BlockShape, ledger: &mut Ledger) {
+    let Some(radius) = block.crown_radius_mm else {
+        return;
+    };
+    let (pointer, half) = (format!("/system/{name}"), 0.5 * block.length_mm);
+    if radius < half {
+        let detail = format!("{radius} is below half the length of {}", block.length_mm);
+        ledger.fault(&pointer, detail);
+        return;
+    }
+    let sagitta = radius - (radius * radius - half * half).sqrt();
+    if sagitta > 0.98 * block.height_mm {
+        let detail = format!(
+            "{radius} makes an arc {sagitta} high, above 0.98 of the height of {}",
+            block.height_mm
+        );
+        ledger.fault(&pointer, detail);
+    }
+}
+
 fn field<'a>(system: &'a mut System, name: &str) -> &'a mut Option<f64> {
     match name {
         "wire_diameter_mm" => &mut system.wire_diameter_mm,
@@ -229,6 +274,8 @@ fn field<'a>(system: &'a mut System, name: &str) -> &'a mut Option<f64> {
         "pad_height_mm" => &mut system.pad_height_mm,
         "pin_length_mm" => &mut system.pin_length_mm,
         "pin_thickness_mm" => &mut system.pin_thickness_mm,
+        CROWN => &mut system.crown_radius_mm,
+        ROUND_PIN => &mut system.pin_radius_mm,
         other => unreachable!("`{other}` is not a dimension"),
     }
 }

@@ -27,26 +27,32 @@ const WIDTH_MM: Range = Range {
     to: 1e4,
 };
 
-/// Fills in the load; also returns N per mm of depth.
+/// N per mm of deflection.
+const SPRING_N_PER_MM: Range = Range { from: 0.0, to: 1e9 };
+
+/// The load of one mm of depth.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub(super) struct LineLoad {
+    /// On the unworn contact, N per mm.
+    pub(super) n_per_mm: f64,
+    /// What a spring loses as the contact sinks, N per mm and mm.
+    pub(super) spring_n_per_mm2: f64,
+}
+
+/// Fills in the load.
 pub(super) fn resolve(
     given: Option<&Load>,
     preset: &Preset,
     shapes: &Shapes,
     ledger: &mut Ledger,
-) -> (Load, f64) {
+) -> (Load, LineLoad) {
     let (load, from) = match given {
         Some(load) => (load.clone(), Provenance::Given),
         None => (preset.load.value.clone(), preset.load.from),
     };
     ledger.note("/load/kind", from);
-    if load.spring_n_per_mm.is_some() {
-        ledger.fault(
-            "/load/spring_n_per_mm",
-            "a spring that loses force as the contact wears is not available yet",
-        );
-    }
     let Some(kind) = ledger.known("/load/kind", &load.kind) else {
-        return (load, 0.0);
+        return (load, LineLoad::default());
     };
     let own: &[&str] = match kind {
         LoadKind::Pressure => &["mpa"],
@@ -62,7 +68,7 @@ pub(super) fn resolve(
         ledger.note(&pointer, from);
         ledger.check(&pointer, value, range)
     };
-    let line_load = match kind {
+    let n_per_mm = match kind {
         // The pressure acts on the whole top face.
         LoadKind::Pressure => {
             required("mpa", load.mpa, PRESSURE_MPA) * 2.0 * shapes.slider.half_width_mm
@@ -89,5 +95,20 @@ pub(super) fn resolve(
             kind.as_str(),
         );
     }
-    (load, line_load)
+    let spring = load.spring_n_per_mm.map_or(0.0, |spring| {
+        ledger.note("/load/spring_n_per_mm", from);
+        ledger.check("/load/spring_n_per_mm", spring, SPRING_N_PER_MM)
+    });
+    let depth = if kind == LoadKind::Force {
+        load.width_mm.unwrap_or(1.0)
+    } else {
+        1.0
+    };
+    (
+        load,
+        LineLoad {
+            n_per_mm,
+            spring_n_per_mm2: spring / depth,
+        },
+    )
 }

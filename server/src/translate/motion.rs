@@ -1,6 +1,6 @@
 //! The imposed motion and where it enters.
 
-use api::spec::{Drive, Motion, MotionKind, Provenance, Waveform};
+use api::spec::{Choice, Drive, Motion, MotionKind, Provenance, Waveform};
 use solver::scene;
 
 use super::ledger::{Ledger, Range};
@@ -17,42 +17,110 @@ const PERIOD_S: Range = Range {
     to: 3e6,
 };
 
-/// Fills in the motion; also returns the engine's drive and motion.
-pub(super) fn resolve(
-    given: Option<&Motion>,
-    preset: &Preset,
-    ledger: &mut Ledger,
-) -> (Motion, scene::Drive, scene::Motion) {
-    let empty = Motion {
-        kind: MotionKind::Reciprocating.into(),
-        waveform: None,
-        amplitude_mm: None,
-        frequency_hz: None,
-        period_s: None,
-        drive: None,
-        speed_mm_s: None,
-        distance_mm: None,
+/// mm.
+const DISTANCE_MM: Range = Range {
+    from: 1e-6,
+    to: 1e12,
+};
+/// mm/s.
+const SPEED_MM_S: Range = Range {
+    from: 1e-9,
+    to: 1e6,
+};
+/// A continuous motion is recorded in this many equal parts of its distance, the `cycle` of its histories.
+pub(super) const CONTINUOUS_PARTS: u64 = 100_000;
+/// Speed of a continuous motion that states none, mm/s. Quasi-static contact does not depend on it.
+const SPEED: f64 = 1.0;
+
+/// A motion with every default filled in, and what the engine makes of it.
+pub(super) struct Imposed {
+    pub(super) motion: Motion,
+    pub(super) drive: scene::Drive,
+    pub(super) engine: scene::Motion,
+}
+
+impl Imposed {
+    /// Distance of a continuous motion, mm.
+    pub(super) fn distance_mm(&self) -> Option<f64> {
+        self.motion.distance_mm
+    }
+}
+
+const NOTHING: Motion = Motion {
+    kind: Choice::Known(MotionKind::Reciprocating),
+    waveform: None,
+    amplitude_mm: None,
+    frequency_hz: None,
+    period_s: None,
+    drive: None,
+    speed_mm_s: None,
+    distance_mm: None,
+};
+
+/// Fills in the motion.
+pub(super) fn resolve(given: Option<&Motion>, preset: &Preset, ledger: &mut Ledger) -> Imposed {
+    let from = if given.is_some() {
+        Provenance::Given
+    } else {
+        preset.amplitude_mm.from
     };
-    ledger.note(
-        "/motion/kind",
-        if given.is_some() {
-            Provenance::Given
-        } else {
-            preset.amplitude_mm.from
-        },
+    ledger.note("/motion/kind", from);
+    let given = given.cloned().unwrap_or(NOTHING);
+    match ledger.known("/motion/kind", &given.kind) {
+        Some(MotionKind::Continuous) => continuous(&given, ledger),
+        Some(MotionKind::Reciprocating) => {
+            let fields = [
+                ("speed_mm_s", given.speed_mm_s.is_some()),
+                ("distance_mm", given.distance_mm.is_some()),
+            ];
+            ledger.misplaced("/motion", &fields, "reciprocating");
+            reciprocating(&given, preset, ledger)
+        }
+        None => reciprocating(&given, preset, ledger),
+    }
+}
+
+fn continuous(given: &Motion, ledger: &mut Ledger) -> Imposed {
+    let fields = [
+        ("waveform", given.waveform.is_some()),
+        ("amplitude_mm", given.amplitude_mm.is_some()),
+        ("frequency_hz", given.frequency_hz.is_some()),
+        ("period_s", given.period_s.is_some()),
+        ("drive", given.drive.is_some()),
+    ];
+    ledger.misplaced("/motion", &fields, "continuous");
+    let distance_mm = given.distance_mm.unwrap_or_default();
+    if given.distance_mm.is_some() {
+        ledger.note("/motion/distance_mm", Provenance::Given);
+        ledger.check("/motion/distance_mm", distance_mm, DISTANCE_MM);
+    } else {
+        ledger.missing("/motion/distance_mm", "`continuous` needs it");
+    }
+    let speed = ledger.take(
+        "/motion/speed_mm_s",
+        given.speed_mm_s,
+        SPEED,
+        Provenance::Assumed,
     );
-    let given = given.cloned().unwrap_or(empty.clone());
-    let kind = ledger.known("/motion/kind", &given.kind);
-    if kind == Some(MotionKind::Continuous) {
-        ledger.fault("/motion/kind", "`continuous` is not available yet");
+    ledger.check("/motion/speed_mm_s", speed, SPEED_MM_S);
+    #[expect(
+        clippy::cast_precision_loss,
+        reason = "a hundred thousand parts are exact"
+    )]
+    let step_mm = distance_mm / CONTINUOUS_PARTS as f64;
+    Imposed {
+        motion: Motion {
+            kind: MotionKind::Continuous.into(),
+            speed_mm_s: Some(speed),
+            distance_mm: Some(distance_mm),
+            ..NOTHING
+        },
+        drive: scene::Drive::Handle,
+        engine: scene::Motion::Continuous { step_mm },
     }
-    if kind == Some(MotionKind::Reciprocating) {
-        let fields = [
-            ("speed_mm_s", given.speed_mm_s.is_some()),
-            ("distance_mm", given.distance_mm.is_some()),
-        ];
-        ledger.misplaced("/motion", &fields, "reciprocating");
-    }
+}
+
+fn reciprocating(given: &Motion, preset: &Preset, ledger: &mut Ledger) -> Imposed {
     let waveform = given
         .waveform
         .as_ref()
@@ -80,16 +148,16 @@ pub(super) fn resolve(
         preset.amplitude_mm.from,
     );
     ledger.check("/motion/amplitude_mm", amplitude_mm, AMPLITUDE_MM);
-    let mut filled = filled(empty, waveform, drive, amplitude_mm);
-    let period_s = period(&given, preset, &mut filled, ledger);
-    (
-        filled,
-        engine_drive(drive),
-        scene::Motion::Reciprocating {
+    let mut motion = filled(NOTHING, waveform, drive, amplitude_mm);
+    let period_s = period(given, preset, &mut motion, ledger);
+    Imposed {
+        motion,
+        drive: engine_drive(drive),
+        engine: scene::Motion::Reciprocating {
             amplitude_mm,
             period_s,
         },
-    )
+    }
 }
 
 fn filled(empty: Motion, waveform: Waveform, drive: Drive, amplitude_mm: f64) -> Motion {

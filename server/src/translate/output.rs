@@ -1,10 +1,11 @@
 //! What is recorded, and what ends a run.
 
-use api::spec::{Motion, Output, Provenance, Stop};
+use api::spec::{Output, Provenance, Stop};
 use solver::scene;
 
 use super::dimensions::Shapes;
 use super::ledger::{Ledger, Range};
+use super::motion::Imposed;
 
 /// Most stations and most snapshots of a job: each is a column, or three documents.
 const STATION_LIMIT: usize = 1000;
@@ -19,7 +20,7 @@ const WORN_DEPTH_MM: Range = Range {
 /// Fills in what is recorded.
 pub(super) fn resolve(
     given: &Output,
-    motion: &Motion,
+    imposed: &Imposed,
     shapes: &Shapes,
     cycles: u64,
     ledger: &mut Ledger,
@@ -30,74 +31,122 @@ pub(super) fn resolve(
             "fields in the bodies are not available yet",
         );
     }
-    if given.snapshots_at_distance_mm.is_some() {
-        ledger.fault(
-            "/output/snapshots_at_distance_mm",
-            "belongs to a continuous motion, which is not available yet; write `snapshots_at_cycles`",
-        );
-    }
     let half = 0.5 * shapes.block.length_mm;
-    places(given, half, cycles, ledger);
-    let stations = ledger.take(
+    stations(given, half, ledger);
+    let stations_mm = ledger.take(
         "/output/stations_mm",
         given.stations_mm.clone(),
-        default_stations(motion.amplitude_mm.unwrap_or_default(), half),
+        default_stations(imposed.motion.amplitude_mm.unwrap_or_default(), half),
         Provenance::Assumed,
     );
-    let snapshots = ledger.take(
-        "/output/snapshots_at_cycles",
-        given.snapshots_at_cycles.clone(),
-        default_snapshots(cycles),
-        Provenance::Assumed,
-    );
-    let mut ascending = snapshots.clone();
-    ascending.sort_unstable();
-    ascending.dedup();
-    let filled = Output {
-        stations_mm: Some(stations.clone()),
-        snapshots_at_cycles: Some(snapshots),
+    let mut filled = Output {
+        stations_mm: Some(stations_mm.clone()),
+        snapshots_at_cycles: None,
         snapshots_at_distance_mm: None,
         fields: Some(false),
     };
-    (
-        filled,
-        scene::Output {
-            stations_mm: stations,
-            snapshots_at_cycles: ascending,
-        },
-    )
+    let mut ascending = match imposed.distance_mm() {
+        None => {
+            let at = at_cycles(given, cycles, ledger);
+            filled.snapshots_at_cycles = Some(at.clone());
+            at
+        }
+        Some(distance) => {
+            let at = at_distances(given, distance, ledger);
+            let parts = at.iter().map(|at| part(at / distance, cycles)).collect();
+            filled.snapshots_at_distance_mm = Some(at);
+            parts
+        }
+    };
+    ascending.sort_unstable();
+    ascending.dedup();
+    let recorded = scene::Output {
+        stations_mm,
+        snapshots_at_cycles: ascending,
+    };
+    (filled, recorded)
 }
 
-/// Checks what was stated; defaults made from a faulty value are no faults of their own.
-fn places(given: &Output, half: f64, cycles: u64, ledger: &mut Ledger) {
+/// Checks the stations that were stated; defaults made from a faulty value are no faults of their own.
+fn stations(given: &Output, half: f64, ledger: &mut Ledger) {
     let stations = given.stations_mm.as_deref().unwrap_or_default();
     limited("/output/stations_mm", stations.len(), STATION_LIMIT, ledger);
     for (index, station) in stations.iter().enumerate().take(STATION_LIMIT) {
-        ledger.check(
-            &format!("/output/stations_mm/{index}"),
-            *station,
-            Range {
-                from: -half,
-                to: half,
-            },
-        );
+        let range = Range {
+            from: -half,
+            to: half,
+        };
+        ledger.check(&format!("/output/stations_mm/{index}"), *station, range);
     }
-    let snapshots = given.snapshots_at_cycles.as_deref().unwrap_or_default();
-    limited(
-        "/output/snapshots_at_cycles",
-        snapshots.len(),
-        SNAPSHOT_LIMIT,
-        ledger,
+}
+
+/// Snapshots of a reciprocating motion, at cycles.
+fn at_cycles(given: &Output, cycles: u64, ledger: &mut Ledger) -> Vec<u64> {
+    const POINTER: &str = "/output/snapshots_at_cycles";
+    let misplaced = given.snapshots_at_distance_mm.is_some();
+    ledger.misplaced(
+        "/output",
+        &[("snapshots_at_distance_mm", misplaced)],
+        "reciprocating",
     );
+    let snapshots = given.snapshots_at_cycles.as_deref().unwrap_or_default();
+    limited(POINTER, snapshots.len(), SNAPSHOT_LIMIT, ledger);
     for (index, cycle) in snapshots.iter().enumerate().take(SNAPSHOT_LIMIT) {
         if *cycle > cycles {
-            let pointer = format!("/output/snapshots_at_cycles/{index}");
-            ledger.fault(
-                &pointer,
-                format!("{cycle} exceeds the number of cycles, {cycles}"),
-            );
+            let detail = format!("{cycle} exceeds the number of cycles, {cycles}");
+            ledger.fault(&format!("{POINTER}/{index}"), detail);
         }
     }
+    let default = default_snapshots(cycles);
+    ledger.take(
+        POINTER,
+        given.snapshots_at_cycles.clone(),
+        default,
+        Provenance::Assumed,
+    )
+}
+
+/// Snapshots of a continuous motion, at distances, mm.
+fn at_distances(given: &Output, distance: f64, ledger: &mut Ledger) -> Vec<f64> {
+    const POINTER: &str = "/output/snapshots_at_distance_mm";
+    let misplaced = given.snapshots_at_cycles.is_some();
+    ledger.misplaced(
+        "/output",
+        &[("snapshots_at_cycles", misplaced)],
+        "continuous",
+    );
+    let snapshots = given
+        .snapshots_at_distance_mm
+        .as_deref()
+        .unwrap_or_default();
+    limited(POINTER, snapshots.len(), SNAPSHOT_LIMIT, ledger);
+    for (index, at) in snapshots.iter().enumerate().take(SNAPSHOT_LIMIT) {
+        let range = Range {
+            from: 0.0,
+            to: distance,
+        };
+        ledger.check(&format!("{POINTER}/{index}"), *at, range);
+    }
+    let default = [0.25, 0.5, 0.75, 1.0]
+        .map(|share| share * distance)
+        .to_vec();
+    ledger.take(
+        POINTER,
+        given.snapshots_at_distance_mm.clone(),
+        default,
+        Provenance::Assumed,
+    )
+}
+
+/// The part of the distance that lies nearest to a share of it; the first one at least.
+#[expect(
+    clippy::cast_precision_loss,
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "a share of a hundred thousand parts, clamped"
+)]
+fn part(share: f64, parts: u64) -> u64 {
+    ((share * parts as f64).round().max(1.0) as u64).min(parts)
 }
 
 /// The neutral position and half the amplitude to each side, where the block is.

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::f64::consts::PI;
 
 use api::plan::{Plan, PlannedEffect};
-use solver::scene::{Elastic, Motion, Scene, WearLaw};
+use solver::scene::{Elastic, Scene, WearLaw};
 
 use super::Resolved;
 
@@ -36,8 +36,14 @@ fn estimates(scene: &Scene) -> BTreeMap<String, f64> {
     let load = scene.load_n_per_mm;
     let compliance =
         plane_compliance(&scene.slider.elastic) + plane_compliance(&scene.receptacle.elastic);
-    let half_width = (4.0 * load * scene.slider.shape.radius_mm * compliance / PI).sqrt();
-    let Motion::Reciprocating { amplitude_mm, .. } = scene.motion;
+    let curvature = 1.0 / scene.slider.shape.radius_mm
+        + scene
+            .receptacle
+            .shape
+            .crown_radius_mm
+            .map_or(0.0, |radius| 1.0 / radius);
+    let half_width = (4.0 * load * compliance / (PI * curvature)).sqrt();
+    let way = scene.motion.distance_per_cycle_mm();
     let mut estimates = BTreeMap::from([
         ("line_load_n_per_mm".to_owned(), load),
         ("hertz_half_width_mm".to_owned(), half_width),
@@ -45,17 +51,14 @@ fn estimates(scene: &Scene) -> BTreeMap<String, f64> {
             "hertz_peak_pressure_mpa".to_owned(),
             2.0 * load / (PI * half_width),
         ),
-        (
-            "sliding_distance_per_cycle_mm".to_owned(),
-            4.0 * amplitude_mm,
-        ),
+        ("sliding_distance_per_cycle_mm".to_owned(), way),
     ]);
     for (side, law) in [
         ("slider", scene.slider.wear),
         ("receptacle", scene.receptacle.wear),
     ] {
         if let Some(WearLaw::Archard { k_over_h_per_mpa }) = law {
-            let area = k_over_h_per_mpa * load * 4.0 * amplitude_mm;
+            let area = k_over_h_per_mpa * load * way;
             estimates.insert(format!("{side}_ideal_area_per_cycle_mm2"), area);
             if side == "receptacle" {
                 estimates.insert(

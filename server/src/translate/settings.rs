@@ -8,6 +8,7 @@ use solver::scene;
 
 use super::dimensions::Shapes;
 use super::ledger::{Ledger, Range, shortened};
+use super::motion::CONTINUOUS_PARTS;
 use super::preset::Preset;
 
 /// Most cycles of a job.
@@ -38,8 +39,17 @@ const TO_COME: [&str; 6] = [
     "resistance",
 ];
 
-/// Fills in the number of cycles.
-pub(super) fn cycles(given: Option<u64>, preset: &Preset, ledger: &mut Ledger) -> u64 {
+/// Fills in the number of cycles; a continuous motion has none of its own.
+pub(super) fn cycles(
+    given: Option<u64>,
+    continuous: bool,
+    preset: &Preset,
+    ledger: &mut Ledger,
+) -> u64 {
+    if continuous {
+        ledger.misplaced("", &[("cycles", given.is_some())], "continuous");
+        return CONTINUOUS_PARTS;
+    }
     let cycles = ledger.take("/cycles", given, preset.cycles.value, preset.cycles.from);
     if !(1..=CYCLE_LIMIT).contains(&cycles) {
         ledger.fault("/cycles", format!("{cycles} is outside 1 to {CYCLE_LIMIT}"));

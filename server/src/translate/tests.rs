@@ -123,19 +123,7 @@ fn faults_name_value_and_limit() {
 #[test]
 fn what_the_engine_cannot_do_yet_is_refused_by_name() {
     let cases = [
-        (
-            r#""motion":{"kind":"continuous","speed_mm_s":1,"distance_mm":1}"#,
-            "/motion/kind",
-        ),
-        (
-            r#""load":{"kind":"pressure","mpa":1,"spring_n_per_mm":2}"#,
-            "/load/spring_n_per_mm",
-        ),
         (r#""output":{"fields":true}"#, "/output/fields"),
-        (
-            r#""output":{"snapshots_at_distance_mm":[1]}"#,
-            "/output/snapshots_at_distance_mm",
-        ),
         (r#""effects":{"plasticity":"on"}"#, "/effects/plasticity"),
     ];
     for (part, pointer) in cases {
@@ -226,4 +214,79 @@ fn the_plan_estimates_hertz() {
     let estimates = plan(&accepted(mccoll)).estimates;
     assert!((estimates["hertz_half_width_mm"] - 0.035_86).abs() < 1e-5);
     assert!((estimates["hertz_peak_pressure_mpa"] - 328.4).abs() < 0.1);
+}
+
+#[test]
+fn a_spring_counts_for_the_depth_that_its_load_counts_for() {
+    let spring = |load: &str| {
+        let text = format!(r#"{{"system":{{"kind":"zif"}},"load":{load}}}"#);
+        read(text.as_bytes())
+            .expect("a spring is allowed")
+            .scene
+            .spring_n_per_mm2
+    };
+    let of_all = spring(r#"{"kind":"force","n":0.5,"width_mm":0.25,"spring_n_per_mm":3}"#);
+    let of_a_mm = spring(r#"{"kind":"line_force","n_per_mm":2,"spring_n_per_mm":3}"#);
+    assert!((of_all - 12.0).abs() < 1e-12 && (of_a_mm - 3.0).abs() < 1e-12);
+}
+
+#[test]
+fn a_round_pin_must_fit_the_pin() {
+    let read = |radius: f64| {
+        let text = format!(r#"{{"system":{{"kind":"zif","pin_radius_mm":{radius}}}}}"#);
+        super::read(text.as_bytes())
+    };
+    let scene = read(2.0).expect("a round pin is allowed").scene;
+    assert_eq!(scene.receptacle.shape.crown_radius_mm, Some(2.0));
+    for radius in [-1.0, 0.3, 0.76] {
+        let Err(super::Refused::Faults(faults)) = read(radius) else {
+            panic!("{radius} does not fit")
+        };
+        assert!(
+            faults
+                .iter()
+                .all(|fault| fault.pointer == "/system/pin_radius_mm"),
+            "{faults:?}"
+        );
+    }
+}
+
+#[test]
+fn a_continuous_motion_is_cut_into_parts_of_its_distance() {
+    let spec = r#"{"system":{"kind":"cylinder_on_flat"},
+        "motion":{"kind":"continuous","distance_mm":500},
+        "output":{"snapshots_at_distance_mm":[5,500]}}"#;
+    let resolved = read(spec.as_bytes()).expect("a turning ring is allowed");
+    let Motion::Continuous { step_mm } = resolved.scene.motion else {
+        panic!("it runs on")
+    };
+    assert!((step_mm - 0.005).abs() < 1e-15);
+    assert_eq!(resolved.scene.output.snapshots_at_cycles, [1000, 100_000]);
+    assert_eq!(resolved.spec.cycles, None);
+    let again = serde_json::to_vec(&resolved.spec).expect("it is JSON");
+    assert_eq!(
+        read(&again).expect("it can be submitted again").scene,
+        resolved.scene
+    );
+}
+
+#[test]
+fn a_continuous_motion_refuses_what_belongs_to_a_reciprocating_one() {
+    let spec = r#"{"system":{"kind":"cylinder_on_flat"}, "cycles": 5,
+        "interface":{"wear":{"slider":{"law":"archard","k_over_h_per_mpa":1e-8}}},
+        "motion":{"kind":"continuous","period_s":1},
+        "output":{"snapshots_at_cycles":[1]}}"#;
+    let Err(super::Refused::Faults(faults)) = read(spec.as_bytes()) else {
+        panic!("it has faults")
+    };
+    let mut pointers: Vec<&str> = faults.iter().map(|fault| fault.pointer.as_str()).collect();
+    pointers.sort_unstable();
+    let expected = [
+        "/cycles",
+        "/interface/wear/slider",
+        "/motion/distance_mm",
+        "/motion/period_s",
+        "/output/snapshots_at_cycles",
+    ];
+    assert_eq!(pointers, expected);
 }

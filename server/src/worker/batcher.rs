@@ -140,6 +140,7 @@ mod tests {
             receptacle: SideRow::default(),
             slider: SideRow::default(),
             station_depth_mm: Vec::new(),
+            load_n_per_mm: 0.0,
             peak_pressure_mpa: 0.0,
             contact_half_width_mm: 0.0,
             dissipated_energy_mj_per_mm: 0.0,

@@ -14,6 +14,7 @@ use crate::clock::now_ms;
 use crate::queue::Move;
 use crate::solve::Line;
 use crate::store::{Batch, Claim, End, Held, Store, StoreError};
+use crate::translate;
 
 /// How often gathered lines are written and a cancel request is looked for.
 const TICK: Duration = Duration::from_millis(150);
@@ -42,10 +43,8 @@ pub(super) async fn supervise(
     stopping: &CancellationToken,
 ) -> Result<(), StoreError> {
     debug_assert!(RENEW * 3 < LEASE, "a lease survives two missed renewals");
-    let cycles = serde_json::from_str::<Spec>(&claim.spec)
-        .ok()
-        .and_then(|spec| spec.cycles)
-        .unwrap_or(0);
+    let cycles =
+        serde_json::from_str::<Spec>(&claim.spec).map_or(0, |spec| translate::cycles(&spec));
     let mut batcher = Batcher::new(cycles);
     let mut child = match Solving::start(program, &claim.spec).await {
         Ok(child) => child,

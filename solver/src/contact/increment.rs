@@ -3,7 +3,9 @@
 use super::mortar::{self, Coupling};
 use super::newton::{End, Iterate, Newton, Problem, slider_recession};
 use super::response::Response;
-use super::{ContactError, ContactState, GAP_TOLERANCE, MOST_ITERATIONS, Pair, Status, Surfaces};
+use super::{
+    ContactError, ContactState, GAP_TOLERANCE, MOST_ITERATIONS, Move, Pair, Status, Surfaces,
+};
 
 /// A node whose undeformed gap is smaller than this part of the indentation is watched: the free surface beside a
 /// contact sinks, so a node with a positive undeformed gap closes only if shear lifts it, by far less than this.
@@ -39,7 +41,7 @@ pub struct Increment<'a> {
     pub slider_path: &'a [f64],
     /// Energy dissipated by friction, N/mm mm.
     pub energy: f64,
-    /// |sum of vertical forces - load| / load.
+    /// |sum of vertical forces - load| over the load on the unworn contact.
     pub force_balance: f64,
     /// Largest gap of a closed node or penetration of an open one, over the indentation.
     pub complementarity: f64,
@@ -48,7 +50,7 @@ pub struct Increment<'a> {
 }
 
 impl Solver {
-    /// Moves the slider to `slider_x`, each slip standing for `cycles` equal ones; writes the new state to `next`.
+    /// Makes a move; writes the new state to `next`.
     ///
     /// # Errors
     /// [`ContactError`]; `next` is then of no use.
@@ -57,9 +59,10 @@ impl Solver {
         pair: &Pair<'_>,
         surfaces: &Surfaces<'_>,
         last: &ContactState,
-        (slider_x, cycles): (f64, f64),
+        to: Move,
         next: &mut ContactState,
     ) -> Result<Increment<'_>, ContactError> {
+        let slider_x = to.slider_x;
         let covered = mortar::covered(pair.operators, slider_x);
         if covered.0 == covered.1 {
             return Err(ContactError::NothingBelow {
@@ -69,12 +72,12 @@ impl Solver {
         lay_undeformed_gaps(pair, surfaces, slider_x, covered, &mut self.undeformed);
         let mut range = first_range(pair, last, slider_x, covered, &self.undeformed);
         for _ in 0..MOST_EXTENSIONS {
-            self.solve_range(pair, surfaces, last, (slider_x, cycles), range)?;
+            self.solve_range(pair, surfaces, last, to, range)?;
             let threshold = WATCHED * self.iterate.indentation - self.iterate.height;
             let needed = watched(&self.undeformed, covered.0, threshold);
             let wanted = (needed.0.min(range.0), needed.1.max(range.1));
             if wanted == range {
-                self.write(pair, slider_x, next);
+                self.write(pair, last, slider_x, next);
                 return Ok(self.report(pair, next));
             }
             range = widened(wanted, covered);
@@ -93,15 +96,20 @@ impl Solver {
         pair: &Pair<'_>,
         surfaces: &Surfaces<'_>,
         last: &ContactState,
-        (slider_x, cycles): (f64, f64),
+        to: Move,
         (first, end): (usize, usize),
     ) -> Result<(), ContactError> {
+        let (slider_x, cycles) = (to.slider_x, to.cycles);
         self.coupling
             .integrate(pair.operators, slider_x, first, end);
         self.response
             .gather(pair, &self.coupling, surfaces.slope, last);
         self.lay_gap(pair, surfaces);
         let interface = &pair.interface;
+        // Before the first load there is no height that the spring counts from.
+        let (spring, reference) = last
+            .reference_height
+            .map_or((0.0, 0.0), |height| (interface.spring, height));
         let problem = Problem {
             coupling: &self.coupling,
             response: &self.response,
@@ -110,12 +118,14 @@ impl Solver {
             slope: &surfaces.slope[first..end],
             slider_width: &pair.operators.slider.widths,
             friction: interface.friction,
-            load: interface.load,
+            load: interface.load - spring * reference,
+            spring,
             kappa: [
                 interface.receptacle_wear * cycles,
                 interface.slider_wear * cycles,
             ],
-            step: slider_x - last.slider_x,
+            travel: slider_x - last.slider_x,
+            step: slider_x - last.slider_x + to.run,
             last_height: last.height,
         };
         guess(&mut self.iterate, pair, last, &problem);
@@ -152,11 +162,18 @@ impl Solver {
         }
     }
 
-    fn write(&mut self, pair: &Pair<'_>, slider_x: f64, next: &mut ContactState) {
+    fn write(
+        &mut self,
+        pair: &Pair<'_>,
+        last: &ContactState,
+        slider_x: f64,
+        next: &mut ContactState,
+    ) {
         let (coupling, it) = (&self.coupling, &self.iterate);
         next.slider_x = slider_x;
         next.height = it.height;
         next.indentation = it.indentation;
+        next.reference_height = last.reference_height;
         next.status.fill(Status::Open);
         for values in [
             &mut next.pressure,
@@ -205,7 +222,7 @@ impl Solver {
             .map(|((d, (q, slip)), _)| d * (q * slip).abs())
             .sum();
         let vertical: f64 = next.receptacle_force.iter().skip(1).step_by(2).sum();
-        let load = pair.interface.load;
+        let load = next.load(&pair.interface);
         let peak = next.peak_pressure().max(f64::MIN_POSITIVE);
         let (mut complementarity, mut cone) = (0.0_f64, 0.0_f64);
         for (i, status) in it.status.iter().enumerate() {
@@ -223,7 +240,7 @@ impl Solver {
             slider_first: coupling.slider_range.0,
             slider_path: &self.recession,
             energy,
-            force_balance: (vertical - load).abs() / load,
+            force_balance: (vertical - load).abs() / pair.interface.load,
             complementarity: complementarity / it.indentation.max(f64::MIN_POSITIVE),
             friction_cone: cone / peak,
         }
@@ -317,7 +334,7 @@ fn guess(it: &mut Iterate, pair: &Pair<'_>, last: &ContactState, problem: &Probl
     }
     let active = last.active_range();
     for i in first..end {
-        let from = x[i] - problem.step;
+        let from = x[i] - problem.travel;
         let travelled = active.is_none_or(|(a, b)| from >= x[a] && from <= x[b - 1]);
         let near = x.partition_point(|&at| at < from).min(x.len() - 1);
         let was = last.status[near].direction();

@@ -4,7 +4,7 @@
 //! equations are, for each closed node, the vanishing gap
 //!   g_i = g0_i + v + N_i . (G F)_i + kappa_r e_i + (wear of the slider carried by the mortar)_i = 0,
 //! for each sticking node sigma_i = 0, for each slipping one q = mu p sign(sigma), and the vertical balance
-//! sum d_i (p_i - q_i s_i) = P. All terms are linear but e, which is linearised in p and sigma. Choosing the
+//! sum d_i (p_i - q_i s_i) = P + k_spring (v - v_0). All terms are linear but e, which is linearised in p and sigma. Choosing the
 //! status from the signs of the last iterate is the primal-dual form of the semi-smooth Newton method
 //! (Alart and Curnier 1991; Hueeber and Wohlmuth 2005); it needs no parameter.
 
@@ -26,10 +26,14 @@ pub(super) struct Problem<'a> {
     /// Projected widths of the slider's nodes, mm.
     pub(super) slider_width: &'a [f64],
     pub(super) friction: f64,
+    /// Vertical load at height 0, N/mm, and what it gains a mm of height.
     pub(super) load: f64,
+    pub(super) spring: f64,
     /// k times cycles, receptacle and slider, 1/MPa.
     pub(super) kappa: [f64; 2],
-    /// Imposed displacement of this increment, mm.
+    /// How far the slider travels over the receptacle in this increment, mm.
+    pub(super) travel: f64,
+    /// How far its surface is to slip: the travel and what it runs past besides, mm.
     pub(super) step: f64,
     pub(super) last_height: f64,
 }
@@ -156,6 +160,7 @@ impl Newton {
         self.add_wear(problem, it, None);
         self.write_column(order - 1);
         self.assemble_rhs(problem, it);
+        *self.jacobian.at(order - 1, order - 1) = -problem.spring;
         self.rhs[order - 1] = problem.load;
     }
 

@@ -6,8 +6,9 @@
 //! Nothing in the contact problem depends on time, so steps are equal in displacement whatever the wave. A step
 //! must stay a fraction of the contact's half-width, or the wear that it sweeps would leave ripples.
 
+use crate::history::Position;
 use crate::number::{count_at_least, real};
-use crate::scene::Accuracy;
+use crate::scene::{Accuracy, Motion};
 
 /// Largest step over the contact's half-width, and fewest steps a quarter of a cycle, by tolerance.
 fn rule(tolerance: f64) -> (f64, usize) {
@@ -21,17 +22,67 @@ fn rule(tolerance: f64) -> (f64, usize) {
 /// Most steps a quarter of a cycle: beyond, a cycle takes longer than anyone would wait.
 const MOST_STEPS: usize = 50_000;
 
-/// Displacements at which the increments of one cycle end, mm, a multiple of four: the leftmost place is after one
-/// half, the neutral one on the way to +x after three quarters.
-pub(super) fn targets(accuracy: &Accuracy, amplitude: f64, half_width: f64) -> Vec<f64> {
+/// One increment of a cycle.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Step {
+    /// Displacement of the slider at its end, mm.
+    pub(super) slider_x: f64,
+    /// How far the slider's surface runs past besides, mm.
+    pub(super) run: f64,
+    /// The position that it ends at, if it is a named one.
+    pub(super) at: Option<Position>,
+}
+
+/// The increments of one cycle.
+pub(super) fn steps(motion: Motion, accuracy: &Accuracy, half_width: f64) -> Vec<Step> {
+    match motion {
+        Motion::Continuous { step_mm } => {
+            vec![Step {
+                slider_x: 0.0,
+                run: step_mm,
+                at: Some(Position::Neutral),
+            }]
+        }
+        Motion::Reciprocating { amplitude_mm, .. } => there_and_back(
+            amplitude_mm,
+            steps_per_quarter(accuracy, amplitude_mm, half_width),
+        ),
+    }
+}
+
+/// The steps that lead from the neutral position to where cycles begin.
+pub(super) fn set_out(steps: &[Step]) -> &[Step] {
+    let neutral = steps
+        .iter()
+        .rposition(|step| step.at == Some(Position::Neutral));
+    match neutral {
+        Some(last) if last + 1 < steps.len() => &steps[last + 1..],
+        _ => steps,
+    }
+}
+
+fn steps_per_quarter(accuracy: &Accuracy, amplitude: f64, half_width: f64) -> usize {
     let (fraction, fewest) = rule(accuracy.tolerance);
-    let quarter = match accuracy.increments_per_cycle {
+    match accuracy.increments_per_cycle {
         Some(n) => usize::try_from(n).unwrap_or(MOST_STEPS).div_ceil(4),
         None => count_at_least(amplitude / (fraction * half_width.max(1e-12))).max(fewest),
     }
-    .clamp(1, MOST_STEPS);
+    .clamp(1, MOST_STEPS)
+}
+
+/// +A -> -A -> +A.
+fn there_and_back(amplitude: f64, quarter: usize) -> Vec<Step> {
     (1..=4 * quarter)
-        .map(|i| amplitude * (real(i.abs_diff(2 * quarter)) / real(quarter) - 1.0))
+        .map(|i| Step {
+            slider_x: amplitude * (real(i.abs_diff(2 * quarter)) / real(quarter) - 1.0),
+            run: 0.0,
+            at: match i {
+                i if i == 2 * quarter => Some(Position::Leftmost),
+                i if i == 3 * quarter => Some(Position::Neutral),
+                i if i == 4 * quarter => Some(Position::Rightmost),
+                _ => None,
+            },
+        })
         .collect()
 }
 
@@ -46,10 +97,24 @@ mod tests {
         cycle_jump: None,
     };
 
+    fn places(steps: &[Step]) -> Vec<f64> {
+        steps.iter().map(|step| step.slider_x).collect()
+    }
+
     #[test]
     fn a_cycle_goes_from_turning_point_to_turning_point() {
-        let targets = targets(&ACCURACY, 2.0, 0.1);
-        assert_eq!(targets, vec![1.0, 0.0, -1.0, -2.0, -1.0, 0.0, 1.0, 2.0]);
+        let motion = Motion::Reciprocating {
+            amplitude_mm: 2.0,
+            period_s: 1.0,
+        };
+        let steps = steps(motion, &ACCURACY, 0.1);
+        assert_eq!(
+            places(&steps),
+            vec![1.0, 0.0, -1.0, -2.0, -1.0, 0.0, 1.0, 2.0]
+        );
+        assert_eq!(steps[3].at, Some(Position::Leftmost));
+        assert_eq!(steps[5].at, Some(Position::Neutral));
+        assert_eq!(places(set_out(&steps)), vec![1.0, 2.0]);
     }
 
     #[test]
@@ -58,12 +123,23 @@ mod tests {
             increments_per_cycle: None,
             ..ACCURACY
         };
-        let targets = targets(&accuracy, 2.0, 0.1);
+        let motion = Motion::Reciprocating {
+            amplitude_mm: 2.0,
+            period_s: 1.0,
+        };
+        let places = places(&steps(motion, &accuracy, 0.1));
         assert!(
-            targets
+            places
                 .windows(2)
                 .all(|w| (w[1] - w[0]).abs() <= 0.05 + 1e-12)
         );
-        assert!(targets.len().is_multiple_of(4));
+        assert!(places.len().is_multiple_of(4));
+    }
+
+    #[test]
+    fn a_continuous_motion_stays_where_it_is() {
+        let steps = steps(Motion::Continuous { step_mm: 0.3 }, &ACCURACY, 0.1);
+        assert_eq!((steps.len(), places(&steps)), (1, vec![0.0]));
+        assert_eq!(set_out(&steps), steps);
     }
 }

@@ -14,7 +14,8 @@ const SCAR_EDGE: f64 = 1e-3;
 pub fn report(scene: &Scene, model: &Model, state: &CycleState) -> CycleReport {
     let x = model.receptacle.contact_x();
     let interface = &model.interface;
-    let ideal = |k: f64| (k > 0.0).then_some(k * interface.load * state.sliding_distance);
+    let has_identity = |k: f64| k > 0.0 && interface.spring <= 0.0;
+    let ideal = |k: f64| has_identity(k).then_some(k * interface.load * state.sliding_distance);
     let side = |x: &[f64], widths: &[f64], depth: &[f64], k: f64| SideReport {
         max_depth_mm: depth.iter().fold(0.0, |m: f64, d| m.max(*d)),
         worn_area_mm2: widths.iter().zip(depth).map(|(w, d)| w * d).sum(),
@@ -45,6 +46,7 @@ pub fn report(scene: &Scene, model: &Model, state: &CycleState) -> CycleReport {
             .iter()
             .map(|&station| interpolate(x, &state.receptacle_depth, station))
             .collect(),
+        load_n_per_mm: state.neutral.load,
         peak_pressure_mpa: state.neutral.peak_pressure,
         contact_half_width_mm: state.neutral.half_width,
         dissipated_energy_mj_per_mm: state.energy,

@@ -8,6 +8,11 @@
 pub enum Profile {
     /// y = 0.
     Flat,
+    /// Upper arc of a circle whose highest point is the origin: y = sqrt(R^2 - x^2) - R.
+    Crown {
+        /// Radius R, mm.
+        radius: f64,
+    },
     /// Lower arc of a circle whose lowest point is the origin: y = R - sqrt(R^2 - x^2).
     Arc {
         /// Radius R, mm.
@@ -20,10 +25,25 @@ impl Profile {
     pub fn height(self, x: f64) -> f64 {
         match self {
             Self::Flat => 0.0,
-            // x^2 / (R + sqrt(R^2 - x^2)) is the same without cancellation near x = 0.
-            Self::Arc { radius } => x * x / (radius + (radius * radius - x * x).max(0.0).sqrt()),
+            Self::Arc { radius } => sagitta(radius, x),
+            Self::Crown { radius } => -sagitta(radius, x),
         }
     }
+
+    /// Slope dy/dx at x; finite inside of the rim.
+    pub fn slope(self, x: f64) -> f64 {
+        let arc = |radius: f64| x / (radius * radius - x * x).max(f64::MIN_POSITIVE).sqrt();
+        match self {
+            Self::Flat => 0.0,
+            Self::Arc { radius } => arc(radius),
+            Self::Crown { radius } => -arc(radius),
+        }
+    }
+}
+
+/// R - sqrt(R^2 - x^2), written without cancellation near x = 0.
+fn sagitta(radius: f64, x: f64) -> f64 {
+    x * x / (radius + (radius * radius - x * x).max(0.0).sqrt())
 }
 
 #[cfg(test)]
@@ -37,5 +57,20 @@ mod tests {
         let x = 1e-6;
         assert!((arc.height(x) / (x * x / 12.0) - 1.0).abs() < 1e-12);
         assert!((arc.height(6.0) - 6.0).abs() < 1e-14);
+    }
+
+    #[test]
+    fn slopes_are_the_derivatives_of_heights() {
+        for profile in [
+            Profile::Flat,
+            Profile::Arc { radius: 2.0 },
+            Profile::Crown { radius: 3.0 },
+        ] {
+            for x in [-1.5, 0.0, 0.3, 1.7] {
+                let step = 1e-6;
+                let central = (profile.height(x + step) - profile.height(x - step)) / (2.0 * step);
+                assert!((profile.slope(x) - central).abs() < 1e-8, "{profile:?} {x}");
+            }
+        }
     }
 }

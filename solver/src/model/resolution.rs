@@ -1,6 +1,6 @@
 //! Which lengths the contact has, and from them the spacing of the meshes.
 //!
-//! * Hertz half-width a = sqrt(4 P R / (pi E*)) (Johnson 1985, eq. 4.43);
+//! * Hertz half-width a = sqrt(4 P R / (pi E*)) with 1/R = 1/R_slider + 1/R_crown (Johnson 1985, eq. 4.43);
 //! * front of one pass, where a rigid round slider wears the floor it runs over: the swept section k P equals
 //!   b^2 / (2 R), so b = sqrt(2 R k P);
 //! * scar of a short stroke: the circular segment that was worn off, b = (3 R W / 2)^(1/3) with the worn area
@@ -10,7 +10,7 @@
 use crate::material::contact_modulus;
 use crate::mesh::grading::Spacing;
 use crate::number::real_cycles;
-use crate::scene::{Motion, Scene};
+use crate::scene::Scene;
 use crate::wear;
 use std::f64::consts::PI;
 
@@ -63,17 +63,16 @@ fn rule(tolerance: f64) -> Rule {
 
 /// Chooses the spacing of a scene's meshes.
 pub fn choose(scene: &Scene) -> Sizes {
-    let radius = scene.slider.shape.radius_mm;
+    let slider_radius = scene.slider.shape.radius_mm;
+    let crown = scene.receptacle.shape.crown_radius_mm;
+    let radius = 1.0 / (1.0 / slider_radius + crown.map_or(0.0, |crown| 1.0 / crown));
     let load = scene.load_n_per_mm;
     let modulus = contact_modulus(scene.slider.elastic, scene.receptacle.elastic);
     let hertz = (4.0 * load * radius / (PI * modulus)).sqrt();
-    let Motion::Reciprocating {
-        amplitude_mm: amplitude,
-        ..
-    } = scene.motion;
+    let amplitude = scene.motion.amplitude_mm();
     let k_receptacle = wear::coefficient(scene.receptacle.wear);
     let k_slider = wear::coefficient(scene.slider.wear);
-    let sliding = 4.0 * amplitude * real_cycles(scene.cycles);
+    let sliding = scene.motion.distance_per_cycle_mm() * real_cycles(scene.cycles);
     let worn = (k_receptacle + k_slider) * load * sliding;
     let front = (2.0 * radius * (k_receptacle + k_slider) * load).sqrt();
     let narrowest = hertz.max(front);
@@ -106,13 +105,15 @@ pub fn choose(scene: &Scene) -> Sizes {
         largest: 0.1 * half,
     };
     let half_block = 0.5 * scene.receptacle.shape.length_mm;
-    let half_arc = radius * (scene.slider.shape.half_width_mm / radius).min(1.0).asin();
+    let arc = |radius: f64, half: f64| radius * (half / radius).min(1.0).asin();
+    let half_arc = arc(slider_radius, scene.slider.shape.half_width_mm);
+    let half_top = crown.map_or(half_block, |crown| arc(crown, half_block));
     Sizes {
         hertz_half_width: hertz,
         final_half_width: last,
         contact_element: element.min(half_block),
         layer_growth: rule.layer_growth,
-        receptacle: spacing(amplitude, half_block),
+        receptacle: spacing(amplitude, half_top),
         slider: spacing(0.0, half_arc),
     }
 }

@@ -22,6 +22,7 @@ pub(crate) fn fuzz_button() -> Scene {
             shape: BlockShape {
                 length_mm: 0.08467,
                 height_mm: 0.0635,
+                crown_radius_mm: None,
             },
             elastic: copper,
             wear: Some(WearLaw::Archard {
@@ -30,6 +31,7 @@ pub(crate) fn fuzz_button() -> Scene {
         },
         friction: Friction::Coulomb { coefficient: 1.21 },
         load_n_per_mm: 0.508,
+        spring_n_per_mm2: 0.0,
         drive: Drive::Handle,
         motion: Motion::Reciprocating {
             amplitude_mm: 0.033_868,
