@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use api::results::{CycleRow, Snapshot, Summary};
 use api::spec::Spec;
 
+use crate::solve::FieldsFile;
 use crate::translate::csv::{self, CsvError};
 use crate::translate::history;
 
@@ -19,6 +20,8 @@ pub struct Results<'a> {
     pub rows: &'a [CycleRow],
     /// The snapshots.
     pub snapshots: &'a [Snapshot],
+    /// Fields inside the bodies, as files.
+    pub fields: &'a [FieldsFile],
 }
 
 /// Why a file was not written.
@@ -83,6 +86,9 @@ pub fn write(folder: &Path, results: &Results<'_>) -> Result<(), FilesError> {
             &format!("loop-{cycle}.csv"),
             &csv::friction_loop(friction_loop)?,
         )?;
+    }
+    for fields in results.fields {
+        file(&fields.name, &fields.bytes)?;
     }
     Ok(())
 }

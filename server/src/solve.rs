@@ -6,10 +6,11 @@ use api::job::{Outcome, Phase};
 use api::results::{CycleRow, Snapshot, Summary};
 use serde::{Deserialize, Serialize};
 use solver::SolveError;
+use solver::history::PlacedFields;
 use solver::observer::{Event, Flow, Observer};
 use solver::scene::Scene;
 
-use crate::translate::history;
+use crate::translate::{history, vtu};
 use cost::Stopwatch;
 
 /// One line of a solving process, in order; the last one is `Summary` or `Failed`.
@@ -22,10 +23,21 @@ pub enum Line {
     Cycle(CycleRow),
     /// A requested snapshot.
     Snapshot(Box<Snapshot>),
+    /// Fields inside the bodies at one position of a snapshot.
+    Fields(FieldsFile),
     /// The run ended with a result.
     Summary(Box<Summary>),
     /// The run failed; the same input would fail again.
     Failed(Failure),
+}
+
+/// Fields as a file.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct FieldsFile {
+    /// Its name.
+    pub name: String,
+    /// Its content, VTU.
+    pub bytes: Vec<u8>,
 }
 
 /// A solver's own failure.
@@ -65,6 +77,19 @@ struct Recorder<'a> {
     watch: Stopwatch,
 }
 
+impl Recorder<'_> {
+    fn fields(&mut self, cycle: u64, fields: &PlacedFields) -> Flow {
+        let name = vtu::file_name(cycle, fields.position);
+        match vtu::bytes(fields) {
+            Ok(bytes) => (self.on)(Line::Fields(FieldsFile { name, bytes })),
+            Err(error) => {
+                tracing::error!(%error, name, "fields were left out");
+                Flow::Continue
+            }
+        }
+    }
+}
+
 impl Observer for Recorder<'_> {
     fn on(&mut self, event: Event<'_>) -> Flow {
         let line = match event {
@@ -74,7 +99,14 @@ impl Observer for Recorder<'_> {
                 Line::Phase(phase)
             }
             Event::Cycle(report) => Line::Cycle(history::row(report)),
-            Event::Snapshot(snapshot) => Line::Snapshot(Box::new(history::snapshot(snapshot))),
+            Event::Snapshot(snapshot) => {
+                for fields in &snapshot.fields {
+                    if self.fields(snapshot.cycle, fields) == Flow::Stop {
+                        return Flow::Stop;
+                    }
+                }
+                Line::Snapshot(Box::new(history::snapshot(snapshot)))
+            }
         };
         (self.on)(line)
     }

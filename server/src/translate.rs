@@ -16,6 +16,7 @@ mod output;
 mod plan;
 mod preset;
 mod settings;
+pub mod vtu;
 
 use api::problem::Fault;
 use api::spec::{Broken, Spec, SystemKind};

@@ -14,7 +14,7 @@ mod record;
 
 use crate::condensation::{BodyOperators, Operators};
 use crate::contact::{ContactError, ContactState, Move, Pair, Solver, Surfaces};
-use crate::history::{Checks, FrictionLoop, Position, TractionField};
+use crate::history::{Checks, FrictionLoop, Position};
 use crate::model::Model;
 use crate::number::{real, real_cycles};
 use crate::scene::Scene;
@@ -129,8 +129,8 @@ impl Neutral {
 pub struct Sweep {
     /// Friction force over the imposed displacement.
     pub friction_loop: FrictionLoop,
-    /// Tractions at the rightmost, leftmost and neutral position.
-    pub positions: Vec<TractionField>,
+    /// Contact at the leftmost, neutral and rightmost position.
+    pub contacts: Vec<(Position, ContactState)>,
 }
 
 /// Integrates cycles of one scene on one set of operators.
@@ -183,10 +183,10 @@ impl<'a> Integrator<'a> {
         state.contact.reference_height = Some(state.contact.height);
         state.mean_half_width = state.contact.half_width(x);
         state.neutral = Neutral::of(&state.contact, &self.pair);
-        let positions = vec![record::tractions(Position::Neutral, x, &state.contact)];
+        let contacts = vec![(Position::Neutral, state.contact.clone())];
         Ok(Sweep {
             friction_loop: FrictionLoop::default(),
-            positions,
+            contacts,
         })
     }
 
@@ -332,10 +332,7 @@ impl<'a> Integrator<'a> {
             .tangential_force_n_per_mm
             .push(contact.tangential_force());
         let Some(position) = at else { return };
-        let x = &self.pair.operators.receptacle.x;
-        sweep
-            .positions
-            .push(record::tractions(position, x, contact));
+        sweep.contacts.push((position, contact.clone()));
         if position == Position::Neutral {
             state.neutral = Neutral::of(contact, &self.pair);
         }

@@ -3,11 +3,16 @@
 //! Stress is evaluated at the corners of every element and averaged over the elements of a node, by area. In plane
 //! strain sigma_zz = lambda (eps_xx + eps_yy).
 
-use crate::condensation::Interior;
+use crate::ale;
+use crate::condensation::{Condensed, Interior};
+use crate::contact::ContactState;
+use crate::cycle::CycleState;
 use crate::element::{Element, Quad4, Tri3, physical_gradient};
+use crate::history::{PlacedFields, Position};
 use crate::material::Lame;
 use crate::mesh::columns::Cell;
-use crate::model::BodyModel;
+use crate::mesh::{ColumnMesh, MeshError};
+use crate::model::{BodyModel, Model};
 
 /// Fields of one body.
 #[derive(Debug, Clone, PartialEq)]
@@ -20,6 +25,8 @@ pub struct BodyFields {
     pub displacement_mm: Vec<[f64; 2]>,
     /// Stress at the nodes.
     pub stress: Vec<Stress>,
+    /// Smallest determinant of the Jacobian over its mean, for every element; empty until the body is placed.
+    pub quality: Vec<f64>,
 }
 
 /// A stress in plane strain, MPa.
@@ -53,6 +60,60 @@ impl Stress {
     }
 }
 
+/// Fields of both bodies in the states of contact that a cycle recorded, the meshes at the present worn surfaces.
+///
+/// # Errors
+/// [`MeshError::Inverted`] if the present surfaces would invert an element.
+pub fn placed(
+    model: &Model,
+    condensed: &Condensed,
+    state: &CycleState,
+    contacts: &[(Position, ContactState)],
+) -> Result<Vec<PlacedFields>, MeshError> {
+    let worn = ale::relocate(model, state)?;
+    let quality = [
+        worn.slider.mesh.scaled_jacobians()?,
+        worn.receptacle.mesh.scaled_jacobians()?,
+    ];
+    let place = |fields: &mut BodyFields, mesh: &ColumnMesh, quality: &[f64], by: [f64; 2]| {
+        fields.nodes = mesh
+            .coordinates()
+            .iter()
+            .map(|node| [node[0] + by[0], node[1] + by[1]])
+            .collect();
+        fields.quality = quality.to_vec();
+    };
+    let at = |(position, contact): &(Position, ContactState)| {
+        let load = contact.load(&model.interface);
+        let reaction: Vec<f64> = contact.receptacle_force.iter().map(|f| -f).collect();
+        let mut slider = recover(
+            &model.slider,
+            &condensed.slider,
+            &contact.slider_force,
+            load,
+        );
+        let mut receptacle = recover(&model.receptacle, &condensed.receptacle, &reaction, 0.0);
+        place(
+            &mut slider,
+            &worn.slider.mesh,
+            &quality[0],
+            [contact.slider_x, contact.height],
+        );
+        place(
+            &mut receptacle,
+            &worn.receptacle.mesh,
+            &quality[1],
+            [0.0; 2],
+        );
+        PlacedFields {
+            position: *position,
+            slider,
+            receptacle,
+        }
+    };
+    Ok(contacts.iter().map(at).collect())
+}
+
 /// Recovers the fields of a body under forces on its contact nodes (x, y for each, N/mm) and its far-face load (N/mm).
 pub fn recover(
     model: &BodyModel,
@@ -84,6 +145,7 @@ pub fn recover(
         cells,
         displacement_mm,
         stress,
+        quality: Vec::new(),
     }
 }
 

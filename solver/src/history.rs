@@ -1,5 +1,7 @@
 //! Histories: what a run leaves behind, append only.
 
+use crate::fields::BodyFields;
+
 /// State after a computed cycle; cycle 0 is the unworn, loaded state.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CycleReport {
@@ -54,6 +56,19 @@ pub struct Snapshot {
     pub positions: Vec<TractionField>,
     /// Friction force over the imposed displacement of the cycle.
     pub friction_loop: FrictionLoop,
+    /// Fields inside the bodies at the same positions, if the scene asks for them.
+    pub fields: Vec<PlacedFields>,
+}
+
+/// Fields of both bodies at one position of the slider.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PlacedFields {
+    /// Where in the cycle.
+    pub position: Position,
+    /// The slider's, its nodes where they are then.
+    pub slider: BodyFields,
+    /// The receptacle's.
+    pub receptacle: BodyFields,
 }
 
 /// Worn depth along a surface.

@@ -2,9 +2,10 @@
 
 use crate::SolveError;
 use crate::ale;
-use crate::condensation::{self, Operators};
+use crate::condensation::{self, Condensed};
 use crate::cycle::{self, CycleState, Integrator, Sweep};
-use crate::history::{CycleReport, Initial, Outcome, Resolution, Summary};
+use crate::fields;
+use crate::history::{CycleReport, Initial, Outcome, Resolution, Snapshot, Summary};
 use crate::model::{self, Model};
 use crate::number::count_at_least;
 use crate::observer::{Event, Flow, Observer, Phase};
@@ -20,11 +21,11 @@ pub fn solve(scene: &Scene, observer: &mut dyn Observer) -> Result<Summary, Solv
     observer.on(Event::Phase(Phase::Condense));
     let mut condensed = condensation::condense(&model, None)?;
     let mut state = CycleState::start(&condensed.operators);
-    let initial = load(scene, &model, &condensed.operators, &mut state, observer)?;
+    let initial = load(scene, &model, &condensed, &mut state, observer)?;
     let mut relocations = 0;
     loop {
         observer.on(Event::Phase(Phase::Cycles));
-        let end = integrate(scene, &model, &condensed.operators, &mut state, observer)?;
+        let end = integrate(scene, &model, &condensed, &mut state, observer)?;
         if let Some(outcome) = end {
             return Ok(summary(
                 scene,
@@ -47,15 +48,17 @@ pub fn solve(scene: &Scene, observer: &mut dyn Observer) -> Result<Summary, Solv
 fn load(
     scene: &Scene,
     model: &Model,
-    operators: &Operators,
+    condensed: &Condensed,
     state: &mut CycleState,
     observer: &mut dyn Observer,
 ) -> Result<Initial, SolveError> {
-    let mut integrator = Integrator::new(scene, model, operators);
+    let mut integrator = Integrator::new(scene, model, &condensed.operators);
     let sweep = integrator.settle(state)?;
     let report = cycle::report(scene, model, state);
     observer.on(Event::Cycle(&report));
-    observer.on(Event::Snapshot(&cycle::snapshot(model, state, sweep)));
+    observer.on(Event::Snapshot(&snapshot(
+        scene, model, condensed, state, sweep,
+    )?));
     integrator.set_out(state)?;
     Ok(Initial {
         peak_pressure_mpa: report.peak_pressure_mpa,
@@ -67,24 +70,20 @@ fn load(
 fn integrate(
     scene: &Scene,
     model: &Model,
-    operators: &Operators,
+    condensed: &Condensed,
     state: &mut CycleState,
     observer: &mut dyn Observer,
 ) -> Result<Option<Outcome>, SolveError> {
-    let mut integrator = Integrator::new(scene, model, operators);
+    let mut integrator = Integrator::new(scene, model, &condensed.operators);
     while state.cycle < scene.cycles {
         let sweep = integrator.sweep(state, next_stop(scene, model, state))?;
         let report = cycle::report(scene, model, state);
         let ended = end_of(scene, model, state, &report);
-        let flow = tell(
-            scene,
-            model,
-            state,
-            &report,
-            sweep,
-            ended.is_some(),
-            observer,
-        );
+        let flow = observer.on(Event::Cycle(&report));
+        if ended.is_some() || scene.output.snapshots_at_cycles.contains(&state.cycle) {
+            let snapshot = snapshot(scene, model, condensed, state, sweep)?;
+            observer.on(Event::Snapshot(&snapshot));
+        }
         if ended.is_some() {
             return Ok(ended);
         }
@@ -142,20 +141,19 @@ fn end_of(
     }
 }
 
-fn tell(
+fn snapshot(
     scene: &Scene,
     model: &Model,
+    condensed: &Condensed,
     state: &CycleState,
-    report: &CycleReport,
     sweep: Sweep,
-    last: bool,
-    observer: &mut dyn Observer,
-) -> Flow {
-    let flow = observer.on(Event::Cycle(report));
-    if last || scene.output.snapshots_at_cycles.contains(&state.cycle) {
-        observer.on(Event::Snapshot(&cycle::snapshot(model, state, sweep)));
-    }
-    flow
+) -> Result<Snapshot, SolveError> {
+    let fields = if scene.output.fields {
+        fields::placed(model, condensed, state, &sweep.contacts)?
+    } else {
+        Vec::new()
+    };
+    Ok(cycle::snapshot(model, state, sweep, fields))
 }
 
 fn summary(

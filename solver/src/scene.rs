@@ -163,6 +163,8 @@ pub struct Output {
     pub stations_mm: Vec<f64>,
     /// Cycles at which profile, pressure and loop are kept, ascending.
     pub snapshots_at_cycles: Vec<u64>,
+    /// Whether snapshots hold displacement and stress inside the bodies.
+    pub fields: bool,
 }
 
 /// Conditions that end a run.

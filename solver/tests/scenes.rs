@@ -62,6 +62,7 @@ pub(crate) fn mccoll() -> Scene {
         output: Output {
             stations_mm: vec![0.0, 0.05, 0.1, 0.2],
             snapshots_at_cycles: vec![1_000, 5_000, 10_000, 18_000],
+            fields: false,
         },
         stop: Vec::new(),
     }
@@ -103,6 +104,7 @@ pub(crate) fn fuzz_button() -> Scene {
         output: Output {
             stations_mm: vec![-0.04, -0.02, -0.008, 0.0, 0.008, 0.02, 0.04],
             snapshots_at_cycles: vec![1, 150, 240, 360, 480, 585, 800, 1_600, 2_000],
+            fields: false,
         },
         stop: Vec::new(),
     }

@@ -3,6 +3,7 @@
 mod architecture;
 mod cancel_running_job;
 mod command_line;
+mod fields_open_in_vtk;
 mod main_job;
 mod refused_specifications;
 mod replayed_events;

@@ -10,7 +10,7 @@ use solver::observer::Flow;
 
 use super::terminal::{bar, failed, refused, say, tell};
 use crate::files::{self, Results};
-use crate::solve::{self, Failure, Line};
+use crate::solve::{self, Failure, FieldsFile, Line};
 use crate::translate::{self, Resolved};
 
 pub(super) fn run(spec: &Path, out: Option<&Path>) -> ExitCode {
@@ -30,6 +30,7 @@ pub(super) fn run(spec: &Path, out: Option<&Path>) -> ExitCode {
             summary: solved.as_ref().ok(),
             rows: &recorded.rows,
             snapshots: &recorded.snapshots,
+            fields: &recorded.fields,
         };
         if let Err(error) = files::write(folder, &results) {
             return failed(error);
@@ -45,6 +46,7 @@ pub(super) fn run(spec: &Path, out: Option<&Path>) -> ExitCode {
 struct Recorded {
     rows: Vec<CycleRow>,
     snapshots: Vec<Snapshot>,
+    fields: Vec<FieldsFile>,
 }
 
 fn solve(resolved: &Resolved, recorded: &mut Recorded) -> Result<Summary, Failure> {
@@ -65,6 +67,7 @@ fn take(line: Line, recorded: &mut Recorded, bar: &ProgressBar) {
             recorded.rows.push(row);
         }
         Line::Snapshot(snapshot) => recorded.snapshots.push(*snapshot),
+        Line::Fields(file) => recorded.fields.push(file),
         Line::Summary(_) | Line::Failed(_) => {}
     }
 }

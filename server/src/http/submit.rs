@@ -76,6 +76,11 @@ pub(super) async fn submit(
     JsonBody(body): JsonBody,
 ) -> Result<Response, SubmitError> {
     let resolved = translate::read(&body)?;
+    if resolved.scene.output.fields {
+        let detail =
+            "fields are written by `fretwear solve --out` only; the service does not keep them yet";
+        return Err(Refused::Faults(vec![Fault::new("/output/fields", detail)]).into());
+    }
     let plan: Plan = translate::plan(&resolved);
     let Resolved { spec, .. } = resolved;
     let id = app.store.submit(&NewJob { spec, plan }, now_ms()).await?;

@@ -25,12 +25,7 @@ pub(super) fn resolve(
     cycles: u64,
     ledger: &mut Ledger,
 ) -> (Output, scene::Output) {
-    if given.fields == Some(true) {
-        ledger.fault(
-            "/output/fields",
-            "fields in the bodies are not available yet",
-        );
-    }
+    let fields = ledger.take("/output/fields", given.fields, false, Provenance::Assumed);
     let half = 0.5 * shapes.block.length_mm;
     stations(given, half, ledger);
     let stations_mm = ledger.take(
@@ -43,7 +38,7 @@ pub(super) fn resolve(
         stations_mm: Some(stations_mm.clone()),
         snapshots_at_cycles: None,
         snapshots_at_distance_mm: None,
-        fields: Some(false),
+        fields: Some(fields),
     };
     let mut ascending = match imposed.distance_mm() {
         None => {
@@ -63,6 +58,7 @@ pub(super) fn resolve(
     let recorded = scene::Output {
         stations_mm,
         snapshots_at_cycles: ascending,
+        fields,
     };
     (filled, recorded)
 }

@@ -60,7 +60,7 @@ impl Batcher {
                 self.newest = Some(row);
             }
             Line::Snapshot(snapshot) => self.batch.snapshots.push(*snapshot),
-            Line::Summary(_) | Line::Failed(_) => {}
+            Line::Fields(_) | Line::Summary(_) | Line::Failed(_) => {}
         }
     }
 

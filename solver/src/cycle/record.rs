@@ -2,7 +2,9 @@
 
 use super::{CycleState, Sweep};
 use crate::contact::ContactState;
-use crate::history::{CycleReport, DepthProfile, Position, SideReport, Snapshot, TractionField};
+use crate::history::{
+    CycleReport, DepthProfile, PlacedFields, Position, SideReport, Snapshot, TractionField,
+};
 use crate::model::Model;
 use crate::scene::Scene;
 
@@ -53,23 +55,31 @@ pub fn report(scene: &Scene, model: &Model, state: &CycleState) -> CycleReport {
     }
 }
 
-/// The snapshot of the present state with what the last sweep recorded.
-pub fn snapshot(model: &Model, state: &CycleState, sweep: Sweep) -> Snapshot {
+/// The snapshot of the present state with what the last sweep recorded, and fields if there are any.
+pub fn snapshot(
+    model: &Model,
+    state: &CycleState,
+    sweep: Sweep,
+    fields: Vec<PlacedFields>,
+) -> Snapshot {
     let profile = |x: &[f64], depth: &[f64]| DepthProfile {
         x_mm: x.to_vec(),
         depth_mm: depth.to_vec(),
     };
+    let x = model.receptacle.contact_x();
+    let at = |(position, contact): &(Position, ContactState)| tractions(*position, x, contact);
     Snapshot {
         cycle: state.cycle,
-        receptacle: profile(model.receptacle.contact_x(), &state.receptacle_depth),
+        receptacle: profile(x, &state.receptacle_depth),
         slider: profile(model.slider.contact_x(), &state.slider_depth),
-        positions: sweep.positions,
+        positions: sweep.contacts.iter().map(at).collect(),
         friction_loop: sweep.friction_loop,
+        fields,
     }
 }
 
 /// Tractions of the present contact, with one unloaded node at either end.
-pub(super) fn tractions(position: Position, x: &[f64], contact: &ContactState) -> TractionField {
+fn tractions(position: Position, x: &[f64], contact: &ContactState) -> TractionField {
     let (first, end) = contact.active_range().unwrap_or((0, 0));
     let span = first.saturating_sub(1)..(end + 1).min(x.len());
     TractionField {

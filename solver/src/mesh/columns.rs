@@ -159,23 +159,7 @@ impl ColumnMesh {
     /// # Errors
     /// [`MeshError::Inverted`] where a Jacobian is not positive.
     pub fn quality(&self) -> Result<Quality, MeshError> {
-        let nodes = self.coordinates();
-        let mut worst = 1.0_f64;
-        for (element, cell) in self.cells().iter().enumerate() {
-            let scaled = match cell {
-                Cell::Quad(n) => scaled_jacobian::<Quad4, 4>(&n.map(|n| nodes[n])),
-                Cell::Tri(n) => scaled_jacobian::<Tri3, 3>(&n.map(|n| nodes[n])),
-            };
-            let corner = match cell {
-                Cell::Quad(n) => n[0],
-                Cell::Tri(n) => n[0],
-            };
-            let error = MeshError::Inverted {
-                element,
-                x_mm: nodes[corner][0],
-            };
-            worst = worst.min(scaled.ok_or(error)?);
-        }
+        let worst = self.scaled_jacobians()?.into_iter().fold(1.0, f64::min);
         let shortest = (0..self.spines())
             .filter(|&i| !self.is_tip(i))
             .fold(f64::INFINITY, |m, i| {
@@ -185,6 +169,25 @@ impl ColumnMesh {
             smallest_scaled_jacobian: worst,
             shortest_spine_mm: shortest,
         })
+    }
+
+    /// Smallest determinant of the Jacobian over its mean, for every element; 1 for parallelograms.
+    ///
+    /// # Errors
+    /// [`MeshError::Inverted`] where a Jacobian is not positive.
+    pub fn scaled_jacobians(&self) -> Result<Vec<f64>, MeshError> {
+        let nodes = self.coordinates();
+        let scaled = |(element, cell): (usize, &Cell)| {
+            let (scaled, corner) = match cell {
+                Cell::Quad(n) => (scaled_jacobian::<Quad4, 4>(&n.map(|n| nodes[n])), n[0]),
+                Cell::Tri(n) => (scaled_jacobian::<Tri3, 3>(&n.map(|n| nodes[n])), n[0]),
+            };
+            scaled.ok_or(MeshError::Inverted {
+                element,
+                x_mm: nodes[corner][0],
+            })
+        };
+        self.cells().iter().enumerate().map(scaled).collect()
     }
 }
 

@@ -47,6 +47,7 @@ pub(crate) fn fuzz_button() -> Scene {
         output: Output {
             stations_mm: vec![0.0],
             snapshots_at_cycles: vec![],
+            fields: false,
         },
         stop: vec![StopCondition::WornDepth(1.0)],
     }

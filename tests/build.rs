@@ -1,0 +1,26 @@
+//! Looks for the optional programs that some cases compare with; cases without theirs are visibly ignored.
+
+use std::process::Command;
+
+fn main() {
+    println!("cargo::rerun-if-changed=build.rs");
+    println!("cargo::rerun-if-env-changed=FRETWEAR_PYTHON");
+    println!("cargo::rerun-if-env-changed=PATH");
+    println!("cargo::rustc-check-cfg=cfg(has_vtk, has_ccx)");
+    let python = std::env::var("FRETWEAR_PYTHON").unwrap_or_else(|_| "python3".to_owned());
+    println!("cargo::rustc-env=FRETWEAR_PYTHON={python}");
+    if runs(Command::new(&python).args(["-c", "import vtkmodules.vtkIOXML"])) {
+        println!("cargo::rustc-cfg=has_vtk");
+    }
+    if runs(Command::new("ccx").arg("-v")) {
+        println!("cargo::rustc-cfg=has_ccx");
+    }
+}
+
+/// Whether a program is there and does not fail; `ccx -v` ends with a code of its own.
+fn runs(command: &mut Command) -> bool {
+    let program = command.get_program().to_string_lossy().into_owned();
+    command
+        .output()
+        .is_ok_and(|output| output.status.success() || program == "ccx")
+}
