@@ -2,6 +2,7 @@
 
 mod child;
 mod demo;
+mod export;
 mod plan;
 mod serve;
 mod solve;
@@ -44,6 +45,17 @@ enum Command {
         /// The specification, JSON.
         spec: PathBuf,
     },
+    /// Write the model as an input deck for another code to standard output.
+    Export {
+        /// The specification, JSON.
+        spec: PathBuf,
+        /// Which code: `inp` is read by Abaqus and CalculiX.
+        #[arg(long, value_enum, default_value = "inp")]
+        format: DeckFormat,
+        /// The cycle whose worn surfaces the model has; 0 is unworn.
+        #[arg(long, default_value_t = 0)]
+        cycle: u64,
+    },
     /// Start a service in a fresh folder, run the fuzz-button study through it and show its wear.
     Demo {
         /// End when the study has ended instead of serving on.
@@ -56,6 +68,13 @@ enum Command {
     /// Solve the specification on standard input, as a service's child process.
     #[command(hide = true)]
     SolveChild,
+}
+
+/// Formats of a deck.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+enum DeckFormat {
+    /// Abaqus and CalculiX.
+    Inp,
 }
 
 #[derive(Debug, clap::Args)]
@@ -90,6 +109,14 @@ pub fn main() -> ExitCode {
         Command::Plan { spec } => {
             log("warn");
             plan::run(&spec)
+        }
+        Command::Export {
+            spec,
+            format: DeckFormat::Inp,
+            cycle,
+        } => {
+            log("warn");
+            export::run(&spec, cycle)
         }
         Command::Demo { exit, listen } => {
             log("warn");

@@ -4,6 +4,7 @@
 //! every default filled in and its provenance named.
 
 pub mod csv;
+pub mod deck;
 mod dimensions;
 pub mod history;
 mod interface;

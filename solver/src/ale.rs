@@ -34,17 +34,21 @@ pub fn is_worn_through(model: &Model, state: &CycleState) -> bool {
 /// # Errors
 /// [`MeshError::Inverted`] if an element would be inverted.
 pub fn relocate(model: &Model, state: &CycleState) -> Result<Model, MeshError> {
+    worn_model(model, &state.receptacle_depth, &state.slider_depth)
+}
+
+/// The model with its meshes moved to surfaces worn by these depths at the contact nodes, mm.
+///
+/// # Errors
+/// [`MeshError::Inverted`] if an element would be inverted.
+pub fn worn_model(model: &Model, receptacle: &[f64], slider: &[f64]) -> Result<Model, MeshError> {
     let mut moved = model.clone();
-    moved.receptacle.mesh =
-        model
-            .receptacle
-            .mesh
-            .with_surface(worn(&model.receptacle, &state.receptacle_depth, -1.0));
-    moved.slider.mesh =
-        model
-            .slider
-            .mesh
-            .with_surface(worn(&model.slider, &state.slider_depth, 1.0));
+    let surface = worn(&model.receptacle, receptacle, -1.0);
+    moved.receptacle.mesh = model.receptacle.mesh.with_surface(surface);
+    moved.slider.mesh = model
+        .slider
+        .mesh
+        .with_surface(worn(&model.slider, slider, 1.0));
     moved.receptacle.mesh.quality()?;
     moved.slider.mesh.quality()?;
     Ok(moved)

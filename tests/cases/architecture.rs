@@ -7,7 +7,7 @@ const KNOWS: [(&str, &[&str]); 4] = [
     ("api", &[]),
     ("server", &["api", "solver"]),
     ("solver", &[]),
-    ("tests", &[]),
+    ("tests", &["server", "solver"]),
 ];
 
 /// Crates that the engine must not know, whoever brings them: async, JSON, SQL, clocks, logs.

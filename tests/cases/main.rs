@@ -1,6 +1,7 @@
 //! End-to-end cases: the real binary, real processes, real files.
 
 mod architecture;
+mod calculix_agrees;
 mod cancel_running_job;
 mod command_line;
 mod fields_open_in_vtk;

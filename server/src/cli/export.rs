@@ -1,0 +1,74 @@
+//! `fretwear export SPEC`: the model for other codes.
+
+use std::path::Path;
+use std::process::ExitCode;
+
+use solver::history::Snapshot;
+use solver::model::{self, Model};
+use solver::observer::{Event, Flow, Observer};
+use solver::scene::Scene;
+use solver::{SolveError, ale};
+
+use super::terminal::{failed, refused, say};
+use crate::translate::{self, deck};
+
+pub(super) fn run(spec: &Path, cycle: u64) -> ExitCode {
+    let bytes = match std::fs::read(spec) {
+        Ok(bytes) => bytes,
+        Err(cause) => return failed(format_args!("{}: {cause}", spec.display())),
+    };
+    let resolved = match translate::read(&bytes) {
+        Ok(resolved) => resolved,
+        Err(error) => return refused(&error),
+    };
+    let scene = resolved.scene;
+    if cycle > scene.cycles {
+        return failed(format_args!(
+            "cycle {cycle} exceeds the number of cycles, {}",
+            scene.cycles
+        ));
+    }
+    match worn(&scene, cycle) {
+        Ok(model) => {
+            say(deck::inp(&scene, &model).trim_end());
+            ExitCode::SUCCESS
+        }
+        Err(error) => failed(error),
+    }
+}
+
+/// The model at a cycle; the unworn one needs no solve.
+fn worn(scene: &Scene, cycle: u64) -> Result<Model, SolveError> {
+    let model = model::build(scene)?;
+    if cycle == 0 {
+        return Ok(model);
+    }
+    let mut short = Scene {
+        cycles: cycle,
+        ..scene.clone()
+    };
+    short.output.snapshots_at_cycles = vec![cycle];
+    short.output.fields = false;
+    let mut last = Last::default();
+    solver::run::solve(&short, &mut last)?;
+    match last.0 {
+        Some(snapshot) => {
+            let (receptacle, slider) = (&snapshot.receptacle.depth_mm, &snapshot.slider.depth_mm);
+            Ok(ale::worn_model(&model, receptacle, slider)?)
+        }
+        None => Ok(model),
+    }
+}
+
+/// Keeps the newest snapshot.
+#[derive(Default)]
+struct Last(Option<Snapshot>);
+
+impl Observer for Last {
+    fn on(&mut self, event: Event<'_>) -> Flow {
+        if let Event::Snapshot(snapshot) = event {
+            self.0 = Some(snapshot.clone());
+        }
+        Flow::Continue
+    }
+}

@@ -1,0 +1,245 @@
+//! The model as an input deck for Abaqus and CalculiX, so that a user can check the contact with another code.
+//!
+//! Plane strain CPE4 and CPE3, the receptacle's bottom held, the slider's top a rigid handle (`u_x` held, one common
+//! `u_y` by `*EQUATION`, the load on its middle node), surface-to-surface contact with Coulomb friction. The first step
+//! applies the load, the second moves the handle by the amplitude, where the scene has one. Units: mm, N, MPa, one mm
+//! of depth.
+
+use solver::material::Lame;
+use solver::mesh::columns::Cell;
+use solver::model::{BodyModel, Model};
+use solver::scene::{Elastic, Scene};
+
+/// Penalty stiffness over E / (size of a contact element): high enough for an overlap of 1 % of an indentation.
+const PENALTY: f64 = 50.0;
+/// Stick slope over the penalty stiffness.
+const STICK_SLOPE: f64 = 0.1;
+/// Numbers on a line.
+const LINE: usize = 8;
+
+/// The deck. `amplitude_mm` of 0 leaves the second step out.
+pub fn inp(scene: &Scene, model: &Model) -> String {
+    let mut deck = Deck::default();
+    deck.line("*HEADING");
+    deck.line("fretwear: mm, N, MPa; plane strain, one mm of depth");
+    let lowered = -first_gap(&model.slider, &model.receptacle);
+    let slider = deck.body("SLIDER", &model.slider, scene.slider.elastic, lowered);
+    let receptacle = deck.body(
+        "RECEPTACLE",
+        &model.receptacle,
+        scene.receptacle.elastic,
+        0.0,
+    );
+    deck.contact(scene, model);
+    deck.boundary(&model.slider, &slider, &receptacle);
+    deck.load_step(scene, &slider);
+    let amplitude = scene.motion.amplitude_mm();
+    if amplitude > 0.0 {
+        deck.motion_step(amplitude);
+    }
+    deck.text
+}
+
+/// Smallest vertical gap at the receptacle's contact nodes, mm: worn bodies have to be brought together.
+fn first_gap(slider: &BodyModel, receptacle: &BodyModel) -> f64 {
+    let (x, y) = (slider.mesh.x(), slider.mesh.surface_y());
+    let places = receptacle.mesh.x().iter().zip(receptacle.mesh.surface_y());
+    let under = places.filter(|(at, _)| **at >= x[0] && **at <= x[x.len() - 1]);
+    let gaps = under.map(|(&at, below)| {
+        let i = x.partition_point(|&x| x < at).clamp(1, x.len() - 1);
+        let t = (at - x[i - 1]) / (x[i] - x[i - 1]);
+        (1.0 - t) * y[i - 1] + t * y[i] - below
+    });
+    gaps.fold(f64::INFINITY, f64::min)
+}
+
+/// First node and first element of a body in the deck, and its handle.
+struct Part {
+    first_node: usize,
+    handle: usize,
+    far: Vec<usize>,
+}
+
+#[derive(Default)]
+struct Deck {
+    text: String,
+    nodes: usize,
+    elements: usize,
+}
+
+impl Deck {
+    fn line(&mut self, line: impl AsRef<str>) {
+        self.text.push_str(line.as_ref());
+        self.text.push('\n');
+    }
+
+    fn body(&mut self, name: &str, model: &BodyModel, elastic: Elastic, by: f64) -> Part {
+        debug_assert!(
+            model.lame == Lame::from(elastic),
+            "the model was built from the scene"
+        );
+        let first_node = self.nodes + 1;
+        self.line(format!("*NODE, NSET={name}"));
+        for node in model.mesh.coordinates() {
+            self.nodes += 1;
+            let line = format!("{}, {:.12e}, {:.12e}", self.nodes, node[0], node[1] + by);
+            self.line(line);
+        }
+        let first_element = self.elements + 1;
+        let cells = model.mesh.cells();
+        self.cells(name, &cells, first_node);
+        self.line(format!("*MATERIAL, NAME={name}"));
+        self.line("*ELASTIC");
+        self.line(format!(
+            "{:e}, {}",
+            elastic.youngs_modulus_mpa, elastic.poisson_ratio
+        ));
+        self.line(format!("*SOLID SECTION, ELSET={name}, MATERIAL={name}"));
+        self.line("1.");
+        self.surface(name, model, &cells, first_element);
+        let spines = model.mesh.spines();
+        let far: Vec<usize> = (0..spines)
+            .map(|i| first_node + model.mesh.far_node(i))
+            .collect();
+        let contact = model.contact.0..model.contact.1;
+        let near: Vec<usize> = contact
+            .map(|i| first_node + model.mesh.surface_node(i))
+            .collect();
+        self.set(&format!("{name}_FAR"), &far);
+        self.set(&format!("{name}_NEAR"), &near);
+        Part {
+            first_node,
+            handle: far[spines / 2],
+            far,
+        }
+    }
+
+    fn cells(&mut self, name: &str, cells: &[Cell], first_node: usize) {
+        for (kind, corners) in [("CPE4", 4), ("CPE3", 3)] {
+            let of_kind = |cell: &&Cell| corners == nodes_of(cell).len();
+            if cells.iter().any(|cell| of_kind(&cell)) {
+                self.line(format!("*ELEMENT, TYPE={kind}, ELSET={name}"));
+            }
+            // Numbers follow the columns, whatever the kind.
+            for (element, cell) in cells.iter().enumerate().filter(|(_, cell)| of_kind(cell)) {
+                let ids = nodes_of(cell)
+                    .iter()
+                    .map(|node| (first_node + node).to_string());
+                let ids = ids.collect::<Vec<_>>().join(", ");
+                self.line(format!("{}, {ids}", self.elements + element + 1));
+            }
+        }
+        self.elements += cells.len();
+    }
+
+    /// The faces of the contact surface.
+    fn surface(&mut self, name: &str, model: &BodyModel, cells: &[Cell], first_element: usize) {
+        self.line(format!("*SURFACE, NAME={name}_FACE, TYPE=ELEMENT"));
+        let mesh = &model.mesh;
+        let near: Vec<usize> = (0..mesh.spines()).map(|i| mesh.surface_node(i)).collect();
+        for (element, cell) in cells.iter().enumerate() {
+            let nodes = nodes_of(cell);
+            let corners = nodes.len();
+            let on_surface = |k: usize| near.binary_search(&nodes[k % corners]).is_ok();
+            if let Some(face) = (0..corners).find(|&k| on_surface(k) && on_surface(k + 1)) {
+                self.line(format!("{}, S{}", first_element + element, face + 1));
+            }
+        }
+    }
+
+    fn set(&mut self, name: &str, nodes: &[usize]) {
+        self.line(format!("*NSET, NSET={name}"));
+        for chunk in nodes.chunks(LINE) {
+            let ids = chunk
+                .iter()
+                .map(ToString::to_string)
+                .collect::<Vec<_>>()
+                .join(", ");
+            self.line(format!("{ids},"));
+        }
+    }
+
+    fn contact(&mut self, scene: &Scene, model: &Model) {
+        let stiffest = scene
+            .slider
+            .elastic
+            .youngs_modulus_mpa
+            .max(scene.receptacle.elastic.youngs_modulus_mpa);
+        let penalty = PENALTY * stiffest / model.sizes.contact_element;
+        self.line("*SURFACE INTERACTION, NAME=TOUCH");
+        self.line("*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR");
+        self.line(format!("{penalty:e}"));
+        if model.interface.friction > 0.0 {
+            self.line("*FRICTION");
+            self.line(format!(
+                "{}, {:e}",
+                model.interface.friction,
+                STICK_SLOPE * penalty
+            ));
+        }
+        self.line("*CONTACT PAIR, INTERACTION=TOUCH, TYPE=SURFACE TO SURFACE");
+        self.line("RECEPTACLE_FACE, SLIDER_FACE");
+    }
+
+    fn boundary(&mut self, model: &BodyModel, slider: &Part, receptacle: &Part) {
+        debug_assert!(
+            slider.first_node < receptacle.first_node,
+            "the slider comes first"
+        );
+        for node in slider.far.iter().filter(|node| **node != slider.handle) {
+            self.line("*EQUATION");
+            self.line("2");
+            self.line(format!("{node}, 2, 1., {}, 2, -1.", slider.handle));
+        }
+        debug_assert!(
+            model.mesh.spines() == slider.far.len(),
+            "one far node a spine"
+        );
+        self.line("*BOUNDARY");
+        self.line("RECEPTACLE_FAR, 1, 2");
+        self.line("SLIDER_FAR, 1, 1");
+    }
+
+    fn load_step(&mut self, scene: &Scene, slider: &Part) {
+        self.line("*STEP, INC=1000");
+        self.line("*STATIC");
+        self.line("0.05, 1., 1e-6, 0.25");
+        self.line("*CLOAD");
+        self.line(format!("{}, 2, {:e}", slider.handle, -scene.load_n_per_mm));
+        self.output();
+    }
+
+    fn motion_step(&mut self, amplitude: f64) {
+        self.line("*STEP, INC=10000");
+        self.line("*STATIC");
+        self.line("0.05, 1., 1e-6, 0.05");
+        self.line("*BOUNDARY");
+        self.line(format!("SLIDER_FAR, 1, 1, {amplitude:e}"));
+        self.output();
+    }
+
+    fn output(&mut self) {
+        for line in [
+            "*NODE PRINT, NSET=RECEPTACLE_NEAR, FREQUENCY=1000",
+            "U",
+            "*NODE PRINT, NSET=SLIDER_FAR, FREQUENCY=1000",
+            "U",
+            "*NODE FILE, FREQUENCY=1000",
+            "U",
+            "*EL FILE, FREQUENCY=1000",
+            "S",
+            "*CONTACT FILE, FREQUENCY=1000",
+            "CDIS, CSTR",
+            "*END STEP",
+        ] {
+            self.line(line);
+        }
+    }
+}
+
+fn nodes_of(cell: &Cell) -> &[usize] {
+    match cell {
+        Cell::Quad(nodes) => nodes,
+        Cell::Tri(nodes) => nodes,
+    }
+}
