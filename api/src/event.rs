@@ -1,13 +1,20 @@
 //! Documents of the event stream (`GET /v1/jobs/{id}/events`).
 //!
-//! Event names: `snapshot` (a [`crate::job::Job`], first on a fresh connection, without an id),
-//! `progress` ([`crate::job::Progress`]), `cycle` ([`crate::results::CycleRow`]) and `done` ([`Done`]).
+//! Event names: `snapshot` (a [`crate::job::Job`], first on a fresh connection, without an id), `attempt` ([`Attempt`]:
+//! a worker begins; the cycles of an earlier attempt are void), `progress` ([`crate::job::Progress`]), `cycle` ([`crate::results::CycleRow`]) and `done` ([`Done`]).
 
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
 use crate::job::{Outcome, Status};
 use crate::results::Summary;
+
+/// A worker has taken the job. What `cycle` events said before belongs to an attempt that was lost.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
+pub struct Attempt {
+    /// Which attempt it is, from 1.
+    pub attempt: u32,
+}
 
 /// The last event of a stream.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]

@@ -20,9 +20,11 @@ use tracing_subscriber::EnvFilter;
 /// Exit code of a refused specification.
 const REFUSED: u8 = 2;
 
-/// Wear of electrical contacts under vibration: finite elements with implicit wear, on the command line and over HTTP.
+/// What `--help` begins with.
+const ABOUT: &str = "Wear of electrical contacts under vibration, by finite elements: on the command line and over HTTP";
+
 #[derive(Debug, Parser)]
-#[command(name = "fretwear", version, about)]
+#[command(name = "fretwear", version, about = ABOUT)]
 struct Arguments {
     #[command(subcommand)]
     command: Command,

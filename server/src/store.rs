@@ -22,7 +22,7 @@ use uuid::Uuid;
 pub use conclusion::End;
 pub use error::StoreError;
 pub use events::StoredEvent;
-pub use jobs::{Cancelled, Deleted, Filter, NewJob, StoredJob};
+pub use jobs::{Cancelled, Deleted, Filter, NewJob, RequestKey, StoredJob, Submitted};
 pub use leases::{Batch, Claim, Held};
 pub use results::SnapshotPart;
 

@@ -114,7 +114,6 @@ pub fn scene(spec: &Spec) -> Result<Resolved, Vec<Fault>> {
     (out.load, out.motion) = (Some(load), Some(imposed.motion));
     out.cycles = (!continuous).then_some(cycles);
     (out.accuracy, out.output, out.stop) = (accuracy, output, spec.stop.clone());
-    out.provenance = ledger.finish()?;
     let scene = Scene {
         slider: Body {
             shape: shapes.slider,
@@ -136,6 +135,11 @@ pub fn scene(spec: &Spec) -> Result<Resolved, Vec<Fault>> {
         output: recorded,
         stop,
     };
+    if ledger.is_clean() {
+        settings::planned(&spec.effects, &scene, &mut ledger);
+        settings::meshable(&scene, &mut ledger);
+    }
+    out.provenance = ledger.finish()?;
     Ok(Resolved {
         spec: out,
         kind,

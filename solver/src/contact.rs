@@ -15,6 +15,7 @@
 mod increment;
 mod mortar;
 mod newton;
+mod range;
 mod response;
 mod status;
 

@@ -11,6 +11,7 @@
 mod jump;
 mod path;
 mod record;
+mod sweep;
 
 use crate::condensation::{BodyOperators, Operators};
 use crate::contact::{ContactError, ContactState, Move, Pair, Solver, Surfaces};
@@ -21,6 +22,7 @@ use crate::scene::Scene;
 
 pub(crate) use record::worn_area_residual;
 pub use record::{report, snapshot};
+pub use sweep::{Neutral, Sweep};
 
 /// How often an increment may be halved before it is given up.
 const MOST_HALVINGS: u32 = 8;
@@ -100,37 +102,6 @@ impl CycleState {
             checks: Checks::default(),
         }
     }
-}
-
-/// Contact at the neutral position on the way to +x.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub struct Neutral {
-    /// Normal load, N/mm.
-    pub load: f64,
-    /// Highest pressure, MPa.
-    pub peak_pressure: f64,
-    /// Half-width of the contact, mm.
-    pub half_width: f64,
-}
-
-impl Neutral {
-    fn of(contact: &ContactState, pair: &Pair<'_>) -> Self {
-        let x = &pair.operators.receptacle.x;
-        Self {
-            load: contact.load(&pair.interface),
-            peak_pressure: contact.peak_pressure(),
-            half_width: contact.half_width(x),
-        }
-    }
-}
-
-/// What one computed cycle recorded besides the state.
-#[derive(Debug, Clone, Default, PartialEq)]
-pub struct Sweep {
-    /// Friction force over the imposed displacement.
-    pub friction_loop: FrictionLoop,
-    /// Contact at the leftmost, neutral and rightmost position.
-    pub contacts: Vec<(Position, ContactState)>,
 }
 
 /// Integrates cycles of one scene on one set of operators.

@@ -177,7 +177,7 @@ pub struct Resolution {
     pub dofs: usize,
     /// How often the operators were rebuilt after the first time.
     pub relocations: u64,
-    /// Accumulated estimate of the relative error made by cycle jumps.
+    /// Accumulated estimate of the relative error made by cycle jumps; the error of the mesh is not in it.
     pub estimated_relative_error: f64,
 }
 

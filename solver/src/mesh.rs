@@ -19,7 +19,7 @@ pub enum MeshError {
     },
     /// The mesh would be larger than the engine takes.
     #[error(
-        "{nodes} surface nodes are more than the limit of {limit}; ask for larger contact elements"
+        "{nodes} surface nodes on one body are more than the limit of {limit}: the contact is too narrow for its travel"
     )]
     TooLarge {
         /// Surface nodes asked for.

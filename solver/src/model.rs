@@ -14,8 +14,9 @@ pub use resolution::Sizes;
 
 /// A contact surface ends where its arc is steeper than this; beyond it the surface is no graph.
 const STEEPEST_ANGLE_DEG: f64 = 80.0;
-/// More surface nodes than this on one body are refused: the compliance alone would take 2 GB.
-const MOST_SURFACE_NODES: usize = 8_000;
+/// More surface nodes than this on one body are refused: its dense compliance takes (2 n)^2 x 8 bytes, 288 MB, and
+/// condensation holds four such matrices for a moment.
+const MOST_SURFACE_NODES: usize = 3_000;
 
 /// Two bodies ready to be condensed.
 #[derive(Debug, Clone, PartialEq)]

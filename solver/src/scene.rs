@@ -109,8 +109,8 @@ pub enum Drive {
 /// Imposed relative motion.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Motion {
-    /// Back and forth around the neutral position, to +x first. The contact problem does not depend on time,
-    /// so the wave's shape matters only for where increments may be placed.
+    /// Back and forth around the neutral position, to +x first. Quasi-static contact does not depend on time: neither
+    /// the wave's shape nor the period changes anything.
     Reciprocating {
         /// Amplitude, mm.
         amplitude_mm: f64,

@@ -42,8 +42,45 @@ impl Spec {
         };
         let spec = spec.map_err(|error| broken(&error, &tracked_pointer(&track.path())))?;
         json.end().map_err(|error| broken(&error, ""))?;
+        faults.extend(arrays_for_objects(bytes));
         Ok((spec, faults))
     }
+}
+
+/// Where objects belong. Serde also takes an array of their fields in order, which nobody means to write.
+const OBJECTS: [&str; 14] = [
+    "",
+    "/system",
+    "/materials",
+    "/materials/slider",
+    "/materials/receptacle",
+    "/interface",
+    "/interface/friction",
+    "/interface/wear",
+    "/interface/wear/slider",
+    "/interface/wear/receptacle",
+    "/load",
+    "/motion",
+    "/accuracy",
+    "/output",
+];
+
+fn arrays_for_objects(bytes: &[u8]) -> Vec<Fault> {
+    let Ok(document) = serde_json::from_slice::<serde_json::Value>(bytes) else {
+        return Vec::new();
+    };
+    let is_array = |pointer: &&str| {
+        document
+            .pointer(pointer)
+            .is_some_and(serde_json::Value::is_array)
+    };
+    let fault = |pointer: &str| Fault::new(pointer, "an array, where an object belongs");
+    OBJECTS
+        .iter()
+        .copied()
+        .filter(is_array)
+        .map(fault)
+        .collect()
 }
 
 /// A key as a token of a JSON pointer (RFC 6901).

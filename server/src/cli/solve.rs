@@ -22,6 +22,12 @@ pub(super) fn run(spec: &Path, out: Option<&Path>) -> ExitCode {
         Ok(resolved) => resolved,
         Err(error) => return refused(&error),
     };
+    // Before the work, so that a folder that cannot be made does not cost a finished solve.
+    if let Some(folder) = out
+        && let Err(cause) = std::fs::create_dir_all(folder)
+    {
+        return failed(format_args!("{}: {cause}", folder.display()));
+    }
     let mut recorded = Recorded::default();
     let solved = solve(&resolved, &mut recorded);
     if let Some(folder) = out {
@@ -33,6 +39,9 @@ pub(super) fn run(spec: &Path, out: Option<&Path>) -> ExitCode {
             fields: &recorded.fields,
         };
         if let Err(error) = files::write(folder, &results) {
+            if let Ok(summary) = &solved {
+                report(summary);
+            }
             return failed(error);
         }
     }

@@ -57,7 +57,7 @@ impl IntoResponse for EventsError {
     }
 }
 
-/// A job's events as they happen: `snapshot`, `progress`, `cycle`, `done`.
+/// A job's events as they happen: `snapshot`, `attempt`, `progress`, `cycle`, `done`.
 #[utoipa::path(
     get,
     path = "/v1/jobs/{id}/events",
@@ -167,8 +167,12 @@ impl Tail {
             self.waiting
                 .push_back(Event::default().id(seq.to_string()).event(name).data(data));
         }
-        if !found && self.app.store.job(self.id).await?.is_none() {
-            self.ended = true;
+        if !found {
+            // Nothing follows a job that is gone, or that ended before the event that the client asked to go on from.
+            let job = self.app.store.job(self.id).await?;
+            self.ended = job.is_none_or(|job| {
+                job.document.status.is_terminal() && self.after >= job.last_event
+            });
         }
         Ok(found || self.ended)
     }
@@ -252,9 +256,9 @@ mod tests {
         assert_eq!(fresh[0], ("snapshot".to_owned(), None));
         let all = &fresh[1..];
         let ids: Vec<_> = all.iter().map(|event| event.1.expect("an id")).collect();
-        assert_eq!(ids, [1, 2, 3, 4, 5, 6]);
-        assert_eq!(all[5].0, "done");
-        for after in 0..6_usize {
+        assert_eq!(ids, [1, 2, 3, 4, 5, 6, 7]);
+        assert_eq!((all[1].0.as_str(), all[6].0.as_str()), ("attempt", "done"));
+        for after in 0..7_usize {
             let header = after.to_string();
             let (status, _, text) = service
                 .text("GET", &path, &[("last-event-id", &header)], "")
@@ -262,7 +266,7 @@ mod tests {
             assert_eq!(status, 200);
             assert_eq!(parsed(&text), all[after..], "after {after}");
         }
-        for after in ["6", "99"] {
+        for after in ["7", "99"] {
             assert_eq!(
                 service
                     .text("GET", &path, &[("last-event-id", after)], "")
@@ -284,6 +288,19 @@ mod tests {
         });
         let names: Vec<_> = parsed(&stream.2).into_iter().map(|event| event.0).collect();
         assert_eq!(names, ["snapshot", "progress", "done"]);
+    }
+
+    #[tokio::test]
+    async fn a_stream_that_was_asked_to_begin_beyond_the_end_ends_with_the_job() {
+        let service = Service::new().await;
+        let id = service.queued(r#"{"system":{"kind":"dimm"}}"#).await;
+        let path = format!("/v1/jobs/{id}/events");
+        let beyond = [("last-event-id", "99999")];
+        let (stream, _) = tokio::join!(service.text("GET", &path, &beyond, ""), async {
+            tokio::task::yield_now().await;
+            service.post(&format!("/v1/jobs/{id}/cancel"), "").await
+        });
+        assert_eq!(parsed(&stream.2), []);
     }
 
     #[tokio::test]

@@ -16,6 +16,10 @@ pub(super) enum Kind {
     Unreadable,
     /// The specification has faults.
     InvalidSpecification,
+    /// The key of the request was used with another body.
+    KeyTaken,
+    /// The key of the request cannot be taken.
+    InvalidKey,
     /// A query parameter cannot be read.
     InvalidQuery,
     /// The body is too large.
@@ -53,6 +57,16 @@ impl Kind {
                 "invalid-specification",
                 "the specification has faults",
                 StatusCode::UNPROCESSABLE_ENTITY,
+            ),
+            Self::KeyTaken => (
+                "idempotency-key-reused",
+                "the key was used with another body",
+                StatusCode::UNPROCESSABLE_ENTITY,
+            ),
+            Self::InvalidKey => (
+                "invalid-idempotency-key",
+                "the key cannot be taken",
+                StatusCode::BAD_REQUEST,
             ),
             Self::InvalidQuery => (
                 "invalid-query",

@@ -6,15 +6,21 @@ use api::problem::{Fault, Problem};
 use api::spec::Spec;
 use axum::Json;
 use axum::extract::State;
-use axum::http::{StatusCode, header};
+use axum::http::{HeaderMap, StatusCode, header};
 use axum::response::{IntoResponse, Response};
+use sha2::{Digest, Sha256};
 
 use super::App;
 use super::extract::JsonBody;
 use super::problem::{Kind, Refusal};
 use crate::clock::now_ms;
-use crate::store::{NewJob, StoreError};
+use crate::store::{NewJob, RequestKey, StoreError, Submitted};
 use crate::translate::{self, Refused, Resolved};
+
+/// A client's key for a request; the same key and body make one job, however often they are sent.
+const KEY_HEADER: &str = "idempotency-key";
+/// Longest key, characters.
+const KEY_LIMIT: usize = 255;
 
 /// Why a study was not queued.
 #[derive(Debug, thiserror::Error)]
@@ -25,6 +31,12 @@ pub(super) enum SubmitError {
     /// The store failed.
     #[error(transparent)]
     Store(#[from] StoreError),
+    /// The key cannot be taken.
+    #[error("the Idempotency-Key must be 1 to {KEY_LIMIT} printable ASCII characters")]
+    InvalidKey,
+    /// The key was used with another body.
+    #[error("the Idempotency-Key was used with another body; use a new key for another study")]
+    KeyTaken,
     /// The job is gone again.
     #[error("the job was deleted at once")]
     Gone,
@@ -35,6 +47,8 @@ impl IntoResponse for SubmitError {
         match self {
             Self::Refused(refused) => refusal(refused).into_response(),
             Self::Store(error) => Refusal::from(&error).into_response(),
+            Self::InvalidKey => Kind::InvalidKey.because(self.to_string()).into_response(),
+            Self::KeyTaken => Kind::KeyTaken.because(self.to_string()).into_response(),
             Self::Gone => Kind::NoJob
                 .because("the job was deleted at once")
                 .into_response(),
@@ -52,7 +66,7 @@ pub(super) fn refusal(refused: Refused) -> Refusal {
                 .with_faults(vec![fault])
         }
         Refused::Faults(faults) => Kind::InvalidSpecification
-            .because(format!("{} fault(s); nothing was queued", faults.len()))
+            .because(format!("{} fault(s) in the specification", faults.len()))
             .with_faults(faults),
     }
 }
@@ -63,18 +77,21 @@ pub(super) fn refusal(refused: Refused) -> Refusal {
     path = "/v1/jobs",
     tag = "jobs",
     request_body = Spec,
+    params(("Idempotency-Key" = Option<String>, Header, description = "Sent twice with the same body, one job")),
     responses(
         (status = 202, description = "Queued", body = Job, headers(("Location" = String, description = "The job"))),
-        (status = 400, description = "The body cannot be read", body = Problem),
+        (status = 400, description = "The body or the key cannot be read", body = Problem),
         (status = 413, description = "The body is too large", body = Problem),
         (status = 415, description = "The body is not declared as JSON", body = Problem),
-        (status = 422, description = "The specification has faults", body = Problem),
+        (status = 422, description = "The specification has faults, or the key belongs to another body", body = Problem),
     )
 )]
 pub(super) async fn submit(
     State(app): State<App>,
+    headers: HeaderMap,
     JsonBody(body): JsonBody,
 ) -> Result<Response, SubmitError> {
+    let key = request_key(&headers, &body)?;
     let resolved = translate::read(&body)?;
     if resolved.scene.output.fields {
         let detail =
@@ -83,10 +100,32 @@ pub(super) async fn submit(
     }
     let plan: Plan = translate::plan(&resolved);
     let Resolved { spec, .. } = resolved;
-    let id = app.store.submit(&NewJob { spec, plan }, now_ms()).await?;
+    let new = NewJob { spec, plan };
+    let id = match key {
+        None => app.store.submit(&new, now_ms()).await?,
+        Some(key) => match app.store.submit_once(&new, &key, now_ms()).await? {
+            Submitted::Job(id) => id,
+            Submitted::KeyTaken => return Err(SubmitError::KeyTaken),
+        },
+    };
     let job = app.store.job(id).await?.ok_or(SubmitError::Gone)?;
     let location = [(header::LOCATION, format!("/v1/jobs/{id}"))];
     Ok((StatusCode::ACCEPTED, location, Json(job.document)).into_response())
+}
+
+/// The client's key for this request, if it gave one.
+fn request_key(headers: &HeaderMap, body: &[u8]) -> Result<Option<RequestKey>, SubmitError> {
+    let Some(value) = headers.get(KEY_HEADER) else {
+        return Ok(None);
+    };
+    let key = value.to_str().map_err(|_| SubmitError::InvalidKey)?.trim();
+    if key.is_empty() || key.len() > KEY_LIMIT {
+        return Err(SubmitError::InvalidKey);
+    }
+    Ok(Some(RequestKey {
+        key: key.to_owned(),
+        body_sha256: Sha256::digest(body).into(),
+    }))
 }
 
 #[cfg(test)]
@@ -178,5 +217,25 @@ mod tests {
             (status.as_u16(), problem["type"].as_str()),
             (415, Some("/problems/media-type"))
         );
+    }
+
+    #[tokio::test]
+    async fn the_same_key_and_body_make_one_job_and_another_body_none() {
+        let service = Service::new().await;
+        let body = r#"{"system":{"kind":"sd_card"}}"#;
+        let json = ("content-type", "application/json");
+        let keyed = [json, ("idempotency-key", "study-7")];
+        let (status, _, first) = service.send("POST", "/v1/jobs", &keyed, body).await;
+        assert_eq!(status, 202);
+        let (status, _, second) = service.send("POST", "/v1/jobs", &keyed, body).await;
+        assert_eq!((status.as_u16(), &second["id"]), (202, &first["id"]));
+        let other = r#"{"system":{"kind":"zif"}}"#;
+        let (status, _, problem) = service.send("POST", "/v1/jobs", &keyed, other).await;
+        assert_eq!(status, 422);
+        assert_eq!(problem["title"], "the key was used with another body");
+        let empty = [json, ("idempotency-key", " ")];
+        assert_eq!(service.send("POST", "/v1/jobs", &empty, body).await.0, 400);
+        let (_, _, page) = service.get("/v1/jobs").await;
+        assert_eq!(page["jobs"].as_array().map_or(0, Vec::len), 1, "{page}");
     }
 }

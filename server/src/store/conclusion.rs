@@ -61,7 +61,7 @@ pub(super) async fn conclude(
     .bind(end.summary.as_ref().map(serde_json::to_string).transpose()?)
     .bind(status.is_terminal().then_some(now))
     .bind(progress)
-    .bind(i64::from(end.step == Move::GiveBack))
+    .bind(i64::from(status == Status::Queued && end.step == Move::GiveBack))
     .bind(i64::from(status.is_terminal()))
     .bind(id.to_string())
     .fetch_one(&mut **transaction)

@@ -4,7 +4,7 @@ use api::event::Done;
 use api::job::{Job, Progress, Status};
 use api::plan::Plan;
 use api::spec::Spec;
-use sqlx::{QueryBuilder, Sqlite, SqliteConnection};
+use sqlx::{QueryBuilder, Sqlite, SqliteConnection, Transaction};
 use uuid::Uuid;
 
 use super::document::{JobRow, timestamp};
@@ -72,47 +72,72 @@ pub enum Deleted {
     Missing,
 }
 
+/// The key that a client gave to a submission, and the digest of what it submitted.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct RequestKey {
+    /// The key.
+    pub key: String,
+    /// SHA-256 of the body.
+    pub body_sha256: [u8; 32],
+}
+
+/// What became of a submission.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Submitted {
+    /// A job, queued now or by an earlier request with the same key and body.
+    Job(Uuid),
+    /// The key was used with another body.
+    KeyTaken,
+}
+
 impl Store {
+    /// Queues a job, unless a request with the same key has done so already. `now` in milliseconds since 1970.
+    ///
+    /// # Errors
+    /// [`StoreError`] if the database fails.
+    pub async fn submit_once(
+        &self,
+        job: &NewJob,
+        key: &RequestKey,
+        now: i64,
+    ) -> Result<Submitted, StoreError> {
+        let mut transaction = self.writer.begin_with(BEGIN).await?;
+        let known: Option<(Vec<u8>, String)> =
+            sqlx::query_as("SELECT body_sha256, job_id FROM request_keys WHERE key = ?")
+                .bind(&key.key)
+                .fetch_optional(&mut *transaction)
+                .await?;
+        if let Some((body, job)) = known {
+            if body != key.body_sha256 {
+                return Ok(Submitted::KeyTaken);
+            }
+            let id = Uuid::parse_str(&job).map_err(|cause| StoreError::Corrupt {
+                id: Uuid::nil(),
+                what: "id",
+                cause: cause.to_string(),
+            })?;
+            return Ok(Submitted::Job(id));
+        }
+        let id = insert(&mut transaction, job, now).await?;
+        sqlx::query("INSERT INTO request_keys (key, body_sha256, job_id) VALUES (?, ?, ?)")
+            .bind(&key.key)
+            .bind(key.body_sha256.as_slice())
+            .bind(id.to_string())
+            .execute(&mut *transaction)
+            .await?;
+        transaction.commit().await?;
+        self.changed(id);
+        self.waiting.notify_one();
+        Ok(Submitted::Job(id))
+    }
+
     /// Queues a job. `now` in milliseconds since 1970.
     ///
     /// # Errors
     /// [`StoreError`] if the database fails.
     pub async fn submit(&self, job: &NewJob, now: i64) -> Result<Uuid, StoreError> {
-        let id = Uuid::now_v7();
-        let system = job
-            .spec
-            .system
-            .kind
-            .known()
-            .map_or("", api::spec::SystemKind::as_str);
-        let progress = Progress {
-            cycles: crate::translate::cycles(&job.spec),
-            updated_at: Some(timestamp(now)),
-            ..Progress::default()
-        };
-        let progress = serde_json::to_string(&progress)?;
         let mut transaction = self.writer.begin_with(BEGIN).await?;
-        sqlx::query(
-            "INSERT INTO jobs (id, system, spec, plan, status, status_reason, created_at, progress, last_event) \
-             VALUES (?, ?, ?, ?, 'queued', 'waiting for a worker', ?, ?, 1)",
-        )
-        .bind(id.to_string())
-        .bind(system)
-        .bind(serde_json::to_string(&job.spec)?)
-        .bind(serde_json::to_string(&job.plan)?)
-        .bind(now)
-        .bind(&progress)
-        .execute(&mut *transaction)
-        .await?;
-        for (key, value) in &job.spec.labels {
-            sqlx::query("INSERT INTO labels (job_id, key, value) VALUES (?, ?, ?)")
-                .bind(id.to_string())
-                .bind(key)
-                .bind(value)
-                .execute(&mut *transaction)
-                .await?;
-        }
-        insert_event(&mut transaction, id, 1, "progress", &progress).await?;
+        let id = insert(&mut transaction, job, now).await?;
         transaction.commit().await?;
         self.changed(id);
         self.waiting.notify_one();
@@ -267,4 +292,47 @@ async fn end_queued(
         summary: None,
     };
     insert_event(connection, id, seq, "done", &serde_json::to_string(&done)?).await
+}
+
+/// Adds a job to the queue, with its first event.
+async fn insert(
+    transaction: &mut Transaction<'_, Sqlite>,
+    job: &NewJob,
+    now: i64,
+) -> Result<Uuid, StoreError> {
+    let id = Uuid::now_v7();
+    let system = job
+        .spec
+        .system
+        .kind
+        .known()
+        .map_or("", api::spec::SystemKind::as_str);
+    let progress = Progress {
+        cycles: crate::translate::cycles(&job.spec),
+        updated_at: Some(timestamp(now)),
+        ..Progress::default()
+    };
+    let progress = serde_json::to_string(&progress)?;
+    sqlx::query(
+        "INSERT INTO jobs (id, system, spec, plan, status, status_reason, created_at, progress, last_event) \
+         VALUES (?, ?, ?, ?, 'queued', 'waiting for a worker', ?, ?, 1)",
+    )
+    .bind(id.to_string())
+    .bind(system)
+    .bind(serde_json::to_string(&job.spec)?)
+    .bind(serde_json::to_string(&job.plan)?)
+    .bind(now)
+    .bind(&progress)
+    .execute(&mut **transaction)
+    .await?;
+    for (key, value) in &job.spec.labels {
+        sqlx::query("INSERT INTO labels (job_id, key, value) VALUES (?, ?, ?)")
+            .bind(id.to_string())
+            .bind(key)
+            .bind(value)
+            .execute(&mut **transaction)
+            .await?;
+    }
+    insert_event(transaction, id, 1, "progress", &progress).await?;
+    Ok(id)
 }

@@ -3,6 +3,7 @@
 //! Every write of a worker says `WHERE id = ? AND lease = ? AND status = 'running'` and counts for nothing if no row
 //! matches: the lease number, raised by each claim, is the fence.
 
+use api::event::Attempt;
 use api::job::{Progress, Status};
 use api::results::{CycleRow, Snapshot};
 use sqlx::{Sqlite, Transaction};
@@ -56,17 +57,18 @@ impl Store {
     /// [`StoreError`] if the database fails.
     pub async fn claim(&self, now: i64, expires_at: i64) -> Result<Option<Claim>, StoreError> {
         let mut transaction = self.writer.begin_with(BEGIN).await?;
-        let claimed: Option<(String, i64, String)> = sqlx::query_as(
+        let claimed: Option<(String, i64, String, i64, i64)> = sqlx::query_as(
             "UPDATE jobs SET status = 'running', lease = lease + 1, lease_expires_at = ?, attempts = attempts + 1, \
-             started_at = COALESCE(started_at, ?), status_reason = NULL, version = version + 1 \
+             started_at = COALESCE(started_at, ?), status_reason = NULL, last_event = last_event + 1, \
+             version = version + 1 \
              WHERE id = (SELECT id FROM jobs WHERE status = 'queued' ORDER BY created_at, id LIMIT 1) \
-             RETURNING id, lease, spec",
+             RETURNING id, lease, spec, last_event, attempts",
         )
         .bind(expires_at)
         .bind(now)
         .fetch_optional(&mut *transaction)
         .await?;
-        let Some((text, lease, spec)) = claimed else {
+        let Some((text, lease, spec, event, attempts)) = claimed else {
             return Ok(None);
         };
         // What an earlier, lost attempt left is computed again from the start.
@@ -78,12 +80,17 @@ impl Store {
             .bind(&text)
             .execute(&mut *transaction)
             .await?;
-        transaction.commit().await?;
         let id = Uuid::parse_str(&text).map_err(|cause| StoreError::Corrupt {
             id: Uuid::nil(),
             what: "id",
             cause: cause.to_string(),
         })?;
+        let attempt = Attempt {
+            attempt: u32::try_from(attempts).unwrap_or(u32::MAX),
+        };
+        let data = serde_json::to_string(&attempt)?;
+        insert_event(&mut transaction, id, event, "attempt", &data).await?;
+        transaction.commit().await?;
         self.changed(id);
         Ok(Some(Claim { id, lease, spec }))
     }

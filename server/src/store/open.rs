@@ -15,8 +15,11 @@ use super::{CHANGES_KEPT, Store, StoreError, queries};
 /// Older ones can corrupt the write-ahead log when it is reset.
 const OLDEST_SQLITE: (u32, u32, u32) = (3, 51, 3);
 const OLDEST_SQLITE_TEXT: &str = "3.51.3";
-/// Readers wait for nobody in WAL mode; the writer waits for a checkpoint at most.
-const BUSY_TIMEOUT: Duration = Duration::from_secs(10);
+/// Readers wait for nobody in WAL mode; the writer waits for a checkpoint at most. Far below a lease, so that a worker
+/// whose write was refused can try again while it still holds its job.
+const BUSY_TIMEOUT: Duration = Duration::from_secs(2);
+/// How long a reader waits for a connection; below a lease, because workers ask too.
+const READER_WAIT: Duration = Duration::from_secs(2);
 const READERS: u32 = 4;
 
 impl Store {
@@ -37,7 +40,9 @@ impl Store {
         let path = options.get_filename().to_owned();
         // A database in memory would lose every job, and has no place for a lock file.
         let in_memory = path.to_string_lossy().starts_with("file:sqlx-in-memory");
-        if !url.starts_with("sqlite:") || in_memory || path.as_os_str().is_empty() {
+        // Parameters could ask for a database in memory, or for one that cannot be written.
+        let plain = url.starts_with("sqlite:") && !url.contains('?');
+        if !plain || in_memory || path.as_os_str().is_empty() {
             return Err(StoreError::Address {
                 url: url.to_owned(),
             });
@@ -71,22 +76,23 @@ impl Store {
 async fn readers(options: SqliteConnectOptions) -> Result<SqlitePool, StoreError> {
     Ok(SqlitePoolOptions::new()
         .max_connections(READERS)
+        .acquire_timeout(READER_WAIT)
         .connect_with(options)
         .await?)
 }
 
 /// Takes the lock file beside the database; the operating system gives it back when the process ends, however it ends.
 fn locked(database: &Path) -> Result<File, StoreError> {
-    let mut name = database.as_os_str().to_owned();
-    name.push(".lock");
-    let path = PathBuf::from(name);
     let prepare = |cause| StoreError::Prepare {
-        path: path.clone(),
+        path: database.to_owned(),
         cause,
     };
     if let Some(folder) = database.parent() {
         std::fs::create_dir_all(folder).map_err(prepare)?;
     }
+    let mut name = real_path(database).map_err(prepare)?.into_os_string();
+    name.push(".lock");
+    let path = PathBuf::from(name);
     let file = File::options()
         .create(true)
         .truncate(false)
@@ -97,6 +103,22 @@ fn locked(database: &Path) -> Result<File, StoreError> {
         Ok(()) => Ok(file),
         Err(TryLockError::WouldBlock) => Err(StoreError::Locked { path }),
         Err(TryLockError::Error(cause)) => Err(prepare(cause)),
+    }
+}
+
+/// The database's path without links, so that two names of one database share a lock.
+fn real_path(database: &Path) -> std::io::Result<PathBuf> {
+    match database.canonicalize() {
+        Ok(path) => Ok(path),
+        Err(cause) if cause.kind() == std::io::ErrorKind::NotFound => {
+            let folder = match database.parent() {
+                Some(folder) if !folder.as_os_str().is_empty() => folder,
+                _ => Path::new("."),
+            };
+            let name = database.file_name().unwrap_or_default();
+            Ok(folder.canonicalize()?.join(name))
+        }
+        Err(cause) => Err(cause),
     }
 }
 

@@ -321,7 +321,14 @@ async fn event_numbers_have_no_gaps() {
         .collect();
     assert_eq!(
         found,
-        [(1, "progress"), (2, "cycle"), (3, "cycle"), (4, "done")]
+        [
+            (1, "progress"),
+            (2, "attempt"),
+            (3, "cycle"),
+            (4, "attempt"),
+            (5, "cycle"),
+            (6, "done")
+        ]
     );
 }
 
@@ -330,6 +337,14 @@ async fn a_database_is_served_by_one_process_and_survives_it() {
     let Fixture { store, url, folder } = Fixture::new().await;
     assert!(matches!(
         Store::open(&url).await,
+        Err(StoreError::Locked { .. })
+    ));
+    // Another name of the same file is the same database.
+    let path = url.trim_start_matches("sqlite://");
+    let link = format!("{path}.link");
+    std::os::unix::fs::symlink(path, &link).expect("a link can be made");
+    assert!(matches!(
+        Store::open(&format!("sqlite://{link}")).await,
         Err(StoreError::Locked { .. })
     ));
     let fixture = Fixture { store, url, folder };
@@ -347,7 +362,11 @@ async fn a_database_is_served_by_one_process_and_survives_it() {
 
 #[tokio::test]
 async fn addresses_that_are_no_files_are_refused() {
-    for url in ["postgres://x", "sqlite::memory:"] {
+    for url in [
+        "postgres://x",
+        "sqlite::memory:",
+        "sqlite://x.db?mode=memory",
+    ] {
         assert!(Store::open(url).await.is_err(), "{url}");
     }
 }

@@ -33,7 +33,12 @@ pub(super) fn resolve(
     preset: &Preset,
     ledger: &mut Ledger,
 ) -> (Interface, Laws) {
-    let (friction, friction_law) = friction(given.friction.as_ref(), preset, ledger);
+    let own = |given: Option<&Material>, name: &str| {
+        given.is_none_or(|given| matches!(given, Material::Named(own) if own == name))
+    };
+    let preset_pair = own(materials.slider.as_ref(), preset.slider.value)
+        && own(materials.receptacle.as_ref(), preset.receptacle.value);
+    let (friction, friction_law) = friction(given.friction.as_ref(), preset, preset_pair, ledger);
     let slider = Side {
         pointer: "/interface/wear/slider",
         given: given.wear.slider.as_ref(),
@@ -74,12 +79,19 @@ pub(super) fn resolve(
 fn friction(
     given: Option<&Friction>,
     preset: &Preset,
+    preset_pair: bool,
     ledger: &mut Ledger,
 ) -> (Friction, scene::Friction) {
     let Some(given) = given else {
         let coefficient = preset.friction.value;
-        ledger.note("/interface/friction/law", preset.friction.from);
-        ledger.note("/interface/friction/coefficient", preset.friction.from);
+        // The preset's coefficient belongs to the preset's pair of materials.
+        let from = if preset_pair {
+            preset.friction.from
+        } else {
+            Provenance::Assumed
+        };
+        ledger.note("/interface/friction/law", from);
+        ledger.note("/interface/friction/coefficient", from);
         let filled = Friction {
             law: FrictionLaw::Coulomb.into(),
             coefficient: Some(coefficient),
@@ -138,7 +150,13 @@ impl Side<'_> {
             ledger.note(self.pointer, self.preset.from);
             return (None, None);
         };
-        let (mut k_from, mut hardness_from) = (self.preset.from, self.preset.from);
+        // The preset's figures belong to the preset's material; beside another one they are a guess.
+        let from = if self.material.is_some() {
+            Provenance::Assumed
+        } else {
+            self.preset.from
+        };
+        let (mut k_from, mut hardness_from) = (from, from);
         if let Some(own) = self.own_hardness() {
             (hardness, hardness_from) = own;
         }

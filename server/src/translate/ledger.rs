@@ -56,7 +56,7 @@ impl Ledger {
         if !(value.is_finite() && value >= range.from && value <= range.to) {
             self.fault(
                 pointer,
-                format!("{value} is outside {} to {}", range.from, range.to),
+                format!("{} is outside {} to {}", short(value), range.from, range.to),
             );
         }
         value
@@ -104,6 +104,11 @@ impl Ledger {
         self.fault(pointer, format!("missing: {detail}"));
     }
 
+    /// Whether there is no fault so far.
+    pub(super) fn is_clean(&self) -> bool {
+        self.faults.is_empty()
+    }
+
     /// Everything noted as faults.
     pub(super) fn into_faults(self) -> Vec<Fault> {
         self.faults
@@ -116,6 +121,16 @@ impl Ledger {
         } else {
             Err(self.faults)
         }
+    }
+}
+
+/// A number as a user would write it.
+fn short(value: f64) -> String {
+    let size = value.abs();
+    if value.is_finite() && size > 0.0 && !(1e-5..1e15).contains(&size) {
+        format!("{value:e}")
+    } else {
+        value.to_string()
     }
 }
 

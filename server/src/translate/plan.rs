@@ -4,7 +4,8 @@ use std::collections::BTreeMap;
 use std::f64::consts::PI;
 
 use api::plan::{Plan, PlannedEffect};
-use solver::scene::{Elastic, Scene, WearLaw};
+use solver::model::resolution;
+use solver::scene::{Scene, WearLaw};
 
 use super::Resolved;
 
@@ -30,19 +31,11 @@ fn effects(scene: &Scene) -> BTreeMap<String, PlannedEffect> {
         .collect()
 }
 
-/// Hertz line contact (K. L. Johnson, *Contact Mechanics*, eq. 4.43 to 4.45): a = sqrt(4 P R / (pi E*)),
+/// Hertz line contact (K. L. Johnson, *Contact Mechanics*, eq. 4.43 to 4.45): the engine's a,
 /// p0 = 2 P / (pi a); and what Archard's law makes of one full pass: (k/H) P per crossed point.
 fn estimates(scene: &Scene) -> BTreeMap<String, f64> {
     let load = scene.load_n_per_mm;
-    let compliance =
-        plane_compliance(&scene.slider.elastic) + plane_compliance(&scene.receptacle.elastic);
-    let curvature = 1.0 / scene.slider.shape.radius_mm
-        + scene
-            .receptacle
-            .shape
-            .crown_radius_mm
-            .map_or(0.0, |radius| 1.0 / radius);
-    let half_width = (4.0 * load * compliance / (PI * curvature)).sqrt();
+    let half_width = resolution::choose(scene).hertz_half_width;
     let way = scene.motion.distance_per_cycle_mm();
     let mut estimates = BTreeMap::from([
         ("line_load_n_per_mm".to_owned(), load),
@@ -69,9 +62,4 @@ fn estimates(scene: &Scene) -> BTreeMap<String, f64> {
         }
     }
     estimates
-}
-
-/// (1 - nu^2) / E, 1/MPa.
-fn plane_compliance(elastic: &Elastic) -> f64 {
-    (1.0 - elastic.poisson_ratio * elastic.poisson_ratio) / elastic.youngs_modulus_mpa
 }

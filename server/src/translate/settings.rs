@@ -97,6 +97,33 @@ pub(super) fn effects(
     given.clone()
 }
 
+/// Notes a fault for each effect that was asked for and that the scene gives nothing to simulate.
+pub(super) fn planned(
+    given: &BTreeMap<String, Choice<Switch>>,
+    scene: &scene::Scene,
+    ledger: &mut Ledger,
+) {
+    for decision in solver::effects::plan(scene).decisions {
+        let name = decision.effect.name();
+        let wanted = given.get(name).and_then(Choice::known) == Some(Switch::On);
+        if wanted && !decision.simulated {
+            let detail = format!("cannot be on: {}", decision.reason);
+            ledger.fault(&format!("/effects/{name}"), detail);
+        }
+    }
+}
+
+/// Notes a fault if the bodies cannot be meshed, or the mesh would be larger than the engine takes.
+pub(super) fn meshable(scene: &scene::Scene, ledger: &mut Ledger) {
+    if let Err(error) = solver::model::build(scene) {
+        let pointer = match scene.accuracy.contact_element_mm {
+            Some(_) => "/accuracy/overrides/contact_element_mm",
+            None => "/system",
+        };
+        ledger.fault(pointer, error.to_string());
+    }
+}
+
 /// Fills in the accuracy.
 pub(super) fn accuracy(
     given: &Accuracy,

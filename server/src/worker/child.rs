@@ -1,7 +1,10 @@
 //! The solving process: started in its own process group, fed with a specification, killed with its supervisor.
 
+use std::os::unix::process::ExitStatusExt;
 use std::path::Path;
 use std::process::{ExitStatus, Stdio};
+
+use nix::sys::signal::Signal;
 
 use tokio::io::{AsyncWriteExt, BufReader, Lines};
 use tokio::process::{Child, ChildStdin, ChildStdout, Command};
@@ -20,8 +23,10 @@ pub(super) struct Solving {
 pub(super) enum Ended {
     /// By itself, with this code.
     Code(i32),
-    /// By a signal.
+    /// By a signal that comes from outside.
     Killed,
+    /// By a signal that a program brings upon itself: the same input would do so again.
+    Crashed(i32),
 }
 
 impl Solving {
@@ -69,6 +74,19 @@ impl Solving {
 
 impl From<ExitStatus> for Ended {
     fn from(status: ExitStatus) -> Self {
-        status.code().map_or(Self::Killed, Self::Code)
+        let crashes = [
+            Signal::SIGABRT,
+            Signal::SIGBUS,
+            Signal::SIGFPE,
+            Signal::SIGILL,
+            Signal::SIGSEGV,
+        ];
+        match (status.code(), status.signal()) {
+            (Some(code), _) => Self::Code(code),
+            (None, Some(signal)) if crashes.iter().any(|crash| *crash as i32 == signal) => {
+                Self::Crashed(signal)
+            }
+            (None, _) => Self::Killed,
+        }
     }
 }

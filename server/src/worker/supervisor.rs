@@ -92,6 +92,7 @@ async fn follow(
     tick.set_missed_tick_behavior(tokio::time::MissedTickBehavior::Delay);
     let mut renewed = Instant::now();
     let mut last = None;
+    let mut pending: Option<Batch> = None;
     loop {
         let due = tokio::select! {
             line = child.line() => match line.map(|line| line.map(|line| serde_json::from_str::<Line>(&line))) {
@@ -106,7 +107,8 @@ async fn follow(
                 Ok(Some(Err(cause))) => {
                     return Ok(Stop::Unreadable(format!("the solver wrote something that cannot be read: {cause}")));
                 }
-                Ok(None) | Err(_) => return Ok(Stop::Output(last)),
+                Ok(None) => return Ok(Stop::Output(last)),
+                Err(cause) => return Ok(Stop::Unreadable(format!("the solver's output cannot be read: {cause}"))),
             },
             _ = tick.tick() => true,
             () = stopping.cancelled() => return Ok(Stop::Shutdown),
@@ -114,13 +116,28 @@ async fn follow(
         if !due {
             continue;
         }
-        let held = if batcher.is_dirty() || renewed.elapsed() >= RENEW {
-            renewed = Instant::now();
-            store
-                .record(claim, &batcher.batch(false), lease_end())
-                .await?
+        let writes = pending.is_some() || batcher.is_dirty() || renewed.elapsed() >= RENEW;
+        let answer = if writes {
+            let batch = pending.take().unwrap_or_else(|| batcher.batch(false));
+            let answer = store.record(claim, &batch, lease_end()).await;
+            if answer.is_err() {
+                pending = Some(batch);
+            }
+            answer
         } else {
-            store.held(claim).await?
+            store.held(claim).await
+        };
+        let held = match answer {
+            Ok(held) => {
+                renewed = if writes { Instant::now() } else { renewed };
+                held
+            }
+            // The lease is ours until it ends: the solve goes on and the batch is written again.
+            Err(error) if renewed.elapsed() < LEASE => {
+                tracing::warn!(job = %claim.id, %error, "the store did not take a batch; trying again");
+                continue;
+            }
+            Err(error) => return Err(error),
         };
         match held {
             Held::Yes {
@@ -134,7 +151,8 @@ async fn follow(
     }
 }
 
-/// What the child's end means: a result or a failure of its own is final; killed from outside, it is tried again.
+/// What the child's end means: a result, a failure or a crash of its own is final; killed from outside, it is tried
+/// again.
 fn verdict(last: Option<Line>, ended: Ended) -> End {
     match (last, ended) {
         (Some(Line::Summary(summary)), _) => End {
@@ -148,6 +166,13 @@ fn verdict(last: Option<Line>, ended: Ended) -> End {
             ..end(Move::Fail, failure.reason)
         },
         (_, Ended::Killed) => end(Move::Lose, "its solving process was killed"),
+        (_, Ended::Crashed(signal)) => End {
+            outcome: Some(Outcome::NotConverged),
+            ..end(
+                Move::Fail,
+                format!("the solving process crashed with signal {signal}"),
+            )
+        },
         (_, Ended::Code(code)) => End {
             outcome: Some(Outcome::NotConverged),
             ..end(

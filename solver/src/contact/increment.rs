@@ -2,16 +2,12 @@
 
 use super::mortar::{self, Coupling};
 use super::newton::{End, Iterate, Newton, Problem, slider_recession};
+use super::range::{first_range, lay_undeformed_gaps, watched, widened};
 use super::response::Response;
 use super::{
     ContactError, ContactState, GAP_TOLERANCE, MOST_ITERATIONS, Move, Pair, Status, Surfaces,
 };
 
-/// A node whose undeformed gap is smaller than this part of the indentation is watched: the free surface beside a
-/// contact sinks, so a node with a positive undeformed gap closes only if shear lifts it, by far less than this.
-const WATCHED: f64 = 0.3;
-/// Nodes watched beyond that at either end.
-const MARGIN_NODES: usize = 2;
 /// How often the watched range may grow within one increment.
 const MOST_EXTENSIONS: usize = 60;
 
@@ -25,6 +21,7 @@ pub struct Solver {
     /// Undeformed vertical gap at height 0 of every covered node, mm.
     undeformed: Vec<f64>,
     gap: Vec<f64>,
+    sag: Vec<f64>,
     recession: Vec<f64>,
 }
 
@@ -73,8 +70,8 @@ impl Solver {
         let mut range = first_range(pair, last, slider_x, covered, &self.undeformed);
         for _ in 0..MOST_EXTENSIONS {
             self.solve_range(pair, surfaces, last, to, range)?;
-            let threshold = WATCHED * self.iterate.indentation - self.iterate.height;
-            let needed = watched(&self.undeformed, covered.0, threshold);
+            let (indentation, height) = (self.iterate.indentation, self.iterate.height);
+            let needed = watched(&self.undeformed, covered.0, indentation, height);
             let wanted = (needed.0.min(range.0), needed.1.max(range.1));
             if wanted == range {
                 self.write(pair, last, slider_x, next);
@@ -104,12 +101,13 @@ impl Solver {
             .integrate(pair.operators, slider_x, first, end);
         self.response
             .gather(pair, &self.coupling, surfaces.slope, last);
-        self.lay_gap(pair, surfaces);
         let interface = &pair.interface;
         // Before the first load there is no height that the spring counts from.
         let (spring, reference) = last
             .reference_height
             .map_or((0.0, 0.0), |height| (interface.spring, height));
+        let load = interface.load - spring * reference;
+        self.lay_gap(pair, surfaces, load, spring);
         let problem = Problem {
             coupling: &self.coupling,
             response: &self.response,
@@ -118,8 +116,9 @@ impl Solver {
             slope: &surfaces.slope[first..end],
             slider_width: &pair.operators.slider.widths,
             friction: interface.friction,
-            load: interface.load - spring * reference,
+            load,
             spring,
+            sag: &self.sag,
             kappa: [
                 interface.receptacle_wear * cycles,
                 interface.slider_wear * cycles,
@@ -145,20 +144,24 @@ impl Solver {
         }
     }
 
-    /// Gap of the worn, undeformed (but loaded from the far face) bodies at height 0.
-    fn lay_gap(&mut self, pair: &Pair<'_>, surfaces: &Surfaces<'_>) {
+    /// Gap of the worn bodies at height 0, deformed by the far-face load that belongs to it, and what that load's
+    /// growth with the height adds.
+    fn lay_gap(&mut self, pair: &Pair<'_>, surfaces: &Surfaces<'_>, load: f64, spring: f64) {
         let coupling = &self.coupling;
         let response = &pair.operators.slider.load_response;
         self.gap.clear();
+        self.sag.clear();
         for i in coupling.first..coupling.end {
             let (from, weights) = coupling.dual_row(i);
-            let mut gap = coupling.gap[i - coupling.first] + surfaces.receptacle_depth[i];
+            let (mut worn, mut moved) = (0.0, 0.0);
             for (offset, weight) in weights.iter().enumerate() {
                 let j = from + offset;
-                let y = response[2 * j + 1] - surfaces.slope[i] * response[2 * j];
-                gap += weight * (surfaces.slider_depth[j] + pair.interface.load * y);
+                worn += weight * surfaces.slider_depth[j];
+                moved += weight * (response[2 * j + 1] - surfaces.slope[i] * response[2 * j]);
             }
-            self.gap.push(gap);
+            let shape = coupling.gap[i - coupling.first] + surfaces.receptacle_depth[i];
+            self.gap.push(shape + worn + load * moved);
+            self.sag.push(spring * moved);
         }
     }
 
@@ -245,79 +248,6 @@ impl Solver {
             friction_cone: cone / peak,
         }
     }
-}
-
-/// Nodes to begin with: the last contact as it travels with the slider, and what the last height reaches.
-fn first_range(
-    pair: &Pair<'_>,
-    last: &ContactState,
-    slider_x: f64,
-    covered: (usize, usize),
-    undeformed: &[f64],
-) -> (usize, usize) {
-    let x = &pair.operators.receptacle.x;
-    let Some((first, end)) = last.active_range() else {
-        let gaps = undeformed.iter().enumerate();
-        let lowest = gaps.fold(
-            (0, f64::INFINITY),
-            |m, (i, g)| if *g < m.1 { (i, *g) } else { m },
-        );
-        let node = covered.0 + lowest.0;
-        return widened((node, node + 1), covered);
-    };
-    let step = slider_x - last.slider_x;
-    let begin = x.partition_point(|&at| at < x[first] + step);
-    let stop = x.partition_point(|&at| at <= x[end - 1] + step);
-    let threshold = WATCHED * last.indentation - last.height;
-    let reached = watched(undeformed, covered.0, threshold);
-    let begin = begin.clamp(covered.0, covered.1 - 1).min(reached.0);
-    widened(
-        (begin, stop.min(covered.1).max(reached.1).max(begin + 1)),
-        covered,
-    )
-}
-
-/// Undeformed vertical gap of the covered nodes at height 0, mm: exact shapes, worn depths interpolated.
-fn lay_undeformed_gaps(
-    pair: &Pair<'_>,
-    surfaces: &Surfaces<'_>,
-    slider_x: f64,
-    covered: (usize, usize),
-    gaps: &mut Vec<f64>,
-) {
-    let (slave, master) = (&pair.operators.receptacle, &pair.operators.slider);
-    let last = master.x.len() - 1;
-    gaps.clear();
-    let mut m = 1;
-    for i in covered.0..covered.1 {
-        let local = slave.x[i] - slider_x;
-        while m < last && master.x[m] < local {
-            m += 1;
-        }
-        let t = (local - master.x[m - 1]) / (master.x[m] - master.x[m - 1]);
-        let worn = (1.0 - t) * surfaces.slider_depth[m - 1] + t * surfaces.slider_depth[m];
-        let shape = master.profile.height(local) - slave.profile.height(slave.x[i]);
-        gaps.push(shape + worn + surfaces.receptacle_depth[i]);
-    }
-}
-
-/// Nodes from `offset` on whose undeformed gap is below a threshold: first and one past the last.
-fn watched(undeformed: &[f64], offset: usize, threshold: f64) -> (usize, usize) {
-    let below = |gap: &f64| *gap < threshold;
-    match (
-        undeformed.iter().position(below),
-        undeformed.iter().rposition(below),
-    ) {
-        (Some(first), Some(last)) => (offset + first, offset + last + 1),
-        _ => (usize::MAX, 0),
-    }
-}
-
-fn widened((first, end): (usize, usize), covered: (usize, usize)) -> (usize, usize) {
-    (
-        first.saturating_sub(MARGIN_NODES).max(covered.0),
-        (end + MARGIN_NODES).min(covered.1),
-    )
 }
 
 /// Begins with the last contact as it travels with the slider.

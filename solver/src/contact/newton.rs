@@ -29,6 +29,8 @@ pub(super) struct Problem<'a> {
     /// Vertical load at height 0, N/mm, and what it gains a mm of height.
     pub(super) load: f64,
     pub(super) spring: f64,
+    /// Gap that the slider opens by deforming under its far-face load as the height grows, mm per mm.
+    pub(super) sag: &'a [f64],
     /// k times cycles, receptacle and slider, 1/MPa.
     pub(super) kappa: [f64; 2],
     /// How far the slider travels over the receptacle in this increment, mm.
@@ -155,8 +157,9 @@ impl Newton {
             };
         }
         self.column.clear();
+        let places = problem.slope.iter().zip(problem.sag);
         self.column
-            .extend(problem.slope.iter().flat_map(|s| [1.0, *s]));
+            .extend(places.flat_map(|(s, sag)| [1.0 + sag, *s]));
         self.add_wear(problem, it, None);
         self.write_column(order - 1);
         self.assemble_rhs(problem, it);
@@ -305,7 +308,8 @@ impl Newton {
         self.wear_of_change(problem);
         let mut residual = 0.0_f64;
         for (i, jump) in self.column.chunks_exact(2).enumerate() {
-            it.gap[i] = problem.gap[i] + it.height + jump[0] + self.worn[i];
+            let raised = (1.0 + problem.sag[i]) * it.height;
+            it.gap[i] = problem.gap[i] + raised + jump[0] + self.worn[i];
             if it.status[i] != Status::Open {
                 indentation = indentation.max(self.worn[i]);
                 residual = residual.max(it.gap[i].abs());

@@ -17,6 +17,10 @@ use std::f64::consts::PI;
 /// The estimate of the largest scar is widened by this factor before it sizes the mesh.
 const SCAR_MARGIN: f64 = 1.3;
 
+/// No element is longer than this part of the narrower body's half-length: however soft or heavily loaded the bodies
+/// are, each has some elements.
+const FEWEST_SHARE: f64 = 0.1;
+
 /// Lengths of the contact and what follows from them for the mesh, mm.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Sizes {
@@ -89,7 +93,9 @@ pub fn choose(scene: &Scene) -> Sizes {
 
     let rule = rule(scene.accuracy.tolerance);
     let given = scene.accuracy.contact_element_mm;
-    let element = given.unwrap_or(narrowest / rule.elements);
+    let half_block = 0.5 * scene.receptacle.shape.length_mm;
+    let coarsest = FEWEST_SHARE * half_block.min(scene.slider.shape.half_width_mm);
+    let element = given.unwrap_or(narrowest / rule.elements).min(coarsest);
     let reach = SCAR_MARGIN * last + element;
     let core = if given.is_some() {
         reach
@@ -104,14 +110,13 @@ pub fn choose(scene: &Scene) -> Sizes {
         outer_growth: 0.25,
         largest: 0.1 * half,
     };
-    let half_block = 0.5 * scene.receptacle.shape.length_mm;
     let arc = |radius: f64, half: f64| radius * (half / radius).min(1.0).asin();
     let half_arc = arc(slider_radius, scene.slider.shape.half_width_mm);
     let half_top = crown.map_or(half_block, |crown| arc(crown, half_block));
     Sizes {
         hertz_half_width: hertz,
         final_half_width: last,
-        contact_element: element.min(half_block),
+        contact_element: element,
         layer_growth: rule.layer_growth,
         receptacle: spacing(amplitude, half_top),
         slider: spacing(0.0, half_arc),

@@ -1,0 +1,86 @@
+//! Which nodes of the receptacle may touch: the range that an increment is solved on.
+
+use super::{ContactState, Pair, Surfaces};
+
+/// A node whose undeformed gap is smaller than this part of the indentation is watched: the free surface beside a
+/// contact sinks, so a node with a positive undeformed gap closes only if shear lifts it, by far less than this.
+const WATCHED: f64 = 0.3;
+/// Nodes watched beyond that at either end.
+const MARGIN_NODES: usize = 2;
+/// Nodes to begin with: the last contact as it travels with the slider, and what the last height reaches.
+pub(super) fn first_range(
+    pair: &Pair<'_>,
+    last: &ContactState,
+    slider_x: f64,
+    covered: (usize, usize),
+    undeformed: &[f64],
+) -> (usize, usize) {
+    let x = &pair.operators.receptacle.x;
+    let Some((first, end)) = last.active_range() else {
+        let gaps = undeformed.iter().enumerate();
+        let lowest = gaps.fold(
+            (0, f64::INFINITY),
+            |m, (i, g)| if *g < m.1 { (i, *g) } else { m },
+        );
+        let node = covered.0 + lowest.0;
+        return widened((node, node + 1), covered);
+    };
+    let step = slider_x - last.slider_x;
+    let begin = x.partition_point(|&at| at < x[first] + step);
+    let stop = x.partition_point(|&at| at <= x[end - 1] + step);
+    let reached = watched(undeformed, covered.0, last.indentation, last.height);
+    let begin = begin.clamp(covered.0, covered.1 - 1).min(reached.0);
+    widened(
+        (begin, stop.min(covered.1).max(reached.1).max(begin + 1)),
+        covered,
+    )
+}
+
+/// Undeformed vertical gap of the covered nodes at height 0, mm: exact shapes, worn depths interpolated.
+pub(super) fn lay_undeformed_gaps(
+    pair: &Pair<'_>,
+    surfaces: &Surfaces<'_>,
+    slider_x: f64,
+    covered: (usize, usize),
+    gaps: &mut Vec<f64>,
+) {
+    let (slave, master) = (&pair.operators.receptacle, &pair.operators.slider);
+    let last = master.x.len() - 1;
+    gaps.clear();
+    let mut m = 1;
+    for i in covered.0..covered.1 {
+        let local = slave.x[i] - slider_x;
+        while m < last && master.x[m] < local {
+            m += 1;
+        }
+        let t = (local - master.x[m - 1]) / (master.x[m] - master.x[m - 1]);
+        let worn = (1.0 - t) * surfaces.slider_depth[m - 1] + t * surfaces.slider_depth[m];
+        let shape = master.profile.height(local) - slave.profile.height(slave.x[i]);
+        gaps.push(shape + worn + surfaces.receptacle_depth[i]);
+    }
+}
+
+/// Nodes from `offset` on that may touch at a height: first and one past the last.
+pub(super) fn watched(
+    undeformed: &[f64],
+    offset: usize,
+    indentation: f64,
+    height: f64,
+) -> (usize, usize) {
+    let threshold = WATCHED * indentation - height;
+    let below = |gap: &f64| *gap < threshold;
+    match (
+        undeformed.iter().position(below),
+        undeformed.iter().rposition(below),
+    ) {
+        (Some(first), Some(last)) => (offset + first, offset + last + 1),
+        _ => (usize::MAX, 0),
+    }
+}
+
+pub(super) fn widened((first, end): (usize, usize), covered: (usize, usize)) -> (usize, usize) {
+    (
+        first.saturating_sub(MARGIN_NODES).max(covered.0),
+        (end + MARGIN_NODES).min(covered.1),
+    )
+}
