@@ -8,6 +8,10 @@
 //! * vertical gap g and tangential slip sigma = T . (relative displacement since the last increment);
 //! * Archard per dx: vertical recession = k p |sigma|, energy = |q sigma|.
 //!
+//! A jump u of the surfaces changes the gap at a point of the receptacle by (-s', 1) . u with the slope s' of the
+//! *slider*, whose arc the jump shifts along: a contact that sticks stays where it is on the receptacle although the
+//! imposed displacement has moved on.
+//!
 //! The dual mortar couples nodal averages: jump_i = sum_j Mhat_ij u_j(slider) - u_i(receptacle), and the response
 //! to nodal forces F is jump = (Mhat C_s Mhat^T + C_r) F with the condensed compliances. Contact knows operators,
 //! not meshes.
@@ -19,7 +23,7 @@ mod range;
 mod response;
 mod status;
 
-use crate::condensation::Operators;
+use crate::condensation::{BodyOperators, Operators};
 use crate::model::Interface;
 
 pub use increment::{Increment, Solver};
@@ -96,6 +100,21 @@ pub struct Surfaces<'a> {
     pub slider_depth: &'a [f64],
     /// Slope dy/dx of the receptacle's surface that normals are taken from.
     pub slope: &'a [f64],
+    /// Slope dy/dx of the slider's surface at its contact nodes.
+    pub slider_slope: &'a [f64],
+}
+
+/// Slopes dy/dx of a body's contact surface that has receded by `depth` (`outward` is -1 below, +1 above the contact):
+/// of the unworn shape exactly, of the depth by central differences.
+pub fn slopes(body: &BodyOperators, depth: &[f64], outward: f64) -> Vec<f64> {
+    let x = &body.x;
+    (0..x.len())
+        .map(|i| {
+            let (left, right) = (i.saturating_sub(1), (i + 1).min(x.len() - 1));
+            let worn = (depth[right] - depth[left]) / (x[right] - x[left]);
+            body.profile.slope(x[i]) + outward * worn
+        })
+        .collect()
 }
 
 /// Where the bodies are and what they transmit.

@@ -13,8 +13,8 @@ mod path;
 mod record;
 mod sweep;
 
-use crate::condensation::{BodyOperators, Operators};
-use crate::contact::{ContactError, ContactState, Move, Pair, Solver, Surfaces};
+use crate::condensation::Operators;
+use crate::contact::{self, ContactError, ContactState, Move, Pair, Solver, Surfaces};
 use crate::history::{Checks, FrictionLoop, Position};
 use crate::model::Model;
 use crate::number::{real, real_cycles};
@@ -109,7 +109,8 @@ pub struct Integrator<'a> {
     scene: &'a Scene,
     pair: Pair<'a>,
     solver: Solver,
-    slope: Vec<f64>,
+    /// Slopes of the receptacle's and the slider's surface at the beginning of the computed cycle.
+    slope: [Vec<f64>; 2],
     next: ContactState,
 }
 
@@ -125,7 +126,7 @@ impl<'a> Integrator<'a> {
             scene,
             pair,
             solver: Solver::default(),
-            slope: Vec::new(),
+            slope: [Vec::new(), Vec::new()],
             next,
         }
     }
@@ -135,7 +136,7 @@ impl<'a> Integrator<'a> {
     /// # Errors
     /// [`CycleError`] if there is no equilibrium.
     pub fn settle(&mut self, state: &mut CycleState) -> Result<Sweep, CycleError> {
-        self.slope = slopes(&self.pair.operators.receptacle, &state.receptacle_depth);
+        self.take_slopes(state);
         self.increment(
             state,
             Move {
@@ -161,6 +162,14 @@ impl<'a> Integrator<'a> {
         })
     }
 
+    fn take_slopes(&mut self, state: &CycleState) {
+        let Operators { receptacle, slider } = self.pair.operators;
+        self.slope = [
+            contact::slopes(receptacle, &state.receptacle_depth, -1.0),
+            contact::slopes(slider, &state.slider_depth, 1.0),
+        ];
+    }
+
     /// Brings the contact to where cycles begin, slipping, without wear.
     ///
     /// # Errors
@@ -183,7 +192,7 @@ impl<'a> Integrator<'a> {
         let runs = motion.amplitude_mm() > RUNS_FROM * state.mean_half_width;
         let jump = state.jump.next(accuracy, runs, until - state.cycle);
         let steps = path::steps(motion, accuracy, state.mean_half_width);
-        self.slope = slopes(&self.pair.operators.receptacle, &state.receptacle_depth);
+        self.take_slopes(state);
         let before = state.receptacle_depth.clone();
         let mut sweep = Sweep::default();
         let mut half_widths = 0.0;
@@ -261,7 +270,8 @@ impl<'a> Integrator<'a> {
         let surfaces = Surfaces {
             receptacle_depth: &state.receptacle_depth,
             slider_depth: &state.slider_depth,
-            slope: &self.slope,
+            slope: &self.slope[0],
+            slider_slope: &self.slope[1],
         };
         let last = &state.contact;
         let done = self
@@ -308,16 +318,4 @@ impl<'a> Integrator<'a> {
             state.neutral = Neutral::of(contact, &self.pair);
         }
     }
-}
-
-/// Slopes dy/dx of a surface that has receded by `depth`: of the unworn shape exactly, of the depth by central
-/// differences.
-fn slopes(body: &BodyOperators, depth: &[f64]) -> Vec<f64> {
-    let x = &body.x;
-    (0..x.len())
-        .map(|i| {
-            let (left, right) = (i.saturating_sub(1), (i + 1).min(x.len() - 1));
-            body.profile.slope(x[i]) - (depth[right] - depth[left]) / (x[right] - x[left])
-        })
-        .collect()
 }

@@ -66,6 +66,7 @@ fn an_even_pressure_passes_through_non_matching_meshes_at_any_position() {
             receptacle_depth: &zero,
             slider_depth: &zero,
             slope: &zero,
+            slider_slope: &zero,
         };
         let mut last = ContactState::untouched(&operators);
         last.slider_x = slider_x;

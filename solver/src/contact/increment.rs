@@ -99,8 +99,7 @@ impl Solver {
         let (slider_x, cycles) = (to.slider_x, to.cycles);
         self.coupling
             .integrate(pair.operators, slider_x, first, end);
-        self.response
-            .gather(pair, &self.coupling, surfaces.slope, last);
+        self.response.gather(pair, &self.coupling, surfaces, last);
         let interface = &pair.interface;
         // Before the first load there is no height that the spring counts from.
         let (spring, reference) = last

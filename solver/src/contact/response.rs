@@ -1,18 +1,20 @@
 //! The response of both bodies at the coupled nodes, in the local frame of the receptacle's surface.
 
 use super::mortar::Coupling;
-use super::{ContactState, Pair};
+use super::{ContactState, Pair, Surfaces};
 use crate::linear::SquareMatrix;
 
-/// Jump of the surfaces per nodal force, unknowns (2 i) along N and (2 i + 1) along T of each coupled node.
+/// Change of the gap (2 i) and of the tangential jump (2 i + 1) of each coupled node, per force along N and T.
 #[derive(Debug, Default)]
 pub(super) struct Response {
-    /// G = Mhat C_s Mhat^T + C_r in the local frame, mm per N/mm.
+    /// G = Mhat C_s Mhat^T + C_r, its rows and columns in the local frame, mm per N/mm.
     pub(super) local: SquareMatrix,
     /// Jump that the forces of the last increment would make at the new position (N and T components), mm.
     pub(super) last_jump: Vec<f64>,
     /// Slope at each coupled node.
     pub(super) slope: Vec<f64>,
+    /// Slope of the slider's surface over each coupled node.
+    slider_slope: Vec<f64>,
     slider_column: Vec<f64>,
 }
 
@@ -22,20 +24,27 @@ impl Response {
         &mut self,
         pair: &Pair<'_>,
         coupling: &Coupling,
-        slope: &[f64],
+        surfaces: &Surfaces<'_>,
         last: &ContactState,
     ) {
         let n = coupling.len();
         self.local.reset(2 * n);
+        self.slope.clear();
+        self.slope
+            .extend_from_slice(&surfaces.slope[coupling.first..coupling.end]);
+        self.slider_slope.clear();
+        for i in coupling.first..coupling.end {
+            let (from, weights) = coupling.dual_row(i);
+            let slopes = weights.iter().zip(&surfaces.slider_slope[from..]);
+            self.slider_slope
+                .push(slopes.map(|(weight, slope)| weight * slope).sum());
+        }
         for k in 0..n {
             for direction in 0..2 {
                 self.gather_column(pair, coupling, k, direction);
             }
         }
-        self.slope.clear();
-        self.slope
-            .extend_from_slice(&slope[coupling.first..coupling.end]);
-        to_local_frame(&mut self.local, &self.slope);
+        forces_to_local_frame(&mut self.local, &self.slope);
         self.gather_last_jump(pair, coupling, last);
     }
 
@@ -62,13 +71,15 @@ impl Response {
             .enumerate()
         {
             let (from, weights) = coupling.dual_row(coupling.first + i);
-            let (mut x, mut y) = (r[0], r[1]);
+            let (mut x, mut y) = (0.0, 0.0);
             let slider = self.slider_column[2 * (from - begin)..].chunks_exact(2);
             for (weight, u) in weights.iter().zip(slider) {
                 x += weight * u[0];
                 y += weight * u[1];
             }
-            (t[0], t[1]) = (x, y);
+            let (x, y) = (x + r[0], y + r[1]);
+            t[0] = y - self.slider_slope[i] * x;
+            t[1] = x + self.slope[i] * y;
         }
     }
 
@@ -114,16 +125,10 @@ fn accumulate(target: &mut [f64], compliance: &SquareMatrix, force: &[f64], firs
     }
 }
 
-/// Turns (x, y) rows and columns into (N, T) with N = (-s, 1), T = (1, s).
-fn to_local_frame(g: &mut SquareMatrix, slope: &[f64]) {
-    let n = slope.len();
-    for column in 0..2 * n {
-        for (pair, s) in g.column_mut(column).chunks_exact_mut(2).zip(slope) {
-            (pair[0], pair[1]) = (pair[1] - s * pair[0], pair[0] + s * pair[1]);
-        }
-    }
+/// Turns columns for forces along (x, y) into columns for forces along N = (-s, 1) and T = (1, s).
+fn forces_to_local_frame(g: &mut SquareMatrix, slope: &[f64]) {
     for (k, s) in slope.iter().enumerate() {
-        for row in 0..2 * n {
+        for row in 0..g.order() {
             let (x, y) = (g.get(row, 2 * k), g.get(row, 2 * k + 1));
             *g.at(row, 2 * k) = y - s * x;
             *g.at(row, 2 * k + 1) = x + s * y;
