@@ -5,6 +5,7 @@
     reason = "the suite prints the figures that the READMEs quote"
 )]
 
+mod converge_scars;
 mod keep;
 mod scenes;
 mod verify_block_on_ring;

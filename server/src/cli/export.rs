@@ -9,17 +9,13 @@ use solver::observer::{Event, Flow, Observer};
 use solver::scene::Scene;
 use solver::{SolveError, ale};
 
-use super::terminal::{failed, refused, say};
-use crate::translate::{self, deck};
+use super::terminal::{failed, say, specification};
+use crate::translate::deck;
 
 pub(super) fn run(spec: &Path, cycle: u64) -> ExitCode {
-    let bytes = match std::fs::read(spec) {
-        Ok(bytes) => bytes,
-        Err(cause) => return failed(format_args!("{}: {cause}", spec.display())),
-    };
-    let resolved = match translate::read(&bytes) {
+    let resolved = match specification(spec) {
         Ok(resolved) => resolved,
-        Err(error) => return refused(&error),
+        Err(code) => return code,
     };
     let scene = resolved.scene;
     if cycle > scene.cycles {

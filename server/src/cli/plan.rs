@@ -5,17 +5,13 @@ use std::process::ExitCode;
 
 use api::plan::PlanDocument;
 
-use super::terminal::{failed, refused, say};
+use super::terminal::{failed, say, specification};
 use crate::translate;
 
 pub(super) fn run(spec: &Path) -> ExitCode {
-    let bytes = match std::fs::read(spec) {
-        Ok(bytes) => bytes,
-        Err(cause) => return failed(format_args!("{}: {cause}", spec.display())),
-    };
-    let resolved = match translate::read(&bytes) {
+    let resolved = match specification(spec) {
         Ok(resolved) => resolved,
-        Err(error) => return refused(&error),
+        Err(code) => return code,
     };
     let plan = translate::plan(&resolved);
     match serde_json::to_string_pretty(&PlanDocument {

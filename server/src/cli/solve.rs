@@ -8,19 +8,15 @@ use api::results::{CycleRow, Snapshot, Summary};
 use indicatif::ProgressBar;
 use solver::observer::Flow;
 
-use super::terminal::{bar, failed, refused, say, tell};
+use super::terminal::{bar, failed, say, specification, tell};
 use crate::files::{self, Results};
 use crate::solve::{self, Failure, FieldsFile, Line};
-use crate::translate::{self, Resolved};
+use crate::translate::Resolved;
 
 pub(super) fn run(spec: &Path, out: Option<&Path>) -> ExitCode {
-    let bytes = match std::fs::read(spec) {
-        Ok(bytes) => bytes,
-        Err(cause) => return failed(format_args!("{}: {cause}", spec.display())),
-    };
-    let resolved = match translate::read(&bytes) {
+    let resolved = match specification(spec) {
         Ok(resolved) => resolved,
-        Err(error) => return refused(&error),
+        Err(code) => return code,
     };
     // Before the work, so that a folder that cannot be made does not cost a finished solve.
     if let Some(folder) = out

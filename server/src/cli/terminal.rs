@@ -2,6 +2,7 @@
 
 use std::fmt::Display;
 use std::io::Write;
+use std::path::Path;
 use std::process::ExitCode;
 use std::time::Duration;
 
@@ -9,7 +10,7 @@ use api::problem::Fault;
 use indicatif::{ProgressBar, ProgressStyle};
 
 use super::REFUSED;
-use crate::translate::Refused;
+use crate::translate::{self, Refused, Resolved};
 
 /// Writes a line on standard output. A reader that has gone (`| head`) is no failure of the work.
 pub(super) fn say(line: impl Display) {
@@ -36,6 +37,13 @@ pub(super) fn refused(refused: &Refused) -> ExitCode {
         }
     }
     ExitCode::from(REFUSED)
+}
+
+/// Reads and resolves the specification in a file; reports why not, with the exit code that belongs to it.
+pub(super) fn specification(path: &Path) -> Result<Resolved, ExitCode> {
+    let bytes =
+        std::fs::read(path).map_err(|cause| failed(format_args!("{}: {cause}", path.display())))?;
+    translate::read(&bytes).map_err(|error| refused(&error))
 }
 
 /// A progress bar on standard error, counting cycles; silent where standard error is no terminal.

@@ -33,72 +33,25 @@ pub(super) async fn pressure(
 
 #[cfg(test)]
 mod tests {
-    use crate::http::tests::Service;
+    use crate::http::stored_part::checks;
 
     #[tokio::test]
     async fn the_nearest_stored_cycle_answers() {
-        let service = Service::new().await;
-        let id = service.with_results().await;
-        let path = format!("/v1/jobs/{id}/results/pressure");
-        for (query, cycle) in [
-            ("", 20),
-            ("?cycle=0", 10),
-            ("?cycle=14", 10),
-            ("?cycle=16", 20),
-            ("?cycle=999", 20),
-        ] {
-            let (status, _, document) = service.get(&format!("{path}{query}")).await;
-            assert_eq!(
-                (status.as_u16(), document["cycle"].as_u64()),
-                (200, Some(cycle)),
-                "{query}"
-            );
-        }
+        checks::nearest("pressure").await;
     }
 
     #[tokio::test]
     async fn csv_names_units_in_its_header() {
-        let service = Service::new().await;
-        let id = service.with_results().await;
-        let (status, headers, text) = service
-            .text(
-                "GET",
-                &format!("/v1/jobs/{id}/results/pressure?format=csv"),
-                &[],
-                "",
-            )
-            .await;
-        assert_eq!(status, 200);
-        assert_eq!(headers["content-type"], "text/csv; charset=utf-8");
-        assert_eq!(
-            text.lines().next(),
-            Some("phase,slider_x_mm,x_mm,pressure_mpa,shear_mpa")
-        );
-        assert_eq!(text.lines().count(), 3);
+        checks::csv(
+            "pressure",
+            "phase,slider_x_mm,x_mm,pressure_mpa,shear_mpa",
+            3,
+        )
+        .await;
     }
 
     #[tokio::test]
     async fn what_is_not_there_is_a_problem() {
-        let service = Service::new().await;
-        let id = service.queued(r#"{"system":{"kind":"dimm"}}"#).await;
-        let (status, _, problem) = service
-            .get(&format!("/v1/jobs/{id}/results/pressure"))
-            .await;
-        assert_eq!(
-            (status.as_u16(), problem["type"].as_str()),
-            (404, Some("/problems/no-such-result"))
-        );
-        let missing = "/v1/jobs/00000000-0000-7000-8000-000000000000/results/pressure";
-        assert_eq!(
-            service.get(missing).await.2["type"],
-            "/problems/no-such-job"
-        );
-        assert_eq!(
-            service
-                .get(&format!("/v1/jobs/{id}/results/pressure?cycle=-1"))
-                .await
-                .0,
-            400
-        );
+        checks::missing("pressure").await;
     }
 }

@@ -97,3 +97,56 @@ pub(super) async fn respond<T: DeserializeOwned>(
             .into_response(),
     })
 }
+
+/// What every route of a stored part must do, whichever part it is.
+#[cfg(test)]
+pub(super) mod checks {
+    use crate::http::tests::Service;
+
+    fn path(id: &str, part: &str) -> String {
+        format!("/v1/jobs/{id}/results/{part}")
+    }
+
+    pub(in crate::http) async fn nearest(part: &str) {
+        let service = Service::new().await;
+        let id = service.with_results().await;
+        let asked = [
+            ("", 20),
+            ("?cycle=0", 10),
+            ("?cycle=14", 10),
+            ("?cycle=16", 20),
+            ("?cycle=999", 20),
+        ];
+        for (query, cycle) in asked {
+            let (status, _, document) = service.get(&format!("{}{query}", path(&id, part))).await;
+            let found = (status.as_u16(), document["cycle"].as_u64());
+            assert_eq!(found, (200, Some(cycle)), "{query}");
+        }
+    }
+
+    pub(in crate::http) async fn csv(part: &str, header: &str, lines: usize) {
+        let service = Service::new().await;
+        let id = service.with_results().await;
+        let asked = format!("{}?format=csv", path(&id, part));
+        let (status, headers, text) = service.text("GET", &asked, &[], "").await;
+        assert_eq!(status, 200);
+        assert_eq!(headers["content-type"], "text/csv; charset=utf-8");
+        assert_eq!(text.lines().next(), Some(header));
+        assert_eq!(text.lines().count(), lines);
+    }
+
+    pub(in crate::http) async fn missing(part: &str) {
+        let service = Service::new().await;
+        let id = service.queued(r#"{"system":{"kind":"dimm"}}"#).await;
+        let (status, _, problem) = service.get(&path(&id, part)).await;
+        let found = (status.as_u16(), problem["type"].as_str());
+        assert_eq!(found, (404, Some("/problems/no-such-result")));
+        let nobody = path("00000000-0000-7000-8000-000000000000", part);
+        assert_eq!(
+            service.get(&nobody).await.2["type"],
+            "/problems/no-such-job"
+        );
+        let unreadable = format!("{}?cycle=-1", path(&id, part));
+        assert_eq!(service.get(&unreadable).await.0, 400);
+    }
+}
