@@ -64,6 +64,57 @@ fn final_scar_and_pressure_are_those_of_the_reference_without_zigzag() {
     }
 }
 
+/// The measured profile of the flat (attribution in the file's header), positive into the material, um.
+fn measured() -> Vec<(f64, f64)> {
+    let text = include_str!("data/mccoll2004_measured_185N_18000.csv");
+    let rows = text
+        .lines()
+        .filter(|line| !line.starts_with('#') && !line.starts_with('x'));
+    rows.map(|row| {
+        let (x, y) = row.split_once(',').expect("two columns");
+        let number = |text: &str| text.trim().parse::<f64>().expect("a number");
+        (number(x), -number(y))
+    })
+    .collect()
+}
+
+/// Roughness and debris of the worn surface are 0.2 to 0.4 um from place to place, so the profile is compared in its
+/// middle, in its area and in its mean deviation, not point by point.
+#[test]
+fn the_profile_is_that_of_the_measurement_within_its_roughness() {
+    let (_, keep) = solve(&mccoll()).expect("the scene can be solved");
+    let profile = &keep
+        .snapshots
+        .last()
+        .expect("the last cycle is kept")
+        .receptacle;
+    let at = |x: f64| {
+        let i = profile
+            .x_mm
+            .partition_point(|&p| p < x)
+            .clamp(1, profile.x_mm.len() - 1);
+        let t = (x - profile.x_mm[i - 1]) / (profile.x_mm[i] - profile.x_mm[i - 1]);
+        1e3 * ((1.0 - t) * profile.depth_mm[i - 1] + t * profile.depth_mm[i])
+    };
+    let scar: Vec<(f64, f64)> = measured()
+        .into_iter()
+        .filter(|(x, _)| (-0.27..0.29).contains(x))
+        .collect();
+    let count = f64::from(u32::try_from(scar.len()).expect("some hundred places"));
+    let mean = |value: &dyn Fn(&(f64, f64)) -> f64| scar.iter().map(value).sum::<f64>() / count;
+    let area = mean(&|(x, _)| at(*x)) / mean(&|(_, depth)| *depth);
+    let deviation = mean(&|(x, depth)| (at(*x) - depth).powi(2)).sqrt();
+    let deepest = scar.iter().fold(0.0, |m: f64, (_, depth)| m.max(*depth));
+    println!(
+        "measured: area ratio {area:.3}, deviation {deviation:.2} um, deepest {deepest:.2} um"
+    );
+    assert!(
+        (area - 1.0).abs() < 0.15 && deviation < 0.45,
+        "{area} {deviation}"
+    );
+    assert!((at(0.0) / deepest - 1.0).abs() < 0.1);
+}
+
 /// Largest alternation of the pressure about its own local mean, away from the edges, over the peak.
 fn zigzag(field: &TractionField) -> f64 {
     let p = &field.pressure_mpa;
