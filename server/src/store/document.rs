@@ -8,6 +8,7 @@ use serde::de::DeserializeOwned;
 use uuid::Uuid;
 
 use super::StoreError;
+use super::queries::job_id;
 
 /// A row of `jobs`.
 #[derive(Debug, sqlx::FromRow)]
@@ -31,7 +32,7 @@ pub(super) struct JobRow {
 impl JobRow {
     /// The document.
     pub(super) fn document(&self) -> Result<Job, StoreError> {
-        let id = Uuid::parse_str(&self.id).map_err(|cause| corrupt(Uuid::nil(), "id", &cause))?;
+        let id = job_id(&self.id)?;
         let status =
             Status::from_name(&self.status).ok_or_else(|| corrupt(id, "status", &self.status))?;
         Ok(Job {

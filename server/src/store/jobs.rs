@@ -8,7 +8,7 @@ use sqlx::{QueryBuilder, Sqlite, SqliteConnection, Transaction};
 use uuid::Uuid;
 
 use super::document::{JobRow, timestamp};
-use super::queries::{BEGIN, insert_event};
+use super::queries::{BEGIN, insert_event, job_id};
 use super::{Store, StoreError};
 use crate::queue::{Move, after};
 
@@ -111,11 +111,7 @@ impl Store {
             if body != key.body_sha256 {
                 return Ok(Submitted::KeyTaken);
             }
-            let id = Uuid::parse_str(&job).map_err(|cause| StoreError::Corrupt {
-                id: Uuid::nil(),
-                what: "id",
-                cause: cause.to_string(),
-            })?;
+            let id = job_id(&job)?;
             return Ok(Submitted::Job(id));
         }
         let id = insert(&mut transaction, job, now).await?;

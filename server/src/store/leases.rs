@@ -10,7 +10,7 @@ use sqlx::{Sqlite, Transaction};
 use uuid::Uuid;
 
 use super::conclusion::{End, Standing, conclude};
-use super::queries::{BEGIN, insert_event};
+use super::queries::{BEGIN, insert_event, job_id};
 use super::{Store, StoreError};
 use crate::queue::Move;
 
@@ -80,11 +80,7 @@ impl Store {
             .bind(&text)
             .execute(&mut *transaction)
             .await?;
-        let id = Uuid::parse_str(&text).map_err(|cause| StoreError::Corrupt {
-            id: Uuid::nil(),
-            what: "id",
-            cause: cause.to_string(),
-        })?;
+        let id = job_id(&text)?;
         let attempt = Attempt {
             attempt: u32::try_from(attempts).unwrap_or(u32::MAX),
         };
@@ -211,11 +207,7 @@ impl Store {
         .await?;
         let mut ends = Vec::with_capacity(lost.len());
         for (text, attempts, cancel_requested) in lost {
-            let id = Uuid::parse_str(&text).map_err(|cause| StoreError::Corrupt {
-                id: Uuid::nil(),
-                what: "id",
-                cause: cause.to_string(),
-            })?;
+            let id = job_id(&text)?;
             let end = End {
                 step: Move::Lose,
                 reason: Some(reason.to_owned()),

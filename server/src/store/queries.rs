@@ -9,6 +9,15 @@ use super::{Store, StoreError};
 /// Takes the write lock at once: a transaction that reads first and writes later would fail under contention.
 pub(super) const BEGIN: &str = "BEGIN IMMEDIATE";
 
+/// The id of a job as it is stored.
+pub(super) fn job_id(text: &str) -> Result<Uuid, StoreError> {
+    Uuid::parse_str(text).map_err(|cause| StoreError::Corrupt {
+        id: Uuid::nil(),
+        what: "id",
+        cause: cause.to_string(),
+    })
+}
+
 /// The version of the linked SQLite.
 pub(super) async fn sqlite_version(pool: &SqlitePool) -> Result<String, StoreError> {
     Ok(sqlx::query_scalar("SELECT sqlite_version()")

@@ -83,9 +83,18 @@ impl Batcher {
         batch.progress = self.progress.clone();
         if last || self.event_due() {
             self.last_event = Some((Instant::now(), self.progress.fraction));
-            batch.events = self.events();
+            batch.events.extend(self.events());
         }
         batch
+    }
+
+    /// Takes back a batch that the store did not take, before what has gathered since.
+    pub(super) fn give_back(&mut self, refused: Batch) {
+        let newer = std::mem::replace(&mut self.batch, refused);
+        self.batch.rows.extend(newer.rows);
+        self.batch.snapshots.extend(newer.snapshots);
+        self.batch.events.extend(newer.events);
+        self.dirty = true;
     }
 
     fn events(&mut self) -> Vec<(&'static str, String)> {
@@ -160,6 +169,23 @@ mod tests {
         assert_eq!(rows, 2001);
         assert!(events < 900, "{events}");
         assert!(!batcher.is_dirty());
+    }
+
+    #[test]
+    fn a_batch_that_was_refused_goes_into_the_next_one_in_order() {
+        let mut batcher = Batcher::new(10);
+        batcher.take(row(1));
+        let refused = batcher.batch(false);
+        assert_eq!(refused.events.len(), 2);
+        batcher.take(row(2));
+        batcher.give_back(refused);
+        assert!(batcher.is_dirty());
+        let next = batcher.batch(true);
+        let cycles: Vec<u64> = next.rows.iter().map(|row| row.cycle).collect();
+        assert_eq!(cycles, [1, 2]);
+        let names: Vec<_> = next.events.iter().map(|event| event.0).collect();
+        assert_eq!(names, ["progress", "cycle", "progress", "cycle"]);
+        assert!(batcher.batch(false).rows.is_empty());
     }
 
     #[test]

@@ -92,7 +92,6 @@ async fn follow(
     tick.set_missed_tick_behavior(tokio::time::MissedTickBehavior::Delay);
     let mut renewed = Instant::now();
     let mut last = None;
-    let mut pending: Option<Batch> = None;
     loop {
         let due = tokio::select! {
             line = child.line() => match line.map(|line| line.map(|line| serde_json::from_str::<Line>(&line))) {
@@ -116,12 +115,12 @@ async fn follow(
         if !due {
             continue;
         }
-        let writes = pending.is_some() || batcher.is_dirty() || renewed.elapsed() >= RENEW;
+        let writes = batcher.is_dirty() || renewed.elapsed() >= RENEW;
         let answer = if writes {
-            let batch = pending.take().unwrap_or_else(|| batcher.batch(false));
+            let batch = batcher.batch(false);
             let answer = store.record(claim, &batch, lease_end()).await;
             if answer.is_err() {
-                pending = Some(batch);
+                batcher.give_back(batch);
             }
             answer
         } else {
@@ -199,14 +198,33 @@ async fn conclude(
     end: &End,
 ) -> Result<(), StoreError> {
     // A batch's events precede the end, so they are written first, under the same lease.
-    if matches!(store.record(claim, batch, lease_end()).await?, Held::No) {
+    let recorded = patiently(claim, || store.record(claim, batch, lease_end())).await?;
+    if matches!(recorded, Held::No) {
         return Ok(());
     }
     let rest = Batch {
         progress: batch.progress.clone(),
         ..Batch::default()
     };
-    let status = store.end(claim, &rest, end, now_ms()).await?;
+    let status = patiently(claim, || store.end(claim, &rest, end, now_ms())).await?;
     tracing::info!(job = %claim.id, status = status.map(Status::as_str), reason = end.reason, "job concluded");
     Ok(())
+}
+
+/// Writes again while a lease lasts: a store that stalls must not cost a finished solve. The fence keeps a write that
+/// comes too late from counting.
+async fn patiently<T, F: Future<Output = Result<T, StoreError>>>(
+    claim: &Claim,
+    write: impl Fn() -> F,
+) -> Result<T, StoreError> {
+    let began = Instant::now();
+    loop {
+        match write().await {
+            Err(error) if began.elapsed() < LEASE => {
+                tracing::warn!(job = %claim.id, %error, "the store did not take the end of a job; trying again");
+                tokio::time::sleep(TICK).await;
+            }
+            answer => return answer,
+        }
+    }
 }
