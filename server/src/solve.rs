@@ -107,6 +107,7 @@ impl Observer for Recorder<'_> {
                 }
                 Line::Snapshot(Box::new(history::snapshot(snapshot)))
             }
+            Event::Checkpoint(_) => return Flow::Continue,
         };
         (self.on)(line)
     }

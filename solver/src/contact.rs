@@ -23,6 +23,8 @@ mod range;
 mod response;
 mod status;
 
+use serde::{Deserialize, Serialize};
+
 use crate::condensation::{BodyOperators, Operators};
 use crate::model::Interface;
 
@@ -118,7 +120,7 @@ pub fn slopes(body: &BodyOperators, depth: &[f64], outward: f64) -> Vec<f64> {
 }
 
 /// Where the bodies are and what they transmit.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ContactState {
     /// Imposed displacement of the slider relative to the receptacle, mm.
     pub slider_x: f64,

@@ -13,6 +13,8 @@ mod path;
 mod record;
 mod sweep;
 
+use serde::{Deserialize, Serialize};
+
 use crate::condensation::Operators;
 use crate::contact::{self, ContactError, ContactState, Move, Pair, Solver, Surfaces};
 use crate::history::{Checks, FrictionLoop, Position};
@@ -50,7 +52,7 @@ pub enum CycleError {
 }
 
 /// Everything that the next cycle depends on.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct CycleState {
     /// Physical cycles done.
     pub cycle: u64,

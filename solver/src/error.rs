@@ -1,5 +1,6 @@
 //! What can end a solve without a result: one variant a stage.
 
+use crate::checkpoint::Misfit;
 use crate::condensation::OperatorError;
 use crate::cycle::CycleError;
 use crate::mesh::MeshError;
@@ -16,4 +17,7 @@ pub enum SolveError {
     /// A cycle could not be integrated.
     #[error("cycle: {0}")]
     Cycle(#[from] CycleError),
+    /// A checkpoint is not one of this scene.
+    #[error("checkpoint: {0}")]
+    Checkpoint(#[from] Misfit),
 }

@@ -1,5 +1,7 @@
 //! Histories: what a run leaves behind, append only.
 
+use serde::{Deserialize, Serialize};
+
 use crate::fields::BodyFields;
 
 /// State after a computed cycle; cycle 0 is the unworn, loaded state.
@@ -152,7 +154,7 @@ pub struct Summary {
 }
 
 /// The unworn, loaded state.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Initial {
     /// Highest pressure, MPa.
     pub peak_pressure_mpa: f64,
@@ -182,7 +184,7 @@ pub struct Resolution {
 }
 
 /// Worst residuals over the run, each relative to its scale.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 pub struct Checks {
     /// |sum of vertical forces - load| over the load on the unworn contact.
     pub force_balance: f64,

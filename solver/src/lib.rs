@@ -1,6 +1,7 @@
 #![doc = include_str!("../README.md")]
 
 pub mod ale;
+pub mod checkpoint;
 pub mod condensation;
 pub mod contact;
 pub mod cycle;

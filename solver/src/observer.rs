@@ -1,5 +1,6 @@
 //! What a run tells while it goes on, and how it is stopped from outside.
 
+use crate::checkpoint::Checkpoint;
 use crate::history::{CycleReport, Snapshot};
 
 /// Receives a run's events, in order. The only dynamic dispatch of the engine.
@@ -26,6 +27,8 @@ pub enum Event<'a> {
     Cycle(&'a CycleReport),
     /// A requested snapshot.
     Snapshot(&'a Snapshot),
+    /// A place from which the run could go on; what belongs to its cycle was told before. `Flow::Stop` is obeyed.
+    Checkpoint(&'a Checkpoint),
 }
 
 /// Phases of a run, for progress and cost.

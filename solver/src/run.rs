@@ -2,6 +2,7 @@
 
 use crate::SolveError;
 use crate::ale;
+use crate::checkpoint::Checkpoint;
 use crate::condensation::{self, Condensed};
 use crate::cycle::{self, CycleState, Integrator, Sweep};
 use crate::fields;
@@ -17,28 +18,49 @@ use crate::scene::{Scene, StopCondition};
 /// [`SolveError`]; everything told to the observer before stays true.
 pub fn solve(scene: &Scene, observer: &mut dyn Observer) -> Result<Summary, SolveError> {
     observer.on(Event::Phase(Phase::Mesh));
-    let mut model = model::build(scene)?;
+    let model = model::build(scene)?;
     observer.on(Event::Phase(Phase::Condense));
-    let mut condensed = condensation::condense(&model, None)?;
-    let mut state = CycleState::start(&condensed.operators);
-    let initial = load(scene, &model, &condensed, &mut state, observer)?;
-    let mut relocations = 0;
+    let condensed = condensation::condense(&model, None)?;
+    let run = load(scene, &model, &condensed, observer)?;
+    go_on(scene, model, condensed, run, observer)
+}
+
+/// Solves a scene from a checkpoint of it to its end, to the same bits as an undisturbed run; the observer is told what
+/// follows the checkpoint.
+///
+/// # Errors
+/// [`SolveError`], among others if the checkpoint is not one of this scene.
+pub fn resume(
+    scene: &Scene,
+    run: Checkpoint,
+    observer: &mut dyn Observer,
+) -> Result<Summary, SolveError> {
+    observer.on(Event::Phase(Phase::Mesh));
+    let unworn = model::build(scene)?;
+    run.check(&unworn, scene.cycles)?;
+    let model = run.model(unworn)?;
+    observer.on(Event::Phase(Phase::Condense));
+    let condensed = condensation::condense(&model, None)?;
+    go_on(scene, model, condensed, run, observer)
+}
+
+/// Integrates, relocates and condenses until the run ends.
+fn go_on(
+    scene: &Scene,
+    mut model: Model,
+    mut condensed: Condensed,
+    mut run: Checkpoint,
+    observer: &mut dyn Observer,
+) -> Result<Summary, SolveError> {
     loop {
         observer.on(Event::Phase(Phase::Cycles));
-        let end = integrate(scene, &model, &condensed, &mut state, observer)?;
+        let end = integrate(scene, &model, &condensed, &mut run, observer)?;
         if let Some(outcome) = end {
-            return Ok(summary(
-                scene,
-                &model,
-                &state,
-                outcome,
-                initial,
-                relocations,
-            ));
+            return Ok(summary(scene, &model, &run, outcome));
         }
         observer.on(Event::Phase(Phase::Relocate));
-        model = ale::relocate(&model, &state)?;
-        relocations += 1;
+        model = ale::relocate(&model, &run.state)?;
+        run.relocated();
         observer.on(Event::Phase(Phase::Condense));
         condensed = condensation::condense(&model, Some(&condensed))?;
     }
@@ -49,20 +71,26 @@ fn load(
     scene: &Scene,
     model: &Model,
     condensed: &Condensed,
-    state: &mut CycleState,
     observer: &mut dyn Observer,
-) -> Result<Initial, SolveError> {
+) -> Result<Checkpoint, SolveError> {
+    let mut state = CycleState::start(&condensed.operators);
     let mut integrator = Integrator::new(scene, model, &condensed.operators);
-    let sweep = integrator.settle(state)?;
-    let report = cycle::report(scene, model, state);
+    let sweep = integrator.settle(&mut state)?;
+    let report = cycle::report(scene, model, &state);
     observer.on(Event::Cycle(&report));
     observer.on(Event::Snapshot(&snapshot(
-        scene, model, condensed, state, sweep,
+        scene, model, condensed, &state, sweep,
     )?));
-    integrator.set_out(state)?;
-    Ok(Initial {
+    integrator.set_out(&mut state)?;
+    let initial = Initial {
         peak_pressure_mpa: report.peak_pressure_mpa,
         contact_half_width_mm: report.contact_half_width_mm,
+    };
+    Ok(Checkpoint {
+        state,
+        initial,
+        built: None,
+        relocations: 0,
     })
 }
 
@@ -71,11 +99,15 @@ fn integrate(
     scene: &Scene,
     model: &Model,
     condensed: &Condensed,
-    state: &mut CycleState,
+    run: &mut Checkpoint,
     observer: &mut dyn Observer,
 ) -> Result<Option<Outcome>, SolveError> {
     let mut integrator = Integrator::new(scene, model, &condensed.operators);
-    while state.cycle < scene.cycles {
+    while run.state.cycle < scene.cycles {
+        if ale::has_drifted(model, &run.state) {
+            return Ok(None);
+        }
+        let state = &mut run.state;
         let sweep = integrator.sweep(state, next_stop(scene, model, state))?;
         let report = cycle::report(scene, model, state);
         let ended = end_of(scene, model, state, &report);
@@ -87,11 +119,8 @@ fn integrate(
         if ended.is_some() {
             return Ok(ended);
         }
-        if flow == Flow::Stop {
+        if flow == Flow::Stop || observer.on(Event::Checkpoint(run)) == Flow::Stop {
             return Ok(Some(Outcome::Stopped));
-        }
-        if ale::has_drifted(model, state) {
-            return Ok(None);
         }
     }
     Ok(Some(Outcome::Completed))
@@ -156,20 +185,14 @@ fn snapshot(
     Ok(cycle::snapshot(model, state, sweep, fields))
 }
 
-fn summary(
-    scene: &Scene,
-    model: &Model,
-    state: &CycleState,
-    outcome: Outcome,
-    initial: Initial,
-    relocations: u64,
-) -> Summary {
+fn summary(scene: &Scene, model: &Model, run: &Checkpoint, outcome: Outcome) -> Summary {
+    let state = &run.state;
     let last = cycle::report(scene, model, state);
     let mut checks = state.checks;
     checks.worn_area = cycle::worn_area_residual(model, state, &last);
     Summary {
         outcome,
-        initial,
+        initial: run.initial,
         resolution: Resolution {
             contact_element_mm: model.sizes.contact_element,
             contact_elements: model.receptacle.contact_x().len() - 1,
@@ -177,7 +200,7 @@ fn summary(
             computed_cycles: state.computed_cycles,
             increments: state.increments,
             dofs: model.slider.dofs() + model.receptacle.dofs(),
-            relocations,
+            relocations: run.relocations,
             estimated_relative_error: state.jump.mean_error(),
         },
         last,

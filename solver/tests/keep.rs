@@ -15,7 +15,7 @@ pub(crate) struct Keep {
 impl Observer for Keep {
     fn on(&mut self, event: Event<'_>) -> Flow {
         match event {
-            Event::Phase(_) => {}
+            Event::Phase(_) | Event::Checkpoint(_) => {}
             Event::Cycle(report) => self.reports.push(report.clone()),
             Event::Snapshot(snapshot) => self.snapshots.push(snapshot.clone()),
         }

@@ -16,4 +16,5 @@ mod verify_hertz_line_contact;
 mod verify_invariance;
 mod verify_mccoll;
 mod verify_repeatability;
+mod verify_resume;
 mod verify_spring_load;

@@ -10,8 +10,9 @@ const KNOWS: [(&str, &[&str]); 4] = [
     ("tests", &["server", "solver"]),
 ];
 
-/// Crates that the engine must not know, whoever brings them: async, JSON, SQL, clocks, logs.
-const NOT_IN_SOLVER: [&str; 6] = ["serde", "serde_json", "sqlx", "tokio", "tracing", "jiff"];
+/// Crates that the engine must not know, whoever brings them: async, JSON, SQL, clocks, logs. (`serde` itself writes nothing:
+/// it only names the fields of a checkpoint.)
+const NOT_IN_SOLVER: [&str; 5] = ["serde_json", "sqlx", "tokio", "tracing", "jiff"];
 
 #[test]
 fn crates_know_only_what_the_table_allows() {

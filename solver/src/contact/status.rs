@@ -1,5 +1,7 @@
 //! What each node does, and how the signs of an iterate choose it: the active set of the Newton method.
 
+use serde::{Deserialize, Serialize};
+
 use super::GAP_TOLERANCE;
 use super::newton::{Iterate, Problem};
 
@@ -7,7 +9,7 @@ use super::newton::{Iterate, Problem};
 const CAREFUL_FROM: usize = 20;
 
 /// What a node of the receptacle does.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Status {
     /// No contact.
     Open,

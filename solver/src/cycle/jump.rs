@@ -5,6 +5,8 @@
 //!   e = 1/2 * integral |r_new - r_old| dx / integral r_new dx,
 //! relative to the wear made in the step. The next jump scales with the wanted error over e.
 
+use serde::{Deserialize, Serialize};
+
 use crate::number::{real, real_cycles};
 use crate::scene::Accuracy;
 
@@ -21,7 +23,7 @@ const RUNNING_PART_PER_TOLERANCE: f64 = 2.0;
 const SMALLEST_ERROR: f64 = 1e-6;
 
 /// State of the jump control.
-#[derive(Debug, Clone, Default, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct JumpControl {
     /// Wear per physical cycle in the last computed one, mm.
     rate: Vec<f64>,

@@ -1,10 +1,12 @@
 //! What one computed cycle recorded.
 
+use serde::{Deserialize, Serialize};
+
 use crate::contact::{ContactState, Pair};
 use crate::history::{FrictionLoop, Position};
 
 /// Contact at the neutral position on the way to +x.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 pub struct Neutral {
     /// Normal load, N/mm.
     pub load: f64,

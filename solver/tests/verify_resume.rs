@@ -1,0 +1,145 @@
+//! A run that goes on from a checkpoint reaches the bits of the run that was never disturbed.
+
+use crate::keep::Keep;
+use crate::scenes::{accuracy, fuzz_button, mccoll};
+use solver::SolveError;
+use solver::checkpoint::{Checkpoint, Misfit};
+use solver::history::{CycleReport, Snapshot, Summary};
+use solver::observer::{Event, Flow, Observer};
+use solver::run;
+use solver::scene::{Motion, Scene};
+
+/// An observer that keeps everything, checkpoints too.
+#[derive(Default)]
+struct KeepAll {
+    keep: Keep,
+    checkpoints: Vec<Checkpoint>,
+}
+
+impl Observer for KeepAll {
+    fn on(&mut self, event: Event<'_>) -> Flow {
+        if let Event::Checkpoint(checkpoint) = event {
+            self.checkpoints.push(checkpoint.clone());
+        }
+        self.keep.on(event)
+    }
+}
+
+/// Every bit that a run tells after a cycle. A number's shortest text names its bits, but for those of NaN, which a
+/// run never tells.
+fn bits_after(cycle: u64, keep: &Keep, summary: &Summary) -> String {
+    let reports: Vec<&CycleReport> = keep.reports.iter().filter(|r| r.cycle > cycle).collect();
+    let snapshots: Vec<&Snapshot> = keep.snapshots.iter().filter(|s| s.cycle > cycle).collect();
+    let text = format!("{reports:?} {snapshots:?} {summary:?}");
+    assert!(!text.contains("NaN"), "no number is missing");
+    text
+}
+
+/// Resumes a scene at about so many of its checkpoints, spread evenly, the last among them.
+fn resumes_to_the_same_bits(name: &str, scene: &Scene, times: usize) -> (Summary, KeepAll) {
+    let mut whole = KeepAll::default();
+    let summary = run::solve(scene, &mut whole).expect("the scene can be solved");
+    let count = whole.checkpoints.len();
+    assert!(count > times, "{name}: {count} checkpoints");
+    let step = count.div_ceil(times);
+    for checkpoint in whole.checkpoints.iter().rev().step_by(step).rev() {
+        let cycle = checkpoint.cycle();
+        let mut rest = Keep::default();
+        let resumed = run::resume(scene, checkpoint.clone(), &mut rest).expect("it goes on");
+        assert!(
+            bits_after(cycle, &rest, &resumed) == bits_after(cycle, &whole.keep, &summary),
+            "{name}: other bits after cycle {cycle}"
+        );
+        assert!(
+            rest.reports.iter().all(|report| report.cycle > cycle),
+            "{name}: nothing is told twice"
+        );
+    }
+    println!(
+        "resume, {name}: {count} checkpoints, {} relocations, every {step}th gives the same bits",
+        summary.resolution.relocations
+    );
+    (summary, whole)
+}
+
+#[test]
+fn a_fretting_run_resumes_to_the_same_bits() {
+    let mut scene = Scene {
+        cycles: 3_000,
+        ..mccoll()
+    };
+    scene.output.snapshots_at_cycles = vec![10, 1_000, 3_000];
+    resumes_to_the_same_bits("mccoll", &scene, 6);
+}
+
+#[test]
+fn a_run_that_has_relocated_resumes_to_the_same_bits() {
+    let mut scene = Scene {
+        cycles: 800,
+        accuracy: accuracy(0.1),
+        ..fuzz_button()
+    };
+    scene.output.snapshots_at_cycles = vec![1, 400, 800];
+    scene.output.fields = true;
+    let (summary, _) = resumes_to_the_same_bits("fuzz_button", &scene, 8);
+    assert!(summary.resolution.relocations >= 2, "{summary:?}");
+}
+
+#[test]
+fn a_sprung_run_resumes_to_the_same_bits() {
+    let mut scene = Scene {
+        cycles: 60,
+        accuracy: accuracy(0.1),
+        spring_n_per_mm2: 50.0,
+        ..fuzz_button()
+    };
+    scene.output.snapshots_at_cycles = vec![60];
+    resumes_to_the_same_bits("spring", &scene, 4);
+}
+
+#[test]
+fn a_continuous_run_resumes_to_the_same_bits() {
+    let mut scene = Scene {
+        cycles: 1_000,
+        motion: Motion::Continuous { step_mm: 0.03 },
+        ..mccoll()
+    };
+    scene.slider.wear = None;
+    scene.output.snapshots_at_cycles = vec![500, 1_000];
+    resumes_to_the_same_bits("continuous", &scene, 6);
+}
+
+#[test]
+fn a_checkpoint_of_another_scene_is_refused_with_its_numbers() {
+    let scene = Scene {
+        cycles: 20,
+        ..mccoll()
+    };
+    let mut whole = KeepAll::default();
+    run::solve(&scene, &mut whole).expect("the scene can be solved");
+    let last = whole.checkpoints.pop().expect("a checkpoint");
+    let other = Scene {
+        cycles: 20,
+        ..fuzz_button()
+    };
+    let refused = run::resume(&other, last.clone(), &mut Keep::default());
+    assert!(
+        matches!(
+            refused,
+            Err(SolveError::Checkpoint(Misfit::Nodes {
+                body: "receptacle",
+                ..
+            }))
+        ),
+        "{refused:?}"
+    );
+    let shorter = Scene { cycles: 2, ..scene };
+    let refused = run::resume(&shorter, last, &mut Keep::default());
+    assert!(
+        matches!(
+            refused,
+            Err(SolveError::Checkpoint(Misfit::Beyond { cycles: 2, .. }))
+        ),
+        "{refused:?}"
+    );
+}
