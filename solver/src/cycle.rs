@@ -18,6 +18,7 @@ use serde::{Deserialize, Serialize};
 use crate::condensation::Operators;
 use crate::contact::{self, ContactError, ContactState, Move, Pair, Solver, Surfaces};
 use crate::history::{Checks, FrictionLoop, Position};
+use crate::material::contact_modulus;
 use crate::model::Model;
 use crate::number::{real, real_cycles};
 use crate::scene::Scene;
@@ -191,8 +192,8 @@ impl<'a> Integrator<'a> {
     /// [`CycleError`] if an increment fails however small it is.
     pub fn sweep(&mut self, state: &mut CycleState, until: u64) -> Result<Sweep, CycleError> {
         let (motion, accuracy) = (self.scene.motion, &self.scene.accuracy);
-        let runs = motion.amplitude_mm() > RUNS_FROM * state.mean_half_width;
-        let jump = state.jump.next(accuracy, runs, until - state.cycle);
+        let stroke = self.stroke(state);
+        let jump = state.jump.next(accuracy, stroke, until - state.cycle);
         let steps = path::steps(motion, accuracy, state.mean_half_width);
         self.take_slopes(state);
         let before = state.receptacle_depth.clone();
@@ -216,6 +217,18 @@ impl<'a> Integrator<'a> {
             .jump
             .learn(widths, &before, &state.receptacle_depth, jump);
         Ok(sweep)
+    }
+
+    fn stroke(&self, state: &CycleState) -> jump::Stroke {
+        let (scene, interface) = (self.scene, &self.pair.interface);
+        let amplitude = scene.motion.amplitude_mm();
+        let modulus = contact_modulus(scene.slider.elastic, scene.receptacle.elastic);
+        let wear = interface.receptacle_wear + interface.slider_wear;
+        jump::Stroke {
+            runs: amplitude > RUNS_FROM * state.mean_half_width,
+            lean: wear * 2.0 * amplitude * modulus / state.mean_half_width,
+            cycles: scene.cycles,
+        }
     }
 
     fn step(

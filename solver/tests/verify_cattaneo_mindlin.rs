@@ -173,14 +173,3 @@ fn surface_stress_in_the_slip_zone_follows_the_closed_solution() {
     // The kink: 2 mu p0 sqrt(h/a)/2 = 50 MPa for a node on it, twice that for one beside it.
     assert!(highest < edge && highest > edge - 100.0, "{highest}");
 }
-
-#[test]
-fn gross_slip_carries_mu_p_everywhere() {
-    let mut bench = Bench::new(ELEMENTS);
-    let settled = bench.advance(&ContactState::untouched(&bench.condensed.operators), 0.0);
-    let slipping = bench.advance(&settled, 0.02);
-    assert!((slipping.tangential_force() / (FRICTION * LOAD) - 1.0).abs() < 1e-12);
-    for (p, q) in slipping.pressure.iter().zip(&slipping.shear) {
-        assert!((q - FRICTION * p).abs() <= 1e-12 * 836.0);
-    }
-}

@@ -52,11 +52,22 @@ fn final_scar_and_pressure_are_those_of_the_reference_without_zigzag() {
         "scar {:.4} mm, peak {:.1} MPa",
         last.receptacle.scar_half_width_mm, last.peak_pressure_mpa
     );
-    // One element of the reference (10 um) beside its 0.255 mm, plus the edge of our threshold.
-    assert!((last.receptacle.scar_half_width_mm - 0.255).abs() < 0.015);
+    // One element of the reference (10 um) beside its 0.255 mm.
+    assert!((last.receptacle.scar_half_width_mm - 0.255).abs() < 0.01);
     assert!((last.peak_pressure_mpa / 73.0 - 1.0).abs() < 0.05);
     for field in &snapshot.positions {
         let roughness = zigzag(field);
+        let at = |x: f64| {
+            let i = field.x_mm.partition_point(|&p| p < x);
+            field.pressure_mpa[i]
+        };
+        println!(
+            "QQ {:?} {} {} {}",
+            field.position,
+            at(-0.1),
+            at(0.0),
+            at(0.1)
+        );
         println!("{:?}: zigzag {roughness:.3}", field.position);
         // An unstable run alternates by tens of per cent from node to node; ours bends by a few where the pass
         // before ended.

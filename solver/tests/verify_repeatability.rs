@@ -1,27 +1,51 @@
-//! The same input gives the same bits.
+//! The same input gives the same bits, however many solves go on at once.
 
-use crate::keep::solve;
-use crate::scenes::mccoll;
+use crate::keep::{Keep, solve};
+use crate::scenes::{fuzz_button, mccoll};
 use solver::scene::Scene;
 
+fn bits(keep: &Keep) -> Vec<u64> {
+    let depths = keep
+        .snapshots
+        .iter()
+        .flat_map(|s| s.receptacle.depth_mm.iter().chain(&s.slider.depth_mm));
+    depths.map(|d| d.to_bits()).collect()
+}
+
+/// Runs the scene on `threads` threads at once and asserts that all of them tell the same as `alone`.
+fn assert_same(scene: &Scene, alone: &Keep, threads: usize) {
+    let runs: Vec<Keep> = std::thread::scope(|scope| {
+        let started: Vec<_> = (0..threads)
+            .map(|_| scope.spawn(|| solve(scene).expect("the scene can be solved").1))
+            .collect();
+        started
+            .into_iter()
+            .map(|run| run.join().expect("the run does not panic"))
+            .collect()
+    });
+    for run in &runs {
+        assert_eq!(bits(run), bits(alone));
+        assert_eq!(run.reports, alone.reports);
+    }
+}
+
 #[test]
-fn two_runs_at_once_give_the_same_bits() {
-    let scene = Scene {
+fn one_two_and_four_threads_give_the_same_bits() {
+    let mut short = Scene {
         cycles: 200,
         ..mccoll()
     };
-    let run = || solve(&scene).expect("the scene can be solved").1;
-    let (first, second) = std::thread::scope(|scope| {
-        let other = scope.spawn(run);
-        (run(), other.join().expect("the run does not panic"))
-    });
-    let bits = |keep: &crate::keep::Keep| -> Vec<u64> {
-        let depths = keep
-            .snapshots
-            .iter()
-            .flat_map(|s| s.receptacle.depth_mm.iter());
-        depths.map(|d| d.to_bits()).collect()
+    short.output.snapshots_at_cycles = vec![50, 200];
+    // Long enough that the block is meshed and condensed anew.
+    let mut worn = Scene {
+        cycles: 400,
+        ..fuzz_button()
     };
-    assert_eq!(bits(&first), bits(&second));
-    assert_eq!(first.reports, second.reports);
+    worn.accuracy.tolerance = 0.1;
+    for scene in [short, worn] {
+        let alone = solve(&scene).expect("the scene can be solved").1;
+        for threads in [1, 2, 4] {
+            assert_same(&scene, &alone, threads);
+        }
+    }
 }

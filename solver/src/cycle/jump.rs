@@ -19,8 +19,43 @@ const MOST_OF_DONE: f64 = 1.0;
 /// deepest place: 8 % with jumps of 0.16 of what was done, 4 % with 0.08, 2 % with 0.04.
 const RUNNING_PART_PER_TOLERANCE: f64 = 2.0;
 
+/// A computed cycle digs `jump` passes at once, so that the scar leans toward the last pass, and the pressure with it
+/// by some third of k jump s E*/b (b: half-width, s: stroke), which is kept below this.
+/// Measured on `mccoll.json` at 18 000 cycles, 0.1 mm to either side of the middle: 27 % apart with jumps of 700,
+/// 2 % with 100, where they are 5 % apart without jumps, while no depth changes by more than 0.1 %.
+fn largest_lean(tolerance: f64) -> f64 {
+    (12.0 * tolerance).max(0.15)
+}
+
+/// Where even single cycles lean, so many computed cycles over the tolerance are enough.
+const ENOUGH_PER_TOLERANCE: f64 = 2.5;
+
 /// Floor of the error estimate: where nothing changes, or nothing wears, jumps grow as fast as they may.
 const SMALLEST_ERROR: f64 = 1e-6;
+
+/// What a jump must heed besides its error.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Stroke {
+    /// Whether the stroke leaves the contact behind.
+    pub(super) runs: bool,
+    /// k s E*/b: how far a single cycle makes the pressure lean.
+    pub(super) lean: f64,
+    /// Cycles of the whole run.
+    pub(super) cycles: u64,
+}
+
+impl Stroke {
+    /// The largest jump after `done` cycles.
+    fn most(self, tolerance: f64, done: u64) -> f64 {
+        let done = real_cycles(done);
+        if self.runs {
+            return RUNNING_PART_PER_TOLERANCE * tolerance * done;
+        }
+        let enough = real_cycles(self.cycles) * tolerance / ENOUGH_PER_TOLERANCE;
+        let upright = largest_lean(tolerance) / self.lean.max(f64::MIN_POSITIVE);
+        (MOST_OF_DONE * done).min(upright.max(enough))
+    }
+}
 
 /// State of the jump control.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
@@ -40,9 +75,8 @@ pub struct JumpControl {
 }
 
 impl JumpControl {
-    /// The next jump: fixed by the scene or chosen, and never beyond `remaining`. `runs` tells whether the stroke
-    /// leaves the contact behind.
-    pub(super) fn next(&self, accuracy: &Accuracy, runs: bool, remaining: u64) -> u64 {
+    /// The next jump: fixed by the scene or chosen, and never beyond `remaining`.
+    pub(super) fn next(&self, accuracy: &Accuracy, stroke: Stroke, remaining: u64) -> u64 {
         if let Some(fixed) = accuracy.cycle_jump {
             return fixed.clamp(1, remaining.max(1));
         }
@@ -50,12 +84,7 @@ impl JumpControl {
             return 1;
         }
         let factor = (accuracy.tolerance / self.error).clamp(CHANGE.0, CHANGE.1);
-        let part = if runs {
-            RUNNING_PART_PER_TOLERANCE * accuracy.tolerance
-        } else {
-            MOST_OF_DONE
-        };
-        let most = part * real_cycles(self.done);
+        let most = stroke.most(accuracy.tolerance, self.done);
         let wanted = (self.wanted * factor).min(most).max(1.0);
         even_share(wanted, remaining)
     }
@@ -119,24 +148,45 @@ mod tests {
         cycle_jump: None,
     };
 
+    const STROKE: Stroke = Stroke {
+        runs: false,
+        lean: 0.0,
+        cycles: 1_000,
+    };
+
     #[test]
     fn a_steady_rate_lets_jumps_grow_and_a_changing_one_shrinks_them() {
         let mut control = JumpControl::default();
-        assert_eq!(control.next(&ACCURACY, false, 1000), 1);
+        assert_eq!(control.next(&ACCURACY, STROKE, 1000), 1);
         control.learn(&[1.0], &[0.0], &[8.0], 8);
         control.learn(&[1.0], &[8.0], &[16.0], 8);
-        assert_eq!(control.next(&ACCURACY, false, 64), 16);
+        assert_eq!(control.next(&ACCURACY, STROKE, 64), 16);
         control.learn(&[1.0], &[16.0], &[40.0], 8);
-        assert!(control.next(&ACCURACY, false, 1000) < 8);
+        assert!(control.next(&ACCURACY, STROKE, 1000) < 8);
     }
+
+    const RUNS: Stroke = Stroke {
+        runs: true,
+        ..STROKE
+    };
 
     #[test]
     fn a_running_contact_jumps_a_small_part_of_what_was_done() {
         let mut control = JumpControl::default();
         control.learn(&[1.0], &[0.0], &[100.0], 100);
         control.learn(&[1.0], &[100.0], &[200.0], 100);
-        assert_eq!(control.next(&ACCURACY, false, 10_000), 200);
-        assert_eq!(control.next(&ACCURACY, true, 10_000), 8);
+        assert_eq!(control.next(&ACCURACY, STROKE, 10_000), 200);
+        assert_eq!(control.next(&ACCURACY, RUNS, 10_000), 8);
+    }
+
+    #[test]
+    fn a_jump_that_would_lean_the_pressure_is_cut() {
+        let mut control = JumpControl::default();
+        control.learn(&[1.0], &[0.0], &[100.0], 100);
+        control.learn(&[1.0], &[100.0], &[200.0], 100);
+        let leans = |lean| Stroke { lean, ..STROKE };
+        assert_eq!(control.next(&ACCURACY, leans(0.003), 8_000), 80);
+        assert_eq!(control.next(&ACCURACY, leans(1.0), 8_000), 8);
     }
 
     #[test]
@@ -145,7 +195,7 @@ mod tests {
             cycle_jump: Some(100),
             ..ACCURACY
         };
-        assert_eq!(JumpControl::default().next(&fixed, false, 250), 100);
-        assert_eq!(JumpControl::default().next(&fixed, false, 50), 50);
+        assert_eq!(JumpControl::default().next(&fixed, STROKE, 250), 100);
+        assert_eq!(JumpControl::default().next(&fixed, STROKE, 50), 50);
     }
 }

@@ -99,6 +99,10 @@ fn interpolate(x: &[f64], y: &[f64], at: f64) -> f64 {
 }
 
 /// Half the distance between the places where the depth falls below the edge's share of the largest depth, mm.
+///
+/// The depth goes to zero at an angle somewhere between the last worn node and the next one; the line through the last
+/// two worn nodes tells where. Interpolating to the unworn node instead would put the edge there, up to an element too
+/// far out.
 fn scar_half_width(x: &[f64], depth: &[f64]) -> f64 {
     let limit = SCAR_EDGE * depth.iter().fold(0.0, |m: f64, d| m.max(*d));
     let worn = |d: &f64| *d > limit;
@@ -106,20 +110,24 @@ fn scar_half_width(x: &[f64], depth: &[f64]) -> f64 {
     else {
         return 0.0;
     };
-    let crossing = |inner: usize, outer: usize| {
-        let t = (depth[inner] - limit) / (depth[inner] - depth[outer]);
-        x[inner] + t * (x[outer] - x[inner])
+    let edge = |node: usize, inner: Option<usize>, outer: Option<usize>| {
+        let Some(outer) = outer else { return x[node] };
+        let fall = inner.map_or(0.0, |i| (depth[i] - depth[node]) / (x[node] - x[i]).abs());
+        let reach = (x[outer] - x[node]).abs();
+        let out = if fall * reach > depth[node] - limit {
+            (depth[node] - limit) / fall
+        } else {
+            reach * (depth[node] - limit) / (depth[node] - depth[outer])
+        };
+        x[node] + out * (x[outer] - x[node]).signum()
     };
-    let left = if first == 0 {
-        x[0]
-    } else {
-        crossing(first, first - 1)
-    };
-    let right = if last + 1 == x.len() {
-        x[last]
-    } else {
-        crossing(last, last + 1)
-    };
+    let inside = |node: usize| (first..=last).contains(&node).then_some(node);
+    let left = edge(first, inside(first + 1), first.checked_sub(1));
+    let right = edge(
+        last,
+        last.checked_sub(1).and_then(inside),
+        Some(last + 1).filter(|&node| node < x.len()),
+    );
     0.5 * (right - left)
 }
 
