@@ -1,10 +1,12 @@
 //! Result documents.
 
 mod history;
+mod manifest;
 mod snapshot;
 mod summary;
 
 pub use history::{CycleRow, SideRow, SideSeries, Station, WearHistory};
+pub use manifest::{Manifest, ResultFile};
 pub use snapshot::{
     Loop, Pressure, PressurePosition, Profile, SideProfile, SlidePosition, Snapshot,
 };

@@ -69,7 +69,10 @@ enum Command {
     },
     /// Solve the specification on standard input, as a service's child process.
     #[command(hide = true)]
-    SolveChild,
+    SolveChild {
+        /// Where its files go.
+        folder: PathBuf,
+    },
 }
 
 /// Formats of a deck.
@@ -124,7 +127,7 @@ pub fn main() -> ExitCode {
             log("warn");
             demo::run(listen, exit)
         }
-        Command::SolveChild => child::run(),
+        Command::SolveChild { folder } => child::run(&folder),
     }
 }
 

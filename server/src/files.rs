@@ -1,28 +1,15 @@
 //! Results as files in a folder.
 
+use std::fmt::Write as _;
+use std::fs::File;
+use std::io::Write as _;
 use std::path::{Path, PathBuf};
 
-use api::results::{CycleRow, Snapshot, Summary};
-use api::spec::Spec;
+use api::results::ResultFile;
+use sha2::{Digest, Sha256};
 
+use crate::documents::{self, DocumentError, Results};
 use crate::solve::FieldsFile;
-use crate::translate::csv::{self, CsvError};
-use crate::translate::history;
-
-/// What a run left.
-#[derive(Debug, Clone, Copy)]
-pub struct Results<'a> {
-    /// The resolved specification.
-    pub spec: &'a Spec,
-    /// The result in short, if the run had one.
-    pub summary: Option<&'a Summary>,
-    /// The wear history.
-    pub rows: &'a [CycleRow],
-    /// The snapshots.
-    pub snapshots: &'a [Snapshot],
-    /// Fields inside the bodies, as files.
-    pub fields: &'a [FieldsFile],
-}
 
 /// Why a file was not written.
 #[derive(Debug, thiserror::Error)]
@@ -37,17 +24,18 @@ pub enum FilesError {
     },
     /// A document could not be made.
     #[error(transparent)]
-    Json(#[from] serde_json::Error),
-    /// A table could not be made.
-    #[error(transparent)]
-    Csv(#[from] CsvError),
+    Document(#[from] DocumentError),
 }
 
 /// Writes all results into a folder, which is made if it is missing.
 ///
 /// # Errors
 /// [`FilesError`] naming the file.
-pub fn write(folder: &Path, results: &Results<'_>) -> Result<(), FilesError> {
+pub fn write(
+    folder: &Path,
+    results: &Results<'_>,
+    fields: &[FieldsFile],
+) -> Result<(), FilesError> {
     std::fs::create_dir_all(folder).map_err(|cause| FilesError::Write {
         path: folder.to_owned(),
         cause,
@@ -56,39 +44,78 @@ pub fn write(folder: &Path, results: &Results<'_>) -> Result<(), FilesError> {
         let path = folder.join(name);
         std::fs::write(&path, bytes).map_err(|cause| FilesError::Write { path, cause })
     };
-    file(
-        "spec.resolved.json",
-        &serde_json::to_vec_pretty(results.spec)?,
-    )?;
-    if let Some(summary) = results.summary {
-        file("summary.json", &serde_json::to_vec_pretty(summary)?)?;
+    for document in documents::all(results)? {
+        file(&document.name, &document.bytes)?;
     }
-    let stations = results
-        .spec
-        .output
-        .stations_mm
-        .as_deref()
-        .unwrap_or_default();
-    file(
-        "wear-history.csv",
-        &csv::wear_history(&history::columns(results.rows, stations))?,
-    )?;
-    for Snapshot {
-        profile,
-        pressure,
-        friction_loop,
-    } in results.snapshots
-    {
-        let cycle = profile.cycle;
-        file(&format!("profile-{cycle}.csv"), &csv::profile(profile)?)?;
-        file(&format!("pressure-{cycle}.csv"), &csv::pressure(pressure)?)?;
-        file(
-            &format!("loop-{cycle}.csv"),
-            &csv::friction_loop(friction_loop)?,
-        )?;
-    }
-    for fields in results.fields {
+    for fields in fields {
         file(&fields.name, &fields.bytes)?;
     }
     Ok(())
+}
+
+/// Writes a file so that its name stands for the whole content or for nothing, also after a crash: under another name
+/// first, to the disk, then renamed.
+///
+/// # Errors
+/// [`FilesError`] naming the file.
+pub fn keep(folder: &Path, name: &str, bytes: &[u8]) -> Result<(), FilesError> {
+    let path = folder.join(name);
+    let unfinished = folder.join(format!("{name}.unfinished"));
+    let written = || -> std::io::Result<()> {
+        std::fs::create_dir_all(folder)?;
+        let mut file = File::create(&unfinished)?;
+        file.write_all(bytes)?;
+        file.sync_all()?;
+        std::fs::rename(&unfinished, &path)?;
+        // The rename is on the disk once the folder is.
+        File::open(folder)?.sync_all()
+    };
+    written().map_err(|cause| FilesError::Write { path, cause })
+}
+
+/// What a manifest says about a file.
+pub fn described(name: &str, cycle: Option<u64>, media_type: &str, bytes: &[u8]) -> ResultFile {
+    let sha256 = Sha256::digest(bytes)
+        .iter()
+        .fold(String::with_capacity(64), |mut text, byte| {
+            // Writing to a text does not fail.
+            let _ = write!(text, "{byte:02x}");
+            text
+        });
+    ResultFile {
+        name: name.to_owned(),
+        cycle,
+        media_type: media_type.to_owned(),
+        bytes: u64::try_from(bytes.len()).unwrap_or(u64::MAX),
+        sha256,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_kept_file_replaces_an_older_one_and_leaves_nothing_unfinished() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let deep = folder.path().join("a/b");
+        keep(&deep, "x.vtu", b"first").expect("kept");
+        keep(&deep, "x.vtu", b"second").expect("kept");
+        assert_eq!(
+            std::fs::read(deep.join("x.vtu")).expect("a file"),
+            b"second"
+        );
+        assert_eq!(std::fs::read_dir(&deep).expect("a folder").count(), 1);
+    }
+
+    #[test]
+    fn digests_are_those_of_the_standard() {
+        // FIPS 180-2, appendix B.1.
+        let described = described("x", None, "text/plain", b"abc");
+        assert_eq!(
+            described.sha256,
+            "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad"
+        );
+        assert_eq!(described.bytes, 3);
+    }
 }

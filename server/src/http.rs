@@ -1,13 +1,16 @@
 //! HTTP: one file a route, each in the order error, handler, tests.
 
+mod archive;
 mod cancel;
 mod events;
 mod extract;
+mod file;
 mod friction_loop;
 mod health;
 mod host;
 mod list;
 mod make_plan;
+mod manifest;
 mod pressure;
 mod problem;
 mod profile;
@@ -24,6 +27,7 @@ use axum::extract::DefaultBodyLimit;
 use axum::http::{HeaderValue, Method, Uri, header};
 use axum::response::{IntoResponse, Response};
 use axum::{Json, Router, middleware};
+use tokio::sync::Semaphore;
 use tokio_util::sync::CancellationToken;
 use tower_http::set_header::SetResponseHeaderLayer;
 use tower_http::trace::TraceLayer;
@@ -44,11 +48,24 @@ pub struct App {
     pub store: Arc<Store>,
     /// Ends streams and long polls when the service stops.
     pub stopping: CancellationToken,
+    /// How many archives may be made at once.
+    archives: Arc<Semaphore>,
+}
+
+impl App {
+    /// Over a store.
+    pub fn new(store: Arc<Store>, stopping: CancellationToken) -> Self {
+        Self {
+            store,
+            stopping,
+            archives: Arc::new(Semaphore::new(archive::AT_ONCE)),
+        }
+    }
 }
 
 #[derive(OpenApi)]
 #[openapi(
-    components(schemas(stored_part::Format, api::event::Done)),
+    components(schemas(stored_part::Format, wear_history::HistoryFormat, api::event::Done)),
     info(
         title = "fretwear",
         description = "Wear of electrical contacts under vibration: submit a study, follow it, fetch its results."
@@ -87,6 +104,9 @@ fn described() -> (Router<App>, Document) {
         .routes(routes!(show::show, remove::remove))
         .routes(routes!(cancel::cancel))
         .routes(routes!(events::events))
+        .routes(routes!(manifest::manifest))
+        .routes(routes!(file::file))
+        .routes(routes!(archive::archive))
         .routes(routes!(wear_history::wear_history))
         .routes(routes!(profile::profile))
         .routes(routes!(pressure::pressure))

@@ -2,6 +2,7 @@
 
 pub mod cli;
 pub mod clock;
+pub mod documents;
 pub mod files;
 pub mod http;
 pub mod queue;

@@ -93,10 +93,7 @@ impl Service {
             ));
         }
         tasks.spawn(maintain(Arc::clone(&store), stopping.clone()));
-        let router = http::router(App {
-            store: Arc::clone(&store),
-            stopping: stopping.clone(),
-        });
+        let router = http::router(App::new(Arc::clone(&store), stopping.clone()));
         let stopped = stopping.clone().cancelled_owned();
         tasks.spawn(async move {
             if let Err(error) = axum::serve(listener, router)

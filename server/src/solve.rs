@@ -3,7 +3,7 @@
 mod cost;
 
 use api::job::{Outcome, Phase};
-use api::results::{CycleRow, Snapshot, Summary};
+use api::results::{CycleRow, ResultFile, Snapshot, Summary};
 use serde::{Deserialize, Serialize};
 use solver::SolveError;
 use solver::history::PlacedFields;
@@ -12,6 +12,9 @@ use solver::scene::Scene;
 
 use crate::translate::{history, vtu};
 use cost::Stopwatch;
+
+/// Exit code of a solving process that could not write a result: the disk's fault, so it is tried again.
+pub const UNWRITTEN: i32 = 4;
 
 /// One line of a solving process, in order; the last one is `Summary` or `Failed`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -23,8 +26,11 @@ pub enum Line {
     Cycle(CycleRow),
     /// A requested snapshot.
     Snapshot(Box<Snapshot>),
-    /// Fields inside the bodies at one position of a snapshot.
+    /// Fields inside the bodies at one position of a snapshot; never sent, but written where it was computed.
+    #[serde(skip)]
     Fields(FieldsFile),
+    /// A file was written into the attempt's folder.
+    Kept(ResultFile),
     /// The run ended with a result.
     Summary(Box<Summary>),
     /// The run failed; the same input would fail again.
@@ -32,10 +38,12 @@ pub enum Line {
 }
 
 /// Fields as a file.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct FieldsFile {
     /// Its name.
     pub name: String,
+    /// The cycle.
+    pub cycle: u64,
     /// Its content, VTU.
     pub bytes: Vec<u8>,
 }
@@ -81,7 +89,7 @@ impl Recorder<'_> {
     fn fields(&mut self, cycle: u64, fields: &PlacedFields) -> Flow {
         let name = vtu::file_name(cycle, fields.position);
         match vtu::bytes(fields) {
-            Ok(bytes) => (self.on)(Line::Fields(FieldsFile { name, bytes })),
+            Ok(bytes) => (self.on)(Line::Fields(FieldsFile { name, cycle, bytes })),
             Err(error) => {
                 tracing::error!(%error, name, "fields were left out");
                 Flow::Continue

@@ -7,6 +7,8 @@ mod conclusion;
 mod document;
 mod error;
 mod events;
+mod files;
+mod folder;
 mod jobs;
 mod leases;
 mod open;
@@ -22,6 +24,7 @@ use uuid::Uuid;
 pub use conclusion::End;
 pub use error::StoreError;
 pub use events::StoredEvent;
+pub use files::{Content, NewFile};
 pub use jobs::{Cancelled, Deleted, Filter, NewJob, RequestKey, StoredJob, Submitted};
 pub use leases::{Batch, Claim, Held};
 pub use results::SnapshotPart;
@@ -36,6 +39,7 @@ pub struct Store {
     readers: SqlitePool,
     changes: broadcast::Sender<Uuid>,
     waiting: Notify,
+    folder: folder::Folder,
     /// Held as long as the store is open.
     _lock: File,
 }

@@ -3,6 +3,7 @@
 //! A specification is refused with *all* its faults, each with its JSON pointer; what is accepted comes back with
 //! every default filled in and its provenance named.
 
+pub mod columns;
 pub mod csv;
 pub mod deck;
 mod dimensions;
@@ -14,9 +15,11 @@ mod load;
 mod materials;
 mod motion;
 mod output;
+pub mod parquet;
 mod plan;
 mod preset;
 mod settings;
+pub mod thin;
 pub mod vtu;
 
 use api::problem::Fault;

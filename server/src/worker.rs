@@ -2,6 +2,7 @@
 
 mod batcher;
 mod child;
+mod gather;
 mod supervisor;
 
 use std::path::PathBuf;

@@ -8,4 +8,5 @@ mod fields_open_in_vtk;
 mod main_job;
 mod refused_specifications;
 mod replayed_events;
+mod result_files;
 mod server_killed;

@@ -1,22 +1,26 @@
 //! `fretwear solve-child`: a service's solving process.
 //!
 //! One line on standard input is the resolved specification; every line on standard output is a [`Line`]. Standard
-//! input stays open as long as the supervisor lives: at its end this process ends too.
+//! input stays open as long as the supervisor lives: at its end this process ends too. Large results are written into
+//! the attempt's folder, and the lines only name them.
 
 use std::io::{BufRead, Read, Write};
+use std::path::Path;
 use std::process::ExitCode;
 
 use api::job::Outcome;
 use solver::observer::Flow;
 
-use super::terminal::{failed, refused};
-use crate::solve::{self, Failure, Line};
+use super::terminal::{failed, refused, tell};
+use crate::documents::VTU;
+use crate::files;
+use crate::solve::{self, Failure, FieldsFile, Line, UNWRITTEN};
 use crate::translate;
 
 /// Exit code when the supervisor is gone.
 const ORPHANED: i32 = 3;
 
-pub(super) fn run() -> ExitCode {
+pub(super) fn run(folder: &Path) -> ExitCode {
     let mut spec = String::new();
     if let Err(cause) = std::io::stdin().lock().read_line(&mut spec) {
         return failed(cause);
@@ -32,7 +36,10 @@ pub(super) fn run() -> ExitCode {
         }
     };
     std::thread::spawn(end_with_supervisor);
-    let solved = solve::run(&resolved.scene, &mut |line| write(&line));
+    let solved = solve::run(&resolved.scene, &mut |line| match line {
+        Line::Fields(fields) => keep(folder, &fields),
+        line => write(&line),
+    });
     let last = match solved {
         Ok(summary) => Line::Summary(Box::new(summary)),
         Err(failure) => Line::Failed(failure),
@@ -49,6 +56,22 @@ fn end_with_supervisor() {
     let mut stdin = std::io::stdin().lock();
     while stdin.read(&mut rest).is_ok_and(|length| length > 0) {}
     std::process::exit(ORPHANED);
+}
+
+/// Writes fields into the attempt's folder and tells of the file. A disk that takes no more is no fault of the study:
+/// the process ends without a verdict, and another attempt is made.
+fn keep(folder: &Path, fields: &FieldsFile) -> Flow {
+    if let Err(error) = files::keep(folder, &fields.name, &fields.bytes) {
+        tell(error);
+        std::process::exit(UNWRITTEN);
+    }
+    let FieldsFile { name, cycle, bytes } = fields;
+    write(&Line::Kept(files::described(
+        name,
+        Some(*cycle),
+        VTU,
+        bytes,
+    )))
 }
 
 /// Writes a line; a supervisor that does not read any more stops the run.

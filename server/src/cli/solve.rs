@@ -9,7 +9,8 @@ use indicatif::ProgressBar;
 use solver::observer::Flow;
 
 use super::terminal::{bar, failed, say, specification, tell};
-use crate::files::{self, Results};
+use crate::documents::Results;
+use crate::files;
 use crate::solve::{self, Failure, FieldsFile, Line};
 use crate::translate::Resolved;
 
@@ -32,9 +33,8 @@ pub(super) fn run(spec: &Path, out: Option<&Path>) -> ExitCode {
             summary: solved.as_ref().ok(),
             rows: &recorded.rows,
             snapshots: &recorded.snapshots,
-            fields: &recorded.fields,
         };
-        if let Err(error) = files::write(folder, &results) {
+        if let Err(error) = files::write(folder, &results, &recorded.fields) {
             if let Ok(summary) = &solved {
                 report(summary);
             }
@@ -73,7 +73,7 @@ fn take(line: Line, recorded: &mut Recorded, bar: &ProgressBar) {
         }
         Line::Snapshot(snapshot) => recorded.snapshots.push(*snapshot),
         Line::Fields(file) => recorded.fields.push(file),
-        Line::Summary(_) | Line::Failed(_) => {}
+        Line::Kept(_) | Line::Summary(_) | Line::Failed(_) => {}
     }
 }
 

@@ -1,7 +1,7 @@
 //! What routes take out of requests, with problem documents for what cannot be taken.
 
 use axum::extract::rejection::BytesRejection;
-use axum::extract::{FromRequest, FromRequestParts, Path, Query, Request};
+use axum::extract::{FromRequest, FromRequestParts, Query, RawPathParams, Request};
 use axum::http::request::Parts;
 use axum::http::{HeaderMap, StatusCode, header};
 use serde::de::DeserializeOwned;
@@ -18,14 +18,35 @@ impl<S: Send + Sync> FromRequestParts<S> for JobId {
     type Rejection = Refusal;
 
     async fn from_request_parts(parts: &mut Parts, state: &S) -> Result<Self, Refusal> {
-        let text = Path::<String>::from_request_parts(parts, state)
-            .await
-            .map(|path| path.0)
-            .unwrap_or_default();
+        let text = path_parameter(parts, state, "id").await;
         Uuid::parse_str(&text)
             .map(Self)
             .map_err(|_| Kind::NoJob.because("the id in the path is not the id of a job"))
     }
+}
+
+/// The name of a file, out of the path. It is compared with names in the database and never becomes a path.
+#[derive(Debug, Clone)]
+pub(super) struct FileName(pub(super) String);
+
+impl<S: Send + Sync> FromRequestParts<S> for FileName {
+    type Rejection = Refusal;
+
+    async fn from_request_parts(parts: &mut Parts, state: &S) -> Result<Self, Refusal> {
+        Ok(Self(path_parameter(parts, state, "name").await))
+    }
+}
+
+/// A parameter of the path; empty, which names nothing, if it is no text.
+async fn path_parameter<S: Send + Sync>(parts: &mut Parts, state: &S, name: &str) -> String {
+    let Ok(parameters) = RawPathParams::from_request_parts(parts, state).await else {
+        return String::new();
+    };
+    parameters
+        .iter()
+        .find(|(found, _)| *found == name)
+        .map(|(_, value)| value.to_owned())
+        .unwrap_or_default()
 }
 
 /// Query parameters.

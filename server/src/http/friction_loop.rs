@@ -7,9 +7,9 @@ use axum::response::Response;
 
 use super::App;
 use super::extract::{JobId, Params};
-use super::stored_part::{ResultError, SnapshotQuery, respond};
+use super::stored_part::{Forms, ResultError, SnapshotQuery, respond};
 use crate::store::SnapshotPart;
-use crate::translate::csv;
+use crate::translate::{csv, thin};
 
 /// Friction force over displacement, at the stored cycle nearest to the named one.
 #[utoipa::path(
@@ -28,7 +28,11 @@ pub(super) async fn friction_loop(
     JobId(id): JobId,
     Params(query): Params<SnapshotQuery>,
 ) -> Result<Response, ResultError> {
-    respond::<Loop>(state, id, query, SnapshotPart::Loop, csv::friction_loop).await
+    let forms = Forms {
+        csv: csv::friction_loop,
+        thin: thin::friction_loop,
+    };
+    respond::<Loop>(state, id, query, SnapshotPart::Loop, forms).await
 }
 
 #[cfg(test)]

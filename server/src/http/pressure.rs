@@ -7,9 +7,9 @@ use axum::response::Response;
 
 use super::App;
 use super::extract::{JobId, Params};
-use super::stored_part::{ResultError, SnapshotQuery, respond};
+use super::stored_part::{Forms, ResultError, SnapshotQuery, respond};
 use crate::store::SnapshotPart;
-use crate::translate::csv;
+use crate::translate::{csv, thin};
 
 /// Contact pressure and shear, at the stored cycle nearest to the named one.
 #[utoipa::path(
@@ -28,7 +28,11 @@ pub(super) async fn pressure(
     JobId(id): JobId,
     Params(query): Params<SnapshotQuery>,
 ) -> Result<Response, ResultError> {
-    respond::<Pressure>(state, id, query, SnapshotPart::Pressure, csv::pressure).await
+    let forms = Forms {
+        csv: csv::pressure,
+        thin: thin::pressure,
+    };
+    respond::<Pressure>(state, id, query, SnapshotPart::Pressure, forms).await
 }
 
 #[cfg(test)]

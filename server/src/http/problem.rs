@@ -22,6 +22,8 @@ pub(super) enum Kind {
     InvalidKey,
     /// A query parameter cannot be read.
     InvalidQuery,
+    /// The range lies outside the file.
+    Range,
     /// The body is too large.
     TooLarge,
     /// The body is not declared as JSON.
@@ -72,6 +74,11 @@ impl Kind {
                 "invalid-query",
                 "a query parameter cannot be read",
                 StatusCode::BAD_REQUEST,
+            ),
+            Self::Range => (
+                "range",
+                "the range lies outside the file",
+                StatusCode::RANGE_NOT_SATISFIABLE,
             ),
             Self::TooLarge => (
                 "body-too-large",

@@ -7,9 +7,9 @@ use axum::response::Response;
 
 use super::App;
 use super::extract::{JobId, Params};
-use super::stored_part::{ResultError, SnapshotQuery, respond};
+use super::stored_part::{Forms, ResultError, SnapshotQuery, respond};
 use crate::store::SnapshotPart;
-use crate::translate::csv;
+use crate::translate::{csv, thin};
 
 /// Worn depth along both surfaces, at the stored cycle nearest to the named one.
 #[utoipa::path(
@@ -28,7 +28,11 @@ pub(super) async fn profile(
     JobId(id): JobId,
     Params(query): Params<SnapshotQuery>,
 ) -> Result<Response, ResultError> {
-    respond::<Profile>(state, id, query, SnapshotPart::Profile, csv::profile).await
+    let forms = Forms {
+        csv: csv::profile,
+        thin: thin::profile,
+    };
+    respond::<Profile>(state, id, query, SnapshotPart::Profile, forms).await
 }
 
 #[cfg(test)]

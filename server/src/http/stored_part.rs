@@ -1,21 +1,20 @@
 //! What the routes of stored snapshots share: the nearest stored cycle, as JSON or CSV.
 
+use axum::Json;
 use axum::extract::State;
 use axum::http::header;
 use axum::response::{IntoResponse, Response};
-use serde::Deserialize;
 use serde::de::DeserializeOwned;
+use serde::{Deserialize, Serialize};
 use utoipa::{IntoParams, ToSchema};
 use uuid::Uuid;
 
 use super::App;
 use super::problem::{Kind, Refusal};
+use crate::documents::{CSV, DocumentError, JSON};
 use crate::store::{SnapshotPart, StoreError};
 use crate::translate::csv::CsvError;
-
-/// Media types of results.
-pub(super) const JSON: &str = "application/json";
-pub(super) const CSV: &str = "text/csv; charset=utf-8";
+use crate::translate::thin::FEWEST_POINTS;
 
 /// Why there is no such result.
 #[derive(Debug, thiserror::Error)]
@@ -29,12 +28,15 @@ pub(super) enum ResultError {
     /// The store failed.
     #[error(transparent)]
     Store(#[from] StoreError),
+    /// Too few points, or too many.
+    #[error("max_points is {0}; it can be {FEWEST_POINTS} to {MOST_POINTS}")]
+    Points(usize),
     /// A stored document cannot be read.
     #[error(transparent)]
     Read(#[from] serde_json::Error),
-    /// It could not be written as CSV.
+    /// It could not be written.
     #[error(transparent)]
-    Csv(#[from] CsvError),
+    Write(#[from] DocumentError),
 }
 
 impl IntoResponse for ResultError {
@@ -44,11 +46,15 @@ impl IntoResponse for ResultError {
             Self::Empty(_) => Kind::NoResult.because(self.to_string()),
             Self::Store(error) => Refusal::from(error),
             Self::Read(error) => Refusal::internal(error),
-            Self::Csv(error) => Refusal::internal(error),
+            Self::Points(_) => Kind::InvalidQuery.because(self.to_string()),
+            Self::Write(error) => Refusal::internal(error),
         }
         .into_response()
     }
 }
+
+/// Most points that a client may ask for; whoever wants more can have all.
+const MOST_POINTS: usize = 100_000;
 
 /// How a result is written.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize, ToSchema)]
@@ -64,22 +70,45 @@ pub(super) enum Format {
 /// Which snapshot, and how.
 #[derive(Debug, Clone, Copy, Deserialize, IntoParams)]
 #[into_params(parameter_in = Query)]
+#[serde(deny_unknown_fields)]
 pub(super) struct SnapshotQuery {
     /// The cycle; the nearest stored one is returned, the last one if none is named.
     cycle: Option<u64>,
     /// `json` or `csv`.
     #[serde(default)]
     format: Format,
+    /// At most so many points of each curve; extremes stay.
+    #[param(minimum = 16, maximum = 100_000)]
+    max_points: Option<usize>,
+}
+
+/// Checks how many points are wanted.
+pub(super) fn points(wanted: Option<usize>) -> Result<Option<usize>, ResultError> {
+    match wanted {
+        Some(points) if !(FEWEST_POINTS..=MOST_POINTS).contains(&points) => {
+            Err(ResultError::Points(points))
+        }
+        other => Ok(other),
+    }
+}
+
+/// What can be done with a stored document of a kind.
+pub(super) struct Forms<T> {
+    /// As CSV.
+    pub(super) csv: fn(&T) -> Result<Vec<u8>, CsvError>,
+    /// With fewer points.
+    pub(super) thin: fn(T, usize) -> T,
 }
 
 /// A part of the stored snapshot nearest to the named cycle.
-pub(super) async fn respond<T: DeserializeOwned>(
+pub(super) async fn respond<T: DeserializeOwned + Serialize>(
     State(app): State<App>,
     id: Uuid,
     query: SnapshotQuery,
     part: SnapshotPart,
-    csv: fn(&T) -> Result<Vec<u8>, CsvError>,
+    forms: Forms<T>,
 ) -> Result<Response, ResultError> {
+    let points = points(query.max_points)?;
     let Some(document) = app.store.snapshot(id, part, query.cycle).await? else {
         let known = app.store.job(id).await?.is_some();
         return Err(if known {
@@ -88,13 +117,19 @@ pub(super) async fn respond<T: DeserializeOwned>(
             ResultError::Missing(id)
         });
     };
+    if (query.format, points) == (Format::Json, None) {
+        return Ok(([(header::CONTENT_TYPE, JSON)], document).into_response());
+    }
+    let mut document: T = serde_json::from_str(&document)?;
+    if let Some(points) = points {
+        document = (forms.thin)(document, points);
+    }
     Ok(match query.format {
-        Format::Json => ([(header::CONTENT_TYPE, JSON)], document).into_response(),
-        Format::Csv => (
-            [(header::CONTENT_TYPE, CSV)],
-            csv(&serde_json::from_str(&document)?)?,
-        )
-            .into_response(),
+        Format::Json => Json(document).into_response(),
+        Format::Csv => {
+            let table = (forms.csv)(&document).map_err(DocumentError::from)?;
+            ([(header::CONTENT_TYPE, CSV)], table).into_response()
+        }
     })
 }
 
@@ -146,7 +181,9 @@ pub(super) mod checks {
             service.get(&nobody).await.2["type"],
             "/problems/no-such-job"
         );
-        let unreadable = format!("{}?cycle=-1", path(&id, part));
-        assert_eq!(service.get(&unreadable).await.0, 400);
+        for query in ["cycle=-1", "max_points=15", "max_points=100001", "cycles=1"] {
+            let unreadable = format!("{}?{query}", path(&id, part));
+            assert_eq!(service.get(&unreadable).await.0, 400, "{query}");
+        }
     }
 }

@@ -93,11 +93,6 @@ pub(super) async fn submit(
 ) -> Result<Response, SubmitError> {
     let key = request_key(&headers, &body)?;
     let resolved = translate::read(&body)?;
-    if resolved.scene.output.fields {
-        let detail =
-            "fields are written by `fretwear solve --out` only; the service does not keep them yet";
-        return Err(Refused::Faults(vec![Fault::new("/output/fields", detail)]).into());
-    }
     let plan: Plan = translate::plan(&resolved);
     let Resolved { spec, .. } = resolved;
     let new = NewJob { spec, plan };

@@ -1,5 +1,6 @@
 //! A service on a database in a temporary folder, without workers; and what concerns all routes.
 
+use std::path::PathBuf;
 use std::sync::Arc;
 
 use api::results::{
@@ -15,12 +16,15 @@ use tokio_util::sync::CancellationToken;
 use tower::ServiceExt;
 
 use super::{App, router};
-use crate::store::{Batch, Store};
+use crate::documents::{JSON, VTU};
+use crate::files;
+use crate::queue::Move;
+use crate::store::{Batch, End, NewFile, Store};
 
 /// All routes over a fresh store.
 pub(crate) struct Service {
     pub(crate) app: App,
-    _folder: TempDir,
+    folder: TempDir,
 }
 
 impl Service {
@@ -29,12 +33,14 @@ impl Service {
         let url = format!("sqlite://{}", folder.path().join("test.db").display());
         let store = Arc::new(Store::open(&url).await.expect("a store"));
         Self {
-            app: App {
-                store,
-                stopping: CancellationToken::new(),
-            },
-            _folder: folder,
+            app: App::new(store, CancellationToken::new()),
+            folder,
         }
+    }
+
+    /// The folder of large results beside the database.
+    pub(crate) fn results_folder(&self) -> PathBuf {
+        self.folder.path().join("test.db.results")
     }
 
     pub(crate) async fn text(
@@ -44,6 +50,17 @@ impl Service {
         headers: &[(&str, &str)],
         body: &str,
     ) -> (StatusCode, HeaderMap, String) {
+        let (status, headers, bytes) = self.bytes(method, path, headers, body).await;
+        (status, headers, String::from_utf8(bytes).expect("text"))
+    }
+
+    pub(crate) async fn bytes(
+        &self,
+        method: &str,
+        path: &str,
+        headers: &[(&str, &str)],
+        body: &str,
+    ) -> (StatusCode, HeaderMap, Vec<u8>) {
         let mut request = Request::builder()
             .method(method)
             .uri(path)
@@ -60,11 +77,7 @@ impl Service {
             .expect("an answer");
         let (parts, body) = response.into_parts();
         let bytes = body.collect().await.expect("a body").to_bytes();
-        (
-            parts.status,
-            parts.headers,
-            String::from_utf8(bytes.to_vec()).expect("text"),
-        )
+        (parts.status, parts.headers, bytes.to_vec())
     }
 
     pub(crate) async fn send(
@@ -98,6 +111,45 @@ impl Service {
         job["id"].as_str().expect("an id").to_owned()
     }
 
+    /// An ended job with a file beside the database and one in it.
+    pub(crate) async fn with_files(&self) -> String {
+        let id = self.queued(r#"{"system":{"kind":"dimm"}}"#).await;
+        let store = &self.app.store;
+        let claim = store
+            .claim(0, i64::MAX)
+            .await
+            .expect("the store")
+            .expect("a job");
+        let fields = files::described("fields-20.vtu", Some(20), VTU, FIELDS.as_bytes());
+        files::keep(
+            &store.attempt_folder(&claim),
+            &fields.name,
+            FIELDS.as_bytes(),
+        )
+        .expect("kept");
+        let batch = Batch {
+            files: vec![
+                NewFile {
+                    file: fields,
+                    content: None,
+                },
+                NewFile {
+                    file: files::described("summary.json", None, JSON, b"{}"),
+                    content: Some(b"{}".to_vec()),
+                },
+            ],
+            ..Batch::default()
+        };
+        let end = End {
+            step: Move::Succeed,
+            reason: None,
+            outcome: None,
+            summary: None,
+        };
+        store.end(&claim, &batch, &end, 1).await.expect("the store");
+        id
+    }
+
     /// A running job with rows and snapshots at the cycles 10 and 20.
     pub(crate) async fn with_results(&self) -> String {
         let id = self.queued(r#"{"system":{"kind":"dimm"}}"#).await;
@@ -121,6 +173,9 @@ impl Service {
         id
     }
 }
+
+/// Stands for a large result.
+pub(crate) const FIELDS: &str = "<VTKFile>0 1 2 3</VTKFile>";
 
 /// A row of the history.
 pub(crate) fn row(cycle: u64) -> CycleRow {

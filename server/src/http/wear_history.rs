@@ -7,20 +7,38 @@ use axum::extract::State;
 use axum::http::header;
 use axum::response::{IntoResponse, Response};
 use serde::Deserialize;
-use utoipa::IntoParams;
+use utoipa::{IntoParams, ToSchema};
 
 use super::App;
 use super::extract::{JobId, Params};
-use super::stored_part::{CSV, Format, ResultError};
-use crate::translate::{csv, history};
+use super::stored_part::{ResultError, points};
+use crate::documents::{CSV, DocumentError, PARQUET};
+use crate::translate::{csv, history, parquet, thin};
 
 /// How the history is written.
 #[derive(Debug, Clone, Copy, Deserialize, IntoParams)]
 #[into_params(parameter_in = Query)]
+#[serde(deny_unknown_fields)]
 pub(super) struct HistoryQuery {
-    /// `json` or `csv`.
+    /// `json`, `csv` or `parquet`.
     #[serde(default)]
-    format: Format,
+    format: HistoryFormat,
+    /// At most so many rows; the highest and lowest values of every column stay.
+    #[param(minimum = 16, maximum = 100_000)]
+    max_points: Option<usize>,
+}
+
+/// How a history is written.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize, ToSchema)]
+#[serde(rename_all = "snake_case")]
+pub(super) enum HistoryFormat {
+    /// JSON.
+    #[default]
+    Json,
+    /// CSV, units in the header.
+    Csv,
+    /// Apache Parquet, units in the names of the columns.
+    Parquet,
 }
 
 /// Wear over the computed cycles so far, as columns.
@@ -41,13 +59,22 @@ pub(super) async fn wear_history(
     Params(query): Params<HistoryQuery>,
 ) -> Result<Response, ResultError> {
     let job = app.store.job(id).await?.ok_or(ResultError::Missing(id))?;
-    let rows = app.store.history(id).await?;
+    let points = points(query.max_points)?;
+    let mut rows = app.store.history(id).await?;
+    if let Some(points) = points {
+        rows = thin::rows(rows, points);
+    }
     let stations = job.document.spec.output.stations_mm.unwrap_or_default();
     let columns = history::columns(&rows, &stations);
     Ok(match query.format {
-        Format::Json => Json(columns).into_response(),
-        Format::Csv => {
-            ([(header::CONTENT_TYPE, CSV)], csv::wear_history(&columns)?).into_response()
+        HistoryFormat::Json => Json(columns).into_response(),
+        HistoryFormat::Csv => {
+            let table = csv::wear_history(&columns).map_err(DocumentError::from)?;
+            ([(header::CONTENT_TYPE, CSV)], table).into_response()
+        }
+        HistoryFormat::Parquet => {
+            let table = parquet::wear_history(&columns).map_err(DocumentError::from)?;
+            ([(header::CONTENT_TYPE, PARQUET)], table).into_response()
         }
     })
 }
@@ -99,6 +126,23 @@ mod tests {
         let id = service.queued(r#"{"system":{"kind":"dimm"}}"#).await;
         let path = format!("/v1/jobs/{id}/results/wear-history");
         assert_eq!(service.get(&path).await.2["cycle"], serde_json::json!([]));
-        assert_eq!(service.get(&format!("{path}?format=xml")).await.0, 400);
+        for query in ["format=xml", "max_points=1", "max_point=20"] {
+            assert_eq!(
+                service.get(&format!("{path}?{query}")).await.0,
+                400,
+                "{query}"
+            );
+        }
+    }
+
+    #[tokio::test]
+    async fn parquet_is_what_its_readers_expect() {
+        let service = Service::new().await;
+        let id = service.with_results().await;
+        let path = format!("/v1/jobs/{id}/results/wear-history?format=parquet&max_points=16");
+        let (status, headers, bytes) = service.bytes("GET", &path, &[], "").await;
+        assert_eq!(status, 200);
+        assert_eq!(headers["content-type"], "application/vnd.apache.parquet");
+        assert!(bytes.starts_with(b"PAR1") && bytes.ends_with(b"PAR1"));
     }
 }

@@ -62,6 +62,7 @@ fn links(id: Uuid) -> BTreeMap<String, String> {
     let relations = [
         ("events", "/events"),
         ("cancel", "/cancel"),
+        ("results", "/results"),
         ("wear_history", "/results/wear-history"),
         ("profile", "/results/profile"),
         ("pressure", "/results/pressure"),

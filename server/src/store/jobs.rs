@@ -220,7 +220,7 @@ impl Store {
         Ok(Some(did))
     }
 
-    /// Deletes a job that has ended, with its events and results.
+    /// Deletes a job that has ended, with its events, results and files.
     ///
     /// # Errors
     /// [`StoreError`] if the database fails.
@@ -238,6 +238,9 @@ impl Store {
             }
         };
         transaction.commit().await?;
+        if did == Deleted::Done {
+            self.remove_files(id).await;
+        }
         self.changed(id);
         Ok(did)
     }

@@ -10,6 +10,7 @@ use sqlx::{Sqlite, Transaction};
 use uuid::Uuid;
 
 use super::conclusion::{End, Standing, conclude};
+use super::files::{NewFile, insert_files};
 use super::queries::{BEGIN, insert_event, job_id};
 use super::{Store, StoreError};
 use crate::queue::Move;
@@ -34,6 +35,8 @@ pub struct Batch {
     pub rows: Vec<CycleRow>,
     /// New snapshots.
     pub snapshots: Vec<Snapshot>,
+    /// New files.
+    pub files: Vec<NewFile>,
     /// New events: name and JSON document.
     pub events: Vec<(&'static str, String)>,
 }
@@ -80,6 +83,10 @@ impl Store {
             .bind(&text)
             .execute(&mut *transaction)
             .await?;
+        sqlx::query("DELETE FROM result_files WHERE job_id = ?")
+            .bind(&text)
+            .execute(&mut *transaction)
+            .await?;
         let id = job_id(&text)?;
         let attempt = Attempt {
             attempt: u32::try_from(attempts).unwrap_or(u32::MAX),
@@ -117,7 +124,7 @@ impl Store {
         let Some((last_event, cancel_requested)) = held else {
             return Ok(Held::No);
         };
-        write_results(&mut transaction, claim.id, batch).await?;
+        write_results(&mut transaction, claim, batch).await?;
         for (seq, (name, data)) in (last_event - events + 1..).zip(&batch.events) {
             insert_event(&mut transaction, claim.id, seq, name, data).await?;
         }
@@ -164,7 +171,7 @@ impl Store {
         let Some(standing) = standing else {
             return Ok(None);
         };
-        write_results(&mut transaction, claim.id, batch).await?;
+        write_results(&mut transaction, claim, batch).await?;
         let progress = serde_json::to_string(&batch.progress)?;
         let status = conclude(
             &mut transaction,
@@ -240,9 +247,10 @@ impl Store {
 
 async fn write_results(
     transaction: &mut Transaction<'_, Sqlite>,
-    id: Uuid,
+    claim: &Claim,
     batch: &Batch,
 ) -> Result<(), StoreError> {
+    let id = claim.id;
     for row in &batch.rows {
         sqlx::query("INSERT OR REPLACE INTO history_rows (job_id, cycle, data) VALUES (?, ?, ?)")
             .bind(id.to_string())
@@ -263,7 +271,7 @@ async fn write_results(
         .execute(&mut **transaction)
         .await?;
     }
-    Ok(())
+    insert_files(transaction, claim, &batch.files).await
 }
 
 fn count(length: usize) -> i64 {

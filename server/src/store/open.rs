@@ -10,6 +10,7 @@ use sqlx::sqlite::{
 };
 use tokio::sync::{Notify, broadcast};
 
+use super::folder::Folder;
 use super::{CHANGES_KEPT, Store, StoreError, queries};
 
 /// Older ones can corrupt the write-ahead log when it is reset.
@@ -57,13 +58,16 @@ impl Store {
         queries::checkpoint(&writer).await?;
         let readers = readers(options.read_only(true)).await?;
         let (changes, _) = broadcast::channel(CHANGES_KEPT);
-        Ok(Self {
+        let store = Self {
             writer,
             readers,
             changes,
             waiting: Notify::new(),
+            folder: Folder::beside(&path),
             _lock: lock,
-        })
+        };
+        store.sweep_files(None).await?;
+        Ok(store)
     }
 
     /// Closes all connections.

@@ -3,6 +3,8 @@
 use ::csv::Writer;
 use api::results::{Loop, Pressure, Profile, SlidePosition, WearHistory};
 
+use super::columns::{self, Values};
+
 /// Numbers could not be written as CSV.
 #[derive(Debug, thiserror::Error)]
 #[error("writing CSV: {0}")]
@@ -43,44 +45,13 @@ fn numbers<T: ToString>(header: impl Into<String>, values: &[T]) -> (String, Vec
 /// # Errors
 /// [`CsvError`] if the writer fails.
 pub fn wear_history(history: &WearHistory) -> Result<Vec<u8>, CsvError> {
-    let mut table = vec![
-        numbers("cycle", &history.cycle),
-        numbers("jump", &history.jump),
-        numbers("sliding_distance_mm", &history.sliding_distance_mm),
-    ];
-    for station in &history.stations {
-        table.push(numbers(
-            format!("{}_depth_at_{}_mm", station.side, station.x_mm),
-            &station.depth_mm,
-        ));
-    }
-    for (side, series) in [
-        ("receptacle", &history.receptacle),
-        ("slider", &history.slider),
-    ] {
-        table.push(numbers(
-            format!("{side}_max_depth_mm"),
-            &series.max_depth_mm,
-        ));
-        table.push(numbers(
-            format!("{side}_worn_area_mm2"),
-            &series.worn_area_mm2,
-        ));
-        table.push(numbers(
-            format!("{side}_scar_half_width_mm"),
-            &series.scar_half_width_mm,
-        ));
-    }
-    table.push(numbers("load_n_per_mm", &history.load_n_per_mm));
-    table.push(numbers("peak_pressure_mpa", &history.peak_pressure_mpa));
-    table.push(numbers(
-        "contact_half_width_mm",
-        &history.contact_half_width_mm,
-    ));
-    table.push(numbers(
-        "dissipated_energy_mj_per_mm",
-        &history.dissipated_energy_mj_per_mm,
-    ));
+    let table = columns::of(history)
+        .into_iter()
+        .map(|(header, values)| match values {
+            Values::Counts(counts) => numbers(header, counts),
+            Values::Numbers(values) => numbers(header, values),
+        })
+        .collect();
     write(&table)
 }
 

@@ -10,7 +10,7 @@ use api::results::CycleRow;
 use jiff::Timestamp;
 
 use crate::solve::Line;
-use crate::store::Batch;
+use crate::store::{Batch, NewFile};
 
 /// Share of the work between two events.
 const EVENT_SHARE: f64 = 0.005;
@@ -60,6 +60,10 @@ impl Batcher {
                 self.newest = Some(row);
             }
             Line::Snapshot(snapshot) => self.batch.snapshots.push(*snapshot),
+            Line::Kept(file) => self.batch.files.push(NewFile {
+                file,
+                content: None,
+            }),
             Line::Fields(_) | Line::Summary(_) | Line::Failed(_) => {}
         }
     }
@@ -93,6 +97,7 @@ impl Batcher {
         let newer = std::mem::replace(&mut self.batch, refused);
         self.batch.rows.extend(newer.rows);
         self.batch.snapshots.extend(newer.snapshots);
+        self.batch.files.extend(newer.files);
         self.batch.events.extend(newer.events);
         self.dirty = true;
     }

@@ -30,10 +30,11 @@ pub(super) enum Ended {
 }
 
 impl Solving {
-    /// Starts the process and hands it the specification (JSON, one line).
-    pub(super) async fn start(program: &Path, spec: &str) -> std::io::Result<Self> {
+    /// Starts the process and hands it the specification (JSON, one line); its files go into `folder`.
+    pub(super) async fn start(program: &Path, spec: &str, folder: &Path) -> std::io::Result<Self> {
         let mut child = Command::new(program)
             .arg("solve-child")
+            .arg(folder)
             .stdin(Stdio::piped())
             .stdout(Stdio::piped())
             .stderr(Stdio::inherit())

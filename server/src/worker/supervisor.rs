@@ -9,10 +9,11 @@ use tokio_util::sync::CancellationToken;
 
 use super::batcher::Batcher;
 use super::child::{Ended, Solving};
+use super::gather::gather;
 use super::{LEASE, lease_end};
 use crate::clock::now_ms;
 use crate::queue::Move;
-use crate::solve::Line;
+use crate::solve::{Line, UNWRITTEN};
 use crate::store::{Batch, Claim, End, Held, Store, StoreError};
 use crate::translate;
 
@@ -46,7 +47,7 @@ pub(super) async fn supervise(
     let cycles =
         serde_json::from_str::<Spec>(&claim.spec).map_or(0, |spec| translate::cycles(&spec));
     let mut batcher = Batcher::new(cycles);
-    let mut child = match Solving::start(program, &claim.spec).await {
+    let mut child = match Solving::start(program, &claim.spec, &store.attempt_folder(claim)).await {
         Ok(child) => child,
         Err(cause) => {
             let end = end(
@@ -165,6 +166,7 @@ fn verdict(last: Option<Line>, ended: Ended) -> End {
             ..end(Move::Fail, failure.reason)
         },
         (_, Ended::Killed) => end(Move::Lose, "its solving process was killed"),
+        (_, Ended::Code(UNWRITTEN)) => end(Move::Lose, "its results could not be written"),
         (_, Ended::Crashed(signal)) => End {
             outcome: Some(Outcome::NotConverged),
             ..end(
@@ -202,11 +204,20 @@ async fn conclude(
     if matches!(recorded, Held::No) {
         return Ok(());
     }
+    let ends = matches!(end.step, Move::Succeed | Move::Fail | Move::Cancel);
+    let files = if ends {
+        patiently(claim, || gather(store, claim, end.summary.as_ref())).await?
+    } else {
+        Vec::new()
+    };
+    // The end and the manifest are one transaction.
     let rest = Batch {
         progress: batch.progress.clone(),
+        files,
         ..Batch::default()
     };
     let status = patiently(claim, || store.end(claim, &rest, end, now_ms())).await?;
+    store.sweep_files(Some(claim.id)).await?;
     tracing::info!(job = %claim.id, status = status.map(Status::as_str), reason = end.reason, "job concluded");
     Ok(())
 }

@@ -1,0 +1,212 @@
+//! `GET /v1/jobs/{id}/results/archive`: everything that a job produced, as a zip that is made while it is sent.
+
+use std::io::{self, Write};
+use std::time::Duration;
+
+use api::problem::Problem;
+use api::results::ResultFile;
+use axum::body::{Body, Bytes};
+use axum::extract::State;
+use axum::http::header;
+use axum::response::{IntoResponse, Response};
+use futures_util::stream;
+use tokio::runtime::Handle;
+use tokio::sync::{OwnedSemaphorePermit, mpsc};
+use uuid::Uuid;
+use zip::write::SimpleFileOptions;
+use zip::{CompressionMethod, ZipWriter};
+
+use super::App;
+use super::extract::JobId;
+use super::file::attachment;
+use super::problem::{Kind, Refusal};
+use crate::store::{Content, StoreError};
+
+/// Archives made at once: each occupies a thread as long as its client takes to read it.
+pub(super) const AT_ONCE: usize = 4;
+/// Pieces of this size are sent, bytes.
+const PIECE: usize = 64 << 10;
+/// Pieces on their way.
+const PIECES: usize = 4;
+/// How long a client may leave a piece lying.
+const PATIENCE: Duration = Duration::from_mins(1);
+
+/// Why there is no archive.
+#[derive(Debug, thiserror::Error)]
+pub(super) enum ArchiveError {
+    /// There is no job of that id.
+    #[error("there is no job {0}")]
+    Missing(Uuid),
+    /// It has not ended.
+    #[error("job {0} has not ended; its archive is there when it has")]
+    Active(Uuid),
+    /// The service stops.
+    #[error("the service stops")]
+    Stopping,
+    /// The store failed.
+    #[error(transparent)]
+    Store(#[from] StoreError),
+}
+
+impl IntoResponse for ArchiveError {
+    fn into_response(self) -> Response {
+        match &self {
+            Self::Missing(_) => Kind::NoJob.because(self.to_string()),
+            Self::Active(_) => Kind::Active.because(self.to_string()),
+            Self::Stopping => Refusal::internal(&self),
+            Self::Store(error) => Refusal::from(error),
+        }
+        .into_response()
+    }
+}
+
+/// Everything that an ended job produced, as a zip.
+#[utoipa::path(
+    get,
+    path = "/v1/jobs/{id}/results/archive",
+    tag = "results",
+    params(("id" = Uuid, Path, description = "The job")),
+    responses(
+        (status = 200, description = "The archive", content_type = "application/zip", body = Vec<u8>),
+        (status = 404, description = "No such job", body = Problem),
+        (status = 409, description = "The job has not ended", body = Problem),
+    )
+)]
+pub(super) async fn archive(
+    State(app): State<App>,
+    JobId(id): JobId,
+) -> Result<Response, ArchiveError> {
+    let job = app.store.job(id).await?.ok_or(ArchiveError::Missing(id))?;
+    if !job.document.status.is_terminal() {
+        return Err(ArchiveError::Active(id));
+    }
+    let files = app.store.manifest(id).await?;
+    let permit = app.archives.clone().acquire_owned().await;
+    let permit = permit.map_err(|_| ArchiveError::Stopping)?;
+    let (pieces, received) = mpsc::channel(PIECES);
+    tokio::task::spawn_blocking(move || make(&app, id, &files, &pieces, permit));
+    let body = stream::unfold(received, |mut received| async move {
+        received.recv().await.map(|piece| (piece, received))
+    });
+    let headers = [
+        (header::CONTENT_TYPE, "application/zip".to_owned()),
+        (
+            header::CONTENT_DISPOSITION,
+            attachment(&format!("fretwear-{id}.zip")),
+        ),
+    ];
+    Ok((headers, Body::from_stream(body)).into_response())
+}
+
+fn make(
+    app: &App,
+    id: Uuid,
+    files: &[ResultFile],
+    pieces: &mpsc::Sender<io::Result<Bytes>>,
+    permit: OwnedSemaphorePermit,
+) {
+    let wire = Wire {
+        pieces: pieces.clone(),
+        runtime: Handle::current(),
+        gathered: Vec::with_capacity(PIECE),
+    };
+    if let Err(error) = written(app, id, files, wire) {
+        tracing::warn!(job = %id, %error, "an archive was broken off");
+        // The client learns it from a body that ends before its end; one that has gone learns nothing.
+        let _ = pieces.try_send(Err(error));
+    }
+    drop(permit);
+}
+
+fn written(app: &App, id: Uuid, files: &[ResultFile], wire: Wire) -> io::Result<()> {
+    let runtime = wire.runtime.clone();
+    let mut archive = ZipWriter::new_stream(wire);
+    for file in files {
+        let stored = runtime.block_on(app.store.result_file(id, &file.name));
+        let Some((_, content)) = stored.map_err(io::Error::other)? else {
+            return Err(io::Error::other("the job was deleted"));
+        };
+        let options = SimpleFileOptions::default()
+            .compression_method(CompressionMethod::Deflated)
+            .large_file(file.bytes > u64::from(u32::MAX));
+        archive.start_file(file.name.as_str(), options)?;
+        match content {
+            Content::Inline(bytes) => archive.write_all(&bytes)?,
+            Content::File(path) => {
+                io::copy(&mut std::fs::File::open(path)?, &mut archive)?;
+            }
+        }
+    }
+    archive.finish()?.into_inner().flush()
+}
+
+/// What is written goes to the client, piece by piece.
+struct Wire {
+    pieces: mpsc::Sender<io::Result<Bytes>>,
+    runtime: Handle,
+    gathered: Vec<u8>,
+}
+
+impl Write for Wire {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        self.gathered.extend_from_slice(bytes);
+        if self.gathered.len() >= PIECE {
+            self.flush()?;
+        }
+        Ok(bytes.len())
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        if self.gathered.is_empty() {
+            return Ok(());
+        }
+        let piece = Bytes::from(std::mem::take(&mut self.gathered));
+        let sent = self
+            .runtime
+            .block_on(self.pieces.send_timeout(Ok(piece), PATIENCE));
+        sent.map_err(|_| io::Error::other("the client does not read it"))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::io::{Cursor, Read};
+
+    use zip::ZipArchive;
+
+    use crate::http::tests::{FIELDS, Service};
+
+    #[tokio::test]
+    async fn the_archive_holds_every_file_of_the_manifest() {
+        let service = Service::new().await;
+        let id = service.with_files().await;
+        let path = format!("/v1/jobs/{id}/results/archive");
+        let (status, headers, bytes) = service.bytes("GET", &path, &[], "").await;
+        assert_eq!(status, 200);
+        assert_eq!(headers["content-type"], "application/zip");
+        let mut archive = ZipArchive::new(Cursor::new(bytes)).expect("an archive");
+        let mut names: Vec<_> = archive
+            .file_names()
+            .map(|name| name.expect("a name").into_owned())
+            .collect();
+        names.sort();
+        assert_eq!(names, ["fields-20.vtu", "summary.json"]);
+        let mut content = String::new();
+        let mut fields = archive.by_name("fields-20.vtu").expect("a file");
+        fields.read_to_string(&mut content).expect("text");
+        assert_eq!(content, FIELDS);
+    }
+
+    #[tokio::test]
+    async fn a_job_that_has_not_ended_has_no_archive() {
+        let service = Service::new().await;
+        let id = service.queued(r#"{"system":{"kind":"dimm"}}"#).await;
+        let (status, _, problem) = service.get(&format!("/v1/jobs/{id}/results/archive")).await;
+        assert_eq!(
+            (status.as_u16(), problem["type"].as_str()),
+            (409, Some("/problems/job-active"))
+        );
+        let nobody = "/v1/jobs/00000000-0000-7000-8000-000000000000/results/archive";
+        assert_eq!(service.get(nobody).await.0, 404);
+    }
+}

@@ -1,0 +1,108 @@
+//! Requirement: a job that asked for fields lists them and all its documents with length and SHA-256; each file comes
+//! back with exactly these bytes, whole and in ranges; the fields are those of `fretwear solve`, bit for bit; with the
+//! job its files are gone.
+
+use std::path::Path;
+
+use serde_json::Value;
+use sha2::{Digest, Sha256};
+use tests::{Server, fretwear};
+
+const SPEC: &str = r#"{
+  "system": {"kind": "cylinder_on_flat"},
+  "cycles": 20,
+  "output": {"fields": true, "snapshots_at_cycles": [20]}
+}"#;
+
+/// What the solved job must list, at least.
+const NAMES: [&str; 10] = [
+    "fields-0.vtu",
+    "fields-20.vtu",
+    "fields-20-leftmost.vtu",
+    "loop-20.csv",
+    "pressure-20.csv",
+    "profile-20.csv",
+    "spec.resolved.json",
+    "summary.json",
+    "wear-history.csv",
+    "wear-history.parquet",
+];
+
+#[tokio::test]
+async fn every_file_of_the_manifest_comes_back_as_it_was_described() {
+    let folder = tempfile::tempdir().expect("a folder can be made");
+    let server = Server::start(folder.path());
+    let (status, job) = server.submit(SPEC).await;
+    assert_eq!(status, 202, "{job}");
+    let id = job["id"].as_str().expect("a job has an id").to_owned();
+    let job = server
+        .job_when(&id, |job| job["finished_at"].is_string())
+        .await;
+    assert_eq!(job["status"], "succeeded", "{job}");
+
+    let (_, manifest) = server.get(&format!("/v1/jobs/{id}/results")).await;
+    assert_eq!(manifest["complete"], true);
+    let files = manifest["files"].as_array().expect("files are listed");
+    let listed: Vec<&str> = files.iter().filter_map(|f| f["name"].as_str()).collect();
+    for name in NAMES {
+        assert!(listed.contains(&name), "{name} is not in {listed:?}");
+    }
+    let solved = solved(folder.path());
+    for file in files {
+        let name = file["name"].as_str().expect("a file has a name");
+        let bytes = fetched(&server, &id, name, file).await;
+        if name.starts_with("fields-") {
+            assert_eq!(
+                std::fs::read(solved.join(name)).expect("solved"),
+                bytes,
+                "{name}"
+            );
+        }
+    }
+
+    let results = folder.path().join("fretwear.db.results");
+    assert!(results.join(&id).is_dir());
+    let deleted = server
+        .client
+        .delete(format!("{}/v1/jobs/{id}", server.base))
+        .send()
+        .await
+        .expect("the service answers");
+    assert_eq!(deleted.status(), 204);
+    assert!(!results.join(&id).exists());
+}
+
+/// The same study solved without a service; the folder of its files.
+fn solved(folder: &Path) -> std::path::PathBuf {
+    std::fs::write(folder.join("spec.json"), SPEC).expect("a file can be written");
+    let ran = fretwear(folder, &["solve", "spec.json", "--out", "solved"]);
+    assert_eq!(ran.code, Some(0), "{}", ran.stderr);
+    folder.join("solved")
+}
+
+/// A file, fetched whole and compared with its description and with its second half fetched alone.
+async fn fetched(server: &Server, id: &str, name: &str, described: &Value) -> Vec<u8> {
+    let url = format!("{}/v1/jobs/{id}/results/files/{name}", server.base);
+    let get = |range: Option<String>| {
+        let request = server.client.get(&url);
+        let request = range
+            .into_iter()
+            .fold(request, |request, range| request.header("range", range));
+        async { request.send().await.expect("the service answers") }
+    };
+    let bytes = get(None).await.bytes().await.expect("a body").to_vec();
+    let digest = Sha256::digest(&bytes)
+        .iter()
+        .fold(String::new(), |text, byte| text + &format!("{byte:02x}"));
+    assert_eq!(described["sha256"], digest, "{name}");
+    assert_eq!(described["bytes"], bytes.len(), "{name}");
+    let half = bytes.len() / 2;
+    let rest = get(Some(format!("bytes={half}-"))).await;
+    assert_eq!(rest.status(), 206, "{name}");
+    assert_eq!(
+        rest.bytes().await.expect("a body")[..],
+        bytes[half..],
+        "{name}"
+    );
+    bytes
+}
