@@ -3,6 +3,7 @@
 use api::results::{CycleRow, Snapshot, Summary};
 use api::spec::Spec;
 
+use crate::plot::{self, PlotError};
 use crate::translate::csv::{self, CsvError};
 use crate::translate::history;
 use crate::translate::parquet::{self, ParquetError};
@@ -13,6 +14,10 @@ pub const JSON: &str = "application/json";
 pub const CSV: &str = "text/csv; charset=utf-8";
 /// Tables as Apache Parquet.
 pub const PARQUET: &str = "application/vnd.apache.parquet";
+/// Pictures as drawings.
+pub const SVG: &str = "image/svg+xml";
+/// Pictures as pixels.
+pub const PNG: &str = "image/png";
 /// Fields inside the bodies: VTK's XML, for which no type is registered.
 pub const VTU: &str = "application/xml";
 
@@ -54,6 +59,9 @@ pub enum DocumentError {
     /// As Parquet.
     #[error(transparent)]
     Parquet(#[from] ParquetError),
+    /// As a picture.
+    #[error(transparent)]
+    Plot(#[from] PlotError),
 }
 
 /// All documents of a run; without the fields, which are large and written while it runs.
@@ -94,6 +102,13 @@ pub fn all(results: &Results<'_>) -> Result<Vec<Document>, DocumentError> {
         for (part, bytes) in parts {
             add(format!("{part}-{cycle}.csv"), Some(cycle), CSV, bytes);
         }
+    }
+    let name = results.spec.name.as_deref().unwrap_or_default();
+    for (picture, drawn) in plot::run::pictures(name, &columns, results.snapshots) {
+        let drawing = plot::svg(&drawn)?;
+        let pixels = plot::png(&drawing)?;
+        add(format!("{picture}.svg"), None, SVG, drawing.into_bytes());
+        add(format!("{picture}.png"), None, PNG, pixels);
     }
     Ok(documents)
 }

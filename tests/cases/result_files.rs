@@ -15,16 +15,18 @@ const SPEC: &str = r#"{
 }"#;
 
 /// What the solved job must list, at least.
-const NAMES: [&str; 10] = [
+const NAMES: [&str; 12] = [
     "fields-0.vtu",
     "fields-20.vtu",
     "fields-20-leftmost.vtu",
     "loop-20.csv",
     "pressure-20.csv",
+    "pressure.svg",
     "profile-20.csv",
     "spec.resolved.json",
     "summary.json",
     "wear-history.csv",
+    "wear-history.png",
     "wear-history.parquet",
 ];
 
