@@ -7,4 +7,5 @@ pub mod plan;
 pub mod problem;
 pub mod results;
 pub mod spec;
+pub mod sweep;
 pub mod system;

@@ -11,6 +11,7 @@ mod motion;
 mod read;
 mod settings;
 mod system;
+mod unique;
 
 use std::collections::BTreeMap;
 
@@ -47,7 +48,11 @@ pub struct Spec {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub name: Option<String>,
     /// Labels for finding it again.
-    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    #[serde(
+        default,
+        skip_serializing_if = "BTreeMap::is_empty",
+        deserialize_with = "unique::map"
+    )]
     pub labels: BTreeMap<String, String>,
     /// The contact system and its dimensions.
     pub system: System,
@@ -67,7 +72,11 @@ pub struct Spec {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub cycles: Option<u64>,
     /// Physical effects by name.
-    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    #[serde(
+        default,
+        skip_serializing_if = "BTreeMap::is_empty",
+        deserialize_with = "unique::map"
+    )]
     #[schema(value_type = BTreeMap<String, Switch>)]
     pub effects: BTreeMap<String, Choice<Switch>>,
     /// How accurate, or how fast.

@@ -2,6 +2,7 @@
 
 mod archive;
 mod cancel;
+mod cancel_sweep;
 mod events;
 mod extract;
 mod file;
@@ -16,8 +17,11 @@ mod problem;
 mod profile;
 mod remove;
 mod show;
+mod show_sweep;
 mod stored_part;
 mod submit;
+mod submit_sweep;
+mod sweep_outcomes;
 mod systems;
 mod wear_history;
 
@@ -111,6 +115,10 @@ fn described() -> (Router<App>, Document) {
         .routes(routes!(profile::profile))
         .routes(routes!(pressure::pressure))
         .routes(routes!(friction_loop::friction_loop))
+        .routes(routes!(submit_sweep::submit_sweep))
+        .routes(routes!(show_sweep::show_sweep))
+        .routes(routes!(sweep_outcomes::sweep_outcomes))
+        .routes(routes!(cancel_sweep::cancel_sweep))
         .routes(routes!(make_plan::make_plan))
         .routes(routes!(systems::systems))
         .routes(routes!(systems::system))

@@ -14,6 +14,7 @@ mod leases;
 mod open;
 mod queries;
 mod results;
+mod sweeps;
 
 use std::fs::File;
 
@@ -28,6 +29,7 @@ pub use files::{Content, NewFile};
 pub use jobs::{Cancelled, Deleted, Filter, NewJob, RequestKey, StoredJob, Submitted};
 pub use leases::{Batch, Claim, Held};
 pub use results::SnapshotPart;
+pub use sweeps::{NewSweep, SweepOutcome};
 
 /// How many job ids may wait in a listener's channel before it has to look for itself.
 const CHANGES_KEPT: usize = 1024;

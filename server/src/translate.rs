@@ -14,11 +14,13 @@ mod library;
 mod load;
 mod materials;
 mod motion;
+pub mod outcomes;
 mod output;
 pub mod parquet;
 mod plan;
 mod preset;
 mod settings;
+pub mod sweep;
 pub mod thin;
 pub mod vtu;
 

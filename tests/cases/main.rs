@@ -10,3 +10,4 @@ mod refused_specifications;
 mod replayed_events;
 mod result_files;
 mod server_killed;
+mod sweep;

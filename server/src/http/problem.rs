@@ -34,6 +34,8 @@ pub(super) enum Kind {
     WrongMethod,
     /// There is no such job.
     NoJob,
+    /// There is no such sweep.
+    NoSweep,
     /// The job has no such result (yet).
     NoResult,
     /// There is no such system.
@@ -97,6 +99,11 @@ impl Kind {
                 StatusCode::METHOD_NOT_ALLOWED,
             ),
             Self::NoJob => ("no-such-job", "there is no such job", StatusCode::NOT_FOUND),
+            Self::NoSweep => (
+                "no-such-sweep",
+                "there is no such sweep",
+                StatusCode::NOT_FOUND,
+            ),
             Self::NoResult => (
                 "no-such-result",
                 "the job has no such result",
@@ -129,6 +136,15 @@ impl Kind {
             faults: Vec::new(),
         }
     }
+}
+
+/// A client's text short enough for a message.
+pub(super) fn shortened(text: &str) -> String {
+    const KEPT: usize = 40;
+    if text.chars().count() <= KEPT {
+        return text.to_owned();
+    }
+    text.chars().take(KEPT).chain(['\u{2026}']).collect()
 }
 
 /// A problem on its way to the client.

@@ -51,6 +51,7 @@ impl IntoResponse for ShowError {
 /// How long to wait.
 #[derive(Debug, Deserialize, IntoParams)]
 #[into_params(parameter_in = Query)]
+#[serde(deny_unknown_fields)]
 pub(super) struct ShowQuery {
     /// Answer when the job has changed (with `If-None-Match`) or ended (without), or after this long; such as `25s`.
     wait: Option<String>,
@@ -63,7 +64,10 @@ pub(super) struct ShowQuery {
     tag = "jobs",
     params(("id" = Uuid, Path, description = "The job"), ShowQuery),
     responses(
-        (status = 200, description = "The job", body = Job, headers(("ETag" = String, description = "Its version"))),
+        (status = 200, description = "The job", body = Job, headers(
+            ("ETag" = String, description = "Its version"),
+            ("Retry-After" = u64, description = "When a poll is likely to find something new, s; until the job has ended"),
+        )),
         (status = 304, description = "Not changed since the version in `If-None-Match`"),
         (status = 400, description = "A query parameter cannot be read", body = Problem),
         (status = 404, description = "No such job", body = Problem),
@@ -103,7 +107,21 @@ pub(super) async fn show(
     if known.is_some_and(|known| matches(&known, &job)) {
         return Ok((StatusCode::NOT_MODIFIED, etag).into_response());
     }
-    Ok((etag, Json(job.document)).into_response())
+    let mut response = (etag, Json(&job.document)).into_response();
+    if !job.document.status.is_terminal() {
+        let pause = retry_after_s(&job.document).into();
+        response.headers_mut().insert(header::RETRY_AFTER, pause);
+    }
+    Ok(response)
+}
+
+/// When a poll of a job that has not ended is likely to find something new, s: a tenth of what is left, but neither
+/// hectic nor sleepy.
+pub(super) fn retry_after_s(job: &Job) -> u64 {
+    const LONGEST_S: f64 = 30.0;
+    let left_s = job.progress.eta_s.unwrap_or(10.0);
+    let pause = Duration::try_from_secs_f64((0.1 * left_s).clamp(1.0, LONGEST_S));
+    pause.map_or(1, |pause| pause.as_secs())
 }
 
 fn worth_telling(job: &StoredJob, known: Option<&str>) -> bool {
@@ -154,6 +172,7 @@ mod tests {
             (status.as_u16(), job["id"].as_str()),
             (200, Some(id.as_str()))
         );
+        assert_eq!(headers["retry-after"], "1");
         let etag = headers["etag"].to_str().expect("text").to_owned();
         let known = [("if-none-match", etag.as_str())];
         assert_eq!(service.send("GET", &path, &known, "").await.0, 304);

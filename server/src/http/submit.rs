@@ -1,18 +1,21 @@
 //! `POST /v1/jobs`: queues a study.
 
 use api::job::Job;
-use api::plan::Plan;
+use api::plan::PlanDocument;
 use api::problem::{Fault, Problem};
 use api::spec::Spec;
 use axum::Json;
 use axum::extract::State;
 use axum::http::{HeaderMap, StatusCode, header};
 use axum::response::{IntoResponse, Response};
+use serde::Deserialize;
 use sha2::{Digest, Sha256};
+use utoipa::IntoParams;
 
 use super::App;
-use super::extract::JsonBody;
+use super::extract::{JsonBody, Params};
 use super::problem::{Kind, Refusal};
+use super::show::retry_after_s;
 use crate::clock::now_ms;
 use crate::store::{NewJob, RequestKey, StoreError, Submitted};
 use crate::translate::{self, Refused, Resolved};
@@ -32,8 +35,11 @@ pub(super) enum SubmitError {
     #[error(transparent)]
     Store(#[from] StoreError),
     /// The key cannot be taken.
-    #[error("the Idempotency-Key must be 1 to {KEY_LIMIT} printable ASCII characters")]
-    InvalidKey,
+    #[error("the Idempotency-Key has {0} characters; it must have 1 to {KEY_LIMIT}")]
+    KeyLength(usize),
+    /// The key cannot be read.
+    #[error("the Idempotency-Key must be printable ASCII characters")]
+    KeyText,
     /// The key was used with another body.
     #[error("the Idempotency-Key was used with another body; use a new key for another study")]
     KeyTaken,
@@ -47,7 +53,9 @@ impl IntoResponse for SubmitError {
         match self {
             Self::Refused(refused) => refusal(refused).into_response(),
             Self::Store(error) => Refusal::from(&error).into_response(),
-            Self::InvalidKey => Kind::InvalidKey.because(self.to_string()).into_response(),
+            Self::KeyLength(_) | Self::KeyText => {
+                Kind::InvalidKey.because(self.to_string()).into_response()
+            }
             Self::KeyTaken => Kind::KeyTaken.because(self.to_string()).into_response(),
             Self::Gone => Kind::NoJob
                 .because("the job was deleted at once")
@@ -71,16 +79,34 @@ pub(super) fn refusal(refused: Refused) -> Refusal {
     }
 }
 
+/// How to submit.
+#[derive(Debug, Clone, Copy, Deserialize, IntoParams)]
+#[into_params(parameter_in = Query)]
+#[serde(deny_unknown_fields)]
+pub(super) struct SubmitQuery {
+    /// Check the specification and answer with its plan; queue nothing.
+    #[serde(default)]
+    #[param(required = false)]
+    validate_only: bool,
+}
+
 /// Queues a study.
 #[utoipa::path(
     post,
     path = "/v1/jobs",
     tag = "jobs",
     request_body = Spec,
-    params(("Idempotency-Key" = Option<String>, Header, description = "Sent twice with the same body, one job")),
+    params(
+        SubmitQuery,
+        ("Idempotency-Key" = Option<String>, Header, description = "Sent twice with the same body, one job"),
+    ),
     responses(
-        (status = 202, description = "Queued", body = Job, headers(("Location" = String, description = "The job"))),
-        (status = 400, description = "The body or the key cannot be read", body = Problem),
+        (status = 200, description = "Valid, and nothing queued (`validate_only`)", body = PlanDocument),
+        (status = 202, description = "Queued", body = Job, headers(
+            ("Location" = String, description = "The job"),
+            ("Retry-After" = u64, description = "When a poll is likely to find something new, s"),
+        )),
+        (status = 400, description = "The body, the key or a query parameter cannot be read", body = Problem),
         (status = 413, description = "The body is too large", body = Problem),
         (status = 415, description = "The body is not declared as JSON", body = Problem),
         (status = 422, description = "The specification has faults, or the key belongs to another body", body = Problem),
@@ -88,13 +114,17 @@ pub(super) fn refusal(refused: Refused) -> Refusal {
 )]
 pub(super) async fn submit(
     State(app): State<App>,
+    Params(query): Params<SubmitQuery>,
     headers: HeaderMap,
     JsonBody(body): JsonBody,
 ) -> Result<Response, SubmitError> {
     let key = request_key(&headers, &body)?;
     let resolved = translate::read(&body)?;
-    let plan: Plan = translate::plan(&resolved);
+    let plan = translate::plan(&resolved);
     let Resolved { spec, .. } = resolved;
+    if query.validate_only {
+        return Ok(Json(PlanDocument { spec, plan }).into_response());
+    }
     let new = NewJob { spec, plan };
     let id = match key {
         None => app.store.submit(&new, now_ms()).await?,
@@ -104,18 +134,27 @@ pub(super) async fn submit(
         },
     };
     let job = app.store.job(id).await?.ok_or(SubmitError::Gone)?;
-    let location = [(header::LOCATION, format!("/v1/jobs/{id}"))];
-    Ok((StatusCode::ACCEPTED, location, Json(job.document)).into_response())
+    let headers = [
+        (header::LOCATION, format!("/v1/jobs/{id}")),
+        (
+            header::RETRY_AFTER,
+            retry_after_s(&job.document).to_string(),
+        ),
+    ];
+    Ok((StatusCode::ACCEPTED, headers, Json(job.document)).into_response())
 }
 
 /// The client's key for this request, if it gave one.
-fn request_key(headers: &HeaderMap, body: &[u8]) -> Result<Option<RequestKey>, SubmitError> {
+pub(super) fn request_key(
+    headers: &HeaderMap,
+    body: &[u8],
+) -> Result<Option<RequestKey>, SubmitError> {
     let Some(value) = headers.get(KEY_HEADER) else {
         return Ok(None);
     };
-    let key = value.to_str().map_err(|_| SubmitError::InvalidKey)?.trim();
+    let key = value.to_str().map_err(|_| SubmitError::KeyText)?.trim();
     if key.is_empty() || key.len() > KEY_LIMIT {
-        return Err(SubmitError::InvalidKey);
+        return Err(SubmitError::KeyLength(key.len()));
     }
     Ok(Some(RequestKey {
         key: key.to_owned(),
@@ -215,6 +254,29 @@ mod tests {
     }
 
     #[tokio::test]
+    async fn validating_only_queues_nothing() {
+        let service = Service::new().await;
+        let path = "/v1/jobs?validate_only=true";
+        let (status, _, document) = service.post(path, r#"{"system":{"kind":"dimm"}}"#).await;
+        assert_eq!(status, 200);
+        assert!(document["plan"]["estimates"].is_object());
+        assert_eq!(
+            service.post(path, r#"{"system":{"kind":"x"}}"#).await.0,
+            422
+        );
+        for query in ["validate_only=maybe", "validate=true"] {
+            let path = format!("/v1/jobs?{query}");
+            let (status, _, problem) = service.post(&path, r#"{"system":{"kind":"dimm"}}"#).await;
+            let found = (status.as_u16(), problem["type"].as_str());
+            assert_eq!(found, (400, Some("/problems/invalid-query")), "{query}");
+        }
+        assert_eq!(
+            service.get("/v1/jobs").await.2["jobs"],
+            Value::Array(Vec::new())
+        );
+    }
+
+    #[tokio::test]
     async fn the_same_key_and_body_make_one_job_and_another_body_none() {
         let service = Service::new().await;
         let body = r#"{"system":{"kind":"sd_card"}}"#;
@@ -228,6 +290,20 @@ mod tests {
         let (status, _, problem) = service.send("POST", "/v1/jobs", &keyed, other).await;
         assert_eq!(status, 422);
         assert_eq!(problem["title"], "the key was used with another body");
+        let long = "k".repeat(256);
+        let (status, _, problem) = service
+            .send(
+                "POST",
+                "/v1/jobs",
+                &[json, ("idempotency-key", &long)],
+                body,
+            )
+            .await;
+        assert_eq!(status, 400);
+        assert_eq!(
+            problem["detail"],
+            "the Idempotency-Key has 256 characters; it must have 1 to 255"
+        );
         let empty = [json, ("idempotency-key", " ")];
         assert_eq!(service.send("POST", "/v1/jobs", &empty, body).await.0, 400);
         let (_, _, page) = service.get("/v1/jobs").await;

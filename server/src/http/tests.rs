@@ -174,6 +174,12 @@ impl Service {
     }
 }
 
+/// A sweep of four jobs.
+pub(crate) const SWEEP: &str = r#"{
+  "name": "loads", "base": {"system": {"kind": "dimm"}},
+  "grid": {"/cycles": [10, 20], "/load/n": [0.3, 0.6]}
+}"#;
+
 /// Stands for a large result.
 pub(crate) const FIELDS: &str = "<VTKFile>0 1 2 3</VTKFile>";
 

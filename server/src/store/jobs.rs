@@ -42,8 +42,14 @@ pub struct Filter {
     pub statuses: Vec<Status>,
     /// This kind of system.
     pub system: Option<String>,
-    /// This label.
-    pub label: Option<(String, String)>,
+    /// All of these labels.
+    pub labels: Vec<(String, String)>,
+    /// Accepted at this time or later, ms since 1970.
+    pub created_from: Option<i64>,
+    /// Accepted before this time, ms since 1970.
+    pub created_before: Option<i64>,
+    /// Of this sweep.
+    pub sweep: Option<Uuid>,
     /// Older than this job.
     pub before: Option<Uuid>,
     /// At most so many.
@@ -169,13 +175,25 @@ impl Store {
         if let Some(system) = &filter.system {
             query.push(" AND system = ").push_bind(system.clone());
         }
-        if let Some((key, value)) = &filter.label {
+        for (key, value) in &filter.labels {
             query
                 .push(" AND id IN (SELECT job_id FROM labels WHERE key = ")
                 .push_bind(key.clone());
             query
                 .push(" AND value = ")
                 .push_bind(value.clone())
+                .push(")");
+        }
+        if let Some(from) = filter.created_from {
+            query.push(" AND created_at >= ").push_bind(from);
+        }
+        if let Some(before) = filter.created_before {
+            query.push(" AND created_at < ").push_bind(before);
+        }
+        if let Some(sweep) = filter.sweep {
+            query
+                .push(" AND id IN (SELECT job_id FROM sweep_jobs WHERE sweep_id = ")
+                .push_bind(sweep.to_string())
                 .push(")");
         }
         if let Some(before) = filter.before {
@@ -195,29 +213,10 @@ impl Store {
     /// [`StoreError`] if the database fails.
     pub async fn cancel(&self, id: Uuid, now: i64) -> Result<Option<Cancelled>, StoreError> {
         let mut transaction = self.writer.begin_with(BEGIN).await?;
-        let Some(status) = status(&mut transaction, id).await? else {
-            return Ok(None);
-        };
-        let did = if status == Status::Queued {
-            debug_assert_eq!(
-                after(status, Move::Cancel, 0, true),
-                Some(Status::Cancelled),
-                "a queued job can be cancelled"
-            );
-            end_queued(&mut transaction, id, now).await?;
-            Cancelled::AtOnce
-        } else if status == Status::Running {
-            sqlx::query("UPDATE jobs SET cancel_requested = 1, status_reason = 'cancel requested', version = version + 1 WHERE id = ?")
-                .bind(id.to_string())
-                .execute(&mut *transaction)
-                .await?;
-            Cancelled::Requested
-        } else {
-            Cancelled::Already
-        };
+        let did = cancel(&mut transaction, id, now).await?;
         transaction.commit().await?;
         self.changed(id);
-        Ok(Some(did))
+        Ok(did)
     }
 
     /// Deletes a job that has ended, with its events, results and files.
@@ -269,6 +268,35 @@ async fn status(connection: &mut SqliteConnection, id: Uuid) -> Result<Option<St
     .transpose()
 }
 
+/// Asks for the end of a job, within a transaction.
+pub(super) async fn cancel(
+    connection: &mut SqliteConnection,
+    id: Uuid,
+    now: i64,
+) -> Result<Option<Cancelled>, StoreError> {
+    let Some(status) = status(&mut *connection, id).await? else {
+        return Ok(None);
+    };
+    let did = if status == Status::Queued {
+        debug_assert_eq!(
+            after(status, Move::Cancel, 0, true),
+            Some(Status::Cancelled),
+            "a queued job can be cancelled"
+        );
+        end_queued(&mut *connection, id, now).await?;
+        Cancelled::AtOnce
+    } else if status == Status::Running {
+        sqlx::query("UPDATE jobs SET cancel_requested = 1, status_reason = 'cancel requested', version = version + 1 WHERE id = ?")
+                .bind(id.to_string())
+                .execute(&mut *connection)
+                .await?;
+        Cancelled::Requested
+    } else {
+        Cancelled::Already
+    };
+    Ok(Some(did))
+}
+
 async fn end_queued(
     connection: &mut SqliteConnection,
     id: Uuid,
@@ -294,7 +322,7 @@ async fn end_queued(
 }
 
 /// Adds a job to the queue, with its first event.
-async fn insert(
+pub(super) async fn insert(
     transaction: &mut Transaction<'_, Sqlite>,
     job: &NewJob,
     now: i64,

@@ -8,25 +8,26 @@ use super::columns::{self, Values};
 /// Numbers could not be written as CSV.
 #[derive(Debug, thiserror::Error)]
 #[error("writing CSV: {0}")]
-pub struct CsvError(String);
+pub struct CsvError(pub(super) String);
+
+impl From<::csv::Error> for CsvError {
+    fn from(error: ::csv::Error) -> Self {
+        Self(error.to_string())
+    }
+}
 
 type Table = Vec<(String, Vec<String>)>;
 
 fn write(table: &Table) -> Result<Vec<u8>, CsvError> {
     let mut writer = Writer::from_writer(Vec::new());
-    let fail = |error: ::csv::Error| CsvError(error.to_string());
-    writer
-        .write_record(table.iter().map(|(header, _)| header))
-        .map_err(fail)?;
+    writer.write_record(table.iter().map(|(header, _)| header))?;
     let rows = table
         .iter()
         .map(|(_, column)| column.len())
         .min()
         .unwrap_or(0);
     for row in 0..rows {
-        writer
-            .write_record(table.iter().map(|(_, column)| &column[row]))
-            .map_err(fail)?;
+        writer.write_record(table.iter().map(|(_, column)| &column[row]))?;
     }
     writer
         .into_inner()

@@ -138,3 +138,23 @@ fn null_wear_differs_from_absent_wear() {
     let (again, _) = Spec::read(written.as_bytes()).expect("readable");
     assert_eq!(again, spec);
 }
+
+#[test]
+fn a_key_that_stands_twice_in_a_map_is_refused() {
+    for (text, pointer, key) in [
+        (
+            r#"{"system":{"kind":"dimm"},"labels":{"a":"1","b":"2","a":"3"}}"#,
+            "/labels",
+            "a",
+        ),
+        (
+            r#"{"system":{"kind":"dimm"},"effects":{"friction":"on","friction":"off"}}"#,
+            "/effects",
+            "friction",
+        ),
+    ] {
+        let broken = Spec::read(text.as_bytes()).expect_err("refused");
+        assert!(broken.pointer.starts_with(pointer), "{broken}");
+        assert_eq!(broken.detail, format!("duplicate key `{key}`"));
+    }
+}

@@ -1,0 +1,230 @@
+//! Sweeps: jobs that were submitted together.
+
+use std::collections::BTreeMap;
+
+use api::job::{Outcome, Status};
+use api::results::Summary;
+use api::sweep::{Changes, Sweep, SweepJob};
+use uuid::Uuid;
+
+use super::document::timestamp;
+use super::jobs::{Cancelled, NewJob, RequestKey, Submitted, cancel, insert};
+use super::queries::{BEGIN, job_id};
+use super::{Store, StoreError};
+
+/// A sweep to be queued.
+#[derive(Debug, Clone, PartialEq)]
+pub struct NewSweep {
+    /// Its name for people.
+    pub name: Option<String>,
+    /// Its jobs, with what sets each apart.
+    pub jobs: Vec<(NewJob, Changes)>,
+}
+
+/// A job of a sweep with its result.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SweepOutcome {
+    /// The job.
+    pub job: SweepJob,
+    /// Why it stands there.
+    pub status_reason: Option<String>,
+    /// The result in short, if there is one.
+    pub summary: Option<Summary>,
+}
+
+#[derive(sqlx::FromRow)]
+struct JobRow {
+    job_id: String,
+    overrides: String,
+    status: String,
+    status_reason: Option<String>,
+    outcome: Option<String>,
+    summary: Option<String>,
+}
+
+impl JobRow {
+    fn outcome(self) -> Result<SweepOutcome, StoreError> {
+        let id = job_id(&self.job_id)?;
+        let corrupt = |what, cause: String| StoreError::Corrupt { id, what, cause };
+        let overrides = serde_json::from_str(&self.overrides)
+            .map_err(|cause| corrupt("overrides", cause.to_string()))?;
+        let summary = self
+            .summary
+            .as_deref()
+            .map(serde_json::from_str)
+            .transpose()
+            .map_err(|cause| corrupt("summary", cause.to_string()))?;
+        let status =
+            Status::from_name(&self.status).ok_or_else(|| corrupt("status", self.status))?;
+        Ok(SweepOutcome {
+            job: SweepJob {
+                id,
+                overrides,
+                status,
+                outcome: self.outcome.as_deref().and_then(Outcome::from_name),
+            },
+            status_reason: self.status_reason,
+            summary,
+        })
+    }
+}
+
+impl Store {
+    /// Queues all jobs of a sweep or none; or finds the sweep that a request with the same key made. `now` in
+    /// milliseconds since 1970.
+    ///
+    /// # Errors
+    /// [`StoreError`] if the database fails.
+    pub async fn submit_sweep(
+        &self,
+        sweep: &NewSweep,
+        key: Option<&RequestKey>,
+        now: i64,
+    ) -> Result<Submitted, StoreError> {
+        let mut transaction = self.writer.begin_with(BEGIN).await?;
+        if let Some(key) = key {
+            let known: Option<(Vec<u8>, String)> =
+                sqlx::query_as("SELECT body_sha256, id FROM sweeps WHERE request_key = ?")
+                    .bind(&key.key)
+                    .fetch_optional(&mut *transaction)
+                    .await?;
+            if let Some((body, id)) = known {
+                return Ok(if body == key.body_sha256 {
+                    Submitted::Job(job_id(&id)?)
+                } else {
+                    Submitted::KeyTaken
+                });
+            }
+        }
+        let id = Uuid::now_v7();
+        sqlx::query(
+            "INSERT INTO sweeps (id, name, created_at, request_key, body_sha256) VALUES (?, ?, ?, ?, ?)",
+        )
+        .bind(id.to_string())
+        .bind(&sweep.name)
+        .bind(now)
+        .bind(key.map(|key| &key.key))
+        .bind(key.map(|key| key.body_sha256.as_slice()))
+        .execute(&mut *transaction)
+        .await?;
+        for (position, (job, overrides)) in (0_i64..).zip(&sweep.jobs) {
+            let job = insert(&mut transaction, job, now).await?;
+            sqlx::query(
+                "INSERT INTO sweep_jobs (sweep_id, position, job_id, overrides) VALUES (?, ?, ?, ?)",
+            )
+            .bind(id.to_string())
+            .bind(position)
+            .bind(job.to_string())
+            .bind(serde_json::to_string(overrides)?)
+            .execute(&mut *transaction)
+            .await?;
+        }
+        transaction.commit().await?;
+        // Every idle worker finds work now; one that misses the call looks for itself within a second.
+        self.waiting.notify_waiters();
+        self.waiting.notify_one();
+        Ok(Submitted::Job(id))
+    }
+
+    /// A sweep as it stands.
+    ///
+    /// # Errors
+    /// [`StoreError`] if the database fails.
+    pub async fn sweep(&self, id: Uuid) -> Result<Option<Sweep>, StoreError> {
+        let Some((name, created_at)) = self.sweep_head(id).await? else {
+            return Ok(None);
+        };
+        let mut counts: BTreeMap<String, u64> = Status::ALL
+            .iter()
+            .map(|status| (status.as_str().to_owned(), 0))
+            .collect();
+        let rows: Vec<JobRow> = sqlx::query_as(
+            "SELECT job_id, overrides, status, NULL AS status_reason, outcome, NULL AS summary \
+             FROM sweep_jobs JOIN jobs ON jobs.id = job_id WHERE sweep_id = ? ORDER BY position",
+        )
+        .bind(id.to_string())
+        .fetch_all(&self.readers)
+        .await?;
+        let mut jobs = Vec::with_capacity(rows.len());
+        for row in rows {
+            let job = row.outcome()?.job;
+            *counts.entry(job.status.as_str().to_owned()).or_default() += 1;
+            jobs.push(job);
+        }
+        Ok(Some(Sweep {
+            id,
+            name,
+            created_at: timestamp(created_at),
+            counts,
+            jobs,
+            links: links(id),
+        }))
+    }
+
+    /// The jobs of a sweep in order, with their results; nothing if there is no such sweep.
+    ///
+    /// # Errors
+    /// [`StoreError`] if the database fails.
+    pub async fn sweep_outcomes(&self, id: Uuid) -> Result<Option<Vec<SweepOutcome>>, StoreError> {
+        if self.sweep_head(id).await?.is_none() {
+            return Ok(None);
+        }
+        let rows: Vec<JobRow> = sqlx::query_as(
+            "SELECT job_id, overrides, status, status_reason, outcome, summary \
+             FROM sweep_jobs JOIN jobs ON jobs.id = job_id WHERE sweep_id = ? ORDER BY position",
+        )
+        .bind(id.to_string())
+        .fetch_all(&self.readers)
+        .await?;
+        let outcomes: Result<_, _> = rows.into_iter().map(JobRow::outcome).collect();
+        Ok(Some(outcomes?))
+    }
+
+    /// Asks for the end of all jobs of a sweep; `false` if there is no such sweep.
+    ///
+    /// # Errors
+    /// [`StoreError`] if the database fails.
+    pub async fn cancel_sweep(&self, id: Uuid, now: i64) -> Result<bool, StoreError> {
+        if self.sweep_head(id).await?.is_none() {
+            return Ok(false);
+        }
+        let mut transaction = self.writer.begin_with(BEGIN).await?;
+        let jobs: Vec<String> =
+            sqlx::query_scalar("SELECT job_id FROM sweep_jobs WHERE sweep_id = ?")
+                .bind(id.to_string())
+                .fetch_all(&mut *transaction)
+                .await?;
+        let mut changed = Vec::with_capacity(jobs.len());
+        for job in jobs {
+            let job = job_id(&job)?;
+            match cancel(&mut transaction, job, now).await? {
+                Some(Cancelled::AtOnce | Cancelled::Requested) => changed.push(job),
+                Some(Cancelled::Already) | None => {}
+            }
+        }
+        transaction.commit().await?;
+        for job in changed {
+            self.changed(job);
+        }
+        Ok(true)
+    }
+
+    async fn sweep_head(&self, id: Uuid) -> Result<Option<(Option<String>, i64)>, StoreError> {
+        Ok(
+            sqlx::query_as("SELECT name, created_at FROM sweeps WHERE id = ?")
+                .bind(id.to_string())
+                .fetch_optional(&self.readers)
+                .await?,
+        )
+    }
+}
+
+fn links(id: Uuid) -> BTreeMap<String, String> {
+    let own = format!("/v1/sweeps/{id}");
+    BTreeMap::from([
+        ("cancel".to_owned(), format!("{own}/cancel")),
+        ("jobs".to_owned(), format!("/v1/jobs?sweep={id}")),
+        ("outcomes".to_owned(), format!("{own}/outcomes")),
+        ("self".to_owned(), own),
+    ])
+}

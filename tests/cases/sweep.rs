@@ -1,0 +1,57 @@
+//! Requirement: a sweep makes one ordinary job for each combination, its counts follow them, and its table has a line
+//! for each with what sets it apart and what came out; more load wears more.
+
+use serde_json::{Value, json};
+use tests::Server;
+
+#[tokio::test]
+async fn a_sweep_over_the_load_ends_in_one_table() {
+    let folder = tempfile::tempdir().expect("a folder can be made");
+    let server = Server::start(folder.path());
+    let request = json!({
+        "name": "loads",
+        "base": {"system": {"kind": "sd_card"}, "cycles": 10, "accuracy": {"preset": "draft"}},
+        "grid": {"/load": [{"kind": "line_force", "n_per_mm": 0.2}, {"kind": "line_force", "n_per_mm": 0.4}],
+                 "/interface/friction/coefficient": [0.2, 0.3]}
+    });
+    let request = server
+        .client
+        .post(format!("{}/v1/sweeps", server.base))
+        .json(&request);
+    let answer = request.send().await.expect("the service answers");
+    assert_eq!(answer.status(), 202);
+    let sweep: Value = answer.json().await.expect("JSON");
+    let id = sweep["id"].as_str().expect("a sweep has an id");
+    for job in sweep["jobs"].as_array().expect("jobs") {
+        let job = job["id"].as_str().expect("an id");
+        server
+            .job_when(job, |job| job["finished_at"].is_string())
+            .await;
+    }
+    let (_, sweep) = server.get(&format!("/v1/sweeps/{id}")).await;
+    assert_eq!(sweep["counts"]["succeeded"], 4, "{sweep}");
+
+    let (status, table) = server.get(&format!("/v1/sweeps/{id}/outcomes")).await;
+    assert_eq!(status, 200);
+    let table = table.as_str().expect("CSV").to_owned();
+    let mut lines = table.lines();
+    let header: Vec<&str> = lines.next().expect("a header").split(',').collect();
+    let depth = header
+        .iter()
+        .position(|name| *name == "receptacle_max_depth_mm");
+    // An override that is an object holds commas, so it is counted from the end of the line.
+    let from_end = header.len() - depth.expect("a column");
+    let depths: Vec<f64> = lines
+        .map(|line| {
+            let cell = line.rsplit(',').nth(from_end - 1).expect("a cell");
+            cell.parse().expect("a number")
+        })
+        .collect();
+    assert_eq!(depths.len(), 4, "{table}");
+    // The load varies slowest or fastest with the order of the pointers; friction hardly matters for wear.
+    assert_eq!(header[3], "/interface/friction/coefficient");
+    assert!(
+        depths[1] > 1.5 * depths[0] && depths[3] > 1.5 * depths[2],
+        "{table}"
+    );
+}
