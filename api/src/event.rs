@@ -1,7 +1,7 @@
 //! Documents of the event stream (`GET /v1/jobs/{id}/events`).
 //!
 //! Event names: `snapshot` (a [`crate::job::Job`], first on a fresh connection, without an id), `attempt` ([`Attempt`]:
-//! a worker begins; the cycles of an earlier attempt are void), `progress` ([`crate::job::Progress`]), `cycle` ([`crate::results::CycleRow`]) and `done` ([`Done`]).
+//! a worker begins, and what was told of later cycles than `from_cycle` is void), `progress` ([`crate::job::Progress`]), `cycle` ([`crate::results::CycleRow`]) and `done` ([`Done`]).
 
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
@@ -9,11 +9,15 @@ use utoipa::ToSchema;
 use crate::job::{Outcome, Status};
 use crate::results::Summary;
 
-/// A worker has taken the job. What `cycle` events said before belongs to an attempt that was lost.
+/// A worker has taken the job. What was told of later cycles than `from_cycle` belongs to an attempt that ended before
+/// its next checkpoint; the same cycles come again, with the same bits.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
 pub struct Attempt {
     /// Which attempt it is, from 1.
     pub attempt: u32,
+    /// The cycle of the checkpoint that it goes on from; 0 where it begins anew.
+    #[serde(default)]
+    pub from_cycle: u64,
 }
 
 /// The last event of a stream.

@@ -74,17 +74,23 @@ pub enum Outcome {
     NotConverged,
     /// The workers that tried it were lost.
     WorkerLost,
+    /// It needed more memory than a solving process may take.
+    OutOfMemory,
+    /// It had not ended by its deadline.
+    DeadlineExceeded,
 }
 
 impl Outcome {
     /// Every outcome.
-    pub const ALL: [Self; 6] = [
+    pub const ALL: [Self; 8] = [
         Self::Completed,
         Self::StopCondition,
         Self::WornThrough,
         Self::Stopped,
         Self::NotConverged,
         Self::WorkerLost,
+        Self::OutOfMemory,
+        Self::DeadlineExceeded,
     ];
 
     /// The outcome as it is written.
@@ -96,6 +102,8 @@ impl Outcome {
             Self::Stopped => "stopped",
             Self::NotConverged => "not_converged",
             Self::WorkerLost => "worker_lost",
+            Self::OutOfMemory => "out_of_memory",
+            Self::DeadlineExceeded => "deadline_exceeded",
         }
     }
 
@@ -134,7 +142,7 @@ pub struct Progress {
     pub fraction: f64,
     /// Estimated seconds left, from the pace so far.
     pub eta_s: Option<f64>,
-    /// When this was last written (RFC 3339).
+    /// When the solve last told of something (RFC 3339); a job that hangs stays behind here.
     pub updated_at: Option<String>,
 }
 
@@ -149,6 +157,11 @@ pub struct Job {
     pub status_reason: Option<String>,
     /// How the solve ended.
     pub outcome: Option<Outcome>,
+    /// How many minutes older it counts in the queue than it is; -100 to 100.
+    #[serde(default)]
+    pub priority: i32,
+    /// When it fails unless it has ended (RFC 3339).
+    pub deadline_at: Option<String>,
     /// When it was accepted (RFC 3339).
     pub created_at: String,
     /// When a worker first took it (RFC 3339).

@@ -1,9 +1,12 @@
 //! The command line.
 
+mod backup;
 mod child;
 mod demo;
 mod export;
+mod options;
 mod plan;
+mod probe;
 mod serve;
 mod solve;
 mod table;
@@ -17,8 +20,15 @@ use std::process::ExitCode;
 use clap::{Parser, Subcommand};
 use tracing_subscriber::EnvFilter;
 
+use options::WorkOptions;
+
 /// Exit code of a refused specification.
 const REFUSED: u8 = 2;
+
+/// Where a service listens unless told otherwise.
+const LISTEN: &str = "127.0.0.1:8080";
+/// The database unless another is named.
+const DATABASE: &str = "sqlite://fretwear.db";
 
 /// What `--help` begins with.
 const ABOUT: &str = "Wear of electrical contacts under vibration, by finite elements: on the command line and over HTTP";
@@ -67,12 +77,31 @@ enum Command {
         #[arg(long, default_value = "127.0.0.1:0")]
         listen: SocketAddr,
     },
+    /// Tell by the exit code whether the service that listens there can work.
+    Probe {
+        /// Where it listens.
+        #[arg(long, env = "FRETWEAR_LISTEN", default_value = LISTEN)]
+        listen: SocketAddr,
+    },
+    /// Copy a database, which may be served meanwhile, and its files into a new folder, and verify the copy.
+    Backup {
+        /// The folder.
+        into: PathBuf,
+        /// The database.
+        #[arg(long, env = "FRETWEAR_DATABASE", default_value = DATABASE)]
+        database: String,
+    },
+    /// Verify a backup and copy it to where a database is to be; nothing is overwritten.
+    Restore {
+        /// The folder of the backup.
+        from: PathBuf,
+        /// The database.
+        #[arg(long, env = "FRETWEAR_DATABASE", default_value = DATABASE)]
+        database: String,
+    },
     /// Solve the specification on standard input, as a service's child process.
     #[command(hide = true)]
-    SolveChild {
-        /// Where its files go.
-        folder: PathBuf,
-    },
+    SolveChild(ChildArguments),
 }
 
 /// Formats of a deck.
@@ -85,18 +114,37 @@ enum DeckFormat {
 #[derive(Debug, clap::Args)]
 struct ServeArguments {
     /// Where to listen; a loopback address.
-    #[arg(long, env = "FRETWEAR_LISTEN", default_value = "127.0.0.1:8080")]
+    #[arg(long, env = "FRETWEAR_LISTEN", default_value = LISTEN)]
     listen: SocketAddr,
     /// The database.
-    #[arg(
-        long,
-        env = "FRETWEAR_DATABASE",
-        default_value = "sqlite://fretwear.db"
-    )]
+    #[arg(long, env = "FRETWEAR_DATABASE", default_value = DATABASE)]
     database: String,
-    /// Jobs solved at once; one a processor unless named.
-    #[arg(long, env = "FRETWEAR_WORKERS", value_parser = clap::value_parser!(u16).range(1..=256))]
-    workers: Option<u16>,
+    /// How the log on standard error is written.
+    #[arg(long, env = "FRETWEAR_LOG", value_enum, default_value = "text")]
+    log: LogFormat,
+    #[command(flatten)]
+    work: WorkOptions,
+}
+
+/// Forms of the log.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+enum LogFormat {
+    /// For people.
+    Text,
+    /// A JSON object a line.
+    Json,
+}
+
+#[derive(Debug, clap::Args)]
+struct ChildArguments {
+    /// Where its files go.
+    folder: PathBuf,
+    /// How often a checkpoint is told.
+    #[arg(long)]
+    checkpoint_every_ms: u64,
+    /// Most memory that may be written to.
+    #[arg(long)]
+    memory_limit_mb: Option<u64>,
 }
 
 /// Runs the command that was asked for.
@@ -104,15 +152,15 @@ pub fn main() -> ExitCode {
     let arguments = Arguments::parse();
     match arguments.command {
         Command::Serve(serve) => {
-            log("info");
-            serve::run(serve.listen, serve.database, workers(serve.workers))
+            log("info", serve.log);
+            serve::run(serve)
         }
         Command::Solve { spec, out } => {
-            log("warn");
+            log("warn", LogFormat::Text);
             solve::run(&spec, out.as_deref())
         }
         Command::Plan { spec } => {
-            log("warn");
+            log("warn", LogFormat::Text);
             plan::run(&spec)
         }
         Command::Export {
@@ -120,25 +168,31 @@ pub fn main() -> ExitCode {
             format: DeckFormat::Inp,
             cycle,
         } => {
-            log("warn");
+            log("warn", LogFormat::Text);
             export::run(&spec, cycle)
         }
         Command::Demo { exit, listen } => {
-            log("warn");
+            log("warn", LogFormat::Text);
             demo::run(listen, exit)
         }
-        Command::SolveChild { folder } => child::run(&folder),
+        Command::Probe { listen } => probe::run(listen),
+        Command::Backup { into, database } => backup::run(&database, &into),
+        Command::Restore { from, database } => backup::run_restore(&from, &database),
+        Command::SolveChild(arguments) => child::run(&arguments),
     }
 }
 
 /// Logs go to standard error; `RUST_LOG` changes how much is told.
-fn log(level: &str) {
+fn log(level: &str, format: LogFormat) {
     let filter = EnvFilter::try_from_default_env().unwrap_or_else(|_| EnvFilter::new(level));
-    tracing_subscriber::fmt()
+    let builder = tracing_subscriber::fmt()
         .with_env_filter(filter)
         .with_ansi(std::io::stderr().is_terminal())
-        .with_writer(std::io::stderr)
-        .init();
+        .with_writer(std::io::stderr);
+    match format {
+        LogFormat::Text => builder.init(),
+        LogFormat::Json => builder.json().init(),
+    }
 }
 
 fn workers(named: Option<u16>) -> usize {
@@ -153,3 +207,6 @@ fn runtime() -> std::io::Result<tokio::runtime::Runtime> {
         .enable_all()
         .build()
 }
+
+#[cfg(test)]
+mod tests;

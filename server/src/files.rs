@@ -75,20 +75,24 @@ pub fn keep(folder: &Path, name: &str, bytes: &[u8]) -> Result<(), FilesError> {
 
 /// What a manifest says about a file.
 pub fn described(name: &str, cycle: Option<u64>, media_type: &str, bytes: &[u8]) -> ResultFile {
-    let sha256 = Sha256::digest(bytes)
-        .iter()
-        .fold(String::with_capacity(64), |mut text, byte| {
-            // Writing to a text does not fail.
-            let _ = write!(text, "{byte:02x}");
-            text
-        });
     ResultFile {
         name: name.to_owned(),
         cycle,
         media_type: media_type.to_owned(),
         bytes: u64::try_from(bytes.len()).unwrap_or(u64::MAX),
-        sha256,
+        sha256: sha256(bytes),
     }
+}
+
+/// The checksum of a file, as a manifest writes it.
+pub fn sha256(bytes: &[u8]) -> String {
+    Sha256::digest(bytes)
+        .iter()
+        .fold(String::with_capacity(64), |mut text, byte| {
+            // Writing to a text does not fail.
+            let _ = write!(text, "{byte:02x}");
+            text
+        })
 }
 
 #[cfg(test)]

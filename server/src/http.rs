@@ -12,6 +12,7 @@ mod host;
 mod list;
 mod make_plan;
 mod manifest;
+mod metrics;
 mod pressure;
 mod problem;
 mod profile;
@@ -124,6 +125,7 @@ fn described() -> (Router<App>, Document) {
         .routes(routes!(systems::system))
         .routes(routes!(health::healthz))
         .routes(routes!(health::readyz))
+        .routes(routes!(metrics::metrics))
         .split_for_parts()
 }
 

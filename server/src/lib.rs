@@ -5,6 +5,7 @@ pub mod clock;
 pub mod documents;
 pub mod files;
 pub mod http;
+pub mod metrics;
 pub mod plot;
 pub mod queue;
 pub mod service;

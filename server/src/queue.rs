@@ -1,11 +1,17 @@
-//! The queue's allowed moves, as a pure function.
+//! The queue's rules, as pure functions.
 //!
-//! `queued -> running -> succeeded | failed | cancelled`; a running job returns to the queue when its worker was
+//! Moves: `queued -> running -> succeeded | failed | cancelled`; a running job returns to the queue when its worker was
 //! lost (a bounded number of times) or gave it back (which costs no attempt).
+
+mod admission;
+mod order;
 
 use api::job::Status;
 
-/// How often a job is tried before lost workers make it fail.
+pub use admission::{Choice, Room, Waiting, choose};
+pub use order::{MOST_PRIORITY, place, sweep_priority};
+
+/// How often a job is tried before lost workers make it fail, unless the service is told otherwise.
 pub const ATTEMPT_LIMIT: u32 = 3;
 
 /// What happens to a job.
@@ -23,33 +29,44 @@ pub enum Move {
     GiveBack,
     /// Its worker was lost.
     Lose,
+    /// Its deadline has passed.
+    Expire,
 }
 
 impl Move {
     /// Every move.
-    pub const ALL: [Self; 6] = [
+    pub const ALL: [Self; 7] = [
         Self::Claim,
         Self::Succeed,
         Self::Fail,
         Self::Cancel,
         Self::GiveBack,
         Self::Lose,
+        Self::Expire,
     ];
 }
 
-/// The status after a move, or nothing if the move is not allowed. `attempts` counts the claims so far, and
-/// `cancel_requested` tells whether the user no longer wants the job.
-pub fn after(status: Status, step: Move, attempts: u32, cancel_requested: bool) -> Option<Status> {
+/// How often a job was tried, and how often it may be.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Tries {
+    /// Claims so far, those that were given back not counted.
+    pub made: u32,
+    /// How many there may be.
+    pub limit: u32,
+}
+
+/// The status after a move, or nothing if the move is not allowed. `unwanted` tells whether the user has asked for the
+/// job's end.
+pub fn after(status: Status, step: Move, tries: Tries, unwanted: bool) -> Option<Status> {
     match (status, step) {
         (Status::Queued, Move::Claim) => Some(Status::Running),
         (Status::Queued | Status::Running, Move::Cancel) => Some(Status::Cancelled),
         (Status::Running, Move::Succeed) => Some(Status::Succeeded),
-        (Status::Running, Move::GiveBack | Move::Lose) if cancel_requested => {
-            Some(Status::Cancelled)
-        }
+        (Status::Running, Move::GiveBack | Move::Lose) if unwanted => Some(Status::Cancelled),
         (Status::Running, Move::GiveBack) => Some(Status::Queued),
-        (Status::Running, Move::Lose) if attempts < ATTEMPT_LIMIT => Some(Status::Queued),
-        (Status::Running, Move::Lose | Move::Fail) => Some(Status::Failed),
+        (Status::Running, Move::Lose) if tries.made < tries.limit => Some(Status::Queued),
+        (Status::Running, Move::Lose | Move::Fail)
+        | (Status::Queued | Status::Running, Move::Expire) => Some(Status::Failed),
         (Status::Queued, Move::Succeed | Move::Fail | Move::GiveBack | Move::Lose)
         | (Status::Running, Move::Claim)
         | (Status::Succeeded | Status::Failed | Status::Cancelled, _) => None,
@@ -65,22 +82,28 @@ mod tests {
     fn every_move_from_every_status_is_as_the_table_says() {
         for status in Status::ALL {
             for step in Move::ALL {
-                for attempts in 0..=ATTEMPT_LIMIT + 1 {
+                for made in 0..=ATTEMPT_LIMIT + 1 {
                     for unwanted in [false, true] {
                         let expected = match (status.as_str(), step) {
                             ("queued", Move::Claim) => Some("running"),
                             ("queued" | "running", Move::Cancel) => Some("cancelled"),
                             ("running", Move::Succeed) => Some("succeeded"),
-                            ("running", Move::Fail) => Some("failed"),
+                            ("queued" | "running", Move::Expire) | ("running", Move::Fail) => {
+                                Some("failed")
+                            }
                             ("running", Move::GiveBack | Move::Lose) if unwanted => {
                                 Some("cancelled")
                             }
-                            ("running", Move::Lose) if attempts >= ATTEMPT_LIMIT => Some("failed"),
+                            ("running", Move::Lose) if made >= ATTEMPT_LIMIT => Some("failed"),
                             ("running", Move::GiveBack | Move::Lose) => Some("queued"),
                             _ => None,
                         };
-                        let found = after(status, step, attempts, unwanted).map(Status::as_str);
-                        assert_eq!(found, expected, "{status:?} {step:?} {attempts} {unwanted}");
+                        let tries = Tries {
+                            made,
+                            limit: ATTEMPT_LIMIT,
+                        };
+                        let found = after(status, step, tries, unwanted).map(Status::as_str);
+                        assert_eq!(found, expected, "{status:?} {step:?} {made} {unwanted}");
                     }
                 }
             }
@@ -89,6 +112,7 @@ mod tests {
 
     #[test]
     fn nothing_follows_a_terminal_status() {
+        let tries = Tries { made: 1, limit: 3 };
         for status in Status::ALL
             .into_iter()
             .filter(|status| status.is_terminal())
@@ -96,7 +120,7 @@ mod tests {
             assert!(
                 Move::ALL
                     .into_iter()
-                    .all(|step| after(status, step, 1, false).is_none())
+                    .all(|step| after(status, step, tries, false).is_none())
             );
         }
     }

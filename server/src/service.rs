@@ -1,7 +1,8 @@
 //! The running service: store, workers, maintenance and HTTP, started and stopped together.
 
+mod upkeep;
+
 use std::net::SocketAddr;
-use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -12,14 +13,10 @@ use tokio_util::sync::CancellationToken;
 use crate::clock::now_ms;
 use crate::http::{self, App};
 use crate::store::{Store, StoreError};
-use crate::worker;
+use crate::worker::{self, Rules};
 
-/// How often expired leases are looked for.
-const RESCUE_EVERY: Duration = Duration::from_secs(1);
-/// How long a stop waits for open requests.
-const GRACE: Duration = Duration::from_secs(10);
-/// How often the write-ahead log is moved into the database, in rounds of the above.
-const CHECKPOINT_ROUNDS: u32 = 60;
+/// How long a stop waits for open requests, beyond what solving processes are given.
+const GRACE: Duration = Duration::from_secs(5);
 
 /// How the service is to run.
 #[derive(Debug, Clone)]
@@ -30,8 +27,12 @@ pub struct Config {
     pub database: String,
     /// How many jobs are solved at once.
     pub workers: usize,
-    /// The binary that has the hidden subcommand `solve-child`.
-    pub program: PathBuf,
+    /// How often a job is tried whose workers are lost.
+    pub attempts: u32,
+    /// After how many days ended jobs are deleted, if they are.
+    pub keep_days: Option<u32>,
+    /// How workers work.
+    pub rules: Rules,
 }
 
 /// Why the service cannot run.
@@ -63,6 +64,7 @@ pub struct Service {
     store: Arc<Store>,
     stopping: CancellationToken,
     tasks: JoinSet<()>,
+    grace: Duration,
 }
 
 impl Service {
@@ -80,19 +82,25 @@ impl Service {
         };
         let listener = TcpListener::bind(config.listen).await.map_err(listen)?;
         let address = listener.local_addr().map_err(listen)?;
-        let store = Arc::new(Store::open(&config.database).await?);
+        let store = Arc::new(Store::open_with(&config.database, config.attempts).await?);
         let rescued = store.rescue_all(now_ms()).await?;
         tracing::info!(%address, database = config.database, workers = config.workers, rescued, "service started");
         let stopping = CancellationToken::new();
         let mut tasks = JoinSet::new();
+        let rules = Arc::new(config.rules);
         for _ in 0..config.workers {
             tasks.spawn(worker::work(
                 Arc::clone(&store),
-                config.program.clone(),
+                Arc::clone(&rules),
                 stopping.clone(),
             ));
         }
-        tasks.spawn(maintain(Arc::clone(&store), stopping.clone()));
+        tasks.spawn(upkeep::maintain(
+            Arc::clone(&store),
+            rules.lease,
+            config.keep_days,
+            stopping.clone(),
+        ));
         let router = http::router(App::new(Arc::clone(&store), stopping.clone()));
         let stopped = stopping.clone().cancelled_owned();
         tasks.spawn(async move {
@@ -108,6 +116,7 @@ impl Service {
             store,
             stopping,
             tasks,
+            grace: rules.grace + GRACE,
         })
     }
 
@@ -115,34 +124,12 @@ impl Service {
     pub async fn stop(mut self) {
         self.stopping.cancel();
         let ended = async { while self.tasks.join_next().await.is_some() {} };
-        if tokio::time::timeout(GRACE, ended).await.is_err() {
+        if tokio::time::timeout(self.grace, ended).await.is_err() {
             // A client that neither sends nor receives must not keep the service alive.
             tracing::warn!("connections that would not end are broken off");
             self.tasks.shutdown().await;
         }
         self.store.close().await;
         tracing::info!("service stopped");
-    }
-}
-
-/// Takes jobs back from lost workers, and keeps the write-ahead log short.
-async fn maintain(store: Arc<Store>, stopping: CancellationToken) {
-    let mut round = 0_u32;
-    loop {
-        tokio::select! {
-            () = stopping.cancelled() => return,
-            () = tokio::time::sleep(RESCUE_EVERY) => {}
-        }
-        match store.rescue_expired(now_ms()).await {
-            Ok(0) => {}
-            Ok(rescued) => tracing::warn!(rescued, "jobs taken back from lost workers"),
-            Err(error) => tracing::error!(%error, "expired leases could not be looked for"),
-        }
-        round = (round + 1) % CHECKPOINT_ROUNDS;
-        if round == 0
-            && let Err(error) = store.checkpoint().await
-        {
-            tracing::warn!(%error, "the write-ahead log could not be moved");
-        }
     }
 }

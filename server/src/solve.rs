@@ -1,22 +1,25 @@
 //! Running the engine in this process: its events as documents, and what it cost.
 
+pub mod checkpoint;
 mod cost;
 
 use api::job::{Outcome, Phase};
-use api::results::{CycleRow, ResultFile, Snapshot, Summary};
+use api::results::{Cost, CycleRow, ResultFile, Snapshot, Summary};
 use serde::{Deserialize, Serialize};
 use solver::SolveError;
+use solver::checkpoint::Checkpoint;
 use solver::history::PlacedFields;
 use solver::observer::{Event, Flow, Observer};
 use solver::scene::Scene;
 
 use crate::translate::{history, vtu};
+use checkpoint::{Encoded, Keeping, Saved};
 use cost::Stopwatch;
 
 /// Exit code of a solving process that could not write a result: the disk's fault, so it is tried again.
 pub const UNWRITTEN: i32 = 4;
 
-/// One line of a solving process, in order; the last one is `Summary` or `Failed`.
+/// One line of a solving process, in order; the last one is `Summary`, `Failed` or `Stopped`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "event", content = "data", rename_all = "snake_case")]
 pub enum Line {
@@ -31,10 +34,16 @@ pub enum Line {
     Fields(FieldsFile),
     /// A file was written into the attempt's folder.
     Kept(ResultFile),
+    /// The first line, where the checkpoint that was to be gone on from cannot be: the run begins anew.
+    Anew(String),
+    /// A place to go on from; what belongs to its cycle came before.
+    Checkpoint(Encoded),
     /// The run ended with a result.
     Summary(Box<Summary>),
     /// The run failed; the same input would fail again.
     Failed(Failure),
+    /// The process was asked to end, and did so after a checkpoint.
+    Stopped,
 }
 
 /// Fields as a file.
@@ -72,17 +81,83 @@ impl From<SolveError> for Failure {
 /// # Errors
 /// [`Failure`] with the engine's numbers.
 pub fn run(scene: &Scene, on: &mut dyn FnMut(Line) -> Flow) -> Result<Summary, Failure> {
-    let mut recorder = Recorder {
-        on,
-        watch: Stopwatch::start(),
+    run_from(scene, None, &Keeping::default(), on)
+}
+
+/// Solves a scene from a checkpoint, if there is one, and tells checkpoints on the way. A checkpoint that does not fit
+/// the scene is told, and the run begins anew.
+///
+/// # Errors
+/// [`Failure`] with the engine's numbers.
+pub fn run_from(
+    scene: &Scene,
+    from: Option<Saved>,
+    keeping: &Keeping,
+    on: &mut dyn FnMut(Line) -> Flow,
+) -> Result<Summary, Failure> {
+    let Some(Saved { cost, run }) = from else {
+        return anew(scene, keeping, on);
     };
+    let mut recorder = Recorder::new(on, keeping, cost);
+    match solver::run::resume(scene, run, &mut recorder) {
+        Err(SolveError::Checkpoint(misfit)) => {
+            on(Line::Anew(misfit.to_string()));
+            anew(scene, keeping, on)
+        }
+        ended => Ok(history::summary(&ended?, recorder.watch.cost())),
+    }
+}
+
+fn anew(
+    scene: &Scene,
+    keeping: &Keeping,
+    on: &mut dyn FnMut(Line) -> Flow,
+) -> Result<Summary, Failure> {
+    let mut recorder = Recorder::new(on, keeping, Cost::default());
     let summary = solver::run::solve(scene, &mut recorder)?;
     Ok(history::summary(&summary, recorder.watch.cost()))
 }
 
 struct Recorder<'a> {
     on: &'a mut dyn FnMut(Line) -> Flow,
+    keeping: &'a Keeping,
     watch: Stopwatch,
+}
+
+impl<'a> Recorder<'a> {
+    fn new(on: &'a mut dyn FnMut(Line) -> Flow, keeping: &'a Keeping, earlier: Cost) -> Self {
+        Self {
+            on,
+            keeping,
+            watch: Stopwatch::start(earlier),
+        }
+    }
+
+    /// Tells a checkpoint if one is due, and stops the run if it is asked to.
+    fn keep(&mut self, run: &Checkpoint) -> Flow {
+        if !self.keeping.is_due() {
+            return Flow::Continue;
+        }
+        let saved = Saved {
+            cost: self.watch.cost(),
+            run: run.clone(),
+        };
+        let told = match saved.encode() {
+            Ok(state) => (self.on)(Line::Checkpoint(Encoded {
+                cycle: run.cycle(),
+                state,
+            })),
+            Err(error) => {
+                tracing::error!(%error, "a checkpoint was left out");
+                Flow::Continue
+            }
+        };
+        if self.keeping.stops() {
+            Flow::Stop
+        } else {
+            told
+        }
+    }
 }
 
 impl Recorder<'_> {
@@ -115,7 +190,7 @@ impl Observer for Recorder<'_> {
                 }
                 Line::Snapshot(Box::new(history::snapshot(snapshot)))
             }
-            Event::Checkpoint(_) => return Flow::Continue,
+            Event::Checkpoint(run) => return self.keep(run),
         };
         (self.on)(line)
     }

@@ -3,6 +3,9 @@
 //! One writing connection and a pool of readers on an embedded database in WAL mode. A lock file beside the database
 //! makes sure that one process serves it; so at start-up every lease in it belongs to a process that is gone.
 
+mod backup;
+mod checkpoints;
+mod claims;
 mod conclusion;
 mod document;
 mod error;
@@ -11,22 +14,30 @@ mod files;
 mod folder;
 mod jobs;
 mod leases;
+mod levels;
 mod open;
 mod queries;
 mod results;
 mod sweeps;
+mod upkeep;
 
 use std::fs::File;
+use std::path::PathBuf;
+use std::sync::Arc;
 
 use sqlx::sqlite::SqlitePool;
 use tokio::sync::{Notify, broadcast};
 use uuid::Uuid;
 
+use crate::metrics::Metrics;
+
+pub use backup::{BackupError, Copied, backup, restore};
+pub use checkpoints::NewCheckpoint;
 pub use conclusion::End;
 pub use error::StoreError;
 pub use events::StoredEvent;
 pub use files::{Content, NewFile};
-pub use jobs::{Cancelled, Deleted, Filter, NewJob, RequestKey, StoredJob, Submitted};
+pub use jobs::{Cancelled, Deleted, Filter, NewJob, RequestKey, StoredJob, Submitted, Wishes};
 pub use leases::{Batch, Claim, Held};
 pub use results::SnapshotPart;
 pub use sweeps::{NewSweep, SweepOutcome};
@@ -42,6 +53,12 @@ pub struct Store {
     changes: broadcast::Sender<Uuid>,
     waiting: Notify,
     folder: folder::Folder,
+    /// The write-ahead log.
+    wal: PathBuf,
+    /// How often a job is tried.
+    attempt_limit: u32,
+    /// What is counted for `/metrics`.
+    metrics: Arc<Metrics>,
     /// Held as long as the store is open.
     _lock: File,
 }
@@ -55,6 +72,17 @@ impl Store {
     /// Returns when a job may be waiting in the queue.
     pub async fn job_waiting(&self) {
         self.waiting.notified().await;
+    }
+
+    /// What is counted for `/metrics`.
+    pub fn metrics(&self) -> &Arc<Metrics> {
+        &self.metrics
+    }
+
+    /// Counts a write that came after its lease.
+    fn refused(&self) -> Held {
+        self.metrics.stale_writes.inc();
+        Held::No
     }
 
     fn changed(&self, id: Uuid) {

@@ -20,6 +20,7 @@ pub mod parquet;
 mod plan;
 mod preset;
 mod settings;
+mod size;
 pub mod sweep;
 pub mod thin;
 pub mod vtu;

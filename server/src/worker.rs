@@ -3,33 +3,40 @@
 mod batcher;
 mod child;
 mod gather;
+mod rules;
 mod supervisor;
+mod verdict;
 
-use std::path::PathBuf;
 use std::sync::Arc;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use tokio_util::sync::CancellationToken;
+use tracing::Instrument;
 
 use crate::clock::now_ms;
-use crate::store::{Store, StoreError};
+use crate::store::{Claim, Store, StoreError};
 
-/// How long a lease holds; renewed several times within.
-pub const LEASE: Duration = Duration::from_secs(10);
+pub use rules::Rules;
+
 /// How often an idle worker looks for itself, should it have missed a call.
 const LOOK: Duration = Duration::from_secs(1);
 /// Pause after the store failed.
 const STORE_PAUSE: Duration = Duration::from_secs(1);
+/// Why a job waits that nothing stands in the way of.
+const NO_REASON: &str = "waiting for a worker";
 
-/// When a lease taken or renewed now ends, ms.
-fn lease_end() -> i64 {
-    now_ms().saturating_add(i64::try_from(LEASE.as_millis()).unwrap_or(i64::MAX))
+impl Rules {
+    /// When a lease taken or renewed now ends, ms.
+    fn lease_end(&self) -> i64 {
+        now_ms().saturating_add(i64::try_from(self.lease.as_millis()).unwrap_or(i64::MAX))
+    }
 }
 
-/// Takes and supervises jobs until the service stops. `program` is the binary with the hidden subcommand `solve-child`.
-pub async fn work(store: Arc<Store>, program: PathBuf, stopping: CancellationToken) {
+/// Takes and supervises jobs until the service stops.
+pub async fn work(store: Arc<Store>, rules: Arc<Rules>, stopping: CancellationToken) {
+    let mut short_of_disk = false;
     while !stopping.is_cancelled() {
-        match next(&store, &program, &stopping).await {
+        match next(&store, &rules, &mut short_of_disk, &stopping).await {
             Ok(true) => {}
             Ok(false) => {
                 tokio::select! {
@@ -46,16 +53,48 @@ pub async fn work(store: Arc<Store>, program: PathBuf, stopping: CancellationTok
     }
 }
 
-/// Takes one job and sees it through; `false` if none was waiting.
+/// Takes one job and sees it through; `false` if none could be taken.
 async fn next(
     store: &Store,
-    program: &std::path::Path,
+    rules: &Rules,
+    short_of_disk: &mut bool,
     stopping: &CancellationToken,
 ) -> Result<bool, StoreError> {
-    let Some(claim) = store.claim(now_ms(), lease_end()).await? else {
+    if let Some(reason) = rules.disk_shortage() {
+        *short_of_disk = true;
+        store.explain_waiting(&reason).await?;
+        return Ok(false);
+    }
+    if *short_of_disk {
+        store.explain_waiting(NO_REASON).await?;
+        *short_of_disk = false;
+    }
+    let claimed = store
+        .claim_within(rules.memory_mb, now_ms(), rules.lease_end())
+        .await?;
+    let Some(claim) = claimed else {
         return Ok(false);
     };
-    tracing::info!(job = %claim.id, lease = claim.lease, "job taken");
-    supervisor::supervise(store, &claim, program, stopping).await?;
+    count(store, &claim);
+    let span =
+        tracing::info_span!("job", id = %claim.id, lease = claim.lease, attempt = claim.attempt);
+    let began = Instant::now();
+    supervisor::supervise(store, &claim, rules, stopping)
+        .instrument(span)
+        .await?;
+    let metrics = store.metrics();
+    metrics
+        .solve_duration
+        .observe(began.elapsed().as_secs_f64());
     Ok(true)
+}
+
+fn count(store: &Store, claim: &Claim) {
+    let metrics = store.metrics();
+    metrics.attempts.inc();
+    if claim.lease == 1 {
+        let waited = u64::try_from(claim.waited_ms).unwrap_or_default();
+        let waited = Duration::from_millis(waited);
+        metrics.claim_latency.observe(waited.as_secs_f64());
+    }
 }

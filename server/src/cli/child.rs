@@ -1,30 +1,44 @@
 //! `fretwear solve-child`: a service's solving process.
 //!
-//! One line on standard input is the resolved specification; every line on standard output is a [`Line`]. Standard
-//! input stays open as long as the supervisor lives: at its end this process ends too. Large results are written into
-//! the attempt's folder, and the lines only name them.
+//! Two lines on standard input are the resolved specification and the checkpoint to go on from (base64, empty for none);
+//! every line on standard output is a [`Line`]. Standard input stays open as long as the supervisor lives: at its end
+//! this process ends too. Large results are written into the attempt's folder, and the lines only name them. Asked to
+//! terminate, the process tells a checkpoint after the present cycle and ends.
 
 use std::io::{BufRead, Read, Write};
 use std::path::Path;
 use std::process::ExitCode;
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
+use std::time::Duration;
 
 use api::job::Outcome;
+use base64::Engine as _;
+use base64::prelude::BASE64_STANDARD;
+use nix::sys::resource::{Resource, setrlimit};
+use signal_hook::consts::SIGTERM;
 use solver::observer::Flow;
 
+use super::ChildArguments;
 use super::terminal::{failed, refused, tell};
 use crate::documents::VTU;
 use crate::files;
+use crate::solve::checkpoint::{Keeping, Saved};
 use crate::solve::{self, Failure, FieldsFile, Line, UNWRITTEN};
 use crate::translate;
 
 /// Exit code when the supervisor is gone.
 const ORPHANED: i32 = 3;
 
-pub(super) fn run(folder: &Path) -> ExitCode {
-    let mut spec = String::new();
-    if let Err(cause) = std::io::stdin().lock().read_line(&mut spec) {
+pub(super) fn run(arguments: &ChildArguments) -> ExitCode {
+    let stop = Arc::new(AtomicBool::new(false));
+    if let Err(cause) = prepare(arguments, &stop) {
         return failed(cause);
     }
+    let (spec, checkpoint) = match lines() {
+        Ok(lines) => lines,
+        Err(cause) => return failed(cause),
+    };
     let resolved = match translate::read(spec.as_bytes()) {
         Ok(resolved) => resolved,
         Err(error) => {
@@ -36,11 +50,21 @@ pub(super) fn run(folder: &Path) -> ExitCode {
         }
     };
     std::thread::spawn(end_with_supervisor);
-    let solved = solve::run(&resolved.scene, &mut |line| match line {
-        Line::Fields(fields) => keep(folder, &fields),
+    let from = match saved(&checkpoint) {
+        Ok(from) => from,
+        Err(why) => {
+            write(&Line::Anew(why));
+            None
+        }
+    };
+    let every = Duration::from_millis(arguments.checkpoint_every_ms);
+    let keeping = Keeping::new(every, Arc::clone(&stop));
+    let solved = solve::run_from(&resolved.scene, from, &keeping, &mut |line| match line {
+        Line::Fields(fields) => keep(&arguments.folder, &fields),
         line => write(&line),
     });
     let last = match solved {
+        Ok(summary) if summary.outcome == Outcome::Stopped => Line::Stopped,
         Ok(summary) => Line::Summary(Box::new(summary)),
         Err(failure) => Line::Failed(failure),
     };
@@ -48,6 +72,39 @@ pub(super) fn run(folder: &Path) -> ExitCode {
         Flow::Continue => ExitCode::SUCCESS,
         Flow::Stop => ExitCode::FAILURE,
     }
+}
+
+/// Limits the memory that may be written to, and turns a request to terminate into a flag. Address space that is only
+/// reserved, as allocators do, is not counted.
+fn prepare(arguments: &ChildArguments, stop: &Arc<AtomicBool>) -> std::io::Result<()> {
+    if let Some(limit) = arguments.memory_limit_mb {
+        let bytes = limit.saturating_mul(1 << 20);
+        setrlimit(Resource::RLIMIT_DATA, bytes, bytes)?;
+    }
+    signal_hook::flag::register(SIGTERM, Arc::clone(stop))?;
+    Ok(())
+}
+
+/// The specification and the checkpoint.
+fn lines() -> std::io::Result<(String, String)> {
+    let (mut spec, mut checkpoint) = (String::new(), String::new());
+    let mut stdin = std::io::stdin().lock();
+    stdin.read_line(&mut spec)?;
+    stdin.read_line(&mut checkpoint)?;
+    Ok((spec, checkpoint))
+}
+
+fn saved(text: &str) -> Result<Option<Saved>, String> {
+    let text = text.trim();
+    if text.is_empty() {
+        return Ok(None);
+    }
+    let bytes = BASE64_STANDARD
+        .decode(text)
+        .map_err(|cause| cause.to_string())?;
+    Saved::decode(&bytes)
+        .map(Some)
+        .map_err(|cause| cause.to_string())
 }
 
 /// Blocks until standard input ends, then ends the process.

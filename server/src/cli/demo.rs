@@ -15,7 +15,9 @@ use super::serve::until_signal;
 use super::solve::phase_name;
 use super::terminal::{bar, failed, say, tell};
 use super::{runtime, table, workers};
+use crate::queue::ATTEMPT_LIMIT;
 use crate::service::{Config, Service, ServiceError};
+use crate::worker::Rules;
 
 /// The study: the source's fuzz button.
 const SPEC: &str = include_str!("../../examples/fuzz_button.json");
@@ -57,7 +59,9 @@ async fn demonstrate(listen: SocketAddr, exit: bool) -> Result<(), DemoError> {
         listen,
         database,
         workers: workers(None),
-        program,
+        attempts: ATTEMPT_LIMIT,
+        keep_days: None,
+        rules: Rules::new(program, folder.clone()),
     })
     .await?;
     let base = format!("http://{}", service.address);

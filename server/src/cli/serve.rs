@@ -1,15 +1,14 @@
 //! `fretwear serve`.
 
-use std::net::SocketAddr;
 use std::process::ExitCode;
 
 use tokio::signal::unix::{SignalKind, signal};
 
-use super::runtime;
 use super::terminal::{failed, tell};
+use super::{ServeArguments, runtime};
 use crate::service::{Config, Service};
 
-pub(super) fn run(listen: SocketAddr, database: String, workers: usize) -> ExitCode {
+pub(super) fn run(arguments: ServeArguments) -> ExitCode {
     let runtime = match runtime() {
         Ok(runtime) => runtime,
         Err(cause) => return failed(cause),
@@ -19,14 +18,16 @@ pub(super) fn run(listen: SocketAddr, database: String, workers: usize) -> ExitC
         Err(cause) => return failed(cause),
     };
     runtime.block_on(async {
-        let service = match Service::start(Config {
-            listen,
-            database,
-            workers,
-            program,
-        })
-        .await
-        {
+        let work = &arguments.work;
+        let config = Config {
+            listen: arguments.listen,
+            workers: work.workers(),
+            attempts: work.attempts,
+            keep_days: work.keep_days,
+            rules: work.rules(program, &arguments.database),
+            database: arguments.database,
+        };
+        let service = match Service::start(config).await {
             Ok(service) => service,
             Err(error) => return failed(error),
         };

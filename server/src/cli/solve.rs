@@ -73,7 +73,12 @@ fn take(line: Line, recorded: &mut Recorded, bar: &ProgressBar) {
         }
         Line::Snapshot(snapshot) => recorded.snapshots.push(*snapshot),
         Line::Fields(file) => recorded.fields.push(file),
-        Line::Kept(_) | Line::Summary(_) | Line::Failed(_) => {}
+        Line::Kept(_)
+        | Line::Anew(_)
+        | Line::Checkpoint(_)
+        | Line::Summary(_)
+        | Line::Failed(_)
+        | Line::Stopped => {}
     }
 }
 

@@ -20,6 +20,7 @@ use uuid::Uuid;
 use super::App;
 use super::extract::JobId;
 use super::problem::{Kind, Refusal};
+use crate::metrics::OpenStream;
 use crate::store::{StoreError, StoredEvent};
 
 /// A comment line keeps the connection alive through proxies.
@@ -95,6 +96,7 @@ pub(super) async fn events(
         );
     }
     let tail = Tail {
+        _counted: app.store.metrics().stream(),
         app,
         id,
         after: after.unwrap_or(0),
@@ -135,6 +137,7 @@ struct Tail {
     waiting: VecDeque<Event>,
     changes: broadcast::Receiver<Uuid>,
     ended: bool,
+    _counted: OpenStream,
 }
 
 impl Tail {

@@ -8,6 +8,7 @@ use serde_json::{Value, json};
 
 use super::App;
 use super::problem::Refusal;
+use crate::clock::now_ms;
 use crate::store::StoreError;
 
 /// Why the service cannot work.
@@ -31,7 +32,7 @@ pub(super) async fn healthz() -> Json<Value> {
     Json(json!({ "status": "ok" }))
 }
 
-/// Whether the service can work: its database takes a write lock.
+/// Whether the service can work: its database takes a write.
 #[utoipa::path(
     get,
     path = "/readyz",
@@ -42,7 +43,7 @@ pub(super) async fn healthz() -> Json<Value> {
     )
 )]
 pub(super) async fn readyz(State(app): State<App>) -> Result<Json<Value>, ReadyError> {
-    app.store.ready().await?;
+    app.store.ready(now_ms()).await?;
     Ok(Json(json!({ "status": "ready" })))
 }
 

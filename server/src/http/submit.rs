@@ -17,7 +17,8 @@ use super::extract::{JsonBody, Params};
 use super::problem::{Kind, Refusal};
 use super::show::retry_after_s;
 use crate::clock::now_ms;
-use crate::store::{NewJob, RequestKey, StoreError, Submitted};
+use crate::queue::MOST_PRIORITY;
+use crate::store::{NewJob, RequestKey, StoreError, Submitted, Wishes};
 use crate::translate::{self, Refused, Resolved};
 
 /// A client's key for a request; the same key and body make one job, however often they are sent.
@@ -40,6 +41,9 @@ pub(super) enum SubmitError {
     /// The key cannot be read.
     #[error("the Idempotency-Key must be printable ASCII characters")]
     KeyText,
+    /// The priority is out of range.
+    #[error("priority {0} is not from -{MOST_PRIORITY} to {MOST_PRIORITY}")]
+    Priority(i32),
     /// The key was used with another body.
     #[error("the Idempotency-Key was used with another body; use a new key for another study")]
     KeyTaken,
@@ -56,6 +60,7 @@ impl IntoResponse for SubmitError {
             Self::KeyLength(_) | Self::KeyText => {
                 Kind::InvalidKey.because(self.to_string()).into_response()
             }
+            Self::Priority(_) => Kind::InvalidQuery.because(self.to_string()).into_response(),
             Self::KeyTaken => Kind::KeyTaken.because(self.to_string()).into_response(),
             Self::Gone => Kind::NoJob
                 .because("the job was deleted at once")
@@ -88,6 +93,25 @@ pub(super) struct SubmitQuery {
     #[serde(default)]
     #[param(required = false)]
     validate_only: bool,
+    /// How many minutes older the job counts in the queue than it is.
+    #[serde(default)]
+    #[param(required = false, minimum = -100, maximum = 100)]
+    priority: i32,
+    /// The job fails unless it has ended so many seconds after its submission.
+    deadline_s: Option<u32>,
+}
+
+impl SubmitQuery {
+    fn wishes(&self) -> Result<Wishes, SubmitError> {
+        // Without `abs`, which the smallest number does not have.
+        if !(-MOST_PRIORITY..=MOST_PRIORITY).contains(&self.priority) {
+            return Err(SubmitError::Priority(self.priority));
+        }
+        Ok(Wishes {
+            priority: self.priority,
+            deadline_s: self.deadline_s,
+        })
+    }
 }
 
 /// Queues a study.
@@ -118,6 +142,7 @@ pub(super) async fn submit(
     headers: HeaderMap,
     JsonBody(body): JsonBody,
 ) -> Result<Response, SubmitError> {
+    let wishes = query.wishes()?;
     let key = request_key(&headers, &body)?;
     let resolved = translate::read(&body)?;
     let plan = translate::plan(&resolved);
@@ -125,7 +150,7 @@ pub(super) async fn submit(
     if query.validate_only {
         return Ok(Json(PlanDocument { spec, plan }).into_response());
     }
-    let new = NewJob { spec, plan };
+    let new = NewJob { spec, plan, wishes };
     let id = match key {
         None => app.store.submit(&new, now_ms()).await?,
         Some(key) => match app.store.submit_once(&new, &key, now_ms()).await? {
@@ -183,6 +208,25 @@ mod tests {
         assert_eq!(job["status"], "queued");
         assert_eq!(job["status_reason"], "waiting for a worker");
         assert_eq!(job["spec"]["provenance"]["/load/n"], "assumed");
+    }
+
+    #[tokio::test]
+    async fn priority_and_deadline_are_kept_and_shown() {
+        let service = Service::new().await;
+        let body = r#"{"system":{"kind":"sd_card"}}"#;
+        let (status, _, job) = service
+            .post("/v1/jobs?priority=-7&deadline_s=60", body)
+            .await;
+        assert_eq!((status.as_u16(), &job["priority"]), (202, &(-7).into()));
+        assert!(job["deadline_at"].as_str() > job["created_at"].as_str());
+        for query in ["priority=101", "priority=high", "deadline_s=-1"] {
+            let (status, _, problem) = service.post(&format!("/v1/jobs?{query}"), body).await;
+            assert_eq!(
+                (status.as_u16(), problem["type"].as_str()),
+                (400, Some("/problems/invalid-query")),
+                "{query}"
+            );
+        }
     }
 
     #[tokio::test]

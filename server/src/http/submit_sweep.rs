@@ -12,7 +12,8 @@ use super::extract::JsonBody;
 use super::problem::Refusal;
 use super::submit::{SubmitError, request_key};
 use crate::clock::now_ms;
-use crate::store::{NewJob, NewSweep, StoreError, Submitted};
+use crate::queue;
+use crate::store::{NewJob, NewSweep, StoreError, Submitted, Wishes};
 use crate::translate::{self, Refused, sweep};
 
 /// Why a sweep was not queued.
@@ -73,10 +74,15 @@ pub(super) async fn submit_sweep(
     let variations = tokio::task::spawn_blocking(move || sweep::expand(&request)).await??;
     let jobs = variations
         .into_iter()
-        .map(|variation| {
+        .enumerate()
+        .map(|(position, variation)| {
             let plan = translate::plan(&variation.resolved);
             let spec = variation.resolved.spec;
-            (NewJob { spec, plan }, variation.overrides)
+            let wishes = Wishes {
+                priority: queue::sweep_priority(position),
+                deadline_s: None,
+            };
+            (NewJob { spec, plan, wishes }, variation.overrides)
         })
         .collect();
     let new = NewSweep { name, jobs };

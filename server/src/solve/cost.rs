@@ -11,6 +11,7 @@ use nix::sys::time::TimeVal;
 /// Wall-clock time by phase, from the start of a run.
 #[derive(Debug)]
 pub(super) struct Stopwatch {
+    earlier: Cost,
     started: Instant,
     cpu_at_start: f64,
     phases: BTreeMap<Phase, f64>,
@@ -18,13 +19,14 @@ pub(super) struct Stopwatch {
 }
 
 impl Stopwatch {
-    /// Starts.
-    pub(super) fn start() -> Self {
+    /// Starts after what an earlier part of the run has cost.
+    pub(super) fn start(earlier: Cost) -> Self {
         let cpu_at_start = usage().map_or(0.0, |usage| cpu_seconds(&usage));
         Self {
+            phases: earlier.phases_s.clone(),
+            earlier,
             started: Instant::now(),
             cpu_at_start,
-            phases: BTreeMap::new(),
             current: None,
         }
     }
@@ -36,16 +38,23 @@ impl Stopwatch {
     }
 
     /// The cost so far; degrees of freedom are the engine's to tell.
-    pub(super) fn cost(mut self) -> Cost {
-        self.close();
+    pub(super) fn cost(&mut self) -> Cost {
+        if let Some((phase, _)) = self.current {
+            self.enter(phase);
+        }
         let usage = usage();
+        let earlier = &self.earlier;
+        let cpu_s = usage
+            .as_ref()
+            .map_or(0.0, |usage| cpu_seconds(usage) - self.cpu_at_start);
         Cost {
-            wall_s: self.started.elapsed().as_secs_f64(),
-            cpu_s: usage
+            wall_s: earlier.wall_s + self.started.elapsed().as_secs_f64(),
+            cpu_s: earlier.cpu_s + cpu_s,
+            phases_s: self.phases.clone(),
+            peak_memory_mb: usage
                 .as_ref()
-                .map_or(0.0, |usage| cpu_seconds(usage) - self.cpu_at_start),
-            phases_s: self.phases,
-            peak_memory_mb: usage.as_ref().map_or(0.0, peak_memory_mb),
+                .map_or(0.0, peak_memory_mb)
+                .max(earlier.peak_memory_mb),
             dofs: 0,
         }
     }

@@ -3,12 +3,12 @@
 use api::event::Done;
 use api::job::{Outcome, Status};
 use api::results::Summary;
-use sqlx::{Sqlite, Transaction};
+use sqlx::{Sqlite, SqliteConnection, Transaction};
 use uuid::Uuid;
 
-use super::StoreError;
 use super::queries::insert_event;
-use crate::queue::{ATTEMPT_LIMIT, Move, after};
+use super::{StoreError, checkpoints};
+use crate::queue::{Move, Tries, after};
 
 /// How a worker ends a job.
 #[derive(Debug, Clone, PartialEq)]
@@ -23,32 +23,46 @@ pub struct End {
     pub summary: Option<Summary>,
 }
 
-/// A job's state as far as its end depends on it.
+/// A running job's state as far as its end depends on it.
 #[derive(sqlx::FromRow)]
 pub(super) struct Standing {
     pub(super) attempts: i64,
     pub(super) cancel_requested: bool,
 }
 
+impl Standing {
+    /// With what the service allows.
+    pub(super) fn limited(&self, attempt_limit: u32) -> Limited {
+        Limited {
+            tries: Tries {
+                made: u32::try_from(self.attempts).unwrap_or(u32::MAX),
+                limit: attempt_limit,
+            },
+            cancel_requested: self.cancel_requested,
+        }
+    }
+}
+
+/// The same beside what the service allows.
+pub(super) struct Limited {
+    tries: Tries,
+    cancel_requested: bool,
+}
+
 /// Moves a running job on; with `done` as its last event if nothing follows.
 pub(super) async fn conclude(
     transaction: &mut Transaction<'_, Sqlite>,
     id: Uuid,
-    standing: &Standing,
+    standing: &Limited,
     end: &End,
     progress: Option<&str>,
     now: i64,
 ) -> Result<Option<Status>, StoreError> {
-    let attempts = u32::try_from(standing.attempts).unwrap_or(u32::MAX);
-    let Some(status) = after(
-        Status::Running,
-        end.step,
-        attempts,
-        standing.cancel_requested,
-    ) else {
+    let tries = standing.tries;
+    let Some(status) = after(Status::Running, end.step, tries, standing.cancel_requested) else {
         return Ok(None);
     };
-    let (reason, outcome) = words(status, attempts, end);
+    let (reason, outcome) = words(status, tries, end);
     let seq: i64 = sqlx::query_scalar(
         "UPDATE jobs SET status = ?, status_reason = ?, outcome = ?, summary = ?, lease_expires_at = NULL, \
          finished_at = ?, progress = COALESCE(?, progress), attempts = attempts - ?, \
@@ -74,30 +88,68 @@ pub(super) async fn conclude(
             summary: end.summary.clone(),
         };
         insert_event(transaction, id, seq, "done", &serde_json::to_string(&done)?).await?;
+        checkpoints::remove(transaction, id).await?;
     }
     Ok(Some(status))
 }
 
+/// Ends a waiting job, with `done` as its last event.
+pub(super) async fn end_waiting(
+    connection: &mut SqliteConnection,
+    id: Uuid,
+    end: &End,
+    now: i64,
+) -> Result<(), StoreError> {
+    // Attempts decide about lost workers only.
+    let tries = Tries { made: 0, limit: 0 };
+    let Some(status) = after(Status::Queued, end.step, tries, end.step == Move::Cancel) else {
+        return Ok(());
+    };
+    let seq: i64 = sqlx::query_scalar(
+        "UPDATE jobs SET status = ?, status_reason = ?, outcome = ?, cancel_requested = ?, finished_at = ?, \
+         last_event = last_event + 1, version = version + 1 WHERE id = ? AND status = 'queued' RETURNING last_event",
+    )
+    .bind(status.as_str())
+    .bind(&end.reason)
+    .bind(end.outcome.map(Outcome::as_str))
+    .bind(end.step == Move::Cancel)
+    .bind(now)
+    .bind(id.to_string())
+    .fetch_one(&mut *connection)
+    .await?;
+    let done = Done {
+        status,
+        status_reason: end.reason.clone(),
+        outcome: end.outcome,
+        summary: None,
+    };
+    insert_event(
+        &mut *connection,
+        id,
+        seq,
+        "done",
+        &serde_json::to_string(&done)?,
+    )
+    .await?;
+    checkpoints::remove(connection, id).await
+}
+
 /// Reason and outcome as the user reads them.
-fn words(status: Status, attempts: u32, end: &End) -> (Option<String>, Option<Outcome>) {
+fn words(status: Status, tries: Tries, end: &End) -> (Option<String>, Option<Outcome>) {
+    let Tries { made, limit } = tries;
     let cause = end.reason.as_deref().unwrap_or("its worker was lost");
     match (end.step, status) {
         (Move::Lose, Status::Queued) => (
             Some(format!(
-                "attempt {attempts} of {ATTEMPT_LIMIT}: {cause}; waiting for a worker"
+                "attempt {made} of {limit}: {cause}; waiting for a worker"
             )),
             None,
         ),
         (Move::Lose, Status::Failed) => (
-            Some(format!(
-                "worker_lost: {attempts} attempts; the last: {cause}"
-            )),
+            Some(format!("worker_lost: {made} attempts; the last: {cause}")),
             Some(Outcome::WorkerLost),
         ),
-        (Move::GiveBack, Status::Queued) => (
-            Some("the service was stopped; waiting for a worker".to_owned()),
-            None,
-        ),
+        (Move::GiveBack, Status::Queued) => (Some(format!("{cause}; waiting for a worker")), None),
         (_, Status::Cancelled) => (Some("cancelled while running".to_owned()), end.outcome),
         _ => (end.reason.clone(), end.outcome),
     }

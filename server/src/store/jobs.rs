@@ -1,19 +1,19 @@
 //! Submitting, reading, listing, cancelling and deleting jobs.
 
-use api::event::Done;
 use api::job::{Job, Progress, Status};
 use api::plan::Plan;
 use api::spec::Spec;
 use sqlx::{QueryBuilder, Sqlite, SqliteConnection, Transaction};
 use uuid::Uuid;
 
+use super::conclusion::{End, end_waiting};
 use super::document::{JobRow, timestamp};
 use super::queries::{BEGIN, insert_event, job_id};
 use super::{Store, StoreError};
-use crate::queue::{Move, after};
+use crate::queue::{self, Move};
 
 const COLUMNS: &str = "SELECT id, spec, plan, status, status_reason, outcome, created_at, started_at, finished_at, \
-                       progress, summary, attempts, last_event, version FROM jobs";
+                       priority, deadline_at, progress, summary, attempts, last_event, version FROM jobs";
 
 /// A job to be queued.
 #[derive(Debug, Clone, PartialEq)]
@@ -22,6 +22,17 @@ pub struct NewJob {
     pub spec: Spec,
     /// Its plan.
     pub plan: Plan,
+    /// What else its user asked for.
+    pub wishes: Wishes,
+}
+
+/// What a user may ask for besides the study itself.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct Wishes {
+    /// How many minutes older it counts in the queue than it is.
+    pub priority: i32,
+    /// How long after its submission it fails unless it has ended, s.
+    pub deadline_s: Option<u32>,
 }
 
 /// A job as it is stored.
@@ -278,12 +289,13 @@ pub(super) async fn cancel(
         return Ok(None);
     };
     let did = if status == Status::Queued {
-        debug_assert_eq!(
-            after(status, Move::Cancel, 0, true),
-            Some(Status::Cancelled),
-            "a queued job can be cancelled"
-        );
-        end_queued(&mut *connection, id, now).await?;
+        let end = End {
+            step: Move::Cancel,
+            reason: Some("cancelled while waiting".to_owned()),
+            outcome: None,
+            summary: None,
+        };
+        end_waiting(&mut *connection, id, &end, now).await?;
         Cancelled::AtOnce
     } else if status == Status::Running {
         sqlx::query("UPDATE jobs SET cancel_requested = 1, status_reason = 'cancel requested', version = version + 1 WHERE id = ?")
@@ -297,30 +309,6 @@ pub(super) async fn cancel(
     Ok(Some(did))
 }
 
-async fn end_queued(
-    connection: &mut SqliteConnection,
-    id: Uuid,
-    now: i64,
-) -> Result<(), StoreError> {
-    const REASON: &str = "cancelled while waiting";
-    let seq: i64 = sqlx::query_scalar(
-        "UPDATE jobs SET status = 'cancelled', status_reason = ?, cancel_requested = 1, finished_at = ?, \
-         last_event = last_event + 1, version = version + 1 WHERE id = ? AND status = 'queued' RETURNING last_event",
-    )
-    .bind(REASON)
-    .bind(now)
-    .bind(id.to_string())
-    .fetch_one(&mut *connection)
-    .await?;
-    let done = Done {
-        status: Status::Cancelled,
-        status_reason: Some(REASON.to_owned()),
-        outcome: None,
-        summary: None,
-    };
-    insert_event(connection, id, seq, "done", &serde_json::to_string(&done)?).await
-}
-
 /// Adds a job to the queue, with its first event.
 pub(super) async fn insert(
     transaction: &mut Transaction<'_, Sqlite>,
@@ -328,6 +316,10 @@ pub(super) async fn insert(
     now: i64,
 ) -> Result<Uuid, StoreError> {
     let id = Uuid::now_v7();
+    let Wishes {
+        priority,
+        deadline_s,
+    } = job.wishes;
     let system = job
         .spec
         .system
@@ -341,8 +333,8 @@ pub(super) async fn insert(
     };
     let progress = serde_json::to_string(&progress)?;
     sqlx::query(
-        "INSERT INTO jobs (id, system, spec, plan, status, status_reason, created_at, progress, last_event) \
-         VALUES (?, ?, ?, ?, 'queued', 'waiting for a worker', ?, ?, 1)",
+        "INSERT INTO jobs (id, system, spec, plan, status, status_reason, created_at, progress, last_event, priority, \
+         place, deadline_at, memory_mb) VALUES (?, ?, ?, ?, 'queued', 'waiting for a worker', ?, ?, 1, ?, ?, ?, ?)",
     )
     .bind(id.to_string())
     .bind(system)
@@ -350,6 +342,10 @@ pub(super) async fn insert(
     .bind(serde_json::to_string(&job.plan)?)
     .bind(now)
     .bind(&progress)
+    .bind(priority)
+    .bind(queue::place(now, priority))
+    .bind(deadline_s.map(|s| now.saturating_add(1_000 * i64::from(s))))
+    .bind(memory_mb(&job.plan))
     .execute(&mut **transaction)
     .await?;
     for (key, value) in &job.spec.labels {
@@ -362,4 +358,14 @@ pub(super) async fn insert(
     }
     insert_event(transaction, id, 1, "progress", &progress).await?;
     Ok(id)
+}
+
+/// What the plan expects the solve to need, MB.
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "the value is clamped to a range that fits"
+)]
+fn memory_mb(plan: &Plan) -> i64 {
+    let estimate = plan.estimates.get("memory_mb").copied().unwrap_or_default();
+    estimate.ceil().clamp(0.0, 1e9) as i64
 }

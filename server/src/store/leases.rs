@@ -1,14 +1,14 @@
-//! Leases: claiming jobs, writing about them, ending them, and taking them back from lost workers.
+//! Leases: writing about jobs, ending them, and taking them back from lost workers.
 //!
 //! Every write of a worker says `WHERE id = ? AND lease = ? AND status = 'running'` and counts for nothing if no row
 //! matches: the lease number, raised by each claim, is the fence.
 
-use api::event::Attempt;
 use api::job::{Progress, Status};
 use api::results::{CycleRow, Snapshot};
 use sqlx::{Sqlite, Transaction};
 use uuid::Uuid;
 
+use super::checkpoints::{self, NewCheckpoint};
 use super::conclusion::{End, Standing, conclude};
 use super::files::{NewFile, insert_files};
 use super::queries::{BEGIN, insert_event, job_id};
@@ -24,6 +24,16 @@ pub struct Claim {
     pub lease: i64,
     /// The resolved specification, JSON.
     pub spec: String,
+    /// Which attempt it is, from 1.
+    pub attempt: u32,
+    /// How long it is since the job was accepted, ms.
+    pub waited_ms: i64,
+    /// When the job fails unless it has ended, ms.
+    pub deadline_at: Option<i64>,
+    /// What it is expected to need, MB.
+    pub memory_mb: i64,
+    /// From where it goes on.
+    pub checkpoint: Option<NewCheckpoint>,
 }
 
 /// What a worker writes at once.
@@ -37,6 +47,8 @@ pub struct Batch {
     pub snapshots: Vec<Snapshot>,
     /// New files.
     pub files: Vec<NewFile>,
+    /// The newest checkpoint, if there is a new one; it follows all rows and snapshots up to its cycle.
+    pub checkpoint: Option<NewCheckpoint>,
     /// New events: name and JSON document.
     pub events: Vec<(&'static str, String)>,
 }
@@ -54,50 +66,6 @@ pub enum Held {
 }
 
 impl Store {
-    /// Hands out the job that has waited longest, under a new lease that ends at `expires_at`.
-    ///
-    /// # Errors
-    /// [`StoreError`] if the database fails.
-    pub async fn claim(&self, now: i64, expires_at: i64) -> Result<Option<Claim>, StoreError> {
-        let mut transaction = self.writer.begin_with(BEGIN).await?;
-        let claimed: Option<(String, i64, String, i64, i64)> = sqlx::query_as(
-            "UPDATE jobs SET status = 'running', lease = lease + 1, lease_expires_at = ?, attempts = attempts + 1, \
-             started_at = COALESCE(started_at, ?), status_reason = NULL, last_event = last_event + 1, \
-             version = version + 1 \
-             WHERE id = (SELECT id FROM jobs WHERE status = 'queued' ORDER BY created_at, id LIMIT 1) \
-             RETURNING id, lease, spec, last_event, attempts",
-        )
-        .bind(expires_at)
-        .bind(now)
-        .fetch_optional(&mut *transaction)
-        .await?;
-        let Some((text, lease, spec, event, attempts)) = claimed else {
-            return Ok(None);
-        };
-        // What an earlier, lost attempt left is computed again from the start.
-        sqlx::query("DELETE FROM history_rows WHERE job_id = ?")
-            .bind(&text)
-            .execute(&mut *transaction)
-            .await?;
-        sqlx::query("DELETE FROM snapshots WHERE job_id = ?")
-            .bind(&text)
-            .execute(&mut *transaction)
-            .await?;
-        sqlx::query("DELETE FROM result_files WHERE job_id = ?")
-            .bind(&text)
-            .execute(&mut *transaction)
-            .await?;
-        let id = job_id(&text)?;
-        let attempt = Attempt {
-            attempt: u32::try_from(attempts).unwrap_or(u32::MAX),
-        };
-        let data = serde_json::to_string(&attempt)?;
-        insert_event(&mut transaction, id, event, "attempt", &data).await?;
-        transaction.commit().await?;
-        self.changed(id);
-        Ok(Some(Claim { id, lease, spec }))
-    }
-
     /// Writes a batch and renews the lease until `expires_at`.
     ///
     /// # Errors
@@ -122,15 +90,36 @@ impl Store {
         .fetch_optional(&mut *transaction)
         .await?;
         let Some((last_event, cancel_requested)) = held else {
-            return Ok(Held::No);
+            return Ok(self.refused());
         };
         write_results(&mut transaction, claim, batch).await?;
+        if let Some(checkpoint) = &batch.checkpoint {
+            checkpoints::write(&mut transaction, claim, checkpoint).await?;
+            self.metrics.checkpoints.inc();
+        }
         for (seq, (name, data)) in (last_event - events + 1..).zip(&batch.events) {
             insert_event(&mut transaction, claim.id, seq, name, data).await?;
         }
         transaction.commit().await?;
         self.changed(claim.id);
         Ok(Held::Yes { cancel_requested })
+    }
+
+    /// Renews the lease until `expires_at`: the worker's heartbeat.
+    ///
+    /// # Errors
+    /// [`StoreError`] if the database fails.
+    pub async fn renew(&self, claim: &Claim, expires_at: i64) -> Result<Held, StoreError> {
+        let row: Option<bool> = sqlx::query_scalar(
+            "UPDATE jobs SET lease_expires_at = ? WHERE id = ? AND lease = ? AND status = 'running' \
+             RETURNING cancel_requested",
+        )
+        .bind(expires_at)
+        .bind(claim.id.to_string())
+        .bind(claim.lease)
+        .fetch_optional(&self.writer)
+        .await?;
+        Ok(row.map_or(Held::No, |cancel_requested| Held::Yes { cancel_requested }))
     }
 
     /// Whether the worker holds the job and is wanted to go on; writes nothing.
@@ -169,10 +158,12 @@ impl Store {
         .fetch_optional(&mut *transaction)
         .await?;
         let Some(standing) = standing else {
+            self.refused();
             return Ok(None);
         };
         write_results(&mut transaction, claim, batch).await?;
         let progress = serde_json::to_string(&batch.progress)?;
+        let standing = standing.limited(self.attempt_limit);
         let status = conclude(
             &mut transaction,
             claim.id,
@@ -224,7 +215,8 @@ impl Store {
             let standing = Standing {
                 attempts,
                 cancel_requested,
-            };
+            }
+            .limited(self.attempt_limit);
             ends.push((
                 id,
                 conclude(&mut transaction, id, &standing, &end, None, now).await?,
@@ -233,6 +225,7 @@ impl Store {
         transaction.commit().await?;
         for (id, status) in &ends {
             self.concluded(*id, *status);
+            self.metrics.rescues.inc();
         }
         Ok(ends.len())
     }

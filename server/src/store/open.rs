@@ -3,12 +3,15 @@
 use std::fs::{File, TryLockError};
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
+use std::sync::Arc;
 use std::time::Duration;
 
 use sqlx::sqlite::{
     SqliteConnectOptions, SqliteJournalMode, SqlitePool, SqlitePoolOptions, SqliteSynchronous,
 };
 use tokio::sync::{Notify, broadcast};
+
+use crate::queue::ATTEMPT_LIMIT;
 
 use super::folder::Folder;
 use super::{CHANGES_KEPT, Store, StoreError, queries};
@@ -29,6 +32,14 @@ impl Store {
     /// # Errors
     /// [`StoreError`], among others if another process serves the database.
     pub async fn open(url: &str) -> Result<Self, StoreError> {
+        Self::open_with(url, ATTEMPT_LIMIT).await
+    }
+
+    /// The same, with another limit for the attempts at a job.
+    ///
+    /// # Errors
+    /// [`StoreError`], among others if another process serves the database.
+    pub async fn open_with(url: &str, attempt_limit: u32) -> Result<Self, StoreError> {
         let options = SqliteConnectOptions::from_str(url)
             .map_err(|_| StoreError::Address {
                 url: url.to_owned(),
@@ -64,6 +75,9 @@ impl Store {
             changes,
             waiting: Notify::new(),
             folder: Folder::beside(&path),
+            wal: beside(&path, "-wal"),
+            attempt_limit,
+            metrics: Arc::default(),
             _lock: lock,
         };
         store.sweep_files(None).await?;
@@ -86,7 +100,7 @@ async fn readers(options: SqliteConnectOptions) -> Result<SqlitePool, StoreError
 }
 
 /// Takes the lock file beside the database; the operating system gives it back when the process ends, however it ends.
-fn locked(database: &Path) -> Result<File, StoreError> {
+pub(super) fn locked(database: &Path) -> Result<File, StoreError> {
     let prepare = |cause| StoreError::Prepare {
         path: database.to_owned(),
         cause,
@@ -94,9 +108,7 @@ fn locked(database: &Path) -> Result<File, StoreError> {
     if let Some(folder) = database.parent() {
         std::fs::create_dir_all(folder).map_err(prepare)?;
     }
-    let mut name = real_path(database).map_err(prepare)?.into_os_string();
-    name.push(".lock");
-    let path = PathBuf::from(name);
+    let path = beside(&real_path(database).map_err(prepare)?, ".lock");
     let file = File::options()
         .create(true)
         .truncate(false)
@@ -108,6 +120,13 @@ fn locked(database: &Path) -> Result<File, StoreError> {
         Err(TryLockError::WouldBlock) => Err(StoreError::Locked { path }),
         Err(TryLockError::Error(cause)) => Err(prepare(cause)),
     }
+}
+
+/// The file of this ending beside a database.
+fn beside(database: &Path, ending: &str) -> PathBuf {
+    let mut name = database.as_os_str().to_owned();
+    name.push(ending);
+    PathBuf::from(name)
 }
 
 /// The database's path without links, so that two names of one database share a lock.

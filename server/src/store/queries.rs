@@ -1,5 +1,6 @@
 //! Statements that several parts of the store share.
 
+use api::event::Attempt;
 use sqlx::SqliteConnection;
 use sqlx::sqlite::SqlitePool;
 use uuid::Uuid;
@@ -34,15 +35,6 @@ pub(super) async fn checkpoint(pool: &SqlitePool) -> Result<(), StoreError> {
 }
 
 impl Store {
-    /// Whether the database takes a write lock.
-    ///
-    /// # Errors
-    /// [`StoreError`] if it does not.
-    pub async fn ready(&self) -> Result<(), StoreError> {
-        self.writer.begin_with(BEGIN).await?.rollback().await?;
-        Ok(())
-    }
-
     /// Moves the write-ahead log into the database, as far as readers let it and without waiting for them.
     ///
     /// # Errors
@@ -53,6 +45,21 @@ impl Store {
             .await?;
         Ok(())
     }
+}
+
+/// Appends the event that an attempt begins, at a cycle.
+pub(super) async fn attempt_event(
+    connection: &mut SqliteConnection,
+    id: Uuid,
+    seq: i64,
+    attempt: u32,
+    from_cycle: u64,
+) -> Result<(), StoreError> {
+    let data = serde_json::to_string(&Attempt {
+        attempt,
+        from_cycle,
+    })?;
+    insert_event(connection, id, seq, "attempt", &data).await
 }
 
 /// Appends an event and returns nothing; the caller has raised `jobs.last_event` to `seq` in the same transaction.

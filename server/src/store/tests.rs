@@ -31,6 +31,10 @@ impl Fixture {
     }
 
     async fn queued(&self) -> Uuid {
+        self.wished(Wishes::default()).await
+    }
+
+    async fn wished(&self, wishes: Wishes) -> Uuid {
         let resolved = translate::read(br#"{"system":{"kind":"fuzz_button"}}"#).expect("accepted");
         let plan = translate::plan(&resolved);
         self.store
@@ -38,6 +42,7 @@ impl Fixture {
                 &NewJob {
                     spec: resolved.spec,
                     plan,
+                    wishes,
                 },
                 0,
             )
@@ -253,6 +258,112 @@ async fn a_second_attempt_starts_with_an_empty_history() {
     );
     fixture.claimed(10).await;
     assert_eq!(fixture.cycles(id).await, Vec::<u64>::new());
+}
+
+fn saved(cycle: u64) -> Batch {
+    Batch {
+        rows: (1..=cycle + 1).map(row).collect(),
+        checkpoint: Some(NewCheckpoint {
+            cycle,
+            state: b"a state".to_vec(),
+        }),
+        ..Batch::default()
+    }
+}
+
+#[tokio::test]
+async fn another_attempt_goes_on_from_the_checkpoint_and_keeps_what_came_before() {
+    let fixture = Fixture::new().await;
+    let (id, store) = (fixture.queued().await, &fixture.store);
+    let lost = fixture.claimed(10).await;
+    store.record(&lost, &saved(3), 10).await.expect("the store");
+    store.rescue_expired(10).await.expect("the store");
+    let late = store.record(&lost, &saved(9), 10).await;
+    assert_eq!(late.expect("the store"), Held::No);
+    let claim = fixture.claimed(20).await;
+    let checkpoint = claim.checkpoint.clone().expect("a checkpoint");
+    assert_eq!(
+        (checkpoint.cycle, checkpoint.state),
+        (3, b"a state".to_vec())
+    );
+    assert_eq!(fixture.cycles(id).await, [1, 2, 3]);
+    let events = store.events(id, 0).await.expect("the store");
+    let last = events.last().expect("an event");
+    assert_eq!(
+        (last.name.as_str(), last.data.as_str()),
+        ("attempt", r#"{"attempt":2,"from_cycle":3}"#)
+    );
+    // The child may find that it cannot go on from it.
+    store.begin_anew(&claim).await.expect("the store");
+    assert_eq!(fixture.cycles(id).await, Vec::<u64>::new());
+    let events = store.events(id, 3).await.expect("the store");
+    assert_eq!(events[0].data, r#"{"attempt":2,"from_cycle":0}"#);
+    store.rescue_expired(20).await.expect("the store");
+    assert_eq!(fixture.claimed(30).await.checkpoint, None);
+}
+
+#[tokio::test]
+async fn a_damaged_checkpoint_is_noticed_and_the_job_begins_anew() {
+    let fixture = Fixture::new().await;
+    let (id, store) = (fixture.queued().await, &fixture.store);
+    let claim = fixture.claimed(10).await;
+    store
+        .record(&claim, &saved(3), 10)
+        .await
+        .expect("the store");
+    sqlx::query("UPDATE checkpoints SET state = X'00'")
+        .execute(&store.writer)
+        .await
+        .expect("damage");
+    store.rescue_expired(10).await.expect("the store");
+    let claim = fixture.claimed(20).await;
+    assert_eq!(claim.checkpoint, None);
+    assert_eq!(fixture.cycles(id).await, Vec::<u64>::new());
+}
+
+#[tokio::test]
+async fn a_preferred_job_goes_first_and_a_large_one_says_what_it_waits_for() {
+    let fixture = Fixture::new().await;
+    let plain = fixture.queued().await;
+    let preferred = fixture
+        .wished(Wishes {
+            priority: 1,
+            deadline_s: None,
+        })
+        .await;
+    assert_eq!(fixture.claimed(10).await.id, preferred);
+    let claimed = fixture.store.claim_within(1, 1, 10).await;
+    assert_eq!(claimed.expect("the store"), None);
+    let reason = fixture.job(plain).await.status_reason.expect("a reason");
+    assert!(
+        reason.starts_with("waiting for memory: it needs about ")
+            && reason.ends_with(", 0 of 1 MB are left"),
+        "{reason}"
+    );
+    assert_eq!(fixture.claimed(10).await.id, plain);
+}
+
+#[tokio::test]
+async fn a_deadline_ends_a_waiting_job_and_only_old_ends_are_deleted() {
+    let fixture = Fixture::new().await;
+    let wishes = Wishes {
+        priority: 0,
+        deadline_s: Some(5),
+    };
+    let late = fixture.wished(wishes).await;
+    assert_eq!(fixture.store.expire(4_999).await.expect("the store"), 0);
+    assert_eq!(fixture.store.expire(5_000).await.expect("the store"), 1);
+    let job = fixture.job(late).await;
+    assert_eq!(
+        (job.status, job.outcome),
+        (Status::Failed, Some(Outcome::DeadlineExceeded))
+    );
+    fixture.queued().await;
+    let deleted = fixture.store.delete_ended_before(5_000).await;
+    assert_eq!(deleted.expect("the store"), 0);
+    let deleted = fixture.store.delete_ended_before(5_001).await;
+    assert_eq!(deleted.expect("the store"), 1);
+    assert!(fixture.store.job(late).await.expect("the store").is_none());
 }
 
 #[tokio::test]

@@ -10,7 +10,8 @@ use api::results::CycleRow;
 use jiff::Timestamp;
 
 use crate::solve::Line;
-use crate::store::{Batch, NewFile};
+use crate::solve::checkpoint::Encoded;
+use crate::store::{Batch, NewCheckpoint, NewFile};
 
 /// Share of the work between two events.
 const EVENT_SHARE: f64 = 0.005;
@@ -25,6 +26,7 @@ const ROW_LIMIT: usize = 1000;
 #[derive(Debug)]
 pub(super) struct Batcher {
     progress: Progress,
+    from_cycle: u64,
     batch: Batch,
     newest: Option<CycleRow>,
     started: Instant,
@@ -33,13 +35,17 @@ pub(super) struct Batcher {
 }
 
 impl Batcher {
-    /// For a job of so many cycles.
-    pub(super) fn new(cycles: u64) -> Self {
+    /// For a job of so many cycles that goes on from one of them.
+    pub(super) fn new(cycles: u64, from_cycle: u64) -> Self {
         Self {
             progress: Progress {
+                cycle: from_cycle,
                 cycles,
+                fraction: fraction(from_cycle, cycles),
+                updated_at: Some(Timestamp::now().to_string()),
                 ..Progress::default()
             },
+            from_cycle,
             batch: Batch::default(),
             newest: None,
             started: Instant::now(),
@@ -48,9 +54,15 @@ impl Batcher {
         }
     }
 
-    /// Takes a line that is neither summary nor failure.
+    /// Starts again from the beginning.
+    pub(super) fn begin_anew(&mut self) {
+        *self = Self::new(self.progress.cycles, 0);
+    }
+
+    /// Takes a line that does not end the job.
     pub(super) fn take(&mut self, line: Line) {
         self.dirty = true;
+        self.progress.updated_at = Some(Timestamp::now().to_string());
         match line {
             Line::Phase(phase) => self.progress.phase = Some(phase),
             Line::Cycle(row) => {
@@ -64,7 +76,14 @@ impl Batcher {
                 file,
                 content: None,
             }),
-            Line::Fields(_) | Line::Summary(_) | Line::Failed(_) => {}
+            Line::Checkpoint(Encoded { cycle, state }) => {
+                self.batch.checkpoint = Some(NewCheckpoint { cycle, state });
+            }
+            Line::Fields(_)
+            | Line::Anew(_)
+            | Line::Summary(_)
+            | Line::Failed(_)
+            | Line::Stopped => {}
         }
     }
 
@@ -82,7 +101,6 @@ impl Batcher {
     pub(super) fn batch(&mut self, last: bool) -> Batch {
         self.dirty = false;
         self.progress.eta_s = self.eta_s();
-        self.progress.updated_at = Some(Timestamp::now().to_string());
         let mut batch = std::mem::take(&mut self.batch);
         batch.progress = self.progress.clone();
         if last || self.event_due() {
@@ -99,6 +117,7 @@ impl Batcher {
         self.batch.snapshots.extend(newer.snapshots);
         self.batch.files.extend(newer.files);
         self.batch.events.extend(newer.events);
+        self.batch.checkpoint = newer.checkpoint.or(self.batch.checkpoint.take());
         self.dirty = true;
     }
 
@@ -126,7 +145,8 @@ impl Batcher {
 
     fn eta_s(&self) -> Option<f64> {
         let done = self.progress.fraction;
-        (done > 0.0).then(|| self.started.elapsed().as_secs_f64() * (1.0 - done) / done)
+        let here = done - fraction(self.from_cycle, self.progress.cycles);
+        (here > 0.0).then(|| self.started.elapsed().as_secs_f64() * (1.0 - done) / here)
     }
 }
 
@@ -163,7 +183,7 @@ mod tests {
 
     #[test]
     fn every_row_is_stored_but_few_become_events() {
-        let mut batcher = Batcher::new(2000);
+        let mut batcher = Batcher::new(2000, 0);
         let (mut rows, mut events) = (0, 0);
         for cycle in 0..=2000 {
             batcher.take(row(cycle));
@@ -178,7 +198,7 @@ mod tests {
 
     #[test]
     fn a_batch_that_was_refused_goes_into_the_next_one_in_order() {
-        let mut batcher = Batcher::new(10);
+        let mut batcher = Batcher::new(10, 0);
         batcher.take(row(1));
         let refused = batcher.batch(false);
         assert_eq!(refused.events.len(), 2);
@@ -195,7 +215,7 @@ mod tests {
 
     #[test]
     fn the_last_batch_tells_where_it_ended() {
-        let mut batcher = Batcher::new(10);
+        let mut batcher = Batcher::new(10, 0);
         batcher.take(row(1));
         batcher.batch(false);
         batcher.take(row(10));
@@ -205,5 +225,28 @@ mod tests {
             batch.events.iter().map(|event| event.0).collect::<Vec<_>>(),
             ["progress", "cycle"]
         );
+    }
+
+    #[test]
+    fn the_newest_checkpoint_goes_with_the_rows_before_it() {
+        let checkpoint = |cycle| {
+            Line::Checkpoint(Encoded {
+                cycle,
+                state: Vec::new(),
+            })
+        };
+        let mut batcher = Batcher::new(10, 3);
+        assert!((batcher.batch(false).progress.fraction - 0.3).abs() < 1e-15);
+        batcher.take(row(4));
+        batcher.take(checkpoint(4));
+        let refused = batcher.batch(false);
+        batcher.give_back(refused);
+        batcher.take(row(5));
+        assert_eq!(batcher.batch(false).checkpoint.map(|c| c.cycle), Some(4));
+        batcher.take(checkpoint(5));
+        let refused = batcher.batch(false);
+        batcher.take(checkpoint(6));
+        batcher.give_back(refused);
+        assert_eq!(batcher.batch(false).checkpoint.map(|c| c.cycle), Some(6));
     }
 }

@@ -1,13 +1,27 @@
-//! The solving process: started in its own process group, fed with a specification, killed with its supervisor.
+//! The solving process: started in its own process group, fed with a specification, ended with its supervisor.
 
 use std::os::unix::process::ExitStatusExt;
 use std::path::Path;
 use std::process::{ExitStatus, Stdio};
+use std::time::Duration;
 
-use nix::sys::signal::Signal;
+use base64::Engine as _;
+use base64::prelude::BASE64_STANDARD;
+use nix::sys::signal::{Signal, kill};
+use nix::unistd::Pid;
+use tokio::io::{AsyncBufReadExt, AsyncWriteExt, BufReader, Lines};
+use tokio::process::{Child, ChildStderr, ChildStdin, ChildStdout, Command};
+use tokio::task::JoinHandle;
+use tracing::Instrument;
 
-use tokio::io::{AsyncWriteExt, BufReader, Lines};
-use tokio::process::{Child, ChildStdin, ChildStdout, Command};
+use super::Rules;
+use crate::store::Claim;
+
+/// How long the last words of an ended process are waited for.
+const LAST_WORDS: Duration = Duration::from_secs(1);
+
+/// How the Rust runtime begins its words when an allocation fails.
+pub(super) const OUT_OF_MEMORY: &str = "memory allocation of ";
 
 /// A solving process.
 #[derive(Debug)]
@@ -16,6 +30,7 @@ pub(super) struct Solving {
     /// Held open: its end tells the process that its supervisor is gone.
     _stdin: ChildStdin,
     lines: Lines<BufReader<ChildStdout>>,
+    words: JoinHandle<Option<String>>,
 }
 
 /// How a solving process ended.
@@ -30,28 +45,43 @@ pub(super) enum Ended {
 }
 
 impl Solving {
-    /// Starts the process and hands it the specification (JSON, one line); its files go into `folder`.
-    pub(super) async fn start(program: &Path, spec: &str, folder: &Path) -> std::io::Result<Self> {
-        let mut child = Command::new(program)
+    /// Starts the process and hands it the specification and the checkpoint to go on from, a line each; its files go into
+    /// `folder`.
+    pub(super) async fn start(
+        rules: &Rules,
+        claim: &Claim,
+        folder: &Path,
+    ) -> std::io::Result<Self> {
+        let mut child = Command::new(&rules.program)
             .arg("solve-child")
+            .arg("--checkpoint-every-ms")
+            .arg(rules.checkpoint_every.as_millis().to_string())
+            .arg("--memory-limit-mb")
+            .arg(rules.memory_limit_mb(claim.memory_mb).to_string())
             .arg(folder)
             .stdin(Stdio::piped())
             .stdout(Stdio::piped())
-            .stderr(Stdio::inherit())
+            .stderr(Stdio::piped())
             .process_group(0)
             .kill_on_drop(true)
             .spawn()?;
         let missing = || std::io::Error::other("the process has no pipe");
         let mut stdin = child.stdin.take().ok_or_else(missing)?;
         let stdout = child.stdout.take().ok_or_else(missing)?;
-        stdin.write_all(spec.as_bytes()).await?;
-        stdin.write_all(b"\n").await?;
+        let stderr = child.stderr.take().ok_or_else(missing)?;
+        let checkpoint = claim.checkpoint.as_ref();
+        let checkpoint =
+            checkpoint.map_or_else(String::new, |found| BASE64_STANDARD.encode(&found.state));
+        for line in [claim.spec.as_bytes(), checkpoint.as_bytes()] {
+            stdin.write_all(line).await?;
+            stdin.write_all(b"\n").await?;
+        }
         stdin.flush().await?;
-        let lines = tokio::io::AsyncBufReadExt::lines(BufReader::new(stdout));
         Ok(Self {
             child,
             _stdin: stdin,
-            lines,
+            lines: BufReader::new(stdout).lines(),
+            words: tokio::spawn(logged(stderr).in_current_span()),
         })
     }
 
@@ -60,9 +90,20 @@ impl Solving {
         self.lines.next_line().await
     }
 
-    /// Waits for the end.
-    pub(super) async fn ended(&mut self) -> std::io::Result<Ended> {
-        Ok(self.child.wait().await?.into())
+    /// Waits for the end; with the last line of its standard error.
+    pub(super) async fn ended(&mut self) -> (Ended, Option<String>) {
+        let ended = self.child.wait().await.map_or(Ended::Killed, Ended::from);
+        let words = tokio::time::timeout(LAST_WORDS, &mut self.words).await;
+        (ended, words.ok().and_then(Result::ok).flatten())
+    }
+
+    /// Asks the process to tell a checkpoint and end.
+    pub(super) fn terminate(&self) {
+        let id = self.child.id().and_then(|id| i32::try_from(id).ok());
+        let asked = id.map(|id| kill(Pid::from_raw(id), Signal::SIGTERM));
+        if let Some(Err(error)) = asked {
+            tracing::warn!(%error, "a solving process could not be asked to end");
+        }
     }
 
     /// Kills the process and waits for its end.
@@ -71,6 +112,21 @@ impl Solving {
             tracing::warn!(%error, "a solving process could not be killed");
         }
     }
+}
+
+/// Passes what a process says on to the log; returns its last line, or the one that tells of a failed allocation.
+async fn logged(stderr: ChildStderr) -> Option<String> {
+    let mut lines = BufReader::new(stderr).lines();
+    let mut last: Option<String> = None;
+    while let Ok(Some(line)) = lines.next_line().await {
+        if !line.trim().is_empty() {
+            tracing::warn!("solving process: {line}");
+            last = last
+                .filter(|told| told.starts_with(OUT_OF_MEMORY))
+                .or(Some(line));
+        }
+    }
+    last
 }
 
 impl From<ExitStatus> for Ended {

@@ -1,26 +1,28 @@
 //! Seeing one job through: read the child's lines, write batches under the lease, obey cancel and shutdown, conclude.
 
-use std::path::Path;
-use std::time::{Duration, Instant};
+use std::convert::Infallible;
+use std::time::Duration;
 
 use api::job::{Outcome, Status};
 use api::spec::Spec;
+use tokio::time::MissedTickBehavior;
 use tokio_util::sync::CancellationToken;
 
 use super::batcher::Batcher;
-use super::child::{Ended, Solving};
+use super::child::Solving;
 use super::gather::gather;
-use super::{LEASE, lease_end};
+use super::verdict::{end, verdict};
+use super::{Rules, STORE_PAUSE};
 use crate::clock::now_ms;
 use crate::queue::Move;
-use crate::solve::{Line, UNWRITTEN};
+use crate::solve::Line;
 use crate::store::{Batch, Claim, End, Held, Store, StoreError};
 use crate::translate;
 
 /// How often gathered lines are written and a cancel request is looked for.
 const TICK: Duration = Duration::from_millis(150);
-/// A lease is renewed when this much of it has gone.
-const RENEW: Duration = Duration::from_secs(3);
+/// Renewals within a lease.
+const RENEWALS: u32 = 3;
 
 /// Why the reading of lines ended.
 enum Stop {
@@ -30,79 +32,171 @@ enum Stop {
     Unreadable(String),
     /// The user no longer wants the job.
     Cancelled,
+    /// The job's deadline has passed.
+    Late,
     /// Another worker holds the job.
     LeaseLost,
     /// The service stops.
     Shutdown,
 }
 
-/// Sees a job through. Whatever happens to the child, the job is concluded or another worker holds it.
+/// What is due.
+enum Due {
+    Batch,
+    /// The child could not go on from the checkpoint, and says why.
+    Anew(String),
+}
+
+/// Sees a job through under a lease that is renewed until then. Whatever happens to the child, the job is concluded or
+/// another worker holds it.
 pub(super) async fn supervise(
     store: &Store,
     claim: &Claim,
-    program: &Path,
+    rules: &Rules,
     stopping: &CancellationToken,
 ) -> Result<(), StoreError> {
-    debug_assert!(RENEW * 3 < LEASE, "a lease survives two missed renewals");
+    tokio::select! {
+        seen = see_through(store, claim, rules, stopping) => seen,
+        never = beat(store, claim, rules) => match never {},
+    }
+}
+
+/// Renews the lease, whatever the solver does. That it is lost is noticed by the next write.
+async fn beat(store: &Store, claim: &Claim, rules: &Rules) -> Infallible {
+    let mut timer = tokio::time::interval(rules.lease / RENEWALS);
+    timer.set_missed_tick_behavior(MissedTickBehavior::Delay);
+    loop {
+        timer.tick().await;
+        if let Err(error) = store.renew(claim, rules.lease_end()).await {
+            tracing::warn!(%error, "the lease could not be renewed");
+        }
+    }
+}
+
+async fn see_through(
+    store: &Store,
+    claim: &Claim,
+    rules: &Rules,
+    stopping: &CancellationToken,
+) -> Result<(), StoreError> {
     let cycles =
         serde_json::from_str::<Spec>(&claim.spec).map_or(0, |spec| translate::cycles(&spec));
-    let mut batcher = Batcher::new(cycles);
-    let mut child = match Solving::start(program, &claim.spec, &store.attempt_folder(claim)).await {
+    let from_cycle = claim.checkpoint.as_ref().map_or(0, |found| found.cycle);
+    tracing::info!(from_cycle, memory_mb = claim.memory_mb, "job taken");
+    let mut batcher = Batcher::new(cycles, from_cycle);
+    let folder = store.attempt_folder(claim);
+    let mut child = match Solving::start(rules, claim, &folder).await {
         Ok(child) => child,
         Err(cause) => {
             let end = end(
                 Move::Lose,
                 format!("its solving process could not be started: {cause}"),
             );
-            return conclude(store, claim, &batcher.batch(true), &end).await;
+            return conclude(store, claim, rules, &batcher.batch(true), &end).await;
         }
     };
-    let stop = follow(store, claim, &mut child, &mut batcher, stopping).await?;
+    let stop = follow(store, claim, rules, &mut child, &mut batcher, stopping).await?;
     let end = match stop {
-        Stop::Output(last) => {
-            let ended = child.ended().await.unwrap_or(Ended::Killed);
-            verdict(last, ended)
+        Stop::Output(last) => concluded(last, &mut child).await,
+        Stop::Shutdown => {
+            let last = wind_down(&mut child, &mut batcher, rules.grace).await;
+            match last {
+                Some(last) => concluded(Some(last), &mut child).await,
+                None => end(Move::GiveBack, ""),
+            }
         }
         other => {
             child.kill().await;
-            match other {
-                Stop::Cancelled => end(Move::Cancel, "cancelled while running"),
-                Stop::Shutdown => end(Move::GiveBack, "the service was stopped"),
-                Stop::Unreadable(why) => End {
-                    outcome: Some(Outcome::NotConverged),
-                    ..end(Move::Fail, why)
-                },
-                Stop::Output(_) | Stop::LeaseLost => {
-                    tracing::warn!(job = %claim.id, lease = claim.lease, "lease lost; nothing more is written");
-                    return Ok(());
-                }
+            match ended_by(other) {
+                Some(end) => end,
+                None => return Ok(()),
             }
         }
     };
-    conclude(store, claim, &batcher.batch(true), &end).await
+    let end = match end.step {
+        Move::GiveBack if stopping.is_cancelled() => End {
+            reason: Some("the service was stopped".to_owned()),
+            ..end
+        },
+        _ => end,
+    };
+    conclude(store, claim, rules, &batcher.batch(true), &end).await
+}
+
+async fn concluded(last: Option<Line>, child: &mut Solving) -> End {
+    let (ended, words) = child.ended().await;
+    verdict(last, ended, words)
+}
+
+/// The end of a job whose child was killed for this reason; nothing if it is another worker's to end.
+fn ended_by(stop: Stop) -> Option<End> {
+    match stop {
+        Stop::Cancelled => Some(end(Move::Cancel, "cancelled while running")),
+        Stop::Late => Some(End {
+            outcome: Some(Outcome::DeadlineExceeded),
+            ..end(Move::Expire, "its deadline passed while it ran")
+        }),
+        Stop::Unreadable(why) => Some(End {
+            outcome: Some(Outcome::NotConverged),
+            ..end(Move::Fail, why)
+        }),
+        Stop::Output(_) | Stop::Shutdown | Stop::LeaseLost => {
+            tracing::warn!("lease lost; nothing more is written");
+            None
+        }
+    }
+}
+
+/// Lets the child tell a last checkpoint and end; kills it when the grace is over. Returns the line that it ended with.
+async fn wind_down(child: &mut Solving, batcher: &mut Batcher, grace: Duration) -> Option<Line> {
+    child.terminate();
+    let mut last = None;
+    let read = async {
+        while let Ok(Some(text)) = child.line().await {
+            match serde_json::from_str::<Line>(&text) {
+                Ok(line @ (Line::Summary(_) | Line::Failed(_) | Line::Stopped)) => {
+                    last = Some(line);
+                }
+                Ok(line) => batcher.take(line),
+                Err(_) => break,
+            }
+        }
+    };
+    if tokio::time::timeout(grace, read).await.is_err() {
+        tracing::warn!("the solving process did not end in time and is killed");
+    }
+    if last.is_none() {
+        child.kill().await;
+    }
+    last
 }
 
 async fn follow(
     store: &Store,
     claim: &Claim,
+    rules: &Rules,
     child: &mut Solving,
     batcher: &mut Batcher,
     stopping: &CancellationToken,
 ) -> Result<Stop, StoreError> {
     let mut tick = tokio::time::interval(TICK);
-    tick.set_missed_tick_behavior(tokio::time::MissedTickBehavior::Delay);
-    let mut renewed = Instant::now();
-    let mut last = None;
+    tick.set_missed_tick_behavior(MissedTickBehavior::Delay);
+    let (mut last, mut refused) = (None, false);
     loop {
         let due = tokio::select! {
-            line = child.line() => match line.map(|line| line.map(|line| serde_json::from_str::<Line>(&line))) {
-                Ok(Some(Ok(line @ (Line::Summary(_) | Line::Failed(_))))) => {
+            // What the store does not take stays in the child's pipe, so that memory stays bounded.
+            line = child.line(), if !(refused && batcher.is_full()) => match line.map(|line| line.map(|line| serde_json::from_str::<Line>(&line))) {
+                Ok(Some(Ok(line @ (Line::Summary(_) | Line::Failed(_) | Line::Stopped)))) => {
                     last = Some(line);
-                    false
+                    continue;
                 }
+                Ok(Some(Ok(Line::Anew(why)))) => Due::Anew(why),
                 Ok(Some(Ok(line))) => {
                     batcher.take(line);
-                    batcher.is_full()
+                    if !batcher.is_full() {
+                        continue;
+                    }
+                    Due::Batch
                 }
                 Ok(Some(Err(cause))) => {
                     return Ok(Stop::Unreadable(format!("the solver wrote something that cannot be read: {cause}")));
@@ -110,105 +204,76 @@ async fn follow(
                 Ok(None) => return Ok(Stop::Output(last)),
                 Err(cause) => return Ok(Stop::Unreadable(format!("the solver's output cannot be read: {cause}"))),
             },
-            _ = tick.tick() => true,
+            _ = tick.tick() => Due::Batch,
             () = stopping.cancelled() => return Ok(Stop::Shutdown),
         };
-        if !due {
-            continue;
+        if claim.deadline_at.is_some_and(|at| now_ms() >= at) {
+            return Ok(Stop::Late);
         }
-        let writes = batcher.is_dirty() || renewed.elapsed() >= RENEW;
-        let answer = if writes {
+        match told(store, claim, rules, batcher, due).await {
+            Ok(Held::Yes {
+                cancel_requested: false,
+            }) => refused = false,
+            Ok(Held::Yes {
+                cancel_requested: true,
+            }) => return Ok(Stop::Cancelled),
+            Ok(Held::No) => return Ok(Stop::LeaseLost),
+            // The solve goes on and the batch is written again; the fence keeps what comes too late from counting.
+            Err(error @ StoreError::Sql(_)) => {
+                tracing::warn!(%error, "the store did not take a write; trying again");
+                refused = true;
+                tick.reset_after(STORE_PAUSE);
+            }
+            Err(error) => return Err(error),
+        }
+    }
+}
+
+/// Writes what is due; whether the worker still holds the job.
+async fn told(
+    store: &Store,
+    claim: &Claim,
+    rules: &Rules,
+    batcher: &mut Batcher,
+    due: Due,
+) -> Result<Held, StoreError> {
+    match due {
+        Due::Anew(why) => {
+            tracing::error!(
+                why,
+                "the checkpoint cannot be gone on from; the job begins anew"
+            );
+            batcher.begin_anew();
+            patiently(|| store.begin_anew(claim)).await
+        }
+        Due::Batch if batcher.is_dirty() => {
             let batch = batcher.batch(false);
-            let answer = store.record(claim, &batch, lease_end()).await;
+            let answer = store.record(claim, &batch, rules.lease_end()).await;
             if answer.is_err() {
                 batcher.give_back(batch);
             }
             answer
-        } else {
-            store.held(claim).await
-        };
-        let held = match answer {
-            Ok(held) => {
-                renewed = if writes { Instant::now() } else { renewed };
-                held
-            }
-            // The lease is ours until it ends: the solve goes on and the batch is written again.
-            Err(error) if renewed.elapsed() < LEASE => {
-                tracing::warn!(job = %claim.id, %error, "the store did not take a batch; trying again");
-                continue;
-            }
-            Err(error) => return Err(error),
-        };
-        match held {
-            Held::Yes {
-                cancel_requested: false,
-            } => {}
-            Held::Yes {
-                cancel_requested: true,
-            } => return Ok(Stop::Cancelled),
-            Held::No => return Ok(Stop::LeaseLost),
         }
-    }
-}
-
-/// What the child's end means: a result, a failure or a crash of its own is final; killed from outside, it is tried
-/// again.
-fn verdict(last: Option<Line>, ended: Ended) -> End {
-    match (last, ended) {
-        (Some(Line::Summary(summary)), _) => End {
-            step: Move::Succeed,
-            reason: None,
-            outcome: Some(summary.outcome),
-            summary: Some(*summary),
-        },
-        (Some(Line::Failed(failure)), _) => End {
-            outcome: Some(failure.outcome),
-            ..end(Move::Fail, failure.reason)
-        },
-        (_, Ended::Killed) => end(Move::Lose, "its solving process was killed"),
-        (_, Ended::Code(UNWRITTEN)) => end(Move::Lose, "its results could not be written"),
-        (_, Ended::Crashed(signal)) => End {
-            outcome: Some(Outcome::NotConverged),
-            ..end(
-                Move::Fail,
-                format!("the solving process crashed with signal {signal}"),
-            )
-        },
-        (_, Ended::Code(code)) => End {
-            outcome: Some(Outcome::NotConverged),
-            ..end(
-                Move::Fail,
-                format!("the solving process ended with code {code} and without a result"),
-            )
-        },
-    }
-}
-
-fn end(step: Move, reason: impl Into<String>) -> End {
-    End {
-        step,
-        reason: Some(reason.into()),
-        outcome: None,
-        summary: None,
+        Due::Batch => store.held(claim).await,
     }
 }
 
 async fn conclude(
     store: &Store,
     claim: &Claim,
+    rules: &Rules,
     batch: &Batch,
     end: &End,
 ) -> Result<(), StoreError> {
     // A batch's events precede the end, so they are written first, under the same lease.
-    let recorded = patiently(claim, || store.record(claim, batch, lease_end())).await?;
+    let recorded = patiently(|| store.record(claim, batch, rules.lease_end())).await?;
     if matches!(recorded, Held::No) {
         return Ok(());
     }
-    let ends = matches!(end.step, Move::Succeed | Move::Fail | Move::Cancel);
-    let files = if ends {
-        patiently(claim, || gather(store, claim, end.summary.as_ref())).await?
-    } else {
+    let files = if end.step == Move::GiveBack || end.step == Move::Lose {
         Vec::new()
+    } else {
+        patiently(|| gather(store, claim, end.summary.as_ref())).await?
     };
     // The end and the manifest are one transaction.
     let rest = Batch {
@@ -216,24 +281,29 @@ async fn conclude(
         files,
         ..Batch::default()
     };
-    let status = patiently(claim, || store.end(claim, &rest, end, now_ms())).await?;
+    let status = patiently(|| store.end(claim, &rest, end, now_ms())).await?;
     store.sweep_files(Some(claim.id)).await?;
-    tracing::info!(job = %claim.id, status = status.map(Status::as_str), reason = end.reason, "job concluded");
+    if let Some(status) = status.filter(|status| status.is_terminal()) {
+        store.metrics().ended(status);
+    }
+    tracing::info!(
+        status = status.map(Status::as_str),
+        reason = end.reason,
+        "job concluded"
+    );
     Ok(())
 }
 
-/// Writes again while a lease lasts: a store that stalls must not cost a finished solve. The fence keeps a write that
-/// comes too late from counting.
+/// Writes again until the store takes it: a store that stalls or a full disk must not cost a finished solve. The fence
+/// keeps a write that comes too late from counting.
 async fn patiently<T, F: Future<Output = Result<T, StoreError>>>(
-    claim: &Claim,
     write: impl Fn() -> F,
 ) -> Result<T, StoreError> {
-    let began = Instant::now();
     loop {
         match write().await {
-            Err(error) if began.elapsed() < LEASE => {
-                tracing::warn!(job = %claim.id, %error, "the store did not take the end of a job; trying again");
-                tokio::time::sleep(TICK).await;
+            Err(error @ (StoreError::Sql(_) | StoreError::Prepare { .. })) => {
+                tracing::warn!(%error, "the store did not take a write; trying again");
+                tokio::time::sleep(STORE_PAUSE).await;
             }
             answer => return answer,
         }

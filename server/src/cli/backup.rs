@@ -1,0 +1,33 @@
+//! `fretwear backup` and `fretwear restore`.
+
+use std::path::Path;
+use std::process::ExitCode;
+
+use super::runtime;
+use super::terminal::{failed, say};
+use crate::store::{BackupError, Copied, backup, restore};
+
+pub(super) fn run(database: &str, into: &Path) -> ExitCode {
+    ended(runtime().map(|runtime| runtime.block_on(backup(database, into))))
+}
+
+pub(super) fn run_restore(from: &Path, database: &str) -> ExitCode {
+    ended(runtime().map(|runtime| runtime.block_on(restore(from, database))))
+}
+
+fn ended(copied: std::io::Result<Result<Copied, BackupError>>) -> ExitCode {
+    match copied {
+        Ok(Ok(Copied {
+            jobs,
+            files,
+            file_bytes,
+        })) => {
+            say(format_args!(
+                "{jobs} jobs and {files} files of {file_bytes} bytes copied and verified"
+            ));
+            ExitCode::SUCCESS
+        }
+        Ok(Err(error)) => failed(error),
+        Err(cause) => failed(cause),
+    }
+}

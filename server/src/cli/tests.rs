@@ -1,0 +1,53 @@
+//! The table of options in the README against the command line itself.
+
+use clap::{CommandFactory, Parser};
+
+use super::Arguments;
+
+const README: &str = include_str!("../../README.md");
+
+/// Option, variable and default of each option of `serve`, as the command line has them.
+fn options() -> Vec<[String; 3]> {
+    let command = Arguments::command();
+    let serve = command.find_subcommand("serve").expect("`serve`");
+    let mut options: Vec<[String; 3]> = serve
+        .get_arguments()
+        .filter(|argument| argument.get_id() != "help")
+        .map(|argument| {
+            let long = argument.get_long().expect("only long options");
+            let variable = argument.get_env().expect("a variable for each option");
+            let default = argument.get_default_values().first();
+            [
+                format!("`--{long}`"),
+                format!("`{}`", variable.to_string_lossy()),
+                default.map_or_else(
+                    || "-".to_owned(),
+                    |value| format!("`{}`", value.to_string_lossy()),
+                ),
+            ]
+        })
+        .collect();
+    options.sort();
+    options
+}
+
+#[test]
+fn the_readme_s_table_names_every_option_with_its_variable_and_default() {
+    let mut rows: Vec<[String; 3]> = README
+        .lines()
+        .filter(|line| line.starts_with("| `--"))
+        .map(|line| {
+            let cells: Vec<&str> = line.split('|').map(str::trim).collect();
+            [cells[1], cells[2], cells[3]].map(str::to_owned)
+        })
+        .collect();
+    rows.sort();
+    assert_eq!(rows, options());
+}
+
+#[test]
+fn the_command_line_is_consistent() {
+    Arguments::command().debug_assert();
+    assert!(Arguments::try_parse_from(["fretwear", "serve", "--attempts", "0"]).is_err());
+    assert!(Arguments::try_parse_from(["fretwear", "serve", "--lease-s", "-1"]).is_err());
+}

@@ -1,0 +1,216 @@
+//! What is counted for `/metrics` (Prometheus).
+
+use std::fmt;
+
+use api::job::Status;
+use prometheus_client::encoding::text::encode;
+use prometheus_client::metrics::counter::Counter;
+use prometheus_client::metrics::family::Family;
+use prometheus_client::metrics::gauge::Gauge;
+use prometheus_client::metrics::histogram::Histogram;
+use prometheus_client::registry::{Registry, Unit};
+
+/// Bounds of a wait for a worker, s: at once, soon, after a coffee, tomorrow.
+const WAIT_BOUNDS_S: [f64; 9] = [0.01, 0.1, 0.5, 1.0, 10.0, 60.0, 600.0, 3_600.0, 86_400.0];
+/// Bounds of a solve, s: from a draft to a study over a weekend.
+const SOLVE_BOUNDS_S: [f64; 9] = [0.1, 0.5, 1.0, 5.0, 10.0, 60.0, 600.0, 3_600.0, 86_400.0];
+
+type ByStatus = Family<[(&'static str, &'static str); 1], Gauge>;
+
+/// What the store tells when it is asked for metrics.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Levels {
+    /// Jobs by status, and the age of the oldest of them, s.
+    pub jobs: Vec<(Status, i64, i64)>,
+    /// Age of the oldest checkpoint of a running job, s; 0 if there is none.
+    pub oldest_checkpoint_s: i64,
+    /// Size of the write-ahead log, bytes.
+    pub wal_bytes: i64,
+}
+
+/// Counters, and levels as they were when they were last asked for.
+pub struct Metrics {
+    registry: Registry,
+    jobs: ByStatus,
+    oldest: ByStatus,
+    ended: Family<[(&'static str, &'static str); 1], Counter>,
+    oldest_checkpoint: Gauge,
+    wal: Gauge,
+    /// From a job's submission to its first claim.
+    pub claim_latency: Histogram,
+    /// From a claim to the end of its job.
+    pub solve_duration: Histogram,
+    /// Claims.
+    pub attempts: Counter,
+    /// Jobs taken back from lost workers.
+    pub rescues: Counter,
+    /// Writes that came after their lease and were thrown away.
+    pub stale_writes: Counter,
+    /// Checkpoints that were stored.
+    pub checkpoints: Counter,
+    streams_open: Gauge,
+}
+
+/// An open event stream, counted as long as it lives.
+#[derive(Debug)]
+pub struct OpenStream(Gauge);
+
+impl Drop for OpenStream {
+    fn drop(&mut self) {
+        self.0.dec();
+    }
+}
+
+impl Metrics {
+    /// Counts a stream.
+    pub fn stream(&self) -> OpenStream {
+        self.streams_open.inc();
+        OpenStream(self.streams_open.clone())
+    }
+
+    /// A job has come to its end.
+    pub fn ended(&self, status: Status) {
+        self.ended
+            .get_or_create(&[("status", status.as_str())])
+            .inc();
+    }
+
+    /// The exposition, with these levels.
+    ///
+    /// # Errors
+    /// If it cannot be formatted.
+    pub fn text(&self, levels: &Levels) -> Result<String, fmt::Error> {
+        for (status, count, oldest_s) in &levels.jobs {
+            let label = [("status", status.as_str())];
+            self.jobs.get_or_create(&label).set(*count);
+            self.oldest.get_or_create(&label).set(*oldest_s);
+        }
+        self.oldest_checkpoint.set(levels.oldest_checkpoint_s);
+        self.wal.set(levels.wal_bytes);
+        let mut text = String::new();
+        encode(&mut text, &self.registry)?;
+        Ok(text)
+    }
+}
+
+impl Default for Metrics {
+    fn default() -> Self {
+        let metrics = Self {
+            registry: Registry::with_prefix("fretwear"),
+            jobs: ByStatus::default(),
+            oldest: ByStatus::default(),
+            ended: Family::default(),
+            oldest_checkpoint: Gauge::default(),
+            wal: Gauge::default(),
+            claim_latency: Histogram::new(WAIT_BOUNDS_S),
+            solve_duration: Histogram::new(SOLVE_BOUNDS_S),
+            attempts: Counter::default(),
+            rescues: Counter::default(),
+            stale_writes: Counter::default(),
+            checkpoints: Counter::default(),
+            streams_open: Gauge::default(),
+        };
+        metrics.registered()
+    }
+}
+
+impl Metrics {
+    fn registered(mut self) -> Self {
+        let r = &mut self.registry;
+        r.register("jobs", "Jobs by status", self.jobs.clone());
+        r.register_with_unit(
+            "oldest_job_age",
+            "Age of the oldest job by status",
+            Unit::Seconds,
+            self.oldest.clone(),
+        );
+        r.register("jobs_ended", "Jobs that came to an end", self.ended.clone());
+        r.register_with_unit(
+            "claim_latency",
+            "From submission to the first claim",
+            Unit::Seconds,
+            self.claim_latency.clone(),
+        );
+        r.register_with_unit(
+            "solve_duration",
+            "From a claim to the end of its job",
+            Unit::Seconds,
+            self.solve_duration.clone(),
+        );
+        r.register("attempts", "Claims by workers", self.attempts.clone());
+        r.register(
+            "rescues",
+            "Jobs taken back from lost workers",
+            self.rescues.clone(),
+        );
+        r.register(
+            "stale_writes_refused",
+            "Writes that came after their lease",
+            self.stale_writes.clone(),
+        );
+        r.register(
+            "checkpoints",
+            "Checkpoints stored",
+            self.checkpoints.clone(),
+        );
+        r.register_with_unit(
+            "oldest_checkpoint_age",
+            "Age of the oldest checkpoint of a running job",
+            Unit::Seconds,
+            self.oldest_checkpoint.clone(),
+        );
+        r.register_with_unit(
+            "wal_size",
+            "Size of the write-ahead log",
+            Unit::Bytes,
+            self.wal.clone(),
+        );
+        r.register(
+            "streams_open",
+            "Event streams that are open",
+            self.streams_open.clone(),
+        );
+        self
+    }
+}
+
+impl fmt::Debug for Metrics {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Metrics").finish_non_exhaustive()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_was_counted_is_told_by_name_and_unit() {
+        let metrics = Metrics::default();
+        metrics.rescues.inc();
+        metrics.claim_latency.observe(0.05);
+        metrics.ended(Status::Succeeded);
+        let levels = Levels {
+            jobs: vec![(Status::Queued, 3, 42)],
+            oldest_checkpoint_s: 2,
+            wal_bytes: 4096,
+        };
+        let open = metrics.stream();
+        drop(metrics.stream());
+        let text = metrics.text(&levels).expect("text");
+        drop(open);
+        for line in [
+            "fretwear_jobs{status=\"queued\"} 3",
+            "fretwear_oldest_job_age_seconds{status=\"queued\"} 42",
+            "fretwear_jobs_ended_total{status=\"succeeded\"} 1",
+            "fretwear_rescues_total 1",
+            "fretwear_stale_writes_refused_total 0",
+            "fretwear_claim_latency_seconds_count 1",
+            "fretwear_oldest_checkpoint_age_seconds 2",
+            "fretwear_wal_size_bytes 4096",
+            "fretwear_streams_open 1",
+        ] {
+            assert!(text.lines().any(|found| found == line), "{line} in\n{text}");
+        }
+    }
+}

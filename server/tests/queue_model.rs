@@ -1,0 +1,436 @@
+//! The queue against a simple model: random submissions, claims, writes, heartbeats, expiries, cancels, deadlines and ends,
+//! with a clock that the test moves.
+
+use api::job::Status;
+use proptest::prelude::*;
+use proptest::test_runner::TestCaseResult;
+use server::queue::{Move, Tries, after, place};
+use server::store::{Batch, Claim, End, Held, NewCheckpoint, NewJob, Store, Wishes};
+use server::translate;
+use tempfile::TempDir;
+use uuid::Uuid;
+
+const ATTEMPTS: u32 = 3;
+const LEASE_MS: i64 = 1_000;
+
+/// What is done to the queue. Numbers choose among jobs or claims, whatever their count is.
+#[derive(Debug, Clone)]
+enum Step {
+    Submit {
+        priority: i32,
+        deadline_s: Option<u32>,
+    },
+    Claim,
+    Record {
+        claim: usize,
+        checkpoint: bool,
+    },
+    Renew {
+        claim: usize,
+    },
+    BeginAnew {
+        claim: usize,
+    },
+    End {
+        claim: usize,
+        step: usize,
+    },
+    Cancel {
+        job: usize,
+    },
+    Rescue,
+    Expire,
+    Delete {
+        job: usize,
+    },
+    Wait {
+        ms: i64,
+    },
+}
+
+const ENDS: [Move; 5] = [
+    Move::Succeed,
+    Move::Fail,
+    Move::Cancel,
+    Move::GiveBack,
+    Move::Lose,
+];
+
+fn step() -> impl Strategy<Value = Step> {
+    prop_oneof![
+        3 => (-3..=3_i32, prop::option::of(1..4_u32))
+            .prop_map(|(priority, deadline_s)| Step::Submit { priority, deadline_s }),
+        4 => Just(Step::Claim),
+        4 => (any::<usize>(), any::<bool>())
+            .prop_map(|(claim, checkpoint)| Step::Record { claim, checkpoint }),
+        2 => any::<usize>().prop_map(|claim| Step::Renew { claim }),
+        1 => any::<usize>().prop_map(|claim| Step::BeginAnew { claim }),
+        3 => (any::<usize>(), 0..ENDS.len()).prop_map(|(claim, step)| Step::End { claim, step }),
+        1 => any::<usize>().prop_map(|job| Step::Cancel { job }),
+        2 => Just(Step::Rescue),
+        1 => Just(Step::Expire),
+        1 => any::<usize>().prop_map(|job| Step::Delete { job }),
+        3 => (0..LEASE_MS).prop_map(|ms| Step::Wait { ms }),
+    ]
+}
+
+/// A job as the model has it.
+#[derive(Debug, Clone)]
+struct Modelled {
+    id: Uuid,
+    status: Status,
+    place: i64,
+    deadline_at: Option<i64>,
+    attempts: u32,
+    lease: i64,
+    expires_at: i64,
+    unwanted: bool,
+    events: i64,
+    /// Cycles whose rows are there, counted from 1, and the one that the checkpoint is at.
+    rows: u64,
+    checkpoint: u64,
+    deleted: bool,
+}
+
+impl Modelled {
+    fn moves(&mut self, step: Move) -> bool {
+        let tries = Tries {
+            made: self.attempts,
+            limit: ATTEMPTS,
+        };
+        let Some(status) = after(self.status, step, tries, self.unwanted) else {
+            return false;
+        };
+        self.status = status;
+        if status.is_terminal() {
+            self.events += 1;
+            self.checkpoint = 0;
+        }
+        true
+    }
+}
+
+/// The queue and its model, side by side.
+struct Both {
+    store: Store,
+    now: i64,
+    job: NewJob,
+    jobs: Vec<Modelled>,
+    claims: Vec<Claim>,
+}
+
+impl Both {
+    async fn new(folder: &TempDir) -> Self {
+        let url = format!("sqlite://{}", folder.path().join("test.db").display());
+        let store = Store::open_with(&url, ATTEMPTS).await.expect("a store");
+        let resolved = translate::read(br#"{"system":{"kind":"fuzz_button"}}"#).expect("accepted");
+        let plan = translate::plan(&resolved);
+        let job = NewJob {
+            spec: resolved.spec,
+            plan,
+            wishes: Wishes::default(),
+        };
+        Self {
+            store,
+            now: 1_000_000,
+            job,
+            jobs: Vec::new(),
+            claims: Vec::new(),
+        }
+    }
+
+    /// The job of one of the claims ever made, and whether that claim still holds it.
+    fn claimed(&self, claim: usize) -> Option<(Claim, usize, bool)> {
+        let claim = self.claims.get(claim % self.claims.len().max(1))?.clone();
+        let index = self.jobs.iter().position(|job| job.id == claim.id)?;
+        let job = &self.jobs[index];
+        let held = !job.deleted && job.status == Status::Running && job.lease == claim.lease;
+        Some((claim, index, held))
+    }
+
+    async fn apply(&mut self, step: &Step) -> TestCaseResult {
+        match step {
+            Step::Submit {
+                priority,
+                deadline_s,
+            } => self.submit(*priority, *deadline_s).await,
+            Step::Claim => self.claim().await?,
+            Step::Record { claim, checkpoint } => self.record(*claim, *checkpoint).await?,
+            Step::Renew { claim } => self.renew(*claim).await?,
+            Step::BeginAnew { claim } => self.begin_anew(*claim).await?,
+            Step::End { claim, step } => self.end(*claim, ENDS[*step]).await?,
+            Step::Cancel { job } => self.cancel(*job).await,
+            Step::Rescue => self.rescue().await?,
+            Step::Expire => self.expire().await?,
+            Step::Delete { job } => self.delete(*job).await?,
+            Step::Wait { ms } => self.now += ms,
+        }
+        self.compare().await
+    }
+
+    async fn submit(&mut self, priority: i32, deadline_s: Option<u32>) {
+        self.job.wishes = Wishes {
+            priority,
+            deadline_s,
+        };
+        let id = self
+            .store
+            .submit(&self.job, self.now)
+            .await
+            .expect("queued");
+        self.jobs.push(Modelled {
+            id,
+            status: Status::Queued,
+            place: place(self.now, priority),
+            deadline_at: deadline_s.map(|s| self.now + 1_000 * i64::from(s)),
+            attempts: 0,
+            lease: 0,
+            expires_at: 0,
+            unwanted: false,
+            events: 1,
+            rows: 0,
+            checkpoint: 0,
+            deleted: false,
+        });
+    }
+
+    async fn claim(&mut self) -> TestCaseResult {
+        let expires_at = self.now + LEASE_MS;
+        let claim = self
+            .store
+            .claim(self.now, expires_at)
+            .await
+            .expect("the store");
+        let waiting = self
+            .jobs
+            .iter_mut()
+            .filter(|job| !job.deleted && job.status == Status::Queued);
+        let Some(job) = waiting.min_by_key(|job| (job.place, job.id)) else {
+            prop_assert_eq!(claim, None);
+            return Ok(());
+        };
+        job.moves(Move::Claim);
+        job.attempts += 1;
+        job.lease += 1;
+        job.events += 1;
+        job.expires_at = expires_at;
+        job.rows = job.checkpoint;
+        let claim = claim.expect("a job waits");
+        prop_assert_eq!((claim.id, claim.lease), (job.id, job.lease));
+        prop_assert_eq!(claim.attempt, job.attempts);
+        let from = claim.checkpoint.as_ref().map_or(0, |found| found.cycle);
+        prop_assert_eq!(from, job.checkpoint);
+        self.claims.push(claim);
+        Ok(())
+    }
+
+    async fn record(&mut self, claim: usize, checkpoint: bool) -> TestCaseResult {
+        let Some((claim, index, held)) = self.claimed(claim) else {
+            return Ok(());
+        };
+        let job = &mut self.jobs[index];
+        let cycle = job.rows + 1;
+        let batch = Batch {
+            rows: vec![row(cycle)],
+            events: vec![("cycle", "{}".to_owned())],
+            checkpoint: checkpoint.then(|| NewCheckpoint {
+                cycle,
+                state: cycle.to_le_bytes().to_vec(),
+            }),
+            ..Batch::default()
+        };
+        let expires_at = self.now + LEASE_MS;
+        let answer = self.store.record(&claim, &batch, expires_at).await;
+        if held {
+            job.rows = cycle;
+            job.events += 1;
+            job.expires_at = expires_at;
+            job.checkpoint = if checkpoint { cycle } else { job.checkpoint };
+        }
+        prop_assert_eq!(answer.expect("the store"), expected(held, job.unwanted));
+        Ok(())
+    }
+
+    async fn renew(&mut self, claim: usize) -> TestCaseResult {
+        let Some((claim, index, held)) = self.claimed(claim) else {
+            return Ok(());
+        };
+        let job = &mut self.jobs[index];
+        let expires_at = self.now + LEASE_MS;
+        let answer = self.store.renew(&claim, expires_at).await;
+        if held {
+            job.expires_at = expires_at;
+        }
+        prop_assert_eq!(answer.expect("the store"), expected(held, job.unwanted));
+        Ok(())
+    }
+
+    async fn begin_anew(&mut self, claim: usize) -> TestCaseResult {
+        let Some((claim, index, held)) = self.claimed(claim) else {
+            return Ok(());
+        };
+        let job = &mut self.jobs[index];
+        let answer = self.store.begin_anew(&claim).await;
+        if held {
+            (job.rows, job.checkpoint) = (0, 0);
+            job.events += 1;
+        }
+        prop_assert_eq!(answer.expect("the store"), expected(held, job.unwanted));
+        Ok(())
+    }
+
+    async fn end(&mut self, claim: usize, step: Move) -> TestCaseResult {
+        let Some((claim, index, held)) = self.claimed(claim) else {
+            return Ok(());
+        };
+        let end = End {
+            step,
+            reason: None,
+            outcome: None,
+            summary: None,
+        };
+        let answer = self
+            .store
+            .end(&claim, &Batch::default(), &end, self.now)
+            .await;
+        let job = &mut self.jobs[index];
+        let moved = held && job.moves(step);
+        if moved && step == Move::GiveBack && job.status == Status::Queued {
+            job.attempts -= 1;
+        }
+        prop_assert_eq!(answer.expect("the store"), moved.then_some(job.status));
+        Ok(())
+    }
+
+    async fn cancel(&mut self, job: usize) {
+        let count = self.jobs.len().max(1);
+        let Some(job) = self.jobs.get_mut(job % count) else {
+            return;
+        };
+        self.store
+            .cancel(job.id, self.now)
+            .await
+            .expect("the store");
+        match job.status {
+            _ if job.deleted => {}
+            Status::Queued => {
+                job.moves(Move::Cancel);
+            }
+            Status::Running => job.unwanted = true,
+            _ => {}
+        }
+    }
+
+    async fn rescue(&mut self) -> TestCaseResult {
+        let rescued = self
+            .store
+            .rescue_expired(self.now)
+            .await
+            .expect("the store");
+        let mut expected = 0;
+        for job in &mut self.jobs {
+            if job.status == Status::Running && job.expires_at <= self.now {
+                job.moves(Move::Lose);
+                expected += 1;
+            }
+        }
+        prop_assert_eq!(rescued, expected);
+        Ok(())
+    }
+
+    async fn expire(&mut self) -> TestCaseResult {
+        let expired = self.store.expire(self.now).await.expect("the store");
+        let mut expected = 0;
+        for job in self.jobs.iter_mut().filter(|job| !job.deleted) {
+            let late = job.deadline_at.is_some_and(|at| at <= self.now);
+            if late && job.status == Status::Queued {
+                job.moves(Move::Expire);
+                expected += 1;
+            }
+        }
+        prop_assert_eq!(expired, expected);
+        Ok(())
+    }
+
+    async fn delete(&mut self, job: usize) -> TestCaseResult {
+        let count = self.jobs.len().max(1);
+        let Some(job) = self.jobs.get_mut(job % count) else {
+            return Ok(());
+        };
+        self.store.delete(job.id).await.expect("the store");
+        job.deleted |= job.status.is_terminal();
+        Ok(())
+    }
+
+    /// Every job of the store is as the model has it; its events are without gaps and `done` is the last.
+    async fn compare(&self) -> TestCaseResult {
+        for job in &self.jobs {
+            let stored = self.store.job(job.id).await.expect("the store");
+            let Some(stored) = stored else {
+                prop_assert!(job.deleted);
+                continue;
+            };
+            prop_assert!(!job.deleted);
+            let found = &stored.document;
+            prop_assert_eq!(found.status, job.status);
+            prop_assert_eq!(found.attempts, job.attempts);
+            prop_assert_eq!(found.finished_at.is_some(), job.status.is_terminal());
+            let events = self.store.events(job.id, 0).await.expect("the store");
+            let numbers: Vec<i64> = events.iter().map(|event| event.seq).collect();
+            prop_assert_eq!(numbers, (1..=job.events).collect::<Vec<_>>());
+            let done = events.iter().position(|event| event.name == "done");
+            let last = job.status.is_terminal().then(|| events.len() - 1);
+            prop_assert_eq!(done, last);
+            let history = self.store.history(job.id).await.expect("the store");
+            let cycles: Vec<u64> = history.iter().map(|row| row.cycle).collect();
+            prop_assert_eq!(cycles, (1..=job.rows).collect::<Vec<_>>());
+        }
+        Ok(())
+    }
+}
+
+fn expected(held: bool, cancel_requested: bool) -> Held {
+    if held {
+        Held::Yes { cancel_requested }
+    } else {
+        Held::No
+    }
+}
+
+fn row(cycle: u64) -> api::results::CycleRow {
+    let side = api::results::SideRow::default;
+    api::results::CycleRow {
+        cycle,
+        jump: 1,
+        jump_error: 0.0,
+        sliding_distance_mm: 0.0,
+        receptacle: side(),
+        slider: side(),
+        station_depth_mm: Vec::new(),
+        load_n_per_mm: 0.0,
+        peak_pressure_mpa: 0.0,
+        contact_half_width_mm: 0.0,
+        dissipated_energy_mj_per_mm: 0.0,
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 24, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn the_queue_does_what_its_model_does(steps in prop::collection::vec(step(), 1..80)) {
+        let runtime = tokio::runtime::Builder::new_current_thread()
+            .enable_all()
+            .build()
+            .expect("a runtime");
+        runtime.block_on(async {
+            let folder = TempDir::new().expect("a temporary folder");
+            let mut both = Both::new(&folder).await;
+            for step in &steps {
+                both.apply(step).await?;
+            }
+            both.store.close().await;
+            TestCaseResult::Ok(())
+        })?;
+    }
+}
