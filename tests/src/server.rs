@@ -30,18 +30,25 @@ impl Server {
     /// # Panics
     /// If it does not start.
     pub fn start(folder: &Path) -> Self {
+        Self::start_with(folder, &[])
+    }
+
+    /// The same with further options.
+    ///
+    /// # Panics
+    /// If it does not start.
+    pub fn start_with(folder: &Path, options: &[&str]) -> Self {
         let database = format!("sqlite://{}", folder.join("fretwear.db").display());
-        let arguments = [
-            "serve",
-            "--listen",
-            "127.0.0.1:0",
-            "--workers",
-            "1",
-            "--database",
-            &database,
-        ];
+        let arguments = ["serve", "--listen", "127.0.0.1:0", "--database", &database];
+        let workers: &[&str] = if options.contains(&"--workers") {
+            &[]
+        } else {
+            &["--workers", "1"]
+        };
         let mut child = Command::new(binary())
             .args(arguments)
+            .args(workers)
+            .args(options)
             .stderr(Stdio::piped())
             .spawn()
             .expect("the service can be started");
@@ -67,8 +74,29 @@ impl Server {
     /// # Panics
     /// If it is gone already.
     pub fn signal(&self, signal: Signal) {
-        let id = i32::try_from(self.child.id()).expect("process ids are small");
-        kill(Pid::from_raw(id), signal).expect("the service is there");
+        kill(self.id(), signal).expect("the service is there");
+    }
+
+    /// Its process id.
+    ///
+    /// # Panics
+    /// If the id is larger than any.
+    pub fn id(&self) -> Pid {
+        Pid::from_raw(i32::try_from(self.child.id()).expect("process ids are small"))
+    }
+
+    /// Its solving processes.
+    pub fn solving(&self) -> Vec<Pid> {
+        let threads = std::fs::read_dir(format!("/proc/{}/task", self.id()));
+        let lists = threads.into_iter().flatten().flatten();
+        let lists =
+            lists.filter_map(|thread| std::fs::read_to_string(thread.path().join("children")).ok());
+        lists
+            .flat_map(|list| {
+                let ids = list.split_whitespace().map(str::parse);
+                ids.flatten().map(Pid::from_raw).collect::<Vec<_>>()
+            })
+            .collect()
     }
 
     /// Waits for the service to end; its exit code.

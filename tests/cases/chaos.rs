@@ -1,0 +1,335 @@
+//! Requirement: whatever is killed, stopped, filled up or damaged at whatever moment, every accepted job is terminal
+//! exactly once, nothing holds a stale lease, event ids have no gaps, and every result has the bits of an undisturbed
+//! run.
+//!
+//! The short form runs with every test. The long one:
+//! `cargo test --release -p tests --test cases -- --ignored --nocapture chaos_long`, with `FRETWEAR_CHAOS_JOBS` (200)
+//! and `FRETWEAR_CHAOS_SEED` to choose.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use std::time::{Duration, Instant};
+
+use fastrand::Rng;
+use nix::sys::signal::{Signal, kill};
+use nix::unistd::Pid;
+use serde_json::{Value, json};
+use tests::{Server, bits, database};
+
+const OPTIONS: [&str; 10] = [
+    "--workers",
+    "2",
+    "--lease-s",
+    "1",
+    "--checkpoint-every-s",
+    "0",
+    "--attempts",
+    "1000",
+    "--least-free-disk-mb",
+    "0",
+];
+/// A lease of the service above, and then some.
+const PAST_A_LEASE: Duration = Duration::from_millis(1_500);
+/// Size of the disk that is filled up, MB.
+const DISK_MB: u32 = 96;
+/// Jobs that wait or run at most, so that submissions are disturbed too.
+const AHEAD: usize = 12;
+
+/// What is done to the service.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Harm {
+    KillChild,
+    PauseChild,
+    TerminateChild,
+    KillServer,
+    KillServerAndDamageCheckpoints,
+    StopServer,
+    PauseServer,
+    StallStore,
+    FillDisk,
+}
+
+const HARMS: [Harm; 9] = [
+    Harm::KillChild,
+    Harm::PauseChild,
+    Harm::TerminateChild,
+    Harm::KillServer,
+    Harm::KillServerAndDamageCheckpoints,
+    Harm::StopServer,
+    Harm::PauseServer,
+    Harm::StallStore,
+    Harm::FillDisk,
+];
+
+/// The studies that jobs are made of, by turns.
+fn studies() -> Vec<Value> {
+    let study = |kind: &str, cycles: u64, jump: u64| {
+        json!({
+            "system": {"kind": kind},
+            "cycles": cycles,
+            "accuracy": {"preset": "draft", "overrides": {"cycle_jump": jump}},
+            "output": {"snapshots_at_cycles": [1, cycles]}
+        })
+    };
+    vec![
+        study("fuzz_button", 30, 1),
+        study("cylinder_on_flat", 12_000, 60),
+        // The block loses so much height that the mesh is moved.
+        study("fuzz_button", 700, 20),
+        study("dimm", 40, 1),
+    ]
+}
+
+/// A folder, on a small disk of its own where the tests may make one.
+struct Disk {
+    folder: tempfile::TempDir,
+    mounted: bool,
+}
+
+impl Disk {
+    fn new() -> Self {
+        let folder = tempfile::tempdir().expect("a folder can be made");
+        let mounted = Command::new("mount")
+            .args(["-t", "tmpfs", "-o", &format!("size={DISK_MB}m"), "tmpfs"])
+            .arg(folder.path())
+            .output()
+            .is_ok_and(|output| output.status.success());
+        Self { folder, mounted }
+    }
+
+    /// Takes all space for a while.
+    async fn fill(&self, time: Duration) {
+        let path = self.folder.path().join("filler");
+        let block = vec![0_u8; 1 << 20];
+        let mut file = std::fs::File::create(&path).expect("a file can be made");
+        while std::io::Write::write_all(&mut file, &block).is_ok() {}
+        tokio::time::sleep(time).await;
+        std::fs::remove_file(path).expect("the file can be removed");
+    }
+}
+
+impl Drop for Disk {
+    fn drop(&mut self) {
+        if self.mounted {
+            // What stays mounted after a failed test is small.
+            let _ = Command::new("umount")
+                .arg("-l")
+                .arg(self.folder.path())
+                .status();
+        }
+    }
+}
+
+/// A service under attack, and what was asked of it.
+struct Arena {
+    disk: Disk,
+    folder: PathBuf,
+    server: Option<Server>,
+    rng: Rng,
+    accepted: Vec<String>,
+    harms: BTreeMap<Harm, u32>,
+}
+
+impl Arena {
+    fn new(seed: u64) -> Self {
+        let disk = Disk::new();
+        let folder = disk.folder.path().to_owned();
+        Self {
+            server: Some(Server::start_with(&folder, &OPTIONS)),
+            disk,
+            folder,
+            rng: Rng::with_seed(seed),
+            accepted: Vec::new(),
+            harms: BTreeMap::new(),
+        }
+    }
+
+    fn server(&self) -> &Server {
+        self.server.as_ref().expect("the service runs")
+    }
+
+    /// Submits the next job, under a key that makes it safe to ask again.
+    async fn submit(&mut self, studies: &[Value]) {
+        let number = self.accepted.len();
+        let server = self.server();
+        let request = server
+            .client
+            .post(format!("{}/v1/jobs", server.base))
+            .header("content-type", "application/json")
+            .header("idempotency-key", format!("chaos-{number}"))
+            .body(studies[number % studies.len()].to_string());
+        let Ok(response) = request.send().await else {
+            return;
+        };
+        if response.status() == 202 {
+            let job: Value = response.json().await.expect("a job");
+            self.accepted
+                .push(job["id"].as_str().expect("an id").to_owned());
+        }
+    }
+
+    /// How many accepted jobs have not ended.
+    async fn open(&self) -> usize {
+        let (_, list) = self
+            .server()
+            .get("/v1/jobs?status=queued,running&limit=500")
+            .await;
+        list["jobs"].as_array().map_or(0, Vec::len)
+    }
+
+    async fn harm(&mut self) {
+        let harm = HARMS[self.rng.usize(..HARMS.len())];
+        if harm == Harm::FillDisk && !self.disk.mounted {
+            return;
+        }
+        *self.harms.entry(harm).or_default() += 1;
+        let moment = Duration::from_millis(self.rng.u64(..1_500));
+        match harm {
+            Harm::KillChild => {
+                self.signal_child(Signal::SIGKILL);
+            }
+            Harm::TerminateChild => {
+                self.signal_child(Signal::SIGTERM);
+            }
+            Harm::PauseChild => {
+                let paused = self.signal_child(Signal::SIGSTOP);
+                tokio::time::sleep(PAST_A_LEASE).await;
+                if let Some(child) = paused {
+                    // It may have been ended meanwhile.
+                    let _ = kill(child, Signal::SIGCONT);
+                }
+                return;
+            }
+            Harm::KillServer => self.restart(Signal::SIGKILL, false).await,
+            Harm::KillServerAndDamageCheckpoints => self.restart(Signal::SIGKILL, true).await,
+            Harm::StopServer => self.restart(Signal::SIGTERM, false).await,
+            Harm::PauseServer => {
+                self.server().signal(Signal::SIGSTOP);
+                tokio::time::sleep(PAST_A_LEASE + moment).await;
+                self.server().signal(Signal::SIGCONT);
+                return;
+            }
+            Harm::StallStore => database::stall(&self.folder, moment * 3).await,
+            Harm::FillDisk => self.disk.fill(moment).await,
+        }
+        tokio::time::sleep(moment).await;
+    }
+
+    /// Signals one solving process, if there is any.
+    fn signal_child(&mut self, signal: Signal) -> Option<Pid> {
+        let children = self.server().solving();
+        let child = self.rng.choice(children)?;
+        // It may have ended by itself.
+        let _ = kill(child, signal);
+        Some(child)
+    }
+
+    async fn restart(&mut self, signal: Signal, damage: bool) {
+        let server = self.server.take().expect("the service runs");
+        server.signal(signal);
+        server.wait();
+        if damage {
+            database::damage_checkpoints(&self.folder).await;
+        }
+        self.server = Some(Server::start_with(&self.folder, &OPTIONS));
+    }
+}
+
+/// The bits of each study when nobody disturbs it.
+async fn undisturbed(studies: &[Value]) -> Vec<Value> {
+    let folder = tempfile::tempdir().expect("a folder can be made");
+    let server = Server::start(folder.path());
+    let mut found = Vec::new();
+    for study in studies {
+        let (_, job) = server.submit(study.to_string()).await;
+        let id = job["id"].as_str().expect("a job has an id").to_owned();
+        server
+            .job_when(&id, |job| job["finished_at"].is_string())
+            .await;
+        found.push(bits::of(&server, &id).await);
+    }
+    found
+}
+
+#[expect(clippy::print_stdout, reason = "the figures that the README quotes")]
+async fn chaos(jobs: usize, seed: u64) {
+    let began = Instant::now();
+    let studies = studies();
+    let expected = undisturbed(&studies).await;
+    let mut arena = Arena::new(seed);
+    loop {
+        let open = arena.open().await;
+        if arena.accepted.len() == jobs && open == 0 {
+            break;
+        }
+        for _ in open..AHEAD {
+            if arena.accepted.len() < jobs {
+                arena.submit(&studies).await;
+            }
+        }
+        arena.harm().await;
+    }
+    let (mut attempts, mut resumed) = (0, 0);
+    for (number, id) in arena.accepted.iter().enumerate() {
+        let server = arena.server();
+        let found = bits::of(server, id).await;
+        assert_eq!(
+            found,
+            expected[number % studies.len()],
+            "seed {seed}, job {number}"
+        );
+        assert_eq!(bits::events(server, id, "done").await.len(), 1);
+        let began = bits::events(server, id, "attempt").await;
+        attempts += began.len();
+        resumed += began.iter().filter(|a| a["from_cycle"] != 0).count();
+    }
+    check_database(&arena.folder, jobs).await;
+    println!(
+        "chaos, seed {seed}: {jobs} jobs, {attempts} attempts, {resumed} of them from a checkpoint, {:?}, {:.0} s: every \
+         job ended once with the bits of an undisturbed run",
+        arena.harms,
+        began.elapsed().as_secs_f64()
+    );
+}
+
+async fn check_database(folder: &Path, jobs: usize) {
+    for (query, expected) in [
+        ("SELECT count(*) FROM jobs", jobs),
+        ("SELECT count(*) FROM jobs WHERE finished_at IS NULL", 0),
+        (
+            "SELECT count(*) FROM jobs WHERE lease_expires_at IS NOT NULL",
+            0,
+        ),
+        ("SELECT count(*) FROM checkpoints", 0),
+        ("SELECT count(*) FROM events WHERE name = 'done'", jobs),
+        (
+            "SELECT count(*) FROM jobs WHERE last_event <> (SELECT count(*) FROM events WHERE job_id = id)",
+            0,
+        ),
+        (
+            "SELECT count(*) FROM jobs WHERE last_event <> (SELECT max(seq) FROM events WHERE job_id = id)",
+            0,
+        ),
+    ] {
+        let found = database::number(folder, query).await;
+        assert_eq!(usize::try_from(found), Ok(expected), "{query}");
+    }
+}
+
+fn number(name: &str) -> Option<u64> {
+    std::env::var(name).ok()?.parse().ok()
+}
+
+#[tokio::test]
+async fn chaos_short() {
+    chaos(6, 7).await;
+}
+
+#[tokio::test]
+#[ignore = "takes minutes; run it by name"]
+async fn chaos_long() {
+    let jobs = number("FRETWEAR_CHAOS_JOBS").unwrap_or(200);
+    let seed = number("FRETWEAR_CHAOS_SEED").unwrap_or(1);
+    chaos(usize::try_from(jobs).expect("a count"), seed).await;
+}

@@ -1,0 +1,160 @@
+//! Requirement: a job that was interrupted goes on from its last checkpoint and reaches the same bits; what cannot be
+//! gone on from is noticed; a store that stalls costs nothing; a job that takes too much memory ends alone.
+
+use std::path::Path;
+use std::time::Duration;
+
+use nix::sys::signal::Signal;
+use serde_json::{Value, json};
+use tests::{Server, bits, database};
+
+/// Checkpoints after every computed cycle.
+const EVERY_CYCLE: [&str; 2] = ["--checkpoint-every-s", "0"];
+
+fn study(cycles: u64) -> Value {
+    json!({
+        "system": {"kind": "fuzz_button"},
+        "cycles": cycles,
+        "accuracy": {"preset": "draft", "overrides": {"cycle_jump": 1}},
+        "output": {"snapshots_at_cycles": [1, 20, cycles], "fields": true}
+    })
+}
+
+async fn submitted(server: &Server, study: &Value) -> String {
+    let (status, job) = server.submit(study.to_string()).await;
+    assert_eq!(status, 202, "{job}");
+    job["id"].as_str().expect("a job has an id").to_owned()
+}
+
+async fn ended(server: &Server, id: &str) -> Value {
+    server
+        .job_when(id, |job| job["finished_at"].is_string())
+        .await
+}
+
+async fn computing(server: &Server, id: &str, from: u64) {
+    server
+        .job_when(id, |job| job["progress"]["cycle"].as_u64() > Some(from))
+        .await;
+}
+
+/// The bits of a study that nobody disturbs.
+async fn undisturbed(study: &Value) -> Value {
+    let folder = tempfile::tempdir().expect("a folder can be made");
+    let server = Server::start(folder.path());
+    let id = submitted(&server, study).await;
+    ended(&server, &id).await;
+    bits::of(&server, &id).await
+}
+
+/// Runs a study that is interrupted by a signal to its service and harmed in between; its bits, its attempts as the
+/// job counts them, and the cycles that they began at.
+async fn interrupted(
+    study: &Value,
+    signal: Signal,
+    harm: impl AsyncFnOnce(&Path),
+) -> (Value, Value, Vec<u64>) {
+    let folder = tempfile::tempdir().expect("a folder can be made");
+    let server = Server::start_with(folder.path(), &EVERY_CYCLE);
+    let id = submitted(&server, study).await;
+    computing(&server, &id, 25).await;
+    server.signal(signal);
+    server.wait();
+    harm(folder.path()).await;
+    let server = Server::start_with(folder.path(), &EVERY_CYCLE);
+    let job = ended(&server, &id).await;
+    let attempts = bits::events(&server, &id, "attempt").await;
+    let began = attempts.iter().filter_map(|a| a["from_cycle"].as_u64());
+    let began = began.collect();
+    (bits::of(&server, &id).await, job["attempts"].clone(), began)
+}
+
+#[tokio::test]
+async fn an_interrupted_job_reaches_the_bits_of_an_undisturbed_one() {
+    let study = study(60);
+    let expected = undisturbed(&study).await;
+
+    let (found, attempts, began) = interrupted(&study, Signal::SIGKILL, async |_| {}).await;
+    assert_eq!((&found, attempts), (&expected, json!(2)), "killed");
+    assert!(began.len() == 2 && began[1] > 1, "{began:?}");
+
+    let (found, attempts, began) = interrupted(&study, Signal::SIGTERM, async |_| {}).await;
+    assert_eq!((&found, attempts), (&expected, json!(1)), "asked to end");
+    assert!(began.len() == 2 && began[1] > 1, "{began:?}");
+
+    let (found, attempts, began) = interrupted(&study, Signal::SIGKILL, async |folder| {
+        assert_eq!(database::damage_checkpoints(folder).await, 1);
+    })
+    .await;
+    assert_eq!((&found, attempts), (&expected, json!(2)), "damaged");
+    assert_eq!(began, [0, 0]);
+}
+
+#[tokio::test]
+async fn a_store_that_stalls_across_the_end_of_a_job_costs_nothing() {
+    let study = study(40);
+    let expected = undisturbed(&study).await;
+    let folder = tempfile::tempdir().expect("a folder can be made");
+    // The stall is longer than a lease.
+    let server = Server::start_with(folder.path(), &["--lease-s", "1"]);
+    let id = submitted(&server, &study).await;
+    computing(&server, &id, 5).await;
+    database::stall(folder.path(), Duration::from_secs(6)).await;
+    let job = ended(&server, &id).await;
+    assert_eq!(job["attempts"], 1, "{job}");
+    assert_eq!(bits::of(&server, &id).await, expected);
+    let done = bits::events(&server, &id, "done").await;
+    assert_eq!(done.len(), 1);
+}
+
+#[tokio::test]
+async fn a_job_that_takes_too_much_memory_ends_alone_and_says_so() {
+    let folder = tempfile::tempdir().expect("a folder can be made");
+    let server = Server::start_with(folder.path(), &["--job-memory-mb", "64"]);
+    let large = json!({
+        "system": {"kind": "fuzz_button"},
+        "cycles": 1,
+        "accuracy": {"preset": "fine", "overrides": {"contact_element_mm": 0.00005}}
+    });
+    let id = submitted(&server, &large).await;
+    let job = ended(&server, &id).await;
+    assert_eq!(
+        (&job["status"], &job["outcome"], &job["attempts"]),
+        (&json!("failed"), &json!("out_of_memory"), &json!(1)),
+        "{job}"
+    );
+    let reason = job["status_reason"].as_str().expect("a reason");
+    assert!(reason.contains("memory allocation of"), "{reason}");
+    let small = json!({"system": {"kind": "cylinder_on_flat"}, "cycles": 1, "accuracy": {"preset": "draft"}});
+    let id = submitted(&server, &small).await;
+    assert_eq!(ended(&server, &id).await["status"], "succeeded");
+}
+
+#[tokio::test]
+async fn a_running_job_ends_at_its_deadline_and_keeps_what_it_had() {
+    let folder = tempfile::tempdir().expect("a folder can be made");
+    let server = Server::start(folder.path());
+    let request = server
+        .client
+        .post(format!("{}/v1/jobs?deadline_s=2", server.base))
+        .header("content-type", "application/json")
+        .body(study(1_000_000).to_string());
+    let job: Value = request
+        .send()
+        .await
+        .expect("an answer")
+        .json()
+        .await
+        .expect("JSON");
+    let id = job["id"].as_str().expect("a job has an id").to_owned();
+    let job = ended(&server, &id).await;
+    assert_eq!(
+        (&job["status"], &job["outcome"]),
+        (&json!("failed"), &json!("deadline_exceeded")),
+        "{job}"
+    );
+    let (status, _) = server
+        .get(&format!("/v1/jobs/{id}/results/profile?cycle=1"))
+        .await;
+    assert_eq!(status, 200);
+}

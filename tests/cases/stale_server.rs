@@ -1,0 +1,95 @@
+//! Requirement: a worker that was stopped past its lease writes nothing when it wakes.
+
+use std::time::Duration;
+
+use nix::sys::signal::Signal;
+use serde_json::json;
+use tests::{Server, bits, database};
+
+/// How often the stopped service may look at the database after it wakes.
+const AWAKE: Duration = Duration::from_secs(3);
+
+/// One process serves a database, so nobody can take over from a stopped one. Should the lock be lost, as on a file
+/// system that does not keep it, the lease must keep the two apart.
+#[tokio::test]
+async fn a_service_that_wakes_after_another_has_finished_its_job_writes_nothing() {
+    let folder = tempfile::tempdir().expect("a folder can be made");
+    let options = ["--lease-s", "1", "--checkpoint-every-s", "0"];
+    let stopped = Server::start_with(folder.path(), &options);
+    let study = json!({
+        "system": {"kind": "fuzz_button"},
+        "cycles": 60,
+        "accuracy": {"preset": "draft", "overrides": {"cycle_jump": 1}}
+    });
+    let (_, job) = stopped.submit(study.to_string()).await;
+    let id = job["id"].as_str().expect("a job has an id").to_owned();
+    stopped
+        .job_when(&id, |job| job["progress"]["cycle"].as_u64() > Some(10))
+        .await;
+    stopped.signal(Signal::SIGSTOP);
+    std::fs::remove_file(folder.path().join("fretwear.db.lock")).expect("there is a lock file");
+
+    let server = Server::start_with(folder.path(), &options);
+    let ended = |job: &serde_json::Value| job["finished_at"].is_string();
+    let job = server.job_when(&id, ended).await;
+    assert_eq!(
+        (&job["status"], &job["attempts"]),
+        (&json!("succeeded"), &json!(2)),
+        "{job}"
+    );
+    let before = bits::of(&server, &id).await;
+    let events = "SELECT count(*) FROM events";
+    let told = database::number(folder.path(), events).await;
+
+    stopped.signal(Signal::SIGCONT);
+    // Its solving process goes on to its end, and the service tries to write what it tells.
+    let refused = async {
+        loop {
+            let (_, text) = stopped.get("/metrics").await;
+            let text = text.as_str().unwrap_or_default().to_owned();
+            let refused = text.lines().find_map(|line| {
+                line.strip_prefix("fretwear_stale_writes_refused_total ")?
+                    .parse::<u64>()
+                    .ok()
+            });
+            if refused > Some(0) || stopped.solving().is_empty() {
+                return refused;
+            }
+            tokio::time::sleep(Duration::from_millis(50)).await;
+        }
+    };
+    let refused = tokio::time::timeout(Duration::from_mins(1), refused).await;
+    assert!(refused.is_ok(), "the stopped service gives its job up");
+    tokio::time::sleep(AWAKE).await;
+    assert_eq!(bits::of(&server, &id).await, before);
+    assert_eq!(database::number(folder.path(), events).await, told);
+    let done = bits::events(&server, &id, "done").await;
+    assert_eq!(done.len(), 1);
+}
+
+#[tokio::test]
+async fn a_service_that_stood_still_past_its_leases_goes_on_with_its_jobs() {
+    let folder = tempfile::tempdir().expect("a folder can be made");
+    let server = Server::start_with(folder.path(), &["--lease-s", "1"]);
+    let study = json!({
+        "system": {"kind": "fuzz_button"},
+        "cycles": 200,
+        "accuracy": {"preset": "draft", "overrides": {"cycle_jump": 1}}
+    });
+    let (_, job) = server.submit(study.to_string()).await;
+    let id = job["id"].as_str().expect("a job has an id").to_owned();
+    server
+        .job_when(&id, |job| job["progress"]["cycle"].as_u64() > Some(10))
+        .await;
+    server.signal(Signal::SIGSTOP);
+    tokio::time::sleep(Duration::from_secs(3)).await;
+    server.signal(Signal::SIGCONT);
+    let job = server
+        .job_when(&id, |job| job["finished_at"].is_string())
+        .await;
+    assert_eq!(
+        (&job["status"], &job["attempts"]),
+        (&json!("succeeded"), &json!(1)),
+        "{job}"
+    );
+}

@@ -1,0 +1,63 @@
+//! Looking into a service's database, and doing harm to it, from outside.
+
+use std::path::Path;
+use std::time::Duration;
+
+use sqlx::sqlite::{SqliteConnectOptions, SqliteConnection};
+use sqlx::{Connection, Executor};
+
+/// The database of a service in a folder.
+///
+/// # Panics
+/// If it cannot be opened.
+pub async fn open(folder: &Path) -> SqliteConnection {
+    let options = SqliteConnectOptions::new()
+        .filename(folder.join("fretwear.db"))
+        .busy_timeout(Duration::from_secs(20));
+    SqliteConnection::connect_with(&options)
+        .await
+        .expect("the database can be opened")
+}
+
+/// Garbles all checkpoints; how many there were.
+///
+/// # Panics
+/// If the database cannot be written.
+pub async fn damage_checkpoints(folder: &Path) -> u64 {
+    let mut database = open(folder).await;
+    let done = database
+        .execute("UPDATE checkpoints SET state = CAST(substr(state, 2) AS BLOB)")
+        .await
+        .expect("the database can be written");
+    database.close().await.expect("the database can be closed");
+    done.rows_affected()
+}
+
+/// Keeps everyone else from writing for a while.
+///
+/// # Panics
+/// If the database cannot be written.
+pub async fn stall(folder: &Path, time: Duration) {
+    let mut database = open(folder).await;
+    database
+        .execute("BEGIN IMMEDIATE")
+        .await
+        .expect("the database can be locked");
+    tokio::time::sleep(time).await;
+    database
+        .execute("ROLLBACK")
+        .await
+        .expect("the database can be unlocked");
+    database.close().await.expect("the database can be closed");
+}
+
+/// A number that the database is asked for.
+///
+/// # Panics
+/// If it cannot be read.
+pub async fn number(folder: &Path, query: &'static str) -> i64 {
+    let mut database = open(folder).await;
+    let found = sqlx::query_scalar(query).fetch_one(&mut database).await;
+    database.close().await.expect("the database can be closed");
+    found.expect("the database can be read")
+}
