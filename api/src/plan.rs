@@ -23,6 +23,9 @@ pub struct Plan {
     pub effects: BTreeMap<String, PlannedEffect>,
     /// Closed-form figures of the unworn contact, by name with unit.
     pub estimates: BTreeMap<String, f64>,
+    /// What a user should know about the numbers of this scene: where the source contradicts itself.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub notes: Vec<String>,
 }
 
 /// A plan with the specification it belongs to.

@@ -7,6 +7,7 @@ pub mod columns;
 pub mod csv;
 pub mod deck;
 mod dimensions;
+mod geometry;
 pub mod history;
 mod interface;
 mod ledger;
@@ -14,6 +15,7 @@ mod library;
 mod load;
 mod materials;
 mod motion;
+mod notes;
 pub mod outcomes;
 mod output;
 pub mod parquet;
@@ -143,6 +145,7 @@ pub fn scene(spec: &Spec) -> Result<Resolved, Vec<Fault>> {
     };
     if ledger.is_clean() {
         settings::planned(&spec.effects, &scene, &mut ledger);
+        settings::small_strains(&spec.effects, &scene, &mut ledger);
         settings::meshable(&scene, &mut ledger);
     }
     out.provenance = ledger.finish()?;

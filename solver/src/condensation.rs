@@ -11,6 +11,9 @@ use crate::model::{BodyModel, Model, Profile, Support};
 use assembly::Numbering;
 use std::sync::Arc;
 
+const SLIDER: &str = "slider";
+const RECEPTACLE: &str = "receptacle";
+
 /// Why operators cannot be built.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum OperatorError {
@@ -76,21 +79,64 @@ pub struct Interior {
     far_load: Vec<f64>,
 }
 
-/// Condenses both bodies; the patterns of an earlier condensation of the same topology are used again.
+/// Condenses both bodies.
 ///
 /// # Errors
 /// [`OperatorError`] if an element is inverted or a body is not held.
-pub fn condense(model: &Model, earlier: Option<&Condensed>) -> Result<Condensed, OperatorError> {
-    let pattern = |of: fn(&Condensed) -> &Interior| earlier.map(|e| of(e).factor.pattern().clone());
-    let (slider, inside) = condense_body(&model.slider, "slider", pattern(|e| &e.slider))?;
-    let (receptacle, below) =
-        condense_body(&model.receptacle, "receptacle", pattern(|e| &e.receptacle))?;
-    let operators = Operators { slider, receptacle };
-    Ok(Condensed {
-        operators,
-        slider: inside,
-        receptacle: below,
-    })
+pub fn condense(model: &Model) -> Result<Condensed, OperatorError> {
+    let slider = condense_body(&model.slider, SLIDER, None)?;
+    let receptacle = condense_body(&model.receptacle, RECEPTACLE, None)?;
+    Ok(Condensed::of(slider, receptacle))
+}
+
+/// Condenses again what has changed from a model of the same topology to the next: a body whose mesh is the same
+/// keeps its operators, the other one its pattern.
+///
+/// # Errors
+/// [`OperatorError`] if an element is inverted or a body is not held.
+pub fn renew(
+    model: &Model,
+    before: &Model,
+    earlier: Condensed,
+) -> Result<Condensed, OperatorError> {
+    let again = |now: &BodyModel, then: &BodyModel, name, operators, inside: Interior| {
+        if now.mesh == then.mesh {
+            return Ok((operators, inside));
+        }
+        let pattern = Some(inside.factor.pattern().clone());
+        drop(inside);
+        condense_body(now, name, pattern)
+    };
+    let Operators { slider, receptacle } = earlier.operators;
+    let slider = again(
+        &model.slider,
+        &before.slider,
+        SLIDER,
+        slider,
+        earlier.slider,
+    )?;
+    let below = earlier.receptacle;
+    let receptacle = again(
+        &model.receptacle,
+        &before.receptacle,
+        RECEPTACLE,
+        receptacle,
+        below,
+    )?;
+    Ok(Condensed::of(slider, receptacle))
+}
+
+impl Condensed {
+    fn of(slider: (BodyOperators, Interior), receptacle: (BodyOperators, Interior)) -> Self {
+        Self {
+            operators: Operators {
+                slider: slider.0,
+                receptacle: receptacle.0,
+            },
+            slider: slider.1,
+            receptacle: receptacle.1,
+        }
+    }
 }
 
 fn condense_body(

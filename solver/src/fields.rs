@@ -214,7 +214,7 @@ mod tests {
         scene.receptacle.shape.height_mm = 0.05;
         scene.accuracy.contact_element_mm = Some(0.002);
         let model = model::build(&scene).expect("the block can be meshed");
-        let condensed = condense(&model, None).expect("the block can be condensed");
+        let condensed = condense(&model).expect("the block can be condensed");
         let force: Vec<f64> = model
             .receptacle
             .contact_widths()

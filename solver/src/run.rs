@@ -20,7 +20,7 @@ pub fn solve(scene: &Scene, observer: &mut dyn Observer) -> Result<Summary, Solv
     observer.on(Event::Phase(Phase::Mesh));
     let model = model::build(scene)?;
     observer.on(Event::Phase(Phase::Condense));
-    let condensed = condensation::condense(&model, None)?;
+    let condensed = condensation::condense(&model)?;
     let run = load(scene, &model, &condensed, observer)?;
     go_on(scene, model, condensed, run, observer)
 }
@@ -40,7 +40,7 @@ pub fn resume(
     run.check(&unworn, scene.cycles)?;
     let model = run.model(unworn)?;
     observer.on(Event::Phase(Phase::Condense));
-    let condensed = condensation::condense(&model, None)?;
+    let condensed = condensation::condense(&model)?;
     go_on(scene, model, condensed, run, observer)
 }
 
@@ -59,10 +59,11 @@ fn go_on(
             return Ok(summary(scene, &model, &run, outcome));
         }
         observer.on(Event::Phase(Phase::Relocate));
-        model = ale::relocate(&model, &run.state)?;
+        let moved = ale::relocate(&model, &run.state)?;
         run.relocated();
         observer.on(Event::Phase(Phase::Condense));
-        condensed = condensation::condense(&model, Some(&condensed))?;
+        condensed = condensation::renew(&moved, &model, condensed)?;
+        model = moved;
     }
 }
 

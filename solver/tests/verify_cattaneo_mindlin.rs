@@ -42,7 +42,7 @@ impl Bench {
         scene.accuracy.tolerance = 0.003;
         scene.accuracy.contact_element_mm = Some(HALF_WIDTH / elements);
         let model = solver::model::build(&scene).expect("the scene can be meshed");
-        let condensed = condense(&model, None).expect("the scene can be condensed");
+        let condensed = condense(&model).expect("the scene can be condensed");
         let operators = &condensed.operators;
         let zero = [
             vec![0.0; operators.receptacle.x.len()],

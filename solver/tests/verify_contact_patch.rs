@@ -54,7 +54,7 @@ fn an_even_pressure_passes_through_non_matching_meshes_at_any_position() {
             },
             sizes,
         };
-        let operators = condense(&model, None)
+        let operators = condense(&model)
             .expect("the blocks can be condensed")
             .operators;
         let pair = Pair {

@@ -57,17 +57,6 @@ fn final_scar_and_pressure_are_those_of_the_reference_without_zigzag() {
     assert!((last.peak_pressure_mpa / 73.0 - 1.0).abs() < 0.05);
     for field in &snapshot.positions {
         let roughness = zigzag(field);
-        let at = |x: f64| {
-            let i = field.x_mm.partition_point(|&p| p < x);
-            field.pressure_mpa[i]
-        };
-        println!(
-            "QQ {:?} {} {} {}",
-            field.position,
-            at(-0.1),
-            at(0.0),
-            at(0.1)
-        );
         println!("{:?}: zigzag {roughness:.3}", field.position);
         // An unstable run alternates by tens of per cent from node to node; ours bends by a few where the pass
         // before ended.

@@ -17,7 +17,7 @@ use solver::scene::{BlockShape, Friction, Scene, SliderShape};
 #[test]
 fn a_mirrored_motion_gives_mirrored_tractions() {
     let model = solver::model::build(&mccoll()).expect("the scene can be meshed");
-    let condensed = condense(&model, None).expect("the scene can be condensed");
+    let condensed = condense(&model).expect("the scene can be condensed");
     let operators = &condensed.operators;
     let pair = Pair {
         operators,

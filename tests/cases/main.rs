@@ -1,5 +1,10 @@
 //! End-to-end cases: the real binary, real processes, real files.
 
+#![expect(
+    clippy::print_stdout,
+    reason = "some cases print the figures that the READMEs quote"
+)]
+
 mod architecture;
 mod backup;
 mod calculix_agrees;
@@ -8,11 +13,13 @@ mod chaos;
 mod command_line;
 mod disturbed_jobs;
 mod docker_files;
+mod every_system_from_its_kind_alone;
 mod fields_open_in_vtk;
 mod main_job;
 mod refused_specifications;
 mod replayed_events;
 mod result_files;
 mod server_killed;
+mod small_strains_cost_what_the_plan_says;
 mod stale_server;
 mod sweep;

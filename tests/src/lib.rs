@@ -1,6 +1,7 @@
 //! What every end-to-end case needs: the real binary, run as a user would run it, in a folder of its own.
 
 pub mod bits;
+pub mod calculix;
 pub mod database;
 pub mod program;
 pub mod server;

@@ -27,6 +27,10 @@ named! {
         Standard = "standard",
         /// 0.3 %.
         Fine = "fine",
+        /// The mesh and increments of the source's first plane model, for comparison: 8 elements along the block.
+        SourceCoarse = "source_coarse",
+        /// Those of its finer plane model: 16 elements along the block.
+        SourceFine = "source_fine",
     }
 }
 

@@ -1,8 +1,9 @@
-//! Dimensions: which belong to which kind of system, their defaults, and the shapes they make.
+//! Dimensions: which belong to which kind of system, their defaults and limits.
 
 use api::spec::{Provenance, System, SystemKind};
 use solver::scene::{BlockShape, SliderShape};
 
+use super::geometry::{self, Shapes};
 use super::ledger::{Ledger, Range};
 
 use Provenance::{Assumed, Source, Typical};
@@ -12,13 +13,6 @@ const LENGTH_MM: Range = Range {
     from: 1e-6,
     to: 1e4,
 };
-
-/// The shapes of both bodies.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Shapes {
-    pub(super) slider: SliderShape,
-    pub(super) block: BlockShape,
-}
 
 /// A dimension of a kind: its field, default (from the dimensions before it) and provenance.
 struct Dimension {
@@ -146,70 +140,12 @@ pub(super) fn resolve(kind: SystemKind, given: &System, ledger: &mut Ledger) -> 
         let left_over = field(&mut given, name).is_some();
         ledger.misplaced("/system", &[(name, left_over)], kind.as_str());
     }
-    let shapes = shapes(kind, &system);
+    let shapes = geometry::shapes(kind, &system);
     fits(kind, &shapes, ledger);
     if let Some(name) = crown {
         crown_fits(name, &shapes.block, ledger);
     }
     (system, shapes)
-}
-
-fn shapes(kind: SystemKind, system: &System) -> Shapes {
-    let length = |value: Option<f64>| value.unwrap_or_default();
-    let arc = |radius_mm: f64, half_width_mm: f64, height_mm: f64| SliderShape {
-        radius_mm,
-        half_width_mm,
-        height_mm,
-    };
-    let (slider, length_mm, height_mm) = match kind {
-        SystemKind::FuzzButton => {
-            // The lower half of the wire, cut at its axis.
-            let radius = 0.5 * length(system.wire_diameter_mm);
-            (
-                arc(radius, radius, radius),
-                system.pcb_length_mm,
-                system.pcb_height_mm,
-            )
-        }
-        SystemKind::CylinderOnFlat => {
-            let (width, height) = (
-                length(system.slider_half_width_mm),
-                length(system.slider_height_mm),
-            );
-            (
-                arc(length(system.radius_mm), width, height),
-                system.flat_length_mm,
-                system.flat_height_mm,
-            )
-        }
-        SystemKind::SdCard | SystemKind::Dimm => (
-            pad_contact(length(system.contact_radius_mm)),
-            system.pad_length_mm,
-            system.pad_height_mm,
-        ),
-        SystemKind::Zif => (
-            pad_contact(length(system.contact_radius_mm)),
-            system.pin_length_mm,
-            system.pin_thickness_mm,
-        ),
-    };
-    Shapes {
-        slider,
-        block: BlockShape {
-            length_mm: length(length_mm),
-            height_mm: length(height_mm),
-            crown_radius_mm: system.crown_radius_mm.or(system.pin_radius_mm),
-        },
-    }
-}
-
-/// The rounded end of a sprung contact: three quarters of its radius to each side, one radius high.
-fn pad_contact(radius_mm: f64) -> SliderShape {
-    SliderShape {
-        radius_mm,
-        half_width_mm: 0.75 * radius_mm,
-        height_mm: radius_mm,
-    }
 }
 
 /// The modelled part of a cylinder must be a body: not wider than the cylinder, and with some height at its sides.

@@ -2,7 +2,7 @@
 
 use api::spec::{Load, LoadKind, Provenance};
 
-use super::dimensions::Shapes;
+use super::geometry::Shapes;
 use super::ledger::{Ledger, Range};
 use super::preset::Preset;
 

@@ -3,7 +3,7 @@
 use api::spec::{Output, Provenance, Stop};
 use solver::scene;
 
-use super::dimensions::Shapes;
+use super::geometry::Shapes;
 use super::ledger::{Ledger, Range};
 use super::motion::Imposed;
 

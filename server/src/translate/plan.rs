@@ -7,13 +7,14 @@ use api::plan::{Plan, PlannedEffect};
 use solver::model::resolution;
 use solver::scene::{Scene, WearLaw};
 
-use super::{Resolved, size};
+use super::{Resolved, notes, size};
 
 /// The plan of a specification.
 pub fn plan(resolved: &Resolved) -> Plan {
     Plan {
         effects: effects(&resolved.scene),
         estimates: estimates(&resolved.scene),
+        notes: notes::notes(resolved),
     }
 }
 

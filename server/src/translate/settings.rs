@@ -3,10 +3,10 @@
 use std::collections::BTreeMap;
 
 use api::spec::{Accuracy, Choice, CycleJump, Overrides, Preset as Tolerance, Provenance, Switch};
-use solver::effects::Effect;
+use solver::effects::{Effect, SMALL_STRAIN_LIMIT};
 use solver::scene;
 
-use super::dimensions::Shapes;
+use super::geometry::Shapes;
 use super::ledger::{Ledger, Range, shortened};
 use super::motion::CONTINUOUS_PARTS;
 use super::preset::Preset;
@@ -106,10 +106,30 @@ pub(super) fn planned(
     for decision in solver::effects::plan(scene).decisions {
         let name = decision.effect.name();
         let wanted = given.get(name).and_then(Choice::known) == Some(Switch::On);
-        if wanted && !decision.simulated {
+        if wanted && !decision.simulated && decision.effect != Effect::GeometricNonlinearity {
             let detail = format!("cannot be on: {}", decision.reason);
             ledger.fault(&format!("/effects/{name}"), detail);
         }
+    }
+}
+
+/// Notes a fault if the contact is strained beyond what small strains are good for; `off` accepts it.
+pub(super) fn small_strains(
+    given: &BTreeMap<String, Choice<Switch>>,
+    scene: &scene::Scene,
+    ledger: &mut Ledger,
+) {
+    let name = Effect::GeometricNonlinearity.name();
+    let accepted = given.get(name).and_then(Choice::known) == Some(Switch::Off);
+    let cost = solver::effects::small_strain_cost(scene);
+    if cost > SMALL_STRAIN_LIMIT && !accepted {
+        let detail = format!(
+            "strains the contact so much that small-strain elasticity would miss the peak pressure by {:.1} % (limit \
+             {:.0} %) and finite strains are not available; lower the load, or accept it with `effects.{name}`: `off`",
+            100.0 * cost,
+            100.0 * SMALL_STRAIN_LIMIT
+        );
+        ledger.fault("/load", detail);
     }
 }
 
@@ -160,10 +180,13 @@ pub(super) fn accuracy(
     };
     let empty = Overrides::default();
     let overrides = given.overrides.as_ref().unwrap_or(&empty);
+    let elements = source_elements(preset);
+    let source_element = elements.map(|count| shapes.block.length_mm / count);
+    let source_increments = elements.map(|_| SOURCE_INCREMENTS);
     let numerical = scene::Accuracy {
         tolerance,
-        contact_element_mm: contact_element(overrides, shapes, ledger),
-        increments_per_cycle: increments(overrides, ledger),
+        contact_element_mm: contact_element(overrides, shapes, ledger).or(source_element),
+        increments_per_cycle: increments(overrides, ledger).or(source_increments),
         cycle_jump: cycle_jump(overrides, cycles, ledger),
     };
     (filled, numerical)
@@ -171,11 +194,24 @@ pub(super) fn accuracy(
 
 fn preset_tolerance(preset: Tolerance) -> f64 {
     match preset {
-        Tolerance::Draft => 0.1,
+        Tolerance::Draft | Tolerance::SourceCoarse | Tolerance::SourceFine => 0.1,
         Tolerance::Standard => 0.02,
         Tolerance::Fine => 0.003,
     }
 }
+
+/// Elements along the block's length in the source's plane models: 16 of 5.29 um on 84.67 um in the finer one (two
+/// widths are stated as 10.58 um), and by assumption half as many in the coarse one, of which it tells no number.
+fn source_elements(preset: Option<Tolerance>) -> Option<f64> {
+    match preset? {
+        Tolerance::SourceCoarse => Some(8.0),
+        Tolerance::SourceFine => Some(16.0),
+        Tolerance::Draft | Tolerance::Standard | Tolerance::Fine => None,
+    }
+}
+
+/// Increments a cycle of the source.
+const SOURCE_INCREMENTS: u32 = 32;
 
 fn contact_element(overrides: &Overrides, shapes: &Shapes, ledger: &mut Ledger) -> Option<f64> {
     const POINTER: &str = "/accuracy/overrides/contact_element_mm";

@@ -58,6 +58,39 @@ fn every_kind_resolves_from_its_name_alone() {
 }
 
 #[test]
+fn the_source_s_meshes_are_presets() {
+    let of = |preset: &str| {
+        let text =
+            format!(r#"{{"system":{{"kind":"fuzz_button"}},"accuracy":{{"preset":"{preset}"}}}}"#);
+        accepted(&text).scene.accuracy
+    };
+    let (coarse, fine) = (of("source_coarse"), of("source_fine"));
+    let close = |size: Option<f64>, wanted: f64| size.is_some_and(|s| (s - wanted).abs() < 1e-5);
+    assert!(close(coarse.contact_element_mm, 0.010_58) && close(fine.contact_element_mm, 0.005_29));
+    assert_eq!(fine.increments_per_cycle, Some(32));
+    assert_eq!(fine.cycle_jump, None);
+}
+
+#[test]
+fn a_contact_strained_beyond_small_strains_is_refused_unless_that_is_accepted() {
+    let spec = |effects: &str| {
+        format!(
+            r#"{{"system":{{"kind":"fuzz_button"}},"load":{{"kind":"pressure","mpa":40}},"effects":{{{effects}}}}}"#
+        )
+    };
+    let refused = faults(&spec(""));
+    assert_eq!(refused[0].pointer, "/load");
+    assert!(
+        refused[0].detail.contains("1.2 % (limit 1 %)"),
+        "{refused:?}"
+    );
+    accepted(&spec(r#""geometric_nonlinearity":"off""#));
+    let on =
+        faults(r#"{"system":{"kind":"fuzz_button"},"effects":{"geometric_nonlinearity":"on"}}"#);
+    assert_eq!(on[0].pointer, "/effects/geometric_nonlinearity");
+}
+
+#[test]
 fn the_preset_of_the_fuzz_button_is_the_base_scene() {
     let preset = accepted(r#"{"system":{"kind":"fuzz_button"}}"#);
     let mut given = accepted(FUZZ_BUTTON).scene;

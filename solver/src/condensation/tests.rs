@@ -6,7 +6,7 @@ use crate::scene::Drive;
 #[test]
 fn compliance_is_symmetric_and_positive() {
     let model = model::build(&fuzz_button()).expect("the preset can be meshed");
-    let operators = condense(&model, None)
+    let operators = condense(&model)
         .expect("the preset can be condensed")
         .operators;
     for body in [&operators.slider, &operators.receptacle] {
@@ -29,7 +29,7 @@ fn an_even_pressure_squeezes_a_wide_block_uniaxially() {
     scene.receptacle.shape.height_mm = 0.05;
     scene.accuracy.contact_element_mm = Some(0.002);
     let model = model::build(&scene).expect("the block can be meshed");
-    let body = condense(&model, None)
+    let body = condense(&model)
         .expect("the block can be condensed")
         .operators
         .receptacle;
@@ -52,7 +52,7 @@ fn a_guided_slider_moves_only_vertically() {
     let mut scene = fuzz_button();
     scene.drive = Drive::WholeBody;
     let model = model::build(&scene).expect("the preset can be meshed");
-    let slider = condense(&model, None)
+    let slider = condense(&model)
         .expect("the preset can be condensed")
         .operators
         .slider;
@@ -66,7 +66,7 @@ fn a_guided_slider_moves_only_vertically() {
 #[test]
 fn interior_and_surface_agree() {
     let model = model::build(&fuzz_button()).expect("the preset can be meshed");
-    let condensed = condense(&model, None).expect("the preset can be condensed");
+    let condensed = condense(&model).expect("the preset can be condensed");
     let body = &condensed.operators.receptacle;
     let middle = body.x.len() / 2;
     let mut force = vec![0.0; 2 * body.x.len()];

@@ -17,9 +17,11 @@ use std::f64::consts::PI;
 /// The estimate of the largest scar is widened by this factor before it sizes the mesh.
 const SCAR_MARGIN: f64 = 1.3;
 
-/// No element is longer than this part of the narrower body's half-length: however soft or heavily loaded the bodies
-/// are, each has some elements.
+/// No element that is chosen is longer than this part of the narrower body's half-length: however soft or heavily loaded
+/// the bodies are, each has some elements.
 const FEWEST_SHARE: f64 = 0.1;
+/// No element that is given is longer than this part of it: each half of a body has two at least.
+const FEWEST_GIVEN_SHARE: f64 = 0.5;
 
 /// Lengths of the contact and what follows from them for the mesh, mm.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -65,11 +67,17 @@ fn rule(tolerance: f64) -> Rule {
     }
 }
 
+/// Radius R of the relative curvature of both bodies, mm.
+pub(crate) fn radius(scene: &Scene) -> f64 {
+    let crown = scene.receptacle.shape.crown_radius_mm;
+    1.0 / (1.0 / scene.slider.shape.radius_mm + crown.map_or(0.0, |crown| 1.0 / crown))
+}
+
 /// Chooses the spacing of a scene's meshes.
 pub fn choose(scene: &Scene) -> Sizes {
     let slider_radius = scene.slider.shape.radius_mm;
     let crown = scene.receptacle.shape.crown_radius_mm;
-    let radius = 1.0 / (1.0 / slider_radius + crown.map_or(0.0, |crown| 1.0 / crown));
+    let radius = radius(scene);
     let load = scene.load_n_per_mm;
     let modulus = contact_modulus(scene.slider.elastic, scene.receptacle.elastic);
     let hertz = (4.0 * load * radius / (PI * modulus)).sqrt();
@@ -94,8 +102,11 @@ pub fn choose(scene: &Scene) -> Sizes {
     let rule = rule(scene.accuracy.tolerance);
     let given = scene.accuracy.contact_element_mm;
     let half_block = 0.5 * scene.receptacle.shape.length_mm;
-    let coarsest = FEWEST_SHARE * half_block.min(scene.slider.shape.half_width_mm);
-    let element = given.unwrap_or(narrowest / rule.elements).min(coarsest);
+    let narrower = half_block.min(scene.slider.shape.half_width_mm);
+    let element = match given {
+        Some(element) => element.min(FEWEST_GIVEN_SHARE * narrower),
+        None => (narrowest / rule.elements).min(FEWEST_SHARE * narrower),
+    };
     let reach = SCAR_MARGIN * last + element;
     let core = if given.is_some() {
         reach
@@ -108,7 +119,7 @@ pub fn choose(scene: &Scene) -> Sizes {
         zone_growth: rule.zone_growth,
         zone_half: reach + travel,
         outer_growth: 0.25,
-        largest: 0.1 * half,
+        largest: (0.1 * half).max(element),
     };
     let arc = |radius: f64, half: f64| radius * (half / radius).min(1.0).asin();
     let half_arc = arc(slider_radius, scene.slider.shape.half_width_mm);

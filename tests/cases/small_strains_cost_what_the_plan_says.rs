@@ -1,0 +1,72 @@
+//! Requirement: strains are taken as small, and the plan says what that costs; beyond 1 % a scene is refused.
+//!
+//! CalculiX solves the exported deck of a cylinder on a block with and without geometric non-linearity. The peak pressure
+//! falls by 1/2 p0/E* (0.4 % where p0/E* = 0.85 %), the rule that `solver::effects::small_strain_cost` applies.
+
+use serde_json::{Value, json};
+use tests::{calculix, fretwear};
+
+/// Half-width at 18.5 N/mm, mm; it grows with the square root of the load.
+const HALF_WIDTH: f64 = 0.0357;
+
+fn spec(load: f64) -> String {
+    let element = HALF_WIDTH * (load / 18.5).sqrt() / 8.0;
+    json!({
+        "system": {"kind": "cylinder_on_flat"},
+        "interface": {"friction": {"law": "frictionless"}},
+        "load": {"kind": "line_force", "n_per_mm": load},
+        "motion": {"kind": "continuous", "distance_mm": 1},
+        "accuracy": {"preset": "draft", "overrides": {"contact_element_mm": element}}
+    })
+    .to_string()
+}
+
+/// Mean pressure of the middle third, MPa: single nodes alternate by some per mille.
+fn middle(load: f64, step: &str) -> f64 {
+    let folder = tempfile::tempdir().expect("a folder can be made");
+    let deck = calculix::deck(folder.path(), &spec(load));
+    let plain = "*STEP, INC=1000";
+    assert!(deck.contains(plain), "the deck has one step");
+    calculix::run(folder.path(), &deck.replace(plain, step));
+    let pressures = calculix::contact_pressures(folder.path());
+    let reach = 1e6 * 0.3 * HALF_WIDTH * (load / 18.5).sqrt();
+    let near = pressures
+        .iter()
+        .filter(|(place, _)| place.parse::<f64>().is_ok_and(|x| x.abs() < reach));
+    let found: Vec<f64> = near.map(|(_, p)| *p).collect();
+    assert!(found.len() > 2, "{pressures:?}");
+    found.iter().sum::<f64>() / f64::from(u32::try_from(found.len()).expect("a few"))
+}
+
+#[test]
+#[cfg_attr(not(has_ccx), ignore = "needs the program ccx of CalculiX")]
+fn the_peak_falls_by_half_the_contact_strain() {
+    for (load, strain) in [(18.5, 0.0030), (150.0, 0.0085)] {
+        let linear = middle(load, "*STEP, INC=1000, NLGEOM=NO");
+        let finite = middle(load, "*STEP, INC=1000, NLGEOM");
+        let change = finite / linear - 1.0;
+        println!(
+            "p0/E* = {strain}: peak changes by {change:.2e}, the rule says {:.2e}",
+            -0.5 * strain
+        );
+        // The rule is the first order; what is left is the second.
+        assert!((change / (-0.5 * strain) - 1.0).abs() < 0.25, "{change}");
+    }
+}
+
+#[test]
+fn the_plan_names_the_cost_of_every_preset_and_it_is_below_the_limit() {
+    let folder = tempfile::tempdir().expect("a folder can be made");
+    for kind in ["fuzz_button", "sd_card", "dimm", "zif", "cylinder_on_flat"] {
+        let spec = json!({"system": {"kind": kind}}).to_string();
+        std::fs::write(folder.path().join("spec.json"), spec).expect("a file can be written");
+        let ran = fretwear(folder.path(), &["plan", "spec.json"]);
+        assert_eq!(ran.code, Some(0), "{}", ran.stderr);
+        let plan: Value = serde_json::from_str(&ran.stdout).expect("the plan is JSON");
+        let effect = &plan["plan"]["effects"]["geometric_nonlinearity"];
+        let reason = effect["reason"].as_str().expect("a reason");
+        println!("{kind}: {reason}");
+        assert_eq!(effect["simulated"], false);
+        assert!(reason.contains("limit 1 %"), "{reason}");
+    }
+}
