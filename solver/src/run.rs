@@ -105,7 +105,7 @@ fn integrate(
 ) -> Result<Option<Outcome>, SolveError> {
     let mut integrator = Integrator::new(scene, model, &condensed.operators);
     while run.state.cycle < scene.cycles {
-        if ale::has_drifted(model, &run.state) {
+        if ale::has_drifted(model, &run.state, scene.accuracy.tolerance) {
             return Ok(None);
         }
         let state = &mut run.state;

@@ -10,13 +10,14 @@ use crate::history::Position;
 use crate::number::{count_at_least, real};
 use crate::scene::{Accuracy, Motion};
 
-/// Largest step over the contact's half-width, and fewest steps a quarter of a cycle, by tolerance.
+/// Largest step over the contact's half-width, and fewest steps a quarter of a cycle, for a tolerance: what serves at
+/// 2 % and powers around it, as for the mesh.
 fn rule(tolerance: f64) -> (f64, usize) {
-    match tolerance {
-        t if t > 0.05 => (1.0, 3),
-        t if t > 0.01 => (0.5, 5),
-        _ => (0.25, 10),
-    }
+    let finer = 0.02 / tolerance;
+    (
+        0.5 * finer.powf(-0.4),
+        count_at_least((5.0 * finer.powf(0.36)).round()),
+    )
 }
 
 /// Most steps a quarter of a cycle: beyond, a cycle takes longer than anyone would wait.
