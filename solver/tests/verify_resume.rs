@@ -75,11 +75,11 @@ fn a_fretting_run_resumes_to_the_same_bits() {
 #[test]
 fn a_run_that_has_relocated_resumes_to_the_same_bits() {
     let mut scene = Scene {
-        cycles: 800,
+        cycles: 2_000,
         accuracy: accuracy(0.1),
         ..fuzz_button()
     };
-    scene.output.snapshots_at_cycles = vec![1, 400, 800];
+    scene.output.snapshots_at_cycles = vec![1, 400, 2_000];
     scene.output.fields = true;
     let (summary, _) = resumes_to_the_same_bits("fuzz_button", &scene, 8);
     assert!(summary.resolution.relocations >= 2, "{summary:?}");
