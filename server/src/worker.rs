@@ -98,3 +98,6 @@ fn count(store: &Store, claim: &Claim) {
         metrics.claim_latency.observe(waited.as_secs_f64());
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -286,9 +286,14 @@ async fn chaos(jobs: usize, seed: u64) {
     }
     check_database(&arena.folder, jobs).await;
     println!(
-        "chaos, seed {seed}: {jobs} jobs, {attempts} attempts, {resumed} of them from a checkpoint, {:?}, {:.0} s: every \
-         job ended once with the bits of an undisturbed run",
+        "chaos, seed {seed}: {jobs} jobs, {attempts} attempts, {resumed} of them from a checkpoint, {:?}{}, {:.0} s: \
+         every job ended once with the bits of an undisturbed run",
         arena.harms,
+        if arena.disk.mounted {
+            ""
+        } else {
+            " (no disk of its own could be mounted)"
+        },
         began.elapsed().as_secs_f64()
     );
 }

@@ -4,7 +4,7 @@
 use std::path::Path;
 use std::time::Duration;
 
-use nix::sys::signal::Signal;
+use nix::sys::signal::{Signal, kill};
 use serde_json::{Value, json};
 use tests::{Server, bits, database};
 
@@ -128,6 +128,41 @@ async fn a_job_that_takes_too_much_memory_ends_alone_and_says_so() {
     let small = json!({"system": {"kind": "cylinder_on_flat"}, "cycles": 1, "accuracy": {"preset": "draft"}});
     let id = submitted(&server, &small).await;
     assert_eq!(ended(&server, &id).await["status"], "succeeded");
+}
+
+#[tokio::test]
+async fn a_solve_that_does_not_end_in_time_is_killed_without_costing_an_attempt() {
+    let folder = tempfile::tempdir().expect("a folder can be made");
+    let options = ["--checkpoint-every-s", "0", "--grace-s", "0.5"];
+    let server = Server::start_with(folder.path(), &options);
+    let study = study(60);
+    let id = submitted(&server, &study).await;
+    computing(&server, &id, 10).await;
+    for child in server.solving() {
+        kill(child, Signal::SIGSTOP).expect("a solving process");
+    }
+    server.signal(Signal::SIGTERM);
+    assert_eq!(server.wait(), Some(0));
+    let server = Server::start_with(folder.path(), &options);
+    let job = ended(&server, &id).await;
+    assert_eq!(
+        (&job["status"], &job["attempts"]),
+        (&json!("succeeded"), &json!(1)),
+        "{job}"
+    );
+}
+
+#[tokio::test]
+async fn a_job_that_waits_for_the_disk_says_so() {
+    let folder = tempfile::tempdir().expect("a folder can be made");
+    let server = Server::start_with(folder.path(), &["--least-free-disk-mb", "1000000000"]);
+    let id = submitted(&server, &study(30)).await;
+    let told = |job: &Value| {
+        let reason = job["status_reason"].as_str().unwrap_or_default();
+        reason.starts_with("waiting for disk space: ")
+    };
+    let job = server.job_when(&id, told).await;
+    assert_eq!(job["status"], "queued", "{job}");
 }
 
 #[tokio::test]

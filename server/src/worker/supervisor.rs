@@ -24,6 +24,9 @@ const TICK: Duration = Duration::from_millis(150);
 /// Renewals within a lease.
 const RENEWALS: u32 = 3;
 
+/// How long the end of the output is waited for after a line that cannot be read.
+const NEXT_LINE: Duration = Duration::from_secs(1);
+
 /// Why the reading of lines ended.
 enum Stop {
     /// The child closed its output; its last line, if it was one that ends a job.
@@ -198,9 +201,7 @@ async fn follow(
                     }
                     Due::Batch
                 }
-                Ok(Some(Err(cause))) => {
-                    return Ok(Stop::Unreadable(format!("the solver wrote something that cannot be read: {cause}")));
-                }
+                Ok(Some(Err(cause))) => return Ok(broken(child, last, &cause).await),
                 Ok(None) => return Ok(Stop::Output(last)),
                 Err(cause) => return Ok(Stop::Unreadable(format!("the solver's output cannot be read: {cause}"))),
             },
@@ -226,6 +227,17 @@ async fn follow(
             }
             Err(error) => return Err(error),
         }
+    }
+}
+
+/// What a line means that cannot be read: the last words of a process that was killed while it wrote them, or a fault of
+/// the solver if more follows.
+async fn broken(child: &mut Solving, last: Option<Line>, cause: &serde_json::Error) -> Stop {
+    match tokio::time::timeout(NEXT_LINE, child.line()).await {
+        Ok(Ok(None)) => Stop::Output(last),
+        _ => Stop::Unreadable(format!(
+            "the solver wrote something that cannot be read: {cause}"
+        )),
     }
 }
 
