@@ -6,11 +6,19 @@ fn main() {
     println!("cargo::rerun-if-changed=build.rs");
     println!("cargo::rerun-if-env-changed=FRETWEAR_PYTHON");
     println!("cargo::rerun-if-env-changed=PATH");
-    println!("cargo::rustc-check-cfg=cfg(has_vtk, has_ccx)");
+    println!("cargo::rustc-check-cfg=cfg(has_vtk, has_ccx, has_curl, has_schemathesis)");
     let python = std::env::var("FRETWEAR_PYTHON").unwrap_or_else(|_| "python3".to_owned());
     println!("cargo::rustc-env=FRETWEAR_PYTHON={python}");
     if runs(Command::new(&python).args(["-c", "import vtkmodules.vtkIOXML"])) {
         println!("cargo::rustc-cfg=has_vtk");
+    }
+    if runs(Command::new(&python).args(["-c", "import schemathesis"])) {
+        println!("cargo::rustc-cfg=has_schemathesis");
+    }
+    if runs(Command::new("curl").arg("--version"))
+        && runs(Command::new("bash").args(["-c", "true"]))
+    {
+        println!("cargo::rustc-cfg=has_curl");
     }
     if runs(Command::new("ccx").arg("-v")) {
         println!("cargo::rustc-cfg=has_ccx");

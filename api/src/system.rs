@@ -14,6 +14,8 @@ pub struct SystemDocument {
     pub description: String,
     /// The specification that `{"system": {"kind": ..}}` resolves to, with the provenance of each value.
     pub preset: Spec,
+    /// JSON Schema (2020-12) of a specification of this kind.
+    pub schema: serde_json::Value,
 }
 
 /// Every contact system.

@@ -1,5 +1,6 @@
 //! The command line.
 
+mod access;
 mod backup;
 mod child;
 mod demo;
@@ -17,6 +18,7 @@ use std::net::SocketAddr;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
+use access::AccessOptions;
 use clap::{Parser, Subcommand};
 use tracing_subscriber::EnvFilter;
 
@@ -99,6 +101,8 @@ enum Command {
         #[arg(long, env = "FRETWEAR_DATABASE", default_value = DATABASE)]
         database: String,
     },
+    /// Write the description of the HTTP interface (OpenAPI 3.1) to standard output.
+    Openapi,
     /// Solve the specification on standard input, as a service's child process.
     #[command(hide = true)]
     SolveChild(ChildArguments),
@@ -113,9 +117,11 @@ enum DeckFormat {
 
 #[derive(Debug, clap::Args)]
 struct ServeArguments {
-    /// Where to listen; a loopback address.
+    /// Where to listen; a loopback address unless there is an access token.
     #[arg(long, env = "FRETWEAR_LISTEN", default_value = LISTEN)]
     listen: SocketAddr,
+    #[command(flatten)]
+    access: AccessOptions,
     /// The database.
     #[arg(long, env = "FRETWEAR_DATABASE", default_value = DATABASE)]
     database: String,
@@ -179,6 +185,10 @@ pub fn main() -> ExitCode {
         Command::Backup { into, database } => backup::run(&database, &into),
         Command::Restore { from, database } => backup::run_restore(&from, &database),
         Command::SolveChild(arguments) => child::run(&arguments),
+        Command::Openapi => {
+            terminal::say(crate::http::openapi::text().trim_end());
+            ExitCode::SUCCESS
+        }
     }
 }
 

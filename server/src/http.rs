@@ -1,5 +1,6 @@
 //! HTTP: one file a route, each in the order error, handler, tests.
 
+mod access;
 mod archive;
 mod cancel;
 mod cancel_sweep;
@@ -8,11 +9,14 @@ mod extract;
 mod file;
 mod friction_loop;
 mod health;
-mod host;
+mod limits;
 mod list;
+mod listener;
 mod make_plan;
 mod manifest;
 mod metrics;
+pub mod openapi;
+mod pages;
 mod pressure;
 mod problem;
 mod profile;
@@ -23,17 +27,18 @@ mod stored_part;
 mod submit;
 mod submit_sweep;
 mod sweep_outcomes;
+mod system_schema;
 mod systems;
 mod wear_history;
 
 use std::sync::Arc;
 
-use axum::extract::DefaultBodyLimit;
 use axum::http::{HeaderValue, Method, Uri, header};
 use axum::response::{IntoResponse, Response};
-use axum::{Json, Router, middleware};
+use axum::{Router, middleware};
 use tokio::sync::Semaphore;
 use tokio_util::sync::CancellationToken;
+use tower::limit::GlobalConcurrencyLimitLayer;
 use tower_http::set_header::SetResponseHeaderLayer;
 use tower_http::trace::TraceLayer;
 use utoipa::OpenApi;
@@ -43,6 +48,18 @@ use utoipa_axum::routes;
 
 use crate::store::Store;
 
+pub use access::{Access, TokenError};
+pub use listener::serve;
+
+/// Requests that are worked on at once, over all connections; more wait. Streams count until they have begun, and long
+/// polls have a limit of their own below it.
+const REQUESTS: usize = 1024;
+/// Long polls that wait at once; one more is answered at once, as if its time were over.
+const LONG_POLLS: usize = 768;
+/// Event streams that are open at once.
+const STREAMS: usize = 1024;
+/// What an answer that is no page may do in a browser: nothing.
+const NO_CONTENT_POLICY: &str = "default-src 'none'; frame-ancestors 'none'";
 /// Largest accepted body, bytes.
 const BODY_LIMIT: usize = 1 << 20;
 
@@ -53,17 +70,23 @@ pub struct App {
     pub store: Arc<Store>,
     /// Ends streams and long polls when the service stops.
     pub stopping: CancellationToken,
-    /// How many archives may be made at once.
+    access: Access,
+    /// Archives that may be made at once.
     archives: Arc<Semaphore>,
+    long_polls: Arc<Semaphore>,
+    streams: Arc<Semaphore>,
 }
 
 impl App {
-    /// Over a store.
-    pub fn new(store: Arc<Store>, stopping: CancellationToken) -> Self {
+    /// Over a store, for those who have access.
+    pub fn new(store: Arc<Store>, access: Access, stopping: CancellationToken) -> Self {
         Self {
             store,
             stopping,
+            access,
             archives: Arc::new(Semaphore::new(archive::AT_ONCE)),
+            long_polls: Arc::new(Semaphore::new(LONG_POLLS)),
+            streams: Arc::new(Semaphore::new(STREAMS)),
         }
     }
 }
@@ -80,27 +103,23 @@ struct Described;
 
 /// All routes.
 pub fn router(app: App) -> Router {
-    let (router, document) = described();
-    router
-        .route(
-            "/openapi.json",
-            axum::routing::get(move || std::future::ready(Json(document.clone()))),
-        )
+    let access = middleware::from_fn_with_state(app.access.clone(), access::check);
+    described()
+        .0
         .fallback(no_route)
         .method_not_allowed_fallback(wrong_method)
-        .layer(DefaultBodyLimit::max(BODY_LIMIT))
-        .layer(middleware::from_fn(host::check))
+        .layer(access)
+        .layer(GlobalConcurrencyLimitLayer::new(REQUESTS))
+        .layer(SetResponseHeaderLayer::if_not_present(
+            header::CONTENT_SECURITY_POLICY,
+            HeaderValue::from_static(NO_CONTENT_POLICY),
+        ))
         .layer(SetResponseHeaderLayer::if_not_present(
             header::X_CONTENT_TYPE_OPTIONS,
             HeaderValue::from_static("nosniff"),
         ))
         .layer(TraceLayer::new_for_http())
         .with_state(app)
-}
-
-/// The OpenAPI document of all routes.
-pub fn openapi() -> Document {
-    described().1
 }
 
 fn described() -> (Router<App>, Document) {
@@ -123,6 +142,10 @@ fn described() -> (Router<App>, Document) {
         .routes(routes!(make_plan::make_plan))
         .routes(routes!(systems::systems))
         .routes(routes!(systems::system))
+        .routes(routes!(pages::dashboard))
+        .routes(routes!(pages::docs))
+        .routes(routes!(pages::asset))
+        .routes(routes!(openapi::openapi))
         .routes(routes!(health::healthz))
         .routes(routes!(health::readyz))
         .routes(routes!(metrics::metrics))

@@ -11,7 +11,7 @@ use tokio::task::JoinSet;
 use tokio_util::sync::CancellationToken;
 
 use crate::clock::now_ms;
-use crate::http::{self, App};
+use crate::http::{self, Access, App};
 use crate::store::{Store, StoreError};
 use crate::worker::{self, Rules};
 
@@ -21,8 +21,10 @@ const GRACE: Duration = Duration::from_secs(5);
 /// How the service is to run.
 #[derive(Debug, Clone)]
 pub struct Config {
-    /// Where it listens; a loopback address.
+    /// Where it listens; a loopback address unless a token is asked for.
     pub listen: SocketAddr,
+    /// Who may ask.
+    pub access: Access,
     /// Its database, `sqlite://PATH`.
     pub database: String,
     /// How many jobs are solved at once.
@@ -38,9 +40,9 @@ pub struct Config {
 /// Why the service cannot run.
 #[derive(Debug, thiserror::Error)]
 pub enum ServiceError {
-    /// Listening elsewhere than on loopback is not safe without a token, and there are none yet.
+    /// Listening elsewhere than on loopback is not safe without a token.
     #[error(
-        "{0} is not a loopback address; listening elsewhere needs access tokens, which are not available yet"
+        "{0} is not a loopback address; listening elsewhere needs an access token (--token-file)"
     )]
     NotLoopback(SocketAddr),
     /// The address cannot be taken.
@@ -73,7 +75,7 @@ impl Service {
     /// # Errors
     /// [`ServiceError`]; nothing keeps running then.
     pub async fn start(config: Config) -> Result<Self, ServiceError> {
-        if !config.listen.ip().is_loopback() {
+        if !config.listen.ip().is_loopback() && !config.access.asks_for_token() {
             return Err(ServiceError::NotLoopback(config.listen));
         }
         let listen = |cause| ServiceError::Listen {
@@ -101,16 +103,12 @@ impl Service {
             config.keep_days,
             stopping.clone(),
         ));
-        let router = http::router(App::new(Arc::clone(&store), stopping.clone()));
-        let stopped = stopping.clone().cancelled_owned();
-        tasks.spawn(async move {
-            if let Err(error) = axum::serve(listener, router)
-                .with_graceful_shutdown(stopped)
-                .await
-            {
-                tracing::error!(%error, "the HTTP server failed");
-            }
-        });
+        let router = http::router(App::new(
+            Arc::clone(&store),
+            config.access,
+            stopping.clone(),
+        ));
+        tasks.spawn(http::serve(listener, router, stopping.clone()));
         Ok(Self {
             address,
             store,

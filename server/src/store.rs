@@ -18,6 +18,7 @@ mod levels;
 mod open;
 mod queries;
 mod results;
+mod submissions;
 mod sweeps;
 mod upkeep;
 
@@ -59,6 +60,7 @@ pub struct Store {
     attempt_limit: u32,
     /// What is counted for `/metrics`.
     metrics: Arc<Metrics>,
+    submissions: submissions::Submissions,
     /// Held as long as the store is open.
     _lock: File,
 }

@@ -22,7 +22,7 @@ pub mod parquet;
 mod plan;
 mod preset;
 mod settings;
-mod size;
+pub mod size;
 pub mod sweep;
 pub mod thin;
 pub mod vtu;
@@ -34,6 +34,7 @@ use solver::scene::{Body, Scene};
 use ledger::Ledger;
 pub use plan::plan;
 use preset::Preset;
+use size::Size;
 
 /// Longest accepted name, characters.
 const NAME_LIMIT: usize = 200;
@@ -51,6 +52,8 @@ pub struct Resolved {
     pub kind: SystemKind,
     /// The scene.
     pub scene: Scene,
+    /// How large its solve would be.
+    pub size: Size,
 }
 
 /// Why a submitted document is not a study.
@@ -143,17 +146,27 @@ pub fn scene(spec: &Spec) -> Result<Resolved, Vec<Fault>> {
         output: recorded,
         stop,
     };
+    let mut size = None;
     if ledger.is_clean() {
         settings::planned(&spec.effects, &scene, &mut ledger);
         settings::small_strains(&spec.effects, &scene, &mut ledger);
-        settings::meshable(&scene, &mut ledger);
+        size = settings::meshable(&scene, &mut ledger);
     }
+    let Some(size) = size else {
+        return Err(ledger.into_faults());
+    };
     out.provenance = ledger.finish()?;
     Ok(Resolved {
         spec: out,
         kind,
         scene,
+        size,
     })
+}
+
+/// Names of the dimensions that belong to a kind of system.
+pub fn dimension_names(kind: SystemKind) -> Vec<&'static str> {
+    dimensions::names(kind)
 }
 
 /// Cycles that the histories of a resolved specification count to.

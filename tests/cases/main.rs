@@ -5,6 +5,8 @@
     reason = "some cases print the figures that the READMEs quote"
 )]
 
+mod access_token;
+mod api_fuzz;
 mod architecture;
 mod backup;
 mod calculix_agrees;
@@ -15,7 +17,10 @@ mod disturbed_jobs;
 mod docker_files;
 mod every_system_from_its_kind_alone;
 mod fields_open_in_vtk;
+mod hostile_inputs;
+mod load;
 mod main_job;
+mod readme_commands;
 mod refused_specifications;
 mod replayed_events;
 mod result_files;

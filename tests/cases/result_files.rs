@@ -15,7 +15,7 @@ const SPEC: &str = r#"{
 }"#;
 
 /// What the solved job must list, at least.
-const NAMES: [&str; 12] = [
+const NAMES: [&str; 11] = [
     "fields-0.vtu",
     "fields-20.vtu",
     "fields-20-leftmost.vtu",
@@ -26,7 +26,6 @@ const NAMES: [&str; 12] = [
     "spec.resolved.json",
     "summary.json",
     "wear-history.csv",
-    "wear-history.png",
     "wear-history.parquet",
 ];
 

@@ -33,7 +33,7 @@ impl Server {
         Self::start_with(folder, &[])
     }
 
-    /// The same with further options.
+    /// The same with further options; one worker unless they name another number.
     ///
     /// # Panics
     /// If it does not start.
@@ -97,6 +97,21 @@ impl Server {
                 ids.flatten().map(Pid::from_raw).collect::<Vec<_>>()
             })
             .collect()
+    }
+
+    /// The most memory that the service itself has held so far, MB.
+    ///
+    /// # Panics
+    /// If it is gone.
+    pub fn peak_memory_mb(&self) -> f64 {
+        let status = std::fs::read_to_string(format!("/proc/{}/status", self.child.id()))
+            .expect("the service is there");
+        let peak = status.lines().find_map(|line| line.strip_prefix("VmHWM:"));
+        let kilobytes = peak.and_then(|peak| peak.trim().strip_suffix(" kB"));
+        let kilobytes: u32 = kilobytes
+            .and_then(|number| number.trim().parse().ok())
+            .expect("the system tells the peak");
+        f64::from(kilobytes) / 1024.0
     }
 
     /// Waits for the service to end; its exit code.

@@ -15,6 +15,7 @@ use super::serve::until_signal;
 use super::solve::phase_name;
 use super::terminal::{bar, failed, say, tell};
 use super::{runtime, table, workers};
+use crate::http::Access;
 use crate::queue::ATTEMPT_LIMIT;
 use crate::service::{Config, Service, ServiceError};
 use crate::worker::Rules;
@@ -57,6 +58,7 @@ async fn demonstrate(listen: SocketAddr, exit: bool) -> Result<(), DemoError> {
     let program = std::env::current_exe()?;
     let service = Service::start(Config {
         listen,
+        access: Access::default(),
         database,
         workers: workers(None),
         attempts: ATTEMPT_LIMIT,

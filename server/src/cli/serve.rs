@@ -19,8 +19,13 @@ pub(super) fn run(arguments: ServeArguments) -> ExitCode {
     };
     runtime.block_on(async {
         let work = &arguments.work;
+        let access = match arguments.access.access() {
+            Ok(access) => access,
+            Err(error) => return failed(error),
+        };
         let config = Config {
             listen: arguments.listen,
+            access,
             workers: work.workers(),
             attempts: work.attempts,
             keep_days: work.keep_days,

@@ -33,6 +33,7 @@ pub(super) fn run(spec: &Path, out: Option<&Path>) -> ExitCode {
             summary: solved.as_ref().ok(),
             rows: &recorded.rows,
             snapshots: &recorded.snapshots,
+            pixels: true,
         };
         if let Err(error) = files::write(folder, &results, &recorded.fields) {
             if let Ok(summary) = &solved {

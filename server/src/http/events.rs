@@ -14,12 +14,12 @@ use axum::http::{HeaderMap, StatusCode, header};
 use axum::response::sse::{Event, KeepAlive, Sse};
 use axum::response::{IntoResponse, Response};
 use futures_util::stream;
-use tokio::sync::broadcast;
+use tokio::sync::{OwnedSemaphorePermit, broadcast};
 use uuid::Uuid;
 
-use super::App;
 use super::extract::JobId;
 use super::problem::{Kind, Refusal};
+use super::{App, STREAMS};
 use crate::metrics::OpenStream;
 use crate::store::{StoreError, StoredEvent};
 
@@ -35,6 +35,9 @@ pub(super) enum EventsError {
     /// There is no job of that id.
     #[error("there is no job {0}")]
     Missing(Uuid),
+    /// Too many streams are open.
+    #[error("{STREAMS} event streams are open, which is the limit; poll the job instead")]
+    Full,
     /// Not the id of an event.
     #[error("the Last-Event-ID is not the id of an event: a number from 0")]
     LastEventId,
@@ -50,6 +53,10 @@ impl IntoResponse for EventsError {
     fn into_response(self) -> Response {
         match &self {
             Self::Missing(_) => Kind::NoJob.because(self.to_string()),
+            Self::Full => {
+                let busy = Kind::Busy.because(self.to_string());
+                return ([(header::RETRY_AFTER, "5")], busy).into_response();
+            }
             Self::LastEventId => Kind::InvalidQuery.because(self.to_string()),
             Self::Store(error) => Refusal::from(error),
             Self::Write(error) => Refusal::internal(error),
@@ -72,6 +79,7 @@ impl IntoResponse for EventsError {
         (status = 204, description = "The job has ended and nothing follows the event in `Last-Event-ID`"),
         (status = 400, description = "The `Last-Event-ID` cannot be read", body = Problem),
         (status = 404, description = "No such job", body = Problem),
+        (status = 503, description = "Too many streams are open", body = Problem),
     )
 )]
 pub(super) async fn events(
@@ -80,6 +88,8 @@ pub(super) async fn events(
     headers: HeaderMap,
 ) -> Result<Response, EventsError> {
     let after = last_event_id(&headers)?;
+    let place = app.streams.clone().try_acquire_owned();
+    let place = place.map_err(|_| EventsError::Full)?;
     // Listening begins before looking, so nothing falls between.
     let changes = app.store.changes();
     let job = app.store.job(id).await?.ok_or(EventsError::Missing(id))?;
@@ -103,6 +113,7 @@ pub(super) async fn events(
         waiting,
         changes,
         ended: false,
+        _place: place,
     };
     let events = stream::unfold(tail, |mut tail| async move {
         tail.next()
@@ -138,6 +149,8 @@ struct Tail {
     changes: broadcast::Receiver<Uuid>,
     ended: bool,
     _counted: OpenStream,
+    /// Held as long as the stream is open.
+    _place: OwnedSemaphorePermit,
 }
 
 impl Tail {

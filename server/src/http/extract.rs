@@ -1,14 +1,22 @@
 //! What routes take out of requests, with problem documents for what cannot be taken.
 
-use axum::extract::rejection::BytesRejection;
+use std::time::Duration;
+
+use axum::body::{Body, Bytes};
 use axum::extract::{FromRequest, FromRequestParts, Query, RawPathParams, Request};
 use axum::http::request::Parts;
-use axum::http::{HeaderMap, StatusCode, header};
+use axum::http::{HeaderMap, header};
+use futures_util::StreamExt;
 use serde::de::DeserializeOwned;
 use uuid::Uuid;
 
 use super::BODY_LIMIT;
 use super::problem::{Kind, Refusal};
+
+/// Bytes of a body that is too large which are still read.
+const THROWN_AWAY_LIMIT: usize = 64 << 20;
+/// How long a body may take to arrive.
+const BODY_TIME: Duration = Duration::from_secs(30);
 
 /// The id of a job, out of the path.
 #[derive(Debug, Clone, Copy)]
@@ -52,6 +60,18 @@ impl<S: Send + Sync> FromRequestParts<S> for FileName {
     }
 }
 
+/// The name of a kind of system, out of the path.
+#[derive(Debug, Clone)]
+pub(super) struct SystemName(pub(super) String);
+
+impl<S: Send + Sync> FromRequestParts<S> for SystemName {
+    type Rejection = Refusal;
+
+    async fn from_request_parts(parts: &mut Parts, state: &S) -> Result<Self, Refusal> {
+        Ok(Self(path_parameter(parts, state, "kind").await))
+    }
+}
+
 /// A parameter of the path; empty, which names nothing, if it is no text.
 async fn path_parameter<S: Send + Sync>(parts: &mut Parts, state: &S, name: &str) -> String {
     let Ok(parameters) = RawPathParams::from_request_parts(parts, state).await else {
@@ -75,26 +95,31 @@ impl<T: DeserializeOwned, S: Send + Sync> FromRequestParts<S> for Params<T> {
         Query::<T>::from_request_parts(parts, state)
             .await
             .map(|query| Self(query.0))
-            .map_err(|rejection| Kind::InvalidQuery.because(rejection.body_text()))
+            .map_err(|rejection| {
+                let text = rejection.body_text();
+                let detail = text.strip_prefix("Failed to deserialize query string: ");
+                Kind::InvalidQuery.because(detail.unwrap_or(&text))
+            })
     }
 }
 
 /// A body declared as JSON, not yet read.
 #[derive(Debug, Clone)]
-pub(super) struct JsonBody(pub(super) axum::body::Bytes);
+pub(super) struct JsonBody(pub(super) Bytes);
 
 impl<S: Send + Sync> FromRequest<S> for JsonBody {
     type Rejection = Refusal;
 
-    async fn from_request(request: Request, state: &S) -> Result<Self, Refusal> {
+    async fn from_request(request: Request, _: &S) -> Result<Self, Refusal> {
         if !declared_as_json(request.headers()) {
             return Err(Kind::MediaType
                 .because("send the specification with `content-type: application/json`"));
         }
-        axum::body::Bytes::from_request(request, state)
-            .await
-            .map(Self)
-            .map_err(|rejection| refused(&rejection))
+        let body = received(request.into_body());
+        let Ok(body) = tokio::time::timeout(BODY_TIME, body).await else {
+            return Err(Kind::Slow.because(format!("a body may take {} s", BODY_TIME.as_secs())));
+        };
+        body.map(Self)
     }
 }
 
@@ -115,10 +140,26 @@ fn declared_as_json(headers: &HeaderMap) -> bool {
         || (essence.starts_with("application/") && essence.ends_with("+json"))
 }
 
-fn refused(rejection: &BytesRejection) -> Refusal {
-    if rejection.status() == StatusCode::PAYLOAD_TOO_LARGE {
-        Kind::TooLarge.because(format!("a body may have {BODY_LIMIT} bytes"))
-    } else {
-        Kind::Unreadable.because("the body could not be received")
+/// The bytes of a body up to the limit. The rest of a larger one is read and thrown away, within reason, because a client
+/// that is hung up on while it sends does not learn why.
+async fn received(body: Body) -> Result<Bytes, Refusal> {
+    let mut pieces = body.into_data_stream();
+    let (mut kept, mut length) = (Vec::new(), 0_usize);
+    while let Some(piece) = pieces.next().await {
+        let piece =
+            piece.map_err(|_| Kind::Unreadable.because("the body could not be received"))?;
+        length = length.saturating_add(piece.len());
+        if length <= BODY_LIMIT {
+            kept.extend_from_slice(&piece);
+        } else {
+            kept = Vec::new();
+        }
+        if length > THROWN_AWAY_LIMIT {
+            break;
+        }
     }
+    if length > BODY_LIMIT {
+        return Err(Kind::TooLarge.because(format!("a body may have {BODY_LIMIT} bytes")));
+    }
+    Ok(kept.into())
 }

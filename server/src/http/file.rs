@@ -76,9 +76,9 @@ impl IntoResponse for FileError {
         ("Range" = Option<String>, Header, description = "Some bytes of it, such as `bytes=0-99`; one range"),
     ),
     responses(
-        (status = 200, description = "The file", content_type = "application/octet-stream", body = Vec<u8>,
+        (status = 200, description = "The file", content_type = "*/*", body = serde_json::Value,
             headers(("ETag" = String, description = "Its digest"))),
-        (status = 206, description = "The asked-for bytes", content_type = "application/octet-stream", body = Vec<u8>),
+        (status = 206, description = "The asked-for bytes", content_type = "*/*", body = serde_json::Value),
         (status = 304, description = "The client has it: `If-None-Match` names its digest"),
         (status = 404, description = "No such job, or no such file", body = Problem),
         (status = 416, description = "The range lies outside the file", body = Problem),

@@ -34,6 +34,7 @@ impl IntoResponse for PlanError {
     responses(
         (status = 200, description = "The resolved specification and its plan", body = PlanDocument),
         (status = 400, description = "The body cannot be read", body = Problem),
+        (status = 408, description = "The body did not arrive in time", body = Problem),
         (status = 413, description = "The body is too large", body = Problem),
         (status = 415, description = "The body is not declared as JSON", body = Problem),
         (status = 422, description = "The specification has faults", body = Problem),

@@ -44,6 +44,12 @@ pub(super) enum Kind {
     Active,
     /// The request was made for another host or from another origin.
     Host,
+    /// The access token is missing or wrong.
+    Token,
+    /// The request did not arrive in time.
+    Slow,
+    /// The service has too much to do.
+    Busy,
     /// The service failed.
     Internal,
 }
@@ -119,6 +125,21 @@ impl Kind {
                 "foreign-host",
                 "the request was not made for this service",
                 StatusCode::FORBIDDEN,
+            ),
+            Self::Token => (
+                "token-required",
+                "the access token is missing or wrong",
+                StatusCode::UNAUTHORIZED,
+            ),
+            Self::Slow => (
+                "request-timeout",
+                "the request did not arrive in time",
+                StatusCode::REQUEST_TIMEOUT,
+            ),
+            Self::Busy => (
+                "busy",
+                "the service has too much to do",
+                StatusCode::SERVICE_UNAVAILABLE,
             ),
             Self::Internal => (
                 "internal",
@@ -196,3 +217,6 @@ impl IntoResponse for Refusal {
         response
     }
 }
+
+#[cfg(test)]
+mod tests;

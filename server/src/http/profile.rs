@@ -18,7 +18,7 @@ use crate::translate::{csv, thin};
     tag = "results",
     params(("id" = Uuid, Path, description = "The job"), SnapshotQuery),
     responses(
-        (status = 200, description = "The document", body = Profile),
+        (status = 200, description = "The document", content((Profile = "application/json"), (String = "text/csv"))),
         (status = 400, description = "A query parameter cannot be read", body = Problem),
         (status = 404, description = "No such job, or nothing stored so far", body = Problem),
     )

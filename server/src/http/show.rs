@@ -86,7 +86,9 @@ pub(super) async fn show(
         .map(str::to_owned);
     let mut changes = app.store.changes();
     let mut job = app.store.job(id).await?.ok_or(ShowError::Missing(id))?;
-    if let Some(wait) = wait {
+    // Without a place the answer comes at once, as if the time were over.
+    let place = app.long_polls.try_acquire().ok();
+    if let (Some(wait), Some(_)) = (wait, &place) {
         let deadline = Instant::now() + wait;
         while !worth_telling(&job, known.as_deref())
             && Instant::now() < deadline

@@ -14,6 +14,7 @@ use utoipa::IntoParams;
 
 use super::App;
 use super::extract::{JsonBody, Params};
+use super::limits;
 use super::problem::{Kind, Refusal};
 use super::show::retry_after_s;
 use crate::clock::now_ms;
@@ -131,6 +132,7 @@ impl SubmitQuery {
             ("Retry-After" = u64, description = "When a poll is likely to find something new, s"),
         )),
         (status = 400, description = "The body, the key or a query parameter cannot be read", body = Problem),
+        (status = 408, description = "The body did not arrive in time", body = Problem),
         (status = 413, description = "The body is too large", body = Problem),
         (status = 415, description = "The body is not declared as JSON", body = Problem),
         (status = 422, description = "The specification has faults, or the key belongs to another body", body = Problem),
@@ -145,6 +147,7 @@ pub(super) async fn submit(
     let wishes = query.wishes()?;
     let key = request_key(&headers, &body)?;
     let resolved = translate::read(&body)?;
+    limits::check(&resolved)?;
     let plan = translate::plan(&resolved);
     let Resolved { spec, .. } = resolved;
     if query.validate_only {

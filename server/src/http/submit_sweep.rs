@@ -9,6 +9,7 @@ use axum::response::{IntoResponse, Response};
 
 use super::App;
 use super::extract::JsonBody;
+use super::limits;
 use super::problem::Refusal;
 use super::submit::{SubmitError, request_key};
 use crate::clock::now_ms;
@@ -58,6 +59,7 @@ impl IntoResponse for SubmitSweepError {
     responses(
         (status = 202, description = "Queued", body = Sweep, headers(("Location" = String, description = "The sweep"))),
         (status = 400, description = "The body or the key cannot be read", body = Problem),
+        (status = 408, description = "The body did not arrive in time", body = Problem),
         (status = 413, description = "The body is too large", body = Problem),
         (status = 415, description = "The body is not declared as JSON", body = Problem),
         (status = 422, description = "The sweep or one of its jobs has faults, or the key belongs to another body", body = Problem),
@@ -72,6 +74,9 @@ pub(super) async fn submit_sweep(
     let request = sweep::read(&body)?;
     let name = request.name.clone();
     let variations = tokio::task::spawn_blocking(move || sweep::expand(&request)).await??;
+    for variation in &variations {
+        limits::check(&variation.resolved)?;
+    }
     let jobs = variations
         .into_iter()
         .enumerate()

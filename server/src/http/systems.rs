@@ -4,10 +4,11 @@ use api::problem::Problem;
 use api::spec::{Spec, System, SystemKind};
 use api::system::{SystemDocument, SystemList};
 use axum::Json;
-use axum::extract::Path;
 use axum::response::{IntoResponse, Response};
 
+use super::extract::SystemName;
 use super::problem::Kind;
+use super::system_schema;
 use crate::translate;
 
 /// Why there is no system.
@@ -65,7 +66,9 @@ pub(super) async fn systems() -> Result<Json<SystemList>, SystemError> {
         (status = 404, description = "No such system", body = Problem),
     )
 )]
-pub(super) async fn system(Path(name): Path<String>) -> Result<Json<SystemDocument>, SystemError> {
+pub(super) async fn system(
+    SystemName(name): SystemName,
+) -> Result<Json<SystemDocument>, SystemError> {
     let kind = SystemKind::ALL
         .iter()
         .find(|kind| kind.as_str() == name)
@@ -83,6 +86,7 @@ fn document(kind: SystemKind) -> Result<SystemDocument, SystemError> {
         kind,
         description: description(kind).to_owned(),
         preset: resolved.spec,
+        schema: system_schema::of(kind),
     })
 }
 
@@ -117,6 +121,11 @@ mod tests {
         assert_eq!(
             service.get("/v1/systems/toaster").await.2["type"],
             "/problems/no-such-system"
+        );
+        assert_eq!(service.get("/v1/systems/%FF").await.0, 404);
+        assert_eq!(
+            one["schema"]["$defs"]["System"]["properties"]["kind"]["const"],
+            "fuzz_button"
         );
     }
 }

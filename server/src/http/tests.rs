@@ -15,7 +15,7 @@ use tempfile::TempDir;
 use tokio_util::sync::CancellationToken;
 use tower::ServiceExt;
 
-use super::{App, router};
+use super::{Access, App, router};
 use crate::documents::{JSON, VTU};
 use crate::files;
 use crate::queue::Move;
@@ -33,7 +33,7 @@ impl Service {
         let url = format!("sqlite://{}", folder.path().join("test.db").display());
         let store = Arc::new(Store::open(&url).await.expect("a store"));
         Self {
-            app: App::new(store, CancellationToken::new()),
+            app: App::new(store, Access::default(), CancellationToken::new()),
             folder,
         }
     }
@@ -259,34 +259,4 @@ async fn a_foreign_host_is_refused() {
         .await
         .expect("an answer");
     assert_eq!(response.status(), 403);
-}
-
-#[tokio::test]
-async fn the_api_describes_itself() {
-    let service = Service::new().await;
-    let (status, _, document) = service.get("/openapi.json").await;
-    assert_eq!(status, 200);
-    assert!(
-        document["openapi"]
-            .as_str()
-            .expect("a version")
-            .starts_with("3.")
-    );
-    for path in [
-        "/v1/jobs",
-        "/v1/jobs/{id}/events",
-        "/v1/jobs/{id}/results/loop",
-        "/healthz",
-    ] {
-        assert!(document["paths"][path].is_object(), "{path}");
-    }
-    assert!(document["components"]["schemas"]["Spec"].is_object());
-    let text = document.to_string();
-    for reference in text.split("#/components/schemas/").skip(1) {
-        let name = reference.split('"').next().expect("a name");
-        assert!(
-            document["components"]["schemas"][name].is_object(),
-            "{name} is not described"
-        );
-    }
 }

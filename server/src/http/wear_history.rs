@@ -48,7 +48,11 @@ pub(super) enum HistoryFormat {
     tag = "results",
     params(("id" = Uuid, Path, description = "The job"), HistoryQuery),
     responses(
-        (status = 200, description = "The history", body = WearHistory),
+        (status = 200, description = "The history", content(
+            (WearHistory = "application/json"),
+            (String = "text/csv"),
+            (Vec<u8> = "application/vnd.apache.parquet"),
+        )),
         (status = 400, description = "A query parameter cannot be read", body = Problem),
         (status = 404, description = "No such job", body = Problem),
     )

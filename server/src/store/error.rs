@@ -53,6 +53,9 @@ pub enum StoreError {
         /// Why.
         cause: String,
     },
+    /// A submission was broken off before it was written.
+    #[error("the submission was broken off before it was written")]
+    Unwritten,
     /// A document cannot be written.
     #[error("writing a document: {0}")]
     Write(#[from] serde_json::Error),

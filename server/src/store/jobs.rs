@@ -8,7 +8,7 @@ use uuid::Uuid;
 
 use super::conclusion::{End, end_waiting};
 use super::document::{JobRow, timestamp};
-use super::queries::{BEGIN, insert_event, job_id};
+use super::queries::{BEGIN, insert_event};
 use super::{Store, StoreError};
 use crate::queue::{self, Move};
 
@@ -108,55 +108,6 @@ pub enum Submitted {
 }
 
 impl Store {
-    /// Queues a job, unless a request with the same key has done so already. `now` in milliseconds since 1970.
-    ///
-    /// # Errors
-    /// [`StoreError`] if the database fails.
-    pub async fn submit_once(
-        &self,
-        job: &NewJob,
-        key: &RequestKey,
-        now: i64,
-    ) -> Result<Submitted, StoreError> {
-        let mut transaction = self.writer.begin_with(BEGIN).await?;
-        let known: Option<(Vec<u8>, String)> =
-            sqlx::query_as("SELECT body_sha256, job_id FROM request_keys WHERE key = ?")
-                .bind(&key.key)
-                .fetch_optional(&mut *transaction)
-                .await?;
-        if let Some((body, job)) = known {
-            if body != key.body_sha256 {
-                return Ok(Submitted::KeyTaken);
-            }
-            let id = job_id(&job)?;
-            return Ok(Submitted::Job(id));
-        }
-        let id = insert(&mut transaction, job, now).await?;
-        sqlx::query("INSERT INTO request_keys (key, body_sha256, job_id) VALUES (?, ?, ?)")
-            .bind(&key.key)
-            .bind(key.body_sha256.as_slice())
-            .bind(id.to_string())
-            .execute(&mut *transaction)
-            .await?;
-        transaction.commit().await?;
-        self.changed(id);
-        self.waiting.notify_one();
-        Ok(Submitted::Job(id))
-    }
-
-    /// Queues a job. `now` in milliseconds since 1970.
-    ///
-    /// # Errors
-    /// [`StoreError`] if the database fails.
-    pub async fn submit(&self, job: &NewJob, now: i64) -> Result<Uuid, StoreError> {
-        let mut transaction = self.writer.begin_with(BEGIN).await?;
-        let id = insert(&mut transaction, job, now).await?;
-        transaction.commit().await?;
-        self.changed(id);
-        self.waiting.notify_one();
-        Ok(id)
-    }
-
     /// A job.
     ///
     /// # Errors

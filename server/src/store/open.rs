@@ -14,6 +14,7 @@ use tokio::sync::{Notify, broadcast};
 use crate::queue::ATTEMPT_LIMIT;
 
 use super::folder::Folder;
+use super::submissions::Submissions;
 use super::{CHANGES_KEPT, Store, StoreError, queries};
 
 /// Older ones can corrupt the write-ahead log when it is reset.
@@ -78,6 +79,7 @@ impl Store {
             wal: beside(&path, "-wal"),
             attempt_limit,
             metrics: Arc::default(),
+            submissions: Submissions::default(),
             _lock: lock,
         };
         store.sweep_files(None).await?;

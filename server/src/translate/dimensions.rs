@@ -106,6 +106,21 @@ fn of_kind(kind: SystemKind) -> &'static [Dimension] {
     }
 }
 
+/// Names of all dimensions of a kind, those without a default included.
+pub(super) fn names(kind: SystemKind) -> Vec<&'static str> {
+    let named = of_kind(kind).iter().map(|dimension| dimension.field);
+    named.chain(crown(kind)).collect()
+}
+
+/// The dimension that makes a receptacle convex; it has no default.
+fn crown(kind: SystemKind) -> Option<&'static str> {
+    match kind {
+        SystemKind::CylinderOnFlat => Some(CROWN),
+        SystemKind::Zif => Some(ROUND_PIN),
+        SystemKind::FuzzButton | SystemKind::SdCard | SystemKind::Dimm => None,
+    }
+}
+
 /// Fills in the dimensions of a kind and makes the shapes.
 pub(super) fn resolve(kind: SystemKind, given: &System, ledger: &mut Ledger) -> (System, Shapes) {
     let mut given = given.clone();
@@ -122,11 +137,7 @@ pub(super) fn resolve(kind: SystemKind, given: &System, ledger: &mut Ledger) -> 
         let value = ledger.take(&pointer, stated, default, dimension.from);
         *field(&mut system, dimension.field) = Some(value);
     }
-    let crown = match kind {
-        SystemKind::CylinderOnFlat => Some(CROWN),
-        SystemKind::Zif => Some(ROUND_PIN),
-        SystemKind::FuzzButton | SystemKind::SdCard | SystemKind::Dimm => None,
-    };
+    let crown = crown(kind);
     if let Some(name) = crown {
         let radius = field(&mut given, name).take();
         if let Some(radius) = radius {

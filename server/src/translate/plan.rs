@@ -7,13 +7,16 @@ use api::plan::{Plan, PlannedEffect};
 use solver::model::resolution;
 use solver::scene::{Scene, WearLaw};
 
-use super::{Resolved, notes, size};
+use super::{Resolved, notes};
 
 /// The plan of a specification.
 pub fn plan(resolved: &Resolved) -> Plan {
     Plan {
         effects: effects(&resolved.scene),
-        estimates: estimates(&resolved.scene),
+        estimates: estimates(&resolved.scene)
+            .into_iter()
+            .chain(resolved.size.figures())
+            .collect(),
         notes: notes::notes(resolved),
     }
 }
@@ -47,10 +50,6 @@ fn estimates(scene: &Scene) -> BTreeMap<String, f64> {
         ),
         ("sliding_distance_per_cycle_mm".to_owned(), way),
     ]);
-    if let Some(size) = size::of(scene) {
-        estimates.insert("dofs".to_owned(), size.dofs);
-        estimates.insert("memory_mb".to_owned(), size.memory_mb);
-    }
     for (side, law) in [
         ("slider", scene.slider.wear),
         ("receptacle", scene.receptacle.wear),

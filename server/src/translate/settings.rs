@@ -10,6 +10,7 @@ use super::geometry::Shapes;
 use super::ledger::{Ledger, Range, shortened};
 use super::motion::CONTINUOUS_PARTS;
 use super::preset::Preset;
+use super::size::Size;
 
 /// Most cycles of a job.
 const CYCLE_LIMIT: u64 = 1_000_000_000;
@@ -133,15 +134,18 @@ pub(super) fn small_strains(
     }
 }
 
-/// Notes a fault if the bodies cannot be meshed, or the mesh would be larger than the engine takes.
-pub(super) fn meshable(scene: &scene::Scene, ledger: &mut Ledger) {
-    if let Err(error) = solver::model::build(scene) {
+/// How large the solve would be; a fault if the bodies cannot be meshed, or the mesh would be larger than the engine
+/// takes.
+pub(super) fn meshable(scene: &scene::Scene, ledger: &mut Ledger) -> Option<Size> {
+    let built = solver::model::build(scene);
+    if let Err(error) = &built {
         let pointer = match scene.accuracy.contact_element_mm {
             Some(_) => "/accuracy/overrides/contact_element_mm",
             None => "/system",
         };
         ledger.fault(pointer, error.to_string());
     }
+    built.ok().map(|model| Size::of(scene, &model))
 }
 
 /// Fills in the accuracy.

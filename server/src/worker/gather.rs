@@ -27,6 +27,8 @@ pub(super) async fn gather(
             summary: summary.as_ref(),
             rows: &rows,
             snapshots: &snapshots,
+            // Whoever looks at a job has a browser, which draws the other form itself.
+            pixels: false,
         })?;
         documents
             .into_iter()

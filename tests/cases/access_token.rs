@@ -1,0 +1,53 @@
+//! Requirement: a service with an access token answers nobody without it but for its health and its empty pages, and
+//! one without a token does not listen beyond loopback.
+
+use tests::{Server, fretwear};
+
+const TOKEN: &str = "0123456789-abcdefghij";
+
+#[tokio::test]
+async fn only_those_who_show_the_token_are_answered() {
+    let folder = tempfile::tempdir().expect("a folder can be made");
+    let file = folder.path().join("token");
+    std::fs::write(&file, format!("{TOKEN}\n")).expect("a file can be written");
+    let option = file.to_str().expect("the path is text");
+    let server = Server::start_with(folder.path(), &["--token-file", option]);
+    for (path, expected) in [
+        ("/healthz", 200),
+        ("/readyz", 200),
+        ("/", 200),
+        ("/docs", 200),
+        ("/v1/jobs", 401),
+        ("/v1/systems", 401),
+        ("/openapi.json", 401),
+        ("/metrics", 401),
+        ("/nowhere", 401),
+    ] {
+        assert_eq!(server.get(path).await.0, expected, "{path}");
+    }
+    assert_eq!(server.submit(r#"{"system":{"kind":"dimm"}}"#).await.0, 401);
+    for (token, expected) in [(TOKEN, 200), ("0123456789-abcdefghiJ", 401), ("", 401)] {
+        let request = server.client.get(format!("{}/v1/jobs", server.base));
+        let answer = request.bearer_auth(token).send().await;
+        assert_eq!(
+            answer.expect("the service answers").status(),
+            expected,
+            "{token}"
+        );
+    }
+}
+
+#[test]
+fn without_a_token_only_loopback_is_listened_on() {
+    let folder = tempfile::tempdir().expect("a folder can be made");
+    let ran = fretwear(folder.path(), &["serve", "--listen", "0.0.0.0:0"]);
+    assert_eq!(ran.code, Some(1));
+    assert!(ran.stderr.contains("access token"), "{}", ran.stderr);
+    std::fs::write(folder.path().join("weak"), "short").expect("a file can be written");
+    let ran = fretwear(
+        folder.path(),
+        &["serve", "--listen", "0.0.0.0:0", "--token-file", "weak"],
+    );
+    assert_eq!(ran.code, Some(1));
+    assert!(ran.stderr.contains("5 characters"), "{}", ran.stderr);
+}

@@ -1,0 +1,188 @@
+//! Requirement: input that means harm is refused with a problem of the 4xx kind, at no more cost than reading it, and
+//! the service goes on answering: bodies of 50 MB, JSON 10 000 levels deep, numbers at the end of the range, a mesh of
+//! 1e9 elements, heads that never end, paths that lead out, 10 000 labels. Nothing of it is queued.
+
+use std::io::{ErrorKind, Read, Write};
+use std::net::TcpStream;
+use std::time::Duration;
+
+use serde_json::{Value, json};
+use tests::Server;
+
+/// Peak memory that a service needs at most to refuse all of this, MB.
+const MEMORY_LIMIT_MB: f64 = 256.0;
+/// Longer than the service waits for a head; a connection that is still open then stays open.
+const PATIENCE: Duration = Duration::from_mins(2);
+
+fn connection(server: &Server) -> TcpStream {
+    let address = server.base.trim_start_matches("http://");
+    let stream = TcpStream::connect(address).expect("the service takes connections");
+    stream
+        .set_read_timeout(Some(PATIENCE))
+        .expect("a time can be set");
+    stream
+}
+
+/// Sends bytes as they are, as far as the service takes them; the first line of its answer.
+fn raw(server: &Server, head: &str, body: &[u8]) -> String {
+    let mut stream = connection(server);
+    stream
+        .write_all(head.as_bytes())
+        .expect("a head can be sent");
+    // The service may answer and hang up before it has read everything.
+    let _ = stream.write_all(body);
+    let mut answer = [0_u8; 64];
+    let length = stream.read(&mut answer).expect("the service answers");
+    String::from_utf8_lossy(&answer[..length])
+        .lines()
+        .next()
+        .unwrap_or_default()
+        .to_owned()
+}
+
+async fn refused(server: &Server, body: impl Into<reqwest::Body>, expected: u16) -> Value {
+    let (status, problem) = server.submit(body).await;
+    assert_eq!(status, expected, "{problem}");
+    assert!(
+        problem["type"]
+            .as_str()
+            .is_some_and(|kind| kind.starts_with("/problems/")),
+        "{problem}"
+    );
+    problem
+}
+
+async fn alive_and_empty(server: &Server) {
+    assert_eq!(server.get("/healthz").await.0, 200);
+    let (_, list) = server.get("/v1/jobs").await;
+    assert_eq!(list["jobs"], json!([]));
+}
+
+#[tokio::test]
+async fn large_bodies_are_refused_and_not_kept() {
+    let folder = tempfile::tempdir().expect("a folder can be made");
+    let server = Server::start(folder.path());
+    let head = "POST /v1/jobs HTTP/1.1\r\nhost: 127.0.0.1\r\ncontent-type: application/json\r\n";
+    let body = vec![b' '; 50 << 20];
+    let declared = format!("{head}content-length: {}\r\n\r\n", body.len());
+    let line = raw(&server, &declared, &body);
+    assert!(line.contains(" 413 "), "{line}");
+    let mut chunked = format!("{:x}\r\n", body.len()).into_bytes();
+    chunked.extend_from_slice(&body);
+    let undeclared = format!("{head}transfer-encoding: chunked\r\n\r\n");
+    chunked.extend_from_slice(b"\r\n0\r\n\r\n");
+    let line = raw(&server, &undeclared, &chunked);
+    assert!(line.contains(" 413 "), "{line}");
+    alive_and_empty(&server).await;
+    let peak = server.peak_memory_mb();
+    assert!(peak < MEMORY_LIMIT_MB, "{peak} MB");
+}
+
+#[tokio::test]
+async fn documents_that_mean_harm_are_refused_with_a_problem() {
+    let folder = tempfile::tempdir().expect("a folder can be made");
+    let server = Server::start(folder.path());
+    for (open, close) in [("[", "]"), (r#"{"system":"#, "}")] {
+        let deep = format!("{}1{}", open.repeat(10_000), close.repeat(10_000));
+        refused(&server, deep.clone(), 400).await;
+        let unknown = format!(r#"{{"system":{{"kind":"dimm"}},"x":{deep}}}"#);
+        refused(&server, unknown, 422).await;
+    }
+    let huge = r#"{"system":{"kind":"cylinder_on_flat","radius_mm":1e308},"load":{"kind":"line_force","n_per_mm":1e308}}"#;
+    let problem = refused(&server, huge, 422).await;
+    assert_eq!(
+        problem["faults"].as_array().map(Vec::len),
+        Some(2),
+        "{problem}"
+    );
+    refused(&server, r#"{"system":{"kind":"dimm"},"cycles":1e400}"#, 400).await;
+
+    let mesh = |size: f64| {
+        let accuracy = json!({"overrides": {"contact_element_mm": size}});
+        json!({"system": {"kind": "fuzz_button"}, "accuracy": accuracy}).to_string()
+    };
+    let problem = refused(&server, mesh(1e-10), 422).await;
+    assert_eq!(
+        problem["faults"][0]["pointer"],
+        "/accuracy/overrides/contact_element_mm"
+    );
+    let rows = r#"{"system":{"kind":"dimm"},"cycles":1000000000,"accuracy":{"overrides":{"cycle_jump":1}}}"#;
+    let problem = refused(&server, rows, 422).await;
+    assert!(problem.to_string().contains("output"), "{problem}");
+
+    let labels: serde_json::Map<String, Value> = (0..10_000)
+        .map(|label| (format!("label-{label}"), json!("x")))
+        .collect();
+    let labelled = json!({"system": {"kind": "dimm"}, "labels": labels});
+    let problem = refused(&server, labelled.to_string(), 422).await;
+    assert_eq!(problem["faults"][0]["pointer"], "/labels");
+    let stations =
+        json!({"system": {"kind": "dimm"}, "output": {"stations_mm": vec![0.0; 100_000]}});
+    refused(&server, stations.to_string(), 422).await;
+    alive_and_empty(&server).await;
+    let peak = server.peak_memory_mb();
+    assert!(peak < MEMORY_LIMIT_MB, "{peak} MB");
+}
+
+#[tokio::test]
+async fn paths_that_lead_out_lead_nowhere() {
+    let folder = tempfile::tempdir().expect("a folder can be made");
+    let server = Server::start(folder.path());
+    for path in [
+        "/v1/jobs/../../../../etc/passwd",
+        "/v1/jobs/..%2f..%2fetc%2fpasswd",
+        "/v1/jobs/%2e%2e/results/files/fretwear.db",
+        "/v1/jobs/00000000-0000-7000-8000-000000000000/results/files/..%2f..%2ffretwear.db",
+        "/v1/jobs/00000000-0000-7000-8000-000000000000/results/files/%00",
+        "/assets/..%2f..%2fetc%2fpasswd",
+        "//etc/passwd",
+    ] {
+        let head = format!("GET {path} HTTP/1.1\r\nhost: 127.0.0.1\r\n\r\n");
+        let line = raw(&server, &head, b"");
+        assert!(line.contains(" 404 "), "{path}: {line}");
+    }
+    let line = raw(
+        &server,
+        "GET / HTTP/1.1\r\nhost: attacker.test\r\n\r\n",
+        b"",
+    );
+    assert!(line.contains(" 403 "), "{line}");
+}
+
+#[tokio::test]
+async fn heads_that_never_end_are_hung_up_on_while_others_are_answered() {
+    let folder = tempfile::tempdir().expect("a folder can be made");
+    let server = Server::start(folder.path());
+    let mut slow: Vec<TcpStream> = (0..200)
+        .map(|_| {
+            let mut stream = connection(&server);
+            stream
+                .write_all(b"GET /healthz HTTP/1.1\r\nhost: 127.0.0.1\r\nx-slow: ")
+                .expect("a part of a head can be sent");
+            stream
+        })
+        .collect();
+    alive_and_empty(&server).await;
+    for stream in &mut slow {
+        let mut answer = Vec::new();
+        match stream.read_to_end(&mut answer) {
+            Ok(_) => {}
+            Err(error) => assert_eq!(error.kind(), ErrorKind::ConnectionReset),
+        }
+        let told = String::from_utf8_lossy(&answer);
+        assert!(!told.contains(" 200 "), "{told}");
+    }
+    let many = "x: y\r\n".repeat(1000);
+    let line = raw(
+        &server,
+        &format!("GET /healthz HTTP/1.1\r\n{many}\r\n"),
+        b"",
+    );
+    assert!(line.contains(" 431 "), "{line}");
+    let healthy = raw(
+        &server,
+        "GET /healthz HTTP/1.1\r\nhost: 127.0.0.1\r\n\r\n",
+        b"",
+    );
+    assert!(healthy.contains(" 200 "), "{healthy}");
+}

@@ -1,0 +1,85 @@
+//! Requirement: the curl lines of README.md work as they stand, one after the other, against a service.
+
+use std::path::Path;
+use std::process::Command;
+
+use tests::Server;
+
+/// The address that README.md uses.
+const ADDRESS: &str = "http://127.0.0.1:8080";
+
+/// Lines that begin a command, without the comments behind them.
+fn commands(readme: &str) -> Vec<String> {
+    readme
+        .lines()
+        .filter_map(|line| line.strip_prefix("    curl "))
+        .map(|rest| {
+            format!(
+                "curl {}",
+                rest.split("  #").next().unwrap_or_default().trim()
+            )
+        })
+        .collect()
+}
+
+/// Ids that the answers told.
+#[derive(Default)]
+struct Known {
+    job: String,
+    sweep: String,
+}
+
+/// Runs a command as a shell does; errors of the service end it with a code.
+fn run(folder: &Path, base: &str, known: &Known, command: &str) -> (Option<i32>, String) {
+    let strict = r#"curl() { command curl -sS --fail-with-body --max-time 200 "$@"; }"#;
+    let Known { job, sweep } = known;
+    let command = command.replace(ADDRESS, base);
+    let script = format!("{strict}\nID={job}\nSWEEP={sweep}\n{command}");
+    let output = Command::new("bash")
+        .args(["-c", &script])
+        .current_dir(folder)
+        .output()
+        .expect("bash can be started");
+    let told = String::from_utf8_lossy(&output.stdout).into_owned();
+    (
+        output.status.code(),
+        told + &String::from_utf8_lossy(&output.stderr),
+    )
+}
+
+#[tokio::test]
+#[cfg_attr(not(has_curl), ignore = "needs curl")]
+async fn the_curl_lines_of_the_readme_work() {
+    let folder = tempfile::tempdir().expect("a folder can be made");
+    let server = Server::start(folder.path());
+    let house = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    let readme = std::fs::read_to_string(house.join("README.md")).expect("there is a README.md");
+    let commands = commands(&readme);
+    // Commands write files where they run, so they run elsewhere, beside the specifications that they name.
+    let specs = folder.path().join("tests");
+    std::fs::create_dir(&specs).expect("a folder can be made");
+    std::os::unix::fs::symlink(house.join("tests/specs"), specs.join("specs"))
+        .expect("a link can be made");
+    assert!(commands.len() >= 7, "{commands:?}");
+    let mut known = Known::default();
+    for command in &commands {
+        let (code, told) = run(folder.path(), &server.base, &known, command);
+        assert_eq!(code, Some(0), "{command}\n{told}");
+        if let Some(location) = told
+            .lines()
+            .find_map(|line| line.strip_prefix("location: /v1/jobs/"))
+        {
+            location.trim().clone_into(&mut known.job);
+        }
+        if command.contains("sweep.json") {
+            let sweep: serde_json::Value = serde_json::from_str(&told).expect("JSON");
+            sweep["id"]
+                .as_str()
+                .expect("an id")
+                .clone_into(&mut known.sweep);
+        }
+        if command.contains("/events") {
+            assert!(told.contains("event: done"), "{told}");
+        }
+    }
+}
