@@ -6,6 +6,7 @@
 )]
 
 mod converge_scars;
+mod converge_tolerance;
 mod keep;
 mod scenes;
 mod verify_block_on_ring;

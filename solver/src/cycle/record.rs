@@ -8,9 +8,8 @@ use crate::history::{
 use crate::model::Model;
 use crate::scene::Scene;
 
-/// A scar ends where its depth falls below this part of the largest one; outside the reach of the contact it is
-/// exactly zero.
-const SCAR_EDGE: f64 = 1e-3;
+/// The edge of a scar is on the line through its last two nodes that are deeper than this part of its largest depth.
+const SCAR_EDGE: f64 = 0.02;
 
 /// The report of the present state.
 pub fn report(scene: &Scene, model: &Model, state: &CycleState) -> CycleReport {
@@ -98,36 +97,35 @@ fn interpolate(x: &[f64], y: &[f64], at: f64) -> f64 {
     (1.0 - t) * y[i - 1] + t * y[i]
 }
 
-/// Half the distance between the places where the depth falls below the edge's share of the largest depth, mm.
+/// Half the distance between the edges of the scar, mm.
 ///
-/// The depth goes to zero at an angle somewhere between the last worn node and the next one; the line through the last
-/// two worn nodes tells where. Interpolating to the unworn node instead would put the edge there, up to an element too
-/// far out.
+/// The depth goes to zero at an angle, but for a foot of an element or two that the mesh makes. The line through the last
+/// two nodes above the foot tells the edge to a few hundredths of an element; interpolating to the first unworn
+/// node would put it up to an element too far out.
 fn scar_half_width(x: &[f64], depth: &[f64]) -> f64 {
     let limit = SCAR_EDGE * depth.iter().fold(0.0, |m: f64, d| m.max(*d));
-    let worn = |d: &f64| *d > limit;
-    let (Some(first), Some(last)) = (depth.iter().position(worn), depth.iter().rposition(worn))
+    let deep = |d: &f64| *d > limit;
+    let (Some(first), Some(last)) = (depth.iter().position(deep), depth.iter().rposition(deep))
     else {
         return 0.0;
     };
-    let edge = |node: usize, inner: Option<usize>, outer: Option<usize>| {
-        let Some(outer) = outer else { return x[node] };
-        let fall = inner.map_or(0.0, |i| (depth[i] - depth[node]) / (x[node] - x[i]).abs());
-        let reach = (x[outer] - x[node]).abs();
-        let out = if fall * reach > depth[node] - limit {
-            (depth[node] - limit) / fall
+    let edge = |node: usize, inner: usize, end: usize| {
+        let rise = (depth[inner] - depth[node]) / (x[inner] - x[node]);
+        let out = x[node] - depth[node] / rise;
+        if node == end || inner == node || !out.is_finite() {
+            return x[node];
+        }
+        // Not beyond the first unworn node.
+        let unworn = if node < end {
+            (node..=end).find(|&i| depth[i] <= 0.0)
         } else {
-            reach * (depth[node] - limit) / (depth[node] - depth[outer])
+            (end..=node).rev().find(|&i| depth[i] <= 0.0)
         };
-        x[node] + out * (x[outer] - x[node]).signum()
+        let bound = x[unworn.unwrap_or(end)];
+        out.clamp(x[node].min(bound), x[node].max(bound))
     };
-    let inside = |node: usize| (first..=last).contains(&node).then_some(node);
-    let left = edge(first, inside(first + 1), first.checked_sub(1));
-    let right = edge(
-        last,
-        last.checked_sub(1).and_then(inside),
-        Some(last + 1).filter(|&node| node < x.len()),
-    );
+    let left = edge(first, (first + 1).min(last), 0);
+    let right = edge(last, last.saturating_sub(1).max(first), x.len() - 1);
     0.5 * (right - left)
 }
 
@@ -144,4 +142,26 @@ pub(crate) fn worn_area_residual(model: &Model, state: &CycleState, report: &Cyc
     let interface = &model.interface;
     relative(report.receptacle.worn_area_mm2, interface.receptacle_wear)
         .max(relative(report.slider.worn_area_mm2, interface.slider_wear))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A circular segment on a mesh that does not meet its edges, with a foot on the right: 0.5 (1.7 + 1.3).
+    #[test]
+    fn edges_lie_between_the_nodes() {
+        let x: Vec<f64> = (0..=80_u32).map(|i| -2.0 + 0.05 * f64::from(i)).collect();
+        let mut depth: Vec<f64> = x.iter().map(|x| ((1.7 + x) * (1.3 - x)).max(0.0)).collect();
+        let foot = depth.iter().rposition(|d| *d > 0.0).expect("worn") + 1;
+        depth[foot] = 1e-3;
+        assert!((scar_half_width(&x, &depth) - 1.5).abs() < 0.01);
+    }
+
+    #[test]
+    fn a_groove_over_the_whole_block_ends_with_it() {
+        assert!((scar_half_width(&[-1.0, 0.0, 1.0], &[0.5, 1.0, 0.4]) - 1.0).abs() < 1e-15);
+        assert!(scar_half_width(&[-1.0, 0.0, 1.0], &[0.0; 3]).abs() < 1e-15);
+        assert!(scar_half_width(&[-1.0, 0.0, 1.0], &[0.0, 1.0, 0.0]).abs() < 1e-15);
+    }
 }

@@ -10,12 +10,15 @@
 use crate::material::contact_modulus;
 use crate::mesh::grading::Spacing;
 use crate::number::real_cycles;
-use crate::scene::Scene;
-use crate::wear;
+use crate::scene::{Motion, Scene};
+use crate::{friction, wear};
 use std::f64::consts::PI;
 
 /// The estimate of the largest scar is widened by this factor before it sizes the mesh.
 const SCAR_MARGIN: f64 = 1.3;
+
+/// Where part of the contact sticks, wear is confined to a slip zone that is narrower than the contact.
+const STICKING_REFINEMENT: f64 = 2.5;
 
 /// No element that is chosen is longer than this part of the narrower body's half-length: however soft or heavily loaded
 /// the bodies are, each has some elements.
@@ -60,6 +63,23 @@ fn rule(tolerance: f64) -> Rule {
     }
 }
 
+/// Whether part of the contact may stick through the whole stroke: the amplitude is below twice the displacement at
+/// which all of it slips, by estimate  mu P / (pi E*) (2 ln(4 H/a) - 1)  with the lower body height H (Johnson 1985,
+/// section 5.6, for the approach of a strip under a line load; tangential compliance is like the normal one).
+fn sticks(scene: &Scene, half_width: f64, modulus: f64) -> bool {
+    let Motion::Reciprocating { amplitude_mm, .. } = scene.motion else {
+        return false;
+    };
+    let height = scene
+        .slider
+        .shape
+        .height_mm
+        .min(scene.receptacle.shape.height_mm);
+    let reach = (2.0 * (4.0 * height / half_width).ln() - 1.0).max(0.0);
+    let shear = friction::coefficient(scene.friction) * scene.load_n_per_mm / (PI * modulus);
+    amplitude_mm < 2.0 * shear * reach
+}
+
 /// Radius R of the relative curvature of both bodies, mm.
 pub(crate) fn radius(scene: &Scene) -> f64 {
     let crown = scene.receptacle.shape.crown_radius_mm;
@@ -93,12 +113,17 @@ pub fn choose(scene: &Scene) -> Sizes {
     let narrowest = if runs { narrowest } else { hertz };
 
     let rule = rule(scene.accuracy.tolerance);
+    let elements = if sticks(scene, hertz, modulus) {
+        STICKING_REFINEMENT * rule.elements
+    } else {
+        rule.elements
+    };
     let given = scene.accuracy.contact_element_mm;
     let half_block = 0.5 * scene.receptacle.shape.length_mm;
     let narrower = half_block.min(scene.slider.shape.half_width_mm);
     let element = match given {
         Some(element) => element.min(FEWEST_GIVEN_SHARE * narrower),
-        None => (narrowest / rule.elements).min(FEWEST_SHARE * narrower),
+        None => (narrowest / elements).min(FEWEST_SHARE * narrower),
     };
     let reach = SCAR_MARGIN * last + element;
     let core = if given.is_some() {
