@@ -31,8 +31,8 @@ const OPTIONS: [&str; 10] = [
 ];
 /// A lease of the service above, and then some.
 const PAST_A_LEASE: Duration = Duration::from_millis(1_500);
-/// Size of the disk that is filled up, MB.
-const DISK_MB: u32 = 96;
+/// Size of the disk that is filled up: empty, and for the results of a job, MB.
+const DISK_MB: (usize, usize) = (64, 2);
 /// Jobs that wait or run at most, so that submissions are disturbed too.
 const AHEAD: usize = 12;
 
@@ -88,10 +88,11 @@ struct Disk {
 }
 
 impl Disk {
-    fn new() -> Self {
+    fn new(jobs: usize) -> Self {
+        let size_mb = DISK_MB.0 + DISK_MB.1 * jobs;
         let folder = tempfile::tempdir().expect("a folder can be made");
         let mounted = Command::new("mount")
-            .args(["-t", "tmpfs", "-o", &format!("size={DISK_MB}m"), "tmpfs"])
+            .args(["-t", "tmpfs", "-o", &format!("size={size_mb}m"), "tmpfs"])
             .arg(folder.path())
             .output()
             .is_ok_and(|output| output.status.success());
@@ -132,8 +133,8 @@ struct Arena {
 }
 
 impl Arena {
-    fn new(seed: u64) -> Self {
-        let disk = Disk::new();
+    fn new(jobs: usize, seed: u64) -> Self {
+        let disk = Disk::new(jobs);
         let folder = disk.folder.path().to_owned();
         Self {
             server: Some(Server::start_with(&folder, &OPTIONS)),
@@ -257,7 +258,7 @@ async fn chaos(jobs: usize, seed: u64) {
     let began = Instant::now();
     let studies = studies();
     let expected = undisturbed(&studies).await;
-    let mut arena = Arena::new(seed);
+    let mut arena = Arena::new(jobs, seed);
     loop {
         let open = arena.open().await;
         if arena.accepted.len() == jobs && open == 0 {
