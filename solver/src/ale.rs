@@ -17,7 +17,7 @@ fn drift_share(tolerance: f64) -> f64 {
 }
 
 /// A body is worn through when a spine has less than this part of the unworn height left.
-const WORN_THROUGH_SHARE: f64 = 0.03;
+pub(crate) const WORN_THROUGH_SHARE: f64 = 0.03;
 
 /// Whether the geometry has changed enough since the operators were built to build them again.
 pub fn has_drifted(model: &Model, state: &CycleState, tolerance: f64) -> bool {
@@ -88,6 +88,12 @@ fn left(body: &BodyModel, depth: &[f64]) -> f64 {
     smallest(body, depth, |height, depth| 1.0 - depth / height)
 }
 
+/// Unworn lengths of a body's contact spines, mm.
+pub fn spine_lengths(body: &BodyModel) -> Vec<f64> {
+    let length = |x: &f64| (body.mesh.far_y() - body.profile.height(*x)).abs();
+    body.contact_x().iter().map(length).collect()
+}
+
 /// Smallest length of a contact spine that is left in either body, mm.
 pub fn least_left_mm(model: &Model, state: &CycleState) -> f64 {
     let left = |height: f64, depth: f64| height - depth;
@@ -100,10 +106,9 @@ pub fn least_left_mm(model: &Model, state: &CycleState) -> f64 {
 
 /// Smallest value of a function of (unworn spine length, worn depth) over the contact spines.
 fn smallest(body: &BodyModel, depth: &[f64], of: impl Fn(f64, f64) -> f64) -> f64 {
-    let height = |x: f64| (body.mesh.far_y() - body.profile.height(x)).abs();
-    let x = body.contact_x();
-    x.iter()
+    spine_lengths(body)
+        .iter()
         .zip(depth)
-        .map(|(&x, &d)| of(height(x), d))
+        .map(|(&height, &depth)| of(height, depth))
         .fold(f64::INFINITY, f64::min)
 }

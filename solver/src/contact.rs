@@ -19,7 +19,9 @@
 mod increment;
 mod mortar;
 mod newton;
+mod pivoting;
 mod range;
+mod recession;
 mod response;
 mod status;
 
@@ -31,8 +33,8 @@ use crate::model::Interface;
 pub use increment::{Increment, Solver};
 pub use status::Status;
 
-/// Most primal-dual iterations of one increment before it is given up.
-pub const MOST_ITERATIONS: usize = 250;
+/// Most primal-dual iterations of one increment before it is pivoted.
+pub const MOST_ITERATIONS: usize = 60;
 
 /// Gap residual, over the largest indentation, that ends the iteration. Newton's last step squares an error of the
 /// order 1e-6, so this is met by round-off or not at all.
@@ -65,11 +67,17 @@ pub enum ContactError {
         /// Nodes in contact.
         active: usize,
     },
-    /// The slider is beside the receptacle.
-    #[error("no node of the receptacle is under the slider at x = {slider_x_mm:.6} mm")]
-    NothingBelow {
+    /// More wears off at once than implicit wear can follow.
+    #[error(
+        "the step to x = {slider_x_mm:.6} mm wears off {share:.2} of what is left of a body (at most {limit})"
+    )]
+    TooMuchWear {
         /// Imposed displacement, mm.
         slider_x_mm: f64,
+        /// Wear of the step over what is left of the body there.
+        share: f64,
+        /// Its limit.
+        limit: f64,
     },
 }
 
@@ -156,6 +164,23 @@ impl ContactState {
             slider_force: vec![0.0; 2 * m],
             indentation: 0.0,
             reference_height: None,
+        }
+    }
+
+    /// Takes on the place of the slider, and no contact.
+    fn lift(&mut self, last: &Self, slider_x: f64) {
+        self.slider_x = slider_x;
+        self.height = last.height;
+        self.indentation = last.indentation;
+        self.reference_height = last.reference_height;
+        self.status.fill(Status::Open);
+        for values in [
+            &mut self.pressure,
+            &mut self.shear,
+            &mut self.receptacle_force,
+            &mut self.slider_force,
+        ] {
+            values.fill(0.0);
         }
     }
 

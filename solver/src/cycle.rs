@@ -15,12 +15,13 @@ mod sweep;
 
 use serde::{Deserialize, Serialize};
 
+use crate::ale;
 use crate::condensation::Operators;
-use crate::contact::{self, ContactError, ContactState, Move, Pair, Solver, Surfaces};
+use crate::contact::{self, ContactError, ContactState, Increment, Move, Pair, Solver, Surfaces};
 use crate::history::{Checks, FrictionLoop, Position};
 use crate::material::contact_modulus;
-use crate::model::Model;
-use crate::number::{real, real_cycles};
+use crate::model::{Interface, Model};
+use crate::number::{cycles_at_least, real, real_cycles};
 use crate::scene::Scene;
 
 pub(crate) use record::worn_area_residual;
@@ -29,6 +30,9 @@ pub use sweep::{Neutral, Sweep};
 
 /// How often an increment may be halved before it is given up.
 const MOST_HALVINGS: u32 = 8;
+
+/// An increment may wear off this part of what is left of a body at a place; a larger one is halved.
+const LARGEST_SHARE: f64 = 0.9;
 
 /// A stroke whose amplitude is larger than this many half-widths of the contact leaves it behind.
 const RUNS_FROM: f64 = 2.0;
@@ -114,6 +118,8 @@ pub struct Integrator<'a> {
     solver: Solver,
     /// Slopes of the receptacle's and the slider's surface at the beginning of the computed cycle.
     slope: [Vec<f64>; 2],
+    /// Unworn spine lengths of the receptacle and the slider at their contact nodes, mm.
+    lengths: [Vec<f64>; 2],
     next: ContactState,
 }
 
@@ -130,6 +136,10 @@ impl<'a> Integrator<'a> {
             pair,
             solver: Solver::default(),
             slope: [Vec::new(), Vec::new()],
+            lengths: [
+                ale::spine_lengths(&model.receptacle),
+                ale::spine_lengths(&model.slider),
+            ],
             next,
         }
     }
@@ -193,30 +203,75 @@ impl<'a> Integrator<'a> {
     pub fn sweep(&mut self, state: &mut CycleState, until: u64) -> Result<Sweep, CycleError> {
         let (motion, accuracy) = (self.scene.motion, &self.scene.accuracy);
         let stroke = self.stroke(state);
-        let jump = state.jump.next(accuracy, stroke, until - state.cycle);
+        let mut jump = state.jump.next(accuracy, stroke, until - state.cycle);
         let steps = path::steps(motion, accuracy, state.mean_half_width);
         self.take_slopes(state);
-        let before = state.receptacle_depth.clone();
+        let before = state.clone();
+        loop {
+            let error = match self.computed_cycle(state, &steps, jump) {
+                Ok(sweep) => {
+                    let widths = &self.pair.operators.receptacle.widths;
+                    let done = state.cycle - before.cycle;
+                    let (old, new) = (&before.receptacle_depth, &state.receptacle_depth);
+                    state.jump.learn(widths, old, new, done);
+                    return Ok(sweep);
+                }
+                Err(error) => error,
+            };
+            let cut = state.jump.cut(jump);
+            *state = CycleState {
+                jump: state.jump.clone(),
+                ..before.clone()
+            };
+            jump = cut.ok_or(error)?;
+        }
+    }
+
+    /// The steps of one computed cycle, up to its end or to where a body is worn through.
+    fn computed_cycle(
+        &mut self,
+        state: &mut CycleState,
+        steps: &[path::Step],
+        jump: u64,
+    ) -> Result<Sweep, CycleError> {
         let mut sweep = Sweep::default();
-        let mut half_widths = 0.0;
+        let (mut half_widths, mut touching, mut done) = (0.0, 0, 0);
         for (increment, step) in steps.iter().enumerate() {
             self.step(state, step, real_cycles(jump), increment)?;
-            half_widths += state.contact.half_width(&self.pair.operators.receptacle.x);
+            if state.contact.active_range().is_some() {
+                half_widths += state.contact.half_width(&self.pair.operators.receptacle.x);
+                touching += 1;
+            }
             self.record(&mut sweep, state, step.at);
+            done += 1;
+            if self.is_worn_through(state) {
+                break;
+            }
         }
-        sweep
-            .friction_loop
-            .begin_at(steps.len() - path::set_out(&steps).len());
-        state.cycle += jump;
-        state.sliding_distance += motion.distance_per_cycle_mm() * real_cycles(jump);
-        state.mean_half_width = half_widths / real(steps.len());
+        let cycles = if done == steps.len() {
+            sweep
+                .friction_loop
+                .begin_at(steps.len() - path::set_out(steps).len());
+            jump
+        } else {
+            cycles_at_least(real_cycles(jump) * real(done) / real(steps.len())).min(jump)
+        };
+        state.cycle += cycles;
+        state.sliding_distance += self.scene.motion.distance_per_cycle_mm() * real_cycles(cycles);
+        if touching > 0 {
+            state.mean_half_width = half_widths / real(touching);
+        }
         state.computed_cycles += 1;
         state.most_increments = state.most_increments.max(steps.len());
-        let widths = &self.pair.operators.receptacle.widths;
-        state
-            .jump
-            .learn(widths, &before, &state.receptacle_depth, jump);
         Ok(sweep)
+    }
+
+    fn is_worn_through(&self, state: &CycleState) -> bool {
+        let depths = [&state.receptacle_depth, &state.slider_depth];
+        self.lengths.iter().zip(depths).any(|(lengths, depths)| {
+            let mut spines = lengths.iter().zip(depths);
+            spines.any(|(length, depth)| length - depth < ale::WORN_THROUGH_SHARE * length)
+        })
     }
 
     fn stroke(&self, state: &CycleState) -> jump::Stroke {
@@ -292,6 +347,7 @@ impl<'a> Integrator<'a> {
         let done = self
             .solver
             .advance(&self.pair, &surfaces, last, to, &mut self.next)?;
+        check_wear(&self.pair.interface, &self.lengths, state, to, &done)?;
         let interface = &self.pair.interface;
         let widths = &self.pair.operators.receptacle.widths[done.first..];
         let depths = &mut state.receptacle_depth[done.first..];
@@ -333,4 +389,42 @@ impl<'a> Integrator<'a> {
             state.neutral = Neutral::of(contact, &self.pair);
         }
     }
+}
+
+/// Refuses an increment that wears off more of a body than is sound to take at once.
+fn check_wear(
+    interface: &Interface,
+    lengths: &[Vec<f64>; 2],
+    state: &CycleState,
+    to: Move,
+    done: &Increment<'_>,
+) -> Result<(), ContactError> {
+    let sides = [
+        (
+            interface.receptacle_wear,
+            done.first,
+            done.path,
+            &state.receptacle_depth,
+        ),
+        (
+            interface.slider_wear,
+            done.slider_first,
+            done.slider_path,
+            &state.slider_depth,
+        ),
+    ];
+    for ((k, first, path, depths), lengths) in sides.into_iter().zip(lengths) {
+        let spines = lengths[first..].iter().zip(&depths[first..]);
+        for ((length, depth), path) in spines.zip(path) {
+            let share = k * to.cycles * path / (length - depth);
+            if share.is_nan() || share > LARGEST_SHARE {
+                return Err(ContactError::TooMuchWear {
+                    slider_x_mm: to.slider_x,
+                    share,
+                    limit: LARGEST_SHARE,
+                });
+            }
+        }
+    }
+    Ok(())
 }

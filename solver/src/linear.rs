@@ -3,6 +3,8 @@
 
 pub mod cholesky;
 pub mod dense;
+pub mod lemke;
 
 pub use cholesky::{CholeskyFactor, CholeskyPattern, FactorError};
 pub use dense::{DenseLu, SquareMatrix};
+pub use lemke::Lemke;

@@ -27,3 +27,16 @@ pub(crate) fn count_at_least(value: f64) -> usize {
     }
     value.clamp(1.0, 2_147_483_648.0).ceil() as usize
 }
+
+/// The smallest number of cycles that is not below `value`, and at least 1; `value` is clamped to 2^53.
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "the value is clamped to a range that fits"
+)]
+pub(crate) fn cycles_at_least(value: f64) -> u64 {
+    if value.is_nan() {
+        return 1;
+    }
+    value.clamp(1.0, 9_007_199_254_740_992.0).ceil() as u64
+}

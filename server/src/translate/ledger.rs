@@ -62,6 +62,23 @@ impl Ledger {
         value
     }
 
+    /// Like [`Self::check`], but 0 is accepted too.
+    pub(super) fn check_or_zero(&mut self, pointer: &str, value: f64, range: Range) -> f64 {
+        if value == 0.0 {
+            return value;
+        }
+        if !(range.from..=range.to).contains(&value) {
+            let detail = format!(
+                "{} is neither 0 nor in {} to {}",
+                short(value),
+                range.from,
+                range.to
+            );
+            self.fault(pointer, detail);
+        }
+        value
+    }
+
     /// Notes a fault if a text is too long.
     pub(super) fn text(&mut self, pointer: &str, text: &str, limit: usize) {
         let length = text.chars().count();

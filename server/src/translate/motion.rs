@@ -6,7 +6,7 @@ use solver::scene;
 use super::ledger::{Ledger, Range};
 use super::preset::Preset;
 
-/// mm; from below an atom to far beyond any contact.
+/// mm; from below an atom to far beyond any contact, and 0: nothing moves.
 const AMPLITUDE_MM: Range = Range {
     from: 1e-9,
     to: 1e4,
@@ -147,7 +147,7 @@ fn reciprocating(given: &Motion, preset: &Preset, ledger: &mut Ledger) -> Impose
         preset.amplitude_mm.value,
         preset.amplitude_mm.from,
     );
-    ledger.check("/motion/amplitude_mm", amplitude_mm, AMPLITUDE_MM);
+    ledger.check_or_zero("/motion/amplitude_mm", amplitude_mm, AMPLITUDE_MM);
     let mut motion = filled(NOTHING, waveform, drive, amplitude_mm);
     let period_s = period(given, preset, &mut motion, ledger);
     Imposed {

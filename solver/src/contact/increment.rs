@@ -1,8 +1,10 @@
 //! One increment of sliding: which nodes may touch, the solve, and what it transmits and wears.
 
 use super::mortar::{self, Coupling};
-use super::newton::{End, Iterate, Newton, Problem, slider_recession};
+use super::newton::{End, Iterate, Newton, Problem};
+use super::pivoting::Pivoting;
 use super::range::{first_range, lay_undeformed_gaps, watched, widened};
+use super::recession::slider_recession;
 use super::response::Response;
 use super::{
     ContactError, ContactState, GAP_TOLERANCE, MOST_ITERATIONS, Move, Pair, Status, Surfaces,
@@ -17,6 +19,7 @@ pub struct Solver {
     coupling: Coupling,
     response: Response,
     newton: Newton,
+    pivoting: Pivoting,
     iterate: Iterate,
     /// Undeformed vertical gap at height 0 of every covered node, mm.
     undeformed: Vec<f64>,
@@ -40,7 +43,8 @@ pub struct Increment<'a> {
     pub energy: f64,
     /// |sum of vertical forces - load| over the load on the unworn contact.
     pub force_balance: f64,
-    /// Largest gap of a closed node or penetration of an open one, over the indentation.
+    /// Largest gap of a closed node or penetration of an open one, over the indentation (and what round-off leaves
+    /// of it).
     pub complementarity: f64,
     /// Largest |q| - mu p over the peak pressure.
     pub friction_cone: f64,
@@ -61,10 +65,8 @@ impl Solver {
     ) -> Result<Increment<'_>, ContactError> {
         let slider_x = to.slider_x;
         let covered = mortar::covered(pair.operators, slider_x);
-        if covered.0 == covered.1 {
-            return Err(ContactError::NothingBelow {
-                slider_x_mm: slider_x,
-            });
+        if covered.0 == covered.1 || pair.interface.load <= 0.0 {
+            return Ok(self.leave(last, slider_x, next));
         }
         lay_undeformed_gaps(pair, surfaces, slider_x, covered, &mut self.undeformed);
         let mut range = first_range(pair, last, slider_x, covered, &self.undeformed);
@@ -86,6 +88,29 @@ impl Solver {
             tolerance: GAP_TOLERANCE,
             changes: range.1 - range.0,
         })
+    }
+
+    /// A contact that is not there: without a load, or where the stroke has taken the slider off the receptacle and a
+    /// stop holds its height until it comes back.
+    fn leave(
+        &mut self,
+        last: &ContactState,
+        slider_x: f64,
+        next: &mut ContactState,
+    ) -> Increment<'_> {
+        next.lift(last, slider_x);
+        self.iterate.path.clear();
+        self.recession.clear();
+        Increment {
+            first: 0,
+            path: &self.iterate.path,
+            slider_first: 0,
+            slider_path: &self.recession,
+            energy: 0.0,
+            force_balance: 0.0,
+            complementarity: 0.0,
+            friction_cone: 0.0,
+        }
     }
 
     fn solve_range(
@@ -127,7 +152,12 @@ impl Solver {
             last_height: last.height,
         };
         guess(&mut self.iterate, pair, last, &problem);
-        match self.newton.solve(&problem, &mut self.iterate) {
+        let (newton, it) = (&mut self.newton, &mut self.iterate);
+        let mut end = newton.solve(&problem, it, MOST_ITERATIONS);
+        if !matches!(end, End::Settled) {
+            end = self.pivoting.solve(newton, &problem, it, end);
+        }
+        match end {
             End::Settled => Ok(()),
             End::Singular { active } => Err(ContactError::NoEquilibrium {
                 slider_x_mm: slider_x,
@@ -172,19 +202,9 @@ impl Solver {
         next: &mut ContactState,
     ) {
         let (coupling, it) = (&self.coupling, &self.iterate);
-        next.slider_x = slider_x;
+        next.lift(last, slider_x);
         next.height = it.height;
         next.indentation = it.indentation;
-        next.reference_height = last.reference_height;
-        next.status.fill(Status::Open);
-        for values in [
-            &mut next.pressure,
-            &mut next.shear,
-            &mut next.receptacle_force,
-            &mut next.slider_force,
-        ] {
-            values.fill(0.0);
-        }
         let span = coupling.first..coupling.end;
         next.status[span.clone()].copy_from_slice(&it.status);
         next.pressure[span.clone()].copy_from_slice(&it.pressure);
@@ -226,6 +246,8 @@ impl Solver {
         let vertical: f64 = next.receptacle_force.iter().skip(1).step_by(2).sum();
         let load = next.load(&pair.interface);
         let peak = next.peak_pressure().max(f64::MIN_POSITIVE);
+        // Where lengths cancel, what round-off leaves of the indentation.
+        let scale = (it.indentation * it.tolerance / GAP_TOLERANCE).max(f64::MIN_POSITIVE);
         let (mut complementarity, mut cone) = (0.0_f64, 0.0_f64);
         for (i, status) in it.status.iter().enumerate() {
             let violation = if *status == Status::Open {
@@ -243,7 +265,7 @@ impl Solver {
             slider_path: &self.recession,
             energy,
             force_balance: (vertical - load).abs() / pair.interface.load,
-            complementarity: complementarity / it.indentation.max(f64::MIN_POSITIVE),
+            complementarity: complementarity / scale,
             friction_cone: cone / peak,
         }
     }
@@ -280,6 +302,10 @@ fn guess(it: &mut Iterate, pair: &Pair<'_>, last: &ContactState, problem: &Probl
         it.slip.push(problem.step);
     }
     if it.status.iter().all(|s| *s == Status::Open) {
-        it.status.fill(Status::Stick);
+        it.status.fill(if problem.friction > 0.0 {
+            Status::Stick
+        } else {
+            Status::slip(problem.step)
+        });
     }
 }

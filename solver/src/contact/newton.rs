@@ -8,10 +8,11 @@
 //! status from the signs of the last iterate is the primal-dual form of the semi-smooth Newton method
 //! (Alart and Curnier 1991; Hueeber and Wohlmuth 2005); it needs no parameter.
 
+use super::GAP_TOLERANCE;
 use super::mortar::Coupling;
+use super::recession::opened_by_wear;
 use super::response::Response;
 use super::status::{self, Status};
-use super::{GAP_TOLERANCE, MOST_ITERATIONS};
 use crate::linear::{DenseLu, SquareMatrix};
 
 /// What one increment asks for, over the coupled nodes.
@@ -54,6 +55,8 @@ pub(super) struct Iterate {
     pub(super) gap: Vec<f64>,
     pub(super) height: f64,
     pub(super) indentation: f64,
+    /// Gap residual, over the indentation, that ends the iteration.
+    pub(super) tolerance: f64,
 }
 
 /// How an iteration ended.
@@ -88,13 +91,21 @@ pub(super) struct Newton {
     lu: DenseLu,
 }
 
+/// Round-off of a gap, over the largest length that it is the difference of: some units in the last place.
+const ROUND_OFF: f64 = 16.0 * f64::EPSILON;
+
 const NO_ROW: usize = usize::MAX;
 
 impl Newton {
     /// Iterates from the statuses and pressures of `it` until they settle.
-    pub(super) fn solve(&mut self, problem: &Problem<'_>, it: &mut Iterate) -> End {
+    pub(super) fn solve(
+        &mut self,
+        problem: &Problem<'_>,
+        it: &mut Iterate,
+        most_iterations: usize,
+    ) -> End {
         let (mut residual, mut changes) = (f64::INFINITY, 0);
-        for iteration in 0..MOST_ITERATIONS {
+        for iteration in 0..most_iterations {
             self.number(it);
             self.assemble(problem, it);
             if !self.lu.solve(&mut self.jacobian, &mut self.rhs) {
@@ -105,10 +116,11 @@ impl Newton {
             self.read(problem, it);
             residual = self.evaluate(problem, it);
             changes = status::update(problem, it, iteration);
-            if changes == 0 && residual <= GAP_TOLERANCE {
+            if changes == 0 && residual <= it.tolerance {
                 return End::Settled;
             }
-            if it.status.iter().all(|s| *s == Status::Open) {
+            // Nothing but a spring that has lost its force is in equilibrium without a contact.
+            if problem.spring <= 0.0 && it.status.iter().all(|s| *s == Status::Open) {
                 return End::Singular { active: 0 };
             }
         }
@@ -206,30 +218,12 @@ impl Newton {
 
     /// Gap opened at each coupled node by wear of `path_change`, on both sides.
     fn wear_of_change(&mut self, problem: &Problem<'_>) {
-        let [receptacle, slider] = problem.kappa;
-        self.worn.clear();
-        self.worn
-            .extend(self.path_change.iter().map(|e| receptacle * e));
-        if slider <= 0.0 {
-            return;
-        }
-        let coupling = problem.coupling;
-        slider_recession(
-            coupling,
-            problem.slider_width,
-            slider,
+        opened_by_wear(
+            problem,
             &self.path_change,
             &mut self.recession,
+            &mut self.worn,
         );
-        for (i, worn) in self.worn.iter_mut().enumerate() {
-            let (from, weights) = coupling.dual_row(coupling.first + i);
-            let recession = &self.recession[from - coupling.slider_range.0..];
-            *worn += weights
-                .iter()
-                .zip(recession)
-                .map(|(m, r)| m * r)
-                .sum::<f64>();
-        }
     }
 
     fn write_column(&mut self, u: usize) {
@@ -306,43 +300,24 @@ impl Newton {
             }
         }
         self.wear_of_change(problem);
-        let mut residual = 0.0_f64;
+        let (mut residual, mut largest) = (0.0_f64, 0.0_f64);
         for (i, jump) in self.column.chunks_exact(2).enumerate() {
             let raised = (1.0 + problem.sag[i]) * it.height;
             it.gap[i] = problem.gap[i] + raised + jump[0] + self.worn[i];
             if it.status[i] != Status::Open {
                 indentation = indentation.max(self.worn[i]);
                 residual = residual.max(it.gap[i].abs());
+                largest = largest.max(problem.gap[i].abs() + raised.abs());
             }
         }
         it.indentation = indentation;
-        residual / indentation.max(f64::MIN_POSITIVE)
+        let scale = indentation.max(f64::MIN_POSITIVE);
+        it.tolerance = GAP_TOLERANCE.max(ROUND_OFF * largest / scale);
+        residual / scale
     }
 }
 
 /// Slip of a node before the new forces and height are known, mm.
-fn fixed_slip(problem: &Problem<'_>, i: usize) -> f64 {
+pub(super) fn fixed_slip(problem: &Problem<'_>, i: usize) -> f64 {
     problem.step - problem.slope[i] * problem.last_height - problem.response.last_jump[2 * i + 1]
-}
-
-/// Vertical recession of the slider's nodes in the coupled range for p |sigma| at the coupled nodes, mm.
-pub(super) fn slider_recession(
-    coupling: &Coupling,
-    slider_width: &[f64],
-    kappa: f64,
-    path: &[f64],
-    recession: &mut Vec<f64>,
-) {
-    let (begin, end) = coupling.slider_range;
-    recession.clear();
-    recession.resize(end - begin, 0.0);
-    for (l, e) in path.iter().enumerate().filter(|(_, e)| **e != 0.0) {
-        let (from, weights) = coupling.standard_row(coupling.first + l);
-        for (offset, weight) in weights.iter().enumerate() {
-            recession[from + offset - begin] += weight * e;
-        }
-    }
-    for (r, width) in recession.iter_mut().zip(&slider_width[begin..end]) {
-        *r *= kappa / width;
-    }
 }

@@ -78,12 +78,12 @@ fn wanted_status(
     i: usize,
     pressure_scale: f64,
 ) -> (Status, f64) {
-    let gap_scale = it.indentation;
+    let (gap_scale, tolerance) = (it.indentation, it.tolerance);
     let slip_scale = it.indentation + problem.step.abs();
     let (p, q, slip, old) = (it.pressure[i], it.shear[i], it.slip[i], it.status[i]);
     let cone = problem.friction * p;
     if old == Status::Open {
-        if it.gap[i] >= -GAP_TOLERANCE * gap_scale {
+        if it.gap[i] >= -tolerance * gap_scale {
             return (Status::Open, 0.0);
         }
         let sliding = problem.step.abs() > 0.0 || problem.friction <= 0.0;
@@ -98,7 +98,7 @@ fn wanted_status(
         return (Status::Open, -p / pressure_scale);
     }
     if problem.friction <= 0.0 {
-        let turned = old != Status::slip(slip) && slip.abs() > GAP_TOLERANCE * slip_scale;
+        let turned = old != Status::slip(slip) && slip.abs() > tolerance * slip_scale;
         return (
             Status::slip(slip),
             if turned { slip.abs() / slip_scale } else { 0.0 },
@@ -109,7 +109,7 @@ fn wanted_status(
             (Status::slip(q), (q.abs() - cone) / pressure_scale)
         }
         Status::SlipRight | Status::SlipLeft
-            if old.direction() * slip < -GAP_TOLERANCE * slip_scale =>
+            if old.direction() * slip < -tolerance * slip_scale =>
         {
             (Status::Stick, slip.abs() / slip_scale)
         }

@@ -30,6 +30,9 @@ fn largest_lean(tolerance: f64) -> f64 {
 /// Where even single cycles lean, so many computed cycles over the tolerance are enough.
 const ENOUGH_PER_TOLERANCE: f64 = 2.5;
 
+/// A jump that has no solution is cut into so many; after it jumps may double again.
+const CUT: u64 = 4;
+
 /// Floor of the error estimate: where nothing changes, or nothing wears, jumps grow as fast as they may.
 const SMALLEST_ERROR: f64 = 1e-6;
 
@@ -72,11 +75,28 @@ pub struct JumpControl {
     weighted_error: f64,
     worn: f64,
     done: u64,
+    /// The largest jump that may be tried after one that had no solution; 0 where none failed lately.
+    most: u64,
 }
 
 impl JumpControl {
     /// The next jump: fixed by the scene or chosen, and never beyond `remaining`.
     pub(super) fn next(&self, accuracy: &Accuracy, stroke: Stroke, remaining: u64) -> u64 {
+        let jump = self.chosen(accuracy, stroke, remaining);
+        if self.most == 0 {
+            jump
+        } else {
+            jump.min(self.most)
+        }
+    }
+
+    /// A smaller jump in place of one that had no solution; `None` if it was a single cycle.
+    pub(super) fn cut(&mut self, failed: u64) -> Option<u64> {
+        self.most = failed.div_ceil(CUT);
+        (failed > 1).then_some(self.most)
+    }
+
+    fn chosen(&self, accuracy: &Accuracy, stroke: Stroke, remaining: u64) -> u64 {
         if let Some(fixed) = accuracy.cycle_jump {
             return fixed.clamp(1, remaining.max(1));
         }
@@ -111,6 +131,7 @@ impl JumpControl {
         self.wanted = dn;
         self.last = jump;
         self.done += jump;
+        self.most = self.most.saturating_mul(2);
     }
 
     /// Largest wear of a place per physical cycle in the last computed one, mm.

@@ -66,7 +66,9 @@ fn steps_per_quarter(accuracy: &Accuracy, amplitude: f64, half_width: f64) -> us
     let (fraction, fewest) = rule(accuracy.tolerance);
     match accuracy.increments_per_cycle {
         Some(n) => usize::try_from(n).unwrap_or(MOST_STEPS).div_ceil(4),
-        None => count_at_least(amplitude / (fraction * half_width.max(1e-12))).max(fewest),
+        // Without a contact there is nothing to follow.
+        None if half_width <= 0.0 => fewest,
+        None => count_at_least(amplitude / (fraction * half_width)).max(fewest),
     }
     .clamp(1, MOST_STEPS)
 }

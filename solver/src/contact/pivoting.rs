@@ -1,0 +1,313 @@
+//! Contact states by complementary pivoting, where the signs of Newton's iterates go round in circles.
+//!
+//! With the wear linearised, an increment is a linear complementarity problem (Klarbring 1986; Stewart and Trinkle
+//! 1996). Per coupled node with q = a - b:
+//!
+//! * gap >= 0 with p >= 0, its wear k (p' gamma + p gamma' - p' gamma') about the last solution p', gamma',
+//! * gamma - sigma >= 0 with a >= 0, and gamma + sigma >= 0 with b >= 0, where gamma is the slip's magnitude,
+//! * mu p - a - b >= 0 with gamma >= 0,
+//! * and once: load - sum of vertical forces >= 0 with the height over a place far too low.
+//!
+//! With equal slopes on both sides its matrix is copositive and Lemke's method finds a solution whatever the friction
+//! and the slopes: the wear adds products of p and gamma, which are not negative. Its solution is where the next
+//! linearisation is made (Josephy 1979), and where Newton's method begins again, now with the right signs.
+
+use super::newton::{End, Iterate, Newton, Problem, fixed_slip};
+use super::recession::opened_by_wear;
+use super::status::Status;
+use crate::linear::{Lemke, SquareMatrix};
+use crate::number::real;
+
+/// The slack of each friction cone, over the pressures: it tells ties of the pivoting apart.
+const CONE_SLACK: f64 = 1e-10;
+/// The lowest height lies this many indentations below any that could be.
+const DEPTH: f64 = 16.0;
+
+/// Most nodes that are pivoted: the work grows with their cube.
+const MOST_NODES: usize = 200;
+/// Most linearisations of the wear.
+const MOST_LINEARISATIONS: usize = 20;
+/// Newton iterations after a linearisation that changed no status.
+const ITERATIONS_AFTER: usize = 12;
+
+/// Buffers of the pivoting.
+#[derive(Debug, Default)]
+pub(super) struct Pivoting {
+    lemke: Lemke,
+    matrix: SquareMatrix,
+    constant: Vec<f64>,
+    path: Vec<f64>,
+    opened: Vec<f64>,
+    recession: Vec<f64>,
+    /// Pressure, magnitude of slip and status of each node in the last solution.
+    pressure: Vec<f64>,
+    slip: Vec<f64>,
+    status: Vec<Status>,
+}
+
+/// What a solution changed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Improved {
+    /// There is a solution, in which so many nodes have another status than before.
+    Solution {
+        /// How many.
+        changes: usize,
+    },
+    /// The pivoting ended on a ray.
+    Ray,
+}
+
+/// Rows and columns of the unknowns of `n` nodes, and the scales of pressure and length.
+#[derive(Debug, Clone, Copy)]
+struct Layout {
+    n: usize,
+    sheared: bool,
+    pressure: f64,
+    length: f64,
+    lowest: f64,
+}
+
+impl Layout {
+    fn of(problem: &Problem<'_>, it: &Iterate) -> Self {
+        let n = it.status.len();
+        let range = problem
+            .gap
+            .iter()
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |m, g| {
+                (m.0.min(*g), m.1.max(*g))
+            });
+        // Of no use where the last linear system had no finite solution.
+        let indentation = if it.indentation.is_finite() {
+            it.indentation
+        } else {
+            0.0
+        };
+        let length = indentation.max(range.1 - range.0).max(f64::MIN_POSITIVE);
+        let stiffest = (0..n)
+            .map(|i| problem.width[i] * problem.response.local.get(2 * i, 2 * i))
+            .fold(f64::MIN_POSITIVE, f64::max);
+        Self {
+            n,
+            sheared: problem.friction > 0.0,
+            pressure: length / stiffest,
+            length,
+            lowest: -range.1 - DEPTH * length,
+        }
+    }
+
+    fn order(self) -> usize {
+        if self.sheared {
+            4 * self.n + 1
+        } else {
+            self.n + 1
+        }
+    }
+
+    fn height(self) -> usize {
+        self.order() - 1
+    }
+
+    /// Row of a, of b and of gamma of a node.
+    fn shear(self, i: usize) -> [usize; 3] {
+        [self.n + i, 2 * self.n + i, 3 * self.n + i]
+    }
+}
+
+impl Pivoting {
+    /// Looks for the contact state by pivoting, and for its last digits by Newton's method; `end` if there is none.
+    pub(super) fn solve(
+        &mut self,
+        newton: &mut Newton,
+        problem: &Problem<'_>,
+        it: &mut Iterate,
+        mut end: End,
+    ) -> End {
+        if it.status.len() > MOST_NODES {
+            return end;
+        }
+        self.begin(problem, it);
+        for _ in 0..MOST_LINEARISATIONS {
+            let Improved::Solution { changes } = self.improve(problem, it) else {
+                return end;
+            };
+            if changes > 0 {
+                continue;
+            }
+            self.hand_over(it);
+            end = newton.solve(problem, it, ITERATIONS_AFTER);
+            if matches!(end, End::Settled) {
+                return end;
+            }
+        }
+        end
+    }
+
+    /// Begins anew: no pressure, and all nodes slip as far as the slider does.
+    fn begin(&mut self, problem: &Problem<'_>, it: &Iterate) {
+        let n = it.status.len();
+        self.pressure.clear();
+        self.pressure.resize(n, 0.0);
+        self.slip.clear();
+        self.slip.resize(n, problem.step.abs());
+        self.status.clear();
+        self.status.resize(n, Status::Open);
+    }
+
+    /// Solves the increment with the wear linearised about the last solution.
+    fn improve(&mut self, problem: &Problem<'_>, it: &Iterate) -> Improved {
+        let layout = Layout::of(problem, it);
+        self.lay(problem, layout);
+        let Some(z) = self.lemke.solve(&self.matrix, &self.constant) else {
+            return Improved::Ray;
+        };
+        let mut changes = 0;
+        for (i, p) in z[..layout.n].iter().enumerate() {
+            self.pressure[i] = p * layout.pressure;
+            let [a, b, gamma] = if layout.sheared {
+                layout.shear(i).map(|row| z[row])
+            } else {
+                [1.0, 0.0, 0.0]
+            };
+            self.slip[i] = if layout.sheared {
+                gamma * layout.length
+            } else {
+                problem.step.abs()
+            };
+            // Both shears stand in the basis only where both slips are zero.
+            let stuck = layout.sheared && (gamma <= 0.0 || (a > 0.0 && b > 0.0));
+            let status = if *p <= 0.0 {
+                Status::Open
+            } else if stuck {
+                Status::Stick
+            } else if layout.sheared {
+                Status::slip(a - b)
+            } else {
+                Status::slip(problem.step)
+            };
+            changes += usize::from(self.status[i] != status);
+            self.status[i] = status;
+        }
+        Improved::Solution { changes }
+    }
+
+    /// Puts the last solution into an iterate.
+    fn hand_over(&self, it: &mut Iterate) {
+        it.status.copy_from_slice(&self.status);
+        it.pressure.copy_from_slice(&self.pressure);
+        for (slip, (size, status)) in it.slip.iter_mut().zip(self.slip.iter().zip(&self.status)) {
+            *slip = size * status.direction();
+        }
+    }
+
+    fn lay(&mut self, problem: &Problem<'_>, layout: Layout) {
+        self.matrix.reset(layout.order());
+        self.constant.clear();
+        self.constant.resize(layout.order(), 0.0);
+        for a in 0..layout.n {
+            self.pressure_column(problem, layout, a);
+            if layout.sheared {
+                self.shear_columns(problem, layout, a);
+            }
+        }
+        self.height_column(problem, layout);
+        self.lay_constant(problem, layout);
+    }
+
+    fn pressure_column(&mut self, problem: &Problem<'_>, layout: Layout, a: usize) {
+        self.open(problem, layout.n, a, self.slip[a]);
+        let force = problem.width[a];
+        let scale = layout.pressure / layout.length;
+        let column = problem.response.local.column(2 * a);
+        for (i, jump) in column.chunks_exact(2).enumerate() {
+            *self.matrix.at(i, a) = (force * jump[0] + self.opened[i]) * scale;
+            if layout.sheared {
+                let [right, left, _] = layout.shear(i);
+                *self.matrix.at(right, a) = -force * jump[1] * scale;
+                *self.matrix.at(left, a) = force * jump[1] * scale;
+            }
+        }
+        if layout.sheared {
+            *self.matrix.at(layout.shear(a)[2], a) = problem.friction;
+        }
+        *self.matrix.at(layout.height(), a) = -force / mean_width(problem);
+    }
+
+    fn shear_columns(&mut self, problem: &Problem<'_>, layout: Layout, k: usize) {
+        let force = -problem.width[k];
+        let scale = layout.pressure / layout.length;
+        let column = problem.response.local.column(2 * k + 1);
+        let [a, b, gamma] = layout.shear(k);
+        let lean = problem.width[k] * problem.slope[k] / mean_width(problem);
+        for (sign, place) in [(1.0, a), (-1.0, b)] {
+            for (i, jump) in column.chunks_exact(2).enumerate() {
+                let [right, left, _] = layout.shear(i);
+                *self.matrix.at(i, place) = sign * force * jump[0] * scale;
+                *self.matrix.at(right, place) = -sign * force * jump[1] * scale;
+                *self.matrix.at(left, place) = sign * force * jump[1] * scale;
+            }
+            *self.matrix.at(gamma, place) = -1.0;
+            *self.matrix.at(place, gamma) = 1.0;
+            *self.matrix.at(layout.height(), place) = sign * lean;
+        }
+        if self.pressure[k] > 0.0 {
+            self.open(problem, layout.n, k, self.pressure[k]);
+            for (i, opened) in self.opened.iter().enumerate() {
+                *self.matrix.at(i, gamma) = *opened;
+            }
+        }
+    }
+
+    /// Gaps that a path at one node opens.
+    fn open(&mut self, problem: &Problem<'_>, n: usize, node: usize, path: f64) {
+        self.path.clear();
+        self.path.resize(n, 0.0);
+        self.path[node] = path;
+        opened_by_wear(problem, &self.path, &mut self.recession, &mut self.opened);
+    }
+
+    fn height_column(&mut self, problem: &Problem<'_>, layout: Layout) {
+        let v = layout.height();
+        for i in 0..layout.n {
+            *self.matrix.at(i, v) = 1.0 + problem.sag[i];
+            if layout.sheared {
+                let [right, left, _] = layout.shear(i);
+                *self.matrix.at(right, v) = -problem.slope[i];
+                *self.matrix.at(left, v) = problem.slope[i];
+            }
+        }
+        *self.matrix.at(v, v) =
+            problem.spring * layout.length / (layout.pressure * mean_width(problem));
+    }
+
+    fn lay_constant(&mut self, problem: &Problem<'_>, layout: Layout) {
+        self.path.clear();
+        if layout.sheared {
+            let paths = self
+                .pressure
+                .iter()
+                .zip(&self.slip)
+                .map(|(p, slip)| p * slip);
+            self.path.extend(paths);
+        } else {
+            self.path.resize(layout.n, 0.0);
+        }
+        opened_by_wear(problem, &self.path, &mut self.recession, &mut self.opened);
+        for i in 0..layout.n {
+            let raised = (1.0 + problem.sag[i]) * layout.lowest;
+            self.constant[i] = (problem.gap[i] + raised - self.opened[i]) / layout.length;
+            if layout.sheared {
+                let slip = fixed_slip(problem, i) + problem.slope[i] * layout.lowest;
+                let [right, left, gamma] = layout.shear(i);
+                self.constant[right] = -slip / layout.length;
+                self.constant[left] = slip / layout.length;
+                self.constant[gamma] = CONE_SLACK * (1.0 + real(i) / real(layout.n));
+            }
+        }
+        let load = problem.load + problem.spring * layout.lowest;
+        self.constant[layout.height()] = load / (layout.pressure * mean_width(problem));
+    }
+}
+
+fn mean_width(problem: &Problem<'_>) -> f64 {
+    problem.width.iter().sum::<f64>() / real(problem.width.len())
+}

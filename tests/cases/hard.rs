@@ -1,0 +1,29 @@
+//! The hard cases: scenes on which a naive code loses its balance. One file a case, each with the requirement, its
+//! source and what goes wrong in a naive code; all of them assert the one list of invariants.
+
+mod change_of_wear;
+mod conforming;
+mod corner_contact;
+mod draws;
+mod extreme_elasticity;
+mod extreme_loads;
+mod fading_spring;
+mod first_touch;
+mod found_by_draws;
+mod friction_beyond_one;
+mod invariants;
+mod jumps;
+mod leaving_the_block;
+mod million_cycles;
+mod naive;
+mod no_slip;
+mod radius_range;
+mod random_specifications;
+mod reversal;
+mod run;
+mod slender_elements;
+mod specs;
+mod steep_wall;
+mod unstable_explicit_wear;
+mod wear_rates;
+mod worn_through;

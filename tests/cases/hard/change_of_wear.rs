@@ -1,0 +1,56 @@
+//! Requirement: a wear coefficient that changes a hundredfold from one cycle to the next (a plating that is worn
+//! through) leaves balance and worn area intact.
+//! Source: plated contacts; two runs joined, the second one going on from the state of the first.
+//! Naive: a jump chosen for the slow wear is a hundred times too large for the fast one.
+
+use serde_json::json;
+use solver::condensation::condense;
+use solver::cycle::{CycleState, Integrator};
+
+use super::run::scene;
+use super::specs::cylinder;
+
+#[test]
+fn a_hundredfold_wear_coefficient_from_one_cycle_to_the_next_goes_through() {
+    let scene = scene(&cylinder(json!({
+        "interface": {"wear": {"receptacle": {"k_over_h_per_mpa": 1e-6}}},
+        "cycles": 2000,
+    })));
+    let mut model = solver::model::build(&scene).expect("the scene can be meshed");
+    let condensed = condense(&model).expect("it can be condensed");
+    let operators = &condensed.operators;
+    let widths = model.receptacle.contact_widths();
+    let mut state = CycleState::start(operators);
+    let mut path = 0.0;
+    let mut expected = 0.0;
+    for (round, k) in [1e-8, 1e-6, 1e-8].into_iter().enumerate() {
+        model.interface.receptacle_wear = k;
+        let mut integrator = Integrator::new(&scene, &model, operators);
+        if round == 0 {
+            integrator.settle(&mut state).expect("it settles");
+            integrator.set_out(&mut state).expect("it sets out");
+        }
+        let until = state.cycle + 300;
+        while state.cycle < until {
+            integrator
+                .sweep(&mut state, until)
+                .expect("the cycle goes through");
+        }
+        expected += k * (state.friction_path - path);
+        path = state.friction_path;
+    }
+    let worn: f64 = widths
+        .iter()
+        .zip(&state.receptacle_depth)
+        .map(|(w, d)| w * d)
+        .sum();
+    assert!((worn / expected - 1.0).abs() < 1e-9, "{worn} {expected}");
+    assert!(state.checks.force_balance < 1e-9 && state.checks.complementarity < 1e-9);
+    assert!(
+        state
+            .contact
+            .pressure
+            .iter()
+            .all(|p| p.is_finite() && *p >= -1e-9)
+    );
+}

@@ -1,0 +1,65 @@
+//! Requirement: a contact narrower than one element, and one of thousands of elements, both carry their load.
+//! Source: Johnson 1985, eq. 4.43 to 4.45 (Hertz line contact: a = 35.86 um, p0 = 328.4 MPa).
+//! Naive: a coarse mesh touches with one node, whose neighbours chatter between open and closed; an active set that may
+//! only grow or shrink by one node takes thousands of iterations on a fine one.
+
+use serde_json::json;
+
+use super::invariants::hold;
+use super::run::{Run, solve};
+use super::specs::cylinder;
+
+fn with_elements_of(contact_element_mm: f64, changes: serde_json::Value) -> Run {
+    let mut spec = cylinder(changes);
+    spec["accuracy"]["overrides"] = json!({"contact_element_mm": contact_element_mm});
+    solve(&spec)
+}
+
+#[test]
+fn the_first_touch_of_one_node_carries_the_load() {
+    let run = with_elements_of(0.4, json!({"cycles": 50}));
+    hold(&run);
+    let touch = &run.snapshots[0].positions[0];
+    let pressed: Vec<usize> = (0..touch.x_mm.len())
+        .filter(|&i| touch.pressure_mpa[i] > 0.0)
+        .collect();
+    assert_eq!(pressed.len(), 1, "{:?}", touch.pressure_mpa);
+    let width = 0.5 * (touch.x_mm[pressed[0] + 1] - touch.x_mm[pressed[0] - 1]);
+    let carried = width * touch.pressure_mpa[pressed[0]];
+    assert!((carried / 18.5 - 1.0).abs() < 1e-9, "{carried}");
+    assert!(run.depth() > 0.0);
+}
+
+#[test]
+fn two_hundred_elements_across_meet_hertz() {
+    let run = with_elements_of(
+        0.0003,
+        json!({
+            "system": {"flat_length_mm": 0.6, "flat_height_mm": 0.6, "slider_half_width_mm": 0.3, "slider_height_mm": 0.6},
+            "interface": {"friction": {"law": "frictionless", "coefficient": null}, "wear": {"receptacle": null}},
+            "motion": {"amplitude_mm": 0.0001},
+            "cycles": 1,
+        }),
+    );
+    hold(&run);
+    let peak = run.summary().initial.peak_pressure_mpa;
+    assert!((peak / 328.4 - 1.0).abs() < 0.02, "{peak}");
+}
+
+#[test]
+#[ignore = "two thousand elements in contact take minutes and some gigabytes"]
+fn two_thousand_elements_meet_hertz() {
+    let run = with_elements_of(
+        0.000_036,
+        json!({
+            "system": {"flat_length_mm": 0.1, "flat_height_mm": 0.6, "slider_half_width_mm": 0.05, "slider_height_mm": 0.6},
+            "interface": {"friction": {"law": "frictionless", "coefficient": null}, "wear": {"receptacle": null}},
+            "motion": {"amplitude_mm": 0.000_01},
+            "cycles": 1,
+            "accuracy": {"preset": "draft"},
+        }),
+    );
+    hold(&run);
+    let peak = run.summary().initial.peak_pressure_mpa;
+    assert!((peak / 328.4 - 1.0).abs() < 0.05, "{peak}");
+}

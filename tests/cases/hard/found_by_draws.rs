@@ -1,0 +1,24 @@
+//! Requirement: specifications on which the random draws once found no contact state go through.
+//! Source: `random_specifications`; each is kept as it was drawn, in `tests/specs/found`.
+//! Naive: statuses chosen from the signs of one iterate go round in circles: a node that opens when stuck closes when
+//! free (dissimilar bodies, mu near 1), one whose wear takes the pressure off while it slips sticks again (wear on both
+//! sides), one at the block's corner does both. Pivoting on the complementarity problem finds a state.
+
+use server::translate;
+
+use super::invariants::hold;
+use super::run::solve_part;
+
+#[test]
+fn specifications_that_once_found_no_contact_state_go_through() {
+    for name in [
+        "dissimilar_bodies_settle",
+        "slip_and_wear_on_both_sides",
+        "short_block_under_a_worn_slider",
+    ] {
+        let path = tests::spec(&format!("found/{name}.json"));
+        let bytes = std::fs::read(path).expect("the specification is kept");
+        let scene = translate::read(&bytes).expect("it is accepted").scene;
+        hold(&solve_part(scene, usize::MAX));
+    }
+}

@@ -1,0 +1,162 @@
+//! What holds for every run, however hard: one list, asserted by every case.
+
+use solver::ale;
+use solver::history::{Checks, CycleReport, SideReport, Snapshot, TractionField};
+use solver::model;
+
+use super::run::Run;
+
+/// Round-off of a relative residual.
+const ROUND_OFF: f64 = 1e-9;
+/// Largest accepted zigzag of the pressure, over its peak.
+const LARGEST_ZIGZAG: f64 = 0.2;
+
+/// Asserts the invariants.
+///
+/// # Panics
+/// With all faults of the run at once.
+pub(crate) fn hold(run: &Run) {
+    if let Err(error) = &run.end {
+        panic!("the run failed: {error}");
+    }
+    let faults = faults(run);
+    assert!(faults.is_empty(), "{}", faults.join("\n"));
+}
+
+/// All faults of a run, as sentences; empty for a sound one. A run that failed is sound if it says why, with numbers,
+/// and if what it told before is sound.
+pub(crate) fn faults(run: &Run) -> Vec<String> {
+    let mut faults = Vec::new();
+    faults.extend(run.reports.iter().find_map(not_finite));
+    faults.extend(run.snapshots.iter().find_map(unsound_tractions));
+    faults.extend(run.reports.windows(2).find_map(taken_back));
+    if resolved(run) {
+        faults.extend(run.snapshots.iter().find_map(zigzags));
+    }
+    faults.extend(inverted_elements(run));
+    match &run.end {
+        Ok(summary) => faults.extend(large_residual(&summary.checks)),
+        Err(error) => {
+            let told = error.to_string();
+            let numbers = told.contains(|c: char| c.is_ascii_digit());
+            if !numbers || told.contains("NaN") || told.contains("inf") {
+                faults.push(format!("the reason has no numbers: {told}"));
+            }
+        }
+    }
+    faults
+}
+
+fn not_finite(report: &CycleReport) -> Option<String> {
+    let other = [
+        report.sliding_distance_mm,
+        report.load_n_per_mm,
+        report.peak_pressure_mpa,
+        report.contact_half_width_mm,
+    ];
+    let sound = |value: f64| value.is_finite() && value >= 0.0;
+    let all = wear(report)
+        .into_iter()
+        .chain(other)
+        .chain([&report.receptacle, &report.slider].map(|side| side.scar_half_width_mm));
+    (!all.into_iter().all(sound)).then(|| format!("not finite, or negative: {report:?}"))
+}
+
+fn unsound_tractions(snapshot: &Snapshot) -> Option<String> {
+    let unsound = |field: &&TractionField| {
+        let peak = field.pressure_mpa.iter().fold(0.0, |m: f64, p| m.max(*p));
+        let pressed = |p: &f64| p.is_finite() && *p >= -ROUND_OFF * peak;
+        !(field.pressure_mpa.iter().all(pressed) && field.shear_mpa.iter().all(|q| q.is_finite()))
+    };
+    let field = snapshot.positions.iter().find(unsound)?;
+    Some(format!(
+        "cycle {}: pressures {:?}",
+        snapshot.cycle, field.pressure_mpa
+    ))
+}
+
+/// Everything that only grows.
+fn wear(report: &CycleReport) -> Vec<f64> {
+    let sides = [&report.receptacle, &report.slider];
+    let depth = |side: &SideReport| [side.max_depth_mm, side.worn_area_mm2];
+    let stations = report.station_depth_mm.iter().copied();
+    stations
+        .chain(sides.into_iter().flat_map(depth))
+        .chain([report.dissipated_energy_mj_per_mm])
+        .collect()
+}
+
+fn taken_back(pair: &[CycleReport]) -> Option<String> {
+    let (early, late) = (&pair[0], &pair[1]);
+    let less = wear(early).iter().zip(wear(late)).any(|(a, b)| b < *a);
+    (less || late.cycle <= early.cycle).then(|| {
+        format!(
+            "cycles {} to {}: wear is taken back",
+            early.cycle, late.cycle
+        )
+    })
+}
+
+/// Whether the engine chose the increments itself, and the wear is on the receptacle, whose nodes the pressure stands
+/// on. Increments fixed by hand may leap over the contact and leave ripples; and where the slider wears on a coarser
+/// mesh than the receptacle's, its linear depths let the pressure alternate from node to node.
+fn resolved(run: &Run) -> bool {
+    run.scene.accuracy.increments_per_cycle.is_none() && run.scene.slider.wear.is_none()
+}
+
+fn zigzags(snapshot: &Snapshot) -> Option<String> {
+    let zigzag = worst_zigzag(snapshot);
+    (zigzag > LARGEST_ZIGZAG).then(|| {
+        format!(
+            "cycle {}: the pressure alternates by {zigzag:.2} of its peak",
+            snapshot.cycle
+        )
+    })
+}
+
+/// The worst zigzag of a snapshot's pressures.
+pub(crate) fn worst_zigzag(snapshot: &Snapshot) -> f64 {
+    snapshot.positions.iter().map(zigzag).fold(0.0, f64::max)
+}
+
+/// How far four neighbours in a row alternate around the lines through their own neighbours, over the peak pressure.
+pub(crate) fn zigzag(field: &TractionField) -> f64 {
+    let (x, p) = (&field.x_mm, &field.pressure_mpa);
+    let peak = p.iter().fold(f64::MIN_POSITIVE, |m, p| m.max(*p));
+    let bend: Vec<f64> = (1..p.len().saturating_sub(1))
+        .map(|i| {
+            let t = (x[i] - x[i - 1]) / (x[i + 1] - x[i - 1]);
+            p[i] - (1.0 - t) * p[i - 1] - t * p[i + 1]
+        })
+        .collect();
+    let alternates = |w: &&[f64]| w.windows(2).all(|w| w[0] * w[1] < 0.0);
+    bend.windows(4)
+        .filter(alternates)
+        .map(|w| w.iter().fold(f64::INFINITY, |m, b| m.min(b.abs())))
+        .fold(0.0, f64::max)
+        / peak
+}
+
+/// Elements of the worn bodies are positive.
+fn inverted_elements(run: &Run) -> Option<String> {
+    let last = run.snapshots.last()?;
+    let model = model::build(&run.scene).expect("it was built before");
+    let worn = ale::worn_model(&model, &last.receptacle.depth_mm, &last.slider.depth_mm);
+    worn.err()
+        .map(|error| format!("cycle {}: {error}", last.cycle))
+}
+
+fn large_residual(checks: &Checks) -> Option<String> {
+    let residuals = [
+        ("force balance", checks.force_balance),
+        ("complementarity", checks.complementarity),
+        ("friction cone", checks.friction_cone),
+        ("friction use beyond 1", checks.friction_use - 1.0),
+        ("worn area", checks.worn_area),
+    ];
+    let large = |residual: f64| residual.is_nan() || residual > ROUND_OFF;
+    let (name, residual) = residuals
+        .into_iter()
+        .find(|(_, residual)| large(*residual))?;
+    Some(format!("{name}: residual {residual:.1e}"))
+}

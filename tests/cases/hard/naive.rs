@@ -1,0 +1,70 @@
+//! The naive variant: forward Euler, wear taken off after each increment from the pressure at its end.
+
+use solver::condensation::condense;
+use solver::contact::{ContactError, ContactState, Move, Pair, Solver, Surfaces, slopes};
+use solver::history::{Position, TractionField};
+use solver::scene::Scene;
+
+/// Pressures at the end of some explicit cycles of a scene, each standing for `jump` physical ones.
+pub(crate) fn explicit_wear(
+    scene: &Scene,
+    cycles: usize,
+    jump: f64,
+    steps_per_quarter: u32,
+) -> Result<TractionField, ContactError> {
+    let model = solver::model::build(scene).expect("the scene can be meshed");
+    let operators = condense(&model).expect("it can be condensed").operators;
+    let pair = Pair {
+        operators: &operators,
+        interface: model.interface,
+    };
+    let wear = jump * model.interface.receptacle_wear;
+    let mut solver = Solver::default();
+    let mut depth = vec![0.0; operators.receptacle.x.len()];
+    let slider_depth = vec![0.0; operators.slider.x.len()];
+    let slider_slope = slopes(&operators.slider, &slider_depth, 1.0);
+    let (mut last, mut next) = (
+        ContactState::untouched(&operators),
+        ContactState::untouched(&operators),
+    );
+    let quarter: Vec<f64> = (0..=steps_per_quarter)
+        .map(|i| f64::from(i) / f64::from(steps_per_quarter) * scene.motion.amplitude_mm())
+        .collect();
+    let there_and_back = || {
+        let right = quarter.iter().copied();
+        let back = quarter.iter().rev().copied();
+        right
+            .chain(back.clone())
+            .chain(quarter.iter().map(|x| -x))
+            .chain(back.map(|x| -x))
+    };
+    for _ in 0..cycles {
+        let slope = slopes(&operators.receptacle, &depth, -1.0);
+        for slider_x in there_and_back() {
+            let surfaces = Surfaces {
+                receptacle_depth: &depth,
+                slider_depth: &slider_depth,
+                slope: &slope,
+                slider_slope: &slider_slope,
+            };
+            // No cycles: the solve itself knows no wear.
+            let to = Move {
+                slider_x,
+                run: 0.0,
+                cycles: 0.0,
+            };
+            let done = solver.advance(&pair, &surfaces, &last, to, &mut next)?;
+            for (depth, path) in depth[done.first..].iter_mut().zip(done.path) {
+                *depth += wear * path;
+            }
+            std::mem::swap(&mut last, &mut next);
+        }
+    }
+    Ok(TractionField {
+        position: Position::Neutral,
+        slider_x_mm: last.slider_x,
+        x_mm: operators.receptacle.x.clone(),
+        pressure_mpa: last.pressure,
+        shear_mpa: last.shear,
+    })
+}

@@ -1,0 +1,83 @@
+//! Requirement: whatever specification is drawn from the documented ranges, it is refused with pointers, or it runs
+//! and its invariants hold, or it ends with numbers that say why.
+//! Source: contract.md; every failure that was found and mended is a case of `found_by_draws`.
+//! Naive: ranges that nobody ever tried together.
+//!
+//! `FRETWEAR_DRAWS` sets how many are drawn, `FRETWEAR_SEED` (0 to 255) which ones.
+
+use std::str::FromStr;
+
+use proptest::collection::vec;
+use proptest::strategy::{Strategy, ValueTree};
+use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
+use server::translate::{self, Refused};
+use solver::scene::Scene;
+
+use super::draws::{NUMBERS, specification};
+use super::invariants::faults;
+use super::run::solve_part;
+
+/// Draws a run, by default.
+const DRAWS: usize = 200;
+/// Computed cycles of a run.
+const MOST_CYCLES: usize = 8;
+/// At most one run in so many may end without a result.
+const FAILURES_ONE_IN: usize = 25;
+
+fn setting<T: FromStr>(name: &str, default: T) -> T {
+    let text = std::env::var(name).ok();
+    text.and_then(|text| text.parse().ok()).unwrap_or(default)
+}
+
+/// Whether a scene takes seconds at most.
+fn is_cheap(scene: &Scene) -> bool {
+    let model = solver::model::build(scene).expect("what is accepted can be meshed");
+    let spines = model.receptacle.mesh.spines() + model.slider.mesh.spines();
+    let dofs = model.receptacle.dofs() + model.slider.dofs();
+    let way = scene.motion.amplitude_mm() / model.sizes.hertz_half_width;
+    spines <= 400
+        && dofs <= 20_000
+        && (scene.accuracy.increments_per_cycle.is_some() || way <= 60.0)
+}
+
+#[test]
+fn any_specification_is_refused_or_sound_or_says_why_not() {
+    let seed = TestRng::from_seed(RngAlgorithm::ChaCha, &[setting("FRETWEAR_SEED", 1); 32]);
+    let mut runner = TestRunner::new_with_rng(Config::default(), seed);
+    let numbers = vec(0.0..1.0_f64, NUMBERS);
+    let (mut ran, mut unsound, mut failed) = (0, Vec::new(), Vec::new());
+    for draw in 0..setting("FRETWEAR_DRAWS", DRAWS) {
+        let tree = numbers.new_tree(&mut runner).expect("numbers can be drawn");
+        let spec = specification(&tree.current());
+        let scene = match translate::read(spec.to_string().as_bytes()) {
+            Ok(resolved) => resolved.scene,
+            Err(Refused::Faults(faults)) => {
+                assert!(
+                    faults.iter().all(|fault| fault.pointer.starts_with('/')),
+                    "{faults:?}"
+                );
+                continue;
+            }
+            Err(Refused::Broken(broken)) => panic!("draw {draw} cannot be read: {broken}\n{spec}"),
+        };
+        if !is_cheap(&scene) {
+            continue;
+        }
+        ran += 1;
+        let run = solve_part(scene, MOST_CYCLES);
+        if let Err(error) = &run.end {
+            failed.push(format!("draw {draw}: {error}\n{spec}"));
+        }
+        let faults = faults(&run);
+        if !faults.is_empty() {
+            unsound.push(format!("draw {draw}: {}\n{spec}", faults.join("\n")));
+        }
+    }
+    assert!(unsound.is_empty(), "{}", unsound.join("\n"));
+    assert!(ran > 0, "every draw was refused or too large");
+    assert!(
+        failed.len() * FAILURES_ONE_IN <= ran,
+        "of {ran}: {}",
+        failed.join("\n")
+    );
+}

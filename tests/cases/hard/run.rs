@@ -1,0 +1,86 @@
+//! Running a specification through the border and the engine, keeping everything that it told.
+
+use serde_json::Value;
+use server::translate;
+use solver::SolveError;
+use solver::history::{CycleReport, Snapshot, Summary};
+use solver::observer::{Event, Flow, Observer};
+use solver::scene::Scene;
+
+/// A run that has ended, one way or the other.
+pub(crate) struct Run {
+    pub(crate) scene: Scene,
+    pub(crate) reports: Vec<CycleReport>,
+    pub(crate) snapshots: Vec<Snapshot>,
+    pub(crate) end: Result<Summary, SolveError>,
+}
+
+impl Run {
+    /// The summary of a run that succeeded.
+    pub(crate) fn summary(&self) -> &Summary {
+        self.end.as_ref().expect("the run goes through")
+    }
+
+    /// Deepest wear of the receptacle, mm.
+    pub(crate) fn depth(&self) -> f64 {
+        self.summary().last.receptacle.max_depth_mm
+    }
+
+    /// Worn area of the receptacle over k P s.
+    pub(crate) fn area_ratio(&self) -> f64 {
+        let worn = self.summary().last.receptacle;
+        worn.worn_area_mm2
+            / worn
+                .ideal_area_mm2
+                .expect("the receptacle wears under a dead load")
+    }
+}
+
+/// Keeps what a run tells, and stops it after so many computed cycles.
+struct Keep {
+    reports: Vec<CycleReport>,
+    snapshots: Vec<Snapshot>,
+    most_cycles: usize,
+}
+
+impl Observer for Keep {
+    fn on(&mut self, event: Event<'_>) -> Flow {
+        match event {
+            Event::Phase(_) | Event::Checkpoint(_) => {}
+            Event::Cycle(report) => self.reports.push(report.clone()),
+            Event::Snapshot(snapshot) => self.snapshots.push(snapshot.clone()),
+        }
+        if self.reports.len() > self.most_cycles {
+            Flow::Stop
+        } else {
+            Flow::Continue
+        }
+    }
+}
+
+/// The scene of a specification that is accepted.
+pub(crate) fn scene(spec: &Value) -> Scene {
+    let resolved = translate::read(spec.to_string().as_bytes());
+    resolved.expect("the specification is accepted").scene
+}
+
+/// Solves a specification to its end.
+pub(crate) fn solve(spec: &Value) -> Run {
+    solve_part(scene(spec), usize::MAX)
+}
+
+/// Solves a scene, at most so many computed cycles of it.
+pub(crate) fn solve_part(scene: Scene, most_cycles: usize) -> Run {
+    let mut keep = Keep {
+        reports: Vec::new(),
+        snapshots: Vec::new(),
+        most_cycles,
+    };
+    let end = solver::run::solve(&scene, &mut keep);
+    Run {
+        scene,
+        reports: keep.reports,
+        snapshots: keep.snapshots,
+        end,
+    }
+}

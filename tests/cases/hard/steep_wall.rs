@@ -1,0 +1,28 @@
+//! Requirement: a scar whose wall is steeper than atan(1/mu) goes through: there the slider would jam but for the wear
+//! in the same solve.
+//! Source: the base scene on a longer block with mu = 1.5, whose walls pass 33.7 degrees; engine.md 2.8.
+//! Naive: without wear in the contact solve P/(cos t - mu sin t) has no solution beyond that slope, and the run ends in
+//! a singular matrix.
+
+use serde_json::json;
+
+use super::invariants::hold;
+use super::run::solve;
+use super::specs::fuzz_button;
+
+#[test]
+fn a_wall_beyond_the_angle_of_friction_is_climbed_and_worn() {
+    let mu = 1.5;
+    let run = solve(&fuzz_button(json!({
+        "system": {"pcb_length_mm": 0.2, "pcb_height_mm": 0.1},
+        "interface": {"friction": {"law": "coulomb", "coefficient": mu}},
+        "cycles": 800,
+    })));
+    hold(&run);
+    let last = run.snapshots.last().expect("the end is kept");
+    let (x, depth) = (&last.receptacle.x_mm, &last.receptacle.depth_mm);
+    let steepest = (1..x.len())
+        .map(|i| ((depth[i] - depth[i - 1]) / (x[i] - x[i - 1])).abs())
+        .fold(0.0, f64::max);
+    assert!(steepest > 1.0 / mu, "steepest wall {steepest}");
+}
