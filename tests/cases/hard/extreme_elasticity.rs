@@ -18,7 +18,8 @@ fn over(modulus: f64, poisson: f64) -> (Run, f64) {
     let load = PI * a * a / (4.0 * 6.0 * compliance);
     let run = solve(&cylinder(json!({
         "materials": {"receptacle": {"youngs_modulus_mpa": modulus, "poisson_ratio": poisson}},
-        "interface": {"wear": {"receptacle": {"k_over_h_per_mpa": 1e-4 / load}}},
+        // Without friction: bodies of unequal moduli that stick under the load are pressed 7 % more than Hertz says.
+        "interface": {"friction": {"law": "frictionless", "coefficient": null}, "wear": {"receptacle": {"k_over_h_per_mpa": 1e-4 / load}}},
         "load": {"kind": "line_force", "n_per_mm": load},
         "accuracy": {"preset": "standard"},
         "cycles": 10,
@@ -28,12 +29,12 @@ fn over(modulus: f64, poisson: f64) -> (Run, f64) {
 
 #[test]
 fn soft_and_incompressible_bodies_meet_hertz() {
-    for (modulus, poisson) in [(200e3, 0.499), (20.0, 0.3), (20.0, 0.499), (2e9, 0.3)] {
+    for (modulus, poisson) in [(200e3, 0.499), (20.0, 0.3), (20.0, 0.499), (1e8, 0.3)] {
         let (run, peak) = over(modulus, poisson);
         hold(&run);
         let ratio = run.summary().initial.peak_pressure_mpa / peak;
         assert!(
-            (ratio - 1.0).abs() < 0.03,
+            (ratio - 1.0).abs() < 0.02,
             "E {modulus}, nu {poisson}: {ratio}"
         );
         assert!(
