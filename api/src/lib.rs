@@ -7,5 +7,6 @@ pub mod plan;
 pub mod problem;
 pub mod results;
 pub mod spec;
+pub mod study;
 pub mod sweep;
 pub mod system;

@@ -2,6 +2,7 @@
 
 mod access;
 mod backup;
+mod bench;
 mod child;
 mod demo;
 mod export;
@@ -10,6 +11,7 @@ mod plan;
 mod probe;
 mod serve;
 mod solve;
+mod study;
 mod table;
 mod terminal;
 
@@ -59,6 +61,17 @@ enum Command {
         /// The specification, JSON.
         spec: PathBuf,
     },
+    /// Solve one specification at many accuracies, and show what each costs and how far off it is.
+    Study {
+        /// The specification, JSON.
+        spec: PathBuf,
+        /// Write table, picture and figures as files into this folder.
+        #[arg(long)]
+        out: Option<PathBuf>,
+        /// Processor seconds that all runs together should take.
+        #[arg(long, default_value_t = 180.0)]
+        budget_s: f64,
+    },
     /// Write the model as an input deck for another code to standard output.
     Export {
         /// The specification, JSON.
@@ -70,6 +83,8 @@ enum Command {
         #[arg(long, default_value_t = 0)]
         cycle: u64,
     },
+    /// Measure the engine on this machine.
+    Bench,
     /// Start a service in a fresh folder, run the fuzz-button study through it and show its wear.
     Demo {
         /// End when the study has ended instead of serving on.
@@ -169,6 +184,14 @@ pub fn main() -> ExitCode {
             log("warn", LogFormat::Text);
             plan::run(&spec)
         }
+        Command::Study {
+            spec,
+            out,
+            budget_s,
+        } => {
+            log("warn", LogFormat::Text);
+            study::run(&spec, out.as_deref(), budget_s)
+        }
         Command::Export {
             spec,
             format: DeckFormat::Inp,
@@ -176,6 +199,10 @@ pub fn main() -> ExitCode {
         } => {
             log("warn", LogFormat::Text);
             export::run(&spec, cycle)
+        }
+        Command::Bench => {
+            log("warn", LogFormat::Text);
+            bench::run()
         }
         Command::Demo { exit, listen } => {
             log("warn", LogFormat::Text);

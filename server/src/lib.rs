@@ -1,5 +1,6 @@
 #![doc = include_str!("../README.md")]
 
+pub mod bench;
 pub mod cli;
 pub mod clock;
 pub mod documents;
@@ -11,5 +12,6 @@ pub mod queue;
 pub mod service;
 pub mod solve;
 pub mod store;
+pub mod study;
 pub mod translate;
 pub mod worker;

@@ -28,4 +28,5 @@ mod result_files;
 mod server_killed;
 mod small_strains_cost_what_the_plan_says;
 mod stale_server;
+mod study_of_accuracy;
 mod sweep;

@@ -21,7 +21,7 @@ pub(super) struct Stopwatch {
 impl Stopwatch {
     /// Starts after what an earlier part of the run has cost.
     pub(super) fn start(earlier: Cost) -> Self {
-        let cpu_at_start = usage().map_or(0.0, |usage| cpu_seconds(&usage));
+        let cpu_at_start = cpu_s();
         Self {
             phases: earlier.phases_s.clone(),
             earlier,
@@ -64,6 +64,16 @@ impl Stopwatch {
             *self.phases.entry(phase).or_default() += since.elapsed().as_secs_f64();
         }
     }
+}
+
+/// Processor seconds of this process.
+pub fn cpu_s() -> f64 {
+    usage().map_or(0.0, |usage| cpu_seconds(&usage))
+}
+
+/// Processor seconds of all child processes that were waited for.
+pub fn children_cpu_s() -> f64 {
+    getrusage(UsageWho::RUSAGE_CHILDREN).map_or(0.0, |usage| cpu_seconds(&usage))
 }
 
 fn usage() -> Option<Usage> {

@@ -2,6 +2,7 @@
 
 use ::csv::Writer;
 use api::results::{Loop, Pressure, Profile, SlidePosition, WearHistory};
+use api::study::{Errors, Study, StudyRun};
 
 use super::columns::{self, Values};
 
@@ -121,6 +122,45 @@ pub fn friction_loop(friction_loop: &Loop) -> Result<Vec<u8>, CsvError> {
             &friction_loop.tangential_force_n_per_mm,
         ),
     ])
+}
+
+/// A study, one line a run; cells of what a run does not have are empty.
+///
+/// # Errors
+/// [`CsvError`] if the writer fails.
+pub fn study(study: &Study) -> Result<Vec<u8>, CsvError> {
+    type Cell = fn(&StudyRun) -> String;
+    fn error(run: &StudyRun, of: fn(&Errors) -> f64) -> String {
+        let error = run.errors.as_ref().map(of);
+        error.map_or_else(String::new, |error| error.to_string())
+    }
+    let columns: [(&str, Cell); 13] = [
+        ("tolerance", |run| {
+            let tolerance = run.tolerance;
+            tolerance.map_or_else(String::new, |tolerance| tolerance.to_string())
+        }),
+        ("contact_element_mm", |run| {
+            run.contact_element_mm.to_string()
+        }),
+        ("contact_elements", |run| run.contact_elements.to_string()),
+        ("increments_per_cycle", |run| {
+            run.increments_per_cycle.to_string()
+        }),
+        ("cycle_jump", |run| run.cycle_jump.to_string()),
+        ("depth_error", |run| error(run, |errors| errors.depth)),
+        ("width_error", |run| error(run, |errors| errors.width)),
+        ("peak_pressure_error", |run| {
+            error(run, |errors| errors.peak_pressure)
+        }),
+        ("area_error", |run| error(run, |errors| errors.area)),
+        ("cpu_s", |run| run.cpu_s.to_string()),
+        ("peak_memory_mb", |run| run.peak_memory_mb.to_string()),
+        ("on_front", |run| run.on_front.to_string()),
+        ("failure", |run| run.failure.clone().unwrap_or_default()),
+    ];
+    let column =
+        |(header, cell): (&str, Cell)| (header.to_owned(), study.runs.iter().map(cell).collect());
+    write(&columns.into_iter().map(column).collect())
 }
 
 fn phase_name(phase: SlidePosition) -> &'static str {

@@ -1,0 +1,104 @@
+//! What accuracy costs: one scene solved at many resolutions, compared with the converged solution.
+
+use serde::{Deserialize, Serialize};
+use utoipa::ToSchema;
+
+use crate::job::Outcome;
+use crate::spec::Spec;
+
+/// A study of accuracy against time.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct Study {
+    /// The resolved specification whose accuracy was varied.
+    pub spec: Spec,
+    /// What the runs are compared with.
+    pub reference: Reference,
+    /// The runs, cheapest first.
+    pub runs: Vec<StudyRun>,
+    /// What was left out to stay within the budget, in words.
+    pub left_out: Vec<String>,
+}
+
+/// One run of a study.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct StudyRun {
+    /// The tolerance it was asked for; absent where the three settings were fixed.
+    pub tolerance: Option<f64>,
+    /// Surface element size under the contact, mm.
+    pub contact_element_mm: f64,
+    /// Elements along the receptacle's contact surface.
+    pub contact_elements: u64,
+    /// Increments a computed cycle (the most that were used).
+    pub increments_per_cycle: u32,
+    /// Physical cycles a computed one stands for, in the mean.
+    pub cycle_jump: f64,
+    /// How it ended; absent where it failed.
+    pub outcome: Option<Outcome>,
+    /// Why it failed.
+    pub failure: Option<String>,
+    /// Its errors against the reference; absent where it failed.
+    pub errors: Option<Errors>,
+    /// Processor seconds of its process.
+    pub cpu_s: f64,
+    /// Largest resident memory of its process, MiB.
+    pub peak_memory_mb: f64,
+    /// Whether no cheaper run has errors of depth and width as small.
+    pub on_front: bool,
+}
+
+/// Relative differences of two solutions.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct Errors {
+    /// Largest difference of worn depth anywhere on either surface, over the deepest place.
+    pub depth: f64,
+    /// Of the scar's half-width.
+    pub width: f64,
+    /// Of the peak pressure at the neutral position at the end.
+    pub peak_pressure: f64,
+    /// Of the worn area.
+    pub area: f64,
+}
+
+impl Errors {
+    /// The larger one of depth and width, which a tolerance speaks of.
+    pub fn promised(&self) -> f64 {
+        self.depth.max(self.width)
+    }
+}
+
+/// The solution that runs are compared with.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct Reference {
+    /// Where it comes from, in words.
+    pub method: String,
+    /// Largest worn depth, mm.
+    pub max_depth_mm: f64,
+    /// Half the width of the scar, mm.
+    pub scar_half_width_mm: f64,
+    /// Peak pressure at the neutral position at the end, MPa.
+    pub peak_pressure_mpa: f64,
+    /// Worn area, mm^2.
+    pub worn_area_mm2: f64,
+    /// How uncertain it is: the sizes of all corrections that lead from the finest run to it.
+    pub uncertainty: Errors,
+    /// Observed orders of convergence, one row for each setting.
+    pub orders: Vec<Orders>,
+}
+
+/// Observed orders p of one setting: halving it divides the error by 2^p. Absent where three levels do not approach
+/// their limit from one side.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct Orders {
+    /// The setting: `contact_element_mm`, `increments_per_cycle` or `cycle_jump`.
+    pub setting: String,
+    /// Its three levels, finest first.
+    pub levels: Vec<f64>,
+    /// Of the largest worn depth.
+    pub depth: Option<f64>,
+    /// Of the scar's half-width.
+    pub width: Option<f64>,
+    /// Of the peak pressure.
+    pub peak_pressure: Option<f64>,
+    /// Of the worn area.
+    pub area: Option<f64>,
+}

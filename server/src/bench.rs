@@ -1,0 +1,53 @@
+//! Benchmarks of the engine on this machine.
+//!
+//! Processor time of this process, one case after the other; the smallest of a few repetitions where a case is short.
+//! Knows specifications and the engine; does not know the terminal.
+
+mod cases;
+
+use solver::SolveError;
+
+use crate::solve::{Failure, cpu_s};
+use crate::translate::Refused;
+
+pub use cases::{Case, all};
+
+/// A measured case.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Row {
+    /// What was done.
+    pub what: String,
+    /// How large it was.
+    pub size: String,
+    /// Processor seconds.
+    pub cpu_s: f64,
+}
+
+/// Why a case could not be measured.
+#[derive(Debug, thiserror::Error)]
+pub enum BenchError {
+    /// Its specification.
+    #[error(transparent)]
+    Refused(#[from] Refused),
+    /// The engine.
+    #[error(transparent)]
+    Solve(#[from] SolveError),
+    /// A whole run.
+    #[error(transparent)]
+    Failed(#[from] Failure),
+}
+
+/// Processor seconds of a task, the smallest of `times` repetitions, and what the last one returned.
+fn measured<T, E>(times: u32, mut task: impl FnMut() -> Result<T, E>) -> Result<(f64, T), E> {
+    let once = |task: &mut dyn FnMut() -> Result<T, E>| {
+        let before = cpu_s();
+        let done = task()?;
+        Ok((cpu_s() - before, done))
+    };
+    let mut best = once(&mut task)?;
+    for _ in 1..times {
+        let again = once(&mut task)?;
+        best = (best.0.min(again.0), again.1);
+    }
+    Ok(best)
+}

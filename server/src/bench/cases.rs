@@ -1,0 +1,279 @@
+//! The cases.
+
+use solver::SolveError;
+use solver::condensation::{self, Condensed};
+use solver::cycle::{CycleState, Integrator};
+use solver::model::{self, Model};
+use solver::observer::Flow;
+use solver::scene::Scene;
+
+use super::{BenchError, Row, measured};
+use crate::solve;
+use crate::translate;
+
+const MCCOLL: &str = include_str!("../../examples/mccoll.json");
+const FUZZ_BUTTON: &str = include_str!("../../examples/fuzz_button.json");
+
+/// Unknowns of both bodies to condense.
+const CONDENSED: [f64; 3] = [5e3, 20e3, 50e3];
+/// Nodes in contact of an increment.
+const ACTIVE: [u32; 3] = [20, 50, 150];
+/// Hertz half-width of `mccoll.json`, mm: what element sizes are chosen from.
+const HERTZ: f64 = 0.03586;
+/// Contact elements, mm, and cycles, of the scaling cases.
+const ELEMENTS: [f64; 3] = [0.02, 0.01, 0.005];
+const CYCLES: [u64; 3] = [2_000, 6_000, 18_000];
+
+/// A case: its name, and how it is measured.
+pub type Case = (&'static str, fn() -> Result<Vec<Row>, BenchError>);
+
+/// All cases, in the order of the table.
+pub fn all() -> Vec<Case> {
+    vec![
+        ("condensation", condensations),
+        ("increments", increments),
+        ("friction cycle", friction_cycle),
+        ("mccoll.json at the reference's resolution", reference),
+        ("mccoll.json", || presets("mccoll.json", MCCOLL)),
+        ("fuzz_button.json", || {
+            presets("fuzz_button.json", FUZZ_BUTTON)
+        }),
+        ("scaling with elements", scaling_with_elements),
+        ("scaling with cycles", scaling_with_cycles),
+    ]
+}
+
+/// The cylinder of *Other codes on the same work*: R = 6 mm on a block of 12 x 6 mm, 185 N/mm, mu = 0.8, +-25 um, no
+/// wear, elements of 10 um.
+const CYLINDER: &str = r#"{
+  "system": {"kind": "cylinder_on_flat", "radius_mm": 6.0, "flat_length_mm": 12.0, "flat_height_mm": 6.0},
+  "materials": {
+    "slider": {"youngs_modulus_mpa": 200000, "poisson_ratio": 0.3},
+    "receptacle": {"youngs_modulus_mpa": 200000, "poisson_ratio": 0.3}
+  },
+  "interface": {
+    "friction": {"law": "coulomb", "coefficient": 0.8},
+    "wear": {"slider": null, "receptacle": null}
+  },
+  "load": {"kind": "line_force", "n_per_mm": 185},
+  "motion": {"kind": "reciprocating", "waveform": "triangle", "amplitude_mm": 0.025, "frequency_hz": 20, "drive": "slider_top"},
+  "cycles": 1,
+  "accuracy": {"preset": "standard", "overrides": {"contact_element_mm": 0.01, "increments_per_cycle": 32}}
+}"#;
+
+/// A scene with changed settings.
+fn scene(spec: &str, change: impl FnOnce(&mut Scene)) -> Result<Scene, BenchError> {
+    let mut scene = translate::read(spec.as_bytes())?.scene;
+    change(&mut scene);
+    Ok(scene)
+}
+
+fn condensed(scene: &Scene) -> Result<(Model, Condensed), SolveError> {
+    let model = model::build(scene)?;
+    let condensed = condensation::condense(&model)?;
+    Ok((model, condensed))
+}
+
+fn condensations() -> Result<Vec<Row>, BenchError> {
+    let mut rows = Vec::new();
+    for target in CONDENSED {
+        let scene = sized(target)?;
+        let model = model::build(&scene).map_err(SolveError::from)?;
+        let (cpu_s, _) =
+            measured(3, || condensation::condense(&model)).map_err(SolveError::from)?;
+        let surface = 2 * (model.slider.contact_x().len() + model.receptacle.contact_x().len());
+        let dofs = model.slider.dofs() + model.receptacle.dofs();
+        rows.push(Row {
+            what: "condensation of two bodies".to_owned(),
+            size: format!("{dofs} DOF, {surface} of them on the surfaces"),
+            cpu_s,
+        });
+    }
+    Ok(rows)
+}
+
+/// McColl's scene with about so many unknowns: the element is halved between bounds.
+fn sized(target: f64) -> Result<Scene, BenchError> {
+    let (mut fine, mut coarse) = (1e-3_f64, 1e-1_f64);
+    let at = |element: f64| {
+        scene(MCCOLL, |scene| {
+            scene.accuracy.contact_element_mm = Some(element);
+        })
+    };
+    for _ in 0..12 {
+        let middle = (fine * coarse).sqrt();
+        let too_many = match model::build(&at(middle)?) {
+            Ok(model) => count(model.slider.dofs() + model.receptacle.dofs()) > target,
+            Err(_) => true,
+        };
+        *(if too_many { &mut fine } else { &mut coarse }) = middle;
+    }
+    at(coarse)
+}
+
+fn increments() -> Result<Vec<Row>, BenchError> {
+    let mut rows = Vec::new();
+    for active in ACTIVE {
+        let scene = scene(MCCOLL, |scene| {
+            scene.accuracy.contact_element_mm = Some(2.0 * HERTZ / f64::from(active));
+            scene.accuracy.increments_per_cycle = Some(40);
+            scene.accuracy.cycle_jump = Some(1);
+            // The scar stays as small as the contact, and the mesh with it.
+            scene.cycles = 10;
+        })?;
+        let (_, cycle_s, increments) = a_cycle(&scene)?;
+        rows.push(Row {
+            what: "contact increment with wear of both sides".to_owned(),
+            size: format!("{active} nodes in contact"),
+            cpu_s: cycle_s / increments,
+        });
+    }
+    Ok(rows)
+}
+
+/// Seconds of set-up and of one cycle, and its increments.
+fn a_cycle(scene: &Scene) -> Result<(f64, f64, f64), BenchError> {
+    let (setup_s, (model, condensed)) = measured(3, || condensed(scene))?;
+    let operators = &condensed.operators;
+    let mut increments = 0;
+    let mut best = f64::INFINITY;
+    for _ in 0..3 {
+        let mut state = CycleState::start(operators);
+        let mut integrator = Integrator::new(scene, &model, operators);
+        integrator.settle(&mut state).map_err(SolveError::from)?;
+        integrator.set_out(&mut state).map_err(SolveError::from)?;
+        let before = state.increments;
+        let (cycle_s, _) =
+            measured(1, || integrator.sweep(&mut state, 1)).map_err(SolveError::from)?;
+        best = best.min(cycle_s);
+        increments = state.increments - before;
+    }
+    let increments = f64::from(u32::try_from(increments).unwrap_or(u32::MAX));
+    Ok((setup_s, best, increments))
+}
+
+fn friction_cycle() -> Result<Vec<Row>, BenchError> {
+    let scene = scene(CYLINDER, |_| {})?;
+    let (setup_s, cycle_s, increments) = a_cycle(&scene)?;
+    let row = |what: &str, size: String, cpu_s| Row {
+        what: what.to_owned(),
+        size,
+        cpu_s,
+    };
+    Ok(vec![
+        row(
+            "cylinder at 185 N/mm: set-up",
+            "elements of 10 um".to_owned(),
+            setup_s,
+        ),
+        row(
+            "the same: one friction cycle",
+            format!("{increments} increments"),
+            cycle_s,
+        ),
+    ])
+}
+
+fn solved(
+    what: impl Into<String>,
+    size: impl Into<String>,
+    scene: &Scene,
+) -> Result<Row, BenchError> {
+    let summary = solve::run(scene, &mut |_| Flow::Continue)?;
+    Ok(Row {
+        what: what.into(),
+        size: format!(
+            "{}{} elements, {} computed cycles, {} increments",
+            size.into(),
+            summary.accuracy.contact_elements,
+            summary.accuracy.computed_cycles,
+            summary.accuracy.increments,
+        ),
+        cpu_s: summary.cost.cpu_s,
+    })
+}
+
+fn reference() -> Result<Vec<Row>, BenchError> {
+    let scene = scene(MCCOLL, |scene| {
+        scene.accuracy.contact_element_mm = Some(0.01);
+        scene.accuracy.increments_per_cycle = Some(40);
+        scene.accuracy.cycle_jump = Some(100);
+    })?;
+    let size = "10 um, 40 increments, jump 100: ";
+    Ok(vec![solved(
+        "mccoll.json at the reference's resolution",
+        size,
+        &scene,
+    )?])
+}
+
+fn presets(name: &str, spec: &str) -> Result<Vec<Row>, BenchError> {
+    let presets = [("draft", 0.1), ("standard", 0.02), ("fine", 0.003)];
+    let row = |(preset, tolerance): (&str, f64)| {
+        let scene = scene(spec, |scene| scene.accuracy.tolerance = tolerance)?;
+        solved(format!("{name}, {preset}"), "", &scene)
+    };
+    presets.into_iter().map(row).collect()
+}
+
+fn scaling_with_elements() -> Result<Vec<Row>, BenchError> {
+    let row = |element: f64| {
+        let scene = scene(MCCOLL, |scene| {
+            scene.accuracy.contact_element_mm = Some(element);
+            scene.accuracy.increments_per_cycle = Some(40);
+            scene.accuracy.cycle_jump = Some(100);
+            scene.cycles = 6_000;
+            scene.output.snapshots_at_cycles = Vec::new();
+        })?;
+        solved(
+            "scaling with elements",
+            format!("{} um: ", 1e3 * element),
+            &scene,
+        )
+    };
+    ELEMENTS.into_iter().map(row).collect()
+}
+
+fn scaling_with_cycles() -> Result<Vec<Row>, BenchError> {
+    let row = |cycles: u64| {
+        let scene = scene(MCCOLL, |scene| {
+            scene.accuracy.contact_element_mm = Some(0.02);
+            scene.accuracy.increments_per_cycle = Some(40);
+            scene.accuracy.cycle_jump = Some(20);
+            scene.cycles = cycles;
+            scene.output.snapshots_at_cycles = Vec::new();
+        })?;
+        solved("scaling with cycles", format!("{cycles} cycles: "), &scene)
+    };
+    CYCLES.into_iter().map(row).collect()
+}
+
+fn count(dofs: usize) -> f64 {
+    f64::from(u32::try_from(dofs).unwrap_or(u32::MAX))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_friction_cycle_has_the_increments_that_it_is_named_after() {
+        let scene = scene(CYLINDER, |_| {}).expect("the specification is sound");
+        let (setup_s, cycle_s, increments) = a_cycle(&scene).expect("it can be solved");
+        assert!(setup_s > 0.0 && cycle_s > 0.0);
+        assert!((increments - 32.0).abs() < 1e-9, "{increments}");
+    }
+
+    #[test]
+    fn meshes_of_the_condensation_are_as_large_as_they_should_be() {
+        for target in CONDENSED {
+            let scene = sized(target).expect("a size is found");
+            let model = model::build(&scene).expect("it can be meshed");
+            let dofs = count(model.slider.dofs() + model.receptacle.dofs());
+            assert!(
+                (0.8..=1.0).contains(&(dofs / target)),
+                "{dofs} for {target}"
+            );
+        }
+    }
+}

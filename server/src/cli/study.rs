@@ -1,0 +1,64 @@
+//! `fretwear study SPEC [--out DIR]`: what accuracy costs.
+
+use std::path::Path;
+use std::process::ExitCode;
+
+use indicatif::{ProgressBar, ProgressStyle};
+
+use super::terminal::{failed, say, specification};
+use crate::study::{self, Request, report};
+
+pub(super) fn run(spec: &Path, out: Option<&Path>, budget_s: f64) -> ExitCode {
+    let resolved = match specification(spec) {
+        Ok(resolved) => resolved,
+        Err(code) => return code,
+    };
+    // Before the work, so that a folder that cannot be made does not cost a finished study.
+    if let Some(folder) = out
+        && let Err(cause) = std::fs::create_dir_all(folder)
+    {
+        return failed(format_args!("{}: {cause}", folder.display()));
+    }
+    let program = match std::env::current_exe() {
+        Ok(program) => program,
+        Err(cause) => return failed(format_args!("the path of this program: {cause}")),
+    };
+    let spinner = spinner();
+    let request = Request {
+        resolved: &resolved,
+        program,
+        budget_s,
+    };
+    let made = study::make(&request, &mut |run| spinner.set_message(run.to_owned()));
+    spinner.finish_and_clear();
+    let study = match made {
+        Ok(study) => study,
+        Err(error) => return failed(error),
+    };
+    say(report::text(&study));
+    let Some(folder) = out else {
+        return ExitCode::SUCCESS;
+    };
+    let documents = match report::documents(&study) {
+        Ok(documents) => documents,
+        Err(error) => return failed(error),
+    };
+    for document in documents {
+        let path = folder.join(&document.name);
+        if let Err(cause) = std::fs::write(&path, &document.bytes) {
+            return failed(format_args!("{}: {cause}", path.display()));
+        }
+    }
+    ExitCode::SUCCESS
+}
+
+/// Which run is on, on standard error; silent where that is no terminal.
+fn spinner() -> ProgressBar {
+    let spinner = ProgressBar::new_spinner();
+    // The template is a constant; were it broken, the default would do.
+    if let Ok(style) = ProgressStyle::with_template("{spinner} {msg}, {elapsed} gone") {
+        spinner.set_style(style);
+    }
+    spinner.enable_steady_tick(std::time::Duration::from_millis(200));
+    spinner
+}
