@@ -176,7 +176,10 @@ mod tests {
             );
         }
         bytes[0] += 1;
-        assert_eq!(Saved::decode(&bytes), Err(Unreadable::Format { found: 2 }));
+        assert_eq!(
+            Saved::decode(&bytes),
+            Err(Unreadable::Format { found: FORMAT + 1 })
+        );
     }
 
     #[test]
