@@ -3,7 +3,9 @@
 //! `api/openapi.json` is the same document, committed, so that a change of the interface is seen as one. After a change
 //! that is meant:
 //!
-//!     cargo run --release -- openapi > api/openapi.json
+//! ```text
+//! cargo run --release -- openapi > api/openapi.json
+//! ```
 
 use std::sync::OnceLock;
 
