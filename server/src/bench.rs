@@ -4,10 +4,13 @@
 //! Knows specifications and the engine; does not know the terminal.
 
 mod cases;
+pub mod predictions;
 
 use solver::SolveError;
 
+use crate::machine::MachineError;
 use crate::solve::{Failure, cpu_s};
+use crate::study::StudyError;
 use crate::translate::Refused;
 
 pub use cases::{Case, all};
@@ -35,6 +38,15 @@ pub enum BenchError {
     /// A whole run.
     #[error(transparent)]
     Failed(#[from] Failure),
+    /// The calibration.
+    #[error(transparent)]
+    Machine(#[from] MachineError),
+    /// A process could not be run.
+    #[error(transparent)]
+    Process(#[from] StudyError),
+    /// A run in a process of its own ended without a result.
+    #[error("{0}")]
+    OtherFailed(String),
 }
 
 /// Processor seconds of a task, the smallest of `times` repetitions, and what the last one returned.

@@ -20,6 +20,7 @@ use std::net::SocketAddr;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
+use crate::bench::predictions;
 use access::AccessOptions;
 use clap::{Parser, Subcommand};
 use tracing_subscriber::EnvFilter;
@@ -84,7 +85,7 @@ enum Command {
         cycle: u64,
     },
     /// Measure the engine on this machine.
-    Bench,
+    Bench(BenchArguments),
     /// Start a service in a fresh folder, run the fuzz-button study through it and show its wear.
     Demo {
         /// End when the study has ended instead of serving on.
@@ -157,6 +158,16 @@ enum LogFormat {
 }
 
 #[derive(Debug, clap::Args)]
+struct BenchArguments {
+    /// Compare what plans expect with what solves take instead, on all systems and both published scenes.
+    #[arg(long)]
+    predictions: bool,
+    /// At these tolerances.
+    #[arg(long, value_delimiter = ',', requires = "predictions", default_values_t = predictions::TOLERANCES)]
+    tolerances: Vec<f64>,
+}
+
+#[derive(Debug, clap::Args)]
 struct ChildArguments {
     /// Where its files go.
     folder: PathBuf,
@@ -200,9 +211,9 @@ pub fn main() -> ExitCode {
             log("warn", LogFormat::Text);
             export::run(&spec, cycle)
         }
-        Command::Bench => {
+        Command::Bench(arguments) => {
             log("warn", LogFormat::Text);
-            bench::run()
+            bench::run(&arguments)
         }
         Command::Demo { exit, listen } => {
             log("warn", LogFormat::Text);

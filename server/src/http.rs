@@ -46,6 +46,7 @@ use utoipa::openapi::OpenApi as Document;
 use utoipa_axum::router::OpenApiRouter;
 use utoipa_axum::routes;
 
+use crate::machine::Kept;
 use crate::store::Store;
 
 pub use access::{Access, TokenError};
@@ -71,6 +72,8 @@ pub struct App {
     /// Ends streams and long polls when the service stops.
     pub stopping: CancellationToken,
     access: Access,
+    /// What this machine takes for the engine's work.
+    machine: Kept,
     /// Archives that may be made at once.
     archives: Arc<Semaphore>,
     long_polls: Arc<Semaphore>,
@@ -81,6 +84,7 @@ impl App {
     /// Over a store, for those who have access.
     pub fn new(store: Arc<Store>, access: Access, stopping: CancellationToken) -> Self {
         Self {
+            machine: Kept::open(Some(store.machine_file())),
             store,
             stopping,
             access,

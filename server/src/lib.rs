@@ -6,6 +6,7 @@ pub mod clock;
 pub mod documents;
 pub mod files;
 pub mod http;
+pub mod machine;
 pub mod metrics;
 pub mod plot;
 pub mod queue;

@@ -15,7 +15,7 @@ use solver::scene::Scene;
 use crate::translate::{history, vtu};
 use checkpoint::{Encoded, Keeping, Saved};
 use cost::Stopwatch;
-pub use cost::{children_cpu_s, cpu_s};
+pub use cost::{children_cpu_s, cpu_s, thread_cpu_s};
 
 /// Exit code of a solving process that could not write a result: the disk's fault, so it is tried again.
 pub const UNWRITTEN: i32 = 4;

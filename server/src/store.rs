@@ -56,6 +56,8 @@ pub struct Store {
     folder: folder::Folder,
     /// The write-ahead log.
     wal: PathBuf,
+    /// Figures of the machine.
+    machine: PathBuf,
     /// How often a job is tried.
     attempt_limit: u32,
     /// What is counted for `/metrics`.
@@ -74,6 +76,11 @@ impl Store {
     /// Returns when a job may be waiting in the queue.
     pub async fn job_waiting(&self) {
         self.waiting.notified().await;
+    }
+
+    /// The file beside the database that holds the machine's figures.
+    pub fn machine_file(&self) -> PathBuf {
+        self.machine.clone()
     }
 
     /// What is counted for `/metrics`.

@@ -7,7 +7,7 @@
 mod budget;
 mod errors;
 mod grid;
-mod process;
+pub(crate) mod process;
 mod reference;
 pub mod report;
 
@@ -66,14 +66,14 @@ struct Run {
 }
 
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
-struct Spent {
-    cpu_s: f64,
-    peak_memory_mb: f64,
+pub(crate) struct Spent {
+    pub(crate) cpu_s: f64,
+    pub(crate) peak_memory_mb: f64,
 }
 
 #[derive(Debug, Clone, PartialEq)]
-struct Found {
-    summary: Summary,
+pub(crate) struct Found {
+    pub(crate) summary: Summary,
     solution: Solution,
 }
 

@@ -26,6 +26,7 @@ pub mod size;
 pub mod sweep;
 pub mod thin;
 pub mod vtu;
+pub mod work;
 
 use api::problem::Fault;
 use api::spec::{Broken, Spec, SystemKind};
@@ -35,6 +36,7 @@ use ledger::Ledger;
 pub use plan::plan;
 use preset::Preset;
 use size::Size;
+use work::Work;
 
 /// Longest accepted name, characters.
 const NAME_LIMIT: usize = 200;
@@ -54,6 +56,8 @@ pub struct Resolved {
     pub scene: Scene,
     /// How large its solve would be.
     pub size: Size,
+    /// How much there is to do in it.
+    pub work: Work,
 }
 
 /// Why a submitted document is not a study.
@@ -146,13 +150,13 @@ pub fn scene(spec: &Spec) -> Result<Resolved, Vec<Fault>> {
         output: recorded,
         stop,
     };
-    let mut size = None;
+    let mut sized = None;
     if ledger.is_clean() {
         settings::planned(&spec.effects, &scene, &mut ledger);
         settings::small_strains(&spec.effects, &scene, &mut ledger);
-        size = settings::meshable(&scene, &mut ledger);
+        sized = settings::meshable(&scene, &mut ledger);
     }
-    let Some(size) = size else {
+    let Some((size, work)) = sized else {
         return Err(ledger.into_faults());
     };
     out.provenance = ledger.finish()?;
@@ -161,6 +165,7 @@ pub fn scene(spec: &Spec) -> Result<Resolved, Vec<Fault>> {
         kind,
         scene,
         size,
+        work,
     })
 }
 

@@ -12,7 +12,7 @@ use crate::model::{BodyModel, Model};
 /// response depends on the height through the logarithm of height over contact width, and a rigid lowering costs
 /// nothing because the slider's height is free. Measured on `fuzz_button.json`, whose block loses three quarters of its
 /// height: shares of 0.05, 0.1, 0.2 and 0.3 (20, 11, 5 and 3 rebuilds) agree in every depth to 0.03 %.
-fn drift_share(tolerance: f64) -> f64 {
+pub(crate) fn drift_share(tolerance: f64) -> f64 {
     (15.0 * tolerance).clamp(0.05, 0.3)
 }
 

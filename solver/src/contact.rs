@@ -31,6 +31,7 @@ use crate::condensation::{BodyOperators, Operators};
 use crate::model::Interface;
 
 pub use increment::{Increment, Solver};
+pub(crate) use range::WATCHED;
 pub use status::Status;
 
 /// Most primal-dual iterations of one increment before it is pivoted.

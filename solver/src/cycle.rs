@@ -8,6 +8,7 @@
 //! in front of the slider belongs to the wear law, not to the geometry of the scar: with a jump it would be
 //! `jump` times too high, and its slope would load the contact like a wall.
 
+pub mod forecast;
 mod jump;
 mod path;
 mod record;

@@ -6,5 +6,5 @@ pub mod database;
 pub mod program;
 pub mod server;
 
-pub use program::{Ran, fretwear, spec};
+pub use program::{Ran, binary, fretwear, spec};
 pub use server::Server;

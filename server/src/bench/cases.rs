@@ -11,8 +11,8 @@ use super::{BenchError, Row, measured};
 use crate::solve;
 use crate::translate;
 
-const MCCOLL: &str = include_str!("../../examples/mccoll.json");
-const FUZZ_BUTTON: &str = include_str!("../../examples/fuzz_button.json");
+pub(super) const MCCOLL: &str = include_str!("../../examples/mccoll.json");
+pub(super) const FUZZ_BUTTON: &str = include_str!("../../examples/fuzz_button.json");
 
 /// Unknowns of both bodies to condense.
 const CONDENSED: [f64; 3] = [5e3, 20e3, 50e3];

@@ -6,17 +6,20 @@ use std::process::ExitCode;
 use api::plan::PlanDocument;
 
 use super::terminal::{failed, say, specification};
-use crate::translate;
+use crate::machine::{self, Kept, cache_file};
 
 pub(super) fn run(spec: &Path) -> ExitCode {
     let resolved = match specification(spec) {
         Ok(resolved) => resolved,
         Err(code) => return code,
     };
-    let plan = translate::plan(&resolved);
+    let kept = Kept::open(cache_file());
+    let machine = kept.measured().cloned();
+    let plan = machine::plan(&resolved, machine.as_ref());
     match serde_json::to_string_pretty(&PlanDocument {
         spec: resolved.spec,
         plan,
+        machine,
     }) {
         Ok(text) => {
             say(text);

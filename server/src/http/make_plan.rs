@@ -4,10 +4,13 @@ use api::plan::PlanDocument;
 use api::problem::Problem;
 use api::spec::Spec;
 use axum::Json;
+use axum::extract::State;
 use axum::response::{IntoResponse, Response};
 
+use super::App;
 use super::extract::JsonBody;
 use super::submit::refusal;
+use crate::machine;
 use crate::translate::{self, Refused};
 
 /// Why there is no plan.
@@ -25,7 +28,8 @@ impl IntoResponse for PlanError {
     }
 }
 
-/// The plan of a specification; nothing is queued.
+/// The plan of a specification; nothing is queued. The first one that is asked for measures the machine, which takes a
+/// second or two.
 #[utoipa::path(
     post,
     path = "/v1/plans",
@@ -40,12 +44,17 @@ impl IntoResponse for PlanError {
         (status = 422, description = "The specification has faults", body = Problem),
     )
 )]
-pub(super) async fn make_plan(JsonBody(body): JsonBody) -> Result<Json<PlanDocument>, PlanError> {
+pub(super) async fn make_plan(
+    State(app): State<App>,
+    JsonBody(body): JsonBody,
+) -> Result<Json<PlanDocument>, PlanError> {
     let resolved = translate::read(&body)?;
-    let plan = translate::plan(&resolved);
+    let machine = app.machine.wait().await;
+    let plan = machine::plan(&resolved, machine.as_ref());
     Ok(Json(PlanDocument {
         spec: resolved.spec,
         plan,
+        machine,
     }))
 }
 
@@ -64,6 +73,8 @@ mod tests {
             .as_f64()
             .expect("a number");
         assert!((load - 0.508).abs() < 1e-12);
+        assert!(document["plan"]["estimates"]["cpu_s"].as_f64() > Some(0.0));
+        assert!(document["machine"]["increment_s"].as_f64() > Some(0.0));
         assert_eq!(
             service.get("/v1/jobs").await.2["jobs"],
             serde_json::json!([])

@@ -18,6 +18,7 @@ use super::limits;
 use super::problem::{Kind, Refusal};
 use super::show::retry_after_s;
 use crate::clock::now_ms;
+use crate::machine;
 use crate::queue::MOST_PRIORITY;
 use crate::store::{NewJob, RequestKey, StoreError, Submitted, Wishes};
 use crate::translate::{self, Refused, Resolved};
@@ -148,10 +149,17 @@ pub(super) async fn submit(
     let key = request_key(&headers, &body)?;
     let resolved = translate::read(&body)?;
     limits::check(&resolved)?;
-    let plan = translate::plan(&resolved);
+    let machine = app.machine.known();
+    let plan = machine::plan(&resolved, machine);
     let Resolved { spec, .. } = resolved;
     if query.validate_only {
-        return Ok(Json(PlanDocument { spec, plan }).into_response());
+        let machine = machine.cloned();
+        let document = PlanDocument {
+            spec,
+            plan,
+            machine,
+        };
+        return Ok(Json(document).into_response());
     }
     let new = NewJob { spec, plan, wishes };
     let id = match key {

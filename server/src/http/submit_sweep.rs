@@ -13,9 +13,10 @@ use super::limits;
 use super::problem::Refusal;
 use super::submit::{SubmitError, request_key};
 use crate::clock::now_ms;
+use crate::machine;
 use crate::queue;
 use crate::store::{NewJob, NewSweep, StoreError, Submitted, Wishes};
-use crate::translate::{self, Refused, sweep};
+use crate::translate::{Refused, sweep};
 
 /// Why a sweep was not queued.
 #[derive(Debug, thiserror::Error)]
@@ -81,7 +82,7 @@ pub(super) async fn submit_sweep(
         .into_iter()
         .enumerate()
         .map(|(position, variation)| {
-            let plan = translate::plan(&variation.resolved);
+            let plan = machine::plan(&variation.resolved, app.machine.known());
             let spec = variation.resolved.spec;
             let wishes = Wishes {
                 priority: queue::sweep_priority(position),

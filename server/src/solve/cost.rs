@@ -71,6 +71,11 @@ pub fn cpu_s() -> f64 {
     usage().map_or(0.0, |usage| cpu_seconds(&usage))
 }
 
+/// Processor seconds of this thread.
+pub fn thread_cpu_s() -> f64 {
+    getrusage(UsageWho::RUSAGE_THREAD).map_or(0.0, |usage| cpu_seconds(&usage))
+}
+
 /// Processor seconds of all child processes that were waited for.
 pub fn children_cpu_s() -> f64 {
     getrusage(UsageWho::RUSAGE_CHILDREN).map_or(0.0, |usage| cpu_seconds(&usage))
@@ -92,11 +97,38 @@ fn seconds(time: TimeVal) -> f64 {
     time.tv_sec() as f64 + 1e-6 * time.tv_usec() as f64
 }
 
+/// The largest resident memory of this program. The kernel's own account of a process (`ru_maxrss`) is kept through
+/// `exec` and so begins with the memory of whoever started it; the address space's account does not.
+fn peak_memory_mb(usage: &Usage) -> f64 {
+    let status = std::fs::read_to_string("/proc/self/status").ok();
+    let own = status.as_deref().and_then(high_water_kib);
+    own.unwrap_or_else(|| maxrss_kib(usage)) / 1024.0
+}
+
+fn high_water_kib(status: &str) -> Option<f64> {
+    let line = status
+        .lines()
+        .find_map(|line| line.strip_prefix("VmHWM:"))?;
+    line.trim().strip_suffix("kB")?.trim().parse().ok()
+}
+
 /// The kernel counts KiB.
 #[expect(
     clippy::cast_precision_loss,
     reason = "KiB of a process stay far below 2^53"
 )]
-fn peak_memory_mb(usage: &Usage) -> f64 {
-    usage.max_rss() as f64 / 1024.0
+fn maxrss_kib(usage: &Usage) -> f64 {
+    usage.max_rss() as f64
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_high_water_mark_is_read_from_the_status_of_a_process() {
+        let status = "Name:\tfretwear\nVmPeak:\t  104 kB\nVmHWM:\t   74332 kB\nVmRSS:\t 1 kB\n";
+        assert_eq!(high_water_kib(status), Some(74_332.0));
+        assert_eq!(high_water_kib("Name:\tfretwear\n"), None);
+    }
 }

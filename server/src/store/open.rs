@@ -77,6 +77,7 @@ impl Store {
             waiting: Notify::new(),
             folder: Folder::beside(&path),
             wal: beside(&path, "-wal"),
+            machine: beside(&path, ".machine.json"),
             attempt_limit,
             metrics: Arc::default(),
             submissions: Submissions::default(),

@@ -15,7 +15,7 @@ use crate::solve::{Line, children_cpu_s};
 const NEVER_MS: &str = "1000000000";
 
 /// Solves a specification with the program's `solve-child` and waits for it.
-pub(super) fn solve(
+pub(crate) fn solve(
     program: &Path,
     spec: &Spec,
 ) -> Result<(Result<Found, String>, Spent), StudyError> {

@@ -16,6 +16,7 @@ pub fn plan(resolved: &Resolved) -> Plan {
         estimates: estimates(&resolved.scene)
             .into_iter()
             .chain(resolved.size.figures())
+            .chain(resolved.work.figures())
             .collect(),
         notes: notes::notes(resolved),
     }

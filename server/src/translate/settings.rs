@@ -11,6 +11,7 @@ use super::ledger::{Ledger, Range, shortened};
 use super::motion::CONTINUOUS_PARTS;
 use super::preset::Preset;
 use super::size::Size;
+use super::work::Work;
 
 /// Most cycles of a job.
 const CYCLE_LIMIT: u64 = 1_000_000_000;
@@ -134,9 +135,9 @@ pub(super) fn small_strains(
     }
 }
 
-/// How large the solve would be; a fault if the bodies cannot be meshed, or the mesh would be larger than the engine
+/// How large the solve would be, and how much there is to do; a fault if the bodies cannot be meshed, or the mesh would be larger than the engine
 /// takes.
-pub(super) fn meshable(scene: &scene::Scene, ledger: &mut Ledger) -> Option<Size> {
+pub(super) fn meshable(scene: &scene::Scene, ledger: &mut Ledger) -> Option<(Size, Work)> {
     let built = solver::model::build(scene);
     if let Err(error) = &built {
         let pointer = match scene.accuracy.contact_element_mm {
@@ -145,7 +146,10 @@ pub(super) fn meshable(scene: &scene::Scene, ledger: &mut Ledger) -> Option<Size
         };
         ledger.fault(pointer, error.to_string());
     }
-    built.ok().map(|model| Size::of(scene, &model))
+    built.ok().map(|model| {
+        let work = Work::of(scene, &model);
+        (Size::of(scene, &model, &work), work)
+    })
 }
 
 /// Fills in the accuracy.

@@ -4,7 +4,7 @@ use super::{ContactState, Pair, Surfaces};
 
 /// A node whose undeformed gap is smaller than this part of the indentation is watched: the free surface beside a
 /// contact sinks, so a node with a positive undeformed gap closes only if shear lifts it, by far less than this.
-const WATCHED: f64 = 0.3;
+pub(crate) const WATCHED: f64 = 0.3;
 /// Nodes watched beyond that at either end.
 const MARGIN_NODES: usize = 2;
 /// Nodes to begin with: the last contact as it travels with the slider, and what the last height reaches.

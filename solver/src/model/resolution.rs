@@ -63,21 +63,27 @@ fn rule(tolerance: f64) -> Rule {
     }
 }
 
-/// Whether part of the contact may stick through the whole stroke: the amplitude is below twice the displacement at
-/// which all of it slips, by estimate  mu P / (pi E*) (2 ln(4 H/a) - 1)  with the lower body height H (Johnson 1985,
-/// section 5.6, for the approach of a strip under a line load; tangential compliance is like the normal one).
-fn sticks(scene: &Scene, half_width: f64, modulus: f64) -> bool {
-    let Motion::Reciprocating { amplitude_mm, .. } = scene.motion else {
-        return false;
-    };
+/// Approach of the bodies under the load, mm:  P / (pi E*) (2 ln(4 H/a) - 1)  with the lower body height H (Johnson 1985,
+/// section 5.6, for a strip under a line load). Tangential compliance is like the normal one, so that mu times as much is
+/// the displacement at which all of the contact slips.
+pub(crate) fn approach(scene: &Scene, half_width: f64, modulus: f64) -> f64 {
     let height = scene
         .slider
         .shape
         .height_mm
         .min(scene.receptacle.shape.height_mm);
     let reach = (2.0 * (4.0 * height / half_width).ln() - 1.0).max(0.0);
-    let shear = friction::coefficient(scene.friction) * scene.load_n_per_mm / (PI * modulus);
-    amplitude_mm < 2.0 * shear * reach
+    scene.load_n_per_mm / (PI * modulus) * reach
+}
+
+/// Whether part of the contact may stick through the whole stroke: the amplitude is below twice the displacement at
+/// which all of it slips.
+fn sticks(scene: &Scene, half_width: f64, modulus: f64) -> bool {
+    let Motion::Reciprocating { amplitude_mm, .. } = scene.motion else {
+        return false;
+    };
+    let slips_from = friction::coefficient(scene.friction) * approach(scene, half_width, modulus);
+    amplitude_mm < 2.0 * slips_from
 }
 
 /// Radius R of the relative curvature of both bodies, mm.

@@ -1,0 +1,111 @@
+//! What the plan expects of a solve, beside what the solve took: every system and both published scenes at several
+//! tolerances, each in a process of its own.
+
+use std::path::Path;
+
+use api::plan::MachineFigures;
+use api::results::Summary;
+use api::spec::{Accuracy, Spec, System, SystemKind};
+
+use super::BenchError;
+use super::cases::{FUZZ_BUTTON, MCCOLL};
+use crate::machine;
+use crate::study::process;
+use crate::translate::{self, Refused};
+
+/// Tolerances that are compared unless others are named: the presets and two between.
+pub const TOLERANCES: [f64; 5] = [0.1, 0.05, 0.02, 0.01, 0.003];
+
+/// A figure of a plan and of the run that followed.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Pair {
+    /// Its name.
+    pub what: &'static str,
+    /// The plan's.
+    pub expected: f64,
+    /// The run's.
+    pub measured: f64,
+}
+
+impl Pair {
+    /// Expected over measured.
+    pub fn ratio(&self) -> f64 {
+        self.expected / self.measured.max(f64::MIN_POSITIVE)
+    }
+}
+
+/// A scene at a tolerance.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Prediction {
+    /// The scene's name.
+    pub scene: String,
+    /// The tolerance.
+    pub tolerance: f64,
+    /// Expected and measured.
+    pub pairs: Vec<Pair>,
+}
+
+/// Every system and both published scenes, by name.
+///
+/// # Errors
+/// [`BenchError`] if a committed specification cannot be read.
+pub fn scenes() -> Result<Vec<(String, Spec)>, BenchError> {
+    let mut scenes: Vec<(String, Spec)> = SystemKind::ALL
+        .iter()
+        .map(|kind| {
+            let spec = Spec {
+                system: System::of_kind(*kind),
+                ..Spec::default()
+            };
+            (kind.as_str().to_owned(), spec)
+        })
+        .collect();
+    for (name, text) in [("mccoll.json", MCCOLL), ("fuzz_button.json", FUZZ_BUTTON)] {
+        let resolved = translate::read(text.as_bytes())?;
+        scenes.push((name.to_owned(), resolved.spec));
+    }
+    Ok(scenes)
+}
+
+/// Compares one scene at one tolerance; `program` is the one whose `solve-child` solves.
+///
+/// # Errors
+/// [`BenchError`] if the solve fails.
+pub fn compare(
+    program: &Path,
+    machine: &MachineFigures,
+    (name, spec): &(String, Spec),
+    tolerance: f64,
+) -> Result<Prediction, BenchError> {
+    let mut spec = spec.clone();
+    spec.accuracy = Accuracy {
+        tolerance: Some(tolerance),
+        ..Accuracy::default()
+    };
+    let resolved = translate::scene(&spec).map_err(Refused::Faults)?;
+    let plan = machine::plan(&resolved, Some(machine)).estimates;
+    let (found, spent) = process::solve(program, &resolved.spec)?;
+    let summary = found.map_err(BenchError::OtherFailed)?.summary;
+    let pair = |(what, measured): (&'static str, f64)| Pair {
+        what,
+        expected: plan.get(what).copied().unwrap_or_default(),
+        measured,
+    };
+    Ok(Prediction {
+        scene: name.clone(),
+        tolerance,
+        pairs: measured(&summary, spent.cpu_s).map(pair).to_vec(),
+    })
+}
+
+/// Figures of a run by the names that a plan gives them.
+fn measured(summary: &Summary, cpu_s: f64) -> [(&'static str, f64); 5] {
+    let count = |count: u64| f64::from(u32::try_from(count).unwrap_or(u32::MAX));
+    [
+        ("dofs", count(summary.cost.dofs)),
+        ("memory_mb", summary.cost.peak_memory_mb),
+        ("computed_cycles", count(summary.accuracy.computed_cycles)),
+        ("increments", count(summary.accuracy.increments)),
+        ("cpu_s", cpu_s),
+    ]
+}

@@ -1,0 +1,130 @@
+//! The figures in a file, so that a machine is measured once for each program.
+
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, OnceLock};
+
+use api::plan::MachineFigures;
+use tokio::sync::Mutex;
+
+use crate::files;
+
+/// The figures of a machine, in memory and in a file.
+#[derive(Debug, Clone)]
+pub struct Kept {
+    file: Option<PathBuf>,
+    known: Arc<OnceLock<MachineFigures>>,
+    /// Held while the machine is measured, so that it is measured once.
+    measuring: Arc<Mutex<()>>,
+}
+
+impl Kept {
+    /// With what the file holds, if that belongs to this program.
+    pub fn open(file: Option<PathBuf>) -> Self {
+        let known = OnceLock::new();
+        let read = file.as_deref().and_then(read);
+        if let Some(figures) = read.filter(|figures| figures.program == program()) {
+            // A new cell is empty.
+            let _ = known.set(figures);
+        }
+        Self {
+            file,
+            known: Arc::new(known),
+            measuring: Arc::default(),
+        }
+    }
+
+    /// The figures, if the machine has been measured.
+    pub fn known(&self) -> Option<&MachineFigures> {
+        self.known.get()
+    }
+
+    /// The figures, measured now if they are not known, which takes a second or two of this thread; nothing if that
+    /// fails, which is logged.
+    pub fn measured(&self) -> Option<&MachineFigures> {
+        if self.known.get().is_none() {
+            match super::measure() {
+                Ok(figures) => {
+                    if let Some(file) = &self.file {
+                        write(file, &figures);
+                    }
+                    // Another thread's figures are as good.
+                    let _ = self.known.set(figures);
+                }
+                Err(error) => tracing::warn!(%error, "the machine was not measured"),
+            }
+        }
+        self.known.get()
+    }
+
+    /// The same beside other tasks: whoever asks meanwhile waits.
+    pub async fn wait(&self) -> Option<MachineFigures> {
+        let _one = self.measuring.lock().await;
+        let kept = self.clone();
+        let measured = tokio::task::spawn_blocking(move || kept.measured().cloned());
+        measured.await.ok().flatten()
+    }
+}
+
+/// Where the command line keeps them: in the user's folder for what can be made again.
+pub fn cache_file() -> Option<PathBuf> {
+    let set = |name: &str| std::env::var_os(name).filter(|value| !value.is_empty());
+    let folder = set("XDG_CACHE_HOME")
+        .map(PathBuf::from)
+        .or_else(|| set("HOME").map(|home| PathBuf::from(home).join(".cache")))?;
+    Some(folder.join("fretwear").join("machine.json"))
+}
+
+/// This program: its version and when it was built.
+pub(super) fn program() -> String {
+    let built = || {
+        let program = std::env::current_exe().ok()?;
+        let modified = program.metadata().ok()?.modified().ok()?;
+        let since = modified.duration_since(std::time::UNIX_EPOCH).ok()?;
+        Some(since.as_secs())
+    };
+    format!(
+        "{} {}",
+        env!("CARGO_PKG_VERSION"),
+        built().unwrap_or_default()
+    )
+}
+
+fn read(file: &Path) -> Option<MachineFigures> {
+    serde_json::from_slice(&std::fs::read(file).ok()?).ok()
+}
+
+/// Figures that cannot be kept are measured again next time.
+fn write(file: &Path, figures: &MachineFigures) {
+    let (Some(folder), Some(name)) = (file.parent(), file.file_name()) else {
+        return;
+    };
+    let Ok(bytes) = serde_json::to_vec_pretty(figures) else {
+        return;
+    };
+    if let Err(error) = files::keep(folder, &name.to_string_lossy(), &bytes) {
+        tracing::debug!(%error, "the machine's figures were not kept");
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_machine_is_measured_once_for_each_program() {
+        let folder = tempfile::tempdir().expect("a folder can be made");
+        let file = folder.path().join("cache").join("machine.json");
+        let first = Kept::open(Some(file.clone()));
+        assert_eq!(first.known(), None);
+        let figures = first.measured().expect("it can be measured").clone();
+        assert!(figures.increment_s > 0.0 && figures.condensation_dof_s >= 0.0);
+        assert_eq!(Kept::open(Some(file.clone())).known(), Some(&figures));
+
+        let other = MachineFigures {
+            program: "another".to_owned(),
+            ..figures
+        };
+        write(&file, &other);
+        assert_eq!(Kept::open(Some(file)).known(), None);
+    }
+}
