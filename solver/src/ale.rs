@@ -4,9 +4,13 @@
 //! share of the spine's length, the closed form of smoothing along a spine. Topology never changes, and the only
 //! fields with history, the worn depths and tractions, live on the surface nodes themselves.
 
+mod spines;
+
 use crate::cycle::CycleState;
 use crate::mesh::MeshError;
 use crate::model::{BodyModel, Model};
+
+pub use spines::Spines;
 
 /// The stiffness is rebuilt when a spine has lost this part of its length since it was last built. The condensed
 /// response depends on the height through the logarithm of height over contact width, and a rigid lowering costs
@@ -16,20 +20,11 @@ pub(crate) fn drift_share(tolerance: f64) -> f64 {
     (15.0 * tolerance).clamp(0.05, 0.3)
 }
 
-/// A body is worn through when a spine has less than this part of the unworn height left.
-pub(crate) const WORN_THROUGH_SHARE: f64 = 0.03;
-
 /// Whether the geometry has changed enough since the operators were built to build them again.
 pub fn has_drifted(model: &Model, state: &CycleState, tolerance: f64) -> bool {
     let share = drift_share(tolerance);
     drift(&model.receptacle, &state.receptacle_depth, -1.0) > share
         || drift(&model.slider, &state.slider_depth, 1.0) > share
-}
-
-/// Whether a body is nearly consumed somewhere under the contact.
-pub fn is_worn_through(model: &Model, state: &CycleState) -> bool {
-    left(&model.receptacle, &state.receptacle_depth) < WORN_THROUGH_SHARE
-        || left(&model.slider, &state.slider_depth) < WORN_THROUGH_SHARE
 }
 
 /// The model with its meshes moved to the worn surfaces.
@@ -81,34 +76,4 @@ fn drift(body: &BodyModel, depth: &[f64], direction: f64) -> f64 {
     (body.contact.0..body.contact.1)
         .map(|i| (worn[i] - built[i]).abs() / (body.mesh.far_y() - built[i]).abs())
         .fold(0.0, f64::max)
-}
-
-/// Smallest part of a contact spine that is left.
-fn left(body: &BodyModel, depth: &[f64]) -> f64 {
-    smallest(body, depth, |height, depth| 1.0 - depth / height)
-}
-
-/// Unworn lengths of a body's contact spines, mm.
-pub fn spine_lengths(body: &BodyModel) -> Vec<f64> {
-    let length = |x: &f64| (body.mesh.far_y() - body.profile.height(*x)).abs();
-    body.contact_x().iter().map(length).collect()
-}
-
-/// Smallest length of a contact spine that is left in either body, mm.
-pub fn least_left_mm(model: &Model, state: &CycleState) -> f64 {
-    let left = |height: f64, depth: f64| height - depth;
-    smallest(&model.receptacle, &state.receptacle_depth, left).min(smallest(
-        &model.slider,
-        &state.slider_depth,
-        left,
-    ))
-}
-
-/// Smallest value of a function of (unworn spine length, worn depth) over the contact spines.
-fn smallest(body: &BodyModel, depth: &[f64], of: impl Fn(f64, f64) -> f64) -> f64 {
-    spine_lengths(body)
-        .iter()
-        .zip(depth)
-        .map(|(&height, &depth)| of(height, depth))
-        .fold(f64::INFINITY, f64::min)
 }

@@ -5,11 +5,14 @@
 //! A body keeps its operator in its own frame, so large sliding changes only the coupling of both surfaces.
 
 mod assembly;
+mod compliance;
 
-use crate::linear::{CholeskyFactor, CholeskyPattern, FactorError, SquareMatrix};
+use crate::linear::{CholeskyFactor, CholeskyPattern, FactorError};
 use crate::model::{BodyModel, Model, Profile, Support};
 use assembly::Numbering;
 use std::sync::Arc;
+
+pub use compliance::{Block, Compliance};
 
 const SLIDER: &str = "slider";
 const RECEPTACLE: &str = "receptacle";
@@ -53,8 +56,8 @@ pub struct BodyOperators {
     pub widths: Vec<f64>,
     /// The unworn surface.
     pub profile: Profile,
-    /// Displacement of surface unknown (2 i + d) per nodal force at (2 j + e), mm per N/mm.
-    pub compliance: SquareMatrix,
+    /// Displacements of the contact nodes per force at them.
+    pub compliance: Compliance,
     /// Displacement of the surface unknowns per unit of normal load on the far face, mm per N/mm; zero where the
     /// far face is held.
     pub load_response: Vec<f64>,

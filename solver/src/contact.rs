@@ -100,6 +100,8 @@ pub struct Move {
     pub run: f64,
     /// How many equal slips each slip stands for in the wear.
     pub cycles: f64,
+    /// Whether to pivot where Newton's method does not settle: sure, but by far dearer than two halves of the move.
+    pub pivots: bool,
 }
 
 /// Worn surfaces, at the contact nodes.

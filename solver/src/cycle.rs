@@ -11,106 +11,34 @@
 pub mod forecast;
 mod jump;
 mod path;
+mod probe;
 mod record;
+mod state;
 mod sweep;
 
-use serde::{Deserialize, Serialize};
-
-use crate::ale;
+use crate::ale::Spines;
 use crate::condensation::Operators;
-use crate::contact::{self, ContactError, ContactState, Increment, Move, Pair, Solver, Surfaces};
-use crate::history::{Checks, FrictionLoop, Position};
+use crate::contact::{self, ContactError, ContactState, Move, Pair, Solver, Surfaces};
+use crate::history::{FrictionLoop, Position};
 use crate::material::contact_modulus;
-use crate::model::{Interface, Model};
+use crate::model::Model;
 use crate::number::{cycles_at_least, real, real_cycles};
 use crate::scene::Scene;
 
+use probe::Probes;
 pub(crate) use record::worn_area_residual;
 pub use record::{report, snapshot};
+pub use state::{CycleError, CycleState};
 pub use sweep::{Neutral, Sweep};
 
 /// How often an increment may be halved before it is given up.
 const MOST_HALVINGS: u32 = 8;
 
-/// An increment may wear off this part of what is left of a body at a place; a larger one is halved.
-const LARGEST_SHARE: f64 = 0.9;
+/// From this many halvings on, an increment is pivoted where Newton's method does not settle.
+const PIVOTS_FROM: u32 = 2;
 
 /// A stroke whose amplitude is larger than this many half-widths of the contact leaves it behind.
 const RUNS_FROM: f64 = 2.0;
-
-/// Why a cycle could not be integrated.
-#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
-pub enum CycleError {
-    /// An increment failed however often it was halved.
-    #[error(
-        "cycle {cycle}, increment {increment}: {source}; the increment was halved {halvings} times"
-    )]
-    Increment {
-        /// Physical cycles done before.
-        cycle: u64,
-        /// Increment within the cycle.
-        increment: usize,
-        /// How often it was halved.
-        halvings: u32,
-        /// What went wrong in the smallest one.
-        source: ContactError,
-    },
-}
-
-/// Everything that the next cycle depends on.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct CycleState {
-    /// Physical cycles done.
-    pub cycle: u64,
-    /// Contact at the end of the last increment.
-    pub contact: ContactState,
-    /// Vertical worn depth at the receptacle's contact nodes, mm.
-    pub receptacle_depth: Vec<f64>,
-    /// Vertical worn depth at the slider's contact nodes, mm.
-    pub slider_depth: Vec<f64>,
-    /// Imposed sliding distance, mm.
-    pub sliding_distance: f64,
-    /// Accumulated integral of p |slip|, N/mm mm.
-    pub friction_path: f64,
-    /// Accumulated energy dissipated by friction, mJ/mm.
-    pub energy: f64,
-    /// Jump control.
-    pub jump: jump::JumpControl,
-    /// Contact at the last passage of the neutral position.
-    pub neutral: Neutral,
-    /// Mean half-width of the contact over the last computed cycle, mm.
-    pub mean_half_width: f64,
-    /// Computed cycles, increments, and the most increments in one cycle.
-    pub computed_cycles: u64,
-    /// Increments solved.
-    pub increments: u64,
-    /// The most increments that a cycle was cut into.
-    pub most_increments: usize,
-    /// Worst residuals so far.
-    pub checks: Checks,
-}
-
-impl CycleState {
-    /// The unworn, unloaded state.
-    pub fn start(operators: &Operators) -> Self {
-        Self {
-            cycle: 0,
-            contact: ContactState::untouched(operators),
-            receptacle_depth: vec![0.0; operators.receptacle.x.len()],
-            slider_depth: vec![0.0; operators.slider.x.len()],
-            sliding_distance: 0.0,
-            friction_path: 0.0,
-            energy: 0.0,
-            jump: jump::JumpControl::default(),
-            neutral: Neutral::default(),
-            mean_half_width: 0.0,
-            computed_cycles: 0,
-            increments: 0,
-            most_increments: 0,
-            checks: Checks::default(),
-        }
-    }
-}
 
 /// Integrates cycles of one scene on one set of operators.
 pub struct Integrator<'a> {
@@ -119,8 +47,7 @@ pub struct Integrator<'a> {
     solver: Solver,
     /// Slopes of the receptacle's and the slider's surface at the beginning of the computed cycle.
     slope: [Vec<f64>; 2],
-    /// Unworn spine lengths of the receptacle and the slider at their contact nodes, mm.
-    lengths: [Vec<f64>; 2],
+    spines: Spines,
     next: ContactState,
 }
 
@@ -137,10 +64,7 @@ impl<'a> Integrator<'a> {
             pair,
             solver: Solver::default(),
             slope: [Vec::new(), Vec::new()],
-            lengths: [
-                ale::spine_lengths(&model.receptacle),
-                ale::spine_lengths(&model.slider),
-            ],
+            spines: Spines::of(model),
             next,
         }
     }
@@ -157,6 +81,7 @@ impl<'a> Integrator<'a> {
                 slider_x: 0.0,
                 run: 0.0,
                 cycles: 0.0,
+                pivots: true,
             },
         )
         .map_err(|source| CycleError::Increment {
@@ -209,7 +134,7 @@ impl<'a> Integrator<'a> {
         self.take_slopes(state);
         let before = state.clone();
         loop {
-            let error = match self.computed_cycle(state, &steps, jump) {
+            let error = match self.computed_cycle(state, &steps, jump, stroke.runs) {
                 Ok(sweep) => {
                     let widths = &self.pair.operators.receptacle.widths;
                     let done = state.cycle - before.cycle;
@@ -234,18 +159,25 @@ impl<'a> Integrator<'a> {
         state: &mut CycleState,
         steps: &[path::Step],
         jump: u64,
+        runs: bool,
     ) -> Result<Sweep, CycleError> {
         let mut sweep = Sweep::default();
+        let mut probes = if runs && jump > 1 {
+            Probes::of(steps, state.mean_half_width)
+        } else {
+            Probes::default()
+        };
         let (mut half_widths, mut touching, mut done) = (0.0, 0, 0);
         for (increment, step) in steps.iter().enumerate() {
+            probes.make(self, state, steps, increment);
             self.step(state, step, real_cycles(jump), increment)?;
             if state.contact.active_range().is_some() {
                 half_widths += state.contact.half_width(&self.pair.operators.receptacle.x);
                 touching += 1;
             }
-            self.record(&mut sweep, state, step.at);
+            self.record(&mut sweep, state, step.at, &mut probes);
             done += 1;
-            if self.is_worn_through(state) {
+            if self.spines.are_worn_through(state) {
                 break;
             }
         }
@@ -265,14 +197,6 @@ impl<'a> Integrator<'a> {
         state.computed_cycles += 1;
         state.most_increments = state.most_increments.max(steps.len());
         Ok(sweep)
-    }
-
-    fn is_worn_through(&self, state: &CycleState) -> bool {
-        let depths = [&state.receptacle_depth, &state.slider_depth];
-        self.lengths.iter().zip(depths).any(|(lengths, depths)| {
-            let mut spines = lengths.iter().zip(depths);
-            spines.any(|(length, depth)| length - depth < ale::WORN_THROUGH_SHARE * length)
-        })
     }
 
     fn stroke(&self, state: &CycleState) -> jump::Stroke {
@@ -298,6 +222,7 @@ impl<'a> Integrator<'a> {
             slider_x: step.slider_x,
             run: step.run,
             cycles,
+            pivots: false,
         };
         let cycle = state.cycle;
         self.reach(state, to, 0)
@@ -316,6 +241,10 @@ impl<'a> Integrator<'a> {
         to: Move,
         halvings: u32,
     ) -> Result<(), (u32, ContactError)> {
+        let to = Move {
+            pivots: halvings >= PIVOTS_FROM,
+            ..to
+        };
         let Err(error) = self.increment(state, to) else {
             return Ok(());
         };
@@ -348,7 +277,8 @@ impl<'a> Integrator<'a> {
         let done = self
             .solver
             .advance(&self.pair, &surfaces, last, to, &mut self.next)?;
-        check_wear(&self.pair.interface, &self.lengths, state, to, &done)?;
+        self.spines
+            .check_wear(&self.pair.interface, state, to, &done)?;
         let interface = &self.pair.interface;
         let widths = &self.pair.operators.receptacle.widths[done.first..];
         let depths = &mut state.receptacle_depth[done.first..];
@@ -377,7 +307,13 @@ impl<'a> Integrator<'a> {
         Ok(())
     }
 
-    fn record(&self, sweep: &mut Sweep, state: &mut CycleState, at: Option<Position>) {
+    fn record(
+        &self,
+        sweep: &mut Sweep,
+        state: &mut CycleState,
+        at: Option<Position>,
+        probes: &mut Probes,
+    ) {
         let contact = &state.contact;
         sweep.friction_loop.displacement_mm.push(contact.slider_x);
         sweep
@@ -385,47 +321,12 @@ impl<'a> Integrator<'a> {
             .tangential_force_n_per_mm
             .push(contact.tangential_force());
         let Some(position) = at else { return };
-        sweep.contacts.push((position, contact.clone()));
+        let contact = probes
+            .take(position)
+            .unwrap_or_else(|| state.contact.clone());
         if position == Position::Neutral {
-            state.neutral = Neutral::of(contact, &self.pair);
+            state.neutral = Neutral::of(&contact, &self.pair);
         }
+        sweep.contacts.push((position, contact));
     }
-}
-
-/// Refuses an increment that wears off more of a body than is sound to take at once.
-fn check_wear(
-    interface: &Interface,
-    lengths: &[Vec<f64>; 2],
-    state: &CycleState,
-    to: Move,
-    done: &Increment<'_>,
-) -> Result<(), ContactError> {
-    let sides = [
-        (
-            interface.receptacle_wear,
-            done.first,
-            done.path,
-            &state.receptacle_depth,
-        ),
-        (
-            interface.slider_wear,
-            done.slider_first,
-            done.slider_path,
-            &state.slider_depth,
-        ),
-    ];
-    for ((k, first, path, depths), lengths) in sides.into_iter().zip(lengths) {
-        let spines = lengths[first..].iter().zip(&depths[first..]);
-        for ((length, depth), path) in spines.zip(path) {
-            let share = k * to.cycles * path / (length - depth);
-            if share.is_nan() || share > LARGEST_SHARE {
-                return Err(ContactError::TooMuchWear {
-                    slider_x_mm: to.slider_x,
-                    share,
-                    limit: LARGEST_SHARE,
-                });
-            }
-        }
-    }
-    Ok(())
 }

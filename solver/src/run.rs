@@ -1,7 +1,7 @@
 //! The run: integrate until the geometry has drifted, relocate, condense again.
 
 use crate::SolveError;
-use crate::ale;
+use crate::ale::{self, Spines};
 use crate::checkpoint::Checkpoint;
 use crate::condensation::{self, Condensed};
 use crate::cycle::{self, CycleState, Integrator, Sweep};
@@ -104,14 +104,15 @@ fn integrate(
     observer: &mut dyn Observer,
 ) -> Result<Option<Outcome>, SolveError> {
     let mut integrator = Integrator::new(scene, model, &condensed.operators);
+    let spines = Spines::of(model);
     while run.state.cycle < scene.cycles {
         if ale::has_drifted(model, &run.state, scene.accuracy.tolerance) {
             return Ok(None);
         }
         let state = &mut run.state;
-        let sweep = integrator.sweep(state, next_stop(scene, model, state))?;
+        let sweep = integrator.sweep(state, next_stop(scene, &spines, state))?;
         let report = cycle::report(scene, model, state);
-        let ended = end_of(scene, model, state, &report);
+        let ended = end_of(scene, &spines, state, &report);
         let flow = observer.on(Event::Cycle(&report));
         if ended.is_some() || scene.output.snapshots_at_cycles.contains(&state.cycle) {
             let snapshot = snapshot(scene, model, condensed, state, sweep)?;
@@ -129,7 +130,7 @@ fn integrate(
 
 /// The next cycle that must be hit exactly, or beyond which the depths of stop conditions and of the bodies
 /// themselves would be passed at the present rate.
-fn next_stop(scene: &Scene, model: &Model, state: &CycleState) -> u64 {
+fn next_stop(scene: &Scene, spines: &Spines, state: &CycleState) -> u64 {
     let snapshots = &scene.output.snapshots_at_cycles;
     let next = snapshots
         .iter()
@@ -142,7 +143,7 @@ fn next_stop(scene: &Scene, model: &Model, state: &CycleState) -> u64 {
         .stop
         .iter()
         .map(|StopCondition::WornDepth(limit)| limit - worn);
-    let left = limits.fold(ale::least_left_mm(model, state), f64::min);
+    let left = limits.fold(spines.least_left_mm(state), f64::min);
     let cycles = left / state.jump.fastest_rate().max(f64::MIN_POSITIVE);
     let reach = u64::try_from(count_at_least(cycles.floor())).unwrap_or(u64::MAX);
     next.min(scene.cycles)
@@ -151,7 +152,7 @@ fn next_stop(scene: &Scene, model: &Model, state: &CycleState) -> u64 {
 
 fn end_of(
     scene: &Scene,
-    model: &Model,
+    spines: &Spines,
     state: &CycleState,
     report: &CycleReport,
 ) -> Option<Outcome> {
@@ -164,7 +165,7 @@ fn end_of(
     });
     if stopped {
         Some(Outcome::StopCondition)
-    } else if ale::is_worn_through(model, state) {
+    } else if spines.are_worn_through(state) {
         Some(Outcome::WornThrough)
     } else {
         (state.cycle >= scene.cycles).then_some(Outcome::Completed)

@@ -75,6 +75,7 @@ impl Bench {
             slider_x,
             run: 0.0,
             cycles: 0.0,
+            pivots: true,
         };
         self.solver
             .advance(&pair, &surfaces, last, place, &mut next)

@@ -80,6 +80,7 @@ fn an_even_pressure_passes_through_non_matching_meshes_at_any_position() {
                     slider_x,
                     run: 0.0,
                     cycles: 0.0,
+                    pivots: true,
                 },
                 &mut next,
             )

@@ -43,6 +43,7 @@ fn a_mirrored_motion_gives_mirrored_tractions() {
                 slider_x: side * place,
                 run: 0.0,
                 cycles: 0.0,
+                pivots: true,
             };
             solver
                 .advance(&pair, &surfaces, &states[states.len() - 1], to, &mut next)

@@ -1,5 +1,6 @@
 //! Numbering of unknowns and assembly of a body's stiffness, lower triangle by columns.
 
+use super::Compliance;
 use crate::element::{Quad4, Tri3, stiffness};
 use crate::linear::SquareMatrix;
 use crate::mesh::columns::Cell;
@@ -72,9 +73,9 @@ impl Numbering {
         }
     }
 
-    /// A matrix over the kept unknowns as one over all contact displacements, zero where they are held.
-    pub(super) fn spread(&self, kept: &SquareMatrix) -> SquareMatrix {
-        let mut all = SquareMatrix::zeros(self.place.len());
+    /// The inverse over the kept unknowns as a compliance of all contact displacements, zero where they are held.
+    pub(super) fn spread(&self, kept: &SquareMatrix) -> Compliance {
+        let mut all = Compliance::zeros(self.place.len() / 2);
         for (column, &c) in self.place.iter().enumerate().filter(|(_, c)| **c != HELD) {
             for (row, &r) in self.place.iter().enumerate().filter(|(_, r)| **r != HELD) {
                 *all.at(row, column) = kept.get(r, c);

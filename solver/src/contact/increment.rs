@@ -4,7 +4,7 @@ use super::mortar::{self, Coupling};
 use super::newton::{End, Iterate, Newton, Problem};
 use super::pivoting::Pivoting;
 use super::range::{first_range, lay_undeformed_gaps, watched, widened};
-use super::recession::slider_recession;
+use super::recession::{WearTransfer, slider_recession};
 use super::response::Response;
 use super::{
     ContactError, ContactState, GAP_TOLERANCE, MOST_ITERATIONS, Move, Pair, Status, Surfaces,
@@ -18,6 +18,7 @@ const MOST_EXTENSIONS: usize = 60;
 pub struct Solver {
     coupling: Coupling,
     response: Response,
+    transfer: WearTransfer,
     newton: Newton,
     pivoting: Pivoting,
     iterate: Iterate,
@@ -25,6 +26,7 @@ pub struct Solver {
     undeformed: Vec<f64>,
     gap: Vec<f64>,
     sag: Vec<f64>,
+    fixed_slip: Vec<f64>,
     recession: Vec<f64>,
 }
 
@@ -124,38 +126,41 @@ impl Solver {
         let (slider_x, cycles) = (to.slider_x, to.cycles);
         self.coupling
             .integrate(pair.operators, slider_x, first, end);
-        self.response.gather(pair, &self.coupling, surfaces, last);
+        self.response.begin(pair, &self.coupling, surfaces, last);
         let interface = &pair.interface;
+        let kappa = [interface.receptacle_wear, interface.slider_wear].map(|k| k * cycles);
+        let slider_widths = &pair.operators.slider.widths;
+        self.transfer.lay(&self.coupling, slider_widths, kappa);
         // Before the first load there is no height that the spring counts from.
         let (spring, reference) = last
             .reference_height
             .map_or((0.0, 0.0), |height| (interface.spring, height));
         let load = interface.load - spring * reference;
         self.lay_gap(pair, surfaces, load, spring);
+        let step = slider_x - last.slider_x + to.run;
+        self.lay_fixed_slip(step, last.height);
         let problem = Problem {
+            operators: pair.operators,
             coupling: &self.coupling,
-            response: &self.response,
+            transfer: &self.transfer,
             gap: &self.gap,
             width: &pair.operators.receptacle.widths[first..end],
             slope: &surfaces.slope[first..end],
-            slider_width: &pair.operators.slider.widths,
             friction: interface.friction,
             load,
             spring,
             sag: &self.sag,
-            kappa: [
-                interface.receptacle_wear * cycles,
-                interface.slider_wear * cycles,
-            ],
+            fixed_slip: &self.fixed_slip,
+            wears: kappa[0] + kappa[1] > 0.0,
             travel: slider_x - last.slider_x,
-            step: slider_x - last.slider_x + to.run,
-            last_height: last.height,
+            step,
         };
         guess(&mut self.iterate, pair, last, &problem);
         let (newton, it) = (&mut self.newton, &mut self.iterate);
-        let mut end = newton.solve(&problem, it, MOST_ITERATIONS);
-        if !matches!(end, End::Settled) {
-            end = self.pivoting.solve(newton, &problem, it, end);
+        let response = &mut self.response;
+        let mut end = newton.solve(&problem, response, it, MOST_ITERATIONS);
+        if to.pivots && !matches!(end, End::Settled) {
+            end = self.pivoting.solve(newton, &problem, response, it, end);
         }
         match end {
             End::Settled => Ok(()),
@@ -192,6 +197,17 @@ impl Solver {
             self.gap.push(shape + worn + load * moved);
             self.sag.push(spring * moved);
         }
+    }
+
+    /// Slip of each node before the new forces and the new height are known, mm.
+    fn lay_fixed_slip(&mut self, step: f64, last_height: f64) {
+        let Response {
+            slope, last_jump, ..
+        } = &self.response;
+        let places = slope.iter().zip(last_jump);
+        self.fixed_slip.clear();
+        self.fixed_slip
+            .extend(places.map(|(s, jump)| step - s * last_height - jump));
     }
 
     fn write(
@@ -232,7 +248,6 @@ impl Solver {
         slider_recession(
             coupling,
             &pair.operators.slider.widths,
-            1.0,
             &it.path,
             &mut self.recession,
         );

@@ -187,7 +187,7 @@ impl Coupling {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::linear::SquareMatrix;
+    use crate::condensation::Compliance;
     use crate::model::Profile;
 
     fn body(x: Vec<f64>, profile: Profile) -> BodyOperators {
@@ -198,7 +198,7 @@ mod tests {
             x,
             widths,
             profile,
-            compliance: SquareMatrix::default(),
+            compliance: Compliance::default(),
             load_response: Vec::new(),
         }
     }

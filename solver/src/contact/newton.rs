@@ -8,37 +8,41 @@
 //! status from the signs of the last iterate is the primal-dual form of the semi-smooth Newton method
 //! (Alart and Curnier 1991; Hueeber and Wohlmuth 2005); it needs no parameter.
 
+use std::ops::Range;
+
 use super::GAP_TOLERANCE;
 use super::mortar::Coupling;
-use super::recession::opened_by_wear;
+use super::recession::WearTransfer;
 use super::response::Response;
 use super::status::{self, Status};
+use crate::condensation::Operators;
 use crate::linear::{DenseLu, SquareMatrix};
 
 /// What one increment asks for, over the coupled nodes.
 pub(super) struct Problem<'a> {
+    pub(super) operators: &'a Operators,
     pub(super) coupling: &'a Coupling,
-    pub(super) response: &'a Response,
+    /// Gap opened by wear, per path p |sigma|.
+    pub(super) transfer: &'a WearTransfer,
     /// Gap of the worn, undeformed bodies at height 0, mm.
     pub(super) gap: &'a [f64],
     /// Projected widths of the coupled nodes, mm.
     pub(super) width: &'a [f64],
     pub(super) slope: &'a [f64],
-    /// Projected widths of the slider's nodes, mm.
-    pub(super) slider_width: &'a [f64],
     pub(super) friction: f64,
     /// Vertical load at height 0, N/mm, and what it gains a mm of height.
     pub(super) load: f64,
     pub(super) spring: f64,
     /// Gap that the slider opens by deforming under its far-face load as the height grows, mm per mm.
     pub(super) sag: &'a [f64],
-    /// k times cycles, receptacle and slider, 1/MPa.
-    pub(super) kappa: [f64; 2],
+    /// Slip of each node before the new forces and the new height are known, mm.
+    pub(super) fixed_slip: &'a [f64],
+    /// Whether anything wears in this increment.
+    pub(super) wears: bool,
     /// How far the slider travels over the receptacle in this increment, mm.
     pub(super) travel: f64,
     /// How far its surface is to slip: the travel and what it runs past besides, mm.
     pub(super) step: f64,
-    pub(super) last_height: f64,
 }
 
 /// Iterate over the coupled nodes.
@@ -84,10 +88,11 @@ pub(super) struct Newton {
     rows: Vec<[usize; 2]>,
     jacobian: SquareMatrix,
     rhs: Vec<f64>,
-    column: Vec<f64>,
-    path_change: Vec<f64>,
-    worn: Vec<f64>,
-    recession: Vec<f64>,
+    /// Gaps and slips of the coupled nodes per unit of an unknown.
+    gap: Vec<f64>,
+    slip: Vec<f64>,
+    /// Gap opened by wear, per slip.
+    wear: WearTransfer,
     lu: DenseLu,
 }
 
@@ -101,20 +106,24 @@ impl Newton {
     pub(super) fn solve(
         &mut self,
         problem: &Problem<'_>,
+        response: &mut Response,
         it: &mut Iterate,
         most_iterations: usize,
     ) -> End {
         let (mut residual, mut changes) = (f64::INFINITY, 0);
         for iteration in 0..most_iterations {
             self.number(it);
-            self.assemble(problem, it);
+            for a in (0..it.status.len()).filter(|a| it.status[*a] != Status::Open) {
+                response.gather(problem.operators, problem.coupling, a);
+            }
+            self.assemble(problem, response, it);
             if !self.lu.solve(&mut self.jacobian, &mut self.rhs) {
                 return End::Singular {
                     active: self.unknowns.len(),
                 };
             }
             self.read(problem, it);
-            residual = self.evaluate(problem, it);
+            residual = self.evaluate(problem, response, it);
             changes = status::update(problem, it, iteration);
             if changes == 0 && residual <= it.tolerance {
                 return End::Settled;
@@ -144,21 +153,26 @@ impl Newton {
         }
     }
 
-    fn assemble(&mut self, problem: &Problem<'_>, it: &Iterate) {
+    fn assemble(&mut self, problem: &Problem<'_>, response: &Response, it: &Iterate) {
         let order = self.unknowns.len() + 1;
-        self.jacobian.reset(order);
-        self.rhs.clear();
-        self.rhs.resize(order, 0.0);
+        let span = closed_span(&it.status);
+        self.jacobian.reshape(order);
+        self.gap.resize(it.status.len(), 0.0);
+        self.slip.resize(it.status.len(), 0.0);
+        if problem.wears {
+            let per_slip = |l: usize| it.status[l].direction() * it.pressure[l];
+            problem.transfer.scaled(per_slip, &mut self.wear);
+        }
         for u in 0..order - 1 {
             let unknown = self.unknowns[u];
-            self.respond(problem, it, unknown);
-            let own = match unknown {
-                Unknown::Pressure(a) if it.status[a] != Status::Stick => {
-                    Some((a, (it.status[a].direction() * it.slip[a]).max(0.0)))
+            self.respond(problem, response, it, &span, unknown);
+            if problem.wears {
+                self.wear.open(&span, &self.slip, &mut self.gap);
+                if let Unknown::Pressure(a) = unknown {
+                    let path = (it.status[a].direction() * it.slip[a]).max(0.0);
+                    problem.transfer.open_from(&span, a, path, &mut self.gap);
                 }
-                _ => None,
-            };
-            self.add_wear(problem, it, own);
+            }
             self.write_column(u);
             *self.jacobian.at(order - 1, u) = match unknown {
                 Unknown::Pressure(a) => {
@@ -168,20 +182,27 @@ impl Newton {
                 Unknown::Shear(a) => -problem.width[a] * problem.slope[a],
             };
         }
-        self.column.clear();
-        let places = problem.slope.iter().zip(problem.sag);
-        self.column
-            .extend(places.flat_map(|(s, sag)| [1.0 + sag, *s]));
-        self.add_wear(problem, it, None);
+        for i in span.clone() {
+            self.gap[i] = 1.0 + problem.sag[i];
+            self.slip[i] = problem.slope[i];
+        }
+        if problem.wears {
+            self.wear.open(&span, &self.slip, &mut self.gap);
+        }
         self.write_column(order - 1);
-        self.assemble_rhs(problem, it);
         *self.jacobian.at(order - 1, order - 1) = -problem.spring;
-        self.rhs[order - 1] = problem.load;
+        self.assemble_rhs(problem, it, &span);
     }
 
-    /// Jump of all coupled nodes per unit of one unknown.
-    fn respond(&mut self, problem: &Problem<'_>, it: &Iterate, unknown: Unknown) {
-        let g = &problem.response.local;
+    /// Gaps and slips of a span of nodes per unit of one unknown.
+    fn respond(
+        &mut self,
+        problem: &Problem<'_>,
+        response: &Response,
+        it: &Iterate,
+        span: &Range<usize>,
+        unknown: Unknown,
+    ) {
         let (node, normal, tangential) = match unknown {
             Unknown::Pressure(a) => {
                 let d = problem.width[a];
@@ -189,70 +210,43 @@ impl Newton {
             }
             Unknown::Shear(a) => (a, 0.0, -problem.width[a]),
         };
-        let (n, t) = (g.column(2 * node), g.column(2 * node + 1));
-        self.column.clear();
-        self.column
-            .extend(n.iter().zip(t).map(|(n, t)| normal * n + tangential * t));
-    }
-
-    /// Adds to the column's gaps the wear that its slips and its own pressure make.
-    fn add_wear(&mut self, problem: &Problem<'_>, it: &Iterate, own: Option<(usize, f64)>) {
-        if problem.kappa[0] + problem.kappa[1] <= 0.0 {
-            return;
-        }
-        self.path_change.clear();
-        self.path_change.extend(
-            it.status
-                .iter()
-                .enumerate()
-                .map(|(l, status)| status.direction() * it.pressure[l] * self.column[2 * l + 1]),
-        );
-        if let Some((a, slip)) = own {
-            self.path_change[a] += slip;
-        }
-        self.wear_of_change(problem);
-        for (column, worn) in self.column.chunks_exact_mut(2).zip(&self.worn) {
-            column[0] += worn;
-        }
-    }
-
-    /// Gap opened at each coupled node by wear of `path_change`, on both sides.
-    fn wear_of_change(&mut self, problem: &Problem<'_>) {
-        opened_by_wear(
-            problem,
-            &self.path_change,
-            &mut self.recession,
-            &mut self.worn,
-        );
+        let (along_n, along_t) = (response.along_normal(node), response.along_tangent(node));
+        let combine = |target: &mut [f64], n: &[f64], t: &[f64]| {
+            for (sum, (n, t)) in target.iter_mut().zip(n.iter().zip(t)) {
+                *sum = normal * n + tangential * t;
+            }
+        };
+        let of = |values| part(values, span);
+        combine(&mut self.gap[span.clone()], of(along_n.0), of(along_t.0));
+        combine(&mut self.slip[span.clone()], of(along_n.1), of(along_t.1));
     }
 
     fn write_column(&mut self, u: usize) {
         let target = self.jacobian.column_mut(u);
-        for (rows, response) in self.rows.iter().zip(self.column.chunks_exact(2)) {
-            for (row, r) in rows.iter().zip(response) {
-                if *row != NO_ROW {
-                    target[*row] = *r;
-                }
-            }
+        for (row, unknown) in target.iter_mut().zip(&self.unknowns) {
+            *row = match unknown {
+                Unknown::Pressure(i) => self.gap[*i],
+                Unknown::Shear(i) => self.slip[*i],
+            };
         }
     }
 
-    fn assemble_rhs(&mut self, problem: &Problem<'_>, it: &Iterate) {
-        self.path_change.clear();
-        for (l, status) in it.status.iter().enumerate() {
-            let fixed = fixed_slip(problem, l) - it.slip[l];
-            self.path_change
-                .push(status.direction() * it.pressure[l] * fixed);
+    fn assemble_rhs(&mut self, problem: &Problem<'_>, it: &Iterate, span: &Range<usize>) {
+        for i in span.clone() {
+            self.gap[i] = problem.gap[i];
+            self.slip[i] = problem.fixed_slip[i] - it.slip[i];
         }
-        self.wear_of_change(problem);
-        for (i, rows) in self.rows.iter().enumerate() {
-            if rows[0] != NO_ROW {
-                self.rhs[rows[0]] = -problem.gap[i] - self.worn[i];
-            }
-            if rows[1] != NO_ROW {
-                self.rhs[rows[1]] = -fixed_slip(problem, i);
-            }
+        if problem.wears {
+            self.wear.open(span, &self.slip, &mut self.gap);
         }
+        self.rhs.clear();
+        for unknown in &self.unknowns {
+            self.rhs.push(match unknown {
+                Unknown::Pressure(i) => -self.gap[*i],
+                Unknown::Shear(i) => -problem.fixed_slip[*i],
+            });
+        }
+        self.rhs.push(problem.load);
     }
 
     fn read(&self, problem: &Problem<'_>, it: &mut Iterate) {
@@ -273,39 +267,39 @@ impl Newton {
     }
 
     /// Slips, paths and gaps of the iterate; returns the largest gap of a closed node over the indentation.
-    fn evaluate(&mut self, problem: &Problem<'_>, it: &mut Iterate) -> f64 {
-        let g = &problem.response.local;
-        self.column.clear();
-        self.column.resize(g.order(), 0.0);
-        for a in 0..it.status.len() {
-            if it.status[a] == Status::Open {
-                continue;
-            }
+    fn evaluate(&mut self, problem: &Problem<'_>, response: &Response, it: &mut Iterate) -> f64 {
+        let n = it.status.len();
+        for values in [&mut self.gap, &mut self.slip, &mut it.gap] {
+            values.clear();
+            values.resize(n, 0.0);
+        }
+        for a in (0..n).filter(|a| it.status[*a] != Status::Open) {
             let normal = problem.width[a] * it.pressure[a];
             let tangential = -problem.width[a] * it.shear[a];
-            let columns = g.column(2 * a).iter().zip(g.column(2 * a + 1));
-            for (sum, (n, t)) in self.column.iter_mut().zip(columns) {
-                *sum += normal * n + tangential * t;
-            }
+            let (along_n, along_t) = (response.along_normal(a), response.along_tangent(a));
+            add(&mut self.gap, normal, along_n.0, tangential, along_t.0);
+            add(&mut self.slip, normal, along_n.1, tangential, along_t.1);
         }
-        self.path_change.clear();
         let mut indentation = 0.0_f64;
-        for (i, jump) in self.column.chunks_exact(2).enumerate() {
-            it.slip[i] = fixed_slip(problem, i) + problem.slope[i] * it.height + jump[1];
+        for (i, jump) in self.slip.iter().enumerate() {
+            it.slip[i] = problem.fixed_slip[i] + problem.slope[i] * it.height + jump;
             let slips = it.status[i].direction() * it.slip[i];
             it.path[i] = (it.pressure[i] * slips).max(0.0);
-            self.path_change.push(it.path[i]);
             if it.status[i] != Status::Open {
-                indentation = indentation.max(jump[0].abs());
+                indentation = indentation.max(self.gap[i].abs());
             }
         }
-        self.wear_of_change(problem);
+        // The wear alone first: it counts for the scale of gaps.
+        if problem.wears {
+            problem.transfer.open(&(0..n), &it.path, &mut it.gap);
+        }
         let (mut residual, mut largest) = (0.0_f64, 0.0_f64);
-        for (i, jump) in self.column.chunks_exact(2).enumerate() {
+        for (i, jump) in self.gap.iter().enumerate() {
             let raised = (1.0 + problem.sag[i]) * it.height;
-            it.gap[i] = problem.gap[i] + raised + jump[0] + self.worn[i];
+            let worn = it.gap[i];
+            it.gap[i] = problem.gap[i] + raised + jump + worn;
             if it.status[i] != Status::Open {
-                indentation = indentation.max(self.worn[i]);
+                indentation = indentation.max(worn);
                 residual = residual.max(it.gap[i].abs());
                 largest = largest.max(problem.gap[i].abs() + raised.abs());
             }
@@ -317,7 +311,21 @@ impl Newton {
     }
 }
 
-/// Slip of a node before the new forces and height are known, mm.
-pub(super) fn fixed_slip(problem: &Problem<'_>, i: usize) -> f64 {
-    problem.step - problem.slope[i] * problem.last_height - problem.response.last_jump[2 * i + 1]
+fn part<'a>(values: &'a [f64], span: &Range<usize>) -> &'a [f64] {
+    &values[span.clone()]
+}
+
+/// sum += a x + b y.
+fn add(sum: &mut [f64], a: f64, x: &[f64], b: f64, y: &[f64]) {
+    for (sum, (x, y)) in sum.iter_mut().zip(x.iter().zip(y)) {
+        *sum += a * x + b * y;
+    }
+}
+
+/// From the first node in contact to the last.
+fn closed_span(status: &[Status]) -> Range<usize> {
+    let closed = |s: &Status| *s != Status::Open;
+    let first = status.iter().position(closed).unwrap_or(0);
+    let last = status.iter().rposition(closed).map_or(first, |i| i + 1);
+    first..last
 }

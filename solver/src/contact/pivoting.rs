@@ -12,8 +12,8 @@
 //! and the slopes: the wear adds products of p and gamma, which are not negative. Its solution is where the next
 //! linearisation is made (Josephy 1979), and where Newton's method begins again, now with the right signs.
 
-use super::newton::{End, Iterate, Newton, Problem, fixed_slip};
-use super::recession::opened_by_wear;
+use super::newton::{End, Iterate, Newton, Problem};
+use super::response::Response;
 use super::status::Status;
 use crate::linear::{Lemke, SquareMatrix};
 use crate::number::real;
@@ -38,7 +38,6 @@ pub(super) struct Pivoting {
     constant: Vec<f64>,
     path: Vec<f64>,
     opened: Vec<f64>,
-    recession: Vec<f64>,
     /// Pressure, magnitude of slip and status of each node in the last solution.
     pressure: Vec<f64>,
     slip: Vec<f64>,
@@ -68,7 +67,7 @@ struct Layout {
 }
 
 impl Layout {
-    fn of(problem: &Problem<'_>, it: &Iterate) -> Self {
+    fn of(problem: &Problem<'_>, response: &Response, it: &Iterate) -> Self {
         let n = it.status.len();
         let range = problem
             .gap
@@ -84,7 +83,7 @@ impl Layout {
         };
         let length = indentation.max(range.1 - range.0).max(f64::MIN_POSITIVE);
         let stiffest = (0..n)
-            .map(|i| problem.width[i] * problem.response.local.get(2 * i, 2 * i))
+            .map(|i| problem.width[i] * response.along_normal(i).0[i])
             .fold(f64::MIN_POSITIVE, f64::max);
         Self {
             n,
@@ -119,22 +118,26 @@ impl Pivoting {
         &mut self,
         newton: &mut Newton,
         problem: &Problem<'_>,
+        response: &mut Response,
         it: &mut Iterate,
         mut end: End,
     ) -> End {
         if it.status.len() > MOST_NODES {
             return end;
         }
+        for node in 0..it.status.len() {
+            response.gather(problem.operators, problem.coupling, node);
+        }
         self.begin(problem, it);
         for _ in 0..MOST_LINEARISATIONS {
-            let Improved::Solution { changes } = self.improve(problem, it) else {
+            let Improved::Solution { changes } = self.improve(problem, response, it) else {
                 return end;
             };
             if changes > 0 {
                 continue;
             }
             self.hand_over(it);
-            end = newton.solve(problem, it, ITERATIONS_AFTER);
+            end = newton.solve(problem, response, it, ITERATIONS_AFTER);
             if matches!(end, End::Settled) {
                 return end;
             }
@@ -154,9 +157,9 @@ impl Pivoting {
     }
 
     /// Solves the increment with the wear linearised about the last solution.
-    fn improve(&mut self, problem: &Problem<'_>, it: &Iterate) -> Improved {
-        let layout = Layout::of(problem, it);
-        self.lay(problem, layout);
+    fn improve(&mut self, problem: &Problem<'_>, response: &Response, it: &Iterate) -> Improved {
+        let layout = Layout::of(problem, response, it);
+        self.lay(problem, response, layout);
         let Some(z) = self.lemke.solve(&self.matrix, &self.constant) else {
             return Improved::Ray;
         };
@@ -199,31 +202,37 @@ impl Pivoting {
         }
     }
 
-    fn lay(&mut self, problem: &Problem<'_>, layout: Layout) {
+    fn lay(&mut self, problem: &Problem<'_>, response: &Response, layout: Layout) {
         self.matrix.reset(layout.order());
         self.constant.clear();
         self.constant.resize(layout.order(), 0.0);
         for a in 0..layout.n {
-            self.pressure_column(problem, layout, a);
+            self.pressure_column(problem, response, layout, a);
             if layout.sheared {
-                self.shear_columns(problem, layout, a);
+                self.shear_columns(problem, response, layout, a);
             }
         }
         self.height_column(problem, layout);
         self.lay_constant(problem, layout);
     }
 
-    fn pressure_column(&mut self, problem: &Problem<'_>, layout: Layout, a: usize) {
+    fn pressure_column(
+        &mut self,
+        problem: &Problem<'_>,
+        response: &Response,
+        layout: Layout,
+        a: usize,
+    ) {
         self.open(problem, layout.n, a, self.slip[a]);
         let force = problem.width[a];
         let scale = layout.pressure / layout.length;
-        let column = problem.response.local.column(2 * a);
-        for (i, jump) in column.chunks_exact(2).enumerate() {
-            *self.matrix.at(i, a) = (force * jump[0] + self.opened[i]) * scale;
+        let (gaps, jumps) = response.along_normal(a);
+        for (i, (gap, jump)) in gaps.iter().zip(jumps).enumerate() {
+            *self.matrix.at(i, a) = (force * gap + self.opened[i]) * scale;
             if layout.sheared {
                 let [right, left, _] = layout.shear(i);
-                *self.matrix.at(right, a) = -force * jump[1] * scale;
-                *self.matrix.at(left, a) = force * jump[1] * scale;
+                *self.matrix.at(right, a) = -force * jump * scale;
+                *self.matrix.at(left, a) = force * jump * scale;
             }
         }
         if layout.sheared {
@@ -232,18 +241,24 @@ impl Pivoting {
         *self.matrix.at(layout.height(), a) = -force / mean_width(problem);
     }
 
-    fn shear_columns(&mut self, problem: &Problem<'_>, layout: Layout, k: usize) {
+    fn shear_columns(
+        &mut self,
+        problem: &Problem<'_>,
+        response: &Response,
+        layout: Layout,
+        k: usize,
+    ) {
         let force = -problem.width[k];
         let scale = layout.pressure / layout.length;
-        let column = problem.response.local.column(2 * k + 1);
+        let (gaps, jumps) = response.along_tangent(k);
         let [a, b, gamma] = layout.shear(k);
         let lean = problem.width[k] * problem.slope[k] / mean_width(problem);
         for (sign, place) in [(1.0, a), (-1.0, b)] {
-            for (i, jump) in column.chunks_exact(2).enumerate() {
+            for (i, (gap, jump)) in gaps.iter().zip(jumps).enumerate() {
                 let [right, left, _] = layout.shear(i);
-                *self.matrix.at(i, place) = sign * force * jump[0] * scale;
-                *self.matrix.at(right, place) = -sign * force * jump[1] * scale;
-                *self.matrix.at(left, place) = sign * force * jump[1] * scale;
+                *self.matrix.at(i, place) = sign * force * gap * scale;
+                *self.matrix.at(right, place) = -sign * force * jump * scale;
+                *self.matrix.at(left, place) = sign * force * jump * scale;
             }
             *self.matrix.at(gamma, place) = -1.0;
             *self.matrix.at(place, gamma) = 1.0;
@@ -262,7 +277,14 @@ impl Pivoting {
         self.path.clear();
         self.path.resize(n, 0.0);
         self.path[node] = path;
-        opened_by_wear(problem, &self.path, &mut self.recession, &mut self.opened);
+        self.open_all(problem, n);
+    }
+
+    /// Gaps that the paths open.
+    fn open_all(&mut self, problem: &Problem<'_>, n: usize) {
+        self.opened.clear();
+        self.opened.resize(n, 0.0);
+        problem.transfer.open(&(0..n), &self.path, &mut self.opened);
     }
 
     fn height_column(&mut self, problem: &Problem<'_>, layout: Layout) {
@@ -291,12 +313,12 @@ impl Pivoting {
         } else {
             self.path.resize(layout.n, 0.0);
         }
-        opened_by_wear(problem, &self.path, &mut self.recession, &mut self.opened);
+        self.open_all(problem, layout.n);
         for i in 0..layout.n {
             let raised = (1.0 + problem.sag[i]) * layout.lowest;
             self.constant[i] = (problem.gap[i] + raised - self.opened[i]) / layout.length;
             if layout.sheared {
-                let slip = fixed_slip(problem, i) + problem.slope[i] * layout.lowest;
+                let slip = problem.fixed_slip[i] + problem.slope[i] * layout.lowest;
                 let [right, left, gamma] = layout.shear(i);
                 self.constant[right] = -slip / layout.length;
                 self.constant[left] = slip / layout.length;

@@ -1,26 +1,35 @@
 //! The response of both bodies at the coupled nodes, in the local frame of the receptacle's surface.
+//!
+//! A column of G = Mhat C_s Mhat^T + C_r is gathered when its node first touches: most coupled nodes are only watched.
 
 use super::mortar::Coupling;
 use super::{ContactState, Pair, Surfaces};
-use crate::linear::SquareMatrix;
+use crate::condensation::{Block, Compliance, Operators};
 
-/// Change of the gap (2 i) and of the tangential jump (2 i + 1) of each coupled node, per force along N and T.
+/// Change of the gap and of the tangential jump of each coupled node, per force along N and T at coupled nodes.
 #[derive(Debug, Default)]
 pub(super) struct Response {
-    /// G = Mhat C_s Mhat^T + C_r, its rows and columns in the local frame, mm per N/mm.
-    pub(super) local: SquareMatrix,
-    /// Jump that the forces of the last increment would make at the new position (N and T components), mm.
+    /// Number of coupled nodes.
+    nodes: usize,
+    /// For each node: gaps, then jumps for a force along N; gaps, then jumps for one along T, mm per N/mm.
+    columns: Vec<f64>,
+    gathered: Vec<bool>,
+    /// Tangential jump that the forces of the last increment would make at the new position, mm.
     pub(super) last_jump: Vec<f64>,
     /// Slope at each coupled node.
     pub(super) slope: Vec<f64>,
     /// Slope of the slider's surface over each coupled node.
     slider_slope: Vec<f64>,
-    slider_column: Vec<f64>,
+    slider: Vec<Block>,
+    displacement: Vec<[f64; 2]>,
 }
 
+/// Gaps and tangential jumps of all coupled nodes.
+pub(super) type Column<'a> = (&'a [f64], &'a [f64]);
+
 impl Response {
-    /// Gathers the response of the coupled nodes.
-    pub(super) fn gather(
+    /// Turns to another set of coupled nodes; no column is gathered yet.
+    pub(super) fn begin(
         &mut self,
         pair: &Pair<'_>,
         coupling: &Coupling,
@@ -28,7 +37,10 @@ impl Response {
         last: &ContactState,
     ) {
         let n = coupling.len();
-        self.local.reset(2 * n);
+        self.nodes = n;
+        self.columns.resize(4 * n * n, 0.0);
+        self.gathered.clear();
+        self.gathered.resize(n, false);
         self.slope.clear();
         self.slope
             .extend_from_slice(&surfaces.slope[coupling.first..coupling.end]);
@@ -39,99 +51,107 @@ impl Response {
             self.slider_slope
                 .push(slopes.map(|(weight, slope)| weight * slope).sum());
         }
-        for k in 0..n {
-            for direction in 0..2 {
-                self.gather_column(pair, coupling, k, direction);
-            }
-        }
-        forces_to_local_frame(&mut self.local, &self.slope);
         self.gather_last_jump(pair, coupling, last);
     }
 
-    /// Column of the response to a force at coupled node k along x or y.
-    fn gather_column(&mut self, pair: &Pair<'_>, coupling: &Coupling, k: usize, direction: usize) {
+    /// Per force along N = (-s, 1) at a node; its column must have been gathered.
+    pub(super) fn along_normal(&self, node: usize) -> Column<'_> {
+        self.column(2 * node)
+    }
+
+    /// Per force along T = (1, s) at a node; its column must have been gathered.
+    pub(super) fn along_tangent(&self, node: usize) -> Column<'_> {
+        self.column(2 * node + 1)
+    }
+
+    fn column(&self, column: usize) -> Column<'_> {
+        debug_assert!(self.gathered[column / 2], "a column that is there");
+        let begin = 2 * column * self.nodes;
+        self.columns[begin..begin + 2 * self.nodes].split_at(self.nodes)
+    }
+
+    /// Gathers both columns of a node, unless that was done before.
+    pub(super) fn gather(&mut self, operators: &Operators, coupling: &Coupling, node: usize) {
+        if std::mem::replace(&mut self.gathered[node], true) {
+            return;
+        }
+        let n = self.nodes;
+        let k = coupling.first + node;
         let (begin, end) = coupling.slider_range;
-        let slider = &pair.operators.slider.compliance;
-        let receptacle = &pair.operators.receptacle.compliance;
-        self.slider_column.clear();
-        self.slider_column.resize(2 * (end - begin), 0.0);
-        let (from, weights) = coupling.dual_row(coupling.first + k);
+        self.slider.clear();
+        self.slider.resize(end - begin, [0.0; 4]);
+        let (from, weights) = coupling.dual_row(k);
         for (offset, weight) in weights.iter().enumerate() {
-            let column = &slider.column(2 * (from + offset) + direction)[2 * begin..2 * end];
-            for (sum, c) in self.slider_column.iter_mut().zip(column) {
-                *sum += weight * c;
+            let answers = operators.slider.compliance.to_force_at(from + offset);
+            for (sum, c) in self.slider.iter_mut().zip(&answers[begin..end]) {
+                add(sum, *weight, c);
             }
         }
-        let own = &receptacle.column(2 * (coupling.first + k) + direction)
-            [2 * coupling.first..2 * coupling.end];
-        let target = self.local.column_mut(2 * k + direction);
-        for (i, (t, r)) in target
-            .chunks_exact_mut(2)
-            .zip(own.chunks_exact(2))
-            .enumerate()
-        {
+        let own = &operators.receptacle.compliance.to_force_at(k)[coupling.first..coupling.end];
+        let (normal, tangent) = self.columns[4 * node * n..4 * (node + 1) * n].split_at_mut(2 * n);
+        let (normal_gap, normal_jump) = normal.split_at_mut(n);
+        let (tangent_gap, tangent_jump) = tangent.split_at_mut(n);
+        let s = self.slope[node];
+        for i in 0..n {
             let (from, weights) = coupling.dual_row(coupling.first + i);
-            let (mut x, mut y) = (0.0, 0.0);
-            let slider = self.slider_column[2 * (from - begin)..].chunks_exact(2);
-            for (weight, u) in weights.iter().zip(slider) {
-                x += weight * u[0];
-                y += weight * u[1];
+            let mut u = own[i];
+            for (weight, c) in weights.iter().zip(&self.slider[from - begin..]) {
+                add(&mut u, *weight, c);
             }
-            let (x, y) = (x + r[0], y + r[1]);
-            t[0] = y - self.slider_slope[i] * x;
-            t[1] = x + self.slope[i] * y;
+            let gap = |x: f64, y: f64| y - self.slider_slope[i] * x;
+            let jump = |x: f64, y: f64| x + self.slope[i] * y;
+            let (gap_x, gap_y) = (gap(u[0], u[1]), gap(u[2], u[3]));
+            let (jump_x, jump_y) = (jump(u[0], u[1]), jump(u[2], u[3]));
+            normal_gap[i] = gap_y - s * gap_x;
+            normal_jump[i] = jump_y - s * jump_x;
+            tangent_gap[i] = gap_x + s * gap_y;
+            tangent_jump[i] = jump_x + s * jump_y;
         }
     }
 
     fn gather_last_jump(&mut self, pair: &Pair<'_>, coupling: &Coupling, last: &ContactState) {
         let (begin, end) = coupling.slider_range;
         let n = coupling.len();
-        self.slider_column.clear();
-        self.slider_column.resize(2 * (end - begin), 0.0);
+        let Operators { slider, receptacle } = pair.operators;
+        self.displacement.clear();
+        self.displacement.resize(end - begin + n, [0.0; 2]);
+        let (above, below) = self.displacement.split_at_mut(end - begin);
+        accumulate(above, &slider.compliance, &last.slider_force, begin);
         accumulate(
-            &mut self.slider_column,
-            &pair.operators.slider.compliance,
-            &last.slider_force,
-            2 * begin,
+            below,
+            &receptacle.compliance,
+            &last.receptacle_force,
+            coupling.first,
         );
         self.last_jump.clear();
-        self.last_jump.resize(2 * n, 0.0);
-        accumulate(
-            &mut self.last_jump,
-            &pair.operators.receptacle.compliance,
-            &last.receptacle_force,
-            2 * coupling.first,
-        );
         for (i, s) in self.slope.iter().enumerate() {
             let (from, weights) = coupling.dual_row(coupling.first + i);
-            let (mut x, mut y) = (self.last_jump[2 * i], self.last_jump[2 * i + 1]);
-            for (offset, weight) in weights.iter().enumerate() {
-                x += weight * self.slider_column[2 * (from + offset - begin)];
-                y += weight * self.slider_column[2 * (from + offset - begin) + 1];
+            let [mut x, mut y] = below[i];
+            for (weight, u) in weights.iter().zip(&above[from - begin..]) {
+                x += weight * u[0];
+                y += weight * u[1];
             }
-            self.last_jump[2 * i] = y - s * x;
-            self.last_jump[2 * i + 1] = x + s * y;
+            self.last_jump.push(x + s * y);
         }
     }
 }
 
-/// target += (rows of the compliance from `first_row`) * force, over the forces that are not zero.
-fn accumulate(target: &mut [f64], compliance: &SquareMatrix, force: &[f64], first_row: usize) {
-    for (column, f) in force.iter().enumerate().filter(|(_, f)| **f != 0.0) {
-        let c = &compliance.column(column)[first_row..first_row + target.len()];
-        for (sum, c) in target.iter_mut().zip(c) {
-            *sum += f * c;
-        }
+fn add(sum: &mut Block, weight: f64, c: &Block) {
+    for (sum, c) in sum.iter_mut().zip(c) {
+        *sum += weight * c;
     }
 }
 
-/// Turns columns for forces along (x, y) into columns for forces along N = (-s, 1) and T = (1, s).
-fn forces_to_local_frame(g: &mut SquareMatrix, slope: &[f64]) {
-    for (k, s) in slope.iter().enumerate() {
-        for row in 0..g.order() {
-            let (x, y) = (g.get(row, 2 * k), g.get(row, 2 * k + 1));
-            *g.at(row, 2 * k) = y - s * x;
-            *g.at(row, 2 * k + 1) = x + s * y;
+/// target += (answers of the nodes from `first` on) * force, over the nodes that carry one.
+fn accumulate(target: &mut [[f64; 2]], compliance: &Compliance, force: &[f64], first: usize) {
+    for (node, f) in force.chunks_exact(2).enumerate() {
+        if f[0] == 0.0 && f[1] == 0.0 {
+            continue;
+        }
+        let answers = &compliance.to_force_at(node)[first..first + target.len()];
+        for (u, c) in target.iter_mut().zip(answers) {
+            u[0] += f[0] * c[0] + f[1] * c[2];
+            u[1] += f[0] * c[1] + f[1] * c[3];
         }
     }
 }

@@ -28,6 +28,12 @@ impl SquareMatrix {
         self.values.resize(order * order, 0.0);
     }
 
+    /// Makes it a matrix of another order, keeping its memory; its entries are of no use until they are written.
+    pub fn reshape(&mut self, order: usize) {
+        self.order = order;
+        self.values.resize(order * order, 0.0);
+    }
+
     /// Number of rows.
     pub fn order(&self) -> usize {
         self.order

@@ -52,6 +52,7 @@ pub(crate) fn explicit_wear(
                 slider_x,
                 run: 0.0,
                 cycles: 0.0,
+                pivots: true,
             };
             let done = solver.advance(&pair, &surfaces, &last, to, &mut next)?;
             for (depth, path) in depth[done.first..].iter_mut().zip(done.path) {
