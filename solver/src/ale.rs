@@ -11,6 +11,7 @@ use crate::mesh::MeshError;
 use crate::model::{BodyModel, Model};
 
 pub use spines::Spines;
+pub(crate) use spines::WORN_THROUGH_SHARE;
 
 /// The stiffness is rebuilt when a spine has lost this part of its length since it was last built. The condensed
 /// response depends on the height through the logarithm of height over contact width, and a rigid lowering costs

@@ -5,7 +5,7 @@ use crate::cycle::CycleState;
 use crate::model::{BodyModel, Interface, Model};
 
 /// A body is worn through when a spine has less than this part of the unworn height left.
-const WORN_THROUGH_SHARE: f64 = 0.03;
+pub(crate) const WORN_THROUGH_SHARE: f64 = 0.03;
 
 /// An increment may wear off this part of what is left of a body at a place; a larger one is halved.
 const LARGEST_SHARE: f64 = 0.9;
