@@ -1,10 +1,67 @@
 //! What accuracy costs: one scene solved at many resolutions, compared with the converged solution.
 
-use serde::{Deserialize, Serialize};
-use utoipa::ToSchema;
+use std::collections::BTreeMap;
 
-use crate::job::Outcome;
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
+use utoipa::ToSchema;
+use uuid::Uuid;
+
+use crate::job::{Outcome, Status};
 use crate::spec::Spec;
+
+/// A study as it is submitted.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+#[serde(deny_unknown_fields)]
+pub struct StudyRequest {
+    /// A name for people.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub name: Option<String>,
+    /// The specification whose accuracy is varied.
+    #[schema(value_type = Spec)]
+    pub base: Value,
+    /// Processor seconds that all runs together are expected to take at most; 180 unless given.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub budget_s: Option<f64>,
+}
+
+/// A job of a study.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct StudyJob {
+    /// The job.
+    pub id: Uuid,
+    /// The tolerance that it asks for; absent where the three settings are fixed.
+    pub tolerance: Option<f64>,
+    /// Its surface element size under the contact, mm, where it is fixed.
+    pub contact_element_mm: Option<f64>,
+    /// Its increments a computed cycle, where they are fixed.
+    pub increments_per_cycle: Option<u32>,
+    /// Its jump, where that is fixed.
+    pub cycle_jump: Option<f64>,
+    /// Where it stands.
+    pub status: Status,
+    /// How its solve ended.
+    pub outcome: Option<Outcome>,
+}
+
+/// A study in the service: its jobs, and what their results so far come to.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct StudyDocument {
+    /// Its name in the service.
+    pub id: Uuid,
+    /// Its name for people.
+    pub name: Option<String>,
+    /// When it was accepted (RFC 3339).
+    pub created_at: String,
+    /// Number of its jobs by status; every status is there.
+    pub counts: BTreeMap<String, u64>,
+    /// Its jobs in order; deleted ones are gone from here too.
+    pub jobs: Vec<StudyJob>,
+    /// The results so far, compared; absent until a job at a tolerance, or the finest of the grid, has succeeded.
+    pub study: Option<Study>,
+    /// Where to go from here: relation to path.
+    pub links: BTreeMap<String, String>,
+}
 
 /// A study of accuracy against time.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
@@ -38,6 +95,8 @@ pub struct StudyRun {
     pub failure: Option<String>,
     /// Its errors against the reference; absent where it failed.
     pub errors: Option<Errors>,
+    /// Names of its errors that are smaller than the doubt about the reference, and so mean no more than that.
+    pub below_doubt: Vec<String>,
     /// Processor seconds of its process.
     pub cpu_s: f64,
     /// Largest resident memory of its process, MiB.
@@ -63,6 +122,29 @@ impl Errors {
     /// The larger one of depth and width, which a tolerance speaks of.
     pub fn promised(&self) -> f64 {
         self.depth.max(self.width)
+    }
+
+    /// These errors, or others where those are larger.
+    #[must_use]
+    pub fn at_least(&self, other: &Self) -> Self {
+        Self {
+            depth: self.depth.max(other.depth),
+            width: self.width.max(other.width),
+            peak_pressure: self.peak_pressure.max(other.peak_pressure),
+            area: self.area.max(other.area),
+        }
+    }
+
+    /// Names of the errors that are smaller than others.
+    pub fn below(&self, other: &Self) -> Vec<String> {
+        let pairs = [
+            ("depth", self.depth, other.depth),
+            ("width", self.width, other.width),
+            ("peak_pressure", self.peak_pressure, other.peak_pressure),
+            ("area", self.area, other.area),
+        ];
+        let below = pairs.into_iter().filter(|(_, mine, theirs)| mine < theirs);
+        below.map(|(name, ..)| name.to_owned()).collect()
     }
 }
 

@@ -3,6 +3,7 @@
 mod access;
 mod archive;
 mod cancel;
+mod cancel_study;
 mod cancel_sweep;
 mod events;
 mod extract;
@@ -22,9 +23,13 @@ mod problem;
 mod profile;
 mod remove;
 mod show;
+mod show_study;
 mod show_sweep;
 mod stored_part;
+mod study_picture;
+mod study_table;
 mod submit;
+mod submit_study;
 mod submit_sweep;
 mod sweep_outcomes;
 mod system_schema;
@@ -97,7 +102,12 @@ impl App {
 
 #[derive(OpenApi)]
 #[openapi(
-    components(schemas(stored_part::Format, wear_history::HistoryFormat, api::event::Done)),
+    components(schemas(
+        stored_part::Format,
+        study_picture::PictureFormat,
+        wear_history::HistoryFormat,
+        api::event::Done
+    )),
     info(
         title = "fretwear",
         description = "Wear of electrical contacts under vibration: submit a study, follow it, fetch its results."
@@ -143,6 +153,11 @@ fn described() -> (Router<App>, Document) {
         .routes(routes!(show_sweep::show_sweep))
         .routes(routes!(sweep_outcomes::sweep_outcomes))
         .routes(routes!(cancel_sweep::cancel_sweep))
+        .routes(routes!(submit_study::submit_study))
+        .routes(routes!(show_study::show_study))
+        .routes(routes!(study_table::study_table))
+        .routes(routes!(study_picture::study_picture))
+        .routes(routes!(cancel_study::cancel_study))
         .routes(routes!(make_plan::make_plan))
         .routes(routes!(systems::systems))
         .routes(routes!(systems::system))

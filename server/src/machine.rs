@@ -92,6 +92,7 @@ mod tests {
         };
         let work = Work {
             computed_cycles: 1.0,
+            most_increments: 1,
             increments: vec![(30.0, 100.0), (60.0, 50.0)],
             condensations: [body, Condensations { count: 0.0, ..body }],
         };

@@ -18,6 +18,7 @@ mod levels;
 mod open;
 mod queries;
 mod results;
+mod studies;
 mod submissions;
 mod sweeps;
 mod upkeep;
@@ -41,6 +42,7 @@ pub use files::{Content, NewFile};
 pub use jobs::{Cancelled, Deleted, Filter, NewJob, RequestKey, StoredJob, Submitted, Wishes};
 pub use leases::{Batch, Claim, Held};
 pub use results::SnapshotPart;
+pub use studies::{StoredStudy, StudyPlan};
 pub use sweeps::{NewSweep, SweepOutcome};
 
 /// How many job ids may wait in a listener's channel before it has to look for itself.

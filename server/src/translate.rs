@@ -23,6 +23,7 @@ mod plan;
 mod preset;
 mod settings;
 pub mod size;
+pub mod study;
 pub mod sweep;
 pub mod thin;
 pub mod vtu;

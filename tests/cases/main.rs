@@ -30,4 +30,5 @@ mod server_killed;
 mod small_strains_cost_what_the_plan_says;
 mod stale_server;
 mod study_of_accuracy;
+mod study_over_http;
 mod sweep;

@@ -27,14 +27,15 @@ fn commands(readme: &str) -> Vec<String> {
 struct Known {
     job: String,
     sweep: String,
+    study: String,
 }
 
 /// Runs a command as a shell does; errors of the service end it with a code.
 fn run(folder: &Path, base: &str, known: &Known, command: &str) -> (Option<i32>, String) {
     let strict = r#"curl() { command curl -sS --fail-with-body --max-time 200 "$@"; }"#;
-    let Known { job, sweep } = known;
+    let Known { job, sweep, study } = known;
     let command = command.replace(ADDRESS, base);
-    let script = format!("{strict}\nID={job}\nSWEEP={sweep}\n{command}");
+    let script = format!("{strict}\nID={job}\nSWEEP={sweep}\nSTUDY={study}\n{command}");
     let output = Command::new("bash")
         .args(["-c", &script])
         .current_dir(folder)
@@ -71,12 +72,14 @@ async fn the_curl_lines_of_the_readme_work() {
         {
             location.trim().clone_into(&mut known.job);
         }
-        if command.contains("sweep.json") {
-            let sweep: serde_json::Value = serde_json::from_str(&told).expect("JSON");
-            sweep["id"]
-                .as_str()
-                .expect("an id")
-                .clone_into(&mut known.sweep);
+        for (submitted, id) in [
+            ("sweep.json", &mut known.sweep),
+            ("study.json", &mut known.study),
+        ] {
+            if command.contains(submitted) {
+                let told: serde_json::Value = serde_json::from_str(&told).expect("JSON");
+                told["id"].as_str().expect("an id").clone_into(id);
+            }
         }
         if command.contains("/events") {
             assert!(told.contains("event: done"), "{told}");

@@ -6,6 +6,7 @@ use std::process::ExitCode;
 use indicatif::{ProgressBar, ProgressStyle};
 
 use super::terminal::{failed, say, specification};
+use crate::machine::{Kept, cache_file};
 use crate::study::{self, Request, report};
 
 pub(super) fn run(spec: &Path, out: Option<&Path>, budget_s: f64) -> ExitCode {
@@ -23,9 +24,14 @@ pub(super) fn run(spec: &Path, out: Option<&Path>, budget_s: f64) -> ExitCode {
         Ok(program) => program,
         Err(cause) => return failed(format_args!("the path of this program: {cause}")),
     };
+    let kept = Kept::open(cache_file());
+    let Some(machine) = kept.measured() else {
+        return failed("the machine could not be measured");
+    };
     let spinner = spinner();
     let request = Request {
         resolved: &resolved,
+        machine,
         program,
         budget_s,
     };

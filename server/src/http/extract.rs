@@ -48,6 +48,21 @@ impl<S: Send + Sync> FromRequestParts<S> for SweepId {
     }
 }
 
+/// The id of a study, out of the path.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct StudyId(pub(super) Uuid);
+
+impl<S: Send + Sync> FromRequestParts<S> for StudyId {
+    type Rejection = Refusal;
+
+    async fn from_request_parts(parts: &mut Parts, state: &S) -> Result<Self, Refusal> {
+        let text = path_parameter(parts, state, "id").await;
+        Uuid::parse_str(&text)
+            .map(Self)
+            .map_err(|_| Kind::NoStudy.because("the id in the path is not the id of a study"))
+    }
+}
+
 /// The name of a file, out of the path. It is compared with names in the database and never becomes a path.
 #[derive(Debug, Clone)]
 pub(super) struct FileName(pub(super) String);

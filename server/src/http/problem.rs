@@ -36,6 +36,8 @@ pub(super) enum Kind {
     NoJob,
     /// There is no such sweep.
     NoSweep,
+    /// There is no such study.
+    NoStudy,
     /// The job has no such result (yet).
     NoResult,
     /// There is no such system.
@@ -108,6 +110,11 @@ impl Kind {
             Self::NoSweep => (
                 "no-such-sweep",
                 "there is no such sweep",
+                StatusCode::NOT_FOUND,
+            ),
+            Self::NoStudy => (
+                "no-such-study",
+                "there is no such study",
                 StatusCode::NOT_FOUND,
             ),
             Self::NoResult => (

@@ -91,7 +91,11 @@ pub(super) async fn submit_sweep(
             (NewJob { spec, plan, wishes }, variation.overrides)
         })
         .collect();
-    let new = NewSweep { name, jobs };
+    let new = NewSweep {
+        name,
+        jobs,
+        study: None,
+    };
     let id = match app.store.submit_sweep(&new, key.as_ref(), now_ms()).await? {
         Submitted::Job(id) => id,
         Submitted::KeyTaken => return Err(SubmitError::KeyTaken.into()),

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
+use api::plan::MachineFigures;
 use api::results::{
     CycleRow, Loop, Pressure, PressurePosition, Profile, SideProfile, SideRow, SlidePosition,
     Snapshot,
@@ -18,6 +19,7 @@ use tower::ServiceExt;
 use super::{Access, App, router};
 use crate::documents::{JSON, VTU};
 use crate::files;
+use crate::machine::Kept;
 use crate::queue::Move;
 use crate::store::{Batch, End, NewFile, Store};
 
@@ -32,10 +34,16 @@ impl Service {
         let folder = TempDir::new().expect("a temporary folder");
         let url = format!("sqlite://{}", folder.path().join("test.db").display());
         let store = Arc::new(Store::open(&url).await.expect("a store"));
-        Self {
-            app: App::new(store, Access::default(), CancellationToken::new()),
-            folder,
-        }
+        let mut app = App::new(store, Access::default(), CancellationToken::new());
+        // Measuring a machine takes a second or two.
+        app.machine = Kept::of(MachineFigures {
+            program: "test".to_owned(),
+            increment_s: 2e-4,
+            increment_power: 1.7,
+            condensation_dof_s: 4e-7,
+            condensation_surface_s: 7e-10,
+        });
+        Self { app, folder }
     }
 
     /// The folder of large results beside the database.
@@ -178,6 +186,11 @@ impl Service {
 pub(crate) const SWEEP: &str = r#"{
   "name": "loads", "base": {"system": {"kind": "dimm"}},
   "grid": {"/cycles": [10, 20], "/load/n": [0.3, 0.6]}
+}"#;
+
+/// A study of a short fretting test.
+pub(crate) const STUDY: &str = r#"{
+  "name": "accuracy", "base": {"system": {"kind": "cylinder_on_flat"}, "cycles": 100}, "budget_s": 10
 }"#;
 
 /// Stands for a large result.

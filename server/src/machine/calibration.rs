@@ -174,6 +174,7 @@ mod tests {
         Sample {
             work: Work {
                 computed_cycles: 1.0,
+                most_increments: 1,
                 increments: vec![(watched, 7.0)],
                 condensations: [body, Condensations { count: 0.0, ..body }],
             },

@@ -33,6 +33,15 @@ impl Kept {
         }
     }
 
+    /// With figures that are known, and no file.
+    pub fn of(figures: MachineFigures) -> Self {
+        Self {
+            file: None,
+            known: Arc::new(OnceLock::from(figures)),
+            measuring: Arc::default(),
+        }
+    }
+
     /// The figures, if the machine has been measured.
     pub fn known(&self) -> Option<&MachineFigures> {
         self.known.get()

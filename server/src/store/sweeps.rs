@@ -10,6 +10,7 @@ use uuid::Uuid;
 use super::document::timestamp;
 use super::jobs::{Cancelled, NewJob, RequestKey, Submitted, cancel, insert};
 use super::queries::{BEGIN, job_id};
+use super::studies::{StudyPlan, insert_study};
 use super::{Store, StoreError};
 
 /// A sweep to be queued.
@@ -19,6 +20,8 @@ pub struct NewSweep {
     pub name: Option<String>,
     /// Its jobs, with what sets each apart.
     pub jobs: Vec<(NewJob, Changes)>,
+    /// What its results are compared by, if it is a study of accuracy.
+    pub study: Option<StudyPlan>,
 }
 
 /// A job of a sweep with its result.
@@ -118,6 +121,9 @@ impl Store {
             .bind(serde_json::to_string(overrides)?)
             .execute(&mut *transaction)
             .await?;
+        }
+        if let Some(study) = &sweep.study {
+            insert_study(&mut transaction, id, study).await?;
         }
         transaction.commit().await?;
         // Every idle worker finds work now; one that misses the call looks for itself within a second.

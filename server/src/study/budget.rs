@@ -1,37 +1,54 @@
 //! How much a study may still cost.
 
-/// Processor seconds, asked for and spent.
+/// Processor seconds.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Budget {
-    total_s: f64,
-    spent_s: f64,
-    /// What did not fit, in words.
-    pub(super) left_out: Vec<String>,
+    total: f64,
+    /// What the runs so far were expected to take, and took.
+    expected: f64,
+    spent: f64,
 }
 
 impl Budget {
     pub(super) fn new(total_s: f64) -> Self {
         Self {
-            total_s,
-            spent_s: 0.0,
-            left_out: Vec::new(),
+            total: total_s,
+            expected: 0.0,
+            spent: 0.0,
         }
     }
 
-    pub(super) fn spend(&mut self, seconds: f64) {
-        self.spent_s += seconds;
+    pub(super) fn spend(&mut self, expected_s: f64, spent_s: f64) {
+        self.expected += expected_s;
+        self.spent += spent_s;
     }
 
-    /// Whether a run fits into a share of the whole.
-    pub(super) fn allows(&self, seconds: f64, share: f64) -> bool {
-        self.spent_s + seconds <= share * self.total_s
+    /// What a run will take if expectations go on being as wrong as they were.
+    pub(super) fn likely_s(&self, expected_s: f64) -> f64 {
+        let wrong = if self.expected > 0.0 {
+            self.spent / self.expected
+        } else {
+            1.0
+        };
+        wrong * expected_s
     }
 
-    pub(super) fn left(&self) -> f64 {
-        (self.total_s - self.spent_s).max(0.0)
+    /// Whether a run of so many likely seconds fits.
+    pub(super) fn allows(&self, likely_s: f64) -> bool {
+        self.spent + likely_s <= self.total
     }
+}
 
-    pub(super) fn leave_out(&mut self, what: impl std::fmt::Display, seconds: f64) {
-        self.left_out.push(format!("{what}: about {seconds:.0} s"));
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_run_is_judged_by_how_wrong_the_ones_before_it_were() {
+        let mut budget = Budget::new(10.0);
+        assert!(budget.allows(budget.likely_s(8.0)));
+        budget.spend(1.0, 2.0);
+        assert!(budget.allows(budget.likely_s(4.0)));
+        assert!(!budget.allows(budget.likely_s(4.1)));
     }
 }

@@ -1,6 +1,6 @@
 //! Solutions and how far apart they are.
 
-use api::results::{SideProfile, Snapshot, Summary};
+use api::results::{Profile, SideProfile, Summary};
 use api::study::Errors;
 
 /// What is compared.
@@ -14,7 +14,7 @@ pub(super) struct Solution {
 
 impl Solution {
     /// The end of a run. Width and area are those of the receptacle, or of the slider if only that wears.
-    pub(super) fn of(summary: &Summary, last: &Snapshot) -> Self {
+    pub(super) fn of(summary: &Summary, last: &Profile) -> Self {
         let worn = if summary.receptacle.worn_area_mm2 > 0.0 {
             &summary.receptacle
         } else {
@@ -27,7 +27,7 @@ impl Solution {
                 summary.peak_pressure_mpa,
                 worn.worn_area_mm2,
             ],
-            profiles: [last.profile.receptacle.clone(), last.profile.slider.clone()],
+            profiles: [last.receptacle.clone(), last.slider.clone()],
         }
     }
 

@@ -2,9 +2,10 @@
 
 use std::fmt;
 
-use api::spec::{Accuracy, CycleJump, Overrides, Spec};
+use api::results::AccuracyReached;
+use api::spec::{CycleJump, Overrides};
+use serde::{Deserialize, Serialize};
 
-use super::{Found, Run, StudyError};
 use crate::translate::{self, Resolved};
 
 /// Levels of each setting: three show an order.
@@ -13,41 +14,48 @@ pub(super) const LEVELS: usize = 3;
 const FEWEST_INCREMENTS: u32 = 8;
 /// The finest level lies at most this many halvings from what the tolerance chose, to either side.
 const MOST_HALVINGS: i32 = 2;
-/// The tolerance of a specification that has none, for the parts of the mesh that are not overridden.
-const TOLERANCE: f64 = 0.02;
 
 /// The three settings of a run.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Settings {
-    pub(super) contact_element_mm: f64,
-    pub(super) increments_per_cycle: u32,
-    pub(super) cycle_jump: f64,
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Settings {
+    /// Surface element size under the contact, mm.
+    pub contact_element_mm: f64,
+    /// Increments a computed cycle.
+    pub increments_per_cycle: u32,
+    /// Physical cycles a computed one stands for.
+    pub cycle_jump: f64,
 }
 
 impl Settings {
-    /// The settings that a tolerance came to.
-    pub(super) fn used(spec: &Spec, found: Option<&Found>) -> Self {
-        let used = found
-            .map(|found| found.summary.accuracy)
-            .unwrap_or_default();
+    /// The settings that a tolerance came to, in a run of so many cycles.
+    pub(super) fn used(cycles: u64, used: &AccuracyReached) -> Self {
         Self {
             contact_element_mm: used.contact_element_mm,
             increments_per_cycle: used.increments_per_cycle,
-            cycle_jump: real(translate::cycles(spec)) / real(used.computed_cycles.max(1)),
+            cycle_jump: real(cycles) / real(used.computed_cycles.max(1)),
         }
     }
 
-    /// As a specification asks for them.
-    pub(super) fn accuracy(self) -> Accuracy {
-        Accuracy {
-            preset: None,
-            tolerance: Some(TOLERANCE),
-            overrides: Some(Overrides {
-                contact_element_mm: Some(self.contact_element_mm),
-                increments_per_cycle: Some(self.increments_per_cycle),
-                cycle_jump: Some(CycleJump::Fixed(whole(self.cycle_jump))),
-            }),
-        }
+    /// Settings that a specification fixes; nothing if it leaves one open.
+    pub(super) fn of(overrides: &Overrides) -> Option<Self> {
+        let Some(CycleJump::Fixed(jump)) = overrides.cycle_jump else {
+            return None;
+        };
+        Some(Self {
+            contact_element_mm: overrides.contact_element_mm?,
+            increments_per_cycle: overrides.increments_per_cycle?,
+            cycle_jump: real(jump),
+        })
+    }
+
+    /// The jump as a whole number.
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "jumps are whole numbers from 1 to 1e8"
+    )]
+    pub fn jump(self) -> u64 {
+        self.cycle_jump as u64
     }
 }
 
@@ -61,7 +69,7 @@ impl fmt::Display for Settings {
     }
 }
 
-/// What the specification's own tolerance chose, and what it cost.
+/// What the specification's own tolerance is expected to choose, and to cost.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Base {
     settings: Settings,
@@ -73,27 +81,20 @@ pub(super) struct Base {
 }
 
 impl Base {
-    /// From the run whose tolerance is nearest to the scene's.
-    pub(super) fn of(resolved: &Resolved, runs: &[Run]) -> Result<Self, StudyError> {
-        let wanted = resolved.scene.accuracy.tolerance;
-        let distance = |run: &Run| (run.tolerance.unwrap_or(1.0) / wanted).ln().abs();
-        let solved = runs.iter().filter(|run| run.found.is_ok());
-        let Some(run) = solved.min_by(|a, b| distance(a).total_cmp(&distance(b))) else {
-            let why = runs.iter().find_map(|run| run.found.as_ref().err());
-            return Err(StudyError::NothingSolved(
-                why.cloned().unwrap_or_else(|| "no run".to_owned()),
-            ));
-        };
-        let increments = run
-            .found
-            .as_ref()
-            .map_or(1, |found| found.summary.accuracy.increments.max(1));
-        Ok(Self {
-            settings: run.settings,
-            cycles: real(translate::cycles(&resolved.spec)),
-            increment_s: run.cost.cpu_s / real(increments),
-            continuous: resolved.spec.cycles.is_none(),
-        })
+    /// Of a scene that is expected to take so many seconds.
+    pub(super) fn of(scene: &Resolved, expected_s: f64) -> Self {
+        let cycles = real(translate::cycles(&scene.spec));
+        let work = &scene.work;
+        Self {
+            settings: Settings {
+                contact_element_mm: scene.size.contact_element_mm,
+                increments_per_cycle: work.most_increments,
+                cycle_jump: cycles / work.computed_cycles.max(1.0),
+            },
+            cycles,
+            increment_s: expected_s / work.increments().max(1.0),
+            continuous: scene.spec.cycles.is_none(),
+        }
     }
 
     /// Expected seconds: increments times the time of one, which grows with the square of the elements.
@@ -110,8 +111,8 @@ impl Base {
 }
 
 /// Three levels of each setting, the finest first.
-#[derive(Debug, Clone, PartialEq)]
-pub(super) struct Grid {
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Grid {
     finest: Settings,
     /// The longest jump that makes sense.
     longest: f64,
@@ -201,16 +202,6 @@ impl Grid {
 #[expect(clippy::cast_precision_loss, reason = "cycles stay below 1e9")]
 fn real(count: u64) -> f64 {
     count as f64
-}
-
-/// A jump as a whole number.
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "jumps are whole numbers from 1 to 1e8"
-)]
-fn whole(jump: f64) -> u64 {
-    jump as u64
 }
 
 #[cfg(test)]

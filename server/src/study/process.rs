@@ -4,10 +4,9 @@ use std::io::{BufRead, BufReader, Write};
 use std::path::Path;
 use std::process::{Command, Stdio};
 
-use api::results::Snapshot;
+use api::results::Profile;
 use api::spec::Spec;
 
-use super::errors::Solution;
 use super::{Found, Spent, StudyError};
 use crate::solve::{Line, children_cpu_s};
 
@@ -53,17 +52,12 @@ pub(crate) fn solve(
 }
 
 fn read(lines: impl BufRead) -> Result<Result<Found, String>, StudyError> {
-    let mut last: Option<Snapshot> = None;
+    let mut last: Option<Profile> = None;
     for line in lines.lines() {
         match serde_json::from_str(&line?)? {
-            Line::Snapshot(snapshot) => last = Some(*snapshot),
+            Line::Snapshot(snapshot) => last = Some(snapshot.profile),
             Line::Summary(summary) => {
-                let last = last.unwrap_or_default();
-                let solution = Solution::of(&summary, &last);
-                return Ok(Ok(Found {
-                    summary: *summary,
-                    solution,
-                }));
+                return Ok(Ok(Found::new(*summary, &last.unwrap_or_default())));
             }
             Line::Failed(failure) => return Ok(Err(failure.reason)),
             _ => {}

@@ -7,6 +7,7 @@ use api::study::{Errors, Orders, Reference};
 
 use super::errors::{Solution, depth_at};
 use super::grid::{Grid, LEVELS, Settings};
+use super::programme::Asked;
 use super::{Run, StudyError};
 
 /// Orders outside of this range are cut for the extrapolation: a small one would blow a correction up, and elements are
@@ -32,12 +33,12 @@ struct Line<'a> {
 }
 
 impl Converged {
-    /// From the finest grid runs; from the best tolerance run where those are missing.
+    /// From the finest grid runs; from the best tolerance run as long as those are missing.
     pub(super) fn of(grid: &Grid, runs: &[Run]) -> Result<Self, StudyError> {
         let at = |settings: Settings| -> Option<&Solution> {
             let run = runs
                 .iter()
-                .find(|run| run.tolerance.is_none() && run.settings == settings)?;
+                .find(|run| run.asked == Asked::Fixed(settings))?;
             run.found.as_ref().ok().map(|found| &found.solution)
         };
         let Some(finest) = at(grid.levels(0, 0, 0)) else {
@@ -61,13 +62,16 @@ impl Converged {
     fn best_tolerance(runs: &[Run]) -> Result<Self, StudyError> {
         let solved = runs.iter().filter_map(|run| {
             let found = run.found.as_ref().ok()?;
-            Some((run.tolerance?, &found.solution))
+            let Asked::Tolerance(tolerance) = run.asked else {
+                return None;
+            };
+            Some((tolerance, &found.solution))
         });
         let Some((tolerance, best)) = solved.min_by(|a, b| a.0.total_cmp(&b.0)) else {
             return Err(StudyError::NothingSolved("no tolerance".to_owned()));
         };
         let method =
-            format!("the run at tolerance {tolerance}: the finest grid run did not succeed");
+            format!("the run at tolerance {tolerance}: there is no result of the finest grid run");
         let uncertainty = Errors {
             depth: tolerance,
             width: tolerance,

@@ -2,7 +2,7 @@
 
 mod picture;
 
-use api::study::{Orders, Study, StudyRun};
+use api::study::{Orders, Study};
 use comfy_table::{CellAlignment, Table};
 
 use crate::documents::{CSV, Document, DocumentError, JSON, PNG, SVG};
@@ -17,7 +17,7 @@ const UM: f64 = 1e3;
 /// # Errors
 /// [`DocumentError`] if one cannot be made.
 pub fn documents(study: &Study) -> Result<Vec<Document>, DocumentError> {
-    let drawing = plot::svg(&picture::work_precision(study))?;
+    let drawing = svg(study)?;
     let pixels = plot::png(&drawing)?;
     let document = |name: &str, media_type, bytes| Document {
         name: name.to_owned(),
@@ -33,18 +33,34 @@ pub fn documents(study: &Study) -> Result<Vec<Document>, DocumentError> {
     ])
 }
 
+/// The work-precision diagram as SVG.
+///
+/// # Errors
+/// [`DocumentError`] if it cannot be drawn.
+pub fn svg(study: &Study) -> Result<String, DocumentError> {
+    Ok(plot::svg(&picture::work_precision(study))?)
+}
+
+/// The work-precision diagram as PNG.
+///
+/// # Errors
+/// [`DocumentError`] if it cannot be drawn.
+pub fn png(study: &Study) -> Result<Vec<u8>, DocumentError> {
+    Ok(plot::png(&svg(study)?)?)
+}
+
 /// The study as text: runs, reference, observed orders.
 pub fn text(study: &Study) -> String {
     let reference = &study.reference;
     let mut lines = vec![
         study.spec.name.clone().unwrap_or_default(),
         String::new(),
-        runs(&study.runs).to_string(),
+        runs(study).to_string(),
         String::new(),
         format!(
             "* = on the Pareto front: no cheaper run is as exact in depth and width.\n\
              Reference: {}: depth {:.5} um, half-width {:.5} um, peak pressure {:.2} MPa, worn area {:.5e} mm^2;\n\
-             its corrections: {:.3} % of depth, {:.3} % of width, {:.3} % of peak pressure, {:.4} % of area.",
+             its doubt, the size of all corrections: {:.3} % of depth, {:.3} % of width, {:.3} % of peak pressure, {:.4} % of area.",
             reference.method,
             UM * reference.max_depth_mm,
             UM * reference.scar_half_width_mm,
@@ -73,7 +89,8 @@ pub fn text(study: &Study) -> String {
     lines.join("\n")
 }
 
-fn runs(runs: &[StudyRun]) -> Table {
+fn runs(study: &Study) -> Table {
+    let doubt = &study.reference.uncertainty;
     let mut table = Table::new();
     table.load_style(comfy_table::presets::ASCII_MARKDOWN);
     table.set_header([
@@ -90,16 +107,23 @@ fn runs(runs: &[StudyRun]) -> Table {
         "CPU, s",
         "MiB",
     ]);
-    for run in runs {
-        let percent = |value: f64| format!("{:.3}", 100.0 * value);
+    for run in &study.runs {
+        // No figure of an error that is smaller than what is known of the reference.
+        let percent = |[error, doubt]: [f64; 2]| {
+            if error < doubt {
+                format!("< {:.3}", 100.0 * doubt)
+            } else {
+                format!("{:.3}", 100.0 * error)
+            }
+        };
         let errors = run.errors.map_or_else(
             || std::array::from_fn(|_| "failed".to_owned()),
             |errors| {
                 [
-                    errors.depth,
-                    errors.width,
-                    errors.peak_pressure,
-                    errors.area,
+                    [errors.depth, doubt.depth],
+                    [errors.width, doubt.width],
+                    [errors.peak_pressure, doubt.peak_pressure],
+                    [errors.area, doubt.area],
                 ]
                 .map(percent)
             },

@@ -134,7 +134,7 @@ pub fn study(study: &Study) -> Result<Vec<u8>, CsvError> {
         let error = run.errors.as_ref().map(of);
         error.map_or_else(String::new, |error| error.to_string())
     }
-    let columns: [(&str, Cell); 13] = [
+    let columns: [(&str, Cell); 14] = [
         ("tolerance", |run| {
             let tolerance = run.tolerance;
             tolerance.map_or_else(String::new, |tolerance| tolerance.to_string())
@@ -153,6 +153,7 @@ pub fn study(study: &Study) -> Result<Vec<u8>, CsvError> {
             error(run, |errors| errors.peak_pressure)
         }),
         ("area_error", |run| error(run, |errors| errors.area)),
+        ("below_doubt", |run| run.below_doubt.join(" ")),
         ("cpu_s", |run| run.cpu_s.to_string()),
         ("peak_memory_mb", |run| run.peak_memory_mb.to_string()),
         ("on_front", |run| run.on_front.to_string()),

@@ -29,6 +29,8 @@ const STATION_BYTES: f64 = 60.0;
 /// How large a solve would be.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Size {
+    /// Surface element size under the contact, mm.
+    pub contact_element_mm: f64,
     /// Unknowns of both bodies.
     pub dofs: f64,
     /// Memory of the solve, MB.
@@ -55,6 +57,7 @@ impl Size {
             + snapshots * SNAPSHOT_ELEMENT_BYTES * elements
             + work.computed_cycles * (CYCLE_BYTES + STATION_BYTES * stations);
         Self {
+            contact_element_mm: model.sizes.contact_element,
             dofs,
             memory_mb: MEMORY_BASE_MB + MEMORY_DOF_MB * dofs + MEMORY_PAIR_MB * surface * surface,
             output_mb: 1e-6 * bytes,
@@ -64,6 +67,7 @@ impl Size {
     /// As figures of a plan.
     pub(super) fn figures(self) -> BTreeMap<String, f64> {
         BTreeMap::from([
+            ("contact_element_mm".to_owned(), self.contact_element_mm),
             ("dofs".to_owned(), self.dofs),
             ("memory_mb".to_owned(), self.memory_mb),
             ("output_mb".to_owned(), self.output_mb),

@@ -5,6 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use api::problem::Fault;
 use api::spec::{Broken, pointer_token};
 use api::sweep::{Changes, SweepRequest};
+use serde::de::DeserializeOwned;
 use serde_json::{Map, Value};
 
 use super::{NAME_LIMIT, Refused, Resolved};
@@ -32,6 +33,11 @@ pub struct Variation {
 /// # Errors
 /// [`Refused`] for what cannot be read.
 pub fn read(bytes: &[u8]) -> Result<SweepRequest, Refused> {
+    document(bytes)
+}
+
+/// Reads a document with a specification in it.
+pub(super) fn document<T: DeserializeOwned>(bytes: &[u8]) -> Result<T, Refused> {
     serde_json::from_slice(bytes).map_err(|error| {
         let mut detail = error.to_string();
         if let Some(end) = detail.rfind(" at line ") {

@@ -12,6 +12,8 @@ use solver::scene::Scene;
 pub struct Work {
     /// Computed cycles.
     pub computed_cycles: f64,
+    /// The most increments in one cycle.
+    pub most_increments: u32,
     /// Contact increments by the number of nodes that they watch, each with its count.
     pub increments: Vec<(f64, f64)>,
     /// Condensations of the slider and of the receptacle.
@@ -38,9 +40,11 @@ impl Work {
             *increments.entry(part.watched).or_insert(0.0) += part.increments;
         }
         let increments = increments.into_iter();
+        let steps = foreseen.stretches.iter().map(|part| part.steps).max();
         let [slider, receptacle] = foreseen.condensations;
         Self {
             computed_cycles: foreseen.computed_cycles,
+            most_increments: u32::try_from(steps.unwrap_or(1)).unwrap_or(u32::MAX),
             increments: increments
                 .map(|(nodes, many)| (count(nodes), many))
                 .collect(),

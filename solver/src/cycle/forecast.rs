@@ -42,6 +42,8 @@ pub struct Stretch {
     pub cycle: u64,
     /// Contact increments.
     pub increments: f64,
+    /// Increments of one cycle.
+    pub steps: usize,
     /// Mean half-width of the contact, mm.
     pub half_width_mm: f64,
     /// Nodes of the receptacle in contact.
@@ -84,7 +86,7 @@ pub fn forecast(scene: &Scene, model: &Model) -> Forecast {
         }
         let until = scar.next_stop(scene, cycle, jump.fastest_rate());
         let step = jump.next(&scene.accuracy, scar.stroke(scene), until - cycle);
-        let increments = path::steps(scene.motion, &scene.accuracy, scar.half_width).len();
+        let steps = path::steps(scene.motion, &scene.accuracy, scar.half_width).len();
         let before = scar.depth.clone();
         scar.wear(step);
         jump.learn(&scar.widths, &before, &scar.depth, step);
@@ -92,7 +94,8 @@ pub fn forecast(scene: &Scene, model: &Model) -> Forecast {
         run.computed_cycles += 1.0;
         run.stretches.push(Stretch {
             cycle,
-            increments: real(increments),
+            increments: real(steps),
+            steps,
             half_width_mm: scar.half_width,
             nodes: nodes_within(model, scar.half_width),
             watched: nodes_within(model, scar.watched()),

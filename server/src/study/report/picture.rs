@@ -8,6 +8,7 @@ use crate::plot::{Axis, COLOURS, Mark, Panel, Picture, Scale, Series};
 const TOLERANCE: &str = "chosen from a tolerance";
 const FRONT: &str = "Pareto front";
 const DOUBT: &str = "doubt about the reference";
+const BELOW: &str = "error below the doubt";
 
 /// Errors of depth and width, and of the peak pressure, over the cost.
 pub(super) fn work_precision(study: &Study) -> Picture {
@@ -27,7 +28,12 @@ pub(super) fn work_precision(study: &Study) -> Picture {
             label: FRONT.to_owned(),
             mark: Mark::Line,
             colour: COLOURS[6],
-            points: front.filter_map(point(Errors::promised)).collect(),
+            points: front
+                .filter_map(|run| {
+                    let errors = run.errors?.at_least(doubt);
+                    Some([run.cpu_s, 100.0 * errors.promised()])
+                })
+                .collect(),
         },
     );
     Picture {
@@ -45,7 +51,7 @@ pub(super) fn work_precision(study: &Study) -> Picture {
 }
 
 fn panel(study: &Study, title: &str, of: fn(&Errors) -> f64, doubt: &Errors) -> Panel {
-    let point = point(of);
+    let point = point(of, of(doubt));
     let mut series = vec![Series {
         label: DOUBT.to_owned(),
         mark: Mark::Dashes,
@@ -68,7 +74,18 @@ fn panel(study: &Study, title: &str, of: fn(&Errors) -> f64, doubt: &Errors) -> 
         label: TOLERANCE.to_owned(),
         mark: Mark::Dots,
         colour: COLOURS[1],
-        points: tolerances.filter_map(point).collect(),
+        points: tolerances.filter_map(&point).collect(),
+    });
+    // What cannot be told from no error stands on the line of the doubt, apart from what can.
+    let below = study.runs.iter().filter(|run| point(run).is_none());
+    series.push(Series {
+        label: BELOW.to_owned(),
+        mark: Mark::Rings,
+        colour: COLOURS[6],
+        points: below
+            .filter(|run| run.errors.is_some())
+            .map(|run| [run.cpu_s, 100.0 * of(doubt)])
+            .collect(),
     });
     Panel {
         x: Axis::new("processor time (s)", Scale::Logarithmic),
@@ -77,9 +94,12 @@ fn panel(study: &Study, title: &str, of: fn(&Errors) -> f64, doubt: &Errors) -> 
     }
 }
 
-/// Cost and error of a run that succeeded.
-fn point(of: fn(&Errors) -> f64) -> impl Fn(&StudyRun) -> Option<[f64; 2]> {
-    move |run| Some([run.cpu_s, 100.0 * of(&run.errors?)])
+/// Cost and error of a run that succeeded, with an error above the doubt.
+fn point(of: fn(&Errors) -> f64, doubt: f64) -> impl Fn(&StudyRun) -> Option<[f64; 2]> {
+    move |run| {
+        let error = of(&run.errors?);
+        (error >= doubt).then_some([run.cpu_s, 100.0 * error])
+    }
 }
 
 /// The cheapest and the dearest run.

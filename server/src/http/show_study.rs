@@ -1,0 +1,191 @@
+//! `GET /v1/studies/{id}`: a study of accuracy with what its results so far come to.
+
+use api::problem::Problem;
+use api::study::{Study, StudyDocument, StudyJob};
+use api::sweep::SweepJob;
+use axum::Json;
+use axum::extract::State;
+use axum::response::{IntoResponse, Response};
+use uuid::Uuid;
+
+use super::App;
+use super::extract::StudyId;
+use super::problem::{Kind, Refusal};
+use crate::documents::DocumentError;
+use crate::store::{StoreError, StoredStudy, SweepOutcome};
+use crate::study::{self, Asked, Found, Run, Spent};
+
+/// Why there is nothing about a study.
+#[derive(Debug, thiserror::Error)]
+pub(super) enum StudyShowError {
+    /// There is none of that id.
+    #[error("there is no study {0}")]
+    Missing(Uuid),
+    /// Nothing can be compared yet.
+    #[error("no job of study {0} has a result that others can be compared with so far")]
+    Empty(Uuid),
+    /// Its table or picture cannot be written.
+    #[error(transparent)]
+    Write(#[from] DocumentError),
+    /// The comparison was broken off.
+    #[error("the study was not evaluated: {0}")]
+    Evaluate(#[from] tokio::task::JoinError),
+    /// The store failed.
+    #[error(transparent)]
+    Store(#[from] StoreError),
+}
+
+impl IntoResponse for StudyShowError {
+    fn into_response(self) -> Response {
+        match &self {
+            Self::Missing(_) => Kind::NoStudy.because(self.to_string()),
+            Self::Empty(_) => Kind::NoResult.because(self.to_string()),
+            Self::Write(error) => Refusal::internal(error),
+            Self::Evaluate(error) => Refusal::internal(error),
+            Self::Store(error) => Refusal::from(error),
+        }
+        .into_response()
+    }
+}
+
+/// A study of accuracy: its jobs, and their results so far with errors, Pareto front and observed orders.
+#[utoipa::path(
+    get,
+    path = "/v1/studies/{id}",
+    tag = "studies",
+    params(("id" = Uuid, Path, description = "The study")),
+    responses(
+        (status = 200, description = "The study", body = StudyDocument),
+        (status = 404, description = "No such study", body = Problem),
+    )
+)]
+pub(super) async fn show_study(
+    State(app): State<App>,
+    StudyId(id): StudyId,
+) -> Result<Json<StudyDocument>, StudyShowError> {
+    Ok(Json(document(&app, id).await?))
+}
+
+/// A study as it stands.
+pub(super) async fn document(app: &App, id: Uuid) -> Result<StudyDocument, StudyShowError> {
+    let stored = app.store.study(id).await?;
+    let stored = stored.ok_or(StudyShowError::Missing(id))?;
+    // Profiles of dozens of runs are compared at thousands of places.
+    Ok(tokio::task::spawn_blocking(move || described(stored)).await?)
+}
+
+/// What the results of a study come to so far.
+pub(super) async fn evaluated(app: &App, id: Uuid) -> Result<Study, StudyShowError> {
+    let document = document(app, id).await?;
+    document.study.ok_or(StudyShowError::Empty(id))
+}
+
+fn described(stored: StoredStudy) -> StudyDocument {
+    let StoredStudy {
+        sweep,
+        plan,
+        outcomes,
+    } = stored;
+    let runs: Vec<Run> = outcomes.into_iter().filter_map(run).collect();
+    // Nothing to compare yet is no failure.
+    let study = study::evaluate(&plan.spec, &plan.grid, &runs, plan.left_out).ok();
+    let own = format!("/v1/studies/{}", sweep.id);
+    let link = |name: &str, path: String| (name.to_owned(), path);
+    StudyDocument {
+        id: sweep.id,
+        name: sweep.name,
+        created_at: sweep.created_at,
+        counts: sweep.counts,
+        jobs: sweep.jobs.iter().map(job).collect(),
+        study,
+        links: [
+            link("cancel", format!("{own}/cancel")),
+            link("jobs", format!("/v1/jobs?sweep={}", sweep.id)),
+            link("picture", format!("{own}/picture")),
+            link("table", format!("{own}/table")),
+            link("self", own),
+        ]
+        .into(),
+    }
+}
+
+fn asked(job: &SweepJob) -> Option<Asked> {
+    let accuracy = job.overrides.get("/accuracy")?;
+    Asked::of(&serde_json::from_value(accuracy.clone()).ok()?)
+}
+
+fn job(job: &SweepJob) -> StudyJob {
+    let (tolerance, settings) = match asked(job) {
+        Some(Asked::Tolerance(tolerance)) => (Some(tolerance), None),
+        Some(Asked::Fixed(settings)) => (None, Some(settings)),
+        None => (None, None),
+    };
+    StudyJob {
+        id: job.id,
+        tolerance,
+        contact_element_mm: settings.map(|settings| settings.contact_element_mm),
+        increments_per_cycle: settings.map(|settings| settings.increments_per_cycle),
+        cycle_jump: settings.map(|settings| settings.cycle_jump),
+        status: job.status,
+        outcome: job.outcome,
+    }
+}
+
+/// A job that has ended, as a run of the study.
+fn run((outcome, profile): (SweepOutcome, Option<api::results::Profile>)) -> Option<Run> {
+    let asked = asked(&outcome.job)?;
+    if !outcome.job.status.is_terminal() {
+        return None;
+    }
+    let spent = outcome
+        .summary
+        .as_ref()
+        .map_or_else(Spent::default, |summary| Spent {
+            cpu_s: summary.cost.cpu_s,
+            peak_memory_mb: summary.cost.peak_memory_mb,
+        });
+    let found = match (outcome.summary, profile) {
+        (Some(summary), Some(profile)) => Ok(Found::new(summary, &profile)),
+        _ => Err(outcome
+            .status_reason
+            .unwrap_or_else(|| outcome.job.status.as_str().to_owned())),
+    };
+    Some(Run {
+        asked,
+        spent,
+        found,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::http::tests::{STUDY, Service};
+
+    #[tokio::test]
+    async fn a_study_has_no_results_before_its_jobs_have() {
+        let service = Service::new().await;
+        let (_, _, study) = service.post("/v1/studies", STUDY).await;
+        let path = format!("/v1/studies/{}", study["id"].as_str().expect("an id"));
+        let (status, _, study) = service.get(&path).await;
+        assert_eq!(status, 200);
+        assert!(study["study"].is_null());
+        let jobs = study["jobs"].as_array().expect("jobs").len();
+        assert_eq!(study["counts"]["queued"], jobs);
+        for part in ["table", "picture"] {
+            let (status, _, problem) = service.get(&format!("{path}/{part}")).await;
+            let found = (status.as_u16(), problem["type"].as_str());
+            assert_eq!(found, (404, Some("/problems/no-such-result")), "{part}");
+        }
+    }
+
+    #[tokio::test]
+    async fn a_sweep_is_no_study() {
+        let service = Service::new().await;
+        let (_, _, sweep) = service.post("/v1/sweeps", crate::http::tests::SWEEP).await;
+        for id in [sweep["id"].as_str().expect("an id"), "1"] {
+            let (status, _, problem) = service.get(&format!("/v1/studies/{id}")).await;
+            let found = (status.as_u16(), problem["type"].as_str());
+            assert_eq!(found, (404, Some("/problems/no-such-study")), "{id}");
+        }
+    }
+}

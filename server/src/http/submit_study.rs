@@ -1,0 +1,179 @@
+//! `POST /v1/studies`: queues the runs that show what accuracy costs.
+
+use api::problem::Problem;
+use api::study::{StudyDocument, StudyRequest};
+use axum::Json;
+use axum::extract::State;
+use axum::http::{HeaderMap, StatusCode, header};
+use axum::response::{IntoResponse, Response};
+
+use super::App;
+use super::extract::JsonBody;
+use super::limits;
+use super::problem::Refusal;
+use super::show_study::{StudyShowError, document};
+use super::submit::{SubmitError, request_key};
+use crate::clock::now_ms;
+use crate::machine;
+use crate::queue;
+use crate::store::{NewJob, NewSweep, StoreError, StudyPlan, Submitted, Wishes};
+use crate::study::{BUDGET_S, Programme};
+use crate::translate::{Refused, study};
+
+/// Why a study was not queued.
+#[derive(Debug, thiserror::Error)]
+pub(super) enum SubmitStudyError {
+    /// For a reason that a single job has, too.
+    #[error(transparent)]
+    Submit(#[from] SubmitError),
+    /// What was queued cannot be shown.
+    #[error(transparent)]
+    Show(#[from] StudyShowError),
+    /// The machine could not be measured.
+    #[error("the machine that the runs are chosen for could not be measured")]
+    Unmeasured,
+    /// The choice of its runs was broken off.
+    #[error("the runs were not chosen: {0}")]
+    Choose(#[from] tokio::task::JoinError),
+}
+
+impl From<Refused> for SubmitStudyError {
+    fn from(refused: Refused) -> Self {
+        Self::Submit(refused.into())
+    }
+}
+
+impl From<StoreError> for SubmitStudyError {
+    fn from(error: StoreError) -> Self {
+        Self::Submit(error.into())
+    }
+}
+
+impl IntoResponse for SubmitStudyError {
+    fn into_response(self) -> Response {
+        match self {
+            Self::Submit(error) => error.into_response(),
+            Self::Show(error) => error.into_response(),
+            Self::Unmeasured | Self::Choose(_) => Refusal::internal(&self).into_response(),
+        }
+    }
+}
+
+/// Queues the runs of one scene at many accuracies, as ordinary jobs: all of them, or none if one has a fault. They are
+/// chosen from what each is expected to take; the first study of a service measures the machine, which takes a second or
+/// two.
+#[utoipa::path(
+    post,
+    path = "/v1/studies",
+    tag = "studies",
+    request_body = StudyRequest,
+    params(("Idempotency-Key" = Option<String>, Header, description = "Sent twice with the same body, one study")),
+    responses(
+        (status = 202, description = "Queued", body = StudyDocument, headers(("Location" = String, description = "The study"))),
+        (status = 400, description = "The body or the key cannot be read", body = Problem),
+        (status = 408, description = "The body did not arrive in time", body = Problem),
+        (status = 413, description = "The body is too large", body = Problem),
+        (status = 415, description = "The body is not declared as JSON", body = Problem),
+        (status = 422, description = "The study or one of its runs has faults, or the key belongs to another body", body = Problem),
+    )
+)]
+pub(super) async fn submit_study(
+    State(app): State<App>,
+    headers: HeaderMap,
+    JsonBody(body): JsonBody,
+) -> Result<Response, SubmitStudyError> {
+    let key = request_key(&headers, &body)?;
+    let request = study::read(&body)?;
+    let scene = study::scene(&request)?;
+    let machine = app.machine.wait().await;
+    let machine = machine.ok_or(SubmitStudyError::Unmeasured)?;
+    let budget_s = request.budget_s.unwrap_or(BUDGET_S);
+    let choose = {
+        let (scene, machine) = (scene.clone(), machine.clone());
+        move || Programme::within(&scene, &machine, budget_s)
+    };
+    let programme = tokio::task::spawn_blocking(choose).await??;
+    for run in &programme.runs {
+        limits::check(&run.resolved)?;
+    }
+    let runs = programme.runs.into_iter().enumerate();
+    let jobs = runs.map(|(position, run)| {
+        let overrides = serde_json::to_value(run.asked.accuracy());
+        let changes = overrides.map(|accuracy| [("/accuracy".to_owned(), accuracy)].into());
+        let job = NewJob {
+            plan: machine::plan(&run.resolved, Some(&machine)),
+            spec: run.resolved.spec,
+            wishes: Wishes {
+                priority: queue::sweep_priority(position),
+                deadline_s: None,
+            },
+        };
+        changes.map(|changes| (job, changes))
+    });
+    let new = NewSweep {
+        name: request.name,
+        jobs: jobs.collect::<Result<_, _>>().map_err(StoreError::from)?,
+        study: Some(StudyPlan {
+            spec: scene.spec,
+            grid: programme.grid,
+            left_out: programme.left_out,
+        }),
+    };
+    let id = match app.store.submit_sweep(&new, key.as_ref(), now_ms()).await? {
+        Submitted::Job(id) => id,
+        Submitted::KeyTaken => return Err(SubmitError::KeyTaken.into()),
+    };
+    let study = document(&app, id).await?;
+    let location = [(header::LOCATION, format!("/v1/studies/{id}"))];
+    Ok((StatusCode::ACCEPTED, location, Json(study)).into_response())
+}
+
+#[cfg(test)]
+mod tests {
+    use serde_json::json;
+
+    use crate::http::tests::{STUDY, Service};
+
+    #[tokio::test]
+    async fn a_study_queues_ordinary_jobs_that_differ_in_their_accuracy() {
+        let service = Service::new().await;
+        let (status, headers, study) = service.post("/v1/studies", STUDY).await;
+        assert_eq!(status, 202, "{study}");
+        let id = study["id"].as_str().expect("an id");
+        assert_eq!(headers["location"], format!("/v1/studies/{id}").as_str());
+        let jobs = study["jobs"].as_array().expect("jobs");
+        let with = |what: &str| jobs.iter().filter(|job| job[what].is_number()).count();
+        assert!(with("tolerance") >= 3 && with("cycle_jump") >= 9, "{study}");
+        assert_eq!(with("tolerance") + with("contact_element_mm"), jobs.len());
+        let first = jobs[0]["id"].as_str().expect("an id");
+        let (_, _, job) = service.get(&format!("/v1/jobs/{first}")).await;
+        assert_eq!(job["spec"]["accuracy"], json!({"tolerance": 0.1}));
+        assert!(job["plan"]["estimates"]["cpu_s"].as_f64() > Some(0.0));
+    }
+
+    #[tokio::test]
+    async fn faults_of_the_base_and_of_the_budget_are_told_and_nothing_is_queued() {
+        let service = Service::new().await;
+        let body = r#"{"base":{"system":{"kind":"dimm"},"cycles":0},"budget_s":-1}"#;
+        let (status, _, problem) = service.post("/v1/studies", body).await;
+        assert_eq!(status, 422);
+        let faults = problem["faults"].as_array().expect("faults");
+        let pointers: Vec<_> = faults.iter().map(|fault| &fault["pointer"]).collect();
+        assert_eq!(pointers, ["/budget_s", "/base/cycles"]);
+        let (status, _, _) = service.post("/v1/studies", r#"{"basis":{}}"#).await;
+        assert_eq!(status, 400);
+        assert_eq!(service.get("/v1/jobs").await.2["jobs"], json!([]));
+    }
+
+    #[tokio::test]
+    async fn the_same_key_and_body_make_one_study() {
+        let service = Service::new().await;
+        let keyed = [
+            ("content-type", "application/json"),
+            ("idempotency-key", "s"),
+        ];
+        let (_, _, first) = service.send("POST", "/v1/studies", &keyed, STUDY).await;
+        let (_, _, again) = service.send("POST", "/v1/studies", &keyed, STUDY).await;
+        assert_eq!(first["id"], again["id"]);
+    }
+}

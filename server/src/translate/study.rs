@@ -1,0 +1,56 @@
+//! A submitted study of accuracy: its base is a specification like any other.
+
+use api::problem::Fault;
+use api::spec::Broken;
+use api::study::StudyRequest;
+
+use super::{NAME_LIMIT, Refused, Resolved, sweep};
+
+/// Processor seconds that a study may be given.
+const BUDGET_S: (f64, f64) = (1.0, 86_400.0);
+
+/// Reads a study.
+///
+/// # Errors
+/// [`Refused`] for what cannot be read.
+pub fn read(bytes: &[u8]) -> Result<StudyRequest, Refused> {
+    sweep::document(bytes)
+}
+
+/// The scene of a study, with its own accuracy.
+///
+/// # Errors
+/// [`Refused`] with the faults of the study and of its base.
+pub fn scene(request: &StudyRequest) -> Result<Resolved, Refused> {
+    let mut faults = Vec::new();
+    let name = request.name.as_deref().unwrap_or_default().chars().count();
+    if name > NAME_LIMIT {
+        let detail = format!("{name} characters, at most {NAME_LIMIT} are kept");
+        faults.push(Fault::new("/name", detail));
+    }
+    let (least, most) = BUDGET_S;
+    if let Some(budget) = request.budget_s.filter(|s| !(least..=most).contains(s)) {
+        let detail = format!("{budget} is outside {least} to {most}");
+        faults.push(Fault::new("/budget_s", detail));
+    }
+    // A document that was read can be written.
+    let base = serde_json::to_vec(&request.base).unwrap_or_default();
+    match super::read(&base) {
+        Ok(resolved) if faults.is_empty() => return Ok(resolved),
+        Ok(_) => {}
+        Err(Refused::Broken(broken)) => {
+            return Err(Refused::Broken(Broken {
+                pointer: format!("/base{}", broken.pointer),
+                ..broken
+            }));
+        }
+        Err(Refused::Faults(of_base)) => {
+            let placed = |fault: Fault| Fault {
+                pointer: format!("/base{}", fault.pointer),
+                ..fault
+            };
+            faults.extend(of_base.into_iter().map(placed));
+        }
+    }
+    Err(Refused::Faults(faults))
+}
