@@ -68,6 +68,18 @@ pub enum ContactError {
         /// Nodes in contact.
         active: usize,
     },
+    /// The active set did not settle where friction holds the slider against a wall.
+    #[error(
+        "jammed at x = {slider_x_mm:.6} mm: the contact stands on a slope of {slope:.2}, and friction lets nothing climb beyond {limit:.2}"
+    )]
+    Jammed {
+        /// Imposed displacement, mm.
+        slider_x_mm: f64,
+        /// Steepest slope under the contact.
+        slope: f64,
+        /// 1 / mu: beyond it only wear or yielding lets a contact climb.
+        limit: f64,
+    },
     /// More wears off at once than implicit wear can follow.
     #[error(
         "the step to x = {slider_x_mm:.6} mm wears off {share:.2} of what is left of a body (at most {limit})"

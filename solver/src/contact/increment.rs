@@ -164,6 +164,11 @@ impl Solver {
         }
         match end {
             End::Settled => Ok(()),
+            _ if steepest(last, surfaces) * interface.friction > 1.0 => Err(ContactError::Jammed {
+                slider_x_mm: slider_x,
+                slope: steepest(last, surfaces),
+                limit: interface.friction.recip(),
+            }),
             End::Singular { active } => Err(ContactError::NoEquilibrium {
                 slider_x_mm: slider_x,
                 active,
@@ -284,6 +289,14 @@ impl Solver {
             friction_cone: cone / peak,
         }
     }
+}
+
+/// Steepest slope of the receptacle under a contact.
+fn steepest(contact: &ContactState, surfaces: &Surfaces<'_>) -> f64 {
+    let places = contact.status.iter().zip(surfaces.slope);
+    places
+        .filter(|(status, _)| **status != Status::Open)
+        .fold(0.0, |m: f64, (_, slope)| m.max(slope.abs()))
 }
 
 /// Begins with the last contact as it travels with the slider.

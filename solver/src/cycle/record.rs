@@ -100,7 +100,7 @@ fn interpolate(x: &[f64], y: &[f64], at: f64) -> f64 {
 /// Half the distance between the edges of the scar, mm.
 ///
 /// The depth goes to zero at an angle, but for a foot of an element or two that the mesh makes. The line through the last
-/// two nodes above the foot tells the edge to a few hundredths of an element; interpolating to the first unworn
+/// two nodes above the foot tells the edge to about a tenth of an element; interpolating to the first unworn
 /// node would put it up to an element too far out.
 fn scar_half_width(x: &[f64], depth: &[f64]) -> f64 {
     let limit = SCAR_EDGE * depth.iter().fold(0.0, |m: f64, d| m.max(*d));

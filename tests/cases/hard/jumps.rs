@@ -30,7 +30,8 @@ fn any_fixed_jump_goes_through_with_the_worn_area_of_the_adaptive_one() {
         let run = with_jump(cycles, &json!(jump));
         hold(&run);
         let difference = run.area_ratio() / adaptive.area_ratio() - 1.0;
-        assert!(difference.abs() < 0.06, "jump {jump}: {difference}");
+        // Worn area hardly knows of the jump: 0.3 % at the most.
+        assert!(difference.abs() < 0.01, "jump {jump}: {difference}");
     }
 }
 
@@ -43,8 +44,9 @@ fn a_large_fixed_jump_from_the_start_spoils_the_contacts_width() {
             .contact_half_width_mm
     };
     let [adaptive, fine, coarse] = [json!("adaptive"), json!(100), json!(5000)].map(width);
+    // Reached: 3.6 % and 15 %.
     assert!((adaptive / fine - 1.0).abs() < 0.05, "{adaptive} {fine}");
-    assert!((coarse / fine - 1.0).abs() > 0.08, "{coarse} {fine}");
+    assert!((coarse / fine - 1.0).abs() > 0.1, "{coarse} {fine}");
 }
 
 #[test]
@@ -56,6 +58,7 @@ fn large_jumps_up_the_ends_of_a_groove_go_through() {
         })));
         hold(&run);
         let ratio = run.area_ratio();
-        assert!(ratio > 0.97 && ratio < 1.1, "jump {jump}: {ratio}");
+        // More than k P s, since the contact leans on the walls of the groove: 1.05 with each of these jumps.
+        assert!(ratio > 1.0 && ratio < 1.1, "jump {jump}: {ratio}");
     }
 }

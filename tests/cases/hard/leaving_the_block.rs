@@ -5,9 +5,13 @@
 
 use serde_json::json;
 
-use super::invariants::hold;
+use solver::SolveError;
+use solver::contact::ContactError;
+use solver::cycle::CycleError;
+
+use super::invariants::{faults, hold};
 use super::run::{Run, solve};
-use super::specs::{cylinder, fuzz_button};
+use super::specs::{AGREEMENT, cylinder, fuzz_button};
 
 /// A cylinder modelled 0.6 mm to each side over a block of 1 mm, so that it is off it beyond 1.1 mm.
 fn on_a_short_block(amplitude_mm: f64) -> Run {
@@ -33,7 +37,7 @@ fn a_slider_that_leaves_comes_back_into_balance() {
     assert!(last.friction_loop.tangential_force_n_per_mm.contains(&0.0));
 }
 
-/// What is away does not wear: twice the stroke beyond the end wears no more.
+/// What is away does not wear: a stroke of 10 mm wears no more than one of 1.5 mm.
 #[test]
 fn what_is_away_does_not_wear() {
     let (near, far) = (on_a_short_block(1.5), on_a_short_block(10.0));
@@ -41,20 +45,26 @@ fn what_is_away_does_not_wear() {
     let (near, far) = [near, far]
         .map(|run| run.summary().last.receptacle.worn_area_mm2)
         .into();
-    assert!((far / near - 1.0).abs() < 0.25, "{near} {far}");
+    assert!((far / near - 1.0).abs() < AGREEMENT, "{near} {far}");
 }
 
-/// Far beyond the block's length: 0.0847 mm of block, 0.6 mm of stroke.
+/// Far beyond the block's length: 0.0847 mm of block, 0.6 mm of stroke. The round slider sinks beside the block until its
+/// flank is vertical; the first cycle digs the corner to a slope of 2.7, and when the slider is back at it, friction
+/// (mu = 1.21) lets nothing climb beyond 0.83. No contact state is left that wear could help: what sticks does not wear.
 #[test]
-#[ignore = "open: no contact state at x = 0.0272 mm of the second cycle, where the edge of the worn block digs in"]
-fn a_stroke_far_beyond_the_block_goes_through() {
+fn a_slider_that_jams_at_the_block_it_left_says_so() {
     let run = solve(&fuzz_button(
         json!({"motion": {"amplitude_mm": 0.3}, "cycles": 2}),
     ));
-    hold(&run);
-    assert!(
-        run.depth() > 0.0 && run.area_ratio() < 0.5,
-        "{}",
-        run.area_ratio()
-    );
+    let faults = faults(&run);
+    assert!(faults.is_empty(), "{}", faults.join("\n"));
+    let Err(SolveError::Cycle(CycleError::Increment { cycle, source, .. })) = run.end else {
+        panic!("it went through: {:?}", run.end);
+    };
+    let ContactError::Jammed { slope, limit, .. } = source else {
+        panic!("another reason: {source}");
+    };
+    assert!(cycle == 1 && slope > 2.0 * limit, "{source}");
+    let first = run.reports.last().expect("the first cycle is kept");
+    assert!(first.cycle == 1 && first.receptacle.max_depth_mm > 0.0);
 }

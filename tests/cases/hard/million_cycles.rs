@@ -6,7 +6,7 @@ use serde_json::json;
 
 use super::invariants::hold;
 use super::run::solve;
-use super::specs::cylinder;
+use super::specs::{AGREEMENT, cylinder};
 
 #[test]
 fn a_million_cycles_dig_the_segment_of_their_worn_area() {
@@ -16,7 +16,7 @@ fn a_million_cycles_dig_the_segment_of_their_worn_area() {
     let b = (1.5 * 6.0 * area).cbrt();
     let depth = b * b / 12.0;
     assert!(
-        (run.depth() / depth - 1.0).abs() < 0.05,
+        (run.depth() / depth - 1.0).abs() < AGREEMENT,
         "{} {depth}",
         run.depth()
     );

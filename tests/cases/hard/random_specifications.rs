@@ -46,7 +46,8 @@ fn any_specification_is_refused_or_sound_or_says_why_not() {
     let mut runner = TestRunner::new_with_rng(Config::default(), seed);
     let numbers = vec(0.0..1.0_f64, NUMBERS);
     let (mut ran, mut unsound, mut failed) = (0, Vec::new(), Vec::new());
-    for draw in 0..setting("FRETWEAR_DRAWS", DRAWS) {
+    let draws = setting("FRETWEAR_DRAWS", DRAWS);
+    for draw in 0..draws {
         let tree = numbers.new_tree(&mut runner).expect("numbers can be drawn");
         let spec = specification(&tree.current());
         let scene = match translate::read(spec.to_string().as_bytes()) {
@@ -73,6 +74,11 @@ fn any_specification_is_refused_or_sound_or_says_why_not() {
             unsound.push(format!("draw {draw}: {}\n{spec}", faults.join("\n")));
         }
     }
+    println!(
+        "of {draws} draws {ran} ran, {} of them to no contact state",
+        failed.len()
+    );
+    failed.iter().for_each(|reason| println!("{reason}"));
     assert!(unsound.is_empty(), "{}", unsound.join("\n"));
     assert!(ran > 0, "every draw was refused or too large");
     assert!(

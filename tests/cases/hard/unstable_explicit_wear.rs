@@ -28,7 +28,8 @@ fn implicit_wear_stays_smooth_at_any_jump() {
         hold(&run);
         let last = run.snapshots.last().expect("the end is kept");
         let zigzag = worst_zigzag(last);
-        assert!(zigzag < 0.05, "jump {jump}: {zigzag}");
+        // No four neighbours alternate at all.
+        assert!(zigzag < 0.01, "jump {jump}: {zigzag}");
     }
 }
 
