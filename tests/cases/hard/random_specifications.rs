@@ -78,7 +78,9 @@ fn any_specification_is_refused_or_sound_or_says_why_not() {
         "of {draws} draws {ran} ran, {} of them to no contact state",
         failed.len()
     );
-    failed.iter().for_each(|reason| println!("{reason}"));
+    for reason in &failed {
+        println!("{reason}");
+    }
     assert!(unsound.is_empty(), "{}", unsound.join("\n"));
     assert!(ran > 0, "every draw was refused or too large");
     assert!(
