@@ -6,7 +6,9 @@ fn main() {
     println!("cargo::rerun-if-changed=build.rs");
     println!("cargo::rerun-if-env-changed=FRETWEAR_PYTHON");
     println!("cargo::rerun-if-env-changed=PATH");
-    println!("cargo::rustc-check-cfg=cfg(has_vtk, has_ccx, has_curl, has_schemathesis)");
+    println!(
+        "cargo::rustc-check-cfg=cfg(has_vtk, has_ccx, has_chromium, has_curl, has_schemathesis)"
+    );
     let python = std::env::var("FRETWEAR_PYTHON").unwrap_or_else(|_| "python3".to_owned());
     println!("cargo::rustc-env=FRETWEAR_PYTHON={python}");
     if runs(Command::new(&python).args(["-c", "import vtkmodules.vtkIOXML"])) {
@@ -19,6 +21,9 @@ fn main() {
         && runs(Command::new("bash").args(["-c", "true"]))
     {
         println!("cargo::rustc-cfg=has_curl");
+    }
+    if runs(Command::new("chromium").arg("--version")) {
+        println!("cargo::rustc-cfg=has_chromium");
     }
     if runs(Command::new("ccx").arg("-v")) {
         println!("cargo::rustc-cfg=has_ccx");

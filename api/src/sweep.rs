@@ -62,3 +62,27 @@ pub struct Sweep {
     /// Where to go from here: relation to path.
     pub links: BTreeMap<String, String>,
 }
+
+/// A sweep without its jobs.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
+pub struct SweepOverview {
+    /// Its name in the service.
+    pub id: Uuid,
+    /// Its name for people.
+    pub name: Option<String>,
+    /// When it was accepted (RFC 3339).
+    pub created_at: String,
+    /// Number of its jobs by status; every status is there.
+    pub counts: BTreeMap<String, u64>,
+    /// Where to go from here: relation to path.
+    pub links: BTreeMap<String, String>,
+}
+
+/// A page of sweeps, newest first.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
+pub struct SweepList {
+    /// The sweeps.
+    pub sweeps: Vec<SweepOverview>,
+    /// Where the next page starts, if there is one.
+    pub next_page_token: Option<String>,
+}

@@ -1,7 +1,8 @@
 // The newest jobs, and their progress as it happens: running jobs are followed by their event streams, the list itself
-// is looked at every few seconds.
+// is looked at every few seconds. The job that the address names (`/#ID`) is shown in full below.
 
-import { ask, document_at, element } from "/assets/page.js";
+import { show, showing } from "/assets/job.js";
+import { ask, document_at, download_link, element, figure, span_of } from "/assets/page.js";
 
 const LOOK_MS = 3000;
 // A browser opens six connections to a host; streams must leave some to everything else.
@@ -11,47 +12,55 @@ const ENDED = ["succeeded", "failed", "cancelled"];
 const rows = new Map();
 const followed = new Map();
 
-function number(value, scale = 1) {
-  return value == null ? "" : (value * scale).toPrecision(4);
-}
-
 function row(job) {
   const parts = {
+    name: element("td"),
     status: element("td"),
     bar: element("div"),
     cycle: element("td", { class: "number" }),
+    left: element("td", { class: "number" }),
     depth: element("td", { class: "number" }),
-    actions: element("td"),
+    actions: element("td", { class: "actions" }),
   };
-  const name = job.spec.name ?? job.id.slice(-12);
-  parts.row = element("tr", { title: job.id },
-    element("td", {}, element("a", { href: job.links.self, class: "mono" }, name)),
+  parts.name.append(element("a", { href: `#${job.id}`, class: "mono" }, job.spec.name ?? job.id.slice(-12)));
+  parts.row = element("tr", { id: `row-${job.id}`, title: job.id }, parts.name,
     element("td", {}, job.spec.system.kind), parts.status,
-    element("td", {}, element("div", { class: "bar" }, parts.bar)), parts.cycle, parts.depth, parts.actions);
+    element("td", {}, element("div", { class: "bar" }, parts.bar)), parts.cycle, parts.left, parts.depth, parts.actions);
   return parts;
 }
 
-function progress(parts, { cycle, cycles, fraction }) {
+function progress(parts, { cycle, cycles, fraction, eta_s }) {
   parts.bar.style.width = `${100 * fraction}%`;
+  parts.bar.parentElement.title = `${(100 * fraction).toFixed(1)} %`;
   parts.cycle.textContent = `${cycle} / ${cycles}`;
+  parts.left.textContent = eta_s == null ? "" : span_of(eta_s);
 }
 
 function depth(parts, sides) {
-  if (sides) parts.depth.textContent = number(Math.max(sides.receptacle.max_depth_mm, sides.slider.max_depth_mm), 1000);
+  if (sides) parts.depth.textContent = figure(Math.max(sides.receptacle.max_depth_mm, sides.slider.max_depth_mm), 1000);
 }
 
 function shown(parts, job) {
-  parts.status.textContent = job.outcome ? `${job.status} (${job.outcome})` : job.status;
-  parts.status.className = job.status;
-  parts.status.title = job.status_reason ?? "";
-  progress(parts, job.progress);
-  depth(parts, job.summary);
   const ended = ENDED.includes(job.status);
+  const reason = job.status === "succeeded" ? null : job.status_reason;
+  const status = element("span", { class: job.status }, job.outcome ? `${job.status} (${job.outcome})` : job.status);
+  parts.status.replaceChildren(status, ...(reason ? [element("div", { class: "soft reason", title: reason }, reason)] : []));
+  progress(parts, ended ? { ...job.progress, eta_s: null } : job.progress);
+  depth(parts, job.summary);
   const action = ended
-    ? element("a", { href: `${job.links.results}/archive` }, "results")
+    ? download_link(`${job.links.results}/archive`, `fretwear-${job.id}.zip`, "all results")
     : element("button", { type: "button" }, "cancel");
-  if (!ended) action.addEventListener("click", () => ask(job.links.cancel, { method: "POST" }).then(look));
+  if (!ended) action.addEventListener("click", () => cancel(job));
   parts.actions.replaceChildren(action);
+}
+
+async function cancel(job) {
+  try {
+    await document_at(job.links.cancel, { method: "POST" });
+  } catch (error) {
+    document.getElementById("trouble").textContent = error.message;
+  }
+  await look();
 }
 
 /** The events of a stream, one after the other. */
@@ -85,6 +94,7 @@ async function follow(job) {
   } catch {
     // The next look at the list follows it again.
   } finally {
+    stop.abort();
     followed.delete(job.id);
   }
 }
@@ -100,15 +110,19 @@ async function look() {
       shown(rows.get(job.id), job);
     }
     document.getElementById("jobs").replaceChildren(...page.jobs.map((job) => rows.get(job.id).row));
-    document.getElementById("more").textContent =
-      page.jobs.length === 0 ? "No jobs yet." : page.next_page_token ? "Older jobs are not shown." : "";
+    document.getElementById("more").textContent = page.jobs.length === 0
+      ? "No jobs yet. Submit one: curl --json @spec.json " + location.origin + "/v1/jobs"
+      : page.next_page_token ? "Older jobs are not shown." : "";
     for (const job of page.jobs)
       if (job.status === "running" && !followed.has(job.id) && followed.size < STREAMS) follow(job);
+    const named = showing();
+    await show(named && (page.jobs.find((job) => job.id === named) ?? (await document_at(`/v1/jobs/${named}`))));
     trouble.textContent = "";
   } catch (error) {
     trouble.textContent = error.message;
   }
 }
 
+addEventListener("hashchange", look);
 await look();
 setInterval(look, LOOK_MS);

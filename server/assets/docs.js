@@ -2,6 +2,8 @@
 
 import { document_at, element } from "/assets/page.js";
 
+// What is looked for most comes first.
+const TAGS = ["jobs", "results", "sweeps", "plans", "systems", "operation", "pages"];
 const METHODS = ["get", "post", "put", "patch", "delete"];
 
 /** A schema in a few words; documents are links. */
@@ -78,7 +80,8 @@ try {
       const tag = methods[method].tags?.[0] ?? "other";
       byTag.set(tag, [...(byTag.get(tag) ?? []), operation(path, method, methods[method])]);
     }
-  for (const [tag, operations] of byTag)
+  const rank = (tag) => (TAGS.indexOf(tag) + TAGS.length + 1) % (TAGS.length + 1);
+  for (const [tag, operations] of [...byTag].sort(([one], [other]) => rank(one) - rank(other)))
     document.getElementById("paths").append(element("h2", {}, tag), ...operations);
   for (const [name, described] of Object.entries(api.components.schemas))
     document.getElementById("schemas").append(schema(name, described));

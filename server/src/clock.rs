@@ -1,6 +1,7 @@
-//! The service's clock.
+//! The service's clocks.
 
-use std::time::{SystemTime, UNIX_EPOCH};
+use std::sync::OnceLock;
+use std::time::{Instant, SystemTime, UNIX_EPOCH};
 
 /// Milliseconds since 1970-01-01 UTC.
 pub fn now_ms() -> i64 {
@@ -8,4 +9,12 @@ pub fn now_ms() -> i64 {
         .duration_since(UNIX_EPOCH)
         .unwrap_or_default();
     i64::try_from(since.as_millis()).unwrap_or(i64::MAX)
+}
+
+/// Milliseconds on a clock that nobody sets: it starts with the process at [`now_ms`] and only goes on. Leases, which
+/// never outlive a process, are measured by it, so that a machine whose time is corrected loses no worker.
+pub fn steady_ms() -> i64 {
+    static START: OnceLock<(i64, Instant)> = OnceLock::new();
+    let (start, since) = START.get_or_init(|| (now_ms(), Instant::now()));
+    start.saturating_add(i64::try_from(since.elapsed().as_millis()).unwrap_or(i64::MAX))
 }

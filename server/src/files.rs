@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 use std::fs::File;
-use std::io::Write as _;
+use std::io::{ErrorKind, Write as _};
 use std::path::{Path, PathBuf};
 
 use api::results::ResultFile;
@@ -54,7 +54,7 @@ pub fn write(
 }
 
 /// Writes a file so that its name stands for the whole content or for nothing, also after a crash: under another name
-/// first, to the disk, then renamed.
+/// first, to the disk, then renamed. What was begun and cannot be finished is removed.
 ///
 /// # Errors
 /// [`FilesError`] naming the file.
@@ -62,7 +62,7 @@ pub fn keep(folder: &Path, name: &str, bytes: &[u8]) -> Result<(), FilesError> {
     let path = folder.join(name);
     let unfinished = folder.join(format!("{name}.unfinished"));
     let written = || -> std::io::Result<()> {
-        std::fs::create_dir_all(folder)?;
+        make_folder(folder)?;
         let mut file = File::create(&unfinished)?;
         file.write_all(bytes)?;
         file.sync_all()?;
@@ -70,7 +70,43 @@ pub fn keep(folder: &Path, name: &str, bytes: &[u8]) -> Result<(), FilesError> {
         // The rename is on the disk once the folder is.
         File::open(folder)?.sync_all()
     };
-    written().map_err(|cause| FilesError::Write { path, cause })
+    written().map_err(|cause| {
+        // It would keep space that is missing elsewhere; if it stays, it is swept with what no manifest names.
+        let _ = std::fs::remove_file(&unfinished);
+        FilesError::Write { path, cause }
+    })
+}
+
+/// Makes a folder and those above it that are missing, each on the disk before anything is put into it.
+///
+/// # Errors
+/// If the system refuses.
+pub fn make_folder(folder: &Path) -> std::io::Result<()> {
+    if folder.is_dir() {
+        return Ok(());
+    }
+    let above = parent(folder);
+    make_folder(above)?;
+    match std::fs::create_dir(folder) {
+        Err(cause) if cause.kind() != ErrorKind::AlreadyExists => Err(cause),
+        _ => File::open(above)?.sync_all(),
+    }
+}
+
+/// The folder of a file.
+pub fn parent(path: &Path) -> &Path {
+    match path.parent() {
+        Some(folder) if !folder.as_os_str().is_empty() => folder,
+        _ => Path::new("."),
+    }
+}
+
+/// Whether something was not written for want of space, which may pass.
+pub fn is_full(cause: &std::io::Error) -> bool {
+    matches!(
+        cause.kind(),
+        ErrorKind::StorageFull | ErrorKind::QuotaExceeded
+    )
 }
 
 /// What a manifest says about a file.

@@ -2,6 +2,7 @@
 
 mod access;
 mod archive;
+mod body_problems;
 mod cancel;
 mod cancel_study;
 mod cancel_sweep;
@@ -10,18 +11,23 @@ mod extract;
 mod file;
 mod friction_loop;
 mod health;
+mod job_error;
 mod limits;
 mod list;
+mod list_sweeps;
 mod listener;
 mod make_plan;
 mod manifest;
 mod metrics;
 pub mod openapi;
 mod pages;
+mod paging;
 mod pressure;
 mod problem;
 mod profile;
 mod remove;
+mod remove_sweep;
+mod request_key;
 mod show;
 mod show_study;
 mod show_sweep;
@@ -149,8 +155,11 @@ fn described() -> (Router<App>, Document) {
         .routes(routes!(profile::profile))
         .routes(routes!(pressure::pressure))
         .routes(routes!(friction_loop::friction_loop))
-        .routes(routes!(submit_sweep::submit_sweep))
-        .routes(routes!(show_sweep::show_sweep))
+        .routes(routes!(
+            submit_sweep::submit_sweep,
+            list_sweeps::list_sweeps
+        ))
+        .routes(routes!(show_sweep::show_sweep, remove_sweep::remove_sweep))
         .routes(routes!(sweep_outcomes::sweep_outcomes))
         .routes(routes!(cancel_sweep::cancel_sweep))
         .routes(routes!(submit_study::submit_study))

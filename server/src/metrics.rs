@@ -188,6 +188,7 @@ mod tests {
     fn what_was_counted_is_told_by_name_and_unit() {
         let metrics = Metrics::default();
         metrics.rescues.inc();
+        metrics.attempts.inc();
         metrics.claim_latency.observe(0.05);
         metrics.ended(Status::Succeeded);
         let levels = Levels {
@@ -204,6 +205,9 @@ mod tests {
             "fretwear_oldest_job_age_seconds{status=\"queued\"} 42",
             "fretwear_jobs_ended_total{status=\"succeeded\"} 1",
             "fretwear_rescues_total 1",
+            "fretwear_attempts_total 1",
+            "fretwear_checkpoints_total 0",
+            "fretwear_solve_duration_seconds_count 0",
             "fretwear_stale_writes_refused_total 0",
             "fretwear_claim_latency_seconds_count 1",
             "fretwear_oldest_checkpoint_age_seconds 2",

@@ -11,6 +11,11 @@ use api::job::Status;
 pub use admission::{Choice, Room, Waiting, choose};
 pub use order::{MOST_PRIORITY, place, sweep_priority};
 
+/// Why a job waits that nothing stands in the way of.
+pub const WAITING_FOR_WORKER: &str = "waiting for a worker";
+/// How the reason of jobs begins that wait because the disk is short.
+pub const WAITING_FOR_DISK: &str = "waiting for disk space: ";
+
 /// How often a job is tried before lost workers make it fail, unless the service is told otherwise.
 pub const ATTEMPT_LIMIT: u32 = 3;
 

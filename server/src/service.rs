@@ -10,7 +10,6 @@ use tokio::net::TcpListener;
 use tokio::task::JoinSet;
 use tokio_util::sync::CancellationToken;
 
-use crate::clock::now_ms;
 use crate::http::{self, Access, App};
 use crate::store::{Store, StoreError};
 use crate::worker::{self, Rules};
@@ -85,11 +84,12 @@ impl Service {
         let listener = TcpListener::bind(config.listen).await.map_err(listen)?;
         let address = listener.local_addr().map_err(listen)?;
         let store = Arc::new(Store::open_with(&config.database, config.attempts).await?);
-        let rescued = store.rescue_all(now_ms()).await?;
-        tracing::info!(%address, database = config.database, workers = config.workers, rescued, "service started");
+        let rules = Arc::new(config.rules);
+        let rescued = store.rescue_all(rules.lease_end()).await?;
+        let (queued, ending) = (rescued.queued, rescued.ending.len());
+        tracing::info!(%address, database = config.database, workers = config.workers, queued, ending, "service started");
         let stopping = CancellationToken::new();
         let mut tasks = JoinSet::new();
-        let rules = Arc::new(config.rules);
         for _ in 0..config.workers {
             tasks.spawn(worker::work(
                 Arc::clone(&store),
@@ -99,8 +99,9 @@ impl Service {
         }
         tasks.spawn(upkeep::maintain(
             Arc::clone(&store),
-            rules.lease,
+            Arc::clone(&rules),
             config.keep_days,
+            rescued,
             stopping.clone(),
         ));
         let router = http::router(App::new(

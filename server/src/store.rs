@@ -17,9 +17,11 @@ mod leases;
 mod levels;
 mod open;
 mod queries;
+mod rescues;
 mod results;
 mod studies;
 mod submissions;
+mod sweep_ends;
 mod sweeps;
 mod upkeep;
 
@@ -41,6 +43,7 @@ pub use events::StoredEvent;
 pub use files::{Content, NewFile};
 pub use jobs::{Cancelled, Deleted, Filter, NewJob, RequestKey, StoredJob, Submitted, Wishes};
 pub use leases::{Batch, Claim, Held};
+pub use rescues::Rescued;
 pub use results::SnapshotPart;
 pub use studies::{StoredStudy, StudyPlan};
 pub use sweeps::{NewSweep, SweepOutcome};
@@ -69,10 +72,27 @@ pub struct Store {
     _lock: File,
 }
 
+/// The changes of a job.
+#[derive(Debug)]
+pub struct Changes {
+    id: Uuid,
+    changed: broadcast::Receiver<Uuid>,
+}
+
+impl Changes {
+    /// Returns when the job changed, or may have: too many changes of others at once hide one of its own.
+    pub async fn next(&mut self) {
+        while self.changed.recv().await.is_ok_and(|id| id != self.id) {}
+    }
+}
+
 impl Store {
-    /// A channel of the ids of jobs that changed.
-    pub fn changes(&self) -> broadcast::Receiver<Uuid> {
-        self.changes.subscribe()
+    /// The changes of a job from now on.
+    pub fn changes(&self, id: Uuid) -> Changes {
+        Changes {
+            id,
+            changed: self.changes.subscribe(),
+        }
     }
 
     /// Returns when a job may be waiting in the queue.

@@ -7,48 +7,53 @@ mod rules;
 mod supervisor;
 mod verdict;
 
+use std::panic::AssertUnwindSafe;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
+use futures_util::FutureExt;
 use tokio_util::sync::CancellationToken;
 use tracing::Instrument;
 
-use crate::clock::now_ms;
+use crate::clock::{now_ms, steady_ms};
 use crate::store::{Claim, Store, StoreError};
 
 pub use rules::Rules;
+pub use supervisor::bury;
 
 /// How often an idle worker looks for itself, should it have missed a call.
 const LOOK: Duration = Duration::from_secs(1);
 /// Pause after the store failed.
 const STORE_PAUSE: Duration = Duration::from_secs(1);
-/// Why a job waits that nothing stands in the way of.
-const NO_REASON: &str = "waiting for a worker";
 
 impl Rules {
-    /// When a lease taken or renewed now ends, ms.
-    fn lease_end(&self) -> i64 {
-        now_ms().saturating_add(i64::try_from(self.lease.as_millis()).unwrap_or(i64::MAX))
+    /// When a lease taken or renewed now ends, ms of the steady clock.
+    pub fn lease_end(&self) -> i64 {
+        steady_ms().saturating_add(i64::try_from(self.lease.as_millis()).unwrap_or(i64::MAX))
     }
 }
 
 /// Takes and supervises jobs until the service stops.
 pub async fn work(store: Arc<Store>, rules: Arc<Rules>, stopping: CancellationToken) {
-    let mut short_of_disk = false;
+    // Before the service was started it may have been.
+    let mut short_of_disk = true;
     while !stopping.is_cancelled() {
-        match next(&store, &rules, &mut short_of_disk, &stopping).await {
-            Ok(true) => {}
-            Ok(false) => {
+        let turn = AssertUnwindSafe(next(&store, &rules, &mut short_of_disk, &stopping));
+        match turn.catch_unwind().await {
+            Ok(Ok(true)) => {}
+            Ok(Ok(false)) => {
                 tokio::select! {
                     () = store.job_waiting() => {}
                     () = tokio::time::sleep(LOOK) => {}
                     () = stopping.cancelled() => {}
                 }
             }
-            Err(error) => {
+            Ok(Err(error)) => {
                 tracing::error!(%error, "a worker could not use the store");
                 tokio::time::sleep(STORE_PAUSE).await;
             }
+            // The panic is in the log. The job is taken back when its lease ends, and the worker works on.
+            Err(_) => tokio::time::sleep(STORE_PAUSE).await,
         }
     }
 }
@@ -66,7 +71,7 @@ async fn next(
         return Ok(false);
     }
     if *short_of_disk {
-        store.explain_waiting(NO_REASON).await?;
+        store.explain_no_shortage().await?;
         *short_of_disk = false;
     }
     let claimed = store

@@ -8,14 +8,13 @@
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
-use std::process::Command;
 use std::time::{Duration, Instant};
 
 use fastrand::Rng;
 use nix::sys::signal::{Signal, kill};
 use nix::unistd::Pid;
 use serde_json::{Value, json};
-use tests::{Server, bits, database};
+use tests::{Disk, Server, bits, database};
 
 const OPTIONS: [&str; 10] = [
     "--workers",
@@ -81,47 +80,6 @@ fn studies() -> Vec<Value> {
     ]
 }
 
-/// A folder, on a small disk of its own where the tests may make one.
-struct Disk {
-    folder: tempfile::TempDir,
-    mounted: bool,
-}
-
-impl Disk {
-    fn new(jobs: usize) -> Self {
-        let size_mb = DISK_MB.0 + DISK_MB.1 * jobs;
-        let folder = tempfile::tempdir().expect("a folder can be made");
-        let mounted = Command::new("mount")
-            .args(["-t", "tmpfs", "-o", &format!("size={size_mb}m"), "tmpfs"])
-            .arg(folder.path())
-            .output()
-            .is_ok_and(|output| output.status.success());
-        Self { folder, mounted }
-    }
-
-    /// Takes all space for a while.
-    async fn fill(&self, time: Duration) {
-        let path = self.folder.path().join("filler");
-        let block = vec![0_u8; 1 << 20];
-        let mut file = std::fs::File::create(&path).expect("a file can be made");
-        while std::io::Write::write_all(&mut file, &block).is_ok() {}
-        tokio::time::sleep(time).await;
-        std::fs::remove_file(path).expect("the file can be removed");
-    }
-}
-
-impl Drop for Disk {
-    fn drop(&mut self) {
-        if self.mounted {
-            // What stays mounted after a failed test is small.
-            let _ = Command::new("umount")
-                .arg("-l")
-                .arg(self.folder.path())
-                .status();
-        }
-    }
-}
-
 /// A service under attack, and what was asked of it.
 struct Arena {
     disk: Disk,
@@ -134,8 +92,8 @@ struct Arena {
 
 impl Arena {
     fn new(jobs: usize, seed: u64) -> Self {
-        let disk = Disk::new(jobs);
-        let folder = disk.folder.path().to_owned();
+        let disk = Disk::new(DISK_MB.0 + DISK_MB.1 * jobs);
+        let folder = disk.path().to_owned();
         Self {
             server: Some(Server::start_with(&folder, &OPTIONS)),
             disk,
@@ -181,7 +139,7 @@ impl Arena {
 
     async fn harm(&mut self) {
         let harm = HARMS[self.rng.usize(..HARMS.len())];
-        if harm == Harm::FillDisk && !self.disk.mounted {
+        if harm == Harm::FillDisk && !self.disk.is_mounted() {
             return;
         }
         *self.harms.entry(harm).or_default() += 1;
@@ -290,7 +248,7 @@ async fn chaos(jobs: usize, seed: u64) {
         "chaos, seed {seed}: {jobs} jobs, {attempts} attempts, {resumed} of them from a checkpoint, {:?}{}, {:.0} s: \
          every job ended once with the bits of an undisturbed run",
         arena.harms,
-        if arena.disk.mounted {
+        if arena.disk.is_mounted() {
             ""
         } else {
             " (no disk of its own could be mounted)"

@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use nix::sys::signal::{Signal, kill};
 use serde_json::{Value, json};
-use tests::{Server, bits, database};
+use tests::{Disk, Server, bits, database};
 
 /// Checkpoints after every computed cycle.
 const EVERY_CYCLE: [&str; 2] = ["--checkpoint-every-s", "0"];
@@ -192,4 +192,32 @@ async fn a_running_job_ends_at_its_deadline_and_keeps_what_it_had() {
         .get(&format!("/v1/jobs/{id}/results/profile?cycle=1"))
         .await;
     assert_eq!(status, 200);
+}
+
+#[tokio::test]
+async fn a_disk_that_is_full_while_fields_are_written_costs_no_attempt() {
+    let disk = Disk::new(256);
+    if !disk.is_mounted() {
+        println!("left out: no disk of its own could be mounted");
+        return;
+    }
+    let cycles: Vec<u64> = (1..=30).collect();
+    let study = json!({
+        "system": {"kind": "fuzz_button"},
+        "cycles": 30,
+        "accuracy": {"preset": "draft", "overrides": {"cycle_jump": 1}},
+        "output": {"snapshots_at_cycles": cycles, "fields": true}
+    });
+    let expected = undisturbed(&study).await;
+    let server = Server::start_with(disk.path(), &["--least-free-disk-mb", "0"]);
+    let id = submitted(&server, &study).await;
+    computing(&server, &id, 2).await;
+    disk.fill(Duration::from_secs(2)).await;
+    let job = ended(&server, &id).await;
+    assert_eq!(
+        (&job["status"], &job["attempts"]),
+        (&json!("succeeded"), &json!(1)),
+        "{job}"
+    );
+    assert_eq!(bits::of(&server, &id).await, expected);
 }

@@ -21,6 +21,7 @@ mod hard;
 mod hostile_inputs;
 mod load;
 mod main_job;
+mod pages_in_a_browser;
 mod predicted_cost;
 mod readme_commands;
 mod refused_specifications;

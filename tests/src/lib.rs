@@ -3,8 +3,10 @@
 pub mod bits;
 pub mod calculix;
 pub mod database;
+pub mod disk;
 pub mod program;
 pub mod server;
 
+pub use disk::Disk;
 pub use program::{Ran, binary, fretwear, spec};
 pub use server::Server;

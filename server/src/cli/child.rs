@@ -9,7 +9,7 @@ use std::io::{BufRead, Read, Write};
 use std::path::Path;
 use std::process::ExitCode;
 use std::sync::Arc;
-use std::sync::atomic::AtomicBool;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
 use api::job::Outcome;
@@ -22,13 +22,15 @@ use solver::observer::Flow;
 use super::ChildArguments;
 use super::terminal::{failed, refused, tell};
 use crate::documents::VTU;
-use crate::files;
+use crate::files::{self, FilesError};
 use crate::solve::checkpoint::{Keeping, Saved};
 use crate::solve::{self, Failure, FieldsFile, Line, UNWRITTEN};
 use crate::translate;
 
 /// Exit code when the supervisor is gone.
 const ORPHANED: i32 = 3;
+/// Pause before a full disk is tried again.
+const DISK_PAUSE: Duration = Duration::from_millis(200);
 
 pub(super) fn run(arguments: &ChildArguments) -> ExitCode {
     let stop = Arc::new(AtomicBool::new(false));
@@ -60,7 +62,7 @@ pub(super) fn run(arguments: &ChildArguments) -> ExitCode {
     let every = Duration::from_millis(arguments.checkpoint_every_ms);
     let keeping = Keeping::new(every, Arc::clone(&stop));
     let solved = solve::run_from(&resolved.scene, from, &keeping, &mut |line| match line {
-        Line::Fields(fields) => keep(&arguments.folder, &fields),
+        Line::Fields(fields) => keep(&arguments.folder, &fields, &stop),
         line => write(&line),
     });
     let last = match solved {
@@ -115,14 +117,26 @@ fn end_with_supervisor() {
     std::process::exit(ORPHANED);
 }
 
-/// Writes fields into the attempt's folder and tells of the file. A disk that takes no more is no fault of the study:
-/// the process ends without a verdict, and another attempt is made.
-fn keep(folder: &Path, fields: &FieldsFile) -> Flow {
-    if let Err(error) = files::keep(folder, &fields.name, &fields.bytes) {
-        tell(error);
-        std::process::exit(UNWRITTEN);
-    }
+/// Writes fields into the attempt's folder and tells of the file. A disk that takes no more is no fault of the study: a
+/// full one is waited for, unless the process is asked to end; for another reason it ends without a verdict, and another
+/// attempt is made.
+fn keep(folder: &Path, fields: &FieldsFile, stop: &AtomicBool) -> Flow {
     let FieldsFile { name, cycle, bytes } = fields;
+    let mut told = false;
+    while let Err(error) = files::keep(folder, name, bytes) {
+        if !told {
+            tell(&error);
+            told = true;
+        }
+        match error {
+            FilesError::Write { cause, .. } if files::is_full(&cause) => {}
+            _ => std::process::exit(UNWRITTEN),
+        }
+        if stop.load(Ordering::Relaxed) {
+            return Flow::Stop;
+        }
+        std::thread::sleep(DISK_PAUSE);
+    }
     write(&Line::Kept(files::described(
         name,
         Some(*cycle),

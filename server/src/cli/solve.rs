@@ -8,23 +8,17 @@ use api::results::{CycleRow, Snapshot, Summary};
 use indicatif::ProgressBar;
 use solver::observer::Flow;
 
-use super::terminal::{bar, failed, say, specification, tell};
+use super::terminal::{bar, failed, say, specification_for, tell};
 use crate::documents::Results;
 use crate::files;
 use crate::solve::{self, Failure, FieldsFile, Line};
 use crate::translate::Resolved;
 
 pub(super) fn run(spec: &Path, out: Option<&Path>) -> ExitCode {
-    let resolved = match specification(spec) {
+    let resolved = match specification_for(spec, out) {
         Ok(resolved) => resolved,
         Err(code) => return code,
     };
-    // Before the work, so that a folder that cannot be made does not cost a finished solve.
-    if let Some(folder) = out
-        && let Err(cause) = std::fs::create_dir_all(folder)
-    {
-        return failed(format_args!("{}: {cause}", folder.display()));
-    }
     let mut recorded = Recorded::default();
     let solved = solve(&resolved, &mut recorded);
     if let Some(folder) = out {

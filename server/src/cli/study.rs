@@ -5,21 +5,15 @@ use std::process::ExitCode;
 
 use indicatif::{ProgressBar, ProgressStyle};
 
-use super::terminal::{failed, say, specification};
+use super::terminal::{failed, say, specification_for};
 use crate::machine::{Kept, cache_file};
 use crate::study::{self, Request, report};
 
 pub(super) fn run(spec: &Path, out: Option<&Path>, budget_s: f64) -> ExitCode {
-    let resolved = match specification(spec) {
+    let resolved = match specification_for(spec, out) {
         Ok(resolved) => resolved,
         Err(code) => return code,
     };
-    // Before the work, so that a folder that cannot be made does not cost a finished study.
-    if let Some(folder) = out
-        && let Err(cause) = std::fs::create_dir_all(folder)
-    {
-        return failed(format_args!("{}: {cause}", folder.display()));
-    }
     let program = match std::env::current_exe() {
         Ok(program) => program,
         Err(cause) => return failed(format_args!("the path of this program: {cause}")),

@@ -46,6 +46,17 @@ pub(super) fn specification(path: &Path) -> Result<Resolved, ExitCode> {
     translate::read(&bytes).map_err(|error| refused(&error))
 }
 
+/// The same, with a folder for what comes out of it. The folder is made before the work, so that one that cannot be made
+/// does not cost a finished run.
+pub(super) fn specification_for(path: &Path, out: Option<&Path>) -> Result<Resolved, ExitCode> {
+    let resolved = specification(path)?;
+    if let Some(folder) = out {
+        std::fs::create_dir_all(folder)
+            .map_err(|cause| failed(format_args!("{}: {cause}", folder.display())))?;
+    }
+    Ok(resolved)
+}
+
 /// A progress bar on standard error, counting cycles; silent where standard error is no terminal.
 pub(super) fn bar(cycles: u64) -> ProgressBar {
     let bar = ProgressBar::new(cycles);

@@ -19,8 +19,9 @@ use zip::{CompressionMethod, ZipWriter};
 use super::App;
 use super::extract::JobId;
 use super::file::attachment;
+use super::job_error::JobError;
 use super::problem::{Kind, Refusal};
-use crate::store::{Content, StoreError};
+use crate::store::Content;
 
 /// Archives made at once: each occupies a thread as long as its client takes to read it.
 pub(super) const AT_ONCE: usize = 4;
@@ -28,33 +29,28 @@ pub(super) const AT_ONCE: usize = 4;
 const PIECE: usize = 64 << 10;
 /// Pieces on their way.
 const PIECES: usize = 4;
+/// How long a request waits for its turn. Not for ever: whoever reads slowly would hold up those who wait, and with them
+/// all other requests.
+const PLACE_WAIT: Duration = Duration::from_secs(10);
 /// How long a client may leave a piece lying.
 const PATIENCE: Duration = Duration::from_mins(1);
 
 /// Why there is no archive.
 #[derive(Debug, thiserror::Error)]
 pub(super) enum ArchiveError {
-    /// There is no job of that id.
-    #[error("there is no job {0}")]
-    Missing(Uuid),
-    /// It has not ended.
-    #[error("job {0} has not ended; its archive is there when it has")]
-    Active(Uuid),
-    /// The service stops.
-    #[error("the service stops")]
-    Stopping,
-    /// The store failed.
+    /// There is no such job, or it has not ended.
     #[error(transparent)]
-    Store(#[from] StoreError),
+    Job(#[from] JobError),
+    /// Too many are being made.
+    #[error("{AT_ONCE} archives are being made, which is the limit")]
+    Full,
 }
 
 impl IntoResponse for ArchiveError {
     fn into_response(self) -> Response {
         match &self {
-            Self::Missing(_) => Kind::NoJob.because(self.to_string()),
-            Self::Active(_) => Kind::Active.because(self.to_string()),
-            Self::Stopping => Refusal::internal(&self),
-            Self::Store(error) => Refusal::from(error),
+            Self::Job(error) => Refusal::from(error),
+            Self::Full => Kind::Busy.because(self.to_string()),
         }
         .into_response()
     }
@@ -76,13 +72,13 @@ pub(super) async fn archive(
     State(app): State<App>,
     JobId(id): JobId,
 ) -> Result<Response, ArchiveError> {
-    let job = app.store.job(id).await?.ok_or(ArchiveError::Missing(id))?;
-    if !job.document.status.is_terminal() {
-        return Err(ArchiveError::Active(id));
+    if !app.job(id).await?.document.status.is_terminal() {
+        return Err(JobError::Active(id).into());
     }
-    let files = app.store.manifest(id).await?;
-    let permit = app.archives.clone().acquire_owned().await;
-    let permit = permit.map_err(|_| ArchiveError::Stopping)?;
+    let files = app.store.manifest(id).await.map_err(JobError::from)?;
+    let place = app.archives.clone().acquire_owned();
+    let place = tokio::time::timeout(PLACE_WAIT, place).await;
+    let permit = place.ok().and_then(Result::ok).ok_or(ArchiveError::Full)?;
     let (pieces, received) = mpsc::channel(PIECES);
     tokio::task::spawn_blocking(move || make(&app, id, &files, &pieces, permit));
     let body = stream::unfold(received, |mut received| async move {
@@ -195,6 +191,23 @@ mod tests {
         let mut fields = archive.by_name("fields-20.vtu").expect("a file");
         fields.read_to_string(&mut content).expect("text");
         assert_eq!(content, FIELDS);
+    }
+
+    #[tokio::test]
+    async fn nobody_waits_for_ever_for_those_who_read_slowly() {
+        let service = Service::new().await;
+        let id = service.with_files().await;
+        let taken = service.app.archives.clone().acquire_many_owned(4).await;
+        let path = format!("/v1/jobs/{id}/results/archive");
+        let asked = service.get(&path);
+        let (status, headers, problem) = asked.await;
+        assert_eq!(
+            (status.as_u16(), problem["type"].as_str()),
+            (503, Some("/problems/busy"))
+        );
+        assert_eq!(headers["retry-after"], "5");
+        drop(taken);
+        assert_eq!(service.bytes("GET", &path, &[], "").await.0, 200);
     }
 
     #[tokio::test]

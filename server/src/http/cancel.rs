@@ -6,34 +6,11 @@ use axum::Json;
 use axum::extract::State;
 use axum::http::StatusCode;
 use axum::response::{IntoResponse, Response};
-use uuid::Uuid;
 
 use super::App;
 use super::extract::JobId;
-use super::problem::{Kind, Refusal};
+use super::job_error::JobError;
 use crate::clock::now_ms;
-use crate::store::StoreError;
-
-/// Why a job was not cancelled.
-#[derive(Debug, thiserror::Error)]
-pub(super) enum CancelError {
-    /// There is none of that id.
-    #[error("there is no job {0}")]
-    Missing(Uuid),
-    /// The store failed.
-    #[error(transparent)]
-    Store(#[from] StoreError),
-}
-
-impl IntoResponse for CancelError {
-    fn into_response(self) -> Response {
-        match &self {
-            Self::Missing(_) => Kind::NoJob.because(self.to_string()),
-            Self::Store(error) => Refusal::from(error),
-        }
-        .into_response()
-    }
-}
 
 /// Asks for the end of a job: a waiting one ends at once, a running one within a second.
 #[utoipa::path(
@@ -46,15 +23,10 @@ impl IntoResponse for CancelError {
         (status = 404, description = "No such job", body = Problem),
     )
 )]
-pub(super) async fn cancel(
-    State(app): State<App>,
-    JobId(id): JobId,
-) -> Result<Response, CancelError> {
-    app.store
-        .cancel(id, now_ms())
-        .await?
-        .ok_or(CancelError::Missing(id))?;
-    let job = app.store.job(id).await?.ok_or(CancelError::Missing(id))?;
+pub(super) async fn cancel(State(app): State<App>, JobId(id): JobId) -> Result<Response, JobError> {
+    let done = app.store.cancel(id, now_ms()).await?;
+    done.ok_or(JobError::Missing(id))?;
+    let job = app.job(id).await?;
     Ok((StatusCode::ACCEPTED, Json(job.document)).into_response())
 }
 

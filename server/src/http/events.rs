@@ -14,14 +14,15 @@ use axum::http::{HeaderMap, StatusCode, header};
 use axum::response::sse::{Event, KeepAlive, Sse};
 use axum::response::{IntoResponse, Response};
 use futures_util::stream;
-use tokio::sync::{OwnedSemaphorePermit, broadcast};
+use tokio::sync::OwnedSemaphorePermit;
 use uuid::Uuid;
 
 use super::extract::JobId;
+use super::job_error::JobError;
 use super::problem::{Kind, Refusal};
 use super::{App, STREAMS};
 use crate::metrics::OpenStream;
-use crate::store::{StoreError, StoredEvent};
+use crate::store::{Changes, StoreError, StoredEvent};
 
 /// A comment line keeps the connection alive through proxies.
 const KEEP_ALIVE: Duration = Duration::from_secs(15);
@@ -32,18 +33,15 @@ const LAST_EVENT_ID: &str = "last-event-id";
 /// Why there is no stream.
 #[derive(Debug, thiserror::Error)]
 pub(super) enum EventsError {
-    /// There is no job of that id.
-    #[error("there is no job {0}")]
-    Missing(Uuid),
+    /// There is no such job.
+    #[error(transparent)]
+    Job(#[from] JobError),
     /// Too many streams are open.
     #[error("{STREAMS} event streams are open, which is the limit; poll the job instead")]
     Full,
     /// Not the id of an event.
     #[error("the Last-Event-ID is not the id of an event: a number from 0")]
     LastEventId,
-    /// The store failed.
-    #[error(transparent)]
-    Store(#[from] StoreError),
     /// The job could not be written.
     #[error(transparent)]
     Write(#[from] serde_json::Error),
@@ -52,13 +50,9 @@ pub(super) enum EventsError {
 impl IntoResponse for EventsError {
     fn into_response(self) -> Response {
         match &self {
-            Self::Missing(_) => Kind::NoJob.because(self.to_string()),
-            Self::Full => {
-                let busy = Kind::Busy.because(self.to_string());
-                return ([(header::RETRY_AFTER, "5")], busy).into_response();
-            }
+            Self::Job(error) => Refusal::from(error),
+            Self::Full => Kind::Busy.because(self.to_string()),
             Self::LastEventId => Kind::InvalidQuery.because(self.to_string()),
-            Self::Store(error) => Refusal::from(error),
             Self::Write(error) => Refusal::internal(error),
         }
         .into_response()
@@ -91,8 +85,8 @@ pub(super) async fn events(
     let place = app.streams.clone().try_acquire_owned();
     let place = place.map_err(|_| EventsError::Full)?;
     // Listening begins before looking, so nothing falls between.
-    let changes = app.store.changes();
-    let job = app.store.job(id).await?.ok_or(EventsError::Missing(id))?;
+    let changes = app.store.changes(id);
+    let job = app.job(id).await?;
     if job.document.status.is_terminal() && after.is_some_and(|after| after >= job.last_event) {
         // Tells a browser not to connect again.
         return Ok(StatusCode::NO_CONTENT.into_response());
@@ -146,7 +140,7 @@ struct Tail {
     id: Uuid,
     after: i64,
     waiting: VecDeque<Event>,
-    changes: broadcast::Receiver<Uuid>,
+    changes: Changes,
     ended: bool,
     _counted: OpenStream,
     /// Held as long as the stream is open.
@@ -195,160 +189,13 @@ impl Tail {
 
     /// Waits until this job changed, or may have.
     async fn changed(&mut self) {
-        let look = tokio::time::sleep(LOOK);
-        tokio::pin!(look);
-        loop {
-            tokio::select! {
-                change = self.changes.recv() => match change {
-                    Ok(id) if id != self.id => {}
-                    _ => return,
-                },
-                () = &mut look => return,
-                () = self.app.stopping.cancelled() => return,
-            }
+        tokio::select! {
+            () = self.changes.next() => {}
+            () = tokio::time::sleep(LOOK) => {}
+            () = self.app.stopping.cancelled() => {}
         }
     }
 }
 
 #[cfg(test)]
-mod tests {
-    use crate::http::tests::Service;
-    use crate::queue::Move;
-    use crate::store::{Batch, End};
-
-    /// Names and ids of a stream's events.
-    fn parsed(text: &str) -> Vec<(String, Option<i64>)> {
-        let field = |block: &str, name: &str| {
-            block
-                .lines()
-                .find_map(|line| line.strip_prefix(name).map(|value| value.trim().to_owned()))
-        };
-        text.split("\n\n")
-            .filter_map(|block| {
-                let id = field(block, "id:").map(|id| id.parse().expect("a number"));
-                field(block, "event:").map(|name| (name, id))
-            })
-            .collect()
-    }
-
-    async fn finished(service: &Service) -> String {
-        let id = service.queued(r#"{"system":{"kind":"dimm"}}"#).await;
-        let store = &service.app.store;
-        let claim = store
-            .claim(0, i64::MAX)
-            .await
-            .expect("the store")
-            .expect("a job");
-        let batch = Batch {
-            events: vec![("progress", "{}".into()), ("cycle", "{}".into())],
-            ..Batch::default()
-        };
-        store
-            .record(&claim, &batch, i64::MAX)
-            .await
-            .expect("the store");
-        store
-            .record(&claim, &batch, i64::MAX)
-            .await
-            .expect("the store");
-        let end = End {
-            step: Move::Succeed,
-            reason: None,
-            outcome: None,
-            summary: None,
-        };
-        store
-            .end(&claim, &Batch::default(), &end, 1)
-            .await
-            .expect("the store");
-        id
-    }
-
-    #[tokio::test]
-    async fn a_finished_job_replays_from_any_last_event_id() {
-        let service = Service::new().await;
-        let path = format!("/v1/jobs/{}/events", finished(&service).await);
-        let fresh = parsed(&service.text("GET", &path, &[], "").await.2);
-        assert_eq!(fresh[0], ("snapshot".to_owned(), None));
-        let all = &fresh[1..];
-        let ids: Vec<_> = all.iter().map(|event| event.1.expect("an id")).collect();
-        assert_eq!(ids, [1, 2, 3, 4, 5, 6, 7]);
-        assert_eq!((all[1].0.as_str(), all[6].0.as_str()), ("attempt", "done"));
-        for after in 0..7_usize {
-            let header = after.to_string();
-            let (status, _, text) = service
-                .text("GET", &path, &[("last-event-id", &header)], "")
-                .await;
-            assert_eq!(status, 200);
-            assert_eq!(parsed(&text), all[after..], "after {after}");
-        }
-        for after in ["7", "99"] {
-            assert_eq!(
-                service
-                    .text("GET", &path, &[("last-event-id", after)], "")
-                    .await
-                    .0,
-                204
-            );
-        }
-    }
-
-    #[tokio::test]
-    async fn a_live_stream_ends_with_done() {
-        let service = Service::new().await;
-        let id = service.queued(r#"{"system":{"kind":"dimm"}}"#).await;
-        let path = format!("/v1/jobs/{id}/events");
-        let (stream, _) = tokio::join!(service.text("GET", &path, &[], ""), async {
-            tokio::task::yield_now().await;
-            service.post(&format!("/v1/jobs/{id}/cancel"), "").await
-        });
-        let names: Vec<_> = parsed(&stream.2).into_iter().map(|event| event.0).collect();
-        assert_eq!(names, ["snapshot", "progress", "done"]);
-    }
-
-    #[tokio::test]
-    async fn a_stream_that_was_asked_to_begin_beyond_the_end_ends_with_the_job() {
-        let service = Service::new().await;
-        let id = service.queued(r#"{"system":{"kind":"dimm"}}"#).await;
-        let path = format!("/v1/jobs/{id}/events");
-        let beyond = [("last-event-id", "99999")];
-        let (stream, _) = tokio::join!(service.text("GET", &path, &beyond, ""), async {
-            tokio::task::yield_now().await;
-            service.post(&format!("/v1/jobs/{id}/cancel"), "").await
-        });
-        assert_eq!(parsed(&stream.2), []);
-    }
-
-    #[tokio::test]
-    async fn a_stream_ends_when_the_service_stops() {
-        let service = Service::new().await;
-        let id = service.queued(r#"{"system":{"kind":"dimm"}}"#).await;
-        let path = format!("/v1/jobs/{id}/events");
-        let (stream, ()) = tokio::join!(service.text("GET", &path, &[], ""), async {
-            tokio::task::yield_now().await;
-            service.app.stopping.cancel();
-        });
-        assert!(!stream.2.contains("event: done"));
-    }
-
-    #[tokio::test]
-    async fn unreadable_ids_are_problems() {
-        let service = Service::new().await;
-        let id = service.queued(r#"{"system":{"kind":"dimm"}}"#).await;
-        let path = format!("/v1/jobs/{id}/events");
-        assert_eq!(
-            service
-                .send("GET", &path, &[("last-event-id", "x")], "")
-                .await
-                .0,
-            400
-        );
-        assert_eq!(
-            service
-                .get("/v1/jobs/00000000-0000-7000-8000-000000000000/events")
-                .await
-                .0,
-            404
-        );
-    }
-}
+mod tests;

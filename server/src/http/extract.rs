@@ -130,11 +130,9 @@ impl<S: Send + Sync> FromRequest<S> for JsonBody {
             return Err(Kind::MediaType
                 .because("send the specification with `content-type: application/json`"));
         }
-        let body = received(request.into_body());
-        let Ok(body) = tokio::time::timeout(BODY_TIME, body).await else {
-            return Err(Kind::Slow.because(format!("a body may take {} s", BODY_TIME.as_secs())));
-        };
-        body.map(Self)
+        received_within(BODY_TIME, request.into_body())
+            .await
+            .map(Self)
     }
 }
 
@@ -153,6 +151,13 @@ fn declared_as_json(headers: &HeaderMap) -> bool {
         .to_ascii_lowercase();
     essence == "application/json"
         || (essence.starts_with("application/") && essence.ends_with("+json"))
+}
+
+async fn received_within(time: Duration, body: Body) -> Result<Bytes, Refusal> {
+    let received = tokio::time::timeout(time, received(body)).await;
+    received.unwrap_or_else(|_| {
+        Err(Kind::Slow.because(format!("a body may take {} s", time.as_secs())))
+    })
 }
 
 /// The bytes of a body up to the limit. The rest of a larger one is read and thrown away, within reason, because a client
@@ -177,4 +182,21 @@ async fn received(body: Body) -> Result<Bytes, Refusal> {
         return Err(Kind::TooLarge.because(format!("a body may have {BODY_LIMIT} bytes")));
     }
     Ok(kept.into())
+}
+
+#[cfg(test)]
+mod tests {
+    use axum::response::IntoResponse;
+
+    use super::*;
+
+    #[tokio::test]
+    async fn a_body_that_does_not_arrive_is_given_up() {
+        let body = Body::from_stream(futures_util::stream::pending::<
+            Result<Vec<u8>, std::io::Error>,
+        >());
+        let refusal = received_within(Duration::from_millis(20), body).await;
+        let answer = refusal.expect_err("it never arrives").into_response();
+        assert_eq!(answer.status(), 408);
+    }
 }

@@ -19,8 +19,9 @@ use uuid::Uuid;
 
 use super::App;
 use super::extract::{FileName, JobId};
+use super::job_error::JobError;
 use super::problem::{Kind, Refusal};
-use crate::store::{Content, StoreError};
+use crate::store::Content;
 
 /// A file is read in pieces of this size, bytes.
 const PIECE: usize = 64 << 10;
@@ -28,9 +29,9 @@ const PIECE: usize = 64 << 10;
 /// Why there is no file.
 #[derive(Debug, thiserror::Error)]
 pub(super) enum FileError {
-    /// There is no job of that id.
-    #[error("there is no job {0}")]
-    Missing(Uuid),
+    /// There is no such job.
+    #[error(transparent)]
+    Job(#[from] JobError),
     /// The manifest does not name it.
     #[error("the manifest of job {0} names no such file")]
     Unnamed(Uuid),
@@ -45,22 +46,18 @@ pub(super) enum FileError {
         /// Why.
         cause: std::io::Error,
     },
-    /// The store failed.
-    #[error(transparent)]
-    Store(#[from] StoreError),
 }
 
 impl IntoResponse for FileError {
     fn into_response(self) -> Response {
         match &self {
-            Self::Missing(_) => Kind::NoJob.because(self.to_string()).into_response(),
+            Self::Job(error) => Refusal::from(error).into_response(),
             Self::Unnamed(_) => Kind::NoResult.because(self.to_string()).into_response(),
             Self::Range(bytes) => {
                 let whole = [(header::CONTENT_RANGE, format!("bytes */{bytes}"))];
                 (whole, Kind::Range.because(self.to_string())).into_response()
             }
             Self::Read { .. } => Refusal::internal(&self).into_response(),
-            Self::Store(error) => Refusal::from(error).into_response(),
         }
     }
 }
@@ -90,13 +87,10 @@ pub(super) async fn file(
     FileName(name): FileName,
     headers: HeaderMap,
 ) -> Result<Response, FileError> {
-    let Some((file, content)) = app.store.result_file(id, &name).await? else {
-        let known = app.store.job(id).await?.is_some();
-        return Err(if known {
-            FileError::Unnamed(id)
-        } else {
-            FileError::Missing(id)
-        });
+    let found = app.store.result_file(id, &name).await;
+    let Some((file, content)) = found.map_err(JobError::from)? else {
+        app.job(id).await?;
+        return Err(FileError::Unnamed(id));
     };
     let etag = format!("\"{}\"", file.sha256);
     let mut response = if text(&headers, header::IF_NONE_MATCH).contains(&etag) {

@@ -6,18 +6,15 @@ use axum::Json;
 use axum::extract::State;
 use axum::response::{IntoResponse, Response};
 use jiff::Timestamp;
-use sha2::{Digest, Sha256};
 use utoipa::IntoParams;
 use uuid::Uuid;
 
 use super::App;
 use super::extract::Params;
+use super::paging::{Page, PageError};
 use super::problem::{Kind, Refusal, shortened};
 use crate::store::{Filter, StoreError};
 
-/// Jobs of a page unless asked otherwise, and at most.
-const PAGE: u32 = 50;
-const PAGE_LIMIT: u32 = 500;
 /// Most labels of a filter.
 const LABEL_LIMIT: usize = 16;
 
@@ -33,9 +30,9 @@ pub(super) enum ListError {
     /// Given twice.
     #[error("`{0}` is given twice")]
     Twice(String),
-    /// Not a number.
-    #[error("the limit `{0}` is not a number of jobs, 1 to {PAGE_LIMIT}")]
-    Number(String),
+    /// Not a page of this list.
+    #[error(transparent)]
+    Page(#[from] PageError),
     /// Not a time.
     #[error("`{0}` is not a time such as 2026-01-31T12:00:00Z")]
     Time(String),
@@ -48,12 +45,6 @@ pub(super) enum ListError {
     /// Not a label.
     #[error("`{0}` is not a label such as key:value")]
     Label(String),
-    /// Not a token of this list.
-    #[error("the page token is not one of this list")]
-    Token,
-    /// Too many, or none.
-    #[error("a page holds 1 to {PAGE_LIMIT} jobs, not {0}")]
-    Limit(u32),
     /// The store failed.
     #[error(transparent)]
     Store(#[from] StoreError),
@@ -115,24 +106,20 @@ pub(super) async fn list(
     State(app): State<App>,
     Params(pairs): Params<Vec<(String, String)>>,
 ) -> Result<Json<JobList>, ListError> {
-    let (mut filter, limit) = read(&pairs)?;
-    // One more tells whether there is a next page.
-    filter.limit = limit + 1;
-    let digest = digest(&filter);
+    let (mut filter, limit, token) = read(&pairs)?;
+    let page = Page::asked(&format!("{filter:?}"), limit, token)?;
+    filter.before = page.before;
+    filter.limit = page.wanted();
     let mut jobs = app.store.list(&filter).await?;
-    let page = usize::try_from(limit).unwrap_or(usize::MAX);
-    let more = jobs.len() > page;
-    jobs.truncate(page);
-    let last = jobs.last().filter(|_| more);
-    let next_page_token = last.map(|job| format!("{digest}{}", job.id.simple()));
+    let next_page_token = page.cut(&mut jobs, |job| job.id);
     Ok(Json(JobList {
         jobs,
         next_page_token,
     }))
 }
 
-/// The filter that the parameters describe, and the number of jobs of a page.
-fn read(pairs: &[(String, String)]) -> Result<(Filter, u32), ListError> {
+/// The filter that the parameters describe, and which page is asked for.
+fn read(pairs: &[(String, String)]) -> Result<(Filter, Option<&str>, Option<&str>), ListError> {
     let (mut filter, mut limit, mut token) = (Filter::default(), None, None);
     for (index, (name, value)) in pairs.iter().enumerate() {
         let twice = pairs[..index].iter().any(|(earlier, _)| earlier == name);
@@ -149,23 +136,15 @@ fn read(pairs: &[(String, String)]) -> Result<(Filter, u32), ListError> {
                 let id = Uuid::parse_str(value);
                 filter.sweep = Some(id.map_err(|_| ListError::Sweep(shortened(value)))?);
             }
-            "limit" => {
-                let number = value.parse::<u32>();
-                limit = Some(number.map_err(|_| ListError::Number(shortened(value)))?);
-            }
+            "limit" => limit = Some(value.as_str()),
             "page_token" => token = Some(value.as_str()),
             _ => return Err(ListError::Unknown(shortened(name))),
         }
     }
-    let limit = limit.unwrap_or(PAGE);
-    if !(1..=PAGE_LIMIT).contains(&limit) {
-        return Err(ListError::Limit(limit));
-    }
     if filter.labels.len() > LABEL_LIMIT {
         return Err(ListError::Labels(filter.labels.len()));
     }
-    filter.before = token.map(|token| position(token, &filter)).transpose()?;
-    Ok((filter, limit))
+    Ok((filter, limit, token))
 }
 
 fn statuses(list: &str) -> Result<Vec<Status>, ListError> {
@@ -178,27 +157,6 @@ fn time(text: &str) -> Result<i64, ListError> {
     text.parse::<Timestamp>()
         .map(Timestamp::as_millisecond)
         .map_err(|_| ListError::Time(shortened(text)))
-}
-
-/// A short digest of what a list is filtered by; part of its page tokens, so that a token of another list is refused.
-fn digest(filter: &Filter) -> String {
-    let list = Filter {
-        before: None,
-        limit: 0,
-        ..filter.clone()
-    };
-    let digest = Sha256::digest(format!("{list:?}"));
-    let first = u32::from_be_bytes([digest[0], digest[1], digest[2], digest[3]]);
-    format!("{first:08x}")
-}
-
-/// Where a page token says that the page starts.
-fn position(token: &str, filter: &Filter) -> Result<Uuid, ListError> {
-    token
-        .strip_prefix(&digest(filter))
-        .filter(|id| id.len() == 32)
-        .and_then(|id| Uuid::parse_str(id).ok())
-        .ok_or(ListError::Token)
 }
 
 fn label(text: &str) -> Result<(String, String), ListError> {

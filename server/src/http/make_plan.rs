@@ -1,13 +1,13 @@
 //! `POST /v1/plans`: the plan of a specification; nothing is queued.
 
 use api::plan::PlanDocument;
-use api::problem::Problem;
 use api::spec::Spec;
 use axum::Json;
 use axum::extract::State;
 use axum::response::{IntoResponse, Response};
 
 use super::App;
+use super::body_problems::BodyProblems;
 use super::extract::JsonBody;
 use super::submit::refusal;
 use crate::machine;
@@ -37,11 +37,7 @@ impl IntoResponse for PlanError {
     request_body = Spec,
     responses(
         (status = 200, description = "The resolved specification and its plan", body = PlanDocument),
-        (status = 400, description = "The body cannot be read", body = Problem),
-        (status = 408, description = "The body did not arrive in time", body = Problem),
-        (status = 413, description = "The body is too large", body = Problem),
-        (status = 415, description = "The body is not declared as JSON", body = Problem),
-        (status = 422, description = "The specification has faults", body = Problem),
+        BodyProblems,
     )
 )]
 pub(super) async fn make_plan(

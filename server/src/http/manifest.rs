@@ -6,34 +6,10 @@ use api::problem::Problem;
 use api::results::Manifest;
 use axum::Json;
 use axum::extract::State;
-use axum::response::{IntoResponse, Response};
-use uuid::Uuid;
 
 use super::App;
 use super::extract::JobId;
-use super::problem::{Kind, Refusal};
-use crate::store::StoreError;
-
-/// Why there is no manifest.
-#[derive(Debug, thiserror::Error)]
-pub(super) enum ManifestError {
-    /// There is no job of that id.
-    #[error("there is no job {0}")]
-    Missing(Uuid),
-    /// The store failed.
-    #[error(transparent)]
-    Store(#[from] StoreError),
-}
-
-impl IntoResponse for ManifestError {
-    fn into_response(self) -> Response {
-        match &self {
-            Self::Missing(_) => Kind::NoJob.because(self.to_string()),
-            Self::Store(error) => Refusal::from(error),
-        }
-        .into_response()
-    }
-}
+use super::job_error::JobError;
 
 /// What a job produced so far; complete once it has ended.
 #[utoipa::path(
@@ -49,8 +25,8 @@ impl IntoResponse for ManifestError {
 pub(super) async fn manifest(
     State(app): State<App>,
     JobId(id): JobId,
-) -> Result<Json<Manifest>, ManifestError> {
-    let job = app.store.job(id).await?.ok_or(ManifestError::Missing(id))?;
+) -> Result<Json<Manifest>, JobError> {
+    let job = app.job(id).await?;
     let status = job.document.status;
     let files = app.store.manifest(id).await?;
     let own = format!("/v1/jobs/{id}/results");

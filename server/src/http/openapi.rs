@@ -74,6 +74,10 @@ fn complete(document: &mut Value) {
         for (status, words) in [
             ("401", "The access token is missing or wrong"),
             ("403", "The request was made for another host"),
+            (
+                "503",
+                "The service has too much to do at present; `Retry-After` says when to come again",
+            ),
         ] {
             let missing = || problem(words);
             responses.entry(status).or_insert_with(missing);

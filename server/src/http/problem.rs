@@ -9,6 +9,9 @@ use crate::store::StoreError;
 /// Media type of a problem document.
 const MEDIA_TYPE: &str = "application/problem+json";
 
+/// When a request that was put off may be sent again, s.
+const BUSY_PAUSE_S: &str = "5";
+
 /// Kinds of problem.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Kind {
@@ -44,6 +47,8 @@ pub(super) enum Kind {
     NoSystem,
     /// The job has not ended.
     Active,
+    /// A job of the sweep has not ended.
+    SweepActive,
     /// The request was made for another host or from another origin.
     Host,
     /// The access token is missing or wrong.
@@ -128,6 +133,11 @@ impl Kind {
                 StatusCode::NOT_FOUND,
             ),
             Self::Active => ("job-active", "the job has not ended", StatusCode::CONFLICT),
+            Self::SweepActive => (
+                "sweep-active",
+                "the sweep has jobs that have not ended",
+                StatusCode::CONFLICT,
+            ),
             Self::Host => (
                 "foreign-host",
                 "the request was not made for this service",
@@ -203,6 +213,10 @@ impl Refusal {
 
 impl From<&StoreError> for Refusal {
     fn from(error: &StoreError) -> Self {
+        if error.is_passing() {
+            tracing::warn!(%error, "a request was put off");
+            return Kind::Busy.because("the database does not take this at present; send it again");
+        }
         Self::internal(error)
     }
 }
@@ -218,9 +232,11 @@ impl IntoResponse for Refusal {
             faults: self.faults,
         };
         let mut response = (status, axum::Json(problem)).into_response();
-        response
-            .headers_mut()
-            .insert(header::CONTENT_TYPE, HeaderValue::from_static(MEDIA_TYPE));
+        let headers = response.headers_mut();
+        headers.insert(header::CONTENT_TYPE, HeaderValue::from_static(MEDIA_TYPE));
+        if self.kind == Kind::Busy {
+            headers.insert(header::RETRY_AFTER, HeaderValue::from_static(BUSY_PAUSE_S));
+        }
         response
     }
 }

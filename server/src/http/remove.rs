@@ -3,38 +3,11 @@
 use api::problem::Problem;
 use axum::extract::State;
 use axum::http::StatusCode;
-use axum::response::{IntoResponse, Response};
-use uuid::Uuid;
 
 use super::App;
 use super::extract::JobId;
-use super::problem::{Kind, Refusal};
-use crate::store::{Deleted, StoreError};
-
-/// Why a job was not deleted.
-#[derive(Debug, thiserror::Error)]
-pub(super) enum RemoveError {
-    /// There is none of that id.
-    #[error("there is no job {0}")]
-    Missing(Uuid),
-    /// It has not ended.
-    #[error("job {0} has not ended; cancel it first")]
-    Active(Uuid),
-    /// The store failed.
-    #[error(transparent)]
-    Store(#[from] StoreError),
-}
-
-impl IntoResponse for RemoveError {
-    fn into_response(self) -> Response {
-        match &self {
-            Self::Missing(_) => Kind::NoJob.because(self.to_string()),
-            Self::Active(_) => Kind::Active.because(self.to_string()),
-            Self::Store(error) => Refusal::from(error),
-        }
-        .into_response()
-    }
-}
+use super::job_error::JobError;
+use crate::store::Deleted;
 
 /// Deletes a job that has ended, with its events and results.
 #[utoipa::path(
@@ -51,11 +24,11 @@ impl IntoResponse for RemoveError {
 pub(super) async fn remove(
     State(app): State<App>,
     JobId(id): JobId,
-) -> Result<StatusCode, RemoveError> {
+) -> Result<StatusCode, JobError> {
     match app.store.delete(id).await? {
         Deleted::Done => Ok(StatusCode::NO_CONTENT),
-        Deleted::Active => Err(RemoveError::Active(id)),
-        Deleted::Missing => Err(RemoveError::Missing(id)),
+        Deleted::Active => Err(JobError::Active(id)),
+        Deleted::Missing => Err(JobError::Missing(id)),
     }
 }
 

@@ -11,12 +11,12 @@ use axum::response::{IntoResponse, Response};
 use serde::Deserialize;
 use tokio::time::Instant;
 use utoipa::IntoParams;
-use uuid::Uuid;
 
 use super::App;
 use super::extract::{JobId, Params};
+use super::job_error::JobError;
 use super::problem::{Kind, Refusal};
-use crate::store::{StoreError, StoredJob};
+use crate::store::StoredJob;
 
 /// Longest wait, s.
 const WAIT_LIMIT: u64 = 60;
@@ -27,22 +27,18 @@ const LOOK: Duration = Duration::from_secs(1);
 #[derive(Debug, thiserror::Error)]
 pub(super) enum ShowError {
     /// There is none of that id.
-    #[error("there is no job {0}")]
-    Missing(Uuid),
+    #[error(transparent)]
+    Job(#[from] JobError),
     /// Not a duration.
     #[error("`{0}` is not a wait such as 25s, up to {WAIT_LIMIT}s")]
     Wait(String),
-    /// The store failed.
-    #[error(transparent)]
-    Store(#[from] StoreError),
 }
 
 impl IntoResponse for ShowError {
     fn into_response(self) -> Response {
         match &self {
-            Self::Missing(_) => Kind::NoJob.because(self.to_string()),
+            Self::Job(error) => Refusal::from(error),
             Self::Wait(_) => Kind::InvalidQuery.because(self.to_string()),
-            Self::Store(error) => Refusal::from(error),
         }
         .into_response()
     }
@@ -84,8 +80,8 @@ pub(super) async fn show(
         .get(header::IF_NONE_MATCH)
         .and_then(|value| value.to_str().ok())
         .map(str::to_owned);
-    let mut changes = app.store.changes();
-    let mut job = app.store.job(id).await?.ok_or(ShowError::Missing(id))?;
+    let mut changes = app.store.changes(id);
+    let mut job = app.job(id).await?;
     // Without a place the answer comes at once, as if the time were over.
     let place = app.long_polls.try_acquire().ok();
     if let (Some(wait), Some(_)) = (wait, &place) {
@@ -95,11 +91,11 @@ pub(super) async fn show(
             && !app.stopping.is_cancelled()
         {
             tokio::select! {
-                _ = changes.recv() => {}
+                () = changes.next() => {}
                 () = tokio::time::sleep_until(deadline.min(Instant::now() + LOOK)) => {}
                 () = app.stopping.cancelled() => {}
             }
-            job = app.store.job(id).await?.ok_or(ShowError::Missing(id))?;
+            job = app.job(id).await?;
         }
     }
     let etag = [
@@ -214,6 +210,22 @@ mod tests {
                 "{wait}"
             );
         }
+    }
+
+    #[tokio::test]
+    async fn a_long_poll_without_a_place_is_answered_at_once() {
+        let service = Service::new().await;
+        let id = service.queued(r#"{"system":{"kind":"dimm"}}"#).await;
+        let all = u32::try_from(crate::http::LONG_POLLS).expect("a count");
+        let taken = service.app.long_polls.clone().acquire_many_owned(all).await;
+        // Would wait beyond any patience.
+        let path = format!("/v1/jobs/{id}?wait=60s");
+        let (status, _, job) = service.get(&path).await;
+        drop(taken);
+        assert_eq!(
+            (status.as_u16(), job["status"].as_str()),
+            (200, Some("queued"))
+        );
     }
 
     #[tokio::test]

@@ -19,6 +19,9 @@ pub(super) enum SweepError {
     /// There is none of that id.
     #[error("there is no sweep {0}")]
     Missing(Uuid),
+    /// A job of it has not ended.
+    #[error("sweep {0} has jobs that have not ended; cancel it first")]
+    Active(Uuid),
     /// Its table cannot be written.
     #[error(transparent)]
     Csv(#[from] CsvError),
@@ -31,6 +34,7 @@ impl IntoResponse for SweepError {
     fn into_response(self) -> Response {
         match &self {
             Self::Missing(_) => Kind::NoSweep.because(self.to_string()),
+            Self::Active(_) => Kind::SweepActive.because(self.to_string()),
             Self::Csv(error) => Refusal::internal(error),
             Self::Store(error) => Refusal::from(error),
         }

@@ -10,30 +10,31 @@ use utoipa::{IntoParams, ToSchema};
 use uuid::Uuid;
 
 use super::App;
+use super::job_error::JobError;
 use super::problem::{Kind, Refusal};
 use crate::documents::{CSV, DocumentError, JSON};
-use crate::store::{SnapshotPart, StoreError};
+use crate::store::SnapshotPart;
 use crate::translate::csv::CsvError;
 use crate::translate::thin::FEWEST_POINTS;
 
 /// Why there is no such result.
 #[derive(Debug, thiserror::Error)]
 pub(super) enum ResultError {
-    /// There is no job of that id.
-    #[error("there is no job {0}")]
-    Missing(Uuid),
+    /// There is no such job.
+    #[error(transparent)]
+    Job(#[from] JobError),
     /// Nothing is stored yet.
     #[error("job {0} has no stored snapshot so far")]
     Empty(Uuid),
-    /// The store failed.
-    #[error(transparent)]
-    Store(#[from] StoreError),
     /// Too few points, or too many.
     #[error("max_points is {0}; it can be {FEWEST_POINTS} to {MOST_POINTS}")]
     Points(usize),
     /// A stored document cannot be read.
     #[error(transparent)]
     Read(#[from] serde_json::Error),
+    /// Its writing was broken off.
+    #[error("the result was not written: {0}")]
+    Broken(#[from] tokio::task::JoinError),
     /// It could not be written.
     #[error(transparent)]
     Write(#[from] DocumentError),
@@ -42,12 +43,12 @@ pub(super) enum ResultError {
 impl IntoResponse for ResultError {
     fn into_response(self) -> Response {
         match &self {
-            Self::Missing(_) => Kind::NoJob.because(self.to_string()),
+            Self::Job(error) => Refusal::from(error),
             Self::Empty(_) => Kind::NoResult.because(self.to_string()),
-            Self::Store(error) => Refusal::from(error),
             Self::Read(error) => Refusal::internal(error),
             Self::Points(_) => Kind::InvalidQuery.because(self.to_string()),
             Self::Write(error) => Refusal::internal(error),
+            Self::Broken(error) => Refusal::internal(error),
         }
         .into_response()
     }
@@ -109,13 +110,10 @@ pub(super) async fn respond<T: DeserializeOwned + Serialize>(
     forms: Forms<T>,
 ) -> Result<Response, ResultError> {
     let points = points(query.max_points)?;
-    let Some(document) = app.store.snapshot(id, part, query.cycle).await? else {
-        let known = app.store.job(id).await?.is_some();
-        return Err(if known {
-            ResultError::Empty(id)
-        } else {
-            ResultError::Missing(id)
-        });
+    let stored = app.store.snapshot(id, part, query.cycle).await;
+    let Some(document) = stored.map_err(JobError::from)? else {
+        app.job(id).await?;
+        return Err(ResultError::Empty(id));
     };
     if (query.format, points) == (Format::Json, None) {
         return Ok(([(header::CONTENT_TYPE, JSON)], document).into_response());

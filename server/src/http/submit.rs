@@ -2,31 +2,27 @@
 
 use api::job::Job;
 use api::plan::PlanDocument;
-use api::problem::{Fault, Problem};
+use api::problem::Fault;
 use api::spec::Spec;
 use axum::Json;
 use axum::extract::State;
 use axum::http::{HeaderMap, StatusCode, header};
 use axum::response::{IntoResponse, Response};
 use serde::Deserialize;
-use sha2::{Digest, Sha256};
 use utoipa::IntoParams;
 
 use super::App;
+use super::body_problems::BodyProblems;
 use super::extract::{JsonBody, Params};
 use super::limits;
 use super::problem::{Kind, Refusal};
+use super::request_key::{KeyError, request_key};
 use super::show::retry_after_s;
 use crate::clock::now_ms;
 use crate::machine;
 use crate::queue::MOST_PRIORITY;
-use crate::store::{NewJob, RequestKey, StoreError, Submitted, Wishes};
+use crate::store::{NewJob, StoreError, Submitted, Wishes};
 use crate::translate::{self, Refused, Resolved};
-
-/// A client's key for a request; the same key and body make one job, however often they are sent.
-const KEY_HEADER: &str = "idempotency-key";
-/// Longest key, characters.
-const KEY_LIMIT: usize = 255;
 
 /// Why a study was not queued.
 #[derive(Debug, thiserror::Error)]
@@ -38,17 +34,11 @@ pub(super) enum SubmitError {
     #[error(transparent)]
     Store(#[from] StoreError),
     /// The key cannot be taken.
-    #[error("the Idempotency-Key has {0} characters; it must have 1 to {KEY_LIMIT}")]
-    KeyLength(usize),
-    /// The key cannot be read.
-    #[error("the Idempotency-Key must be printable ASCII characters")]
-    KeyText,
+    #[error(transparent)]
+    Key(#[from] KeyError),
     /// The priority is out of range.
     #[error("priority {0} is not from -{MOST_PRIORITY} to {MOST_PRIORITY}")]
     Priority(i32),
-    /// The key was used with another body.
-    #[error("the Idempotency-Key was used with another body; use a new key for another study")]
-    KeyTaken,
     /// The job is gone again.
     #[error("the job was deleted at once")]
     Gone,
@@ -59,11 +49,8 @@ impl IntoResponse for SubmitError {
         match self {
             Self::Refused(refused) => refusal(refused).into_response(),
             Self::Store(error) => Refusal::from(&error).into_response(),
-            Self::KeyLength(_) | Self::KeyText => {
-                Kind::InvalidKey.because(self.to_string()).into_response()
-            }
+            Self::Key(error) => error.into_response(),
             Self::Priority(_) => Kind::InvalidQuery.because(self.to_string()).into_response(),
-            Self::KeyTaken => Kind::KeyTaken.because(self.to_string()).into_response(),
             Self::Gone => Kind::NoJob
                 .because("the job was deleted at once")
                 .into_response(),
@@ -132,11 +119,7 @@ impl SubmitQuery {
             ("Location" = String, description = "The job"),
             ("Retry-After" = u64, description = "When a poll is likely to find something new, s"),
         )),
-        (status = 400, description = "The body, the key or a query parameter cannot be read", body = Problem),
-        (status = 408, description = "The body did not arrive in time", body = Problem),
-        (status = 413, description = "The body is too large", body = Problem),
-        (status = 415, description = "The body is not declared as JSON", body = Problem),
-        (status = 422, description = "The specification has faults, or the key belongs to another body", body = Problem),
+        BodyProblems,
     )
 )]
 pub(super) async fn submit(
@@ -166,7 +149,7 @@ pub(super) async fn submit(
         None => app.store.submit(&new, now_ms()).await?,
         Some(key) => match app.store.submit_once(&new, &key, now_ms()).await? {
             Submitted::Job(id) => id,
-            Submitted::KeyTaken => return Err(SubmitError::KeyTaken),
+            Submitted::KeyTaken => return Err(KeyError::Taken.into()),
         },
     };
     let job = app.store.job(id).await?.ok_or(SubmitError::Gone)?;
@@ -178,24 +161,6 @@ pub(super) async fn submit(
         ),
     ];
     Ok((StatusCode::ACCEPTED, headers, Json(job.document)).into_response())
-}
-
-/// The client's key for this request, if it gave one.
-pub(super) fn request_key(
-    headers: &HeaderMap,
-    body: &[u8],
-) -> Result<Option<RequestKey>, SubmitError> {
-    let Some(value) = headers.get(KEY_HEADER) else {
-        return Ok(None);
-    };
-    let key = value.to_str().map_err(|_| SubmitError::KeyText)?.trim();
-    if key.is_empty() || key.len() > KEY_LIMIT {
-        return Err(SubmitError::KeyLength(key.len()));
-    }
-    Ok(Some(RequestKey {
-        key: key.to_owned(),
-        body_sha256: Sha256::digest(body).into(),
-    }))
 }
 
 #[cfg(test)]
@@ -329,39 +294,5 @@ mod tests {
             service.get("/v1/jobs").await.2["jobs"],
             Value::Array(Vec::new())
         );
-    }
-
-    #[tokio::test]
-    async fn the_same_key_and_body_make_one_job_and_another_body_none() {
-        let service = Service::new().await;
-        let body = r#"{"system":{"kind":"sd_card"}}"#;
-        let json = ("content-type", "application/json");
-        let keyed = [json, ("idempotency-key", "study-7")];
-        let (status, _, first) = service.send("POST", "/v1/jobs", &keyed, body).await;
-        assert_eq!(status, 202);
-        let (status, _, second) = service.send("POST", "/v1/jobs", &keyed, body).await;
-        assert_eq!((status.as_u16(), &second["id"]), (202, &first["id"]));
-        let other = r#"{"system":{"kind":"zif"}}"#;
-        let (status, _, problem) = service.send("POST", "/v1/jobs", &keyed, other).await;
-        assert_eq!(status, 422);
-        assert_eq!(problem["title"], "the key was used with another body");
-        let long = "k".repeat(256);
-        let (status, _, problem) = service
-            .send(
-                "POST",
-                "/v1/jobs",
-                &[json, ("idempotency-key", &long)],
-                body,
-            )
-            .await;
-        assert_eq!(status, 400);
-        assert_eq!(
-            problem["detail"],
-            "the Idempotency-Key has 256 characters; it must have 1 to 255"
-        );
-        let empty = [json, ("idempotency-key", " ")];
-        assert_eq!(service.send("POST", "/v1/jobs", &empty, body).await.0, 400);
-        let (_, _, page) = service.get("/v1/jobs").await;
-        assert_eq!(page["jobs"].as_array().map_or(0, Vec::len), 1, "{page}");
     }
 }

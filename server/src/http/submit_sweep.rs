@@ -1,6 +1,5 @@
 //! `POST /v1/sweeps`: queues many variations of one study.
 
-use api::problem::Problem;
 use api::sweep::{Sweep, SweepRequest};
 use axum::Json;
 use axum::extract::State;
@@ -8,10 +7,12 @@ use axum::http::{HeaderMap, StatusCode, header};
 use axum::response::{IntoResponse, Response};
 
 use super::App;
+use super::body_problems::BodyProblems;
 use super::extract::JsonBody;
 use super::limits;
 use super::problem::Refusal;
-use super::submit::{SubmitError, request_key};
+use super::request_key::{KeyError, request_key};
+use super::submit::SubmitError;
 use crate::clock::now_ms;
 use crate::machine;
 use crate::queue;
@@ -32,6 +33,12 @@ pub(super) enum SubmitSweepError {
 impl From<Refused> for SubmitSweepError {
     fn from(refused: Refused) -> Self {
         Self::Submit(refused.into())
+    }
+}
+
+impl From<KeyError> for SubmitSweepError {
+    fn from(error: KeyError) -> Self {
+        Self::Submit(error.into())
     }
 }
 
@@ -59,11 +66,7 @@ impl IntoResponse for SubmitSweepError {
     params(("Idempotency-Key" = Option<String>, Header, description = "Sent twice with the same body, one sweep")),
     responses(
         (status = 202, description = "Queued", body = Sweep, headers(("Location" = String, description = "The sweep"))),
-        (status = 400, description = "The body or the key cannot be read", body = Problem),
-        (status = 408, description = "The body did not arrive in time", body = Problem),
-        (status = 413, description = "The body is too large", body = Problem),
-        (status = 415, description = "The body is not declared as JSON", body = Problem),
-        (status = 422, description = "The sweep or one of its jobs has faults, or the key belongs to another body", body = Problem),
+        BodyProblems,
     )
 )]
 pub(super) async fn submit_sweep(
@@ -98,7 +101,7 @@ pub(super) async fn submit_sweep(
     };
     let id = match app.store.submit_sweep(&new, key.as_ref(), now_ms()).await? {
         Submitted::Job(id) => id,
-        Submitted::KeyTaken => return Err(SubmitError::KeyTaken.into()),
+        Submitted::KeyTaken => return Err(KeyError::Taken.into()),
     };
     let sweep = app.store.sweep(id).await?.ok_or(SubmitError::Gone)?;
     let location = [(header::LOCATION, format!("/v1/sweeps/{id}"))];

@@ -16,12 +16,12 @@ use tempfile::TempDir;
 use tokio_util::sync::CancellationToken;
 use tower::ServiceExt;
 
-use super::{Access, App, router};
+use super::{Access, App, REQUESTS, router};
 use crate::documents::{JSON, VTU};
 use crate::files;
 use crate::machine::Kept;
 use crate::queue::Move;
-use crate::store::{Batch, End, NewFile, Store};
+use crate::store::{self, Batch, End, NewFile, Store};
 
 /// All routes over a fresh store.
 pub(crate) struct Service {
@@ -272,4 +272,54 @@ async fn a_foreign_host_is_refused() {
         .await
         .expect("an answer");
     assert_eq!(response.status(), 403);
+}
+
+/// A body that never arrives.
+fn endless() -> Body {
+    Body::from_stream(futures_util::stream::pending::<
+        Result<Vec<u8>, std::io::Error>,
+    >())
+}
+
+fn posted(path: &str, body: Body) -> Request<Body> {
+    let request = Request::post(path).header("host", "127.0.0.1");
+    let request = request.header("content-type", "application/json");
+    request.body(body).expect("a request")
+}
+
+#[tokio::test]
+async fn requests_are_limited_over_all_connections() {
+    let service = Service::new().await;
+    let router = router(service.app.clone());
+    let mut open: Vec<_> = (0..REQUESTS)
+        .map(|_| Box::pin(router.clone().oneshot(posted("/v1/plans", endless()))))
+        .collect();
+    for request in &mut open {
+        assert!(futures_util::poll!(request).is_pending());
+    }
+    let health = Request::get("/healthz").header("host", "127.0.0.1");
+    let health = health.body(Body::empty()).expect("a request");
+    let mut health = Box::pin(router.oneshot(health));
+    assert!(futures_util::poll!(&mut health).is_pending());
+    open.pop();
+    assert_eq!(health.await.expect("an answer").status(), 200);
+}
+
+#[tokio::test]
+async fn a_database_that_takes_no_write_is_a_503_that_says_when_to_come_again() {
+    let service = Service::new().await;
+    service.app.store.close().await;
+    let (status, _, problem) = service.get("/v1/jobs").await;
+    assert_eq!(status, 500, "closed is no passing fault: {problem}");
+    let service = Service::new().await;
+    let path = service.results_folder().with_file_name("test.db");
+    let _other = store::tests::written_by_another(&path).await;
+    let (status, headers, problem) = service
+        .post("/v1/jobs", r#"{"system":{"kind":"dimm"}}"#)
+        .await;
+    assert_eq!(
+        (status.as_u16(), problem["type"].as_str()),
+        (503, Some("/problems/busy"))
+    );
+    assert_eq!(headers["retry-after"], "5");
 }

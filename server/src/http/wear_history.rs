@@ -1,7 +1,7 @@
 //! `GET /v1/jobs/{id}/results/wear-history`: wear over the cycles, there while the job runs.
 
 use api::problem::Problem;
-use api::results::WearHistory;
+use api::results::{CycleRow, WearHistory};
 use axum::Json;
 use axum::extract::State;
 use axum::http::header;
@@ -11,6 +11,7 @@ use utoipa::{IntoParams, ToSchema};
 
 use super::App;
 use super::extract::{JobId, Params};
+use super::job_error::JobError;
 use super::stored_part::{ResultError, points};
 use crate::documents::{CSV, DocumentError, PARQUET};
 use crate::translate::{csv, history, parquet, thin};
@@ -62,15 +63,26 @@ pub(super) async fn wear_history(
     JobId(id): JobId,
     Params(query): Params<HistoryQuery>,
 ) -> Result<Response, ResultError> {
-    let job = app.store.job(id).await?.ok_or(ResultError::Missing(id))?;
+    let job = app.job(id).await?;
     let points = points(query.max_points)?;
-    let mut rows = app.store.history(id).await?;
+    let rows = app.store.history(id).await.map_err(JobError::from)?;
+    let stations = job.document.spec.output.stations_mm.unwrap_or_default();
+    // A long history takes a while to write, in which other requests are answered.
+    let written = move || written(rows, points, &stations, query.format);
+    tokio::task::spawn_blocking(written).await?
+}
+
+fn written(
+    mut rows: Vec<CycleRow>,
+    points: Option<usize>,
+    stations: &[f64],
+    format: HistoryFormat,
+) -> Result<Response, ResultError> {
     if let Some(points) = points {
         rows = thin::rows(rows, points);
     }
-    let stations = job.document.spec.output.stations_mm.unwrap_or_default();
-    let columns = history::columns(&rows, &stations);
-    Ok(match query.format {
+    let columns = history::columns(&rows, stations);
+    Ok(match format {
         HistoryFormat::Json => Json(columns).into_response(),
         HistoryFormat::Csv => {
             let table = csv::wear_history(&columns).map_err(DocumentError::from)?;

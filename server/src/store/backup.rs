@@ -2,6 +2,7 @@
 //!
 //! A backup is a folder with `fretwear.db` and `fretwear.db.results`, so it can be served as it is.
 
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
@@ -11,7 +12,7 @@ use sqlx::{ConnectOptions, Connection};
 use super::StoreError;
 use super::folder::Folder;
 use super::open::locked;
-use crate::files::sha256;
+use crate::files::{make_folder, parent, sha256};
 
 /// Name of the database in a backup.
 const NAME: &str = "fretwear.db";
@@ -44,6 +45,9 @@ pub enum BackupError {
         /// What its check said.
         found: String,
     },
+    /// A file that the database names is not there.
+    #[error("the database names {0}, which is not there")]
+    Missing(String),
     /// A file is not the one that the database names.
     #[error("{} has the checksum {found}, the database names {named}", .path.display())]
     Checksum {
@@ -78,18 +82,87 @@ pub async fn backup(url: &str, into: &Path) -> Result<Copied, BackupError> {
     let source = path_of(url)?;
     let target = into.join(NAME);
     absent(&target)?;
-    std::fs::create_dir_all(into).map_err(|cause| file(into, cause))?;
+    make_folder(into).map_err(|cause| file(into, cause))?;
+    copy_database(&source, &target).await?;
+    copy_what_it_names(&source, &target).await
+}
+
+/// Copies a database, which may be served meanwhile, as it stands.
+pub(super) async fn copy_database(source: &Path, target: &Path) -> Result<(), BackupError> {
     let mut database = SqliteConnectOptions::new()
-        .filename(&source)
+        .filename(source)
         .connect()
         .await?;
     sqlx::query("VACUUM INTO ?")
         .bind(target.to_string_lossy().into_owned())
         .execute(&mut database)
         .await?;
+    Ok(database.close().await?)
+}
+
+/// Copies the files that a copied database names; what was deleted from its source meanwhile is deleted from it too.
+pub(super) async fn copy_what_it_names(
+    source: &Path,
+    target: &Path,
+) -> Result<Copied, BackupError> {
+    let (mut copied, gone) =
+        copy_files(target, &Folder::beside(source), &Folder::beside(target)).await?;
+    still_named(source, &gone).await?;
+    copied.jobs = forget(target, &gone).await?;
+    synced(target)?;
+    synced(parent(target))?;
+    Ok(copied)
+}
+
+/// Files that are gone although a database names them are damage.
+async fn still_named(database: &Path, gone: &[String]) -> Result<(), BackupError> {
+    if gone.is_empty() {
+        return Ok(());
+    }
+    let mut connection = SqliteConnectOptions::new()
+        .filename(database)
+        .read_only(true)
+        .connect()
+        .await?;
+    for place in gone {
+        let named: i64 = sqlx::query_scalar("SELECT count(*) FROM result_files WHERE place = ?")
+            .bind(place)
+            .fetch_one(&mut connection)
+            .await?;
+        if named > 0 {
+            return Err(BackupError::Missing(place.clone()));
+        }
+    }
+    Ok(connection.close().await?)
+}
+
+/// Brings a copy up to what has become of files that are gone: jobs that had ended were deleted, others begin anew.
+/// Returns how many jobs the copy has.
+async fn forget(copy: &Path, gone: &[String]) -> Result<i64, BackupError> {
+    let mut database = SqliteConnectOptions::new()
+        .filename(copy)
+        .foreign_keys(true)
+        .connect()
+        .await?;
+    let mut transaction = database.begin().await?;
+    for place in gone {
+        for statement in [
+            "DELETE FROM jobs WHERE finished_at IS NOT NULL AND id IN (SELECT job_id FROM result_files WHERE place = ?)",
+            "DELETE FROM checkpoints WHERE job_id IN (SELECT job_id FROM result_files WHERE place = ?)",
+            "DELETE FROM result_files WHERE place = ?",
+        ] {
+            sqlx::query(statement)
+                .bind(place)
+                .execute(&mut *transaction)
+                .await?;
+        }
+    }
+    let jobs = sqlx::query_scalar("SELECT count(*) FROM jobs")
+        .fetch_one(&mut *transaction)
+        .await?;
+    transaction.commit().await?;
     database.close().await?;
-    synced(&target)?;
-    copy_files(&target, &Folder::beside(&source), &Folder::beside(&target)).await
+    Ok(jobs)
 }
 
 /// Copies a backup to where the database at `url` is to be; refuses to overwrite one.
@@ -101,18 +174,27 @@ pub async fn restore(from: &Path, url: &str) -> Result<Copied, BackupError> {
     absent(&target)?;
     // Nobody may begin to serve it before all of it is there.
     let _lock = locked(&target)?;
-    let copied = copy_files(&source, &Folder::beside(&source), &Folder::beside(&target)).await?;
+    let (copied, gone) =
+        copy_files(&source, &Folder::beside(&source), &Folder::beside(&target)).await?;
+    still_named(&source, &gone).await?;
     let mut partial = target.clone().into_os_string();
     partial.push(".partial");
     let partial = PathBuf::from(partial);
     std::fs::copy(&source, &partial).map_err(|cause| file(&partial, cause))?;
     synced(&partial)?;
     std::fs::rename(&partial, &target).map_err(|cause| file(&target, cause))?;
+    // The rename is on the disk once the folder is.
+    synced(parent(&target))?;
     Ok(copied)
 }
 
-/// Checks a database and copies the files it names, each against its checksum.
-async fn copy_files(database: &Path, from: &Folder, to: &Folder) -> Result<Copied, BackupError> {
+/// Checks a database and copies the files it names, each against its checksum; with the places of those that are not
+/// there.
+async fn copy_files(
+    database: &Path,
+    from: &Folder,
+    to: &Folder,
+) -> Result<(Copied, Vec<String>), BackupError> {
     let mut connection = SqliteConnectOptions::new()
         .filename(database)
         .read_only(true)
@@ -132,16 +214,23 @@ async fn copy_files(database: &Path, from: &Folder, to: &Folder) -> Result<Copie
     connection.close().await?;
     let mut copied = Copied {
         jobs,
-        files: named.len(),
+        files: 0,
         file_bytes: 0,
     };
+    let mut gone = Vec::new();
     for (place, sha256) in named {
         let (Some(source), Some(target)) = (from.path(&place), to.path(&place)) else {
             return Err(BackupError::Place(place));
         };
-        copied.file_bytes += copy_file(&source, &target, &sha256)?;
+        match copy_file(&source, &target, &sha256)? {
+            Some(bytes) => {
+                copied.files += 1;
+                copied.file_bytes += bytes;
+            }
+            None => gone.push(place),
+        }
     }
-    Ok(copied)
+    Ok((copied, gone))
 }
 
 async fn named_files(
@@ -154,8 +243,12 @@ async fn named_files(
     )
 }
 
-fn copy_file(source: &Path, target: &Path, named: &str) -> Result<u64, BackupError> {
-    let bytes = std::fs::read(source).map_err(|cause| file(source, cause))?;
+/// Copies a file; its length, or nothing if it is not there.
+fn copy_file(source: &Path, target: &Path, named: &str) -> Result<Option<u64>, BackupError> {
+    let bytes = match std::fs::read(source) {
+        Err(cause) if cause.kind() == ErrorKind::NotFound => return Ok(None),
+        bytes => bytes.map_err(|cause| file(source, cause))?,
+    };
     let found = sha256(&bytes);
     if found != named {
         return Err(BackupError::Checksum {
@@ -164,12 +257,12 @@ fn copy_file(source: &Path, target: &Path, named: &str) -> Result<u64, BackupErr
             named: named.to_owned(),
         });
     }
-    if let Some(folder) = target.parent() {
-        std::fs::create_dir_all(folder).map_err(|cause| file(folder, cause))?;
-    }
+    let folder = parent(target);
+    make_folder(folder).map_err(|cause| file(folder, cause))?;
     std::fs::write(target, &bytes).map_err(|cause| file(target, cause))?;
     synced(target)?;
-    Ok(u64::try_from(bytes.len()).unwrap_or(u64::MAX))
+    synced(folder)?;
+    Ok(Some(u64::try_from(bytes.len()).unwrap_or(u64::MAX)))
 }
 
 fn path_of(url: &str) -> Result<PathBuf, BackupError> {

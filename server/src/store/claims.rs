@@ -7,7 +7,7 @@ use super::checkpoints;
 use super::leases::Claim;
 use super::queries::{BEGIN, attempt_event, job_id};
 use super::{Store, StoreError};
-use crate::queue::{Room, Waiting, choose};
+use crate::queue::{Room, WAITING_FOR_DISK, WAITING_FOR_WORKER, Waiting, choose};
 
 /// Waiting jobs looked at for one that fits.
 const LOOKED_AT: i64 = 64;
@@ -83,6 +83,22 @@ impl Store {
              WHERE status = 'queued' AND status_reason IS NOT ?1",
         )
         .bind(reason)
+        .execute(&self.writer)
+        .await?;
+        Ok(told.rows_affected())
+    }
+
+    /// Lets jobs that waited for disk space say that they wait for a worker.
+    ///
+    /// # Errors
+    /// [`StoreError`] if the database fails.
+    pub async fn explain_no_shortage(&self) -> Result<u64, StoreError> {
+        let told = sqlx::query(
+            "UPDATE jobs SET status_reason = ?, version = version + 1 \
+             WHERE status = 'queued' AND status_reason LIKE ? || '%'",
+        )
+        .bind(WAITING_FOR_WORKER)
+        .bind(WAITING_FOR_DISK)
         .execute(&self.writer)
         .await?;
         Ok(told.rows_affected())

@@ -49,6 +49,14 @@ pub(super) struct Limited {
     cancel_requested: bool,
 }
 
+impl Limited {
+    /// Whether a move ends a running job.
+    pub(super) fn ends(&self, step: Move) -> bool {
+        let status = after(Status::Running, step, self.tries, self.cancel_requested);
+        status.is_some_and(Status::is_terminal)
+    }
+}
+
 /// Moves a running job on; with `done` as its last event if nothing follows.
 pub(super) async fn conclude(
     transaction: &mut Transaction<'_, Sqlite>,

@@ -4,6 +4,8 @@ use std::path::PathBuf;
 
 use uuid::Uuid;
 
+use crate::files;
+
 /// Why the store could not do what was asked.
 #[derive(Debug, thiserror::Error)]
 pub enum StoreError {
@@ -59,4 +61,24 @@ pub enum StoreError {
     /// A document cannot be written.
     #[error("writing a document: {0}")]
     Write(#[from] serde_json::Error),
+}
+
+/// SQLite's result codes for a database that another process writes, that cannot be written or read at present, or
+/// whose disk is full: BUSY, LOCKED, IOERR, FULL (sqlite.org/rescode.html).
+const PASSING: [u32; 4] = [5, 6, 10, 13];
+
+impl StoreError {
+    /// Whether the same may succeed a little later: the database is busy, or its disk is full.
+    pub fn is_passing(&self) -> bool {
+        match self {
+            Self::Sql(sqlx::Error::PoolTimedOut) | Self::Unwritten => true,
+            Self::Sql(sqlx::Error::Database(error)) => error
+                .code()
+                .and_then(|code| code.parse::<u32>().ok())
+                // An extended code has the primary one in its last byte.
+                .is_some_and(|code| PASSING.contains(&(code & 0xff))),
+            Self::Prepare { cause, .. } => files::is_full(cause),
+            _ => false,
+        }
+    }
 }

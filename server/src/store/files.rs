@@ -136,21 +136,23 @@ impl Store {
             })
     }
 
-    /// Removes files that no manifest names: of one job, or at start-up of all. What cannot be removed is logged and
-    /// left for the next start.
+    /// Removes files that no manifest names: of the attempts at a job up to this one, or at start-up of all. A later
+    /// attempt may write files that the manifest does not name yet. What cannot be removed is logged and left for the
+    /// next start.
     ///
     /// # Errors
     /// [`StoreError`] if the database fails.
-    pub async fn sweep_files(&self, id: Option<Uuid>) -> Result<(), StoreError> {
+    pub async fn sweep_files(&self, attempt: Option<&Claim>) -> Result<(), StoreError> {
+        let attempt = attempt.map(|claim| (claim.id, claim.lease));
         let named: Vec<String> = sqlx::query_scalar(
             "SELECT place FROM result_files WHERE place IS NOT NULL AND (job_id = ?1 OR ?1 IS NULL)",
         )
-        .bind(id.map(|id| id.to_string()))
+        .bind(attempt.map(|(id, _)| id.to_string()))
         .fetch_all(&self.readers)
         .await?;
         let named: HashSet<String> = named.into_iter().collect();
         let folder = self.folder.clone();
-        match tokio::task::spawn_blocking(move || folder.sweep(id, &named)).await {
+        match tokio::task::spawn_blocking(move || folder.sweep(attempt, &named)).await {
             Ok(Ok(0)) => {}
             Ok(Ok(gone)) => tracing::info!(gone, "files that no manifest names were removed"),
             Ok(Err(error)) => tracing::warn!(%error, "files could not be swept"),

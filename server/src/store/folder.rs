@@ -2,6 +2,7 @@
 //! worker that lost its lease cannot touch the files of the next one; a file counts once the manifest names it.
 
 use std::collections::HashSet;
+use std::fs::DirEntry;
 use std::path::{Component, Path, PathBuf};
 
 use uuid::Uuid;
@@ -46,29 +47,35 @@ impl Folder {
         }
     }
 
-    /// Removes all files that are at none of the named places, and the folders that this leaves empty: of one job, or
-    /// of all if none is named. Returns how many files went.
+    /// Removes all files that are at none of the named places, and the folders that this leaves empty: of the attempts at
+    /// a job up to one of them, or of all jobs. Returns how many files went.
     pub(super) fn sweep(
         &self,
-        id: Option<Uuid>,
+        attempt: Option<(Uuid, i64)>,
         named: &HashSet<String>,
     ) -> std::io::Result<usize> {
         let named: HashSet<PathBuf> = named.iter().filter_map(|place| self.path(place)).collect();
-        match id {
-            None => swept(&self.root, &named),
-            Some(id) => swept(&self.root.join(id.to_string()), &named),
+        let Some((id, last)) = attempt else {
+            return swept(&self.root, &named);
+        };
+        // The job's own folder stays, also empty: the next attempt may be about to write into it.
+        let mut gone = 0;
+        for entry in entries(&self.root.join(id.to_string()))? {
+            let number = entry
+                .file_name()
+                .to_str()
+                .and_then(|name| name.parse().ok());
+            if number.is_some_and(|number: i64| number <= last) {
+                gone += swept(&entry.path(), &named)?;
+            }
         }
+        Ok(gone)
     }
 }
 
 fn swept(folder: &Path, named: &HashSet<PathBuf>) -> std::io::Result<usize> {
-    let entries = match std::fs::read_dir(folder) {
-        Err(cause) if cause.kind() == std::io::ErrorKind::NotFound => return Ok(0),
-        entries => entries?,
-    };
     let (mut gone, mut left) = (0, false);
-    for entry in entries {
-        let entry = entry?;
+    for entry in entries(folder)? {
         let path = entry.path();
         if entry.file_type()?.is_dir() {
             gone += swept(&path, named)?;
@@ -80,10 +87,18 @@ fn swept(folder: &Path, named: &HashSet<PathBuf>) -> std::io::Result<usize> {
             gone += 1;
         }
     }
-    if !left {
+    if !left && folder.exists() {
         std::fs::remove_dir(folder)?;
     }
     Ok(gone)
+}
+
+/// What is in a folder; nothing if there is none.
+fn entries(folder: &Path) -> std::io::Result<Vec<DirEntry>> {
+    match std::fs::read_dir(folder) {
+        Err(cause) if cause.kind() == std::io::ErrorKind::NotFound => Ok(Vec::new()),
+        entries => entries?.collect(),
+    }
 }
 
 #[cfg(test)]
@@ -114,7 +129,7 @@ mod tests {
             std::fs::write(attempt.join("a.vtu"), "x").expect("a file");
         }
         let named = HashSet::from([Folder::place(kept, 2, "a.vtu")]);
-        assert_eq!(folder.sweep(Some(kept), &named).expect("swept"), 1);
+        assert_eq!(folder.sweep(Some((kept, 1)), &named).expect("swept"), 1);
         assert!(folder.of_attempt(lost, 1).exists());
         assert_eq!(folder.sweep(None, &named).expect("swept"), 1);
         assert!(folder.of_attempt(kept, 2).join("a.vtu").exists());

@@ -177,7 +177,8 @@ impl Store {
         let mut transaction = self.writer.begin_with(BEGIN).await?;
         let did = cancel(&mut transaction, id, now).await?;
         transaction.commit().await?;
-        self.changed(id);
+        let ended = (did == Some(Cancelled::AtOnce)).then_some(Status::Cancelled);
+        self.concluded(id, ended);
         Ok(did)
     }
 
@@ -285,12 +286,13 @@ pub(super) async fn insert(
     let progress = serde_json::to_string(&progress)?;
     sqlx::query(
         "INSERT INTO jobs (id, system, spec, plan, status, status_reason, created_at, progress, last_event, priority, \
-         place, deadline_at, memory_mb) VALUES (?, ?, ?, ?, 'queued', 'waiting for a worker', ?, ?, 1, ?, ?, ?, ?)",
+         place, deadline_at, memory_mb) VALUES (?, ?, ?, ?, 'queued', ?, ?, ?, 1, ?, ?, ?, ?)",
     )
     .bind(id.to_string())
     .bind(system)
     .bind(serde_json::to_string(&job.spec)?)
     .bind(serde_json::to_string(&job.plan)?)
+    .bind(queue::WAITING_FOR_WORKER)
     .bind(now)
     .bind(&progress)
     .bind(priority)

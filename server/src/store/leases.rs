@@ -1,4 +1,4 @@
-//! Leases: writing about jobs, ending them, and taking them back from lost workers.
+//! Leases: writing about jobs and ending them.
 //!
 //! Every write of a worker says `WHERE id = ? AND lease = ? AND status = 'running'` and counts for nothing if no row
 //! matches: the lease number, raised by each claim, is the fence.
@@ -11,9 +11,9 @@ use uuid::Uuid;
 use super::checkpoints::{self, NewCheckpoint};
 use super::conclusion::{End, Standing, conclude};
 use super::files::{NewFile, insert_files};
-use super::queries::{BEGIN, insert_event, job_id};
+use super::queries::{BEGIN, insert_event};
 use super::{Store, StoreError};
-use crate::queue::Move;
+use crate::queue::{self, Move, Tries};
 
 /// A job in a worker's hands.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -178,62 +178,22 @@ impl Store {
         Ok(status)
     }
 
-    /// Takes running jobs back whose lease has ended by `now`. Returns how many.
-    ///
-    /// # Errors
-    /// [`StoreError`] if the database fails.
-    pub async fn rescue_expired(&self, now: i64) -> Result<usize, StoreError> {
-        self.rescue(now, now, "its worker was lost").await
+    /// Whether a worker's move ends a job rather than putting it back into the queue.
+    pub fn ends(&self, claim: &Claim, step: Move, cancel_requested: bool) -> bool {
+        let tries = Tries {
+            made: claim.attempt,
+            limit: self.attempt_limit,
+        };
+        queue::after(Status::Running, step, tries, cancel_requested)
+            .is_some_and(Status::is_terminal)
     }
 
-    /// Takes all running jobs back, at start-up: the process that held them is gone. Returns how many.
-    ///
-    /// # Errors
-    /// [`StoreError`] if the database fails.
-    pub async fn rescue_all(&self, now: i64) -> Result<usize, StoreError> {
-        self.rescue(i64::MAX, now, "the service was ended while it ran")
-            .await
-    }
-
-    async fn rescue(&self, expired_by: i64, now: i64, reason: &str) -> Result<usize, StoreError> {
-        let mut transaction = self.writer.begin_with(BEGIN).await?;
-        let lost: Vec<(String, i64, bool)> = sqlx::query_as(
-            "SELECT id, attempts, cancel_requested FROM jobs WHERE status = 'running' AND lease_expires_at <= ?",
-        )
-        .bind(expired_by)
-        .fetch_all(&mut *transaction)
-        .await?;
-        let mut ends = Vec::with_capacity(lost.len());
-        for (text, attempts, cancel_requested) in lost {
-            let id = job_id(&text)?;
-            let end = End {
-                step: Move::Lose,
-                reason: Some(reason.to_owned()),
-                outcome: None,
-                summary: None,
-            };
-            let standing = Standing {
-                attempts,
-                cancel_requested,
-            }
-            .limited(self.attempt_limit);
-            ends.push((
-                id,
-                conclude(&mut transaction, id, &standing, &end, None, now).await?,
-            ));
-        }
-        transaction.commit().await?;
-        for (id, status) in &ends {
-            self.concluded(*id, *status);
-            self.metrics.rescues.inc();
-        }
-        Ok(ends.len())
-    }
-
-    fn concluded(&self, id: Uuid, status: Option<Status>) {
+    pub(super) fn concluded(&self, id: Uuid, status: Option<Status>) {
         self.changed(id);
-        if status == Some(Status::Queued) {
-            self.waiting.notify_one();
+        match status {
+            Some(Status::Queued) => self.waiting.notify_one(),
+            Some(status) if status.is_terminal() => self.metrics.ended(status),
+            _ => {}
         }
     }
 }

@@ -1,6 +1,7 @@
 //! Results of a job, there while it runs.
 
 use api::results::CycleRow;
+use futures_util::TryStreamExt;
 use uuid::Uuid;
 
 use super::{Store, StoreError};
@@ -38,19 +39,21 @@ impl Store {
     /// # Errors
     /// [`StoreError`] if the database fails or a row cannot be read.
     pub async fn history(&self, id: Uuid) -> Result<Vec<CycleRow>, StoreError> {
-        let rows: Vec<String> =
-            sqlx::query_scalar("SELECT data FROM history_rows WHERE job_id = ? ORDER BY cycle")
-                .bind(id.to_string())
-                .fetch_all(&self.readers)
-                .await?;
-        rows.iter()
-            .map(|row| serde_json::from_str(row))
-            .collect::<Result<_, _>>()
-            .map_err(|cause| StoreError::Corrupt {
+        // One text after the other: those of a long history together are several times as large as its rows.
+        let text = sqlx::query_scalar::<_, String>(
+            "SELECT data FROM history_rows WHERE job_id = ? ORDER BY cycle",
+        );
+        let mut texts = text.bind(id.to_string()).fetch(&self.readers);
+        let mut rows = Vec::new();
+        while let Some(text) = texts.try_next().await? {
+            let row = serde_json::from_str(&text).map_err(|cause| StoreError::Corrupt {
                 id,
                 what: "history row",
                 cause: cause.to_string(),
-            })
+            })?;
+            rows.push(row);
+        }
+        Ok(rows)
     }
 
     /// A document (JSON) of the stored snapshot nearest to a cycle; the last one if no cycle is named.

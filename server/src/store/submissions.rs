@@ -41,6 +41,8 @@ impl Submissions {
     fn take(&self) -> Vec<Pending> {
         let waiting = self.waiting.lock();
         let mut waiting = waiting.unwrap_or_else(PoisonError::into_inner);
+        // Whoever has gone was promised nothing, and must not find a job later.
+        waiting.retain(|pending| !pending.answer.is_closed());
         let count = waiting.len().min(TOGETHER);
         waiting.drain(..count).collect()
     }

@@ -4,11 +4,11 @@ use std::collections::BTreeMap;
 
 use api::job::{Outcome, Status};
 use api::results::Summary;
-use api::sweep::{Changes, Sweep, SweepJob};
+use api::sweep::{Changes, Sweep, SweepJob, SweepOverview};
 use uuid::Uuid;
 
 use super::document::timestamp;
-use super::jobs::{Cancelled, NewJob, RequestKey, Submitted, cancel, insert};
+use super::jobs::{NewJob, RequestKey, Submitted, insert};
 use super::queries::{BEGIN, job_id};
 use super::studies::{StudyPlan, insert_study};
 use super::{Store, StoreError};
@@ -140,10 +140,7 @@ impl Store {
         let Some((name, created_at)) = self.sweep_head(id).await? else {
             return Ok(None);
         };
-        let mut counts: BTreeMap<String, u64> = Status::ALL
-            .iter()
-            .map(|status| (status.as_str().to_owned(), 0))
-            .collect();
+        let mut counts = no_jobs();
         let rows: Vec<JobRow> = sqlx::query_as(
             "SELECT job_id, overrides, status, NULL AS status_reason, outcome, NULL AS summary \
              FROM sweep_jobs JOIN jobs ON jobs.id = job_id WHERE sweep_id = ? ORDER BY position",
@@ -186,36 +183,56 @@ impl Store {
         Ok(Some(outcomes?))
     }
 
-    /// Asks for the end of all jobs of a sweep; `false` if there is no such sweep.
+    /// Sweeps, newest first: at most so many, older than one of them if it is named.
     ///
     /// # Errors
     /// [`StoreError`] if the database fails.
-    pub async fn cancel_sweep(&self, id: Uuid, now: i64) -> Result<bool, StoreError> {
-        if self.sweep_head(id).await?.is_none() {
-            return Ok(false);
+    pub async fn sweeps(
+        &self,
+        before: Option<Uuid>,
+        limit: u32,
+    ) -> Result<Vec<SweepOverview>, StoreError> {
+        // Ids are made of times and digits, which `g` follows.
+        let before = before.map_or("g".to_owned(), |id| id.to_string());
+        let rows: Vec<(String, Option<String>, i64)> = sqlx::query_as(
+            "SELECT id, name, created_at FROM sweeps WHERE id < ? ORDER BY id DESC LIMIT ?",
+        )
+        .bind(before)
+        .bind(limit)
+        .fetch_all(&self.readers)
+        .await?;
+        let mut sweeps = Vec::with_capacity(rows.len());
+        for (id, name, created_at) in rows {
+            let id = job_id(&id)?;
+            sweeps.push(SweepOverview {
+                id,
+                name,
+                created_at: timestamp(created_at),
+                counts: self.sweep_counts(id).await?,
+                links: links(id),
+            });
         }
-        let mut transaction = self.writer.begin_with(BEGIN).await?;
-        let jobs: Vec<String> =
-            sqlx::query_scalar("SELECT job_id FROM sweep_jobs WHERE sweep_id = ?")
-                .bind(id.to_string())
-                .fetch_all(&mut *transaction)
-                .await?;
-        let mut changed = Vec::with_capacity(jobs.len());
-        for job in jobs {
-            let job = job_id(&job)?;
-            match cancel(&mut transaction, job, now).await? {
-                Some(Cancelled::AtOnce | Cancelled::Requested) => changed.push(job),
-                Some(Cancelled::Already) | None => {}
-            }
-        }
-        transaction.commit().await?;
-        for job in changed {
-            self.changed(job);
-        }
-        Ok(true)
+        Ok(sweeps)
     }
 
-    async fn sweep_head(&self, id: Uuid) -> Result<Option<(Option<String>, i64)>, StoreError> {
+    async fn sweep_counts(&self, id: Uuid) -> Result<BTreeMap<String, u64>, StoreError> {
+        let rows: Vec<(String, i64)> = sqlx::query_as(
+            "SELECT status, count(*) FROM sweep_jobs JOIN jobs ON jobs.id = job_id WHERE sweep_id = ? GROUP BY status",
+        )
+        .bind(id.to_string())
+        .fetch_all(&self.readers)
+        .await?;
+        let mut counts = no_jobs();
+        for (status, count) in rows {
+            counts.insert(status, u64::try_from(count).unwrap_or_default());
+        }
+        Ok(counts)
+    }
+
+    pub(super) async fn sweep_head(
+        &self,
+        id: Uuid,
+    ) -> Result<Option<(Option<String>, i64)>, StoreError> {
         Ok(
             sqlx::query_as("SELECT name, created_at FROM sweeps WHERE id = ?")
                 .bind(id.to_string())
@@ -223,6 +240,12 @@ impl Store {
                 .await?,
         )
     }
+}
+
+/// Counts by status, of none.
+fn no_jobs() -> BTreeMap<String, u64> {
+    let all = Status::ALL.iter();
+    all.map(|status| (status.as_str().to_owned(), 0)).collect()
 }
 
 fn links(id: Uuid) -> BTreeMap<String, String> {

@@ -6,7 +6,7 @@ use super::conclusion::{End, end_waiting};
 use super::queries::{BEGIN, job_id};
 use super::{Store, StoreError};
 use crate::queue::Move;
-use api::job::Outcome;
+use api::job::{Outcome, Status};
 
 /// Ended jobs removed at once, so that nobody waits long for the writer.
 const REMOVED_AT_ONCE: i64 = 50;
@@ -37,12 +37,13 @@ impl Store {
         }
         transaction.commit().await?;
         for id in &ended {
-            self.changed(*id);
+            self.concluded(*id, Some(Status::Failed));
         }
         Ok(ended.len())
     }
 
-    /// Deletes some of the jobs that ended before a time, the oldest first. Returns how many.
+    /// Deletes some of the jobs that ended before a time, the oldest first, and sweeps that this leaves without jobs.
+    /// Returns how many jobs.
     ///
     /// # Errors
     /// [`StoreError`] if the database fails.
@@ -57,6 +58,15 @@ impl Store {
         let old: Vec<Uuid> = old.iter().map(|id| job_id(id)).collect::<Result<_, _>>()?;
         for id in &old {
             self.delete(*id).await?;
+        }
+        if !old.is_empty() {
+            sqlx::query(
+                "DELETE FROM sweeps WHERE created_at < ? \
+                 AND NOT EXISTS (SELECT 1 FROM sweep_jobs WHERE sweep_id = sweeps.id)",
+            )
+            .bind(time)
+            .execute(&self.writer)
+            .await?;
         }
         Ok(old.len())
     }

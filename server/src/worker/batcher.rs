@@ -21,6 +21,8 @@ const EVENT_PAUSE: Duration = Duration::from_millis(100);
 const EVENT_WAIT: Duration = Duration::from_secs(5);
 /// Rows kept back at most.
 const ROW_LIMIT: usize = 1000;
+/// And bytes of lines, which snapshots and checkpoints make long.
+const BYTE_LIMIT: usize = 16 << 20;
 
 /// Lines on their way to the store.
 #[derive(Debug)]
@@ -28,6 +30,10 @@ pub(super) struct Batcher {
     progress: Progress,
     from_cycle: u64,
     batch: Batch,
+    /// Length of the lines in it.
+    bytes: usize,
+    /// The same of the batch that was taken last, should it be given back.
+    in_hand: usize,
     newest: Option<CycleRow>,
     started: Instant,
     last_event: Option<(Instant, f64)>,
@@ -47,6 +53,8 @@ impl Batcher {
             },
             from_cycle,
             batch: Batch::default(),
+            bytes: 0,
+            in_hand: 0,
             newest: None,
             started: Instant::now(),
             last_event: None,
@@ -59,9 +67,10 @@ impl Batcher {
         *self = Self::new(self.progress.cycles, 0);
     }
 
-    /// Takes a line that does not end the job.
-    pub(super) fn take(&mut self, line: Line) {
+    /// Takes a line of so many bytes that does not end the job.
+    pub(super) fn take(&mut self, line: Line, bytes: usize) {
         self.dirty = true;
+        self.bytes = self.bytes.saturating_add(bytes);
         self.progress.updated_at = Some(Timestamp::now().to_string());
         match line {
             Line::Phase(phase) => self.progress.phase = Some(phase),
@@ -94,12 +103,13 @@ impl Batcher {
 
     /// Whether so much has gathered that it should be written at once.
     pub(super) fn is_full(&self) -> bool {
-        self.batch.rows.len() >= ROW_LIMIT
+        self.batch.rows.len() >= ROW_LIMIT || self.bytes >= BYTE_LIMIT
     }
 
     /// What has gathered; with events if they are due, or if this is the `last` batch.
     pub(super) fn batch(&mut self, last: bool) -> Batch {
         self.dirty = false;
+        self.in_hand = std::mem::take(&mut self.bytes);
         self.progress.eta_s = self.eta_s();
         let mut batch = std::mem::take(&mut self.batch);
         batch.progress = self.progress.clone();
@@ -118,6 +128,7 @@ impl Batcher {
         self.batch.files.extend(newer.files);
         self.batch.events.extend(newer.events);
         self.batch.checkpoint = newer.checkpoint.or(self.batch.checkpoint.take());
+        self.bytes = self.bytes.saturating_add(std::mem::take(&mut self.in_hand));
         self.dirty = true;
     }
 
@@ -186,7 +197,7 @@ mod tests {
         let mut batcher = Batcher::new(2000, 0);
         let (mut rows, mut events) = (0, 0);
         for cycle in 0..=2000 {
-            batcher.take(row(cycle));
+            batcher.take(row(cycle), 100);
             let batch = batcher.batch(false);
             rows += batch.rows.len();
             events += batch.events.len();
@@ -199,10 +210,10 @@ mod tests {
     #[test]
     fn a_batch_that_was_refused_goes_into_the_next_one_in_order() {
         let mut batcher = Batcher::new(10, 0);
-        batcher.take(row(1));
+        batcher.take(row(1), 100);
         let refused = batcher.batch(false);
         assert_eq!(refused.events.len(), 2);
-        batcher.take(row(2));
+        batcher.take(row(2), 100);
         batcher.give_back(refused);
         assert!(batcher.is_dirty());
         let next = batcher.batch(true);
@@ -216,9 +227,9 @@ mod tests {
     #[test]
     fn the_last_batch_tells_where_it_ended() {
         let mut batcher = Batcher::new(10, 0);
-        batcher.take(row(1));
+        batcher.take(row(1), 100);
         batcher.batch(false);
-        batcher.take(row(10));
+        batcher.take(row(10), 100);
         let batch = batcher.batch(true);
         assert!((batch.progress.fraction - 1.0).abs() < 1e-15);
         assert_eq!(
@@ -237,16 +248,29 @@ mod tests {
         };
         let mut batcher = Batcher::new(10, 3);
         assert!((batcher.batch(false).progress.fraction - 0.3).abs() < 1e-15);
-        batcher.take(row(4));
-        batcher.take(checkpoint(4));
+        batcher.take(row(4), 100);
+        batcher.take(checkpoint(4), 100);
         let refused = batcher.batch(false);
         batcher.give_back(refused);
-        batcher.take(row(5));
+        batcher.take(row(5), 100);
         assert_eq!(batcher.batch(false).checkpoint.map(|c| c.cycle), Some(4));
-        batcher.take(checkpoint(5));
+        batcher.take(checkpoint(5), 100);
         let refused = batcher.batch(false);
-        batcher.take(checkpoint(6));
+        batcher.take(checkpoint(6), 100);
         batcher.give_back(refused);
         assert_eq!(batcher.batch(false).checkpoint.map(|c| c.cycle), Some(6));
+    }
+
+    #[test]
+    fn long_lines_fill_a_batch_before_many_rows_do() {
+        let mut batcher = Batcher::new(10, 0);
+        batcher.take(row(1), BYTE_LIMIT - 1);
+        assert!(!batcher.is_full());
+        batcher.take(row(2), 1);
+        assert!(batcher.is_full());
+        let refused = batcher.batch(false);
+        assert!(!batcher.is_full());
+        batcher.give_back(refused);
+        assert!(batcher.is_full());
     }
 }

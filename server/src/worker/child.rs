@@ -7,16 +7,25 @@ use std::time::Duration;
 
 use base64::Engine as _;
 use base64::prelude::BASE64_STANDARD;
+use futures_util::StreamExt;
 use nix::sys::signal::{Signal, kill};
 use nix::unistd::Pid;
-use tokio::io::{AsyncBufReadExt, AsyncWriteExt, BufReader, Lines};
+use tokio::io::AsyncWriteExt;
 use tokio::process::{Child, ChildStderr, ChildStdin, ChildStdout, Command};
 use tokio::task::JoinHandle;
+use tokio_util::codec::{FramedRead, LinesCodec, LinesCodecError};
+use tokio_util::task::AbortOnDropHandle;
 use tracing::Instrument;
 
 use super::Rules;
 use crate::store::Claim;
 
+/// Longest line of a solving process, bytes: a snapshot of as many surface elements as a study may have, several times.
+const LINE_LIMIT: usize = 256 << 20;
+/// Longest line on its standard error; more is dropped.
+const WORDS_LIMIT: usize = 64 << 10;
+/// How long a process may take to end that has closed its output.
+const LAST_MOMENTS: Duration = Duration::from_secs(5);
 /// How long the last words of an ended process are waited for.
 const LAST_WORDS: Duration = Duration::from_secs(1);
 
@@ -27,9 +36,8 @@ pub(super) const OUT_OF_MEMORY: &str = "memory allocation of ";
 #[derive(Debug)]
 pub(super) struct Solving {
     child: Child,
-    /// Held open: its end tells the process that its supervisor is gone.
-    _stdin: ChildStdin,
-    lines: Lines<BufReader<ChildStdout>>,
+    _input: AbortOnDropHandle<()>,
+    lines: FramedRead<ChildStdout, LinesCodec>,
     words: JoinHandle<Option<String>>,
 }
 
@@ -47,11 +55,7 @@ pub(super) enum Ended {
 impl Solving {
     /// Starts the process and hands it the specification and the checkpoint to go on from, a line each; its files go into
     /// `folder`.
-    pub(super) async fn start(
-        rules: &Rules,
-        claim: &Claim,
-        folder: &Path,
-    ) -> std::io::Result<Self> {
+    pub(super) fn start(rules: &Rules, claim: &Claim, folder: &Path) -> std::io::Result<Self> {
         let mut child = Command::new(&rules.program)
             .arg("solve-child")
             .arg("--checkpoint-every-ms")
@@ -66,33 +70,37 @@ impl Solving {
             .kill_on_drop(true)
             .spawn()?;
         let missing = || std::io::Error::other("the process has no pipe");
-        let mut stdin = child.stdin.take().ok_or_else(missing)?;
+        let stdin = child.stdin.take().ok_or_else(missing)?;
         let stdout = child.stdout.take().ok_or_else(missing)?;
         let stderr = child.stderr.take().ok_or_else(missing)?;
         let checkpoint = claim.checkpoint.as_ref();
         let checkpoint =
             checkpoint.map_or_else(String::new, |found| BASE64_STANDARD.encode(&found.state));
-        for line in [claim.spec.as_bytes(), checkpoint.as_bytes()] {
-            stdin.write_all(line).await?;
-            stdin.write_all(b"\n").await?;
-        }
-        stdin.flush().await?;
+        let input = format!("{}\n{checkpoint}\n", claim.spec);
         Ok(Self {
             child,
-            _stdin: stdin,
-            lines: BufReader::new(stdout).lines(),
+            _input: AbortOnDropHandle::new(tokio::spawn(handed(stdin, input).in_current_span())),
+            lines: FramedRead::new(stdout, LinesCodec::new_with_max_length(LINE_LIMIT)),
             words: tokio::spawn(logged(stderr).in_current_span()),
         })
     }
 
     /// The next line; nothing at its end. Safe to cancel.
     pub(super) async fn line(&mut self) -> std::io::Result<Option<String>> {
-        self.lines.next_line().await
+        let line = self.lines.next().await.transpose();
+        line.map_err(std::io::Error::other)
     }
 
     /// Waits for the end; with the last line of its standard error.
     pub(super) async fn ended(&mut self) -> (Ended, Option<String>) {
-        let ended = self.child.wait().await.map_or(Ended::Killed, Ended::from);
+        let waited = tokio::time::timeout(LAST_MOMENTS, self.child.wait()).await;
+        let ended = if let Ok(ended) = waited {
+            ended.map_or(Ended::Killed, Ended::from)
+        } else {
+            tracing::warn!("a solving process closed its output but does not end; it is killed");
+            self.kill().await;
+            Ended::Killed
+        };
         let words = tokio::time::timeout(LAST_WORDS, &mut self.words).await;
         (ended, words.ok().and_then(Result::ok).flatten())
     }
@@ -114,16 +122,29 @@ impl Solving {
     }
 }
 
+/// Hands its input to a process, which may be slow to read it, and holds the pipe open then: its end tells the process
+/// that its supervisor is gone.
+async fn handed(mut stdin: ChildStdin, input: String) {
+    if let Err(error) = stdin.write_all(input.as_bytes()).await {
+        tracing::warn!(%error, "a solving process did not take its input");
+    }
+    std::future::pending::<()>().await;
+}
+
 /// Passes what a process says on to the log; returns its last line, or the one that tells of a failed allocation.
 async fn logged(stderr: ChildStderr) -> Option<String> {
-    let mut lines = BufReader::new(stderr).lines();
+    let mut lines = FramedRead::new(stderr, LinesCodec::new_with_max_length(WORDS_LIMIT));
     let mut last: Option<String> = None;
-    while let Ok(Some(line)) = lines.next_line().await {
-        if !line.trim().is_empty() {
-            tracing::warn!("solving process: {line}");
-            last = last
-                .filter(|told| told.starts_with(OUT_OF_MEMORY))
-                .or(Some(line));
+    while let Some(line) = lines.next().await {
+        match line {
+            Ok(line) if !line.trim().is_empty() => {
+                tracing::warn!("solving process: {line}");
+                last = last
+                    .filter(|told| told.starts_with(OUT_OF_MEMORY))
+                    .or(Some(line));
+            }
+            Ok(_) | Err(LinesCodecError::MaxLineLengthExceeded) => {}
+            Err(LinesCodecError::Io(_)) => break,
         }
     }
     last

@@ -6,6 +6,8 @@ use std::time::Duration;
 use nix::sys::statvfs::statvfs;
 use nix::sys::sysinfo::sysinfo;
 
+use crate::queue::WAITING_FOR_DISK;
+
 /// A solving process may take this many times what its plan expects: the estimate sizes the queue, the limit only keeps
 /// one job from taking the machine down.
 const MEMORY_MARGIN: i64 = 4;
@@ -64,7 +66,7 @@ impl Rules {
         let free_mb = free_disk_mb(&self.folder)?;
         (free_mb < self.least_free_disk_mb).then(|| {
             format!(
-                "waiting for disk space: {free_mb} MB are free, {} MB are needed",
+                "{WAITING_FOR_DISK}{free_mb} MB are free, {} MB are needed",
                 self.least_free_disk_mb
             )
         })

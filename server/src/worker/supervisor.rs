@@ -3,7 +3,7 @@
 use std::convert::Infallible;
 use std::time::Duration;
 
-use api::job::{Outcome, Status};
+use api::job::{Outcome, Progress, Status};
 use api::spec::Spec;
 use tokio::time::MissedTickBehavior;
 use tokio_util::sync::CancellationToken;
@@ -88,7 +88,7 @@ async fn see_through(
     tracing::info!(from_cycle, memory_mb = claim.memory_mb, "job taken");
     let mut batcher = Batcher::new(cycles, from_cycle);
     let folder = store.attempt_folder(claim);
-    let mut child = match Solving::start(rules, claim, &folder).await {
+    let mut child = match Solving::start(rules, claim, &folder) {
         Ok(child) => child,
         Err(cause) => {
             let end = end(
@@ -160,8 +160,9 @@ async fn wind_down(child: &mut Solving, batcher: &mut Batcher, grace: Duration) 
                 Ok(line @ (Line::Summary(_) | Line::Failed(_) | Line::Stopped)) => {
                     last = Some(line);
                 }
-                Ok(line) => batcher.take(line),
-                Err(_) => break,
+                // What earlier attempts left would have to go first; instead the next attempt begins anew.
+                Ok(Line::Anew(_)) | Err(_) => break,
+                Ok(line) => batcher.take(line, text.len()),
             }
         }
     };
@@ -188,20 +189,20 @@ async fn follow(
     loop {
         let due = tokio::select! {
             // What the store does not take stays in the child's pipe, so that memory stays bounded.
-            line = child.line(), if !(refused && batcher.is_full()) => match line.map(|line| line.map(|line| serde_json::from_str::<Line>(&line))) {
-                Ok(Some(Ok(line @ (Line::Summary(_) | Line::Failed(_) | Line::Stopped)))) => {
+            line = child.line(), if !(refused && batcher.is_full()) => match line.map(|line| line.map(|line| (line.len(), serde_json::from_str::<Line>(&line)))) {
+                Ok(Some((_, Ok(line @ (Line::Summary(_) | Line::Failed(_) | Line::Stopped))))) => {
                     last = Some(line);
                     continue;
                 }
-                Ok(Some(Ok(Line::Anew(why)))) => Due::Anew(why),
-                Ok(Some(Ok(line))) => {
-                    batcher.take(line);
+                Ok(Some((_, Ok(Line::Anew(why))))) => Due::Anew(why),
+                Ok(Some((length, Ok(line)))) => {
+                    batcher.take(line, length);
                     if !batcher.is_full() {
                         continue;
                     }
                     Due::Batch
                 }
-                Ok(Some(Err(cause))) => return Ok(broken(child, last, &cause).await),
+                Ok(Some((_, Err(cause)))) => return Ok(broken(child, last, &cause).await),
                 Ok(None) => return Ok(Stop::Output(last)),
                 Err(cause) => return Ok(Stop::Unreadable(format!("the solver's output cannot be read: {cause}"))),
             },
@@ -278,32 +279,64 @@ async fn conclude(
     end: &End,
 ) -> Result<(), StoreError> {
     // A batch's events precede the end, so they are written first, under the same lease.
-    let recorded = patiently(|| store.record(claim, batch, rules.lease_end())).await?;
-    if matches!(recorded, Held::No) {
-        return Ok(());
+    match patiently(|| store.record(claim, batch, rules.lease_end())).await? {
+        Held::Yes { cancel_requested } => {
+            finish(store, claim, &batch.progress, end, cancel_requested).await
+        }
+        Held::No => Ok(()),
     }
-    let files = if end.step == Move::GiveBack || end.step == Move::Lose {
-        Vec::new()
-    } else {
+}
+
+/// Ends the job or puts it back into the queue; where it ends, with documents of all that was computed.
+async fn finish(
+    store: &Store,
+    claim: &Claim,
+    progress: &Progress,
+    end: &End,
+    cancel_requested: bool,
+) -> Result<(), StoreError> {
+    let files = if store.ends(claim, end.step, cancel_requested) {
         patiently(|| gather(store, claim, end.summary.as_ref())).await?
+    } else {
+        Vec::new()
     };
     // The end and the manifest are one transaction.
     let rest = Batch {
-        progress: batch.progress.clone(),
+        progress: progress.clone(),
         files,
         ..Batch::default()
     };
     let status = patiently(|| store.end(claim, &rest, end, now_ms())).await?;
-    store.sweep_files(Some(claim.id)).await?;
-    if let Some(status) = status.filter(|status| status.is_terminal()) {
-        store.metrics().ended(status);
-    }
+    store.sweep_files(Some(claim)).await?;
     tracing::info!(
         status = status.map(Status::as_str),
         reason = end.reason,
         "job concluded"
     );
     Ok(())
+}
+
+/// Ends a job whose last worker was lost, under a lease of its own, with documents of what the worker left.
+///
+/// # Errors
+/// [`StoreError`] if the store has a fault that does not pass; the job is taken back again when the lease ends.
+pub async fn bury(
+    store: &Store,
+    claim: &Claim,
+    rules: &Rules,
+    reason: &str,
+) -> Result<(), StoreError> {
+    let end = end(Move::Lose, reason);
+    let buried = async {
+        let job = patiently(|| store.job(claim.id)).await?;
+        let progress = job.map(|job| job.document.progress).unwrap_or_default();
+        // Whether it is unwanted or has no attempt left, it ends.
+        finish(store, claim, &progress, &end, true).await
+    };
+    tokio::select! {
+        buried = buried => buried,
+        never = beat(store, claim, rules) => match never {},
+    }
 }
 
 /// Writes again until the store takes it: a store that stalls or a full disk must not cost a finished solve. The fence

@@ -1,0 +1,94 @@
+//! `Idempotency-Key`: a client's key for a request; the same key and body make one job, however often they are sent.
+
+use axum::http::HeaderMap;
+use axum::response::{IntoResponse, Response};
+use sha2::{Digest, Sha256};
+
+use super::problem::Kind;
+use crate::store::RequestKey;
+
+/// The header.
+const HEADER: &str = "idempotency-key";
+/// Longest key, characters.
+const LIMIT: usize = 255;
+
+/// Why a key is of no use.
+#[derive(Debug, thiserror::Error)]
+pub(super) enum KeyError {
+    /// Empty, or too long.
+    #[error("the Idempotency-Key has {0} characters; it must have 1 to {LIMIT}")]
+    Length(usize),
+    /// Cannot be read.
+    #[error("the Idempotency-Key must be printable ASCII characters")]
+    Text,
+    /// Used with another body.
+    #[error("the Idempotency-Key was used with another body; use a new key for another study")]
+    Taken,
+}
+
+impl IntoResponse for KeyError {
+    fn into_response(self) -> Response {
+        let kind = match self {
+            Self::Length(_) | Self::Text => Kind::InvalidKey,
+            Self::Taken => Kind::KeyTaken,
+        };
+        kind.because(self.to_string()).into_response()
+    }
+}
+
+/// The client's key for this request, if it gave one.
+pub(super) fn request_key(
+    headers: &HeaderMap,
+    body: &[u8],
+) -> Result<Option<RequestKey>, KeyError> {
+    let Some(value) = headers.get(HEADER) else {
+        return Ok(None);
+    };
+    let key = value.to_str().map_err(|_| KeyError::Text)?.trim();
+    if key.is_empty() || key.len() > LIMIT {
+        return Err(KeyError::Length(key.len()));
+    }
+    Ok(Some(RequestKey {
+        key: key.to_owned(),
+        body_sha256: Sha256::digest(body).into(),
+    }))
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::http::tests::Service;
+
+    #[tokio::test]
+    async fn the_same_key_and_body_make_one_job_and_another_body_none() {
+        let service = Service::new().await;
+        let body = r#"{"system":{"kind":"sd_card"}}"#;
+        let json = ("content-type", "application/json");
+        let keyed = [json, ("idempotency-key", "study-7")];
+        let (status, _, first) = service.send("POST", "/v1/jobs", &keyed, body).await;
+        assert_eq!(status, 202);
+        let (status, _, second) = service.send("POST", "/v1/jobs", &keyed, body).await;
+        assert_eq!((status.as_u16(), &second["id"]), (202, &first["id"]));
+        let other = r#"{"system":{"kind":"zif"}}"#;
+        let (status, _, problem) = service.send("POST", "/v1/jobs", &keyed, other).await;
+        assert_eq!(status, 422);
+        assert_eq!(problem["title"], "the key was used with another body");
+        let long = "k".repeat(256);
+        let (status, _, problem) = service
+            .send(
+                "POST",
+                "/v1/jobs",
+                &[json, ("idempotency-key", &long)],
+                body,
+            )
+            .await;
+        assert_eq!(status, 400);
+        assert_eq!(
+            problem["detail"],
+            "the Idempotency-Key has 256 characters; it must have 1 to 255"
+        );
+        let empty = [json, ("idempotency-key", " ")];
+        assert_eq!(service.send("POST", "/v1/jobs", &empty, body).await.0, 400);
+        let (_, _, page) = service.get("/v1/jobs").await;
+        assert_eq!(page["jobs"].as_array().map_or(0, Vec::len), 1, "{page}");
+    }
+}

@@ -1,0 +1,200 @@
+//! Fencing, attempts and events.
+
+use super::*;
+
+#[tokio::test]
+async fn a_worker_that_lost_its_lease_writes_nothing() {
+    let fixture = Fixture::new().await;
+    let (id, store) = (fixture.queued().await, &fixture.store);
+    let stale = fixture.claimed(10).await;
+    assert_eq!(fixture.rescued(10).await, 1);
+    let fresh = fixture.claimed(100).await;
+    assert_eq!((stale.id, fresh.id), (id, id));
+    assert!(fresh.lease > stale.lease);
+
+    assert_eq!(
+        store
+            .record(&stale, &batch(7), 50)
+            .await
+            .expect("the store"),
+        Held::No
+    );
+    assert_eq!(store.held(&stale).await.expect("the store"), Held::No);
+    assert_eq!(
+        store
+            .end(&stale, &batch(8), &end(Move::Succeed), 60)
+            .await
+            .expect("the store"),
+        None
+    );
+    assert_eq!(fixture.cycles(id).await, Vec::<u64>::new());
+    assert_eq!(fixture.job(id).await.status, Status::Running);
+
+    let held = store
+        .record(&fresh, &batch(1), 100)
+        .await
+        .expect("the store");
+    assert_eq!(
+        held,
+        Held::Yes {
+            cancel_requested: false
+        }
+    );
+    let status = store
+        .end(&fresh, &batch(2), &end(Move::Succeed), 60)
+        .await
+        .expect("the store");
+    assert_eq!(status, Some(Status::Succeeded));
+    assert_eq!(fixture.cycles(id).await, [1, 2]);
+    assert_eq!(
+        store
+            .record(&fresh, &batch(3), 100)
+            .await
+            .expect("the store"),
+        Held::No
+    );
+    assert_eq!(fixture.job(id).await.outcome, Some(Outcome::Completed));
+}
+
+#[tokio::test]
+async fn a_job_whose_workers_are_lost_fails_after_its_last_attempt() {
+    let fixture = Fixture::new().await;
+    let id = fixture.queued().await;
+    for attempt in 1..=ATTEMPT_LIMIT {
+        assert_eq!(fixture.claimed(10).await.id, id);
+        assert_eq!(fixture.rescued(9).await, 0, "the lease still holds");
+        assert_eq!(fixture.rescued(10).await, 1);
+        assert_eq!(fixture.job(id).await.attempts, attempt);
+    }
+    let job = fixture.job(id).await;
+    assert_eq!(
+        (job.status, job.outcome),
+        (Status::Failed, Some(Outcome::WorkerLost))
+    );
+    assert!(
+        job.status_reason
+            .expect("a reason")
+            .starts_with("worker_lost: 3 attempts")
+    );
+    let events = fixture.store.events(id, 0).await.expect("the store");
+    assert_eq!(events.last().expect("an event").name, "done");
+}
+
+#[tokio::test]
+async fn giving_a_job_back_costs_no_attempt() {
+    let fixture = Fixture::new().await;
+    let id = fixture.queued().await;
+    for _ in 0..2 * ATTEMPT_LIMIT {
+        let claim = fixture.claimed(10).await;
+        let status = fixture
+            .store
+            .end(&claim, &Batch::default(), &end(Move::GiveBack), 2)
+            .await
+            .expect("the store");
+        assert_eq!(status, Some(Status::Queued));
+    }
+    let job = fixture.job(id).await;
+    assert_eq!((job.status, job.attempts), (Status::Queued, 0));
+}
+
+#[tokio::test]
+async fn an_unwanted_job_is_not_tried_again() {
+    let fixture = Fixture::new().await;
+    let id = fixture.queued().await;
+    let claim = fixture.claimed(10).await;
+    assert_eq!(
+        fixture.store.cancel(id, 2).await.expect("the store"),
+        Some(Cancelled::Requested)
+    );
+    let held = fixture
+        .store
+        .record(&claim, &batch(1), 10)
+        .await
+        .expect("the store");
+    assert_eq!(
+        held,
+        Held::Yes {
+            cancel_requested: true
+        }
+    );
+    assert_eq!(fixture.rescued(10).await, 1);
+    assert_eq!(fixture.job(id).await.status, Status::Cancelled);
+    assert_eq!(fixture.cycles(id).await, [1]);
+    assert_eq!(
+        fixture.store.cancel(id, 3).await.expect("the store"),
+        Some(Cancelled::Already)
+    );
+}
+
+#[tokio::test]
+async fn event_numbers_have_no_gaps() {
+    let fixture = Fixture::new().await;
+    let id = fixture.queued().await;
+    let lost = fixture.claimed(10).await;
+    fixture
+        .store
+        .record(&lost, &batch(1), 10)
+        .await
+        .expect("the store");
+    fixture.rescued(10).await;
+    fixture
+        .store
+        .record(&lost, &batch(2), 10)
+        .await
+        .expect("the store");
+    let claim = fixture.claimed(10).await;
+    fixture
+        .store
+        .record(&claim, &batch(1), 10)
+        .await
+        .expect("the store");
+    fixture
+        .store
+        .end(&claim, &Batch::default(), &end(Move::Fail), 3)
+        .await
+        .expect("the store");
+    let events = fixture.store.events(id, 0).await.expect("the store");
+    let found: Vec<_> = events
+        .iter()
+        .map(|event| (event.seq, event.name.as_str()))
+        .collect();
+    assert_eq!(
+        found,
+        [
+            (1, "progress"),
+            (2, "attempt"),
+            (3, "cycle"),
+            (4, "attempt"),
+            (5, "cycle"),
+            (6, "done")
+        ]
+    );
+}
+
+#[tokio::test]
+async fn every_end_is_counted_wherever_it_comes_from() {
+    let fixture = Fixture::new().await;
+    let store = &fixture.store;
+    let cancelled = fixture.queued().await;
+    store.cancel(cancelled, 1).await.expect("the store");
+    store.cancel(cancelled, 2).await.expect("the store");
+    let late = Wishes {
+        priority: 0,
+        deadline_s: Some(1),
+    };
+    fixture.wished(late).await;
+    store.expire(1_000).await.expect("the store");
+    fixture.queued().await;
+    for _ in 0..ATTEMPT_LIMIT {
+        fixture.claimed(10).await;
+        fixture.rescued(10).await;
+    }
+    let levels = store.levels(0).await.expect("the store");
+    let text = store.metrics().text(&levels).expect("text");
+    for line in [
+        "fretwear_jobs_ended_total{status=\"cancelled\"} 1",
+        "fretwear_jobs_ended_total{status=\"failed\"} 2",
+    ] {
+        assert!(text.lines().any(|found| found == line), "{line} in\n{text}");
+    }
+}

@@ -1,0 +1,91 @@
+//! What is taken when, and what ends while it waits.
+
+use super::*;
+
+#[tokio::test(flavor = "multi_thread", worker_threads = 4)]
+async fn contending_workers_never_share_a_job() {
+    const JOBS: usize = 40;
+    const WORKERS: usize = 8;
+    let fixture = Fixture::new().await;
+    for _ in 0..JOBS {
+        fixture.queued().await;
+    }
+    let barrier = Arc::new(Barrier::new(WORKERS));
+    let workers = (0..WORKERS).map(|_| {
+        let (store, barrier) = (Arc::clone(&fixture.store), Arc::clone(&barrier));
+        tokio::spawn(async move {
+            barrier.wait().await;
+            let mut taken = Vec::new();
+            while let Some(claim) = store.claim(1, i64::MAX).await.expect("the store") {
+                store
+                    .record(&claim, &batch(1), i64::MAX)
+                    .await
+                    .expect("the store");
+                taken.push(claim.id);
+            }
+            taken
+        })
+    });
+    let mut taken = Vec::new();
+    for worker in workers.collect::<Vec<_>>() {
+        taken.extend(worker.await.expect("a worker"));
+    }
+    taken.sort();
+    taken.dedup();
+    assert_eq!(taken.len(), JOBS);
+}
+
+#[tokio::test]
+async fn the_oldest_job_is_taken_first() {
+    let fixture = Fixture::new().await;
+    let first = fixture.queued().await;
+    let second = fixture.queued().await;
+    assert_eq!(fixture.claimed(10).await.id, first);
+    assert_eq!(fixture.claimed(10).await.id, second);
+    assert_eq!(fixture.store.claim(1, 10).await.expect("the store"), None);
+}
+
+#[tokio::test]
+async fn a_preferred_job_goes_first_and_a_large_one_says_what_it_waits_for() {
+    let fixture = Fixture::new().await;
+    let plain = fixture.queued().await;
+    let preferred = fixture
+        .wished(Wishes {
+            priority: 1,
+            deadline_s: None,
+        })
+        .await;
+    assert_eq!(fixture.claimed(10).await.id, preferred);
+    let claimed = fixture.store.claim_within(1, 1, 10).await;
+    assert_eq!(claimed.expect("the store"), None);
+    let reason = fixture.job(plain).await.status_reason.expect("a reason");
+    assert!(
+        reason.starts_with("waiting for memory: it needs about ")
+            && reason.ends_with(", 0 of 1 MB are left"),
+        "{reason}"
+    );
+    assert_eq!(fixture.claimed(10).await.id, plain);
+}
+
+#[tokio::test]
+async fn a_deadline_ends_a_waiting_job_and_only_old_ends_are_deleted() {
+    let fixture = Fixture::new().await;
+    let wishes = Wishes {
+        priority: 0,
+        deadline_s: Some(5),
+    };
+    let late = fixture.wished(wishes).await;
+    assert_eq!(fixture.store.expire(4_999).await.expect("the store"), 0);
+    assert_eq!(fixture.store.expire(5_000).await.expect("the store"), 1);
+    let job = fixture.job(late).await;
+    assert_eq!(
+        (job.status, job.outcome),
+        (Status::Failed, Some(Outcome::DeadlineExceeded))
+    );
+    fixture.queued().await;
+    let deleted = fixture.store.delete_ended_before(5_000).await;
+    assert_eq!(deleted.expect("the store"), 0);
+    let deleted = fixture.store.delete_ended_before(5_001).await;
+    assert_eq!(deleted.expect("the store"), 1);
+    assert!(fixture.store.job(late).await.expect("the store").is_none());
+}

@@ -1,0 +1,69 @@
+//! A small disk of its own, to be filled up.
+
+use std::io::Write;
+use std::path::Path;
+use std::process::Command;
+use std::time::Duration;
+
+use tempfile::TempDir;
+
+/// A folder, on a small disk of its own where the tests may make one.
+#[derive(Debug)]
+pub struct Disk {
+    folder: TempDir,
+    mounted: bool,
+}
+
+impl Disk {
+    /// A disk of this size.
+    ///
+    /// # Panics
+    /// If no folder can be made.
+    pub fn new(size_mb: usize) -> Self {
+        let folder = tempfile::tempdir().expect("a folder can be made");
+        let mounted = Command::new("mount")
+            .args(["-t", "tmpfs", "-o", &format!("size={size_mb}m"), "tmpfs"])
+            .arg(folder.path())
+            .output()
+            .is_ok_and(|output| output.status.success());
+        Self { folder, mounted }
+    }
+
+    /// The folder.
+    pub fn path(&self) -> &Path {
+        self.folder.path()
+    }
+
+    /// Whether it is a disk of its own, so that it can be filled up.
+    pub fn is_mounted(&self) -> bool {
+        self.mounted
+    }
+
+    /// Takes all space for a while.
+    ///
+    /// # Panics
+    /// If that cannot be begun or ended.
+    pub async fn fill(&self, time: Duration) {
+        let path = self.folder.path().join("filler");
+        let mut file = std::fs::File::create(&path).expect("a file can be made");
+        // Down to the last byte.
+        for size in [1 << 20, 1 << 12, 1] {
+            let block = vec![0_u8; size];
+            while file.write_all(&block).is_ok() {}
+        }
+        tokio::time::sleep(time).await;
+        std::fs::remove_file(path).expect("the file can be removed");
+    }
+}
+
+impl Drop for Disk {
+    fn drop(&mut self) {
+        if self.mounted {
+            // What stays mounted after a failed test is small.
+            let _ = Command::new("umount")
+                .arg("-l")
+                .arg(self.folder.path())
+                .status();
+        }
+    }
+}
