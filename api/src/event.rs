@@ -32,3 +32,32 @@ pub struct Done {
     /// The result in short.
     pub summary: Option<Summary>,
 }
+
+/// An event as it comes in the stream.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
+pub struct StreamEvent {
+    /// Its number within the job, from 1 without gaps; `snapshot` has none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub id: Option<String>,
+    /// Its name.
+    pub event: EventName,
+    /// Its document, JSON: a job, an attempt, progress, a row of the wear history, or the end.
+    #[schema(content_media_type = "application/json")]
+    pub data: String,
+}
+
+/// Names of events.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum EventName {
+    /// The job as it stands.
+    Snapshot,
+    /// A worker begins.
+    Attempt,
+    /// How far it is.
+    Progress,
+    /// A computed cycle.
+    Cycle,
+    /// The end.
+    Done,
+}

@@ -28,6 +28,7 @@ mod upkeep;
 use std::fs::File;
 use std::path::PathBuf;
 use std::sync::Arc;
+use std::time::Instant;
 
 use sqlx::sqlite::SqlitePool;
 use tokio::sync::{Notify, broadcast};
@@ -68,6 +69,8 @@ pub struct Store {
     /// What is counted for `/metrics`.
     metrics: Arc<Metrics>,
     submissions: submissions::Submissions,
+    /// When a write for the sake of it succeeded.
+    proved_ready: tokio::sync::Mutex<Option<Instant>>,
     /// Held as long as the store is open.
     _lock: File,
 }

@@ -64,5 +64,7 @@ async fn no_request_made_from_the_document_is_answered_otherwise_than_it_says() 
         "GET",
     ];
     fuzzed(&server, folder.path(), "30", &about_the_job);
-    assert_eq!(server.get("/healthz").await.0, 200);
+    // On a connection of its own: the service may just be closing the one that was not used for so long.
+    let alive = reqwest::get(format!("{}/healthz", server.base)).await;
+    assert_eq!(alive.expect("the service answers").status(), 200);
 }

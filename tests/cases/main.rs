@@ -30,6 +30,7 @@ mod result_files;
 mod server_killed;
 mod small_strains_cost_what_the_plan_says;
 mod stale_server;
+mod structured_log;
 mod study_of_accuracy;
 mod study_over_http;
 mod sweep;

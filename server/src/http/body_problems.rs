@@ -9,17 +9,17 @@ use utoipa::IntoResponses;
 pub(super) enum BodyProblems {
     /// The body, the key or a query parameter cannot be read.
     #[response(status = 400)]
-    Unreadable(#[to_schema] Problem),
+    Unreadable(Problem),
     /// The body did not arrive in time.
     #[response(status = 408)]
-    Slow(#[to_schema] Problem),
+    Slow(Problem),
     /// The body is too large.
     #[response(status = 413)]
-    TooLarge(#[to_schema] Problem),
+    TooLarge(Problem),
     /// The body is not declared as JSON.
     #[response(status = 415)]
-    MediaType(#[to_schema] Problem),
+    MediaType(Problem),
     /// What is asked for has faults, or the key belongs to another body.
     #[response(status = 422)]
-    Faults(#[to_schema] Problem),
+    Faults(Problem),
 }

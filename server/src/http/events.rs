@@ -8,6 +8,7 @@ use std::collections::VecDeque;
 use std::convert::Infallible;
 use std::time::Duration;
 
+use api::event::StreamEvent;
 use api::problem::Problem;
 use axum::extract::State;
 use axum::http::{HeaderMap, StatusCode, header};
@@ -69,7 +70,7 @@ impl IntoResponse for EventsError {
         ("Last-Event-ID" = Option<u64>, Header, description = "Go on after this event"),
     ),
     responses(
-        (status = 200, description = "The events", content_type = "text/event-stream", body = String),
+        (status = 200, description = "The events", content_type = "text/event-stream", body = StreamEvent),
         (status = 204, description = "The job has ended and nothing follows the event in `Last-Event-ID`"),
         (status = 400, description = "The `Last-Event-ID` cannot be read", body = Problem),
         (status = 404, description = "No such job", body = Problem),

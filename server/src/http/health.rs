@@ -39,7 +39,8 @@ pub(super) async fn healthz() -> Json<Value> {
     tag = "operation",
     responses(
         (status = 200, description = "It can"),
-        (status = 500, description = "It cannot", body = Problem),
+        (status = 500, description = "It cannot, and will not by itself", body = Problem),
+        (status = 503, description = "It cannot at present", body = Problem),
     )
 )]
 pub(super) async fn readyz(State(app): State<App>) -> Result<Json<Value>, ReadyError> {
@@ -50,11 +51,24 @@ pub(super) async fn readyz(State(app): State<App>) -> Result<Json<Value>, ReadyE
 #[cfg(test)]
 mod tests {
     use crate::http::tests::Service;
+    use crate::store;
 
     #[tokio::test]
     async fn a_working_service_is_alive_and_ready() {
         let service = Service::new().await;
         assert_eq!(service.get("/healthz").await.2["status"], "ok");
         assert_eq!(service.get("/readyz").await.2["status"], "ready");
+    }
+
+    #[tokio::test]
+    async fn a_service_whose_database_takes_no_write_is_not_ready() {
+        let service = Service::new().await;
+        let path = service.results_folder().with_file_name("test.db");
+        let _other = store::tests::written_by_another(&path).await;
+        let (status, _, problem) = service.get("/readyz").await;
+        assert_eq!(
+            (status.as_u16(), problem["type"].as_str()),
+            (503, Some("/problems/busy"))
+        );
     }
 }

@@ -4,29 +4,12 @@ use api::plan::PlanDocument;
 use api::spec::Spec;
 use axum::Json;
 use axum::extract::State;
-use axum::response::{IntoResponse, Response};
 
 use super::App;
 use super::body_problems::BodyProblems;
 use super::extract::JsonBody;
-use super::submit::refusal;
+use super::submit::{SubmitError, resolved};
 use crate::machine;
-use crate::translate::{self, Refused};
-
-/// Why there is no plan.
-#[derive(Debug, thiserror::Error)]
-pub(super) enum PlanError {
-    /// It is not a study.
-    #[error(transparent)]
-    Refused(#[from] Refused),
-}
-
-impl IntoResponse for PlanError {
-    fn into_response(self) -> Response {
-        let Self::Refused(refused) = self;
-        refusal(refused).into_response()
-    }
-}
 
 /// The plan of a specification; nothing is queued. The first one that is asked for measures the machine, which takes a
 /// second or two.
@@ -43,8 +26,8 @@ impl IntoResponse for PlanError {
 pub(super) async fn make_plan(
     State(app): State<App>,
     JsonBody(body): JsonBody,
-) -> Result<Json<PlanDocument>, PlanError> {
-    let resolved = translate::read(&body)?;
+) -> Result<Json<PlanDocument>, SubmitError> {
+    let resolved = resolved(body).await?;
     let machine = app.machine.wait().await;
     let plan = machine::plan(&resolved, machine.as_ref());
     Ok(Json(PlanDocument {

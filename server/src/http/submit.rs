@@ -5,6 +5,7 @@ use api::plan::PlanDocument;
 use api::problem::Fault;
 use api::spec::Spec;
 use axum::Json;
+use axum::body::Bytes;
 use axum::extract::State;
 use axum::http::{HeaderMap, StatusCode, header};
 use axum::response::{IntoResponse, Response};
@@ -39,6 +40,9 @@ pub(super) enum SubmitError {
     /// The priority is out of range.
     #[error("priority {0} is not from -{MOST_PRIORITY} to {MOST_PRIORITY}")]
     Priority(i32),
+    /// Its resolution was broken off.
+    #[error("the specification was not resolved: {0}")]
+    Broken(#[from] tokio::task::JoinError),
     /// The job is gone again.
     #[error("the job was deleted at once")]
     Gone,
@@ -51,6 +55,7 @@ impl IntoResponse for SubmitError {
             Self::Store(error) => Refusal::from(&error).into_response(),
             Self::Key(error) => error.into_response(),
             Self::Priority(_) => Kind::InvalidQuery.because(self.to_string()).into_response(),
+            Self::Broken(error) => Refusal::internal(&error).into_response(),
             Self::Gone => Kind::NoJob
                 .because("the job was deleted at once")
                 .into_response(),
@@ -59,7 +64,7 @@ impl IntoResponse for SubmitError {
 }
 
 /// A refused document as a problem.
-pub(super) fn refusal(refused: Refused) -> Refusal {
+fn refusal(refused: Refused) -> Refusal {
     match refused {
         Refused::Broken(broken) => {
             let fault = Fault::new(broken.pointer.clone(), broken.detail.clone());
@@ -71,6 +76,11 @@ pub(super) fn refusal(refused: Refused) -> Refusal {
             .because(format!("{} fault(s) in the specification", faults.len()))
             .with_faults(faults),
     }
+}
+
+/// Resolves a specification. A large mesh takes a while to make, in which other requests are answered.
+pub(super) async fn resolved(body: Bytes) -> Result<Resolved, SubmitError> {
+    Ok(tokio::task::spawn_blocking(move || translate::read(&body)).await??)
 }
 
 /// How to submit.
@@ -130,7 +140,7 @@ pub(super) async fn submit(
 ) -> Result<Response, SubmitError> {
     let wishes = query.wishes()?;
     let key = request_key(&headers, &body)?;
-    let resolved = translate::read(&body)?;
+    let resolved = resolved(body).await?;
     limits::check(&resolved)?;
     let machine = app.machine.known();
     let plan = machine::plan(&resolved, machine);

@@ -1,6 +1,5 @@
 //! `POST /v1/studies`: queues the runs that show what accuracy costs.
 
-use api::problem::Problem;
 use api::study::{StudyDocument, StudyRequest};
 use axum::Json;
 use axum::extract::State;
@@ -8,11 +7,13 @@ use axum::http::{HeaderMap, StatusCode, header};
 use axum::response::{IntoResponse, Response};
 
 use super::App;
+use super::body_problems::BodyProblems;
 use super::extract::JsonBody;
 use super::limits;
 use super::problem::Refusal;
+use super::request_key::{KeyError, request_key};
 use super::show_study::{StudyShowError, document};
-use super::submit::{SubmitError, request_key};
+use super::submit::SubmitError;
 use crate::clock::now_ms;
 use crate::machine;
 use crate::queue;
@@ -70,11 +71,7 @@ impl IntoResponse for SubmitStudyError {
     params(("Idempotency-Key" = Option<String>, Header, description = "Sent twice with the same body, one study")),
     responses(
         (status = 202, description = "Queued", body = StudyDocument, headers(("Location" = String, description = "The study"))),
-        (status = 400, description = "The body or the key cannot be read", body = Problem),
-        (status = 408, description = "The body did not arrive in time", body = Problem),
-        (status = 413, description = "The body is too large", body = Problem),
-        (status = 415, description = "The body is not declared as JSON", body = Problem),
-        (status = 422, description = "The study or one of its runs has faults, or the key belongs to another body", body = Problem),
+        BodyProblems,
     )
 )]
 pub(super) async fn submit_study(
@@ -82,7 +79,7 @@ pub(super) async fn submit_study(
     headers: HeaderMap,
     JsonBody(body): JsonBody,
 ) -> Result<Response, SubmitStudyError> {
-    let key = request_key(&headers, &body)?;
+    let key = request_key(&headers, &body).map_err(SubmitError::from)?;
     let request = study::read(&body)?;
     let scene = study::scene(&request)?;
     let machine = app.machine.wait().await;
@@ -121,7 +118,7 @@ pub(super) async fn submit_study(
     };
     let id = match app.store.submit_sweep(&new, key.as_ref(), now_ms()).await? {
         Submitted::Job(id) => id,
-        Submitted::KeyTaken => return Err(SubmitError::KeyTaken.into()),
+        Submitted::KeyTaken => return Err(SubmitError::from(KeyError::Taken).into()),
     };
     let study = document(&app, id).await?;
     let location = [(header::LOCATION, format!("/v1/studies/{id}"))];

@@ -1,9 +1,14 @@
 //! Levels for `/metrics`, and whether the database can be written.
 
+use std::time::{Duration, Instant};
+
 use api::job::Status;
 
 use super::{Store, StoreError};
 use crate::metrics::Levels;
+
+/// How long a write proves that the database can be written.
+const PROOF: Duration = Duration::from_secs(1);
 
 impl Store {
     /// Jobs by status, checkpoint age and the size of the write-ahead log.
@@ -38,15 +43,21 @@ impl Store {
         })
     }
 
-    /// Writes to the database for the sake of it.
+    /// Writes to the database for the sake of it, unless that has succeeded just now: everyone may ask, and those who ask
+    /// often must not keep workers from writing.
     ///
     /// # Errors
     /// [`StoreError`] if it cannot be written.
     pub async fn ready(&self, now: i64) -> Result<(), StoreError> {
+        let mut proved = self.proved_ready.lock().await;
+        if proved.is_some_and(|at| at.elapsed() < PROOF) {
+            return Ok(());
+        }
         sqlx::query("INSERT OR REPLACE INTO probes (name, written_at) VALUES ('ready', ?)")
             .bind(now)
             .execute(&self.writer)
             .await?;
+        *proved = Some(Instant::now());
         Ok(())
     }
 }

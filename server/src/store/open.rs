@@ -6,6 +6,7 @@ use std::str::FromStr;
 use std::sync::Arc;
 use std::time::Duration;
 
+use sqlx::Connection;
 use sqlx::sqlite::{
     SqliteConnectOptions, SqliteJournalMode, SqlitePool, SqlitePoolOptions, SqliteSynchronous,
 };
@@ -63,6 +64,9 @@ impl Store {
         let lock = locked(&path)?;
         let writer = SqlitePoolOptions::new()
             .max_connections(1)
+            // SQLite ends a transaction by itself when the disk is full or fails, and then cannot roll it back; sqlx
+            // takes that for one that is still open, and refuses to begin another on that connection. It is replaced.
+            .before_acquire(|writer, _| Box::pin(async { Ok(!writer.is_in_transaction()) }))
             .connect_with(options.clone())
             .await?;
         check_version(&queries::sqlite_version(&writer).await?)?;
@@ -81,6 +85,7 @@ impl Store {
             attempt_limit,
             metrics: Arc::default(),
             submissions: Submissions::default(),
+            proved_ready: tokio::sync::Mutex::default(),
             _lock: lock,
         };
         store.sweep_files(None).await?;

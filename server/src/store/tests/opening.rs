@@ -43,3 +43,16 @@ async fn addresses_that_are_no_files_are_refused() {
         assert!(Store::open(url).await.is_err(), "{url}");
     }
 }
+
+#[tokio::test]
+async fn a_transaction_that_the_database_ended_by_itself_does_not_end_all_writing() {
+    let fixture = Fixture::new().await;
+    let store = &fixture.store;
+    let mut transaction = store.writer.begin_with(queries::BEGIN).await;
+    // As SQLite does when the disk is full.
+    let ended = sqlx::query("ROLLBACK").execute(transaction.as_deref_mut().expect("begun"));
+    ended.await.expect("ended");
+    drop(transaction);
+    let id = fixture.queued().await;
+    assert_eq!(fixture.claimed(10).await.id, id);
+}

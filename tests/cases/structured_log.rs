@@ -1,0 +1,83 @@
+//! Requirement: with `--log json` every line of the log is an object, and what belongs to a job carries one span that
+//! names it, with lease and attempt.
+
+use std::collections::BTreeSet;
+use std::process::{Command, Stdio};
+use std::time::Duration;
+
+use serde_json::{Value, json};
+use tests::program::binary;
+
+/// Looks at the log before a test gives up.
+const LOOKS: usize = 2_000;
+
+#[tokio::test]
+async fn every_line_is_an_object_and_a_job_has_one_span() {
+    let folder = tempfile::tempdir().expect("a folder can be made");
+    let path = folder.path().join("log");
+    let log = std::fs::File::create(&path).expect("a file can be made");
+    let mut server = Command::new(binary())
+        .args([
+            "serve",
+            "--listen",
+            "127.0.0.1:0",
+            "--workers",
+            "1",
+            "--log",
+            "json",
+        ])
+        .current_dir(folder.path())
+        .env("RUST_LOG", "info")
+        .stderr(Stdio::from(log))
+        .spawn()
+        .expect("the service can be started");
+    let told = async |words: &str| {
+        for _ in 0..LOOKS {
+            let text = std::fs::read_to_string(&path).expect("a log");
+            if let Some(line) = text.lines().find(|line| line.contains(words)) {
+                return line.to_owned();
+            }
+            tokio::time::sleep(Duration::from_millis(20)).await;
+        }
+        panic!("nobody said {words}");
+    };
+    let line = told("serves on http://").await;
+    let base = line.rsplit(' ').next().expect("an address").to_owned();
+    let study = json!({"system": {"kind": "cylinder_on_flat"}, "cycles": 2, "accuracy": {"preset": "draft"}});
+    let request = reqwest::Client::new().post(format!("{base}/v1/jobs"));
+    let job: Value = request
+        .json(&study)
+        .send()
+        .await
+        .expect("an answer")
+        .json()
+        .await
+        .expect("a job");
+    told("job concluded").await;
+    server.kill().expect("the service is there");
+    server.wait().expect("it ends");
+
+    let text = std::fs::read_to_string(&path).expect("a log");
+    // What the command itself says is for whoever started it.
+    let lines = text
+        .lines()
+        .filter(|line| !line.starts_with("fretwear serves on"));
+    let lines: Vec<Value> = lines
+        .map(|line| serde_json::from_str(line).unwrap_or_else(|cause| panic!("{line}: {cause}")))
+        .collect();
+    let spans: BTreeSet<String> = lines
+        .iter()
+        .filter(|line| line["span"]["name"] == "job")
+        .map(|line| line["span"].to_string())
+        .collect();
+    let span = json!({"name": "job", "id": job["id"], "lease": 1, "attempt": 1});
+    let spans: Vec<Value> = spans
+        .iter()
+        .map(|span| serde_json::from_str(span).expect("JSON"))
+        .collect();
+    assert_eq!(spans, [span], "{text}");
+    for words in ["job taken", "job concluded"] {
+        let line = lines.iter().find(|line| line["fields"]["message"] == words);
+        assert_eq!(line.expect("a line")["span"]["name"], "job");
+    }
+}
