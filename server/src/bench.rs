@@ -3,6 +3,7 @@
 //! Processor time of this process, one case after the other; the smallest of a few repetitions where a case is short.
 //! Knows specifications and the engine; does not know the terminal.
 
+pub mod against;
 mod cases;
 pub mod predictions;
 
@@ -38,6 +39,9 @@ pub enum BenchError {
     /// A whole run.
     #[error(transparent)]
     Failed(#[from] Failure),
+    /// A file, or another program.
+    #[error("{0}")]
+    System(#[from] std::io::Error),
     /// The calibration.
     #[error(transparent)]
     Machine(#[from] MachineError),

@@ -20,7 +20,7 @@ use std::net::SocketAddr;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-use crate::bench::predictions;
+use crate::bench::{against, predictions};
 use access::AccessOptions;
 use clap::{Parser, Subcommand};
 use tracing_subscriber::EnvFilter;
@@ -157,11 +157,24 @@ enum LogFormat {
     Json,
 }
 
+/// Codes to compare with.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+enum OtherCode {
+    /// CalculiX.
+    Ccx,
+}
+
 #[derive(Debug, clap::Args)]
 struct BenchArguments {
     /// Compare what plans expect with what solves take instead, on all systems and both published scenes.
     #[arg(long)]
     predictions: bool,
+    /// Compare with another code on the same work instead: a friction cycle on the same meshes.
+    #[arg(long, value_enum, conflicts_with = "predictions")]
+    against: Option<OtherCode>,
+    /// With contact elements of these sizes, um.
+    #[arg(long, value_delimiter = ',', requires = "against", default_values_t = against::ELEMENTS_UM)]
+    elements_um: Vec<f64>,
     /// At these tolerances.
     #[arg(long, value_delimiter = ',', requires = "predictions", default_values_t = predictions::TOLERANCES)]
     tolerances: Vec<f64>,

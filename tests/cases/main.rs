@@ -9,6 +9,7 @@ mod access_token;
 mod api_fuzz;
 mod architecture;
 mod backup;
+mod bench_against_calculix;
 mod calculix_agrees;
 mod cancel_running_job;
 mod chaos;

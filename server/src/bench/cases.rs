@@ -45,7 +45,7 @@ pub fn all() -> Vec<Case> {
 
 /// The cylinder of *Other codes on the same work*: R = 6 mm on a block of 12 x 6 mm, 185 N/mm, mu = 0.8, +-25 um, no
 /// wear, elements of 10 um.
-const CYLINDER: &str = r#"{
+pub(super) const CYLINDER: &str = r#"{
   "system": {"kind": "cylinder_on_flat", "radius_mm": 6.0, "flat_length_mm": 12.0, "flat_height_mm": 6.0},
   "materials": {
     "slider": {"youngs_modulus_mpa": 200000, "poisson_ratio": 0.3},
@@ -62,7 +62,7 @@ const CYLINDER: &str = r#"{
 }"#;
 
 /// A scene with changed settings.
-fn scene(spec: &str, change: impl FnOnce(&mut Scene)) -> Result<Scene, BenchError> {
+pub(super) fn scene(spec: &str, change: impl FnOnce(&mut Scene)) -> Result<Scene, BenchError> {
     let mut scene = translate::read(spec.as_bytes())?.scene;
     change(&mut scene);
     Ok(scene)

@@ -6,6 +6,7 @@ use comfy_table::{CellAlignment, Table};
 
 use super::BenchArguments;
 use super::terminal::{failed, say, tell};
+use crate::bench::against::{self, Comparison};
 use crate::bench::predictions::{self, Pair, Prediction};
 use crate::bench::{self, BenchError, Row};
 use crate::machine;
@@ -20,6 +21,9 @@ pub(super) fn run(arguments: &BenchArguments) -> ExitCode {
             }
             Err(error) => failed(error),
         };
+    }
+    if arguments.against.is_some() {
+        return against_ccx(&arguments.elements_um);
     }
     let mut rows = Vec::new();
     for (name, case) in bench::all() {
@@ -52,6 +56,42 @@ fn time(seconds: f64) -> String {
     } else {
         format!("{seconds:.2} s")
     }
+}
+
+/// Both codes, one table; visibly skipped where the other one is absent.
+fn against_ccx(elements_um: &[f64]) -> ExitCode {
+    if !against::is_installed() {
+        say("skipped: ccx (CalculiX) is not installed here");
+        return ExitCode::SUCCESS;
+    }
+    let mut table = Table::new();
+    table.load_style(comfy_table::presets::ASCII_MARKDOWN);
+    table.set_header([
+        "element, um",
+        "nodes",
+        "fretwear: set-up + cycle, s",
+        "ccx, s",
+        "ratio",
+        "largest |Q|/(mu P), fretwear / ccx",
+    ]);
+    for element in elements_um {
+        tell(format_args!("fretwear: elements of {element} um"));
+        let compared = match against::ccx(*element) {
+            Ok(compared) => compared,
+            Err(error) => return failed(error),
+        };
+        table.add_row(row(&compared));
+    }
+    for column in table.column_iter_mut() {
+        column.set_cell_alignment(CellAlignment::Right);
+    }
+    say(table);
+    let [ours, theirs] = against::TOLERANCES;
+    say(format_args!(
+        "Processor seconds, one thread each, one after the other on this machine. Tolerances:"
+    ));
+    say(format_args!("fretwear: {ours}; ccx: {theirs}."));
+    ExitCode::SUCCESS
 }
 
 /// What plans expect beside what solves take, with a calibration of its own.
@@ -111,4 +151,24 @@ fn cells(prediction: &Prediction) -> Vec<String> {
         .into_iter()
         .chain(prediction.pairs.iter().map(pair))
         .collect()
+}
+
+fn row(compared: &Comparison) -> [String; 6] {
+    let [setup_s, cycle_s] = compared.ours_s;
+    let (theirs, ratio) = match &compared.theirs_s {
+        Ok(seconds) => (
+            format!("{seconds:.1}"),
+            format!("{:.0}", seconds / (setup_s + cycle_s)),
+        ),
+        Err(reason) => (reason.clone(), "-".to_owned()),
+    };
+    let [ours_use, theirs_use] = compared.friction_use;
+    [
+        compared.element_um.to_string(),
+        compared.nodes.to_string(),
+        format!("{setup_s:.3} + {cycle_s:.3}"),
+        theirs,
+        ratio,
+        format!("{ours_use:.4} / {theirs_use:.4}"),
+    ]
 }

@@ -5,6 +5,8 @@
 //! applies the load, the second moves the handle by the amplitude, where the scene has one. Units: mm, N, MPa, one mm
 //! of depth.
 
+pub mod cycle;
+
 use solver::material::Lame;
 use solver::mesh::columns::Cell;
 use solver::model::{BodyModel, Model};
@@ -20,18 +22,7 @@ const LINE: usize = 8;
 /// The deck. `amplitude_mm` of 0 leaves the second step out.
 pub fn inp(scene: &Scene, model: &Model) -> String {
     let mut deck = Deck::default();
-    deck.line("*HEADING");
-    deck.line("fretwear: mm, N, MPa; plane strain, one mm of depth");
-    let lowered = -first_gap(&model.slider, &model.receptacle);
-    let slider = deck.body("SLIDER", &model.slider, scene.slider.elastic, lowered);
-    let receptacle = deck.body(
-        "RECEPTACLE",
-        &model.receptacle,
-        scene.receptacle.elastic,
-        0.0,
-    );
-    deck.contact(scene, model);
-    deck.boundary(&model.slider, &slider, &receptacle);
+    let slider = deck.head(scene, model, PENALTY);
     deck.load_step(scene, &slider);
     let amplitude = scene.motion.amplitude_mm();
     if amplitude > 0.0 {
@@ -71,6 +62,19 @@ impl Deck {
     fn line(&mut self, line: impl AsRef<str>) {
         self.text.push_str(line.as_ref());
         self.text.push('\n');
+    }
+
+    /// Bodies, contact and supports; returns the slider.
+    fn head(&mut self, scene: &Scene, model: &Model, penalty: f64) -> Part {
+        self.line("*HEADING");
+        self.line("fretwear: mm, N, MPa; plane strain, one mm of depth");
+        let lowered = -first_gap(&model.slider, &model.receptacle);
+        let slider = self.body("SLIDER", &model.slider, scene.slider.elastic, lowered);
+        let elastic = scene.receptacle.elastic;
+        let receptacle = self.body("RECEPTACLE", &model.receptacle, elastic, 0.0);
+        self.contact(scene, model, penalty);
+        self.boundary(&model.slider, &slider, &receptacle);
+        slider
     }
 
     fn body(&mut self, name: &str, model: &BodyModel, elastic: Elastic, by: f64) -> Part {
@@ -159,13 +163,13 @@ impl Deck {
         }
     }
 
-    fn contact(&mut self, scene: &Scene, model: &Model) {
+    fn contact(&mut self, scene: &Scene, model: &Model, penalty: f64) {
         let stiffest = scene
             .slider
             .elastic
             .youngs_modulus_mpa
             .max(scene.receptacle.elastic.youngs_modulus_mpa);
-        let penalty = PENALTY * stiffest / model.sizes.contact_element;
+        let penalty = penalty * stiffest / model.sizes.contact_element;
         self.line("*SURFACE INTERACTION, NAME=TOUCH");
         self.line("*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR");
         self.line(format!("{penalty:e}"));

@@ -46,6 +46,11 @@ impl Probes {
         }
     }
 
+    /// Increments that they take.
+    pub(super) fn increments(&self) -> usize {
+        self.spans.iter().map(|(begin, end)| end + 1 - begin).sum()
+    }
+
     /// Makes the probe that begins before a step, if there is one. One that does not come through is not missed: the
     /// contact of the computed cycle stands in for it.
     pub(super) fn make(

@@ -1,0 +1,145 @@
+//! Another code on the same work: one cycle of frictional sliding without wear, on the same meshes and in as many
+//! increments, one code after the other on this machine.
+
+use std::path::Path;
+use std::process::{Command, Stdio};
+
+use solver::SolveError;
+use solver::condensation;
+use solver::cycle::{CycleState, Integrator};
+use solver::model;
+use solver::scene::Scene;
+
+use super::cases::{CYLINDER, scene};
+use super::{BenchError, measured};
+use crate::solve::children_cpu_s;
+use crate::translate::deck::cycle;
+
+/// Contact elements that are compared unless others are named, um.
+pub const ELEMENTS_UM: [f64; 3] = [20.0, 10.0, 5.0];
+/// Increments of a quarter of a cycle: 32 a cycle.
+const QUARTER: u32 = 8;
+/// Name of the deck.
+const DECK: &str = "cycle";
+
+/// What both codes iterate to.
+pub const TOLERANCES: [&str; 2] = [
+    "contact conditions and load balance to 1e-11 of the indentation and to round-off, no penalty",
+    "residual force 0.5 % of the mean force (its default), penalty of 5 E over an element, stick slope a tenth of it",
+];
+
+/// Both codes on the same meshes.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Comparison {
+    /// Contact element, um.
+    pub element_um: f64,
+    /// Nodes of both bodies.
+    pub nodes: usize,
+    /// Processor seconds: our set-up, and our 40 increments (settling, the way to the first turning point, the cycle).
+    pub ours_s: [f64; 2],
+    /// The other code's processor seconds for the whole, or why it gave up, with what it had taken until then.
+    pub theirs_s: Result<f64, String>,
+    /// Largest |Q| / (mu P) of both over the cycle: never above 1 but by the penalty's slope.
+    pub friction_use: [f64; 2],
+}
+
+/// Whether `ccx` (CalculiX) can be started here.
+pub fn is_installed() -> bool {
+    let ran = Command::new("ccx").arg("-v").stdout(Stdio::null()).status();
+    ran.is_ok()
+}
+
+/// Runs both codes with an element size.
+///
+/// # Errors
+/// [`BenchError`] if ours fails or the other one cannot be started.
+pub fn ccx(element_um: f64) -> Result<Comparison, BenchError> {
+    let folder = std::env::temp_dir().join(format!("fretwear-ccx-{}", std::process::id()));
+    std::fs::create_dir_all(&folder)?;
+    let compared = compare(&folder, element_um);
+    std::fs::remove_dir_all(&folder)?;
+    compared
+}
+
+/// The same; files go into a folder.
+fn compare(folder: &Path, element_um: f64) -> Result<Comparison, BenchError> {
+    let scene = scene(CYLINDER, |scene| {
+        scene.accuracy.contact_element_mm = Some(1e-3 * element_um);
+        scene.accuracy.increments_per_cycle = Some(4 * QUARTER);
+    })?;
+    let full = friction_limit(&scene);
+    let (setup_s, (model, condensed)) = measured(3, || {
+        let model = model::build(&scene).map_err(SolveError::from)?;
+        let condensed = condensation::condense(&model).map_err(SolveError::from)?;
+        Ok::<_, SolveError>((model, condensed))
+    })?;
+    let operators = &condensed.operators;
+    let (cycle_s, (lowered_mm, forces)) = measured(3, || {
+        let mut state = CycleState::start(operators);
+        let mut integrator = Integrator::new(&scene, &model, operators);
+        integrator.settle(&mut state)?;
+        let lowered_mm = -state.contact.height;
+        integrator.set_out(&mut state)?;
+        let sweep = integrator.sweep(&mut state, 1)?;
+        Ok((lowered_mm, sweep.friction_loop.tangential_force_n_per_mm))
+    })
+    .map_err(|error: solver::cycle::CycleError| SolveError::from(error))?;
+
+    let deck = cycle::friction_cycle(&scene, &model, lowered_mm, QUARTER);
+    std::fs::write(folder.join(format!("{DECK}.inp")), deck)?;
+    let before = children_cpu_s();
+    let ran = Command::new("ccx")
+        .arg(DECK)
+        .current_dir(folder)
+        .env("OMP_NUM_THREADS", "1")
+        .stdout(Stdio::null())
+        .stderr(Stdio::null())
+        .status()?;
+    let took_s = children_cpu_s() - before;
+    let printed = std::fs::read_to_string(folder.join(format!("{DECK}.dat"))).unwrap_or_default();
+    let theirs = total_forces(&printed);
+    let largest = |forces: &[f64]| forces.iter().fold(0.0, |m: f64, q| m.max(q.abs())) / full;
+    Ok(Comparison {
+        element_um,
+        nodes: model.slider.mesh.nodes() + model.receptacle.mesh.nodes(),
+        ours_s: [setup_s, cycle_s],
+        theirs_s: if ran.success() {
+            Ok(took_s)
+        } else {
+            Err(format!("{ran} after {took_s:.0} s"))
+        },
+        friction_use: [largest(&forces), largest(&theirs)],
+    })
+}
+
+/// mu P, N/mm.
+fn friction_limit(scene: &Scene) -> f64 {
+    solver::friction::coefficient(scene.friction) * scene.load_n_per_mm
+}
+
+/// Total force along x of each increment in what CalculiX printed.
+fn total_forces(printed: &str) -> Vec<f64> {
+    let mut lines = printed.lines();
+    let mut forces = Vec::new();
+    while let Some(line) = lines.next() {
+        if line.contains("total force") {
+            let numbers = lines.by_ref().find(|line| !line.trim().is_empty());
+            let first = numbers.and_then(|line| line.split_whitespace().next());
+            forces.extend(first.and_then(|first| first.parse::<f64>().ok()));
+        }
+    }
+    forces
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn total_forces_are_read_from_what_calculix_prints() {
+        let printed = "\n total force (fx,fy,fz) for set RECEPTACLE_FAR and time  0.1000000E+00\n\n        \
+                       1.475E+02  1.850E+02  3.3E-14\n\n total force (fx,fy,fz) for set RECEPTACLE_FAR and time  \
+                       0.2E+00\n\n       -1.0E+00  1.850E+02  3.1E-14\n";
+        assert_eq!(total_forces(printed), [147.5, -1.0]);
+    }
+}
