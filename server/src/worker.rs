@@ -2,6 +2,7 @@
 
 mod batcher;
 mod child;
+mod ending;
 mod gather;
 mod rules;
 mod supervisor;
@@ -18,8 +19,8 @@ use tracing::Instrument;
 use crate::clock::{now_ms, steady_ms};
 use crate::store::{Claim, Store, StoreError};
 
+pub use ending::bury;
 pub use rules::Rules;
-pub use supervisor::bury;
 
 /// How often an idle worker looks for itself, should it have missed a call.
 const LOOK: Duration = Duration::from_secs(1);
