@@ -33,6 +33,7 @@ function progress(parts, { cycle, cycles, fraction, eta_s }) {
   parts.bar.style.width = `${100 * fraction}%`;
   parts.bar.parentElement.title = `${(100 * fraction).toFixed(1)} %`;
   parts.cycle.textContent = `${cycle} / ${cycles}`;
+  parts.at = cycle;
   parts.left.textContent = eta_s == null ? "" : span_of(eta_s);
 }
 
@@ -87,8 +88,9 @@ async function follow(job) {
     for await (const { name, data } of events(answer, stop.signal)) {
       const parts = rows.get(job.id);
       if (!parts) break;
-      if (name === "progress") progress(parts, data);
-      if (name === "cycle") depth(parts, data);
+      // A stream begins with what happened before; the list has told more than that already.
+      if (name === "progress" && data.cycle >= parts.at) progress(parts, data);
+      if (name === "cycle" && data.cycle >= parts.at) depth(parts, data);
       if (name === "done") look();
     }
   } catch {

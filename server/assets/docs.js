@@ -3,7 +3,7 @@
 import { document_at, element } from "/assets/page.js";
 
 // What is looked for most comes first.
-const TAGS = ["jobs", "results", "sweeps", "plans", "systems", "operation", "pages"];
+const TAGS = ["jobs", "results", "sweeps", "studies", "plans", "systems", "operation", "pages"];
 const METHODS = ["get", "post", "put", "patch", "delete"];
 
 /** A schema in a few words; documents are links. */
