@@ -34,7 +34,7 @@ pub use increment::{Increment, Solver};
 pub(crate) use range::WATCHED;
 pub use status::Status;
 
-/// Most primal-dual iterations of one increment before it is pivoted.
+/// Most primal-dual iterations of one increment before it is halved, or pivoted.
 pub const MOST_ITERATIONS: usize = 60;
 
 /// Gap residual, over the largest indentation, that ends the iteration. Newton's last step squares an error of the
@@ -70,12 +70,12 @@ pub enum ContactError {
     },
     /// The active set did not settle where friction holds the slider against a wall.
     #[error(
-        "jammed at x = {slider_x_mm:.6} mm: the contact stands on a slope of {slope:.2}, and friction lets nothing climb beyond {limit:.2}"
+        "jammed at x = {slider_x_mm:.6} mm: the load stands on a slope of {slope:.2}, and friction lets nothing climb beyond {limit:.2}"
     )]
     Jammed {
         /// Imposed displacement, mm.
         slider_x_mm: f64,
-        /// Steepest slope under the contact.
+        /// Slope that the load stands on, in the mean.
         slope: f64,
         /// 1 / mu: beyond it only wear or yielding lets a contact climb.
         limit: f64,

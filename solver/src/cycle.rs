@@ -13,6 +13,7 @@ mod jump;
 mod path;
 mod probe;
 mod record;
+mod share;
 mod state;
 mod sweep;
 
@@ -28,14 +29,29 @@ use crate::scene::Scene;
 use probe::Probes;
 pub(crate) use record::worn_area_residual;
 pub use record::{report, snapshot};
+use share::check_wear;
 pub use state::{CycleError, CycleState};
 pub use sweep::{Neutral, Sweep};
 
-/// How often an increment may be halved before it is given up.
-const MOST_HALVINGS: u32 = 8;
+/// How hard an increment is tried.
+#[derive(Debug, Clone, Copy)]
+struct Patience {
+    /// How often it may be halved before it is given up.
+    halvings: u32,
+    /// From this many halvings on, it is pivoted where Newton's method does not settle.
+    pivots_from: u32,
+}
 
-/// From this many halvings on, an increment is pivoted where Newton's method does not settle.
-const PIVOTS_FROM: u32 = 2;
+const PATIENCE: Patience = Patience {
+    halvings: 8,
+    pivots_from: 2,
+};
+
+/// A probe can be done without.
+const PROBES_PATIENCE: Patience = Patience {
+    pivots_from: u32::MAX,
+    ..PATIENCE
+};
 
 /// A stroke whose amplitude is larger than this many half-widths of the contact leaves it behind.
 const RUNS_FROM: f64 = 2.0;
@@ -163,7 +179,12 @@ impl<'a> Integrator<'a> {
     ) -> Result<Sweep, CycleError> {
         let mut sweep = Sweep::default();
         let mut probes = if runs && jump > 1 {
-            Probes::of(steps, state.mean_half_width)
+            Probes::of(
+                steps,
+                self.scene.accuracy.tolerance,
+                state.mean_half_width,
+                state.neutral.half_width,
+            )
         } else {
             Probes::default()
         };
@@ -218,14 +239,8 @@ impl<'a> Integrator<'a> {
         cycles: f64,
         increment: usize,
     ) -> Result<(), CycleError> {
-        let to = Move {
-            slider_x: step.slider_x,
-            run: step.run,
-            cycles,
-            pivots: false,
-        };
         let cycle = state.cycle;
-        self.reach(state, to, 0)
+        self.reach(state, move_of(step, cycles), 0, PATIENCE)
             .map_err(|(halvings, source)| CycleError::Increment {
                 cycle,
                 increment,
@@ -234,21 +249,36 @@ impl<'a> Integrator<'a> {
             })
     }
 
+    /// A step that digs for a single cycle, in equal parts; whether it could be made.
+    fn probe(&mut self, state: &mut CycleState, step: &path::Step, parts: usize) -> bool {
+        let from = state.contact.slider_x;
+        let part = |k: usize| path::Step {
+            slider_x: from + (step.slider_x - from) * real(k) / real(parts),
+            run: step.run / real(parts),
+            at: None,
+        };
+        (1..=parts).all(|k| {
+            self.reach(state, move_of(&part(k), 1.0), 0, PROBES_PATIENCE)
+                .is_ok()
+        })
+    }
+
     /// Makes a move, in halves if it cannot be made at once.
     fn reach(
         &mut self,
         state: &mut CycleState,
         to: Move,
         halvings: u32,
+        patience: Patience,
     ) -> Result<(), (u32, ContactError)> {
         let to = Move {
-            pivots: halvings >= PIVOTS_FROM,
+            pivots: halvings >= patience.pivots_from,
             ..to
         };
         let Err(error) = self.increment(state, to) else {
             return Ok(());
         };
-        if halvings == MOST_HALVINGS {
+        if halvings == patience.halvings {
             return Err((halvings, error));
         }
         let slider_x = 0.5 * (state.contact.slider_x + to.slider_x);
@@ -261,8 +291,9 @@ impl<'a> Integrator<'a> {
                 ..to
             },
             halvings + 1,
+            patience,
         )?;
-        self.reach(state, Move { run, ..to }, halvings + 1)
+        self.reach(state, Move { run, ..to }, halvings + 1, patience)
     }
 
     fn increment(&mut self, state: &mut CycleState, to: Move) -> Result<(), ContactError> {
@@ -277,8 +308,7 @@ impl<'a> Integrator<'a> {
         let done = self
             .solver
             .advance(&self.pair, &surfaces, last, to, &mut self.next)?;
-        self.spines
-            .check_wear(&self.pair.interface, state, to, &done)?;
+        check_wear(&self.spines, &self.pair.interface, state, to, &done)?;
         let interface = &self.pair.interface;
         let widths = &self.pair.operators.receptacle.widths[done.first..];
         let depths = &mut state.receptacle_depth[done.first..];
@@ -328,5 +358,14 @@ impl<'a> Integrator<'a> {
             state.neutral = Neutral::of(&contact, &self.pair);
         }
         sweep.contacts.push((position, contact));
+    }
+}
+
+fn move_of(step: &path::Step, cycles: f64) -> Move {
+    Move {
+        slider_x: step.slider_x,
+        run: step.run,
+        cycles,
+        pivots: false,
     }
 }

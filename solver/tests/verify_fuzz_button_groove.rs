@@ -15,7 +15,7 @@
 
 use crate::keep::solve;
 use crate::scenes::{COPPER_WEAR, fuzz_button};
-use solver::scene::Scene;
+use solver::scene::{Motion, Scene};
 
 const LOAD: f64 = 0.508;
 
@@ -94,6 +94,30 @@ fn pressure_of_a_running_contact_is_that_of_single_cycles() {
         "peak pressure at cycle 240: {chosen:.1} MPa with jumps of {jump}, {single:.1} MPa without"
     );
     assert!(jump > 3);
-    // It is 6 % low; on the front of the jump it would be 39 % low.
-    assert!((chosen / single - 1.0).abs() < 0.1);
+    // Reached: 0.9 %. On the front of the jump it would be 39 % low.
+    assert!((chosen / single - 1.0).abs() < 0.03);
+}
+
+/// Of a stroke of some four half-widths as well, where the probe of a position begins before the last one is reached. The
+/// jump is fixed from the first cycle on and has shaped the floor that the probe comes over.
+#[test]
+fn pressure_of_a_contact_that_hardly_runs_is_that_of_single_cycles() {
+    let peak = |cycle_jump: u64| {
+        let mut scene = Scene {
+            cycles: 100,
+            motion: Motion::Reciprocating {
+                amplitude_mm: 0.008,
+                period_s: 16.0,
+            },
+            ..fuzz_button()
+        };
+        scene.accuracy.tolerance = 0.05;
+        scene.accuracy.cycle_jump = Some(cycle_jump);
+        let (summary, _) = solve(&scene).expect("the scene can be solved");
+        summary.last.peak_pressure_mpa
+    };
+    let (ten, single) = (peak(10), peak(1));
+    println!("peak pressure at cycle 100: {ten:.1} MPa with jumps of 10, {single:.1} MPa without");
+    // Reached: 16 %. On the front of the jump it would be 54 % low.
+    assert!((ten / single - 1.0).abs() < 0.2);
 }

@@ -162,11 +162,12 @@ impl Solver {
         if to.pivots && !matches!(end, End::Settled) {
             end = self.pivoting.solve(newton, &problem, response, it, end);
         }
+        let wall = || wall_ahead(last, surfaces, &pair.operators.receptacle.widths, step);
         match end {
             End::Settled => Ok(()),
-            _ if steepest(last, surfaces) * interface.friction > 1.0 => Err(ContactError::Jammed {
+            _ if wall() * interface.friction > 1.0 => Err(ContactError::Jammed {
                 slider_x_mm: slider_x,
-                slope: steepest(last, surfaces),
+                slope: wall(),
                 limit: interface.friction.recip(),
             }),
             End::Singular { active } => Err(ContactError::NoEquilibrium {
@@ -291,12 +292,19 @@ impl Solver {
     }
 }
 
-/// Steepest slope of the receptacle under a contact.
-fn steepest(contact: &ContactState, surfaces: &Surfaces<'_>) -> f64 {
-    let places = contact.status.iter().zip(surfaces.slope);
-    places
-        .filter(|(status, _)| **status != Status::Open)
-        .fold(0.0, |m: f64, (_, slope)| m.max(slope.abs()))
+/// Slope that the load stands on, in the mean; positive where the slider climbs it.
+fn wall_ahead(contact: &ContactState, surfaces: &Surfaces<'_>, widths: &[f64], step: f64) -> f64 {
+    let (mut load, mut moment) = (0.0, 0.0);
+    let places = contact.pressure.iter().zip(widths).zip(surfaces.slope);
+    for ((p, width), slope) in places {
+        load += width * p;
+        moment += width * p * slope;
+    }
+    if load > 0.0 {
+        step.signum() * moment / load
+    } else {
+        0.0
+    }
 }
 
 /// Begins with the last contact as it travels with the slider.
@@ -304,6 +312,10 @@ fn guess(it: &mut Iterate, pair: &Pair<'_>, last: &ContactState, problem: &Probl
     let (first, end) = (problem.coupling.first, problem.coupling.end);
     let x = &pair.operators.receptacle.x;
     let n = end - first;
+    // What the last solve left would make the answer depend on more than the state.
+    it.indentation = last.indentation;
+    it.height = last.height;
+    it.tolerance = GAP_TOLERANCE;
     it.status.clear();
     it.pressure.clear();
     it.slip.clear();

@@ -93,7 +93,8 @@ pub fn forecast(scene: &Scene, model: &Model) -> Forecast {
         let step = jump.next(&scene.accuracy, scar.stroke(scene), until - cycle);
         let steps = path::steps(scene.motion, &scene.accuracy, scar.half_width);
         let probes = if scar.stroke_runs() && step > 1 {
-            Probes::of(&steps, scar.half_width).increments()
+            let tolerance = scene.accuracy.tolerance;
+            Probes::of(&steps, tolerance, scar.half_width, scar.contact(1)).increments()
         } else {
             0
         };

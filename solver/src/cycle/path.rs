@@ -20,6 +20,11 @@ fn rule(tolerance: f64) -> (f64, usize) {
     )
 }
 
+/// The largest step of a contact of a half-width, mm.
+pub(super) fn largest_step(tolerance: f64, half_width: f64) -> f64 {
+    rule(tolerance).0 * half_width
+}
+
 /// Most steps a quarter of a cycle: beyond, a cycle takes longer than anyone would wait.
 const MOST_STEPS: usize = 50_000;
 
