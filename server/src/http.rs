@@ -87,6 +87,8 @@ pub struct App {
     machine: Kept,
     /// Archives that may be made at once.
     archives: Arc<Semaphore>,
+    /// Studies whose runs may be chosen at once.
+    programmes: Arc<Semaphore>,
     long_polls: Arc<Semaphore>,
     streams: Arc<Semaphore>,
 }
@@ -100,6 +102,7 @@ impl App {
             stopping,
             access,
             archives: Arc::new(Semaphore::new(archive::AT_ONCE)),
+            programmes: Arc::new(Semaphore::new(submit_study::AT_ONCE)),
             long_polls: Arc::new(Semaphore::new(LONG_POLLS)),
             streams: Arc::new(Semaphore::new(STREAMS)),
         }

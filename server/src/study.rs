@@ -20,13 +20,13 @@ use api::results::{Profile, Summary};
 use api::spec::Spec;
 use api::study::{Errors, Study, StudyRun};
 
-use crate::translate::{self, Refused, Resolved};
+use crate::translate::{self, Resolved};
 use budget::Budget;
 use errors::Solution;
 use reference::Converged;
 
 pub use grid::{Grid, Settings};
-pub use programme::{Asked, Programme, Wanted};
+pub use programme::{Accept, Asked, Programme, ProgrammeError, Wanted};
 
 /// Processor seconds that all runs of a study together should take, unless told otherwise.
 pub const BUDGET_S: f64 = 180.0;
@@ -40,9 +40,9 @@ pub enum StudyError {
     /// What a solving process wrote cannot be read.
     #[error("a line of a solving process: {0}")]
     Line(#[from] serde_json::Error),
-    /// A run is not a specification that can be solved.
-    #[error("a run of the study: {0}")]
-    Refused(#[from] Refused),
+    /// There are no runs to be made.
+    #[error(transparent)]
+    Programme(#[from] ProgrammeError),
     /// Nothing can be compared.
     #[error("no run succeeded: {0}")]
     NothingSolved(String),
@@ -108,7 +108,7 @@ pub fn make(request: &Request<'_>, tell: &mut dyn FnMut(&str)) -> Result<Study, 
         program,
         budget_s,
     } = request;
-    let programme = Programme::within(resolved, machine, *budget_s)?;
+    let programme = Programme::within(resolved, machine, *budget_s, &|_| Ok(()))?;
     let mut left_out = programme.left_out;
     let mut runs = Vec::new();
     let mut budget = Budget::new(*budget_s);

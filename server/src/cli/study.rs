@@ -5,9 +5,9 @@ use std::process::ExitCode;
 
 use indicatif::{ProgressBar, ProgressStyle};
 
-use super::terminal::{failed, say, specification_for};
+use super::terminal::{failed, refused, say, specification_for};
 use crate::machine::{Kept, cache_file};
-use crate::study::{self, Request, report};
+use crate::study::{self, ProgrammeError, Request, StudyError, report};
 
 pub(super) fn run(spec: &Path, out: Option<&Path>, budget_s: f64) -> ExitCode {
     let resolved = match specification_for(spec, out) {
@@ -33,6 +33,7 @@ pub(super) fn run(spec: &Path, out: Option<&Path>, budget_s: f64) -> ExitCode {
     spinner.finish_and_clear();
     let study = match made {
         Ok(study) => study,
+        Err(StudyError::Programme(ProgrammeError::Refused(error))) => return refused(&error),
         Err(error) => return failed(error),
     };
     say(report::text(&study));

@@ -1,10 +1,15 @@
 //! `POST /v1/studies`: queues the runs that show what accuracy costs.
 
+use std::sync::Arc;
+
+use api::plan::MachineFigures;
+use api::problem::Fault;
 use api::study::{StudyDocument, StudyRequest};
 use axum::Json;
 use axum::extract::State;
 use axum::http::{HeaderMap, StatusCode, header};
 use axum::response::{IntoResponse, Response};
+use uuid::Uuid;
 
 use super::App;
 use super::body_problems::BodyProblems;
@@ -18,8 +23,11 @@ use crate::clock::now_ms;
 use crate::machine;
 use crate::queue;
 use crate::store::{NewJob, NewSweep, StoreError, StudyPlan, Submitted, Wishes};
-use crate::study::{BUDGET_S, Programme};
-use crate::translate::{Refused, study};
+use crate::study::{BUDGET_S, Programme, ProgrammeError};
+use crate::translate::{Refused, Resolved, study};
+
+/// Studies whose runs are chosen at once: each keeps a processor busy for seconds.
+pub(super) const AT_ONCE: usize = 2;
 
 /// Why a study was not queued.
 #[derive(Debug, thiserror::Error)]
@@ -41,6 +49,17 @@ pub(super) enum SubmitStudyError {
 impl From<Refused> for SubmitStudyError {
     fn from(refused: Refused) -> Self {
         Self::Submit(refused.into())
+    }
+}
+
+impl From<ProgrammeError> for SubmitStudyError {
+    fn from(error: ProgrammeError) -> Self {
+        Self::from(match error {
+            ProgrammeError::Refused(refused) => study::of_base(refused),
+            ProgrammeError::TooDear { .. } => {
+                Refused::Faults(vec![Fault::new("/budget_s", error.to_string())])
+            }
+        })
     }
 }
 
@@ -81,18 +100,25 @@ pub(super) async fn submit_study(
 ) -> Result<Response, SubmitStudyError> {
     let key = request_key(&headers, &body).map_err(SubmitError::from)?;
     let request = study::read(&body)?;
-    let scene = study::scene(&request)?;
+    if let Some(key) = &key {
+        match app.store.sweep_of(key).await? {
+            Some(Submitted::Job(id)) => return queued(&app, id).await,
+            Some(Submitted::KeyTaken) => return Err(SubmitError::from(KeyError::Taken).into()),
+            None => {}
+        }
+    }
     let machine = app.machine.wait().await;
     let machine = machine.ok_or(SubmitStudyError::Unmeasured)?;
-    let budget_s = request.budget_s.unwrap_or(BUDGET_S);
+    let turn = Arc::clone(&app.programmes).acquire_owned().await;
     let choose = {
-        let (scene, machine) = (scene.clone(), machine.clone());
-        move || Programme::within(&scene, &machine, budget_s)
+        let (request, machine) = (request.clone(), machine.clone());
+        move || {
+            // Held until the choice is made, whether or not anybody still waits for it.
+            let _turn = turn;
+            choose(&request, &machine)
+        }
     };
-    let programme = tokio::task::spawn_blocking(choose).await??;
-    for run in &programme.runs {
-        limits::check(&run.resolved)?;
-    }
+    let (scene, programme) = tokio::task::spawn_blocking(choose).await??;
     let runs = programme.runs.into_iter().enumerate();
     let jobs = runs.map(|(position, run)| {
         let overrides = serde_json::to_value(run.asked.accuracy());
@@ -120,16 +146,37 @@ pub(super) async fn submit_study(
         Submitted::Job(id) => id,
         Submitted::KeyTaken => return Err(SubmitError::from(KeyError::Taken).into()),
     };
-    let study = document(&app, id).await?;
+    queued(&app, id).await
+}
+
+/// The scene and the runs: up to some forty meshes and forecasts, which take seconds.
+fn choose(
+    request: &StudyRequest,
+    machine: &MachineFigures,
+) -> Result<(Resolved, Programme), SubmitStudyError> {
+    let scene = study::scene(request)?;
+    let budget_s = request.budget_s.unwrap_or(BUDGET_S);
+    let programme = Programme::within(&scene, machine, budget_s, &limits::check)?;
+    Ok((scene, programme))
+}
+
+async fn queued(app: &App, id: Uuid) -> Result<Response, SubmitStudyError> {
+    let study = document(app, id).await?;
     let location = [(header::LOCATION, format!("/v1/studies/{id}"))];
     Ok((StatusCode::ACCEPTED, location, Json(study)).into_response())
 }
 
 #[cfg(test)]
 mod tests {
+    use std::sync::Arc;
+    use std::time::Duration;
+
+    use api::plan::MachineFigures;
     use serde_json::json;
+    use tokio::sync::Semaphore;
 
     use crate::http::tests::{STUDY, Service};
+    use crate::machine::Kept;
 
     #[tokio::test]
     async fn a_study_queues_ordinary_jobs_that_differ_in_their_accuracy() {
@@ -163,14 +210,33 @@ mod tests {
     }
 
     #[tokio::test]
+    async fn a_budget_that_not_even_one_run_fits_into_is_refused() {
+        let mut service = Service::new().await;
+        let known = service.app.machine.known().expect("figures").clone();
+        service.app.machine = Kept::of(MachineFigures {
+            increment_s: 1e3,
+            ..known
+        });
+        let (status, _, problem) = service.post("/v1/studies", STUDY).await;
+        assert_eq!(
+            (status.as_u16(), &problem["faults"][0]["pointer"]),
+            (422, &json!("/budget_s")),
+            "{problem}"
+        );
+    }
+
+    #[tokio::test]
     async fn the_same_key_and_body_make_one_study() {
-        let service = Service::new().await;
+        let mut service = Service::new().await;
         let keyed = [
             ("content-type", "application/json"),
             ("idempotency-key", "s"),
         ];
         let (_, _, first) = service.send("POST", "/v1/studies", &keyed, STUDY).await;
-        let (_, _, again) = service.send("POST", "/v1/studies", &keyed, STUDY).await;
-        assert_eq!(first["id"], again["id"]);
+        // What is queued already is told without choosing its runs again.
+        service.app.programmes = Arc::new(Semaphore::new(0));
+        let again = service.send("POST", "/v1/studies", &keyed, STUDY);
+        let again = tokio::time::timeout(Duration::from_mins(1), again).await;
+        assert_eq!(first["id"], again.expect("an answer").2["id"]);
     }
 }

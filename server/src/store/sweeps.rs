@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use api::job::{Outcome, Status};
 use api::results::Summary;
 use api::sweep::{Changes, Sweep, SweepJob, SweepOverview};
+use sqlx::SqliteExecutor;
 use uuid::Uuid;
 
 use super::document::timestamp;
@@ -85,19 +86,10 @@ impl Store {
         now: i64,
     ) -> Result<Submitted, StoreError> {
         let mut transaction = self.writer.begin_with(BEGIN).await?;
-        if let Some(key) = key {
-            let known: Option<(Vec<u8>, String)> =
-                sqlx::query_as("SELECT body_sha256, id FROM sweeps WHERE request_key = ?")
-                    .bind(&key.key)
-                    .fetch_optional(&mut *transaction)
-                    .await?;
-            if let Some((body, id)) = known {
-                return Ok(if body == key.body_sha256 {
-                    Submitted::Job(job_id(&id)?)
-                } else {
-                    Submitted::KeyTaken
-                });
-            }
+        if let Some(key) = key
+            && let Some(known) = known(&mut *transaction, key).await?
+        {
+            return Ok(known);
         }
         let id = Uuid::now_v7();
         sqlx::query(
@@ -130,6 +122,14 @@ impl Store {
         self.waiting.notify_waiters();
         self.waiting.notify_one();
         Ok(Submitted::Job(id))
+    }
+
+    /// The sweep that an earlier request with the same key made, if there was one.
+    ///
+    /// # Errors
+    /// [`StoreError`] if the database fails.
+    pub async fn sweep_of(&self, key: &RequestKey) -> Result<Option<Submitted>, StoreError> {
+        known(&self.readers, key).await
     }
 
     /// A sweep as it stands.
@@ -240,6 +240,26 @@ impl Store {
                 .await?,
         )
     }
+}
+
+/// What an earlier request with the same key made.
+async fn known(
+    database: impl SqliteExecutor<'_>,
+    key: &RequestKey,
+) -> Result<Option<Submitted>, StoreError> {
+    let known: Option<(Vec<u8>, String)> =
+        sqlx::query_as("SELECT body_sha256, id FROM sweeps WHERE request_key = ?")
+            .bind(&key.key)
+            .fetch_optional(database)
+            .await?;
+    let Some((body, id)) = known else {
+        return Ok(None);
+    };
+    Ok(Some(if body == key.body_sha256 {
+        Submitted::Job(job_id(&id)?)
+    } else {
+        Submitted::KeyTaken
+    }))
 }
 
 /// Counts by status, of none.

@@ -145,8 +145,14 @@ impl Grid {
         }
     }
 
-    /// The finest grid that fits: settings are refined in turn as long as all runs together stay within the budget.
-    pub(super) fn within(base: &Base, factor: f64, budget_s: f64) -> Self {
+    /// The finest grid that fits: settings are refined in turn as long as all runs together stay within the budget and
+    /// the finest one, which all are compared with, is accepted.
+    pub(super) fn within(
+        base: &Base,
+        factor: f64,
+        budget_s: f64,
+        accepted: &dyn Fn(Settings) -> bool,
+    ) -> Self {
         let cost = |halvings| {
             let runs = Self::at(base, halvings).coarsest_first();
             runs.into_iter()
@@ -158,7 +164,10 @@ impl Grid {
             for setting in [1, 2, 0] {
                 let mut finer = halvings;
                 finer[setting] = step + 1 - MOST_HALVINGS;
-                if cost(finer) <= budget_s && finer[setting] == halvings[setting] + 1 {
+                if finer[setting] == halvings[setting] + 1
+                    && cost(finer) <= budget_s
+                    && accepted(Self::at(base, finer).levels(0, 0, 0))
+                {
                     halvings = finer;
                 }
             }
@@ -241,7 +250,7 @@ mod tests {
     #[test]
     fn a_larger_budget_makes_a_finer_grid() {
         let cost = |budget_s| {
-            let runs = Grid::within(&base(), 1.0, budget_s).coarsest_first();
+            let runs = Grid::within(&base(), 1.0, budget_s, &|_| true).coarsest_first();
             runs.into_iter()
                 .map(|settings| base().cost_s(settings))
                 .sum::<f64>()

@@ -35,22 +35,28 @@ pub fn scene(request: &StudyRequest) -> Result<Resolved, Refused> {
     }
     // A document that was read can be written.
     let base = serde_json::to_vec(&request.base).unwrap_or_default();
-    match super::read(&base) {
+    match super::read(&base).map_err(of_base) {
         Ok(resolved) if faults.is_empty() => return Ok(resolved),
         Ok(_) => {}
-        Err(Refused::Broken(broken)) => {
-            return Err(Refused::Broken(Broken {
-                pointer: format!("/base{}", broken.pointer),
-                ..broken
-            }));
-        }
-        Err(Refused::Faults(of_base)) => {
-            let placed = |fault: Fault| Fault {
-                pointer: format!("/base{}", fault.pointer),
-                ..fault
-            };
-            faults.extend(of_base.into_iter().map(placed));
-        }
+        Err(Refused::Faults(of_base)) => faults.extend(of_base),
+        Err(broken) => return Err(broken),
     }
     Err(Refused::Faults(faults))
+}
+
+/// What is wrong with the base, or with a run of it, with its place in the study.
+pub fn of_base(refused: Refused) -> Refused {
+    let placed = |pointer: &str| format!("/base{pointer}");
+    match refused {
+        Refused::Broken(broken) => Refused::Broken(Broken {
+            pointer: placed(&broken.pointer),
+            ..broken
+        }),
+        Refused::Faults(faults) => Refused::Faults(
+            faults
+                .into_iter()
+                .map(|fault| Fault::new(placed(&fault.pointer), fault.detail))
+                .collect(),
+        ),
+    }
 }
