@@ -32,6 +32,17 @@ pub enum MachineError {
     /// One of its specifications was refused.
     #[error("a specification of the calibration: {0}")]
     Refused(#[from] crate::translate::Refused),
+    /// The example that is solved has changed.
+    #[error("the example of the calibration has no {0}")]
+    Example(&'static str),
+    /// A figure that no machine has.
+    #[error("{name} of the machine is {value}; it must be finite and positive")]
+    Figure {
+        /// Which one.
+        name: &'static str,
+        /// What it came to.
+        value: f64,
+    },
 }
 
 /// Measures this machine now.
@@ -40,6 +51,26 @@ pub enum MachineError {
 /// [`MachineError`] if one of the small solves fails.
 pub fn measure() -> Result<MachineFigures, MachineError> {
     calibration::calibrate(kept::program())
+}
+
+/// Figures that a machine can have. One of the two parts of a condensation may be too small to show.
+fn checked(figures: MachineFigures) -> Result<MachineFigures, MachineError> {
+    let [dofs, surface] = [figures.condensation_dof_s, figures.condensation_surface_s];
+    // Each with whether it may be nothing.
+    let told = [
+        ("increment_s", figures.increment_s, false),
+        ("increment_power", figures.increment_power, false),
+        ("condensation_dof_s", dofs, surface > 0.0),
+        ("condensation_surface_s", surface, dofs > 0.0),
+    ];
+    let mut wrong = told.into_iter().filter(|(_, value, nothing)| {
+        let possible = *value > 0.0 || (*nothing && *value >= 0.0);
+        !(possible && value.is_finite())
+    });
+    match wrong.next() {
+        Some((name, value, _)) => Err(MachineError::Figure { name, value }),
+        None => Ok(figures),
+    }
 }
 
 /// Processor seconds that a machine takes for some work.
@@ -75,6 +106,34 @@ pub fn plan(resolved: &Resolved, machine: Option<&MachineFigures>) -> Plan {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn figures_that_no_machine_has_are_refused() {
+        let with = |increment_s, condensation_dof_s, condensation_surface_s| {
+            checked(MachineFigures {
+                program: "test".to_owned(),
+                increment_s,
+                increment_power: 2.0,
+                condensation_dof_s,
+                condensation_surface_s,
+            })
+        };
+        assert!(with(1e-4, 1e-7, 0.0).is_ok());
+        for (increment_s, dof_s, surface_s) in [
+            (0.0, 1e-7, 1e-9),
+            (f64::NAN, 1e-7, 1e-9),
+            (f64::INFINITY, 1e-7, 1e-9),
+            (1e-4, 0.0, 0.0),
+            (1e-4, -1e-7, 1e-9),
+            (1e-4, 1e-7, f64::NAN),
+        ] {
+            let refused = with(increment_s, dof_s, surface_s);
+            assert!(
+                matches!(refused, Err(MachineError::Figure { .. })),
+                "{refused:?}"
+            );
+        }
+    }
 
     #[test]
     fn seconds_follow_the_work() {

@@ -5,7 +5,7 @@
 use api::plan::MachineFigures;
 use solver::observer::{Event, Flow, Observer, Phase};
 
-use super::{MachineError, NODES, parts};
+use super::{MachineError, NODES, checked, parts};
 use crate::solve::thread_cpu_s;
 use crate::translate;
 use crate::translate::work::Work;
@@ -25,16 +25,16 @@ struct Sample {
 /// Measures this machine; `program` says what is measured.
 ///
 /// # Errors
-/// [`MachineError`] if a small solve fails.
+/// [`MachineError`] if a small solve fails, or figures come out that no machine has.
 pub(super) fn calibrate(program: String) -> Result<MachineFigures, MachineError> {
-    let samples: Result<Vec<Sample>, MachineError> = specifications()
+    let samples: Result<Vec<Sample>, MachineError> = specifications()?
         .iter()
         .map(|specification| measure(specification))
         .collect();
     let samples = samples?;
     let (increment_s, increment_power) = power_law(&samples);
     let [condensation_dof_s, condensation_surface_s] = two_parts(&samples);
-    Ok(MachineFigures {
+    checked(MachineFigures {
         program,
         increment_s,
         increment_power,
@@ -44,14 +44,14 @@ pub(super) fn calibrate(program: String) -> Result<MachineFigures, MachineError>
 }
 
 /// Few cycles on fine meshes, more on coarse ones: each takes a fraction of a second.
-fn specifications() -> [String; 5] {
+fn specifications() -> Result<[String; 5], MachineError> {
+    const PRESET: &str = r#"{"preset": "standard"}"#;
+    if !MCCOLL.contains(PRESET) {
+        return Err(MachineError::Example(PRESET));
+    }
     let system = |kind: &str, rest: &str| format!(r#"{{"system":{{"kind":"{kind}"}},{rest}}}"#);
-    let mccoll = |accuracy: &str| {
-        let preset = r#"{"preset": "standard"}"#;
-        debug_assert!(MCCOLL.contains(preset), "the example has its preset");
-        MCCOLL.replace(preset, accuracy)
-    };
-    [
+    let mccoll = |accuracy: &str| MCCOLL.replace(PRESET, accuracy);
+    Ok([
         mccoll(r#"{"preset": "draft"}"#),
         mccoll(r#"{"tolerance": 0.01, "overrides": {"cycle_jump": 1800}}"#),
         system("sd_card", r#""accuracy":{"preset":"draft"}"#),
@@ -60,7 +60,7 @@ fn specifications() -> [String; 5] {
             "fuzz_button",
             r#""accuracy":{"preset":"draft","overrides":{"cycle_jump":20}},"cycles":200"#,
         ),
-    ]
+    ])
 }
 
 fn measure(specification: &str) -> Result<Sample, MachineError> {

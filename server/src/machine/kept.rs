@@ -2,19 +2,25 @@
 
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, OnceLock};
+use std::time::{Duration, Instant};
 
 use api::plan::MachineFigures;
 use tokio::sync::Mutex;
 
+use super::MachineError;
 use crate::files;
+
+/// How long a machine that could not be measured is left alone.
+const PAUSE: Duration = Duration::from_mins(1);
 
 /// The figures of a machine, in memory and in a file.
 #[derive(Debug, Clone)]
 pub struct Kept {
     file: Option<PathBuf>,
     known: Arc<OnceLock<MachineFigures>>,
-    /// Held while the machine is measured, so that it is measured once.
-    measuring: Arc<Mutex<()>>,
+    /// Held while the machine is measured, so that it is measured once; and when that last failed.
+    measuring: Arc<Mutex<Option<Instant>>>,
+    measure: fn() -> Result<MachineFigures, MachineError>,
 }
 
 impl Kept {
@@ -30,6 +36,7 @@ impl Kept {
             file,
             known: Arc::new(known),
             measuring: Arc::default(),
+            measure: super::measure,
         }
     }
 
@@ -39,6 +46,7 @@ impl Kept {
             file: None,
             known: Arc::new(OnceLock::from(figures)),
             measuring: Arc::default(),
+            measure: super::measure,
         }
     }
 
@@ -51,7 +59,7 @@ impl Kept {
     /// fails, which is logged.
     pub fn measured(&self) -> Option<&MachineFigures> {
         if self.known.get().is_none() {
-            match super::measure() {
+            match (self.measure)() {
                 Ok(figures) => {
                     if let Some(file) = &self.file {
                         write(file, &figures);
@@ -65,11 +73,23 @@ impl Kept {
         self.known.get()
     }
 
-    /// The same beside other tasks: whoever asks meanwhile waits.
+    /// The same beside other tasks: whoever asks meanwhile waits, and a failure holds for a minute.
     pub async fn wait(&self) -> Option<MachineFigures> {
-        let _one = self.measuring.lock().await;
+        if let Some(known) = self.known() {
+            return Some(known.clone());
+        }
+        // Whoever asked may leave; the lock stays with the measurement.
+        let mut failed = Arc::clone(&self.measuring).lock_owned().await;
         let kept = self.clone();
-        let measured = tokio::task::spawn_blocking(move || kept.measured().cloned());
+        let measured = tokio::task::spawn_blocking(move || {
+            let lately = failed.is_some_and(|at| at.elapsed() < PAUSE);
+            if lately && kept.known().is_none() {
+                return None;
+            }
+            let measured = kept.measured().cloned();
+            *failed = measured.is_none().then(Instant::now);
+            measured
+        });
         measured.await.ok().flatten()
     }
 }
@@ -99,7 +119,7 @@ pub(super) fn program() -> String {
 }
 
 fn read(file: &Path) -> Option<MachineFigures> {
-    serde_json::from_slice(&std::fs::read(file).ok()?).ok()
+    super::checked(serde_json::from_slice(&std::fs::read(file).ok()?).ok()?).ok()
 }
 
 /// Figures that cannot be kept are measured again next time.
@@ -117,7 +137,72 @@ fn write(file: &Path, figures: &MachineFigures) {
 
 #[cfg(test)]
 mod tests {
+    use std::sync::atomic::{AtomicU32, Ordering};
+
     use super::*;
+
+    fn figures() -> MachineFigures {
+        MachineFigures {
+            program: program(),
+            increment_s: 2e-4,
+            increment_power: 1.7,
+            condensation_dof_s: 4e-7,
+            condensation_surface_s: 7e-10,
+        }
+    }
+
+    #[tokio::test]
+    async fn callers_who_leave_start_no_second_measurement() {
+        static MEASURED: AtomicU32 = AtomicU32::new(0);
+        fn slowly() -> Result<MachineFigures, MachineError> {
+            MEASURED.fetch_add(1, Ordering::SeqCst);
+            std::thread::sleep(Duration::from_millis(100));
+            crate::machine::checked(figures())
+        }
+        let kept = Kept {
+            measure: slowly,
+            ..Kept::open(None)
+        };
+        for _ in 0..3 {
+            // Asks, and leaves at once.
+            tokio::select! {
+                biased;
+                _ = kept.wait() => {}
+                () = std::future::ready(()) => {}
+            }
+        }
+        assert_eq!(kept.wait().await, Some(figures()));
+        assert_eq!(MEASURED.load(Ordering::SeqCst), 1);
+    }
+
+    #[tokio::test]
+    async fn a_machine_that_could_not_be_measured_is_left_alone_for_a_while() {
+        static TRIED: AtomicU32 = AtomicU32::new(0);
+        fn in_vain() -> Result<MachineFigures, MachineError> {
+            TRIED.fetch_add(1, Ordering::SeqCst);
+            Err(MachineError::Example("preset"))
+        }
+        let kept = Kept {
+            measure: in_vain,
+            ..Kept::open(None)
+        };
+        assert_eq!((kept.wait().await, kept.wait().await), (None, None));
+        assert_eq!(TRIED.load(Ordering::SeqCst), 1);
+    }
+
+    #[test]
+    fn kept_figures_that_no_machine_has_are_not_taken() {
+        let folder = tempfile::tempdir().expect("a folder can be made");
+        let file = folder.path().join("machine.json");
+        write(&file, &figures());
+        assert_eq!(Kept::open(Some(file.clone())).known(), Some(&figures()));
+        let wrong = MachineFigures {
+            increment_s: -1.0,
+            ..figures()
+        };
+        write(&file, &wrong);
+        assert_eq!(Kept::open(Some(file)).known(), None);
+    }
 
     #[test]
     fn a_machine_is_measured_once_for_each_program() {
