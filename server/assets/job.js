@@ -7,6 +7,9 @@ const POINTS = 200;
 
 /** What is shown, so that it is only made anew when it changes. */
 let present = "";
+/** Turns begun, and the one whose job is shown: answers may overtake each other. */
+let turns = 0;
+let shown = 0;
 
 /** The id that the address names. */
 export function showing() {
@@ -79,19 +82,28 @@ async function produced(job) {
 /** Shows a job, or nothing. */
 export async function show(job) {
   const place = document.getElementById("job");
-  const wanted = job ? `${job.id} ${job.status}` : "";
-  if (job && wanted === present) {
+  const turn = ++turns;
+  if (!job) {
+    [present, shown] = ["", turn];
+    return place.replaceChildren();
+  }
+  const wanted = `${job.id} ${job.status}`;
+  if (wanted === present) {
     place.querySelector("#standing").replaceChildren(standing(job));
-    if (job.status === "running") place.querySelector("#wear").replaceChildren(await wear(job));
+    if (job.status !== "running") return;
+    const picture = await wear(job);
+    if (wanted === present) place.querySelector("#wear").replaceChildren(picture);
     return;
   }
-  present = wanted;
-  if (!job) return place.replaceChildren();
-  place.replaceChildren(
+  // What fails here is made again the next time.
+  const children = [
     element("h2", {}, job.spec.name ?? job.spec.system.kind), element("p", { class: "mono soft" }, job.id),
     element("div", { id: "standing" }, standing(job)), ...(job.summary ? [figures(job.summary)] : []),
     element("div", { id: "wear" }, await wear(job)), ...(job.finished_at ? await produced(job) : []),
     element("details", {}, element("summary", {}, "resolved specification and plan"),
       element("div", {}, element("pre", {}, JSON.stringify({ spec: job.spec, plan: job.plan }, null, 2)))),
-  );
+  ];
+  if (showing() !== job.id || turn < shown) return;
+  place.replaceChildren(...children);
+  [present, shown] = [wanted, turn];
 }
