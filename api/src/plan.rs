@@ -22,7 +22,8 @@ pub struct Plan {
     /// Effects by name.
     pub effects: BTreeMap<String, PlannedEffect>,
     /// Figures by name with unit: of the unworn contact in closed form; and what the solve is expected to take: unknowns,
-    /// memory, output, computed cycles, increments, and `cpu_s`, processor seconds, where the machine was measured.
+    /// memory, output, computed cycles, increments, and `cpu_s`, processor seconds, absent while the machine is not
+    /// measured yet or not measurable.
     pub estimates: BTreeMap<String, f64>,
     /// What a user should know about the numbers of this scene: where the source contradicts itself.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
@@ -36,7 +37,7 @@ pub struct PlanDocument {
     pub spec: Spec,
     /// What would be simulated.
     pub plan: Plan,
-    /// The machine that `cpu_s` is expected of; absent if it could not be measured.
+    /// The machine that `cpu_s` is expected of; absent if it is not measured yet or not measurable.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub machine: Option<MachineFigures>,
 }

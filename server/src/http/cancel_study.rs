@@ -21,6 +21,7 @@ use crate::clock::now_ms;
     responses(
         (status = 202, description = "Accepted; the study as it stands", body = StudyDocument),
         (status = 404, description = "No such study", body = Problem),
+        (status = 410, description = "Accepted, but queued by a version whose studies cannot be compared any more", body = Problem),
     )
 )]
 pub(super) async fn cancel_study(
@@ -28,7 +29,9 @@ pub(super) async fn cancel_study(
     StudyId(id): StudyId,
 ) -> Result<Response, StudyShowError> {
     // A sweep that is no study is not cancelled here.
-    document(&app, id).await?;
+    if !app.store.is_study(id).await? {
+        return Err(StudyShowError::Missing(id));
+    }
     app.store.cancel_sweep(id, now_ms()).await?;
     let study = document(&app, id).await?;
     Ok((StatusCode::ACCEPTED, Json(study)).into_response())

@@ -11,15 +11,20 @@ const MEMORY_MB: f64 = 8_000.0;
 /// Everything that is stored, MB.
 const OUTPUT_MB: f64 = 4_000.0;
 
+/// Contact increments: some ten hours of one processor.
+const INCREMENTS: f64 = 2e8;
+
 /// Refuses a study that would be too large for this service.
 ///
 /// # Errors
 /// [`Refused`] with a fault for each limit.
 pub(super) fn check(resolved: &Resolved) -> Result<(), Refused> {
     let size = &resolved.size;
+    let increments = resolved.work.increments();
     let limits = [
         ("/accuracy", "unknowns", size.dofs, DOFS),
         ("/accuracy", "MB of memory", size.memory_mb, MEMORY_MB),
+        ("/accuracy", "increments", increments, INCREMENTS),
         ("/output", "MB of output", size.output_mb, OUTPUT_MB),
     ];
     let faults: Vec<Fault> = limits
@@ -56,6 +61,11 @@ mod tests {
                 r#"{"system":{"kind":"dimm"},"cycles":1000000000,"accuracy":{"overrides":{"cycle_jump":1}}}"#,
                 "/output",
                 "MB of output; the service takes 4000",
+            ),
+            (
+                r#"{"system":{"kind":"dimm"},"cycles":3000000,"accuracy":{"overrides":{"cycle_jump":1,"increments_per_cycle":100}}}"#,
+                "/accuracy",
+                "an estimated 300000000 increments; the service takes 200000000",
             ),
             (
                 r#"{"system":{"kind":"fuzz_button"},"cycles":1000,"output":{"fields":true,"snapshots_at_cycles":[SNAPSHOTS]}}"#,

@@ -41,6 +41,8 @@ pub(super) enum Kind {
     NoSweep,
     /// There is no such study.
     NoStudy,
+    /// The study was queued by another version of the service.
+    OldStudy,
     /// The job has no such result (yet).
     NoResult,
     /// There is no such system.
@@ -59,6 +61,11 @@ pub(super) enum Kind {
     Busy,
     /// The service failed.
     Internal,
+}
+
+/// Kinds of what is not there.
+fn missing(name: &'static str, title: &'static str) -> (&'static str, &'static str, StatusCode) {
+    (name, title, StatusCode::NOT_FOUND)
 }
 
 impl Kind {
@@ -105,33 +112,22 @@ impl Kind {
                 "the body is not declared as JSON",
                 StatusCode::UNSUPPORTED_MEDIA_TYPE,
             ),
-            Self::NoRoute => ("no-such-path", "nothing is here", StatusCode::NOT_FOUND),
+            Self::NoRoute => missing("no-such-path", "nothing is here"),
             Self::WrongMethod => (
                 "wrong-method",
                 "the path does not take this method",
                 StatusCode::METHOD_NOT_ALLOWED,
             ),
-            Self::NoJob => ("no-such-job", "there is no such job", StatusCode::NOT_FOUND),
-            Self::NoSweep => (
-                "no-such-sweep",
-                "there is no such sweep",
-                StatusCode::NOT_FOUND,
+            Self::NoJob => missing("no-such-job", "there is no such job"),
+            Self::NoSweep => missing("no-such-sweep", "there is no such sweep"),
+            Self::NoStudy => missing("no-such-study", "there is no such study"),
+            Self::OldStudy => (
+                "study-outdated",
+                "the study cannot be compared any more",
+                StatusCode::GONE,
             ),
-            Self::NoStudy => (
-                "no-such-study",
-                "there is no such study",
-                StatusCode::NOT_FOUND,
-            ),
-            Self::NoResult => (
-                "no-such-result",
-                "the job has no such result",
-                StatusCode::NOT_FOUND,
-            ),
-            Self::NoSystem => (
-                "no-such-system",
-                "there is no such system",
-                StatusCode::NOT_FOUND,
-            ),
+            Self::NoResult => missing("no-such-result", "the job has no such result"),
+            Self::NoSystem => missing("no-such-system", "there is no such system"),
             Self::Active => ("job-active", "the job has not ended", StatusCode::CONFLICT),
             Self::SweepActive => (
                 "sweep-active",

@@ -42,6 +42,9 @@ impl IntoResponse for StudyShowError {
             Self::Empty(_) => Kind::NoResult.because(self.to_string()),
             Self::Write(error) => Refusal::internal(error),
             Self::Evaluate(error) => Refusal::internal(error),
+            Self::Store(error @ StoreError::StudyFormat { .. }) => {
+                Kind::OldStudy.because(error.to_string())
+            }
             Self::Store(error) => Refusal::from(error),
         }
         .into_response()
@@ -57,6 +60,7 @@ impl IntoResponse for StudyShowError {
     responses(
         (status = 200, description = "The study", body = StudyDocument),
         (status = 404, description = "No such study", body = Problem),
+        (status = 410, description = "Queued by a version whose studies cannot be compared any more", body = Problem),
     )
 )]
 pub(super) async fn show_study(
@@ -70,8 +74,8 @@ pub(super) async fn show_study(
 pub(super) async fn document(app: &App, id: Uuid) -> Result<StudyDocument, StudyShowError> {
     let stored = app.store.study(id).await?;
     let stored = stored.ok_or(StudyShowError::Missing(id))?;
-    // Profiles of dozens of runs are compared at thousands of places.
-    Ok(tokio::task::spawn_blocking(move || described(stored)).await?)
+    // Profiles of dozens of runs are read, and compared at thousands of places.
+    tokio::task::spawn_blocking(move || described(stored)).await?
 }
 
 /// What the results of a study come to so far.
@@ -80,18 +84,21 @@ pub(super) async fn evaluated(app: &App, id: Uuid) -> Result<Study, StudyShowErr
     document.study.ok_or(StudyShowError::Empty(id))
 }
 
-fn described(stored: StoredStudy) -> StudyDocument {
+fn described(stored: StoredStudy) -> Result<StudyDocument, StudyShowError> {
     let StoredStudy {
         sweep,
         plan,
         outcomes,
     } = stored;
-    let runs: Vec<Run> = outcomes.into_iter().filter_map(run).collect();
+    let runs = outcomes
+        .into_iter()
+        .filter_map(|outcome| run(outcome).transpose());
+    let runs = runs.collect::<Result<Vec<Run>, _>>()?;
     // Nothing to compare yet is no failure.
     let study = study::evaluate(&plan.spec, &plan.grid, &runs, plan.left_out).ok();
     let own = format!("/v1/studies/{}", sweep.id);
     let link = |name: &str, path: String| (name.to_owned(), path);
-    StudyDocument {
+    Ok(StudyDocument {
         id: sweep.id,
         name: sweep.name,
         created_at: sweep.created_at,
@@ -106,7 +113,7 @@ fn described(stored: StoredStudy) -> StudyDocument {
             link("self", own),
         ]
         .into(),
-    }
+    })
 }
 
 fn asked(job: &SweepJob) -> Option<Asked> {
@@ -132,11 +139,16 @@ fn job(job: &SweepJob) -> StudyJob {
 }
 
 /// A job that has ended, as a run of the study.
-fn run((outcome, profile): (SweepOutcome, Option<api::results::Profile>)) -> Option<Run> {
-    let asked = asked(&outcome.job)?;
-    if !outcome.job.status.is_terminal() {
-        return None;
-    }
+fn run((outcome, profile): (SweepOutcome, Option<String>)) -> Result<Option<Run>, StoreError> {
+    let Some(asked) = asked(&outcome.job).filter(|_| outcome.job.status.is_terminal()) else {
+        return Ok(None);
+    };
+    let profile = profile.as_deref().map(serde_json::from_str).transpose();
+    let profile = profile.map_err(|cause| StoreError::Corrupt {
+        id: outcome.job.id,
+        what: "profile",
+        cause: cause.to_string(),
+    })?;
     let spent = outcome
         .summary
         .as_ref()
@@ -150,16 +162,17 @@ fn run((outcome, profile): (SweepOutcome, Option<api::results::Profile>)) -> Opt
             .status_reason
             .unwrap_or_else(|| outcome.job.status.as_str().to_owned())),
     };
-    Some(Run {
+    Ok(Some(Run {
         asked,
         spent,
         found,
-    })
+    }))
 }
 
 #[cfg(test)]
 mod tests {
     use crate::http::tests::{STUDY, Service};
+    use crate::store::{NewSweep, StudyPlan, Submitted};
 
     #[tokio::test]
     async fn a_study_has_no_results_before_its_jobs_have() {
@@ -176,6 +189,31 @@ mod tests {
             let found = (status.as_u16(), problem["type"].as_str());
             assert_eq!(found, (404, Some("/problems/no-such-result")), "{part}");
         }
+    }
+
+    #[tokio::test]
+    async fn a_study_of_another_format_cannot_be_compared_any_more() {
+        let service = Service::new().await;
+        let store = &service.app.store;
+        let (_, _, study) = service.post("/v1/studies", STUDY).await;
+        let id = study["id"].as_str().expect("an id");
+        let known = store.study(id.parse().expect("an id")).await;
+        let known = known.expect("the store").expect("a study").plan;
+        let other = NewSweep {
+            name: None,
+            jobs: Vec::new(),
+            study: Some(StudyPlan {
+                format: StudyPlan::FORMAT + 1,
+                ..known
+            }),
+        };
+        let submitted = store.submit_sweep(&other, None, 0).await;
+        let Ok(Submitted::Job(id)) = submitted else {
+            panic!("{submitted:?}");
+        };
+        let (status, _, problem) = service.get(&format!("/v1/studies/{id}")).await;
+        assert_eq!(status, 410, "{problem}");
+        assert_eq!(problem["title"], "the study cannot be compared any more");
     }
 
     #[tokio::test]

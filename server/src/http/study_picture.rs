@@ -47,6 +47,7 @@ pub(super) struct PictureQuery {
         )),
         (status = 400, description = "A query parameter cannot be read", body = Problem),
         (status = 404, description = "No such study, or no results so far", body = Problem),
+        (status = 410, description = "Queued by a version whose studies cannot be compared any more", body = Problem),
     )
 )]
 pub(super) async fn study_picture(

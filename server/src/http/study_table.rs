@@ -21,6 +21,7 @@ use crate::translate::csv;
     responses(
         (status = 200, description = "The table", content_type = "text/csv", body = String),
         (status = 404, description = "No such study, or no results so far", body = Problem),
+        (status = 410, description = "Queued by a version whose studies cannot be compared any more", body = Problem),
     )
 )]
 pub(super) async fn study_table(

@@ -137,6 +137,7 @@ pub(super) async fn submit_study(
         name: request.name,
         jobs: jobs.collect::<Result<_, _>>().map_err(StoreError::from)?,
         study: Some(StudyPlan {
+            format: StudyPlan::FORMAT,
             spec: scene.spec,
             grid: programme.grid,
             left_out: programme.left_out,

@@ -1,6 +1,5 @@
 //! Studies of accuracy: sweeps with what their results are compared by.
 
-use api::results::Profile;
 use api::spec::Spec;
 use api::sweep::Sweep;
 use serde::{Deserialize, Serialize};
@@ -15,12 +14,25 @@ use crate::study::Grid;
 /// What the results of a study are compared by.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct StudyPlan {
+    /// The form of this document; only `FORMAT` can be compared.
+    pub format: u32,
     /// The resolved specification whose accuracy is varied.
     pub spec: Spec,
     /// The grid among its runs.
     pub grid: Grid,
     /// What did not fit into the budget, in words.
     pub left_out: Vec<String>,
+}
+
+impl StudyPlan {
+    /// The form that this program writes and reads: raised when the grid changes its meaning.
+    pub const FORMAT: u32 = 1;
+}
+
+/// The form alone, of a document of any.
+#[derive(Deserialize)]
+struct Form {
+    format: u32,
 }
 
 /// A study as it stands.
@@ -30,8 +42,8 @@ pub struct StoredStudy {
     pub sweep: Sweep,
     /// What their results are compared by.
     pub plan: StudyPlan,
-    /// The jobs with their results, and the last profile of each that has one.
-    pub outcomes: Vec<(SweepOutcome, Option<Profile>)>,
+    /// The jobs with their results, and the last profile of each that has one, as a document that is not read yet.
+    pub outcomes: Vec<(SweepOutcome, Option<String>)>,
 }
 
 pub(super) async fn insert_study(
@@ -48,6 +60,18 @@ pub(super) async fn insert_study(
 }
 
 impl Store {
+    /// Whether there is a study of that id.
+    ///
+    /// # Errors
+    /// [`StoreError`] if the database fails.
+    pub async fn is_study(&self, id: Uuid) -> Result<bool, StoreError> {
+        let found: Option<i64> = sqlx::query_scalar("SELECT 1 FROM studies WHERE sweep_id = ?")
+            .bind(id.to_string())
+            .fetch_optional(&self.readers)
+            .await?;
+        Ok(found.is_some())
+    }
+
     /// A study with the results so far; nothing if there is none of that id.
     ///
     /// # Errors
@@ -66,15 +90,22 @@ impl Store {
             what,
             cause: cause.to_string(),
         };
+        let Form { format } =
+            serde_json::from_str(&plan).map_err(|cause| corrupt("study", cause))?;
+        if format != StudyPlan::FORMAT {
+            return Err(StoreError::StudyFormat {
+                id,
+                found: format,
+                wanted: StudyPlan::FORMAT,
+            });
+        }
         let plan = serde_json::from_str(&plan).map_err(|cause| corrupt("study", cause))?;
         let mut outcomes = Vec::new();
         for outcome in self.sweep_outcomes(id).await?.unwrap_or_default() {
             let mut profile = None;
             if outcome.summary.is_some() {
                 let job = outcome.job.id;
-                let stored = self.snapshot(job, SnapshotPart::Profile, None).await?;
-                let read = stored.as_deref().map(serde_json::from_str).transpose();
-                profile = read.map_err(|cause| corrupt("profile", cause))?;
+                profile = self.snapshot(job, SnapshotPart::Profile, None).await?;
             }
             outcomes.push((outcome, profile));
         }
