@@ -34,9 +34,15 @@ pub fn all() -> Vec<Case> {
         ("increments", increments),
         ("friction cycle", friction_cycle),
         ("mccoll.json at the reference's resolution", reference),
-        ("mccoll.json", || presets("mccoll.json", MCCOLL)),
-        ("fuzz_button.json", || {
-            presets("fuzz_button.json", FUZZ_BUTTON)
+        ("mccoll.json, draft", || mccoll("draft", 0.1)),
+        ("mccoll.json, standard", || mccoll("standard", 0.02)),
+        ("mccoll.json, fine", || mccoll("fine", 0.003)),
+        ("fuzz_button.json, draft", || fuzz_button("draft", 0.1)),
+        ("fuzz_button.json, standard", || {
+            fuzz_button("standard", 0.02)
+        }),
+        ("fuzz_button.json, fine: minutes", || {
+            fuzz_button("fine", 0.003)
         }),
         ("scaling with elements", scaling_with_elements),
         ("scaling with cycles", scaling_with_cycles),
@@ -207,13 +213,17 @@ fn reference() -> Result<Vec<Row>, BenchError> {
     )?])
 }
 
-fn presets(name: &str, spec: &str) -> Result<Vec<Row>, BenchError> {
-    let presets = [("draft", 0.1), ("standard", 0.02), ("fine", 0.003)];
-    let row = |(preset, tolerance): (&str, f64)| {
-        let scene = scene(spec, |scene| scene.accuracy.tolerance = tolerance)?;
-        solved(format!("{name}, {preset}"), "", &scene)
-    };
-    presets.into_iter().map(row).collect()
+fn mccoll(preset: &str, tolerance: f64) -> Result<Vec<Row>, BenchError> {
+    at_preset("mccoll.json", MCCOLL, preset, tolerance)
+}
+
+fn fuzz_button(preset: &str, tolerance: f64) -> Result<Vec<Row>, BenchError> {
+    at_preset("fuzz_button.json", FUZZ_BUTTON, preset, tolerance)
+}
+
+fn at_preset(name: &str, spec: &str, preset: &str, tolerance: f64) -> Result<Vec<Row>, BenchError> {
+    let scene = scene(spec, |scene| scene.accuracy.tolerance = tolerance)?;
+    Ok(vec![solved(format!("{name}, {preset}"), "", &scene)?])
 }
 
 fn scaling_with_elements() -> Result<Vec<Row>, BenchError> {

@@ -338,3 +338,6 @@ impl Scar {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

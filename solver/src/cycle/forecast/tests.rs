@@ -1,0 +1,53 @@
+use super::*;
+use crate::model::{build, tests::fuzz_button};
+use crate::number::real_cycles;
+
+#[test]
+fn the_stand_in_holds_the_area_that_was_worn() {
+    let scene = fuzz_button();
+    let model = build(&scene).expect("it can be meshed");
+    let mut scar = Scar::new(&scene, &model);
+    for jump in [1, 10, 100] {
+        scar.wear(jump);
+        let held: f64 = scar
+            .depth
+            .iter()
+            .zip(&scar.widths)
+            .map(|(h, w)| h * w)
+            .sum();
+        // Half of it is kept.
+        assert!((2.0 * held / scar.area - 1.0).abs() < 1e-3, "{held}");
+    }
+    let full = 111.0 * scar.area_per_cycle;
+    assert!((scar.area / full - 1.0).abs() < 1e-12);
+}
+
+#[test]
+fn a_run_counts_to_its_last_cycle_and_rebuilds_what_has_drifted() {
+    let scene = fuzz_button();
+    let model = build(&scene).expect("it can be meshed");
+    let run = forecast(&scene, &model);
+    let last = run.stretches.last().expect("some cycles");
+    assert_eq!(last.cycle, scene.cycles);
+    // The block loses three quarters of its height; the slider does not wear.
+    assert_eq!(run.condensations[0], 1);
+    assert!(run.condensations[1] > 2);
+    // Jumps widen the contact, so that later cycles have fewer increments.
+    assert!(last.steps < run.stretches[0].steps);
+}
+
+#[test]
+fn a_tighter_tolerance_costs_more_cycles_of_more_increments() {
+    let work = |tolerance: f64| {
+        let mut scene = fuzz_button();
+        scene.accuracy.tolerance = tolerance;
+        let run = forecast(&scene, &build(&scene).expect("it can be meshed"));
+        (run.computed_cycles, run.increments() / run.computed_cycles)
+    };
+    let (loose, tight) = (work(0.1), work(0.01));
+    assert!(
+        tight.0 > 3.0 * loose.0 && tight.1 > 2.0 * loose.1,
+        "{loose:?} {tight:?}"
+    );
+    assert!(tight.0 < real_cycles(fuzz_button().cycles));
+}
