@@ -29,7 +29,17 @@ pub(super) fn run(arguments: &BenchArguments) -> ExitCode {
     for (name, case) in bench::all() {
         tell(format_args!("fretwear: {name}"));
         match case() {
-            Ok(measured) => rows.extend(measured),
+            Ok(measured) => {
+                for row in &measured {
+                    tell(format_args!(
+                        "  {}, {}: {}",
+                        row.what,
+                        row.size,
+                        time(row.cpu_s)
+                    ));
+                }
+                rows.extend(measured);
+            }
             Err(error) => return failed(format_args!("{name}: {error}")),
         }
     }
