@@ -179,8 +179,9 @@ impl<'a> Integrator<'a> {
     ) -> Result<Sweep, CycleError> {
         let mut sweep = Sweep::default();
         let mut probes = if runs && jump > 1 {
+            let length = 4.0 * self.scene.motion.amplitude_mm() / real(steps.len());
             Probes::of(
-                steps,
+                (steps.len(), length),
                 self.scene.accuracy.tolerance,
                 state.mean_half_width,
                 state.neutral.half_width,

@@ -26,7 +26,9 @@ use crate::{ale, friction};
 /// Places of the stand-in, from the middle to the end.
 const PLACES: usize = 240;
 /// Computed cycles that are followed one by one; the rest goes on like the last of them.
-const MOST_FOLLOWED: u64 = 20_000;
+const MOST_FOLLOWED: usize = 5_000;
+/// Of so many computed cycles with a fixed jump the next one is like the last.
+const ALIKE: f64 = 100.0;
 /// Places of the contact in its stroke, over the carried amplitude.
 const PASSES: [f64; 5] = [-0.8, -0.4, 0.0, 0.4, 0.8];
 /// The end of the scar is found to this part of it, in so many steps at most; few are needed.
@@ -85,28 +87,31 @@ pub fn forecast(scene: &Scene, model: &Model) -> Forecast {
     let mut jump = JumpControl::default();
     let mut cycle = 0;
     while cycle < scene.cycles && !scar.ends(scene) {
-        if real_cycles(MOST_FOLLOWED) <= run.computed_cycles {
+        if MOST_FOLLOWED <= run.stretches.len() {
             run.go_on(cycle, scene.cycles);
             break;
         }
         let until = scar.next_stop(scene, cycle, jump.fastest_rate());
         let step = jump.next(&scene.accuracy, scar.stroke(scene), until - cycle);
-        let steps = path::steps(scene.motion, &scene.accuracy, scar.half_width);
+        let steps = path::count(scene.motion, &scene.accuracy, scar.half_width);
         let probes = if scar.stroke_runs() && step > 1 {
-            let tolerance = scene.accuracy.tolerance;
-            Probes::of(&steps, tolerance, scar.half_width, scar.contact(1)).increments()
+            let length = 4.0 * scar.amplitude / real(steps);
+            let (tolerance, single) = (scene.accuracy.tolerance, scar.contact(1));
+            Probes::of((steps, length), tolerance, scar.half_width, single).increments()
         } else {
             0
         };
+        let together = alike(scene, run.computed_cycles, (until - cycle) / step);
         let before = scar.depth.clone();
-        scar.wear(step);
-        jump.learn(&scar.widths, &before, &scar.depth, step);
-        cycle += step;
-        run.computed_cycles += 1.0;
+        scar.wear(step, together);
+        let done = step * together;
+        jump.learn(&scar.widths, &before, &scar.depth, done);
+        cycle += done;
+        run.computed_cycles += real_cycles(together);
         run.stretches.push(Stretch {
             cycle,
-            increments: real(steps.len() + probes),
-            steps: steps.len(),
+            increments: real_cycles(together) * real(steps + probes),
+            steps,
             half_width_mm: scar.half_width,
             nodes: nodes_within(model, scar.half_width),
             watched: nodes_within(model, scar.watched()),
@@ -114,6 +119,16 @@ pub fn forecast(scene: &Scene, model: &Model) -> Forecast {
         scar.rebuild(scene, &mut run.condensations);
     }
     run
+}
+
+/// How many computed cycles are foreseen at once. A fixed jump needs no control, and a hundredth of what was computed
+/// changes little.
+fn alike(scene: &Scene, computed: f64, most: u64) -> u64 {
+    if scene.accuracy.cycle_jump.is_some() {
+        cycles_at_least((computed / ALIKE).floor()).clamp(1, most.max(1))
+    } else {
+        1
+    }
 }
 
 impl Forecast {
@@ -232,9 +247,9 @@ impl Scar {
         }
     }
 
-    /// Wears `jump` cycles more.
-    fn wear(&mut self, jump: u64) {
-        self.area += self.area_per_cycle * real_cycles(jump);
+    /// Wears `jump` cycles more, so many times.
+    fn wear(&mut self, jump: u64, times: u64) {
+        self.area += self.area_per_cycle * real_cycles(jump * times);
         self.grow();
         let drawn = (self.amplitude - self.flat).max(0.0);
         // The rest of the stroke carries the contact to and fro over the scar, which smears its growing edges.

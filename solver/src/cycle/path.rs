@@ -39,6 +39,21 @@ pub(super) struct Step {
     pub(super) at: Option<Position>,
 }
 
+/// How many increments one cycle has.
+pub(super) fn count(motion: Motion, accuracy: &Accuracy, half_width: f64) -> usize {
+    match motion {
+        Motion::Continuous { .. } => 1,
+        Motion::Reciprocating { amplitude_mm, .. } => {
+            4 * steps_per_quarter(accuracy, amplitude_mm, half_width)
+        }
+    }
+}
+
+/// Which increments of a cycle of so many from turning point to turning point end at a named position.
+pub(super) fn named(count: usize) -> [usize; 3] {
+    [2, 3, 4].map(|quarters| (quarters * (count / 4)).saturating_sub(1))
+}
+
 /// The increments of one cycle.
 pub(super) fn steps(motion: Motion, accuracy: &Accuracy, half_width: f64) -> Vec<Step> {
     match motion {

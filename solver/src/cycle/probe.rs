@@ -20,6 +20,9 @@ const WAY: f64 = 4.0;
 /// instead of the wide one; in the wide one's steps the pressure is 6 % low.
 const FINE_WAY: f64 = 4.0;
 
+/// Most parts of a step: the steps of a contact so much wider do not lead to the narrow one in a few of its widths.
+const MOST_PARTS: usize = 64;
+
 /// Probes of one computed cycle.
 #[derive(Debug, Default)]
 pub(super) struct Probes {
@@ -32,26 +35,23 @@ pub(super) struct Probes {
 }
 
 impl Probes {
-    /// Probes that end at the named positions among the steps, for the half-widths of the contact as it is and of that of
-    /// a single cycle.
-    pub(super) fn of(steps: &[Step], tolerance: f64, half_width: f64, single: f64) -> Self {
-        let mut lengths = steps
-            .windows(2)
-            .map(|w| (w[1].slider_x - w[0].slider_x).abs());
-        let Some(length) = lengths.next() else {
+    /// Probes that end at the named positions among so many steps of a length, for the half-widths of the contact as it
+    /// is and of that of a single cycle.
+    pub(super) fn of(
+        (steps, length): (usize, f64),
+        tolerance: f64,
+        half_width: f64,
+        single: f64,
+    ) -> Self {
+        if single <= 0.0 {
             return Self::default();
-        };
+        }
         let count = count_at_least(WAY * half_width / length);
-        let ends = steps
-            .iter()
-            .enumerate()
-            .filter(|(_, step)| step.at.is_some());
+        let ends = path::named(steps).into_iter();
         Self {
-            spans: ends
-                .map(|(end, _)| (end.saturating_sub(count), end))
-                .collect(),
+            spans: ends.map(|end| (end.saturating_sub(count), end)).collect(),
             fine: count_at_least(FINE_WAY * single / length),
-            parts: count_at_least(length / path::largest_step(tolerance, single)),
+            parts: count_at_least(length / path::largest_step(tolerance, single)).min(MOST_PARTS),
             found: Vec::new(),
         }
     }

@@ -8,7 +8,7 @@ fn the_stand_in_holds_the_area_that_was_worn() {
     let model = build(&scene).expect("it can be meshed");
     let mut scar = Scar::new(&scene, &model);
     for jump in [1, 10, 100] {
-        scar.wear(jump);
+        scar.wear(jump, 1);
         let held: f64 = scar
             .depth
             .iter()
@@ -50,4 +50,17 @@ fn a_tighter_tolerance_costs_more_cycles_of_more_increments() {
         "{loose:?} {tight:?}"
     );
     assert!(tight.0 < real_cycles(fuzz_button().cycles));
+}
+
+/// A run of a million cycles, each computed in 200 000 increments, is foreseen in some thousand stretches.
+#[test]
+fn a_fixed_jump_is_foreseen_in_few_stretches() {
+    let mut scene = fuzz_button();
+    scene.cycles = 1_000_000;
+    scene.accuracy.cycle_jump = Some(1);
+    scene.accuracy.increments_per_cycle = Some(1_000_000);
+    let run = forecast(&scene, &build(&scene).expect("it can be meshed"));
+    let last = run.stretches.last().expect("some cycles").cycle;
+    assert!(run.stretches.len() < 2_000, "{}", run.stretches.len());
+    assert!((run.computed_cycles - real_cycles(last)).abs() < 0.5);
 }
