@@ -58,12 +58,12 @@ mod tests {
                 "surface nodes",
             ),
             (
-                r#"{"system":{"kind":"dimm"},"cycles":1000000000,"accuracy":{"overrides":{"cycle_jump":1}}}"#,
+                r#"{"system":{"kind":"dimm"},"interface":{"wear":{"receptacle":{"law":"archard","k_over_h_per_mpa":1e-12}}},"cycles":1000000000,"accuracy":{"overrides":{"cycle_jump":1}}}"#,
                 "/output",
                 "MB of output; the service takes 4000",
             ),
             (
-                r#"{"system":{"kind":"dimm"},"cycles":3000000,"accuracy":{"overrides":{"cycle_jump":1,"increments_per_cycle":100}}}"#,
+                r#"{"system":{"kind":"dimm"},"interface":{"wear":{"receptacle":{"law":"archard","k_over_h_per_mpa":1e-12}}},"cycles":3000000,"accuracy":{"overrides":{"cycle_jump":1,"increments_per_cycle":100}}}"#,
                 "/accuracy",
                 "an estimated 300000000 increments; the service takes 200000000",
             ),
