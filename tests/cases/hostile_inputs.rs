@@ -106,8 +106,14 @@ async fn documents_that_mean_harm_are_refused_with_a_problem() {
         problem["faults"][0]["pointer"],
         "/accuracy/overrides/contact_element_mm"
     );
-    let rows = r#"{"system":{"kind":"dimm"},"cycles":1000000000,"accuracy":{"overrides":{"cycle_jump":1}}}"#;
-    let problem = refused(&server, rows, 422).await;
+    // Wear that would end the run early would make it small.
+    let rows = json!({
+        "system": {"kind": "dimm"},
+        "interface": {"wear": {"receptacle": {"law": "archard", "k_over_h_per_mpa": 1e-12}}},
+        "cycles": 1_000_000_000,
+        "accuracy": {"overrides": {"cycle_jump": 1}},
+    });
+    let problem = refused(&server, rows.to_string(), 422).await;
     assert!(problem.to_string().contains("output"), "{problem}");
 
     let labels: serde_json::Map<String, Value> = (0..10_000)
