@@ -225,8 +225,14 @@ impl ContactState {
         }
     }
 
-    /// Normal load that the spring leaves at the present height, N/mm.
+    /// Normal load that the spring leaves at the present height, N/mm; without a contact it would hold up nothing, so
+    /// that round-off below zero is none.
     pub fn load(&self, interface: &Interface) -> f64 {
+        self.equilibrium_load(interface).max(0.0)
+    }
+
+    /// The same, as it stands in the equation of vertical balance.
+    fn equilibrium_load(&self, interface: &Interface) -> f64 {
         interface.load
             + self
                 .reference_height

@@ -66,6 +66,9 @@ impl Solver {
         next: &mut ContactState,
     ) -> Result<Increment<'_>, ContactError> {
         let slider_x = to.slider_x;
+        if rests(last, to) {
+            return Ok(self.rest(last, next));
+        }
         let covered = mortar::covered(pair.operators, slider_x);
         if covered.0 == covered.1 || pair.interface.load <= 0.0 {
             return Ok(self.leave(last, slider_x, next));
@@ -101,6 +104,17 @@ impl Solver {
         next: &mut ContactState,
     ) -> Increment<'_> {
         next.lift(last, slider_x);
+        self.nothing()
+    }
+
+    /// A contact that stays as it is.
+    fn rest(&mut self, last: &ContactState, next: &mut ContactState) -> Increment<'_> {
+        next.clone_from(last);
+        self.nothing()
+    }
+
+    /// No wear, and nothing that could be unbalanced.
+    fn nothing(&mut self) -> Increment<'_> {
         self.iterate.path.clear();
         self.recession.clear();
         Increment {
@@ -178,7 +192,7 @@ impl Solver {
                 slider_x_mm: slider_x,
                 iterations: MOST_ITERATIONS,
                 residual,
-                tolerance: GAP_TOLERANCE,
+                tolerance: self.iterate.tolerance,
                 changes,
             }),
         }
@@ -265,7 +279,7 @@ impl Solver {
             .map(|((d, (q, slip)), _)| d * (q * slip).abs())
             .sum();
         let vertical: f64 = next.receptacle_force.iter().skip(1).step_by(2).sum();
-        let load = next.load(&pair.interface);
+        let load = next.equilibrium_load(&pair.interface);
         let peak = next.peak_pressure().max(f64::MIN_POSITIVE);
         // Where lengths cancel, what round-off leaves of the indentation.
         let scale = (it.indentation * it.tolerance / GAP_TOLERANCE).max(f64::MIN_POSITIVE);
@@ -290,6 +304,12 @@ impl Solver {
             friction_cone: cone / peak,
         }
     }
+}
+
+/// Whether a contact that is loaded already does not move at all: solving again would only stir its round-off.
+fn rests(last: &ContactState, to: Move) -> bool {
+    let way = (to.slider_x - last.slider_x).abs() + to.run.abs();
+    last.reference_height.is_some() && way <= 0.0
 }
 
 /// Slope that the load stands on, in the mean; positive where the slider climbs it.

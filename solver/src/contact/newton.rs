@@ -96,6 +96,10 @@ pub(super) struct Newton {
     lu: DenseLu,
 }
 
+/// A residual within so many tolerances that one more step did not halve, without any status changing, is what
+/// round-off leaves of an ill-conditioned system.
+const STALLED_WITHIN: f64 = 10.0;
+
 /// Round-off of a gap, over the largest length that it is the difference of: some units in the last place.
 const ROUND_OFF: f64 = 16.0 * f64::EPSILON;
 
@@ -110,8 +114,9 @@ impl Newton {
         it: &mut Iterate,
         most_iterations: usize,
     ) -> End {
-        let (mut residual, mut changes) = (f64::INFINITY, 0);
+        let (mut residual, mut changes) = (f64::INFINITY, usize::MAX);
         for iteration in 0..most_iterations {
+            let last = (residual / it.tolerance, changes);
             self.number(it);
             for a in (0..it.status.len()).filter(|a| it.status[*a] != Status::Open) {
                 response.gather(problem.operators, problem.coupling, a);
@@ -125,7 +130,8 @@ impl Newton {
             self.read(problem, it);
             residual = self.evaluate(problem, response, it);
             changes = status::update(problem, it, iteration);
-            if changes == 0 && residual <= it.tolerance {
+            let stalled = has_stalled(last, residual / it.tolerance);
+            if changes == 0 && (residual <= it.tolerance || stalled) {
                 return End::Settled;
             }
             // Nothing but a spring that has lost its force is in equilibrium without a contact.
@@ -301,7 +307,8 @@ impl Newton {
             if it.status[i] != Status::Open {
                 indentation = indentation.max(worn);
                 residual = residual.max(it.gap[i].abs());
-                largest = largest.max(problem.gap[i].abs() + raised.abs());
+                // A closed gap is raised by what it was and an indentation, unless the system was nearly singular.
+                largest = largest.max(2.0 * problem.gap[i].abs());
             }
         }
         it.indentation = indentation;
@@ -309,6 +316,11 @@ impl Newton {
         it.tolerance = GAP_TOLERANCE.max(ROUND_OFF * largest / scale);
         residual / scale
     }
+}
+
+/// Whether nothing is left to gain after an iteration with such a residual, over its tolerance, and so many changes.
+fn has_stalled((last, changes): (f64, usize), residual: f64) -> bool {
+    changes == 0 && residual <= STALLED_WITHIN && 2.0 * residual > last
 }
 
 fn part<'a>(values: &'a [f64], span: &Range<usize>) -> &'a [f64] {

@@ -7,6 +7,9 @@ use super::newton::{Iterate, Problem};
 
 /// From this iteration on only one node changes its status at a time.
 const CAREFUL_FROM: usize = 20;
+/// From then on a status is right within so many tolerances: at the edge of its cone a node can stick a little beyond
+/// it and slip a little backward, each by round-off.
+const CAREFUL_SLACK: f64 = 10.0;
 
 /// What a node of the receptacle does.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -52,8 +55,9 @@ pub(super) fn update(problem: &Problem<'_>, it: &mut Iterate, iteration: usize) 
         .fold(f64::MIN_POSITIVE, |m, p| m.max(p.abs()));
     let careful = iteration >= CAREFUL_FROM;
     let (mut changes, mut worst) = (0, (0.0, 0, Status::Open));
+    let slack = if careful { CAREFUL_SLACK } else { 1.0 };
     for i in 0..it.status.len() {
-        let (new, violation) = wanted_status(problem, it, i, pressure_scale);
+        let (new, violation) = wanted_status(problem, it, i, pressure_scale, slack);
         if violation <= 0.0 {
             it.status[i] = new;
             continue;
@@ -71,14 +75,16 @@ pub(super) fn update(problem: &Problem<'_>, it: &mut Iterate, iteration: usize) 
     changes
 }
 
-/// The status that a node should have, and how much it violates its present one (0 if it keeps it).
+/// The status that a node should have, and how much it violates its present one (0 if it keeps it, within so many
+/// tolerances).
 fn wanted_status(
     problem: &Problem<'_>,
     it: &Iterate,
     i: usize,
     pressure_scale: f64,
+    slack: f64,
 ) -> (Status, f64) {
-    let (gap_scale, tolerance) = (it.indentation, it.tolerance);
+    let (gap_scale, tolerance) = (it.indentation, slack * it.tolerance);
     let slip_scale = it.indentation + problem.step.abs();
     let (p, q, slip, old) = (it.pressure[i], it.shear[i], it.slip[i], it.status[i]);
     let cone = problem.friction * p;
@@ -105,7 +111,7 @@ fn wanted_status(
         );
     }
     match old {
-        Status::Stick if q.abs() > cone * (1.0 + GAP_TOLERANCE) => {
+        Status::Stick if q.abs() > cone * (1.0 + slack * GAP_TOLERANCE) => {
             (Status::slip(q), (q.abs() - cone) / pressure_scale)
         }
         Status::SlipRight | Status::SlipLeft

@@ -10,6 +10,8 @@ use super::SquareMatrix;
 const PIVOT: f64 = 1e-11;
 /// Ratios that agree to this part are ties; the largest pivot among them is taken.
 const TIE: f64 = 1e-12;
+/// z0 counts as driven out where it has fallen below this part of what it began with.
+const NEARLY_OUT: f64 = 1e-5;
 /// Pivots per unknown before it is given up; some two or three are usual.
 const MOST_PIVOTS: usize = 30;
 
@@ -26,7 +28,8 @@ pub struct Lemke {
 }
 
 impl Lemke {
-    /// z, or `None` if the method ends on a ray.
+    /// z, or `None` if the method ends on a ray. Ties and round-off can end it shortly before the solution: what comes
+    /// back is a start for a method that looks at the residual.
     pub fn solve(&mut self, matrix: &SquareMatrix, q: &[f64]) -> Option<&[f64]> {
         let n = matrix.order();
         debug_assert!(q.len() == n, "one constant a row");
@@ -40,7 +43,13 @@ impl Lemke {
             let mut left = MOST_PIVOTS * n;
             while entering != 2 * n {
                 let column = self.nonbasic.iter().position(|v| *v == entering)?;
-                let row = self.leaving(column)?;
+                let Some(row) = self.leaving(column) else {
+                    // A ray that begins this close to a solution is made by round-off.
+                    if self.artificial() <= NEARLY_OUT * -constant {
+                        break;
+                    }
+                    return None;
+                };
                 let leaving = self.basic[row];
                 self.pivot(row, column);
                 entering = if leaving == 2 * n {
@@ -92,6 +101,13 @@ impl Lemke {
             }
         }
         best.map(|(i, _)| i)
+    }
+
+    /// The value of z0.
+    fn artificial(&self) -> f64 {
+        let n = self.order;
+        let place = self.basic.iter().position(|v| *v == 2 * n);
+        place.map_or(0.0, |row| self.rows[row * (n + 2) + n + 1])
     }
 
     /// Exchanges a basic and a nonbasic unknown; returns the complement of the one that left the basis.
