@@ -5,27 +5,14 @@
 //! ratio of two such changes. Linear elements and a contact edge that lies anywhere between two nodes let expect first
 //! order in the width of the scar and more in its depth.
 
-use crate::keep::solve;
+use crate::keep::{depth_at, solve};
 use crate::scenes::{fuzz_button, mccoll};
 use solver::history::DepthProfile;
 use solver::scene::Scene;
 
 fn profile(scene: &Scene) -> DepthProfile {
     let (_, keep) = solve(scene).expect("the scene can be solved");
-    keep.snapshots
-        .last()
-        .expect("the end is kept")
-        .receptacle
-        .clone()
-}
-
-fn at(profile: &DepthProfile, x: f64) -> f64 {
-    let i = profile
-        .x_mm
-        .partition_point(|&p| p < x)
-        .clamp(1, profile.x_mm.len() - 1);
-    let t = (x - profile.x_mm[i - 1]) / (profile.x_mm[i] - profile.x_mm[i - 1]);
-    (1.0 - t) * profile.depth_mm[i - 1] + t * profile.depth_mm[i]
+    keep.last_profile().clone()
 }
 
 /// Relative L1 distance of two profiles on [-half, half].
@@ -33,8 +20,8 @@ fn distance(a: &DepthProfile, b: &DepthProfile, half: f64) -> f64 {
     let places = (0..2_000).map(|i| half * (f64::from(i) / 1_000.0 - 1.0));
     let (mut difference, mut area) = (0.0, 0.0);
     for x in places {
-        difference += (at(a, x) - at(b, x)).abs();
-        area += at(b, x);
+        difference += (depth_at(a, x) - depth_at(b, x)).abs();
+        area += depth_at(b, x);
     }
     difference / area
 }

@@ -1,7 +1,7 @@
 //! An observer that keeps everything.
 
 use solver::SolveError;
-use solver::history::{CycleReport, Snapshot, Summary};
+use solver::history::{CycleReport, DepthProfile, Snapshot, Summary};
 use solver::observer::{Event, Flow, Observer};
 use solver::scene::Scene;
 
@@ -29,6 +29,21 @@ impl Keep {
         let found = self.reports.iter().find(|report| report.cycle == cycle);
         found.expect("the cycle was asked for")
     }
+
+    /// The receptacle's profile at the end.
+    pub(crate) fn last_profile(&self) -> &DepthProfile {
+        &self.snapshots.last().expect("the end is kept").receptacle
+    }
+}
+
+/// Depth of a profile at a place, mm.
+pub(crate) fn depth_at(profile: &DepthProfile, x: f64) -> f64 {
+    let i = profile
+        .x_mm
+        .partition_point(|&p| p < x)
+        .clamp(1, profile.x_mm.len() - 1);
+    let t = (x - profile.x_mm[i - 1]) / (profile.x_mm[i] - profile.x_mm[i - 1]);
+    (1.0 - t) * profile.depth_mm[i - 1] + t * profile.depth_mm[i]
 }
 
 /// Solves a scene and keeps what it told.
