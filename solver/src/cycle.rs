@@ -131,7 +131,7 @@ impl<'a> Integrator<'a> {
     /// [`CycleError`] if an increment fails however small it is.
     pub fn set_out(&mut self, state: &mut CycleState) -> Result<(), CycleError> {
         let (motion, accuracy) = (self.scene.motion, &self.scene.accuracy);
-        let steps = path::steps(motion, accuracy, state.mean_half_width);
+        let steps = path::steps(motion, accuracy, state.followed_half_width());
         for (increment, step) in path::set_out(&steps).iter().enumerate() {
             self.step(state, step, 0.0, increment)?;
         }
@@ -146,7 +146,7 @@ impl<'a> Integrator<'a> {
         let (motion, accuracy) = (self.scene.motion, &self.scene.accuracy);
         let stroke = self.stroke(state);
         let mut jump = state.jump.next(accuracy, stroke, until - state.cycle);
-        let steps = path::steps(motion, accuracy, state.mean_half_width);
+        let steps = path::steps(motion, accuracy, state.followed_half_width());
         self.take_slopes(state);
         let before = state.clone();
         loop {

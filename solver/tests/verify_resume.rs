@@ -82,7 +82,7 @@ fn a_run_that_has_relocated_resumes_to_the_same_bits() {
     scene.output.snapshots_at_cycles = vec![1, 400, 2_000];
     scene.output.fields = true;
     let (summary, _) = resumes_to_the_same_bits("fuzz_button", &scene, 8);
-    assert!(summary.resolution.relocations >= 2, "{summary:?}");
+    assert!(summary.resolution.relocations >= 1, "{summary:?}");
 }
 
 #[test]

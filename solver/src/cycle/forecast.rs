@@ -93,7 +93,8 @@ pub fn forecast(scene: &Scene, model: &Model) -> Forecast {
         }
         let until = scar.next_stop(scene, cycle, jump.fastest_rate());
         let step = jump.next(&scene.accuracy, scar.stroke(scene), until - cycle);
-        let steps = path::count(scene.motion, &scene.accuracy, scar.half_width);
+        let followed = path::followed(scar.half_width, scar.contact(1));
+        let steps = path::count(scene.motion, &scene.accuracy, followed);
         let probes = if scar.stroke_runs() && step > 1 {
             let length = 4.0 * scar.amplitude / real(steps);
             let (tolerance, single) = (scene.accuracy.tolerance, scar.contact(1));

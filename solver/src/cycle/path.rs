@@ -11,11 +11,11 @@ use crate::number::{count_at_least, real};
 use crate::scene::{Accuracy, Motion};
 
 /// Largest step over the contact's half-width, and fewest steps a quarter of a cycle, for a tolerance: what serves at
-/// 2 % and powers around it, as for the mesh.
+/// 2 % and powers around it, as for the mesh; the draft can afford longer ones.
 fn rule(tolerance: f64) -> (f64, usize) {
     let finer = 0.02 / tolerance;
     (
-        0.5 * finer.powf(-0.4),
+        0.5 * finer.powf(if finer < 1.0 { -0.55 } else { -0.4 }),
         count_at_least((5.0 * finer.powf(0.36)).round()),
     )
 }
@@ -23,6 +23,21 @@ fn rule(tolerance: f64) -> (f64, usize) {
 /// The largest step of a contact of a half-width, mm.
 pub(super) fn largest_step(tolerance: f64, half_width: f64) -> f64 {
     rule(tolerance).0 * half_width
+}
+
+/// A contact that a jump makes wide is followed as if it were at most so many times as wide as that of a single cycle:
+/// each increment leaves the slider's shape behind, and longer ones leave scallops that the next pass feels. Measured on
+/// `fuzz_button.json` at 2 % after 2 000 cycles: without this they are 2 um long and 18 nm high, and the peak pressure
+/// is 30 % off; it is 12 % with 2, 6 % with 1.75 and 5 % with 1.5, in 1.1, 1.2 and 1.3 times the time.
+const WIDEST: f64 = 1.75;
+
+/// The half-width that increments are laid for, mm: of the contact as it is, and of that of a single cycle.
+pub(super) fn followed(half_width: f64, single: f64) -> f64 {
+    if single > 0.0 {
+        half_width.min(WIDEST * single)
+    } else {
+        half_width
+    }
 }
 
 /// Most steps a quarter of a cycle: beyond, a cycle takes longer than anyone would wait.

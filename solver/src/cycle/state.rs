@@ -2,8 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::Neutral;
 use super::jump::JumpControl;
+use super::{Neutral, path};
 use crate::condensation::Operators;
 use crate::contact::{ContactError, ContactState};
 use crate::history::Checks;
@@ -79,5 +79,10 @@ impl CycleState {
             most_increments: 0,
             checks: Checks::default(),
         }
+    }
+
+    /// The half-width that increments are laid for, mm.
+    pub(super) fn followed_half_width(&self) -> f64 {
+        path::followed(self.mean_half_width, self.neutral.half_width)
     }
 }
