@@ -28,7 +28,7 @@ pub(super) fn largest_step(tolerance: f64, half_width: f64) -> f64 {
 /// A contact that a jump makes wide is followed as if it were at most so many times as wide as that of a single cycle:
 /// each increment leaves the slider's shape behind, and longer ones leave scallops that the next pass feels. Measured on
 /// `fuzz_button.json` at 2 % after 2 000 cycles: without this they are 2 um long and 18 nm high, and the peak pressure
-/// is 30 % off; it is 12 % with 2, 6 % with 1.75 and 5 % with 1.5, in 1.1, 1.2 and 1.3 times the time.
+/// is 30 % off; it is 12 % with 2, 6 % with 1.75 and 5 % with 1.5, in 1.25, 1.35 and 1.5 times the time.
 const WIDEST: f64 = 1.75;
 
 /// The half-width that increments are laid for, mm: of the contact as it is, and of that of a single cycle.
