@@ -16,6 +16,7 @@
 //! to nodal forces F is jump = (Mhat C_s Mhat^T + C_r) F with the condensed compliances. Contact knows operators,
 //! not meshes.
 
+mod guess;
 mod increment;
 mod mortar;
 mod newton;

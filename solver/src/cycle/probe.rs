@@ -4,7 +4,7 @@
 //! high, the contact as much wider and its pressure lower: 39 % at the groove's cycle 240 (`fuzz_button.json`, tolerance
 //! 2 %). What is reported of a place is therefore the contact of a copy of the state that came there over the last
 //! part of the way digging single passes: within 1 % of that of single cycles throughout in the middle of the groove,
-//! 17 % below it at the ends, whose shape the jumps have changed.
+//! 19 % below it at the ends, whose shape the jumps have changed.
 
 use super::path::{self, Step};
 use super::{CycleState, Integrator};

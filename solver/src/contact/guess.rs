@@ -1,0 +1,47 @@
+//! Where the iteration of an increment begins.
+
+use super::newton::{Iterate, Problem};
+use super::{ContactState, GAP_TOLERANCE, Pair, Status};
+
+/// Begins with the last contact as it travels with the slider.
+pub(super) fn guess(it: &mut Iterate, pair: &Pair<'_>, last: &ContactState, problem: &Problem<'_>) {
+    let (first, end) = (problem.coupling.first, problem.coupling.end);
+    let x = &pair.operators.receptacle.x;
+    let n = end - first;
+    // What the last solve left would make the answer depend on more than the state.
+    it.indentation = last.indentation;
+    it.height = last.height;
+    it.tolerance = GAP_TOLERANCE;
+    it.status.clear();
+    it.pressure.clear();
+    it.slip.clear();
+    for values in [&mut it.shear, &mut it.path, &mut it.gap] {
+        values.clear();
+        values.resize(n, 0.0);
+    }
+    let active = last.active_range();
+    for i in first..end {
+        let from = x[i] - problem.travel;
+        let travelled = active.is_none_or(|(a, b)| from >= x[a] && from <= x[b - 1]);
+        let near = x.partition_point(|&at| at < from).min(x.len() - 1);
+        let was = last.status[near].direction();
+        let status = if !travelled {
+            Status::Open
+        } else if problem.friction <= 0.0 || was * problem.step > 0.0 {
+            Status::slip(problem.step)
+        } else {
+            Status::Stick
+        };
+        it.status.push(status);
+        it.pressure
+            .push(if travelled { last.pressure[near] } else { 0.0 });
+        it.slip.push(problem.step);
+    }
+    if it.status.iter().all(|s| *s == Status::Open) {
+        it.status.fill(if problem.friction > 0.0 {
+            Status::Stick
+        } else {
+            Status::slip(problem.step)
+        });
+    }
+}
