@@ -7,7 +7,7 @@ fn main() {
     println!("cargo::rerun-if-env-changed=FRETWEAR_PYTHON");
     println!("cargo::rerun-if-env-changed=PATH");
     println!(
-        "cargo::rustc-check-cfg=cfg(has_vtk, has_ccx, has_chromium, has_curl, has_schemathesis)"
+        "cargo::rustc-check-cfg=cfg(has_vtk, has_ccx, has_chromium, has_curl, has_fma, has_schemathesis)"
     );
     let python = std::env::var("FRETWEAR_PYTHON").unwrap_or_else(|_| "python3".to_owned());
     println!("cargo::rustc-env=FRETWEAR_PYTHON={python}");
@@ -22,12 +22,27 @@ fn main() {
     {
         println!("cargo::rustc-cfg=has_curl");
     }
+    if has_fma() {
+        println!("cargo::rustc-cfg=has_fma");
+    }
     if runs(Command::new("chromium").arg("--version")) {
         println!("cargo::rustc-cfg=has_chromium");
     }
     if runs(Command::new("ccx").arg("-v")) {
         println!("cargo::rustc-cfg=has_ccx");
     }
+}
+
+/// Whether the processor has the vector instructions that the golden results were computed with.
+#[cfg(target_arch = "x86_64")]
+fn has_fma() -> bool {
+    std::arch::is_x86_feature_detected!("avx2") && std::arch::is_x86_feature_detected!("fma")
+}
+
+/// Another architecture has none of them.
+#[cfg(not(target_arch = "x86_64"))]
+fn has_fma() -> bool {
+    false
 }
 
 /// Whether a program is there and does not fail; `ccx -v` ends with a code of its own.

@@ -18,6 +18,7 @@ mod disturbed_jobs;
 mod docker_files;
 mod every_system_from_its_kind_alone;
 mod fields_open_in_vtk;
+mod golden_results;
 mod hard;
 mod hostile_inputs;
 mod load;
