@@ -9,10 +9,10 @@ pub mod predictions;
 
 use solver::SolveError;
 
-use crate::machine::MachineError;
+use crate::batch::accuracy::StudyError;
+use crate::estimate::machine::MachineError;
 use crate::solve::{Failure, cpu_s};
-use crate::study::StudyError;
-use crate::translate::Refused;
+use crate::spec::Refused;
 
 pub use cases::{Case, all};
 

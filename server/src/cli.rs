@@ -70,7 +70,7 @@ enum Command {
         #[arg(long)]
         out: Option<PathBuf>,
         /// Processor seconds that all runs together should take.
-        #[arg(long, default_value_t = crate::study::BUDGET_S)]
+        #[arg(long, default_value_t = crate::batch::accuracy::BUDGET_S)]
         budget_s: f64,
     },
     /// Write the model as an input deck for another code to standard output.

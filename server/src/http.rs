@@ -1,46 +1,17 @@
 //! HTTP: one file a route, each in the order error, handler, tests.
 
 mod access;
-mod archive;
 mod body_problems;
-mod cancel;
-mod cancel_study;
-mod cancel_sweep;
-mod events;
 mod extract;
-mod file;
-mod friction_loop;
-mod health;
 mod job_error;
 mod limits;
-mod list;
-mod list_sweeps;
 mod listener;
-mod make_plan;
-mod manifest;
-mod metrics;
-pub mod openapi;
-mod pages;
 mod paging;
-mod pressure;
 mod problem;
-mod profile;
-mod remove;
-mod remove_sweep;
 mod request_key;
-mod show;
-mod show_study;
-mod show_sweep;
-mod stored_part;
-mod study_picture;
-mod study_table;
-mod submit;
-mod submit_study;
-mod submit_sweep;
-mod sweep_outcomes;
-mod system_schema;
-mod systems;
-mod wear_history;
+mod routes;
+
+pub use routes::operation::openapi;
 
 use std::sync::Arc;
 
@@ -57,8 +28,10 @@ use utoipa::openapi::OpenApi as Document;
 use utoipa_axum::router::OpenApiRouter;
 use utoipa_axum::routes;
 
-use crate::machine::Kept;
+use crate::estimate::machine::Kept;
 use crate::store::Store;
+
+use routes::{batches, jobs, operation, results, systems};
 
 pub use access::{Access, TokenError};
 pub use listener::serve;
@@ -101,8 +74,8 @@ impl App {
             store,
             stopping,
             access,
-            archives: Arc::new(Semaphore::new(archive::AT_ONCE)),
-            programmes: Arc::new(Semaphore::new(submit_study::AT_ONCE)),
+            archives: Arc::new(Semaphore::new(results::archive::AT_ONCE)),
+            programmes: Arc::new(Semaphore::new(batches::submit_study::AT_ONCE)),
             long_polls: Arc::new(Semaphore::new(LONG_POLLS)),
             streams: Arc::new(Semaphore::new(STREAMS)),
         }
@@ -112,9 +85,9 @@ impl App {
 #[derive(OpenApi)]
 #[openapi(
     components(schemas(
-        stored_part::Format,
-        study_picture::PictureFormat,
-        wear_history::HistoryFormat,
+        results::stored_part::Format,
+        batches::study_picture::PictureFormat,
+        results::wear_history::HistoryFormat,
         api::event::Done
     )),
     info(
@@ -147,39 +120,42 @@ pub fn router(app: App) -> Router {
 
 fn described() -> (Router<App>, Document) {
     OpenApiRouter::with_openapi(Described::openapi())
-        .routes(routes!(submit::submit, list::list))
-        .routes(routes!(show::show, remove::remove))
-        .routes(routes!(cancel::cancel))
-        .routes(routes!(events::events))
-        .routes(routes!(manifest::manifest))
-        .routes(routes!(file::file))
-        .routes(routes!(archive::archive))
-        .routes(routes!(wear_history::wear_history))
-        .routes(routes!(profile::profile))
-        .routes(routes!(pressure::pressure))
-        .routes(routes!(friction_loop::friction_loop))
+        .routes(routes!(jobs::submit::submit, jobs::list::list))
+        .routes(routes!(jobs::show::show, jobs::delete::remove))
+        .routes(routes!(jobs::cancel::cancel))
+        .routes(routes!(jobs::stream_events::events))
+        .routes(routes!(results::list::manifest))
+        .routes(routes!(results::download::file))
+        .routes(routes!(results::archive::archive))
+        .routes(routes!(results::wear_history::wear_history))
+        .routes(routes!(results::profile::profile))
+        .routes(routes!(results::pressure::pressure))
+        .routes(routes!(results::friction_loop::friction_loop))
         .routes(routes!(
-            submit_sweep::submit_sweep,
-            list_sweeps::list_sweeps
+            batches::submit_sweep::submit_sweep,
+            batches::list_sweeps::list_sweeps
         ))
-        .routes(routes!(show_sweep::show_sweep, remove_sweep::remove_sweep))
-        .routes(routes!(sweep_outcomes::sweep_outcomes))
-        .routes(routes!(cancel_sweep::cancel_sweep))
-        .routes(routes!(submit_study::submit_study))
-        .routes(routes!(show_study::show_study))
-        .routes(routes!(study_table::study_table))
-        .routes(routes!(study_picture::study_picture))
-        .routes(routes!(cancel_study::cancel_study))
-        .routes(routes!(make_plan::make_plan))
-        .routes(routes!(systems::systems))
-        .routes(routes!(systems::system))
-        .routes(routes!(pages::dashboard))
-        .routes(routes!(pages::docs))
-        .routes(routes!(pages::asset))
-        .routes(routes!(openapi::openapi))
-        .routes(routes!(health::healthz))
-        .routes(routes!(health::readyz))
-        .routes(routes!(metrics::metrics))
+        .routes(routes!(
+            batches::show_sweep::show_sweep,
+            batches::remove_sweep::remove_sweep
+        ))
+        .routes(routes!(batches::sweep_outcomes::sweep_outcomes))
+        .routes(routes!(batches::cancel_sweep::cancel_sweep))
+        .routes(routes!(batches::submit_study::submit_study))
+        .routes(routes!(batches::show_study::show_study))
+        .routes(routes!(batches::study_table::study_table))
+        .routes(routes!(batches::study_picture::study_picture))
+        .routes(routes!(batches::cancel_study::cancel_study))
+        .routes(routes!(jobs::make_plan::make_plan))
+        .routes(routes!(systems::read::systems))
+        .routes(routes!(systems::read::system))
+        .routes(routes!(operation::pages::dashboard))
+        .routes(routes!(operation::pages::docs))
+        .routes(routes!(operation::pages::asset))
+        .routes(routes!(operation::openapi::openapi))
+        .routes(routes!(operation::health::healthz))
+        .routes(routes!(operation::health::readyz))
+        .routes(routes!(operation::metrics::metrics))
         .split_for_parts()
 }
 

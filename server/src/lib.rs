@@ -1,18 +1,17 @@
 #![doc = include_str!("../README.md")]
 
+pub mod batch;
 pub mod bench;
 pub mod cli;
 pub mod clock;
-pub mod documents;
-pub mod files;
+pub mod estimate;
+pub mod export;
 pub mod http;
-pub mod machine;
 pub mod metrics;
-pub mod plot;
 pub mod queue;
+pub mod reference;
 pub mod service;
 pub mod solve;
+pub mod spec;
 pub mod store;
-pub mod study;
-pub mod translate;
 pub mod worker;

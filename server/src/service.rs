@@ -10,9 +10,11 @@ use tokio::net::TcpListener;
 use tokio::task::JoinSet;
 use tokio_util::sync::CancellationToken;
 
-use crate::http::{self, Access, App};
+use crate::http;
+use crate::http::{Access, App};
 use crate::store::{Store, StoreError};
-use crate::worker::{self, Rules};
+use crate::worker;
+use crate::worker::Rules;
 
 /// How long a stop waits for open requests, beyond what solving processes are given.
 const GRACE: Duration = Duration::from_secs(5);

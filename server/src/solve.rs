@@ -12,7 +12,7 @@ use solver::history::PlacedFields;
 use solver::observer::{Event, Flow, Observer};
 use solver::scene::Scene;
 
-use crate::translate::{history, vtu};
+use crate::export::{history, vtu};
 use checkpoint::{Encoded, Keeping, Saved};
 use cost::Stopwatch;
 pub use cost::{children_cpu_s, cpu_s, thread_cpu_s};

@@ -3,27 +3,8 @@
 //! One writing connection and a pool of readers on an embedded database in WAL mode. A lock file beside the database
 //! makes sure that one process serves it; so at start-up every lease in it belongs to a process that is gone.
 
-mod backup;
-mod checkpoints;
-mod claims;
-mod conclusion;
-mod document;
 mod error;
-mod events;
-mod files;
-mod folder;
-mod jobs;
-mod leases;
-mod levels;
-mod open;
-mod queries;
-mod rescues;
-mod results;
-mod studies;
-mod submissions;
-mod sweep_ends;
-mod sweeps;
-mod upkeep;
+mod sqlite;
 
 use std::fs::File;
 use std::path::PathBuf;
@@ -36,18 +17,20 @@ use uuid::Uuid;
 
 use crate::metrics::Metrics;
 
-pub use backup::{BackupError, Copied, backup, restore};
-pub use checkpoints::NewCheckpoint;
-pub use conclusion::End;
 pub use error::StoreError;
-pub use events::StoredEvent;
-pub use files::{Content, NewFile};
-pub use jobs::{Cancelled, Deleted, Filter, NewJob, RequestKey, StoredJob, Submitted, Wishes};
-pub use leases::{Batch, Claim, Held};
-pub use rescues::Rescued;
-pub use results::SnapshotPart;
-pub use studies::{StoredStudy, StudyPlan};
-pub use sweeps::{NewSweep, SweepOutcome};
+pub use sqlite::backup::{BackupError, Copied, backup, restore};
+pub use sqlite::checkpoints::NewCheckpoint;
+pub use sqlite::conclusion::End;
+pub use sqlite::events::StoredEvent;
+pub use sqlite::files::{Content, NewFile};
+pub use sqlite::jobs::{
+    Cancelled, Deleted, Filter, NewJob, RequestKey, StoredJob, Submitted, Wishes,
+};
+pub use sqlite::leases::{Batch, Claim, Held};
+pub use sqlite::rescues::Rescued;
+pub use sqlite::results::SnapshotPart;
+pub use sqlite::studies::{StoredStudy, StudyPlan};
+pub use sqlite::sweeps::{NewSweep, SweepOutcome};
 
 /// How many job ids may wait in a listener's channel before it has to look for itself.
 const CHANGES_KEPT: usize = 1024;
@@ -59,7 +42,7 @@ pub struct Store {
     readers: SqlitePool,
     changes: broadcast::Sender<Uuid>,
     waiting: Notify,
-    folder: folder::Folder,
+    folder: sqlite::folder::Folder,
     /// The write-ahead log.
     wal: PathBuf,
     /// Figures of the machine.
@@ -68,7 +51,7 @@ pub struct Store {
     attempt_limit: u32,
     /// What is counted for `/metrics`.
     metrics: Arc<Metrics>,
-    submissions: submissions::Submissions,
+    submissions: sqlite::submissions::Submissions,
     /// When a write for the sake of it succeeded.
     proved_ready: tokio::sync::Mutex<Option<Instant>>,
     /// Held as long as the store is open.

@@ -24,7 +24,7 @@ struct Ours {
 }
 
 fn ours() -> Ours {
-    let scene = server::translate::read(SPEC.as_bytes())
+    let scene = server::spec::read(SPEC.as_bytes())
         .expect("the specification is sound")
         .scene;
     let model = solver::model::build(&scene).expect("it can be meshed");

@@ -5,7 +5,7 @@
 //! looser tolerances run with every test; `FRETWEAR_PREDICTIONS=long` runs all.
 
 use server::bench::predictions::{TOLERANCES, compare, scenes};
-use server::machine;
+use server::estimate::machine;
 
 #[test]
 fn counted_work_is_within_a_factor_of_two_of_the_plan() {

@@ -10,10 +10,10 @@ use solver::cycle::{CycleState, Integrator};
 use solver::model;
 use solver::scene::Scene;
 
-use super::cases::{CYLINDER, scene};
-use super::{BenchError, measured};
+use crate::bench::cases::{CYLINDER, scene};
+use crate::bench::{BenchError, measured};
+use crate::export::deck::cycle;
 use crate::solve::children_cpu_s;
-use crate::translate::deck::cycle;
 
 /// Contact elements that are compared unless others are named, um.
 pub const ELEMENTS_UM: [f64; 3] = [20.0, 10.0, 5.0];

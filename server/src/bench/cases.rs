@@ -7,9 +7,9 @@ use solver::model::{self, Model};
 use solver::observer::Flow;
 use solver::scene::Scene;
 
-use super::{BenchError, Row, measured};
+use crate::bench::{BenchError, Row, measured};
 use crate::solve;
-use crate::translate;
+use crate::spec;
 
 pub(super) const MCCOLL: &str = include_str!("../../examples/mccoll.json");
 pub(super) const FUZZ_BUTTON: &str = include_str!("../../examples/fuzz_button.json");
@@ -69,7 +69,7 @@ pub(super) const CYLINDER: &str = r#"{
 
 /// A scene with changed settings.
 pub(super) fn scene(spec: &str, change: impl FnOnce(&mut Scene)) -> Result<Scene, BenchError> {
-    let mut scene = translate::read(spec.as_bytes())?.scene;
+    let mut scene = spec::read(spec.as_bytes())?.scene;
     change(&mut scene);
     Ok(scene)
 }

@@ -7,11 +7,12 @@ use api::plan::MachineFigures;
 use api::results::Summary;
 use api::spec::{Accuracy, Spec, System, SystemKind};
 
-use super::BenchError;
-use super::cases::{FUZZ_BUTTON, MCCOLL};
-use crate::machine;
-use crate::study::process;
-use crate::translate::{self, Refused};
+use crate::batch::accuracy::process;
+use crate::bench::BenchError;
+use crate::bench::cases::{FUZZ_BUTTON, MCCOLL};
+use crate::estimate::machine;
+use crate::spec;
+use crate::spec::Refused;
 
 /// Tolerances that are compared unless others are named: the presets and two between.
 pub const TOLERANCES: [f64; 5] = [0.1, 0.05, 0.02, 0.01, 0.003];
@@ -61,7 +62,7 @@ pub fn scenes() -> Result<Vec<(String, Spec)>, BenchError> {
         })
         .collect();
     for (name, text) in [("mccoll.json", MCCOLL), ("fuzz_button.json", FUZZ_BUTTON)] {
-        let resolved = translate::read(text.as_bytes())?;
+        let resolved = spec::read(text.as_bytes())?;
         scenes.push((name.to_owned(), resolved.spec));
     }
     Ok(scenes)
@@ -82,7 +83,7 @@ pub fn compare(
         tolerance: Some(tolerance),
         ..Accuracy::default()
     };
-    let resolved = translate::scene(&spec).map_err(Refused::Faults)?;
+    let resolved = spec::scene(&spec).map_err(Refused::Faults)?;
     let plan = machine::plan(&resolved, Some(machine)).estimates;
     let (found, spent) = process::solve(program, &resolved.spec)?;
     let summary = found.map_err(BenchError::OtherFailed)?.summary;

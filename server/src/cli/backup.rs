@@ -3,8 +3,8 @@
 use std::path::Path;
 use std::process::ExitCode;
 
-use super::runtime;
-use super::terminal::{failed, say};
+use crate::cli::runtime;
+use crate::cli::terminal::{failed, say};
 use crate::store::{BackupError, Copied, backup, restore};
 
 pub(super) fn run(database: &str, into: &Path) -> ExitCode {

@@ -4,13 +4,16 @@ use std::process::ExitCode;
 
 use comfy_table::{CellAlignment, Table};
 
-use super::BenchArguments;
-use super::terminal::{failed, say, tell};
-use crate::bench::against::{self, Comparison};
-use crate::bench::predictions::{self, Pair, Prediction};
-use crate::bench::{self, BenchError, Row};
-use crate::machine;
-use crate::study::StudyError;
+use crate::batch::accuracy::StudyError;
+use crate::bench;
+use crate::bench::against;
+use crate::bench::against::Comparison;
+use crate::bench::predictions;
+use crate::bench::predictions::{Pair, Prediction};
+use crate::bench::{BenchError, Row};
+use crate::cli::BenchArguments;
+use crate::cli::terminal::{failed, say, tell};
+use crate::estimate::machine;
 
 pub(super) fn run(arguments: &BenchArguments) -> ExitCode {
     if arguments.predictions {

@@ -19,13 +19,15 @@ use nix::sys::resource::{Resource, setrlimit};
 use signal_hook::consts::SIGTERM;
 use solver::observer::Flow;
 
-use super::ChildArguments;
-use super::terminal::{failed, refused, tell};
-use crate::documents::VTU;
-use crate::files::{self, FilesError};
+use crate::cli::ChildArguments;
+use crate::cli::terminal::{failed, refused, tell};
+use crate::export::documents::VTU;
+use crate::export::files;
+use crate::export::files::FilesError;
+use crate::solve;
 use crate::solve::checkpoint::{Keeping, Saved};
-use crate::solve::{self, Failure, FieldsFile, Line, UNWRITTEN};
-use crate::translate;
+use crate::solve::{Failure, FieldsFile, Line, UNWRITTEN};
+use crate::spec;
 
 /// Exit code when the supervisor is gone.
 const ORPHANED: i32 = 3;
@@ -41,7 +43,7 @@ pub(super) fn run(arguments: &ChildArguments) -> ExitCode {
         Ok(lines) => lines,
         Err(cause) => return failed(cause),
     };
-    let resolved = match translate::read(spec.as_bytes()) {
+    let resolved = match spec::read(spec.as_bytes()) {
         Ok(resolved) => resolved,
         Err(error) => {
             write(&Line::Failed(Failure {

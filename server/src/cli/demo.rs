@@ -11,10 +11,10 @@ use eventsource_stream::Eventsource;
 use futures_util::StreamExt;
 use uuid::Uuid;
 
-use super::serve::until_signal;
-use super::solve::phase_name;
-use super::terminal::{bar, failed, say, tell};
-use super::{runtime, table, workers};
+use crate::cli::serve::until_signal;
+use crate::cli::solve::phase_name;
+use crate::cli::terminal::{bar, failed, say, tell};
+use crate::cli::{runtime, table, workers};
 use crate::http::Access;
 use crate::queue::ATTEMPT_LIMIT;
 use crate::service::{Config, Service, ServiceError};

@@ -9,8 +9,8 @@ use solver::observer::{Event, Flow, Observer};
 use solver::scene::Scene;
 use solver::{SolveError, ale};
 
-use super::terminal::{failed, say, specification};
-use crate::translate::deck;
+use crate::cli::terminal::{failed, say, specification};
+use crate::export::deck;
 
 pub(super) fn run(spec: &Path, cycle: u64) -> ExitCode {
     let resolved = match specification(spec) {

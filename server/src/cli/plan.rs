@@ -5,8 +5,9 @@ use std::process::ExitCode;
 
 use api::plan::PlanDocument;
 
-use super::terminal::{failed, say, specification};
-use crate::machine::{self, Kept, cache_file};
+use crate::cli::terminal::{failed, say, specification};
+use crate::estimate::machine;
+use crate::estimate::machine::{Kept, cache_file};
 
 pub(super) fn run(spec: &Path) -> ExitCode {
     let resolved = match specification(spec) {

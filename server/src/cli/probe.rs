@@ -4,8 +4,8 @@ use std::net::{IpAddr, Ipv4Addr, Ipv6Addr, SocketAddr};
 use std::process::ExitCode;
 use std::time::Duration;
 
-use super::runtime;
-use super::terminal::{failed, say};
+use crate::cli::runtime;
+use crate::cli::terminal::{failed, say};
 
 /// How long the service may take.
 const PATIENCE: Duration = Duration::from_secs(4);

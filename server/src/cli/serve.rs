@@ -4,8 +4,8 @@ use std::process::ExitCode;
 
 use tokio::signal::unix::{SignalKind, signal};
 
-use super::terminal::{failed, tell};
-use super::{ServeArguments, runtime};
+use crate::cli::terminal::{failed, tell};
+use crate::cli::{ServeArguments, runtime};
 use crate::service::{Config, Service};
 
 pub(super) fn run(arguments: ServeArguments) -> ExitCode {

@@ -8,11 +8,12 @@ use api::results::{CycleRow, Snapshot, Summary};
 use indicatif::ProgressBar;
 use solver::observer::Flow;
 
-use super::terminal::{bar, failed, say, specification_for, tell};
-use crate::documents::Results;
-use crate::files;
-use crate::solve::{self, Failure, FieldsFile, Line};
-use crate::translate::Resolved;
+use crate::cli::terminal::{bar, failed, say, specification_for, tell};
+use crate::export::documents::Results;
+use crate::export::files;
+use crate::solve;
+use crate::solve::{Failure, FieldsFile, Line};
+use crate::spec::Resolved;
 
 pub(super) fn run(spec: &Path, out: Option<&Path>) -> ExitCode {
     let resolved = match specification_for(spec, out) {

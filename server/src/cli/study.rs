@@ -5,9 +5,10 @@ use std::process::ExitCode;
 
 use indicatif::{ProgressBar, ProgressStyle};
 
-use super::terminal::{failed, refused, say, specification_for};
-use crate::machine::{Kept, cache_file};
-use crate::study::{self, ProgrammeError, Request, StudyError, report};
+use crate::batch::accuracy;
+use crate::batch::accuracy::{ProgrammeError, Request, StudyError, report};
+use crate::cli::terminal::{failed, refused, say, specification_for};
+use crate::estimate::machine::{Kept, cache_file};
 
 pub(super) fn run(spec: &Path, out: Option<&Path>, budget_s: f64) -> ExitCode {
     let resolved = match specification_for(spec, out) {
@@ -29,7 +30,7 @@ pub(super) fn run(spec: &Path, out: Option<&Path>, budget_s: f64) -> ExitCode {
         program,
         budget_s,
     };
-    let made = study::make(&request, &mut |run| spinner.set_message(run.to_owned()));
+    let made = accuracy::make(&request, &mut |run| spinner.set_message(run.to_owned()));
     spinner.finish_and_clear();
     let study = match made {
         Ok(study) => study,

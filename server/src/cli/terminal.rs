@@ -9,8 +9,9 @@ use std::time::Duration;
 use api::problem::Fault;
 use indicatif::{ProgressBar, ProgressStyle};
 
-use super::REFUSED;
-use crate::translate::{self, Refused, Resolved};
+use crate::cli::REFUSED;
+use crate::spec;
+use crate::spec::{Refused, Resolved};
 
 /// Writes a line on standard output. A reader that has gone (`| head`) is no failure of the work.
 pub(super) fn say(line: impl Display) {
@@ -43,7 +44,7 @@ pub(super) fn refused(refused: &Refused) -> ExitCode {
 pub(super) fn specification(path: &Path) -> Result<Resolved, ExitCode> {
     let bytes =
         std::fs::read(path).map_err(|cause| failed(format_args!("{}: {cause}", path.display())))?;
-    translate::read(&bytes).map_err(|error| refused(&error))
+    spec::read(&bytes).map_err(|error| refused(&error))
 }
 
 /// The same, with a folder for what comes out of it. The folder is made before the work, so that one that cannot be made

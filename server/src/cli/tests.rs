@@ -2,7 +2,7 @@
 
 use clap::{CommandFactory, Parser};
 
-use super::Arguments;
+use crate::cli::Arguments;
 
 const README: &str = include_str!("../../README.md");
 

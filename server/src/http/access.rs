@@ -15,7 +15,7 @@ use axum::response::{IntoResponse, Response};
 use sha2::{Digest, Sha256};
 use subtle::ConstantTimeEq;
 
-use super::problem::Kind;
+use crate::http::problem::Kind;
 
 /// Shortest token: 16 random characters are some 90 bits.
 const TOKEN_LEAST: usize = 16;

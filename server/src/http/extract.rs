@@ -10,8 +10,8 @@ use futures_util::StreamExt;
 use serde::de::DeserializeOwned;
 use uuid::Uuid;
 
-use super::BODY_LIMIT;
-use super::problem::{Kind, Refusal};
+use crate::http::BODY_LIMIT;
+use crate::http::problem::{Kind, Refusal};
 
 /// Bytes of a body that is too large which are still read.
 const THROWN_AWAY_LIMIT: usize = 64 << 20;

@@ -3,8 +3,8 @@
 use axum::response::{IntoResponse, Response};
 use uuid::Uuid;
 
-use super::App;
-use super::problem::{Kind, Refusal};
+use crate::http::App;
+use crate::http::problem::{Kind, Refusal};
 use crate::store::{StoreError, StoredJob};
 
 /// Why a job cannot be had.

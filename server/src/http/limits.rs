@@ -2,7 +2,7 @@
 
 use api::problem::Fault;
 
-use crate::translate::{Refused, Resolved};
+use crate::spec::{Refused, Resolved};
 
 /// Unknowns of both bodies.
 const DOFS: f64 = 2e6;

@@ -3,7 +3,7 @@
 use sha2::{Digest, Sha256};
 use uuid::Uuid;
 
-use super::problem::shortened;
+use crate::http::problem::shortened;
 
 /// Entries of a page unless asked otherwise.
 const USUAL: u32 = 50;

@@ -4,7 +4,7 @@ use axum::http::HeaderMap;
 use axum::response::{IntoResponse, Response};
 use sha2::{Digest, Sha256};
 
-use super::problem::Kind;
+use crate::http::problem::Kind;
 use crate::store::RequestKey;
 
 /// The header.

@@ -16,12 +16,13 @@ use tempfile::TempDir;
 use tokio_util::sync::CancellationToken;
 use tower::ServiceExt;
 
-use super::{Access, App, REQUESTS, router};
-use crate::documents::{JSON, VTU};
-use crate::files;
-use crate::machine::Kept;
+use crate::estimate::machine::Kept;
+use crate::export::documents::{JSON, VTU};
+use crate::export::files;
+use crate::http::{Access, App, REQUESTS, router};
 use crate::queue::Move;
-use crate::store::{self, Batch, End, NewFile, Store};
+use crate::store;
+use crate::store::{Batch, End, NewFile, Store};
 
 /// All routes over a fresh store.
 pub(crate) struct Service {

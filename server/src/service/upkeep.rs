@@ -9,7 +9,8 @@ use tracing::Instrument;
 
 use crate::clock::{now_ms, steady_ms};
 use crate::store::{Rescued, Store, StoreError};
-use crate::worker::{self, Rules};
+use crate::worker;
+use crate::worker::Rules;
 
 /// How often expired leases and deadlines are looked for.
 const ROUND: Duration = Duration::from_secs(1);

@@ -123,7 +123,7 @@ mod tests {
     use solver::observer::{Event, Flow, Observer};
 
     use super::*;
-    use crate::translate;
+    use crate::spec;
 
     #[derive(Default)]
     struct Last(Option<Checkpoint>);
@@ -139,7 +139,7 @@ mod tests {
 
     fn saved() -> Saved {
         let text = br#"{"system":{"kind":"fuzz_button"},"cycles":3,"accuracy":{"preset":"draft"}}"#;
-        let resolved = translate::read(text).expect("accepted");
+        let resolved = spec::read(text).expect("accepted");
         let mut last = Last::default();
         solver::run::solve(&resolved.scene, &mut last).expect("solved");
         Saved {

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use uuid::Uuid;
 
-use crate::files;
+use crate::export::files;
 
 /// Why the store could not do what was asked.
 #[derive(Debug, thiserror::Error)]

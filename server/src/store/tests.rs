@@ -21,7 +21,7 @@ use uuid::Uuid;
 use super::*;
 use crate::http::tests::row;
 use crate::queue::{ATTEMPT_LIMIT, Move};
-use crate::translate;
+use crate::spec;
 
 struct Fixture {
     store: Arc<Store>,
@@ -45,8 +45,8 @@ impl Fixture {
     }
 
     async fn wished(&self, wishes: Wishes) -> Uuid {
-        let resolved = translate::read(br#"{"system":{"kind":"fuzz_button"}}"#).expect("accepted");
-        let plan = translate::plan(&resolved);
+        let resolved = spec::read(br#"{"system":{"kind":"fuzz_button"}}"#).expect("accepted");
+        let plan = crate::estimate::plan(&resolved);
         self.store
             .submit(
                 &NewJob {

@@ -17,8 +17,8 @@ use tokio_util::codec::{FramedRead, LinesCodec, LinesCodecError};
 use tokio_util::task::AbortOnDropHandle;
 use tracing::Instrument;
 
-use super::Rules;
 use crate::store::Claim;
+use crate::worker::Rules;
 
 /// Longest line of a solving process, bytes: a snapshot of as many surface elements as a study may have, several times.
 const LINE_LIMIT: usize = 256 << 20;

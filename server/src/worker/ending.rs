@@ -5,12 +5,12 @@ use std::convert::Infallible;
 use api::job::{Progress, Status};
 use tokio::time::MissedTickBehavior;
 
-use super::gather::gather;
-use super::verdict::end;
-use super::{Rules, STORE_PAUSE};
 use crate::clock::now_ms;
 use crate::queue::Move;
 use crate::store::{Batch, Claim, End, Held, Store, StoreError};
+use crate::worker::gather::gather;
+use crate::worker::verdict::end;
+use crate::worker::{Rules, STORE_PAUSE};
 
 /// Renewals within a lease.
 const RENEWALS: u32 = 3;

@@ -2,8 +2,10 @@
 
 use api::results::Summary;
 
-use crate::documents::{self, Document, DocumentError, Results};
-use crate::files::{self, FilesError};
+use crate::export::documents;
+use crate::export::documents::{Document, DocumentError, Results};
+use crate::export::files;
+use crate::export::files::FilesError;
 use crate::store::{Claim, NewFile, Store, StoreError};
 
 /// Documents up to this size are kept in the database, where they cost no file of their own; bytes. Below some 100 kB a

@@ -7,16 +7,16 @@ use api::spec::Spec;
 use tokio::time::MissedTickBehavior;
 use tokio_util::sync::CancellationToken;
 
-use super::batcher::Batcher;
-use super::child::Solving;
-use super::ending::{beat, conclude, patiently};
-use super::verdict::{end, verdict};
-use super::{Rules, STORE_PAUSE};
 use crate::clock::now_ms;
 use crate::queue::Move;
 use crate::solve::Line;
+use crate::spec;
 use crate::store::{Claim, End, Held, Store, StoreError};
-use crate::translate;
+use crate::worker::batcher::Batcher;
+use crate::worker::child::Solving;
+use crate::worker::ending::{beat, conclude, patiently};
+use crate::worker::verdict::{end, verdict};
+use crate::worker::{Rules, STORE_PAUSE};
 
 /// How often gathered lines are written and a cancel request is looked for.
 const TICK: Duration = Duration::from_millis(150);
@@ -66,8 +66,7 @@ async fn see_through(
     rules: &Rules,
     stopping: &CancellationToken,
 ) -> Result<(), StoreError> {
-    let cycles =
-        serde_json::from_str::<Spec>(&claim.spec).map_or(0, |spec| translate::cycles(&spec));
+    let cycles = serde_json::from_str::<Spec>(&claim.spec).map_or(0, |spec| spec::cycles(&spec));
     let from_cycle = claim.checkpoint.as_ref().map_or(0, |found| found.cycle);
     tracing::info!(from_cycle, memory_mb = claim.memory_mb, "job taken");
     let mut batcher = Batcher::new(cycles, from_cycle);

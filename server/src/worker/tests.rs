@@ -12,11 +12,11 @@ use tokio::task::JoinHandle;
 use tokio_util::sync::CancellationToken;
 use uuid::Uuid;
 
-use super::{Rules, work};
 use crate::http::tests::row;
 use crate::solve::Line;
+use crate::spec;
 use crate::store::{Batch, NewJob, Store, Wishes};
-use crate::translate;
+use crate::worker::{Rules, work};
 
 /// A worker whose solving process is a shell script, and the one job that it has, with one attempt.
 struct Scripted {
@@ -40,13 +40,13 @@ impl Scripted {
             .expect("a program");
         let url = format!("sqlite://{}", folder.path().join("test.db").display());
         let store = Arc::new(Store::open_with(&url, 1).await.expect("a store"));
-        let resolved = translate::read(br#"{"system":{"kind":"fuzz_button"}}"#).expect("accepted");
+        let resolved = spec::read(br#"{"system":{"kind":"fuzz_button"}}"#).expect("accepted");
         let spec = Spec {
             name,
             ..resolved.spec.clone()
         };
         let job = NewJob {
-            plan: translate::plan(&resolved),
+            plan: crate::estimate::plan(&resolved),
             spec,
             wishes: Wishes::default(),
         };
@@ -190,9 +190,9 @@ async fn an_unwanted_job_whose_worker_is_lost_keeps_documents_of_what_was_comput
     let folder = TempDir::new().expect("a temporary folder");
     let url = format!("sqlite://{}", folder.path().join("test.db").display());
     let store = Store::open(&url).await.expect("a store");
-    let resolved = translate::read(br#"{"system":{"kind":"fuzz_button"}}"#).expect("accepted");
+    let resolved = spec::read(br#"{"system":{"kind":"fuzz_button"}}"#).expect("accepted");
     let job = NewJob {
-        plan: translate::plan(&resolved),
+        plan: crate::estimate::plan(&resolved),
         spec: resolved.spec,
         wishes: Wishes::default(),
     };

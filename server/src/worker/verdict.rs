@@ -2,10 +2,10 @@
 
 use api::job::Outcome;
 
-use super::child::{Ended, OUT_OF_MEMORY};
 use crate::queue::Move;
 use crate::solve::{Line, UNWRITTEN};
 use crate::store::End;
+use crate::worker::child::{Ended, OUT_OF_MEMORY};
 
 /// A result, a failure or a crash of its own is final; killed from outside, the job is tried again; asked to stop, it
 /// goes back to the queue.

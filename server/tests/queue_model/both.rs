@@ -5,7 +5,7 @@ use proptest::prelude::*;
 use proptest::test_runner::TestCaseResult;
 use server::queue::{Move, place};
 use server::store::{Batch, Claim, End, Held, NewCheckpoint, NewJob, Store, Wishes};
-use server::translate;
+use server::{estimate, spec};
 use tempfile::TempDir;
 
 use crate::model::{ATTEMPTS, Modelled};
@@ -24,8 +24,8 @@ impl Both {
     pub(crate) async fn new(folder: &TempDir) -> Self {
         let url = format!("sqlite://{}", folder.path().join("test.db").display());
         let store = Store::open_with(&url, ATTEMPTS).await.expect("a store");
-        let resolved = translate::read(br#"{"system":{"kind":"fuzz_button"}}"#).expect("accepted");
-        let plan = translate::plan(&resolved);
+        let resolved = spec::read(br#"{"system":{"kind":"fuzz_button"}}"#).expect("accepted");
+        let plan = estimate::plan(&resolved);
         let job = NewJob {
             spec: resolved.spec,
             plan,

@@ -4,7 +4,7 @@
 //! Naive: dividing by the load or by the contact width gives NaN; contact that is lost for an instant never returns.
 
 use serde_json::json;
-use server::translate::{self, Refused};
+use server::spec::{self, Refused};
 
 use super::invariants::hold;
 use super::run::{Run, solve};
@@ -23,7 +23,7 @@ fn under(n_per_mm: f64) -> Run {
 #[test]
 fn no_load_is_refused_by_its_field() {
     let spec = cylinder(json!({"load": {"kind": "line_force", "n_per_mm": 0}}));
-    let Err(Refused::Faults(faults)) = translate::read(spec.to_string().as_bytes()) else {
+    let Err(Refused::Faults(faults)) = spec::read(spec.to_string().as_bytes()) else {
         panic!("a load of 0 is accepted");
     };
     assert_eq!(faults.len(), 1, "{faults:?}");

@@ -4,7 +4,7 @@
 //! Naive: the force goes negative and pulls; or the contact is lost and the load balance has no solution.
 
 use serde_json::json;
-use server::translate;
+use server::spec;
 
 use super::invariants::hold;
 use super::run::{solve, solve_part};
@@ -41,7 +41,7 @@ fn a_stiff_spring_fades_to_nothing_and_stops_the_wear() {
 fn a_spring_that_fades_within_a_jump_leaves_no_force_and_never_pulls() {
     let path = tests::spec("found/spring_fades_within_a_jump.json");
     let bytes = std::fs::read(path).expect("the specification is kept");
-    let scene = translate::read(&bytes).expect("it is accepted").scene;
+    let scene = spec::read(&bytes).expect("it is accepted").scene;
     let run = solve_part(scene, usize::MAX);
     hold(&run);
     let load = run.summary().last.load_n_per_mm;

@@ -6,7 +6,7 @@
 //! alone keeps a residual above its tolerance, iterating on helps nothing, nor do halves: what it leaves is taken. Where
 //! the system is nearly singular, heights of 1e34 mm made every residual look like round-off.
 
-use server::translate;
+use server::spec;
 
 use super::invariants::hold;
 use super::run::solve_part;
@@ -25,7 +25,7 @@ fn specifications_that_once_found_no_contact_state_go_through() {
     ] {
         let path = tests::spec(&format!("found/{name}.json"));
         let bytes = std::fs::read(path).expect("the specification is kept");
-        let scene = translate::read(&bytes).expect("it is accepted").scene;
+        let scene = spec::read(&bytes).expect("it is accepted").scene;
         hold(&solve_part(scene, usize::MAX));
     }
 }

@@ -10,7 +10,7 @@ use std::str::FromStr;
 use proptest::collection::vec;
 use proptest::strategy::{Strategy, ValueTree};
 use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
-use server::translate::{self, Refused};
+use server::spec::{self, Refused};
 use solver::scene::Scene;
 
 use super::draws::{NUMBERS, specification};
@@ -57,7 +57,7 @@ fn any_specification_is_refused_or_sound_or_says_why_not() {
         drawn = draw + 1;
         let tree = numbers.new_tree(&mut runner).expect("numbers can be drawn");
         let spec = specification(&tree.current());
-        let scene = match translate::read(spec.to_string().as_bytes()) {
+        let scene = match spec::read(spec.to_string().as_bytes()) {
             Ok(resolved) => resolved.scene,
             Err(Refused::Faults(faults)) => {
                 assert!(

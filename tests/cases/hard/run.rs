@@ -1,7 +1,7 @@
 //! Running a specification through the border and the engine, keeping everything that it told.
 
 use serde_json::Value;
-use server::translate;
+use server::spec;
 use solver::SolveError;
 use solver::history::{CycleReport, Snapshot, Summary};
 use solver::observer::{Event, Flow, Observer};
@@ -60,7 +60,7 @@ impl Observer for Keep {
 
 /// The scene of a specification that is accepted.
 pub(crate) fn scene(spec: &Value) -> Scene {
-    let resolved = translate::read(spec.to_string().as_bytes());
+    let resolved = spec::read(spec.to_string().as_bytes());
     resolved.expect("the specification is accepted").scene
 }
 

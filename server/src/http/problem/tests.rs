@@ -3,7 +3,7 @@
 
 use serde_json::Value;
 
-use super::{Kind, Refusal};
+use crate::http::problem::{Kind, Refusal};
 use crate::http::tests::Service;
 use crate::http::{Access, App};
 use axum::response::IntoResponse;

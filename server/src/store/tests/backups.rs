@@ -1,9 +1,9 @@
 //! Copies of a database that is served meanwhile.
 
-use super::super::backup::{BackupError, copy_database, copy_what_it_names};
 use super::*;
-use crate::documents::VTU;
-use crate::files;
+use crate::export::documents::VTU;
+use crate::export::files;
+use crate::store::sqlite::backup::{BackupError, copy_database, copy_what_it_names};
 
 /// A file that an attempt has written, on its way to the manifest.
 fn kept(store: &Store, claim: &Claim) -> Batch {

@@ -1,8 +1,8 @@
 //! Files beside the database.
 
 use super::*;
-use crate::documents::VTU;
-use crate::files;
+use crate::export::documents::VTU;
+use crate::export::files;
 
 /// A file that an attempt has written, on its way to the manifest.
 fn kept(store: &Store, claim: &Claim, name: &str) -> NewFile {

@@ -48,7 +48,10 @@ async fn addresses_that_are_no_files_are_refused() {
 async fn a_transaction_that_the_database_ended_by_itself_does_not_end_all_writing() {
     let fixture = Fixture::new().await;
     let store = &fixture.store;
-    let mut transaction = store.writer.begin_with(queries::BEGIN).await;
+    let mut transaction = store
+        .writer
+        .begin_with(crate::store::sqlite::queries::BEGIN)
+        .await;
     // As SQLite does when the disk is full.
     let ended = sqlx::query("ROLLBACK").execute(transaction.as_deref_mut().expect("begun"));
     ended.await.expect("ended");

@@ -1,0 +1,122 @@
+//! Solutions and how far apart they are.
+
+use api::results::{Profile, SideProfile, Summary};
+use api::study::Errors;
+
+/// What is compared.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Solution {
+    /// Largest worn depth, half-width of the scar, peak pressure, worn area.
+    pub(crate) figures: [f64; 4],
+    /// Worn depth along the receptacle and the slider.
+    pub(crate) profiles: [SideProfile; 2],
+}
+
+impl Solution {
+    /// The end of a run. Width and area are those of the receptacle, or of the slider if only that wears.
+    pub(crate) fn of(summary: &Summary, last: &Profile) -> Self {
+        let worn = if summary.receptacle.worn_area_mm2 > 0.0 {
+            &summary.receptacle
+        } else {
+            &summary.slider
+        };
+        Self {
+            figures: [
+                worn.max_depth_mm,
+                worn.scar_half_width_mm,
+                summary.peak_pressure_mpa,
+                worn.worn_area_mm2,
+            ],
+            profiles: [last.receptacle.clone(), last.slider.clone()],
+        }
+    }
+
+    /// How far another solution is from this one, relative to this one.
+    pub(crate) fn errors(&self, other: &Self) -> Errors {
+        let relative = |index: usize| {
+            relative(
+                other.figures[index] - self.figures[index],
+                self.figures[index],
+            )
+        };
+        let depths = self.profiles.iter().flat_map(|side| &side.depth_mm);
+        let deepest = depths.fold(0.0, |deepest: f64, depth| deepest.max(*depth));
+        let pairs = self.profiles.iter().zip(&other.profiles);
+        let apart = pairs.map(|(mine, other)| largest_difference(mine, other));
+        Errors {
+            depth: relative_to(apart.fold(0.0, f64::max), deepest),
+            width: relative(1),
+            peak_pressure: relative(2),
+            area: relative(3),
+        }
+    }
+}
+
+fn relative(difference: f64, of: f64) -> f64 {
+    relative_to(difference.abs(), of.abs())
+}
+
+/// Nothing of nothing is no error.
+fn relative_to(difference: f64, of: f64) -> f64 {
+    if of > 0.0 {
+        difference / of
+    } else {
+        difference
+    }
+}
+
+/// Largest difference of depth at the places of either profile.
+fn largest_difference(mine: &SideProfile, other: &SideProfile) -> f64 {
+    let places = mine.x_mm.iter().chain(&other.x_mm);
+    let apart = places.map(|x| (depth_at(mine, *x) - depth_at(other, *x)).abs());
+    apart.fold(0.0, f64::max)
+}
+
+/// Depth between the nodes of a profile; beyond its ends, its end values.
+pub(crate) fn depth_at(profile: &SideProfile, x: f64) -> f64 {
+    let (places, depths) = (&profile.x_mm, &profile.depth_mm);
+    if places.len() < 2 {
+        return depths.first().copied().unwrap_or_default();
+    }
+    let i = places
+        .partition_point(|place| *place < x)
+        .clamp(1, places.len() - 1);
+    let t = ((x - places[i - 1]) / (places[i] - places[i - 1])).clamp(0.0, 1.0);
+    (1.0 - t) * depths[i - 1] + t * depths[i]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn solution(depth_mm: &[f64], figures: [f64; 4]) -> Solution {
+        let places = (0..depth_mm.len()).map(|index| f64::from(u8::try_from(index).expect("few")));
+        Solution {
+            figures,
+            profiles: [
+                SideProfile {
+                    x_mm: places.collect(),
+                    depth_mm: depth_mm.to_vec(),
+                },
+                SideProfile::default(),
+            ],
+        }
+    }
+
+    #[test]
+    fn depths_are_compared_everywhere_and_relative_to_the_deepest_place() {
+        let reference = solution(&[0.0, 2.0, 0.0], [2.0, 1.0, 100.0, 2.0]);
+        let other = solution(&[0.0, 1.9, 0.1], [1.9, 1.1, 90.0, 2.0]);
+        let errors = reference.errors(&other);
+        assert!((errors.depth - 0.05).abs() < 1e-12, "{errors:?}");
+        assert!((errors.width - 0.1).abs() < 1e-12);
+        assert!((errors.peak_pressure - 0.1).abs() < 1e-12);
+        assert!(errors.area.abs() < 1e-12);
+    }
+
+    #[test]
+    fn two_unworn_solutions_do_not_differ() {
+        let unworn = solution(&[0.0, 0.0], [0.0, 0.0, 100.0, 0.0]);
+        assert_eq!(unworn.errors(&unworn), Errors::default());
+    }
+}

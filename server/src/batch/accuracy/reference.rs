@@ -1,0 +1,254 @@
+//! The converged solution by Richardson extrapolation: with q at steps h, 2h, 4h the observed order is
+//! p = log2((q_4h - q_2h)/(q_2h - q_h)), and the limit q_h + (q_h - q_2h)/(2^p - 1) (L. F. Richardson 1911). The
+//! corrections of the three settings are added; what two of them do together is of higher order.
+
+use api::results::SideProfile;
+use api::study::{Errors, Orders, Reference};
+
+use crate::batch::accuracy::errors::{Solution, depth_at};
+use crate::batch::accuracy::grid::{Grid, LEVELS, Settings};
+use crate::batch::accuracy::run_plan::Asked;
+use crate::batch::accuracy::{Run, StudyError};
+
+/// Orders outside of this range are cut for the extrapolation: a small one would blow a correction up, and elements are
+/// of second order.
+const ORDERS: (f64, f64) = (0.7, 2.5);
+/// The order that is assumed of a profile's places where the largest depth shows none.
+const ASSUMED_ORDER: f64 = 1.0;
+/// Differences below this part of a figure are round-off of the solver's own tolerances.
+const NOISE: f64 = 1e-7;
+
+/// The converged solution and how it was found.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Converged {
+    pub(crate) reference: Reference,
+    solution: Solution,
+}
+
+/// Runs along one setting, the others finest.
+struct Line<'a> {
+    setting: &'static str,
+    levels: Vec<f64>,
+    solutions: [&'a Solution; LEVELS],
+}
+
+impl Converged {
+    /// From the finest grid runs; from the best tolerance run as long as those are missing.
+    pub(crate) fn of(grid: &Grid, runs: &[Run]) -> Result<Self, StudyError> {
+        let at = |settings: Settings| -> Option<&Solution> {
+            let run = runs
+                .iter()
+                .find(|run| run.asked == Asked::Fixed(settings))?;
+            run.found.as_ref().ok().map(|found| &found.solution)
+        };
+        let Some(finest) = at(grid.levels(0, 0, 0)) else {
+            return Self::best_tolerance(runs);
+        };
+        let lines = lines(grid, &at);
+        let mut solution = finest.clone();
+        let mut uncertainty = Errors::default();
+        let mut orders = Vec::new();
+        for line in &lines {
+            orders.push(line.orders());
+            line.correct(&mut solution, finest, &mut uncertainty);
+        }
+        let method = format!(
+            "Richardson extrapolation of the grid from {}",
+            grid.levels(0, 0, 0)
+        );
+        Ok(Self::new(solution, method, uncertainty, orders))
+    }
+
+    fn best_tolerance(runs: &[Run]) -> Result<Self, StudyError> {
+        let solved = runs.iter().filter_map(|run| {
+            let found = run.found.as_ref().ok()?;
+            let Asked::Tolerance(tolerance) = run.asked else {
+                return None;
+            };
+            Some((tolerance, &found.solution))
+        });
+        let Some((tolerance, best)) = solved.min_by(|a, b| a.0.total_cmp(&b.0)) else {
+            return Err(StudyError::NothingSolved("no tolerance".to_owned()));
+        };
+        let method =
+            format!("the run at tolerance {tolerance}: there is no result of the finest grid run");
+        let uncertainty = Errors {
+            depth: tolerance,
+            width: tolerance,
+            peak_pressure: tolerance,
+            area: tolerance,
+        };
+        Ok(Self::new(best.clone(), method, uncertainty, Vec::new()))
+    }
+
+    fn new(solution: Solution, method: String, uncertainty: Errors, orders: Vec<Orders>) -> Self {
+        let [
+            max_depth_mm,
+            scar_half_width_mm,
+            peak_pressure_mpa,
+            worn_area_mm2,
+        ] = solution.figures;
+        let reference = Reference {
+            method,
+            max_depth_mm,
+            scar_half_width_mm,
+            peak_pressure_mpa,
+            worn_area_mm2,
+            uncertainty,
+            orders,
+        };
+        Self {
+            reference,
+            solution,
+        }
+    }
+
+    /// Errors of a run against it.
+    pub(crate) fn errors(&self, solution: &Solution) -> Errors {
+        self.solution.errors(solution)
+    }
+}
+
+/// The settings of which three different levels were solved.
+fn lines<'a>(grid: &Grid, at: &impl Fn(Settings) -> Option<&'a Solution>) -> Vec<Line<'a>> {
+    type Setting = (&'static str, fn(usize) -> [usize; 3], fn(Settings) -> f64);
+    let settings: [Setting; 3] = [
+        (
+            "contact_element_mm",
+            |level| [level, 0, 0],
+            |s| s.contact_element_mm,
+        ),
+        (
+            "increments_per_cycle",
+            |level| [0, level, 0],
+            |s| f64::from(s.increments_per_cycle),
+        ),
+        ("cycle_jump", |level| [0, 0, level], |s| s.cycle_jump),
+    ];
+    let line = |(setting, place, value): Setting| {
+        let along = [0, 1, 2].map(|level| {
+            let [element, increments, jump] = place(level);
+            grid.levels(element, increments, jump)
+        });
+        let [Some(fine), Some(middle), Some(coarse)] = along.map(at) else {
+            return None;
+        };
+        let levels = along.map(value);
+        let doubled =
+            |from: f64, to: f64| (to / from - 2.0).abs() < 1e-9 || (from / to - 2.0).abs() < 1e-9;
+        (doubled(levels[0], levels[1]) && doubled(levels[1], levels[2])).then_some(Line {
+            setting,
+            levels: levels.to_vec(),
+            solutions: [fine, middle, coarse],
+        })
+    };
+    settings.into_iter().filter_map(line).collect()
+}
+
+impl Line<'_> {
+    fn figures(&self, index: usize) -> [f64; LEVELS] {
+        self.solutions.map(|solution| solution.figures[index])
+    }
+
+    fn orders(&self) -> Orders {
+        let order = |index: usize| order(self.figures(index));
+        Orders {
+            setting: self.setting.to_owned(),
+            levels: self.levels.clone(),
+            depth: order(0),
+            width: order(1),
+            peak_pressure: order(2),
+            area: order(3),
+        }
+    }
+
+    /// The part of the way from the finest level to the limit: a jump's limit is a single cycle, not nothing.
+    fn way(&self) -> f64 {
+        if self.setting == "cycle_jump" {
+            1.0 - 1.0 / self.levels[0]
+        } else {
+            1.0
+        }
+    }
+
+    /// Adds this setting's corrections to the solution, and their sizes to the uncertainty.
+    fn correct(&self, solution: &mut Solution, finest: &Solution, uncertainty: &mut Errors) {
+        let mut sizes = [0.0; 4];
+        for (index, size) in sizes.iter_mut().enumerate() {
+            let figures = self.figures(index);
+            let correction = self.way() * correction(figures);
+            solution.figures[index] += correction;
+            // Where no order shows, the last difference is all that is known.
+            let doubt = correction.abs().max(if order(figures).is_none() {
+                self.way() * (figures[0] - figures[1]).abs()
+            } else {
+                0.0
+            });
+            *size = doubt / finest.figures[index].abs().max(f64::MIN_POSITIVE);
+        }
+        let order = order(self.figures(0)).unwrap_or(ASSUMED_ORDER);
+        let part = self.way() / (2.0_f64.powf(order.clamp(ORDERS.0, ORDERS.1)) - 1.0);
+        let mut largest = 0.0_f64;
+        for side in 0..2 {
+            let [fine, middle, _] = self.solutions.map(|solution| &solution.profiles[side]);
+            let corrections = places(fine, middle, part);
+            let depths = solution.profiles[side].depth_mm.iter_mut();
+            for (depth, correction) in depths.zip(corrections) {
+                *depth += correction;
+                largest = largest.max(correction.abs());
+            }
+        }
+        let deepest = finest.profiles.iter().flat_map(|side| &side.depth_mm);
+        let deepest = deepest.fold(f64::MIN_POSITIVE, |deepest: f64, depth| deepest.max(*depth));
+        uncertainty.depth += largest / deepest;
+        uncertainty.width += sizes[1];
+        uncertainty.peak_pressure += sizes[2];
+        uncertainty.area += sizes[3];
+    }
+}
+
+/// Corrections at the places of the fine profile.
+fn places(fine: &SideProfile, middle: &SideProfile, part: f64) -> Vec<f64> {
+    let nodes = fine.x_mm.iter().zip(&fine.depth_mm);
+    nodes
+        .map(|(x, depth)| part * (depth - depth_at(middle, *x)))
+        .collect()
+}
+
+/// The observed order of three levels, finest first; none where they do not approach a limit from one side.
+fn order([fine, middle, coarse]: [f64; LEVELS]) -> Option<f64> {
+    let (near, far) = (middle - fine, coarse - middle);
+    let visible = near.abs() > NOISE * fine.abs();
+    (visible && near * far > 0.0 && far.abs() > near.abs()).then(|| (far / near).log2())
+}
+
+/// From the finest level to the limit; nothing where no order shows.
+fn correction(levels: [f64; LEVELS]) -> f64 {
+    let Some(order) = order(levels) else {
+        return 0.0;
+    };
+    (levels[0] - levels[1]) / (2.0_f64.powf(order.clamp(ORDERS.0, ORDERS.1)) - 1.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn extrapolation_finds_the_limit_of_a_power_law() {
+        for p in [1.0, 1.5, 2.0] {
+            let at = |h: f64| 3.0 + 0.7 * h.powf(p);
+            let levels = [at(0.1), at(0.2), at(0.4)];
+            let found = order(levels).expect("an order shows");
+            assert!((found - p).abs() < 1e-9, "{found}");
+            assert!((levels[0] + correction(levels) - 3.0).abs() < 1e-12);
+        }
+    }
+
+    #[test]
+    fn levels_that_swing_have_no_order_and_no_correction() {
+        assert_eq!(order([1.0, 1.1, 1.05]), None);
+        assert!(correction([1.0, 1.1, 1.05]).abs() < 1e-15);
+        assert_eq!(order([1.0, 1.0, 1.0]), None);
+    }
+}

@@ -1,0 +1,183 @@
+//! A study as text, CSV, JSON and as a work-precision picture.
+
+mod picture;
+
+use api::study::{Orders, Study};
+use comfy_table::{CellAlignment, Table};
+
+use crate::export::csv;
+use crate::export::documents::{CSV, Document, DocumentError, JSON, PNG, SVG};
+use crate::export::pictures;
+
+/// mm to um.
+const UM: f64 = 1e3;
+
+/// The study's files: `study.json`, `study.csv`, `study.svg`, `study.png`.
+///
+/// # Errors
+/// [`DocumentError`] if one cannot be made.
+pub fn documents(study: &Study) -> Result<Vec<Document>, DocumentError> {
+    let drawing = svg(study)?;
+    let pixels = pictures::png(&drawing)?;
+    let document = |name: &str, media_type, bytes| Document {
+        name: name.to_owned(),
+        cycle: None,
+        media_type,
+        bytes,
+    };
+    Ok(vec![
+        document("study.json", JSON, serde_json::to_vec_pretty(study)?),
+        document("study.csv", CSV, csv::study(study)?),
+        document("study.svg", SVG, drawing.into_bytes()),
+        document("study.png", PNG, pixels),
+    ])
+}
+
+/// The work-precision diagram as SVG.
+///
+/// # Errors
+/// [`DocumentError`] if it cannot be drawn.
+pub fn svg(study: &Study) -> Result<String, DocumentError> {
+    Ok(pictures::svg(&picture::work_precision(study))?)
+}
+
+/// The work-precision diagram as PNG.
+///
+/// # Errors
+/// [`DocumentError`] if it cannot be drawn.
+pub fn png(study: &Study) -> Result<Vec<u8>, DocumentError> {
+    Ok(pictures::png(&svg(study)?)?)
+}
+
+/// The study as text: runs, reference, observed orders.
+pub fn text(study: &Study) -> String {
+    let reference = &study.reference;
+    let mut lines = vec![
+        study.spec.name.clone().unwrap_or_default(),
+        String::new(),
+        runs(study).to_string(),
+        String::new(),
+        format!(
+            "* = on the Pareto front: no cheaper run is as exact in depth and width.\n\
+             Reference: {}: depth {:.5} um, half-width {:.5} um, peak pressure {:.2} MPa, worn area {:.5e} mm^2;\n\
+             its doubt, the size of all corrections: {:.3} % of depth, {:.3} % of width, {:.3} % of peak pressure, {:.4} % of area.",
+            reference.method,
+            UM * reference.max_depth_mm,
+            UM * reference.scar_half_width_mm,
+            reference.peak_pressure_mpa,
+            reference.worn_area_mm2,
+            100.0 * reference.uncertainty.depth,
+            100.0 * reference.uncertainty.width,
+            100.0 * reference.uncertainty.peak_pressure,
+            100.0 * reference.uncertainty.area,
+        ),
+    ];
+    if !reference.orders.is_empty() {
+        lines.push(String::new());
+        lines.push(
+            "Observed orders (- where three levels do not approach a limit from one side):"
+                .to_owned(),
+        );
+        lines.push(orders(&reference.orders).to_string());
+    }
+    if !study.left_out.is_empty() {
+        lines.push(format!(
+            "Left out, to stay within the budget: {}.",
+            study.left_out.join("; ")
+        ));
+    }
+    lines.join("\n")
+}
+
+fn runs(study: &Study) -> Table {
+    let doubt = &study.reference.uncertainty;
+    let mut table = Table::new();
+    table.load_style(comfy_table::presets::ASCII_MARKDOWN);
+    table.set_header([
+        "",
+        "tolerance",
+        "element, um",
+        "elements",
+        "increments",
+        "jump",
+        "depth, %",
+        "width, %",
+        "peak p, %",
+        "area, %",
+        "CPU, s",
+        "MiB",
+    ]);
+    for run in &study.runs {
+        // No figure of an error that is smaller than what is known of the reference.
+        let percent = |[error, doubt]: [f64; 2]| {
+            if error < doubt {
+                format!("< {:.3}", 100.0 * doubt)
+            } else {
+                format!("{:.3}", 100.0 * error)
+            }
+        };
+        let errors = run.errors.map_or_else(
+            || std::array::from_fn(|_| "failed".to_owned()),
+            |errors| {
+                [
+                    [errors.depth, doubt.depth],
+                    [errors.width, doubt.width],
+                    [errors.peak_pressure, doubt.peak_pressure],
+                    [errors.area, doubt.area],
+                ]
+                .map(percent)
+            },
+        );
+        let mut cells = vec![
+            if run.on_front { "*" } else { "" }.to_owned(),
+            run.tolerance.map_or_else(
+                || "fixed".to_owned(),
+                |tolerance| format!("{} %", 100.0 * tolerance),
+            ),
+            format!("{:.3}", UM * run.contact_element_mm),
+            run.contact_elements.to_string(),
+            run.increments_per_cycle.to_string(),
+            format!("{:.1}", run.cycle_jump),
+        ];
+        cells.extend(errors);
+        cells.push(format!("{:.2}", run.cpu_s));
+        cells.push(format!("{:.0}", run.peak_memory_mb));
+        table.add_row(cells);
+    }
+    align(&mut table);
+    table
+}
+
+fn orders(orders: &[Orders]) -> Table {
+    let mut table = Table::new();
+    table.load_style(comfy_table::presets::ASCII_MARKDOWN);
+    table.set_header(["setting", "levels", "depth", "width", "peak p", "area"]);
+    for row in orders {
+        let order =
+            |order: Option<f64>| order.map_or_else(|| "-".to_owned(), |p| format!("{p:.2}"));
+        let level = |level: &f64| {
+            if *level < 1.0 {
+                format!("{level:.3e}")
+            } else {
+                level.to_string()
+            }
+        };
+        let levels: Vec<String> = row.levels.iter().map(level).collect();
+        table.add_row([
+            row.setting.clone(),
+            levels.join(", "),
+            order(row.depth),
+            order(row.width),
+            order(row.peak_pressure),
+            order(row.area),
+        ]);
+    }
+    align(&mut table);
+    table
+}
+
+fn align(table: &mut Table) {
+    for column in table.column_iter_mut().skip(1) {
+        column.set_cell_alignment(CellAlignment::Right);
+    }
+}

@@ -1,0 +1,121 @@
+//! The work-precision diagram: errors over processor seconds, both by decades.
+
+use api::study::{Errors, Study, StudyRun};
+
+use crate::export::pictures::{Axis, COLOURS, Mark, Panel, Picture, Scale, Series};
+
+/// What runs are told apart by in the picture.
+const TOLERANCE: &str = "chosen from a tolerance";
+const FRONT: &str = "Pareto front";
+const DOUBT: &str = "doubt about the reference";
+const BELOW: &str = "error below the doubt";
+
+/// Errors of depth and width, and of the peak pressure, over the cost.
+pub(crate) fn work_precision(study: &Study) -> Picture {
+    let name = study.spec.name.as_deref().unwrap_or_default();
+    let doubt = &study.reference.uncertainty;
+    let mut promised = panel(
+        study,
+        "error in worn depth and scar width (%)",
+        Errors::promised,
+        doubt,
+    );
+    let front = study.runs.iter().filter(|run| run.on_front);
+    // Under the tolerances, which are drawn last.
+    promised.series.insert(
+        1,
+        Series {
+            label: FRONT.to_owned(),
+            mark: Mark::Line,
+            colour: COLOURS[6],
+            points: front
+                .filter_map(|run| {
+                    let errors = run.errors?.at_least(doubt);
+                    Some([run.cpu_s, 100.0 * errors.promised()])
+                })
+                .collect(),
+        },
+    );
+    Picture {
+        title: format!("What accuracy costs: {name}"),
+        panels: vec![
+            promised,
+            panel(
+                study,
+                "error in peak pressure (%)",
+                |errors| errors.peak_pressure,
+                doubt,
+            ),
+        ],
+    }
+}
+
+fn panel(study: &Study, title: &str, of: fn(&Errors) -> f64, doubt: &Errors) -> Panel {
+    let point = point(of, of(doubt));
+    let mut series = vec![Series {
+        label: DOUBT.to_owned(),
+        mark: Mark::Dashes,
+        colour: COLOURS[6],
+        points: ends(study).map(|cpu_s| [cpu_s, 100.0 * of(doubt)]).to_vec(),
+    }];
+    for (index, (label, element)) in elements(study).into_iter().enumerate() {
+        let grid = study.runs.iter().filter(|run| {
+            run.tolerance.is_none() && (run.contact_element_mm / element - 1.0).abs() < 1e-6
+        });
+        series.push(Series {
+            label,
+            mark: Mark::Rings,
+            colour: [COLOURS[4], COLOURS[2], COLOURS[5], COLOURS[3]][index % 4],
+            points: grid.filter_map(&point).collect(),
+        });
+    }
+    let tolerances = study.runs.iter().filter(|run| run.tolerance.is_some());
+    series.push(Series {
+        label: TOLERANCE.to_owned(),
+        mark: Mark::Dots,
+        colour: COLOURS[1],
+        points: tolerances.filter_map(&point).collect(),
+    });
+    // What cannot be told from no error stands on the line of the doubt, apart from what can.
+    let below = study.runs.iter().filter(|run| point(run).is_none());
+    series.push(Series {
+        label: BELOW.to_owned(),
+        mark: Mark::Rings,
+        colour: COLOURS[6],
+        points: below
+            .filter(|run| run.errors.is_some())
+            .map(|run| [run.cpu_s, 100.0 * of(doubt)])
+            .collect(),
+    });
+    Panel {
+        x: Axis::new("processor time (s)", Scale::Logarithmic),
+        y: Axis::new(title, Scale::Logarithmic),
+        series,
+    }
+}
+
+/// Cost and error of a run that succeeded, with an error above the doubt.
+fn point(of: fn(&Errors) -> f64, doubt: f64) -> impl Fn(&StudyRun) -> Option<[f64; 2]> {
+    move |run| {
+        let error = of(&run.errors?);
+        (error >= doubt).then_some([run.cpu_s, 100.0 * error])
+    }
+}
+
+/// The cheapest and the dearest run.
+fn ends(study: &Study) -> [f64; 2] {
+    let cost = |fold: fn(f64, f64) -> f64, from: f64| {
+        study.runs.iter().map(|run| run.cpu_s).fold(from, fold)
+    };
+    [cost(f64::min, f64::INFINITY), cost(f64::max, 0.0)]
+}
+
+/// Element sizes of the grid, coarsest first, with their labels.
+fn elements(study: &Study) -> Vec<(String, f64)> {
+    let fixed = study.runs.iter().filter(|run| run.tolerance.is_none());
+    let mut sizes: Vec<f64> = fixed.map(|run| run.contact_element_mm).collect();
+    sizes.sort_by(|a, b| b.total_cmp(a));
+    sizes.dedup_by(|a, b| (*a / *b - 1.0).abs() < 1e-6);
+    let label = |size: f64| format!("grid, elements {:.3} µm", 1e3 * size);
+    sizes.into_iter().map(|size| (label(size), size)).collect()
+}

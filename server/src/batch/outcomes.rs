@@ -1,0 +1,133 @@
+//! The outcomes of a sweep as one table: a row a job, first what sets it apart, then what came out.
+
+use std::collections::BTreeSet;
+
+use ::csv::Writer;
+use api::job::{Outcome, Status};
+use api::results::Summary;
+use api::sweep::Changes;
+use serde_json::Value;
+
+use crate::export::csv::CsvError;
+
+/// A job of the table.
+#[derive(Debug, Clone, Copy)]
+pub struct Row<'a> {
+    /// Its id.
+    pub id: uuid::Uuid,
+    /// What sets it apart.
+    pub overrides: &'a Changes,
+    /// Where it stands.
+    pub status: Status,
+    /// How its solve ended.
+    pub outcome: Option<Outcome>,
+    /// The result in short.
+    pub summary: Option<&'a Summary>,
+}
+
+type Figure = (&'static str, fn(&Summary) -> f64);
+
+/// What the table says about a result.
+const FIGURES: [Figure; 10] = [
+    ("sliding_distance_mm", |s| s.sliding_distance_mm),
+    ("receptacle_max_depth_mm", |s| s.receptacle.max_depth_mm),
+    ("receptacle_worn_area_mm2", |s| s.receptacle.worn_area_mm2),
+    ("receptacle_scar_half_width_mm", |s| {
+        s.receptacle.scar_half_width_mm
+    }),
+    ("slider_max_depth_mm", |s| s.slider.max_depth_mm),
+    ("slider_worn_area_mm2", |s| s.slider.worn_area_mm2),
+    ("slider_scar_half_width_mm", |s| s.slider.scar_half_width_mm),
+    ("peak_pressure_mpa", |s| s.peak_pressure_mpa),
+    ("dissipated_energy_mj_per_mm", |s| {
+        s.dissipated_energy_mj_per_mm
+    }),
+    ("estimated_relative_error", |s| {
+        s.accuracy.estimated_relative_error
+    }),
+];
+
+/// The table as CSV; cells of jobs without a result stay empty.
+///
+/// # Errors
+/// [`CsvError`] if the writer fails.
+pub fn table(rows: &[Row<'_>]) -> Result<Vec<u8>, CsvError> {
+    let pointers: BTreeSet<&String> = rows.iter().flat_map(|row| row.overrides.keys()).collect();
+    let mut header = vec!["job".to_owned(), "status".to_owned(), "outcome".to_owned()];
+    header.extend(pointers.iter().map(|pointer| harmless(pointer)));
+    header.push("cycles_done".to_owned());
+    header.extend(FIGURES.map(|(name, _)| name.to_owned()));
+    let mut writer = Writer::from_writer(Vec::new());
+    writer.write_record(header)?;
+    for row in rows {
+        let outcome = row.outcome.map(Outcome::as_str).unwrap_or_default();
+        let mut cells = vec![
+            row.id.to_string(),
+            row.status.as_str().to_owned(),
+            outcome.to_owned(),
+        ];
+        let overrides = pointers.iter().map(|pointer| row.overrides.get(*pointer));
+        cells.extend(overrides.map(|value| value.map(cell).unwrap_or_default()));
+        let figure =
+            |value: &dyn Fn(&Summary) -> String| row.summary.map(value).unwrap_or_default();
+        cells.push(figure(&|summary| summary.cycles_done.to_string()));
+        cells.extend(FIGURES.map(|(_, value)| figure(&|summary| value(summary).to_string())));
+        writer.write_record(cells)?;
+    }
+    writer
+        .into_inner()
+        .map_err(|error| CsvError(error.to_string()))
+}
+
+fn cell(value: &Value) -> String {
+    match value {
+        Value::String(text) => harmless(text),
+        Value::Number(number) => number.to_string(),
+        other => harmless(&other.to_string()),
+    }
+}
+
+/// A client's text as a cell that no spreadsheet executes: one that begins like a formula gets an apostrophe.
+fn harmless(text: &str) -> String {
+    if text.starts_with(['=', '+', '-', '@', '\t', '\r', '\n']) {
+        format!("'{text}")
+    } else {
+        text.to_owned()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use serde_json::json;
+
+    use super::*;
+
+    #[test]
+    fn texts_of_clients_are_no_formulas() {
+        let overrides = Changes::from([
+            ("/name".to_owned(), json!("=cmd|'/c calc'!A1")),
+            ("/load/n".to_owned(), json!(-0.5)),
+            ("@x".to_owned(), json!(["=1"])),
+        ]);
+        let row = Row {
+            id: uuid::Uuid::nil(),
+            overrides: &overrides,
+            status: Status::Queued,
+            outcome: None,
+            summary: None,
+        };
+        let text = String::from_utf8(table(&[row]).expect("a table")).expect("text");
+        let lines: Vec<&str> = text.lines().collect();
+        assert!(
+            lines[0].starts_with("job,status,outcome,/load/n,/name,'@x,cycles_done,"),
+            "{text}"
+        );
+        assert!(
+            lines[1].starts_with(
+                "00000000-0000-0000-0000-000000000000,queued,,-0.5,'=cmd|'/c calc'!A1,"
+            ),
+            "{text}"
+        );
+        assert!(lines[1].ends_with(",,,,,,,,,,"), "{text}");
+    }
+}

@@ -1,0 +1,340 @@
+//! A sweep to specifications: its size is checked before it is expanded, and every fault of every job is told.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use api::problem::Fault;
+use api::spec::{Broken, pointer_token};
+use api::sweep::{Changes, SweepRequest};
+use serde::de::DeserializeOwned;
+use serde_json::{Map, Value};
+
+use crate::spec::{NAME_LIMIT, Refused, Resolved};
+
+/// Most jobs of a sweep.
+pub const JOB_LIMIT: usize = 1000;
+/// Most pointers that a job of a sweep changes.
+const CHANGE_LIMIT: usize = 32;
+/// Most bytes of all specifications together.
+const EXPANDED_LIMIT: usize = 32 << 20;
+/// Faults that are told before the rest is left out.
+const FAULTS_TOLD: usize = 100;
+
+/// A job of a sweep.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Variation {
+    /// What sets it apart.
+    pub overrides: Changes,
+    /// Its specification.
+    pub resolved: Resolved,
+}
+
+/// Reads a sweep.
+///
+/// # Errors
+/// [`Refused`] for what cannot be read.
+pub fn read(bytes: &[u8]) -> Result<SweepRequest, Refused> {
+    document(bytes)
+}
+
+/// Reads a document with a specification in it.
+pub(crate) fn document<T: DeserializeOwned>(bytes: &[u8]) -> Result<T, Refused> {
+    serde_json::from_slice(bytes).map_err(|error| {
+        let mut detail = error.to_string();
+        if let Some(end) = detail.rfind(" at line ") {
+            detail.truncate(end);
+        }
+        Refused::Broken(Broken {
+            pointer: String::new(),
+            detail,
+            line: error.line(),
+            column: error.column(),
+        })
+    })
+}
+
+/// The jobs of a sweep, in order.
+///
+/// # Errors
+/// [`Refused`] with the faults of the sweep, or of the jobs it would make.
+pub fn expand(request: &SweepRequest) -> Result<Vec<Variation>, Refused> {
+    measure(request).map_err(Refused::Faults)?;
+    let all = match (&request.grid, &request.list) {
+        (Some(grid), _) => combinations(grid),
+        (None, list) => list.clone().unwrap_or_default(),
+    };
+    // What the base leaves out, where a change needs the whole of a variant: `/load/n` of the preset's load.
+    let preset = serde_json::to_vec(&request.base)
+        .ok()
+        .and_then(|base| crate::spec::read(&base).ok())
+        .and_then(|resolved| serde_json::to_value(resolved.spec).ok())
+        .unwrap_or(Value::Null);
+    let (mut variations, mut faults) = (Vec::with_capacity(all.len()), BTreeSet::new());
+    for (index, overrides) in all.into_iter().enumerate() {
+        match vary(&request.base, &preset, &overrides) {
+            Ok(resolved) => variations.push(Variation {
+                overrides,
+                resolved,
+            }),
+            Err(found) => {
+                let place = |fault| placed(fault, index, &overrides, request.grid.is_some());
+                faults.extend(found.into_iter().map(place));
+            }
+        }
+        if faults.len() >= FAULTS_TOLD {
+            break;
+        }
+    }
+    if faults.is_empty() {
+        return Ok(variations);
+    }
+    let told = faults.into_iter().take(FAULTS_TOLD);
+    Err(Refused::Faults(
+        told.map(|(pointer, detail)| Fault { pointer, detail })
+            .collect(),
+    ))
+}
+
+/// Checks how large a sweep would become.
+fn measure(request: &SweepRequest) -> Result<(), Vec<Fault>> {
+    let mut faults = Vec::new();
+    let mut fault = |pointer: &str, detail: String| faults.push(Fault::new(pointer, detail));
+    let name = request.name.as_deref().unwrap_or_default().chars().count();
+    if name > NAME_LIMIT {
+        fault(
+            "/name",
+            format!("{name} characters, at most {NAME_LIMIT} are kept"),
+        );
+    }
+    let (pointer, jobs, changes) = match (&request.grid, &request.list) {
+        (Some(grid), None) => {
+            let jobs = grid
+                .values()
+                .try_fold(1_usize, |jobs, values| jobs.checked_mul(values.len()));
+            ("/grid", jobs.unwrap_or(usize::MAX), grid.len())
+        }
+        (None, Some(list)) => {
+            let changes = list.iter().map(BTreeMap::len).max();
+            ("/list", list.len(), changes.unwrap_or_default())
+        }
+        _ => {
+            fault("", "a sweep has either a `grid` or a `list`".to_owned());
+            return Err(faults);
+        }
+    };
+    if !(1..=JOB_LIMIT).contains(&jobs) {
+        fault(
+            pointer,
+            format!("{jobs} jobs; a sweep has 1 to {JOB_LIMIT}"),
+        );
+    }
+    if changes > CHANGE_LIMIT {
+        fault(
+            pointer,
+            format!("{changes} pointers a job, at most {CHANGE_LIMIT}"),
+        );
+    }
+    let size = serde_json::to_string(&request.base).map_or(0, |base| base.len());
+    let expanded = size.saturating_mul(jobs);
+    if expanded > EXPANDED_LIMIT {
+        fault(
+            "/base",
+            format!("{expanded} bytes in all jobs together, at most {EXPANDED_LIMIT}"),
+        );
+    }
+    if faults.is_empty() {
+        Ok(())
+    } else {
+        Err(faults)
+    }
+}
+
+/// Every combination of a grid, the last pointer varying fastest.
+fn combinations(grid: &BTreeMap<String, Vec<Value>>) -> Vec<Changes> {
+    let mut all = vec![Changes::new()];
+    for (pointer, values) in grid {
+        all = all
+            .iter()
+            .flat_map(|changes| {
+                values.iter().map(move |value| {
+                    let mut changes = changes.clone();
+                    changes.insert(pointer.clone(), value.clone());
+                    changes
+                })
+            })
+            .collect();
+    }
+    all
+}
+
+/// The base with its changes, resolved.
+fn vary(base: &Value, preset: &Value, overrides: &Changes) -> Result<Resolved, Vec<Fault>> {
+    let mut document = base.clone();
+    let mut faults = Vec::new();
+    for (pointer, value) in overrides {
+        if let Err(detail) = put(&mut document, preset, pointer, value.clone()) {
+            faults.push(Fault::new(pointer.clone(), detail));
+        }
+    }
+    if !faults.is_empty() {
+        return Err(faults);
+    }
+    // A document that was read can be written.
+    let bytes = serde_json::to_vec(&document).unwrap_or_default();
+    crate::spec::read(&bytes).map_err(|refused| match refused {
+        Refused::Broken(broken) => vec![Fault::new(broken.pointer, broken.detail)],
+        Refused::Faults(faults) => faults,
+    })
+}
+
+/// Puts a value where a pointer says. Objects that are missing on the way are made; a missing variant or material, which
+/// a single field cannot describe, is the preset's.
+fn put(
+    document: &mut Value,
+    preset: &Value,
+    pointer: &str,
+    value: Value,
+) -> Result<(), &'static str> {
+    let Some(tokens) = pointer.strip_prefix('/') else {
+        return Err("not a JSON pointer such as `/load/n`");
+    };
+    if let Some((parent, _)) = pointer.rsplit_once('/')
+        && document.pointer(parent).is_none_or(Value::is_null)
+        && let Some(whole) = preset.pointer(parent)
+        && is_whole(parent, whole)
+    {
+        put(document, preset, parent, whole.clone())?;
+    }
+    let mut place = document;
+    for token in tokens.split('/') {
+        let token = token.replace("~1", "/").replace("~0", "~");
+        place = match place {
+            Value::Array(items) => token
+                .parse::<usize>()
+                .ok()
+                .and_then(|index| items.get_mut(index))
+                .ok_or("there is no such item in the base specification")?,
+            Value::Object(fields) => fields.entry(token).or_insert(Value::Null),
+            Value::Null => {
+                *place = Value::Object(Map::new());
+                match place {
+                    Value::Object(fields) => fields.entry(token).or_insert(Value::Null),
+                    _ => return Err("the place cannot be made"),
+                }
+            }
+            _ => return Err("a value of the base specification stands where an object is needed"),
+        };
+    }
+    *place = value;
+    Ok(())
+}
+
+/// Whether an object means nothing in parts.
+fn is_whole(pointer: &str, object: &Value) -> bool {
+    let variant = object.get("kind").or(object.get("law")).is_some();
+    variant || pointer.starts_with("/materials/")
+}
+
+/// A fault at its place in the submitted sweep: in the changes of its job, or in the base.
+fn placed(fault: Fault, index: usize, overrides: &Changes, grid: bool) -> (String, String) {
+    let Fault { pointer, detail } = fault;
+    let changed = overrides.keys().find(|changed| {
+        let below = pointer.strip_prefix(changed.as_str());
+        below.is_some_and(|rest| rest.is_empty() || rest.starts_with('/'))
+    });
+    let place = match changed {
+        Some(changed) if grid => format!("/grid/{}", pointer_token(changed)),
+        Some(changed) => format!("/list/{index}/{}", pointer_token(changed)),
+        None => return (format!("/base{pointer}"), detail),
+    };
+    (place, format!("{detail} ({pointer} of a job)"))
+}
+
+#[cfg(test)]
+mod tests {
+    use serde_json::json;
+
+    use super::*;
+
+    fn expanded(text: &Value) -> Result<Vec<Variation>, Vec<Fault>> {
+        let request = read(text.to_string().as_bytes()).expect("a sweep");
+        expand(&request).map_err(|refused| match refused {
+            Refused::Faults(faults) => faults,
+            Refused::Broken(broken) => panic!("{broken}"),
+        })
+    }
+
+    #[test]
+    fn a_grid_makes_every_combination_and_missing_objects() {
+        let variations = expanded(&json!({
+            "base": {"system": {"kind": "dimm"}},
+            "grid": {"/cycles": [10, 20], "/interface/friction": [
+                {"law": "coulomb", "coefficient": 0.3}, {"law": "frictionless"}, null]}
+        }))
+        .expect("accepted");
+        assert_eq!(variations.len(), 6);
+        let cycles: Vec<_> = variations.iter().map(|v| v.resolved.scene.cycles).collect();
+        assert_eq!(cycles, [10, 10, 10, 20, 20, 20]);
+        assert!(variations[1].resolved.spec.interface.friction.is_some());
+    }
+
+    #[test]
+    fn a_change_within_a_variant_that_the_base_leaves_out_changes_the_preset() {
+        let variations = expanded(&json!({
+            "base": {"system": {"kind": "dimm"}},
+            "list": [{"/load/n": 0.25}, {"/interface/friction/coefficient": 0.5}, {"/accuracy/tolerance": 0.1},
+                     {"/materials/slider/hardness_mpa": 900.0}]
+        }))
+        .expect("accepted");
+        let load = variations[0].resolved.spec.load.as_ref().expect("a load");
+        assert_eq!(load.n, Some(0.25));
+        assert!(
+            (solver::friction::coefficient(variations[1].resolved.scene.friction) - 0.5).abs()
+                < 1e-15
+        );
+        assert_eq!(variations[2].resolved.spec.accuracy.preset, None);
+    }
+
+    #[test]
+    fn faults_are_told_where_they_were_written() {
+        let faults = expanded(&json!({
+            "base": {"system": {"kind": "dimm"}, "cycels": 3, "stop": []},
+            "list": [{"/cycles": 0}, {"/stop/0/worn_depth_mm": 1.0}, {"cycles": 1}, {"/load/n": "x"}, {"/system/kind/x": 1}]
+        }))
+        .expect_err("refused");
+        let pointers: Vec<_> = faults.iter().map(|fault| fault.pointer.as_str()).collect();
+        assert_eq!(
+            pointers,
+            [
+                "/base/cycels",
+                "/list/0/~1cycles",
+                "/list/1/~1stop~10~1worn_depth_mm",
+                "/list/2/cycles",
+                "/list/3/~1load~1n",
+                "/list/4/~1system~1kind~1x"
+            ]
+        );
+    }
+
+    #[test]
+    fn a_sweep_that_would_be_too_large_is_refused_before_it_is_expanded() {
+        let values: Vec<u32> = (1..=100).collect();
+        let axes = ["/a", "/b", "/c", "/d", "/e", "/f", "/g", "/h", "/i", "/j"];
+        let grid: BTreeMap<_, _> = axes.iter().map(|axis| (*axis, &values)).collect();
+        let faults = expanded(&json!({"base": {}, "grid": grid})).expect_err("refused");
+        assert_eq!(faults[0].pointer, "/grid");
+        let base = json!({"name": "x".repeat(100_000)});
+        let list: Vec<_> = (0..1000).map(|n| json!({"/cycles": n})).collect();
+        let faults = expanded(&json!({"base": base, "list": list})).expect_err("refused");
+        assert_eq!(faults[0].pointer, "/base");
+        for neither in [
+            json!({"base": {}}),
+            json!({"base": {}, "grid": {}, "list": []}),
+        ] {
+            assert_eq!(expanded(&neither).expect_err("refused").len(), 1);
+        }
+        assert_eq!(
+            expanded(&json!({"base": {}, "list": []})).expect_err("refused")[0].detail,
+            "0 jobs; a sweep has 1 to 1000"
+        );
+    }
+}

@@ -1,0 +1,200 @@
+//! The measurement: small solves of a contact that runs over its block, of one that stays, and of one that climbs
+//! the ends of its groove, on coarse and fine meshes; a power law through the times of their increments, and two parts of their
+//! condensations.
+
+use api::plan::MachineFigures;
+use solver::observer::{Event, Flow, Observer, Phase};
+
+use crate::estimate::machine::{MachineError, NODES, checked, parts};
+use crate::estimate::workload::Work;
+use crate::solve::thread_cpu_s;
+use crate::spec;
+
+const MCCOLL: &str = include_str!("../../../examples/mccoll.json");
+
+/// Powers of the watched nodes that are believed: from gathering a column each to factoring a dense matrix.
+const POWERS: (f64, f64) = (1.0, 3.0);
+
+/// One small solve.
+struct Sample {
+    work: Work,
+    increment_s: f64,
+    condensation_s: f64,
+}
+
+/// Measures this machine; `program` says what is measured.
+///
+/// # Errors
+/// [`MachineError`] if a small solve fails, or figures come out that no machine has.
+pub(crate) fn calibrate(program: String) -> Result<MachineFigures, MachineError> {
+    let samples: Result<Vec<Sample>, MachineError> = specifications()?
+        .iter()
+        .map(|specification| measure(specification))
+        .collect();
+    let samples = samples?;
+    let (increment_s, increment_power) = power_law(&samples);
+    let [condensation_dof_s, condensation_surface_s] = two_parts(&samples);
+    checked(MachineFigures {
+        program,
+        increment_s,
+        increment_power,
+        condensation_dof_s,
+        condensation_surface_s,
+    })
+}
+
+/// Few cycles on fine meshes, more on coarse ones: each takes a fraction of a second.
+fn specifications() -> Result<[String; 5], MachineError> {
+    const PRESET: &str = r#"{"preset": "standard"}"#;
+    if !MCCOLL.contains(PRESET) {
+        return Err(MachineError::Example(PRESET));
+    }
+    let system = |kind: &str, rest: &str| format!(r#"{{"system":{{"kind":"{kind}"}},{rest}}}"#);
+    let mccoll = |accuracy: &str| MCCOLL.replace(PRESET, accuracy);
+    Ok([
+        mccoll(r#"{"preset": "draft"}"#),
+        mccoll(r#"{"tolerance": 0.01, "overrides": {"cycle_jump": 1800}}"#),
+        system("sd_card", r#""accuracy":{"preset":"draft"}"#),
+        system("dimm", r#""accuracy":{"tolerance":0.01},"cycles":8"#),
+        system(
+            "fuzz_button",
+            r#""accuracy":{"preset":"draft","overrides":{"cycle_jump":20}},"cycles":200"#,
+        ),
+    ])
+}
+
+fn measure(specification: &str) -> Result<Sample, MachineError> {
+    let resolved = spec::read(specification.as_bytes())?;
+    let mut clock = PhaseClock::default();
+    let summary = solver::run::solve(&resolved.scene, &mut clock)?;
+    clock.enter(None);
+    let increments = u32::try_from(summary.resolution.increments.max(1)).unwrap_or(u32::MAX);
+    Ok(Sample {
+        work: resolved.work,
+        increment_s: clock.increments_s / f64::from(increments),
+        condensation_s: clock.condensation_s,
+    })
+}
+
+/// Processor seconds by phase, of this thread alone.
+#[derive(Default)]
+struct PhaseClock {
+    current: Option<(Phase, f64)>,
+    increments_s: f64,
+    condensation_s: f64,
+}
+
+impl PhaseClock {
+    fn enter(&mut self, phase: Option<Phase>) {
+        let now = thread_cpu_s();
+        match self.current {
+            Some((Phase::Cycles, since)) => self.increments_s += now - since,
+            Some((Phase::Condense, since)) => self.condensation_s += now - since,
+            _ => {}
+        }
+        self.current = phase.map(|phase| (phase, now));
+    }
+}
+
+impl Observer for PhaseClock {
+    fn on(&mut self, event: Event<'_>) -> Flow {
+        if let Event::Phase(phase) = event {
+            self.enter(Some(phase));
+        }
+        Flow::Continue
+    }
+}
+
+/// Time of an increment that watches `NODES` nodes, and its power: least squares of the logarithms.
+fn power_law(samples: &[Sample]) -> (f64, f64) {
+    let points: Vec<[f64; 2]> = samples
+        .iter()
+        .map(|sample| {
+            let squares = sample.work.increments.iter();
+            let squares: f64 = squares.map(|(watched, many)| many * watched.powi(2)).sum();
+            let watched = (squares / sample.work.increments()).sqrt();
+            [(watched / NODES).ln(), sample.increment_s.ln()]
+        })
+        .collect();
+    let mean =
+        |k: usize| points.iter().map(|point| point[k]).sum::<f64>() / f64::from(count(&points));
+    let middle = [mean(0), mean(1)];
+    let (mut product, mut square) = (0.0, 0.0);
+    for point in &points {
+        product += (point[0] - middle[0]) * (point[1] - middle[1]);
+        square += (point[0] - middle[0]).powi(2);
+    }
+    let power = (product / square.max(f64::MIN_POSITIVE)).clamp(POWERS.0, POWERS.1);
+    ((middle[1] - power * middle[0]).exp(), power)
+}
+
+/// Seconds of a condensation for each of its `parts`: least squares of the relative errors, neither part negative.
+fn two_parts(samples: &[Sample]) -> [f64; 2] {
+    let (mut a, mut b) = ([[0.0; 2]; 2], [0.0; 2]);
+    for sample in samples {
+        let bodies = sample.work.condensations.map(|body| parts(&body));
+        let row = [0, 1].map(|k| (bodies[0][k] + bodies[1][k]) / sample.condensation_s);
+        for i in 0..2 {
+            b[i] += row[i];
+            for j in 0..2 {
+                a[i][j] += row[i] * row[j];
+            }
+        }
+    }
+    let determinant = a[0][0] * a[1][1] - a[0][1] * a[1][0];
+    let solved = [
+        (b[0] * a[1][1] - b[1] * a[0][1]) / determinant,
+        (b[1] * a[0][0] - b[0] * a[1][0]) / determinant,
+    ];
+    if solved[0] < 0.0 {
+        [0.0, b[1] / a[1][1]]
+    } else if solved[1] < 0.0 {
+        [b[0] / a[0][0], 0.0]
+    } else {
+        solved
+    }
+}
+
+fn count<T>(items: &[T]) -> u32 {
+    u32::try_from(items.len()).unwrap_or(u32::MAX)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::estimate::workload::Condensations;
+
+    fn sample(watched: f64, increment_s: f64, dofs: f64, surface_nodes: f64) -> Sample {
+        let body = Condensations {
+            count: 1.0,
+            dofs,
+            surface_nodes,
+        };
+        let [small, large] = parts(&body);
+        Sample {
+            work: Work {
+                computed_cycles: 1.0,
+                most_increments: 1,
+                increments: vec![(watched, 7.0)],
+                condensations: [body, Condensations { count: 0.0, ..body }],
+            },
+            increment_s,
+            condensation_s: 3e-7 * small + 5e-10 * large,
+        }
+    }
+
+    #[test]
+    fn laws_are_found_again_in_what_follows_them() {
+        let at = |watched: f64| 2e-4 * (watched / NODES).powf(1.7);
+        let samples = [
+            sample(20.0, at(20.0), 1e4, 100.0),
+            sample(50.0, at(50.0), 3e4, 900.0),
+            sample(90.0, at(90.0), 5e4, 300.0),
+        ];
+        let (seconds, power) = power_law(&samples);
+        assert!((seconds - 2e-4).abs() < 1e-12 && (power - 1.7).abs() < 1e-9);
+        let [small, large] = two_parts(&samples);
+        assert!((small / 3e-7 - 1.0).abs() < 1e-6, "{small}");
+        assert!((large / 5e-10 - 1.0).abs() < 1e-6, "{large}");
+    }
+}

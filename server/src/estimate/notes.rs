@@ -1,0 +1,93 @@
+//! Notes of a plan: where the source of the presets contradicts itself, told to whoever uses the value in question.
+
+use api::spec::{Choice, LoadKind, Preset, SystemKind, WearLaw};
+use solver::model::resolution;
+
+use crate::spec::Resolved;
+
+/// Hardnesses that the source uses in its wear formulas, and those of its validation chapter.
+const HARDNESSES: [(f64, &str); 2] = [
+    (
+        427.0,
+        "427 MPa is the hardness of copper in the source's wear formulas; its validation chapter has Hv 130, 1275 MPa, \
+         at which the wear is 3 times less (material `copper_hv130`)",
+    ),
+    (
+        424.0,
+        "424 MPa is the hardness of steel in the source's wear formulas; its validation chapter has Hv 700, 6865 MPa, \
+         at which the wear is 16 times less (material `steel_hv700`)",
+    ),
+];
+
+/// The notes of a resolved specification.
+pub(crate) fn notes(resolved: &Resolved) -> Vec<String> {
+    let mut notes = hardnesses(resolved);
+    if resolved.kind == SystemKind::FuzzButton {
+        notes.extend(fuzz_button(resolved));
+    }
+    let preset = resolved.spec.accuracy.preset.as_ref();
+    if let Some(Preset::SourceCoarse | Preset::SourceFine) = preset.and_then(Choice::known) {
+        let sizes = resolution::choose(&resolved.scene);
+        notes.push(format!(
+            "the source's elements, {:.3e} mm here, face a contact half-width of {:.3e} mm: pressures of such a run \
+             are artefacts of the mesh, its worn area is not",
+            sizes.contact_element, sizes.hertz_half_width
+        ));
+    }
+    notes
+}
+
+fn hardnesses(resolved: &Resolved) -> Vec<String> {
+    let wear = &resolved.spec.interface.wear;
+    let sides = [&wear.slider, &wear.receptacle];
+    let used = |hardness: f64| {
+        sides.iter().any(|side| {
+            let law: Option<&WearLaw> = side.as_ref().and_then(Option::as_ref);
+            law.and_then(|law| law.hardness_mpa)
+                .is_some_and(|used| (used - hardness).abs() < 1e-9)
+        })
+    };
+    let found = HARDNESSES.iter().filter(|(hardness, _)| used(*hardness));
+    found.map(|(_, note)| (*note).to_owned()).collect()
+}
+
+fn fuzz_button(resolved: &Resolved) -> Vec<String> {
+    let mut notes = vec![
+        "wear goes with the magnitude of the local slip; the source's formula takes the slider's signed velocity, which \
+         would wear sticking places and deposit material during half of every cycle"
+            .to_owned(),
+        "a flat floor sinks by 2 (k/H) P' a cycle, 26.17 nm for the source's copper; its own check takes the pressure on \
+         the top face for the contact pressure"
+            .to_owned(),
+    ];
+    let load = resolved.spec.load.as_ref();
+    let pressed = load.is_some_and(|load| load.kind == Choice::from(LoadKind::Pressure));
+    if pressed {
+        notes.push(
+            "the source's input applies 10 MPa on the top face; it states 0.834 N a button and 51.71 MPa, but that force \
+             over the annulus it describes is 5.41 MPa"
+                .to_owned(),
+        );
+    }
+    notes
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::spec::read;
+
+    fn of(text: &str) -> Vec<String> {
+        notes(&read(text.as_bytes()).expect("accepted"))
+    }
+
+    #[test]
+    fn contradictions_are_told_where_their_values_are_used() {
+        let base = of(r#"{"system":{"kind":"fuzz_button"}}"#);
+        assert_eq!(base.len(), 4, "{base:?}");
+        assert!(base[0].starts_with("427 MPa"));
+        assert!(of(r#"{"system":{"kind":"sd_card"}}"#).is_empty());
+        let coarse = of(r#"{"system":{"kind":"sd_card"},"accuracy":{"preset":"source_fine"}}"#);
+        assert!(coarse[0].contains("artefacts"), "{coarse:?}");
+    }
+}

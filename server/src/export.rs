@@ -1,0 +1,12 @@
+//! Results in the formats that other programs read: CSV, Parquet, VTU, pictures, and the model as an input deck.
+
+pub mod columns;
+pub mod csv;
+pub mod deck;
+pub mod documents;
+pub mod files;
+pub mod history;
+pub mod parquet;
+pub mod pictures;
+pub mod thin;
+pub mod vtu;

@@ -1,0 +1,125 @@
+//! What a run leaves, as documents with names: the same for `solve --out` and for a job of the service.
+
+use api::results::{CycleRow, Snapshot, Summary};
+use api::spec::Spec;
+
+use crate::export::csv;
+use crate::export::csv::CsvError;
+use crate::export::history;
+use crate::export::parquet;
+use crate::export::parquet::ParquetError;
+use crate::export::pictures;
+use crate::export::pictures::PlotError;
+
+/// Media types of documents.
+pub const JSON: &str = "application/json";
+/// Tables as text.
+pub const CSV: &str = "text/csv; charset=utf-8";
+/// Tables as Apache Parquet.
+pub const PARQUET: &str = "application/vnd.apache.parquet";
+/// Pictures as drawings.
+pub const SVG: &str = "image/svg+xml";
+/// Pictures as pixels.
+pub const PNG: &str = "image/png";
+/// Fields inside the bodies: VTK's XML, for which no type is registered.
+pub const VTU: &str = "application/xml";
+
+/// A document.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Document {
+    /// Its name.
+    pub name: String,
+    /// The cycle it belongs to, if it does to one.
+    pub cycle: Option<u64>,
+    /// Its media type.
+    pub media_type: &'static str,
+    /// Its content.
+    pub bytes: Vec<u8>,
+}
+
+/// What a run left.
+#[derive(Debug, Clone, Copy)]
+pub struct Results<'a> {
+    /// The resolved specification.
+    pub spec: &'a Spec,
+    /// The result in short, if the run had one.
+    pub summary: Option<&'a Summary>,
+    /// The wear history.
+    pub rows: &'a [CycleRow],
+    /// The snapshots.
+    pub snapshots: &'a [Snapshot],
+    /// Whether pictures are drawn as pixels too, which takes some 0.1 s of a processor.
+    pub pixels: bool,
+}
+
+/// Why a document could not be made.
+#[derive(Debug, thiserror::Error)]
+pub enum DocumentError {
+    /// As JSON.
+    #[error(transparent)]
+    Json(#[from] serde_json::Error),
+    /// As CSV.
+    #[error(transparent)]
+    Csv(#[from] CsvError),
+    /// As Parquet.
+    #[error(transparent)]
+    Parquet(#[from] ParquetError),
+    /// As a picture.
+    #[error(transparent)]
+    Plot(#[from] PlotError),
+}
+
+/// All documents of a run; without the fields, which are large and written while it runs.
+///
+/// # Errors
+/// [`DocumentError`] if one cannot be made.
+pub fn all(results: &Results<'_>) -> Result<Vec<Document>, DocumentError> {
+    let mut documents = Vec::new();
+    let mut add = |name: String, cycle, media_type, bytes| {
+        documents.push(Document {
+            name,
+            cycle,
+            media_type,
+            bytes,
+        });
+    };
+    let spec = serde_json::to_vec_pretty(results.spec)?;
+    add("spec.resolved.json".to_owned(), None, JSON, spec);
+    if let Some(summary) = results.summary {
+        let summary = serde_json::to_vec_pretty(summary)?;
+        add("summary.json".to_owned(), None, JSON, summary);
+    }
+    let stations = results.spec.output.stations_mm.as_deref();
+    let columns = history::columns(results.rows, stations.unwrap_or_default());
+    let (text, table) = (
+        csv::wear_history(&columns)?,
+        parquet::wear_history(&columns)?,
+    );
+    add("wear-history.csv".to_owned(), None, CSV, text);
+    add("wear-history.parquet".to_owned(), None, PARQUET, table);
+    for snapshot in results.snapshots {
+        let cycle = snapshot.profile.cycle;
+        let parts = [
+            ("profile", csv::profile(&snapshot.profile)?),
+            ("pressure", csv::pressure(&snapshot.pressure)?),
+            ("loop", csv::friction_loop(&snapshot.friction_loop)?),
+        ];
+        for (part, bytes) in parts {
+            add(format!("{part}-{cycle}.csv"), Some(cycle), CSV, bytes);
+        }
+    }
+    let name = results.spec.name.as_deref().unwrap_or_default();
+    for (picture, drawn) in pictures::run::pictures(name, &columns, results.snapshots) {
+        let drawing = pictures::svg(&drawn)?;
+        if results.pixels {
+            add(
+                format!("{picture}.png"),
+                None,
+                PNG,
+                pictures::png(&drawing)?,
+            );
+        }
+        add(format!("{picture}.svg"), None, SVG, drawing.into_bytes());
+    }
+    Ok(documents)
+}

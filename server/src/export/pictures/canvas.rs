@@ -1,0 +1,224 @@
+//! A picture as SVG.
+
+use std::sync::Once;
+
+use plotters::chart::{ChartBuilder, ChartContext};
+use plotters::coord::Shift;
+use plotters::prelude::{
+    Cartesian2d, Circle, DashedLineSeries, DrawingArea, IntoDrawingArea, IntoFont, LineSeries,
+    PathElement, RGBColor, SVGBackend, Text,
+};
+use plotters::style::{Color, FontStyle, ShapeStyle, TextStyle, WHITE, register_font};
+
+use crate::export::pictures::scale;
+use crate::export::pictures::scale::Ticks;
+use crate::export::pictures::{Colour, Mark, Panel, Picture, PlotError, Series};
+
+/// Units of the drawing in a pixel of the picture: the drawing counts in whole units, and curves must not show it.
+const UNIT: u32 = 4;
+
+/// Size of a panel with its axis titles, and of what stands around the panels.
+const PANEL: (u32, u32) = (620 * UNIT, 380 * UNIT);
+const TITLE_HEIGHT: u32 = 40 * UNIT;
+const LEGEND_WIDTH: u32 = 190 * UNIT;
+const MARGIN: u32 = 14 * UNIT;
+const X_TITLE: u32 = 46 * UNIT;
+const Y_TITLE: u32 = 68 * UNIT;
+
+/// Sizes of text, strokes and marks.
+const TITLE: u32 = 18 * UNIT;
+const AXIS: u32 = 15 * UNIT;
+const LABEL: u32 = 13 * UNIT;
+const STROKE: u32 = 2 * UNIT;
+const HAIR: u32 = UNIT;
+const DOT: u32 = 4 * UNIT;
+const TICK: u32 = 5 * UNIT;
+
+/// The legend: its first line, the distance of lines, where marks end and labels begin, how far a label is above.
+const LEGEND_TOP: i32 = px(24);
+const LEGEND_LINE: i32 = px(22);
+const LEGEND_MARK: i32 = px(26);
+const LEGEND_LABEL: i32 = px(36);
+const LEGEND_RISE: i32 = px(7);
+
+const INK: RGBColor = RGBColor(30, 30, 30);
+const GRID: RGBColor = RGBColor(222, 222, 222);
+const FAINT: RGBColor = RGBColor(240, 240, 240);
+/// The family's name in the drawing; a viewer takes its own, measuring takes the embedded one.
+const FAMILY: &str = "sans-serif";
+
+type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
+type Chart<'a, 'b> = ChartContext<'a, SVGBackend<'b>, Cartesian2d<Ticks, Ticks>>;
+
+/// Draws a picture.
+///
+/// # Errors
+/// [`PlotError`] if the drawing fails.
+pub fn svg(picture: &Picture) -> Result<String, PlotError> {
+    static FONT: Once = Once::new();
+    FONT.call_once(|| {
+        // A constant: were it broken, measuring text would fail below with a reason.
+        let _ = register_font(FAMILY, FontStyle::Normal, notosans::REGULAR_TTF);
+    });
+    let panels = u32::try_from(picture.panels.len()).unwrap_or(1);
+    let size = (PANEL.0 + LEGEND_WIDTH, TITLE_HEIGHT + panels * PANEL.1);
+    let mut text = String::new();
+    {
+        let root = SVGBackend::with_string(&mut text, size).into_drawing_area();
+        draw(picture, &root, size).map_err(PlotError::Drawing)?;
+        root.present()
+            .map_err(|error| PlotError::Drawing(reason(error)))?;
+    }
+    Ok(in_pixels(&text, size))
+}
+
+/// The drawing with its size in pixels; its `viewBox` stays in units.
+fn in_pixels(text: &str, (width, height): (u32, u32)) -> String {
+    let header = |width, height| format!("width=\"{width}\" height=\"{height}\"");
+    text.replacen(
+        &header(width, height),
+        &header(width / UNIT, height / UNIT),
+        1,
+    )
+}
+
+fn draw(picture: &Picture, root: &Area<'_>, size: (u32, u32)) -> Result<(), String> {
+    root.fill(&WHITE).map_err(reason)?;
+    let (head, body) = root.split_vertically(TITLE_HEIGHT);
+    let title = Text::new(picture.title.clone(), (px(14), px(14)), font(TITLE));
+    head.draw(&title).map_err(reason)?;
+    let (panels, side) = body.split_horizontally(size.0 - LEGEND_WIDTH);
+    let areas = panels.split_evenly((picture.panels.len(), 1));
+    for (panel, area) in picture.panels.iter().zip(&areas) {
+        draw_panel(panel, area)?;
+    }
+    legend(picture, &side)
+}
+
+fn draw_panel(panel: &Panel, area: &Area<'_>) -> Result<(), String> {
+    let along = |axis: usize| {
+        panel
+            .series
+            .iter()
+            .flat_map(move |series| series.points.iter().map(move |point| point[axis]))
+    };
+    let x = scale::ticks(&panel.x, along(0));
+    let y = scale::ticks(&panel.y, along(1));
+    let mut chart = ChartBuilder::on(area)
+        .margin(MARGIN)
+        .x_label_area_size(X_TITLE)
+        .y_label_area_size(Y_TITLE)
+        .build_cartesian_2d(x.clone(), y.clone())
+        .map_err(reason)?;
+    chart
+        .configure_mesh()
+        .x_desc(panel.x.title.clone())
+        .y_desc(panel.y.title.clone())
+        .axis_desc_style(font(AXIS))
+        .label_style(font(LABEL))
+        .x_label_formatter(&|place| scale::label(panel.x.scale, &x, *place))
+        .y_label_formatter(&|place| scale::label(panel.y.scale, &y, *place))
+        .bold_line_style(GRID.stroke_width(HAIR))
+        .light_line_style(FAINT.stroke_width(HAIR))
+        .axis_style(INK.stroke_width(HAIR))
+        .set_all_tick_mark_size(TICK)
+        .draw()
+        .map_err(reason)?;
+    for series in &panel.series {
+        draw_series(panel, series, &mut chart)?;
+    }
+    Ok(())
+}
+
+fn draw_series(panel: &Panel, series: &Series, chart: &mut Chart<'_, '_>) -> Result<(), String> {
+    let place = |point: &[f64; 2]| {
+        Some((
+            panel.x.scale.place(point[0])?,
+            panel.y.scale.place(point[1])?,
+        ))
+    };
+    let points: Vec<(f64, f64)> = series.points.iter().filter_map(place).collect();
+    let colour = rgb(series.colour);
+    let stroke = colour.stroke_width(STROKE);
+    match series.mark {
+        Mark::Line | Mark::Beads => chart
+            .draw_series(LineSeries::new(points.clone(), stroke))
+            .map(drop),
+        Mark::Dashes => chart
+            .draw_series(DashedLineSeries::new(
+                points.clone(),
+                7 * UNIT,
+                5 * UNIT,
+                stroke,
+            ))
+            .map(drop),
+        Mark::Dots | Mark::Rings => Ok(()),
+    }
+    .map_err(reason)?;
+    if let Some(style) = dot(series.mark, colour) {
+        let circles = points.into_iter().map(|at| Circle::new(at, DOT, style));
+        chart.draw_series(circles).map_err(reason)?;
+    }
+    Ok(())
+}
+
+fn dot(mark: Mark, colour: RGBColor) -> Option<ShapeStyle> {
+    match mark {
+        Mark::Line | Mark::Dashes => None,
+        Mark::Dots | Mark::Beads => Some(colour.filled()),
+        Mark::Rings => Some(colour.stroke_width(STROKE)),
+    }
+}
+
+/// Every label once, in order of appearance, beside the panels.
+fn legend(picture: &Picture, side: &Area<'_>) -> Result<(), String> {
+    let mut shown: Vec<&Series> = Vec::new();
+    for series in picture.panels.iter().flat_map(|panel| &panel.series) {
+        if !series.label.is_empty() && shown.iter().all(|other| other.label != series.label) {
+            shown.push(series);
+        }
+    }
+    let mut y = LEGEND_TOP;
+    for series in shown {
+        let colour = rgb(series.colour);
+        let stroke = colour.stroke_width(STROKE);
+        let dashes: &[[i32; 2]] = match series.mark {
+            Mark::Line | Mark::Beads => &[[0, LEGEND_MARK]],
+            Mark::Dashes => &[[0, px(7)], [px(10), px(17)], [px(19), LEGEND_MARK]],
+            Mark::Dots | Mark::Rings => &[],
+        };
+        for [from, to] in dashes {
+            let line = PathElement::new(vec![(*from, y), (*to, y)], stroke);
+            side.draw(&line).map_err(reason)?;
+        }
+        if let Some(style) = dot(series.mark, colour) {
+            side.draw(&Circle::new((LEGEND_MARK / 2, y), DOT, style))
+                .map_err(reason)?;
+        }
+        let label = Text::new(
+            series.label.clone(),
+            (LEGEND_LABEL, y - LEGEND_RISE),
+            font(LABEL),
+        );
+        side.draw(&label).map_err(reason)?;
+        y += LEGEND_LINE;
+    }
+    Ok(())
+}
+
+fn font(size: u32) -> TextStyle<'static> {
+    (FAMILY, size).into_font().color(&INK)
+}
+
+fn rgb([red, green, blue]: Colour) -> RGBColor {
+    RGBColor(red, green, blue)
+}
+
+/// Pixels of the picture in units of the drawing.
+const fn px(pixels: i32) -> i32 {
+    pixels * UNIT.cast_signed()
+}
+
+fn reason(error: impl std::error::Error) -> String {
+    error.to_string()
+}

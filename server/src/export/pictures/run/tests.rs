@@ -1,0 +1,134 @@
+use api::results::{Loop, Pressure, Profile, SideSeries, Station};
+
+use super::*;
+use crate::export::pictures::{png, svg};
+
+fn history() -> WearHistory {
+    WearHistory {
+        cycle: vec![0, 10, 20],
+        stations: vec![Station {
+            side: "receptacle".to_owned(),
+            x_mm: 0.0,
+            depth_mm: vec![0.0, 1e-3, 2e-3],
+        }],
+        receptacle: SideSeries {
+            max_depth_mm: vec![0.0, 1e-3, 2e-3],
+            ..SideSeries::default()
+        },
+        ..WearHistory::default()
+    }
+}
+
+fn snapshot(cycle: u64, depth_mm: f64) -> Snapshot {
+    let x_mm = vec![-0.1, 0.0, 0.1];
+    let worn = SideProfile {
+        x_mm: x_mm.clone(),
+        depth_mm: vec![0.0, depth_mm, 0.0],
+    };
+    let neutral = PressurePosition {
+        phase: SlidePosition::Neutral,
+        slider_x_mm: 0.0,
+        x_mm,
+        pressure_mpa: vec![0.0, 300.0, 0.0],
+        shear_mpa: vec![0.0, 90.0, 0.0],
+    };
+    Snapshot {
+        profile: Profile {
+            cycle,
+            receptacle: worn,
+            slider: SideProfile::default(),
+        },
+        pressure: Pressure {
+            cycle,
+            positions: vec![neutral],
+        },
+        friction_loop: Loop {
+            cycle,
+            displacement_mm: vec![0.01, -0.01],
+            tangential_force_n_per_mm: vec![1.0, -1.0],
+        },
+    }
+}
+
+fn titles(picture: &Picture) -> Vec<&str> {
+    let panels = picture.panels.iter();
+    panels
+        .flat_map(|panel| [panel.x.title.as_str(), panel.y.title.as_str()])
+        .collect()
+}
+
+#[test]
+fn a_run_has_four_pictures_whose_axes_name_their_units() {
+    let snapshots = [snapshot(10, 1e-3), snapshot(20, 2e-3)];
+    let pictures = pictures("a run", &history(), &snapshots);
+    let found: Vec<_> = pictures
+        .iter()
+        .map(|(name, picture)| (*name, titles(picture)))
+        .collect();
+    let expected = [
+        ("wear-history", vec!["cycle", "worn depth (µm)"]),
+        (
+            "profiles",
+            vec!["place along the receptacle (µm)", "worn depth (µm)"],
+        ),
+        (
+            "pressure",
+            vec![
+                "place along the receptacle (µm)",
+                "pressure (MPa)",
+                "place along the receptacle (µm)",
+                "shear on the receptacle (MPa)",
+            ],
+        ),
+        (
+            "loops",
+            vec![
+                "imposed displacement (µm)",
+                "friction force (N per mm of depth)",
+            ],
+        ),
+    ];
+    assert_eq!(found, expected);
+}
+
+#[test]
+fn pictures_are_drawn_without_fonts_of_the_system() {
+    let snapshots = [snapshot(10, 1e-3), snapshot(20, 2e-3)];
+    for (name, picture) in pictures("a run", &history(), &snapshots) {
+        let drawing = svg(&picture).expect("it can be drawn");
+        assert!(drawing.contains("a run"), "{name}");
+        let raster = png(&drawing).expect("it can be rasterised");
+        let image = resvg::tiny_skia::Pixmap::decode_png(&raster).expect("it is a PNG");
+        let dark = image.pixels().iter().filter(|pixel| pixel.red() < 100);
+        // Axes and text are dark; text alone, at the top of the picture, is more than its title line's stems.
+        assert!(dark.count() > 1_000, "{name}");
+        let top = image
+            .pixels()
+            .iter()
+            .take(80 * usize::try_from(image.width()).expect("small"));
+        assert!(
+            top.filter(|pixel| pixel.red() < 100).count() > 100,
+            "{name}"
+        );
+    }
+}
+
+#[test]
+fn what_did_not_happen_has_no_picture() {
+    let mut unworn = snapshot(0, 0.0);
+    unworn.friction_loop = Loop::default();
+    let empty = WearHistory::default();
+    let names: Vec<_> = pictures("", &empty, &[unworn])
+        .into_iter()
+        .map(|(name, _)| name)
+        .collect();
+    assert_eq!(names, ["pressure"]);
+}
+
+#[test]
+fn many_snapshots_are_thinned_out_and_the_last_stays() {
+    let snapshots: Vec<_> = (1..=40).map(|cycle| snapshot(cycle, 1e-3)).collect();
+    let shown = thinned(&snapshots);
+    assert!(shown.len() <= MOST_SNAPSHOTS);
+    assert_eq!(shown.last().map(|last| last.profile.cycle), Some(40));
+}

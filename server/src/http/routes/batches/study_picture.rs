@@ -1,0 +1,79 @@
+//! `GET /v1/studies/{id}/picture`: the work-precision diagram.
+
+use api::problem::Problem;
+use axum::extract::State;
+use axum::http::header;
+use axum::response::{IntoResponse, Response};
+use serde::Deserialize;
+use utoipa::{IntoParams, ToSchema};
+
+use crate::batch::accuracy::report;
+use crate::export::documents::{PNG, SVG};
+use crate::http::App;
+use crate::http::extract::{Params, StudyId};
+use crate::http::routes::batches::show_study::{StudyShowError, evaluated};
+
+/// How a picture is written.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize, ToSchema)]
+#[serde(rename_all = "snake_case")]
+pub(in crate::http) enum PictureFormat {
+    /// SVG.
+    #[default]
+    Svg,
+    /// PNG.
+    Png,
+}
+
+/// How the picture is wanted.
+#[derive(Debug, Clone, Copy, Deserialize, IntoParams)]
+#[into_params(parameter_in = Query)]
+#[serde(deny_unknown_fields)]
+pub(in crate::http) struct PictureQuery {
+    /// `svg` or `png`.
+    #[serde(default)]
+    format: PictureFormat,
+}
+
+/// Errors over processor seconds, both by decades, of the runs so far.
+#[utoipa::path(
+    get,
+    path = "/v1/studies/{id}/picture",
+    tag = "studies",
+    params(("id" = Uuid, Path, description = "The study"), PictureQuery),
+    responses(
+        (status = 200, description = "The picture", content(
+            (Vec<u8> = "image/svg+xml"),
+            (Vec<u8> = "image/png"),
+        )),
+        (status = 400, description = "A query parameter cannot be read", body = Problem),
+        (status = 404, description = "No such study, or no results so far", body = Problem),
+        (status = 410, description = "Queued by a version whose studies cannot be compared any more", body = Problem),
+    )
+)]
+pub(in crate::http) async fn study_picture(
+    State(app): State<App>,
+    StudyId(id): StudyId,
+    Params(query): Params<PictureQuery>,
+) -> Result<Response, StudyShowError> {
+    let study = evaluated(&app, id).await?;
+    // Rasterising takes a tenth of a second.
+    let draw = move || match query.format {
+        PictureFormat::Svg => report::svg(&study).map(|svg| (SVG, svg.into_bytes())),
+        PictureFormat::Png => report::png(&study).map(|png| (PNG, png)),
+    };
+    let (media_type, bytes) = tokio::task::spawn_blocking(draw).await??;
+    Ok(([(header::CONTENT_TYPE, media_type)], bytes).into_response())
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::http::tests::Service;
+
+    #[tokio::test]
+    async fn an_unknown_format_is_refused_and_an_unknown_study_is_missing() {
+        let service = Service::new().await;
+        let nobody = "/v1/studies/00000000-0000-7000-8000-000000000000/picture";
+        assert_eq!(service.get(nobody).await.0, 404);
+        assert_eq!(service.get(&format!("{nobody}?format=gif")).await.0, 400);
+    }
+}

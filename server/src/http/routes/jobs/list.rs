@@ -1,0 +1,267 @@
+//! `GET /v1/jobs`: jobs, newest first.
+
+use api::job::{JobList, Status};
+use api::problem::Problem;
+use axum::Json;
+use axum::extract::State;
+use axum::response::{IntoResponse, Response};
+use jiff::Timestamp;
+use utoipa::IntoParams;
+use uuid::Uuid;
+
+use crate::http::App;
+use crate::http::extract::Params;
+use crate::http::paging::{Page, PageError};
+use crate::http::problem::{Kind, Refusal, shortened};
+use crate::store::{Filter, StoreError};
+
+/// Most labels of a filter.
+const LABEL_LIMIT: usize = 16;
+
+/// Why there is no list.
+#[derive(Debug, thiserror::Error)]
+pub(in crate::http) enum ListError {
+    /// Not a status.
+    #[error("`{0}` is not a status")]
+    Status(String),
+    /// Not a parameter of this list.
+    #[error("`{0}` is no parameter; parameters are {PARAMETERS}")]
+    Unknown(String),
+    /// Given twice.
+    #[error("`{0}` is given twice")]
+    Twice(String),
+    /// Not a page of this list.
+    #[error(transparent)]
+    Page(#[from] PageError),
+    /// Not a time.
+    #[error("`{0}` is not a time such as 2026-01-31T12:00:00Z")]
+    Time(String),
+    /// Not the id of a sweep.
+    #[error("`{0}` is not the id of a sweep")]
+    Sweep(String),
+    /// Too many labels.
+    #[error("{0} labels, a filter takes {LABEL_LIMIT}")]
+    Labels(usize),
+    /// Not a label.
+    #[error("`{0}` is not a label such as key:value")]
+    Label(String),
+    /// The store failed.
+    #[error(transparent)]
+    Store(#[from] StoreError),
+}
+
+impl IntoResponse for ListError {
+    fn into_response(self) -> Response {
+        match &self {
+            Self::Store(error) => Refusal::from(error),
+            _ => Kind::InvalidQuery.because(self.to_string()),
+        }
+        .into_response()
+    }
+}
+
+/// Names of the parameters below.
+const PARAMETERS: &str =
+    "status, system, label, created_from, created_before, sweep, limit and page_token";
+
+/// Which jobs: all that every given filter lets through.
+#[derive(Debug, Default, IntoParams)]
+#[into_params(parameter_in = Query)]
+#[expect(
+    dead_code,
+    reason = "describes the parameters, which are read one by one, some of them several times"
+)]
+pub(in crate::http) struct ListQuery {
+    /// Any of these statuses, separated by commas.
+    status: Option<String>,
+    /// This kind of system.
+    system: Option<String>,
+    /// This label, as `key:value`; may be given several times, for jobs that have all of them.
+    label: Option<Vec<String>>,
+    /// Accepted at this time (RFC 3339) or later.
+    created_from: Option<String>,
+    /// Accepted before this time (RFC 3339).
+    created_before: Option<String>,
+    /// Jobs of this sweep.
+    sweep: Option<Uuid>,
+    /// Jobs of a page, 1 to 500.
+    #[param(minimum = 1, maximum = 500)]
+    limit: Option<u32>,
+    /// Where the page starts: `next_page_token` of the page before, with the same filters.
+    page_token: Option<String>,
+}
+
+/// Jobs, newest first.
+#[utoipa::path(
+    get,
+    path = "/v1/jobs",
+    tag = "jobs",
+    params(ListQuery),
+    responses(
+        (status = 200, description = "A page of jobs", body = JobList),
+        (status = 400, description = "A query parameter cannot be read", body = Problem),
+    )
+)]
+pub(in crate::http) async fn list(
+    State(app): State<App>,
+    Params(pairs): Params<Vec<(String, String)>>,
+) -> Result<Json<JobList>, ListError> {
+    let (mut filter, limit, token) = read(&pairs)?;
+    let page = Page::asked(&format!("{filter:?}"), limit, token)?;
+    filter.before = page.before;
+    filter.limit = page.wanted();
+    let mut jobs = app.store.list(&filter).await?;
+    let next_page_token = page.cut(&mut jobs, |job| job.id);
+    Ok(Json(JobList {
+        jobs,
+        next_page_token,
+    }))
+}
+
+/// The filter that the parameters describe, and which page is asked for.
+fn read(pairs: &[(String, String)]) -> Result<(Filter, Option<&str>, Option<&str>), ListError> {
+    let (mut filter, mut limit, mut token) = (Filter::default(), None, None);
+    for (index, (name, value)) in pairs.iter().enumerate() {
+        let twice = pairs[..index].iter().any(|(earlier, _)| earlier == name);
+        if twice && name != "label" {
+            return Err(ListError::Twice(shortened(name)));
+        }
+        match name.as_str() {
+            "status" => filter.statuses = statuses(value)?,
+            "system" => filter.system = Some(value.clone()),
+            "label" => filter.labels.push(label(value)?),
+            "created_from" => filter.created_from = Some(time(value)?),
+            "created_before" => filter.created_before = Some(time(value)?),
+            "sweep" => {
+                let id = Uuid::parse_str(value);
+                filter.sweep = Some(id.map_err(|_| ListError::Sweep(shortened(value)))?);
+            }
+            "limit" => limit = Some(value.as_str()),
+            "page_token" => token = Some(value.as_str()),
+            _ => return Err(ListError::Unknown(shortened(name))),
+        }
+    }
+    if filter.labels.len() > LABEL_LIMIT {
+        return Err(ListError::Labels(filter.labels.len()));
+    }
+    Ok((filter, limit, token))
+}
+
+fn statuses(list: &str) -> Result<Vec<Status>, ListError> {
+    list.split(',')
+        .map(|name| Status::from_name(name).ok_or_else(|| ListError::Status(shortened(name))))
+        .collect()
+}
+
+fn time(text: &str) -> Result<i64, ListError> {
+    text.parse::<Timestamp>()
+        .map(Timestamp::as_millisecond)
+        .map_err(|_| ListError::Time(shortened(text)))
+}
+
+fn label(text: &str) -> Result<(String, String), ListError> {
+    let (key, value) = text
+        .split_once(':')
+        .ok_or_else(|| ListError::Label(shortened(text)))?;
+    Ok((key.to_owned(), value.to_owned()))
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::http::tests::Service;
+
+    #[tokio::test]
+    async fn jobs_come_newest_first_in_pages() {
+        let service = Service::new().await;
+        let mut ids = Vec::new();
+        for _ in 0..5 {
+            ids.push(service.queued(r#"{"system":{"kind":"dimm"}}"#).await);
+        }
+        ids.reverse();
+        let mut seen = Vec::new();
+        let mut path = "/v1/jobs?limit=2".to_owned();
+        loop {
+            let (status, _, page) = service.get(&path).await;
+            assert_eq!(status, 200);
+            for job in page["jobs"].as_array().expect("jobs") {
+                seen.push(job["id"].as_str().expect("an id").to_owned());
+            }
+            let Some(token) = page["next_page_token"].as_str() else {
+                break;
+            };
+            path = format!("/v1/jobs?limit=2&page_token={token}");
+        }
+        assert_eq!(seen, ids);
+    }
+
+    #[tokio::test]
+    async fn filters_narrow_the_list() {
+        let service = Service::new().await;
+        let dimm = service
+            .queued(r#"{"system":{"kind":"dimm"},"labels":{"lot":"7:a","by":"me"}}"#)
+            .await;
+        let zif = service.queued(r#"{"system":{"kind":"zif"}}"#).await;
+        service.post(&format!("/v1/jobs/{zif}/cancel"), "").await;
+        for (query, expected) in [
+            ("system=dimm", vec![&dimm]),
+            ("label=lot:7:a", vec![&dimm]),
+            ("label=lot:8", vec![]),
+            ("label=lot:7:a&label=by:me", vec![&dimm]),
+            ("label=lot:7:a&label=by:you", vec![]),
+            ("created_from=2020-01-01T00:00:00Z", vec![&zif, &dimm]),
+            ("created_before=2020-01-01T00:00:00Z", vec![]),
+            ("sweep=00000000-0000-7000-8000-000000000000", vec![]),
+            ("status=cancelled", vec![&zif]),
+            ("status=queued,cancelled", vec![&zif, &dimm]),
+        ] {
+            let (_, _, page) = service.get(&format!("/v1/jobs?{query}")).await;
+            let found: Vec<_> = page["jobs"]
+                .as_array()
+                .expect("jobs")
+                .iter()
+                .map(|job| job["id"].as_str())
+                .collect();
+            let expected: Vec<_> = expected.into_iter().map(|id| Some(id.as_str())).collect();
+            assert_eq!(found, expected, "{query}");
+        }
+    }
+
+    #[tokio::test]
+    async fn a_page_token_belongs_to_its_filters() {
+        let service = Service::new().await;
+        for _ in 0..2 {
+            service.queued(r#"{"system":{"kind":"dimm"}}"#).await;
+        }
+        let (_, _, page) = service.get("/v1/jobs?limit=1&status=queued").await;
+        let token = page["next_page_token"].as_str().expect("a token");
+        let next = format!("/v1/jobs?limit=2&page_token={token}");
+        assert_eq!(service.get(&format!("{next}&status=queued")).await.0, 200);
+        assert_eq!(service.get(&next).await.0, 400);
+    }
+
+    #[tokio::test]
+    async fn unreadable_filters_are_problems() {
+        let service = Service::new().await;
+        for query in [
+            "status=done",
+            "label=x",
+            "limit=0",
+            "limit=501",
+            "limit=many",
+            "page_token=1",
+            "page_token=%F0%9F%98%80",
+            "stauts=queued",
+            "status=queued&status=failed",
+            "created_from=yesterday",
+            "sweep=7",
+            &"label=a:b&".repeat(17),
+        ] {
+            let (status, _, problem) = service.get(&format!("/v1/jobs?{query}")).await;
+            assert_eq!(
+                (status.as_u16(), problem["type"].as_str()),
+                (400, Some("/problems/invalid-query")),
+                "{query}"
+            );
+        }
+    }
+}

@@ -1,0 +1,247 @@
+//! `GET /v1/jobs/{id}`: a job, with `ETag` and long poll.
+
+use std::time::Duration;
+
+use api::job::Job;
+use api::problem::Problem;
+use axum::Json;
+use axum::extract::State;
+use axum::http::{HeaderMap, StatusCode, header};
+use axum::response::{IntoResponse, Response};
+use serde::Deserialize;
+use tokio::time::Instant;
+use utoipa::IntoParams;
+
+use crate::http::App;
+use crate::http::extract::{JobId, Params};
+use crate::http::job_error::JobError;
+use crate::http::problem::{Kind, Refusal};
+use crate::store::StoredJob;
+
+/// Longest wait, s.
+const WAIT_LIMIT: u64 = 60;
+/// A missed change is found at the latest after this long.
+const LOOK: Duration = Duration::from_secs(1);
+
+/// Why there is no job.
+#[derive(Debug, thiserror::Error)]
+pub(in crate::http) enum ShowError {
+    /// There is none of that id.
+    #[error(transparent)]
+    Job(#[from] JobError),
+    /// Not a duration.
+    #[error("`{0}` is not a wait such as 25s, up to {WAIT_LIMIT}s")]
+    Wait(String),
+}
+
+impl IntoResponse for ShowError {
+    fn into_response(self) -> Response {
+        match &self {
+            Self::Job(error) => Refusal::from(error),
+            Self::Wait(_) => Kind::InvalidQuery.because(self.to_string()),
+        }
+        .into_response()
+    }
+}
+
+/// How long to wait.
+#[derive(Debug, Deserialize, IntoParams)]
+#[into_params(parameter_in = Query)]
+#[serde(deny_unknown_fields)]
+pub(in crate::http) struct ShowQuery {
+    /// Answer when the job has changed (with `If-None-Match`) or ended (without), or after this long; such as `25s`.
+    wait: Option<String>,
+}
+
+/// A job.
+#[utoipa::path(
+    get,
+    path = "/v1/jobs/{id}",
+    tag = "jobs",
+    params(("id" = Uuid, Path, description = "The job"), ShowQuery),
+    responses(
+        (status = 200, description = "The job", body = Job, headers(
+            ("ETag" = String, description = "Its version"),
+            ("Retry-After" = u64, description = "When a poll is likely to find something new, s; until the job has ended"),
+        )),
+        (status = 304, description = "Not changed since the version in `If-None-Match`"),
+        (status = 400, description = "A query parameter cannot be read", body = Problem),
+        (status = 404, description = "No such job", body = Problem),
+    )
+)]
+pub(in crate::http) async fn show(
+    State(app): State<App>,
+    JobId(id): JobId,
+    Params(query): Params<ShowQuery>,
+    headers: HeaderMap,
+) -> Result<Response, ShowError> {
+    let wait = query.wait.as_deref().map(duration).transpose()?;
+    let known = headers
+        .get(header::IF_NONE_MATCH)
+        .and_then(|value| value.to_str().ok())
+        .map(str::to_owned);
+    let mut changes = app.store.changes(id);
+    let mut job = app.job(id).await?;
+    // Without a place the answer comes at once, as if the time were over.
+    let place = app.long_polls.try_acquire().ok();
+    if let (Some(wait), Some(_)) = (wait, &place) {
+        let deadline = Instant::now() + wait;
+        while !worth_telling(&job, known.as_deref())
+            && Instant::now() < deadline
+            && !app.stopping.is_cancelled()
+        {
+            tokio::select! {
+                () = changes.next() => {}
+                () = tokio::time::sleep_until(deadline.min(Instant::now() + LOOK)) => {}
+                () = app.stopping.cancelled() => {}
+            }
+            job = app.job(id).await?;
+        }
+    }
+    let etag = [
+        (header::ETAG, etag(&job)),
+        (header::CACHE_CONTROL, "no-cache".to_owned()),
+    ];
+    if known.is_some_and(|known| matches(&known, &job)) {
+        return Ok((StatusCode::NOT_MODIFIED, etag).into_response());
+    }
+    let mut response = (etag, Json(&job.document)).into_response();
+    if !job.document.status.is_terminal() {
+        let pause = retry_after_s(&job.document).into();
+        response.headers_mut().insert(header::RETRY_AFTER, pause);
+    }
+    Ok(response)
+}
+
+/// When a poll of a job that has not ended is likely to find something new, s: a tenth of what is left, but neither
+/// hectic nor sleepy.
+pub(in crate::http) fn retry_after_s(job: &Job) -> u64 {
+    const LONGEST_S: f64 = 30.0;
+    let left_s = job.progress.eta_s.unwrap_or(10.0);
+    let pause = Duration::try_from_secs_f64((0.1 * left_s).clamp(1.0, LONGEST_S));
+    pause.map_or(1, |pause| pause.as_secs())
+}
+
+fn worth_telling(job: &StoredJob, known: Option<&str>) -> bool {
+    match known {
+        Some(known) => !matches(known, job),
+        None => job.document.status.is_terminal(),
+    }
+}
+
+fn etag(job: &StoredJob) -> String {
+    format!("\"{}\"", job.version)
+}
+
+fn matches(known: &str, job: &StoredJob) -> bool {
+    let own = etag(job);
+    known
+        .split(',')
+        .map(|tag| tag.trim().trim_start_matches("W/"))
+        .any(|tag| tag == "*" || tag == own)
+}
+
+/// `25s`, `500ms` or `25`.
+fn duration(text: &str) -> Result<Duration, ShowError> {
+    let wrong = || ShowError::Wait(text.chars().take(20).collect());
+    let (digits, scale_ms) = match text.strip_suffix("ms") {
+        Some(digits) => (digits, 1),
+        None => (text.strip_suffix('s').unwrap_or(text), 1000),
+    };
+    let count: u64 = digits.parse().map_err(|_| wrong())?;
+    let milliseconds = count
+        .checked_mul(scale_ms)
+        .filter(|total| *total <= WAIT_LIMIT * 1000)
+        .ok_or_else(wrong)?;
+    Ok(Duration::from_millis(milliseconds))
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::http::tests::Service;
+
+    #[tokio::test]
+    async fn an_unchanged_job_is_a_304() {
+        let service = Service::new().await;
+        let id = service.queued(r#"{"system":{"kind":"dimm"}}"#).await;
+        let path = format!("/v1/jobs/{id}");
+        let (status, headers, job) = service.get(&path).await;
+        assert_eq!(
+            (status.as_u16(), job["id"].as_str()),
+            (200, Some(id.as_str()))
+        );
+        assert_eq!(headers["retry-after"], "1");
+        let etag = headers["etag"].to_str().expect("text").to_owned();
+        let known = [("if-none-match", etag.as_str())];
+        assert_eq!(service.send("GET", &path, &known, "").await.0, 304);
+        service.post(&format!("{path}/cancel"), "").await;
+        let (status, _, job) = service.send("GET", &path, &known, "").await;
+        assert_eq!(
+            (status.as_u16(), job["status"].as_str()),
+            (200, Some("cancelled"))
+        );
+    }
+
+    #[tokio::test]
+    async fn a_long_poll_ends_with_the_job() {
+        let service = Service::new().await;
+        let id = service.queued(r#"{"system":{"kind":"dimm"}}"#).await;
+        let path = format!("/v1/jobs/{id}?wait=30s");
+        let (waited, _) = tokio::join!(service.get(&path), async {
+            tokio::task::yield_now().await;
+            service.post(&format!("/v1/jobs/{id}/cancel"), "").await
+        });
+        assert_eq!(waited.2["status"], "cancelled");
+    }
+
+    #[tokio::test]
+    async fn a_long_poll_gives_up() {
+        let service = Service::new().await;
+        let id = service.queued(r#"{"system":{"kind":"dimm"}}"#).await;
+        let (status, _, job) = service.get(&format!("/v1/jobs/{id}?wait=20ms")).await;
+        assert_eq!(
+            (status.as_u16(), job["status"].as_str()),
+            (200, Some("queued"))
+        );
+        for wait in ["61s", "soon", "-1s", "99999999999999999999s"] {
+            assert_eq!(
+                service.get(&format!("/v1/jobs/{id}?wait={wait}")).await.0,
+                400,
+                "{wait}"
+            );
+        }
+    }
+
+    #[tokio::test]
+    async fn a_long_poll_without_a_place_is_answered_at_once() {
+        let service = Service::new().await;
+        let id = service.queued(r#"{"system":{"kind":"dimm"}}"#).await;
+        let all = u32::try_from(crate::http::LONG_POLLS).expect("a count");
+        let taken = service.app.long_polls.clone().acquire_many_owned(all).await;
+        // Would wait beyond any patience.
+        let path = format!("/v1/jobs/{id}?wait=60s");
+        let (status, _, job) = service.get(&path).await;
+        drop(taken);
+        assert_eq!(
+            (status.as_u16(), job["status"].as_str()),
+            (200, Some("queued"))
+        );
+    }
+
+    #[tokio::test]
+    async fn unknown_jobs_are_404_problems() {
+        let service = Service::new().await;
+        for id in [
+            "00000000-0000-7000-8000-000000000000",
+            "..%2F..%2Fetc%2Fpasswd",
+            "1",
+        ] {
+            let (status, _, problem) = service.get(&format!("/v1/jobs/{id}")).await;
+            assert_eq!(
+                (status.as_u16(), problem["type"].as_str()),
+                (404, Some("/problems/no-such-job")),
+                "{id}"
+            );
+        }
+    }
+}

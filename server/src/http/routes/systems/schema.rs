@@ -1,0 +1,113 @@
+//! The JSON Schema of a specification for one kind of system: the schema of all specifications, with the dimensions
+//! that belong to the kind and no others.
+
+use std::collections::BTreeSet;
+
+use api::spec::SystemKind;
+use serde_json::{Map, Value, json};
+
+use crate::http::routes::operation::openapi;
+use crate::spec;
+
+const COMPONENTS: &str = "#/components/schemas/";
+const DEFINITIONS: &str = "#/$defs/";
+
+/// The schema.
+pub(in crate::http) fn of(kind: SystemKind) -> Value {
+    let components = &openapi::document()["components"]["schemas"];
+    let mut definitions = Map::new();
+    let mut names = BTreeSet::new();
+    let mut schema = taken(components, "Spec", &mut names);
+    while let Some(name) = names.pop_first() {
+        if !definitions.contains_key(&name) {
+            let definition = taken(components, &name, &mut names);
+            definitions.insert(name, definition);
+        }
+    }
+    definitions.insert("System".to_owned(), system(kind, &components["System"]));
+    schema["$schema"] = json!("https://json-schema.org/draft/2020-12/schema");
+    schema["title"] = json!(format!("A study of a {} contact", kind.as_str()));
+    schema["$defs"] = Value::Object(definitions);
+    schema
+}
+
+/// A component whose references lead to definitions; the names it refers to are noted. Objects with fields have no
+/// others: unknown fields are refused.
+fn taken(components: &Value, name: &str, names: &mut BTreeSet<String>) -> Value {
+    let mut schema = components[name].clone();
+    localise(&mut schema, names);
+    schema
+}
+
+fn localise(schema: &mut Value, names: &mut BTreeSet<String>) {
+    match schema {
+        Value::Object(fields) => {
+            if let Some(Value::String(reference)) = fields.get_mut("$ref")
+                && let Some(name) = reference.strip_prefix(COMPONENTS)
+            {
+                names.insert(name.to_owned());
+                *reference = format!("{DEFINITIONS}{name}");
+            }
+            if fields.contains_key("properties") {
+                fields.insert("additionalProperties".to_owned(), json!(false));
+            }
+            for field in fields.values_mut() {
+                localise(field, names);
+            }
+        }
+        Value::Array(items) => {
+            for item in items {
+                localise(item, names);
+            }
+        }
+        _ => {}
+    }
+}
+
+/// The system's schema, narrowed to a kind.
+fn system(kind: SystemKind, all: &Value) -> Value {
+    let mut properties = Map::new();
+    properties.insert("kind".to_owned(), json!({"const": kind.as_str()}));
+    for name in spec::dimension_names(kind) {
+        properties.insert(name.to_owned(), all["properties"][name].clone());
+    }
+    json!({
+        "type": "object",
+        "description": all["description"],
+        "required": ["kind"],
+        "properties": properties,
+        "additionalProperties": false
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_reference_is_defined_and_only_own_dimensions_are_there() {
+        for kind in SystemKind::ALL {
+            let schema = of(*kind);
+            let text = schema.to_string();
+            assert!(!text.contains(COMPONENTS));
+            for reference in text.split(DEFINITIONS).skip(1) {
+                let name = reference.split('"').next().expect("a name");
+                assert!(schema["$defs"][name].is_object(), "{name}");
+            }
+            assert_eq!(
+                schema["$defs"]["System"]["properties"]["kind"]["const"],
+                kind.as_str()
+            );
+        }
+        let loads = &of(SystemKind::Dimm)["$defs"]["LoadKind"]["enum"];
+        assert_eq!(loads, &json!(["pressure", "line_force", "force"]));
+        let dimm = &of(SystemKind::Dimm)["$defs"]["System"]["properties"];
+        assert_eq!(dimm["pad_length_mm"]["type"], json!(["number", "null"]));
+        assert!(dimm["wire_diameter_mm"].is_null());
+        let zif = &of(SystemKind::Zif)["$defs"]["System"]["properties"];
+        assert!(
+            zif["pin_radius_mm"].is_object(),
+            "optional dimensions belong to it too"
+        );
+    }
+}

@@ -1,0 +1,322 @@
+//! Resolution of whole specifications.
+
+use super::*;
+use api::spec::Provenance;
+use solver::scene::{Drive, Friction, Motion, WearLaw};
+
+const FUZZ_BUTTON: &str = include_str!("../../examples/fuzz_button.json");
+
+fn accepted(text: &str) -> Resolved {
+    read(text.as_bytes()).expect("accepted")
+}
+
+fn faults(text: &str) -> Vec<Fault> {
+    match read(text.as_bytes()) {
+        Err(Refused::Faults(faults)) => faults,
+        other => panic!("expected faults, got {other:?}"),
+    }
+}
+
+fn pointers(text: &str) -> Vec<String> {
+    faults(text)
+        .into_iter()
+        .map(|fault| fault.pointer)
+        .collect()
+}
+
+#[test]
+fn the_base_scene_is_the_source_s() {
+    let scene = accepted(FUZZ_BUTTON).scene;
+    assert!((scene.load_n_per_mm - 0.508).abs() < 1e-12);
+    assert!((scene.slider.shape.half_width_mm - 0.0254).abs() < 1e-15);
+    assert_eq!(scene.friction, Friction::Coulomb { coefficient: 1.21 });
+    assert_eq!(scene.slider.wear, None);
+    assert_eq!(
+        scene.receptacle.wear,
+        Some(WearLaw::Archard {
+            k_over_h_per_mpa: 0.011 / 427.0
+        })
+    );
+    assert_eq!(
+        scene.motion,
+        Motion::Reciprocating {
+            amplitude_mm: 0.033_868,
+            period_s: 16.0
+        }
+    );
+    assert_eq!((scene.cycles, scene.drive), (2000, Drive::Handle));
+    assert_eq!(scene.output.stations_mm.len(), 7);
+}
+
+#[test]
+fn every_kind_resolves_from_its_name_alone() {
+    for kind in SystemKind::ALL {
+        let resolved = accepted(&format!(r#"{{"system":{{"kind":"{}"}}}}"#, kind.as_str()));
+        assert!(resolved.spec.provenance.len() > 20, "{kind:?}");
+        assert!(resolved.scene.load_n_per_mm > 0.0);
+    }
+}
+
+#[test]
+fn the_source_s_meshes_are_presets() {
+    let of = |preset: &str| {
+        let text =
+            format!(r#"{{"system":{{"kind":"fuzz_button"}},"accuracy":{{"preset":"{preset}"}}}}"#);
+        accepted(&text).scene.accuracy
+    };
+    let (coarse, fine) = (of("source_coarse"), of("source_fine"));
+    let close = |size: Option<f64>, wanted: f64| size.is_some_and(|s| (s - wanted).abs() < 1e-5);
+    assert!(close(coarse.contact_element_mm, 0.010_58) && close(fine.contact_element_mm, 0.005_29));
+    assert_eq!(fine.increments_per_cycle, Some(32));
+    assert_eq!(fine.cycle_jump, None);
+}
+
+#[test]
+fn a_contact_strained_beyond_small_strains_is_refused_unless_that_is_accepted() {
+    let spec = |effects: &str| {
+        format!(
+            r#"{{"system":{{"kind":"fuzz_button"}},"load":{{"kind":"pressure","mpa":40}},"effects":{{{effects}}}}}"#
+        )
+    };
+    let refused = faults(&spec(""));
+    assert_eq!(refused[0].pointer, "/load");
+    assert!(
+        refused[0].detail.contains("1.2 % (limit 1 %)"),
+        "{refused:?}"
+    );
+    accepted(&spec(r#""geometric_nonlinearity":"off""#));
+    let on =
+        faults(r#"{"system":{"kind":"fuzz_button"},"effects":{"geometric_nonlinearity":"on"}}"#);
+    assert_eq!(on[0].pointer, "/effects/geometric_nonlinearity");
+}
+
+#[test]
+fn the_preset_of_the_fuzz_button_is_the_base_scene() {
+    let preset = accepted(r#"{"system":{"kind":"fuzz_button"}}"#);
+    let mut given = accepted(FUZZ_BUTTON).scene;
+    given.output = preset.scene.output.clone();
+    assert_eq!(preset.scene, given);
+}
+
+#[test]
+fn a_resolved_specification_resolves_to_the_same_scene() {
+    for kind in SystemKind::ALL {
+        let first = accepted(&format!(r#"{{"system":{{"kind":"{}"}}}}"#, kind.as_str()));
+        let written = serde_json::to_string(&first.spec).expect("writable");
+        assert_eq!(accepted(&written).scene, first.scene);
+    }
+}
+
+#[test]
+fn provenance_tells_given_from_sourced_from_assumed() {
+    let provenance = accepted(r#"{"system":{"kind":"fuzz_button","pcb_length_mm":0.1}}"#)
+        .spec
+        .provenance;
+    assert_eq!(provenance["/system/pcb_length_mm"], Provenance::Given);
+    assert_eq!(provenance["/system/wire_diameter_mm"], Provenance::Source);
+    assert_eq!(provenance["/system/pcb_height_mm"], Provenance::Assumed);
+    assert_eq!(
+        provenance["/materials/slider/hardness_mpa"],
+        Provenance::Source
+    );
+}
+
+#[test]
+fn unknown_field_negative_radius_and_unknown_material_are_three_faults() {
+    let text = r#"{"frobnicate": true, "system": {"kind": "cylinder_on_flat", "radius_mm": -6},
+                   "materials": {"slider": "unobtainium"}}"#;
+    let mut found = pointers(text);
+    found.sort();
+    assert_eq!(
+        found,
+        ["/frobnicate", "/materials/slider", "/system/radius_mm"]
+    );
+}
+
+#[test]
+fn faults_name_value_and_limit() {
+    let found = faults(
+        r#"{"system":{"kind":"fuzz_button"},"cycles":0,"interface":{"friction":{"law":"coulomb","coefficient":7}}}"#,
+    );
+    assert_eq!(found.len(), 2);
+    assert!(
+        found
+            .iter()
+            .any(|fault| fault.detail == "7 is outside 0 to 2"),
+        "{found:?}"
+    );
+    assert!(
+        found
+            .iter()
+            .any(|fault| fault.detail == "0 is outside 1 to 1000000000"),
+        "{found:?}"
+    );
+}
+
+#[test]
+fn what_the_engine_cannot_do_yet_is_refused_by_name() {
+    let cases = [(r#""effects":{"plasticity":"on"}"#, "/effects/plasticity")];
+    for (part, pointer) in cases {
+        let found = faults(&format!(r#"{{"system":{{"kind":"fuzz_button"}},{part}}}"#));
+        assert_eq!(found.len(), 1, "{found:?}");
+        assert_eq!(found[0].pointer, pointer);
+        assert!(found[0].detail.contains("not available yet"), "{found:?}");
+    }
+}
+
+#[test]
+fn fields_of_another_variant_are_faults() {
+    let text = r#"{"system":{"kind":"fuzz_button","radius_mm":1},
+        "load":{"kind":"line_force","n_per_mm":1,"mpa":2},
+        "motion":{"kind":"reciprocating","speed_mm_s":1,"period_s":1,"frequency_hz":1},
+        "interface":{"friction":{"law":"frictionless","coefficient":1},
+                     "wear":{"slider":{"law":"archard","k":0.1,"k_over_h_per_mpa":1e-6},"receptacle":{"law":"archard"}}},
+        "accuracy":{"preset":"fine","tolerance":0.1},
+        "output":{"stations_mm":[9],"snapshots_at_cycles":[5000]},
+        "stop":[{}]}"#;
+    let expected = [
+        "/accuracy/tolerance",
+        "/interface/friction/coefficient",
+        "/interface/wear/receptacle/k",
+        "/interface/wear/slider/k_over_h_per_mpa",
+        "/load/mpa",
+        "/motion/period_s",
+        "/motion/speed_mm_s",
+        "/output/snapshots_at_cycles/0",
+        "/output/stations_mm/0",
+        "/stop/0",
+        "/system/radius_mm",
+    ];
+    let mut found = pointers(text);
+    found.sort();
+    assert_eq!(found, expected);
+}
+
+#[test]
+fn unknown_names_are_faults_among_the_others() {
+    let found = pointers(
+        r#"{"system":{"kind":"dimm"},"motion":{"kind":"wobbling","drive":"belt"},"load":{"kind":"weight"},
+            "interface":{"friction":{"law":"stiction"}},"accuracy":{"preset":"perfect"},"effects":{"magic":"on"}}"#,
+    );
+    for pointer in [
+        "/motion/kind",
+        "/motion/drive",
+        "/load/kind",
+        "/interface/friction/law",
+        "/accuracy/preset",
+        "/effects/magic",
+    ] {
+        assert!(
+            found.iter().any(|found| found == pointer),
+            "{pointer} in {found:?}"
+        );
+    }
+    assert_eq!(
+        pointers(r#"{"system":{"kind":"toaster"},"x":1}"#),
+        ["/x", "/system/kind"]
+    );
+}
+
+#[test]
+fn long_lists_and_fine_meshes_are_refused_before_work() {
+    let stations = vec!["0"; 5000].join(",");
+    let text = format!(
+        r#"{{"system":{{"kind":"fuzz_button"}},"output":{{"stations_mm":[{stations}]}},
+            "accuracy":{{"overrides":{{"contact_element_mm":1e-9,"increments_per_cycle":1,"cycle_jump":"often"}}}}}}"#
+    );
+    assert_eq!(
+        pointers(&text),
+        [
+            "/accuracy/overrides/contact_element_mm",
+            "/accuracy/overrides/increments_per_cycle",
+            "/accuracy/overrides/cycle_jump",
+            "/output/stations_mm"
+        ]
+    );
+}
+
+#[test]
+fn the_plan_estimates_hertz() {
+    let mccoll = r#"{"system":{"kind":"cylinder_on_flat","radius_mm":6},
+        "materials":{"slider":{"youngs_modulus_mpa":200000,"poisson_ratio":0.3},
+                     "receptacle":{"youngs_modulus_mpa":200000,"poisson_ratio":0.3}},
+        "load":{"kind":"line_force","n_per_mm":18.5}}"#;
+    let estimates = crate::estimate::plan(&accepted(mccoll)).estimates;
+    assert!((estimates["hertz_half_width_mm"] - 0.035_86).abs() < 1e-5);
+    assert!((estimates["hertz_peak_pressure_mpa"] - 328.4).abs() < 0.1);
+}
+
+#[test]
+fn a_spring_counts_for_the_depth_that_its_load_counts_for() {
+    let spring = |load: &str| {
+        let text = format!(r#"{{"system":{{"kind":"zif"}},"load":{load}}}"#);
+        read(text.as_bytes())
+            .expect("a spring is allowed")
+            .scene
+            .spring_n_per_mm2
+    };
+    let of_all = spring(r#"{"kind":"force","n":0.5,"width_mm":0.25,"spring_n_per_mm":3}"#);
+    let of_a_mm = spring(r#"{"kind":"line_force","n_per_mm":2,"spring_n_per_mm":3}"#);
+    assert!((of_all - 12.0).abs() < 1e-12 && (of_a_mm - 3.0).abs() < 1e-12);
+}
+
+#[test]
+fn a_round_pin_must_fit_the_pin() {
+    let read = |radius: f64| {
+        let text = format!(r#"{{"system":{{"kind":"zif","pin_radius_mm":{radius}}}}}"#);
+        crate::spec::read(text.as_bytes())
+    };
+    let scene = read(2.0).expect("a round pin is allowed").scene;
+    assert_eq!(scene.receptacle.shape.crown_radius_mm, Some(2.0));
+    for radius in [-1.0, 0.3, 0.76] {
+        let Err(super::Refused::Faults(faults)) = read(radius) else {
+            panic!("{radius} does not fit")
+        };
+        assert!(
+            faults
+                .iter()
+                .all(|fault| fault.pointer == "/system/pin_radius_mm"),
+            "{faults:?}"
+        );
+    }
+}
+
+#[test]
+fn a_continuous_motion_is_cut_into_parts_of_its_distance() {
+    let spec = r#"{"system":{"kind":"cylinder_on_flat"},
+        "motion":{"kind":"continuous","distance_mm":500},
+        "output":{"snapshots_at_distance_mm":[5,500]}}"#;
+    let resolved = read(spec.as_bytes()).expect("a turning ring is allowed");
+    let Motion::Continuous { step_mm } = resolved.scene.motion else {
+        panic!("it runs on")
+    };
+    assert!((step_mm - 0.005).abs() < 1e-15);
+    assert_eq!(resolved.scene.output.snapshots_at_cycles, [1000, 100_000]);
+    assert_eq!(resolved.spec.cycles, None);
+    let again = serde_json::to_vec(&resolved.spec).expect("it is JSON");
+    assert_eq!(
+        read(&again).expect("it can be submitted again").scene,
+        resolved.scene
+    );
+}
+
+#[test]
+fn a_continuous_motion_refuses_what_belongs_to_a_reciprocating_one() {
+    let spec = r#"{"system":{"kind":"cylinder_on_flat"}, "cycles": 5,
+        "interface":{"wear":{"slider":{"law":"archard","k_over_h_per_mpa":1e-8}}},
+        "motion":{"kind":"continuous","period_s":1},
+        "output":{"snapshots_at_cycles":[1]}}"#;
+    let Err(super::Refused::Faults(faults)) = read(spec.as_bytes()) else {
+        panic!("it has faults")
+    };
+    let mut pointers: Vec<&str> = faults.iter().map(|fault| fault.pointer.as_str()).collect();
+    pointers.sort_unstable();
+    let expected = [
+        "/cycles",
+        "/interface/wear/slider",
+        "/motion/distance_mm",
+        "/motion/period_s",
+        "/output/snapshots_at_cycles",
+    ];
+    assert_eq!(pointers, expected);
+}

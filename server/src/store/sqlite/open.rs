@@ -1,0 +1,180 @@
+//! Opening the store: lock file, connections, version check, migrations.
+
+use std::fs::{File, TryLockError};
+use std::path::{Path, PathBuf};
+use std::str::FromStr;
+use std::sync::Arc;
+use std::time::Duration;
+
+use sqlx::Connection;
+use sqlx::sqlite::{
+    SqliteConnectOptions, SqliteJournalMode, SqlitePool, SqlitePoolOptions, SqliteSynchronous,
+};
+use tokio::sync::{Notify, broadcast};
+
+use crate::queue::ATTEMPT_LIMIT;
+
+use crate::store::sqlite::folder::Folder;
+use crate::store::sqlite::queries;
+use crate::store::sqlite::submissions::Submissions;
+use crate::store::{CHANGES_KEPT, Store, StoreError};
+
+/// Older ones can corrupt the write-ahead log when it is reset.
+const OLDEST_SQLITE: (u32, u32, u32) = (3, 51, 3);
+const OLDEST_SQLITE_TEXT: &str = "3.51.3";
+/// Readers wait for nobody in WAL mode; the writer waits for a checkpoint at most. Far below a lease, so that a worker
+/// whose write was refused can try again while it still holds its job.
+const BUSY_TIMEOUT: Duration = Duration::from_secs(2);
+/// How long a reader waits for a connection; below a lease, because workers ask too.
+const READER_WAIT: Duration = Duration::from_secs(2);
+const READERS: u32 = 4;
+
+impl Store {
+    /// Opens the database at `url` (`sqlite://PATH`), makes it if it is missing, and brings its schema up to date.
+    ///
+    /// # Errors
+    /// [`StoreError`], among others if another process serves the database.
+    pub async fn open(url: &str) -> Result<Self, StoreError> {
+        Self::open_with(url, ATTEMPT_LIMIT).await
+    }
+
+    /// The same, with another limit for the attempts at a job.
+    ///
+    /// # Errors
+    /// [`StoreError`], among others if another process serves the database.
+    pub async fn open_with(url: &str, attempt_limit: u32) -> Result<Self, StoreError> {
+        let options = SqliteConnectOptions::from_str(url)
+            .map_err(|_| StoreError::Address {
+                url: url.to_owned(),
+            })?
+            .create_if_missing(true)
+            .journal_mode(SqliteJournalMode::Wal)
+            .synchronous(SqliteSynchronous::Full)
+            .foreign_keys(true)
+            .busy_timeout(BUSY_TIMEOUT);
+        let path = options.get_filename().to_owned();
+        // A database in memory would lose every job, and has no place for a lock file.
+        let in_memory = path.to_string_lossy().starts_with("file:sqlx-in-memory");
+        // Parameters could ask for a database in memory, or for one that cannot be written.
+        let plain = url.starts_with("sqlite:") && !url.contains('?');
+        if !plain || in_memory || path.as_os_str().is_empty() {
+            return Err(StoreError::Address {
+                url: url.to_owned(),
+            });
+        }
+        let lock = locked(&path)?;
+        let writer = SqlitePoolOptions::new()
+            .max_connections(1)
+            // SQLite ends a transaction by itself when the disk is full or fails, and then cannot roll it back; sqlx
+            // takes that for one that is still open, and refuses to begin another on that connection. It is replaced.
+            .before_acquire(|writer, _| Box::pin(async { Ok(!writer.is_in_transaction()) }))
+            .connect_with(options.clone())
+            .await?;
+        check_version(&queries::sqlite_version(&writer).await?)?;
+        sqlx::migrate!("../migrations").run(&writer).await?;
+        queries::checkpoint(&writer).await?;
+        let readers = readers(options.read_only(true)).await?;
+        let (changes, _) = broadcast::channel(CHANGES_KEPT);
+        let store = Self {
+            writer,
+            readers,
+            changes,
+            waiting: Notify::new(),
+            folder: Folder::beside(&path),
+            wal: beside(&path, "-wal"),
+            machine: beside(&path, ".machine.json"),
+            attempt_limit,
+            metrics: Arc::default(),
+            submissions: Submissions::default(),
+            proved_ready: tokio::sync::Mutex::default(),
+            _lock: lock,
+        };
+        store.sweep_files(None).await?;
+        Ok(store)
+    }
+
+    /// Closes all connections.
+    pub async fn close(&self) {
+        self.readers.close().await;
+        self.writer.close().await;
+    }
+}
+
+async fn readers(options: SqliteConnectOptions) -> Result<SqlitePool, StoreError> {
+    Ok(SqlitePoolOptions::new()
+        .max_connections(READERS)
+        .acquire_timeout(READER_WAIT)
+        .connect_with(options)
+        .await?)
+}
+
+/// Takes the lock file beside the database; the operating system gives it back when the process ends, however it ends.
+pub(in crate::store) fn locked(database: &Path) -> Result<File, StoreError> {
+    let prepare = |cause| StoreError::Prepare {
+        path: database.to_owned(),
+        cause,
+    };
+    if let Some(folder) = database.parent() {
+        std::fs::create_dir_all(folder).map_err(prepare)?;
+    }
+    let path = beside(&real_path(database).map_err(prepare)?, ".lock");
+    let file = File::options()
+        .create(true)
+        .truncate(false)
+        .write(true)
+        .open(&path)
+        .map_err(prepare)?;
+    match file.try_lock() {
+        Ok(()) => Ok(file),
+        Err(TryLockError::WouldBlock) => Err(StoreError::Locked { path }),
+        Err(TryLockError::Error(cause)) => Err(prepare(cause)),
+    }
+}
+
+/// The file of this ending beside a database.
+fn beside(database: &Path, ending: &str) -> PathBuf {
+    let mut name = database.as_os_str().to_owned();
+    name.push(ending);
+    PathBuf::from(name)
+}
+
+/// The database's path without links, so that two names of one database share a lock.
+fn real_path(database: &Path) -> std::io::Result<PathBuf> {
+    match database.canonicalize() {
+        Ok(path) => Ok(path),
+        Err(cause) if cause.kind() == std::io::ErrorKind::NotFound => {
+            let folder = match database.parent() {
+                Some(folder) if !folder.as_os_str().is_empty() => folder,
+                _ => Path::new("."),
+            };
+            let name = database.file_name().unwrap_or_default();
+            Ok(folder.canonicalize()?.join(name))
+        }
+        Err(cause) => Err(cause),
+    }
+}
+
+fn check_version(found: &str) -> Result<(), StoreError> {
+    let mut parts = found.split('.').map(|part| part.parse().unwrap_or(0));
+    let mut next = || parts.next().unwrap_or(0);
+    if (next(), next(), next()) < OLDEST_SQLITE {
+        return Err(StoreError::OldSqlite {
+            found: found.to_owned(),
+            wanted: OLDEST_SQLITE_TEXT,
+        });
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn old_versions_are_refused() {
+        assert!(check_version("3.51.2").is_err());
+        assert!(check_version("3.9.99").is_err());
+        assert!(check_version("3.51.3").is_ok());
+        assert!(check_version("3.60.0").is_ok());
+    }
+}
