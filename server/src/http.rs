@@ -28,7 +28,7 @@ use utoipa::openapi::OpenApi as Document;
 use utoipa_axum::router::OpenApiRouter;
 use utoipa_axum::routes;
 
-use crate::estimate::machine::Kept;
+use crate::estimate::machine::CalibrationCache;
 use crate::store::Store;
 
 use routes::{batches, jobs, operation, results, systems};
@@ -57,7 +57,7 @@ pub struct App {
     pub stopping: CancellationToken,
     access: Access,
     /// What this machine takes for the engine's work.
-    machine: Kept,
+    machine: CalibrationCache,
     /// Archives that may be made at once.
     archives: Arc<Semaphore>,
     /// Studies whose runs may be chosen at once.
@@ -70,7 +70,7 @@ impl App {
     /// Over a store, for those who have access.
     pub fn new(store: Arc<Store>, access: Access, stopping: CancellationToken) -> Self {
         Self {
-            machine: Kept::open(Some(store.machine_file())),
+            machine: CalibrationCache::open(Some(store.machine_file())),
             store,
             stopping,
             access,

@@ -19,7 +19,7 @@ type ByStatus = Family<[(&'static str, &'static str); 1], Gauge>;
 
 /// What the store tells when it is asked for metrics.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
-pub struct Levels {
+pub struct Gauges {
     /// Jobs by status, and the age of the oldest of them, s.
     pub jobs: Vec<(Status, i64, i64)>,
     /// Age of the oldest checkpoint of a running job, s; 0 if there is none.
@@ -79,7 +79,7 @@ impl Metrics {
     ///
     /// # Errors
     /// If it cannot be formatted.
-    pub fn text(&self, levels: &Levels) -> Result<String, fmt::Error> {
+    pub fn text(&self, levels: &Gauges) -> Result<String, fmt::Error> {
         for (status, count, oldest_s) in &levels.jobs {
             let label = [("status", status.as_str())];
             self.jobs.get_or_create(&label).set(*count);
@@ -191,7 +191,7 @@ mod tests {
         metrics.attempts.inc();
         metrics.claim_latency.observe(0.05);
         metrics.ended(Status::Succeeded);
-        let levels = Levels {
+        let levels = Gauges {
             jobs: vec![(Status::Queued, 3, 42)],
             oldest_checkpoint_s: 2,
             wal_bytes: 4096,

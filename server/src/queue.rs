@@ -21,7 +21,7 @@ pub const ATTEMPT_LIMIT: u32 = 3;
 
 /// What happens to a job.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Move {
+pub enum Transition {
     /// A worker takes it.
     Claim,
     /// The solve ended with a result.
@@ -38,7 +38,7 @@ pub enum Move {
     Expire,
 }
 
-impl Move {
+impl Transition {
     /// Every move.
     pub const ALL: [Self; 7] = [
         Self::Claim,
@@ -62,18 +62,23 @@ pub struct Tries {
 
 /// The status after a move, or nothing if the move is not allowed. `unwanted` tells whether the user has asked for the
 /// job's end.
-pub fn after(status: Status, step: Move, tries: Tries, unwanted: bool) -> Option<Status> {
+pub fn after(status: Status, step: Transition, tries: Tries, unwanted: bool) -> Option<Status> {
     match (status, step) {
-        (Status::Queued, Move::Claim) => Some(Status::Running),
-        (Status::Queued | Status::Running, Move::Cancel) => Some(Status::Cancelled),
-        (Status::Running, Move::Succeed) => Some(Status::Succeeded),
-        (Status::Running, Move::GiveBack | Move::Lose) if unwanted => Some(Status::Cancelled),
-        (Status::Running, Move::GiveBack) => Some(Status::Queued),
-        (Status::Running, Move::Lose) if tries.made < tries.limit => Some(Status::Queued),
-        (Status::Running, Move::Lose | Move::Fail)
-        | (Status::Queued | Status::Running, Move::Expire) => Some(Status::Failed),
-        (Status::Queued, Move::Succeed | Move::Fail | Move::GiveBack | Move::Lose)
-        | (Status::Running, Move::Claim)
+        (Status::Queued, Transition::Claim) => Some(Status::Running),
+        (Status::Queued | Status::Running, Transition::Cancel) => Some(Status::Cancelled),
+        (Status::Running, Transition::Succeed) => Some(Status::Succeeded),
+        (Status::Running, Transition::GiveBack | Transition::Lose) if unwanted => {
+            Some(Status::Cancelled)
+        }
+        (Status::Running, Transition::GiveBack) => Some(Status::Queued),
+        (Status::Running, Transition::Lose) if tries.made < tries.limit => Some(Status::Queued),
+        (Status::Running, Transition::Lose | Transition::Fail)
+        | (Status::Queued | Status::Running, Transition::Expire) => Some(Status::Failed),
+        (
+            Status::Queued,
+            Transition::Succeed | Transition::Fail | Transition::GiveBack | Transition::Lose,
+        )
+        | (Status::Running, Transition::Claim)
         | (Status::Succeeded | Status::Failed | Status::Cancelled, _) => None,
     }
 }
@@ -86,21 +91,22 @@ mod tests {
     #[test]
     fn every_move_from_every_status_is_as_the_table_says() {
         for status in Status::ALL {
-            for step in Move::ALL {
+            for step in Transition::ALL {
                 for made in 0..=ATTEMPT_LIMIT + 1 {
                     for unwanted in [false, true] {
                         let expected = match (status.as_str(), step) {
-                            ("queued", Move::Claim) => Some("running"),
-                            ("queued" | "running", Move::Cancel) => Some("cancelled"),
-                            ("running", Move::Succeed) => Some("succeeded"),
-                            ("queued" | "running", Move::Expire) | ("running", Move::Fail) => {
-                                Some("failed")
-                            }
-                            ("running", Move::GiveBack | Move::Lose) if unwanted => {
+                            ("queued", Transition::Claim) => Some("running"),
+                            ("queued" | "running", Transition::Cancel) => Some("cancelled"),
+                            ("running", Transition::Succeed) => Some("succeeded"),
+                            ("queued" | "running", Transition::Expire)
+                            | ("running", Transition::Fail) => Some("failed"),
+                            ("running", Transition::GiveBack | Transition::Lose) if unwanted => {
                                 Some("cancelled")
                             }
-                            ("running", Move::Lose) if made >= ATTEMPT_LIMIT => Some("failed"),
-                            ("running", Move::GiveBack | Move::Lose) => Some("queued"),
+                            ("running", Transition::Lose) if made >= ATTEMPT_LIMIT => {
+                                Some("failed")
+                            }
+                            ("running", Transition::GiveBack | Transition::Lose) => Some("queued"),
                             _ => None,
                         };
                         let tries = Tries {
@@ -123,7 +129,7 @@ mod tests {
             .filter(|status| status.is_terminal())
         {
             assert!(
-                Move::ALL
+                Transition::ALL
                     .into_iter()
                     .all(|step| after(status, step, tries, false).is_none())
             );

@@ -17,10 +17,10 @@ use api::problem::Fault;
 use api::spec::{Broken, Spec, SystemKind};
 use solver::scene::{Body, Scene};
 
-use crate::estimate::footprint::Size;
-use crate::estimate::workload::Work;
+use crate::estimate::footprint::Footprint;
+use crate::estimate::workload::Workload;
 use crate::reference::presets::Preset;
-use diagnostics::Ledger;
+use diagnostics::Diagnostics;
 
 /// Longest accepted name, characters.
 pub(crate) const NAME_LIMIT: usize = 200;
@@ -39,9 +39,9 @@ pub struct Resolved {
     /// The scene.
     pub scene: Scene,
     /// How large its solve would be.
-    pub size: Size,
+    pub footprint: Footprint,
     /// How much there is to do in it.
-    pub work: Work,
+    pub workload: Workload,
 }
 
 /// Why a submitted document is not a study.
@@ -73,10 +73,10 @@ pub fn read(bytes: &[u8]) -> Result<Resolved, Refused> {
 /// # Errors
 /// Every fault at once, each with its JSON pointer.
 pub fn scene(spec: &Spec) -> Result<Resolved, Vec<Fault>> {
-    let mut ledger = Ledger::default();
-    names(spec, &mut ledger);
-    let Some(kind) = ledger.known("/system/kind", &spec.system.kind) else {
-        return Err(ledger.into_faults());
+    let mut diagnostics = Diagnostics::default();
+    names(spec, &mut diagnostics);
+    let Some(kind) = diagnostics.known("/system/kind", &spec.system.kind) else {
+        return Err(diagnostics.into_faults());
     };
     let preset = Preset::of(kind);
     let mut out = Spec {
@@ -85,29 +85,31 @@ pub fn scene(spec: &Spec) -> Result<Resolved, Vec<Fault>> {
         ..Spec::default()
     };
 
-    let (system, shapes) = dimensions::resolve(kind, &spec.system, &mut ledger);
-    let (materials, elastic) = materials::resolve(&spec.materials, &preset, &mut ledger);
+    let (system, shapes) = dimensions::resolve(kind, &spec.system, &mut diagnostics);
+    let (materials, elastic) = materials::resolve(&spec.materials, &preset, &mut diagnostics);
     let (interface, laws) = interface::resolve(
         &spec.interface,
         &spec.materials,
         &materials,
         &preset,
-        &mut ledger,
+        &mut diagnostics,
     );
-    let (load, line_load) = load::resolve(spec.load.as_ref(), &preset, &shapes, &mut ledger);
-    let imposed = motion::resolve(spec.motion.as_ref(), &preset, &mut ledger);
+    let (load, line_load) = load::resolve(spec.load.as_ref(), &preset, &shapes, &mut diagnostics);
+    let imposed = motion::resolve(spec.motion.as_ref(), &preset, &mut diagnostics);
     let continuous = imposed.distance_mm().is_some();
-    let cycles = settings::cycles(spec.cycles, continuous, &preset, &mut ledger);
+    let cycles = settings::cycles(spec.cycles, continuous, &preset, &mut diagnostics);
     if continuous && laws.slider.is_some() {
-        ledger.fault(
+        diagnostics.fault(
             "/interface/wear/slider",
             "a slider whose surface runs past continuously cannot wear yet; write null",
         );
     }
-    let (accuracy, numerical) = settings::accuracy(&spec.accuracy, &shapes, cycles, &mut ledger);
-    let (output, recorded) = output::resolve(&spec.output, &imposed, &shapes, cycles, &mut ledger);
-    let stop = output::stop(&spec.stop, &mut ledger);
-    out.effects = settings::effects(&spec.effects, &mut ledger);
+    let (accuracy, numerical) =
+        settings::accuracy(&spec.accuracy, &shapes, cycles, &mut diagnostics);
+    let (output, recorded) =
+        output::resolve(&spec.output, &imposed, &shapes, cycles, &mut diagnostics);
+    let stop = output::stop(&spec.stop, &mut diagnostics);
+    out.effects = settings::effects(&spec.effects, &mut diagnostics);
 
     (out.system, out.materials, out.interface) = (system, materials, interface);
     (out.load, out.motion) = (Some(load), Some(imposed.motion));
@@ -135,21 +137,21 @@ pub fn scene(spec: &Spec) -> Result<Resolved, Vec<Fault>> {
         stop,
     };
     let mut sized = None;
-    if ledger.is_clean() {
-        settings::planned(&spec.effects, &scene, &mut ledger);
-        settings::small_strains(&spec.effects, &scene, &mut ledger);
-        sized = settings::meshable(&scene, &mut ledger);
+    if diagnostics.is_clean() {
+        settings::planned(&spec.effects, &scene, &mut diagnostics);
+        settings::small_strains(&spec.effects, &scene, &mut diagnostics);
+        sized = settings::meshable(&scene, &mut diagnostics);
     }
-    let Some((size, work)) = sized else {
-        return Err(ledger.into_faults());
+    let Some((footprint, workload)) = sized else {
+        return Err(diagnostics.into_faults());
     };
-    out.provenance = ledger.finish()?;
+    out.provenance = diagnostics.finish()?;
     Ok(Resolved {
         spec: out,
         kind,
         scene,
-        size,
-        work,
+        footprint,
+        workload,
     })
 }
 
@@ -163,12 +165,12 @@ pub fn cycles(spec: &Spec) -> u64 {
     spec.cycles.unwrap_or(motion::CONTINUOUS_PARTS)
 }
 
-fn names(spec: &Spec, ledger: &mut Ledger) {
+fn names(spec: &Spec, diagnostics: &mut Diagnostics) {
     if let Some(name) = &spec.name {
-        ledger.text("/name", name, NAME_LIMIT);
+        diagnostics.text("/name", name, NAME_LIMIT);
     }
     if spec.labels.len() > LABEL_LIMIT {
-        ledger.fault(
+        diagnostics.fault(
             "/labels",
             format!(
                 "{} labels, at most {LABEL_LIMIT} are kept",
@@ -180,10 +182,10 @@ fn names(spec: &Spec, ledger: &mut Ledger) {
     for (key, value) in &spec.labels {
         let pointer = format!("/labels/{}", api::spec::pointer_token(key));
         if key.is_empty() {
-            ledger.fault(&pointer, "the key of a label is empty");
+            diagnostics.fault(&pointer, "the key of a label is empty");
         }
-        ledger.text(&pointer, key, LABEL_TEXT_LIMIT);
-        ledger.text(&pointer, value, LABEL_TEXT_LIMIT);
+        diagnostics.text(&pointer, key, LABEL_TEXT_LIMIT);
+        diagnostics.text(&pointer, value, LABEL_TEXT_LIMIT);
     }
 }
 

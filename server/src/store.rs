@@ -24,10 +24,10 @@ pub use sqlite::conclusion::End;
 pub use sqlite::events::StoredEvent;
 pub use sqlite::files::{Content, NewFile};
 pub use sqlite::jobs::{
-    Cancelled, Deleted, Filter, NewJob, RequestKey, StoredJob, Submitted, Wishes,
+    Cancelled, Deleted, Filter, NewJob, RequestKey, StoredJob, SubmitOptions, Submitted,
 };
 pub use sqlite::leases::{Batch, Claim, Held};
-pub use sqlite::rescues::Rescued;
+pub use sqlite::rescues::Reclaimed;
 pub use sqlite::results::SnapshotPart;
 pub use sqlite::studies::{StoredStudy, StudyPlan};
 pub use sqlite::sweeps::{NewSweep, SweepOutcome};

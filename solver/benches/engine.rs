@@ -38,11 +38,15 @@ fn cycle_of_40_increments(bencher: Bencher<'_, '_>, element_um: u32) {
     let operators = &condensed.operators;
     let mut loaded = CycleState::start(operators);
     let mut integrator = Integrator::new(&scene, &model, operators);
-    integrator.settle(&mut loaded).expect("it settles");
-    integrator.set_out(&mut loaded).expect("it sets out");
+    integrator.apply_load(&mut loaded).expect("it settles");
+    integrator
+        .initial_quarter(&mut loaded)
+        .expect("it sets out");
     bencher
         .with_inputs(|| loaded.clone())
-        .bench_local_values(|mut state| integrator.sweep(&mut state, 1).expect("it slides"));
+        .bench_local_values(|mut state| {
+            integrator.compute_cycle(&mut state, 1).expect("it slides")
+        });
 }
 
 #[divan::bench(args = [0.1, 0.02], sample_count = 3)]

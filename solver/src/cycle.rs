@@ -1,4 +1,4 @@
-//! The cycle integrator: sweeps of contact increments in which one computed cycle stands for many physical ones.
+//! The cycle integrator: contact increments in which one computed cycle stands for many physical ones.
 //!
 //! The motion begins at the neutral position and goes to +x. Its first quarter only brings the contact into gross
 //! slip; cycles are then computed from turning point to turning point, and the wear of the first quarter is made
@@ -8,6 +8,7 @@
 //! in front of the slider belongs to the wear law, not to the geometry of the scar: with a jump it would be
 //! `jump` times too high, and its slope would load the contact like a wall.
 
+mod cycle_record;
 pub mod forecast;
 mod jump;
 mod path;
@@ -16,7 +17,6 @@ mod reach;
 mod record;
 mod share;
 mod state;
-mod sweep;
 
 use crate::ale::Spines;
 use crate::condensation::Operators;
@@ -27,12 +27,12 @@ use crate::model::Model;
 use crate::number::{cycles_at_least, real, real_cycles};
 use crate::scene::Scene;
 
+pub use cycle_record::{CycleRecord, Neutral};
 use probe::Probes;
 pub(crate) use record::worn_area_residual;
 pub use record::{report, snapshot};
 use share::check_wear;
 pub use state::{CycleError, CycleState};
-pub use sweep::{Neutral, Sweep};
 
 /// A stroke whose amplitude is larger than this many half-widths of the contact leaves it behind.
 const RUNS_FROM: f64 = 2.0;
@@ -70,7 +70,7 @@ impl<'a> Integrator<'a> {
     ///
     /// # Errors
     /// [`CycleError`] if there is no equilibrium.
-    pub fn settle(&mut self, state: &mut CycleState) -> Result<Sweep, CycleError> {
+    pub fn apply_load(&mut self, state: &mut CycleState) -> Result<CycleRecord, CycleError> {
         self.take_slopes(state);
         self.increment(
             state,
@@ -92,7 +92,7 @@ impl<'a> Integrator<'a> {
         state.mean_half_width = state.contact.half_width(x);
         state.neutral = Neutral::of(&state.contact, &self.pair);
         let contacts = vec![(Position::Neutral, state.contact.clone())];
-        Ok(Sweep {
+        Ok(CycleRecord {
             friction_loop: FrictionLoop::default(),
             contacts,
         })
@@ -110,10 +110,10 @@ impl<'a> Integrator<'a> {
     ///
     /// # Errors
     /// [`CycleError`] if an increment fails however small it is.
-    pub fn set_out(&mut self, state: &mut CycleState) -> Result<(), CycleError> {
+    pub fn initial_quarter(&mut self, state: &mut CycleState) -> Result<(), CycleError> {
         let (motion, accuracy) = (self.scene.motion, &self.scene.accuracy);
         let steps = path::steps(motion, accuracy, state.followed_half_width());
-        for (increment, step) in path::set_out(&steps).iter().enumerate() {
+        for (increment, step) in path::initial_quarter(&steps).iter().enumerate() {
             self.step(state, step, 0.0, increment)?;
         }
         Ok(())
@@ -123,7 +123,11 @@ impl<'a> Integrator<'a> {
     ///
     /// # Errors
     /// [`CycleError`] if an increment fails however small it is.
-    pub fn sweep(&mut self, state: &mut CycleState, until: u64) -> Result<Sweep, CycleError> {
+    pub fn compute_cycle(
+        &mut self,
+        state: &mut CycleState,
+        until: u64,
+    ) -> Result<CycleRecord, CycleError> {
         let (motion, accuracy) = (self.scene.motion, &self.scene.accuracy);
         let stroke = self.stroke(state);
         let mut jump = state.jump.next(accuracy, stroke, until - state.cycle);
@@ -132,12 +136,12 @@ impl<'a> Integrator<'a> {
         let before = state.clone();
         loop {
             let error = match self.computed_cycle(state, &steps, jump, stroke.runs) {
-                Ok(sweep) => {
+                Ok(record) => {
                     let widths = &self.pair.operators.receptacle.widths;
                     let done = state.cycle - before.cycle;
                     let (old, new) = (&before.receptacle_depth, &state.receptacle_depth);
                     state.jump.learn(widths, old, new, done);
-                    return Ok(sweep);
+                    return Ok(record);
                 }
                 Err(error) => error,
             };
@@ -157,8 +161,8 @@ impl<'a> Integrator<'a> {
         steps: &[path::Step],
         jump: u64,
         runs: bool,
-    ) -> Result<Sweep, CycleError> {
-        let mut sweep = Sweep::default();
+    ) -> Result<CycleRecord, CycleError> {
+        let mut record = CycleRecord::default();
         let mut probes = if runs && jump > 1 {
             let length = 4.0 * self.scene.motion.amplitude_mm() / real(steps.len());
             Probes::of(
@@ -178,16 +182,16 @@ impl<'a> Integrator<'a> {
                 half_widths += state.contact.half_width(&self.pair.operators.receptacle.x);
                 touching += 1;
             }
-            self.record(&mut sweep, state, step.at, &mut probes);
+            self.record(&mut record, state, step.at, &mut probes);
             done += 1;
             if self.spines.are_worn_through(state) {
                 break;
             }
         }
         let cycles = if done == steps.len() {
-            sweep
+            record
                 .friction_loop
-                .begin_at(steps.len() - path::set_out(steps).len());
+                .begin_at(steps.len() - path::initial_quarter(steps).len());
             jump
         } else {
             cycles_at_least(real_cycles(jump) * real(done) / real(steps.len())).min(jump)
@@ -199,7 +203,7 @@ impl<'a> Integrator<'a> {
         }
         state.computed_cycles += 1;
         state.most_increments = state.most_increments.max(steps.len());
-        Ok(sweep)
+        Ok(record)
     }
 
     fn stroke(&self, state: &CycleState) -> jump::Stroke {
@@ -257,14 +261,14 @@ impl<'a> Integrator<'a> {
 
     fn record(
         &self,
-        sweep: &mut Sweep,
+        record: &mut CycleRecord,
         state: &mut CycleState,
         at: Option<Position>,
         probes: &mut Probes,
     ) {
         let contact = &state.contact;
-        sweep.friction_loop.displacement_mm.push(contact.slider_x);
-        sweep
+        record.friction_loop.displacement_mm.push(contact.slider_x);
+        record
             .friction_loop
             .tangential_force_n_per_mm
             .push(contact.tangential_force());
@@ -275,6 +279,6 @@ impl<'a> Integrator<'a> {
         if position == Position::Neutral {
             state.neutral = Neutral::of(&contact, &self.pair);
         }
-        sweep.contacts.push((position, contact));
+        record.contacts.push((position, contact));
     }
 }

@@ -4,7 +4,7 @@ use crate::SolveError;
 use crate::ale::{self, Spines};
 use crate::checkpoint::Checkpoint;
 use crate::condensation::{self, Condensed};
-use crate::cycle::{self, CycleState, Integrator, Sweep};
+use crate::cycle::{self, CycleRecord, CycleState, Integrator};
 use crate::fields;
 use crate::history::{CycleReport, Initial, Outcome, Resolution, Snapshot, Summary};
 use crate::model::{self, Model};
@@ -76,13 +76,13 @@ fn load(
 ) -> Result<Checkpoint, SolveError> {
     let mut state = CycleState::start(&condensed.operators);
     let mut integrator = Integrator::new(scene, model, &condensed.operators);
-    let sweep = integrator.settle(&mut state)?;
+    let record = integrator.apply_load(&mut state)?;
     let report = cycle::report(scene, model, &state);
     observer.on(Event::Cycle(&report));
     observer.on(Event::Snapshot(&snapshot(
-        scene, model, condensed, &state, sweep,
+        scene, model, condensed, &state, record,
     )?));
-    integrator.set_out(&mut state)?;
+    integrator.initial_quarter(&mut state)?;
     let initial = Initial {
         peak_pressure_mpa: report.peak_pressure_mpa,
         contact_half_width_mm: report.contact_half_width_mm,
@@ -110,12 +110,12 @@ fn integrate(
             return Ok(None);
         }
         let state = &mut run.state;
-        let sweep = integrator.sweep(state, next_stop(scene, &spines, state))?;
+        let record = integrator.compute_cycle(state, next_stop(scene, &spines, state))?;
         let report = cycle::report(scene, model, state);
         let ended = end_of(scene, &spines, state, &report);
         let flow = observer.on(Event::Cycle(&report));
         if ended.is_some() || scene.output.snapshots_at_cycles.contains(&state.cycle) {
-            let snapshot = snapshot(scene, model, condensed, state, sweep)?;
+            let snapshot = snapshot(scene, model, condensed, state, record)?;
             observer.on(Event::Snapshot(&snapshot));
         }
         if ended.is_some() {
@@ -177,14 +177,14 @@ fn snapshot(
     model: &Model,
     condensed: &Condensed,
     state: &CycleState,
-    sweep: Sweep,
+    record: CycleRecord,
 ) -> Result<Snapshot, SolveError> {
     let fields = if scene.output.fields {
-        fields::placed(model, condensed, state, &sweep.contacts)?
+        fields::placed(model, condensed, state, &record.contacts)?
     } else {
         Vec::new()
     };
-    Ok(cycle::snapshot(model, state, sweep, fields))
+    Ok(cycle::snapshot(model, state, record, fields))
 }
 
 fn summary(scene: &Scene, model: &Model, run: &Checkpoint, outcome: Outcome) -> Summary {

@@ -32,7 +32,7 @@ fn ours() -> Ours {
     let operators = &condensed.operators;
     let mut state = CycleState::start(operators);
     Integrator::new(&scene, &model, operators)
-        .settle(&mut state)
+        .apply_load(&mut state)
         .expect("it settles");
     let reaction: Vec<f64> = state.contact.receptacle_force.iter().map(|f| -f).collect();
     let all = condensed.receptacle.displacements(&reaction, 0.0);

@@ -1,7 +1,7 @@
 //! What accuracy costs: the same scene over tolerances and over a grid of contact element, increments a cycle and cycle
 //! jump, compared with the Richardson extrapolation of the finest runs.
 //!
-//! `Programme` chooses the runs, `evaluate` compares what they found; both are pure. Between them runs are made either by
+//! `RunPlan` chooses the runs, `evaluate` compares what they found; both are pure. Between them runs are made either by
 //! processes, one after the other (`make`), or as jobs of the service (`http::submit_study`). Knows the wire contract and
 //! how to solve; does not know HTTP, SQL or the terminal.
 
@@ -28,7 +28,7 @@ use errors::Solution;
 use reference::Converged;
 
 pub use grid::{Grid, Settings};
-pub use run_plan::{Accept, Asked, Programme, ProgrammeError, Wanted};
+pub use run_plan::{Accept, Asked, RunPlan, RunPlanError, Wanted};
 
 /// Processor seconds that all runs of a study together should take, unless told otherwise.
 pub const BUDGET_S: f64 = 180.0;
@@ -44,7 +44,7 @@ pub enum StudyError {
     Line(#[from] serde_json::Error),
     /// There are no runs to be made.
     #[error(transparent)]
-    Programme(#[from] ProgrammeError),
+    RunPlan(#[from] RunPlanError),
     /// Nothing can be compared.
     #[error("no run succeeded: {0}")]
     NothingSolved(String),
@@ -110,7 +110,7 @@ pub fn make(request: &Request<'_>, tell: &mut dyn FnMut(&str)) -> Result<Study, 
         program,
         budget_s,
     } = request;
-    let programme = Programme::within(resolved, machine, *budget_s, &|_| Ok(()))?;
+    let programme = RunPlan::within(resolved, machine, *budget_s, &|_| Ok(()))?;
     let mut left_out = programme.left_out;
     let mut runs = Vec::new();
     let mut budget = Budget::new(*budget_s);

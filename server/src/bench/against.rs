@@ -77,10 +77,10 @@ fn compare(folder: &Path, element_um: f64) -> Result<Comparison, BenchError> {
     let (cycle_s, (lowered_mm, forces)) = measured(3, || {
         let mut state = CycleState::start(operators);
         let mut integrator = Integrator::new(&scene, &model, operators);
-        integrator.settle(&mut state)?;
+        integrator.apply_load(&mut state)?;
         let lowered_mm = -state.contact.height;
-        integrator.set_out(&mut state)?;
-        let sweep = integrator.sweep(&mut state, 1)?;
+        integrator.initial_quarter(&mut state)?;
+        let sweep = integrator.compute_cycle(&mut state, 1)?;
         Ok((lowered_mm, sweep.friction_loop.tangential_force_n_per_mm))
     })
     .map_err(|error: solver::cycle::CycleError| SolveError::from(error))?;

@@ -146,11 +146,15 @@ fn a_cycle(scene: &Scene) -> Result<(f64, f64, f64), BenchError> {
     for _ in 0..3 {
         let mut state = CycleState::start(operators);
         let mut integrator = Integrator::new(scene, &model, operators);
-        integrator.settle(&mut state).map_err(SolveError::from)?;
-        integrator.set_out(&mut state).map_err(SolveError::from)?;
+        integrator
+            .apply_load(&mut state)
+            .map_err(SolveError::from)?;
+        integrator
+            .initial_quarter(&mut state)
+            .map_err(SolveError::from)?;
         let before = state.increments;
         let (cycle_s, _) =
-            measured(1, || integrator.sweep(&mut state, 1)).map_err(SolveError::from)?;
+            measured(1, || integrator.compute_cycle(&mut state, 1)).map_err(SolveError::from)?;
         best = best.min(cycle_s);
         increments = state.increments - before;
     }

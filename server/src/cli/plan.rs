@@ -7,14 +7,14 @@ use api::plan::PlanDocument;
 
 use crate::cli::terminal::{failed, say, specification};
 use crate::estimate::machine;
-use crate::estimate::machine::{Kept, cache_file};
+use crate::estimate::machine::{CalibrationCache, cache_file};
 
 pub(super) fn run(spec: &Path) -> ExitCode {
     let resolved = match specification(spec) {
         Ok(resolved) => resolved,
         Err(code) => return code,
     };
-    let kept = Kept::open(cache_file());
+    let kept = CalibrationCache::open(cache_file());
     let machine = kept.measured().cloned();
     let plan = machine::plan(&resolved, machine.as_ref());
     match serde_json::to_string_pretty(&PlanDocument {

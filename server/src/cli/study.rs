@@ -6,9 +6,9 @@ use std::process::ExitCode;
 use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::batch::accuracy;
-use crate::batch::accuracy::{ProgrammeError, Request, StudyError, report};
+use crate::batch::accuracy::{Request, RunPlanError, StudyError, report};
 use crate::cli::terminal::{failed, refused, say, specification_for};
-use crate::estimate::machine::{Kept, cache_file};
+use crate::estimate::machine::{CalibrationCache, cache_file};
 
 pub(super) fn run(spec: &Path, out: Option<&Path>, budget_s: f64) -> ExitCode {
     let resolved = match specification_for(spec, out) {
@@ -19,7 +19,7 @@ pub(super) fn run(spec: &Path, out: Option<&Path>, budget_s: f64) -> ExitCode {
         Ok(program) => program,
         Err(cause) => return failed(format_args!("the path of this program: {cause}")),
     };
-    let kept = Kept::open(cache_file());
+    let kept = CalibrationCache::open(cache_file());
     let Some(machine) = kept.measured() else {
         return failed("the machine could not be measured");
     };
@@ -34,7 +34,7 @@ pub(super) fn run(spec: &Path, out: Option<&Path>, budget_s: f64) -> ExitCode {
     spinner.finish_and_clear();
     let study = match made {
         Ok(study) => study,
-        Err(StudyError::Programme(ProgrammeError::Refused(error))) => return refused(&error),
+        Err(StudyError::RunPlan(RunPlanError::Refused(error))) => return refused(&error),
         Err(error) => return failed(error),
     };
     say(report::text(&study));

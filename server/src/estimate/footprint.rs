@@ -10,7 +10,7 @@ use std::collections::BTreeMap;
 use solver::model::Model;
 use solver::scene::Scene;
 
-use crate::estimate::workload::{Work, count};
+use crate::estimate::workload::{Workload, count};
 
 /// Memory of the process itself, MB.
 const MEMORY_BASE_MB: f64 = 9.5;
@@ -28,7 +28,7 @@ const STATION_BYTES: f64 = 60.0;
 
 /// How large a solve would be.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Size {
+pub struct Footprint {
     /// Surface element size under the contact, mm.
     pub contact_element_mm: f64,
     /// Unknowns of both bodies.
@@ -39,9 +39,9 @@ pub struct Size {
     pub output_mb: f64,
 }
 
-impl Size {
+impl Footprint {
     /// Of a scene, its model and the work that it makes.
-    pub(crate) fn of(scene: &Scene, model: &Model, work: &Work) -> Self {
+    pub(crate) fn of(scene: &Scene, model: &Model, work: &Workload) -> Self {
         let dofs = count(model.slider.dofs() + model.receptacle.dofs());
         let elements = count(model.receptacle.contact_x().len());
         let surface = elements.max(count(model.slider.contact_x().len()));
@@ -79,8 +79,8 @@ impl Size {
 mod tests {
     use crate::spec;
 
-    fn size(text: &str) -> crate::estimate::footprint::Size {
-        spec::read(text.as_bytes()).expect("accepted").size
+    fn size(text: &str) -> crate::estimate::footprint::Footprint {
+        spec::read(text.as_bytes()).expect("accepted").footprint
     }
 
     #[test]

@@ -8,10 +8,10 @@ mod calibration;
 
 use api::plan::{MachineFigures, Plan};
 
-use crate::estimate::workload::{Condensations, Work};
+use crate::estimate::workload::{Condensations, Workload};
 use crate::spec::Resolved;
 
-pub use cache::{Kept, cache_file};
+pub use cache::{CalibrationCache, cache_file};
 
 /// Watched nodes of the increment whose time is told.
 const NODES: f64 = 30.0;
@@ -74,7 +74,7 @@ fn checked(figures: MachineFigures) -> Result<MachineFigures, MachineError> {
 }
 
 /// Processor seconds that a machine takes for some work.
-pub fn cpu_s(machine: &MachineFigures, work: &Work) -> f64 {
+pub fn cpu_s(machine: &MachineFigures, work: &Workload) -> f64 {
     let increments = work.increments.iter().map(|(watched, many)| {
         many * machine.increment_s * (watched / NODES).powf(machine.increment_power)
     });
@@ -97,7 +97,7 @@ fn parts(body: &Condensations) -> [f64; 2] {
 pub fn plan(resolved: &Resolved, machine: Option<&MachineFigures>) -> Plan {
     let mut plan = crate::estimate::plan(resolved);
     if let Some(machine) = machine {
-        let seconds = cpu_s(machine, &resolved.work);
+        let seconds = cpu_s(machine, &resolved.workload);
         plan.estimates.insert("cpu_s".to_owned(), seconds);
     }
     plan
@@ -149,7 +149,7 @@ mod tests {
             dofs: 1e5,
             surface_nodes: 1e3,
         };
-        let work = Work {
+        let work = Workload {
             computed_cycles: 1.0,
             most_increments: 1,
             increments: vec![(30.0, 100.0), (60.0, 50.0)],

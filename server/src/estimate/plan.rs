@@ -16,8 +16,8 @@ pub fn plan(resolved: &Resolved) -> Plan {
         effects: effects(&resolved.scene),
         estimates: estimates(&resolved.scene)
             .into_iter()
-            .chain(resolved.size.figures())
-            .chain(resolved.work.figures())
+            .chain(resolved.footprint.figures())
+            .chain(resolved.workload.figures())
             .collect(),
         notes: notes::notes(resolved),
     }

@@ -9,7 +9,7 @@ use solver::scene::Scene;
 
 /// What a solve has to do.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Work {
+pub struct Workload {
     /// Computed cycles.
     pub computed_cycles: f64,
     /// The most increments in one cycle.
@@ -31,16 +31,16 @@ pub struct Condensations {
     pub surface_nodes: f64,
 }
 
-impl Work {
+impl Workload {
     /// Of a scene on its unworn model.
     pub(crate) fn of(scene: &Scene, model: &Model) -> Self {
         let foreseen = forecast(scene, model);
         let mut increments = BTreeMap::new();
-        for part in &foreseen.stretches {
+        for part in &foreseen.segments {
             *increments.entry(part.watched).or_insert(0.0) += part.increments;
         }
         let increments = increments.into_iter();
-        let steps = foreseen.stretches.iter().map(|part| part.steps).max();
+        let steps = foreseen.segments.iter().map(|part| part.steps).max();
         let [slider, receptacle] = foreseen.condensations;
         Self {
             computed_cycles: foreseen.computed_cycles,
@@ -92,7 +92,7 @@ mod tests {
     fn a_tighter_tolerance_is_more_work_and_a_stop_condition_less() {
         let work = |rest: &str| {
             let text = format!(r#"{{"system":{{"kind":"sd_card"}}{rest}}}"#);
-            spec::read(text.as_bytes()).expect("accepted").work
+            spec::read(text.as_bytes()).expect("accepted").workload
         };
         let standard = work("");
         let fine = work(r#","accuracy":{"preset":"fine"}"#);
@@ -109,7 +109,7 @@ mod tests {
     fn fixed_settings_are_counted_as_they_are_given() {
         let text = r#"{"system":{"kind":"cylinder_on_flat"},"cycles":600,"output":{"snapshots_at_cycles":[600]},
             "accuracy":{"overrides":{"increments_per_cycle":40,"cycle_jump":100}}}"#;
-        let work = spec::read(text.as_bytes()).expect("accepted").work;
+        let work = spec::read(text.as_bytes()).expect("accepted").workload;
         assert!((work.computed_cycles - 6.0).abs() < 1e-12);
         assert!((work.increments() - 240.0).abs() < 1e-9);
     }
@@ -117,7 +117,7 @@ mod tests {
     #[test]
     fn a_run_that_is_too_long_to_follow_is_counted_all_the_same() {
         let text = r#"{"system":{"kind":"dimm"},"cycles":1000000,"accuracy":{"overrides":{"cycle_jump":1}}}"#;
-        let work = spec::read(text.as_bytes()).expect("accepted").work;
+        let work = spec::read(text.as_bytes()).expect("accepted").workload;
         assert!(
             (work.computed_cycles - 1e6).abs() < 1.0,
             "{}",

@@ -19,8 +19,8 @@ const INCREMENTS: f64 = 2e8;
 /// # Errors
 /// [`Refused`] with a fault for each limit.
 pub(super) fn check(resolved: &Resolved) -> Result<(), Refused> {
-    let size = &resolved.size;
-    let increments = resolved.work.increments();
+    let size = &resolved.footprint;
+    let increments = resolved.workload.increments();
     let limits = [
         ("/accuracy", "unknowns", size.dofs, DOFS),
         ("/accuracy", "MB of memory", size.memory_mb, MEMORY_MB),

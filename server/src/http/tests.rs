@@ -16,11 +16,11 @@ use tempfile::TempDir;
 use tokio_util::sync::CancellationToken;
 use tower::ServiceExt;
 
-use crate::estimate::machine::Kept;
+use crate::estimate::machine::CalibrationCache;
 use crate::export::documents::{JSON, VTU};
 use crate::export::files;
 use crate::http::{Access, App, REQUESTS, router};
-use crate::queue::Move;
+use crate::queue::Transition;
 use crate::store;
 use crate::store::{Batch, End, NewFile, Store};
 
@@ -37,7 +37,7 @@ impl Service {
         let store = Arc::new(Store::open(&url).await.expect("a store"));
         let mut app = App::new(store, Access::default(), CancellationToken::new());
         // Measuring a machine takes a second or two.
-        app.machine = Kept::of(MachineFigures {
+        app.machine = CalibrationCache::of(MachineFigures {
             program: "test".to_owned(),
             increment_s: 2e-4,
             increment_power: 1.7,
@@ -150,7 +150,7 @@ impl Service {
             ..Batch::default()
         };
         let end = End {
-            step: Move::Succeed,
+            step: Transition::Succeed,
             reason: None,
             outcome: None,
             summary: None,

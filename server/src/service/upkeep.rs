@@ -8,7 +8,7 @@ use tokio_util::sync::CancellationToken;
 use tracing::Instrument;
 
 use crate::clock::{now_ms, steady_ms};
-use crate::store::{Rescued, Store, StoreError};
+use crate::store::{Reclaimed, Store, StoreError};
 use crate::worker;
 use crate::worker::Rules;
 
@@ -24,7 +24,7 @@ pub(super) async fn maintain(
     store: Arc<Store>,
     rules: Arc<Rules>,
     keep_days: Option<u32>,
-    rescued: Rescued,
+    rescued: Reclaimed,
     stopping: CancellationToken,
 ) {
     let lease = rules.lease;
@@ -68,7 +68,7 @@ pub(super) async fn maintain(
 }
 
 /// Ends jobs that are not tried again, beside everything else: what they left may be much, and the disk may be full.
-fn bury(store: &Arc<Store>, rules: &Arc<Rules>, rescued: Rescued, burials: &mut JoinSet<()>) {
+fn bury(store: &Arc<Store>, rules: &Arc<Rules>, rescued: Reclaimed, burials: &mut JoinSet<()>) {
     for claim in rescued.ending {
         let (store, rules) = (Arc::clone(store), Arc::clone(rules));
         let span = tracing::info_span!("job", id = %claim.id, lease = claim.lease, attempt = claim.attempt);
@@ -86,11 +86,11 @@ async fn round(
     rules: &Rules,
     rescues: bool,
     keep_days: Option<u32>,
-) -> Result<Rescued, StoreError> {
+) -> Result<Reclaimed, StoreError> {
     let rescued = if rescues {
         store.rescue_expired(steady_ms(), rules.lease_end()).await?
     } else {
-        Rescued::default()
+        Reclaimed::default()
     };
     let (queued, ending) = (rescued.queued, rescued.ending.len());
     if queued + ending > 0 {

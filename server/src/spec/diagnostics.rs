@@ -7,7 +7,7 @@ use api::spec::{Choice, Named, Provenance};
 
 /// Faults and provenance, by JSON pointer.
 #[derive(Debug, Default)]
-pub(crate) struct Ledger {
+pub(crate) struct Diagnostics {
     faults: Vec<Fault>,
     provenance: BTreeMap<String, Provenance>,
 }
@@ -21,7 +21,7 @@ pub(crate) struct Range {
     pub(crate) to: f64,
 }
 
-impl Ledger {
+impl Diagnostics {
     /// Notes a fault.
     pub(crate) fn fault(&mut self, pointer: &str, detail: impl Into<String>) {
         self.faults.push(Fault::new(pointer, detail));

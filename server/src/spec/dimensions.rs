@@ -3,7 +3,7 @@
 use api::spec::{Provenance, System, SystemKind};
 use solver::scene::{BlockShape, SliderShape};
 
-use crate::spec::diagnostics::{Ledger, Range};
+use crate::spec::diagnostics::{Diagnostics, Range};
 use crate::spec::geometry;
 use crate::spec::geometry::Shapes;
 
@@ -123,19 +123,23 @@ fn crown(kind: SystemKind) -> Option<&'static str> {
 }
 
 /// Fills in the dimensions of a kind and makes the shapes.
-pub(crate) fn resolve(kind: SystemKind, given: &System, ledger: &mut Ledger) -> (System, Shapes) {
+pub(crate) fn resolve(
+    kind: SystemKind,
+    given: &System,
+    diagnostics: &mut Diagnostics,
+) -> (System, Shapes) {
     let mut given = given.clone();
     let mut system = System::of_kind(kind);
-    ledger.note("/system/kind", Provenance::Given);
+    diagnostics.note("/system/kind", Provenance::Given);
     for dimension in of_kind(kind) {
         let pointer = format!("/system/{}", dimension.field);
         let default = (dimension.default)(&system);
         let stated = field(&mut given, dimension.field).take();
         // A default made from a faulty dimension is no fault of its own.
         if let Some(value) = stated {
-            ledger.check(&pointer, value, LENGTH_MM);
+            diagnostics.check(&pointer, value, LENGTH_MM);
         }
-        let value = ledger.take(&pointer, stated, default, dimension.from);
+        let value = diagnostics.take(&pointer, stated, default, dimension.from);
         *field(&mut system, dimension.field) = Some(value);
     }
     let crown = crown(kind);
@@ -143,25 +147,25 @@ pub(crate) fn resolve(kind: SystemKind, given: &System, ledger: &mut Ledger) -> 
         let radius = field(&mut given, name).take();
         if let Some(radius) = radius {
             let pointer = format!("/system/{name}");
-            ledger.note(&pointer, Provenance::Given);
-            ledger.check(&pointer, radius, LENGTH_MM);
+            diagnostics.note(&pointer, Provenance::Given);
+            diagnostics.check(&pointer, radius, LENGTH_MM);
         }
         *field(&mut system, name) = radius;
     }
     for name in FIELDS {
         let left_over = field(&mut given, name).is_some();
-        ledger.misplaced("/system", &[(name, left_over)], kind.as_str());
+        diagnostics.misplaced("/system", &[(name, left_over)], kind.as_str());
     }
     let shapes = geometry::shapes(kind, &system);
-    fits(kind, &shapes, ledger);
+    fits(kind, &shapes, diagnostics);
     if let Some(name) = crown {
-        crown_fits(name, &shapes.block, ledger);
+        crown_fits(name, &shapes.block, diagnostics);
     }
     (system, shapes)
 }
 
 /// The modelled part of a cylinder must be a body: not wider than the cylinder, and with some height at its sides.
-fn fits(kind: SystemKind, shapes: &Shapes, ledger: &mut Ledger) {
+fn fits(kind: SystemKind, shapes: &Shapes, diagnostics: &mut Diagnostics) {
     let SliderShape {
         radius_mm,
         half_width_mm,
@@ -171,7 +175,7 @@ fn fits(kind: SystemKind, shapes: &Shapes, ledger: &mut Ledger) {
         return;
     }
     if half_width_mm > radius_mm {
-        ledger.fault(
+        diagnostics.fault(
             "/system/slider_half_width_mm",
             format!("{half_width_mm} exceeds the radius of {radius_mm}"),
         );
@@ -179,7 +183,7 @@ fn fits(kind: SystemKind, shapes: &Shapes, ledger: &mut Ledger) {
     }
     let sagitta = radius_mm - (radius_mm * radius_mm - half_width_mm * half_width_mm).sqrt();
     if height_mm < sagitta {
-        ledger.fault(
+        diagnostics.fault(
             "/system/slider_height_mm",
             format!("{height_mm} is below the arc's own height of {sagitta} at the half width {half_width_mm}"),
         );
@@ -187,14 +191,14 @@ fn fits(kind: SystemKind, shapes: &Shapes, ledger: &mut Ledger) {
 }
 
 /// A convex top must be as wide as the block is long, and leave some of the block's sides.
-fn crown_fits(name: &str, block: &BlockShape, ledger: &mut Ledger) {
+fn crown_fits(name: &str, block: &BlockShape, diagnostics: &mut Diagnostics) {
     let Some(radius) = block.crown_radius_mm else {
         return;
     };
     let (pointer, half) = (format!("/system/{name}"), 0.5 * block.length_mm);
     if radius < half {
         let detail = format!("{radius} is below half the length of {}", block.length_mm);
-        ledger.fault(&pointer, detail);
+        diagnostics.fault(&pointer, detail);
         return;
     }
     let sagitta = radius - (radius * radius - half * half).sqrt();
@@ -203,7 +207,7 @@ fn crown_fits(name: &str, block: &BlockShape, ledger: &mut Ledger) {
             "{radius} makes an arc {sagitta} high, above 0.98 of the height of {}",
             block.height_mm
         );
-        ledger.fault(&pointer, detail);
+        diagnostics.fault(&pointer, detail);
     }
 }
 

@@ -7,7 +7,7 @@ use solver::scene;
 
 use crate::reference::materials::LibraryMaterial;
 use crate::reference::presets::{Known, Preset};
-use crate::spec::diagnostics::{Ledger, Range};
+use crate::spec::diagnostics::{Diagnostics, Range};
 use crate::spec::materials::HARDNESS_MPA;
 
 /// Coefficient of friction, -; the highest of clean metals in air stay below 2.
@@ -31,14 +31,15 @@ pub(crate) fn resolve(
     materials: &Materials,
     resolved: &Materials,
     preset: &Preset,
-    ledger: &mut Ledger,
+    diagnostics: &mut Diagnostics,
 ) -> (Interface, Laws) {
     let own = |given: Option<&Material>, name: &str| {
         given.is_none_or(|given| matches!(given, Material::Named(own) if own == name))
     };
     let preset_pair = own(materials.slider.as_ref(), preset.slider.value)
         && own(materials.receptacle.as_ref(), preset.receptacle.value);
-    let (friction, friction_law) = friction(given.friction.as_ref(), preset, preset_pair, ledger);
+    let (friction, friction_law) =
+        friction(given.friction.as_ref(), preset, preset_pair, diagnostics);
     let slider = Side {
         pointer: "/interface/wear/slider",
         given: given.wear.slider.as_ref(),
@@ -56,8 +57,8 @@ pub(crate) fn resolve(
             from: preset.receptacle_wear.from,
         },
     };
-    let (slider, slider_law) = slider.resolve(ledger);
-    let (receptacle, receptacle_law) = receptacle.resolve(ledger);
+    let (slider, slider_law) = slider.resolve(diagnostics);
+    let (receptacle, receptacle_law) = receptacle.resolve(diagnostics);
     let wear = Sides {
         slider: Some(slider),
         receptacle: Some(receptacle),
@@ -80,7 +81,7 @@ fn friction(
     given: Option<&Friction>,
     preset: &Preset,
     preset_pair: bool,
-    ledger: &mut Ledger,
+    diagnostics: &mut Diagnostics,
 ) -> (Friction, scene::Friction) {
     let Some(given) = given else {
         let coefficient = preset.friction.value;
@@ -90,28 +91,28 @@ fn friction(
         } else {
             Provenance::Assumed
         };
-        ledger.note("/interface/friction/law", from);
-        ledger.note("/interface/friction/coefficient", from);
+        diagnostics.note("/interface/friction/law", from);
+        diagnostics.note("/interface/friction/coefficient", from);
         let filled = Friction {
             law: FrictionLaw::Coulomb.into(),
             coefficient: Some(coefficient),
         };
         return (filled, scene::Friction::Coulomb { coefficient });
     };
-    let law = ledger.known("/interface/friction/law", &given.law);
-    ledger.note("/interface/friction/law", Provenance::Given);
+    let law = diagnostics.known("/interface/friction/law", &given.law);
+    diagnostics.note("/interface/friction/law", Provenance::Given);
     let law = match (law, given.coefficient) {
         (Some(FrictionLaw::Coulomb), Some(coefficient)) => {
-            ledger.check("/interface/friction/coefficient", coefficient, FRICTION);
-            ledger.note("/interface/friction/coefficient", Provenance::Given);
+            diagnostics.check("/interface/friction/coefficient", coefficient, FRICTION);
+            diagnostics.note("/interface/friction/coefficient", Provenance::Given);
             scene::Friction::Coulomb { coefficient }
         }
         (Some(FrictionLaw::Coulomb), None) => {
-            ledger.missing("/interface/friction/coefficient", "`coulomb` needs it");
+            diagnostics.missing("/interface/friction/coefficient", "`coulomb` needs it");
             scene::Friction::Frictionless
         }
         (Some(FrictionLaw::Frictionless), coefficient) => {
-            ledger.misplaced(
+            diagnostics.misplaced(
                 "/interface/friction",
                 &[("coefficient", coefficient.is_some())],
                 "frictionless",
@@ -133,21 +134,21 @@ struct Side<'a> {
 }
 
 impl Side<'_> {
-    fn resolve(&self, ledger: &mut Ledger) -> (Option<WearLaw>, Option<scene::WearLaw>) {
+    fn resolve(&self, diagnostics: &mut Diagnostics) -> (Option<WearLaw>, Option<scene::WearLaw>) {
         match self.given {
             Some(None) => {
-                ledger.note(self.pointer, Provenance::Given);
+                diagnostics.note(self.pointer, Provenance::Given);
                 (None, None)
             }
-            Some(Some(law)) => self.stated(law, ledger),
-            None => self.left_out(ledger),
+            Some(Some(law)) => self.stated(law, diagnostics),
+            None => self.left_out(diagnostics),
         }
     }
 
     /// The preset's law; where the user chose another material of the library, that material's k and hardness.
-    fn left_out(&self, ledger: &mut Ledger) -> (Option<WearLaw>, Option<scene::WearLaw>) {
+    fn left_out(&self, diagnostics: &mut Diagnostics) -> (Option<WearLaw>, Option<scene::WearLaw>) {
         let Some((mut k, mut hardness)) = self.preset.value else {
-            ledger.note(self.pointer, self.preset.from);
+            diagnostics.note(self.pointer, self.preset.from);
             return (None, None);
         };
         // The preset's figures belong to the preset's material; beside another one they are a guess.
@@ -163,9 +164,9 @@ impl Side<'_> {
         if let Some(listed) = self.library().and_then(|material| material.archard_k) {
             (k, k_from) = (listed, Provenance::Source);
         }
-        ledger.note(format!("{}/law", self.pointer), self.preset.from);
-        ledger.note(format!("{}/k", self.pointer), k_from);
-        ledger.note(format!("{}/hardness_mpa", self.pointer), hardness_from);
+        diagnostics.note(format!("{}/law", self.pointer), self.preset.from);
+        diagnostics.note(format!("{}/k", self.pointer), k_from);
+        diagnostics.note(format!("{}/hardness_mpa", self.pointer), hardness_from);
         let law = WearLaw {
             law: WearLawName::Archard.into(),
             k: Some(k),
@@ -178,42 +179,42 @@ impl Side<'_> {
     fn stated(
         &self,
         given: &WearLaw,
-        ledger: &mut Ledger,
+        diagnostics: &mut Diagnostics,
     ) -> (Option<WearLaw>, Option<scene::WearLaw>) {
         let place = |field: &str| format!("{}/{field}", self.pointer);
-        ledger.note(place("law"), Provenance::Given);
+        diagnostics.note(place("law"), Provenance::Given);
         let mut law = given.clone();
-        if ledger.known(&place("law"), &given.law).is_none() {
+        if diagnostics.known(&place("law"), &given.law).is_none() {
             return (Some(law), None);
         }
         let k_over_h = match (given.k, given.k_over_h_per_mpa) {
             (Some(_), Some(_)) => {
-                ledger.fault(
+                diagnostics.fault(
                     &place("k_over_h_per_mpa"),
                     "stands beside `k`; write one of them",
                 );
                 None
             }
             (None, None) => {
-                ledger.missing(
+                diagnostics.missing(
                     &place("k"),
                     "write `k` and `hardness_mpa`, or `k_over_h_per_mpa`",
                 );
                 None
             }
             (None, Some(ratio)) => {
-                ledger.misplaced(
+                diagnostics.misplaced(
                     self.pointer,
                     &[("hardness_mpa", given.hardness_mpa.is_some())],
                     "k_over_h_per_mpa",
                 );
-                ledger.note(place("k_over_h_per_mpa"), Provenance::Given);
-                Some(ledger.check(&place("k_over_h_per_mpa"), ratio, K_OVER_H_PER_MPA))
+                diagnostics.note(place("k_over_h_per_mpa"), Provenance::Given);
+                Some(diagnostics.check(&place("k_over_h_per_mpa"), ratio, K_OVER_H_PER_MPA))
             }
             (Some(k), None) => {
-                ledger.note(place("k"), Provenance::Given);
-                ledger.check(&place("k"), k, ARCHARD_K);
-                law.hardness_mpa = self.hardness(given, ledger);
+                diagnostics.note(place("k"), Provenance::Given);
+                diagnostics.check(&place("k"), k, ARCHARD_K);
+                law.hardness_mpa = self.hardness(given, diagnostics);
                 law.hardness_mpa.map(|hardness| k / hardness)
             }
         };
@@ -221,7 +222,7 @@ impl Side<'_> {
     }
 
     /// The hardness beside a stated k: stated too, or the material's.
-    fn hardness(&self, given: &WearLaw, ledger: &mut Ledger) -> Option<f64> {
+    fn hardness(&self, given: &WearLaw, diagnostics: &mut Diagnostics) -> Option<f64> {
         let place = format!("{}/hardness_mpa", self.pointer);
         let of_material = match self.resolved {
             Some(Material::Given(properties)) => properties.hardness_mpa,
@@ -229,15 +230,15 @@ impl Side<'_> {
         };
         match given.hardness_mpa {
             Some(hardness) => {
-                ledger.note(&place, Provenance::Given);
-                Some(ledger.check(&place, hardness, HARDNESS_MPA))
+                diagnostics.note(&place, Provenance::Given);
+                Some(diagnostics.check(&place, hardness, HARDNESS_MPA))
             }
             None if of_material.is_some() => {
-                ledger.note(&place, Provenance::Typical);
+                diagnostics.note(&place, Provenance::Typical);
                 of_material
             }
             None => {
-                ledger.missing(&place, "neither the law nor the material states a hardness");
+                diagnostics.missing(&place, "neither the law nor the material states a hardness");
                 None
             }
         }

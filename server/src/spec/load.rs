@@ -3,7 +3,7 @@
 use api::spec::{Load, LoadKind, Provenance};
 
 use crate::reference::presets::Preset;
-use crate::spec::diagnostics::{Ledger, Range};
+use crate::spec::diagnostics::{Diagnostics, Range};
 use crate::spec::geometry::Shapes;
 
 /// MPa on the top face.
@@ -44,14 +44,14 @@ pub(crate) fn resolve(
     given: Option<&Load>,
     preset: &Preset,
     shapes: &Shapes,
-    ledger: &mut Ledger,
+    diagnostics: &mut Diagnostics,
 ) -> (Load, LineLoad) {
     let (load, from) = match given {
         Some(load) => (load.clone(), Provenance::Given),
         None => (preset.load.value.clone(), preset.load.from),
     };
-    ledger.note("/load/kind", from);
-    let Some(kind) = ledger.known("/load/kind", &load.kind) else {
+    diagnostics.note("/load/kind", from);
+    let Some(kind) = diagnostics.known("/load/kind", &load.kind) else {
         return (load, LineLoad::default());
     };
     let own: &[&str] = match kind {
@@ -62,11 +62,11 @@ pub(crate) fn resolve(
     let mut required = |field: &str, value: Option<f64>, range: Range| {
         let pointer = format!("/load/{field}");
         let Some(value) = value else {
-            ledger.missing(&pointer, &format!("`{}` needs it", kind.as_str()));
+            diagnostics.missing(&pointer, &format!("`{}` needs it", kind.as_str()));
             return 0.0;
         };
-        ledger.note(&pointer, from);
-        ledger.check(&pointer, value, range)
+        diagnostics.note(&pointer, from);
+        diagnostics.check(&pointer, value, range)
     };
     let n_per_mm = match kind {
         // The pressure acts on the whole top face.
@@ -89,15 +89,15 @@ pub(crate) fn resolve(
         ("width_mm", load.width_mm),
     ];
     for (field, value) in fields {
-        ledger.misplaced(
+        diagnostics.misplaced(
             "/load",
             &[(field, value.is_some() && !own.contains(&field))],
             kind.as_str(),
         );
     }
     let spring = load.spring_n_per_mm.map_or(0.0, |spring| {
-        ledger.note("/load/spring_n_per_mm", from);
-        ledger.check("/load/spring_n_per_mm", spring, SPRING_N_PER_MM)
+        diagnostics.note("/load/spring_n_per_mm", from);
+        diagnostics.check("/load/spring_n_per_mm", spring, SPRING_N_PER_MM)
     });
     let depth = if kind == LoadKind::Force {
         load.width_mm.unwrap_or(1.0)

@@ -5,7 +5,7 @@ use solver::scene::Elastic;
 
 use crate::reference::materials::{LibraryMaterial, MATERIALS};
 use crate::reference::presets::{Known, Preset};
-use crate::spec::diagnostics::{Ledger, Range, shortened};
+use crate::spec::diagnostics::{Diagnostics, Range, shortened};
 
 /// From soft gels to far beyond diamond (1.1e6 MPa), MPa.
 const YOUNGS_MODULUS_MPA: Range = Range {
@@ -39,19 +39,19 @@ pub(crate) struct ElasticPair {
 pub(crate) fn resolve(
     given: &Materials,
     preset: &Preset,
-    ledger: &mut Ledger,
+    diagnostics: &mut Diagnostics,
 ) -> (Materials, ElasticPair) {
     let (slider, slider_elastic) = side(
         "/materials/slider",
         given.slider.as_ref(),
         preset.slider,
-        ledger,
+        diagnostics,
     );
     let (receptacle, receptacle_elastic) = side(
         "/materials/receptacle",
         given.receptacle.as_ref(),
         preset.receptacle,
-        ledger,
+        diagnostics,
     );
     let materials = Materials {
         slider: Some(Material::Given(Box::new(slider))),
@@ -70,12 +70,12 @@ fn side(
     pointer: &str,
     given: Option<&Material>,
     preset: Known<&'static str>,
-    ledger: &mut Ledger,
+    diagnostics: &mut Diagnostics,
 ) -> (MaterialProperties, Elastic) {
     let properties = match given {
-        None => named(pointer, preset.value, preset.from, ledger),
-        Some(Material::Named(name)) => named(pointer, name, Provenance::Given, ledger),
-        Some(Material::Given(properties)) => checked(pointer, properties, ledger),
+        None => named(pointer, preset.value, preset.from, diagnostics),
+        Some(Material::Named(name)) => named(pointer, name, Provenance::Given, diagnostics),
+        Some(Material::Given(properties)) => checked(pointer, properties, diagnostics),
     };
     let elastic = Elastic {
         youngs_modulus_mpa: properties.youngs_modulus_mpa.unwrap_or_default(),
@@ -84,10 +84,15 @@ fn side(
     (properties, elastic)
 }
 
-fn named(pointer: &str, name: &str, from: Provenance, ledger: &mut Ledger) -> MaterialProperties {
+fn named(
+    pointer: &str,
+    name: &str,
+    from: Provenance,
+    diagnostics: &mut Diagnostics,
+) -> MaterialProperties {
     let Some(material) = LibraryMaterial::named(name) else {
         let names: Vec<_> = MATERIALS.iter().map(|material| material.name).collect();
-        ledger.fault(
+        diagnostics.fault(
             pointer,
             format!(
                 "`{}` is not in the material library ({}); write an object with its properties instead",
@@ -98,7 +103,7 @@ fn named(pointer: &str, name: &str, from: Provenance, ledger: &mut Ledger) -> Ma
         return MaterialProperties::default();
     };
     let properties = material.properties();
-    ledger.note(format!("{pointer}/name"), from);
+    diagnostics.note(format!("{pointer}/name"), from);
     for (field, value) in numbers(&properties) {
         if value.is_some() {
             let from = if field == "hardness_mpa" {
@@ -106,26 +111,32 @@ fn named(pointer: &str, name: &str, from: Provenance, ledger: &mut Ledger) -> Ma
             } else {
                 Provenance::Typical
             };
-            ledger.note(format!("{pointer}/{field}"), from);
+            diagnostics.note(format!("{pointer}/{field}"), from);
         }
     }
     properties
 }
 
-fn checked(pointer: &str, given: &MaterialProperties, ledger: &mut Ledger) -> MaterialProperties {
+fn checked(
+    pointer: &str,
+    given: &MaterialProperties,
+    diagnostics: &mut Diagnostics,
+) -> MaterialProperties {
     if let Some(name) = &given.name {
-        ledger.text(&format!("{pointer}/name"), name, 200);
-        ledger.note(format!("{pointer}/name"), Provenance::Given);
+        diagnostics.text(&format!("{pointer}/name"), name, 200);
+        diagnostics.note(format!("{pointer}/name"), Provenance::Given);
     }
     for (field, value) in numbers(given) {
         let place = format!("{pointer}/{field}");
         let required = matches!(field, "youngs_modulus_mpa" | "poisson_ratio");
         match value {
             Some(value) => {
-                ledger.note(&place, Provenance::Given);
-                ledger.check(&place, value, range(field));
+                diagnostics.note(&place, Provenance::Given);
+                diagnostics.check(&place, value, range(field));
             }
-            None if required => ledger.missing(&place, "a material written as an object states it"),
+            None if required => {
+                diagnostics.missing(&place, "a material written as an object states it");
+            }
             None => {}
         }
     }

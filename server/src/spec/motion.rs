@@ -4,7 +4,7 @@ use api::spec::{Choice, Drive, Motion, MotionKind, Provenance, Waveform};
 use solver::scene;
 
 use crate::reference::presets::Preset;
-use crate::spec::diagnostics::{Ledger, Range};
+use crate::spec::diagnostics::{Diagnostics, Range};
 
 /// mm; from below an atom to far beyond any contact, and 0: nothing moves.
 const AMPLITUDE_MM: Range = Range {
@@ -58,29 +58,33 @@ const NOTHING: Motion = Motion {
 };
 
 /// Fills in the motion.
-pub(crate) fn resolve(given: Option<&Motion>, preset: &Preset, ledger: &mut Ledger) -> Imposed {
+pub(crate) fn resolve(
+    given: Option<&Motion>,
+    preset: &Preset,
+    diagnostics: &mut Diagnostics,
+) -> Imposed {
     let from = if given.is_some() {
         Provenance::Given
     } else {
         preset.amplitude_mm.from
     };
-    ledger.note("/motion/kind", from);
+    diagnostics.note("/motion/kind", from);
     let given = given.cloned().unwrap_or(NOTHING);
-    match ledger.known("/motion/kind", &given.kind) {
-        Some(MotionKind::Continuous) => continuous(&given, ledger),
+    match diagnostics.known("/motion/kind", &given.kind) {
+        Some(MotionKind::Continuous) => continuous(&given, diagnostics),
         Some(MotionKind::Reciprocating) => {
             let fields = [
                 ("speed_mm_s", given.speed_mm_s.is_some()),
                 ("distance_mm", given.distance_mm.is_some()),
             ];
-            ledger.misplaced("/motion", &fields, "reciprocating");
-            reciprocating(&given, preset, ledger)
+            diagnostics.misplaced("/motion", &fields, "reciprocating");
+            reciprocating(&given, preset, diagnostics)
         }
-        None => reciprocating(&given, preset, ledger),
+        None => reciprocating(&given, preset, diagnostics),
     }
 }
 
-fn continuous(given: &Motion, ledger: &mut Ledger) -> Imposed {
+fn continuous(given: &Motion, diagnostics: &mut Diagnostics) -> Imposed {
     let fields = [
         ("waveform", given.waveform.is_some()),
         ("amplitude_mm", given.amplitude_mm.is_some()),
@@ -88,21 +92,21 @@ fn continuous(given: &Motion, ledger: &mut Ledger) -> Imposed {
         ("period_s", given.period_s.is_some()),
         ("drive", given.drive.is_some()),
     ];
-    ledger.misplaced("/motion", &fields, "continuous");
+    diagnostics.misplaced("/motion", &fields, "continuous");
     let distance_mm = given.distance_mm.unwrap_or_default();
     if given.distance_mm.is_some() {
-        ledger.note("/motion/distance_mm", Provenance::Given);
-        ledger.check("/motion/distance_mm", distance_mm, DISTANCE_MM);
+        diagnostics.note("/motion/distance_mm", Provenance::Given);
+        diagnostics.check("/motion/distance_mm", distance_mm, DISTANCE_MM);
     } else {
-        ledger.missing("/motion/distance_mm", "`continuous` needs it");
+        diagnostics.missing("/motion/distance_mm", "`continuous` needs it");
     }
-    let speed = ledger.take(
+    let speed = diagnostics.take(
         "/motion/speed_mm_s",
         given.speed_mm_s,
         SPEED,
         Provenance::Assumed,
     );
-    ledger.check("/motion/speed_mm_s", speed, SPEED_MM_S);
+    diagnostics.check("/motion/speed_mm_s", speed, SPEED_MM_S);
     #[expect(
         clippy::cast_precision_loss,
         reason = "a hundred thousand parts are exact"
@@ -120,12 +124,12 @@ fn continuous(given: &Motion, ledger: &mut Ledger) -> Imposed {
     }
 }
 
-fn reciprocating(given: &Motion, preset: &Preset, ledger: &mut Ledger) -> Imposed {
+fn reciprocating(given: &Motion, preset: &Preset, diagnostics: &mut Diagnostics) -> Imposed {
     let waveform = given
         .waveform
         .as_ref()
-        .and_then(|waveform| ledger.known("/motion/waveform", waveform));
-    let waveform = ledger.take(
+        .and_then(|waveform| diagnostics.known("/motion/waveform", waveform));
+    let waveform = diagnostics.take(
         "/motion/waveform",
         waveform,
         preset.waveform.value,
@@ -134,22 +138,22 @@ fn reciprocating(given: &Motion, preset: &Preset, ledger: &mut Ledger) -> Impose
     let drive = given
         .drive
         .as_ref()
-        .and_then(|drive| ledger.known("/motion/drive", drive));
-    let drive = ledger.take(
+        .and_then(|drive| diagnostics.known("/motion/drive", drive));
+    let drive = diagnostics.take(
         "/motion/drive",
         drive,
         preset.drive.value,
         preset.drive.from,
     );
-    let amplitude_mm = ledger.take(
+    let amplitude_mm = diagnostics.take(
         "/motion/amplitude_mm",
         given.amplitude_mm,
         preset.amplitude_mm.value,
         preset.amplitude_mm.from,
     );
-    ledger.check_or_zero("/motion/amplitude_mm", amplitude_mm, AMPLITUDE_MM);
+    diagnostics.check_or_zero("/motion/amplitude_mm", amplitude_mm, AMPLITUDE_MM);
     let mut motion = filled(NOTHING, waveform, drive, amplitude_mm);
-    let period_s = period(given, preset, &mut motion, ledger);
+    let period_s = period(given, preset, &mut motion, diagnostics);
     Imposed {
         motion,
         drive: engine_drive(drive),
@@ -170,19 +174,24 @@ fn filled(empty: Motion, waveform: Waveform, drive: Drive, amplitude_mm: f64) ->
 }
 
 /// The period, from whichever of period and frequency was written.
-fn period(given: &Motion, preset: &Preset, filled: &mut Motion, ledger: &mut Ledger) -> f64 {
+fn period(
+    given: &Motion,
+    preset: &Preset,
+    filled: &mut Motion,
+    diagnostics: &mut Diagnostics,
+) -> f64 {
     match (given.period_s, given.frequency_hz) {
         (Some(_), Some(_)) => {
-            ledger.fault(
+            diagnostics.fault(
                 "/motion/period_s",
                 "stands beside `frequency_hz`; write one of them",
             );
             preset.period_s.value
         }
         (None, Some(frequency_hz)) => {
-            ledger.note("/motion/frequency_hz", Provenance::Given);
+            diagnostics.note("/motion/frequency_hz", Provenance::Given);
             filled.frequency_hz = Some(frequency_hz);
-            ledger.check(
+            diagnostics.check(
                 "/motion/frequency_hz",
                 frequency_hz,
                 Range {
@@ -193,14 +202,14 @@ fn period(given: &Motion, preset: &Preset, filled: &mut Motion, ledger: &mut Led
             1.0 / frequency_hz
         }
         (period_s, None) => {
-            let period_s = ledger.take(
+            let period_s = diagnostics.take(
                 "/motion/period_s",
                 period_s,
                 preset.period_s.value,
                 preset.period_s.from,
             );
             filled.period_s = Some(period_s);
-            ledger.check("/motion/period_s", period_s, PERIOD_S)
+            diagnostics.check("/motion/period_s", period_s, PERIOD_S)
         }
     }
 }

@@ -3,7 +3,7 @@
 use api::spec::{Output, Provenance, Stop};
 use solver::scene;
 
-use crate::spec::diagnostics::{Ledger, Range};
+use crate::spec::diagnostics::{Diagnostics, Range};
 use crate::spec::geometry::Shapes;
 use crate::spec::motion::Imposed;
 
@@ -23,12 +23,12 @@ pub(crate) fn resolve(
     imposed: &Imposed,
     shapes: &Shapes,
     cycles: u64,
-    ledger: &mut Ledger,
+    diagnostics: &mut Diagnostics,
 ) -> (Output, scene::Output) {
-    let fields = ledger.take("/output/fields", given.fields, false, Provenance::Assumed);
+    let fields = diagnostics.take("/output/fields", given.fields, false, Provenance::Assumed);
     let half = 0.5 * shapes.block.length_mm;
-    stations(given, half, ledger);
-    let stations_mm = ledger.take(
+    stations(given, half, diagnostics);
+    let stations_mm = diagnostics.take(
         "/output/stations_mm",
         given.stations_mm.clone(),
         default_stations(imposed.motion.amplitude_mm.unwrap_or_default(), half),
@@ -42,12 +42,12 @@ pub(crate) fn resolve(
     };
     let mut ascending = match imposed.distance_mm() {
         None => {
-            let at = at_cycles(given, cycles, ledger);
+            let at = at_cycles(given, cycles, diagnostics);
             filled.snapshots_at_cycles = Some(at.clone());
             at
         }
         Some(distance) => {
-            let at = at_distances(given, distance, ledger);
+            let at = at_distances(given, distance, diagnostics);
             let parts = at.iter().map(|at| part(at / distance, cycles)).collect();
             filled.snapshots_at_distance_mm = Some(at);
             parts
@@ -64,37 +64,42 @@ pub(crate) fn resolve(
 }
 
 /// Checks the stations that were stated; defaults made from a faulty value are no faults of their own.
-fn stations(given: &Output, half: f64, ledger: &mut Ledger) {
+fn stations(given: &Output, half: f64, diagnostics: &mut Diagnostics) {
     let stations = given.stations_mm.as_deref().unwrap_or_default();
-    limited("/output/stations_mm", stations.len(), STATION_LIMIT, ledger);
+    limited(
+        "/output/stations_mm",
+        stations.len(),
+        STATION_LIMIT,
+        diagnostics,
+    );
     for (index, station) in stations.iter().enumerate().take(STATION_LIMIT) {
         let range = Range {
             from: -half,
             to: half,
         };
-        ledger.check(&format!("/output/stations_mm/{index}"), *station, range);
+        diagnostics.check(&format!("/output/stations_mm/{index}"), *station, range);
     }
 }
 
 /// Snapshots of a reciprocating motion, at cycles.
-fn at_cycles(given: &Output, cycles: u64, ledger: &mut Ledger) -> Vec<u64> {
+fn at_cycles(given: &Output, cycles: u64, diagnostics: &mut Diagnostics) -> Vec<u64> {
     const POINTER: &str = "/output/snapshots_at_cycles";
     let misplaced = given.snapshots_at_distance_mm.is_some();
-    ledger.misplaced(
+    diagnostics.misplaced(
         "/output",
         &[("snapshots_at_distance_mm", misplaced)],
         "reciprocating",
     );
     let snapshots = given.snapshots_at_cycles.as_deref().unwrap_or_default();
-    limited(POINTER, snapshots.len(), SNAPSHOT_LIMIT, ledger);
+    limited(POINTER, snapshots.len(), SNAPSHOT_LIMIT, diagnostics);
     for (index, cycle) in snapshots.iter().enumerate().take(SNAPSHOT_LIMIT) {
         if *cycle > cycles {
             let detail = format!("{cycle} exceeds the number of cycles, {cycles}");
-            ledger.fault(&format!("{POINTER}/{index}"), detail);
+            diagnostics.fault(&format!("{POINTER}/{index}"), detail);
         }
     }
     let default = default_snapshots(cycles);
-    ledger.take(
+    diagnostics.take(
         POINTER,
         given.snapshots_at_cycles.clone(),
         default,
@@ -103,10 +108,10 @@ fn at_cycles(given: &Output, cycles: u64, ledger: &mut Ledger) -> Vec<u64> {
 }
 
 /// Snapshots of a continuous motion, at distances, mm.
-fn at_distances(given: &Output, distance: f64, ledger: &mut Ledger) -> Vec<f64> {
+fn at_distances(given: &Output, distance: f64, diagnostics: &mut Diagnostics) -> Vec<f64> {
     const POINTER: &str = "/output/snapshots_at_distance_mm";
     let misplaced = given.snapshots_at_cycles.is_some();
-    ledger.misplaced(
+    diagnostics.misplaced(
         "/output",
         &[("snapshots_at_cycles", misplaced)],
         "continuous",
@@ -115,18 +120,18 @@ fn at_distances(given: &Output, distance: f64, ledger: &mut Ledger) -> Vec<f64> 
         .snapshots_at_distance_mm
         .as_deref()
         .unwrap_or_default();
-    limited(POINTER, snapshots.len(), SNAPSHOT_LIMIT, ledger);
+    limited(POINTER, snapshots.len(), SNAPSHOT_LIMIT, diagnostics);
     for (index, at) in snapshots.iter().enumerate().take(SNAPSHOT_LIMIT) {
         let range = Range {
             from: 0.0,
             to: distance,
         };
-        ledger.check(&format!("{POINTER}/{index}"), *at, range);
+        diagnostics.check(&format!("{POINTER}/{index}"), *at, range);
     }
     let default = [0.25, 0.5, 0.75, 1.0]
         .map(|share| share * distance)
         .to_vec();
-    ledger.take(
+    diagnostics.take(
         POINTER,
         given.snapshots_at_distance_mm.clone(),
         default,
@@ -161,9 +166,9 @@ fn default_snapshots(cycles: u64) -> Vec<u64> {
     snapshots
 }
 
-fn limited(pointer: &str, length: usize, limit: usize, ledger: &mut Ledger) {
+fn limited(pointer: &str, length: usize, limit: usize, diagnostics: &mut Diagnostics) {
     if length > limit {
-        ledger.fault(
+        diagnostics.fault(
             pointer,
             format!("{length} entries, at most {limit} are kept"),
         );
@@ -171,17 +176,17 @@ fn limited(pointer: &str, length: usize, limit: usize, ledger: &mut Ledger) {
 }
 
 /// Checks the stop conditions.
-pub(crate) fn stop(given: &[Stop], ledger: &mut Ledger) -> Vec<scene::StopCondition> {
-    limited("/stop", given.len(), STOP_LIMIT, ledger);
+pub(crate) fn stop(given: &[Stop], diagnostics: &mut Diagnostics) -> Vec<scene::StopCondition> {
+    limited("/stop", given.len(), STOP_LIMIT, diagnostics);
     let mut conditions = Vec::new();
     for (index, condition) in given.iter().enumerate().take(STOP_LIMIT) {
         let pointer = format!("/stop/{index}");
         match condition.worn_depth_mm {
             Some(depth) => {
-                ledger.check(&format!("{pointer}/worn_depth_mm"), depth, WORN_DEPTH_MM);
+                diagnostics.check(&format!("{pointer}/worn_depth_mm"), depth, WORN_DEPTH_MM);
                 conditions.push(scene::StopCondition::WornDepth(depth));
             }
-            None => ledger.missing(&pointer, "a condition such as `worn_depth_mm`"),
+            None => diagnostics.missing(&pointer, "a condition such as `worn_depth_mm`"),
         }
     }
     conditions

@@ -6,10 +6,10 @@ use api::spec::{Accuracy, Choice, CycleJump, Overrides, Preset as Tolerance, Pro
 use solver::effects::{Effect, SMALL_STRAIN_LIMIT};
 use solver::scene;
 
-use crate::estimate::footprint::Size;
-use crate::estimate::workload::Work;
+use crate::estimate::footprint::Footprint;
+use crate::estimate::workload::Workload;
 use crate::reference::presets::Preset;
-use crate::spec::diagnostics::{Ledger, Range, shortened};
+use crate::spec::diagnostics::{Diagnostics, Range, shortened};
 use crate::spec::geometry::Shapes;
 use crate::spec::motion::CONTINUOUS_PARTS;
 
@@ -46,15 +46,15 @@ pub(crate) fn cycles(
     given: Option<u64>,
     continuous: bool,
     preset: &Preset,
-    ledger: &mut Ledger,
+    diagnostics: &mut Diagnostics,
 ) -> u64 {
     if continuous {
-        ledger.misplaced("", &[("cycles", given.is_some())], "continuous");
+        diagnostics.misplaced("", &[("cycles", given.is_some())], "continuous");
         return CONTINUOUS_PARTS;
     }
-    let cycles = ledger.take("/cycles", given, preset.cycles.value, preset.cycles.from);
+    let cycles = diagnostics.take("/cycles", given, preset.cycles.value, preset.cycles.from);
     if !(1..=CYCLE_LIMIT).contains(&cycles) {
-        ledger.fault("/cycles", format!("{cycles} is outside 1 to {CYCLE_LIMIT}"));
+        diagnostics.fault("/cycles", format!("{cycles} is outside 1 to {CYCLE_LIMIT}"));
     }
     cycles
 }
@@ -62,7 +62,7 @@ pub(crate) fn cycles(
 /// Checks the effects; what is left out is `auto`.
 pub(crate) fn effects(
     given: &BTreeMap<String, Choice<Switch>>,
-    ledger: &mut Ledger,
+    diagnostics: &mut Diagnostics,
 ) -> BTreeMap<String, Choice<Switch>> {
     for (name, switch) in given {
         let pointer = format!("/effects/{}", api::spec::pointer_token(name));
@@ -73,7 +73,7 @@ pub(crate) fn effects(
                 .map(|effect| effect.name())
                 .chain(TO_COME)
                 .collect();
-            ledger.fault(
+            diagnostics.fault(
                 &pointer,
                 format!(
                     "`{}` is no effect; effects are {}",
@@ -83,12 +83,12 @@ pub(crate) fn effects(
             );
             continue;
         }
-        match ledger.known(&pointer, switch) {
+        match diagnostics.known(&pointer, switch) {
             Some(Switch::On) if !planned => {
-                ledger.fault(&pointer, format!("`{name}` is not available yet"));
+                diagnostics.fault(&pointer, format!("`{name}` is not available yet"));
             }
             Some(Switch::Off) if planned => {
-                ledger.fault(
+                diagnostics.fault(
                     &pointer,
                     "switching it off is not available yet; leave it out of the scene instead",
                 );
@@ -103,14 +103,14 @@ pub(crate) fn effects(
 pub(crate) fn planned(
     given: &BTreeMap<String, Choice<Switch>>,
     scene: &scene::Scene,
-    ledger: &mut Ledger,
+    diagnostics: &mut Diagnostics,
 ) {
     for decision in solver::effects::plan(scene).decisions {
         let name = decision.effect.name();
         let wanted = given.get(name).and_then(Choice::known) == Some(Switch::On);
         if wanted && !decision.simulated && decision.effect != Effect::GeometricNonlinearity {
             let detail = format!("cannot be on: {}", decision.reason);
-            ledger.fault(&format!("/effects/{name}"), detail);
+            diagnostics.fault(&format!("/effects/{name}"), detail);
         }
     }
 }
@@ -119,7 +119,7 @@ pub(crate) fn planned(
 pub(crate) fn small_strains(
     given: &BTreeMap<String, Choice<Switch>>,
     scene: &scene::Scene,
-    ledger: &mut Ledger,
+    diagnostics: &mut Diagnostics,
 ) {
     let name = Effect::GeometricNonlinearity.name();
     let accepted = given.get(name).and_then(Choice::known) == Some(Switch::Off);
@@ -131,24 +131,27 @@ pub(crate) fn small_strains(
             100.0 * cost,
             100.0 * SMALL_STRAIN_LIMIT
         );
-        ledger.fault("/load", detail);
+        diagnostics.fault("/load", detail);
     }
 }
 
 /// How large the solve would be, and how much there is to do; a fault if the bodies cannot be meshed, or the mesh would be larger than the engine
 /// takes.
-pub(crate) fn meshable(scene: &scene::Scene, ledger: &mut Ledger) -> Option<(Size, Work)> {
+pub(crate) fn meshable(
+    scene: &scene::Scene,
+    diagnostics: &mut Diagnostics,
+) -> Option<(Footprint, Workload)> {
     let built = solver::model::build(scene);
     if let Err(error) = &built {
         let pointer = match scene.accuracy.contact_element_mm {
             Some(_) => "/accuracy/overrides/contact_element_mm",
             None => "/system",
         };
-        ledger.fault(pointer, error.to_string());
+        diagnostics.fault(pointer, error.to_string());
     }
     built.ok().map(|model| {
-        let work = Work::of(scene, &model);
-        (Size::of(scene, &model, &work), work)
+        let work = Workload::of(scene, &model);
+        (Footprint::of(scene, &model, &work), work)
     })
 }
 
@@ -157,26 +160,26 @@ pub(crate) fn accuracy(
     given: &Accuracy,
     shapes: &Shapes,
     cycles: u64,
-    ledger: &mut Ledger,
+    diagnostics: &mut Diagnostics,
 ) -> (Accuracy, scene::Accuracy) {
     let preset = given
         .preset
         .as_ref()
-        .and_then(|preset| ledger.known("/accuracy/preset", preset));
+        .and_then(|preset| diagnostics.known("/accuracy/preset", preset));
     let mut filled = given.clone();
     let tolerance = match (preset, given.tolerance) {
         (_, Some(tolerance)) => {
             if given.preset.is_some() {
-                ledger.fault(
+                diagnostics.fault(
                     "/accuracy/tolerance",
                     "stands beside `preset`; write one of them",
                 );
             }
-            ledger.note("/accuracy/tolerance", Provenance::Given);
-            ledger.check("/accuracy/tolerance", tolerance, TOLERANCE)
+            diagnostics.note("/accuracy/tolerance", Provenance::Given);
+            diagnostics.check("/accuracy/tolerance", tolerance, TOLERANCE)
         }
         (preset, None) => {
-            let preset = ledger.take(
+            let preset = diagnostics.take(
                 "/accuracy/preset",
                 preset,
                 Tolerance::Standard,
@@ -193,9 +196,9 @@ pub(crate) fn accuracy(
     let source_increments = elements.map(|_| SOURCE_INCREMENTS);
     let numerical = scene::Accuracy {
         tolerance,
-        contact_element_mm: contact_element(overrides, shapes, ledger).or(source_element),
-        increments_per_cycle: increments(overrides, ledger).or(source_increments),
-        cycle_jump: cycle_jump(overrides, cycles, ledger),
+        contact_element_mm: contact_element(overrides, shapes, diagnostics).or(source_element),
+        increments_per_cycle: increments(overrides, diagnostics).or(source_increments),
+        cycle_jump: cycle_jump(overrides, cycles, diagnostics),
     };
     (filled, numerical)
 }
@@ -221,10 +224,14 @@ fn source_elements(preset: Option<Tolerance>) -> Option<f64> {
 /// Increments a cycle of the source.
 const SOURCE_INCREMENTS: u32 = 32;
 
-fn contact_element(overrides: &Overrides, shapes: &Shapes, ledger: &mut Ledger) -> Option<f64> {
+fn contact_element(
+    overrides: &Overrides,
+    shapes: &Shapes,
+    diagnostics: &mut Diagnostics,
+) -> Option<f64> {
     const POINTER: &str = "/accuracy/overrides/contact_element_mm";
     let size = overrides.contact_element_mm?;
-    ledger.note(POINTER, Provenance::Given);
+    diagnostics.note(POINTER, Provenance::Given);
     let length = shapes.block.length_mm;
     let smallest = length / CONTACT_ELEMENT_LIMIT;
     if !(size.is_finite() && size >= smallest && size <= 0.5 * length) {
@@ -232,31 +239,31 @@ fn contact_element(overrides: &Overrides, shapes: &Shapes, ledger: &mut Ledger) 
             "{smallest} (1/{CONTACT_ELEMENT_LIMIT} of the block's length) to {}",
             0.5 * length
         );
-        ledger.fault(POINTER, format!("{size} is outside {limits}"));
+        diagnostics.fault(POINTER, format!("{size} is outside {limits}"));
     }
     Some(size)
 }
 
-fn increments(overrides: &Overrides, ledger: &mut Ledger) -> Option<u32> {
+fn increments(overrides: &Overrides, diagnostics: &mut Diagnostics) -> Option<u32> {
     const POINTER: &str = "/accuracy/overrides/increments_per_cycle";
     let count = overrides.increments_per_cycle?;
-    ledger.note(POINTER, Provenance::Given);
+    diagnostics.note(POINTER, Provenance::Given);
     let (from, to) = INCREMENT_RANGE;
     if !(from..=to).contains(&count) {
-        ledger.fault(POINTER, format!("{count} is outside {from} to {to}"));
+        diagnostics.fault(POINTER, format!("{count} is outside {from} to {to}"));
     }
     Some(count)
 }
 
-fn cycle_jump(overrides: &Overrides, cycles: u64, ledger: &mut Ledger) -> Option<u64> {
+fn cycle_jump(overrides: &Overrides, cycles: u64, diagnostics: &mut Diagnostics) -> Option<u64> {
     const POINTER: &str = "/accuracy/overrides/cycle_jump";
     let jump = overrides.cycle_jump.as_ref()?;
-    ledger.note(POINTER, Provenance::Given);
+    diagnostics.note(POINTER, Provenance::Given);
     match jump {
         CycleJump::Adaptive => None,
         CycleJump::Fixed(count) => {
             if !(1..=cycles.max(1)).contains(count) {
-                ledger.fault(
+                diagnostics.fault(
                     POINTER,
                     format!("{count} is outside 1 to the number of cycles, {cycles}"),
                 );
@@ -264,7 +271,7 @@ fn cycle_jump(overrides: &Overrides, cycles: u64, ledger: &mut Ledger) -> Option
             Some(*count)
         }
         CycleJump::Unknown(text) => {
-            ledger.fault(
+            diagnostics.fault(
                 POINTER,
                 format!("`{}` is neither `adaptive` nor a count", shortened(text)),
             );

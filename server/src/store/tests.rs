@@ -20,7 +20,7 @@ use uuid::Uuid;
 
 use super::*;
 use crate::http::tests::row;
-use crate::queue::{ATTEMPT_LIMIT, Move};
+use crate::queue::{ATTEMPT_LIMIT, Transition};
 use crate::spec;
 
 struct Fixture {
@@ -41,10 +41,10 @@ impl Fixture {
     }
 
     async fn queued(&self) -> Uuid {
-        self.wished(Wishes::default()).await
+        self.wished(SubmitOptions::default()).await
     }
 
-    async fn wished(&self, wishes: Wishes) -> Uuid {
+    async fn wished(&self, wishes: SubmitOptions) -> Uuid {
         let resolved = spec::read(br#"{"system":{"kind":"fuzz_button"}}"#).expect("accepted");
         let plan = crate::estimate::plan(&resolved);
         self.store
@@ -82,7 +82,7 @@ impl Fixture {
         let rescued = self.store.rescue_expired(by, by + 1).await;
         let rescued = rescued.expect("the store");
         for claim in &rescued.ending {
-            let (nothing, end) = (Batch::default(), end(Move::Lose));
+            let (nothing, end) = (Batch::default(), end(Transition::Lose));
             let ended = self.store.end(claim, &nothing, &end, by).await;
             ended.expect("the store").expect("it is held");
         }
@@ -90,7 +90,10 @@ impl Fixture {
     }
 
     async fn ended_with(&self, claim: &Claim, batch: &Batch) {
-        let ended = self.store.end(claim, batch, &end(Move::Succeed), 2).await;
+        let ended = self
+            .store
+            .end(claim, batch, &end(Transition::Succeed), 2)
+            .await;
         ended.expect("the store").expect("it is held");
     }
 
@@ -124,7 +127,7 @@ pub(crate) async fn written_by_another(database: &Path) -> SqliteConnection {
     other
 }
 
-fn end(step: Move) -> End {
+fn end(step: Transition) -> End {
     End {
         step,
         reason: Some("because".to_owned()),

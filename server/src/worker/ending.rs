@@ -6,7 +6,7 @@ use api::job::{Progress, Status};
 use tokio::time::MissedTickBehavior;
 
 use crate::clock::now_ms;
-use crate::queue::Move;
+use crate::queue::Transition;
 use crate::store::{Batch, Claim, End, Held, Store, StoreError};
 use crate::worker::gather::gather;
 use crate::worker::verdict::end;
@@ -83,7 +83,7 @@ pub async fn bury(
     rules: &Rules,
     reason: &str,
 ) -> Result<(), StoreError> {
-    let end = end(Move::Lose, reason);
+    let end = end(Transition::Lose, reason);
     let buried = async {
         let job = patiently(|| store.job(claim.id)).await?;
         let progress = job.map(|job| job.document.progress).unwrap_or_default();

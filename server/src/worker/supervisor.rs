@@ -8,7 +8,7 @@ use tokio::time::MissedTickBehavior;
 use tokio_util::sync::CancellationToken;
 
 use crate::clock::now_ms;
-use crate::queue::Move;
+use crate::queue::Transition;
 use crate::solve::Line;
 use crate::spec;
 use crate::store::{Claim, End, Held, Store, StoreError};
@@ -75,7 +75,7 @@ async fn see_through(
         Ok(child) => child,
         Err(cause) => {
             let end = end(
-                Move::Lose,
+                Transition::Lose,
                 format!("its solving process could not be started: {cause}"),
             );
             return conclude(store, claim, rules, &batcher.batch(true), &end).await;
@@ -88,7 +88,7 @@ async fn see_through(
             let last = wind_down(&mut child, &mut batcher, rules.grace).await;
             match last {
                 Some(last) => concluded(Some(last), &mut child).await,
-                None => end(Move::GiveBack, ""),
+                None => end(Transition::GiveBack, ""),
             }
         }
         other => {
@@ -100,7 +100,7 @@ async fn see_through(
         }
     };
     let end = match end.step {
-        Move::GiveBack if stopping.is_cancelled() => End {
+        Transition::GiveBack if stopping.is_cancelled() => End {
             reason: Some("the service was stopped".to_owned()),
             ..end
         },
@@ -117,14 +117,14 @@ async fn concluded(last: Option<Line>, child: &mut Solving) -> End {
 /// The end of a job whose child was killed for this reason; nothing if it is another worker's to end.
 fn ended_by(stop: Stop) -> Option<End> {
     match stop {
-        Stop::Cancelled => Some(end(Move::Cancel, "cancelled while running")),
+        Stop::Cancelled => Some(end(Transition::Cancel, "cancelled while running")),
         Stop::Late => Some(End {
             outcome: Some(Outcome::DeadlineExceeded),
-            ..end(Move::Expire, "its deadline passed while it ran")
+            ..end(Transition::Expire, "its deadline passed while it ran")
         }),
         Stop::Unreadable(why) => Some(End {
             outcome: Some(Outcome::NotConverged),
-            ..end(Move::Fail, why)
+            ..end(Transition::Fail, why)
         }),
         Stop::Output(_) | Stop::Shutdown | Stop::LeaseLost => {
             tracing::warn!("lease lost; nothing more is written");

@@ -15,7 +15,7 @@ use uuid::Uuid;
 use crate::http::tests::row;
 use crate::solve::Line;
 use crate::spec;
-use crate::store::{Batch, NewJob, Store, Wishes};
+use crate::store::{Batch, NewJob, Store, SubmitOptions};
 use crate::worker::{Rules, work};
 
 /// A worker whose solving process is a shell script, and the one job that it has, with one attempt.
@@ -48,7 +48,7 @@ impl Scripted {
         let job = NewJob {
             plan: crate::estimate::plan(&resolved),
             spec,
-            wishes: Wishes::default(),
+            wishes: SubmitOptions::default(),
         };
         let id = store.submit(&job, 0).await.expect("queued");
         let rules = Rules {
@@ -194,7 +194,7 @@ async fn an_unwanted_job_whose_worker_is_lost_keeps_documents_of_what_was_comput
     let job = NewJob {
         plan: crate::estimate::plan(&resolved),
         spec: resolved.spec,
-        wishes: Wishes::default(),
+        wishes: SubmitOptions::default(),
     };
     let id = store.submit(&job, 0).await.expect("queued");
     let claim = store.claim(0, 10).await.expect("the store");

@@ -2,7 +2,7 @@
 
 use api::job::Outcome;
 
-use crate::queue::Move;
+use crate::queue::Transition;
 use crate::solve::{Line, UNWRITTEN};
 use crate::store::End;
 use crate::worker::child::{Ended, OUT_OF_MEMORY};
@@ -12,25 +12,29 @@ use crate::worker::child::{Ended, OUT_OF_MEMORY};
 pub(super) fn verdict(last: Option<Line>, ended: Ended, words: Option<String>) -> End {
     match (last, ended) {
         (Some(Line::Summary(summary)), _) => End {
-            step: Move::Succeed,
+            step: Transition::Succeed,
             reason: None,
             outcome: Some(summary.outcome),
             summary: Some(*summary),
         },
         (Some(Line::Failed(failure)), _) => End {
             outcome: Some(failure.outcome),
-            ..end(Move::Fail, failure.reason)
+            ..end(Transition::Fail, failure.reason)
         },
-        (Some(Line::Stopped), _) => end(Move::GiveBack, "its solving process was asked to stop"),
-        (_, Ended::Killed) => end(Move::Lose, "its solving process was killed"),
-        (_, Ended::Code(UNWRITTEN)) => {
-            end(Move::Lose, "its solving process could not write its files")
-        }
+        (Some(Line::Stopped), _) => end(
+            Transition::GiveBack,
+            "its solving process was asked to stop",
+        ),
+        (_, Ended::Killed) => end(Transition::Lose, "its solving process was killed"),
+        (_, Ended::Code(UNWRITTEN)) => end(
+            Transition::Lose,
+            "its solving process could not write its files",
+        ),
         (_, Ended::Crashed(signal)) => crashed(signal, words),
         (_, Ended::Code(code)) => End {
             outcome: Some(Outcome::NotConverged),
             ..end(
-                Move::Fail,
+                Transition::Fail,
                 format!(
                     "the solving process ended with code {code} and without a result{}",
                     said(words)
@@ -52,7 +56,7 @@ fn crashed(signal: i32, words: Option<String>) -> End {
     End {
         outcome: Some(outcome),
         ..end(
-            Move::Fail,
+            Transition::Fail,
             format!(
                 "the solving process crashed with signal {signal}{}",
                 said(words)
@@ -66,7 +70,7 @@ fn said(words: Option<String>) -> String {
 }
 
 /// An end without a result.
-pub(super) fn end(step: Move, reason: impl Into<String>) -> End {
+pub(super) fn end(step: Transition, reason: impl Into<String>) -> End {
     End {
         step,
         reason: Some(reason.into()),
@@ -82,21 +86,26 @@ mod tests {
     #[test]
     fn only_what_comes_from_outside_is_tried_again() {
         let cases = [
-            (None, Ended::Killed, Move::Lose, None),
-            (None, Ended::Code(UNWRITTEN), Move::Lose, None),
+            (None, Ended::Killed, Transition::Lose, None),
+            (None, Ended::Code(UNWRITTEN), Transition::Lose, None),
             (
                 None,
                 Ended::Code(1),
-                Move::Fail,
+                Transition::Fail,
                 Some(Outcome::NotConverged),
             ),
             (
                 None,
                 Ended::Crashed(6),
-                Move::Fail,
+                Transition::Fail,
                 Some(Outcome::NotConverged),
             ),
-            (Some(Line::Stopped), Ended::Code(0), Move::GiveBack, None),
+            (
+                Some(Line::Stopped),
+                Ended::Code(0),
+                Transition::GiveBack,
+                None,
+            ),
         ];
         for (last, ended, step, outcome) in cases {
             let found = verdict(last, ended, None);

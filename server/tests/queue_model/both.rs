@@ -3,8 +3,8 @@
 use api::job::Status;
 use proptest::prelude::*;
 use proptest::test_runner::TestCaseResult;
-use server::queue::{Move, place};
-use server::store::{Batch, Claim, End, Held, NewCheckpoint, NewJob, Store, Wishes};
+use server::queue::{Transition, place};
+use server::store::{Batch, Claim, End, Held, NewCheckpoint, NewJob, Store, SubmitOptions};
 use server::{estimate, spec};
 use tempfile::TempDir;
 
@@ -29,7 +29,7 @@ impl Both {
         let job = NewJob {
             spec: resolved.spec,
             plan,
-            wishes: Wishes::default(),
+            wishes: SubmitOptions::default(),
         };
         Self {
             store,
@@ -70,7 +70,7 @@ impl Both {
     }
 
     async fn submit(&mut self, priority: i32, deadline_s: Option<u32>) {
-        self.job.wishes = Wishes {
+        self.job.wishes = SubmitOptions {
             priority,
             deadline_s,
         };
@@ -110,7 +110,7 @@ impl Both {
             prop_assert_eq!(claim, None);
             return Ok(());
         };
-        job.moves(Move::Claim);
+        job.moves(Transition::Claim);
         job.attempts += 1;
         job.lease += 1;
         job.events += 1;
@@ -180,7 +180,7 @@ impl Both {
         Ok(())
     }
 
-    async fn end(&mut self, claim: usize, step: Move) -> TestCaseResult {
+    async fn end(&mut self, claim: usize, step: Transition) -> TestCaseResult {
         let Some((claim, index, held)) = self.claimed(claim) else {
             return Ok(());
         };
@@ -196,7 +196,7 @@ impl Both {
             .await;
         let job = &mut self.jobs[index];
         let moved = held && job.moves(step);
-        if moved && step == Move::GiveBack && job.status == Status::Queued {
+        if moved && step == Transition::GiveBack && job.status == Status::Queued {
             job.attempts -= 1;
         }
         prop_assert_eq!(answer.expect("the store"), moved.then_some(job.status));
@@ -215,7 +215,7 @@ impl Both {
         match job.status {
             _ if job.deleted => {}
             Status::Queued => {
-                job.moves(Move::Cancel);
+                job.moves(Transition::Cancel);
             }
             Status::Running => job.unwanted = true,
             _ => {}
@@ -232,7 +232,7 @@ impl Both {
         for job in &mut self.jobs {
             if job.status == Status::Running && job.expires_at <= self.now {
                 let mut after = job.clone();
-                after.moves(Move::Lose);
+                after.moves(Transition::Lose);
                 if after.status == Status::Queued {
                     *job = after;
                     queued += 1;
@@ -259,7 +259,7 @@ impl Both {
         for job in self.jobs.iter_mut().filter(|job| !job.deleted) {
             let late = job.deadline_at.is_some_and(|at| at <= self.now);
             if late && job.status == Status::Queued {
-                job.moves(Move::Expire);
+                job.moves(Transition::Expire);
                 expected += 1;
             }
         }

@@ -1,7 +1,7 @@
 //! The model of a job.
 
 use api::job::Status;
-use server::queue::{Move, Tries, after};
+use server::queue::{Transition, Tries, after};
 use uuid::Uuid;
 
 /// How often a job is tried.
@@ -26,7 +26,7 @@ pub(crate) struct Modelled {
 }
 
 impl Modelled {
-    pub(crate) fn moves(&mut self, step: Move) -> bool {
+    pub(crate) fn moves(&mut self, step: Transition) -> bool {
         let tries = Tries {
             made: self.attempts,
             limit: ATTEMPTS,

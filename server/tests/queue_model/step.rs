@@ -1,7 +1,7 @@
 //! What is done to the queue, drawn at random.
 
 use proptest::prelude::*;
-use server::queue::Move;
+use server::queue::Transition;
 
 /// How long a lease holds, ms.
 pub(crate) const LEASE_MS: i64 = 1_000;
@@ -41,12 +41,12 @@ pub(crate) enum Step {
     },
 }
 
-pub(crate) const ENDS: [Move; 5] = [
-    Move::Succeed,
-    Move::Fail,
-    Move::Cancel,
-    Move::GiveBack,
-    Move::Lose,
+pub(crate) const ENDS: [Transition; 5] = [
+    Transition::Succeed,
+    Transition::Fail,
+    Transition::Cancel,
+    Transition::GiveBack,
+    Transition::Lose,
 ];
 
 pub(crate) fn step() -> impl Strategy<Value = Step> {

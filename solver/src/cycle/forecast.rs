@@ -31,7 +31,7 @@ const ALIKE: f64 = 100.0;
 
 /// Increments of about one kind.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Stretch {
+pub struct Segment {
     /// Physical cycles done at its end.
     pub cycle: u64,
     /// Contact increments.
@@ -54,13 +54,13 @@ pub struct Forecast {
     /// How often each body is condensed: slider, receptacle.
     pub condensations: [u32; 2],
     /// Its increments, in order.
-    pub stretches: Vec<Stretch>,
+    pub segments: Vec<Segment>,
 }
 
 impl Forecast {
     /// Contact increments of the whole run.
     pub fn increments(&self) -> f64 {
-        self.stretches.iter().map(|part| part.increments).sum()
+        self.segments.iter().map(|part| part.increments).sum()
     }
 }
 
@@ -74,7 +74,7 @@ pub fn forecast(scene: &Scene, model: &Model) -> Forecast {
     let mut jump = JumpControl::default();
     let mut cycle = 0;
     while cycle < scene.cycles && !scar.ends(scene) {
-        if MOST_FOLLOWED <= run.stretches.len() {
+        if MOST_FOLLOWED <= run.segments.len() {
             run.go_on(cycle, scene.cycles);
             break;
         }
@@ -96,7 +96,7 @@ pub fn forecast(scene: &Scene, model: &Model) -> Forecast {
         jump.learn(&scar.widths, &before, &scar.depth, done);
         cycle += done;
         run.computed_cycles += real_cycles(together);
-        run.stretches.push(Stretch {
+        run.segments.push(Segment {
             cycle,
             increments: real_cycles(together) * real(steps + probes),
             steps,
@@ -123,15 +123,15 @@ impl Forecast {
     /// The rest of a long run goes on like its last computed cycle.
     fn go_on(&mut self, done: u64, cycles: u64) {
         let (Some(last), Some(before)) = (
-            self.stretches.last().copied(),
-            self.stretches.iter().rev().nth(1),
+            self.segments.last().copied(),
+            self.segments.iter().rev().nth(1),
         ) else {
             return;
         };
         let jump = real_cycles((last.cycle - before.cycle).max(1));
         let computed = real_cycles(cycles - done) / jump;
         self.computed_cycles += computed;
-        self.stretches.push(Stretch {
+        self.segments.push(Segment {
             cycle: cycles,
             increments: computed * last.increments,
             ..last

@@ -87,7 +87,7 @@ pub(super) fn steps(motion: Motion, accuracy: &Accuracy, half_width: f64) -> Vec
 }
 
 /// The steps that lead from the neutral position to where cycles begin.
-pub(super) fn set_out(steps: &[Step]) -> &[Step] {
+pub(super) fn initial_quarter(steps: &[Step]) -> &[Step] {
     let neutral = steps
         .iter()
         .rposition(|step| step.at == Some(Position::Neutral));
@@ -152,7 +152,7 @@ mod tests {
         );
         assert_eq!(steps[3].at, Some(Position::Leftmost));
         assert_eq!(steps[5].at, Some(Position::Neutral));
-        assert_eq!(places(set_out(&steps)), vec![1.0, 2.0]);
+        assert_eq!(places(initial_quarter(&steps)), vec![1.0, 2.0]);
     }
 
     #[test]
@@ -178,6 +178,6 @@ mod tests {
     fn a_continuous_motion_stays_where_it_is() {
         let steps = steps(Motion::Continuous { step_mm: 0.3 }, &ACCURACY, 0.1);
         assert_eq!((steps.len(), places(&steps)), (1, vec![0.0]));
-        assert_eq!(set_out(&steps), steps);
+        assert_eq!(initial_quarter(&steps), steps);
     }
 }

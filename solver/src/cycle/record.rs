@@ -1,6 +1,6 @@
 //! From the state of the integrator to what the histories keep.
 
-use super::{CycleState, Sweep};
+use super::{CycleRecord, CycleState};
 use crate::contact::ContactState;
 use crate::history::{
     CycleReport, DepthProfile, PlacedFields, Position, SideReport, Snapshot, TractionField,
@@ -58,7 +58,7 @@ pub fn report(scene: &Scene, model: &Model, state: &CycleState) -> CycleReport {
 pub fn snapshot(
     model: &Model,
     state: &CycleState,
-    sweep: Sweep,
+    record: CycleRecord,
     fields: Vec<PlacedFields>,
 ) -> Snapshot {
     let profile = |x: &[f64], depth: &[f64]| DepthProfile {
@@ -71,8 +71,8 @@ pub fn snapshot(
         cycle: state.cycle,
         receptacle: profile(x, &state.receptacle_depth),
         slider: profile(model.slider.contact_x(), &state.slider_depth),
-        positions: sweep.contacts.iter().map(at).collect(),
-        friction_loop: sweep.friction_loop,
+        positions: record.contacts.iter().map(at).collect(),
+        friction_loop: record.friction_loop,
         fields,
     }
 }

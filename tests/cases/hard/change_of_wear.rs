@@ -27,13 +27,13 @@ fn a_hundredfold_wear_coefficient_from_one_cycle_to_the_next_goes_through() {
         model.interface.receptacle_wear = k;
         let mut integrator = Integrator::new(&scene, &model, operators);
         if round == 0 {
-            integrator.settle(&mut state).expect("it settles");
-            integrator.set_out(&mut state).expect("it sets out");
+            integrator.apply_load(&mut state).expect("it settles");
+            integrator.initial_quarter(&mut state).expect("it sets out");
         }
         let until = state.cycle + 300;
         while state.cycle < until {
             integrator
-                .sweep(&mut state, until)
+                .compute_cycle(&mut state, until)
                 .expect("the cycle goes through");
         }
         expected += k * (state.friction_path - path);

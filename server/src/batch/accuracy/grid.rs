@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 use crate::spec;
 use crate::spec::Resolved;
 
-/// Levels of each setting: three show an order.
+/// Gauges of each setting: three show an order.
 pub(crate) const LEVELS: usize = 3;
 /// Fewest increments a cycle of the coarsest level.
 const FEWEST_INCREMENTS: u32 = 8;
@@ -85,10 +85,10 @@ impl Base {
     /// Of a scene that is expected to take so many seconds.
     pub(crate) fn of(scene: &Resolved, expected_s: f64) -> Self {
         let cycles = real(spec::cycles(&scene.spec));
-        let work = &scene.work;
+        let work = &scene.workload;
         Self {
             settings: Settings {
-                contact_element_mm: scene.size.contact_element_mm,
+                contact_element_mm: scene.footprint.contact_element_mm,
                 increments_per_cycle: work.most_increments,
                 cycle_jump: cycles / work.computed_cycles.max(1.0),
             },

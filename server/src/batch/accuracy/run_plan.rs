@@ -23,7 +23,7 @@ pub type Accept<'a> = dyn Fn(&Resolved) -> Result<(), Refused> + 'a;
 
 /// Why there are no runs.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub enum ProgrammeError {
+pub enum RunPlanError {
     /// Each is refused; the first of them for this reason.
     #[error("a run of the study: {0}")]
     Refused(#[from] Refused),
@@ -32,7 +32,7 @@ pub enum ProgrammeError {
         "the cheapest run is expected to take {least_s:.1} s; all together may be expected to take {:.1} s of a budget of {budget_s} s",
         EXPECTED_SHARE * budget_s
     )]
-    TooDear {
+    TooExpensive {
         /// The budget.
         budget_s: f64,
         /// What the cheapest run is expected to take.
@@ -100,7 +100,7 @@ pub struct Wanted {
 
 /// The runs of a study, in the order in which they are to be made.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Programme {
+pub struct RunPlan {
     /// The grid among them.
     pub grid: Grid,
     /// All runs: tolerances, then the grid, coarsest first.
@@ -109,21 +109,21 @@ pub struct Programme {
     pub left_out: Vec<String>,
 }
 
-impl Programme {
+impl RunPlan {
     /// The runs that are expected to fit into a budget of processor seconds, and that `accept` takes.
     ///
     /// # Errors
-    /// [`ProgrammeError`] if not even a coarse run can be meshed, is accepted and fits.
+    /// [`RunPlanError`] if not even a coarse run can be meshed, is accepted and fits.
     pub fn within(
         scene: &Resolved,
         machine: &MachineFigures,
         budget_s: f64,
         accept: &Accept<'_>,
-    ) -> Result<Self, ProgrammeError> {
+    ) -> Result<Self, RunPlanError> {
         let want = |asked: Asked| -> Result<Wanted, Refused> {
             let resolved = spec::scene(&child(&scene.spec, asked)).map_err(Refused::Faults)?;
             accept(&resolved)?;
-            let expected_s = machine::cpu_s(machine, &resolved.work);
+            let expected_s = machine::cpu_s(machine, &resolved.workload);
             Ok(Wanted {
                 asked,
                 resolved,
@@ -137,7 +137,7 @@ impl Programme {
             chosen.weigh(asked, want(asked), most_s);
         }
         let most_s = EXPECTED_SHARE * budget_s;
-        let base = Base::of(scene, machine::cpu_s(machine, &scene.work));
+        let base = Base::of(scene, machine::cpu_s(machine, &scene.workload));
         let pilot = base.pilot();
         let factor = want(Asked::Fixed(pilot))
             .map_or(1.0, |pilot_run| pilot_run.expected_s / base.cost_s(pilot));
@@ -190,13 +190,13 @@ impl Chosen {
     }
 
     /// A study without a run is none: the cheapest is too dear, or all are refused.
-    fn unless_empty(self, budget_s: f64) -> Result<Self, ProgrammeError> {
+    fn unless_empty(self, budget_s: f64) -> Result<Self, RunPlanError> {
         match (self.least_s, self.refused) {
             _ if !self.runs.is_empty() => Ok(Self {
                 refused: None,
                 ..self
             }),
-            (Some(least_s), _) => Err(ProgrammeError::TooDear { budget_s, least_s }),
+            (Some(least_s), _) => Err(RunPlanError::TooExpensive { budget_s, least_s }),
             (None, refused) => Err(refused.unwrap_or(Refused::Faults(Vec::new())).into()),
         }
     }
@@ -239,10 +239,10 @@ mod tests {
         }
     }
 
-    fn programme(budget_s: f64) -> Programme {
+    fn programme(budget_s: f64) -> RunPlan {
         let text = br#"{"system":{"kind":"cylinder_on_flat"},"cycles":300}"#;
         let scene = spec::read(text).expect("accepted");
-        Programme::within(&scene, &machine(), budget_s, &|_| Ok(())).expect("it can be studied")
+        RunPlan::within(&scene, &machine(), budget_s, &|_| Ok(())).expect("it can be studied")
     }
 
     #[test]
@@ -251,11 +251,11 @@ mod tests {
         assert!(expected_s(&small) <= 8.0 && expected_s(&large) <= 80.0);
         assert!(large.runs.len() >= small.runs.len());
         assert!(large.left_out.len() <= small.left_out.len());
-        let finest = |programme: &Programme| programme.grid.levels(0, 0, 0).contact_element_mm;
+        let finest = |programme: &RunPlan| programme.grid.levels(0, 0, 0).contact_element_mm;
         assert!(finest(&large) <= finest(&small));
     }
 
-    fn expected_s(programme: &Programme) -> f64 {
+    fn expected_s(programme: &RunPlan) -> f64 {
         programme.runs.iter().map(|run| run.expected_s).sum()
     }
 
@@ -263,7 +263,7 @@ mod tests {
     fn a_grid_that_does_not_fit_even_at_its_coarsest_loses_runs() {
         let text = br#"{"system":{"kind":"dimm"},"cycles":1000000,"accuracy":{"overrides":{"cycle_jump":1}}}"#;
         let scene = spec::read(text).expect("accepted");
-        let within = |budget_s| Programme::within(&scene, &machine(), budget_s, &|_| Ok(()));
+        let within = |budget_s| RunPlan::within(&scene, &machine(), budget_s, &|_| Ok(()));
         let programme = within(100.0).expect("some runs fit");
         assert!(
             expected_s(&programme) <= 100.0,
@@ -272,29 +272,29 @@ mod tests {
         );
         assert!(programme.left_out.len() > 9, "{:?}", programme.left_out);
         let none = within(0.01).map(|programme| programme.runs.len());
-        assert!(matches!(none, Err(ProgrammeError::TooDear { least_s, .. }) if least_s > 0.01));
+        assert!(matches!(none, Err(RunPlanError::TooExpensive { least_s, .. }) if least_s > 0.01));
     }
 
     #[test]
     fn the_finest_run_of_a_grid_is_one_that_is_accepted() {
         let text = br#"{"system":{"kind":"cylinder_on_flat"},"cycles":300}"#;
         let scene = spec::read(text).expect("accepted");
-        let most = 1.5 * scene.size.dofs;
+        let most = 1.5 * scene.footprint.dofs;
         let accept = |run: &Resolved| {
-            let fault = || Fault::new("/accuracy", format!("{} unknowns", run.size.dofs));
-            let small = run.size.dofs <= most;
+            let fault = || Fault::new("/accuracy", format!("{} unknowns", run.footprint.dofs));
+            let small = run.footprint.dofs <= most;
             small
                 .then_some(())
                 .ok_or_else(|| Refused::Faults(vec![fault()]))
         };
-        let programme = Programme::within(&scene, &machine(), 8e4, &accept).expect("some runs");
+        let programme = RunPlan::within(&scene, &machine(), 8e4, &accept).expect("some runs");
         let finest = Asked::Fixed(programme.grid.levels(0, 0, 0));
         assert!(programme.runs.iter().any(|run| run.asked == finest));
         assert!(
             programme
                 .runs
                 .iter()
-                .all(|run| run.resolved.size.dofs <= most)
+                .all(|run| run.resolved.footprint.dofs <= most)
         );
         let told = |line: &String| line.starts_with("tolerance") && line.ends_with("unknowns");
         assert!(
@@ -302,10 +302,10 @@ mod tests {
             "{:?}",
             programme.left_out
         );
-        let refused = Programme::within(&scene, &machine(), 8e4, &|_| {
+        let refused = RunPlan::within(&scene, &machine(), 8e4, &|_| {
             Err(Refused::Faults(vec![Fault::new("/output", "too much")]))
         });
-        assert!(matches!(refused, Err(ProgrammeError::Refused(_))));
+        assert!(matches!(refused, Err(RunPlanError::Refused(_))));
     }
 
     #[test]
@@ -313,7 +313,7 @@ mod tests {
         let text = br#"{"system":{"kind":"fuzz_button"},"accuracy":{"preset":"fine"}}"#;
         let scene = spec::read(text).expect("accepted");
         let programme =
-            Programme::within(&scene, &machine(), 86_400.0, &|_| Ok(())).expect("some runs");
+            RunPlan::within(&scene, &machine(), 86_400.0, &|_| Ok(())).expect("some runs");
         let finest = Asked::Fixed(programme.grid.levels(0, 0, 0));
         assert!(programme.runs.iter().any(|run| run.asked == finest));
     }

@@ -15,7 +15,7 @@ const PAUSE: Duration = Duration::from_mins(1);
 
 /// The figures of a machine, in memory and in a file.
 #[derive(Debug, Clone)]
-pub struct Kept {
+pub struct CalibrationCache {
     file: Option<PathBuf>,
     known: Arc<OnceLock<MachineFigures>>,
     /// Held while the machine is measured, so that it is measured once; and when that last failed.
@@ -23,7 +23,7 @@ pub struct Kept {
     measure: fn() -> Result<MachineFigures, MachineError>,
 }
 
-impl Kept {
+impl CalibrationCache {
     /// With what the file holds, if that belongs to this program.
     pub fn open(file: Option<PathBuf>) -> Self {
         let known = OnceLock::new();
@@ -159,9 +159,9 @@ mod tests {
             std::thread::sleep(Duration::from_millis(100));
             crate::estimate::machine::checked(figures())
         }
-        let kept = Kept {
+        let kept = CalibrationCache {
             measure: slowly,
-            ..Kept::open(None)
+            ..CalibrationCache::open(None)
         };
         for _ in 0..3 {
             // Asks, and leaves at once.
@@ -182,9 +182,9 @@ mod tests {
             TRIED.fetch_add(1, Ordering::SeqCst);
             Err(MachineError::Example("preset"))
         }
-        let kept = Kept {
+        let kept = CalibrationCache {
             measure: in_vain,
-            ..Kept::open(None)
+            ..CalibrationCache::open(None)
         };
         assert_eq!((kept.wait().await, kept.wait().await), (None, None));
         assert_eq!(TRIED.load(Ordering::SeqCst), 1);
@@ -195,30 +195,36 @@ mod tests {
         let folder = tempfile::tempdir().expect("a folder can be made");
         let file = folder.path().join("machine.json");
         write(&file, &figures());
-        assert_eq!(Kept::open(Some(file.clone())).known(), Some(&figures()));
+        assert_eq!(
+            CalibrationCache::open(Some(file.clone())).known(),
+            Some(&figures())
+        );
         let wrong = MachineFigures {
             increment_s: -1.0,
             ..figures()
         };
         write(&file, &wrong);
-        assert_eq!(Kept::open(Some(file)).known(), None);
+        assert_eq!(CalibrationCache::open(Some(file)).known(), None);
     }
 
     #[test]
     fn a_machine_is_measured_once_for_each_program() {
         let folder = tempfile::tempdir().expect("a folder can be made");
         let file = folder.path().join("cache").join("machine.json");
-        let first = Kept::open(Some(file.clone()));
+        let first = CalibrationCache::open(Some(file.clone()));
         assert_eq!(first.known(), None);
         let figures = first.measured().expect("it can be measured").clone();
         assert!(figures.increment_s > 0.0 && figures.condensation_dof_s >= 0.0);
-        assert_eq!(Kept::open(Some(file.clone())).known(), Some(&figures));
+        assert_eq!(
+            CalibrationCache::open(Some(file.clone())).known(),
+            Some(&figures)
+        );
 
         let other = MachineFigures {
             program: "another".to_owned(),
             ..figures
         };
         write(&file, &other);
-        assert_eq!(Kept::open(Some(file)).known(), None);
+        assert_eq!(CalibrationCache::open(Some(file)).known(), None);
     }
 }

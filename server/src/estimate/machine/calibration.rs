@@ -6,7 +6,7 @@ use api::plan::MachineFigures;
 use solver::observer::{Event, Flow, Observer, Phase};
 
 use crate::estimate::machine::{MachineError, NODES, checked, parts};
-use crate::estimate::workload::Work;
+use crate::estimate::workload::Workload;
 use crate::solve::thread_cpu_s;
 use crate::spec;
 
@@ -17,7 +17,7 @@ const POWERS: (f64, f64) = (1.0, 3.0);
 
 /// One small solve.
 struct Sample {
-    work: Work,
+    workload: Workload,
     increment_s: f64,
     condensation_s: f64,
 }
@@ -70,7 +70,7 @@ fn measure(specification: &str) -> Result<Sample, MachineError> {
     clock.enter(None);
     let increments = u32::try_from(summary.resolution.increments.max(1)).unwrap_or(u32::MAX);
     Ok(Sample {
-        work: resolved.work,
+        workload: resolved.workload,
         increment_s: clock.increments_s / f64::from(increments),
         condensation_s: clock.condensation_s,
     })
@@ -110,9 +110,9 @@ fn power_law(samples: &[Sample]) -> (f64, f64) {
     let points: Vec<[f64; 2]> = samples
         .iter()
         .map(|sample| {
-            let squares = sample.work.increments.iter();
+            let squares = sample.workload.increments.iter();
             let squares: f64 = squares.map(|(watched, many)| many * watched.powi(2)).sum();
-            let watched = (squares / sample.work.increments()).sqrt();
+            let watched = (squares / sample.workload.increments()).sqrt();
             [(watched / NODES).ln(), sample.increment_s.ln()]
         })
         .collect();
@@ -132,7 +132,7 @@ fn power_law(samples: &[Sample]) -> (f64, f64) {
 fn two_parts(samples: &[Sample]) -> [f64; 2] {
     let (mut a, mut b) = ([[0.0; 2]; 2], [0.0; 2]);
     for sample in samples {
-        let bodies = sample.work.condensations.map(|body| parts(&body));
+        let bodies = sample.workload.condensations.map(|body| parts(&body));
         let row = [0, 1].map(|k| (bodies[0][k] + bodies[1][k]) / sample.condensation_s);
         for i in 0..2 {
             b[i] += row[i];
@@ -172,7 +172,7 @@ mod tests {
         };
         let [small, large] = parts(&body);
         Sample {
-            work: Work {
+            workload: Workload {
                 computed_cycles: 1.0,
                 most_increments: 1,
                 increments: vec![(watched, 7.0)],

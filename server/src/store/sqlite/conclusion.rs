@@ -6,7 +6,7 @@ use api::results::Summary;
 use sqlx::{Sqlite, SqliteConnection, Transaction};
 use uuid::Uuid;
 
-use crate::queue::{Move, Tries, after};
+use crate::queue::{Transition, Tries, after};
 use crate::store::StoreError;
 use crate::store::sqlite::checkpoints;
 use crate::store::sqlite::queries::insert_event;
@@ -15,7 +15,7 @@ use crate::store::sqlite::queries::insert_event;
 #[derive(Debug, Clone, PartialEq)]
 pub struct End {
     /// The move: succeed, fail, cancel, lose or give back.
-    pub step: Move,
+    pub step: Transition,
     /// Why, in words.
     pub reason: Option<String>,
     /// How the solve ended.
@@ -52,7 +52,7 @@ pub(in crate::store) struct Limited {
 
 impl Limited {
     /// Whether a move ends a running job.
-    pub(in crate::store) fn ends(&self, step: Move) -> bool {
+    pub(in crate::store) fn ends(&self, step: Transition) -> bool {
         let status = after(Status::Running, step, self.tries, self.cancel_requested);
         status.is_some_and(Status::is_terminal)
     }
@@ -84,7 +84,7 @@ pub(in crate::store) async fn conclude(
     .bind(end.summary.as_ref().map(serde_json::to_string).transpose()?)
     .bind(status.is_terminal().then_some(now))
     .bind(progress)
-    .bind(i64::from(status == Status::Queued && end.step == Move::GiveBack))
+    .bind(i64::from(status == Status::Queued && end.step == Transition::GiveBack))
     .bind(i64::from(status.is_terminal()))
     .bind(id.to_string())
     .fetch_one(&mut **transaction)
@@ -111,7 +111,12 @@ pub(in crate::store) async fn end_waiting(
 ) -> Result<(), StoreError> {
     // Attempts decide about lost workers only.
     let tries = Tries { made: 0, limit: 0 };
-    let Some(status) = after(Status::Queued, end.step, tries, end.step == Move::Cancel) else {
+    let Some(status) = after(
+        Status::Queued,
+        end.step,
+        tries,
+        end.step == Transition::Cancel,
+    ) else {
         return Ok(());
     };
     let seq: i64 = sqlx::query_scalar(
@@ -121,7 +126,7 @@ pub(in crate::store) async fn end_waiting(
     .bind(status.as_str())
     .bind(&end.reason)
     .bind(end.outcome.map(Outcome::as_str))
-    .bind(end.step == Move::Cancel)
+    .bind(end.step == Transition::Cancel)
     .bind(now)
     .bind(id.to_string())
     .fetch_one(&mut *connection)
@@ -148,17 +153,19 @@ fn words(status: Status, tries: Tries, end: &End) -> (Option<String>, Option<Out
     let Tries { made, limit } = tries;
     let cause = end.reason.as_deref().unwrap_or("its worker was lost");
     match (end.step, status) {
-        (Move::Lose, Status::Queued) => (
+        (Transition::Lose, Status::Queued) => (
             Some(format!(
                 "attempt {made} of {limit}: {cause}; waiting for a worker"
             )),
             None,
         ),
-        (Move::Lose, Status::Failed) => (
+        (Transition::Lose, Status::Failed) => (
             Some(format!("worker_lost: {made} attempts; the last: {cause}")),
             Some(Outcome::WorkerLost),
         ),
-        (Move::GiveBack, Status::Queued) => (Some(format!("{cause}; waiting for a worker")), None),
+        (Transition::GiveBack, Status::Queued) => {
+            (Some(format!("{cause}; waiting for a worker")), None)
+        }
         (_, Status::Cancelled) => (Some("cancelled while running".to_owned()), end.outcome),
         _ => (end.reason.clone(), end.outcome),
     }

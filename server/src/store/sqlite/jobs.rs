@@ -7,7 +7,7 @@ use sqlx::{QueryBuilder, Sqlite, SqliteConnection, Transaction};
 use uuid::Uuid;
 
 use crate::queue;
-use crate::queue::Move;
+use crate::queue::Transition;
 use crate::store::sqlite::conclusion::{End, end_waiting};
 use crate::store::sqlite::document::{JobRow, timestamp};
 use crate::store::sqlite::queries::{BEGIN, insert_event};
@@ -24,12 +24,12 @@ pub struct NewJob {
     /// Its plan.
     pub plan: Plan,
     /// What else its user asked for.
-    pub wishes: Wishes,
+    pub wishes: SubmitOptions,
 }
 
 /// What a user may ask for besides the study itself.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-pub struct Wishes {
+pub struct SubmitOptions {
     /// How many minutes older it counts in the queue than it is.
     pub priority: i32,
     /// How long after its submission it fails unless it has ended, s.
@@ -243,7 +243,7 @@ pub(in crate::store) async fn cancel(
     };
     let did = if status == Status::Queued {
         let end = End {
-            step: Move::Cancel,
+            step: Transition::Cancel,
             reason: Some("cancelled while waiting".to_owned()),
             outcome: None,
             summary: None,
@@ -269,7 +269,7 @@ pub(in crate::store) async fn insert(
     now: i64,
 ) -> Result<Uuid, StoreError> {
     let id = Uuid::now_v7();
-    let Wishes {
+    let SubmitOptions {
         priority,
         deadline_s,
     } = job.wishes;

@@ -9,7 +9,7 @@ use sqlx::{Sqlite, Transaction};
 use uuid::Uuid;
 
 use crate::queue;
-use crate::queue::{Move, Tries};
+use crate::queue::{Transition, Tries};
 use crate::store::sqlite::checkpoints;
 use crate::store::sqlite::checkpoints::NewCheckpoint;
 use crate::store::sqlite::conclusion::{End, Standing, conclude};
@@ -181,7 +181,7 @@ impl Store {
     }
 
     /// Whether a worker's move ends a job rather than putting it back into the queue.
-    pub fn ends(&self, claim: &Claim, step: Move, cancel_requested: bool) -> bool {
+    pub fn ends(&self, claim: &Claim, step: Transition, cancel_requested: bool) -> bool {
         let tries = Tries {
             made: claim.attempt,
             limit: self.attempt_limit,

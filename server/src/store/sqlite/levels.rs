@@ -1,10 +1,10 @@
-//! Levels for `/metrics`, and whether the database can be written.
+//! Gauges for `/metrics`, and whether the database can be written.
 
 use std::time::{Duration, Instant};
 
 use api::job::Status;
 
-use crate::metrics::Levels;
+use crate::metrics::Gauges;
 use crate::store::{Store, StoreError};
 
 /// How long a write proves that the database can be written.
@@ -15,7 +15,7 @@ impl Store {
     ///
     /// # Errors
     /// [`StoreError`] if the database fails.
-    pub async fn levels(&self, now: i64) -> Result<Levels, StoreError> {
+    pub async fn levels(&self, now: i64) -> Result<Gauges, StoreError> {
         let found: Vec<(String, i64, i64)> =
             sqlx::query_as("SELECT status, count(*), min(created_at) FROM jobs GROUP BY status")
                 .fetch_all(&self.readers)
@@ -35,7 +35,7 @@ impl Store {
         .fetch_one(&self.readers)
         .await?;
         let wal = tokio::fs::metadata(&self.wal).await;
-        Ok(Levels {
+        Ok(Gauges {
             jobs,
             oldest_checkpoint_s: oldest.map_or(0, |written| seconds(now, written)),
             // There is none before the first write.

@@ -2,7 +2,7 @@
 
 use uuid::Uuid;
 
-use crate::queue::Move;
+use crate::queue::Transition;
 use crate::store::sqlite::conclusion::{End, Standing, conclude};
 use crate::store::sqlite::leases::Claim;
 use crate::store::sqlite::queries::{BEGIN, job_id};
@@ -10,7 +10,7 @@ use crate::store::{Store, StoreError};
 
 /// What was taken back.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
-pub struct Rescued {
+pub struct Reclaimed {
     /// How many jobs wait in the queue again.
     pub queued: usize,
     /// Jobs that are not tried again. They are held here, so that what they left can be gathered before they end.
@@ -58,7 +58,7 @@ impl Store {
     ///
     /// # Errors
     /// [`StoreError`] if the database fails.
-    pub async fn rescue_expired(&self, by: i64, expires_at: i64) -> Result<Rescued, StoreError> {
+    pub async fn rescue_expired(&self, by: i64, expires_at: i64) -> Result<Reclaimed, StoreError> {
         self.rescue(by, expires_at, "its worker was lost").await
     }
 
@@ -66,7 +66,7 @@ impl Store {
     ///
     /// # Errors
     /// [`StoreError`] if the database fails.
-    pub async fn rescue_all(&self, expires_at: i64) -> Result<Rescued, StoreError> {
+    pub async fn rescue_all(&self, expires_at: i64) -> Result<Reclaimed, StoreError> {
         let reason = "the service was ended while it ran";
         self.rescue(i64::MAX, expires_at, reason).await
     }
@@ -76,7 +76,7 @@ impl Store {
         by: i64,
         expires_at: i64,
         reason: &'static str,
-    ) -> Result<Rescued, StoreError> {
+    ) -> Result<Reclaimed, StoreError> {
         let mut transaction = self.writer.begin_with(BEGIN).await?;
         let lost: Vec<Lost> = sqlx::query_as(
             "SELECT id, spec, attempts, cancel_requested, deadline_at, memory_mb FROM jobs \
@@ -86,7 +86,7 @@ impl Store {
         .fetch_all(&mut *transaction)
         .await?;
         let end = End {
-            step: Move::Lose,
+            step: Transition::Lose,
             reason: Some(reason.to_owned()),
             outcome: None,
             summary: None,
@@ -116,7 +116,7 @@ impl Store {
         for _ in 0..back.len() + ending.len() {
             self.metrics.rescues.inc();
         }
-        Ok(Rescued {
+        Ok(Reclaimed {
             queued: back.len(),
             ending,
             reason,

@@ -2,7 +2,7 @@
 
 use uuid::Uuid;
 
-use crate::queue::Move;
+use crate::queue::Transition;
 use crate::store::sqlite::conclusion::{End, end_waiting};
 use crate::store::sqlite::queries::{BEGIN, job_id};
 use crate::store::{Store, StoreError};
@@ -24,7 +24,7 @@ impl Store {
                 .fetch_all(&mut *transaction)
                 .await?;
         let end = End {
-            step: Move::Expire,
+            step: Transition::Expire,
             reason: Some("its deadline passed while it waited".to_owned()),
             outcome: Some(Outcome::DeadlineExceeded),
             summary: None,

@@ -28,7 +28,9 @@ async fn sweeping_after_an_attempt_leaves_what_the_next_one_is_about_to_name() {
         files: vec![file],
         ..Batch::default()
     };
-    let ended = store.end(&fresh, &batch, &end(Move::Succeed), 30).await;
+    let ended = store
+        .end(&fresh, &batch, &end(Transition::Succeed), 30)
+        .await;
     assert_eq!(ended.expect("the store"), Some(Status::Succeeded));
     store.sweep_files(Some(&fresh)).await.expect("the store");
     let (_, content) = store

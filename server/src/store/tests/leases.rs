@@ -22,7 +22,7 @@ async fn a_worker_that_lost_its_lease_writes_nothing() {
     assert_eq!(store.held(&stale).await.expect("the store"), Held::No);
     assert_eq!(
         store
-            .end(&stale, &batch(8), &end(Move::Succeed), 60)
+            .end(&stale, &batch(8), &end(Transition::Succeed), 60)
             .await
             .expect("the store"),
         None
@@ -41,7 +41,7 @@ async fn a_worker_that_lost_its_lease_writes_nothing() {
         }
     );
     let status = store
-        .end(&fresh, &batch(2), &end(Move::Succeed), 60)
+        .end(&fresh, &batch(2), &end(Transition::Succeed), 60)
         .await
         .expect("the store");
     assert_eq!(status, Some(Status::Succeeded));
@@ -88,7 +88,7 @@ async fn giving_a_job_back_costs_no_attempt() {
         let claim = fixture.claimed(10).await;
         let status = fixture
             .store
-            .end(&claim, &Batch::default(), &end(Move::GiveBack), 2)
+            .end(&claim, &Batch::default(), &end(Transition::GiveBack), 2)
             .await
             .expect("the store");
         assert_eq!(status, Some(Status::Queued));
@@ -150,7 +150,7 @@ async fn event_numbers_have_no_gaps() {
         .expect("the store");
     fixture
         .store
-        .end(&claim, &Batch::default(), &end(Move::Fail), 3)
+        .end(&claim, &Batch::default(), &end(Transition::Fail), 3)
         .await
         .expect("the store");
     let events = fixture.store.events(id, 0).await.expect("the store");
@@ -178,7 +178,7 @@ async fn every_end_is_counted_wherever_it_comes_from() {
     let cancelled = fixture.queued().await;
     store.cancel(cancelled, 1).await.expect("the store");
     store.cancel(cancelled, 2).await.expect("the store");
-    let late = Wishes {
+    let late = SubmitOptions {
         priority: 0,
         deadline_s: Some(1),
     };

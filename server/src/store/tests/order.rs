@@ -50,7 +50,7 @@ async fn a_preferred_job_goes_first_and_a_large_one_says_what_it_waits_for() {
     let fixture = Fixture::new().await;
     let plain = fixture.queued().await;
     let preferred = fixture
-        .wished(Wishes {
+        .wished(SubmitOptions {
             priority: 1,
             deadline_s: None,
         })
@@ -70,7 +70,7 @@ async fn a_preferred_job_goes_first_and_a_large_one_says_what_it_waits_for() {
 #[tokio::test]
 async fn a_deadline_ends_a_waiting_job_and_only_old_ends_are_deleted() {
     let fixture = Fixture::new().await;
-    let wishes = Wishes {
+    let wishes = SubmitOptions {
         priority: 0,
         deadline_s: Some(5),
     };

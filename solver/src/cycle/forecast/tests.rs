@@ -27,13 +27,13 @@ fn a_run_counts_to_its_last_cycle_and_rebuilds_what_has_drifted() {
     let scene = fuzz_button();
     let model = build(&scene).expect("it can be meshed");
     let run = forecast(&scene, &model);
-    let last = run.stretches.last().expect("some cycles");
+    let last = run.segments.last().expect("some cycles");
     assert_eq!(last.cycle, scene.cycles);
     // The block loses three quarters of its height; the slider does not wear.
     assert_eq!(run.condensations[0], 1);
     assert_eq!(run.condensations[1], 2);
     // Jumps widen the contact, so that later cycles have fewer increments.
-    assert!(last.steps < run.stretches[0].steps);
+    assert!(last.steps < run.segments[0].steps);
 }
 
 #[test]
@@ -52,7 +52,7 @@ fn a_tighter_tolerance_costs_more_cycles_of_more_increments() {
     assert!(tight.0 < real_cycles(fuzz_button().cycles));
 }
 
-/// A run of a million cycles, each computed in 200 000 increments, is foreseen in some thousand stretches.
+/// A run of a million cycles, each computed in 200 000 increments, is foreseen in some thousand segments.
 #[test]
 fn a_fixed_jump_is_foreseen_in_few_stretches() {
     let mut scene = fuzz_button();
@@ -60,7 +60,7 @@ fn a_fixed_jump_is_foreseen_in_few_stretches() {
     scene.accuracy.cycle_jump = Some(1);
     scene.accuracy.increments_per_cycle = Some(1_000_000);
     let run = forecast(&scene, &build(&scene).expect("it can be meshed"));
-    let last = run.stretches.last().expect("some cycles").cycle;
-    assert!(run.stretches.len() < 2_000, "{}", run.stretches.len());
+    let last = run.segments.last().expect("some cycles").cycle;
+    assert!(run.segments.len() < 2_000, "{}", run.segments.len());
     assert!((run.computed_cycles - real_cycles(last)).abs() < 0.5);
 }

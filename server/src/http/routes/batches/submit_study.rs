@@ -12,7 +12,7 @@ use axum::response::{IntoResponse, Response};
 use uuid::Uuid;
 
 use crate::batch::accuracy;
-use crate::batch::accuracy::{BUDGET_S, Programme, ProgrammeError};
+use crate::batch::accuracy::{BUDGET_S, RunPlan, RunPlanError};
 use crate::clock::now_ms;
 use crate::estimate::machine;
 use crate::http::App;
@@ -25,7 +25,7 @@ use crate::http::routes::batches::show_study::{StudyShowError, document};
 use crate::http::routes::jobs::submit::SubmitError;
 use crate::queue;
 use crate::spec::{Refused, Resolved};
-use crate::store::{NewJob, NewSweep, StoreError, StudyPlan, Submitted, Wishes};
+use crate::store::{NewJob, NewSweep, StoreError, StudyPlan, SubmitOptions, Submitted};
 
 /// Studies whose runs are chosen at once: each keeps a processor busy for seconds.
 pub(in crate::http) const AT_ONCE: usize = 2;
@@ -53,11 +53,11 @@ impl From<Refused> for SubmitStudyError {
     }
 }
 
-impl From<ProgrammeError> for SubmitStudyError {
-    fn from(error: ProgrammeError) -> Self {
+impl From<RunPlanError> for SubmitStudyError {
+    fn from(error: RunPlanError) -> Self {
         Self::from(match error {
-            ProgrammeError::Refused(refused) => accuracy::request::of_base(refused),
-            ProgrammeError::TooDear { .. } => {
+            RunPlanError::Refused(refused) => accuracy::request::of_base(refused),
+            RunPlanError::TooExpensive { .. } => {
                 Refused::Faults(vec![Fault::new("/budget_s", error.to_string())])
             }
         })
@@ -127,7 +127,7 @@ pub(in crate::http) async fn submit_study(
         let job = NewJob {
             plan: machine::plan(&run.resolved, Some(&machine)),
             spec: run.resolved.spec,
-            wishes: Wishes {
+            wishes: SubmitOptions {
                 priority: queue::sweep_priority(position),
                 deadline_s: None,
             },
@@ -155,10 +155,10 @@ pub(in crate::http) async fn submit_study(
 fn choose(
     request: &StudyRequest,
     machine: &MachineFigures,
-) -> Result<(Resolved, Programme), SubmitStudyError> {
+) -> Result<(Resolved, RunPlan), SubmitStudyError> {
     let scene = accuracy::request::scene(request)?;
     let budget_s = request.budget_s.unwrap_or(BUDGET_S);
-    let programme = Programme::within(&scene, machine, budget_s, &limits::check)?;
+    let programme = RunPlan::within(&scene, machine, budget_s, &limits::check)?;
     Ok((scene, programme))
 }
 
@@ -177,7 +177,7 @@ mod tests {
     use serde_json::json;
     use tokio::sync::Semaphore;
 
-    use crate::estimate::machine::Kept;
+    use crate::estimate::machine::CalibrationCache;
     use crate::http::tests::{STUDY, Service};
 
     #[tokio::test]
@@ -215,7 +215,7 @@ mod tests {
     async fn a_budget_that_not_even_one_run_fits_into_is_refused() {
         let mut service = Service::new().await;
         let known = service.app.machine.known().expect("figures").clone();
-        service.app.machine = Kept::of(MachineFigures {
+        service.app.machine = CalibrationCache::of(MachineFigures {
             increment_s: 1e3,
             ..known
         });

@@ -18,7 +18,7 @@ use crate::http::request_key::{KeyError, request_key};
 use crate::http::routes::jobs::submit::SubmitError;
 use crate::queue;
 use crate::spec::Refused;
-use crate::store::{NewJob, NewSweep, StoreError, Submitted, Wishes};
+use crate::store::{NewJob, NewSweep, StoreError, SubmitOptions, Submitted};
 
 /// Why a sweep was not queued.
 #[derive(Debug, thiserror::Error)]
@@ -88,7 +88,7 @@ pub(in crate::http) async fn submit_sweep(
         .map(|(position, variation)| {
             let plan = machine::plan(&variation.resolved, app.machine.known());
             let spec = variation.resolved.spec;
-            let wishes = Wishes {
+            let wishes = SubmitOptions {
                 priority: queue::sweep_priority(position),
                 deadline_s: None,
             };

@@ -24,7 +24,7 @@ use crate::http::routes::jobs::show::retry_after_s;
 use crate::queue::MOST_PRIORITY;
 use crate::spec;
 use crate::spec::{Refused, Resolved};
-use crate::store::{NewJob, StoreError, Submitted, Wishes};
+use crate::store::{NewJob, StoreError, SubmitOptions, Submitted};
 
 /// Why a study was not queued.
 #[derive(Debug, thiserror::Error)]
@@ -102,12 +102,12 @@ pub(in crate::http) struct SubmitQuery {
 }
 
 impl SubmitQuery {
-    fn wishes(&self) -> Result<Wishes, SubmitError> {
+    fn wishes(&self) -> Result<SubmitOptions, SubmitError> {
         // Without `abs`, which the smallest number does not have.
         if !(-MOST_PRIORITY..=MOST_PRIORITY).contains(&self.priority) {
             return Err(SubmitError::Priority(self.priority));
         }
-        Ok(Wishes {
+        Ok(SubmitOptions {
             priority: self.priority,
             deadline_s: self.deadline_s,
         })

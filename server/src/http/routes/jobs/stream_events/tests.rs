@@ -1,7 +1,7 @@
 //! Streams that replay, follow and end.
 
 use crate::http::tests::Service;
-use crate::queue::Move;
+use crate::queue::Transition;
 use crate::store::{Batch, End};
 
 /// Names and ids of a stream's events.
@@ -40,7 +40,7 @@ async fn finished(service: &Service) -> String {
         .await
         .expect("the store");
     let end = End {
-        step: Move::Succeed,
+        step: Transition::Succeed,
         reason: None,
         outcome: None,
         summary: None,

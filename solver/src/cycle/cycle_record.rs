@@ -29,7 +29,7 @@ impl Neutral {
 
 /// What one computed cycle recorded besides the state.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub struct Sweep {
+pub struct CycleRecord {
     /// Friction force over the imposed displacement.
     pub friction_loop: FrictionLoop,
     /// Contact at the leftmost, neutral and rightmost position.
