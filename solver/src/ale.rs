@@ -1,4 +1,4 @@
-//! Moving the mesh after the worn surface (ALE): the Lagrangian step is the contact solve, this is the Eulerian one.
+//! Mesh relocation (ALE): the contact solve is the Lagrangian step, this is the Eulerian one.
 //!
 //! A worn surface is a graph over vertical spines; its nodes recede along them and the nodes below keep their
 //! share of the spine's length, the closed form of smoothing along a spine. Topology never changes, and the only
@@ -6,9 +6,9 @@
 
 mod spines;
 
-use crate::cycle::CycleState;
 use crate::mesh::MeshError;
 use crate::model::{BodyModel, Model};
+use crate::sides::{Side, Sides};
 
 pub use spines::Spines;
 pub(crate) use spines::WORN_THROUGH_SHARE;
@@ -22,40 +22,32 @@ pub(crate) fn drift_share(tolerance: f64) -> f64 {
     (25.0 * tolerance).clamp(0.05, 0.5)
 }
 
-/// Whether the geometry has changed enough since the operators were built to build them again.
-pub fn has_drifted(model: &Model, state: &CycleState, tolerance: f64) -> bool {
+/// Whether the geometry has changed enough since the operators were built to rebuild them; worn depths in mm.
+pub fn has_drifted(model: &Model, depth: &Sides<Vec<f64>>, tolerance: f64) -> bool {
     let share = drift_share(tolerance);
-    drift(&model.receptacle, &state.receptacle_depth, -1.0) > share
-        || drift(&model.slider, &state.slider_depth, 1.0) > share
-}
-
-/// The model with its meshes moved to the worn surfaces.
-///
-/// # Errors
-/// [`MeshError::Inverted`] if an element would be inverted.
-pub fn relocate(model: &Model, state: &CycleState) -> Result<Model, MeshError> {
-    worn_model(model, &state.receptacle_depth, &state.slider_depth)
+    let drifted = |side: &Side| drift(model.bodies.of(*side), depth.of(*side), *side) > share;
+    Side::BOTH.iter().any(drifted)
 }
 
 /// The model with its meshes moved to surfaces worn by these depths at the contact nodes, mm.
 ///
 /// # Errors
 /// [`MeshError::Inverted`] if an element would be inverted.
-pub fn worn_model(model: &Model, receptacle: &[f64], slider: &[f64]) -> Result<Model, MeshError> {
+pub fn relocate(model: &Model, depth: &Sides<Vec<f64>>) -> Result<Model, MeshError> {
     let mut moved = model.clone();
-    let surface = worn(&model.receptacle, receptacle, -1.0);
-    moved.receptacle.mesh = model.receptacle.mesh.with_surface(surface);
-    moved.slider.mesh = model
-        .slider
-        .mesh
-        .with_surface(worn(&model.slider, slider, 1.0));
-    moved.receptacle.mesh.quality()?;
-    moved.slider.mesh.quality()?;
+    for (side, body) in [
+        (Side::Receptacle, &mut moved.bodies.receptacle),
+        (Side::Slider, &mut moved.bodies.slider),
+    ] {
+        let surface = worn(body, depth.of(side), side);
+        body.mesh = body.mesh.with_surface(surface);
+        body.mesh.quality()?;
+    }
     Ok(moved)
 }
 
-/// Heights of all surface nodes when the contact nodes have receded by `depth` in `direction`.
-fn worn(body: &BodyModel, depth: &[f64], direction: f64) -> Vec<f64> {
+/// Heights of all surface nodes when the contact nodes have receded by `depth`.
+fn worn(body: &BodyModel, depth: &[f64], side: Side) -> Vec<f64> {
     let mut surface: Vec<f64> = body
         .mesh
         .x()
@@ -66,14 +58,14 @@ fn worn(body: &BodyModel, depth: &[f64], direction: f64) -> Vec<f64> {
         .iter_mut()
         .zip(depth)
     {
-        *y += direction * depth;
+        *y += side.recession() * depth;
     }
     surface
 }
 
 /// Largest change of a contact spine since the mesh was built, over its length then.
-fn drift(body: &BodyModel, depth: &[f64], direction: f64) -> f64 {
-    let worn = worn(body, depth, direction);
+fn drift(body: &BodyModel, depth: &[f64], side: Side) -> f64 {
+    let worn = worn(body, depth, side);
     let built = body.mesh.surface_y();
     (body.contact.0..body.contact.1)
         .map(|i| (worn[i] - built[i]).abs() / (body.mesh.far_y() - built[i]).abs())

@@ -1,8 +1,8 @@
-//! Checkpoints: all that the rest of a run depends on, besides its scene.
+//! Checkpoints: everything that the rest of a run depends on besides its scene.
 //!
 //! Meshes and operators are not part of it. The mesh of a run is the unworn one with its surfaces moved to the depths
 //! at which the operators were last built, and the operators follow from the mesh; building both again from these
-//! depths gives the same bits, so a resumed run cannot be told from one that was never disturbed.
+//! depths gives the same bits, so a resumed run gives the same bits as an undisturbed one.
 
 use serde::{Deserialize, Serialize};
 
@@ -11,25 +11,19 @@ use crate::cycle::CycleState;
 use crate::history::Initial;
 use crate::mesh::MeshError;
 use crate::model::Model;
+use crate::sides::Sides;
 
-/// A run between two computed cycles. It keeps its bits when it is written and read, as long as the format keeps those
-/// of its numbers.
+/// A run between two computed cycles. It survives serialisation bit for bit in any format that preserves `f64`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Checkpoint {
     pub(crate) state: CycleState,
     pub(crate) initial: Initial,
-    pub(crate) built: Option<BuiltAt>,
+    /// Worn depths at which the operators were last rebuilt, mm.
+    pub(crate) built: Option<Sides<Vec<f64>>>,
     pub(crate) relocations: u64,
 }
 
-/// Worn depths at which the operators were last built, mm.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub(crate) struct BuiltAt {
-    receptacle_depth: Vec<f64>,
-    slider_depth: Vec<f64>,
-}
-
-/// Why a checkpoint does not belong to a scene.
+/// Mismatch between a checkpoint and a scene.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 pub enum Misfit {
     /// The scene has another mesh.
@@ -58,24 +52,21 @@ impl Checkpoint {
         self.state.cycle
     }
 
-    /// The model that the run had here, from the unworn one.
+    /// The model at this checkpoint, from the unworn one.
     pub(crate) fn model(&self, unworn: Model) -> Result<Model, MeshError> {
         match &self.built {
             None => Ok(unworn),
-            Some(built) => ale::worn_model(&unworn, &built.receptacle_depth, &built.slider_depth),
+            Some(depth) => ale::relocate(&unworn, depth),
         }
     }
 
-    /// Notes that the operators are now built at the present depths.
+    /// Records that the operators are rebuilt at the present depths.
     pub(crate) fn relocated(&mut self) {
-        self.built = Some(BuiltAt {
-            receptacle_depth: self.state.receptacle_depth.clone(),
-            slider_depth: self.state.slider_depth.clone(),
-        });
+        self.built = Some(self.state.depth.clone());
         self.relocations += 1;
     }
 
-    /// Whether it can be one of a run of this many cycles on this unworn model.
+    /// Checks that it belongs to a run of this many cycles on this unworn model.
     pub(crate) fn check(&self, unworn: &Model, cycles: u64) -> Result<(), Misfit> {
         if self.state.cycle > cycles {
             return Err(Misfit::Beyond {
@@ -84,20 +75,22 @@ impl Checkpoint {
             });
         }
         let contact = &self.state.contact;
-        let n = unworn.receptacle.contact_x().len();
-        let m = unworn.slider.contact_x().len();
+        let n = unworn.bodies.receptacle.contact_x().len();
+        let m = unworn.bodies.slider.contact_x().len();
         let at_receptacle = [
             contact.status.len(),
             contact.pressure.len(),
             contact.shear.len(),
-            contact.receptacle_force.len() / 2,
-            self.state.receptacle_depth.len(),
-            self.built.as_ref().map_or(n, |b| b.receptacle_depth.len()),
+            contact.force.receptacle.len() / 2,
+            self.state.depth.receptacle.len(),
+            self.built
+                .as_ref()
+                .map_or(n, |depth| depth.receptacle.len()),
         ];
         let at_slider = [
-            contact.slider_force.len() / 2,
-            self.state.slider_depth.len(),
-            self.built.as_ref().map_or(m, |b| b.slider_depth.len()),
+            contact.force.slider.len() / 2,
+            self.state.depth.slider.len(),
+            self.built.as_ref().map_or(m, |depth| depth.slider.len()),
         ];
         all_are("receptacle", &at_receptacle, n)?;
         all_are("slider", &at_slider, m)

@@ -9,13 +9,11 @@ mod compliance;
 
 use crate::linear::{CholeskyFactor, CholeskyPattern, FactorError};
 use crate::model::{BodyModel, Model, Profile, Support};
+use crate::sides::{Side, Sides};
 use assembly::Numbering;
 use std::sync::Arc;
 
 pub use compliance::{Block, Compliance};
-
-const SLIDER: &str = "slider";
-const RECEPTACLE: &str = "receptacle";
 
 /// Why operators cannot be built.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
@@ -39,13 +37,7 @@ pub enum OperatorError {
 }
 
 /// Condensed operators of both bodies.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Operators {
-    /// The slider's.
-    pub slider: BodyOperators,
-    /// The receptacle's.
-    pub receptacle: BodyOperators,
-}
+pub type Operators = Sides<BodyOperators>;
 
 /// One body seen from its contact surface.
 #[derive(Debug, Clone, PartialEq)]
@@ -66,12 +58,10 @@ pub struct BodyOperators {
 /// Condensed operators, and the factors behind them.
 #[derive(Debug)]
 pub struct Condensed {
-    /// What the contact needs.
+    /// Operators of the contact surfaces.
     pub operators: Operators,
-    /// The slider's interior.
-    pub slider: Interior,
-    /// The receptacle's interior.
-    pub receptacle: Interior,
+    /// Factored interiors.
+    pub interior: Sides<Interior>,
 }
 
 /// The factored stiffness of a body: gives interior displacements back.
@@ -87,9 +77,8 @@ pub struct Interior {
 /// # Errors
 /// [`OperatorError`] if an element is inverted or a body is not held.
 pub fn condense(model: &Model) -> Result<Condensed, OperatorError> {
-    let slider = condense_body(&model.slider, SLIDER, None)?;
-    let receptacle = condense_body(&model.receptacle, RECEPTACLE, None)?;
-    Ok(Condensed::of(slider, receptacle))
+    let bodies = Sides::from_fn(|side| condense_body(model.bodies.of(side), side, None));
+    Ok(Condensed::of(bodies.transpose()?))
 }
 
 /// Condenses again what has changed from a model of the same topology to the next: a body whose mesh is the same
@@ -102,51 +91,45 @@ pub fn renew(
     before: &Model,
     earlier: Condensed,
 ) -> Result<Condensed, OperatorError> {
-    let again = |now: &BodyModel, then: &BodyModel, name, operators, inside: Interior| {
-        if now.mesh == then.mesh {
-            return Ok((operators, inside));
+    let renew_body = |side: Side, (operators, interior): (BodyOperators, Interior)| {
+        let body = model.bodies.of(side);
+        if body.mesh == before.bodies.of(side).mesh {
+            return Ok((operators, interior));
         }
-        let pattern = Some(inside.factor.pattern().clone());
-        drop(inside);
-        condense_body(now, name, pattern)
+        let pattern = Some(interior.factor.pattern().clone());
+        // The old factor is freed before the new one is computed.
+        drop(interior);
+        condense_body(body, side, pattern)
     };
-    let Operators { slider, receptacle } = earlier.operators;
-    let slider = again(
-        &model.slider,
-        &before.slider,
-        SLIDER,
-        slider,
-        earlier.slider,
-    )?;
-    let below = earlier.receptacle;
-    let receptacle = again(
-        &model.receptacle,
-        &before.receptacle,
-        RECEPTACLE,
-        receptacle,
-        below,
-    )?;
-    Ok(Condensed::of(slider, receptacle))
+    let Sides { slider, receptacle } = earlier.operators.zip(earlier.interior);
+    Ok(Condensed::of(Sides {
+        slider: renew_body(Side::Slider, slider)?,
+        receptacle: renew_body(Side::Receptacle, receptacle)?,
+    }))
 }
 
 impl Condensed {
-    fn of(slider: (BodyOperators, Interior), receptacle: (BodyOperators, Interior)) -> Self {
+    fn of(bodies: Sides<(BodyOperators, Interior)>) -> Self {
+        let Sides { slider, receptacle } = bodies;
         Self {
-            operators: Operators {
+            operators: Sides {
                 slider: slider.0,
                 receptacle: receptacle.0,
             },
-            slider: slider.1,
-            receptacle: receptacle.1,
+            interior: Sides {
+                slider: slider.1,
+                receptacle: receptacle.1,
+            },
         }
     }
 }
 
 fn condense_body(
     model: &BodyModel,
-    body: &'static str,
+    side: Side,
     pattern: Option<Arc<CholeskyPattern>>,
 ) -> Result<(BodyOperators, Interior), OperatorError> {
+    let body = side.name();
     let numbering = Numbering::new(model);
     let matrix = assembly::assemble(model, &numbering)
         .map_err(|element| OperatorError::Inverted { body, element })?;
@@ -154,12 +137,12 @@ fn condense_body(
     let pattern = match pattern {
         Some(pattern) => pattern,
         None => Arc::new(
-            CholeskyPattern::new(matrix.starts, matrix.rows, numbering.kept)
+            CholeskyPattern::new(matrix.starts, matrix.rows, numbering.retained)
                 .map_err(factor_error)?,
         ),
     };
     let factor = pattern.factor(&matrix.values).map_err(factor_error)?;
-    let compliance = numbering.spread(&factor.kept_inverse());
+    let compliance = numbering.expand(&factor.retained_inverse());
     let far_load = match model.support {
         Support::FarFaceHeld => vec![0.0; numbering.order()],
         Support::GuidedUnderPressure => assembly::far_face_load(model, &numbering),
@@ -171,7 +154,7 @@ fn condense_body(
         widths: model.contact_widths(),
         profile: model.profile,
         compliance,
-        load_response: numbering.spread_vector(&response),
+        load_response: numbering.expand_vector(&response),
     };
     Ok((
         operators,

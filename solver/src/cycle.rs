@@ -1,49 +1,45 @@
 //! The cycle integrator: contact increments in which one computed cycle stands for many physical ones.
 //!
-//! The motion begins at the neutral position and goes to +x. Its first quarter only brings the contact into gross
-//! slip; cycles are then computed from turning point to turning point, and the wear of the first quarter is made
-//! up by the last one of the last cycle. After N cycles every place has been passed 2 N times either way.
+//! The motion begins at the neutral position toward +x. Its initial quarter only brings the contact into gross slip;
+//! cycles are then computed from turning point to turning point, and the last quarter of the last cycle replaces the wear
+//! of the initial one. After N cycles every point has been passed 2 N times.
 //!
-//! Normals are taken from the worn surface at the beginning of a computed cycle. The step that a single pass digs
-//! in front of the slider belongs to the wear law, not to the geometry of the scar: with a jump it would be
-//! `jump` times too high, and its slope would load the contact like a wall.
+//! Normals are those of the worn surface at the beginning of a computed cycle. The leading-edge step that a single pass
+//! wears belongs to the wear law, not to the geometry of the scar: with a jump it would be `jump` times too high, and its
+//! slope would load the contact like a wall.
 
 mod cycle_record;
-pub mod forecast;
-mod jump;
-mod path;
-mod probe;
-mod reach;
 mod record;
-mod share;
+pub(crate) mod replay;
 mod state;
+mod step_control;
+mod wear_limit;
 
 use crate::ale::Spines;
 use crate::condensation::Operators;
-use crate::contact::{self, ContactError, ContactState, Move, Pair, Solver, Surfaces};
+use crate::contact::{self, ContactError, ContactState, Displacement, Pair, Solver, Surfaces};
 use crate::history::{FrictionLoop, Position};
-use crate::material::contact_modulus;
+use crate::law::elastic::contact_modulus;
 use crate::model::Model;
 use crate::number::{cycles_at_least, real, real_cycles};
 use crate::scene::Scene;
+use crate::schedule::increments::{self, Step};
+use crate::schedule::jump::Stroke;
+use crate::sides::{Side, Sides};
 
 pub use cycle_record::{CycleRecord, Neutral};
-use probe::Probes;
 pub(crate) use record::worn_area_residual;
 pub use record::{report, snapshot};
-use share::check_wear;
+use replay::Replays;
 pub use state::{CycleError, CycleState};
-
-/// A stroke whose amplitude is larger than this many half-widths of the contact leaves it behind.
-const RUNS_FROM: f64 = 2.0;
 
 /// Integrates cycles of one scene on one set of operators.
 pub struct Integrator<'a> {
     scene: &'a Scene,
     pair: Pair<'a>,
     solver: Solver,
-    /// Slopes of the receptacle's and the slider's surface at the beginning of the computed cycle.
-    slope: [Vec<f64>; 2],
+    /// Slopes of the surfaces at the beginning of the computed cycle.
+    slope: Sides<Vec<f64>>,
     spines: Spines,
     next: ContactState,
 }
@@ -60,7 +56,7 @@ impl<'a> Integrator<'a> {
             scene,
             pair,
             solver: Solver::default(),
-            slope: [Vec::new(), Vec::new()],
+            slope: Sides::default(),
             spines: Spines::of(model),
             next,
         }
@@ -71,14 +67,14 @@ impl<'a> Integrator<'a> {
     /// # Errors
     /// [`CycleError`] if there is no equilibrium.
     pub fn apply_load(&mut self, state: &mut CycleState) -> Result<CycleRecord, CycleError> {
-        self.take_slopes(state);
+        self.update_slopes(state);
         self.increment(
             state,
-            Move {
+            Displacement {
                 slider_x: 0.0,
-                run: 0.0,
+                surface_slip: 0.0,
                 cycles: 0.0,
-                pivots: true,
+                lemke: true,
             },
         )
         .map_err(|source| CycleError::Increment {
@@ -98,28 +94,26 @@ impl<'a> Integrator<'a> {
         })
     }
 
-    fn take_slopes(&mut self, state: &CycleState) {
-        let Operators { receptacle, slider } = self.pair.operators;
-        self.slope = [
-            contact::slopes(receptacle, &state.receptacle_depth, -1.0),
-            contact::slopes(slider, &state.slider_depth, 1.0),
-        ];
+    fn update_slopes(&mut self, state: &CycleState) {
+        let operators = self.pair.operators;
+        self.slope =
+            Sides::from_fn(|side| contact::slopes(operators.of(side), state.depth.of(side), side));
     }
 
-    /// Brings the contact to where cycles begin, slipping, without wear.
+    /// Displaces the slider to the turning point where cycles begin, without wear.
     ///
     /// # Errors
     /// [`CycleError`] if an increment fails however small it is.
     pub fn initial_quarter(&mut self, state: &mut CycleState) -> Result<(), CycleError> {
         let (motion, accuracy) = (self.scene.motion, &self.scene.accuracy);
-        let steps = path::steps(motion, accuracy, state.followed_half_width());
-        for (increment, step) in path::initial_quarter(&steps).iter().enumerate() {
+        let steps = increments::steps(motion, accuracy, state.followed_half_width());
+        for (increment, step) in increments::initial_quarter(&steps).iter().enumerate() {
             self.step(state, step, 0.0, increment)?;
         }
         Ok(())
     }
 
-    /// One computed cycle; it stands for as many physical ones as the jump control and `until` allow.
+    /// Computes one cycle, which represents as many physical ones as the jump control and `until` allow.
     ///
     /// # Errors
     /// [`CycleError`] if an increment fails however small it is.
@@ -131,16 +125,16 @@ impl<'a> Integrator<'a> {
         let (motion, accuracy) = (self.scene.motion, &self.scene.accuracy);
         let stroke = self.stroke(state);
         let mut jump = state.jump.next(accuracy, stroke, until - state.cycle);
-        let steps = path::steps(motion, accuracy, state.followed_half_width());
-        self.take_slopes(state);
+        let steps = increments::steps(motion, accuracy, state.followed_half_width());
+        self.update_slopes(state);
         let before = state.clone();
         loop {
-            let error = match self.computed_cycle(state, &steps, jump, stroke.runs) {
+            let error = match self.integrate(state, &steps, jump, stroke.gross) {
                 Ok(record) => {
                     let widths = &self.pair.operators.receptacle.widths;
                     let done = state.cycle - before.cycle;
-                    let (old, new) = (&before.receptacle_depth, &state.receptacle_depth);
-                    state.jump.learn(widths, old, new, done);
+                    let (old, new) = (&before.depth.receptacle, &state.depth.receptacle);
+                    state.jump.update(widths, old, new, done);
                     return Ok(record);
                 }
                 Err(error) => error,
@@ -154,44 +148,44 @@ impl<'a> Integrator<'a> {
         }
     }
 
-    /// The steps of one computed cycle, up to its end or to where a body is worn through.
-    fn computed_cycle(
+    /// Integrates one computed cycle up to its end, or until a body is worn through.
+    fn integrate(
         &mut self,
         state: &mut CycleState,
-        steps: &[path::Step],
+        steps: &[Step],
         jump: u64,
-        runs: bool,
+        gross: bool,
     ) -> Result<CycleRecord, CycleError> {
         let mut record = CycleRecord::default();
-        let mut probes = if runs && jump > 1 {
+        let mut replays = if gross && jump > 1 {
             let length = 4.0 * self.scene.motion.amplitude_mm() / real(steps.len());
-            Probes::of(
+            Replays::of(
                 (steps.len(), length),
                 self.scene.accuracy.tolerance,
                 state.mean_half_width,
                 state.neutral.half_width,
             )
         } else {
-            Probes::default()
+            Replays::default()
         };
         let (mut half_widths, mut touching, mut done) = (0.0, 0, 0);
         for (increment, step) in steps.iter().enumerate() {
-            probes.make(self, state, steps, increment);
+            replays.run(self, state, steps, increment);
             self.step(state, step, real_cycles(jump), increment)?;
             if state.contact.active_range().is_some() {
                 half_widths += state.contact.half_width(&self.pair.operators.receptacle.x);
                 touching += 1;
             }
-            self.record(&mut record, state, step.at, &mut probes);
+            self.record(&mut record, state, step.at, &mut replays);
             done += 1;
-            if self.spines.are_worn_through(state) {
+            if self.spines.are_worn_through(&state.depth) {
                 break;
             }
         }
         let cycles = if done == steps.len() {
             record
                 .friction_loop
-                .begin_at(steps.len() - path::initial_quarter(steps).len());
+                .begin_at(steps.len() - increments::initial_quarter(steps).len());
             jump
         } else {
             cycles_at_least(real_cycles(jump) * real(done) / real(steps.len())).min(jump)
@@ -206,41 +200,46 @@ impl<'a> Integrator<'a> {
         Ok(record)
     }
 
-    fn stroke(&self, state: &CycleState) -> jump::Stroke {
+    fn stroke(&self, state: &CycleState) -> Stroke {
         let (scene, interface) = (self.scene, &self.pair.interface);
         let amplitude = scene.motion.amplitude_mm();
         let modulus = contact_modulus(scene.slider.elastic, scene.receptacle.elastic);
-        let wear = interface.receptacle_wear + interface.slider_wear;
-        jump::Stroke {
-            runs: amplitude > RUNS_FROM * state.mean_half_width,
-            lean: wear * 2.0 * amplitude * modulus / state.mean_half_width,
-            cycles: scene.cycles,
-        }
+        let wear = interface.wear.receptacle + interface.wear.slider;
+        Stroke::new(
+            wear,
+            modulus,
+            (amplitude, state.mean_half_width),
+            scene.cycles,
+        )
     }
 
-    fn increment(&mut self, state: &mut CycleState, to: Move) -> Result<(), ContactError> {
+    fn increment(&mut self, state: &mut CycleState, to: Displacement) -> Result<(), ContactError> {
         let cycles = to.cycles;
         let surfaces = Surfaces {
-            receptacle_depth: &state.receptacle_depth,
-            slider_depth: &state.slider_depth,
-            slope: &self.slope[0],
-            slider_slope: &self.slope[1],
+            depth: state.depth.as_slices(),
+            slope: self.slope.as_slices(),
         };
         let last = &state.contact;
         let done = self
             .solver
             .advance(&self.pair, &surfaces, last, to, &mut self.next)?;
-        check_wear(&self.spines, &self.pair.interface, state, to, &done)?;
+        wear_limit::check(
+            &self.spines,
+            self.pair.interface.wear,
+            &state.depth,
+            to,
+            &done,
+        )?;
         let interface = &self.pair.interface;
-        let widths = &self.pair.operators.receptacle.widths[done.first..];
-        let depths = &mut state.receptacle_depth[done.first..];
-        for ((depth, path), width) in depths.iter_mut().zip(done.path).zip(widths) {
-            *depth += interface.receptacle_wear * cycles * path;
+        let widths = &self.pair.operators.receptacle.widths[done.first.receptacle..];
+        for (width, path) in widths.iter().zip(done.path.receptacle) {
             state.friction_path += cycles * width * path;
         }
-        let depths = &mut state.slider_depth[done.slider_first..];
-        for (depth, path) in depths.iter_mut().zip(done.slider_path) {
-            *depth += interface.slider_wear * cycles * path;
+        for side in Side::BOTH {
+            let depths = &mut state.depth.of_mut(side)[*done.first.of(side)..];
+            for (depth, path) in depths.iter_mut().zip(*done.path.of(side)) {
+                *depth += interface.wear.of(side) * cycles * path;
+            }
         }
         state.energy += cycles * done.energy;
         state.increments += 1;
@@ -264,7 +263,7 @@ impl<'a> Integrator<'a> {
         record: &mut CycleRecord,
         state: &mut CycleState,
         at: Option<Position>,
-        probes: &mut Probes,
+        replays: &mut Replays,
     ) {
         let contact = &state.contact;
         record.friction_loop.displacement_mm.push(contact.slider_x);
@@ -273,7 +272,7 @@ impl<'a> Integrator<'a> {
             .tangential_force_n_per_mm
             .push(contact.tangential_force());
         let Some(position) = at else { return };
-        let contact = probes
+        let contact = replays
             .take(position)
             .unwrap_or_else(|| state.contact.clone());
         if position == Position::Neutral {

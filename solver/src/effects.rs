@@ -1,9 +1,9 @@
 //! The effects plan: what a scene calls for, and nothing else, is simulated.
 
-use crate::material::contact_modulus;
+use crate::law::elastic::contact_modulus;
+use crate::law::{friction, wear};
 use crate::model::resolution;
 use crate::scene::{Friction, Scene};
-use crate::{friction, wear};
 
 /// Which effects take part, and why.
 #[derive(Debug, Clone, PartialEq)]

@@ -3,7 +3,7 @@
 pub mod quad4;
 pub mod tri3;
 
-use crate::material::Lame;
+use crate::law::elastic::Lame;
 use nalgebra::Matrix2;
 
 pub use quad4::Quad4;

@@ -6,13 +6,13 @@
 use crate::ale;
 use crate::condensation::{Condensed, Interior};
 use crate::contact::ContactState;
-use crate::cycle::CycleState;
 use crate::element::{Element, Quad4, Tri3, physical_gradient};
 use crate::history::{PlacedFields, Position};
-use crate::material::Lame;
+use crate::law::elastic::Lame;
 use crate::mesh::columns::Cell;
 use crate::mesh::{ColumnMesh, MeshError};
 use crate::model::{BodyModel, Model};
+use crate::sides::Sides;
 
 /// Fields of one body.
 #[derive(Debug, Clone, PartialEq)]
@@ -67,13 +67,13 @@ impl Stress {
 pub fn placed(
     model: &Model,
     condensed: &Condensed,
-    state: &CycleState,
+    depth: &Sides<Vec<f64>>,
     contacts: &[(Position, ContactState)],
 ) -> Result<Vec<PlacedFields>, MeshError> {
-    let worn = ale::relocate(model, state)?;
+    let worn = ale::relocate(model, depth)?;
     let quality = [
-        worn.slider.mesh.scaled_jacobians()?,
-        worn.receptacle.mesh.scaled_jacobians()?,
+        worn.bodies.slider.mesh.scaled_jacobians()?,
+        worn.bodies.receptacle.mesh.scaled_jacobians()?,
     ];
     let place = |fields: &mut BodyFields, mesh: &ColumnMesh, quality: &[f64], by: [f64; 2]| {
         fields.nodes = mesh
@@ -85,23 +85,28 @@ pub fn placed(
     };
     let at = |(position, contact): &(Position, ContactState)| {
         let load = contact.load(&model.interface);
-        let reaction: Vec<f64> = contact.receptacle_force.iter().map(|f| -f).collect();
+        let reaction: Vec<f64> = contact.force.receptacle.iter().map(|f| -f).collect();
         let mut slider = recover(
-            &model.slider,
-            &condensed.slider,
-            &contact.slider_force,
+            &model.bodies.slider,
+            &condensed.interior.slider,
+            &contact.force.slider,
             load,
         );
-        let mut receptacle = recover(&model.receptacle, &condensed.receptacle, &reaction, 0.0);
+        let mut receptacle = recover(
+            &model.bodies.receptacle,
+            &condensed.interior.receptacle,
+            &reaction,
+            0.0,
+        );
         place(
             &mut slider,
-            &worn.slider.mesh,
+            &worn.bodies.slider.mesh,
             &quality[0],
             [contact.slider_x, contact.height],
         );
         place(
             &mut receptacle,
-            &worn.receptacle.mesh,
+            &worn.bodies.receptacle.mesh,
             &quality[1],
             [0.0; 2],
         );
@@ -216,16 +221,20 @@ mod tests {
         let model = model::build(&scene).expect("the block can be meshed");
         let condensed = condense(&model).expect("the block can be condensed");
         let force: Vec<f64> = model
+            .bodies
             .receptacle
             .contact_widths()
             .iter()
             .flat_map(|w| [0.0, -7.0 * w])
             .collect();
-        let fields = recover(&model.receptacle, &condensed.receptacle, &force, 0.0);
-        let middle = model
-            .receptacle
-            .mesh
-            .surface_node(model.receptacle.mesh.spines() / 2);
+        let fields = recover(
+            &model.bodies.receptacle,
+            &condensed.interior.receptacle,
+            &force,
+            0.0,
+        );
+        let mesh = &model.bodies.receptacle.mesh;
+        let middle = mesh.surface_node(mesh.spines() / 2);
         let s = fields.stress[middle + 2];
         assert!((s.yy + 7.0).abs() < 1e-5 && s.xy.abs() < 1e-5, "{s:?}");
         assert!(

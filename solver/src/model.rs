@@ -4,11 +4,13 @@ pub mod layout;
 pub mod profile;
 pub mod resolution;
 
-use crate::material::Lame;
+use crate::element;
+use crate::law::elastic::Lame;
+use crate::law::{friction, wear};
 use crate::mesh::{ColumnMesh, MeshError};
 use crate::number::real;
 use crate::scene::{Drive, Elastic, Scene};
-use crate::{element, friction, wear};
+use crate::sides::Sides;
 
 pub use layout::{BodyLayout, Layout};
 pub use profile::Profile;
@@ -17,10 +19,8 @@ pub use resolution::Sizes;
 /// Two bodies ready to be condensed.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Model {
-    /// The slider, its frame moving with it.
-    pub slider: BodyModel,
-    /// The receptacle.
-    pub receptacle: BodyModel,
+    /// The meshed bodies; the slider's frame moves with it.
+    pub bodies: Sides<BodyModel>,
     /// Laws and load of the interface.
     pub interface: Interface,
     /// The lengths that the mesh was chosen from.
@@ -30,21 +30,21 @@ pub struct Model {
 /// One meshed body.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BodyModel {
-    /// Its mesh, at the geometry that the operators are to be built for.
+    /// Mesh at the geometry of the operators.
     pub mesh: ColumnMesh,
-    /// Its unworn surface.
+    /// Unworn surface.
     pub profile: Profile,
-    /// Its elasticity.
+    /// Elastic constants.
     pub lame: Lame,
-    /// Whether its elements take the volumetric part at its mean.
+    /// Whether the elements use the mean volumetric strain (B-bar).
     pub b_bar: bool,
-    /// How it is held.
+    /// Support.
     pub support: Support,
     /// Spines whose surface nodes may touch the other body: first and one past the last.
     pub contact: (usize, usize),
 }
 
-/// How a body is held.
+/// Support of a body.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Support {
     /// The far face does not deform: a clamped bottom, or a rigid handle whose motion is added as a rigid body.
@@ -59,13 +59,11 @@ pub enum Support {
 pub struct Interface {
     /// Coefficient of friction, -.
     pub friction: f64,
-    /// Recession of the receptacle per pressure and slip, 1/MPa.
-    pub receptacle_wear: f64,
-    /// Recession of the slider per pressure and slip, 1/MPa.
-    pub slider_wear: f64,
+    /// Specific wear rates: recession per pressure and slip, 1/MPa.
+    pub wear: Sides<f64>,
     /// Normal load on the unworn contact, N/mm.
     pub load: f64,
-    /// What it loses as the slider sinks, N/mm per mm.
+    /// Stiffness of the spring that applies the load: the load decreases by this as the slider sinks, N/mm per mm.
     pub spring: f64,
 }
 
@@ -81,18 +79,19 @@ pub fn build(scene: &Scene) -> Result<Model, MeshError> {
     };
     let interface = Interface {
         friction: friction::coefficient(scene.friction),
-        receptacle_wear: wear::coefficient(scene.receptacle.wear),
-        slider_wear: wear::coefficient(scene.slider.wear),
+        wear: Sides {
+            slider: wear::coefficient(scene.slider.wear),
+            receptacle: wear::coefficient(scene.receptacle.wear),
+        },
         load: scene.load_n_per_mm,
         spring: scene.spring_n_per_mm2,
     };
+    let Sides { slider, receptacle } = layout.bodies;
     Ok(Model {
-        slider: body(layout.slider, scene.slider.elastic, slider_support)?,
-        receptacle: body(
-            layout.receptacle,
-            scene.receptacle.elastic,
-            Support::FarFaceHeld,
-        )?,
+        bodies: Sides {
+            slider: body(slider, scene.slider.elastic, slider_support)?,
+            receptacle: body(receptacle, scene.receptacle.elastic, Support::FarFaceHeld)?,
+        },
         interface,
         sizes: layout.sizes,
     })

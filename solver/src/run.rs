@@ -8,11 +8,11 @@ use crate::checkpoint::Checkpoint;
 use crate::condensation::{self, Condensed};
 use crate::cycle::{self, CycleRecord, CycleState, Integrator};
 use crate::fields;
-use crate::history::{CycleReport, Initial, Outcome, Resolution, Snapshot, Summary};
+use crate::history::{Initial, Outcome, Resolution, Snapshot, Summary};
 use crate::model::{self, Model};
-use crate::number::count_at_least;
 use crate::observer::{Event, Observer, Phase};
-use crate::scene::{Scene, StopCondition};
+use crate::scene::Scene;
+use crate::schedule::stops::{self, Progress};
 
 /// Solves a scene from the unworn bodies to its end.
 ///
@@ -64,7 +64,7 @@ fn advance(
             return Ok(summary(scene, &model, &run, outcome));
         }
         observer.on_phase(Phase::Relocate);
-        let moved = ale::relocate(&model, &run.state)?;
+        let moved = ale::relocate(&model, &run.state.depth)?;
         run.relocated();
         observer.on_phase(Phase::Condense);
         condensed = condensation::renew(&moved, &model, condensed)?;
@@ -114,16 +114,17 @@ fn integrate(
     let mut integrator = Integrator::new(scene, model, &condensed.operators);
     let spines = Spines::of(model);
     while run.state.cycle < scene.cycles {
-        if ale::has_drifted(model, &run.state, scene.accuracy.tolerance) {
+        if ale::has_drifted(model, &run.state.depth, scene.accuracy.tolerance) {
             return Ok(ControlFlow::Continue(()));
         }
         let state = &mut run.state;
-        let record = integrator.compute_cycle(state, next_stop(scene, &spines, state))?;
+        let until = stops::next(scene, progress(&spines, state));
+        let record = integrator.compute_cycle(state, until)?;
         let report = cycle::report(scene, model, state);
         if observer.on(Event::Cycle(&report)).is_break() {
             return Ok(STOPPED);
         }
-        let end = end_of(scene, &spines, state, &report);
+        let end = stops::end(scene, progress(&spines, state));
         if end.is_some() || scene.output.snapshots_at_cycles.contains(&state.cycle) {
             let snapshot = snapshot(scene, model, condensed, state, record)?;
             if observer.on(Event::Snapshot(&snapshot)).is_break() {
@@ -140,47 +141,14 @@ fn integrate(
     Ok(ControlFlow::Break(Outcome::Completed))
 }
 
-/// The next cycle that must be hit exactly, or beyond which the depths of stop conditions and of the bodies
-/// themselves would be passed at the present rate.
-fn next_stop(scene: &Scene, spines: &Spines, state: &CycleState) -> u64 {
-    let snapshots = &scene.output.snapshots_at_cycles;
-    let next = snapshots
-        .iter()
-        .copied()
-        .find(|&at| at > state.cycle)
-        .unwrap_or(scene.cycles);
-    let deepest = |depth: &[f64]| depth.iter().fold(0.0, |m: f64, d| m.max(*d));
-    let worn = deepest(&state.receptacle_depth).max(deepest(&state.slider_depth));
-    let limits = scene
-        .stop
-        .iter()
-        .map(|StopCondition::WornDepth(limit)| limit - worn);
-    let left = limits.fold(spines.least_left_mm(state), f64::min);
-    let cycles = left / state.jump.fastest_rate().max(f64::MIN_POSITIVE);
-    let reach = u64::try_from(count_at_least(cycles.floor())).unwrap_or(u64::MAX);
-    next.min(scene.cycles)
-        .min(state.cycle.saturating_add(reach))
-}
-
-fn end_of(
-    scene: &Scene,
-    spines: &Spines,
-    state: &CycleState,
-    report: &CycleReport,
-) -> Option<Outcome> {
-    let deepest = report
-        .receptacle
-        .max_depth_mm
-        .max(report.slider.max_depth_mm);
-    let stopped = scene.stop.iter().any(|condition| match condition {
-        StopCondition::WornDepth(limit) => deepest >= *limit,
-    });
-    if stopped {
-        Some(Outcome::StopCondition)
-    } else if spines.are_worn_through(state) {
-        Some(Outcome::WornThrough)
-    } else {
-        (state.cycle >= scene.cycles).then_some(Outcome::Completed)
+/// Progress of the run for its stops.
+fn progress(spines: &Spines, state: &CycleState) -> Progress {
+    Progress {
+        cycle: state.cycle,
+        deepest: state.depth.largest(),
+        least_left: spines.least_left_mm(&state.depth),
+        fastest_rate: state.jump.fastest_rate(),
+        worn_through: spines.are_worn_through(&state.depth),
     }
 }
 
@@ -192,7 +160,7 @@ fn snapshot(
     record: CycleRecord,
 ) -> Result<Snapshot, SolveError> {
     let fields = if scene.output.fields {
-        fields::placed(model, condensed, state, &record.contacts)?
+        fields::placed(model, condensed, &state.depth, &record.contacts)?
     } else {
         Vec::new()
     };
@@ -209,11 +177,11 @@ fn summary(scene: &Scene, model: &Model, run: &Checkpoint, outcome: Outcome) -> 
         initial: run.initial,
         resolution: Resolution {
             contact_element_mm: model.sizes.contact_element,
-            contact_elements: model.receptacle.contact_x().len() - 1,
+            contact_elements: model.bodies.receptacle.contact_x().len() - 1,
             increments_per_cycle: u32::try_from(state.most_increments).unwrap_or(u32::MAX),
             computed_cycles: state.computed_cycles,
             increments: state.increments,
-            dofs: model.slider.dofs() + model.receptacle.dofs(),
+            dofs: model.bodies.slider.dofs() + model.bodies.receptacle.dofs(),
             relocations: run.relocations,
             estimated_relative_error: state.jump.mean_error(),
         },

@@ -11,10 +11,11 @@
 
 use crate::scenes::mccoll;
 use solver::condensation::{Condensed, condense};
-use solver::contact::{ContactState, Move, Pair, Solver, Status, Surfaces, slopes};
+use solver::contact::{ContactState, Displacement, Pair, Solver, Status, Surfaces, slopes};
 use solver::fields;
 use solver::model::{Interface, Model};
 use solver::scene::Friction;
+use solver::sides::{Side, Sides};
 
 const LOAD: f64 = 120.0;
 const FRICTION: f64 = 0.6;
@@ -48,7 +49,7 @@ impl Bench {
             vec![0.0; operators.receptacle.x.len()],
             vec![0.0; operators.slider.x.len()],
         ];
-        let slider_slope = slopes(&condensed.operators.slider, &zero[1], 1.0);
+        let slider_slope = slopes(&condensed.operators.slider, &zero[1], Side::Slider);
         Self {
             model,
             condensed,
@@ -65,17 +66,21 @@ impl Bench {
             interface,
         };
         let surfaces = Surfaces {
-            receptacle_depth: &self.zero[0],
-            slider_depth: &self.zero[1],
-            slope: &self.zero[0],
-            slider_slope: &self.slider_slope,
+            depth: Sides {
+                slider: &self.zero[1],
+                receptacle: &self.zero[0],
+            },
+            slope: Sides {
+                slider: &self.slider_slope,
+                receptacle: &self.zero[0],
+            },
         };
         let mut next = last.clone();
-        let place = Move {
+        let place = Displacement {
             slider_x,
-            run: 0.0,
+            surface_slip: 0.0,
             cycles: 0.0,
-            pivots: true,
+            lemke: true,
         };
         self.solver
             .advance(&pair, &surfaces, last, place, &mut next)
@@ -99,9 +104,9 @@ impl Bench {
 
     /// sigma_xx at the receptacle's surface nodes: places, mm, and MPa.
     fn surface_stress(&self, state: &ContactState) -> Vec<(f64, f64)> {
-        let force: Vec<f64> = state.receptacle_force.iter().map(|f| -f).collect();
-        let body = &self.model.receptacle;
-        let fields = fields::recover(body, &self.condensed.receptacle, &force, 0.0);
+        let force: Vec<f64> = state.force.receptacle.iter().map(|f| -f).collect();
+        let body = &self.model.bodies.receptacle;
+        let fields = fields::recover(body, &self.condensed.interior.receptacle, &force, 0.0);
         let surface = (0..body.mesh.spines()).map(|i| body.mesh.surface_node(i));
         surface
             .map(|node| (fields.nodes[node][0], fields.stress[node].xx))

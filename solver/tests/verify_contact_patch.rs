@@ -9,11 +9,12 @@
 //! ```
 
 use solver::condensation::condense;
-use solver::contact::{ContactState, Move, Pair, Solver, Surfaces};
-use solver::material::Lame;
+use solver::contact::{ContactState, Displacement, Pair, Solver, Surfaces};
+use solver::law::elastic::Lame;
 use solver::mesh::ColumnMesh;
 use solver::model::{BodyModel, Interface, Model, Profile, Support};
 use solver::scene::Elastic;
+use solver::sides::Sides;
 
 use crate::scenes::mccoll;
 
@@ -43,12 +44,13 @@ fn an_even_pressure_passes_through_non_matching_meshes_at_any_position() {
         let upper = [-0.5, -0.33, -0.21, 0.02, 0.09, 0.31, 0.5].map(|x| x - slider_x);
         let lower = vec![-0.5, -0.4, -0.15, -0.1, 0.13, 0.24, 0.4, 0.5];
         let model = Model {
-            slider: body(upper.to_vec(), 0.7, Support::GuidedUnderPressure),
-            receptacle: body(lower, -0.6, Support::FarFaceHeld),
+            bodies: Sides {
+                slider: body(upper.to_vec(), 0.7, Support::GuidedUnderPressure),
+                receptacle: body(lower, -0.6, Support::FarFaceHeld),
+            },
             interface: Interface {
                 friction,
-                receptacle_wear: 0.0,
-                slider_wear: 0.0,
+                wear: Sides::default(),
                 load: pressure * 1.0,
                 spring: 0.0,
             },
@@ -63,10 +65,14 @@ fn an_even_pressure_passes_through_non_matching_meshes_at_any_position() {
         };
         let zero = vec![0.0; 8];
         let surfaces = Surfaces {
-            receptacle_depth: &zero,
-            slider_depth: &zero,
-            slope: &zero,
-            slider_slope: &zero,
+            depth: Sides {
+                slider: &zero,
+                receptacle: &zero,
+            },
+            slope: Sides {
+                slider: &zero,
+                receptacle: &zero,
+            },
         };
         let mut last = ContactState::untouched(&operators);
         last.slider_x = slider_x;
@@ -76,11 +82,11 @@ fn an_even_pressure_passes_through_non_matching_meshes_at_any_position() {
                 &pair,
                 &surfaces,
                 &last,
-                Move {
+                Displacement {
                     slider_x,
-                    run: 0.0,
+                    surface_slip: 0.0,
                     cycles: 0.0,
-                    pivots: true,
+                    lemke: true,
                 },
                 &mut next,
             )

@@ -9,8 +9,9 @@
 use crate::keep::solve;
 use crate::scenes::mccoll;
 use solver::condensation::condense;
-use solver::contact::{ContactState, Move, Pair, Solver, Surfaces, slopes};
+use solver::contact::{ContactState, Displacement, Pair, Solver, Surfaces, slopes};
 use solver::scene::{BlockShape, Friction, Scene, SliderShape};
+use solver::sides::{Side, Sides};
 
 /// The same moves to the other side give the mirrored pressure and the mirrored, opposite shear: stick, partial slip,
 /// reversal and gross slip.
@@ -27,23 +28,27 @@ fn a_mirrored_motion_gives_mirrored_tractions() {
         vec![0.0; operators.receptacle.x.len()],
         vec![0.0; operators.slider.x.len()],
     ];
-    let slider_slope = slopes(&operators.slider, &zero[1], 1.0);
+    let slider_slope = slopes(&operators.slider, &zero[1], Side::Slider);
     let surfaces = Surfaces {
-        receptacle_depth: &zero[0],
-        slider_depth: &zero[1],
-        slope: &zero[0],
-        slider_slope: &slider_slope,
+        depth: Sides {
+            slider: &zero[1],
+            receptacle: &zero[0],
+        },
+        slope: Sides {
+            slider: &slider_slope,
+            receptacle: &zero[0],
+        },
     };
     let run = |side: f64| {
         let mut solver = Solver::default();
         let mut states = vec![ContactState::untouched(operators)];
         for place in [0.0, 5e-4, 1e-3, 6e-4, -2e-3, -0.02, 0.01, 0.013] {
             let mut next = states[states.len() - 1].clone();
-            let to = Move {
+            let to = Displacement {
                 slider_x: side * place,
-                run: 0.0,
+                surface_slip: 0.0,
                 cycles: 0.0,
-                pivots: true,
+                lemke: true,
             };
             solver
                 .advance(&pair, &surfaces, &states[states.len() - 1], to, &mut next)

@@ -34,13 +34,14 @@ fn ours() -> Ours {
     Integrator::new(&scene, &model, operators)
         .apply_load(&mut state)
         .expect("it settles");
-    let reaction: Vec<f64> = state.contact.receptacle_force.iter().map(|f| -f).collect();
-    let all = condensed.receptacle.displacements(&reaction, 0.0);
+    let reaction: Vec<f64> = state.contact.force.receptacle.iter().map(|f| -f).collect();
+    let all = condensed.interior.receptacle.displacements(&reaction, 0.0);
     let surface = (0..operators.receptacle.x.len()).map(|i| {
         all[model
+            .bodies
             .receptacle
             .mesh
-            .surface_node(model.receptacle.contact.0 + i)]
+            .surface_node(model.bodies.receptacle.contact.0 + i)]
     });
     Ours {
         x: operators.receptacle.x.clone(),

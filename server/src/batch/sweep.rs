@@ -288,7 +288,7 @@ mod tests {
         let load = variations[0].resolved.spec.load.as_ref().expect("a load");
         assert_eq!(load.n, Some(0.25));
         assert!(
-            (solver::friction::coefficient(variations[1].resolved.scene.friction) - 0.5).abs()
+            (solver::law::friction::coefficient(variations[1].resolved.scene.friction) - 0.5).abs()
                 < 1e-15
         );
         assert_eq!(variations[2].resolved.spec.accuracy.preset, None);

@@ -101,7 +101,7 @@ fn compare(folder: &Path, element_um: f64) -> Result<Comparison, BenchError> {
     let largest = |forces: &[f64]| forces.iter().fold(0.0, |m: f64, q| m.max(q.abs())) / full;
     Ok(Comparison {
         element_um,
-        nodes: model.slider.mesh.nodes() + model.receptacle.mesh.nodes(),
+        nodes: model.bodies.slider.mesh.nodes() + model.bodies.receptacle.mesh.nodes(),
         ours_s: [setup_s, cycle_s],
         theirs_s: if ran.success() {
             Ok(took_s)
@@ -114,7 +114,7 @@ fn compare(folder: &Path, element_um: f64) -> Result<Comparison, BenchError> {
 
 /// mu P, N/mm.
 fn friction_limit(scene: &Scene) -> f64 {
-    solver::friction::coefficient(scene.friction) * scene.load_n_per_mm
+    solver::law::friction::coefficient(scene.friction) * scene.load_n_per_mm
 }
 
 /// Total force along x of each increment in what CalculiX printed.

@@ -88,8 +88,9 @@ fn condensations() -> Result<Vec<Row>, BenchError> {
         let model = model::build(&scene).map_err(SolveError::from)?;
         let (cpu_s, _) =
             measured(3, || condensation::condense(&model)).map_err(SolveError::from)?;
-        let surface = 2 * (model.slider.contact_x().len() + model.receptacle.contact_x().len());
-        let dofs = model.slider.dofs() + model.receptacle.dofs();
+        let surface =
+            2 * (model.bodies.slider.contact_x().len() + model.bodies.receptacle.contact_x().len());
+        let dofs = model.bodies.slider.dofs() + model.bodies.receptacle.dofs();
         rows.push(Row {
             what: "condensation of two bodies".to_owned(),
             size: format!("{dofs} DOF, {surface} of them on the surfaces"),
@@ -110,7 +111,9 @@ fn sized(target: f64) -> Result<Scene, BenchError> {
     for _ in 0..12 {
         let middle = (fine * coarse).sqrt();
         let too_many = match model::build(&at(middle)?) {
-            Ok(model) => count(model.slider.dofs() + model.receptacle.dofs()) > target,
+            Ok(model) => {
+                count(model.bodies.slider.dofs() + model.bodies.receptacle.dofs()) > target
+            }
             Err(_) => true,
         };
         *(if too_many { &mut fine } else { &mut coarse }) = middle;
@@ -284,7 +287,7 @@ mod tests {
         for target in CONDENSED {
             let scene = sized(target).expect("a size is found");
             let model = model::build(&scene).expect("it can be meshed");
-            let dofs = count(model.slider.dofs() + model.receptacle.dofs());
+            let dofs = count(model.bodies.slider.dofs() + model.bodies.receptacle.dofs());
             assert!(
                 (0.8..=1.0).contains(&(dofs / target)),
                 "{dofs} for {target}"

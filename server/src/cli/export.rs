@@ -8,6 +8,7 @@ use solver::history::Snapshot;
 use solver::model::{self, Model};
 use solver::observer::{Event, Observer};
 use solver::scene::Scene;
+use solver::sides::Sides;
 use solver::{SolveError, ale};
 
 use crate::cli::terminal::{failed, say, specification};
@@ -50,8 +51,11 @@ fn worn(scene: &Scene, cycle: u64) -> Result<Model, SolveError> {
     solver::run::solve(&short, &mut last)?;
     match last.0 {
         Some(snapshot) => {
-            let (receptacle, slider) = (&snapshot.receptacle.depth_mm, &snapshot.slider.depth_mm);
-            Ok(ale::worn_model(&model, receptacle, slider)?)
+            let depth = Sides {
+                slider: snapshot.slider.depth_mm,
+                receptacle: snapshot.receptacle.depth_mm,
+            };
+            Ok(ale::relocate(&model, &depth)?)
         }
         None => Ok(model),
     }

@@ -42,9 +42,9 @@ pub struct Footprint {
 impl Footprint {
     /// Of a scene, the layout of its meshes and its workload.
     pub(crate) fn of(scene: &Scene, layout: &Layout, work: &Workload) -> Self {
-        let dofs = count(layout.slider.dofs() + layout.receptacle.dofs());
-        let elements = count(layout.receptacle.contact_x().len());
-        let surface = elements.max(count(layout.slider.contact_x().len()));
+        let dofs = count(layout.bodies.slider.dofs() + layout.bodies.receptacle.dofs());
+        let elements = count(layout.bodies.receptacle.contact_x().len());
+        let surface = elements.max(count(layout.bodies.slider.contact_x().len()));
         let snapshots = count(scene.output.snapshots_at_cycles.len());
         let stations = count(scene.output.stations_mm.len());
         // Three positions each, and the neutral one of the unworn state.

@@ -3,9 +3,10 @@
 
 use std::collections::BTreeMap;
 
-use solver::cycle::forecast::forecast;
+use solver::forecast::forecast;
 use solver::model::{BodyLayout, Layout};
 use solver::scene::Scene;
+use solver::sides::Sides;
 
 /// What a solve has to do.
 #[derive(Debug, Clone, PartialEq)]
@@ -37,11 +38,11 @@ impl Workload {
         let foreseen = forecast(scene, layout);
         let mut increments = BTreeMap::new();
         for part in &foreseen.segments {
-            *increments.entry(part.watched).or_insert(0.0) += part.increments;
+            *increments.entry(part.candidates).or_insert(0.0) += part.increments;
         }
         let increments = increments.into_iter();
         let steps = foreseen.segments.iter().map(|part| part.steps).max();
-        let [slider, receptacle] = foreseen.condensations;
+        let Sides { slider, receptacle } = foreseen.condensations;
         Self {
             computed_cycles: foreseen.computed_cycles,
             most_increments: u32::try_from(steps.unwrap_or(1)).unwrap_or(u32::MAX),
@@ -49,8 +50,8 @@ impl Workload {
                 .map(|(nodes, many)| (count(nodes), many))
                 .collect(),
             condensations: [
-                condensations(slider, &layout.slider),
-                condensations(receptacle, &layout.receptacle),
+                condensations(slider, &layout.bodies.slider),
+                condensations(receptacle, &layout.bodies.receptacle),
             ],
         }
     }

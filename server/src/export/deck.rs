@@ -7,7 +7,7 @@
 
 pub mod cycle;
 
-use solver::material::Lame;
+use solver::law::elastic::Lame;
 use solver::mesh::columns::Cell;
 use solver::model::{BodyModel, Model};
 use solver::scene::{Elastic, Scene};
@@ -68,12 +68,17 @@ impl Deck {
     fn head(&mut self, scene: &Scene, model: &Model, penalty: f64) -> Part {
         self.line("*HEADING");
         self.line("fretwear: mm, N, MPa; plane strain, one mm of depth");
-        let lowered = -first_gap(&model.slider, &model.receptacle);
-        let slider = self.body("SLIDER", &model.slider, scene.slider.elastic, lowered);
+        let lowered = -first_gap(&model.bodies.slider, &model.bodies.receptacle);
+        let slider = self.body(
+            "SLIDER",
+            &model.bodies.slider,
+            scene.slider.elastic,
+            lowered,
+        );
         let elastic = scene.receptacle.elastic;
-        let receptacle = self.body("RECEPTACLE", &model.receptacle, elastic, 0.0);
+        let receptacle = self.body("RECEPTACLE", &model.bodies.receptacle, elastic, 0.0);
         self.contact(scene, model, penalty);
-        self.boundary(&model.slider, &slider, &receptacle);
+        self.boundary(&model.bodies.slider, &slider, &receptacle);
         slider
     }
 

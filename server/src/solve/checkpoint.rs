@@ -13,7 +13,7 @@ use solver::checkpoint::Checkpoint;
 
 /// Raised whenever the fields of a checkpoint or the bits that follow from them change: an older one is then not gone on
 /// from.
-const FORMAT: u32 = 4;
+const FORMAT: u32 = 5;
 
 /// A run between two cycles, as it is kept.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

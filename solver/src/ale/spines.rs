@@ -1,17 +1,14 @@
-//! How much of the bodies is left under the contact.
+//! Remaining height of the bodies under the contact.
 
-use crate::cycle::CycleState;
 use crate::model::{BodyModel, Model};
+use crate::sides::Sides;
 
-/// A body is worn through when a spine has less than this part of the unworn height left.
+/// A body is worn through when a spine has less than this part of its unworn length left.
 pub(crate) const WORN_THROUGH_SHARE: f64 = 0.03;
 
 /// Unworn lengths of the spines under the contact nodes, mm.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Spines {
-    pub(crate) receptacle: Vec<f64>,
-    pub(crate) slider: Vec<f64>,
-}
+pub struct Spines(Sides<Vec<f64>>);
 
 impl Spines {
     /// Those of a model.
@@ -20,28 +17,33 @@ impl Spines {
             let length = |x: &f64| (body.mesh.far_y() - body.profile.height(*x)).abs();
             body.contact_x().iter().map(length).collect()
         };
-        Self {
-            receptacle: lengths(&model.receptacle),
-            slider: lengths(&model.slider),
-        }
+        Self(model.bodies.as_ref().map(lengths))
     }
 
-    /// Whether a body is nearly consumed somewhere.
-    pub fn are_worn_through(&self, state: &CycleState) -> bool {
-        self.with_depths(state)
+    /// Unworn lengths of each side, mm.
+    pub(crate) fn lengths(&self) -> Sides<&[f64]> {
+        self.0.as_slices()
+    }
+
+    /// Whether a body is nearly consumed somewhere at these worn depths, mm.
+    pub fn are_worn_through(&self, depth: &Sides<Vec<f64>>) -> bool {
+        self.with_depths(depth)
             .any(|(length, depth)| length - depth < WORN_THROUGH_SHARE * length)
     }
 
-    /// Smallest length that is left in either body, mm.
-    pub fn least_left_mm(&self, state: &CycleState) -> f64 {
-        self.with_depths(state)
+    /// Smallest remaining length in either body at these worn depths, mm.
+    pub fn least_left_mm(&self, depth: &Sides<Vec<f64>>) -> f64 {
+        self.with_depths(depth)
             .map(|(length, depth)| length - depth)
             .fold(f64::INFINITY, f64::min)
     }
 
-    fn with_depths<'a>(&'a self, state: &'a CycleState) -> impl Iterator<Item = (f64, f64)> + 'a {
-        let lengths = self.receptacle.iter().chain(&self.slider);
-        let depths = state.receptacle_depth.iter().chain(&state.slider_depth);
+    fn with_depths<'a>(
+        &'a self,
+        depth: &'a Sides<Vec<f64>>,
+    ) -> impl Iterator<Item = (f64, f64)> + 'a {
+        let lengths = self.0.receptacle.iter().chain(&self.0.slider);
+        let depths = depth.receptacle.iter().chain(&depth.slider);
         lengths.copied().zip(depths.copied())
     }
 }

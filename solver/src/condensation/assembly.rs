@@ -18,8 +18,8 @@ pub(super) struct Numbering {
     /// Number of unknowns.
     order: usize,
     /// Unknowns of the contact surface.
-    pub(super) kept: usize,
-    /// For each contact unknown (2 i + d), its place among the kept ones.
+    pub(super) retained: usize,
+    /// For each contact unknown (2 i + d), its place among the retained ones.
     place: Vec<usize>,
 }
 
@@ -55,11 +55,11 @@ impl Numbering {
                 order += 1;
             }
         }
-        let kept: usize = contact
+        let retained: usize = contact
             .iter()
             .map(|&node| unknown[node].iter().filter(|&&slot| slot != HELD).count())
             .sum();
-        let first = order - kept;
+        let first = order - retained;
         let place = contact
             .iter()
             .flat_map(|&node| unknown[node])
@@ -68,17 +68,17 @@ impl Numbering {
         Self {
             unknown,
             order,
-            kept,
+            retained,
             place,
         }
     }
 
-    /// The inverse over the kept unknowns as a compliance of all contact displacements, zero where they are held.
-    pub(super) fn spread(&self, kept: &SquareMatrix) -> Compliance {
+    /// The inverse over the retained unknowns as a compliance of all contact displacements, zero where they are held.
+    pub(super) fn expand(&self, retained: &SquareMatrix) -> Compliance {
         let mut all = Compliance::zeros(self.place.len() / 2);
         for (column, &c) in self.place.iter().enumerate().filter(|(_, c)| **c != HELD) {
             for (row, &r) in self.place.iter().enumerate().filter(|(_, r)| **r != HELD) {
-                *all.at(row, column) = kept.get(r, c);
+                *all.at(row, column) = retained.get(r, c);
             }
         }
         all
@@ -91,7 +91,7 @@ impl Numbering {
 
     /// Adds forces on the contact surface to a vector over all unknowns.
     pub(super) fn add_contact_force(&self, force: &[f64], target: &mut [f64]) {
-        let first = self.order - self.kept;
+        let first = self.order - self.retained;
         for (&place, f) in self
             .place
             .iter()
@@ -109,8 +109,8 @@ impl Numbering {
     }
 
     /// The contact displacements of a vector over all unknowns.
-    pub(super) fn spread_vector(&self, u: &[f64]) -> Vec<f64> {
-        let first = self.order - self.kept;
+    pub(super) fn expand_vector(&self, u: &[f64]) -> Vec<f64> {
+        let first = self.order - self.retained;
         self.place
             .iter()
             .map(|&p| if p == HELD { 0.0 } else { u[first + p] })

@@ -40,7 +40,8 @@ fn an_even_pressure_squeezes_a_wide_block_uniaxially() {
         .enumerate()
         .map(|(j, width)| body.compliance.get(middle, 2 * j + 1) * width)
         .sum();
-    let expected = 0.05 / (model.receptacle.lame.lambda + 2.0 * model.receptacle.lame.mu);
+    let expected =
+        0.05 / (model.bodies.receptacle.lame.lambda + 2.0 * model.bodies.receptacle.lame.mu);
     assert!(
         (squeezed / expected - 1.0).abs() < 1e-6,
         "{squeezed} {expected}"
@@ -72,8 +73,8 @@ fn interior_and_surface_agree() {
     let mut force = vec![0.0; 2 * body.x.len()];
     force[2 * middle] = 0.3;
     force[2 * middle + 1] = -0.5;
-    let u = condensed.receptacle.displacements(&force, 0.0);
-    let mesh = &model.receptacle.mesh;
+    let u = condensed.interior.receptacle.displacements(&force, 0.0);
+    let mesh = &model.bodies.receptacle.mesh;
     for i in (0..body.x.len()).step_by(13) {
         let at = u[mesh.surface_node(i)];
         for (d, u) in at.iter().enumerate() {

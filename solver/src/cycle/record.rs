@@ -13,7 +13,7 @@ const SCAR_EDGE: f64 = 0.02;
 
 /// The report of the present state.
 pub fn report(scene: &Scene, model: &Model, state: &CycleState) -> CycleReport {
-    let x = model.receptacle.contact_x();
+    let x = model.bodies.receptacle.contact_x();
     let interface = &model.interface;
     let has_identity = |k: f64| k > 0.0 && interface.spring <= 0.0;
     let ideal = |k: f64| has_identity(k).then_some(k * interface.load * state.sliding_distance);
@@ -23,7 +23,7 @@ pub fn report(scene: &Scene, model: &Model, state: &CycleState) -> CycleReport {
         ideal_area_mm2: ideal(k),
         scar_half_width_mm: scar_half_width(x, depth),
     };
-    let slider_x = model.slider.contact_x();
+    let slider_x = model.bodies.slider.contact_x();
     CycleReport {
         cycle: state.cycle,
         jump: state.jump.last,
@@ -31,21 +31,21 @@ pub fn report(scene: &Scene, model: &Model, state: &CycleState) -> CycleReport {
         sliding_distance_mm: state.sliding_distance,
         receptacle: side(
             x,
-            &model.receptacle.contact_widths(),
-            &state.receptacle_depth,
-            interface.receptacle_wear,
+            &model.bodies.receptacle.contact_widths(),
+            &state.depth.receptacle,
+            interface.wear.receptacle,
         ),
         slider: side(
             slider_x,
-            &model.slider.contact_widths(),
-            &state.slider_depth,
-            interface.slider_wear,
+            &model.bodies.slider.contact_widths(),
+            &state.depth.slider,
+            interface.wear.slider,
         ),
         station_depth_mm: scene
             .output
             .stations_mm
             .iter()
-            .map(|&station| interpolate(x, &state.receptacle_depth, station))
+            .map(|&station| interpolate(x, &state.depth.receptacle, station))
             .collect(),
         load_n_per_mm: state.neutral.load,
         peak_pressure_mpa: state.neutral.peak_pressure,
@@ -65,12 +65,12 @@ pub fn snapshot(
         x_mm: x.to_vec(),
         depth_mm: depth.to_vec(),
     };
-    let x = model.receptacle.contact_x();
+    let x = model.bodies.receptacle.contact_x();
     let at = |(position, contact): &(Position, ContactState)| tractions(*position, x, contact);
     Snapshot {
         cycle: state.cycle,
-        receptacle: profile(x, &state.receptacle_depth),
-        slider: profile(model.slider.contact_x(), &state.slider_depth),
+        receptacle: profile(x, &state.depth.receptacle),
+        slider: profile(model.bodies.slider.contact_x(), &state.depth.slider),
         positions: record.contacts.iter().map(at).collect(),
         friction_loop: record.friction_loop,
         fields,
@@ -140,8 +140,8 @@ pub(crate) fn worn_area_residual(model: &Model, state: &CycleState, report: &Cyc
         }
     };
     let interface = &model.interface;
-    relative(report.receptacle.worn_area_mm2, interface.receptacle_wear)
-        .max(relative(report.slider.worn_area_mm2, interface.slider_wear))
+    relative(report.receptacle.worn_area_mm2, interface.wear.receptacle)
+        .max(relative(report.slider.worn_area_mm2, interface.wear.slider))
 }
 
 #[cfg(test)]

@@ -1,17 +1,19 @@
-//! What goes from one computed cycle to the next.
+//! State of the integration between two computed cycles.
 
 use serde::{Deserialize, Serialize};
 
-use super::jump::JumpControl;
-use super::{Neutral, path};
+use super::Neutral;
 use crate::condensation::Operators;
 use crate::contact::{ContactError, ContactState};
 use crate::history::Checks;
+use crate::schedule::increments;
+use crate::schedule::jump::JumpControl;
+use crate::sides::Sides;
 
-/// Why a cycle could not be integrated.
+/// Failure of a cycle.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum CycleError {
-    /// An increment failed however often it was halved.
+    /// An increment failed after all halvings.
     #[error(
         "cycle {cycle}, increment {increment}: {source}; the increment was halved {halvings} times"
     )]
@@ -20,9 +22,9 @@ pub enum CycleError {
         cycle: u64,
         /// Increment within the cycle.
         increment: usize,
-        /// How often it was halved.
+        /// Number of halvings.
         halvings: u32,
-        /// What went wrong in the smallest one.
+        /// Failure of the smallest increment.
         source: ContactError,
     },
 }
@@ -34,10 +36,8 @@ pub struct CycleState {
     pub cycle: u64,
     /// Contact at the end of the last increment.
     pub contact: ContactState,
-    /// Vertical worn depth at the receptacle's contact nodes, mm.
-    pub receptacle_depth: Vec<f64>,
-    /// Vertical worn depth at the slider's contact nodes, mm.
-    pub slider_depth: Vec<f64>,
+    /// Vertical worn depth at the contact nodes, mm.
+    pub depth: Sides<Vec<f64>>,
     /// Imposed sliding distance, mm.
     pub sliding_distance: f64,
     /// Accumulated integral of p |slip|, N/mm mm.
@@ -54,7 +54,7 @@ pub struct CycleState {
     pub computed_cycles: u64,
     /// Increments solved.
     pub increments: u64,
-    /// The most increments that a cycle was cut into.
+    /// Most increments in one cycle.
     pub most_increments: usize,
     /// Worst residuals so far.
     pub checks: Checks,
@@ -66,8 +66,7 @@ impl CycleState {
         Self {
             cycle: 0,
             contact: ContactState::untouched(operators),
-            receptacle_depth: vec![0.0; operators.receptacle.x.len()],
-            slider_depth: vec![0.0; operators.slider.x.len()],
+            depth: operators.as_ref().map(|body| vec![0.0; body.x.len()]),
             sliding_distance: 0.0,
             friction_path: 0.0,
             energy: 0.0,
@@ -81,8 +80,8 @@ impl CycleState {
         }
     }
 
-    /// The half-width that increments are laid for, mm.
+    /// Half-width that the increments are chosen for, mm.
     pub(super) fn followed_half_width(&self) -> f64 {
-        path::followed(self.mean_half_width, self.neutral.half_width)
+        increments::followed(self.mean_half_width, self.neutral.half_width)
     }
 }

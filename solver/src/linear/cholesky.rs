@@ -1,6 +1,6 @@
-//! Sparse Cholesky factorisation with some unknowns kept to the end: pattern -> factor -> solve.
+//! Sparse Cholesky factorisation with some unknowns ordered last: pattern -> factor -> solve.
 //!
-//! With the kept unknowns c last, K = L L^T and the trailing block L_cc of the factor is that of the Schur
+//! With the retained unknowns c last, K = L L^T and the trailing block L_cc of the factor is that of the Schur
 //! complement S = K_cc - K_ci K_ii^-1 K_ic = L_cc L_cc^T, at no extra cost.
 
 use super::SquareMatrix;
@@ -40,7 +40,7 @@ pub enum FactorError {
 pub struct CholeskyPattern {
     matrix: SymbolicSparseColMat<usize>,
     symbolic: SymbolicCholesky<usize>,
-    kept: usize,
+    retained: usize,
 }
 
 /// A factored matrix.
@@ -51,14 +51,14 @@ pub struct CholeskyFactor {
 }
 
 impl CholeskyPattern {
-    /// Analyses a lower triangle given by columns; the last `kept` unknowns stay last.
+    /// Analyses a lower triangle given by columns; the last `retained` unknowns stay last.
     ///
     /// # Errors
     /// [`FactorError::Pattern`] if the analysis fails.
     pub fn new(
         column_starts: Vec<usize>,
         rows: Vec<usize>,
-        kept: usize,
+        retained: usize,
     ) -> Result<Self, FactorError> {
         let order = column_starts.len() - 1;
         let error = FactorError::Pattern {
@@ -66,7 +66,7 @@ impl CholeskyPattern {
             entries: rows.len(),
         };
         let (forward, backward) =
-            order_interior(&column_starts, &rows, order - kept).ok_or(error)?;
+            order_interior(&column_starts, &rows, order - retained).ok_or(error)?;
         let matrix = SymbolicSparseColMat::new_checked(order, order, column_starts, None, rows);
         let params = CholeskySymbolicParams {
             supernodal_flop_ratio_threshold: SupernodalThreshold::FORCE_SUPERNODAL,
@@ -78,7 +78,7 @@ impl CholeskyPattern {
         Ok(Self {
             matrix,
             symbolic,
-            kept,
+            retained,
         })
     }
 
@@ -112,7 +112,7 @@ impl CholeskyPattern {
     }
 }
 
-/// Fill-reducing order of the interior alone, then the kept unknowns as they are.
+/// Fill-reducing order of the interior alone, then the retained unknowns as they are.
 fn order_interior(
     column_starts: &[usize],
     rows: &[usize],
@@ -167,17 +167,17 @@ impl CholeskyFactor {
         &self.pattern
     }
 
-    /// Inverse of the Schur complement of the kept unknowns: their compliance, symmetric.
-    pub fn kept_inverse(&self) -> SquareMatrix {
-        let kept = self.pattern.kept;
-        let mut lower = SquareMatrix::zeros(kept);
+    /// Inverse of the Schur complement of the retained unknowns: their compliance, symmetric.
+    pub fn retained_inverse(&self) -> SquareMatrix {
+        let retained = self.pattern.retained;
+        let mut lower = SquareMatrix::zeros(retained);
         self.copy_trailing(&mut lower);
-        let mut out = SquareMatrix::zeros(kept);
-        let mut memory = MemBuffer::new(inverse::inverse_scratch::<f64>(kept, Par::Seq));
-        let l = faer::MatRef::from_column_major_slice(lower.values(), kept, kept);
-        let target = MatMut::from_column_major_slice_mut(out.values_mut(), kept, kept);
+        let mut out = SquareMatrix::zeros(retained);
+        let mut memory = MemBuffer::new(inverse::inverse_scratch::<f64>(retained, Par::Seq));
+        let l = faer::MatRef::from_column_major_slice(lower.values(), retained, retained);
+        let target = MatMut::from_column_major_slice_mut(out.values_mut(), retained, retained);
         inverse::inverse(target, l, Par::Seq, MemStack::new(&mut memory));
-        for column in 0..kept {
+        for column in 0..retained {
             for row in 0..column {
                 *out.at(row, column) = out.get(column, row);
             }
@@ -191,7 +191,7 @@ impl CholeskyFactor {
             debug_assert!(false, "a supernodal factorisation was asked for");
             return;
         };
-        let first = self.pattern.matrix.nrows() - self.pattern.kept;
+        let first = self.pattern.matrix.nrows() - self.pattern.retained;
         let factor = SupernodalLltRef::new(symbolic, &self.values);
         for s in 0..symbolic.n_supernodes() {
             let node = factor.supernode(s);
@@ -243,14 +243,14 @@ mod tests {
     }
 
     #[test]
-    fn kept_compliance_of_a_chain_is_that_of_springs_in_series() {
+    fn retained_compliance_of_a_chain_is_that_of_springs_in_series() {
         let (starts, rows, values) = chain(12);
         let pattern =
             Arc::new(CholeskyPattern::new(starts, rows, 3).expect("a chain can be analysed"));
         let inverse = pattern
             .factor(&values)
             .expect("a chain is held")
-            .kept_inverse();
+            .retained_inverse();
         for i in 0..3 {
             for j in 0..3 {
                 let expected = real(10 + i.min(j));

@@ -9,6 +9,7 @@ use crate::mesh::columns::is_tip;
 use crate::mesh::{MeshError, grading};
 use crate::number::count_at_least;
 use crate::scene::Scene;
+use crate::sides::Sides;
 
 /// The contact surface ends where its arc is steeper than this; beyond it the surface is no graph.
 const STEEPEST_ANGLE_DEG: f64 = 80.0;
@@ -19,10 +20,8 @@ pub(super) const MOST_SURFACE_NODES: usize = 3_000;
 /// Mesh lines of both bodies.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Layout {
-    /// The slider, in its own frame.
-    pub slider: BodyLayout,
-    /// The receptacle.
-    pub receptacle: BodyLayout,
+    /// Those of each body, in its own frame.
+    pub bodies: Sides<BodyLayout>,
     /// The lengths that the spacing was chosen from.
     pub sizes: Sizes,
 }
@@ -50,12 +49,13 @@ impl Layout {
     /// face.
     pub fn of(scene: &Scene) -> Result<Self, MeshError> {
         let sizes = resolution::choose(scene);
-        for spacing in [&sizes.receptacle, &sizes.slider] {
+        for spacing in [&sizes.spacing.receptacle, &sizes.spacing.slider] {
             within_limit(count_at_least(2.0 * spacing.core_half / spacing.core))?;
         }
+        let receptacle = receptacle(scene, &sizes)?;
+        let slider = slider(scene, &sizes)?;
         Ok(Self {
-            receptacle: receptacle(scene, &sizes)?,
-            slider: slider(scene, &sizes)?,
+            bodies: Sides { slider, receptacle },
             sizes,
         })
     }
@@ -151,10 +151,13 @@ fn receptacle(scene: &Scene, sizes: &Sizes) -> Result<BodyLayout, MeshError> {
     let shape = scene.receptacle.shape;
     let half = 0.5 * shape.length_mm;
     let (profile, x) = match shape.crown_radius_mm {
-        None => (Profile::Flat, grading::symmetric(half, &sizes.receptacle)),
+        None => (
+            Profile::Flat,
+            grading::symmetric(half, &sizes.spacing.receptacle),
+        ),
         Some(radius) => (
             Profile::Crown { radius },
-            on_arc(radius, half, &sizes.receptacle),
+            on_arc(radius, half, &sizes.spacing.receptacle),
         ),
     };
     let fractions = grading::layers(sizes.contact_element / shape.height_mm, sizes.layer_growth);
@@ -166,7 +169,7 @@ fn slider(scene: &Scene, sizes: &Sizes) -> Result<BodyLayout, MeshError> {
     let profile = Profile::Arc {
         radius: shape.radius_mm,
     };
-    let x = on_arc(shape.radius_mm, shape.half_width_mm, &sizes.slider);
+    let x = on_arc(shape.radius_mm, shape.half_width_mm, &sizes.spacing.slider);
     let fractions = grading::layers(sizes.contact_element / shape.height_mm, sizes.layer_growth);
     BodyLayout::new(x, profile, shape.height_mm, fractions)
 }
@@ -197,8 +200,8 @@ mod tests {
             let layout = Layout::of(&scene).expect("within the limit");
             let model = build(&scene).expect("the preset can be meshed");
             for (layout, model) in [
-                (&layout.slider, &model.slider),
-                (&layout.receptacle, &model.receptacle),
+                (&layout.bodies.slider, &model.bodies.slider),
+                (&layout.bodies.receptacle, &model.bodies.receptacle),
             ] {
                 assert_eq!(layout.nodes(), model.mesh.nodes());
                 assert_eq!(layout.contact_x(), model.contact_x());

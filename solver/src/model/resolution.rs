@@ -7,11 +7,12 @@
 //!   W = (k_s + k_r) P s (parabola of height b^2/(2R) over 2 b);
 //! * ends of the groove of a long stroke 2 A, W/(2 A) deep: the slider's arc reaches b = sqrt(R W / A) up them.
 
-use crate::material::contact_modulus;
+use crate::law::elastic::contact_modulus;
+use crate::law::{friction, wear};
 use crate::mesh::grading::Spacing;
 use crate::number::real_cycles;
 use crate::scene::{Motion, Scene};
-use crate::{friction, wear};
+use crate::sides::Sides;
 use std::f64::consts::PI;
 
 /// The estimate of the largest scar is widened by this factor before it sizes the mesh.
@@ -39,10 +40,8 @@ pub struct Sizes {
     pub contact_element: f64,
     /// Growth of the layers away from the surface.
     pub layer_growth: f64,
-    /// Spacing along the receptacle's surface.
-    pub receptacle: Spacing,
-    /// Spacing along the slider's surface.
-    pub slider: Spacing,
+    /// Spacing along each surface.
+    pub spacing: Sides<Spacing>,
 }
 
 /// Elements across the narrowest half-width, and growth of elements, for a tolerance.
@@ -157,7 +156,9 @@ pub fn choose(scene: &Scene) -> Sizes {
         final_half_width: last,
         contact_element: element,
         layer_growth: rule.layer_growth,
-        receptacle: spacing(amplitude, half_top),
-        slider: spacing(0.0, half_arc),
+        spacing: Sides {
+            slider: spacing(0.0, half_arc),
+            receptacle: spacing(amplitude, half_top),
+        },
     }
 }

@@ -56,19 +56,19 @@ pub(crate) fn fuzz_button() -> Scene {
 #[test]
 fn a_half_round_slider_ends_in_tips_on_its_top_face() {
     let model = build(&fuzz_button()).expect("the preset can be meshed");
-    let x = model.slider.mesh.x();
+    let x = model.bodies.slider.mesh.x();
     assert!((x[0] + 0.0254).abs() < 1e-15);
     assert_eq!(
-        model.slider.mesh.surface_node(0),
-        model.slider.mesh.far_node(0)
+        model.bodies.slider.mesh.surface_node(0),
+        model.bodies.slider.mesh.far_node(0)
     );
-    assert!(model.slider.contact.0 > 0);
+    assert!(model.bodies.slider.contact.0 > 0);
 }
 
 #[test]
 fn widths_of_contact_nodes_add_up_to_the_surface() {
     let model = build(&fuzz_button()).expect("the preset can be meshed");
-    let sum: f64 = model.receptacle.contact_widths().iter().sum();
+    let sum: f64 = model.bodies.receptacle.contact_widths().iter().sum();
     assert!((sum - 0.08467).abs() < 1e-14);
 }
 

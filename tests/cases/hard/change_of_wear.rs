@@ -19,12 +19,12 @@ fn a_hundredfold_wear_coefficient_from_one_cycle_to_the_next_goes_through() {
     let mut model = solver::model::build(&scene).expect("the scene can be meshed");
     let condensed = condense(&model).expect("it can be condensed");
     let operators = &condensed.operators;
-    let widths = model.receptacle.contact_widths();
+    let widths = model.bodies.receptacle.contact_widths();
     let mut state = CycleState::start(operators);
     let mut path = 0.0;
     let mut expected = 0.0;
     for (round, k) in [1e-8, 1e-6, 1e-8].into_iter().enumerate() {
-        model.interface.receptacle_wear = k;
+        model.interface.wear.receptacle = k;
         let mut integrator = Integrator::new(&scene, &model, operators);
         if round == 0 {
             integrator.apply_load(&mut state).expect("it settles");
@@ -41,7 +41,7 @@ fn a_hundredfold_wear_coefficient_from_one_cycle_to_the_next_goes_through() {
     }
     let worn: f64 = widths
         .iter()
-        .zip(&state.receptacle_depth)
+        .zip(&state.depth.receptacle)
         .map(|(w, d)| w * d)
         .sum();
     assert!((worn / expected - 1.0).abs() < 1e-9, "{worn} {expected}");

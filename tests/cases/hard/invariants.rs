@@ -3,6 +3,7 @@
 use solver::ale;
 use solver::history::{Checks, CycleReport, SideReport, Snapshot, TractionField};
 use solver::model;
+use solver::sides::Sides;
 
 use super::run::Run;
 
@@ -141,7 +142,11 @@ pub(crate) fn zigzag(field: &TractionField) -> f64 {
 fn inverted_elements(run: &Run) -> Option<String> {
     let last = run.snapshots.last()?;
     let model = model::build(&run.scene).expect("it was built before");
-    let worn = ale::worn_model(&model, &last.receptacle.depth_mm, &last.slider.depth_mm);
+    let depth = Sides {
+        slider: last.slider.depth_mm.clone(),
+        receptacle: last.receptacle.depth_mm.clone(),
+    };
+    let worn = ale::relocate(&model, &depth);
     worn.err()
         .map(|error| format!("cycle {}: {error}", last.cycle))
 }

@@ -1,9 +1,10 @@
 //! The naive variant: forward Euler, wear taken off after each increment from the pressure at its end.
 
 use solver::condensation::condense;
-use solver::contact::{ContactError, ContactState, Move, Pair, Solver, Surfaces, slopes};
+use solver::contact::{ContactError, ContactState, Displacement, Pair, Solver, Surfaces, slopes};
 use solver::history::{Position, TractionField};
 use solver::scene::Scene;
+use solver::sides::{Side, Sides};
 
 /// Pressures at the end of some explicit cycles of a scene, each standing for `jump` physical ones.
 pub(crate) fn explicit_wear(
@@ -18,11 +19,11 @@ pub(crate) fn explicit_wear(
         operators: &operators,
         interface: model.interface,
     };
-    let wear = jump * model.interface.receptacle_wear;
+    let wear = jump * model.interface.wear.receptacle;
     let mut solver = Solver::default();
     let mut depth = vec![0.0; operators.receptacle.x.len()];
     let slider_depth = vec![0.0; operators.slider.x.len()];
-    let slider_slope = slopes(&operators.slider, &slider_depth, 1.0);
+    let slider_slope = slopes(&operators.slider, &slider_depth, Side::Slider);
     let (mut last, mut next) = (
         ContactState::untouched(&operators),
         ContactState::untouched(&operators),
@@ -39,23 +40,30 @@ pub(crate) fn explicit_wear(
             .chain(back.map(|x| -x))
     };
     for _ in 0..cycles {
-        let slope = slopes(&operators.receptacle, &depth, -1.0);
+        let slope = slopes(&operators.receptacle, &depth, Side::Receptacle);
         for slider_x in there_and_back() {
             let surfaces = Surfaces {
-                receptacle_depth: &depth,
-                slider_depth: &slider_depth,
-                slope: &slope,
-                slider_slope: &slider_slope,
+                depth: Sides {
+                    slider: &slider_depth,
+                    receptacle: &depth,
+                },
+                slope: Sides {
+                    slider: &slider_slope,
+                    receptacle: &slope,
+                },
             };
             // No cycles: the solve itself knows no wear.
-            let to = Move {
+            let to = Displacement {
                 slider_x,
-                run: 0.0,
+                surface_slip: 0.0,
                 cycles: 0.0,
-                pivots: true,
+                lemke: true,
             };
             let done = solver.advance(&pair, &surfaces, &last, to, &mut next)?;
-            for (depth, path) in depth[done.first..].iter_mut().zip(done.path) {
+            for (depth, path) in depth[done.first.receptacle..]
+                .iter_mut()
+                .zip(done.path.receptacle)
+            {
                 *depth += wear * path;
             }
             std::mem::swap(&mut last, &mut next);

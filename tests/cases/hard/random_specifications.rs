@@ -34,8 +34,8 @@ fn setting<T: FromStr>(name: &str, default: T) -> T {
 /// Whether a scene takes seconds at most.
 fn is_cheap(scene: &Scene) -> bool {
     let model = solver::model::build(scene).expect("what is accepted can be meshed");
-    let spines = model.receptacle.mesh.spines() + model.slider.mesh.spines();
-    let dofs = model.receptacle.dofs() + model.slider.dofs();
+    let spines = model.bodies.receptacle.mesh.spines() + model.bodies.slider.mesh.spines();
+    let dofs = model.bodies.receptacle.dofs() + model.bodies.slider.dofs();
     let way = scene.motion.amplitude_mm() / model.sizes.hertz_half_width;
     spines <= 400
         && dofs <= 20_000

@@ -19,7 +19,7 @@ fn slender_elements_far_below_the_contact_leave_hertz_alone() {
     })));
     hold(&run);
     let model = solver::model::build(&run.scene).expect("it can be meshed");
-    let mesh = &model.receptacle.mesh;
+    let mesh = &model.bodies.receptacle.mesh;
     let (nodes, middle) = (mesh.coordinates(), mesh.spines() / 2);
     let width = mesh.x()[middle + 1] - mesh.x()[middle];
     let far = mesh.far_node(middle);

@@ -1,17 +1,17 @@
-//! What each node does, and how the signs of an iterate choose it: the active set of the Newton method.
+//! Contact status of a node, and the active-set update from the signs of an iterate.
 
 use serde::{Deserialize, Serialize};
 
 use super::GAP_TOLERANCE;
-use super::newton::{Iterate, Problem};
+use super::problem::{Iterate, Problem};
 
 /// From this iteration on only one node changes its status at a time.
-const CAREFUL_FROM: usize = 20;
-/// From then on a status is right within so many tolerances: at the edge of its cone a node can stick a little beyond
-/// it and slip a little backward, each by round-off.
-const CAREFUL_SLACK: f64 = 10.0;
+const SINGLE_CHANGE_FROM: usize = 20;
+/// From then on a status is accepted within so many tolerances: at the edge of the friction cone a node can stick
+/// slightly beyond it and slip slightly backward, each by round-off.
+const SINGLE_CHANGE_SLACK: f64 = 10.0;
 
-/// What a node of the receptacle does.
+/// Contact status of a node of the receptacle.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Status {
     /// No contact.
@@ -44,40 +44,44 @@ impl Status {
     }
 }
 
-/// Chooses statuses from the signs of the iterate; returns how many nodes do not have the status they should.
+/// Updates the statuses from the signs of the iterate; returns the number of nodes whose status violates them.
 ///
-/// All of them change at once while that works (it mostly takes three to six iterations). A contact that rattles on
-/// a steep wall can cycle; from [`CAREFUL_FROM`] on only the worst node changes, as in Murty's pivoting.
+/// All of them change at once, which mostly converges in three to six iterations. A contact on a steep wall can cycle;
+/// from [`SINGLE_CHANGE_FROM`] on only the worst node changes, as in Murty's pivoting.
 pub(super) fn update(problem: &Problem<'_>, it: &mut Iterate, iteration: usize) -> usize {
     let pressure_scale = it
         .pressure
         .iter()
         .fold(f64::MIN_POSITIVE, |m, p| m.max(p.abs()));
-    let careful = iteration >= CAREFUL_FROM;
+    let single_change = iteration >= SINGLE_CHANGE_FROM;
     let (mut changes, mut worst) = (0, (0.0, 0, Status::Open));
-    let slack = if careful { CAREFUL_SLACK } else { 1.0 };
+    let slack = if single_change {
+        SINGLE_CHANGE_SLACK
+    } else {
+        1.0
+    };
     for i in 0..it.status.len() {
-        let (new, violation) = wanted_status(problem, it, i, pressure_scale, slack);
+        let (new, violation) = required_status(problem, it, i, pressure_scale, slack);
         if violation <= 0.0 {
             it.status[i] = new;
             continue;
         }
         changes += 1;
-        if !careful {
+        if !single_change {
             it.status[i] = new;
         } else if violation > worst.0 {
             worst = (violation, i, new);
         }
     }
-    if careful && changes > 0 {
+    if single_change && changes > 0 {
         it.status[worst.1] = worst.2;
     }
     changes
 }
 
-/// The status that a node should have, and how much it violates its present one (0 if it keeps it, within so many
-/// tolerances).
-fn wanted_status(
+/// The status that follows from the signs at a node, and the violation of the present one (0 if it stays, within so
+/// many tolerances).
+fn required_status(
     problem: &Problem<'_>,
     it: &Iterate,
     i: usize,
@@ -119,7 +123,7 @@ fn wanted_status(
         {
             (Status::Stick, slip.abs() / slip_scale)
         }
-        kept => (kept, 0.0),
+        unchanged => (unchanged, 0.0),
     }
 }
 
@@ -128,7 +132,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn slip_has_the_direction_it_was_made_from() {
+    fn a_slipping_status_has_the_direction_of_the_slip() {
         assert!((Status::slip(2.0).direction() - 1.0).abs() < f64::EPSILON);
         assert!((Status::slip(-2.0).direction() + 1.0).abs() < f64::EPSILON);
         assert!(Status::Stick.direction().abs() < f64::EPSILON);

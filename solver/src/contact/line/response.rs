@@ -1,6 +1,6 @@
 //! The response of both bodies at the coupled nodes, in the local frame of the receptacle's surface.
 //!
-//! A column of G = Mhat C_s Mhat^T + C_r is gathered when its node first touches: most coupled nodes are only watched.
+//! A column of G = Mhat C_s Mhat^T + C_r is computed when its node first touches: most candidates never do.
 
 use super::mortar::Coupling;
 use super::{ContactState, Pair, Surfaces};
@@ -13,7 +13,7 @@ pub(super) struct Response {
     nodes: usize,
     /// For each node: gaps, then jumps for a force along N; gaps, then jumps for one along T, mm per N/mm.
     columns: Vec<f64>,
-    gathered: Vec<bool>,
+    computed: Vec<bool>,
     /// Tangential jump that the forces of the last increment would make at the new position, mm.
     pub(super) last_jump: Vec<f64>,
     /// Slope at each coupled node.
@@ -28,8 +28,8 @@ pub(super) struct Response {
 pub(super) type Column<'a> = (&'a [f64], &'a [f64]);
 
 impl Response {
-    /// Turns to another set of coupled nodes; no column is gathered yet.
-    pub(super) fn begin(
+    /// Resets to another set of coupled nodes; no column is computed yet.
+    pub(super) fn reset(
         &mut self,
         pair: &Pair<'_>,
         coupling: &Coupling,
@@ -39,40 +39,40 @@ impl Response {
         let n = coupling.len();
         self.nodes = n;
         self.columns.resize(4 * n * n, 0.0);
-        self.gathered.clear();
-        self.gathered.resize(n, false);
+        self.computed.clear();
+        self.computed.resize(n, false);
         self.slope.clear();
         self.slope
-            .extend_from_slice(&surfaces.slope[coupling.first..coupling.end]);
+            .extend_from_slice(&surfaces.slope.receptacle[coupling.first..coupling.end]);
         self.slider_slope.clear();
         for i in coupling.first..coupling.end {
             let (from, weights) = coupling.dual_row(i);
-            let slopes = weights.iter().zip(&surfaces.slider_slope[from..]);
+            let slopes = weights.iter().zip(&surfaces.slope.slider[from..]);
             self.slider_slope
                 .push(slopes.map(|(weight, slope)| weight * slope).sum());
         }
-        self.gather_last_jump(pair, coupling, last);
+        self.compute_last_jump(pair, coupling, last);
     }
 
-    /// Per force along N = (-s, 1) at a node; its column must have been gathered.
+    /// Per force along N = (-s, 1) at a node; requires its column.
     pub(super) fn along_normal(&self, node: usize) -> Column<'_> {
         self.column(2 * node)
     }
 
-    /// Per force along T = (1, s) at a node; its column must have been gathered.
+    /// Per force along T = (1, s) at a node; requires its column.
     pub(super) fn along_tangent(&self, node: usize) -> Column<'_> {
         self.column(2 * node + 1)
     }
 
     fn column(&self, column: usize) -> Column<'_> {
-        debug_assert!(self.gathered[column / 2], "a column that is there");
+        debug_assert!(self.computed[column / 2], "a column is computed before use");
         let begin = 2 * column * self.nodes;
         self.columns[begin..begin + 2 * self.nodes].split_at(self.nodes)
     }
 
-    /// Gathers both columns of a node, unless that was done before.
-    pub(super) fn gather(&mut self, operators: &Operators, coupling: &Coupling, node: usize) {
-        if std::mem::replace(&mut self.gathered[node], true) {
+    /// Computes both columns of a node once.
+    pub(super) fn compute(&mut self, operators: &Operators, coupling: &Coupling, node: usize) {
+        if std::mem::replace(&mut self.computed[node], true) {
             return;
         }
         let n = self.nodes;
@@ -82,8 +82,8 @@ impl Response {
         self.slider.resize(end - begin, [0.0; 4]);
         let (from, weights) = coupling.dual_row(k);
         for (offset, weight) in weights.iter().enumerate() {
-            let answers = operators.slider.compliance.to_force_at(from + offset);
-            for (sum, c) in self.slider.iter_mut().zip(&answers[begin..end]) {
+            let response = operators.slider.compliance.to_force_at(from + offset);
+            for (sum, c) in self.slider.iter_mut().zip(&response[begin..end]) {
                 add(sum, *weight, c);
             }
         }
@@ -109,18 +109,18 @@ impl Response {
         }
     }
 
-    fn gather_last_jump(&mut self, pair: &Pair<'_>, coupling: &Coupling, last: &ContactState) {
+    fn compute_last_jump(&mut self, pair: &Pair<'_>, coupling: &Coupling, last: &ContactState) {
         let (begin, end) = coupling.slider_range;
         let n = coupling.len();
         let Operators { slider, receptacle } = pair.operators;
         self.displacement.clear();
         self.displacement.resize(end - begin + n, [0.0; 2]);
         let (above, below) = self.displacement.split_at_mut(end - begin);
-        accumulate(above, &slider.compliance, &last.slider_force, begin);
+        accumulate(above, &slider.compliance, &last.force.slider, begin);
         accumulate(
             below,
             &receptacle.compliance,
-            &last.receptacle_force,
+            &last.force.receptacle,
             coupling.first,
         );
         self.last_jump.clear();
@@ -142,14 +142,14 @@ fn add(sum: &mut Block, weight: f64, c: &Block) {
     }
 }
 
-/// target += (answers of the nodes from `first` on) * force, over the nodes that carry one.
+/// target += compliance of the nodes from `first` on, times the nodal forces that are not zero.
 fn accumulate(target: &mut [[f64; 2]], compliance: &Compliance, force: &[f64], first: usize) {
     for (node, f) in force.chunks_exact(2).enumerate() {
         if f[0] == 0.0 && f[1] == 0.0 {
             continue;
         }
-        let answers = &compliance.to_force_at(node)[first..first + target.len()];
-        for (u, c) in target.iter_mut().zip(answers) {
+        let response = &compliance.to_force_at(node)[first..first + target.len()];
+        for (u, c) in target.iter_mut().zip(response) {
             u[0] += f[0] * c[0] + f[1] * c[2];
             u[1] += f[0] * c[1] + f[1] * c[3];
         }

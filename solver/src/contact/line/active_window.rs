@@ -1,14 +1,15 @@
-//! Which nodes of the receptacle may touch: the range that an increment is solved on.
+//! Active window: the candidate nodes of the receptacle, those that may touch in an increment.
 
 use super::{ContactState, Pair, Surfaces};
 
-/// A node whose undeformed gap is smaller than this part of the indentation is watched: the free surface beside a
+/// A node whose undeformed gap is smaller than this part of the indentation is a candidate: the free surface beside a
 /// contact sinks, so a node with a positive undeformed gap closes only if shear lifts it, by far less than this.
-pub(crate) const WATCHED: f64 = 0.3;
-/// Nodes watched beyond that at either end.
+pub(crate) const CANDIDATE_GAP: f64 = 0.3;
+/// Additional candidate nodes at either end.
 const MARGIN_NODES: usize = 2;
-/// Nodes to begin with: the last contact as it travels with the slider, and what the last height reaches.
-pub(super) fn first_range(
+
+/// The first window: the last contact shifted with the slider, and the candidates at the last height.
+pub(super) fn initial_window(
     pair: &Pair<'_>,
     last: &ContactState,
     slider_x: f64,
@@ -28,16 +29,21 @@ pub(super) fn first_range(
     let step = slider_x - last.slider_x;
     let begin = x.partition_point(|&at| at < x[first] + step);
     let stop = x.partition_point(|&at| at <= x[end - 1] + step);
-    let reached = watched(undeformed, covered.0, last.indentation, last.height);
-    let begin = begin.clamp(covered.0, covered.1 - 1).min(reached.0);
+    let candidates_before = candidates(undeformed, covered.0, last.indentation, last.height);
+    let begin = begin
+        .clamp(covered.0, covered.1 - 1)
+        .min(candidates_before.0);
     widened(
-        (begin, stop.min(covered.1).max(reached.1).max(begin + 1)),
+        (
+            begin,
+            stop.min(covered.1).max(candidates_before.1).max(begin + 1),
+        ),
         covered,
     )
 }
 
 /// Undeformed vertical gap of the covered nodes at height 0, mm: exact shapes, worn depths interpolated.
-pub(super) fn lay_undeformed_gaps(
+pub(super) fn undeformed_gaps(
     pair: &Pair<'_>,
     surfaces: &Surfaces<'_>,
     slider_x: f64,
@@ -54,20 +60,20 @@ pub(super) fn lay_undeformed_gaps(
             m += 1;
         }
         let t = (local - master.x[m - 1]) / (master.x[m] - master.x[m - 1]);
-        let worn = (1.0 - t) * surfaces.slider_depth[m - 1] + t * surfaces.slider_depth[m];
+        let worn = (1.0 - t) * surfaces.depth.slider[m - 1] + t * surfaces.depth.slider[m];
         let shape = master.profile.height(local) - slave.profile.height(slave.x[i]);
-        gaps.push(shape + worn + surfaces.receptacle_depth[i]);
+        gaps.push(shape + worn + surfaces.depth.receptacle[i]);
     }
 }
 
-/// Nodes from `offset` on that may touch at a height: first and one past the last.
-pub(super) fn watched(
+/// Candidate nodes at a height, the gaps beginning at node `offset`: first and one past the last.
+pub(super) fn candidates(
     undeformed: &[f64],
     offset: usize,
     indentation: f64,
     height: f64,
 ) -> (usize, usize) {
-    let threshold = WATCHED * indentation - height;
+    let threshold = CANDIDATE_GAP * indentation - height;
     let below = |gap: &f64| *gap < threshold;
     match (
         undeformed.iter().position(below),
@@ -78,6 +84,7 @@ pub(super) fn watched(
     }
 }
 
+/// The window with its margin, within the covered nodes.
 pub(super) fn widened((first, end): (usize, usize), covered: (usize, usize)) -> (usize, usize) {
     (
         first.saturating_sub(MARGIN_NODES).max(covered.0),

@@ -1,4 +1,4 @@
-//! Contact states by complementary pivoting, where the signs of Newton's iterates go round in circles.
+//! The increment as a linear complementarity problem, for increments on which Newton's active set cycles.
 //!
 //! With the wear linearised, an increment is a linear complementarity problem (Klarbring 1986; Stewart and Trinkle
 //! 1996). Per coupled node with q = a - b:
@@ -6,33 +6,34 @@
 //! * gap >= 0 with p >= 0, its wear k (p' gamma + p gamma' - p' gamma') about the last solution p', gamma',
 //! * gamma - sigma >= 0 with a >= 0, and gamma + sigma >= 0 with b >= 0, where gamma is the slip's magnitude,
 //! * mu p - a - b >= 0 with gamma >= 0,
-//! * and once: load - sum of vertical forces >= 0 with the height over a place far too low.
+//! * and once: load - sum of vertical forces >= 0 with the height above a bound far below any solution.
 //!
-//! With equal slopes on both sides its matrix is copositive and Lemke's method finds a solution whatever the friction
-//! and the slopes: the wear adds products of p and gamma, which are not negative. Its solution is where the next
-//! linearisation is made (Josephy 1979), and where Newton's method begins again, now with the right signs.
+//! With equal slopes on both sides its matrix is copositive and Lemke's method finds a solution for any friction and
+//! slopes: the wear adds products of p and gamma, which are not negative. The wear is relinearised about that solution
+//! (Josephy 1979), and the result is the warm start of Newton's method, with the right signs.
 
-use super::newton::{End, Iterate, Newton, Problem};
+use super::newton::{Convergence, Newton};
+use super::problem::{Iterate, Problem};
 use super::response::Response;
 use super::status::Status;
 use crate::linear::{Lemke, SquareMatrix};
 use crate::number::real;
 
-/// The slack of each friction cone, over the pressures: it tells ties of the pivoting apart.
+/// Slack of each friction cone, over the pressures: it breaks ties of the pivoting.
 const CONE_SLACK: f64 = 1e-10;
-/// The lowest height lies this many indentations below any that could be.
-const DEPTH: f64 = 16.0;
+/// The bound of the height lies this many indentations below any possible height.
+const HEIGHT_MARGIN: f64 = 16.0;
 
-/// Most nodes that are pivoted: the work grows with their cube.
+/// Most nodes of a complementarity problem: the work grows with their cube.
 const MOST_NODES: usize = 200;
 /// Most linearisations of the wear.
 const MOST_LINEARISATIONS: usize = 20;
 /// Newton iterations after a linearisation that changed no status.
 const ITERATIONS_AFTER: usize = 12;
 
-/// Buffers of the pivoting.
+/// Buffers of the complementarity problem.
 #[derive(Debug, Default)]
-pub(super) struct Pivoting {
+pub(super) struct Complementarity {
     lemke: Lemke,
     matrix: SquareMatrix,
     constant: Vec<f64>,
@@ -44,15 +45,15 @@ pub(super) struct Pivoting {
     status: Vec<Status>,
 }
 
-/// What a solution changed.
+/// Result of one linearisation.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Improved {
-    /// There is a solution, in which so many nodes have another status than before.
+enum Linearised {
+    /// Lemke's method found a solution.
     Solution {
-        /// How many.
+        /// Number of nodes whose status differs from the previous solution.
         changes: usize,
     },
-    /// The pivoting ended on a ray.
+    /// Lemke's method ended on a ray.
     Ray,
 }
 
@@ -75,7 +76,7 @@ impl Layout {
             .fold((f64::INFINITY, f64::NEG_INFINITY), |m, g| {
                 (m.0.min(*g), m.1.max(*g))
             });
-        // Of no use where the last linear system had no finite solution.
+        // Invalid if the last linear solve failed.
         let indentation = if it.indentation.is_finite() {
             it.indentation
         } else {
@@ -90,7 +91,7 @@ impl Layout {
             sheared: problem.friction > 0.0,
             pressure: length / stiffest,
             length,
-            lowest: -range.1 - DEPTH * length,
+            lowest: -range.1 - HEIGHT_MARGIN * length,
         }
     }
 
@@ -112,41 +113,42 @@ impl Layout {
     }
 }
 
-impl Pivoting {
-    /// Looks for the contact state by pivoting, and for its last digits by Newton's method; `end` if there is none.
+impl Complementarity {
+    /// Solves for the contact state by Lemke's method and Newton's method from its solution; returns `end` if there is
+    /// none.
     pub(super) fn solve(
         &mut self,
         newton: &mut Newton,
         problem: &Problem<'_>,
         response: &mut Response,
         it: &mut Iterate,
-        mut end: End,
-    ) -> End {
+        mut end: Convergence,
+    ) -> Convergence {
         if it.status.len() > MOST_NODES {
             return end;
         }
         for node in 0..it.status.len() {
-            response.gather(problem.operators, problem.coupling, node);
+            response.compute(problem.operators, problem.coupling, node);
         }
-        self.begin(problem, it);
+        self.reset(problem, it);
         for _ in 0..MOST_LINEARISATIONS {
-            let Improved::Solution { changes } = self.improve(problem, response, it) else {
+            let Linearised::Solution { changes } = self.relinearise(problem, response, it) else {
                 return end;
             };
             if changes > 0 {
                 continue;
             }
-            self.hand_over(it);
+            self.warm_start(it);
             end = newton.solve(problem, response, it, ITERATIONS_AFTER);
-            if matches!(end, End::Settled) {
+            if matches!(end, Convergence::Converged) {
                 return end;
             }
         }
         end
     }
 
-    /// Begins anew: no pressure, and all nodes slip as far as the slider does.
-    fn begin(&mut self, problem: &Problem<'_>, it: &Iterate) {
+    /// Resets to no pressure, all nodes slipping by the imposed slip.
+    fn reset(&mut self, problem: &Problem<'_>, it: &Iterate) {
         let n = it.status.len();
         self.pressure.clear();
         self.pressure.resize(n, 0.0);
@@ -157,11 +159,16 @@ impl Pivoting {
     }
 
     /// Solves the increment with the wear linearised about the last solution.
-    fn improve(&mut self, problem: &Problem<'_>, response: &Response, it: &Iterate) -> Improved {
+    fn relinearise(
+        &mut self,
+        problem: &Problem<'_>,
+        response: &Response,
+        it: &Iterate,
+    ) -> Linearised {
         let layout = Layout::of(problem, response, it);
-        self.lay(problem, response, layout);
+        self.assemble(problem, response, layout);
         let Some(z) = self.lemke.solve(&self.matrix, &self.constant) else {
-            return Improved::Ray;
+            return Linearised::Ray;
         };
         let mut changes = 0;
         for (i, p) in z[..layout.n].iter().enumerate() {
@@ -176,7 +183,7 @@ impl Pivoting {
             } else {
                 problem.step.abs()
             };
-            // Both shears stand in the basis only where both slips are zero.
+            // Both shears are in the basis only where both slips are zero.
             let stuck = layout.sheared && (gamma <= 0.0 || (a > 0.0 && b > 0.0));
             let status = if *p <= 0.0 {
                 Status::Open
@@ -190,11 +197,11 @@ impl Pivoting {
             changes += usize::from(self.status[i] != status);
             self.status[i] = status;
         }
-        Improved::Solution { changes }
+        Linearised::Solution { changes }
     }
 
-    /// Puts the last solution into an iterate.
-    fn hand_over(&self, it: &mut Iterate) {
+    /// Writes the last solution to the iterate of Newton's method.
+    fn warm_start(&self, it: &mut Iterate) {
         it.status.copy_from_slice(&self.status);
         it.pressure.copy_from_slice(&self.pressure);
         for (slip, (size, status)) in it.slip.iter_mut().zip(self.slip.iter().zip(&self.status)) {
@@ -202,7 +209,7 @@ impl Pivoting {
         }
     }
 
-    fn lay(&mut self, problem: &Problem<'_>, response: &Response, layout: Layout) {
+    fn assemble(&mut self, problem: &Problem<'_>, response: &Response, layout: Layout) {
         self.matrix.reset(layout.order());
         self.constant.clear();
         self.constant.resize(layout.order(), 0.0);
@@ -213,7 +220,7 @@ impl Pivoting {
             }
         }
         self.height_column(problem, layout);
-        self.lay_constant(problem, layout);
+        self.assemble_constant(problem, layout);
     }
 
     fn pressure_column(
@@ -284,7 +291,9 @@ impl Pivoting {
     fn open_all(&mut self, problem: &Problem<'_>, n: usize) {
         self.opened.clear();
         self.opened.resize(n, 0.0);
-        problem.transfer.open(&(0..n), &self.path, &mut self.opened);
+        problem
+            .wear
+            .add_opening(&(0..n), &self.path, &mut self.opened);
     }
 
     fn height_column(&mut self, problem: &Problem<'_>, layout: Layout) {
@@ -301,7 +310,7 @@ impl Pivoting {
             problem.spring * layout.length / (layout.pressure * mean_width(problem));
     }
 
-    fn lay_constant(&mut self, problem: &Problem<'_>, layout: Layout) {
+    fn assemble_constant(&mut self, problem: &Problem<'_>, layout: Layout) {
         self.path.clear();
         if layout.sheared {
             let paths = self

@@ -1,8 +1,8 @@
-//! What a run will take, before anything is solved: the integrator's own rules on a scar of closed form.
+//! Cost model of a run, before anything is solved: the run's own schedule on a scar of closed form.
 //!
-//! How many cycles are computed depends on how the scar grows, so the jump control and the rule of the increments are
-//! run on a stand-in for the solved scar. With the worn area W = (k_s + k_r) P s of both bodies, the contact leaves a
-//! segment of the slider's arc behind, drawn along by the part c of the stroke that exceeds the contact:
+//! The number of computed cycles depends on the growth of the scar, so the schedule of the run is applied to a surrogate
+//! for the solved scar. With the worn area W = (k_s + k_r) P s of both bodies, the contact leaves a
+//! segment of the slider's arc, extended by the part c of the stroke that exceeds the contact:
 //!
 //!   h(x) = (B^2 - max(a, |x| - c)^2) / (2 R),   c = max(0, A - a),
 //!
@@ -10,26 +10,26 @@
 //! from the first cycles this is b = (3 R W / 2)^(1/3) for a short stroke and a groove W/(2 A) deep for a long one.
 //! Stick takes from the stroke what the bodies shear before they slip.
 //!
-//! The contact of a short stroke is nearly as wide as the segment; that of a long one carries the step that one pass digs in
-//! front of it, sqrt(2 R k P jump) deep into the floor, to which its half-width adds by a measured share.
+//! The contact of a short stroke is nearly as wide as the segment; that of a long one rests on the leading-edge step of one pass, sqrt(2 R k P jump) deep into the floor, to which its half-width adds by a measured share.
 
-mod scar;
+mod surrogate;
 
-use super::jump::JumpControl;
-use super::path;
-use super::probe::Probes;
+use crate::cycle::replay::Replays;
 use crate::model::Layout;
 use crate::number::{cycles_at_least, real, real_cycles};
 use crate::scene::Scene;
+use crate::schedule::jump::JumpControl;
+use crate::schedule::{increments, stops};
+use crate::sides::Sides;
 
-use scar::Scar;
+use surrogate::Scar;
 
-/// Computed cycles that are followed one by one; the rest goes on like the last of them.
-const MOST_FOLLOWED: usize = 5_000;
-/// Of so many computed cycles with a fixed jump the next one is like the last.
-const ALIKE: f64 = 100.0;
+/// Computed cycles that are forecast one by one; the rest is extrapolated from the last.
+const MOST_SEGMENTS: usize = 5_000;
+/// With a fixed jump, one in so many of the computed cycles is forecast together with the next.
+const BATCHED_FROM: f64 = 100.0;
 
-/// Increments of about one kind.
+/// Increments of about one cost.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Segment {
     /// Physical cycles done at its end.
@@ -42,17 +42,17 @@ pub struct Segment {
     pub half_width_mm: f64,
     /// Nodes of the receptacle in contact.
     pub nodes: usize,
-    /// Nodes of the receptacle that are watched because they might touch.
-    pub watched: usize,
+    /// Candidate nodes of the receptacle.
+    pub candidates: usize,
 }
 
-/// What a run will take.
+/// Estimated work of a run.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Forecast {
     /// Computed cycles.
     pub computed_cycles: f64,
-    /// How often each body is condensed: slider, receptacle.
-    pub condensations: [u32; 2],
+    /// Number of condensations of each body.
+    pub condensations: Sides<u32>,
     /// Its increments, in order.
     pub segments: Vec<Segment>,
 }
@@ -68,60 +68,63 @@ impl Forecast {
 pub fn forecast(scene: &Scene, layout: &Layout) -> Forecast {
     let mut scar = Scar::new(scene, layout);
     let mut run = Forecast {
-        condensations: [1, 1],
+        condensations: Sides {
+            slider: 1,
+            receptacle: 1,
+        },
         ..Forecast::default()
     };
     let mut jump = JumpControl::default();
     let mut cycle = 0;
-    while cycle < scene.cycles && !scar.ends(scene) {
-        if MOST_FOLLOWED <= run.segments.len() {
-            run.go_on(cycle, scene.cycles);
+    while stops::end(scene, scar.progress(cycle, &jump)).is_none() {
+        if MOST_SEGMENTS <= run.segments.len() {
+            run.extrapolate(cycle, scene.cycles);
             break;
         }
-        let until = scar.next_stop(scene, cycle, jump.fastest_rate());
+        let until = stops::next(scene, scar.progress(cycle, &jump));
         let step = jump.next(&scene.accuracy, scar.stroke(scene), until - cycle);
-        let followed = path::followed(scar.half_width, scar.contact(1));
-        let steps = path::count(scene.motion, &scene.accuracy, followed);
-        let probes = if scar.stroke_runs() && step > 1 {
+        let followed = increments::followed(scar.half_width, scar.contact(1));
+        let steps = increments::count(scene.motion, &scene.accuracy, followed);
+        let replays = if scar.is_gross() && step > 1 {
             let length = 4.0 * scar.amplitude / real(steps);
             let (tolerance, single) = (scene.accuracy.tolerance, scar.contact(1));
-            Probes::of((steps, length), tolerance, scar.half_width, single).increments()
+            Replays::of((steps, length), tolerance, scar.half_width, single).increments()
         } else {
             0
         };
-        let together = alike(scene, run.computed_cycles, (until - cycle) / step);
+        let together = batch_size(scene, run.computed_cycles, (until - cycle) / step);
         let before = scar.depth.clone();
         scar.wear(step, together);
         let done = step * together;
-        jump.learn(&scar.widths, &before, &scar.depth, done);
+        jump.update(&scar.widths, &before, &scar.depth, done);
         cycle += done;
         run.computed_cycles += real_cycles(together);
         run.segments.push(Segment {
             cycle,
-            increments: real_cycles(together) * real(steps + probes),
+            increments: real_cycles(together) * real(steps + replays),
             steps,
             half_width_mm: scar.half_width,
             nodes: nodes_within(layout, scar.half_width),
-            watched: nodes_within(layout, scar.watched()),
+            candidates: nodes_within(layout, scar.candidate_half_width()),
         });
         scar.rebuild(scene, &mut run.condensations);
     }
     run
 }
 
-/// How many computed cycles are foreseen at once. A fixed jump needs no control, and a hundredth of what was computed
-/// changes little.
-fn alike(scene: &Scene, computed: f64, most: u64) -> u64 {
+/// Number of computed cycles that are forecast at once. A fixed jump needs no control, and a hundredth of the cycles
+/// done changes little.
+fn batch_size(scene: &Scene, computed: f64, most: u64) -> u64 {
     if scene.accuracy.cycle_jump.is_some() {
-        cycles_at_least((computed / ALIKE).floor()).clamp(1, most.max(1))
+        cycles_at_least((computed / BATCHED_FROM).floor()).clamp(1, most.max(1))
     } else {
         1
     }
 }
 
 impl Forecast {
-    /// The rest of a long run goes on like its last computed cycle.
-    fn go_on(&mut self, done: u64, cycles: u64) {
+    /// Extrapolates the rest of a long run from its last computed cycle.
+    fn extrapolate(&mut self, done: u64, cycles: u64) {
         let (Some(last), Some(before)) = (
             self.segments.last().copied(),
             self.segments.iter().rev().nth(1),
@@ -141,7 +144,7 @@ impl Forecast {
 
 /// Nodes of the receptacle that a contact of a half-width covers.
 fn nodes_within(layout: &Layout, half_width: f64) -> usize {
-    let x = layout.receptacle.contact_x();
+    let x = layout.bodies.receptacle.contact_x();
     let within = x.partition_point(|&x| x <= half_width) - x.partition_point(|&x| x < -half_width);
     within.max(1)
 }

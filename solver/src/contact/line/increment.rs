@@ -1,128 +1,128 @@
-//! One increment of sliding: which nodes may touch, the solve, and what it transmits and wears.
+//! One increment of sliding: the active window, the solve, and the increment's wear, energy and residuals.
 
-use super::guess::guess;
+use super::active_window::{candidates, initial_window, undeformed_gaps, widened};
+use super::complementarity::Complementarity;
 use super::mortar::{self, Coupling};
-use super::newton::{End, Iterate, Newton, Problem};
-use super::pivoting::Pivoting;
-use super::range::{first_range, lay_undeformed_gaps, watched, widened};
-use super::recession::{WearTransfer, slider_recession};
+use super::newton::{Convergence, Newton};
+use super::predictor::predict;
+use super::problem::{Iterate, Problem};
 use super::response::Response;
+use super::wear_coupling::{WearCoupling, transfer_path};
 use super::{
-    ContactError, ContactState, GAP_TOLERANCE, MOST_ITERATIONS, Move, Pair, Status, Surfaces,
+    ContactError, ContactState, Displacement, GAP_TOLERANCE, MOST_ITERATIONS, Pair, Status,
+    Surfaces,
 };
+use crate::sides::Sides;
 
-/// How often the watched range may grow within one increment.
+/// Most extensions of the active window within one increment.
 const MOST_EXTENSIONS: usize = 60;
 
-/// Solves increments; keeps its buffers from one to the next.
+/// Solves increments; its buffers are reused from one to the next.
 #[derive(Default)]
 pub struct Solver {
     coupling: Coupling,
     response: Response,
-    transfer: WearTransfer,
+    wear: WearCoupling,
     newton: Newton,
-    pivoting: Pivoting,
+    complementarity: Complementarity,
     iterate: Iterate,
     /// Undeformed vertical gap at height 0 of every covered node, mm.
     undeformed: Vec<f64>,
     gap: Vec<f64>,
     sag: Vec<f64>,
     fixed_slip: Vec<f64>,
-    recession: Vec<f64>,
+    slider_path: Vec<f64>,
 }
 
-/// What an increment did; arrays begin at `first`.
+/// Result of an increment; arrays begin at the first coupled node of their side.
 #[derive(Debug, Clone, Copy)]
 pub struct Increment<'a> {
-    /// First coupled node of the receptacle.
-    pub first: usize,
-    /// p |sigma| at the coupled nodes of the receptacle, MPa mm: vertical recession per k.
-    pub path: &'a [f64],
-    /// First coupled node of the slider.
-    pub slider_first: usize,
-    /// The same at the slider's nodes, MPa mm.
-    pub slider_path: &'a [f64],
+    /// First coupled node.
+    pub first: Sides<usize>,
+    /// p |sigma| at the coupled nodes, MPa mm: vertical recession over the specific wear rate.
+    pub path: Sides<&'a [f64]>,
     /// Energy dissipated by friction, N/mm mm.
     pub energy: f64,
     /// |sum of vertical forces - load| over the load on the unworn contact.
     pub force_balance: f64,
-    /// Largest gap of a closed node or penetration of an open one, over the indentation (and what round-off leaves
-    /// of it).
+    /// Largest gap of a closed node or penetration of an open one, over the indentation (or the round-off of longer
+    /// lengths).
     pub complementarity: f64,
     /// Largest |q| - mu p over the peak pressure.
     pub friction_cone: f64,
 }
 
 impl Solver {
-    /// Makes a move; writes the new state to `next`.
+    /// Solves the increment to a displacement and writes the new state to `next`.
     ///
     /// # Errors
-    /// [`ContactError`]; `next` is then of no use.
+    /// [`ContactError`]; `next` is then undefined.
     pub fn advance(
         &mut self,
         pair: &Pair<'_>,
         surfaces: &Surfaces<'_>,
         last: &ContactState,
-        to: Move,
+        to: Displacement,
         next: &mut ContactState,
     ) -> Result<Increment<'_>, ContactError> {
         let slider_x = to.slider_x;
-        if rests(last, to) {
-            return Ok(self.rest(last, next));
+        if is_at_rest(last, to) {
+            return Ok(self.unchanged(last, next));
         }
         let covered = mortar::covered(pair.operators, slider_x);
         if covered.0 == covered.1 || pair.interface.load <= 0.0 {
-            return Ok(self.leave(last, slider_x, next));
+            return Ok(self.open(last, slider_x, next));
         }
-        lay_undeformed_gaps(pair, surfaces, slider_x, covered, &mut self.undeformed);
-        let mut range = first_range(pair, last, slider_x, covered, &self.undeformed);
+        undeformed_gaps(pair, surfaces, slider_x, covered, &mut self.undeformed);
+        let mut window = initial_window(pair, last, slider_x, covered, &self.undeformed);
         for _ in 0..MOST_EXTENSIONS {
-            self.solve_range(pair, surfaces, last, to, range)?;
+            self.solve_window(pair, surfaces, last, to, window)?;
             let (indentation, height) = (self.iterate.indentation, self.iterate.height);
-            let needed = watched(&self.undeformed, covered.0, indentation, height);
-            let wanted = (needed.0.min(range.0), needed.1.max(range.1));
-            if wanted == range {
+            let needed = candidates(&self.undeformed, covered.0, indentation, height);
+            let extended = (needed.0.min(window.0), needed.1.max(window.1));
+            if extended == window {
                 self.write(pair, last, slider_x, next);
                 return Ok(self.report(pair, next));
             }
-            range = widened(wanted, covered);
+            window = widened(extended, covered);
         }
         Err(ContactError::NotConverged {
             slider_x_mm: slider_x,
             iterations: MOST_EXTENSIONS * MOST_ITERATIONS,
             residual: f64::INFINITY,
             tolerance: GAP_TOLERANCE,
-            changes: range.1 - range.0,
+            changes: window.1 - window.0,
         })
     }
 
-    /// A contact that is not there: without a load, or where the stroke has taken the slider off the receptacle and a
-    /// stop holds its height until it comes back.
-    fn leave(
+    /// An open contact: without a load, or where the stroke has taken the slider off the receptacle and a stop holds its
+    /// height until it returns.
+    fn open(
         &mut self,
         last: &ContactState,
         slider_x: f64,
         next: &mut ContactState,
     ) -> Increment<'_> {
-        next.lift(last, slider_x);
-        self.nothing()
+        next.reset_open(last, slider_x);
+        self.no_increment()
     }
 
-    /// A contact that stays as it is.
-    fn rest(&mut self, last: &ContactState, next: &mut ContactState) -> Increment<'_> {
+    /// An unchanged contact.
+    fn unchanged(&mut self, last: &ContactState, next: &mut ContactState) -> Increment<'_> {
         next.clone_from(last);
-        self.nothing()
+        self.no_increment()
     }
 
-    /// No wear, and nothing that could be unbalanced.
-    fn nothing(&mut self) -> Increment<'_> {
+    /// No wear, no energy, no residuals.
+    fn no_increment(&mut self) -> Increment<'_> {
         self.iterate.path.clear();
-        self.recession.clear();
+        self.slider_path.clear();
         Increment {
-            first: 0,
-            path: &self.iterate.path,
-            slider_first: 0,
-            slider_path: &self.recession,
+            first: Sides::default(),
+            path: Sides {
+                slider: &self.slider_path,
+                receptacle: &self.iterate.path,
+            },
             energy: 0.0,
             force_balance: 0.0,
             complementarity: 0.0,
@@ -130,66 +130,68 @@ impl Solver {
         }
     }
 
-    fn solve_range(
+    fn solve_window(
         &mut self,
         pair: &Pair<'_>,
         surfaces: &Surfaces<'_>,
         last: &ContactState,
-        to: Move,
+        to: Displacement,
         (first, end): (usize, usize),
     ) -> Result<(), ContactError> {
         let (slider_x, cycles) = (to.slider_x, to.cycles);
         self.coupling
             .integrate(pair.operators, slider_x, first, end);
-        self.response.begin(pair, &self.coupling, surfaces, last);
+        self.response.reset(pair, &self.coupling, surfaces, last);
         let interface = &pair.interface;
-        let kappa = [interface.receptacle_wear, interface.slider_wear].map(|k| k * cycles);
+        let rate = interface.wear.map(|k| k * cycles);
         let slider_widths = &pair.operators.slider.widths;
-        self.transfer.lay(&self.coupling, slider_widths, kappa);
-        // Before the first load there is no height that the spring counts from.
+        self.wear.assemble(&self.coupling, slider_widths, rate);
+        // Before the first load the spring has no reference height.
         let (spring, reference) = last
             .reference_height
             .map_or((0.0, 0.0), |height| (interface.spring, height));
         let load = interface.load - spring * reference;
-        self.lay_gap(pair, surfaces, load, spring);
-        let step = slider_x - last.slider_x + to.run;
-        self.lay_fixed_slip(step, last.height);
+        self.assemble_gap(pair, surfaces, load, spring);
+        let step = slider_x - last.slider_x + to.surface_slip;
+        self.assemble_fixed_slip(step, last.height);
         let problem = Problem {
             operators: pair.operators,
             coupling: &self.coupling,
-            transfer: &self.transfer,
+            wear: &self.wear,
             gap: &self.gap,
             width: &pair.operators.receptacle.widths[first..end],
-            slope: &surfaces.slope[first..end],
+            slope: &surfaces.slope.receptacle[first..end],
             friction: interface.friction,
             load,
             spring,
             sag: &self.sag,
             fixed_slip: &self.fixed_slip,
-            wears: kappa[0] + kappa[1] > 0.0,
+            wears: rate.slider + rate.receptacle > 0.0,
             travel: slider_x - last.slider_x,
             step,
         };
-        guess(&mut self.iterate, pair, last, &problem);
+        predict(&mut self.iterate, pair, last, &problem);
         let (newton, it) = (&mut self.newton, &mut self.iterate);
         let response = &mut self.response;
         let mut end = newton.solve(&problem, response, it, MOST_ITERATIONS);
-        if to.pivots && !matches!(end, End::Settled) {
-            end = self.pivoting.solve(newton, &problem, response, it, end);
+        if to.lemke && !matches!(end, Convergence::Converged) {
+            end = self
+                .complementarity
+                .solve(newton, &problem, response, it, end);
         }
-        let wall = || wall_ahead(last, surfaces, &pair.operators.receptacle.widths, step);
+        let wall = || mean_slope_ahead(last, surfaces, &pair.operators.receptacle.widths, step);
         match end {
-            End::Settled => Ok(()),
+            Convergence::Converged => Ok(()),
             _ if wall() * interface.friction > 1.0 => Err(ContactError::Jammed {
                 slider_x_mm: slider_x,
                 slope: wall(),
                 limit: interface.friction.recip(),
             }),
-            End::Singular { active } => Err(ContactError::NoEquilibrium {
+            Convergence::Singular { active } => Err(ContactError::NoEquilibrium {
                 slider_x_mm: slider_x,
                 active,
             }),
-            End::Unsettled { residual, changes } => Err(ContactError::NotConverged {
+            Convergence::NotConverged { residual, changes } => Err(ContactError::NotConverged {
                 slider_x_mm: slider_x,
                 iterations: MOST_ITERATIONS,
                 residual,
@@ -199,9 +201,8 @@ impl Solver {
         }
     }
 
-    /// Gap of the worn bodies at height 0, deformed by the far-face load that belongs to it, and what that load's
-    /// growth with the height adds.
-    fn lay_gap(&mut self, pair: &Pair<'_>, surfaces: &Surfaces<'_>, load: f64, spring: f64) {
+    /// Gap of the worn bodies at height 0 under the far-face load there, and its change per height by that load's growth.
+    fn assemble_gap(&mut self, pair: &Pair<'_>, surfaces: &Surfaces<'_>, load: f64, spring: f64) {
         let coupling = &self.coupling;
         let response = &pair.operators.slider.load_response;
         self.gap.clear();
@@ -211,17 +212,18 @@ impl Solver {
             let (mut worn, mut moved) = (0.0, 0.0);
             for (offset, weight) in weights.iter().enumerate() {
                 let j = from + offset;
-                worn += weight * surfaces.slider_depth[j];
-                moved += weight * (response[2 * j + 1] - surfaces.slope[i] * response[2 * j]);
+                worn += weight * surfaces.depth.slider[j];
+                moved +=
+                    weight * (response[2 * j + 1] - surfaces.slope.receptacle[i] * response[2 * j]);
             }
-            let shape = coupling.gap[i - coupling.first] + surfaces.receptacle_depth[i];
+            let shape = coupling.gap[i - coupling.first] + surfaces.depth.receptacle[i];
             self.gap.push(shape + worn + load * moved);
             self.sag.push(spring * moved);
         }
     }
 
     /// Slip of each node before the new forces and the new height are known, mm.
-    fn lay_fixed_slip(&mut self, step: f64, last_height: f64) {
+    fn assemble_fixed_slip(&mut self, step: f64, last_height: f64) {
         let Response {
             slope, last_jump, ..
         } = &self.response;
@@ -239,7 +241,7 @@ impl Solver {
         next: &mut ContactState,
     ) {
         let (coupling, it) = (&self.coupling, &self.iterate);
-        next.lift(last, slider_x);
+        next.reset_open(last, slider_x);
         next.height = it.height;
         next.indentation = it.indentation;
         let span = coupling.first..coupling.end;
@@ -250,11 +252,11 @@ impl Solver {
             let width = pair.operators.receptacle.widths[i];
             let (p, q, s) = (next.pressure[i], next.shear[i], self.slope_at(i));
             let force = [width * (-p * s - q), width * (p - q * s)];
-            next.receptacle_force[2 * i..2 * i + 2].copy_from_slice(&force);
+            next.force.receptacle[2 * i..2 * i + 2].copy_from_slice(&force);
             let (from, weights) = coupling.dual_row(i);
             for (offset, weight) in weights.iter().enumerate() {
-                next.slider_force[2 * (from + offset)] += weight * force[0];
-                next.slider_force[2 * (from + offset) + 1] += weight * force[1];
+                next.force.slider[2 * (from + offset)] += weight * force[0];
+                next.force.slider[2 * (from + offset) + 1] += weight * force[1];
             }
         }
     }
@@ -266,11 +268,11 @@ impl Solver {
     fn report(&mut self, pair: &Pair<'_>, next: &ContactState) -> Increment<'_> {
         let (coupling, it) = (&self.coupling, &self.iterate);
         let widths = &pair.operators.receptacle.widths[coupling.first..coupling.end];
-        slider_recession(
+        transfer_path(
             coupling,
             &pair.operators.slider.widths,
             &it.path,
-            &mut self.recession,
+            &mut self.slider_path,
         );
         let energy = widths
             .iter()
@@ -279,10 +281,10 @@ impl Solver {
             .filter(|(_, status)| status.direction() != 0.0)
             .map(|((d, (q, slip)), _)| d * (q * slip).abs())
             .sum();
-        let vertical: f64 = next.receptacle_force.iter().skip(1).step_by(2).sum();
+        let vertical: f64 = next.force.receptacle.iter().skip(1).step_by(2).sum();
         let load = next.equilibrium_load(&pair.interface);
         let peak = next.peak_pressure().max(f64::MIN_POSITIVE);
-        // Where lengths cancel, what round-off leaves of the indentation.
+        // Round-off of longer lengths where these exceed the indentation.
         let scale = (it.indentation * it.tolerance / GAP_TOLERANCE).max(f64::MIN_POSITIVE);
         let (mut complementarity, mut cone) = (0.0_f64, 0.0_f64);
         for (i, status) in it.status.iter().enumerate() {
@@ -295,10 +297,14 @@ impl Solver {
             cone = cone.max(it.shear[i].abs() - pair.interface.friction * it.pressure[i]);
         }
         Increment {
-            first: coupling.first,
-            path: &it.path,
-            slider_first: coupling.slider_range.0,
-            slider_path: &self.recession,
+            first: Sides {
+                slider: coupling.slider_range.0,
+                receptacle: coupling.first,
+            },
+            path: Sides {
+                slider: &self.slider_path,
+                receptacle: &it.path,
+            },
             energy,
             force_balance: (vertical - load).abs() / pair.interface.load,
             complementarity: complementarity / scale,
@@ -307,16 +313,25 @@ impl Solver {
     }
 }
 
-/// Whether a contact that is loaded already does not move at all: solving again would only stir its round-off.
-fn rests(last: &ContactState, to: Move) -> bool {
-    let way = (to.slider_x - last.slider_x).abs() + to.run.abs();
-    last.reference_height.is_some() && way <= 0.0
+/// Whether a loaded contact does not move: another solve would only change its round-off.
+fn is_at_rest(last: &ContactState, to: Displacement) -> bool {
+    let distance = (to.slider_x - last.slider_x).abs() + to.surface_slip.abs();
+    last.reference_height.is_some() && distance <= 0.0
 }
 
-/// Slope that the load stands on, in the mean; positive where the slider climbs it.
-fn wall_ahead(contact: &ContactState, surfaces: &Surfaces<'_>, widths: &[f64], step: f64) -> f64 {
+/// Mean slope under the load, positive where the slider climbs it.
+fn mean_slope_ahead(
+    contact: &ContactState,
+    surfaces: &Surfaces<'_>,
+    widths: &[f64],
+    step: f64,
+) -> f64 {
     let (mut load, mut moment) = (0.0, 0.0);
-    let places = contact.pressure.iter().zip(widths).zip(surfaces.slope);
+    let places = contact
+        .pressure
+        .iter()
+        .zip(widths)
+        .zip(surfaces.slope.receptacle);
     for ((p, width), slope) in places {
         load += width * p;
         moment += width * p * slope;

@@ -1,9 +1,9 @@
-//! Cycle jump: how many physical cycles the next computed one stands for.
+//! Cycle jump: the number of physical cycles that the next computed one represents.
 //!
 //! A computed cycle multiplies its wear by the jump dN, an Euler step in cycles. Its error is half the change of
 //! the wear-rate profile over the jump: with r = (worn depth of the cycle)/dN,
 //!   e = 1/2 * integral |r_new - r_old| dx / integral r_new dx,
-//! relative to the wear made in the step. The next jump scales with the wanted error over e.
+//! relative to the wear of the step. The next jump scales with the tolerance over e.
 
 use serde::{Deserialize, Serialize};
 
@@ -12,52 +12,74 @@ use crate::scene::Accuracy;
 
 /// Bounds of the change of a jump from one computed cycle to the next.
 const CHANGE: (f64, f64) = (0.5, 2.0);
-/// A jump covers at most this part of what was done before, so that the first cycles are not skipped.
+/// A jump is at most this part of the cycles done, so that the first cycles are resolved.
 const MOST_OF_DONE: f64 = 1.0;
-/// Where the contact runs over the receptacle, each pass of a jump digs the whole jump at once and the ends of the
-/// stroke get their share too early. Measured on `fuzz_button.json` at 240 cycles and 0.04 mm, relative to the
-/// deepest place: 8 % with jumps of 0.16 of what was done, 4 % with 0.08, 2 % with 0.04.
-const RUNNING_PART_PER_TOLERANCE: f64 = 2.0;
+/// In gross reciprocating sliding each pass of a jump wears the whole jump at once, and the ends of the stroke wear too
+/// early. Measured on `fuzz_button.json` at 240 cycles and 0.04 mm, relative to the
+/// deepest place: 8 % with jumps of 0.16 of the cycles done, 4 % with 0.08, 2 % with 0.04.
+const GROSS_PART_PER_TOLERANCE: f64 = 2.0;
 
-/// A computed cycle digs `jump` passes at once, so that the scar leans toward the last pass, and the pressure with it
-/// by some third of k jump s E*/b (b: half-width, s: stroke), which is kept below this.
+/// A computed cycle wears `jump` passes at once, so that scar and pressure are skewed toward the last pass, the pressure
+/// by about a third of k jump s E*/b (b: half-width, s: stroke), which stays below this.
 /// Measured on `mccoll.json` at 18 000 cycles, 0.1 mm to either side of the middle: 27 % apart with jumps of 700,
 /// 2 % with 100, where they are 5 % apart without jumps, while no depth changes by more than 0.15 %.
-fn largest_lean(tolerance: f64) -> f64 {
+fn largest_skew(tolerance: f64) -> f64 {
     (12.0 * tolerance).max(0.15)
 }
 
-/// Where even single cycles lean, so many computed cycles over the tolerance are enough.
+/// Where even single cycles are skewed, so many computed cycles over the tolerance suffice.
 const ENOUGH_PER_TOLERANCE: f64 = 2.5;
 
-/// A jump that has no solution is cut into so many; after it jumps may double again.
+/// A jump without a solution is divided by this; jumps may double again afterwards.
 const CUT: u64 = 4;
 
 /// Floor of the error estimate: where nothing changes, or nothing wears, jumps grow as fast as they may.
 const SMALLEST_ERROR: f64 = 1e-6;
 
-/// What a jump must heed besides its error.
+/// A stroke is gross reciprocating sliding where its amplitude exceeds so many half-widths of the contact.
+const GROSS_FROM: f64 = 2.0;
+
+/// Limits of a jump besides its error.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Stroke {
-    /// Whether the stroke leaves the contact behind.
-    pub(super) runs: bool,
-    /// k s E*/b: how far a single cycle makes the pressure lean.
-    pub(super) lean: f64,
+pub(crate) struct Stroke {
+    /// Whether it is gross reciprocating sliding: the contact leaves its own width.
+    pub(crate) gross: bool,
+    /// Pressure skew of a single cycle, k s E*/b.
+    skew: f64,
     /// Cycles of the whole run.
-    pub(super) cycles: u64,
+    cycles: u64,
 }
 
 impl Stroke {
+    /// The stroke of an amplitude under a contact of a half-width, mm, for k_s + k_r in 1/MPa and E* in MPa.
+    pub(crate) fn new(
+        wear: f64,
+        modulus: f64,
+        (amplitude, half_width): (f64, f64),
+        cycles: u64,
+    ) -> Self {
+        Self {
+            gross: is_gross(amplitude, half_width),
+            skew: wear * 2.0 * amplitude * modulus / half_width,
+            cycles,
+        }
+    }
+
     /// The largest jump after `done` cycles.
     fn most(self, tolerance: f64, done: u64) -> f64 {
         let done = real_cycles(done);
-        if self.runs {
-            return RUNNING_PART_PER_TOLERANCE * tolerance * done;
+        if self.gross {
+            return GROSS_PART_PER_TOLERANCE * tolerance * done;
         }
-        let enough = real_cycles(self.cycles) * tolerance / ENOUGH_PER_TOLERANCE;
-        let upright = largest_lean(tolerance) / self.lean.max(f64::MIN_POSITIVE);
-        (MOST_OF_DONE * done).min(upright.max(enough))
+        let sufficient = real_cycles(self.cycles) * tolerance / ENOUGH_PER_TOLERANCE;
+        let unskewed = largest_skew(tolerance) / self.skew.max(f64::MIN_POSITIVE);
+        (MOST_OF_DONE * done).min(unskewed.max(sufficient))
     }
+}
+
+/// Whether a stroke is gross reciprocating sliding.
+pub(crate) fn is_gross(amplitude: f64, half_width: f64) -> bool {
+    amplitude > GROSS_FROM * half_width
 }
 
 /// State of the jump control.
@@ -65,8 +87,8 @@ impl Stroke {
 pub struct JumpControl {
     /// Wear per physical cycle in the last computed one, mm.
     rate: Vec<f64>,
-    /// The jump that the control wants next; 0 before the first cycle.
-    wanted: f64,
+    /// The last jump as the base of the next; 0 before the first cycle.
+    base: f64,
     /// The last jump.
     pub last: u64,
     /// Estimated relative error of the last jump.
@@ -75,13 +97,13 @@ pub struct JumpControl {
     weighted_error: f64,
     worn: f64,
     done: u64,
-    /// The largest jump that may be tried after one that had no solution; 0 where none failed lately.
+    /// Largest jump after one without a solution; 0 if none failed recently.
     most: u64,
 }
 
 impl JumpControl {
     /// The next jump: fixed by the scene or chosen, and never beyond `remaining`.
-    pub(super) fn next(&self, accuracy: &Accuracy, stroke: Stroke, remaining: u64) -> u64 {
+    pub(crate) fn next(&self, accuracy: &Accuracy, stroke: Stroke, remaining: u64) -> u64 {
         let jump = self.chosen(accuracy, stroke, remaining);
         if self.most == 0 {
             jump
@@ -91,7 +113,7 @@ impl JumpControl {
     }
 
     /// A smaller jump in place of one that had no solution; `None` if it was a single cycle.
-    pub(super) fn cut(&mut self, failed: u64) -> Option<u64> {
+    pub(crate) fn cut(&mut self, failed: u64) -> Option<u64> {
         self.most = failed.div_ceil(CUT);
         (failed > 1).then_some(self.most)
     }
@@ -100,17 +122,17 @@ impl JumpControl {
         if let Some(fixed) = accuracy.cycle_jump {
             return fixed.clamp(1, remaining.max(1));
         }
-        if self.wanted <= 0.0 || self.error <= 0.0 {
+        if self.base <= 0.0 || self.error <= 0.0 {
             return 1;
         }
         let factor = (accuracy.tolerance / self.error).clamp(CHANGE.0, CHANGE.1);
         let most = stroke.most(accuracy.tolerance, self.done);
-        let wanted = (self.wanted * factor).min(most).max(1.0);
-        even_share(wanted, remaining)
+        let target = (self.base * factor).min(most).max(1.0);
+        even_share(target, remaining)
     }
 
-    /// Takes in what a computed cycle wore.
-    pub(super) fn learn(&mut self, widths: &[f64], before: &[f64], after: &[f64], jump: u64) {
+    /// Updates the control with the wear of a computed cycle.
+    pub(crate) fn update(&mut self, widths: &[f64], before: &[f64], after: &[f64], jump: u64) {
         let dn = real_cycles(jump);
         let known = self.rate.len() == widths.len();
         self.rate.resize(widths.len(), 0.0);
@@ -128,7 +150,7 @@ impl JumpControl {
         };
         self.weighted_error += self.error * total * dn;
         self.worn += total * dn;
-        self.wanted = dn;
+        self.base = dn;
         self.last = jump;
         self.done += jump;
         self.most = self.most.saturating_mul(2);
@@ -149,9 +171,9 @@ impl JumpControl {
     }
 }
 
-/// Cuts what remains into equal jumps not larger than wanted, so that none is tiny.
-fn even_share(wanted: f64, remaining: u64) -> u64 {
-    let pieces = crate::number::count_at_least(real_cycles(remaining) / wanted);
+/// Divides the remaining cycles into equal jumps not larger than the target, so that none is tiny.
+fn even_share(target: f64, remaining: u64) -> u64 {
+    let pieces = crate::number::count_at_least(real_cycles(remaining) / target);
     let share = real_cycles(remaining) / real(pieces);
     u64::try_from(crate::number::count_at_least(share))
         .unwrap_or(1)
@@ -170,8 +192,8 @@ mod tests {
     };
 
     const STROKE: Stroke = Stroke {
-        runs: false,
-        lean: 0.0,
+        gross: false,
+        skew: 0.0,
         cycles: 1_000,
     };
 
@@ -179,35 +201,35 @@ mod tests {
     fn a_steady_rate_lets_jumps_grow_and_a_changing_one_shrinks_them() {
         let mut control = JumpControl::default();
         assert_eq!(control.next(&ACCURACY, STROKE, 1000), 1);
-        control.learn(&[1.0], &[0.0], &[8.0], 8);
-        control.learn(&[1.0], &[8.0], &[16.0], 8);
+        control.update(&[1.0], &[0.0], &[8.0], 8);
+        control.update(&[1.0], &[8.0], &[16.0], 8);
         assert_eq!(control.next(&ACCURACY, STROKE, 64), 16);
-        control.learn(&[1.0], &[16.0], &[40.0], 8);
+        control.update(&[1.0], &[16.0], &[40.0], 8);
         assert!(control.next(&ACCURACY, STROKE, 1000) < 8);
     }
 
-    const RUNS: Stroke = Stroke {
-        runs: true,
+    const GROSS: Stroke = Stroke {
+        gross: true,
         ..STROKE
     };
 
     #[test]
-    fn a_running_contact_jumps_a_small_part_of_what_was_done() {
+    fn gross_sliding_jumps_a_small_part_of_the_cycles_done() {
         let mut control = JumpControl::default();
-        control.learn(&[1.0], &[0.0], &[100.0], 100);
-        control.learn(&[1.0], &[100.0], &[200.0], 100);
+        control.update(&[1.0], &[0.0], &[100.0], 100);
+        control.update(&[1.0], &[100.0], &[200.0], 100);
         assert_eq!(control.next(&ACCURACY, STROKE, 10_000), 200);
-        assert_eq!(control.next(&ACCURACY, RUNS, 10_000), 8);
+        assert_eq!(control.next(&ACCURACY, GROSS, 10_000), 8);
     }
 
     #[test]
-    fn a_jump_that_would_lean_the_pressure_is_cut() {
+    fn a_jump_that_would_skew_the_pressure_is_reduced() {
         let mut control = JumpControl::default();
-        control.learn(&[1.0], &[0.0], &[100.0], 100);
-        control.learn(&[1.0], &[100.0], &[200.0], 100);
-        let leans = |lean| Stroke { lean, ..STROKE };
-        assert_eq!(control.next(&ACCURACY, leans(0.003), 8_000), 80);
-        assert_eq!(control.next(&ACCURACY, leans(1.0), 8_000), 8);
+        control.update(&[1.0], &[0.0], &[100.0], 100);
+        control.update(&[1.0], &[100.0], &[200.0], 100);
+        let skewed = |skew| Stroke { skew, ..STROKE };
+        assert_eq!(control.next(&ACCURACY, skewed(0.003), 8_000), 80);
+        assert_eq!(control.next(&ACCURACY, skewed(1.0), 8_000), 8);
     }
 
     #[test]

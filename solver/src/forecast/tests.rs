@@ -3,7 +3,7 @@ use crate::model::{Layout, tests::fuzz_button};
 use crate::number::real_cycles;
 
 #[test]
-fn the_stand_in_holds_the_area_that_was_worn() {
+fn the_surrogate_has_the_worn_area() {
     let scene = fuzz_button();
     let layout = Layout::of(&scene).expect("it can be meshed");
     let mut scar = Scar::new(&scene, &layout);
@@ -23,15 +23,15 @@ fn the_stand_in_holds_the_area_that_was_worn() {
 }
 
 #[test]
-fn a_run_counts_to_its_last_cycle_and_rebuilds_what_has_drifted() {
+fn a_forecast_ends_at_the_last_cycle_and_counts_rebuilt_bodies() {
     let scene = fuzz_button();
     let layout = Layout::of(&scene).expect("it can be meshed");
     let run = forecast(&scene, &layout);
     let last = run.segments.last().expect("some cycles");
     assert_eq!(last.cycle, scene.cycles);
     // The block loses three quarters of its height; the slider does not wear.
-    assert_eq!(run.condensations[0], 1);
-    assert_eq!(run.condensations[1], 2);
+    assert_eq!(run.condensations.slider, 1);
+    assert_eq!(run.condensations.receptacle, 2);
     // Jumps widen the contact, so that later cycles have fewer increments.
     assert!(last.steps < run.segments[0].steps);
 }
@@ -54,7 +54,7 @@ fn a_tighter_tolerance_costs_more_cycles_of_more_increments() {
 
 /// A run of a million cycles, each computed in 200 000 increments, is foreseen in some thousand segments.
 #[test]
-fn a_fixed_jump_is_foreseen_in_few_stretches() {
+fn a_fixed_jump_is_forecast_in_few_segments() {
     let mut scene = fuzz_button();
     scene.cycles = 1_000_000;
     scene.accuracy.cycle_jump = Some(1);

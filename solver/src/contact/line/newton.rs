@@ -11,66 +11,20 @@
 use std::ops::Range;
 
 use super::GAP_TOLERANCE;
-use super::mortar::Coupling;
-use super::recession::WearTransfer;
+use super::problem::{Iterate, Problem};
 use super::response::Response;
 use super::status::{self, Status};
-use crate::condensation::Operators;
+use super::wear_coupling::WearCoupling;
 use crate::linear::{DenseLu, SquareMatrix};
 
-/// What one increment asks for, over the coupled nodes.
-pub(super) struct Problem<'a> {
-    pub(super) operators: &'a Operators,
-    pub(super) coupling: &'a Coupling,
-    /// Gap opened by wear, per path p |sigma|.
-    pub(super) transfer: &'a WearTransfer,
-    /// Gap of the worn, undeformed bodies at height 0, mm.
-    pub(super) gap: &'a [f64],
-    /// Projected widths of the coupled nodes, mm.
-    pub(super) width: &'a [f64],
-    pub(super) slope: &'a [f64],
-    pub(super) friction: f64,
-    /// Vertical load at height 0, N/mm, and what it gains a mm of height.
-    pub(super) load: f64,
-    pub(super) spring: f64,
-    /// Gap that the slider opens by deforming under its far-face load as the height grows, mm per mm.
-    pub(super) sag: &'a [f64],
-    /// Slip of each node before the new forces and the new height are known, mm.
-    pub(super) fixed_slip: &'a [f64],
-    /// Whether anything wears in this increment.
-    pub(super) wears: bool,
-    /// How far the slider travels over the receptacle in this increment, mm.
-    pub(super) travel: f64,
-    /// How far its surface is to slip: the travel and what it runs past besides, mm.
-    pub(super) step: f64,
-}
-
-/// Iterate over the coupled nodes.
-#[derive(Debug, Default)]
-pub(super) struct Iterate {
-    pub(super) status: Vec<Status>,
-    pub(super) pressure: Vec<f64>,
-    pub(super) shear: Vec<f64>,
-    /// Tangential slip in this increment, mm.
-    pub(super) slip: Vec<f64>,
-    /// p |sigma| of this increment, MPa mm.
-    pub(super) path: Vec<f64>,
-    /// Gap with deformation and wear, mm.
-    pub(super) gap: Vec<f64>,
-    pub(super) height: f64,
-    pub(super) indentation: f64,
-    /// Gap residual, over the indentation, that ends the iteration.
-    pub(super) tolerance: f64,
-}
-
-/// How an iteration ended.
-pub(super) enum End {
-    /// Settled: statuses and gaps.
-    Settled,
+/// End of the Newton iteration.
+pub(super) enum Convergence {
+    /// Statuses and gaps have converged.
+    Converged,
     /// The linear system had no finite solution.
     Singular { active: usize },
     /// Too many iterations.
-    Unsettled { residual: f64, changes: usize },
+    NotConverged { residual: f64, changes: usize },
 }
 
 /// An unknown: a traction at a coupled node.
@@ -92,57 +46,57 @@ pub(super) struct Newton {
     gap: Vec<f64>,
     slip: Vec<f64>,
     /// Gap opened by wear, per slip.
-    wear: WearTransfer,
+    wear: WearCoupling,
     lu: DenseLu,
 }
 
-/// A residual within so many tolerances that one more step did not halve, without any status changing, is what
-/// round-off leaves of an ill-conditioned system.
+/// A residual within so many tolerances that another iteration did not halve, without a change of status, is the
+/// round-off of an ill-conditioned system.
 const STALLED_WITHIN: f64 = 10.0;
 
-/// Round-off of a gap, over the largest length that it is the difference of: some units in the last place.
+/// Round-off of a gap over the largest length in its sum: some units in the last place.
 const ROUND_OFF: f64 = 16.0 * f64::EPSILON;
 
 const NO_ROW: usize = usize::MAX;
 
 impl Newton {
-    /// Iterates from the statuses and pressures of `it` until they settle.
+    /// Iterates from the statuses and pressures of `it` until they converge.
     pub(super) fn solve(
         &mut self,
         problem: &Problem<'_>,
         response: &mut Response,
         it: &mut Iterate,
         most_iterations: usize,
-    ) -> End {
+    ) -> Convergence {
         let (mut residual, mut changes) = (f64::INFINITY, usize::MAX);
         for iteration in 0..most_iterations {
             let last = (residual / it.tolerance, changes);
-            self.number(it);
+            self.assign_dofs(it);
             for a in (0..it.status.len()).filter(|a| it.status[*a] != Status::Open) {
-                response.gather(problem.operators, problem.coupling, a);
+                response.compute(problem.operators, problem.coupling, a);
             }
             self.assemble(problem, response, it);
             if !self.lu.solve(&mut self.jacobian, &mut self.rhs) {
-                return End::Singular {
+                return Convergence::Singular {
                     active: self.unknowns.len(),
                 };
             }
-            self.read(problem, it);
+            self.scatter(problem, it);
             residual = self.evaluate(problem, response, it);
             changes = status::update(problem, it, iteration);
             let stalled = has_stalled(last, residual / it.tolerance);
             if changes == 0 && (residual <= it.tolerance || stalled) {
-                return End::Settled;
+                return Convergence::Converged;
             }
-            // Nothing but a spring that has lost its force is in equilibrium without a contact.
+            // Without a contact only a spring that has lost its force is in equilibrium.
             if problem.spring <= 0.0 && it.status.iter().all(|s| *s == Status::Open) {
-                return End::Singular { active: 0 };
+                return Convergence::Singular { active: 0 };
             }
         }
-        End::Unsettled { residual, changes }
+        Convergence::NotConverged { residual, changes }
     }
 
-    fn number(&mut self, it: &Iterate) {
+    fn assign_dofs(&mut self, it: &Iterate) {
         self.unknowns.clear();
         self.rows.clear();
         for (i, status) in it.status.iter().enumerate() {
@@ -167,16 +121,16 @@ impl Newton {
         self.slip.resize(it.status.len(), 0.0);
         if problem.wears {
             let per_slip = |l: usize| it.status[l].direction() * it.pressure[l];
-            problem.transfer.scaled(per_slip, &mut self.wear);
+            problem.wear.scaled(per_slip, &mut self.wear);
         }
         for u in 0..order - 1 {
             let unknown = self.unknowns[u];
-            self.respond(problem, response, it, &span, unknown);
+            self.unit_response(problem, response, it, &span, unknown);
             if problem.wears {
-                self.wear.open(&span, &self.slip, &mut self.gap);
+                self.wear.add_opening(&span, &self.slip, &mut self.gap);
                 if let Unknown::Pressure(a) = unknown {
                     let path = (it.status[a].direction() * it.slip[a]).max(0.0);
-                    problem.transfer.open_from(&span, a, path, &mut self.gap);
+                    problem.wear.add_opening_from(&span, a, path, &mut self.gap);
                 }
             }
             self.write_column(u);
@@ -193,7 +147,7 @@ impl Newton {
             self.slip[i] = problem.slope[i];
         }
         if problem.wears {
-            self.wear.open(&span, &self.slip, &mut self.gap);
+            self.wear.add_opening(&span, &self.slip, &mut self.gap);
         }
         self.write_column(order - 1);
         *self.jacobian.at(order - 1, order - 1) = -problem.spring;
@@ -201,7 +155,7 @@ impl Newton {
     }
 
     /// Gaps and slips of a span of nodes per unit of one unknown.
-    fn respond(
+    fn unit_response(
         &mut self,
         problem: &Problem<'_>,
         response: &Response,
@@ -243,7 +197,7 @@ impl Newton {
             self.slip[i] = problem.fixed_slip[i] - it.slip[i];
         }
         if problem.wears {
-            self.wear.open(span, &self.slip, &mut self.gap);
+            self.wear.add_opening(span, &self.slip, &mut self.gap);
         }
         self.rhs.clear();
         for unknown in &self.unknowns {
@@ -255,7 +209,7 @@ impl Newton {
         self.rhs.push(problem.load);
     }
 
-    fn read(&self, problem: &Problem<'_>, it: &mut Iterate) {
+    fn scatter(&self, problem: &Problem<'_>, it: &mut Iterate) {
         for (i, rows) in self.rows.iter().enumerate() {
             let p = if rows[0] == NO_ROW {
                 0.0
@@ -295,9 +249,9 @@ impl Newton {
                 indentation = indentation.max(self.gap[i].abs());
             }
         }
-        // The wear alone first: it counts for the scale of gaps.
+        // The wear alone first: it is part of the scale of gaps.
         if problem.wears {
-            problem.transfer.open(&(0..n), &it.path, &mut it.gap);
+            problem.wear.add_opening(&(0..n), &it.path, &mut it.gap);
         }
         let (mut residual, mut largest) = (0.0_f64, 0.0_f64);
         for (i, jump) in self.gap.iter().enumerate() {
@@ -307,7 +261,8 @@ impl Newton {
             if it.status[i] != Status::Open {
                 indentation = indentation.max(worn);
                 residual = residual.max(it.gap[i].abs());
-                // A closed gap is raised by what it was and an indentation, unless the system was nearly singular.
+                // A closed gap is the difference of the undeformed gap and the height, each at most this large unless
+                // the system was nearly singular.
                 largest = largest.max(2.0 * problem.gap[i].abs());
             }
         }
@@ -318,7 +273,8 @@ impl Newton {
     }
 }
 
-/// Whether nothing is left to gain after an iteration with such a residual, over its tolerance, and so many changes.
+/// Whether the iteration has stalled at round-off: no change of status, and a residual, over its tolerance, that was not
+/// halved.
 fn has_stalled((last, changes): (f64, usize), residual: f64) -> bool {
     changes == 0 && residual <= STALLED_WITHIN && 2.0 * residual > last
 }

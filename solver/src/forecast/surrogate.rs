@@ -1,28 +1,30 @@
-//! The stand-in for the worn surfaces: a scar of closed form that grows with the worn area.
+//! Surrogate for the worn surfaces: a scar of closed form that grows with the worn area.
 
-use super::super::RUNS_FROM;
-use super::super::jump::Stroke;
-use crate::contact::WATCHED;
-use crate::material::contact_modulus;
+use crate::ale;
+use crate::contact::line::CANDIDATE_GAP;
+use crate::law::elastic::contact_modulus;
+use crate::law::{friction, wear};
 use crate::model::{Layout, resolution};
-use crate::number::{cycles_at_least, real, real_cycles};
-use crate::scene::{Scene, StopCondition};
-use crate::{ale, friction, wear};
+use crate::number::{real, real_cycles};
+use crate::scene::Scene;
+use crate::schedule::jump::{self, JumpControl, Stroke};
+use crate::schedule::stops::Progress;
+use crate::sides::{Side, Sides};
 
-/// Places of the stand-in, from the middle to the end.
+/// Points of the surrogate, from the middle to the end.
 const PLACES: usize = 240;
-/// Places of the contact in its stroke, over the carried amplitude.
+/// Positions of the contact in its stroke, over the smearing amplitude.
 const PASSES: [f64; 5] = [-0.8, -0.4, 0.0, 0.4, 0.8];
-/// The end of the scar is found to this part of it, in so many steps at most; few are needed.
+/// Relative precision of the end of the scar, and most Newton steps; few are needed.
 const PRECISION: f64 = 1e-9;
 const MOST_ITERATIONS: usize = 50;
-/// What the stand-in's a is of the Hertz half-width: elastic pressures change more slowly than those of a rigid segment.
+/// The surrogate's a over the Hertz half-width: elastic pressures change more slowly than those of a rigid segment.
 /// Measured on `mccoll.json` and `cylinder_on_flat`: with 1.3 the error of a jump agrees within a fifth from the 50th cycle
 /// on, with 1 it is two and a half times too large at first.
 const ELASTIC: f64 = 1.3;
-/// Share of the squared front of a pass in the squared half-width of a contact that runs. Measured on all systems at
+/// Share of the squared leading-edge step in the squared half-width of a contact in gross sliding. Measured on all systems at
 /// tolerances of 10 and 2 %, jumps of 1 to 300 cycles: 0.27 to 0.47.
-const FRONT_SHARE: f64 = 0.42;
+const STEP_SHARE: f64 = 0.42;
 
 /// Depth of a scar times 2 R.
 fn shape(x: f64, drawn: f64, flat: f64, reach: f64) -> f64 {
@@ -30,26 +32,28 @@ fn shape(x: f64, drawn: f64, flat: f64, reach: f64) -> f64 {
     (reach.powi(2) - beyond.powi(2)).max(0.0)
 }
 
-/// The stand-in for the worn surfaces, half of it: it is symmetric.
+/// Surrogate for the worn surfaces, one half of the symmetric scar.
 pub(super) struct Scar {
     /// Radius of the relative curvature, Hertz half-width, amplitude, mm.
     radius: f64,
     hertz: f64,
-    /// a of the stand-in, mm.
+    /// a of the surrogate, mm.
     flat: f64,
     pub(super) amplitude: f64,
     /// Approach of the bodies under the load, mm.
     approach: f64,
-    /// (k_s + k_r) E*, -, and worn area a cycle, mm^2.
-    stiff_wear: f64,
+    /// k_s + k_r, 1/MPa, and E*, MPa.
+    wear: f64,
+    modulus: f64,
+    /// Worn area a cycle, mm^2.
     pub(super) area_per_cycle: f64,
-    /// (k_s + k_r) P, mm: what one full pass digs.
+    /// Depth of one full pass, (k_s + k_r) P, mm.
     pass: f64,
-    /// What part of the depth is the slider's and the receptacle's.
-    shares: [f64; 2],
-    /// Heights of the slider and the receptacle when their operators were built, and at the beginning, mm.
-    built: [f64; 2],
-    heights: [f64; 2],
+    /// Share of each side in the depth.
+    shares: Sides<f64>,
+    /// Heights of the bodies when their operators were built, and unworn, mm.
+    built: Sides<f64>,
+    heights: Sides<f64>,
     pub(super) area: f64,
     x: Vec<f64>,
     pub(super) widths: Vec<f64>,
@@ -64,9 +68,11 @@ pub(super) struct Scar {
 impl Scar {
     pub(super) fn new(scene: &Scene, layout: &Layout) -> Self {
         let modulus = contact_modulus(scene.slider.elastic, scene.receptacle.elastic);
-        let slider = wear::coefficient(scene.slider.wear);
-        let receptacle = wear::coefficient(scene.receptacle.wear);
-        let wear = slider + receptacle;
+        let rates = Sides {
+            slider: wear::coefficient(scene.slider.wear),
+            receptacle: wear::coefficient(scene.receptacle.wear),
+        };
+        let wear = rates.slider + rates.receptacle;
         let hertz = layout.sizes.hertz_half_width;
         let approach = resolution::approach(scene, hertz, modulus);
         let amplitude = scene.motion.amplitude_mm();
@@ -80,20 +86,21 @@ impl Scar {
         let end = (amplitude + 1.5 * layout.sizes.final_half_width + hertz).min(half_block);
         let width = end / real(PLACES);
         let share = |k: f64| if wear > 0.0 { k / wear } else { 0.0 };
-        let heights = [
-            scene.slider.shape.height_mm,
-            scene.receptacle.shape.height_mm,
-        ];
+        let heights = Sides {
+            slider: scene.slider.shape.height_mm,
+            receptacle: scene.receptacle.shape.height_mm,
+        };
         Self {
             radius: resolution::radius(scene),
             hertz,
             flat: ELASTIC * hertz,
             amplitude,
             approach,
-            stiff_wear: wear * modulus,
+            wear,
+            modulus,
             area_per_cycle: wear * scene.load_n_per_mm * sliding,
             pass: wear * scene.load_n_per_mm,
-            shares: [share(slider), share(receptacle)],
+            shares: rates.map(share),
             built: heights,
             heights,
             area: 0.0,
@@ -107,11 +114,12 @@ impl Scar {
     }
 
     pub(super) fn stroke(&self, scene: &Scene) -> Stroke {
-        Stroke {
-            runs: self.stroke_runs(),
-            lean: self.stiff_wear * 2.0 * self.amplitude / self.half_width,
-            cycles: scene.cycles,
-        }
+        Stroke::new(
+            self.wear,
+            self.modulus,
+            (self.amplitude, self.half_width),
+            scene.cycles,
+        )
     }
 
     /// Wears `jump` cycles more, so many times.
@@ -119,7 +127,7 @@ impl Scar {
         self.area += self.area_per_cycle * real_cycles(jump * times);
         self.grow();
         let drawn = (self.amplitude - self.flat).max(0.0);
-        // The rest of the stroke carries the contact to and fro over the scar, which smears its growing edges.
+        // The rest of the stroke moves the contact over the scar, which smears its growing edges.
         let carried = self.amplitude.min(self.flat);
         for (depth, x) in self.depth.iter_mut().zip(&self.x) {
             let places = PASSES.map(|pass| (x + pass * carried).abs());
@@ -127,7 +135,7 @@ impl Scar {
                 .iter()
                 .map(|&x| shape(x, drawn, self.flat, self.reach))
                 .sum();
-            *depth = self.shares[1] * sum / (2.0 * self.radius * real(PASSES.len()));
+            *depth = self.shares.receptacle * sum / (2.0 * self.radius * real(PASSES.len()));
         }
         self.deepest = self.depth_at(0.0, drawn);
         self.half_width = self.contact(jump);
@@ -157,18 +165,18 @@ impl Scar {
         }
     }
 
-    /// Half-width of the contact after a jump: between that of a running one and all of the segment.
+    /// Half-width of the contact after a jump: between that in gross sliding and the whole segment.
     pub(super) fn contact(&self, jump: u64) -> f64 {
         let front = 2.0 * self.radius * self.pass * real_cycles(jump);
-        let running = self.hertz.hypot((FRONT_SHARE * front).sqrt());
+        let running = self.hertz.hypot((STEP_SHARE * front).sqrt());
         let runs = (self.amplitude / running - 1.0).clamp(0.0, 1.0);
         running.powf(runs) * (self.reach / ELASTIC).max(running).powf(1.0 - runs)
     }
 
-    /// Half-width within which the gap is below what `contact::range` watches.
-    pub(super) fn watched(&self) -> f64 {
-        let gap = (1.0 + WATCHED) * self.approach;
-        let flat = if self.stroke_runs() {
+    /// Half-width of the candidate nodes.
+    pub(super) fn candidate_half_width(&self) -> f64 {
+        let gap = (1.0 + CANDIDATE_GAP) * self.approach;
+        let flat = if self.is_gross() {
             self.half_width
         } else {
             self.reach
@@ -176,45 +184,39 @@ impl Scar {
         flat.hypot((2.0 * self.radius * gap).sqrt())
     }
 
-    pub(super) fn stroke_runs(&self) -> bool {
-        self.amplitude > RUNS_FROM * self.half_width
+    pub(super) fn is_gross(&self) -> bool {
+        jump::is_gross(self.amplitude, self.half_width)
     }
 
-    /// The next cycle that the run stops at: `run::next_stop` on the stand-in.
-    pub(super) fn next_stop(&self, scene: &Scene, cycle: u64, rate: f64) -> u64 {
-        let snapshots = &scene.output.snapshots_at_cycles;
-        let next = snapshots.iter().copied().find(|&at| at > cycle);
-        let worn = self.shares[0].max(self.shares[1]) * self.deepest;
-        let left = (0..2).map(|side| self.heights[side] - self.shares[side] * self.deepest);
-        let limits = scene
-            .stop
-            .iter()
-            .map(|StopCondition::WornDepth(limit)| limit - worn);
-        let left = left.chain(limits).fold(f64::INFINITY, f64::min);
-        let reach = cycles_at_least((left / rate.max(f64::MIN_POSITIVE)).floor());
-        next.unwrap_or(scene.cycles)
-            .min(scene.cycles)
-            .min(cycle.saturating_add(reach))
+    /// Progress of the forecast run for its stops.
+    pub(super) fn progress(&self, cycle: u64, jump: &JumpControl) -> Progress {
+        let left = self.remaining();
+        let share = |(left, height): (f64, f64)| left / height;
+        let shares = left.zip(self.heights).map(share);
+        Progress {
+            cycle,
+            deepest: self.shares.slider.max(self.shares.receptacle) * self.deepest,
+            least_left: left.slider.min(left.receptacle),
+            fastest_rate: jump.fastest_rate(),
+            worn_through: shares.slider.min(shares.receptacle) < ale::WORN_THROUGH_SHARE,
+        }
     }
 
-    /// Whether a stop condition holds or a body is worn through.
-    pub(super) fn ends(&self, scene: &Scene) -> bool {
-        let depths = self.shares.map(|share| share * self.deepest);
-        let mut stop = scene.stop.iter();
-        let stopped = stop.any(|StopCondition::WornDepth(limit)| depths.iter().any(|d| d >= limit));
-        let through =
-            |side: usize| 1.0 - depths[side] / self.heights[side] < ale::WORN_THROUGH_SHARE;
-        stopped || through(0) || through(1)
+    /// Remaining heights of the bodies at the deepest point, mm.
+    fn remaining(&self) -> Sides<f64> {
+        let deepest = self.deepest;
+        let left = |(height, share): (f64, f64)| height - share * deepest;
+        self.heights.zip(self.shares).map(left)
     }
 
     /// Counts a condensation of the bodies that have changed where one has drifted.
-    pub(super) fn rebuild(&mut self, scene: &Scene, condensations: &mut [u32; 2]) {
-        let now = [0, 1].map(|side| self.heights[side] - self.shares[side] * self.deepest);
+    pub(super) fn rebuild(&mut self, scene: &Scene, condensations: &mut Sides<u32>) {
+        let now = self.remaining();
         let share = ale::drift_share(scene.accuracy.tolerance);
-        let drifted = |side: usize| self.built[side] - now[side] > share * self.built[side];
-        if drifted(0) || drifted(1) {
-            for (count, (now, built)) in condensations.iter_mut().zip(now.iter().zip(&self.built)) {
-                *count += u32::from(now < built);
+        let drifted = |side: Side| self.built.of(side) - now.of(side) > share * self.built.of(side);
+        if Side::BOTH.into_iter().any(drifted) {
+            for side in Side::BOTH {
+                *condensations.of_mut(side) += u32::from(now.of(side) < self.built.of(side));
             }
             self.built = now;
         }

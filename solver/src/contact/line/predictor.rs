@@ -1,14 +1,19 @@
-//! Where the iteration of an increment begins.
+//! Predictor: the initial iterate of an increment.
 
-use super::newton::{Iterate, Problem};
+use super::problem::{Iterate, Problem};
 use super::{ContactState, GAP_TOLERANCE, Pair, Status};
 
-/// Begins with the last contact as it travels with the slider.
-pub(super) fn guess(it: &mut Iterate, pair: &Pair<'_>, last: &ContactState, problem: &Problem<'_>) {
+/// Writes the last contact, shifted with the slider, to the iterate.
+pub(super) fn predict(
+    it: &mut Iterate,
+    pair: &Pair<'_>,
+    last: &ContactState,
+    problem: &Problem<'_>,
+) {
     let (first, end) = (problem.coupling.first, problem.coupling.end);
     let x = &pair.operators.receptacle.x;
     let n = end - first;
-    // What the last solve left would make the answer depend on more than the state.
+    // Every field is set: the result must depend on the state only, not on the last solve.
     it.indentation = last.indentation;
     it.height = last.height;
     it.tolerance = GAP_TOLERANCE;

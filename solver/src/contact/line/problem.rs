@@ -1,0 +1,51 @@
+//! One increment as a nonlinear problem, and an iterate of its solution.
+
+use super::mortar::Coupling;
+use super::status::Status;
+use super::wear_coupling::WearCoupling;
+use crate::condensation::Operators;
+
+/// Data of one increment over the coupled nodes.
+pub(super) struct Problem<'a> {
+    pub(super) operators: &'a Operators,
+    pub(super) coupling: &'a Coupling,
+    /// Gap opened by wear, per path p |sigma|.
+    pub(super) wear: &'a WearCoupling,
+    /// Gap of the worn, undeformed bodies at height 0, mm.
+    pub(super) gap: &'a [f64],
+    /// Projected widths of the coupled nodes, mm.
+    pub(super) width: &'a [f64],
+    pub(super) slope: &'a [f64],
+    pub(super) friction: f64,
+    /// Vertical load at height 0, N/mm, and its increase per mm of height.
+    pub(super) load: f64,
+    pub(super) spring: f64,
+    /// Gap that the slider opens by deforming under its far-face load as the height grows, mm per mm.
+    pub(super) sag: &'a [f64],
+    /// Slip of each node before the new forces and the new height are known, mm.
+    pub(super) fixed_slip: &'a [f64],
+    /// Whether anything wears in this increment.
+    pub(super) wears: bool,
+    /// Displacement of the slider over the receptacle in this increment, mm.
+    pub(super) travel: f64,
+    /// Imposed slip: the displacement and the additional slip of the slider's surface, mm.
+    pub(super) step: f64,
+}
+
+/// Iterate of the Newton method over the coupled nodes.
+#[derive(Debug, Default)]
+pub(super) struct Iterate {
+    pub(super) status: Vec<Status>,
+    pub(super) pressure: Vec<f64>,
+    pub(super) shear: Vec<f64>,
+    /// Tangential slip in this increment, mm.
+    pub(super) slip: Vec<f64>,
+    /// p |sigma| of this increment, MPa mm.
+    pub(super) path: Vec<f64>,
+    /// Gap with deformation and wear, mm.
+    pub(super) gap: Vec<f64>,
+    pub(super) height: f64,
+    pub(super) indentation: f64,
+    /// Gap residual over the indentation at which the iteration has converged.
+    pub(super) tolerance: f64,
+}

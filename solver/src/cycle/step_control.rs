@@ -1,0 +1,103 @@
+//! Step control: an increment that fails is halved and retried.
+
+use super::{CycleError, CycleState, Integrator};
+use crate::contact::{ContactError, Displacement};
+use crate::number::real;
+use crate::schedule::increments::Step;
+
+/// Retries of an increment.
+#[derive(Debug, Clone, Copy)]
+struct RetryPolicy {
+    /// Most halvings before the increment fails.
+    halvings: u32,
+    /// From this many halvings on, Lemke's method is tried where Newton's method does not converge.
+    lemke_from: u32,
+}
+
+const RETRY: RetryPolicy = RetryPolicy {
+    halvings: 8,
+    lemke_from: 2,
+};
+
+/// A replay is optional, so the expensive method is not tried.
+const REPLAY_RETRY: RetryPolicy = RetryPolicy {
+    lemke_from: u32::MAX,
+    ..RETRY
+};
+
+impl Integrator<'_> {
+    pub(super) fn step(
+        &mut self,
+        state: &mut CycleState,
+        step: &Step,
+        cycles: f64,
+        increment: usize,
+    ) -> Result<(), CycleError> {
+        let cycle = state.cycle;
+        self.halve_and_retry(state, displacement(step, cycles), 0, RETRY)
+            .map_err(|(halvings, source)| CycleError::Increment {
+                cycle,
+                increment,
+                halvings,
+                source,
+            })
+    }
+
+    /// Solves a step with the wear of a single cycle, in equal parts; returns whether it succeeded.
+    pub(super) fn replay_step(
+        &mut self,
+        state: &mut CycleState,
+        step: &Step,
+        parts: usize,
+    ) -> bool {
+        let from = state.contact.slider_x;
+        let part = |k: usize| Step {
+            slider_x: from + (step.slider_x - from) * real(k) / real(parts),
+            surface_slip: step.surface_slip / real(parts),
+            at: None,
+        };
+        (1..=parts).all(|k| {
+            self.halve_and_retry(state, displacement(&part(k), 1.0), 0, REPLAY_RETRY)
+                .is_ok()
+        })
+    }
+
+    /// Solves an increment, in halves if it fails as a whole.
+    fn halve_and_retry(
+        &mut self,
+        state: &mut CycleState,
+        to: Displacement,
+        halvings: u32,
+        policy: RetryPolicy,
+    ) -> Result<(), (u32, ContactError)> {
+        let to = Displacement {
+            lemke: halvings >= policy.lemke_from,
+            ..to
+        };
+        let Err(error) = self.increment(state, to) else {
+            return Ok(());
+        };
+        if halvings == policy.halvings {
+            return Err((halvings, error));
+        }
+        let slider_x = 0.5 * (state.contact.slider_x + to.slider_x);
+        let surface_slip = 0.5 * to.surface_slip;
+        let first = Displacement {
+            slider_x,
+            surface_slip,
+            ..to
+        };
+        self.halve_and_retry(state, first, halvings + 1, policy)?;
+        let second = Displacement { surface_slip, ..to };
+        self.halve_and_retry(state, second, halvings + 1, policy)
+    }
+}
+
+fn displacement(step: &Step, cycles: f64) -> Displacement {
+    Displacement {
+        slider_x: step.slider_x,
+        surface_slip: step.surface_slip,
+        cycles,
+        lemke: false,
+    }
+}

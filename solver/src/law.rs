@@ -1,0 +1,5 @@
+//! Constitutive laws. A law knows no mesh: it takes a local state and returns a value with its derivatives.
+
+pub mod elastic;
+pub mod friction;
+pub mod wear;

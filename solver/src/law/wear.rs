@@ -1,0 +1,88 @@
+//! Wear laws: recession of a surface from the local state of the contact.
+//!
+//! A law returns its rate with derivatives; the contact solve takes these and knows no law. One file a law.
+//!
+//! The thesis' own subroutine takes the signed velocity of the slider; here it is the magnitude of the local slip, so
+//! that sticking points do not wear and a return stroke removes material like the stroke before.
+
+pub mod archard;
+
+use crate::scene::WearLaw;
+
+/// Local state of a contact point over one increment of slip.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct LocalState {
+    /// Contact pressure p, MPa.
+    pub pressure: f64,
+    /// Magnitude of the slip |ds| in the increment, mm.
+    pub slip: f64,
+}
+
+/// Specific wear rate k_D = dh / (p |ds|) and its derivatives: worn depth per pressure and slip. Every law can be
+/// written in it, and the contact solve then conserves the worn area for all of them alike.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Rate {
+    /// k_D, 1/MPa.
+    pub value: f64,
+    /// Derivative with respect to pressure, 1/MPa^2.
+    pub d_pressure: f64,
+    /// Derivative with respect to slip, 1/(MPa mm).
+    pub d_slip: f64,
+}
+
+impl WearLaw {
+    /// Specific wear rate at a local state.
+    pub fn rate(self, at: LocalState) -> Rate {
+        match self {
+            Self::Archard { k_over_h_per_mpa } => archard::rate(k_over_h_per_mpa, at),
+        }
+    }
+}
+
+/// Specific wear rate of an unloaded surface, 1/MPa; 0 where nothing wears.
+pub fn coefficient(law: Option<WearLaw>) -> f64 {
+    law.map_or(0.0, |law| law.rate(LocalState::default()).value)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const LAWS: [WearLaw; 1] = [WearLaw::Archard {
+        k_over_h_per_mpa: 2.5761e-5,
+    }];
+
+    #[test]
+    fn derivatives_are_those_of_the_value() {
+        let at = LocalState {
+            pressure: 150.0,
+            slip: 0.02,
+        };
+        for law in LAWS {
+            let rate = law.rate(at);
+            let step = 1e-4;
+            let value = |pressure: f64, slip: f64| law.rate(LocalState { pressure, slip }).value;
+            let central = |more: f64, less: f64, h: f64| (more - less) / (2.0 * h);
+            let h = step * at.pressure;
+            let d_pressure = central(
+                value(at.pressure + h, at.slip),
+                value(at.pressure - h, at.slip),
+                h,
+            );
+            let h = step * at.slip;
+            let d_slip = central(
+                value(at.pressure, at.slip + h),
+                value(at.pressure, at.slip - h),
+                h,
+            );
+            assert!((rate.d_pressure - d_pressure).abs() <= 1e-7 * rate.value / at.pressure);
+            assert!((rate.d_slip - d_slip).abs() <= 1e-7 * rate.value / at.slip);
+        }
+    }
+
+    #[test]
+    fn a_surface_without_a_law_does_not_wear() {
+        assert!(coefficient(None).abs() < f64::MIN_POSITIVE);
+        assert!((coefficient(Some(LAWS[0])) - 2.5761e-5).abs() < 1e-20);
+    }
+}

@@ -1,0 +1,6 @@
+//! When a run does what: increments of a cycle, physical cycles of a computed one, and where it ends. The run and the
+//! forecast follow the same schedule.
+
+pub mod increments;
+pub mod jump;
+pub mod stops;
