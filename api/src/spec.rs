@@ -3,7 +3,7 @@
 //! Only `system.kind` is required; what is left out comes from the system's preset. Variants are told apart by
 //! `kind` or `law` inside one flat object, so that every fault keeps its JSON pointer.
 
-mod choice;
+mod enum_value;
 mod interface;
 mod load;
 mod materials;
@@ -18,12 +18,12 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
-pub use choice::{Choice, Named};
+pub use enum_value::{EnumValue, StringEnum};
 pub use interface::{Friction, FrictionLaw, Interface, Sides, WearLaw, WearLawName};
 pub use load::{Load, LoadKind};
 pub use materials::{Material, MaterialProperties, Materials};
 pub use motion::{Drive, Motion, MotionKind, Waveform};
-pub use read::{Broken, pointer_token};
+pub use read::{ParseError, pointer_token};
 pub use settings::{Accuracy, CycleJump, Output, Overrides, Preset, Stop, Switch};
 pub use system::{System, SystemKind};
 
@@ -78,7 +78,7 @@ pub struct Spec {
         deserialize_with = "unique::map"
     )]
     #[schema(value_type = BTreeMap<String, Switch>)]
-    pub effects: BTreeMap<String, Choice<Switch>>,
+    pub effects: BTreeMap<String, EnumValue<Switch>>,
     /// How accurate, or how fast.
     #[serde(default)]
     pub accuracy: Accuracy,

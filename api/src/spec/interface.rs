@@ -3,9 +3,9 @@
 use serde::{Deserialize, Deserializer, Serialize};
 use utoipa::ToSchema;
 
-use super::choice::{Choice, named};
+use super::enum_value::{EnumValue, string_enum};
 
-named! {
+string_enum! {
     /// Friction laws.
     FrictionLaw {
         /// |q| <= mu p.
@@ -15,7 +15,7 @@ named! {
     }
 }
 
-named! {
+string_enum! {
     /// Wear laws.
     WearLawName {
         /// Recession = (k/H) p |slip|.
@@ -39,7 +39,7 @@ pub struct Interface {
 pub struct Friction {
     /// The law.
     #[schema(value_type = FrictionLaw)]
-    pub law: Choice<FrictionLaw>,
+    pub law: EnumValue<FrictionLaw>,
     /// `coulomb`: the coefficient of friction, -. Required there.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub coefficient: Option<f64>,
@@ -71,7 +71,7 @@ pub struct Sides {
 pub struct WearLaw {
     /// The law.
     #[schema(value_type = WearLawName)]
-    pub law: Choice<WearLawName>,
+    pub law: EnumValue<WearLawName>,
     /// `archard`: the wear coefficient k, -; together with `hardness_mpa`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub k: Option<f64>,

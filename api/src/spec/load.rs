@@ -3,9 +3,9 @@
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
-use super::choice::{Choice, named};
+use super::enum_value::{EnumValue, string_enum};
 
-named! {
+string_enum! {
     /// Ways to state a load.
     LoadKind {
         /// A pressure on the slider's top face.
@@ -22,7 +22,7 @@ named! {
 pub struct Load {
     /// How it is stated.
     #[schema(value_type = LoadKind)]
-    pub kind: Choice<LoadKind>,
+    pub kind: EnumValue<LoadKind>,
     /// `pressure`: on the slider's top face, MPa.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub mpa: Option<f64>,

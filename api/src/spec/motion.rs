@@ -3,9 +3,9 @@
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
-use super::choice::{Choice, named};
+use super::enum_value::{EnumValue, string_enum};
 
-named! {
+string_enum! {
     /// Kinds of motion.
     MotionKind {
         /// Back and forth around the neutral position, to +x first.
@@ -15,7 +15,7 @@ named! {
     }
 }
 
-named! {
+string_enum! {
     /// Shapes of a reciprocating motion over time.
     Waveform {
         /// A sine.
@@ -25,7 +25,7 @@ named! {
     }
 }
 
-named! {
+string_enum! {
     /// Where the motion enters.
     Drive {
         /// The slider's top face is a rigid handle that carries the load and moves.
@@ -42,11 +42,11 @@ named! {
 pub struct Motion {
     /// Its kind.
     #[schema(value_type = MotionKind)]
-    pub kind: Choice<MotionKind>,
+    pub kind: EnumValue<MotionKind>,
     /// `reciprocating`: its shape over time.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schema(value_type = Option<Waveform>)]
-    pub waveform: Option<Choice<Waveform>>,
+    pub waveform: Option<EnumValue<Waveform>>,
     /// `reciprocating`: amplitude, mm.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub amplitude_mm: Option<f64>,
@@ -59,7 +59,7 @@ pub struct Motion {
     /// `reciprocating`: where the motion enters.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schema(value_type = Option<Drive>)]
-    pub drive: Option<Choice<Drive>>,
+    pub drive: Option<EnumValue<Drive>>,
     /// `continuous`: speed, mm/s.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub speed_mm_s: Option<f64>,

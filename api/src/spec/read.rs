@@ -10,7 +10,7 @@ use crate::problem::Fault;
 /// The bytes are not a specification: broken JSON, a number out of range, or a wrong type.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("{detail} at line {line}, column {column}{}", at_pointer(.pointer))]
-pub struct Broken {
+pub struct ParseError {
     /// JSON pointer of the value in question; empty for broken JSON.
     pub pointer: String,
     /// What is wrong.
@@ -25,9 +25,9 @@ impl Spec {
     /// Reads a specification and lists its unknown fields.
     ///
     /// # Errors
-    /// [`Broken`] for what cannot be read at all: broken JSON, a wrong type, a missing `system.kind`, a field
+    /// [`ParseError`] for what cannot be read at all: broken JSON, a wrong type, a missing `system.kind`, a field
     /// given twice.
-    pub fn read(bytes: &[u8]) -> Result<(Self, Vec<Fault>), Broken> {
+    pub fn read(bytes: &[u8]) -> Result<(Self, Vec<Fault>), ParseError> {
         let mut faults = Vec::new();
         let mut json = serde_json::Deserializer::from_slice(bytes);
         let mut track = Track::new();
@@ -40,8 +40,8 @@ impl Spec {
             };
             Self::deserialize(serde_ignored::Deserializer::new(tracked, &mut note))
         };
-        let spec = spec.map_err(|error| broken(&error, &tracked_pointer(&track.path())))?;
-        json.end().map_err(|error| broken(&error, ""))?;
+        let spec = spec.map_err(|error| parse_error(&error, &tracked_pointer(&track.path())))?;
+        json.end().map_err(|error| parse_error(&error, ""))?;
         faults.extend(arrays_for_objects(bytes));
         Ok((spec, faults))
     }
@@ -96,7 +96,7 @@ fn at_pointer(pointer: &str) -> String {
     }
 }
 
-fn broken(error: &serde_json::Error, pointer: &str) -> Broken {
+fn parse_error(error: &serde_json::Error, pointer: &str) -> ParseError {
     let mut detail = error.to_string();
     if let Some(end) = detail.rfind(" at line ") {
         detail.truncate(end);
@@ -107,7 +107,7 @@ fn broken(error: &serde_json::Error, pointer: &str) -> Broken {
     } else {
         String::new()
     };
-    Broken {
+    ParseError {
         pointer,
         detail,
         line: error.line(),

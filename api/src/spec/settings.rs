@@ -4,9 +4,9 @@ use serde::de::{Unexpected, Visitor};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use utoipa::ToSchema;
 
-use super::choice::{Choice, named};
+use super::enum_value::{EnumValue, string_enum};
 
-named! {
+string_enum! {
     /// Whether an effect is simulated.
     Switch {
         /// Decided by the plan.
@@ -18,7 +18,7 @@ named! {
     }
 }
 
-named! {
+string_enum! {
     /// Named tolerances.
     Preset {
         /// 10 %.
@@ -40,7 +40,7 @@ pub struct Accuracy {
     /// A named tolerance.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schema(value_type = Option<Preset>)]
-    pub preset: Option<Choice<Preset>>,
+    pub preset: Option<EnumValue<Preset>>,
     /// Relative tolerance on worn depth and scar width.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub tolerance: Option<f64>,

@@ -83,7 +83,7 @@ pub fn compare(
         tolerance: Some(tolerance),
         ..Accuracy::default()
     };
-    let resolved = spec::scene(&spec).map_err(Refused::Faults)?;
+    let resolved = spec::resolve(&spec).map_err(Refused::Faults)?;
     let plan = machine::plan(&resolved, Some(machine)).estimates;
     let (found, spent) = process::solve(program, &resolved.spec)?;
     let summary = found.map_err(BenchError::OtherFailed)?.summary;

@@ -1,6 +1,6 @@
 //! Notes of a plan: where the source of the presets contradicts itself, told to whoever uses the value in question.
 
-use api::spec::{Choice, LoadKind, Preset, SystemKind, WearLaw};
+use api::spec::{EnumValue, LoadKind, Preset, SystemKind, WearLaw};
 use solver::model::resolution;
 
 use crate::spec::Resolved;
@@ -26,7 +26,7 @@ pub(crate) fn notes(resolved: &Resolved) -> Vec<String> {
         notes.extend(fuzz_button(resolved));
     }
     let preset = resolved.spec.accuracy.preset.as_ref();
-    if let Some(Preset::SourceCoarse | Preset::SourceFine) = preset.and_then(Choice::known) {
+    if let Some(Preset::SourceCoarse | Preset::SourceFine) = preset.and_then(EnumValue::known) {
         let sizes = resolution::choose(&resolved.scene);
         notes.push(format!(
             "the source's elements, {:.3e} mm here, face a contact half-width of {:.3e} mm: pressures of such a run \
@@ -61,7 +61,7 @@ fn fuzz_button(resolved: &Resolved) -> Vec<String> {
             .to_owned(),
     ];
     let load = resolved.spec.load.as_ref();
-    let pressed = load.is_some_and(|load| load.kind == Choice::from(LoadKind::Pressure));
+    let pressed = load.is_some_and(|load| load.kind == EnumValue::from(LoadKind::Pressure));
     if pressed {
         notes.push(
             "the source's input applies 10 MPa on the top face; it states 0.834 N a button and 51.71 MPa, but that force \

@@ -8,7 +8,7 @@ fn unknown(text: &str) -> Vec<String> {
     faults.into_iter().map(|fault| fault.pointer).collect()
 }
 
-fn refused(text: &str) -> Broken {
+fn refused(text: &str) -> ParseError {
     Spec::read(text.as_bytes()).expect_err("not readable")
 }
 

@@ -121,7 +121,7 @@ impl RunPlan {
         accept: &Accept<'_>,
     ) -> Result<Self, RunPlanError> {
         let want = |asked: Asked| -> Result<Wanted, Refused> {
-            let resolved = spec::scene(&child(&scene.spec, asked)).map_err(Refused::Faults)?;
+            let resolved = spec::resolve(&child(&scene.spec, asked)).map_err(Refused::Faults)?;
             accept(&resolved)?;
             let expected_s = machine::cpu_s(machine, &resolved.workload);
             Ok(Wanted {

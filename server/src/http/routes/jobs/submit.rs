@@ -67,10 +67,10 @@ impl IntoResponse for SubmitError {
 /// A refused document as a problem.
 fn refusal(refused: Refused) -> Refusal {
     match refused {
-        Refused::Broken(broken) => {
-            let fault = Fault::new(broken.pointer.clone(), broken.detail.clone());
+        Refused::Parse(error) => {
+            let fault = Fault::new(error.pointer.clone(), error.detail.clone());
             Kind::Unreadable
-                .because(broken.to_string())
+                .because(error.to_string())
                 .with_faults(vec![fault])
         }
         Refused::Faults(faults) => Kind::InvalidSpecification
