@@ -1,7 +1,8 @@
 //! Resolution: from a specification as users write it to the scene that the engine solves.
 //!
 //! A specification is refused with *all* its faults, each with its JSON pointer; an accepted one comes back with every
-//! default filled in and the provenance of each value. Nothing is meshed here.
+//! default filled in and the provenance of each value. Mesh lines are placed, which shows whether a scene can be meshed;
+//! nothing is meshed or estimated.
 
 mod accuracy;
 mod diagnostics;
@@ -18,10 +19,9 @@ use std::collections::BTreeMap;
 
 use api::problem::Fault;
 use api::spec::{ParseError, Spec, SystemKind};
+use solver::model::Layout;
 use solver::scene::{Body, Scene};
 
-use crate::estimate::footprint::Footprint;
-use crate::estimate::workload::Workload;
 use diagnostics::Diagnostics;
 
 /// Longest accepted name, characters.
@@ -40,10 +40,8 @@ pub struct Resolved {
     pub kind: SystemKind,
     /// The scene.
     pub scene: Scene,
-    /// Estimated size of the solve.
-    pub footprint: Footprint,
-    /// Estimated work of the solve.
-    pub workload: Workload,
+    /// Its mesh lines, which show that it can be meshed.
+    pub layout: Layout,
 }
 
 /// Reason for which a submitted document is refused.
@@ -81,12 +79,11 @@ pub fn resolve(spec: &Spec) -> Result<Resolved, Vec<Fault>> {
         return Err(diagnostics.into_faults());
     };
     let (mut filled, scene) = fill(spec, kind, &mut diagnostics);
-    let mut sized = None;
-    if diagnostics.is_clean() {
-        effects::check(&spec.effects, &scene, &mut diagnostics);
-        sized = meshable(&scene, &mut diagnostics);
+    if !diagnostics.is_clean() {
+        return Err(diagnostics.into_faults());
     }
-    let Some((footprint, workload)) = sized else {
+    effects::check(&spec.effects, &scene, &mut diagnostics);
+    let Some(layout) = accuracy::layout(&scene, &mut diagnostics) else {
         return Err(diagnostics.into_faults());
     };
     filled.provenance = diagnostics.finish()?;
@@ -94,8 +91,7 @@ pub fn resolve(spec: &Spec) -> Result<Resolved, Vec<Fault>> {
         spec: filled,
         kind,
         scene,
-        footprint,
-        workload,
+        layout,
     })
 }
 
@@ -159,21 +155,6 @@ fn fill(spec: &Spec, kind: SystemKind, diagnostics: &mut Diagnostics) -> (Spec, 
         stop,
     };
     (filled, scene)
-}
-
-fn meshable(scene: &Scene, diagnostics: &mut Diagnostics) -> Option<(Footprint, Workload)> {
-    let built = solver::model::build(scene);
-    if let Err(error) = &built {
-        let pointer = match scene.accuracy.contact_element_mm {
-            Some(_) => "/accuracy/overrides/contact_element_mm",
-            None => "/system",
-        };
-        diagnostics.fault(pointer, error.to_string());
-    }
-    built.ok().map(|model| {
-        let work = Workload::of(scene, &model);
-        (Footprint::of(scene, &model, &work), work)
-    })
 }
 
 /// Description of a kind of system.

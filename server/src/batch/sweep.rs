@@ -8,6 +8,7 @@ use api::sweep::{Changes, SweepRequest};
 use serde::de::DeserializeOwned;
 use serde_json::{Map, Value};
 
+use crate::estimate::Estimate;
 use crate::spec::{NAME_LIMIT, Refused, Resolved};
 
 /// Most jobs of a sweep.
@@ -26,6 +27,8 @@ pub struct Variation {
     pub overrides: Changes,
     /// Its specification.
     pub resolved: Resolved,
+    /// Its estimate.
+    pub estimate: Estimate,
 }
 
 /// Reads a sweep.
@@ -73,6 +76,7 @@ pub fn expand(request: &SweepRequest) -> Result<Vec<Variation>, Refused> {
         match vary(&request.base, &preset, &overrides) {
             Ok(resolved) => variations.push(Variation {
                 overrides,
+                estimate: Estimate::of(&resolved),
                 resolved,
             }),
             Err(found) => {

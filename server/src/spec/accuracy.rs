@@ -3,7 +3,9 @@
 use std::ops::RangeInclusive;
 
 use api::spec::{Accuracy, CycleJump, Overrides, Preset, Provenance};
+use solver::model::Layout;
 use solver::scene;
+use solver::scene::Scene;
 
 use crate::spec::diagnostics::{Diagnostics, shortened};
 use crate::spec::sourced::assumed;
@@ -13,6 +15,7 @@ use crate::spec::system::Shapes;
 const TOLERANCE: RangeInclusive<f64> = 1e-6..=0.5;
 /// Most surface elements along the block at a fixed element size.
 const CONTACT_ELEMENT_LIMIT: f64 = 20_000.0;
+const CONTACT_ELEMENT: &str = "/accuracy/overrides/contact_element_mm";
 const INCREMENTS: RangeInclusive<u64> = 4..=1_000_000;
 /// Increments a cycle of the source.
 const SOURCE_INCREMENTS: u32 = 32;
@@ -55,6 +58,17 @@ pub(crate) fn resolve(
     (filled, numerical)
 }
 
+/// Places the mesh lines of a scene; adds a fault if there are too many or the bodies cannot be meshed.
+pub(crate) fn layout(scene: &Scene, diagnostics: &mut Diagnostics) -> Option<Layout> {
+    let pointer = match scene.accuracy.contact_element_mm {
+        Some(_) => CONTACT_ELEMENT,
+        None => "/system",
+    };
+    Layout::of(scene)
+        .inspect_err(|error| diagnostics.fault(pointer, error.to_string()))
+        .ok()
+}
+
 fn preset_tolerance(preset: Preset) -> f64 {
     match preset {
         Preset::Draft | Preset::SourceCoarse | Preset::SourceFine => 0.1,
@@ -78,15 +92,14 @@ fn contact_element(
     shapes: &Shapes,
     diagnostics: &mut Diagnostics,
 ) -> Option<f64> {
-    const POINTER: &str = "/accuracy/overrides/contact_element_mm";
     let size = overrides.contact_element_mm?;
-    diagnostics.provenance(POINTER, Provenance::Given);
+    diagnostics.provenance(CONTACT_ELEMENT, Provenance::Given);
     let length = shapes.block.length_mm;
     let (smallest, largest) = (length / CONTACT_ELEMENT_LIMIT, 0.5 * length);
     if !(smallest..=largest).contains(&size) {
         let limits =
             format!("{smallest} (1/{CONTACT_ELEMENT_LIMIT} of the block's length) to {largest}");
-        diagnostics.fault(POINTER, format!("{size} is outside {limits}"));
+        diagnostics.fault(CONTACT_ELEMENT, format!("{size} is outside {limits}"));
     }
     Some(size)
 }
