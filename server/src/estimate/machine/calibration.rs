@@ -2,8 +2,10 @@
 //! climbs the ends of its groove, on coarse and fine meshes. A power law is fitted to the times of their increments, and
 //! the coefficients of two terms to the times of their condensations.
 
+use std::ops::ControlFlow;
+
 use api::plan::MachineFigures;
-use solver::observer::{Event, Flow, Observer, Phase};
+use solver::observer::{Event, Observer, Phase};
 
 use crate::estimate::Estimate;
 use crate::estimate::machine::{MachineError, NODES, checked, condensation_terms};
@@ -98,11 +100,12 @@ impl PhaseClock {
 }
 
 impl Observer for PhaseClock {
-    fn on(&mut self, event: Event<'_>) -> Flow {
-        if let Event::Phase(phase) = event {
-            self.enter(Some(phase));
-        }
-        Flow::Continue
+    fn on(&mut self, _: Event<'_>) -> ControlFlow<()> {
+        ControlFlow::Continue(())
+    }
+
+    fn on_phase(&mut self, phase: Phase) {
+        self.enter(Some(phase));
     }
 }
 
