@@ -1,26 +1,26 @@
-//! A name out of a closed list, where an unknown name is kept so that it can be reported with all other faults.
+//! String enums that also accept an unknown name, which is then reported with all other faults.
 
 use serde::de::value::{Error as ValueError, StrDeserializer};
 use serde::de::{DeserializeOwned, IntoDeserializer};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
-/// A closed list of names.
+/// An enum whose members have names.
 pub trait StringEnum: Sized + Copy + 'static {
-    /// Every member with its name.
+    /// Names of all members.
     const NAMES: &'static [&'static str];
 }
 
-/// A member of the list `T`, or a text that names none.
+/// A member of the enum `T`, or an unknown name.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum EnumValue<T> {
     /// A member.
     Known(T),
-    /// Not a member; refused later, together with all other faults.
+    /// An unknown name; refused later, together with all other faults.
     Unknown(String),
 }
 
 impl<T: Copy> EnumValue<T> {
-    /// The member, if it is one.
+    /// Returns the member, if the name is known.
     pub fn known(&self) -> Option<T> {
         match self {
             Self::Known(member) => Some(*member),
@@ -55,7 +55,7 @@ impl<'de, T: DeserializeOwned> Deserialize<'de> for EnumValue<T> {
     }
 }
 
-/// Declares a closed list of names: the enum, its serde names, its schema and [`StringEnum`].
+/// Declares a string enum: its members, serde names, schema and [`StringEnum`].
 macro_rules! string_enum {
     ($(#[doc = $doc:literal])* $name:ident { $($(#[$inner:meta])* $member:ident = $text:literal),+ $(,)? }) => {
         $(#[doc = $doc])*
@@ -86,10 +86,10 @@ macro_rules! string_enum {
         }
 
         impl $name {
-            /// Every member.
+            /// All members.
             pub const ALL: &'static [Self] = &[$(Self::$member),+];
 
-            /// The member as it is written.
+            /// Name of the member in JSON.
             pub fn as_str(self) -> &'static str {
                 match self {
                     $(Self::$member => $text),+

@@ -18,7 +18,7 @@ string_enum! {
 string_enum! {
     /// Wear laws.
     WearLawName {
-        /// Recession = (k/H) p |slip|.
+        /// Worn depth = (k/H) p |slip|.
         Archard = "archard",
     }
 }
@@ -45,7 +45,7 @@ pub struct Friction {
     pub coefficient: Option<f64>,
 }
 
-/// Wear of each part: absent takes the preset, `null` does not wear.
+/// Wear of each part: the preset's if absent, none if `null`.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct Sides {
     /// The sprung or vibrating part.
@@ -75,7 +75,7 @@ pub struct WearLaw {
     /// `archard`: the wear coefficient k, -; together with `hardness_mpa`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub k: Option<f64>,
-    /// `archard`: the hardness H of the wearing surface, MPa; the material's if left out beside `k`.
+    /// `archard`: the hardness H of the wearing surface, MPa; that of the material if `k` is given alone.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub hardness_mpa: Option<f64>,
     /// `archard`: k/H, 1/MPa; instead of `k` and `hardness_mpa`.
@@ -85,7 +85,7 @@ pub struct WearLaw {
 
 #[expect(
     clippy::option_option,
-    reason = "absent, null and a law are three different wishes"
+    reason = "absent, null and a law have different meanings"
 )]
 fn present<'de, D: Deserializer<'de>>(
     deserializer: D,

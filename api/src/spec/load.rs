@@ -6,7 +6,7 @@ use utoipa::ToSchema;
 use super::enum_value::{EnumValue, string_enum};
 
 string_enum! {
-    /// Ways to state a load.
+    /// Kinds of load.
     LoadKind {
         /// A pressure on the slider's top face.
         Pressure = "pressure",
@@ -20,7 +20,7 @@ string_enum! {
 /// The normal load. Which fields belong to it depends on its kind.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct Load {
-    /// How it is stated.
+    /// Its kind.
     #[schema(value_type = LoadKind)]
     pub kind: EnumValue<LoadKind>,
     /// `pressure`: on the slider's top face, MPa.
@@ -35,9 +35,8 @@ pub struct Load {
     /// `force`: the width (depth of the section) that carries it, mm.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub width_mm: Option<f64>,
-    /// Stiffness of the spring that holds the slider down, N per mm of deflection: of the whole contact beside
-    /// `force`, else of each mm of depth. The load
-    /// falls by it as the contact wears.
+    /// Stiffness of the spring that presses the slider down, N per mm of deflection: of the whole contact for `force`,
+    /// otherwise per mm of depth. The spring relaxes, and the load falls, as the contact wears.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub spring_n_per_mm: Option<f64>,
 }

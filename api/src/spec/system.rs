@@ -51,7 +51,7 @@ pub struct System {
     /// `cylinder_on_flat`: height of the modelled part, from the contact point to the top face, mm.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub slider_height_mm: Option<f64>,
-    /// `cylinder_on_flat`: radius of a convex top of the block, mm; flat if left out.
+    /// `cylinder_on_flat`: radius of a convex top of the block, mm; the top is flat if absent.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub crown_radius_mm: Option<f64>,
     /// `sd_card`, `dimm`, `zif`: radius of the sprung contact, mm.
@@ -60,7 +60,7 @@ pub struct System {
     /// `sd_card`, `dimm`: length of the pad, mm.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub pad_length_mm: Option<f64>,
-    /// `sd_card`, `dimm`: height of the pad and what carries it, mm.
+    /// `sd_card`, `dimm`: height of the pad and its substrate, mm.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub pad_height_mm: Option<f64>,
     /// `zif`: length of the modelled part of the pin, mm.
@@ -69,7 +69,7 @@ pub struct System {
     /// `zif`: thickness of the pin, mm.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub pin_thickness_mm: Option<f64>,
-    /// `zif`: radius of a round pin, mm; a flat pin if left out.
+    /// `zif`: radius of a round pin, mm; the pin is flat if absent.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub pin_radius_mm: Option<f64>,
 }

@@ -57,7 +57,10 @@ impl Workload {
 
     /// Contact increments of the whole run.
     pub fn increments(&self) -> f64 {
-        self.increments.iter().map(|(_, increments)| increments).sum()
+        self.increments
+            .iter()
+            .map(|(_, increments)| increments)
+            .sum()
     }
 
     /// Estimates of a plan, by name.

@@ -187,7 +187,13 @@ mod tests {
             measure: failing,
             ..CalibrationCache::open(None)
         };
-        assert_eq!((cache.get_or_measure_async().await, cache.get_or_measure_async().await), (None, None));
+        assert_eq!(
+            (
+                cache.get_or_measure_async().await,
+                cache.get_or_measure_async().await
+            ),
+            (None, None)
+        );
         assert_eq!(TRIED.load(Ordering::SeqCst), 1);
     }
 

@@ -136,7 +136,10 @@ fn power_law(samples: &[Sample]) -> (f64, f64) {
 fn two_terms(samples: &[Sample]) -> [f64; 2] {
     let (mut a, mut b) = ([[0.0; 2]; 2], [0.0; 2]);
     for sample in samples {
-        let bodies = sample.workload.condensations.map(|body| condensation_terms(&body));
+        let bodies = sample
+            .workload
+            .condensations
+            .map(|body| condensation_terms(&body));
         let row = [0, 1].map(|k| (bodies[0][k] + bodies[1][k]) / sample.condensation_s);
         for i in 0..2 {
             b[i] += row[i];
