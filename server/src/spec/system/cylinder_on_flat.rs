@@ -75,7 +75,7 @@ fn preset() -> Preset {
         receptacle: assumed("steel"),
         friction: typical(0.78),
         slider_wear: assumed(None),
-        receptacle_wear: assumed(archard(1.0e-4, 6865.0)),
+        receptacle_wear: assumed(Some(archard(1.0e-4, 6865.0))),
         load: assumed(Load {
             n_per_mm: Some(18.5),
             ..load(LoadKind::LineForce)

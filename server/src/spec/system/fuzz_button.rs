@@ -39,7 +39,7 @@ fn preset() -> Preset {
         receptacle: source("copper"),
         friction: source(1.21),
         slider_wear: source(None),
-        receptacle_wear: source(archard(0.011, 427.0)),
+        receptacle_wear: source(Some(archard(0.011, 427.0))),
         load: source(Load {
             mpa: Some(10.0),
             ..load(LoadKind::Pressure)

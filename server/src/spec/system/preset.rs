@@ -33,8 +33,8 @@ pub(crate) struct Preset {
 }
 
 /// Archard's law with k and H, MPa.
-pub(super) const fn archard(k: f64, hardness_mpa: f64) -> Option<ArchardPreset> {
-    Some(ArchardPreset { k, hardness_mpa })
+pub(super) const fn archard(k: f64, hardness_mpa: f64) -> ArchardPreset {
+    ArchardPreset { k, hardness_mpa }
 }
 
 /// A load without values.
@@ -66,7 +66,7 @@ pub(super) fn plated(spring: &'static str, force_n: f64, width_mm: f64) -> Prese
         receptacle: typical("copper"),
         friction: typical(0.3),
         slider_wear: assumed(None),
-        receptacle_wear: assumed(archard(0.004, 1700.0)),
+        receptacle_wear: assumed(Some(archard(0.004, 1700.0))),
         load: assumed(load),
         waveform: assumed(Waveform::Sine),
         amplitude_mm: assumed(0.02),

@@ -150,7 +150,7 @@ pub(in crate::http) async fn submit_study(
     queued(&app, id).await
 }
 
-/// The scene and the runs: up to some forty meshes and forecasts, which take seconds.
+/// The scene and the runs: up to some forty forecasts, which can take a second together.
 fn choose(
     request: &StudyRequest,
     machine: &MachineFigures,
