@@ -1,7 +1,7 @@
 //! Documents of the event stream (`GET /v1/jobs/{id}/events`).
 //!
 //! Event names: `snapshot` (a [`crate::job::Job`], first on a fresh connection, without an id), `attempt` ([`Attempt`]:
-//! a worker begins, and what was told of later cycles than `from_cycle` is void), `progress` ([`crate::job::Progress`]), `cycle` ([`crate::results::CycleRow`]) and `done` ([`Done`]).
+//! a worker has started; earlier events about cycles after `from_cycle` are void), `progress` ([`crate::job::Progress`]), `cycle` ([`crate::results::CycleRow`]) and `done` ([`Done`]).
 
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
@@ -9,13 +9,13 @@ use utoipa::ToSchema;
 use crate::job::{Outcome, Status};
 use crate::results::Summary;
 
-/// A worker has taken the job. What was told of later cycles than `from_cycle` belongs to an attempt that ended before
-/// its next checkpoint; the same cycles come again, with the same bits.
+/// A worker has claimed the job. Earlier events about cycles after `from_cycle` belong to an attempt that ended before
+/// its next checkpoint; these cycles are computed again, with the same bits.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
 pub struct Attempt {
-    /// Which attempt it is, from 1.
+    /// Number of the attempt, from 1.
     pub attempt: u32,
-    /// The cycle of the checkpoint that it goes on from; 0 where it begins anew.
+    /// Cycle of the checkpoint from which the attempt resumes; 0 if it starts from the unworn state.
     #[serde(default)]
     pub from_cycle: u64,
 }
@@ -23,17 +23,17 @@ pub struct Attempt {
 /// The last event of a stream.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct Done {
-    /// How the job ended.
+    /// Final status of the job.
     pub status: Status,
-    /// Why, in words.
+    /// Reason for the status, in words.
     pub status_reason: Option<String>,
-    /// How the solve ended.
+    /// Outcome of the solve.
     pub outcome: Option<Outcome>,
-    /// The result in short.
+    /// Summary of the results.
     pub summary: Option<Summary>,
 }
 
-/// An event as it comes in the stream.
+/// An event of the stream.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
 pub struct StreamEvent {
     /// Its number within the job, from 1 without gaps; `snapshot` has none.
@@ -41,7 +41,7 @@ pub struct StreamEvent {
     pub id: Option<String>,
     /// Its name.
     pub event: EventName,
-    /// Its document, JSON: a job, an attempt, progress, a row of the wear history, or the end.
+    /// Its document, JSON: a job, an attempt, progress, a row of the wear history, or the final status.
     #[schema(content_media_type = "application/json")]
     pub data: String,
 }
@@ -50,14 +50,14 @@ pub struct StreamEvent {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum EventName {
-    /// The job as it stands.
+    /// The current job document.
     Snapshot,
-    /// A worker begins.
+    /// A worker has started.
     Attempt,
-    /// How far it is.
+    /// Progress of the solve.
     Progress,
     /// A computed cycle.
     Cycle,
-    /// The end.
+    /// The job has ended.
     Done,
 }

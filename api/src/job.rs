@@ -10,19 +10,19 @@ use crate::plan::Plan;
 use crate::results::Summary;
 use crate::spec::Spec;
 
-/// Where a job stands.
+/// Status of a job.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize, ToSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Status {
     /// Waiting for a worker.
     Queued,
-    /// A worker solves it.
+    /// Being solved by a worker.
     Running,
-    /// Solved; the summary is there.
+    /// Solved; the summary is available.
     Succeeded,
-    /// Ended without the asked-for result; `outcome` and `status_reason` say why.
+    /// Ended without the requested result; `outcome` and `status_reason` give the reason.
     Failed,
-    /// Ended on request; what was computed so far stays readable.
+    /// Cancelled on request; results computed so far remain available.
     Cancelled,
 }
 
@@ -36,7 +36,7 @@ impl Status {
         Self::Cancelled,
     ];
 
-    /// The status as it is written.
+    /// Name of the status in JSON.
     pub fn as_str(self) -> &'static str {
         match self {
             Self::Queued => "queued",
@@ -47,36 +47,36 @@ impl Status {
         }
     }
 
-    /// The status of that name.
+    /// Returns the status of that name.
     pub fn from_name(name: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|status| status.as_str() == name)
     }
 
-    /// Whether nothing follows.
+    /// Whether the status is final.
     pub fn is_terminal(self) -> bool {
         matches!(self, Self::Succeeded | Self::Failed | Self::Cancelled)
     }
 }
 
-/// How a solve ended.
+/// Outcome of a solve.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Outcome {
-    /// All cycles were done.
+    /// All cycles were computed.
     Completed,
     /// A stop condition was met.
     StopCondition,
-    /// A body was nearly consumed.
+    /// A body was worn through almost completely.
     WornThrough,
-    /// Stopped from outside.
+    /// Stopped by a request.
     Stopped,
-    /// The solver gave up; `status_reason` carries its numbers.
+    /// The solver did not converge; `status_reason` contains its numbers.
     NotConverged,
-    /// The workers that tried it were lost.
+    /// The workers of all attempts were lost.
     WorkerLost,
-    /// It needed more memory than a solving process may take.
+    /// The solve exceeded the memory limit of its process.
     OutOfMemory,
-    /// It had not ended by its deadline.
+    /// The job had not ended by its deadline.
     DeadlineExceeded,
 }
 
@@ -93,7 +93,7 @@ impl Outcome {
         Self::DeadlineExceeded,
     ];
 
-    /// The outcome as it is written.
+    /// Name of the outcome in JSON.
     pub fn as_str(self) -> &'static str {
         match self {
             Self::Completed => "completed",
@@ -107,7 +107,7 @@ impl Outcome {
         }
     }
 
-    /// The outcome of that name.
+    /// Returns the outcome of that name.
     pub fn from_name(name: &str) -> Option<Self> {
         Self::ALL
             .into_iter()
@@ -121,64 +121,64 @@ impl Outcome {
 pub enum Phase {
     /// Geometry and meshes.
     Mesh,
-    /// Condensed operators.
+    /// Condensation of the operators.
     Condense,
     /// Contact increments and wear.
     Cycles,
-    /// Moving the mesh after the worn surface.
+    /// Relocation of the mesh to the worn surface.
     Relocate,
 }
 
-/// How far a job is.
+/// Progress of a job.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct Progress {
-    /// What is being done; absent before the start.
+    /// Current phase; absent before the start.
     pub phase: Option<Phase>,
-    /// Physical cycles done.
+    /// Physical cycles completed.
     pub cycle: u64,
-    /// Physical cycles asked for.
+    /// Physical cycles requested.
     pub cycles: u64,
     /// `cycle / cycles`, 0 to 1.
     pub fraction: f64,
-    /// Estimated seconds left, from the pace so far.
+    /// Estimated remaining time, s, from the speed so far.
     pub eta_s: Option<f64>,
-    /// When the solve last told of something (RFC 3339); a job that hangs stays behind here.
+    /// Time of the last report of the solve (RFC 3339); an old one indicates a job that hangs.
     pub updated_at: Option<String>,
 }
 
 /// A job.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct Job {
-    /// Its name in the service; ordered by creation.
+    /// Identifier; ordered by creation.
     pub id: Uuid,
-    /// Where it stands.
+    /// Status.
     pub status: Status,
-    /// Why it stands there, in words.
+    /// Reason for the status, in words.
     pub status_reason: Option<String>,
-    /// How the solve ended.
+    /// Outcome of the solve.
     pub outcome: Option<Outcome>,
-    /// How many minutes older it counts in the queue than it is; -100 to 100.
+    /// Minutes added to its age in the order of the queue; -100 to 100.
     #[serde(default)]
     pub priority: i32,
-    /// When it fails unless it has ended (RFC 3339).
+    /// Time at which it fails unless it has ended (RFC 3339).
     pub deadline_at: Option<String>,
-    /// When it was accepted (RFC 3339).
+    /// Time of acceptance (RFC 3339).
     pub created_at: String,
-    /// When a worker first took it (RFC 3339).
+    /// Time of the first claim by a worker (RFC 3339).
     pub started_at: Option<String>,
-    /// When it ended (RFC 3339).
+    /// Time at which it ended (RFC 3339).
     pub finished_at: Option<String>,
-    /// How far it is.
+    /// Progress of the solve.
     pub progress: Progress,
-    /// How often a worker took it; a graceful shutdown does not count.
+    /// Number of claims by a worker; those ended by a graceful shutdown do not count.
     pub attempts: u32,
     /// The resolved specification.
     pub spec: Spec,
-    /// What is simulated and why.
+    /// The plan: simulated effects with reasons, and estimates.
     pub plan: Option<Plan>,
-    /// The result in short, once there is one.
+    /// Summary of the results, once available.
     pub summary: Option<Summary>,
-    /// Where to go from here: relation to path.
+    /// Links: relation to path.
     pub links: BTreeMap<String, String>,
 }
 
@@ -187,6 +187,6 @@ pub struct Job {
 pub struct JobList {
     /// The jobs of this page.
     pub jobs: Vec<Job>,
-    /// Where the next page starts; absent on the last one.
+    /// Token of the next page; absent on the last one.
     pub next_page_token: Option<String>,
 }

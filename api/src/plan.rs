@@ -1,4 +1,4 @@
-//! The plan of a specification: what would be simulated and why.
+//! The plan of a specification: simulated effects with reasons, and estimates.
 
 use std::collections::BTreeMap;
 
@@ -7,25 +7,25 @@ use utoipa::ToSchema;
 
 use crate::spec::Spec;
 
-/// Whether an effect is simulated, and why.
+/// Whether an effect is simulated, with the reason.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
 pub struct PlannedEffect {
     /// Whether it is simulated.
     pub simulated: bool,
-    /// Why, in words.
+    /// Reason, in words.
     pub reason: String,
 }
 
-/// What would be simulated.
+/// A plan: simulated effects with reasons, and estimates.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct Plan {
     /// Effects by name.
     pub effects: BTreeMap<String, PlannedEffect>,
-    /// Figures by name with unit: of the unworn contact in closed form; and what the solve is expected to take: unknowns,
-    /// memory, output, computed cycles, increments, and `cpu_s`, processor seconds, absent while the machine is not
-    /// measured yet or not measurable.
+    /// Values by name with unit: closed-form results for the unworn contact, and estimates of the solve: unknowns, memory,
+    /// output, computed cycles, increments, and processor seconds (`cpu_s`), which are absent until the machine is
+    /// calibrated and if that fails.
     pub estimates: BTreeMap<String, f64>,
-    /// What a user should know about the numbers of this scene: where the source contradicts itself.
+    /// Contradictions in the source of the presets that concern this specification.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub notes: Vec<String>,
 }
@@ -35,24 +35,24 @@ pub struct Plan {
 pub struct PlanDocument {
     /// The resolved specification.
     pub spec: Spec,
-    /// What would be simulated.
+    /// Its plan.
     pub plan: Plan,
-    /// The machine that `cpu_s` is expected of; absent if it is not measured yet or not measurable.
+    /// Calibration of the machine that `cpu_s` refers to; absent if it is not calibrated.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub machine: Option<MachineFigures>,
 }
 
-/// What a machine takes for the engine's work, measured once by a few small solves.
+/// Calibration of a machine, measured once by a few small solves.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct MachineFigures {
-    /// The program that was measured: its version and when it was built.
+    /// The measured program: version and build time.
     pub program: String,
-    /// Processor seconds of a contact increment that watches 30 nodes.
+    /// Processor seconds of a contact increment with 30 candidate nodes.
     pub increment_s: f64,
-    /// The power of the watched nodes that an increment's time grows with.
+    /// Power of the number of candidate nodes in the time of an increment.
     pub increment_power: f64,
-    /// Processor seconds of a condensation for each unknown to the power 1.2.
+    /// Processor seconds of a condensation per (number of unknowns)^1.2.
     pub condensation_dof_s: f64,
-    /// Processor seconds of a condensation for each surface node to the power 3.
+    /// Processor seconds of a condensation per (number of surface nodes)^3.
     pub condensation_surface_s: f64,
 }

@@ -3,17 +3,17 @@
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
-/// One fault of a specification and the place where it is.
+/// A fault of a specification.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
 pub struct Fault {
     /// JSON pointer (RFC 6901) into the submitted document.
     pub pointer: String,
-    /// What is wrong: the value beside the limit.
+    /// Description, with the value and its limit.
     pub detail: String,
 }
 
 impl Fault {
-    /// A fault at `pointer`.
+    /// Creates a fault at `pointer`.
     pub fn new(pointer: impl Into<String>, detail: impl Into<String>) -> Self {
         Self {
             pointer: pointer.into(),
@@ -22,17 +22,17 @@ impl Fault {
     }
 }
 
-/// An error as a document; media type `application/problem+json`.
+/// A problem document (RFC 9457); media type `application/problem+json`.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
 pub struct Problem {
-    /// Stable name of the kind of problem, a relative URI reference.
+    /// Stable type of the problem, a relative URI reference.
     #[serde(rename = "type")]
     pub kind: String,
-    /// The kind in words; the same for every problem of a kind.
+    /// Title of the type; the same for every problem of that type.
     pub title: String,
     /// HTTP status code.
     pub status: u16,
-    /// This occurrence in words.
+    /// Description of this occurrence.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub detail: Option<String>,
     /// Every fault found in the submitted document.

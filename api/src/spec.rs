@@ -1,9 +1,9 @@
-//! The specification of a study, as users write it.
+//! The specification of a job, as users write it.
 //!
-//! Only `system.kind` is required; what is left out comes from the system's preset. Variants are told apart by
-//! `kind` or `law` inside one flat object, so that every fault keeps its JSON pointer.
+//! Only `system.kind` is required; everything else has a default from the system's preset. Variants are selected by
+//! `kind` or `law` within one flat object, so that every fault has its JSON pointer.
 
-mod choice;
+mod enum_value;
 mod interface;
 mod load;
 mod materials;
@@ -18,36 +18,36 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
-pub use choice::{Choice, Named};
+pub use enum_value::{EnumValue, StringEnum};
 pub use interface::{Friction, FrictionLaw, Interface, Sides, WearLaw, WearLawName};
 pub use load::{Load, LoadKind};
 pub use materials::{Material, MaterialProperties, Materials};
 pub use motion::{Drive, Motion, MotionKind, Waveform};
-pub use read::{Broken, pointer_token};
+pub use read::{ParseError, pointer_token};
 pub use settings::{Accuracy, CycleJump, Output, Overrides, Preset, Stop, Switch};
 pub use system::{System, SystemKind};
 
-/// Where a value of a resolved specification comes from.
+/// Provenance of a value of a resolved specification.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Provenance {
-    /// Written by the user.
+    /// Given by the user.
     Given,
-    /// Stated by the source the preset follows.
+    /// Stated by the source of the preset.
     Source,
-    /// Typical of the parts or materials in question, from the literature.
+    /// Typical of such parts or materials, from the literature.
     Typical,
-    /// Assumed; replace it by a measured value where it matters.
+    /// Assumed; replace it by a measured value if it matters.
     Assumed,
 }
 
-/// The specification of a study.
+/// The specification of a job.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct Spec {
-    /// A name for people.
+    /// Display name.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub name: Option<String>,
-    /// Labels for finding it again.
+    /// Labels, for filtering.
     #[serde(
         default,
         skip_serializing_if = "BTreeMap::is_empty",
@@ -56,7 +56,7 @@ pub struct Spec {
     pub labels: BTreeMap<String, String>,
     /// The contact system and its dimensions.
     pub system: System,
-    /// What both parts are made of.
+    /// Materials of both parts.
     #[serde(default)]
     pub materials: Materials,
     /// Friction and wear.
@@ -78,17 +78,17 @@ pub struct Spec {
         deserialize_with = "unique::map"
     )]
     #[schema(value_type = BTreeMap<String, Switch>)]
-    pub effects: BTreeMap<String, Choice<Switch>>,
-    /// How accurate, or how fast.
+    pub effects: BTreeMap<String, EnumValue<Switch>>,
+    /// Accuracy.
     #[serde(default)]
     pub accuracy: Accuracy,
-    /// What is recorded.
+    /// Recorded output.
     #[serde(default)]
     pub output: Output,
     /// Conditions that end the run.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub stop: Vec<Stop>,
-    /// Where each value comes from, by JSON pointer. Filled in by the service; accepted and replaced when submitted,
+    /// Provenance of each value, by JSON pointer. Filled in by the service; accepted and replaced when submitted,
     /// so that a resolved specification can be submitted again.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub provenance: BTreeMap<String, Provenance>,

@@ -5,12 +5,12 @@ use utoipa::ToSchema;
 
 use crate::spec::{Spec, SystemKind};
 
-/// A contact system and what its preset fills in.
+/// A contact system and its preset.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct SystemDocument {
     /// Its kind.
     pub kind: SystemKind,
-    /// What it is, in words.
+    /// Description.
     pub description: String,
     /// The specification that `{"system": {"kind": ..}}` resolves to, with the provenance of each value.
     pub preset: Spec,

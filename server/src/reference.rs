@@ -1,5 +1,3 @@
-//! Reference data with their provenance: the material library, and what each contact system takes for what a
-//! specification leaves out.
+//! Reference data with provenance: the material library.
 
 pub mod materials;
-pub mod presets;

@@ -3,9 +3,9 @@
 use serde::{Deserialize, Deserializer, Serialize};
 use utoipa::ToSchema;
 
-use super::choice::{Choice, named};
+use super::enum_value::{EnumValue, string_enum};
 
-named! {
+string_enum! {
     /// Friction laws.
     FrictionLaw {
         /// |q| <= mu p.
@@ -15,10 +15,10 @@ named! {
     }
 }
 
-named! {
+string_enum! {
     /// Wear laws.
     WearLawName {
-        /// Recession = (k/H) p |slip|.
+        /// Worn depth = (k/H) p |slip|.
         Archard = "archard",
     }
 }
@@ -39,13 +39,13 @@ pub struct Interface {
 pub struct Friction {
     /// The law.
     #[schema(value_type = FrictionLaw)]
-    pub law: Choice<FrictionLaw>,
+    pub law: EnumValue<FrictionLaw>,
     /// `coulomb`: the coefficient of friction, -. Required there.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub coefficient: Option<f64>,
 }
 
-/// Wear of each part: absent takes the preset, `null` does not wear.
+/// Wear of each part: the preset's if absent, none if `null`.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct Sides {
     /// The sprung or vibrating part.
@@ -71,11 +71,11 @@ pub struct Sides {
 pub struct WearLaw {
     /// The law.
     #[schema(value_type = WearLawName)]
-    pub law: Choice<WearLawName>,
+    pub law: EnumValue<WearLawName>,
     /// `archard`: the wear coefficient k, -; together with `hardness_mpa`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub k: Option<f64>,
-    /// `archard`: the hardness H of the wearing surface, MPa; the material's if left out beside `k`.
+    /// `archard`: the hardness H of the wearing surface, MPa; that of the material if `k` is given alone.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub hardness_mpa: Option<f64>,
     /// `archard`: k/H, 1/MPa; instead of `k` and `hardness_mpa`.
@@ -85,7 +85,7 @@ pub struct WearLaw {
 
 #[expect(
     clippy::option_option,
-    reason = "absent, null and a law are three different wishes"
+    reason = "absent, null and a law have different meanings"
 )]
 fn present<'de, D: Deserializer<'de>>(
     deserializer: D,

@@ -3,10 +3,10 @@
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
-use super::choice::{Choice, named};
+use super::enum_value::{EnumValue, string_enum};
 
-named! {
-    /// Ways to state a load.
+string_enum! {
+    /// Kinds of load.
     LoadKind {
         /// A pressure on the slider's top face.
         Pressure = "pressure",
@@ -20,9 +20,9 @@ named! {
 /// The normal load. Which fields belong to it depends on its kind.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct Load {
-    /// How it is stated.
+    /// Its kind.
     #[schema(value_type = LoadKind)]
-    pub kind: Choice<LoadKind>,
+    pub kind: EnumValue<LoadKind>,
     /// `pressure`: on the slider's top face, MPa.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub mpa: Option<f64>,
@@ -35,9 +35,8 @@ pub struct Load {
     /// `force`: the width (depth of the section) that carries it, mm.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub width_mm: Option<f64>,
-    /// Stiffness of the spring that holds the slider down, N per mm of deflection: of the whole contact beside
-    /// `force`, else of each mm of depth. The load
-    /// falls by it as the contact wears.
+    /// Stiffness of the spring that presses the slider down, N per mm of deflection: of the whole contact for `force`,
+    /// otherwise per mm of depth. The spring relaxes, and the load falls, as the contact wears.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub spring_n_per_mm: Option<f64>,
 }

@@ -1,4 +1,4 @@
-//! What the parts are made of: a name from the material library, or an object.
+//! Materials: a name from the material library, or an object.
 
 use serde::de::value::MapAccessDeserializer;
 use serde::de::{MapAccess, Visitor};
@@ -29,7 +29,7 @@ pub enum Material {
 /// Properties of a material.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct MaterialProperties {
-    /// Its name in the library, where it came from there.
+    /// Its name in the library, if it is from there.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub name: Option<String>,
     /// Young's modulus, MPa. Required.
@@ -70,7 +70,7 @@ impl<'de> Visitor<'de> for MaterialVisitor {
     }
 
     fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<Material, A::Error> {
-        // The map keeps its wrappers, so unknown fields and wrong types inside keep their own pointers.
+        // The map is not buffered, so unknown fields and wrong types inside it have their own pointers.
         MaterialProperties::deserialize(MapAccessDeserializer::new(map))
             .map(|given| Material::Given(Box::new(given)))
     }

@@ -3,20 +3,21 @@
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
-use super::choice::{Choice, named};
+use super::enum_value::{EnumValue, string_enum};
 
-named! {
+string_enum! {
     /// Kinds of motion.
     MotionKind {
-        /// Back and forth around the neutral position, to +x first.
+        /// Reciprocating around the neutral position, starting to +x.
         Reciprocating = "reciprocating",
-        /// The slider's surface runs past a contact that stays at one place of the receptacle.
+        /// The slider's surface slides past a contact that stays at one position of the receptacle, as a ring turning on a
+        /// block.
         Continuous = "continuous",
     }
 }
 
-named! {
-    /// Shapes of a reciprocating motion over time.
+string_enum! {
+    /// Waveforms of a reciprocating motion.
     Waveform {
         /// A sine.
         Sine = "sine",
@@ -25,14 +26,14 @@ named! {
     }
 }
 
-named! {
-    /// Where the motion enters.
+string_enum! {
+    /// Where the motion is imposed.
     Drive {
-        /// The slider's top face is a rigid handle that carries the load and moves.
+        /// The slider's top face is rigid, carries the load and moves.
         SliderTop = "slider_top",
         /// Every slider node is moved along x (the source's drive).
         SliderBody = "slider_body",
-        /// The handle is held and the receptacle's base moves.
+        /// The slider's top face is fixed along x and the receptacle's base moves.
         ReceptacleBase = "receptacle_base",
     }
 }
@@ -42,24 +43,24 @@ named! {
 pub struct Motion {
     /// Its kind.
     #[schema(value_type = MotionKind)]
-    pub kind: Choice<MotionKind>,
-    /// `reciprocating`: its shape over time.
+    pub kind: EnumValue<MotionKind>,
+    /// `reciprocating`: its waveform.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schema(value_type = Option<Waveform>)]
-    pub waveform: Option<Choice<Waveform>>,
+    pub waveform: Option<EnumValue<Waveform>>,
     /// `reciprocating`: amplitude, mm.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub amplitude_mm: Option<f64>,
-    /// `reciprocating`: cycles a second; instead of `period_s`.
+    /// `reciprocating`: frequency, Hz; instead of `period_s`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub frequency_hz: Option<f64>,
     /// `reciprocating`: duration of a cycle, s; instead of `frequency_hz`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub period_s: Option<f64>,
-    /// `reciprocating`: where the motion enters.
+    /// `reciprocating`: where the motion is imposed.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schema(value_type = Option<Drive>)]
-    pub drive: Option<Choice<Drive>>,
+    pub drive: Option<EnumValue<Drive>>,
     /// `continuous`: speed, mm/s.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub speed_mm_s: Option<f64>,

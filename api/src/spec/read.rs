@@ -1,4 +1,4 @@
-//! Bytes to [`Spec`]: all unknown fields at once, and the place of whatever cannot be read at all.
+//! Parses a [`Spec`]: all unknown fields at once, or the place of a parse error.
 
 use serde::Deserialize;
 use serde_ignored::Path as IgnoredPath;
@@ -7,13 +7,13 @@ use serde_path_to_error::{Path as TrackedPath, Segment, Track};
 use super::Spec;
 use crate::problem::Fault;
 
-/// The bytes are not a specification: broken JSON, a number out of range, or a wrong type.
+/// The bytes are no specification: malformed JSON, a number out of range, or a wrong type.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("{detail} at line {line}, column {column}{}", at_pointer(.pointer))]
-pub struct Broken {
-    /// JSON pointer of the value in question; empty for broken JSON.
+pub struct ParseError {
+    /// JSON pointer of the value; empty for malformed JSON.
     pub pointer: String,
-    /// What is wrong.
+    /// Description.
     pub detail: String,
     /// Line, from 1.
     pub line: usize,
@@ -22,32 +22,31 @@ pub struct Broken {
 }
 
 impl Spec {
-    /// Reads a specification and lists its unknown fields.
+    /// Parses a specification and lists its unknown fields.
     ///
     /// # Errors
-    /// [`Broken`] for what cannot be read at all: broken JSON, a wrong type, a missing `system.kind`, a field
-    /// given twice.
-    pub fn read(bytes: &[u8]) -> Result<(Self, Vec<Fault>), Broken> {
+    /// [`ParseError`] for malformed JSON, a wrong type, a missing `system.kind`, or a field given twice.
+    pub fn read(bytes: &[u8]) -> Result<(Self, Vec<Fault>), ParseError> {
         let mut faults = Vec::new();
         let mut json = serde_json::Deserializer::from_slice(bytes);
         let mut track = Track::new();
         let spec = {
             let tracked = serde_path_to_error::Deserializer::new(&mut json, &mut track);
-            let mut note = |path: IgnoredPath<'_>| {
+            let mut collect = |path: IgnoredPath<'_>| {
                 let pointer = ignored_pointer(&path);
                 let field = pointer.rsplit('/').next().unwrap_or_default().to_owned();
                 faults.push(Fault::new(pointer, format!("unknown field `{field}`")));
             };
-            Self::deserialize(serde_ignored::Deserializer::new(tracked, &mut note))
+            Self::deserialize(serde_ignored::Deserializer::new(tracked, &mut collect))
         };
-        let spec = spec.map_err(|error| broken(&error, &tracked_pointer(&track.path())))?;
-        json.end().map_err(|error| broken(&error, ""))?;
+        let spec = spec.map_err(|error| parse_error(&error, &tracked_pointer(&track.path())))?;
+        json.end().map_err(|error| parse_error(&error, ""))?;
         faults.extend(arrays_for_objects(bytes));
         Ok((spec, faults))
     }
 }
 
-/// Where objects belong. Serde also takes an array of their fields in order, which nobody means to write.
+/// Pointers of objects. Serde also accepts an array of their fields in order, which is surely a mistake.
 const OBJECTS: [&str; 14] = [
     "",
     "/system",
@@ -74,7 +73,7 @@ fn arrays_for_objects(bytes: &[u8]) -> Vec<Fault> {
             .pointer(pointer)
             .is_some_and(serde_json::Value::is_array)
     };
-    let fault = |pointer: &str| Fault::new(pointer, "an array, where an object belongs");
+    let fault = |pointer: &str| Fault::new(pointer, "an array instead of an object");
     OBJECTS
         .iter()
         .copied()
@@ -96,18 +95,18 @@ fn at_pointer(pointer: &str) -> String {
     }
 }
 
-fn broken(error: &serde_json::Error, pointer: &str) -> Broken {
+fn parse_error(error: &serde_json::Error, pointer: &str) -> ParseError {
     let mut detail = error.to_string();
     if let Some(end) = detail.rfind(" at line ") {
         detail.truncate(end);
     }
-    // Where the text itself is broken the reached path is an accident of reading order.
+    // In malformed JSON the path depends on the reading order only.
     let pointer = if error.is_data() {
         pointer.to_owned()
     } else {
         String::new()
     };
-    Broken {
+    ParseError {
         pointer,
         detail,
         line: error.line(),

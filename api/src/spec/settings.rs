@@ -4,21 +4,21 @@ use serde::de::{Unexpected, Visitor};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use utoipa::ToSchema;
 
-use super::choice::{Choice, named};
+use super::enum_value::{EnumValue, string_enum};
 
-named! {
+string_enum! {
     /// Whether an effect is simulated.
     Switch {
         /// Decided by the plan.
         Auto = "auto",
         /// Simulated.
         On = "on",
-        /// Left out.
+        /// Not simulated.
         Off = "off",
     }
 }
 
-named! {
+string_enum! {
     /// Named tolerances.
     Preset {
         /// 10 %.
@@ -29,33 +29,33 @@ named! {
         Fine = "fine",
         /// The mesh and increments of the source's first plane model, for comparison: 8 elements along the block.
         SourceCoarse = "source_coarse",
-        /// Those of its finer plane model: 16 elements along the block.
+        /// The mesh and increments of its finer plane model: 16 elements along the block.
         SourceFine = "source_fine",
     }
 }
 
-/// How accurate: a preset or a tolerance.
+/// Accuracy: a preset or a tolerance.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct Accuracy {
     /// A named tolerance.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schema(value_type = Option<Preset>)]
-    pub preset: Option<Choice<Preset>>,
+    pub preset: Option<EnumValue<Preset>>,
     /// Relative tolerance on worn depth and scar width.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub tolerance: Option<f64>,
-    /// Settings fixed by hand instead of chosen from the tolerance.
+    /// Fixed settings, which are otherwise chosen from the tolerance.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub overrides: Option<Overrides>,
 }
 
-/// Settings fixed by hand.
+/// Fixed settings.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct Overrides {
     /// Surface element size under the contact, mm.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub contact_element_mm: Option<f64>,
-    /// Increments a computed cycle.
+    /// Increments per computed cycle.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub increments_per_cycle: Option<u32>,
     /// Physical cycles per computed cycle.
@@ -71,7 +71,7 @@ pub enum CycleJump {
     Adaptive,
     /// Fixed.
     Fixed(u64),
-    /// A text other than `adaptive`; refused later, together with all other faults.
+    /// Another text than `adaptive`; refused later, together with all other faults.
     Unknown(String),
 }
 
@@ -119,19 +119,19 @@ impl<'de> Deserialize<'de> for CycleJump {
     }
 }
 
-/// What is recorded.
+/// Recorded output.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct Output {
-    /// Places on the receptacle whose worn depth is followed, mm.
+    /// Positions on the receptacle at which the worn depth is recorded, mm.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub stations_mm: Option<Vec<f64>>,
-    /// Cycles at which profile, pressure and loop are kept.
+    /// Cycles at which profile, pressure and friction loop are recorded.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub snapshots_at_cycles: Option<Vec<u64>>,
-    /// Sliding distances at which they are kept, mm; for continuous motion.
+    /// Sliding distances at which they are recorded, mm; for continuous motion.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub snapshots_at_distance_mm: Option<Vec<f64>>,
-    /// Whether fields in the bodies are written at the snapshots.
+    /// Whether the fields in the bodies are recorded at the snapshots.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub fields: Option<bool>,
 }
@@ -139,7 +139,7 @@ pub struct Output {
 /// A condition that ends the run; exactly one field.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct Stop {
-    /// The deepest wear of either side has reached this depth, mm.
+    /// The largest worn depth of either side has reached this value, mm.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub worn_depth_mm: Option<f64>,
 }

@@ -3,9 +3,9 @@
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
-use super::choice::{Choice, named};
+use super::enum_value::{EnumValue, string_enum};
 
-named! {
+string_enum! {
     /// The kinds of contact system.
     SystemKind {
         /// A wire's lower half on a circuit board's block.
@@ -22,11 +22,11 @@ named! {
 }
 
 /// The contact system. Which dimensions belong to it depends on its kind.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct System {
     /// Its kind.
     #[schema(value_type = SystemKind)]
-    pub kind: Choice<SystemKind>,
+    pub kind: EnumValue<SystemKind>,
     /// `fuzz_button`: diameter of the wire, mm.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub wire_diameter_mm: Option<f64>,
@@ -51,7 +51,7 @@ pub struct System {
     /// `cylinder_on_flat`: height of the modelled part, from the contact point to the top face, mm.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub slider_height_mm: Option<f64>,
-    /// `cylinder_on_flat`: radius of a convex top of the block, mm; flat if left out.
+    /// `cylinder_on_flat`: radius of a convex top of the block, mm; the top is flat if absent.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub crown_radius_mm: Option<f64>,
     /// `sd_card`, `dimm`, `zif`: radius of the sprung contact, mm.
@@ -60,7 +60,7 @@ pub struct System {
     /// `sd_card`, `dimm`: length of the pad, mm.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub pad_length_mm: Option<f64>,
-    /// `sd_card`, `dimm`: height of the pad and what carries it, mm.
+    /// `sd_card`, `dimm`: height of the pad and its substrate, mm.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub pad_height_mm: Option<f64>,
     /// `zif`: length of the modelled part of the pin, mm.
@@ -69,13 +69,13 @@ pub struct System {
     /// `zif`: thickness of the pin, mm.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub pin_thickness_mm: Option<f64>,
-    /// `zif`: radius of a round pin, mm; a flat pin if left out.
+    /// `zif`: radius of a round pin, mm; the pin is flat if absent.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub pin_radius_mm: Option<f64>,
 }
 
 impl System {
-    /// A system of that kind, all dimensions left to its preset.
+    /// A system of that kind, with all dimensions from its preset.
     pub fn of_kind(kind: SystemKind) -> Self {
         Self {
             kind: kind.into(),
@@ -84,25 +84,8 @@ impl System {
     }
 }
 
-impl Default for System {
+impl Default for EnumValue<SystemKind> {
     fn default() -> Self {
-        Self {
-            kind: SystemKind::FuzzButton.into(),
-            wire_diameter_mm: None,
-            pcb_length_mm: None,
-            pcb_height_mm: None,
-            radius_mm: None,
-            flat_length_mm: None,
-            flat_height_mm: None,
-            slider_half_width_mm: None,
-            slider_height_mm: None,
-            crown_radius_mm: None,
-            contact_radius_mm: None,
-            pad_length_mm: None,
-            pad_height_mm: None,
-            pin_length_mm: None,
-            pin_thickness_mm: None,
-            pin_radius_mm: None,
-        }
+        SystemKind::FuzzButton.into()
     }
 }

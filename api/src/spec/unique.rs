@@ -1,4 +1,4 @@
-//! Maps in which a key stands once. Serde lets the last of several values win, which nobody means to write.
+//! Maps without duplicate keys. Serde silently takes the last of several values.
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -6,7 +6,7 @@ use std::marker::PhantomData;
 
 use serde::de::{Deserialize, Deserializer, Error, MapAccess, Visitor};
 
-/// Reads a map and refuses one that has a key twice.
+/// Deserializes a map and refuses duplicate keys.
 pub(super) fn map<'de, D, V>(deserializer: D) -> Result<BTreeMap<String, V>, D::Error>
 where
     D: Deserializer<'de>,

@@ -3,11 +3,12 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use api::problem::Fault;
-use api::spec::{Broken, pointer_token};
+use api::spec::{ParseError, pointer_token};
 use api::sweep::{Changes, SweepRequest};
 use serde::de::DeserializeOwned;
 use serde_json::{Map, Value};
 
+use crate::estimate::Estimate;
 use crate::spec::{NAME_LIMIT, Refused, Resolved};
 
 /// Most jobs of a sweep.
@@ -26,6 +27,8 @@ pub struct Variation {
     pub overrides: Changes,
     /// Its specification.
     pub resolved: Resolved,
+    /// Its estimate.
+    pub estimate: Estimate,
 }
 
 /// Reads a sweep.
@@ -43,7 +46,7 @@ pub(crate) fn document<T: DeserializeOwned>(bytes: &[u8]) -> Result<T, Refused> 
         if let Some(end) = detail.rfind(" at line ") {
             detail.truncate(end);
         }
-        Refused::Broken(Broken {
+        Refused::Parse(ParseError {
             pointer: String::new(),
             detail,
             line: error.line(),
@@ -73,6 +76,7 @@ pub fn expand(request: &SweepRequest) -> Result<Vec<Variation>, Refused> {
         match vary(&request.base, &preset, &overrides) {
             Ok(resolved) => variations.push(Variation {
                 overrides,
+                estimate: Estimate::of(&resolved),
                 resolved,
             }),
             Err(found) => {
@@ -181,7 +185,7 @@ fn vary(base: &Value, preset: &Value, overrides: &Changes) -> Result<Resolved, V
     // A document that was read can be written.
     let bytes = serde_json::to_vec(&document).unwrap_or_default();
     crate::spec::read(&bytes).map_err(|refused| match refused {
-        Refused::Broken(broken) => vec![Fault::new(broken.pointer, broken.detail)],
+        Refused::Parse(error) => vec![Fault::new(error.pointer, error.detail)],
         Refused::Faults(faults) => faults,
     })
 }
@@ -259,7 +263,7 @@ mod tests {
         let request = read(text.to_string().as_bytes()).expect("a sweep");
         expand(&request).map_err(|refused| match refused {
             Refused::Faults(faults) => faults,
-            Refused::Broken(broken) => panic!("{broken}"),
+            Refused::Parse(error) => panic!("{error}"),
         })
     }
 

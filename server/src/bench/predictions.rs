@@ -10,7 +10,7 @@ use api::spec::{Accuracy, Spec, System, SystemKind};
 use crate::batch::accuracy::process;
 use crate::bench::BenchError;
 use crate::bench::cases::{FUZZ_BUTTON, MCCOLL};
-use crate::estimate::machine;
+use crate::estimate::Estimate;
 use crate::spec;
 use crate::spec::Refused;
 
@@ -83,8 +83,10 @@ pub fn compare(
         tolerance: Some(tolerance),
         ..Accuracy::default()
     };
-    let resolved = spec::scene(&spec).map_err(Refused::Faults)?;
-    let plan = machine::plan(&resolved, Some(machine)).estimates;
+    let resolved = spec::resolve(&spec).map_err(Refused::Faults)?;
+    let plan = Estimate::of(&resolved)
+        .plan(&resolved, Some(machine))
+        .estimates;
     let (found, spent) = process::solve(program, &resolved.spec)?;
     let summary = found.map_err(BenchError::OtherFailed)?.summary;
     let pair = |(what, measured): (&'static str, f64)| Pair {

@@ -6,7 +6,7 @@ use std::process::ExitCode;
 use api::plan::PlanDocument;
 
 use crate::cli::terminal::{failed, say, specification};
-use crate::estimate::machine;
+use crate::estimate::Estimate;
 use crate::estimate::machine::{CalibrationCache, cache_file};
 
 pub(super) fn run(spec: &Path) -> ExitCode {
@@ -15,8 +15,8 @@ pub(super) fn run(spec: &Path) -> ExitCode {
         Err(code) => return code,
     };
     let kept = CalibrationCache::open(cache_file());
-    let machine = kept.measured().cloned();
-    let plan = machine::plan(&resolved, machine.as_ref());
+    let machine = kept.get_or_measure().cloned();
+    let plan = Estimate::of(&resolved).plan(&resolved, machine.as_ref());
     match serde_json::to_string_pretty(&PlanDocument {
         spec: resolved.spec,
         plan,

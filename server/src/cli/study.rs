@@ -20,7 +20,7 @@ pub(super) fn run(spec: &Path, out: Option<&Path>, budget_s: f64) -> ExitCode {
         Err(cause) => return failed(format_args!("the path of this program: {cause}")),
     };
     let kept = CalibrationCache::open(cache_file());
-    let Some(machine) = kept.measured() else {
+    let Some(machine) = kept.get_or_measure() else {
         return failed("the machine could not be measured");
     };
     let spinner = spinner();

@@ -1,9 +1,9 @@
-//! How large a solve would be: unknowns, memory and output, estimated before anything is solved.
+//! Estimated size of a solve: unknowns, memory and output.
 //!
-//! The figures of memory were fitted to measured runs of all systems at tolerances of 10, 5, 2, 1 and 0.3 % (5 000 to
-//! 135 000 unknowns, 70 to 1 540 surface nodes; `fretwear bench --predictions` prints them), which they meet within a
-//! fifth: a sparse factor grows nearly with the unknowns, and the body with the larger surface is condensed with several
-//! matrices of its surface at once. Those of output were fitted to the sizes of result files.
+//! The memory coefficients were fitted to measured runs of all systems at tolerances of 10, 5, 2, 1 and 0.3 % (5 000 to
+//! 135 000 unknowns, 70 to 1 540 surface nodes; `fretwear bench --predictions` prints them), which they match within a
+//! fifth: a sparse factor grows almost linearly with the unknowns, and the body with the larger surface is condensed
+//! with several matrices of its surface at once. The output coefficients were fitted to the sizes of result files.
 
 use std::collections::BTreeMap;
 
@@ -12,42 +12,42 @@ use solver::scene::Scene;
 
 use crate::estimate::workload::{Workload, count};
 
-/// Memory of the process itself, MB.
+/// Memory of the process without a model, MB.
 const MEMORY_BASE_MB: f64 = 9.5;
-/// Memory for each unknown, MB.
+/// Memory per unknown, MB.
 const MEMORY_DOF_MB: f64 = 1.0e-3;
-/// Memory for each pair of nodes on the larger surface, MB.
+/// Memory per pair of nodes on the larger surface, MB.
 const MEMORY_PAIR_MB: f64 = 2.4e-4;
-/// Fields at one position: bytes for each unknown.
+/// Fields at one position: bytes per unknown.
 const FIELDS_DOF_BYTES: f64 = 101.0;
-/// A snapshot: bytes for each surface element, as rows and as documents.
+/// A snapshot: bytes per surface element, as rows and as documents.
 const SNAPSHOT_ELEMENT_BYTES: f64 = 200.0;
-/// A computed cycle: bytes as row, event and documents; and for each station.
+/// A computed cycle: bytes as row, event and documents; and per station.
 const CYCLE_BYTES: f64 = 1000.0;
 const STATION_BYTES: f64 = 60.0;
 
-/// How large a solve would be.
+/// Estimated size of a solve.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Footprint {
     /// Surface element size under the contact, mm.
     pub contact_element_mm: f64,
     /// Unknowns of both bodies.
     pub dofs: f64,
-    /// Memory of the solve, MB.
+    /// Estimated peak memory, MB.
     pub memory_mb: f64,
-    /// Everything that is stored, MB.
+    /// Estimated stored output, MB.
     pub output_mb: f64,
 }
 
 impl Footprint {
-    /// Of a scene, the layout of its meshes and its workload.
-    pub(crate) fn of(scene: &Scene, layout: &Layout, work: &Workload) -> Self {
+    /// Estimates the footprint of a scene from its mesh lines and its workload.
+    pub(crate) fn of(scene: &Scene, layout: &Layout, workload: &Workload) -> Self {
         let dofs = count(layout.bodies.slider.dofs() + layout.bodies.receptacle.dofs());
         let elements = count(layout.bodies.receptacle.contact_x().len());
         let surface = elements.max(count(layout.bodies.slider.contact_x().len()));
         let snapshots = count(scene.output.snapshots_at_cycles.len());
         let stations = count(scene.output.stations_mm.len());
-        // Three positions each, and the neutral one of the unworn state.
+        // Three positions per snapshot, and the neutral position of the unworn state.
         let fields = if scene.output.fields {
             3.0 * snapshots + 1.0
         } else {
@@ -55,7 +55,7 @@ impl Footprint {
         };
         let bytes = fields * FIELDS_DOF_BYTES * dofs
             + snapshots * SNAPSHOT_ELEMENT_BYTES * elements
-            + work.computed_cycles * (CYCLE_BYTES + STATION_BYTES * stations);
+            + workload.computed_cycles * (CYCLE_BYTES + STATION_BYTES * stations);
         Self {
             contact_element_mm: layout.sizes.contact_element,
             dofs,
@@ -64,8 +64,8 @@ impl Footprint {
         }
     }
 
-    /// As figures of a plan.
-    pub(crate) fn figures(self) -> BTreeMap<String, f64> {
+    /// Estimates of a plan, by name.
+    pub(super) fn estimates(self) -> BTreeMap<String, f64> {
         BTreeMap::from([
             ("contact_element_mm".to_owned(), self.contact_element_mm),
             ("dofs".to_owned(), self.dofs),
@@ -77,14 +77,16 @@ impl Footprint {
 
 #[cfg(test)]
 mod tests {
+    use super::Footprint;
+    use crate::estimate::Estimate;
     use crate::spec;
 
-    fn size(text: &str) -> crate::estimate::footprint::Footprint {
-        spec::read(text.as_bytes()).expect("accepted").footprint
+    fn footprint(text: &str) -> Footprint {
+        Estimate::of(&spec::read(text.as_bytes()).expect("accepted")).footprint
     }
 
     #[test]
-    fn estimates_meet_measured_runs() {
+    fn estimates_match_measured_runs() {
         // Unknowns and peak memory of whole runs, as `fretwear solve` reported them.
         for (kind, preset, dofs, memory_mb) in [
             ("fuzz_button", "fine", 150_094.0, 726.0),
@@ -94,20 +96,23 @@ mod tests {
         ] {
             let text =
                 format!(r#"{{"system":{{"kind":"{kind}"}},"accuracy":{{"preset":"{preset}"}}}}"#);
-            let size = size(&text);
-            assert!((size.dofs / dofs - 1.0).abs() < 0.2, "{text}: {size:?}");
+            let footprint = footprint(&text);
             assert!(
-                (size.memory_mb / memory_mb - 1.0).abs() < 0.25,
-                "{text}: {size:?}"
+                (footprint.dofs / dofs - 1.0).abs() < 0.2,
+                "{text}: {footprint:?}"
+            );
+            assert!(
+                (footprint.memory_mb / memory_mb - 1.0).abs() < 0.25,
+                "{text}: {footprint:?}"
             );
         }
     }
 
     #[test]
-    fn fields_and_fixed_jumps_count() {
+    fn fields_and_fixed_jumps_add_output() {
         let plain =
-            size(r#"{"system":{"kind":"fuzz_button"},"output":{"snapshots_at_cycles":[2]}}"#);
-        let fields = size(
+            footprint(r#"{"system":{"kind":"fuzz_button"},"output":{"snapshots_at_cycles":[2]}}"#);
+        let fields = footprint(
             r#"{"system":{"kind":"fuzz_button"},"output":{"snapshots_at_cycles":[2],"fields":true}}"#,
         );
         // Four files of 3.85 MB.
@@ -115,7 +120,7 @@ mod tests {
             (fields.output_mb - plain.output_mb - 15.4).abs() < 3.0,
             "{fields:?}"
         );
-        let every = size(
+        let every = footprint(
             r#"{"system":{"kind":"dimm"},"cycles":1000000,"accuracy":{"overrides":{"cycle_jump":1}}}"#,
         );
         assert!(every.output_mb > 1000.0, "{every:?}");

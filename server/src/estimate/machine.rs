@@ -1,106 +1,95 @@
-//! What this machine takes for the engine's work: measured once by a few small solves, kept in a file, and used to tell
-//! processor seconds from counted work.
+//! Calibration of this machine: the speed of the engine, measured once by a few small solves and cached in a file, which
+//! converts a workload to processor seconds.
 //!
-//! Knows the engine and the counted work; does not know HTTP, SQL or the terminal.
+//! Knows the engine and workloads; does not know HTTP, SQL or the terminal.
 
 mod cache;
 mod calibration;
 
-use api::plan::{MachineFigures, Plan};
+use api::plan::MachineFigures;
 
 use crate::estimate::workload::{Condensations, Workload};
-use crate::spec::Resolved;
 
 pub use cache::{CalibrationCache, cache_file};
 
-/// Watched nodes of the increment whose time is told.
+/// Candidate nodes of the increment whose time is part of the calibration.
 const NODES: f64 = 30.0;
 /// A sparse factorisation of a plane mesh takes between n log n and n^1.5 (George 1973). Measured from 2 500 to 57 000
 /// unknowns.
 const DOF_POWER: f64 = 1.2;
-/// The dense block of the surface is factored and inverted.
+/// The dense block of the surface nodes is factored and inverted.
 const SURFACE_POWER: i32 = 3;
 /// Start of the process, meshes and documents, s.
 const BASE_S: f64 = 0.01;
 
-/// Why a machine could not be measured.
+/// Reason for which a machine could not be calibrated.
 #[derive(Debug, thiserror::Error)]
 pub enum MachineError {
-    /// One of the small solves failed.
-    #[error("a small solve of the calibration: {0}")]
+    /// A solve of the calibration failed.
+    #[error("a solve of the calibration failed: {0}")]
     Solve(#[from] solver::SolveError),
-    /// One of its specifications was refused.
-    #[error("a specification of the calibration: {0}")]
+    /// A specification of the calibration was refused.
+    #[error("a specification of the calibration was refused: {0}")]
     Refused(#[from] crate::spec::Refused),
-    /// The example that is solved has changed.
+    /// The example that the calibration solves has changed.
     #[error("the example of the calibration has no {0}")]
     Example(&'static str),
-    /// A figure that no machine has.
+    /// An impossible coefficient.
     #[error("{name} of the machine is {value}; it must be finite and positive")]
-    Figure {
-        /// Which one.
+    Coefficient {
+        /// Its name.
         name: &'static str,
-        /// What it came to.
+        /// Its value.
         value: f64,
     },
 }
 
-/// Measures this machine now.
+/// Measures this machine.
 ///
 /// # Errors
-/// [`MachineError`] if one of the small solves fails.
+/// [`MachineError`] if a solve fails.
 pub fn measure() -> Result<MachineFigures, MachineError> {
     calibration::calibrate(cache::program())
 }
 
-/// Figures that a machine can have. One of the two parts of a condensation may be too small to show.
+/// Checks that all coefficients are finite and positive; one of the two of a condensation may be too small to measure.
 fn checked(figures: MachineFigures) -> Result<MachineFigures, MachineError> {
     let [dofs, surface] = [figures.condensation_dof_s, figures.condensation_surface_s];
-    // Each with whether it may be nothing.
-    let told = [
+    // The flag allows 0.
+    let coefficients = [
         ("increment_s", figures.increment_s, false),
         ("increment_power", figures.increment_power, false),
         ("condensation_dof_s", dofs, surface > 0.0),
         ("condensation_surface_s", surface, dofs > 0.0),
     ];
-    let mut wrong = told.into_iter().filter(|(_, value, nothing)| {
-        let possible = *value > 0.0 || (*nothing && *value >= 0.0);
+    let mut impossible = coefficients.into_iter().filter(|(_, value, zero)| {
+        let possible = *value > 0.0 || (*zero && *value >= 0.0);
         !(possible && value.is_finite())
     });
-    match wrong.next() {
-        Some((name, value, _)) => Err(MachineError::Figure { name, value }),
+    match impossible.next() {
+        Some((name, value, _)) => Err(MachineError::Coefficient { name, value }),
         None => Ok(figures),
     }
 }
 
-/// Processor seconds that a machine takes for some work.
-pub fn cpu_s(machine: &MachineFigures, work: &Workload) -> f64 {
-    let increments = work.increments.iter().map(|(watched, many)| {
-        many * machine.increment_s * (watched / NODES).powf(machine.increment_power)
+/// Processor seconds of a workload on a machine.
+pub fn cpu_s(machine: &MachineFigures, workload: &Workload) -> f64 {
+    let increments = workload.increments.iter().map(|(candidates, count)| {
+        count * machine.increment_s * (candidates / NODES).powf(machine.increment_power)
     });
-    let condensations = work.condensations.iter().map(|body| {
-        let [dofs, surface] = parts(body);
+    let condensations = workload.condensations.iter().map(|body| {
+        let [dofs, surface] = condensation_terms(body);
         machine.condensation_dof_s * dofs + machine.condensation_surface_s * surface
     });
     BASE_S + increments.sum::<f64>() + condensations.sum::<f64>()
 }
 
-/// What the time of condensations is made of.
-fn parts(body: &Condensations) -> [f64; 2] {
+/// The two terms of the time of condensations, without their coefficients.
+fn condensation_terms(body: &Condensations) -> [f64; 2] {
     [
         body.count * body.dofs.powf(DOF_POWER),
         body.count * body.surface_nodes.powi(SURFACE_POWER),
     ]
-}
-
-/// The plan of a specification, with its time on a machine.
-pub fn plan(resolved: &Resolved, machine: Option<&MachineFigures>) -> Plan {
-    let mut plan = crate::estimate::plan(resolved);
-    if let Some(machine) = machine {
-        let seconds = cpu_s(machine, &resolved.workload);
-        plan.estimates.insert("cpu_s".to_owned(), seconds);
-    }
-    plan
 }
 
 #[cfg(test)]
@@ -108,7 +97,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn figures_that_no_machine_has_are_refused() {
+    fn impossible_coefficients_are_refused() {
         let with = |increment_s, condensation_dof_s, condensation_surface_s| {
             checked(MachineFigures {
                 program: "test".to_owned(),
@@ -129,14 +118,14 @@ mod tests {
         ] {
             let refused = with(increment_s, dof_s, surface_s);
             assert!(
-                matches!(refused, Err(MachineError::Figure { .. })),
+                matches!(refused, Err(MachineError::Coefficient { .. })),
                 "{refused:?}"
             );
         }
     }
 
     #[test]
-    fn seconds_follow_the_work() {
+    fn seconds_are_proportional_to_the_workload() {
         let machine = MachineFigures {
             program: "test".to_owned(),
             increment_s: 1e-3,
@@ -149,14 +138,14 @@ mod tests {
             dofs: 1e5,
             surface_nodes: 1e3,
         };
-        let work = Workload {
+        let workload = Workload {
             computed_cycles: 1.0,
             most_increments: 1,
             increments: vec![(30.0, 100.0), (60.0, 50.0)],
             condensations: [body, Condensations { count: 0.0, ..body }],
         };
         // 0.1 s and 0.2 s of increments, 2 x (0.1 + 1) s of condensations.
-        let seconds = cpu_s(&machine, &work);
+        let seconds = cpu_s(&machine, &workload);
         assert!((seconds - (0.3 + 2.2 + BASE_S)).abs() < 1e-9, "{seconds}");
     }
 }

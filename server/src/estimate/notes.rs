@@ -1,11 +1,11 @@
-//! Notes of a plan: where the source of the presets contradicts itself, told to whoever uses the value in question.
+//! Notes of a plan: contradictions in the source of the presets that concern the values of the specification.
 
-use api::spec::{Choice, LoadKind, Preset, SystemKind, WearLaw};
+use api::spec::{EnumValue, LoadKind, Preset, SystemKind, WearLaw};
 use solver::model::resolution;
 
 use crate::spec::Resolved;
 
-/// Hardnesses that the source uses in its wear formulas, and those of its validation chapter.
+/// Hardness values in the wear formulas of the source that differ from its validation chapter.
 const HARDNESSES: [(f64, &str); 2] = [
     (
         427.0,
@@ -26,7 +26,7 @@ pub(crate) fn notes(resolved: &Resolved) -> Vec<String> {
         notes.extend(fuzz_button(resolved));
     }
     let preset = resolved.spec.accuracy.preset.as_ref();
-    if let Some(Preset::SourceCoarse | Preset::SourceFine) = preset.and_then(Choice::known) {
+    if let Some(Preset::SourceCoarse | Preset::SourceFine) = preset.and_then(EnumValue::known) {
         let sizes = resolution::choose(&resolved.scene);
         notes.push(format!(
             "the source's elements, {:.3e} mm here, face a contact half-width of {:.3e} mm: pressures of such a run \
@@ -61,8 +61,8 @@ fn fuzz_button(resolved: &Resolved) -> Vec<String> {
             .to_owned(),
     ];
     let load = resolved.spec.load.as_ref();
-    let pressed = load.is_some_and(|load| load.kind == Choice::from(LoadKind::Pressure));
-    if pressed {
+    let is_pressure = load.is_some_and(|load| load.kind == EnumValue::from(LoadKind::Pressure));
+    if is_pressure {
         notes.push(
             "the source's input applies 10 MPa on the top face; it states 0.834 N a button and 51.71 MPa, but that force \
              over the annulus it describes is 5.41 MPa"
@@ -82,7 +82,7 @@ mod tests {
     }
 
     #[test]
-    fn contradictions_are_told_where_their_values_are_used() {
+    fn notes_appear_where_contradictory_values_are_used() {
         let base = of(r#"{"system":{"kind":"fuzz_button"}}"#);
         assert_eq!(base.len(), 4, "{base:?}");
         assert!(base[0].starts_with("427 MPa"));

@@ -1,5 +1,5 @@
-//! How much there is to do in a solve, counted before anything is solved: contact increments by the nodes that each
-//! watches, and condensations by the size of the body. What a machine takes for it is `machine`'s to tell.
+//! Estimated work of a solve: contact increments by their number of candidate nodes, and condensations by the size of
+//! the body. [`crate::estimate::machine`] converts it to processor seconds.
 
 use std::collections::BTreeMap;
 
@@ -8,14 +8,14 @@ use solver::model::{BodyLayout, Layout};
 use solver::scene::Scene;
 use solver::sides::Sides;
 
-/// What a solve has to do.
+/// Estimated work of a solve.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Workload {
     /// Computed cycles.
     pub computed_cycles: f64,
-    /// The most increments in one cycle.
+    /// Largest number of increments in one cycle.
     pub most_increments: u32,
-    /// Contact increments by the number of nodes that they watch, each with its count.
+    /// Candidate nodes of a contact increment, with the number of such increments.
     pub increments: Vec<(f64, f64)>,
     /// Condensations of the slider and of the receptacle.
     pub condensations: [Condensations; 2],
@@ -24,7 +24,7 @@ pub struct Workload {
 /// Condensations of one body.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Condensations {
-    /// How many.
+    /// Number of condensations.
     pub count: f64,
     /// Unknowns of the body.
     pub dofs: f64,
@@ -33,21 +33,21 @@ pub struct Condensations {
 }
 
 impl Workload {
-    /// Of a scene on the layout of its meshes.
+    /// Estimates the workload of a scene from its mesh lines.
     pub(crate) fn of(scene: &Scene, layout: &Layout) -> Self {
-        let foreseen = forecast(scene, layout);
+        let forecast = forecast(scene, layout);
         let mut increments = BTreeMap::new();
-        for part in &foreseen.segments {
-            *increments.entry(part.candidates).or_insert(0.0) += part.increments;
+        for segment in &forecast.segments {
+            *increments.entry(segment.candidates).or_insert(0.0) += segment.increments;
         }
         let increments = increments.into_iter();
-        let steps = foreseen.segments.iter().map(|part| part.steps).max();
-        let Sides { slider, receptacle } = foreseen.condensations;
+        let steps = forecast.segments.iter().map(|segment| segment.steps).max();
+        let Sides { slider, receptacle } = forecast.condensations;
         Self {
-            computed_cycles: foreseen.computed_cycles,
+            computed_cycles: forecast.computed_cycles,
             most_increments: u32::try_from(steps.unwrap_or(1)).unwrap_or(u32::MAX),
             increments: increments
-                .map(|(nodes, many)| (count(nodes), many))
+                .map(|(nodes, increments)| (count(nodes), increments))
                 .collect(),
             condensations: [
                 condensations(slider, &layout.bodies.slider),
@@ -58,11 +58,14 @@ impl Workload {
 
     /// Contact increments of the whole run.
     pub fn increments(&self) -> f64 {
-        self.increments.iter().map(|(_, many)| many).sum()
+        self.increments
+            .iter()
+            .map(|(_, increments)| increments)
+            .sum()
     }
 
-    /// As figures of a plan.
-    pub(crate) fn figures(&self) -> BTreeMap<String, f64> {
+    /// Estimates of a plan, by name.
+    pub(super) fn estimates(&self) -> BTreeMap<String, f64> {
         let condensations = self.condensations.iter().map(|body| body.count);
         BTreeMap::from([
             ("computed_cycles".to_owned(), self.computed_cycles.round()),
@@ -72,34 +75,37 @@ impl Workload {
     }
 }
 
-fn condensations(count_of: u32, body: &BodyLayout) -> Condensations {
+fn condensations(times: u32, body: &BodyLayout) -> Condensations {
     Condensations {
-        count: f64::from(count_of),
+        count: f64::from(times),
         dofs: count(body.dofs()),
         surface_nodes: count(body.contact_x().len()),
     }
 }
 
-/// Meshes stay far below 2^32 nodes.
+/// A count as a real number; meshes have far less than 2^32 nodes.
 pub(crate) fn count(count: usize) -> f64 {
     f64::from(u32::try_from(count).unwrap_or(u32::MAX))
 }
 
 #[cfg(test)]
 mod tests {
+    use super::Workload;
+    use crate::estimate::Estimate;
     use crate::spec;
+
+    fn workload(text: &str) -> Workload {
+        Estimate::of(&spec::read(text.as_bytes()).expect("accepted")).workload
+    }
 
     #[test]
     fn a_tighter_tolerance_is_more_work_and_a_stop_condition_less() {
-        let work = |rest: &str| {
-            let text = format!(r#"{{"system":{{"kind":"sd_card"}}{rest}}}"#);
-            spec::read(text.as_bytes()).expect("accepted").workload
-        };
-        let standard = work("");
-        let fine = work(r#","accuracy":{"preset":"fine"}"#);
+        let system = |rest: &str| workload(&format!(r#"{{"system":{{"kind":"sd_card"}}{rest}}}"#));
+        let standard = system("");
+        let fine = system(r#","accuracy":{"preset":"fine"}"#);
         assert!(fine.increments() > 4.0 * standard.increments());
         assert!(fine.condensations[1].dofs > 2.0 * standard.condensations[1].dofs);
-        let stopped = work(r#","stop":[{"worn_depth_mm":0.0002}]"#);
+        let stopped = system(r#","stop":[{"worn_depth_mm":0.0002}]"#);
         assert!(
             stopped.increments() < 0.7 * standard.increments(),
             "{stopped:?}"
@@ -107,22 +113,22 @@ mod tests {
     }
 
     #[test]
-    fn fixed_settings_are_counted_as_they_are_given() {
+    fn fixed_settings_determine_the_workload() {
         let text = r#"{"system":{"kind":"cylinder_on_flat"},"cycles":600,"output":{"snapshots_at_cycles":[600]},
             "accuracy":{"overrides":{"increments_per_cycle":40,"cycle_jump":100}}}"#;
-        let work = spec::read(text.as_bytes()).expect("accepted").workload;
-        assert!((work.computed_cycles - 6.0).abs() < 1e-12);
-        assert!((work.increments() - 240.0).abs() < 1e-9);
+        let run = workload(text);
+        assert!((run.computed_cycles - 6.0).abs() < 1e-12);
+        assert!((run.increments() - 240.0).abs() < 1e-9);
     }
 
     #[test]
-    fn a_run_that_is_too_long_to_follow_is_counted_all_the_same() {
+    fn runs_beyond_the_simulated_length_are_extrapolated() {
         let text = r#"{"system":{"kind":"dimm"},"cycles":1000000,"accuracy":{"overrides":{"cycle_jump":1}}}"#;
-        let work = spec::read(text.as_bytes()).expect("accepted").workload;
+        let run = workload(text);
         assert!(
-            (work.computed_cycles - 1e6).abs() < 1.0,
+            (run.computed_cycles - 1e6).abs() < 1.0,
             "{}",
-            work.computed_cycles
+            run.computed_cycles
         );
     }
 }

@@ -2,7 +2,8 @@
 
 use api::problem::Fault;
 
-use crate::spec::{Refused, Resolved};
+use crate::estimate::Estimate;
+use crate::spec::Refused;
 
 /// Unknowns of both bodies.
 const DOFS: f64 = 2e6;
@@ -18,9 +19,9 @@ const INCREMENTS: f64 = 2e8;
 ///
 /// # Errors
 /// [`Refused`] with a fault for each limit.
-pub(super) fn check(resolved: &Resolved) -> Result<(), Refused> {
-    let size = &resolved.footprint;
-    let increments = resolved.workload.increments();
+pub(super) fn check(estimate: &Estimate) -> Result<(), Refused> {
+    let size = &estimate.footprint;
+    let increments = estimate.workload.increments();
     let limits = [
         ("/accuracy", "unknowns", size.dofs, DOFS),
         ("/accuracy", "MB of memory", size.memory_mb, MEMORY_MB),

@@ -1,8 +1,8 @@
-//! The material library: reference data, each with where it comes from.
+//! The material library: reference data with provenance.
 //!
 //! "Source" is the thesis the product reproduces (D. Shinde, *Wear simulation of electrical contacts subjected to
 //! vibrations*). It uses 427 MPa (copper) and 424 MPa (steel) as hardness in its wear formulas, and Hv 130 and
-//! Hv 700 in its validation chapter; both are kept, named apart (`copper` and `copper_hv130`, `steel` and
+//! Hv 700 in its validation chapter; both are listed under names of their own (`copper` and `copper_hv130`, `steel` and
 //! `steel_hv700`; Vickers numbers times 9.80665 MPa).
 
 use api::spec::{MaterialProperties, Provenance};
@@ -18,10 +18,10 @@ pub(crate) struct LibraryMaterial {
     poisson_ratio: f64,
     /// Hardness, MPa.
     pub(crate) hardness_mpa: f64,
-    /// Where the hardness comes from.
-    pub(crate) hardness_from: Provenance,
-    /// Archard's wear coefficient of the material on itself, -, after the table of the source
-    /// (E. Rabinowicz, *Friction and Wear of Materials*, 1995), where it lists one.
+    /// Provenance of the hardness.
+    pub(crate) hardness_provenance: Provenance,
+    /// Archard's wear coefficient of the material on itself, -, from the table of the source
+    /// (E. Rabinowicz, *Friction and Wear of Materials*, 1995), if listed there.
     pub(crate) archard_k: Option<f64>,
     density_kg_m3: f64,
     thermal_conductivity_w_mk: f64,
@@ -44,7 +44,7 @@ const fn row(
         youngs_modulus_mpa: elastic.0,
         poisson_ratio: elastic.1,
         hardness_mpa: hardness.0,
-        hardness_from: hardness.1,
+        hardness_provenance: hardness.1,
         archard_k,
         density_kg_m3: thermal[0],
         thermal_conductivity_w_mk: thermal[1],
@@ -155,12 +155,12 @@ pub(crate) const MATERIALS: &[LibraryMaterial] = &[
 ];
 
 impl LibraryMaterial {
-    /// The material of that name.
+    /// Returns the material of that name.
     pub(crate) fn named(name: &str) -> Option<&'static Self> {
         MATERIALS.iter().find(|material| material.name == name)
     }
 
-    /// Its properties as they stand in a resolved specification.
+    /// Its properties as written in a resolved specification.
     pub(crate) fn properties(&self) -> MaterialProperties {
         MaterialProperties {
             name: Some(self.name.to_owned()),
@@ -181,7 +181,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_two_hardness_values_of_the_source_are_named_apart() {
+    fn both_hardness_values_of_the_source_have_a_name() {
         let hardness = |name| LibraryMaterial::named(name).map(|material| material.hardness_mpa);
         assert_eq!(hardness("copper"), Some(427.0));
         assert_eq!(hardness("copper_hv130"), Some(1275.0));

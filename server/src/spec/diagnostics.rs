@@ -1,9 +1,14 @@
-//! What is noted while a specification is resolved: faults, and where each value comes from.
+//! Diagnostics of a resolution: faults, and the provenance of each value.
 
 use std::collections::BTreeMap;
+use std::ops::RangeInclusive;
 
 use api::problem::Fault;
-use api::spec::{Choice, Named, Provenance};
+use api::spec::{EnumValue, Provenance, StringEnum};
+use serde::Serialize;
+use serde_json::Value;
+
+use crate::spec::sourced::Sourced;
 
 /// Faults and provenance, by JSON pointer.
 #[derive(Debug, Default)]
@@ -12,113 +17,149 @@ pub(crate) struct Diagnostics {
     provenance: BTreeMap<String, Provenance>,
 }
 
-/// A closed or half-open range of a quantity.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Range {
-    /// Smallest accepted value.
-    pub(crate) from: f64,
-    /// Largest accepted value.
-    pub(crate) to: f64,
-}
-
 impl Diagnostics {
-    /// Notes a fault.
+    /// Adds a fault.
     pub(crate) fn fault(&mut self, pointer: &str, detail: impl Into<String>) {
         self.faults.push(Fault::new(pointer, detail));
     }
 
-    /// Notes where a value comes from.
-    pub(crate) fn note(&mut self, pointer: impl Into<String>, from: Provenance) {
-        self.provenance.insert(pointer.into(), from);
+    /// Adds a fault for a required value that is missing.
+    pub(crate) fn missing(&mut self, pointer: &str, detail: &str) {
+        self.fault(pointer, format!("missing: {detail}"));
     }
 
-    /// The given value, or the default with its provenance.
-    pub(crate) fn take<T>(
+    /// Records the provenance of a value.
+    pub(crate) fn provenance(&mut self, pointer: impl Into<String>, provenance: Provenance) {
+        self.provenance.insert(pointer.into(), provenance);
+    }
+
+    /// Returns the given value, or the default; records the provenance of either.
+    pub(crate) fn or_default<T>(
         &mut self,
         pointer: &str,
         given: Option<T>,
-        default: T,
-        from: Provenance,
+        default: Sourced<T>,
     ) -> T {
-        self.note(
-            pointer,
-            if given.is_some() {
-                Provenance::Given
-            } else {
-                from
-            },
-        );
-        given.unwrap_or(default)
+        let (value, provenance) = match given {
+            Some(value) => (value, Provenance::Given),
+            None => (default.value, default.provenance),
+        };
+        self.provenance(pointer, provenance);
+        value
     }
 
-    /// Notes a fault if the value is not finite or outside the range; returns it all the same.
-    pub(crate) fn check(&mut self, pointer: &str, value: f64, range: Range) -> f64 {
-        if !(value.is_finite() && value >= range.from && value <= range.to) {
+    /// Adds a fault if the value is outside the range (or no number); returns the value in any case.
+    pub(crate) fn check_range(
+        &mut self,
+        pointer: &str,
+        value: f64,
+        range: &RangeInclusive<f64>,
+    ) -> f64 {
+        if !range.contains(&value) {
+            let (from, to) = range.clone().into_inner();
+            let value = formatted(value);
+            self.fault(pointer, format!("{value} is outside {from} to {to}"));
+        }
+        value
+    }
+
+    /// Adds a fault if the value is neither 0 nor in the range; returns the value in any case.
+    pub(crate) fn check_zero_or_range(
+        &mut self,
+        pointer: &str,
+        value: f64,
+        range: &RangeInclusive<f64>,
+    ) -> f64 {
+        if value != 0.0 && !range.contains(&value) {
+            let (from, to) = range.clone().into_inner();
+            let value = formatted(value);
             self.fault(
                 pointer,
-                format!("{} is outside {} to {}", short(value), range.from, range.to),
+                format!("{value} is neither 0 nor in {from} to {to}"),
             );
         }
         value
     }
 
-    /// Like [`Self::check`], but 0 is accepted too.
-    pub(crate) fn check_or_zero(&mut self, pointer: &str, value: f64, range: Range) -> f64 {
-        if value == 0.0 {
-            return value;
+    /// Adds a fault if a count is outside the range; returns the count in any case.
+    pub(crate) fn check_count<T: Into<u64> + Copy>(
+        &mut self,
+        pointer: &str,
+        count: T,
+        range: &RangeInclusive<u64>,
+    ) -> T {
+        let number: u64 = count.into();
+        if !range.contains(&number) {
+            let (from, to) = range.clone().into_inner();
+            self.fault(pointer, format!("{number} is outside {from} to {to}"));
         }
-        if !(range.from..=range.to).contains(&value) {
-            let detail = format!(
-                "{} is neither 0 nor in {} to {}",
-                short(value),
-                range.from,
-                range.to
-            );
-            self.fault(pointer, detail);
-        }
-        value
+        count
     }
 
-    /// Notes a fault if a text is too long.
-    pub(crate) fn text(&mut self, pointer: &str, text: &str, limit: usize) {
+    /// Adds a fault if a text is too long.
+    pub(crate) fn check_text(&mut self, pointer: &str, text: &str, limit: usize) {
         let length = text.chars().count();
         if length > limit {
-            self.fault(
-                pointer,
-                format!("{length} characters, at most {limit} are kept"),
-            );
+            let detail = format!("{length} characters, at most {limit} are allowed");
+            self.fault(pointer, detail);
         }
     }
 
-    /// The member of a closed list; a fault naming the list if it is none.
-    pub(crate) fn known<T: Named>(&mut self, pointer: &str, choice: &Choice<T>) -> Option<T> {
-        match choice {
-            Choice::Known(member) => Some(*member),
-            Choice::Unknown(text) => {
-                self.fault(
-                    pointer,
-                    format!("`{}` is none of {}", shortened(text), T::NAMES.join(", ")),
-                );
+    /// Adds a fault if a list is too long.
+    pub(crate) fn check_length(&mut self, pointer: &str, length: usize, limit: usize) {
+        if length > limit {
+            let detail = format!("{length} entries, at most {limit} are allowed");
+            self.fault(pointer, detail);
+        }
+    }
+
+    /// Returns the member of an enum; adds a fault naming all members if the text is none.
+    pub(crate) fn enum_member<T: StringEnum>(
+        &mut self,
+        pointer: &str,
+        value: &EnumValue<T>,
+    ) -> Option<T> {
+        match value {
+            EnumValue::Known(member) => Some(*member),
+            EnumValue::Unknown(text) => {
+                let members = T::NAMES.join(", ");
+                let text = shortened(text);
+                self.fault(pointer, format!("`{text}` is not one of {members}"));
                 None
             }
         }
     }
 
-    /// Notes a fault for each field that is given and does not belong here.
-    pub(crate) fn misplaced(&mut self, base: &str, fields: &[(&str, bool)], owner: &str) {
-        for (field, given) in fields {
-            if *given {
-                self.fault(
-                    &format!("{base}/{field}"),
-                    format!("`{field}` does not belong to `{owner}`"),
-                );
+    /// Adds a fault for each given field of an object that `owner`, the selected variant, does not have.
+    pub(crate) fn check_fields<T: Serialize>(
+        &mut self,
+        base: &str,
+        object: &T,
+        fields: &[&str],
+        owner: &str,
+    ) {
+        let Ok(Value::Object(given)) = serde_json::to_value(object) else {
+            return;
+        };
+        for (field, value) in &given {
+            if !value.is_null() && !fields.contains(&field.as_str()) {
+                self.foreign_field(base, field, owner);
             }
         }
     }
 
-    /// Notes a fault for a required value that is missing.
-    pub(crate) fn missing(&mut self, pointer: &str, detail: &str) {
-        self.fault(pointer, format!("missing: {detail}"));
+    /// Adds a fault for a field that `owner`, the selected variant, does not have.
+    pub(crate) fn foreign_field(&mut self, base: &str, field: &str, owner: &str) {
+        let detail = format!("`{field}` does not belong to `{owner}`");
+        self.fault(&format!("{base}/{field}"), detail);
+    }
+
+    /// Adds a fault for the second of two fields that exclude each other.
+    pub(crate) fn exclusive_fields(&mut self, pointer: &str, other: &str) {
+        self.fault(
+            pointer,
+            format!("cannot be combined with `{other}`; give one of them"),
+        );
     }
 
     /// Whether there is no fault so far.
@@ -126,12 +167,12 @@ impl Diagnostics {
         self.faults.is_empty()
     }
 
-    /// Everything noted as faults.
+    /// All faults.
     pub(crate) fn into_faults(self) -> Vec<Fault> {
         self.faults
     }
 
-    /// The provenance, or the faults if there are any.
+    /// The provenance of all values, or all faults if there are any.
     pub(crate) fn finish(self) -> Result<BTreeMap<String, Provenance>, Vec<Fault>> {
         if self.faults.is_empty() {
             Ok(self.provenance)
@@ -142,7 +183,7 @@ impl Diagnostics {
 }
 
 /// A number as a user would write it.
-fn short(value: f64) -> String {
+fn formatted(value: f64) -> String {
     let size = value.abs();
     if value.is_finite() && size > 0.0 && !(1e-5..1e15).contains(&size) {
         format!("{value:e}")
@@ -151,11 +192,11 @@ fn short(value: f64) -> String {
     }
 }
 
-/// A user's text short enough for a message.
+/// A user's text cut to a length that fits a message.
 pub(crate) fn shortened(text: &str) -> String {
-    const KEPT: usize = 40;
-    if text.chars().count() <= KEPT {
+    const MOST: usize = 40;
+    if text.chars().count() <= MOST {
         return text.to_owned();
     }
-    text.chars().take(KEPT).chain(['\u{2026}']).collect()
+    text.chars().take(MOST).chain(['\u{2026}']).collect()
 }

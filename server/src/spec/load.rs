@@ -1,114 +1,83 @@
-//! The normal load, brought to N per mm of depth.
+//! The normal load, converted to N per mm of depth.
+
+use std::ops::RangeInclusive;
 
 use api::spec::{Load, LoadKind, Provenance};
 
-use crate::reference::presets::Preset;
-use crate::spec::diagnostics::{Diagnostics, Range};
-use crate::spec::geometry::Shapes;
+use crate::spec::diagnostics::Diagnostics;
+use crate::spec::system::{Preset, Shapes};
 
 /// MPa on the top face.
-const PRESSURE_MPA: Range = Range {
-    from: 1e-9,
-    to: 1e6,
-};
+const PRESSURE_MPA: RangeInclusive<f64> = 1e-9..=1e6;
 /// N per mm of depth.
-const LINE_FORCE_N_PER_MM: Range = Range {
-    from: 1e-9,
-    to: 1e6,
-};
+const LINE_FORCE_N_PER_MM: RangeInclusive<f64> = 1e-9..=1e6;
 /// N.
-const FORCE_N: Range = Range {
-    from: 1e-9,
-    to: 1e7,
-};
+const FORCE_N: RangeInclusive<f64> = 1e-9..=1e7;
 /// mm.
-const WIDTH_MM: Range = Range {
-    from: 1e-6,
-    to: 1e4,
-};
-
+const WIDTH_MM: RangeInclusive<f64> = 1e-6..=1e4;
 /// N per mm of deflection.
-const SPRING_N_PER_MM: Range = Range { from: 0.0, to: 1e9 };
+const SPRING_N_PER_MM: RangeInclusive<f64> = 0.0..=1e9;
 
 /// The load of one mm of depth.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub(crate) struct LineLoad {
     /// On the unworn contact, N per mm.
     pub(crate) n_per_mm: f64,
-    /// What a spring loses as the contact sinks, N per mm and mm.
+    /// Stiffness of the spring, by which the load falls as the contact wears, N per mm and mm.
     pub(crate) spring_n_per_mm2: f64,
 }
 
-/// Fills in the load.
+/// Resolves the load.
 pub(crate) fn resolve(
     given: Option<&Load>,
     preset: &Preset,
     shapes: &Shapes,
     diagnostics: &mut Diagnostics,
 ) -> (Load, LineLoad) {
-    let (load, from) = match given {
+    let (load, provenance) = match given {
         Some(load) => (load.clone(), Provenance::Given),
-        None => (preset.load.value.clone(), preset.load.from),
+        None => (preset.load.value.clone(), preset.load.provenance),
     };
-    diagnostics.note("/load/kind", from);
-    let Some(kind) = diagnostics.known("/load/kind", &load.kind) else {
+    diagnostics.provenance("/load/kind", provenance);
+    let Some(kind) = diagnostics.enum_member("/load/kind", &load.kind) else {
         return (load, LineLoad::default());
     };
-    let own: &[&str] = match kind {
-        LoadKind::Pressure => &["mpa"],
-        LoadKind::LineForce => &["n_per_mm"],
-        LoadKind::Force => &["n", "width_mm"],
-    };
-    let mut required = |field: &str, value: Option<f64>, range: Range| {
+    let mut required = |field: &str, value: Option<f64>, range: RangeInclusive<f64>| {
         let pointer = format!("/load/{field}");
         let Some(value) = value else {
             diagnostics.missing(&pointer, &format!("`{}` needs it", kind.as_str()));
             return 0.0;
         };
-        diagnostics.note(&pointer, from);
-        diagnostics.check(&pointer, value, range)
+        diagnostics.provenance(&pointer, provenance);
+        diagnostics.check_range(&pointer, value, &range)
     };
-    let n_per_mm = match kind {
+    let (fields, n_per_mm): (&[&str], f64) = match kind {
         // The pressure acts on the whole top face.
-        LoadKind::Pressure => {
-            required("mpa", load.mpa, PRESSURE_MPA) * 2.0 * shapes.slider.half_width_mm
-        }
-        LoadKind::LineForce => required("n_per_mm", load.n_per_mm, LINE_FORCE_N_PER_MM),
-        LoadKind::Force => {
-            let (n, width_mm) = (
-                required("n", load.n, FORCE_N),
-                required("width_mm", load.width_mm, WIDTH_MM),
-            );
-            n / width_mm
-        }
+        LoadKind::Pressure => (
+            &["kind", "mpa", "spring_n_per_mm"],
+            required("mpa", load.mpa, PRESSURE_MPA) * 2.0 * shapes.slider.half_width_mm,
+        ),
+        LoadKind::LineForce => (
+            &["kind", "n_per_mm", "spring_n_per_mm"],
+            required("n_per_mm", load.n_per_mm, LINE_FORCE_N_PER_MM),
+        ),
+        LoadKind::Force => (
+            &["kind", "n", "width_mm", "spring_n_per_mm"],
+            required("n", load.n, FORCE_N) / required("width_mm", load.width_mm, WIDTH_MM),
+        ),
     };
-    let fields = [
-        ("mpa", load.mpa),
-        ("n_per_mm", load.n_per_mm),
-        ("n", load.n),
-        ("width_mm", load.width_mm),
-    ];
-    for (field, value) in fields {
-        diagnostics.misplaced(
-            "/load",
-            &[(field, value.is_some() && !own.contains(&field))],
-            kind.as_str(),
-        );
-    }
+    diagnostics.check_fields("/load", &load, fields, kind.as_str());
     let spring = load.spring_n_per_mm.map_or(0.0, |spring| {
-        diagnostics.note("/load/spring_n_per_mm", from);
-        diagnostics.check("/load/spring_n_per_mm", spring, SPRING_N_PER_MM)
+        diagnostics.provenance("/load/spring_n_per_mm", provenance);
+        diagnostics.check_range("/load/spring_n_per_mm", spring, &SPRING_N_PER_MM)
     });
-    let depth = if kind == LoadKind::Force {
-        load.width_mm.unwrap_or(1.0)
-    } else {
-        1.0
+    let depth = match kind {
+        LoadKind::Force => load.width_mm.unwrap_or(1.0),
+        LoadKind::Pressure | LoadKind::LineForce => 1.0,
     };
-    (
-        load,
-        LineLoad {
-            n_per_mm,
-            spring_n_per_mm2: spring / depth,
-        },
-    )
+    let line_load = LineLoad {
+        n_per_mm,
+        spring_n_per_mm2: spring / depth,
+    };
+    (load, line_load)
 }

@@ -1,32 +1,26 @@
 //! Materials: names to properties, and the elastic constants of both bodies.
 
+use std::ops::RangeInclusive;
+
 use api::spec::{Material, MaterialProperties, Materials, Provenance};
 use solver::scene::Elastic;
 
 use crate::reference::materials::{LibraryMaterial, MATERIALS};
-use crate::reference::presets::{Known, Preset};
-use crate::spec::diagnostics::{Diagnostics, Range, shortened};
+use crate::spec::NAME_LIMIT;
+use crate::spec::diagnostics::{Diagnostics, shortened};
+use crate::spec::sourced::Sourced;
+use crate::spec::system::Preset;
 
 /// From soft gels to far beyond diamond (1.1e6 MPa), MPa.
-const YOUNGS_MODULUS_MPA: Range = Range {
-    from: 1e-3,
-    to: 1e8,
-};
+const YOUNGS_MODULUS_MPA: RangeInclusive<f64> = 1e-3..=1e8;
 /// Isotropic, not auxetic, compressible.
-const POISSON_RATIO: Range = Range {
-    from: 0.0,
-    to: 0.499_9,
-};
+const POISSON_RATIO: RangeInclusive<f64> = 0.0..=0.499_9;
 /// MPa; diamond has about 1e5.
-pub(crate) const HARDNESS_MPA: Range = Range {
-    from: 1e-3,
-    to: 1e6,
-};
-/// Any positive property whose value only an effect still to come will use.
-const POSITIVE: Range = Range {
-    from: 1e-15,
-    to: 1e15,
-};
+pub(crate) const HARDNESS_MPA: RangeInclusive<f64> = 1e-3..=1e6;
+/// Per K; some materials shrink when heated.
+const THERMAL_EXPANSION_PER_K: RangeInclusive<f64> = -1e-3..=1e-3;
+/// Any positive property that no effect uses yet.
+const POSITIVE: RangeInclusive<f64> = 1e-15..=1e15;
 
 /// The elastic constants of both bodies.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -35,7 +29,7 @@ pub(crate) struct ElasticPair {
     pub(crate) receptacle: Elastic,
 }
 
-/// Fills in both materials.
+/// Resolves both materials.
 pub(crate) fn resolve(
     given: &Materials,
     preset: &Preset,
@@ -69,13 +63,13 @@ pub(crate) fn resolve(
 fn side(
     pointer: &str,
     given: Option<&Material>,
-    preset: Known<&'static str>,
+    preset: Sourced<&'static str>,
     diagnostics: &mut Diagnostics,
 ) -> (MaterialProperties, Elastic) {
     let properties = match given {
-        None => named(pointer, preset.value, preset.from, diagnostics),
-        Some(Material::Named(name)) => named(pointer, name, Provenance::Given, diagnostics),
-        Some(Material::Given(properties)) => checked(pointer, properties, diagnostics),
+        None => from_library(pointer, preset.value, preset.provenance, diagnostics),
+        Some(Material::Named(name)) => from_library(pointer, name, Provenance::Given, diagnostics),
+        Some(Material::Given(properties)) => from_properties(pointer, properties, diagnostics),
     };
     let elastic = Elastic {
         youngs_modulus_mpa: properties.youngs_modulus_mpa.unwrap_or_default(),
@@ -84,10 +78,10 @@ fn side(
     (properties, elastic)
 }
 
-fn named(
+fn from_library(
     pointer: &str,
     name: &str,
-    from: Provenance,
+    provenance: Provenance,
     diagnostics: &mut Diagnostics,
 ) -> MaterialProperties {
     let Some(material) = LibraryMaterial::named(name) else {
@@ -103,39 +97,39 @@ fn named(
         return MaterialProperties::default();
     };
     let properties = material.properties();
-    diagnostics.note(format!("{pointer}/name"), from);
+    diagnostics.provenance(format!("{pointer}/name"), provenance);
     for (field, value) in numbers(&properties) {
         if value.is_some() {
-            let from = if field == "hardness_mpa" {
-                material.hardness_from
+            let provenance = if field == "hardness_mpa" {
+                material.hardness_provenance
             } else {
                 Provenance::Typical
             };
-            diagnostics.note(format!("{pointer}/{field}"), from);
+            diagnostics.provenance(format!("{pointer}/{field}"), provenance);
         }
     }
     properties
 }
 
-fn checked(
+fn from_properties(
     pointer: &str,
     given: &MaterialProperties,
     diagnostics: &mut Diagnostics,
 ) -> MaterialProperties {
     if let Some(name) = &given.name {
-        diagnostics.text(&format!("{pointer}/name"), name, 200);
-        diagnostics.note(format!("{pointer}/name"), Provenance::Given);
+        diagnostics.check_text(&format!("{pointer}/name"), name, NAME_LIMIT);
+        diagnostics.provenance(format!("{pointer}/name"), Provenance::Given);
     }
     for (field, value) in numbers(given) {
-        let place = format!("{pointer}/{field}");
+        let pointer = format!("{pointer}/{field}");
         let required = matches!(field, "youngs_modulus_mpa" | "poisson_ratio");
         match value {
             Some(value) => {
-                diagnostics.note(&place, Provenance::Given);
-                diagnostics.check(&place, value, range(field));
+                diagnostics.provenance(&pointer, Provenance::Given);
+                diagnostics.check_range(&pointer, value, &range(field));
             }
             None if required => {
-                diagnostics.missing(&place, "a material written as an object states it");
+                diagnostics.missing(&pointer, "a material written as an object states it");
             }
             None => {}
         }
@@ -143,16 +137,12 @@ fn checked(
     given.clone()
 }
 
-fn range(field: &str) -> Range {
+fn range(field: &str) -> RangeInclusive<f64> {
     match field {
         "youngs_modulus_mpa" => YOUNGS_MODULUS_MPA,
         "poisson_ratio" => POISSON_RATIO,
         "hardness_mpa" => HARDNESS_MPA,
-        // Some materials shrink when heated.
-        "thermal_expansion_per_k" => Range {
-            from: -1e-3,
-            to: 1e-3,
-        },
+        "thermal_expansion_per_k" => THERMAL_EXPANSION_PER_K,
         _ => POSITIVE,
     }
 }

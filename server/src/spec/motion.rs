@@ -1,53 +1,48 @@
-//! The imposed motion and where it enters.
+//! The imposed motion, where it enters, and the number of cycles.
 
-use api::spec::{Choice, Drive, Motion, MotionKind, Provenance, Waveform};
+use std::ops::RangeInclusive;
+
+use api::spec::{Drive, EnumValue, Motion, MotionKind, Provenance};
 use solver::scene;
 
-use crate::reference::presets::Preset;
-use crate::spec::diagnostics::{Diagnostics, Range};
+use crate::spec::diagnostics::Diagnostics;
+use crate::spec::sourced::assumed;
+use crate::spec::system::Preset;
 
-/// mm; from below an atom to far beyond any contact, and 0: nothing moves.
-const AMPLITUDE_MM: Range = Range {
-    from: 1e-9,
-    to: 1e4,
-};
+/// mm; from below an atom to far beyond any contact. 0 is accepted too: no motion.
+const AMPLITUDE_MM: RangeInclusive<f64> = 1e-9..=1e4;
 /// s; a megahertz to a month.
-const PERIOD_S: Range = Range {
-    from: 1e-6,
-    to: 3e6,
-};
-
+const PERIOD_S: RangeInclusive<f64> = 1e-6..=3e6;
+/// Hz; the same range as of the period.
+const FREQUENCY_HZ: RangeInclusive<f64> = 1.0 / 3e6..=1.0 / 1e-6;
 /// mm.
-const DISTANCE_MM: Range = Range {
-    from: 1e-6,
-    to: 1e12,
-};
+const DISTANCE_MM: RangeInclusive<f64> = 1e-6..=1e12;
 /// mm/s.
-const SPEED_MM_S: Range = Range {
-    from: 1e-9,
-    to: 1e6,
-};
+const SPEED_MM_S: RangeInclusive<f64> = 1e-9..=1e6;
+/// Cycles of a job.
+const CYCLES: RangeInclusive<u64> = 1..=1_000_000_000;
 /// A continuous motion is recorded in this many equal parts of its distance, the `cycle` of its histories.
 pub(crate) const CONTINUOUS_PARTS: u64 = 100_000;
-/// Speed of a continuous motion that states none, mm/s. Quasi-static contact does not depend on it.
-const SPEED: f64 = 1.0;
+/// Default speed of a continuous motion, mm/s. Quasi-static contact does not depend on it.
+const DEFAULT_SPEED_MM_S: f64 = 1.0;
 
-/// A motion with every default filled in, and what the engine makes of it.
-pub(crate) struct Imposed {
-    pub(crate) motion: Motion,
+/// A resolved motion.
+pub(crate) struct ImposedMotion {
+    /// As written in the resolved specification.
+    pub(crate) spec: Motion,
     pub(crate) drive: scene::Drive,
-    pub(crate) engine: scene::Motion,
+    pub(crate) scene: scene::Motion,
 }
 
-impl Imposed {
+impl ImposedMotion {
     /// Distance of a continuous motion, mm.
     pub(crate) fn distance_mm(&self) -> Option<f64> {
-        self.motion.distance_mm
+        self.spec.distance_mm
     }
 }
 
-const NOTHING: Motion = Motion {
-    kind: Choice::Known(MotionKind::Reciprocating),
+const EMPTY: Motion = Motion {
+    kind: EnumValue::Known(MotionKind::Reciprocating),
     waveform: None,
     amplitude_mm: None,
     frequency_hz: None,
@@ -57,123 +52,116 @@ const NOTHING: Motion = Motion {
     distance_mm: None,
 };
 
-/// Fills in the motion.
+/// Resolves the motion.
 pub(crate) fn resolve(
     given: Option<&Motion>,
     preset: &Preset,
     diagnostics: &mut Diagnostics,
-) -> Imposed {
-    let from = if given.is_some() {
-        Provenance::Given
-    } else {
-        preset.amplitude_mm.from
+) -> ImposedMotion {
+    let provenance = match given {
+        Some(_) => Provenance::Given,
+        None => preset.amplitude_mm.provenance,
     };
-    diagnostics.note("/motion/kind", from);
-    let given = given.cloned().unwrap_or(NOTHING);
-    match diagnostics.known("/motion/kind", &given.kind) {
-        Some(MotionKind::Continuous) => continuous(&given, diagnostics),
+    diagnostics.provenance("/motion/kind", provenance);
+    let given = given.unwrap_or(&EMPTY);
+    match diagnostics.enum_member("/motion/kind", &given.kind) {
+        Some(MotionKind::Continuous) => continuous(given, diagnostics),
         Some(MotionKind::Reciprocating) => {
             let fields = [
-                ("speed_mm_s", given.speed_mm_s.is_some()),
-                ("distance_mm", given.distance_mm.is_some()),
+                "kind",
+                "waveform",
+                "amplitude_mm",
+                "frequency_hz",
+                "period_s",
+                "drive",
             ];
-            diagnostics.misplaced("/motion", &fields, "reciprocating");
-            reciprocating(&given, preset, diagnostics)
+            diagnostics.check_fields("/motion", given, &fields, "reciprocating");
+            reciprocating(given, preset, diagnostics)
         }
-        None => reciprocating(&given, preset, diagnostics),
+        None => reciprocating(given, preset, diagnostics),
     }
 }
 
-fn continuous(given: &Motion, diagnostics: &mut Diagnostics) -> Imposed {
-    let fields = [
-        ("waveform", given.waveform.is_some()),
-        ("amplitude_mm", given.amplitude_mm.is_some()),
-        ("frequency_hz", given.frequency_hz.is_some()),
-        ("period_s", given.period_s.is_some()),
-        ("drive", given.drive.is_some()),
-    ];
-    diagnostics.misplaced("/motion", &fields, "continuous");
+/// Resolves the number of cycles; a continuous motion has no such field.
+pub(crate) fn cycles(
+    given: Option<u64>,
+    motion: &ImposedMotion,
+    preset: &Preset,
+    diagnostics: &mut Diagnostics,
+) -> u64 {
+    if motion.distance_mm().is_some() {
+        if given.is_some() {
+            diagnostics.foreign_field("", "cycles", "continuous");
+        }
+        return CONTINUOUS_PARTS;
+    }
+    let cycles = diagnostics.or_default("/cycles", given, preset.cycles);
+    diagnostics.check_count("/cycles", cycles, &CYCLES)
+}
+
+fn continuous(given: &Motion, diagnostics: &mut Diagnostics) -> ImposedMotion {
+    let fields = ["kind", "speed_mm_s", "distance_mm"];
+    diagnostics.check_fields("/motion", given, &fields, "continuous");
     let distance_mm = given.distance_mm.unwrap_or_default();
     if given.distance_mm.is_some() {
-        diagnostics.note("/motion/distance_mm", Provenance::Given);
-        diagnostics.check("/motion/distance_mm", distance_mm, DISTANCE_MM);
+        diagnostics.provenance("/motion/distance_mm", Provenance::Given);
+        diagnostics.check_range("/motion/distance_mm", distance_mm, &DISTANCE_MM);
     } else {
         diagnostics.missing("/motion/distance_mm", "`continuous` needs it");
     }
-    let speed = diagnostics.take(
-        "/motion/speed_mm_s",
-        given.speed_mm_s,
-        SPEED,
-        Provenance::Assumed,
-    );
-    diagnostics.check("/motion/speed_mm_s", speed, SPEED_MM_S);
+    let default = assumed(DEFAULT_SPEED_MM_S);
+    let speed = diagnostics.or_default("/motion/speed_mm_s", given.speed_mm_s, default);
+    diagnostics.check_range("/motion/speed_mm_s", speed, &SPEED_MM_S);
     #[expect(
         clippy::cast_precision_loss,
         reason = "a hundred thousand parts are exact"
     )]
     let step_mm = distance_mm / CONTINUOUS_PARTS as f64;
-    Imposed {
-        motion: Motion {
+    ImposedMotion {
+        spec: Motion {
             kind: MotionKind::Continuous.into(),
             speed_mm_s: Some(speed),
             distance_mm: Some(distance_mm),
-            ..NOTHING
+            ..EMPTY
         },
         drive: scene::Drive::Handle,
-        engine: scene::Motion::Continuous { step_mm },
+        scene: scene::Motion::Continuous { step_mm },
     }
 }
 
-fn reciprocating(given: &Motion, preset: &Preset, diagnostics: &mut Diagnostics) -> Imposed {
+fn reciprocating(given: &Motion, preset: &Preset, diagnostics: &mut Diagnostics) -> ImposedMotion {
     let waveform = given
         .waveform
         .as_ref()
-        .and_then(|waveform| diagnostics.known("/motion/waveform", waveform));
-    let waveform = diagnostics.take(
-        "/motion/waveform",
-        waveform,
-        preset.waveform.value,
-        preset.waveform.from,
-    );
+        .and_then(|waveform| diagnostics.enum_member("/motion/waveform", waveform));
+    let waveform = diagnostics.or_default("/motion/waveform", waveform, preset.waveform);
     let drive = given
         .drive
         .as_ref()
-        .and_then(|drive| diagnostics.known("/motion/drive", drive));
-    let drive = diagnostics.take(
-        "/motion/drive",
-        drive,
-        preset.drive.value,
-        preset.drive.from,
-    );
-    let amplitude_mm = diagnostics.take(
-        "/motion/amplitude_mm",
-        given.amplitude_mm,
-        preset.amplitude_mm.value,
-        preset.amplitude_mm.from,
-    );
-    diagnostics.check_or_zero("/motion/amplitude_mm", amplitude_mm, AMPLITUDE_MM);
-    let mut motion = filled(NOTHING, waveform, drive, amplitude_mm);
-    let period_s = period(given, preset, &mut motion, diagnostics);
-    Imposed {
-        motion,
+        .and_then(|drive| diagnostics.enum_member("/motion/drive", drive));
+    let drive = diagnostics.or_default("/motion/drive", drive, preset.drive);
+    let amplitude = given.amplitude_mm;
+    let amplitude_mm =
+        diagnostics.or_default("/motion/amplitude_mm", amplitude, preset.amplitude_mm);
+    diagnostics.check_zero_or_range("/motion/amplitude_mm", amplitude_mm, &AMPLITUDE_MM);
+    let mut spec = Motion {
+        waveform: Some(waveform.into()),
+        drive: Some(drive.into()),
+        amplitude_mm: Some(amplitude_mm),
+        ..EMPTY
+    };
+    let period_s = period(given, preset, &mut spec, diagnostics);
+    ImposedMotion {
+        spec,
         drive: engine_drive(drive),
-        engine: scene::Motion::Reciprocating {
+        scene: scene::Motion::Reciprocating {
             amplitude_mm,
             period_s,
         },
     }
 }
 
-fn filled(empty: Motion, waveform: Waveform, drive: Drive, amplitude_mm: f64) -> Motion {
-    Motion {
-        waveform: Some(waveform.into()),
-        drive: Some(drive.into()),
-        amplitude_mm: Some(amplitude_mm),
-        ..empty
-    }
-}
-
-/// The period, from whichever of period and frequency was written.
+/// The period, from the given one of period and frequency.
 fn period(
     given: &Motion,
     preset: &Preset,
@@ -182,39 +170,24 @@ fn period(
 ) -> f64 {
     match (given.period_s, given.frequency_hz) {
         (Some(_), Some(_)) => {
-            diagnostics.fault(
-                "/motion/period_s",
-                "stands beside `frequency_hz`; write one of them",
-            );
+            diagnostics.exclusive_fields("/motion/period_s", "frequency_hz");
             preset.period_s.value
         }
         (None, Some(frequency_hz)) => {
-            diagnostics.note("/motion/frequency_hz", Provenance::Given);
+            diagnostics.provenance("/motion/frequency_hz", Provenance::Given);
             filled.frequency_hz = Some(frequency_hz);
-            diagnostics.check(
-                "/motion/frequency_hz",
-                frequency_hz,
-                Range {
-                    from: 1.0 / PERIOD_S.to,
-                    to: 1.0 / PERIOD_S.from,
-                },
-            );
+            diagnostics.check_range("/motion/frequency_hz", frequency_hz, &FREQUENCY_HZ);
             1.0 / frequency_hz
         }
         (period_s, None) => {
-            let period_s = diagnostics.take(
-                "/motion/period_s",
-                period_s,
-                preset.period_s.value,
-                preset.period_s.from,
-            );
+            let period_s = diagnostics.or_default("/motion/period_s", period_s, preset.period_s);
             filled.period_s = Some(period_s);
-            diagnostics.check("/motion/period_s", period_s, PERIOD_S)
+            diagnostics.check_range("/motion/period_s", period_s, &PERIOD_S)
         }
     }
 }
 
-/// Quasi-static contact does not tell which of both bodies is held.
+/// In quasi-static contact only the relative motion matters, not which body is held.
 fn engine_drive(drive: Drive) -> scene::Drive {
     match drive {
         Drive::SliderTop | Drive::ReceptacleBase => scene::Drive::Handle,

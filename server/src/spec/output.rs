@@ -1,46 +1,42 @@
-//! What is recorded, and what ends a run.
+//! Recorded output, and stop conditions.
 
-use api::spec::{Output, Provenance, Stop};
+use std::ops::RangeInclusive;
+
+use api::spec::{Output, Stop};
 use solver::scene;
 
-use crate::spec::diagnostics::{Diagnostics, Range};
-use crate::spec::geometry::Shapes;
-use crate::spec::motion::Imposed;
+use crate::spec::diagnostics::Diagnostics;
+use crate::spec::motion::ImposedMotion;
+use crate::spec::sourced::assumed;
+use crate::spec::system::Shapes;
 
 /// Most stations and most snapshots of a job: each is a column, or three documents.
 const STATION_LIMIT: usize = 1000;
 const SNAPSHOT_LIMIT: usize = 1000;
 const STOP_LIMIT: usize = 16;
 /// mm.
-const WORN_DEPTH_MM: Range = Range {
-    from: 1e-9,
-    to: 1e4,
-};
+const WORN_DEPTH_MM: RangeInclusive<f64> = 1e-9..=1e4;
 
-/// Fills in what is recorded.
+const AT_CYCLES: &str = "snapshots_at_cycles";
+const AT_DISTANCES: &str = "snapshots_at_distance_mm";
+
+/// Resolves the output.
 pub(crate) fn resolve(
     given: &Output,
-    imposed: &Imposed,
+    motion: &ImposedMotion,
     shapes: &Shapes,
     cycles: u64,
     diagnostics: &mut Diagnostics,
 ) -> (Output, scene::Output) {
-    let fields = diagnostics.take("/output/fields", given.fields, false, Provenance::Assumed);
+    let fields = diagnostics.or_default("/output/fields", given.fields, assumed(false));
     let half = 0.5 * shapes.block.length_mm;
-    stations(given, half, diagnostics);
-    let stations_mm = diagnostics.take(
-        "/output/stations_mm",
-        given.stations_mm.clone(),
-        default_stations(imposed.motion.amplitude_mm.unwrap_or_default(), half),
-        Provenance::Assumed,
-    );
+    let stations_mm = stations(given, motion, half, diagnostics);
     let mut filled = Output {
         stations_mm: Some(stations_mm.clone()),
-        snapshots_at_cycles: None,
-        snapshots_at_distance_mm: None,
         fields: Some(fields),
+        ..Output::default()
     };
-    let mut ascending = match imposed.distance_mm() {
+    let mut snapshots = match motion.distance_mm() {
         None => {
             let at = at_cycles(given, cycles, diagnostics);
             filled.snapshots_at_cycles = Some(at.clone());
@@ -53,93 +49,89 @@ pub(crate) fn resolve(
             parts
         }
     };
-    ascending.sort_unstable();
-    ascending.dedup();
+    snapshots.sort_unstable();
+    snapshots.dedup();
     let recorded = scene::Output {
         stations_mm,
-        snapshots_at_cycles: ascending,
+        snapshots_at_cycles: snapshots,
         fields,
     };
     (filled, recorded)
 }
 
-/// Checks the stations that were stated; defaults made from a faulty value are no faults of their own.
-fn stations(given: &Output, half: f64, diagnostics: &mut Diagnostics) {
+/// Stations; defaults derived from a faulty value are no faults of their own.
+fn stations(
+    given: &Output,
+    motion: &ImposedMotion,
+    half: f64,
+    diagnostics: &mut Diagnostics,
+) -> Vec<f64> {
+    const POINTER: &str = "/output/stations_mm";
     let stations = given.stations_mm.as_deref().unwrap_or_default();
-    limited(
-        "/output/stations_mm",
-        stations.len(),
+    check_list(
+        POINTER,
+        stations,
         STATION_LIMIT,
+        &(-half..=half),
         diagnostics,
     );
-    for (index, station) in stations.iter().enumerate().take(STATION_LIMIT) {
-        let range = Range {
-            from: -half,
-            to: half,
-        };
-        diagnostics.check(&format!("/output/stations_mm/{index}"), *station, range);
-    }
+    let amplitude_mm = motion.spec.amplitude_mm.unwrap_or_default();
+    let default = assumed(default_stations(amplitude_mm, half));
+    diagnostics.or_default(POINTER, given.stations_mm.clone(), default)
 }
 
 /// Snapshots of a reciprocating motion, at cycles.
 fn at_cycles(given: &Output, cycles: u64, diagnostics: &mut Diagnostics) -> Vec<u64> {
-    const POINTER: &str = "/output/snapshots_at_cycles";
-    let misplaced = given.snapshots_at_distance_mm.is_some();
-    diagnostics.misplaced(
-        "/output",
-        &[("snapshots_at_distance_mm", misplaced)],
-        "reciprocating",
-    );
+    let pointer = format!("/output/{AT_CYCLES}");
+    if given.snapshots_at_distance_mm.is_some() {
+        diagnostics.foreign_field("/output", AT_DISTANCES, "reciprocating");
+    }
     let snapshots = given.snapshots_at_cycles.as_deref().unwrap_or_default();
-    limited(POINTER, snapshots.len(), SNAPSHOT_LIMIT, diagnostics);
+    diagnostics.check_length(&pointer, snapshots.len(), SNAPSHOT_LIMIT);
     for (index, cycle) in snapshots.iter().enumerate().take(SNAPSHOT_LIMIT) {
         if *cycle > cycles {
             let detail = format!("{cycle} exceeds the number of cycles, {cycles}");
-            diagnostics.fault(&format!("{POINTER}/{index}"), detail);
+            diagnostics.fault(&format!("{pointer}/{index}"), detail);
         }
     }
-    let default = default_snapshots(cycles);
-    diagnostics.take(
-        POINTER,
-        given.snapshots_at_cycles.clone(),
-        default,
-        Provenance::Assumed,
-    )
+    let default = assumed(default_snapshots(cycles));
+    diagnostics.or_default(&pointer, given.snapshots_at_cycles.clone(), default)
 }
 
 /// Snapshots of a continuous motion, at distances, mm.
 fn at_distances(given: &Output, distance: f64, diagnostics: &mut Diagnostics) -> Vec<f64> {
-    const POINTER: &str = "/output/snapshots_at_distance_mm";
-    let misplaced = given.snapshots_at_cycles.is_some();
-    diagnostics.misplaced(
-        "/output",
-        &[("snapshots_at_cycles", misplaced)],
-        "continuous",
-    );
-    let snapshots = given
-        .snapshots_at_distance_mm
-        .as_deref()
-        .unwrap_or_default();
-    limited(POINTER, snapshots.len(), SNAPSHOT_LIMIT, diagnostics);
-    for (index, at) in snapshots.iter().enumerate().take(SNAPSHOT_LIMIT) {
-        let range = Range {
-            from: 0.0,
-            to: distance,
-        };
-        diagnostics.check(&format!("{POINTER}/{index}"), *at, range);
+    let pointer = format!("/output/{AT_DISTANCES}");
+    if given.snapshots_at_cycles.is_some() {
+        diagnostics.foreign_field("/output", AT_CYCLES, "continuous");
     }
-    let default = [0.25, 0.5, 0.75, 1.0]
-        .map(|share| share * distance)
-        .to_vec();
-    diagnostics.take(
-        POINTER,
-        given.snapshots_at_distance_mm.clone(),
-        default,
-        Provenance::Assumed,
-    )
+    let given = &given.snapshots_at_distance_mm;
+    let snapshots = given.as_deref().unwrap_or_default();
+    check_list(
+        &pointer,
+        snapshots,
+        SNAPSHOT_LIMIT,
+        &(0.0..=distance),
+        diagnostics,
+    );
+    let default = [0.25, 0.5, 0.75, 1.0].map(|share| share * distance);
+    diagnostics.or_default(&pointer, given.clone(), assumed(default.to_vec()))
 }
 
-/// The part of the distance that lies nearest to a share of it; the first one at least.
+/// Checks the length of a list and the entries up to the limit.
+fn check_list(
+    pointer: &str,
+    entries: &[f64],
+    limit: usize,
+    range: &RangeInclusive<f64>,
+    diagnostics: &mut Diagnostics,
+) {
+    diagnostics.check_length(pointer, entries.len(), limit);
+    for (index, entry) in entries.iter().enumerate().take(limit) {
+        diagnostics.check_range(&format!("{pointer}/{index}"), *entry, range);
+    }
+}
+
+/// The part of the distance that is nearest to a share of it; at least the first one.
 #[expect(
     clippy::cast_precision_loss,
     clippy::cast_possible_truncation,
@@ -150,14 +142,14 @@ fn part(share: f64, parts: u64) -> u64 {
     ((share * parts as f64).round().max(1.0) as u64).min(parts)
 }
 
-/// The neutral position and half the amplitude to each side, where the block is.
+/// The neutral position and half the amplitude to each side, within the block.
 fn default_stations(amplitude_mm: f64, half: f64) -> Vec<f64> {
     [-0.5, 0.0, 0.5]
         .map(|share: f64| (share * amplitude_mm).max(-half).min(half))
         .to_vec()
 }
 
-/// The first cycle, the end and the quarters between.
+/// The first cycle, the last one and the quarters between.
 fn default_snapshots(cycles: u64) -> Vec<u64> {
     let mut snapshots = vec![1, cycles / 4, cycles / 2, cycles / 4 * 3, cycles];
     snapshots.retain(|cycle| *cycle > 0);
@@ -166,24 +158,16 @@ fn default_snapshots(cycles: u64) -> Vec<u64> {
     snapshots
 }
 
-fn limited(pointer: &str, length: usize, limit: usize, diagnostics: &mut Diagnostics) {
-    if length > limit {
-        diagnostics.fault(
-            pointer,
-            format!("{length} entries, at most {limit} are kept"),
-        );
-    }
-}
-
-/// Checks the stop conditions.
+/// Resolves the stop conditions.
 pub(crate) fn stop(given: &[Stop], diagnostics: &mut Diagnostics) -> Vec<scene::StopCondition> {
-    limited("/stop", given.len(), STOP_LIMIT, diagnostics);
+    diagnostics.check_length("/stop", given.len(), STOP_LIMIT);
     let mut conditions = Vec::new();
     for (index, condition) in given.iter().enumerate().take(STOP_LIMIT) {
         let pointer = format!("/stop/{index}");
         match condition.worn_depth_mm {
             Some(depth) => {
-                diagnostics.check(&format!("{pointer}/worn_depth_mm"), depth, WORN_DEPTH_MM);
+                let pointer = format!("{pointer}/worn_depth_mm");
+                diagnostics.check_range(&pointer, depth, &WORN_DEPTH_MM);
                 conditions.push(scene::StopCondition::WornDepth(depth));
             }
             None => diagnostics.missing(&pointer, "a condition such as `worn_depth_mm`"),

@@ -46,7 +46,7 @@ impl Fixture {
 
     async fn wished(&self, wishes: SubmitOptions) -> Uuid {
         let resolved = spec::read(br#"{"system":{"kind":"fuzz_button"}}"#).expect("accepted");
-        let plan = crate::estimate::plan(&resolved);
+        let plan = crate::estimate::Estimate::of(&resolved).plan(&resolved, None);
         self.store
             .submit(
                 &NewJob {

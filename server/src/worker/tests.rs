@@ -46,7 +46,7 @@ impl Scripted {
             ..resolved.spec.clone()
         };
         let job = NewJob {
-            plan: crate::estimate::plan(&resolved),
+            plan: crate::estimate::Estimate::of(&resolved).plan(&resolved, None),
             spec,
             wishes: SubmitOptions::default(),
         };
@@ -192,7 +192,7 @@ async fn an_unwanted_job_whose_worker_is_lost_keeps_documents_of_what_was_comput
     let store = Store::open(&url).await.expect("a store");
     let resolved = spec::read(br#"{"system":{"kind":"fuzz_button"}}"#).expect("accepted");
     let job = NewJob {
-        plan: crate::estimate::plan(&resolved),
+        plan: crate::estimate::Estimate::of(&resolved).plan(&resolved, None),
         spec: resolved.spec,
         wishes: SubmitOptions::default(),
     };

@@ -3,9 +3,10 @@
 use api::job::Status;
 use proptest::prelude::*;
 use proptest::test_runner::TestCaseResult;
+use server::estimate::Estimate;
 use server::queue::{Transition, place};
+use server::spec;
 use server::store::{Batch, Claim, End, Held, NewCheckpoint, NewJob, Store, SubmitOptions};
-use server::{estimate, spec};
 use tempfile::TempDir;
 
 use crate::model::{ATTEMPTS, Modelled};
@@ -25,7 +26,7 @@ impl Both {
         let url = format!("sqlite://{}", folder.path().join("test.db").display());
         let store = Store::open_with(&url, ATTEMPTS).await.expect("a store");
         let resolved = spec::read(br#"{"system":{"kind":"fuzz_button"}}"#).expect("accepted");
-        let plan = estimate::plan(&resolved);
+        let plan = Estimate::of(&resolved).plan(&resolved, None);
         let job = NewJob {
             spec: resolved.spec,
             plan,

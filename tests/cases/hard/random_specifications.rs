@@ -66,7 +66,7 @@ fn any_specification_is_refused_or_sound_or_says_why_not() {
                 );
                 continue;
             }
-            Err(Refused::Broken(broken)) => panic!("draw {draw} cannot be read: {broken}\n{spec}"),
+            Err(Refused::Parse(error)) => panic!("draw {draw} cannot be read: {error}\n{spec}"),
         };
         if !is_cheap(&scene) {
             continue;

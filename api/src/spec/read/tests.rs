@@ -1,4 +1,4 @@
-//! Places of faults while reading.
+//! Pointers of faults in parsing.
 
 use super::*;
 use crate::spec::{Material, SystemKind};
@@ -8,7 +8,7 @@ fn unknown(text: &str) -> Vec<String> {
     faults.into_iter().map(|fault| fault.pointer).collect()
 }
 
-fn refused(text: &str) -> Broken {
+fn refused(text: &str) -> ParseError {
     Spec::read(text.as_bytes()).expect_err("not readable")
 }
 
@@ -88,7 +88,7 @@ fn wrong_types_name_their_pointer() {
 }
 
 #[test]
-fn broken_json_names_line_and_column() {
+fn malformed_json_names_line_and_column() {
     let error = refused("{\"system\": {\"kind\": \"dimm\"},\n \"cycles\": NaN}");
     assert_eq!((error.line, error.pointer.as_str()), (2, ""));
     assert!(error.column > 1, "{error}");
@@ -114,7 +114,7 @@ fn broken_json_names_line_and_column() {
 }
 
 #[test]
-fn unknown_names_are_kept_for_later() {
+fn unknown_names_are_no_parse_errors() {
     let (spec, faults) =
         Spec::read(br#"{"system":{"kind":"toaster"},"materials":{"slider":"cheese"}}"#)
             .expect("readable");
@@ -140,7 +140,7 @@ fn null_wear_differs_from_absent_wear() {
 }
 
 #[test]
-fn a_key_that_stands_twice_in_a_map_is_refused() {
+fn a_duplicate_key_in_a_map_is_refused() {
     for (text, pointer, key) in [
         (
             r#"{"system":{"kind":"dimm"},"labels":{"a":"1","b":"2","a":"3"}}"#,
@@ -153,8 +153,8 @@ fn a_key_that_stands_twice_in_a_map_is_refused() {
             "friction",
         ),
     ] {
-        let broken = Spec::read(text.as_bytes()).expect_err("refused");
-        assert!(broken.pointer.starts_with(pointer), "{broken}");
-        assert_eq!(broken.detail, format!("duplicate key `{key}`"));
+        let error = Spec::read(text.as_bytes()).expect_err("refused");
+        assert!(error.pointer.starts_with(pointer), "{error}");
+        assert_eq!(error.detail, format!("duplicate key `{key}`"));
     }
 }

@@ -6,6 +6,7 @@ use api::results::AccuracyReached;
 use api::spec::{CycleJump, Overrides};
 use serde::{Deserialize, Serialize};
 
+use crate::estimate::Estimate;
 use crate::spec;
 use crate::spec::Resolved;
 
@@ -83,12 +84,12 @@ pub(crate) struct Base {
 
 impl Base {
     /// Of a scene that is expected to take so many seconds.
-    pub(crate) fn of(scene: &Resolved, expected_s: f64) -> Self {
+    pub(crate) fn of(scene: &Resolved, estimate: &Estimate, expected_s: f64) -> Self {
         let cycles = real(spec::cycles(&scene.spec));
-        let work = &scene.workload;
+        let work = &estimate.workload;
         Self {
             settings: Settings {
-                contact_element_mm: scene.footprint.contact_element_mm,
+                contact_element_mm: estimate.footprint.contact_element_mm,
                 increments_per_cycle: work.most_increments,
                 cycle_jump: cycles / work.computed_cycles.max(1.0),
             },

@@ -1,7 +1,7 @@
 //! A submitted study of accuracy: its base is a specification like any other.
 
 use api::problem::Fault;
-use api::spec::Broken;
+use api::spec::ParseError;
 use api::study::StudyRequest;
 
 use crate::batch::sweep;
@@ -49,9 +49,9 @@ pub fn scene(request: &StudyRequest) -> Result<Resolved, Refused> {
 pub fn of_base(refused: Refused) -> Refused {
     let placed = |pointer: &str| format!("/base{pointer}");
     match refused {
-        Refused::Broken(broken) => Refused::Broken(Broken {
-            pointer: placed(&broken.pointer),
-            ..broken
+        Refused::Parse(error) => Refused::Parse(ParseError {
+            pointer: placed(&error.pointer),
+            ..error
         }),
         Refused::Faults(faults) => Refused::Faults(
             faults

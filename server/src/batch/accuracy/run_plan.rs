@@ -5,7 +5,7 @@ use api::spec::{Accuracy, CycleJump, Overrides, Spec};
 use serde::{Deserialize, Serialize};
 
 use crate::batch::accuracy::grid::{Base, Grid, Settings};
-use crate::estimate::machine;
+use crate::estimate::{Estimate, machine};
 use crate::spec;
 use crate::spec::{Refused, Resolved};
 
@@ -19,7 +19,7 @@ const EXPECTED_SHARE: f64 = 0.7;
 const TOLERANCE: f64 = 0.02;
 
 /// Whether a run may be made where it is to be made.
-pub type Accept<'a> = dyn Fn(&Resolved) -> Result<(), Refused> + 'a;
+pub type Accept<'a> = dyn Fn(&Estimate) -> Result<(), Refused> + 'a;
 
 /// Why there are no runs.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -94,6 +94,8 @@ pub struct Wanted {
     pub asked: Asked,
     /// Its specification.
     pub resolved: Resolved,
+    /// Its estimate.
+    pub estimate: Estimate,
     /// Processor seconds that it is expected to take.
     pub expected_s: f64,
 }
@@ -121,12 +123,14 @@ impl RunPlan {
         accept: &Accept<'_>,
     ) -> Result<Self, RunPlanError> {
         let want = |asked: Asked| -> Result<Wanted, Refused> {
-            let resolved = spec::scene(&child(&scene.spec, asked)).map_err(Refused::Faults)?;
-            accept(&resolved)?;
-            let expected_s = machine::cpu_s(machine, &resolved.workload);
+            let resolved = spec::resolve(&child(&scene.spec, asked)).map_err(Refused::Faults)?;
+            let estimate = Estimate::of(&resolved);
+            accept(&estimate)?;
+            let expected_s = machine::cpu_s(machine, &estimate.workload);
             Ok(Wanted {
                 asked,
                 resolved,
+                estimate,
                 expected_s,
             })
         };
@@ -137,7 +141,12 @@ impl RunPlan {
             chosen.weigh(asked, want(asked), most_s);
         }
         let most_s = EXPECTED_SHARE * budget_s;
-        let base = Base::of(scene, machine::cpu_s(machine, &scene.workload));
+        let estimate = Estimate::of(scene);
+        let base = Base::of(
+            scene,
+            &estimate,
+            machine::cpu_s(machine, &estimate.workload),
+        );
         let pilot = base.pilot();
         let factor = want(Asked::Fixed(pilot))
             .map_or(1.0, |pilot_run| pilot_run.expected_s / base.cost_s(pilot));
@@ -279,8 +288,8 @@ mod tests {
     fn the_finest_run_of_a_grid_is_one_that_is_accepted() {
         let text = br#"{"system":{"kind":"cylinder_on_flat"},"cycles":300}"#;
         let scene = spec::read(text).expect("accepted");
-        let most = 1.5 * scene.footprint.dofs;
-        let accept = |run: &Resolved| {
+        let most = 1.5 * Estimate::of(&scene).footprint.dofs;
+        let accept = |run: &Estimate| {
             let fault = || Fault::new("/accuracy", format!("{} unknowns", run.footprint.dofs));
             let small = run.footprint.dofs <= most;
             small
@@ -294,7 +303,7 @@ mod tests {
             programme
                 .runs
                 .iter()
-                .all(|run| run.resolved.footprint.dofs <= most)
+                .all(|run| run.estimate.footprint.dofs <= most)
         );
         let told = |line: &String| line.starts_with("tolerance") && line.ends_with("unknowns");
         assert!(

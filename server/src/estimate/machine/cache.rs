@@ -1,4 +1,4 @@
-//! The figures in a file, so that a machine is measured once for each program.
+//! Calibration cache in memory and in a file: a machine is measured once for each build of the program.
 
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, OnceLock};
@@ -10,83 +10,84 @@ use tokio::sync::Mutex;
 use crate::estimate::machine::MachineError;
 use crate::export::files;
 
-/// How long a machine that could not be measured is left alone.
-const PAUSE: Duration = Duration::from_mins(1);
+/// Wait after a failed measurement before the next one.
+const RETRY_AFTER: Duration = Duration::from_mins(1);
 
-/// The figures of a machine, in memory and in a file.
+/// The calibration of this machine, in memory and in a file.
 #[derive(Debug, Clone)]
 pub struct CalibrationCache {
     file: Option<PathBuf>,
-    known: Arc<OnceLock<MachineFigures>>,
-    /// Held while the machine is measured, so that it is measured once; and when that last failed.
+    cached: Arc<OnceLock<MachineFigures>>,
+    /// Locked during a measurement, so that there is only one; holds the time of the last failure.
     measuring: Arc<Mutex<Option<Instant>>>,
     measure: fn() -> Result<MachineFigures, MachineError>,
 }
 
 impl CalibrationCache {
-    /// With what the file holds, if that belongs to this program.
+    /// Opens the cache; a file of another build of the program is ignored.
     pub fn open(file: Option<PathBuf>) -> Self {
-        let known = OnceLock::new();
+        let cached = OnceLock::new();
         let read = file.as_deref().and_then(read);
         if let Some(figures) = read.filter(|figures| figures.program == program()) {
-            // A new cell is empty.
-            let _ = known.set(figures);
+            // The new cell is empty: this succeeds.
+            let _ = cached.set(figures);
         }
         Self {
             file,
-            known: Arc::new(known),
+            cached: Arc::new(cached),
             measuring: Arc::default(),
             measure: crate::estimate::machine::measure,
         }
     }
 
-    /// With figures that are known, and no file.
+    /// A cache of given figures, without a file.
     pub fn of(figures: MachineFigures) -> Self {
         Self {
             file: None,
-            known: Arc::new(OnceLock::from(figures)),
+            cached: Arc::new(OnceLock::from(figures)),
             measuring: Arc::default(),
             measure: crate::estimate::machine::measure,
         }
     }
 
     /// The figures, if the machine has been measured.
-    pub fn known(&self) -> Option<&MachineFigures> {
-        self.known.get()
+    pub fn get(&self) -> Option<&MachineFigures> {
+        self.cached.get()
     }
 
-    /// The figures, measured now if they are not known, which takes a second or two of this thread; nothing if that
-    /// fails, which is logged.
-    pub fn measured(&self) -> Option<&MachineFigures> {
-        if self.known.get().is_none() {
+    /// The figures; measures the machine if necessary, which blocks for a second or two. A failure is logged and returns
+    /// nothing.
+    pub fn get_or_measure(&self) -> Option<&MachineFigures> {
+        if self.cached.get().is_none() {
             match (self.measure)() {
                 Ok(figures) => {
                     if let Some(file) = &self.file {
                         write(file, &figures);
                     }
-                    // Another thread's figures are as good.
-                    let _ = self.known.set(figures);
+                    // Figures of another thread are equally valid.
+                    let _ = self.cached.set(figures);
                 }
-                Err(error) => tracing::warn!(%error, "the machine was not measured"),
+                Err(error) => tracing::warn!(%error, "calibration of the machine failed"),
             }
         }
-        self.known.get()
+        self.cached.get()
     }
 
-    /// The same beside other tasks: whoever asks meanwhile waits, and a failure holds for a minute.
-    pub async fn wait(&self) -> Option<MachineFigures> {
-        if let Some(known) = self.known() {
-            return Some(known.clone());
+    /// The same without blocking other tasks: concurrent callers share one measurement, and a failure is repeated for a
+    /// minute.
+    pub async fn get_or_measure_async(&self) -> Option<MachineFigures> {
+        if let Some(cached) = self.get() {
+            return Some(cached.clone());
         }
-        // Whoever asked may leave; the lock stays with the measurement.
+        // The caller may be cancelled; the lock moves into the measurement.
         let mut failed = Arc::clone(&self.measuring).lock_owned().await;
-        let kept = self.clone();
+        let cache = self.clone();
         let measured = tokio::task::spawn_blocking(move || {
-            let lately = failed.is_some_and(|at| at.elapsed() < PAUSE);
-            if lately && kept.known().is_none() {
+            let too_early = failed.is_some_and(|at| at.elapsed() < RETRY_AFTER);
+            if too_early && cache.get().is_none() {
                 return None;
             }
-            let measured = kept.measured().cloned();
+            let measured = cache.get_or_measure().cloned();
             *failed = measured.is_none().then(Instant::now);
             measured
         });
@@ -94,7 +95,7 @@ impl CalibrationCache {
     }
 }
 
-/// Where the command line keeps them: in the user's folder for what can be made again.
+/// The file of the command line, in the user's cache folder.
 pub fn cache_file() -> Option<PathBuf> {
     let set = |name: &str| std::env::var_os(name).filter(|value| !value.is_empty());
     let folder = set("XDG_CACHE_HOME")
@@ -103,7 +104,7 @@ pub fn cache_file() -> Option<PathBuf> {
     Some(folder.join("fretwear").join("machine.json"))
 }
 
-/// This program: its version and when it was built.
+/// Identifies this build of the program: version and build time.
 pub(crate) fn program() -> String {
     let built = || {
         let program = std::env::current_exe().ok()?;
@@ -122,7 +123,7 @@ fn read(file: &Path) -> Option<MachineFigures> {
     crate::estimate::machine::checked(serde_json::from_slice(&std::fs::read(file).ok()?).ok()?).ok()
 }
 
-/// Figures that cannot be kept are measured again next time.
+/// Writes the figures; if that fails, the next process measures again.
 fn write(file: &Path, figures: &MachineFigures) {
     let (Some(folder), Some(name)) = (file.parent(), file.file_name()) else {
         return;
@@ -131,7 +132,7 @@ fn write(file: &Path, figures: &MachineFigures) {
         return;
     };
     if let Err(error) = files::keep(folder, &name.to_string_lossy(), &bytes) {
-        tracing::debug!(%error, "the machine's figures were not kept");
+        tracing::debug!(%error, "the calibration was not written to its file");
     }
 }
 
@@ -152,51 +153,57 @@ mod tests {
     }
 
     #[tokio::test]
-    async fn callers_who_leave_start_no_second_measurement() {
+    async fn cancelled_callers_start_no_second_measurement() {
         static MEASURED: AtomicU32 = AtomicU32::new(0);
         fn slowly() -> Result<MachineFigures, MachineError> {
             MEASURED.fetch_add(1, Ordering::SeqCst);
             std::thread::sleep(Duration::from_millis(100));
             crate::estimate::machine::checked(figures())
         }
-        let kept = CalibrationCache {
+        let cache = CalibrationCache {
             measure: slowly,
             ..CalibrationCache::open(None)
         };
         for _ in 0..3 {
-            // Asks, and leaves at once.
+            // Cancelled at once.
             tokio::select! {
                 biased;
-                _ = kept.wait() => {}
+                _ = cache.get_or_measure_async() => {}
                 () = std::future::ready(()) => {}
             }
         }
-        assert_eq!(kept.wait().await, Some(figures()));
+        assert_eq!(cache.get_or_measure_async().await, Some(figures()));
         assert_eq!(MEASURED.load(Ordering::SeqCst), 1);
     }
 
     #[tokio::test]
-    async fn a_machine_that_could_not_be_measured_is_left_alone_for_a_while() {
+    async fn a_failed_measurement_is_not_repeated_at_once() {
         static TRIED: AtomicU32 = AtomicU32::new(0);
-        fn in_vain() -> Result<MachineFigures, MachineError> {
+        fn failing() -> Result<MachineFigures, MachineError> {
             TRIED.fetch_add(1, Ordering::SeqCst);
             Err(MachineError::Example("preset"))
         }
-        let kept = CalibrationCache {
-            measure: in_vain,
+        let cache = CalibrationCache {
+            measure: failing,
             ..CalibrationCache::open(None)
         };
-        assert_eq!((kept.wait().await, kept.wait().await), (None, None));
+        assert_eq!(
+            (
+                cache.get_or_measure_async().await,
+                cache.get_or_measure_async().await
+            ),
+            (None, None)
+        );
         assert_eq!(TRIED.load(Ordering::SeqCst), 1);
     }
 
     #[test]
-    fn kept_figures_that_no_machine_has_are_not_taken() {
+    fn impossible_figures_in_the_file_are_ignored() {
         let folder = tempfile::tempdir().expect("a folder can be made");
         let file = folder.path().join("machine.json");
         write(&file, &figures());
         assert_eq!(
-            CalibrationCache::open(Some(file.clone())).known(),
+            CalibrationCache::open(Some(file.clone())).get(),
             Some(&figures())
         );
         let wrong = MachineFigures {
@@ -204,19 +211,19 @@ mod tests {
             ..figures()
         };
         write(&file, &wrong);
-        assert_eq!(CalibrationCache::open(Some(file)).known(), None);
+        assert_eq!(CalibrationCache::open(Some(file)).get(), None);
     }
 
     #[test]
-    fn a_machine_is_measured_once_for_each_program() {
+    fn a_machine_is_measured_once_for_each_build() {
         let folder = tempfile::tempdir().expect("a folder can be made");
         let file = folder.path().join("cache").join("machine.json");
         let first = CalibrationCache::open(Some(file.clone()));
-        assert_eq!(first.known(), None);
-        let figures = first.measured().expect("it can be measured").clone();
+        assert_eq!(first.get(), None);
+        let figures = first.get_or_measure().expect("it can be measured").clone();
         assert!(figures.increment_s > 0.0 && figures.condensation_dof_s >= 0.0);
         assert_eq!(
-            CalibrationCache::open(Some(file.clone())).known(),
+            CalibrationCache::open(Some(file.clone())).get(),
             Some(&figures)
         );
 
@@ -225,6 +232,6 @@ mod tests {
             ..figures
         };
         write(&file, &other);
-        assert_eq!(CalibrationCache::open(Some(file)).known(), None);
+        assert_eq!(CalibrationCache::open(Some(file)).get(), None);
     }
 }

@@ -1,33 +1,34 @@
-//! The measurement: small solves of a contact that runs over its block, of one that stays, and of one that climbs
-//! the ends of its groove, on coarse and fine meshes; a power law through the times of their increments, and two parts of their
-//! condensations.
+//! The measurement: small solves in gross reciprocating sliding, in a contact that stays in its scar, and in one that
+//! climbs the ends of its groove, on coarse and fine meshes. A power law is fitted to the times of their increments, and
+//! the coefficients of two terms to the times of their condensations.
 
 use std::ops::ControlFlow;
 
 use api::plan::MachineFigures;
 use solver::observer::{Event, Observer, Phase};
 
-use crate::estimate::machine::{MachineError, NODES, checked, parts};
+use crate::estimate::Estimate;
+use crate::estimate::machine::{MachineError, NODES, checked, condensation_terms};
 use crate::estimate::workload::Workload;
 use crate::solve::thread_cpu_s;
 use crate::spec;
 
 const MCCOLL: &str = include_str!("../../../examples/mccoll.json");
 
-/// Powers of the watched nodes that are believed: from gathering a column each to factoring a dense matrix.
+/// Plausible powers of the number of candidate nodes: from a column per node to the factorization of a dense matrix.
 const POWERS: (f64, f64) = (1.0, 3.0);
 
-/// One small solve.
+/// Measurement of one small solve.
 struct Sample {
     workload: Workload,
     increment_s: f64,
     condensation_s: f64,
 }
 
-/// Measures this machine; `program` says what is measured.
+/// Measures this machine; `program` identifies the measured build.
 ///
 /// # Errors
-/// [`MachineError`] if a small solve fails, or figures come out that no machine has.
+/// [`MachineError`] if a solve fails or a coefficient is impossible.
 pub(crate) fn calibrate(program: String) -> Result<MachineFigures, MachineError> {
     let samples: Result<Vec<Sample>, MachineError> = specifications()?
         .iter()
@@ -35,7 +36,7 @@ pub(crate) fn calibrate(program: String) -> Result<MachineFigures, MachineError>
         .collect();
     let samples = samples?;
     let (increment_s, increment_power) = power_law(&samples);
-    let [condensation_dof_s, condensation_surface_s] = two_parts(&samples);
+    let [condensation_dof_s, condensation_surface_s] = two_terms(&samples);
     checked(MachineFigures {
         program,
         increment_s,
@@ -72,7 +73,7 @@ fn measure(specification: &str) -> Result<Sample, MachineError> {
     clock.enter(None);
     let increments = u32::try_from(summary.resolution.increments.max(1)).unwrap_or(u32::MAX);
     Ok(Sample {
-        workload: resolved.workload,
+        workload: Estimate::of(&resolved).workload,
         increment_s: clock.increments_s / f64::from(increments),
         condensation_s: clock.condensation_s,
     })
@@ -108,34 +109,37 @@ impl Observer for PhaseClock {
     }
 }
 
-/// Time of an increment that watches `NODES` nodes, and its power: least squares of the logarithms.
+/// Time of an increment with `NODES` candidate nodes, and its power: least squares of the logarithms.
 fn power_law(samples: &[Sample]) -> (f64, f64) {
     let points: Vec<[f64; 2]> = samples
         .iter()
         .map(|sample| {
             let squares = sample.workload.increments.iter();
-            let squares: f64 = squares.map(|(watched, many)| many * watched.powi(2)).sum();
-            let watched = (squares / sample.workload.increments()).sqrt();
-            [(watched / NODES).ln(), sample.increment_s.ln()]
+            let squares: f64 = squares.map(|(nodes, count)| count * nodes.powi(2)).sum();
+            let candidates = (squares / sample.workload.increments()).sqrt();
+            [(candidates / NODES).ln(), sample.increment_s.ln()]
         })
         .collect();
-    let mean =
+    let average =
         |k: usize| points.iter().map(|point| point[k]).sum::<f64>() / f64::from(count(&points));
-    let middle = [mean(0), mean(1)];
+    let mean = [average(0), average(1)];
     let (mut product, mut square) = (0.0, 0.0);
     for point in &points {
-        product += (point[0] - middle[0]) * (point[1] - middle[1]);
-        square += (point[0] - middle[0]).powi(2);
+        product += (point[0] - mean[0]) * (point[1] - mean[1]);
+        square += (point[0] - mean[0]).powi(2);
     }
     let power = (product / square.max(f64::MIN_POSITIVE)).clamp(POWERS.0, POWERS.1);
-    ((middle[1] - power * middle[0]).exp(), power)
+    ((mean[1] - power * mean[0]).exp(), power)
 }
 
-/// Seconds of a condensation for each of its `parts`: least squares of the relative errors, neither part negative.
-fn two_parts(samples: &[Sample]) -> [f64; 2] {
+/// Coefficients of `condensation_terms`: least squares of the relative errors, neither coefficient negative.
+fn two_terms(samples: &[Sample]) -> [f64; 2] {
     let (mut a, mut b) = ([[0.0; 2]; 2], [0.0; 2]);
     for sample in samples {
-        let bodies = sample.workload.condensations.map(|body| parts(&body));
+        let bodies = sample
+            .workload
+            .condensations
+            .map(|body| condensation_terms(&body));
         let row = [0, 1].map(|k| (bodies[0][k] + bodies[1][k]) / sample.condensation_s);
         for i in 0..2 {
             b[i] += row[i];
@@ -167,18 +171,18 @@ mod tests {
     use super::*;
     use crate::estimate::workload::Condensations;
 
-    fn sample(watched: f64, increment_s: f64, dofs: f64, surface_nodes: f64) -> Sample {
+    fn sample(candidates: f64, increment_s: f64, dofs: f64, surface_nodes: f64) -> Sample {
         let body = Condensations {
             count: 1.0,
             dofs,
             surface_nodes,
         };
-        let [small, large] = parts(&body);
+        let [small, large] = condensation_terms(&body);
         Sample {
             workload: Workload {
                 computed_cycles: 1.0,
                 most_increments: 1,
-                increments: vec![(watched, 7.0)],
+                increments: vec![(candidates, 7.0)],
                 condensations: [body, Condensations { count: 0.0, ..body }],
             },
             increment_s,
@@ -187,8 +191,8 @@ mod tests {
     }
 
     #[test]
-    fn laws_are_found_again_in_what_follows_them() {
-        let at = |watched: f64| 2e-4 * (watched / NODES).powf(1.7);
+    fn fits_recover_the_laws_of_exact_samples() {
+        let at = |candidates: f64| 2e-4 * (candidates / NODES).powf(1.7);
         let samples = [
             sample(20.0, at(20.0), 1e4, 100.0),
             sample(50.0, at(50.0), 3e4, 900.0),
@@ -196,7 +200,7 @@ mod tests {
         ];
         let (seconds, power) = power_law(&samples);
         assert!((seconds - 2e-4).abs() < 1e-12 && (power - 1.7).abs() < 1e-9);
-        let [small, large] = two_parts(&samples);
+        let [small, large] = two_terms(&samples);
         assert!((small / 3e-7 - 1.0).abs() < 1e-6, "{small}");
         assert!((large / 5e-10 - 1.0).abs() < 1e-6, "{large}");
     }

@@ -14,7 +14,6 @@ use uuid::Uuid;
 use crate::batch::accuracy;
 use crate::batch::accuracy::{BUDGET_S, RunPlan, RunPlanError};
 use crate::clock::now_ms;
-use crate::estimate::machine;
 use crate::http::App;
 use crate::http::body_problems::BodyProblems;
 use crate::http::extract::JsonBody;
@@ -108,7 +107,7 @@ pub(in crate::http) async fn submit_study(
             None => {}
         }
     }
-    let machine = app.machine.wait().await;
+    let machine = app.machine.get_or_measure_async().await;
     let machine = machine.ok_or(SubmitStudyError::Unmeasured)?;
     let turn = Arc::clone(&app.programmes).acquire_owned().await;
     let choose = {
@@ -125,7 +124,7 @@ pub(in crate::http) async fn submit_study(
         let overrides = serde_json::to_value(run.asked.accuracy());
         let changes = overrides.map(|accuracy| [("/accuracy".to_owned(), accuracy)].into());
         let job = NewJob {
-            plan: machine::plan(&run.resolved, Some(&machine)),
+            plan: run.estimate.plan(&run.resolved, Some(&machine)),
             spec: run.resolved.spec,
             wishes: SubmitOptions {
                 priority: queue::sweep_priority(position),
@@ -151,7 +150,7 @@ pub(in crate::http) async fn submit_study(
     queued(&app, id).await
 }
 
-/// The scene and the runs: up to some forty meshes and forecasts, which take seconds.
+/// The scene and the runs: up to some forty forecasts, which can take a second together.
 fn choose(
     request: &StudyRequest,
     machine: &MachineFigures,
@@ -214,7 +213,7 @@ mod tests {
     #[tokio::test]
     async fn a_budget_that_not_even_one_run_fits_into_is_refused() {
         let mut service = Service::new().await;
-        let known = service.app.machine.known().expect("figures").clone();
+        let known = service.app.machine.get().expect("figures").clone();
         service.app.machine = CalibrationCache::of(MachineFigures {
             increment_s: 1e3,
             ..known

@@ -8,7 +8,6 @@ use axum::response::{IntoResponse, Response};
 
 use crate::batch::sweep;
 use crate::clock::now_ms;
-use crate::estimate::machine;
 use crate::http::App;
 use crate::http::body_problems::BodyProblems;
 use crate::http::extract::JsonBody;
@@ -80,13 +79,15 @@ pub(in crate::http) async fn submit_sweep(
     let name = request.name.clone();
     let variations = tokio::task::spawn_blocking(move || sweep::expand(&request)).await??;
     for variation in &variations {
-        limits::check(&variation.resolved)?;
+        limits::check(&variation.estimate)?;
     }
     let jobs = variations
         .into_iter()
         .enumerate()
         .map(|(position, variation)| {
-            let plan = machine::plan(&variation.resolved, app.machine.known());
+            let plan = variation
+                .estimate
+                .plan(&variation.resolved, app.machine.get());
             let spec = variation.resolved.spec;
             let wishes = SubmitOptions {
                 priority: queue::sweep_priority(position),

@@ -5,7 +5,6 @@ use api::spec::Spec;
 use axum::Json;
 use axum::extract::State;
 
-use crate::estimate::machine;
 use crate::http::App;
 use crate::http::body_problems::BodyProblems;
 use crate::http::extract::JsonBody;
@@ -27,9 +26,9 @@ pub(in crate::http) async fn make_plan(
     State(app): State<App>,
     JsonBody(body): JsonBody,
 ) -> Result<Json<PlanDocument>, SubmitError> {
-    let resolved = resolved(body).await?;
-    let machine = app.machine.wait().await;
-    let plan = machine::plan(&resolved, machine.as_ref());
+    let (resolved, estimate) = resolved(body).await?;
+    let machine = app.machine.get_or_measure_async().await;
+    let plan = estimate.plan(&resolved, machine.as_ref());
     Ok(Json(PlanDocument {
         spec: resolved.spec,
         plan,

@@ -13,7 +13,7 @@ use serde::Deserialize;
 use utoipa::IntoParams;
 
 use crate::clock::now_ms;
-use crate::estimate::machine;
+use crate::estimate::Estimate;
 use crate::http::App;
 use crate::http::body_problems::BodyProblems;
 use crate::http::extract::{JsonBody, Params};
@@ -67,10 +67,10 @@ impl IntoResponse for SubmitError {
 /// A refused document as a problem.
 fn refusal(refused: Refused) -> Refusal {
     match refused {
-        Refused::Broken(broken) => {
-            let fault = Fault::new(broken.pointer.clone(), broken.detail.clone());
+        Refused::Parse(error) => {
+            let fault = Fault::new(error.pointer.clone(), error.detail.clone());
             Kind::Unreadable
-                .because(broken.to_string())
+                .because(error.to_string())
                 .with_faults(vec![fault])
         }
         Refused::Faults(faults) => Kind::InvalidSpecification
@@ -79,9 +79,14 @@ fn refusal(refused: Refused) -> Refusal {
     }
 }
 
-/// Resolves a specification. A large mesh takes a while to make, in which other requests are answered.
-pub(in crate::http) async fn resolved(body: Bytes) -> Result<Resolved, SubmitError> {
-    Ok(tokio::task::spawn_blocking(move || spec::read(&body)).await??)
+/// Resolves a specification and estimates its solve, without blocking other requests.
+pub(in crate::http) async fn resolved(body: Bytes) -> Result<(Resolved, Estimate), SubmitError> {
+    let resolve = move || {
+        let resolved = spec::read(&body)?;
+        let estimate = Estimate::of(&resolved);
+        Ok((resolved, estimate))
+    };
+    tokio::task::spawn_blocking(resolve).await?
 }
 
 /// How to submit.
@@ -141,10 +146,10 @@ pub(in crate::http) async fn submit(
 ) -> Result<Response, SubmitError> {
     let wishes = query.wishes()?;
     let key = request_key(&headers, &body)?;
-    let resolved = resolved(body).await?;
-    limits::check(&resolved)?;
-    let machine = app.machine.known();
-    let plan = machine::plan(&resolved, machine);
+    let (resolved, estimate) = resolved(body).await?;
+    limits::check(&estimate)?;
+    let machine = app.machine.get();
+    let plan = estimate.plan(&resolved, machine);
     let Resolved { spec, .. } = resolved;
     if query.validate_only {
         let machine = machine.cloned();

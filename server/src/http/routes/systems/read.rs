@@ -81,23 +81,13 @@ fn document(kind: SystemKind) -> Result<SystemDocument, SystemError> {
         system: System::of_kind(kind),
         ..Spec::default()
     };
-    let resolved = spec::scene(&spec).map_err(|_| SystemError::Preset(kind.as_str()))?;
+    let resolved = spec::resolve(&spec).map_err(|_| SystemError::Preset(kind.as_str()))?;
     Ok(SystemDocument {
         kind,
-        description: description(kind).to_owned(),
+        description: spec::system_description(kind).to_owned(),
         preset: resolved.spec,
         schema: schema::of(kind),
     })
-}
-
-fn description(kind: SystemKind) -> &'static str {
-    match kind {
-        SystemKind::FuzzButton => "a wire's lower half on a circuit board's block",
-        SystemKind::SdCard => "a rounded spring contact on a memory card's flat pad",
-        SystemKind::Dimm => "a semicircular socket contact on a memory module's pad",
-        SystemKind::Zif => "a sprung socket contact on the pin of an integrated circuit",
-        SystemKind::CylinderOnFlat => "a cylinder on a block, the bench geometry of the literature",
-    }
 }
 
 #[cfg(test)]

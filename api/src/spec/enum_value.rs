@@ -1,26 +1,26 @@
-//! A name out of a closed list, where an unknown name is kept so that it can be reported with all other faults.
+//! String enums that also accept an unknown name, which is then reported with all other faults.
 
 use serde::de::value::{Error as ValueError, StrDeserializer};
 use serde::de::{DeserializeOwned, IntoDeserializer};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
-/// A closed list of names.
-pub trait Named: Sized + Copy + 'static {
-    /// Every member with its name.
+/// An enum whose members have names.
+pub trait StringEnum: Sized + Copy + 'static {
+    /// Names of all members.
     const NAMES: &'static [&'static str];
 }
 
-/// A member of the list `T`, or a text that names none.
+/// A member of the enum `T`, or an unknown name.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub enum Choice<T> {
+pub enum EnumValue<T> {
     /// A member.
     Known(T),
-    /// Not a member; refused later, together with all other faults.
+    /// An unknown name; refused later, together with all other faults.
     Unknown(String),
 }
 
-impl<T: Copy> Choice<T> {
-    /// The member, if it is one.
+impl<T: Copy> EnumValue<T> {
+    /// Returns the member, if the name is known.
     pub fn known(&self) -> Option<T> {
         match self {
             Self::Known(member) => Some(*member),
@@ -29,13 +29,13 @@ impl<T: Copy> Choice<T> {
     }
 }
 
-impl<T> From<T> for Choice<T> {
+impl<T> From<T> for EnumValue<T> {
     fn from(member: T) -> Self {
         Self::Known(member)
     }
 }
 
-impl<T: Serialize> Serialize for Choice<T> {
+impl<T: Serialize> Serialize for EnumValue<T> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         match self {
             Self::Known(member) => member.serialize(serializer),
@@ -44,7 +44,7 @@ impl<T: Serialize> Serialize for Choice<T> {
     }
 }
 
-impl<'de, T: DeserializeOwned> Deserialize<'de> for Choice<T> {
+impl<'de, T: DeserializeOwned> Deserialize<'de> for EnumValue<T> {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         let text = String::deserialize(deserializer)?;
         let member: StrDeserializer<'_, ValueError> = text.as_str().into_deserializer();
@@ -55,8 +55,8 @@ impl<'de, T: DeserializeOwned> Deserialize<'de> for Choice<T> {
     }
 }
 
-/// Declares a closed list of names: the enum, its serde names, its schema and [`Named`].
-macro_rules! named {
+/// Declares a string enum: its members, serde names, schema and [`StringEnum`].
+macro_rules! string_enum {
     ($(#[doc = $doc:literal])* $name:ident { $($(#[$inner:meta])* $member:ident = $text:literal),+ $(,)? }) => {
         $(#[doc = $doc])*
         #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
@@ -64,7 +64,7 @@ macro_rules! named {
             $($(#[$inner])* #[serde(rename = $text)] $member),+
         }
 
-        impl crate::spec::Named for $name {
+        impl crate::spec::StringEnum for $name {
             const NAMES: &'static [&'static str] = &[$($text),+];
         }
 
@@ -86,10 +86,10 @@ macro_rules! named {
         }
 
         impl $name {
-            /// Every member.
+            /// All members.
             pub const ALL: &'static [Self] = &[$(Self::$member),+];
 
-            /// The member as it is written.
+            /// Name of the member in JSON.
             pub fn as_str(self) -> &'static str {
                 match self {
                     $(Self::$member => $text),+
@@ -99,4 +99,4 @@ macro_rules! named {
     };
 }
 
-pub(crate) use named;
+pub(crate) use string_enum;

@@ -1,0 +1,31 @@
+//! A default value with its provenance.
+
+use api::spec::Provenance;
+
+/// A value with its provenance.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Sourced<T> {
+    /// The value.
+    pub(crate) value: T,
+    /// Its provenance.
+    pub(crate) provenance: Provenance,
+}
+
+/// A value that the source states.
+pub(crate) const fn source<T>(value: T) -> Sourced<T> {
+    sourced(value, Provenance::Source)
+}
+
+/// A value that is typical according to the literature.
+pub(crate) const fn typical<T>(value: T) -> Sourced<T> {
+    sourced(value, Provenance::Typical)
+}
+
+/// An assumed value.
+pub(crate) const fn assumed<T>(value: T) -> Sourced<T> {
+    sourced(value, Provenance::Assumed)
+}
+
+const fn sourced<T>(value: T, provenance: Provenance) -> Sourced<T> {
+    Sourced { value, provenance }
+}

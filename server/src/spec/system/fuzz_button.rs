@@ -1,0 +1,54 @@
+//! Fuzz button: the lower half of a wire, cut at its axis, on a block of circuit board.
+//!
+//! ```text
+//!   +---------+  top face at the axis
+//!    \  wire /
+//!  ___`-...-'___
+//!  |   pcb     |
+//! ```
+
+use api::spec::{Drive, Load, LoadKind, System, Waveform};
+
+use crate::spec::sourced::{assumed, source};
+use crate::spec::system::preset::{Preset, archard, load};
+use crate::spec::system::shapes::{Shapes, flat, half_round, length};
+use crate::spec::system::{SystemDefinition, dimension};
+
+pub(super) const DEFINITION: SystemDefinition = SystemDefinition {
+    description: "a wire's lower half on a circuit board's block",
+    dimensions: &[
+        dimension!(wire_diameter_mm, |_| 0.0508, Source),
+        dimension!(pcb_length_mm, |_| 0.084_67, Source),
+        dimension!(pcb_height_mm, |_| 0.0635, Assumed),
+    ],
+    shapes,
+    check: |_, _| {},
+    preset,
+};
+
+fn shapes(system: &System) -> Shapes {
+    Shapes {
+        slider: half_round(0.5 * length(system.wire_diameter_mm)),
+        block: flat(system.pcb_length_mm, system.pcb_height_mm),
+    }
+}
+
+fn preset() -> Preset {
+    Preset {
+        slider: source("copper"),
+        receptacle: source("copper"),
+        friction: source(1.21),
+        slider_wear: source(None),
+        receptacle_wear: source(Some(archard(0.011, 427.0))),
+        load: source(Load {
+            mpa: Some(10.0),
+            ..load(LoadKind::Pressure)
+        }),
+        waveform: source(Waveform::Sine),
+        amplitude_mm: source(0.033_868),
+        period_s: source(16.0),
+        // The source moves every slider node; a rigid handle is the physical drive.
+        drive: assumed(Drive::SliderTop),
+        cycles: source(2000),
+    }
+}

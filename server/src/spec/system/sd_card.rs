@@ -1,0 +1,34 @@
+//! SD card: the rounded tip of a formed spring on a card's flat pad. The bend continues into the legs of the spring
+//! at three quarters of its radius; the legs are not modelled.
+//!
+//! ```text
+//!    |  tip  |
+//!     \     /
+//!  ____`-.-'____
+//!  |    pad    |
+//! ```
+
+use api::spec::System;
+
+use crate::spec::system::preset::plated;
+use crate::spec::system::shapes::{Shapes, flat, length, tip};
+use crate::spec::system::{SystemDefinition, dimension};
+
+pub(super) const DEFINITION: SystemDefinition = SystemDefinition {
+    description: "a rounded spring contact on a memory card's flat pad",
+    dimensions: &[
+        dimension!(contact_radius_mm, |_| 0.4, Assumed),
+        dimension!(pad_length_mm, |_| 2.0, Assumed),
+        dimension!(pad_height_mm, |_| 0.3, Assumed),
+    ],
+    shapes,
+    check: |_, _| {},
+    preset: || plated("becu", 0.5, 0.8),
+};
+
+fn shapes(system: &System) -> Shapes {
+    Shapes {
+        slider: tip(length(system.contact_radius_mm)),
+        block: flat(system.pad_length_mm, system.pad_height_mm),
+    }
+}

@@ -1,0 +1,38 @@
+//! ZIF socket: the rounded tip of a socket's spring on a pin, flat (stamped) or round.
+//!
+//! ```text
+//!    |  tip  |              |  tip  |
+//!     \     /                \     /
+//!  ____`-.-'____             _.`-.-'._
+//!  |  flat pin |            | round pin |
+//! ```
+
+use api::spec::System;
+use solver::scene::BlockShape;
+
+use crate::spec::system::preset::plated;
+use crate::spec::system::shapes::{Shapes, check_crown, flat, length, tip};
+use crate::spec::system::{SystemDefinition, dimension};
+
+pub(super) const DEFINITION: SystemDefinition = SystemDefinition {
+    description: "a sprung socket contact on the pin of an integrated circuit",
+    dimensions: &[
+        dimension!(contact_radius_mm, |_| 0.25, Assumed),
+        dimension!(pin_length_mm, |_| 1.5, Assumed),
+        dimension!(pin_thickness_mm, |_| 0.46, Typical),
+        dimension!(pin_radius_mm),
+    ],
+    shapes,
+    check: |shapes, diagnostics| check_crown("/system/pin_radius_mm", shapes, diagnostics),
+    preset: || plated("phosphor_bronze", 0.5, 0.46),
+};
+
+fn shapes(system: &System) -> Shapes {
+    Shapes {
+        slider: tip(length(system.contact_radius_mm)),
+        block: BlockShape {
+            crown_radius_mm: system.pin_radius_mm,
+            ..flat(system.pin_length_mm, system.pin_thickness_mm)
+        },
+    }
+}
