@@ -5,6 +5,8 @@ use std::collections::BTreeMap;
 use api::problem::Fault;
 use api::spec::{Choice, Named, Provenance};
 
+pub(crate) use crate::text::shortened;
+
 /// Faults and provenance, by JSON pointer.
 #[derive(Debug, Default)]
 pub(crate) struct Diagnostics {
@@ -149,13 +151,4 @@ fn short(value: f64) -> String {
     } else {
         value.to_string()
     }
-}
-
-/// A user's text short enough for a message.
-pub(crate) fn shortened(text: &str) -> String {
-    const KEPT: usize = 40;
-    if text.chars().count() <= KEPT {
-        return text.to_owned();
-    }
-    text.chars().take(KEPT).chain(['\u{2026}']).collect()
 }

@@ -10,6 +10,7 @@ use axum::response::{IntoResponse, Response};
 use crate::clock::now_ms;
 use crate::http::App;
 use crate::http::extract::StudyId;
+use crate::http::problem::ProblemResponse;
 use crate::http::routes::batches::show_study::{StudyShowError, document};
 
 /// Asks for the end of all jobs of a study.
@@ -27,10 +28,10 @@ use crate::http::routes::batches::show_study::{StudyShowError, document};
 pub(in crate::http) async fn cancel_study(
     State(app): State<App>,
     StudyId(id): StudyId,
-) -> Result<Response, StudyShowError> {
+) -> Result<Response, ProblemResponse> {
     // A sweep that is no study is not cancelled here.
     if !app.store.is_study(id).await? {
-        return Err(StudyShowError::Missing(id));
+        return Err(StudyShowError::Missing(id).into());
     }
     app.store.cancel_sweep(id, now_ms()).await?;
     let study = document(&app, id).await?;

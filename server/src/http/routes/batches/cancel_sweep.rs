@@ -10,6 +10,7 @@ use axum::response::{IntoResponse, Response};
 use crate::clock::now_ms;
 use crate::http::App;
 use crate::http::extract::SweepId;
+use crate::http::problem::ProblemResponse;
 use crate::http::routes::batches::show_sweep::SweepError;
 
 /// Asks for the end of all jobs of a sweep.
@@ -26,9 +27,9 @@ use crate::http::routes::batches::show_sweep::SweepError;
 pub(in crate::http) async fn cancel_sweep(
     State(app): State<App>,
     SweepId(id): SweepId,
-) -> Result<Response, SweepError> {
+) -> Result<Response, ProblemResponse> {
     if !app.store.cancel_sweep(id, now_ms()).await? {
-        return Err(SweepError::Missing(id));
+        return Err(SweepError::Missing(id).into());
     }
     let sweep = app.store.sweep(id).await?.ok_or(SweepError::Missing(id))?;
     Ok((StatusCode::ACCEPTED, Json(sweep)).into_response())

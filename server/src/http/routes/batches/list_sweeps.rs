@@ -4,36 +4,13 @@ use api::problem::Problem;
 use api::sweep::SweepList;
 use axum::Json;
 use axum::extract::State;
-use axum::response::{IntoResponse, Response};
 use serde::Deserialize;
 use utoipa::IntoParams;
 
 use crate::http::App;
 use crate::http::extract::Params;
-use crate::http::paging::{Page, PageError};
-use crate::http::problem::{Kind, Refusal};
-use crate::store::StoreError;
-
-/// Why there is no list.
-#[derive(Debug, thiserror::Error)]
-pub(in crate::http) enum ListSweepsError {
-    /// Not a page of it.
-    #[error(transparent)]
-    Page(#[from] PageError),
-    /// The store failed.
-    #[error(transparent)]
-    Store(#[from] StoreError),
-}
-
-impl IntoResponse for ListSweepsError {
-    fn into_response(self) -> Response {
-        match &self {
-            Self::Page(_) => Kind::InvalidQuery.because(self.to_string()),
-            Self::Store(error) => Refusal::from(error),
-        }
-        .into_response()
-    }
-}
+use crate::http::paging::Page;
+use crate::http::problem::ProblemResponse;
 
 /// Which page.
 #[derive(Debug, Deserialize, IntoParams)]
@@ -61,14 +38,14 @@ pub(in crate::http) struct ListSweepsQuery {
 pub(in crate::http) async fn list_sweeps(
     State(app): State<App>,
     Params(query): Params<ListSweepsQuery>,
-) -> Result<Json<SweepList>, ListSweepsError> {
-    let page = Page::asked(
+) -> Result<Json<SweepList>, ProblemResponse> {
+    let page = Page::parse(
         "sweeps",
         query.limit.as_deref(),
         query.page_token.as_deref(),
     )?;
-    let mut sweeps = app.store.sweeps(page.before, page.wanted()).await?;
-    let next_page_token = page.cut(&mut sweeps, |sweep| sweep.id);
+    let mut sweeps = app.store.sweeps(page.before, page.query_limit()).await?;
+    let next_page_token = page.truncate(&mut sweeps, |sweep| sweep.id);
     Ok(Json(SweepList {
         sweeps,
         next_page_token,

@@ -6,6 +6,7 @@ use axum::http::StatusCode;
 
 use crate::http::App;
 use crate::http::extract::SweepId;
+use crate::http::problem::ProblemResponse;
 use crate::http::routes::batches::show_sweep::SweepError;
 use crate::store::Deleted;
 
@@ -24,11 +25,11 @@ use crate::store::Deleted;
 pub(in crate::http) async fn remove_sweep(
     State(app): State<App>,
     SweepId(id): SweepId,
-) -> Result<StatusCode, SweepError> {
+) -> Result<StatusCode, ProblemResponse> {
     match app.store.delete_sweep(id).await? {
         Deleted::Done => Ok(StatusCode::NO_CONTENT),
-        Deleted::Active => Err(SweepError::Active(id)),
-        Deleted::Missing => Err(SweepError::Missing(id)),
+        Deleted::Active => Err(SweepError::Active(id).into()),
+        Deleted::Missing => Err(SweepError::Missing(id).into()),
     }
 }
 

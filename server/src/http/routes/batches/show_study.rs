@@ -5,15 +5,13 @@ use api::study::{Study, StudyDocument, StudyJob};
 use api::sweep::SweepJob;
 use axum::Json;
 use axum::extract::State;
-use axum::response::{IntoResponse, Response};
 use uuid::Uuid;
 
 use crate::batch::accuracy;
 use crate::batch::accuracy::{Asked, Found, Run, Spent};
-use crate::export::documents::DocumentError;
 use crate::http::App;
 use crate::http::extract::StudyId;
-use crate::http::problem::{Kind, Refusal};
+use crate::http::problem::{ProblemResponse, ProblemType, RouteError};
 use crate::store::{StoreError, StoredStudy, SweepOutcome};
 
 /// Why there is nothing about a study.
@@ -25,30 +23,14 @@ pub(in crate::http) enum StudyShowError {
     /// Nothing can be compared yet.
     #[error("no job of study {0} has a result that others can be compared with so far")]
     Empty(Uuid),
-    /// Its table or picture cannot be written.
-    #[error(transparent)]
-    Write(#[from] DocumentError),
-    /// The comparison was broken off.
-    #[error("the study was not evaluated: {0}")]
-    Evaluate(#[from] tokio::task::JoinError),
-    /// The store failed.
-    #[error(transparent)]
-    Store(#[from] StoreError),
 }
 
-impl IntoResponse for StudyShowError {
-    fn into_response(self) -> Response {
-        match &self {
-            Self::Missing(_) => Kind::NoStudy.because(self.to_string()),
-            Self::Empty(_) => Kind::NoResult.because(self.to_string()),
-            Self::Write(error) => Refusal::internal(error),
-            Self::Evaluate(error) => Refusal::internal(error),
-            Self::Store(error @ StoreError::StudyFormat { .. }) => {
-                Kind::OldStudy.because(error.to_string())
-            }
-            Self::Store(error) => Refusal::from(error),
+impl RouteError for StudyShowError {
+    fn problem_type(&self) -> ProblemType {
+        match self {
+            Self::Missing(_) => ProblemType::NoSuchStudy,
+            Self::Empty(_) => ProblemType::NoSuchResult,
         }
-        .into_response()
     }
 }
 
@@ -67,7 +49,7 @@ impl IntoResponse for StudyShowError {
 pub(in crate::http) async fn show_study(
     State(app): State<App>,
     StudyId(id): StudyId,
-) -> Result<Json<StudyDocument>, StudyShowError> {
+) -> Result<Json<StudyDocument>, ProblemResponse> {
     Ok(Json(document(&app, id).await?))
 }
 
@@ -75,7 +57,7 @@ pub(in crate::http) async fn show_study(
 pub(in crate::http) async fn document(
     app: &App,
     id: Uuid,
-) -> Result<StudyDocument, StudyShowError> {
+) -> Result<StudyDocument, ProblemResponse> {
     let stored = app.store.study(id).await?;
     let stored = stored.ok_or(StudyShowError::Missing(id))?;
     // Profiles of dozens of runs are read, and compared at thousands of places.
@@ -83,12 +65,12 @@ pub(in crate::http) async fn document(
 }
 
 /// What the results of a study come to so far.
-pub(in crate::http) async fn evaluated(app: &App, id: Uuid) -> Result<Study, StudyShowError> {
+pub(in crate::http) async fn evaluated(app: &App, id: Uuid) -> Result<Study, ProblemResponse> {
     let document = document(app, id).await?;
-    document.study.ok_or(StudyShowError::Empty(id))
+    Ok(document.study.ok_or(StudyShowError::Empty(id))?)
 }
 
-fn described(stored: StoredStudy) -> Result<StudyDocument, StudyShowError> {
+fn described(stored: StoredStudy) -> Result<StudyDocument, ProblemResponse> {
     let StoredStudy {
         sweep,
         plan,

@@ -4,14 +4,11 @@ use api::problem::Problem;
 use api::sweep::Sweep;
 use axum::Json;
 use axum::extract::State;
-use axum::response::{IntoResponse, Response};
 use uuid::Uuid;
 
-use crate::export::csv::CsvError;
 use crate::http::App;
 use crate::http::extract::SweepId;
-use crate::http::problem::{Kind, Refusal};
-use crate::store::StoreError;
+use crate::http::problem::{ProblemResponse, ProblemType, RouteError};
 
 /// Why there is nothing about a sweep.
 #[derive(Debug, thiserror::Error)]
@@ -22,23 +19,14 @@ pub(in crate::http) enum SweepError {
     /// A job of it has not ended.
     #[error("sweep {0} has jobs that have not ended; cancel it first")]
     Active(Uuid),
-    /// Its table cannot be written.
-    #[error(transparent)]
-    Csv(#[from] CsvError),
-    /// The store failed.
-    #[error(transparent)]
-    Store(#[from] StoreError),
 }
 
-impl IntoResponse for SweepError {
-    fn into_response(self) -> Response {
-        match &self {
-            Self::Missing(_) => Kind::NoSweep.because(self.to_string()),
-            Self::Active(_) => Kind::SweepActive.because(self.to_string()),
-            Self::Csv(error) => Refusal::internal(error),
-            Self::Store(error) => Refusal::from(error),
+impl RouteError for SweepError {
+    fn problem_type(&self) -> ProblemType {
+        match self {
+            Self::Missing(_) => ProblemType::NoSuchSweep,
+            Self::Active(_) => ProblemType::SweepActive,
         }
-        .into_response()
     }
 }
 
@@ -56,9 +44,9 @@ impl IntoResponse for SweepError {
 pub(in crate::http) async fn show_sweep(
     State(app): State<App>,
     SweepId(id): SweepId,
-) -> Result<Json<Sweep>, SweepError> {
+) -> Result<Json<Sweep>, ProblemResponse> {
     let sweep = app.store.sweep(id).await?;
-    sweep.map(Json).ok_or(SweepError::Missing(id))
+    Ok(Json(sweep.ok_or(SweepError::Missing(id))?))
 }
 
 #[cfg(test)]

@@ -11,7 +11,8 @@ use crate::batch::accuracy::report;
 use crate::export::documents::{PNG, SVG};
 use crate::http::App;
 use crate::http::extract::{Params, StudyId};
-use crate::http::routes::batches::show_study::{StudyShowError, evaluated};
+use crate::http::problem::ProblemResponse;
+use crate::http::routes::batches::show_study::evaluated;
 
 /// How a picture is written.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize, ToSchema)]
@@ -54,7 +55,7 @@ pub(in crate::http) async fn study_picture(
     State(app): State<App>,
     StudyId(id): StudyId,
     Params(query): Params<PictureQuery>,
-) -> Result<Response, StudyShowError> {
+) -> Result<Response, ProblemResponse> {
     let study = evaluated(&app, id).await?;
     // Rasterising takes a tenth of a second.
     let draw = move || match query.format {

@@ -9,8 +9,9 @@ use crate::export::csv;
 use crate::export::documents::{CSV, DocumentError};
 use crate::http::App;
 use crate::http::extract::StudyId;
-use crate::http::routes::batches::show_study::{StudyShowError, evaluated};
-use crate::http::routes::results::download::attachment;
+use crate::http::problem::ProblemResponse;
+use crate::http::routes::batches::show_study::evaluated;
+use crate::http::routes::results::download_file::attachment;
 
 /// The runs of a study so far as CSV: settings, errors, cost.
 #[utoipa::path(
@@ -27,7 +28,7 @@ use crate::http::routes::results::download::attachment;
 pub(in crate::http) async fn study_table(
     State(app): State<App>,
     StudyId(id): StudyId,
-) -> Result<Response, StudyShowError> {
+) -> Result<Response, ProblemResponse> {
     let study = evaluated(&app, id).await?;
     let table = csv::study(&study).map_err(DocumentError::from)?;
     let headers = [

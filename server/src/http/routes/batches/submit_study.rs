@@ -18,42 +18,25 @@ use crate::estimate::machine;
 use crate::http::App;
 use crate::http::body_problems::BodyProblems;
 use crate::http::extract::JsonBody;
+use crate::http::idempotency_key::{KeyError, idempotency_key};
 use crate::http::limits;
-use crate::http::problem::Refusal;
-use crate::http::request_key::{KeyError, request_key};
-use crate::http::routes::batches::show_study::{StudyShowError, document};
-use crate::http::routes::jobs::submit::SubmitError;
+use crate::http::problem::{ProblemResponse, RouteError};
+use crate::http::routes::batches::show_study::document;
 use crate::queue;
 use crate::spec::{Refused, Resolved};
-use crate::store::{NewJob, NewSweep, StoreError, StudyPlan, SubmitOptions, Submitted};
+use crate::store::{NewJob, NewSweep, StudyPlan, SubmitOptions, Submitted};
 
 /// Studies whose runs are chosen at once: each keeps a processor busy for seconds.
 pub(in crate::http) const AT_ONCE: usize = 2;
 
-/// Why a study was not queued.
+/// Error of a machine whose speed could not be measured.
 #[derive(Debug, thiserror::Error)]
-pub(in crate::http) enum SubmitStudyError {
-    /// For a reason that a single job has, too.
-    #[error(transparent)]
-    Submit(#[from] SubmitError),
-    /// What was queued cannot be shown.
-    #[error(transparent)]
-    Show(#[from] StudyShowError),
-    /// The machine could not be measured.
-    #[error("the machine that the runs are chosen for could not be measured")]
-    Unmeasured,
-    /// The choice of its runs was broken off.
-    #[error("the runs were not chosen: {0}")]
-    Choose(#[from] tokio::task::JoinError),
-}
+#[error("the machine that the runs are chosen for could not be measured")]
+struct UnmeasuredError;
 
-impl From<Refused> for SubmitStudyError {
-    fn from(refused: Refused) -> Self {
-        Self::Submit(refused.into())
-    }
-}
+impl RouteError for UnmeasuredError {}
 
-impl From<RunPlanError> for SubmitStudyError {
+impl From<RunPlanError> for ProblemResponse {
     fn from(error: RunPlanError) -> Self {
         Self::from(match error {
             RunPlanError::Refused(refused) => accuracy::request::of_base(refused),
@@ -61,22 +44,6 @@ impl From<RunPlanError> for SubmitStudyError {
                 Refused::Faults(vec![Fault::new("/budget_s", error.to_string())])
             }
         })
-    }
-}
-
-impl From<StoreError> for SubmitStudyError {
-    fn from(error: StoreError) -> Self {
-        Self::Submit(error.into())
-    }
-}
-
-impl IntoResponse for SubmitStudyError {
-    fn into_response(self) -> Response {
-        match self {
-            Self::Submit(error) => error.into_response(),
-            Self::Show(error) => error.into_response(),
-            Self::Unmeasured | Self::Choose(_) => Refusal::internal(&self).into_response(),
-        }
     }
 }
 
@@ -98,19 +65,19 @@ pub(in crate::http) async fn submit_study(
     State(app): State<App>,
     headers: HeaderMap,
     JsonBody(body): JsonBody,
-) -> Result<Response, SubmitStudyError> {
-    let key = request_key(&headers, &body).map_err(SubmitError::from)?;
+) -> Result<Response, ProblemResponse> {
+    let key = idempotency_key(&headers, &body)?;
     let request = accuracy::request::read(&body)?;
     if let Some(key) = &key {
         match app.store.sweep_of(key).await? {
             Some(Submitted::Job(id)) => return queued(&app, id).await,
-            Some(Submitted::KeyTaken) => return Err(SubmitError::from(KeyError::Taken).into()),
+            Some(Submitted::KeyTaken) => return Err(KeyError::Reused.into()),
             None => {}
         }
     }
     let machine = app.machine.wait().await;
-    let machine = machine.ok_or(SubmitStudyError::Unmeasured)?;
-    let turn = Arc::clone(&app.programmes).acquire_owned().await;
+    let machine = machine.ok_or(UnmeasuredError)?;
+    let turn = Arc::clone(&app.run_plan_permits).acquire_owned().await;
     let choose = {
         let (request, machine) = (request.clone(), machine.clone());
         move || {
@@ -136,7 +103,7 @@ pub(in crate::http) async fn submit_study(
     });
     let new = NewSweep {
         name: request.name,
-        jobs: jobs.collect::<Result<_, _>>().map_err(StoreError::from)?,
+        jobs: jobs.collect::<Result<_, _>>()?,
         study: Some(StudyPlan {
             format: StudyPlan::FORMAT,
             spec: scene.spec,
@@ -146,7 +113,7 @@ pub(in crate::http) async fn submit_study(
     };
     let id = match app.store.submit_sweep(&new, key.as_ref(), now_ms()).await? {
         Submitted::Job(id) => id,
-        Submitted::KeyTaken => return Err(SubmitError::from(KeyError::Taken).into()),
+        Submitted::KeyTaken => return Err(KeyError::Reused.into()),
     };
     queued(&app, id).await
 }
@@ -155,14 +122,14 @@ pub(in crate::http) async fn submit_study(
 fn choose(
     request: &StudyRequest,
     machine: &MachineFigures,
-) -> Result<(Resolved, RunPlan), SubmitStudyError> {
+) -> Result<(Resolved, RunPlan), ProblemResponse> {
     let scene = accuracy::request::scene(request)?;
     let budget_s = request.budget_s.unwrap_or(BUDGET_S);
     let programme = RunPlan::within(&scene, machine, budget_s, &limits::check)?;
     Ok((scene, programme))
 }
 
-async fn queued(app: &App, id: Uuid) -> Result<Response, SubmitStudyError> {
+async fn queued(app: &App, id: Uuid) -> Result<Response, ProblemResponse> {
     let study = document(app, id).await?;
     let location = [(header::LOCATION, format!("/v1/studies/{id}"))];
     Ok((StatusCode::ACCEPTED, location, Json(study)).into_response())
@@ -236,7 +203,7 @@ mod tests {
         ];
         let (_, _, first) = service.send("POST", "/v1/studies", &keyed, STUDY).await;
         // What is queued already is told without choosing its runs again.
-        service.app.programmes = Arc::new(Semaphore::new(0));
+        service.app.run_plan_permits = Arc::new(Semaphore::new(0));
         let again = service.send("POST", "/v1/studies", &keyed, STUDY);
         let again = tokio::time::timeout(Duration::from_mins(1), again).await;
         assert_eq!(first["id"], again.expect("an answer").2["id"]);

@@ -12,51 +12,12 @@ use crate::estimate::machine;
 use crate::http::App;
 use crate::http::body_problems::BodyProblems;
 use crate::http::extract::JsonBody;
+use crate::http::idempotency_key::{KeyError, idempotency_key};
 use crate::http::limits;
-use crate::http::problem::Refusal;
-use crate::http::request_key::{KeyError, request_key};
-use crate::http::routes::jobs::submit::SubmitError;
+use crate::http::problem::ProblemResponse;
+use crate::http::routes::batches::show_sweep::SweepError;
 use crate::queue;
-use crate::spec::Refused;
-use crate::store::{NewJob, NewSweep, StoreError, SubmitOptions, Submitted};
-
-/// Why a sweep was not queued.
-#[derive(Debug, thiserror::Error)]
-pub(in crate::http) enum SubmitSweepError {
-    /// For a reason that a single study has, too.
-    #[error(transparent)]
-    Submit(#[from] SubmitError),
-    /// Its expansion was broken off.
-    #[error("the sweep was not expanded: {0}")]
-    Expand(#[from] tokio::task::JoinError),
-}
-
-impl From<Refused> for SubmitSweepError {
-    fn from(refused: Refused) -> Self {
-        Self::Submit(refused.into())
-    }
-}
-
-impl From<KeyError> for SubmitSweepError {
-    fn from(error: KeyError) -> Self {
-        Self::Submit(error.into())
-    }
-}
-
-impl From<StoreError> for SubmitSweepError {
-    fn from(error: StoreError) -> Self {
-        Self::Submit(error.into())
-    }
-}
-
-impl IntoResponse for SubmitSweepError {
-    fn into_response(self) -> Response {
-        match self {
-            Self::Submit(error) => error.into_response(),
-            Self::Expand(_) => Refusal::internal(&self).into_response(),
-        }
-    }
-}
+use crate::store::{NewJob, NewSweep, SubmitOptions, Submitted};
 
 /// Queues many variations of one study: all of them, or none if one has a fault.
 #[utoipa::path(
@@ -74,8 +35,8 @@ pub(in crate::http) async fn submit_sweep(
     State(app): State<App>,
     headers: HeaderMap,
     JsonBody(body): JsonBody,
-) -> Result<Response, SubmitSweepError> {
-    let key = request_key(&headers, &body)?;
+) -> Result<Response, ProblemResponse> {
+    let key = idempotency_key(&headers, &body)?;
     let request = sweep::read(&body)?;
     let name = request.name.clone();
     let variations = tokio::task::spawn_blocking(move || sweep::expand(&request)).await??;
@@ -102,9 +63,9 @@ pub(in crate::http) async fn submit_sweep(
     };
     let id = match app.store.submit_sweep(&new, key.as_ref(), now_ms()).await? {
         Submitted::Job(id) => id,
-        Submitted::KeyTaken => return Err(KeyError::Taken.into()),
+        Submitted::KeyTaken => return Err(KeyError::Reused.into()),
     };
-    let sweep = app.store.sweep(id).await?.ok_or(SubmitError::Gone)?;
+    let sweep = app.store.sweep(id).await?.ok_or(SweepError::Missing(id))?;
     let location = [(header::LOCATION, format!("/v1/sweeps/{id}"))];
     Ok((StatusCode::ACCEPTED, location, Json(sweep)).into_response())
 }

@@ -9,8 +9,9 @@ use crate::batch::outcomes::{Row, table};
 use crate::export::documents::CSV;
 use crate::http::App;
 use crate::http::extract::SweepId;
+use crate::http::problem::ProblemResponse;
 use crate::http::routes::batches::show_sweep::SweepError;
-use crate::http::routes::results::download::attachment;
+use crate::http::routes::results::download_file::attachment;
 
 /// What came out of a sweep so far, as CSV: what sets each job apart, where it stands, and its result.
 #[utoipa::path(
@@ -26,7 +27,7 @@ use crate::http::routes::results::download::attachment;
 pub(in crate::http) async fn sweep_outcomes(
     State(app): State<App>,
     SweepId(id): SweepId,
-) -> Result<Response, SweepError> {
+) -> Result<Response, ProblemResponse> {
     let outcomes = app.store.sweep_outcomes(id).await?;
     let outcomes = outcomes.ok_or(SweepError::Missing(id))?;
     let rows: Vec<Row<'_>> = outcomes

@@ -1,4 +1,4 @@
-//! `GET /v1/jobs/{id}/results/files/{name}`: a file that a job produced, whole or a range of it.
+//! `GET /v1/jobs/{id}/results/files/{name}`: a file of a job, or a byte range of it.
 //!
 //! The name is looked up in the manifest; the path is the manifest's, never the client's.
 
@@ -12,6 +12,7 @@ use axum::body::{Body, Bytes};
 use axum::extract::State;
 use axum::http::{HeaderMap, HeaderValue, StatusCode, header};
 use axum::response::{IntoResponse, Response};
+use http_range_header::RangeUnsatisfiableError;
 use tokio::fs::File;
 use tokio::io::{AsyncReadExt, AsyncSeekExt};
 use tokio_util::io::ReaderStream;
@@ -19,64 +20,52 @@ use uuid::Uuid;
 
 use crate::http::App;
 use crate::http::extract::{FileName, JobId};
-use crate::http::job_error::JobError;
-use crate::http::problem::{Kind, Refusal};
+use crate::http::problem::{ProblemResponse, ProblemType, RouteError};
 use crate::store::Content;
 
-/// A file is read in pieces of this size, bytes.
-const PIECE: usize = 64 << 10;
+/// Size of the chunks in which a file is read, bytes.
+const CHUNK_BYTES: usize = 64 << 10;
 
-/// Why there is no file.
+/// Error of a download.
 #[derive(Debug, thiserror::Error)]
-pub(in crate::http) enum FileError {
-    /// There is no such job.
-    #[error(transparent)]
-    Job(#[from] JobError),
-    /// The manifest does not name it.
-    #[error("the manifest of job {0} names no such file")]
-    Unnamed(Uuid),
-    /// The range lies outside the file.
-    #[error("the file has {0} bytes, and the range begins after them")]
-    Range(u64),
+enum FileError {
+    /// The manifest does not list the file.
+    #[error("the manifest of job {0} lists no such file")]
+    Missing(Uuid),
     /// The file cannot be read.
     #[error("a file of job {id} cannot be read: {cause}")]
     Read {
         /// The job.
         id: Uuid,
-        /// Why.
+        /// Error of the file system.
         cause: std::io::Error,
     },
 }
 
-impl IntoResponse for FileError {
-    fn into_response(self) -> Response {
-        match &self {
-            Self::Job(error) => Refusal::from(error).into_response(),
-            Self::Unnamed(_) => Kind::NoResult.because(self.to_string()).into_response(),
-            Self::Range(bytes) => {
-                let whole = [(header::CONTENT_RANGE, format!("bytes */{bytes}"))];
-                (whole, Kind::Range.because(self.to_string())).into_response()
-            }
-            Self::Read { .. } => Refusal::internal(&self).into_response(),
+impl RouteError for FileError {
+    fn problem_type(&self) -> ProblemType {
+        match self {
+            Self::Missing(_) => ProblemType::NoSuchResult,
+            Self::Read { .. } => ProblemType::Internal,
         }
     }
 }
 
-/// A file that a job produced.
+/// A file of a job.
 #[utoipa::path(
     get,
     path = "/v1/jobs/{id}/results/files/{name}",
     tag = "results",
     params(
         ("id" = Uuid, Path, description = "The job"),
-        ("name" = String, Path, description = "Its name in the manifest"),
-        ("Range" = Option<String>, Header, description = "Some bytes of it, such as `bytes=0-99`; one range"),
+        ("name" = String, Path, description = "Name of the file in the manifest"),
+        ("Range" = Option<String>, Header, description = "One byte range, for instance `bytes=0-99`"),
     ),
     responses(
         (status = 200, description = "The file", content_type = "*/*", body = serde_json::Value,
-            headers(("ETag" = String, description = "Its digest"))),
-        (status = 206, description = "The asked-for bytes", content_type = "*/*", body = serde_json::Value),
-        (status = 304, description = "The client has it: `If-None-Match` names its digest"),
+            headers(("ETag" = String, description = "SHA-256 of the file"))),
+        (status = 206, description = "The requested bytes", content_type = "*/*", body = serde_json::Value),
+        (status = 304, description = "Not changed: `If-None-Match` has its digest"),
         (status = 404, description = "No such job, or no such file", body = Problem),
         (status = 416, description = "The range lies outside the file", body = Problem),
     )
@@ -86,35 +75,36 @@ pub(in crate::http) async fn file(
     JobId(id): JobId,
     FileName(name): FileName,
     headers: HeaderMap,
-) -> Result<Response, FileError> {
-    let found = app.store.result_file(id, &name).await;
-    let Some((file, content)) = found.map_err(JobError::from)? else {
+) -> Result<Response, ProblemResponse> {
+    let Some((file, content)) = app.store.result_file(id, &name).await? else {
         app.job(id).await?;
-        return Err(FileError::Unnamed(id));
+        return Err(FileError::Missing(id).into());
     };
     let etag = format!("\"{}\"", file.sha256);
     let mut response = if text(&headers, header::IF_NONE_MATCH).contains(&etag) {
         StatusCode::NOT_MODIFIED.into_response()
     } else {
-        let range = range(&headers, &file, &etag)?;
-        part(id, &file, content, range).await?
+        let Ok(range) = requested_range(&headers, &file, &etag) else {
+            return Ok(range_not_satisfiable(file.bytes));
+        };
+        respond(id, &file, content, range).await?
     };
-    let own = response.headers_mut();
+    let response_headers = response.headers_mut();
     for (name, value) in [
         (header::ETAG, etag),
         (header::ACCEPT_RANGES, "bytes".to_owned()),
-        // An ended job's files never change.
+        // A stored file never changes; the client revalidates with its digest.
         (header::CACHE_CONTROL, "private, no-cache".to_owned()),
         (header::CONTENT_DISPOSITION, attachment(&file.name)),
     ] {
         if let Ok(value) = HeaderValue::from_str(&value) {
-            own.insert(name, value);
+            response_headers.insert(name, value);
         }
     }
     Ok(response)
 }
 
-/// `Content-Disposition` of a download; whatever a name holds, only letters, digits, `.`, `-` and `_` leave.
+/// `Content-Disposition` of a download; characters of the name other than letters, digits, `.`, `-` and `_` are replaced.
 pub(in crate::http) fn attachment(name: &str) -> String {
     let safe = |c: char| c.is_ascii_alphanumeric() || matches!(c, '.' | '-' | '_');
     let name: String = name
@@ -131,44 +121,52 @@ fn text(headers: &HeaderMap, name: header::HeaderName) -> &str {
         .unwrap_or_default()
 }
 
-/// The bytes that are wanted; nothing for the whole file. What cannot be read as a range is ignored, and so are several
-/// ranges at once and a range of another version (RFC 9110, 14.2).
-fn range(
+/// The problem of a range that begins after the end of the file.
+fn range_not_satisfiable(bytes: u64) -> Response {
+    let detail = format!("the file has {bytes} bytes, and the range begins after them");
+    let content_range = [(header::CONTENT_RANGE, format!("bytes */{bytes}"))];
+    (content_range, ProblemType::Range.with_detail(detail)).into_response()
+}
+
+/// Returns the requested byte range; `None` for the whole file. An invalid range, several ranges and a range of another
+/// version are ignored (RFC 9110, 14.2).
+///
+/// # Errors
+/// If the range begins after the end of the file.
+fn requested_range(
     headers: &HeaderMap,
     file: &ResultFile,
     etag: &str,
-) -> Result<Option<RangeInclusive<u64>>, FileError> {
-    let wanted = text(headers, header::RANGE);
+) -> Result<Option<RangeInclusive<u64>>, RangeUnsatisfiableError> {
+    let range = text(headers, header::RANGE);
     let version = text(headers, header::IF_RANGE);
-    if wanted.is_empty() || !(version.is_empty() || version == etag) {
+    if range.is_empty() || !(version.is_empty() || version == etag) {
         return Ok(None);
     }
-    let Ok(parsed) = http_range_header::parse_range_header(wanted) else {
+    let Ok(parsed) = http_range_header::parse_range_header(range) else {
         return Ok(None);
     };
     if parsed.ranges.len() != 1 {
         return Ok(None);
     }
-    parsed
-        .validate(file.bytes)
-        .map(|mut ranges| ranges.pop())
-        .map_err(|_| FileError::Range(file.bytes))
+    Ok(parsed.validate(file.bytes)?.pop())
 }
 
-async fn part(
+/// Responds with the file, or with a range of it.
+async fn respond(
     id: Uuid,
     file: &ResultFile,
     content: Content,
     range: Option<RangeInclusive<u64>>,
 ) -> Result<Response, FileError> {
-    let read = |cause| FileError::Read { id, cause };
+    let read_error = |cause| FileError::Read { id, cause };
     let (from, length) = match &range {
         None => (0, file.bytes),
         Some(range) => (*range.start(), range.end() - range.start() + 1),
     };
     let body = match content {
         Content::Inline(bytes) => slice(bytes, from, length),
-        Content::File(path) => stream(&path, from, length).await.map_err(read)?,
+        Content::File(path) => stream(&path, from, length).await.map_err(read_error)?,
     };
     let mut response = Response::new(body);
     let headers = response.headers_mut();
@@ -197,7 +195,7 @@ async fn stream(path: &Path, from: u64, length: u64) -> std::io::Result<Body> {
     file.seek(SeekFrom::Start(from)).await?;
     Ok(Body::from_stream(ReaderStream::with_capacity(
         file.take(length),
-        PIECE,
+        CHUNK_BYTES,
     )))
 }
 
@@ -206,11 +204,11 @@ mod tests {
     use super::*;
     use crate::http::tests::{FIELDS, Service};
 
-    /// The large file lies beside the database, the small one in it.
+    /// The large file is stored beside the database, the small one in it.
     const NAMES: [(&str, &str); 2] = [("fields-20.vtu", FIELDS), ("summary.json", "{}")];
 
     #[tokio::test]
-    async fn a_file_comes_whole_with_its_digest() {
+    async fn a_file_is_sent_with_its_digest() {
         let service = Service::new().await;
         let id = service.with_files().await;
         for (name, content) in NAMES {
@@ -227,7 +225,7 @@ mod tests {
     }
 
     #[tokio::test]
-    async fn a_range_comes_with_its_place() {
+    async fn a_range_is_sent_with_its_position() {
         let service = Service::new().await;
         let id = service.with_files().await;
         for (name, content) in NAMES {
@@ -242,8 +240,8 @@ mod tests {
                 let (status, headers, text) =
                     service.text("GET", &path, &[("range", range)], "").await;
                 assert_eq!((status.as_u16(), text.as_str()), (206, &content[from..=to]));
-                let told = format!("bytes {from}-{to}/{}", content.len());
-                assert_eq!(headers["content-range"], told.as_str(), "{range}");
+                let expected = format!("bytes {from}-{to}/{}", content.len());
+                assert_eq!(headers["content-range"], expected.as_str(), "{range}");
             }
             for (headers, expected) in [
                 (vec![("range", "bytes=99999-")], 416),
@@ -258,7 +256,7 @@ mod tests {
     }
 
     #[tokio::test]
-    async fn names_that_the_manifest_does_not_hold_are_404_whatever_they_say() {
+    async fn names_that_are_not_in_the_manifest_are_404() {
         let service = Service::new().await;
         let id = service.with_files().await;
         for name in [
@@ -272,10 +270,13 @@ mod tests {
             let found = (status.as_u16(), problem["type"].as_str());
             assert_eq!(found, (404, Some("/problems/no-such-result")), "{name}");
         }
-        let no_text = format!("/v1/jobs/{id}/results/files/%FF");
-        assert_eq!(service.get(&no_text).await.0, 404);
-        let nobody = "/v1/jobs/00000000-0000-7000-8000-000000000000/results/files/summary.json";
-        assert_eq!(service.get(nobody).await.2["type"], "/problems/no-such-job");
+        let not_utf8 = format!("/v1/jobs/{id}/results/files/%FF");
+        assert_eq!(service.get(&not_utf8).await.0, 404);
+        let unknown = "/v1/jobs/00000000-0000-7000-8000-000000000000/results/files/summary.json";
+        assert_eq!(
+            service.get(unknown).await.2["type"],
+            "/problems/no-such-job"
+        );
     }
 
     #[tokio::test]
@@ -292,8 +293,8 @@ mod tests {
     }
 
     #[test]
-    fn names_of_downloads_are_plain() {
-        let said = attachment("a\"b\r\nx: y/../ü.csv");
-        assert_eq!(said, "attachment; filename=\"a_b__x__y_..__.csv\"");
+    fn names_of_downloads_are_sanitized() {
+        let value = attachment("a\"b\r\nx: y/../ü.csv");
+        assert_eq!(value, "attachment; filename=\"a_b__x__y_..__.csv\"");
     }
 }

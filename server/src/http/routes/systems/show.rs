@@ -1,34 +1,32 @@
-//! `GET /v1/systems` and `GET /v1/systems/{kind}`: contact systems and their presets.
+//! `GET /v1/systems/{kind}`: a contact system and its preset.
 
 use api::problem::Problem;
 use api::spec::{Spec, System, SystemKind};
-use api::system::{SystemDocument, SystemList};
+use api::system::SystemDocument;
 use axum::Json;
-use axum::response::{IntoResponse, Response};
 
 use crate::http::extract::SystemName;
-use crate::http::problem::Kind;
+use crate::http::problem::{ProblemResponse, ProblemType, RouteError};
 use crate::http::routes::systems::schema;
 use crate::spec;
 
-/// Why there is no system.
+/// Error of a contact system.
 #[derive(Debug, thiserror::Error)]
 pub(in crate::http) enum SystemError {
-    /// There is none of that kind.
+    /// No contact system has this name.
     #[error("there is no system of that kind; kinds are {}", kinds())]
     Missing,
-    /// Its preset cannot be resolved: a mistake of the product.
+    /// The preset cannot be resolved, which is a bug.
     #[error("the preset of {0} has faults")]
     Preset(&'static str),
 }
 
-impl IntoResponse for SystemError {
-    fn into_response(self) -> Response {
+impl RouteError for SystemError {
+    fn problem_type(&self) -> ProblemType {
         match self {
-            Self::Missing => Kind::NoSystem.because(self.to_string()),
-            Self::Preset(_) => crate::http::problem::Refusal::internal(&self),
+            Self::Missing => ProblemType::NoSuchSystem,
+            Self::Preset(_) => ProblemType::Internal,
         }
-        .into_response()
     }
 }
 
@@ -40,22 +38,7 @@ fn kinds() -> String {
         .join(", ")
 }
 
-/// Every contact system with its preset.
-#[utoipa::path(
-    get,
-    path = "/v1/systems",
-    tag = "systems",
-    responses((status = 200, description = "The systems", body = SystemList))
-)]
-pub(in crate::http) async fn systems() -> Result<Json<SystemList>, SystemError> {
-    let systems = SystemKind::ALL
-        .iter()
-        .map(|kind| document(*kind))
-        .collect::<Result<_, _>>()?;
-    Ok(Json(SystemList { systems }))
-}
-
-/// One contact system with its preset.
+/// A contact system with its preset.
 #[utoipa::path(
     get,
     path = "/v1/systems/{kind}",
@@ -68,15 +51,16 @@ pub(in crate::http) async fn systems() -> Result<Json<SystemList>, SystemError> 
 )]
 pub(in crate::http) async fn system(
     SystemName(name): SystemName,
-) -> Result<Json<SystemDocument>, SystemError> {
+) -> Result<Json<SystemDocument>, ProblemResponse> {
     let kind = SystemKind::ALL
         .iter()
         .find(|kind| kind.as_str() == name)
         .ok_or(SystemError::Missing)?;
-    document(*kind).map(Json)
+    Ok(Json(document(*kind)?))
 }
 
-fn document(kind: SystemKind) -> Result<SystemDocument, SystemError> {
+/// Returns the document of a contact system.
+pub(in crate::http) fn document(kind: SystemKind) -> Result<SystemDocument, SystemError> {
     let spec = Spec {
         system: System::of_kind(kind),
         ..Spec::default()
@@ -105,13 +89,8 @@ mod tests {
     use crate::http::tests::Service;
 
     #[tokio::test]
-    async fn every_preset_is_told_with_provenance() {
+    async fn a_preset_is_shown_with_provenance_and_schema() {
         let service = Service::new().await;
-        let (status, _, list) = service.get("/v1/systems").await;
-        assert_eq!(
-            (status.as_u16(), list["systems"].as_array().map(Vec::len)),
-            (200, Some(5))
-        );
         let (_, _, one) = service.get("/v1/systems/fuzz_button").await;
         assert_eq!(one["preset"]["system"]["wire_diameter_mm"], 0.0508);
         assert_eq!(

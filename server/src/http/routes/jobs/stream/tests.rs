@@ -1,11 +1,11 @@
-//! Streams that replay, follow and end.
+//! Replay, live events and end of streams.
 
 use crate::http::tests::Service;
 use crate::queue::Transition;
 use crate::store::{Batch, End};
 
 /// Names and ids of a stream's events.
-fn parsed(text: &str) -> Vec<(String, Option<i64>)> {
+fn parse(text: &str) -> Vec<(String, Option<i64>)> {
     let field = |block: &str, name: &str| {
         block
             .lines()
@@ -19,7 +19,7 @@ fn parsed(text: &str) -> Vec<(String, Option<i64>)> {
         .collect()
 }
 
-async fn finished(service: &Service) -> String {
+async fn finished_job(service: &Service) -> String {
     let id = service.queued(r#"{"system":{"kind":"dimm"}}"#).await;
     let store = &service.app.store;
     let claim = store
@@ -55,10 +55,10 @@ async fn finished(service: &Service) -> String {
 #[tokio::test]
 async fn a_finished_job_replays_from_any_last_event_id() {
     let service = Service::new().await;
-    let path = format!("/v1/jobs/{}/events", finished(&service).await);
-    let fresh = parsed(&service.text("GET", &path, &[], "").await.2);
-    assert_eq!(fresh[0], ("snapshot".to_owned(), None));
-    let all = &fresh[1..];
+    let path = format!("/v1/jobs/{}/events", finished_job(&service).await);
+    let new = parse(&service.text("GET", &path, &[], "").await.2);
+    assert_eq!(new[0], ("snapshot".to_owned(), None));
+    let all = &new[1..];
     let ids: Vec<_> = all.iter().map(|event| event.1.expect("an id")).collect();
     assert_eq!(ids, [1, 2, 3, 4, 5, 6, 7]);
     assert_eq!((all[1].0.as_str(), all[6].0.as_str()), ("attempt", "done"));
@@ -68,7 +68,7 @@ async fn a_finished_job_replays_from_any_last_event_id() {
             .text("GET", &path, &[("last-event-id", &header)], "")
             .await;
         assert_eq!(status, 200);
-        assert_eq!(parsed(&text), all[after..], "after {after}");
+        assert_eq!(parse(&text), all[after..], "after {after}");
     }
     for after in ["7", "99"] {
         assert_eq!(
@@ -90,12 +90,12 @@ async fn a_live_stream_ends_with_done() {
         tokio::task::yield_now().await;
         service.post(&format!("/v1/jobs/{id}/cancel"), "").await
     });
-    let names: Vec<_> = parsed(&stream.2).into_iter().map(|event| event.0).collect();
+    let names: Vec<_> = parse(&stream.2).into_iter().map(|event| event.0).collect();
     assert_eq!(names, ["snapshot", "progress", "done"]);
 }
 
 #[tokio::test]
-async fn a_stream_that_was_asked_to_begin_beyond_the_end_ends_with_the_job() {
+async fn a_stream_from_beyond_the_last_event_ends_with_the_job() {
     let service = Service::new().await;
     let id = service.queued(r#"{"system":{"kind":"dimm"}}"#).await;
     let path = format!("/v1/jobs/{id}/events");
@@ -104,7 +104,7 @@ async fn a_stream_that_was_asked_to_begin_beyond_the_end_ends_with_the_job() {
         tokio::task::yield_now().await;
         service.post(&format!("/v1/jobs/{id}/cancel"), "").await
     });
-    assert_eq!(parsed(&stream.2), []);
+    assert_eq!(parse(&stream.2), []);
 }
 
 #[tokio::test]
@@ -120,7 +120,7 @@ async fn a_stream_ends_when_the_service_stops() {
 }
 
 #[tokio::test]
-async fn unreadable_ids_are_problems() {
+async fn invalid_event_ids_are_problems() {
     let service = Service::new().await;
     let id = service.queued(r#"{"system":{"kind":"dimm"}}"#).await;
     let path = format!("/v1/jobs/{id}/events");
@@ -141,11 +141,16 @@ async fn unreadable_ids_are_problems() {
 }
 
 #[tokio::test]
-async fn no_more_streams_than_the_limit_are_open() {
+async fn a_stream_over_the_limit_is_rejected() {
     let service = Service::new().await;
     let id = service.queued(r#"{"system":{"kind":"dimm"}}"#).await;
-    let all = u32::try_from(crate::http::STREAMS).expect("a count");
-    let taken = service.app.streams.clone().acquire_many_owned(all).await;
+    let all = u32::try_from(crate::http::MAX_STREAMS).expect("a count");
+    let taken = service
+        .app
+        .stream_permits
+        .clone()
+        .acquire_many_owned(all)
+        .await;
     let path = format!("/v1/jobs/{id}/events");
     let (status, headers, problem) = service.get(&path).await;
     assert_eq!(

@@ -1,49 +1,34 @@
-//! `GET /healthz` and `GET /readyz`: whether the service lives, and whether it can work.
+//! `GET /healthz` and `GET /readyz`: liveness and readiness checks.
 
 use api::problem::Problem;
 use axum::Json;
 use axum::extract::State;
-use axum::response::{IntoResponse, Response};
 use serde_json::{Value, json};
 
 use crate::clock::now_ms;
 use crate::http::App;
-use crate::http::problem::Refusal;
-use crate::store::StoreError;
+use crate::http::problem::ProblemResponse;
 
-/// Why the service cannot work.
-#[derive(Debug, thiserror::Error)]
-pub(in crate::http) enum ReadyError {
-    /// The store failed.
-    #[error(transparent)]
-    Store(#[from] StoreError),
-}
-
-impl IntoResponse for ReadyError {
-    fn into_response(self) -> Response {
-        let Self::Store(error) = &self;
-        Refusal::from(error).into_response()
-    }
-}
-
-/// Whether the service lives.
-#[utoipa::path(get, path = "/healthz", tag = "operation", responses((status = 200, description = "It does")))]
+/// Liveness check: the process responds.
+#[utoipa::path(get, path = "/healthz", tag = "operation", responses((status = 200, description = "The process responds")))]
 pub(in crate::http) async fn healthz() -> Json<Value> {
     Json(json!({ "status": "ok" }))
 }
 
-/// Whether the service can work: its database takes a write.
+/// Readiness check: the database accepts a write.
 #[utoipa::path(
     get,
     path = "/readyz",
     tag = "operation",
     responses(
-        (status = 200, description = "It can"),
-        (status = 500, description = "It cannot, and will not by itself", body = Problem),
-        (status = 503, description = "It cannot at present", body = Problem),
+        (status = 200, description = "The service is ready"),
+        (status = 500, description = "The service is not ready, and needs help", body = Problem),
+        (status = 503, description = "The service is not ready at present", body = Problem),
     )
 )]
-pub(in crate::http) async fn readyz(State(app): State<App>) -> Result<Json<Value>, ReadyError> {
+pub(in crate::http) async fn readyz(
+    State(app): State<App>,
+) -> Result<Json<Value>, ProblemResponse> {
     app.store.ready(now_ms()).await?;
     Ok(Json(json!({ "status": "ready" })))
 }
@@ -61,7 +46,7 @@ mod tests {
     }
 
     #[tokio::test]
-    async fn a_service_whose_database_takes_no_write_is_not_ready() {
+    async fn a_service_whose_database_accepts_no_write_is_not_ready() {
         let service = Service::new().await;
         let path = service.results_folder().with_file_name("test.db");
         let _other = store::tests::written_by_another(&path).await;

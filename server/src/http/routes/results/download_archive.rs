@@ -1,4 +1,4 @@
-//! `GET /v1/jobs/{id}/results/archive`: everything that a job produced, as a zip that is made while it is sent.
+//! `GET /v1/jobs/{id}/results/archive`: all files of a job as a zip, which is written while it is sent.
 
 use std::io::{self, Write};
 use std::time::Duration;
@@ -19,44 +19,33 @@ use zip::{CompressionMethod, ZipWriter};
 use crate::http::App;
 use crate::http::extract::JobId;
 use crate::http::job_error::JobError;
-use crate::http::problem::{Kind, Refusal};
-use crate::http::routes::results::download::attachment;
+use crate::http::problem::{ProblemResponse, ProblemType, RouteError};
+use crate::http::routes::results::download_file::attachment;
 use crate::store::Content;
 
-/// Archives made at once: each occupies a thread as long as its client takes to read it.
-pub(in crate::http) const AT_ONCE: usize = 4;
-/// Pieces of this size are sent, bytes.
-const PIECE: usize = 64 << 10;
-/// Pieces on their way.
-const PIECES: usize = 4;
-/// How long a request waits for its turn. Not for ever: whoever reads slowly would hold up those who wait, and with them
-/// all other requests.
-const PLACE_WAIT: Duration = Duration::from_secs(10);
-/// How long a client may leave a piece lying.
-const PATIENCE: Duration = Duration::from_mins(1);
+/// Maximum number of concurrent archives: each occupies a thread for as long as its client takes to read it.
+pub(in crate::http) const MAX_ARCHIVES: usize = 4;
+/// Size of the chunks of the body, bytes.
+const CHUNK_BYTES: usize = 64 << 10;
+/// Chunks that are buffered for a client.
+const BUFFERED_CHUNKS: usize = 4;
+/// Timeout of the wait for a permit; slow clients would otherwise block waiting requests, and these all others.
+const PERMIT_TIMEOUT: Duration = Duration::from_secs(10);
+/// Timeout of a client that does not read a chunk.
+const CHUNK_TIMEOUT: Duration = Duration::from_mins(1);
 
-/// Why there is no archive.
+/// Error of a request while too many archives are being written.
 #[derive(Debug, thiserror::Error)]
-pub(in crate::http) enum ArchiveError {
-    /// There is no such job, or it has not ended.
-    #[error(transparent)]
-    Job(#[from] JobError),
-    /// Too many are being made.
-    #[error("{AT_ONCE} archives are being made, which is the limit")]
-    Full,
-}
+#[error("{MAX_ARCHIVES} archives are being written, which is the limit")]
+struct TooManyArchivesError;
 
-impl IntoResponse for ArchiveError {
-    fn into_response(self) -> Response {
-        match &self {
-            Self::Job(error) => Refusal::from(error),
-            Self::Full => Kind::Busy.because(self.to_string()),
-        }
-        .into_response()
+impl RouteError for TooManyArchivesError {
+    fn problem_type(&self) -> ProblemType {
+        ProblemType::Busy
     }
 }
 
-/// Everything that an ended job produced, as a zip.
+/// All files of an ended job, as a zip.
 #[utoipa::path(
     get,
     path = "/v1/jobs/{id}/results/archive",
@@ -71,18 +60,21 @@ impl IntoResponse for ArchiveError {
 pub(in crate::http) async fn archive(
     State(app): State<App>,
     JobId(id): JobId,
-) -> Result<Response, ArchiveError> {
+) -> Result<Response, ProblemResponse> {
     if !app.job(id).await?.document.status.is_terminal() {
         return Err(JobError::Active(id).into());
     }
-    let files = app.store.manifest(id).await.map_err(JobError::from)?;
-    let place = app.archives.clone().acquire_owned();
-    let place = tokio::time::timeout(PLACE_WAIT, place).await;
-    let permit = place.ok().and_then(Result::ok).ok_or(ArchiveError::Full)?;
-    let (pieces, received) = mpsc::channel(PIECES);
-    tokio::task::spawn_blocking(move || make(&app, id, &files, &pieces, permit));
+    let files = app.store.manifest(id).await?;
+    let permit = app.archive_permits.clone().acquire_owned();
+    let permit = tokio::time::timeout(PERMIT_TIMEOUT, permit).await;
+    let permit = permit
+        .ok()
+        .and_then(Result::ok)
+        .ok_or(TooManyArchivesError)?;
+    let (chunks, received) = mpsc::channel(BUFFERED_CHUNKS);
+    tokio::task::spawn_blocking(move || send(&app, id, &files, &chunks, permit));
     let body = stream::unfold(received, |mut received| async move {
-        received.recv().await.map(|piece| (piece, received))
+        received.recv().await.map(|chunk| (chunk, received))
     });
     let headers = [
         (header::CONTENT_TYPE, "application/zip".to_owned()),
@@ -94,29 +86,30 @@ pub(in crate::http) async fn archive(
     Ok((headers, Body::from_stream(body)).into_response())
 }
 
-fn make(
+/// Writes an archive into the channel; an error ends the body early.
+fn send(
     app: &App,
     id: Uuid,
     files: &[ResultFile],
-    pieces: &mpsc::Sender<io::Result<Bytes>>,
+    chunks: &mpsc::Sender<io::Result<Bytes>>,
     permit: OwnedSemaphorePermit,
 ) {
-    let wire = Wire {
-        pieces: pieces.clone(),
+    let writer = ChunkWriter {
+        chunks: chunks.clone(),
         runtime: Handle::current(),
-        gathered: Vec::with_capacity(PIECE),
+        buffer: Vec::with_capacity(CHUNK_BYTES),
     };
-    if let Err(error) = written(app, id, files, wire) {
-        tracing::warn!(job = %id, %error, "an archive was broken off");
-        // The client learns it from a body that ends before its end; one that has gone learns nothing.
-        let _ = pieces.try_send(Err(error));
+    if let Err(error) = write_archive(app, id, files, writer) {
+        tracing::warn!(job = %id, %error, "an archive was aborted");
+        // The client sees an incomplete body; it may have disconnected.
+        let _ = chunks.try_send(Err(error));
     }
     drop(permit);
 }
 
-fn written(app: &App, id: Uuid, files: &[ResultFile], wire: Wire) -> io::Result<()> {
-    let runtime = wire.runtime.clone();
-    let mut archive = ZipWriter::new_stream(wire);
+fn write_archive(app: &App, id: Uuid, files: &[ResultFile], writer: ChunkWriter) -> io::Result<()> {
+    let runtime = writer.runtime.clone();
+    let mut archive = ZipWriter::new_stream(writer);
     for file in files {
         let stored = runtime.block_on(app.store.result_file(id, &file.name));
         let Some((_, content)) = stored.map_err(io::Error::other)? else {
@@ -136,31 +129,31 @@ fn written(app: &App, id: Uuid, files: &[ResultFile], wire: Wire) -> io::Result<
     archive.finish()?.into_inner().flush()
 }
 
-/// What is written goes to the client, piece by piece.
-struct Wire {
-    pieces: mpsc::Sender<io::Result<Bytes>>,
+/// Sends what is written to the client, in chunks.
+struct ChunkWriter {
+    chunks: mpsc::Sender<io::Result<Bytes>>,
     runtime: Handle,
-    gathered: Vec<u8>,
+    buffer: Vec<u8>,
 }
 
-impl Write for Wire {
+impl Write for ChunkWriter {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        self.gathered.extend_from_slice(bytes);
-        if self.gathered.len() >= PIECE {
+        self.buffer.extend_from_slice(bytes);
+        if self.buffer.len() >= CHUNK_BYTES {
             self.flush()?;
         }
         Ok(bytes.len())
     }
 
     fn flush(&mut self) -> io::Result<()> {
-        if self.gathered.is_empty() {
+        if self.buffer.is_empty() {
             return Ok(());
         }
-        let piece = Bytes::from(std::mem::take(&mut self.gathered));
+        let chunk = Bytes::from(std::mem::take(&mut self.buffer));
         let sent = self
             .runtime
-            .block_on(self.pieces.send_timeout(Ok(piece), PATIENCE));
-        sent.map_err(|_| io::Error::other("the client does not read it"))
+            .block_on(self.chunks.send_timeout(Ok(chunk), CHUNK_TIMEOUT));
+        sent.map_err(|_| io::Error::other("the client does not read the archive"))
     }
 }
 
@@ -194,13 +187,17 @@ mod tests {
     }
 
     #[tokio::test]
-    async fn nobody_waits_for_ever_for_those_who_read_slowly() {
+    async fn a_request_does_not_wait_for_ever_for_slow_clients() {
         let service = Service::new().await;
         let id = service.with_files().await;
-        let taken = service.app.archives.clone().acquire_many_owned(4).await;
+        let taken = service
+            .app
+            .archive_permits
+            .clone()
+            .acquire_many_owned(4)
+            .await;
         let path = format!("/v1/jobs/{id}/results/archive");
-        let asked = service.get(&path);
-        let (status, headers, problem) = asked.await;
+        let (status, headers, problem) = service.get(&path).await;
         assert_eq!(
             (status.as_u16(), problem["type"].as_str()),
             (503, Some("/problems/busy"))
@@ -219,7 +216,7 @@ mod tests {
             (status.as_u16(), problem["type"].as_str()),
             (409, Some("/problems/job-active"))
         );
-        let nobody = "/v1/jobs/00000000-0000-7000-8000-000000000000/results/archive";
-        assert_eq!(service.get(nobody).await.0, 404);
+        let unknown = "/v1/jobs/00000000-0000-7000-8000-000000000000/results/archive";
+        assert_eq!(service.get(unknown).await.0, 404);
     }
 }

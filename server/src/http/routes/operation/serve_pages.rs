@@ -1,22 +1,22 @@
-//! `GET /`, `GET /docs` and `GET /assets/{name}`: the pages that come with the service. They are part of the binary,
-//! hold no data and fetch nothing from elsewhere.
+//! `GET /`, `GET /docs` and `GET /assets/{name}`: the pages of the service. They are part of the binary, contain no data
+//! and load nothing from other hosts.
 
 use api::problem::Problem;
 use axum::http::{HeaderName, header};
 use axum::response::{IntoResponse, Response};
 
 use crate::http::extract::FileName;
-use crate::http::problem::Kind;
+use crate::http::problem::{ProblemResponse, ProblemType, RouteError};
 
 const HTML: &str = "text/html; charset=utf-8";
 const SCRIPT: &str = "text/javascript; charset=utf-8";
 const STYLE: &str = "text/css; charset=utf-8";
-/// What a page may do: run and show what this service serves, ask this service, and nothing else.
-const POLICY: &str = "default-src 'none'; script-src 'self'; style-src 'self'; connect-src 'self'; \
+/// `Content-Security-Policy` of a page: it loads and requests only from this service.
+const CONTENT_POLICY: &str = "default-src 'none'; script-src 'self'; style-src 'self'; connect-src 'self'; \
                       img-src 'self' blob:; \
                       base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
 
-/// Name, media type and content.
+/// Name, media type and content of each asset.
 const ASSETS: [(&str, &str, &str); 6] = [
     (
         "page.css",
@@ -50,17 +50,14 @@ const ASSETS: [(&str, &str, &str); 6] = [
     ),
 ];
 
-/// Why there is no asset.
+/// Error of an unknown asset.
 #[derive(Debug, thiserror::Error)]
-pub(in crate::http) enum AssetError {
-    /// There is none of that name.
-    #[error("there is no such asset")]
-    Missing,
-}
+#[error("there is no such asset")]
+struct NoAssetError;
 
-impl IntoResponse for AssetError {
-    fn into_response(self) -> Response {
-        Kind::NoRoute.because(self.to_string()).into_response()
+impl RouteError for NoAssetError {
+    fn problem_type(&self) -> ProblemType {
+        ProblemType::NoSuchPath
     }
 }
 
@@ -70,14 +67,14 @@ fn page(
 ) -> ([(HeaderName, &'static str); 3], &'static str) {
     let headers = [
         (header::CONTENT_TYPE, media_type),
-        (header::CONTENT_SECURITY_POLICY, POLICY),
-        // A newer binary brings newer pages.
+        (header::CONTENT_SECURITY_POLICY, CONTENT_POLICY),
+        // The pages change with the binary.
         (header::CACHE_CONTROL, "no-cache"),
     ];
     (headers, content)
 }
 
-/// The newest jobs and their progress, for browsers.
+/// Dashboard: the newest jobs and their progress.
 #[utoipa::path(
     get,
     path = "/",
@@ -88,7 +85,7 @@ pub(in crate::http) async fn dashboard() -> impl IntoResponse {
     page(HTML, include_str!("../../../../dashboard/dashboard.html"))
 }
 
-/// This interface, for browsers.
+/// Documentation of this interface.
 #[utoipa::path(
     get,
     path = "/docs",
@@ -99,12 +96,12 @@ pub(in crate::http) async fn docs() -> impl IntoResponse {
     page(HTML, include_str!("../../../../dashboard/docs.html"))
 }
 
-/// A script or style of the pages.
+/// A script or style sheet of the pages.
 #[utoipa::path(
     get,
     path = "/assets/{name}",
     tag = "pages",
-    params(("name" = String, Path, description = "Its name")),
+    params(("name" = String, Path, description = "Name of the asset")),
     responses(
         (status = 200, description = "The asset", content(
             (String = "text/css"),
@@ -113,19 +110,19 @@ pub(in crate::http) async fn docs() -> impl IntoResponse {
         (status = 404, description = "No such asset", body = Problem),
     )
 )]
-pub(in crate::http) async fn asset(FileName(name): FileName) -> Result<Response, AssetError> {
+pub(in crate::http) async fn asset(FileName(name): FileName) -> Result<Response, ProblemResponse> {
     let found = ASSETS.iter().find(|(known, _, _)| *known == name);
-    let (_, media_type, content) = found.ok_or(AssetError::Missing)?;
+    let (_, media_type, content) = found.ok_or(NoAssetError)?;
     Ok(page(media_type, content).into_response())
 }
 
 #[cfg(test)]
 mod tests {
-    use crate::http::routes::operation::pages::ASSETS;
+    use crate::http::routes::operation::serve_pages::ASSETS;
     use crate::http::tests::Service;
 
     #[tokio::test]
-    async fn pages_may_only_use_what_this_service_serves() {
+    async fn pages_load_only_from_this_service() {
         let service = Service::new().await;
         for path in ["/", "/docs"] {
             let (status, headers, text) = service.text("GET", path, &[], "").await;
@@ -152,9 +149,9 @@ mod tests {
     }
 
     #[test]
-    fn scripts_import_only_from_here() {
+    fn assets_refer_to_no_other_host() {
         for (name, _, content) in ASSETS {
-            // The name of a vocabulary, which nobody fetches.
+            // An XML namespace, which is never fetched.
             let content = content.replace("http://www.w3.org/2000/svg", "");
             assert!(
                 !content.contains("http://") && !content.contains("https://"),
@@ -164,7 +161,7 @@ mod tests {
     }
 
     #[tokio::test]
-    async fn other_names_are_404() {
+    async fn unknown_assets_are_404() {
         let service = Service::new().await;
         for name in ["x.js", "..%2FCargo.toml", "%FF"] {
             assert_eq!(

@@ -1,4 +1,4 @@
-//! `POST /v1/plans`: the plan of a specification; nothing is queued.
+//! `POST /v1/plans`: plans a specification; nothing is queued.
 
 use api::plan::PlanDocument;
 use api::spec::Spec;
@@ -9,10 +9,11 @@ use crate::estimate::machine;
 use crate::http::App;
 use crate::http::body_problems::BodyProblems;
 use crate::http::extract::JsonBody;
-use crate::http::routes::jobs::submit::{SubmitError, resolved};
+use crate::http::problem::ProblemResponse;
+use crate::http::routes::jobs::submit::resolve;
 
-/// The plan of a specification; nothing is queued. The first one that is asked for measures the machine, which takes a
-/// second or two.
+/// Plan of a specification; nothing is queued. The first request measures the speed of the machine, which takes a second
+/// or two.
 #[utoipa::path(
     post,
     path = "/v1/plans",
@@ -26,8 +27,8 @@ use crate::http::routes::jobs::submit::{SubmitError, resolved};
 pub(in crate::http) async fn make_plan(
     State(app): State<App>,
     JsonBody(body): JsonBody,
-) -> Result<Json<PlanDocument>, SubmitError> {
-    let resolved = resolved(body).await?;
+) -> Result<Json<PlanDocument>, ProblemResponse> {
+    let resolved = resolve(body).await?;
     let machine = app.machine.wait().await;
     let plan = machine::plan(&resolved, machine.as_ref());
     Ok(Json(PlanDocument {

@@ -1,4 +1,4 @@
-//! `GET /metrics`: counters and levels for Prometheus.
+//! `GET /metrics`: counters and gauges for Prometheus.
 
 use api::problem::Problem;
 use axum::extract::State;
@@ -7,34 +7,12 @@ use axum::response::{IntoResponse, Response};
 
 use crate::clock::now_ms;
 use crate::http::App;
-use crate::http::problem::{Kind, Refusal};
-use crate::store::StoreError;
+use crate::http::problem::ProblemResponse;
 
-/// The media type of the OpenMetrics text format.
-const TYPE: &str = "application/openmetrics-text; version=1.0.0; charset=utf-8";
+/// Media type of the OpenMetrics text format.
+const MEDIA_TYPE: &str = "application/openmetrics-text; version=1.0.0; charset=utf-8";
 
-/// Why there are no metrics.
-#[derive(Debug, thiserror::Error)]
-pub(in crate::http) enum MetricsError {
-    /// The store failed.
-    #[error(transparent)]
-    Store(#[from] StoreError),
-    /// They cannot be formatted.
-    #[error(transparent)]
-    Format(#[from] std::fmt::Error),
-}
-
-impl IntoResponse for MetricsError {
-    fn into_response(self) -> Response {
-        match &self {
-            Self::Store(error) => Refusal::from(error),
-            Self::Format(_) => Kind::Internal.because("the metrics cannot be formatted"),
-        }
-        .into_response()
-    }
-}
-
-/// Counters and levels.
+/// Counters and gauges.
 #[utoipa::path(
     get,
     path = "/metrics",
@@ -44,10 +22,10 @@ impl IntoResponse for MetricsError {
         (status = 500, description = "The service failed", body = Problem),
     )
 )]
-pub(in crate::http) async fn metrics(State(app): State<App>) -> Result<Response, MetricsError> {
-    let levels = app.store.levels(now_ms()).await?;
-    let text = app.store.metrics().text(&levels)?;
-    Ok(([(header::CONTENT_TYPE, TYPE)], text).into_response())
+pub(in crate::http) async fn metrics(State(app): State<App>) -> Result<Response, ProblemResponse> {
+    let gauges = app.store.levels(now_ms()).await?;
+    let text = app.store.metrics().text(&gauges)?;
+    Ok(([(header::CONTENT_TYPE, MEDIA_TYPE)], text).into_response())
 }
 
 #[cfg(test)]

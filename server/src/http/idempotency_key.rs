@@ -1,43 +1,41 @@
-//! `Idempotency-Key`: a client's key for a request; the same key and body make one job, however often they are sent.
+//! `Idempotency-Key`: requests with the same key and body create one job, however often they are sent.
 
 use axum::http::HeaderMap;
-use axum::response::{IntoResponse, Response};
 use sha2::{Digest, Sha256};
 
-use crate::http::problem::Kind;
+use crate::http::problem::{ProblemType, RouteError};
 use crate::store::RequestKey;
 
-/// The header.
+/// Name of the header.
 const HEADER: &str = "idempotency-key";
-/// Longest key, characters.
-const LIMIT: usize = 255;
+/// Maximum length of a key, characters.
+const MAX_LENGTH: usize = 255;
 
-/// Why a key is of no use.
+/// Error of an `Idempotency-Key`.
 #[derive(Debug, thiserror::Error)]
 pub(super) enum KeyError {
     /// Empty, or too long.
-    #[error("the Idempotency-Key has {0} characters; it must have 1 to {LIMIT}")]
+    #[error("the Idempotency-Key has {0} characters; it must have 1 to {MAX_LENGTH}")]
     Length(usize),
-    /// Cannot be read.
+    /// Not printable ASCII.
     #[error("the Idempotency-Key must be printable ASCII characters")]
     Text,
     /// Used with another body.
-    #[error("the Idempotency-Key was used with another body; use a new key for another study")]
-    Taken,
+    #[error("the Idempotency-Key was used with another body; use a new key for another body")]
+    Reused,
 }
 
-impl IntoResponse for KeyError {
-    fn into_response(self) -> Response {
-        let kind = match self {
-            Self::Length(_) | Self::Text => Kind::InvalidKey,
-            Self::Taken => Kind::KeyTaken,
-        };
-        kind.because(self.to_string()).into_response()
+impl RouteError for KeyError {
+    fn problem_type(&self) -> ProblemType {
+        match self {
+            Self::Length(_) | Self::Text => ProblemType::InvalidKey,
+            Self::Reused => ProblemType::KeyReused,
+        }
     }
 }
 
-/// The client's key for this request, if it gave one.
-pub(super) fn request_key(
+/// Returns the key of a request, if it has one.
+pub(super) fn idempotency_key(
     headers: &HeaderMap,
     body: &[u8],
 ) -> Result<Option<RequestKey>, KeyError> {
@@ -45,7 +43,7 @@ pub(super) fn request_key(
         return Ok(None);
     };
     let key = value.to_str().map_err(|_| KeyError::Text)?.trim();
-    if key.is_empty() || key.len() > LIMIT {
+    if key.is_empty() || key.len() > MAX_LENGTH {
         return Err(KeyError::Length(key.len()));
     }
     Ok(Some(RequestKey {
@@ -59,7 +57,7 @@ mod tests {
     use crate::http::tests::Service;
 
     #[tokio::test]
-    async fn the_same_key_and_body_make_one_job_and_another_body_none() {
+    async fn the_same_key_and_body_create_one_job_and_another_body_is_rejected() {
         let service = Service::new().await;
         let body = r#"{"system":{"kind":"sd_card"}}"#;
         let json = ("content-type", "application/json");

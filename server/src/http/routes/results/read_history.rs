@@ -1,4 +1,4 @@
-//! `GET /v1/jobs/{id}/results/wear-history`: wear over the cycles, there while the job runs.
+//! `GET /v1/jobs/{id}/results/wear-history`: wear over the cycles, also while the job runs.
 
 use api::problem::Problem;
 use api::results::{CycleRow, WearHistory};
@@ -9,14 +9,14 @@ use axum::response::{IntoResponse, Response};
 use serde::Deserialize;
 use utoipa::{IntoParams, ToSchema};
 
-use crate::export::documents::{CSV, DocumentError, PARQUET};
+use crate::export::documents::{CSV, PARQUET};
 use crate::export::{csv, history, parquet, thin};
 use crate::http::App;
 use crate::http::extract::{JobId, Params};
-use crate::http::job_error::JobError;
-use crate::http::routes::results::stored_part::{ResultError, points};
+use crate::http::problem::ProblemResponse;
+use crate::http::routes::results::max_points;
 
-/// How the history is written.
+/// Format and length of a history.
 #[derive(Debug, Clone, Copy, Deserialize, IntoParams)]
 #[into_params(parameter_in = Query)]
 #[serde(deny_unknown_fields)]
@@ -24,12 +24,12 @@ pub(in crate::http) struct HistoryQuery {
     /// `json`, `csv` or `parquet`.
     #[serde(default)]
     format: HistoryFormat,
-    /// At most so many rows; the highest and lowest values of every column stay.
+    /// Maximum number of rows; extrema of every column are preserved.
     #[param(minimum = 16, maximum = 100_000)]
     max_points: Option<usize>,
 }
 
-/// How a history is written.
+/// Format of a history.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize, ToSchema)]
 #[serde(rename_all = "snake_case")]
 pub(in crate::http) enum HistoryFormat {
@@ -42,7 +42,7 @@ pub(in crate::http) enum HistoryFormat {
     Parquet,
 }
 
-/// Wear over the computed cycles so far, as columns.
+/// Wear over the cycles computed so far, as columns.
 #[utoipa::path(
     get,
     path = "/v1/jobs/{id}/results/wear-history",
@@ -54,7 +54,7 @@ pub(in crate::http) enum HistoryFormat {
             (String = "text/csv"),
             (Vec<u8> = "application/vnd.apache.parquet"),
         )),
-        (status = 400, description = "A query parameter cannot be read", body = Problem),
+        (status = 400, description = "A query parameter is not valid", body = Problem),
         (status = 404, description = "No such job", body = Problem),
     )
 )]
@@ -62,34 +62,33 @@ pub(in crate::http) async fn wear_history(
     State(app): State<App>,
     JobId(id): JobId,
     Params(query): Params<HistoryQuery>,
-) -> Result<Response, ResultError> {
+) -> Result<Response, ProblemResponse> {
     let job = app.job(id).await?;
-    let points = points(query.max_points)?;
-    let rows = app.store.history(id).await.map_err(JobError::from)?;
+    max_points::check(query.max_points)?;
+    let rows = app.store.history(id).await?;
     let stations = job.document.spec.output.stations_mm.unwrap_or_default();
-    // A long history takes a while to write, in which other requests are answered.
-    let written = move || written(rows, points, &stations, query.format);
-    tokio::task::spawn_blocking(written).await?
+    // Writing a long history blocks; other requests are served meanwhile.
+    let write = move || write(rows, &stations, query);
+    tokio::task::spawn_blocking(write).await?
 }
 
-fn written(
+fn write(
     mut rows: Vec<CycleRow>,
-    points: Option<usize>,
     stations: &[f64],
-    format: HistoryFormat,
-) -> Result<Response, ResultError> {
-    if let Some(points) = points {
+    query: HistoryQuery,
+) -> Result<Response, ProblemResponse> {
+    if let Some(points) = query.max_points {
         rows = thin::rows(rows, points);
     }
     let columns = history::columns(&rows, stations);
-    Ok(match format {
+    Ok(match query.format {
         HistoryFormat::Json => Json(columns).into_response(),
         HistoryFormat::Csv => {
-            let table = csv::wear_history(&columns).map_err(DocumentError::from)?;
+            let table = csv::wear_history(&columns)?;
             ([(header::CONTENT_TYPE, CSV)], table).into_response()
         }
         HistoryFormat::Parquet => {
-            let table = parquet::wear_history(&columns).map_err(DocumentError::from)?;
+            let table = parquet::wear_history(&columns)?;
             ([(header::CONTENT_TYPE, PARQUET)], table).into_response()
         }
     })
@@ -100,7 +99,7 @@ mod tests {
     use crate::http::tests::Service;
 
     #[tokio::test]
-    async fn the_rows_so_far_come_as_columns() {
+    async fn the_rows_so_far_are_returned_as_columns() {
         let service = Service::new().await;
         let id = service.with_results().await;
         let (status, _, history) = service
@@ -152,7 +151,7 @@ mod tests {
     }
 
     #[tokio::test]
-    async fn parquet_is_what_its_readers_expect() {
+    async fn parquet_has_the_magic_bytes_of_its_format() {
         let service = Service::new().await;
         let id = service.with_results().await;
         let path = format!("/v1/jobs/{id}/results/wear-history?format=parquet&max_points=16");
