@@ -60,8 +60,8 @@ pub struct App {
     machine: CalibrationCache,
     /// Archives that may be made at once.
     archives: Arc<Semaphore>,
-    /// Studies whose runs may be chosen at once.
-    programmes: Arc<Semaphore>,
+    /// Batches that may be expanded at once.
+    expansions: Arc<Semaphore>,
     long_polls: Arc<Semaphore>,
     streams: Arc<Semaphore>,
 }
@@ -75,7 +75,7 @@ impl App {
             stopping,
             access,
             archives: Arc::new(Semaphore::new(results::archive::AT_ONCE)),
-            programmes: Arc::new(Semaphore::new(batches::submit_study::AT_ONCE)),
+            expansions: Arc::new(Semaphore::new(batches::submit::EXPANSIONS)),
             long_polls: Arc::new(Semaphore::new(LONG_POLLS)),
             streams: Arc::new(Semaphore::new(STREAMS)),
         }
@@ -86,7 +86,7 @@ impl App {
 #[openapi(
     components(schemas(
         results::stored_part::Format,
-        batches::study_picture::PictureFormat,
+        batches::picture::PictureFormat,
         results::wear_history::HistoryFormat,
         api::event::Done
     )),
@@ -132,20 +132,26 @@ fn described() -> (Router<App>, Document) {
         .routes(routes!(results::pressure::pressure))
         .routes(routes!(results::friction_loop::friction_loop))
         .routes(routes!(
-            batches::submit_sweep::submit_sweep,
-            batches::list_sweeps::list_sweeps
+            batches::submit::submit_sweep,
+            batches::list::list_sweeps
         ))
         .routes(routes!(
-            batches::show_sweep::show_sweep,
-            batches::remove_sweep::remove_sweep
+            batches::show::show_sweep,
+            batches::delete::remove_sweep
         ))
-        .routes(routes!(batches::sweep_outcomes::sweep_outcomes))
-        .routes(routes!(batches::cancel_sweep::cancel_sweep))
-        .routes(routes!(batches::submit_study::submit_study))
-        .routes(routes!(batches::show_study::show_study))
-        .routes(routes!(batches::study_table::study_table))
-        .routes(routes!(batches::study_picture::study_picture))
-        .routes(routes!(batches::cancel_study::cancel_study))
+        .routes(routes!(batches::outcomes::sweep_outcomes))
+        .routes(routes!(batches::cancel::cancel_sweep))
+        .routes(routes!(
+            batches::submit::submit_study,
+            batches::list::list_studies
+        ))
+        .routes(routes!(
+            batches::show::show_study,
+            batches::delete::remove_study
+        ))
+        .routes(routes!(batches::outcomes::study_table))
+        .routes(routes!(batches::picture::study_picture))
+        .routes(routes!(batches::cancel::cancel_study))
         .routes(routes!(jobs::make_plan::make_plan))
         .routes(routes!(systems::read::systems))
         .routes(routes!(systems::read::system))

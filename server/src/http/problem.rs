@@ -51,6 +51,8 @@ pub(super) enum Kind {
     Active,
     /// A job of the sweep has not ended.
     SweepActive,
+    /// A job of the study has not ended.
+    StudyActive,
     /// The request was made for another host or from another origin.
     Host,
     /// The access token is missing or wrong.
@@ -132,6 +134,11 @@ impl Kind {
             Self::SweepActive => (
                 "sweep-active",
                 "the sweep has jobs that have not ended",
+                StatusCode::CONFLICT,
+            ),
+            Self::StudyActive => (
+                "study-active",
+                "the study has jobs that have not ended",
                 StatusCode::CONFLICT,
             ),
             Self::Host => (

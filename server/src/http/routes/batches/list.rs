@@ -1,6 +1,8 @@
-//! `GET /v1/sweeps`: sweeps, newest first.
+//! `GET /v1/sweeps` and `GET /v1/studies`: batches, newest first.
 
+use api::batch::BatchOverview;
 use api::problem::Problem;
+use api::study::StudyList;
 use api::sweep::SweepList;
 use axum::Json;
 use axum::extract::State;
@@ -8,16 +10,17 @@ use axum::response::{IntoResponse, Response};
 use serde::Deserialize;
 use utoipa::IntoParams;
 
+use crate::batch::Kind;
 use crate::http::App;
 use crate::http::extract::Params;
 use crate::http::paging::{Page, PageError};
-use crate::http::problem::{Kind, Refusal};
-use crate::store::StoreError;
+use crate::http::problem::{self, Refusal};
+use crate::store::{BatchFilter, StoreError};
 
 /// Why there is no list.
 #[derive(Debug, thiserror::Error)]
-pub(in crate::http) enum ListSweepsError {
-    /// Not a page of it.
+pub(in crate::http) enum ListBatchesError {
+    /// The page is invalid.
     #[error(transparent)]
     Page(#[from] PageError),
     /// The store failed.
@@ -25,25 +28,25 @@ pub(in crate::http) enum ListSweepsError {
     Store(#[from] StoreError),
 }
 
-impl IntoResponse for ListSweepsError {
+impl IntoResponse for ListBatchesError {
     fn into_response(self) -> Response {
         match &self {
-            Self::Page(_) => Kind::InvalidQuery.because(self.to_string()),
+            Self::Page(_) => problem::Kind::InvalidQuery.because(self.to_string()),
             Self::Store(error) => Refusal::from(error),
         }
         .into_response()
     }
 }
 
-/// Which page.
+/// Page of the list.
 #[derive(Debug, Deserialize, IntoParams)]
 #[into_params(parameter_in = Query)]
 #[serde(deny_unknown_fields)]
-pub(in crate::http) struct ListSweepsQuery {
-    /// Sweeps of a page, 1 to 500.
+pub(in crate::http) struct ListBatchesQuery {
+    /// Entries of a page, 1 to 500.
     #[param(value_type = Option<u32>, minimum = 1, maximum = 500)]
     limit: Option<String>,
-    /// Where the page starts: `next_page_token` of the page before.
+    /// Start of the page: `next_page_token` of the page before.
     page_token: Option<String>,
 }
 
@@ -52,7 +55,7 @@ pub(in crate::http) struct ListSweepsQuery {
     get,
     path = "/v1/sweeps",
     tag = "sweeps",
-    params(ListSweepsQuery),
+    params(ListBatchesQuery),
     responses(
         (status = 200, description = "A page of sweeps", body = SweepList),
         (status = 400, description = "A query parameter cannot be read", body = Problem),
@@ -60,24 +63,67 @@ pub(in crate::http) struct ListSweepsQuery {
 )]
 pub(in crate::http) async fn list_sweeps(
     State(app): State<App>,
-    Params(query): Params<ListSweepsQuery>,
-) -> Result<Json<SweepList>, ListSweepsError> {
-    let page = Page::asked(
-        "sweeps",
-        query.limit.as_deref(),
-        query.page_token.as_deref(),
-    )?;
-    let mut sweeps = app.store.sweeps(page.before, page.wanted()).await?;
-    let next_page_token = page.cut(&mut sweeps, |sweep| sweep.id);
+    Params(query): Params<ListBatchesQuery>,
+) -> Result<Json<SweepList>, ListBatchesError> {
+    let (sweeps, next_page_token) = page(&app, Kind::Sweep, &query).await?;
     Ok(Json(SweepList {
         sweeps,
         next_page_token,
     }))
 }
 
+/// Studies of accuracy, newest first, without their jobs and results.
+#[utoipa::path(
+    get,
+    path = "/v1/studies",
+    tag = "studies",
+    params(ListBatchesQuery),
+    responses(
+        (status = 200, description = "A page of studies", body = StudyList),
+        (status = 400, description = "A query parameter cannot be read", body = Problem),
+    )
+)]
+pub(in crate::http) async fn list_studies(
+    State(app): State<App>,
+    Params(query): Params<ListBatchesQuery>,
+) -> Result<Json<StudyList>, ListBatchesError> {
+    let (studies, next_page_token) = page(&app, Kind::AccuracyStudy, &query).await?;
+    Ok(Json(StudyList {
+        studies,
+        next_page_token,
+    }))
+}
+
+/// Returns a page, and the token of the next one.
+async fn page(
+    app: &App,
+    kind: Kind,
+    query: &ListBatchesQuery,
+) -> Result<(Vec<BatchOverview>, Option<String>), ListBatchesError> {
+    let (limit, token) = (query.limit.as_deref(), query.page_token.as_deref());
+    let page = Page::asked(kind.collection(), limit, token)?;
+    let filter = BatchFilter {
+        with_plan: kind.has_plan(),
+        before: page.before,
+        limit: page.wanted(),
+    };
+    let mut batches = app.store.batches(filter).await?;
+    let next_page_token = page.cut(&mut batches, |batch| batch.id);
+    let batches = batches.into_iter().map(|batch| BatchOverview {
+        id: batch.id,
+        name: batch.name,
+        created_at: batch.created_at,
+        counts: batch.counts,
+        links: kind.links(batch.id),
+    });
+    Ok((batches.collect(), next_page_token))
+}
+
 #[cfg(test)]
 mod tests {
-    use crate::http::tests::{SWEEP, Service};
+    use serde_json::json;
+
+    use crate::http::tests::{STUDY, SWEEP, Service};
 
     #[tokio::test]
     async fn sweeps_come_newest_first_in_pages() {
@@ -131,5 +177,23 @@ mod tests {
                 "{query}"
             );
         }
+    }
+
+    #[tokio::test]
+    async fn only_studies_are_listed_as_studies_and_every_batch_as_a_sweep() {
+        let service = Service::new().await;
+        service.post("/v1/sweeps", SWEEP).await;
+        let (_, _, study) = service.post("/v1/studies", STUDY).await;
+        let (status, _, studies) = service.get("/v1/studies").await;
+        assert_eq!(status, 200);
+        assert_eq!(studies["studies"].as_array().map(Vec::len), Some(1));
+        let overview = &studies["studies"][0];
+        for field in ["id", "name", "created_at", "counts", "links"] {
+            assert_eq!(overview[field], study[field], "{field}");
+        }
+        assert_eq!(studies["next_page_token"], json!(null));
+        let (_, _, sweeps) = service.get("/v1/sweeps").await;
+        assert_eq!(sweeps["sweeps"].as_array().map(Vec::len), Some(2));
+        assert_eq!(sweeps["sweeps"][0]["id"], study["id"]);
     }
 }
