@@ -59,8 +59,8 @@ pub struct App {
     /// Measured speed of this machine.
     machine: CalibrationCache,
     archive_permits: Arc<Semaphore>,
-    /// Permits to choose the runs of an accuracy study.
-    run_plan_permits: Arc<Semaphore>,
+    /// Permits to expand a batch into its jobs.
+    expansion_permits: Arc<Semaphore>,
     long_poll_permits: Arc<Semaphore>,
     stream_permits: Arc<Semaphore>,
 }
@@ -74,7 +74,7 @@ impl App {
             stopping,
             access,
             archive_permits: Arc::new(Semaphore::new(results::download_archive::MAX_ARCHIVES)),
-            run_plan_permits: Arc::new(Semaphore::new(batches::submit_study::AT_ONCE)),
+            expansion_permits: Arc::new(Semaphore::new(batches::submit::MAX_EXPANSIONS)),
             long_poll_permits: Arc::new(Semaphore::new(MAX_LONG_POLLS)),
             stream_permits: Arc::new(Semaphore::new(MAX_STREAMS)),
         }
@@ -85,7 +85,7 @@ impl App {
 #[openapi(
     components(schemas(
         results::read_snapshot::Format,
-        batches::study_picture::PictureFormat,
+        batches::picture::PictureFormat,
         results::read_history::HistoryFormat,
         api::event::Done
     )),
@@ -132,20 +132,26 @@ fn routes_and_document() -> (Router<App>, Document) {
         .routes(routes!(results::read_snapshot::pressure))
         .routes(routes!(results::read_snapshot::friction_loop))
         .routes(routes!(
-            batches::submit_sweep::submit_sweep,
-            batches::list_sweeps::list_sweeps
+            batches::submit::submit_sweep,
+            batches::list::list_sweeps
         ))
         .routes(routes!(
-            batches::show_sweep::show_sweep,
-            batches::remove_sweep::remove_sweep
+            batches::show::show_sweep,
+            batches::delete::remove_sweep
         ))
-        .routes(routes!(batches::sweep_outcomes::sweep_outcomes))
-        .routes(routes!(batches::cancel_sweep::cancel_sweep))
-        .routes(routes!(batches::submit_study::submit_study))
-        .routes(routes!(batches::show_study::show_study))
-        .routes(routes!(batches::study_table::study_table))
-        .routes(routes!(batches::study_picture::study_picture))
-        .routes(routes!(batches::cancel_study::cancel_study))
+        .routes(routes!(batches::outcomes::sweep_outcomes))
+        .routes(routes!(batches::cancel::cancel_sweep))
+        .routes(routes!(
+            batches::submit::submit_study,
+            batches::list::list_studies
+        ))
+        .routes(routes!(
+            batches::show::show_study,
+            batches::delete::remove_study
+        ))
+        .routes(routes!(batches::outcomes::study_table))
+        .routes(routes!(batches::picture::study_picture))
+        .routes(routes!(batches::cancel::cancel_study))
         .routes(routes!(jobs::plan::make_plan))
         .routes(routes!(systems::list::systems))
         .routes(routes!(systems::show::system))

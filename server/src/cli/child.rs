@@ -1,9 +1,9 @@
 //! `fretwear solve-child`: a service's solving process.
 //!
-//! Two lines on standard input are the resolved specification and the checkpoint to go on from (base64, empty for none);
-//! every line on standard output is a [`Line`]. Standard input stays open as long as the supervisor lives: at its end
-//! this process ends too. Large results are written into the attempt's folder, and the lines only name them. Asked to
-//! terminate, the process tells a checkpoint after the present cycle and ends.
+//! Two lines on standard input are the resolved specification and the checkpoint to resume from (base64, empty for none);
+//! every line on standard output is a [`Line`]. Standard input stays open as long as the supervisor runs; when it is
+//! closed, this process exits. Large results are written into the attempt's folder, and the lines only name them. On
+//! SIGTERM the process writes a checkpoint after the present cycle and exits.
 
 use std::io::{BufRead, Read, Write};
 use std::path::Path;
@@ -20,7 +20,7 @@ use signal_hook::consts::SIGTERM;
 use solver::observer::Flow;
 
 use crate::cli::ChildArguments;
-use crate::cli::terminal::{failed, refused, tell};
+use crate::cli::terminal::{failed, refused, write_err};
 use crate::export::documents::VTU;
 use crate::export::files;
 use crate::export::files::FilesError;
@@ -29,9 +29,9 @@ use crate::solve::checkpoint::{Keeping, Saved};
 use crate::solve::{Failure, FieldsFile, Line, UNWRITTEN};
 use crate::spec;
 
-/// Exit code when the supervisor is gone.
+/// Exit code after the supervisor has exited.
 const ORPHANED: i32 = 3;
-/// Pause before a full disk is tried again.
+/// Pause before writing to a full disk is retried.
 const DISK_PAUSE: Duration = Duration::from_millis(200);
 
 pub(super) fn run(arguments: &ChildArguments) -> ExitCode {
@@ -39,8 +39,8 @@ pub(super) fn run(arguments: &ChildArguments) -> ExitCode {
     if let Err(cause) = prepare(arguments, &stop) {
         return failed(cause);
     }
-    let (spec, checkpoint) = match lines() {
-        Ok(lines) => lines,
+    let (spec, checkpoint) = match input() {
+        Ok(input) => input,
         Err(cause) => return failed(cause),
     };
     let resolved = match spec::read(spec.as_bytes()) {
@@ -53,8 +53,8 @@ pub(super) fn run(arguments: &ChildArguments) -> ExitCode {
             return refused(&error);
         }
     };
-    std::thread::spawn(end_with_supervisor);
-    let from = match saved(&checkpoint) {
+    std::thread::spawn(exit_with_supervisor);
+    let from = match decoded(&checkpoint) {
         Ok(from) => from,
         Err(why) => {
             write(&Line::Anew(why));
@@ -64,7 +64,7 @@ pub(super) fn run(arguments: &ChildArguments) -> ExitCode {
     let every = Duration::from_millis(arguments.checkpoint_every_ms);
     let keeping = Keeping::new(every, Arc::clone(&stop));
     let solved = solve::run_from(&resolved.scene, from, &keeping, &mut |line| match line {
-        Line::Fields(fields) => keep(&arguments.folder, &fields, &stop),
+        Line::Fields(fields) => write_fields(&arguments.folder, &fields, &stop),
         line => write(&line),
     });
     let last = match solved {
@@ -78,8 +78,8 @@ pub(super) fn run(arguments: &ChildArguments) -> ExitCode {
     }
 }
 
-/// Limits the memory that may be written to, and turns a request to terminate into a flag. Address space that is only
-/// reserved, as allocators do, is not counted.
+/// Limits the writable memory, and turns SIGTERM into a flag. Address space that is only reserved, as allocators do, is
+/// not counted.
 fn prepare(arguments: &ChildArguments, stop: &Arc<AtomicBool>) -> std::io::Result<()> {
     if let Some(limit) = arguments.memory_limit_mb {
         let bytes = limit.saturating_mul(1 << 20);
@@ -89,8 +89,8 @@ fn prepare(arguments: &ChildArguments, stop: &Arc<AtomicBool>) -> std::io::Resul
     Ok(())
 }
 
-/// The specification and the checkpoint.
-fn lines() -> std::io::Result<(String, String)> {
+/// Reads the specification and the checkpoint.
+fn input() -> std::io::Result<(String, String)> {
     let (mut spec, mut checkpoint) = (String::new(), String::new());
     let mut stdin = std::io::stdin().lock();
     stdin.read_line(&mut spec)?;
@@ -98,7 +98,8 @@ fn lines() -> std::io::Result<(String, String)> {
     Ok((spec, checkpoint))
 }
 
-fn saved(text: &str) -> Result<Option<Saved>, String> {
+/// Decodes the checkpoint; `None` if the line is empty.
+fn decoded(text: &str) -> Result<Option<Saved>, String> {
     let text = text.trim();
     if text.is_empty() {
         return Ok(None);
@@ -111,24 +112,23 @@ fn saved(text: &str) -> Result<Option<Saved>, String> {
         .map_err(|cause| cause.to_string())
 }
 
-/// Blocks until standard input ends, then ends the process.
-fn end_with_supervisor() {
+/// Blocks until standard input is closed, then exits.
+fn exit_with_supervisor() {
     let mut rest = [0_u8; 64];
     let mut stdin = std::io::stdin().lock();
     while stdin.read(&mut rest).is_ok_and(|length| length > 0) {}
     std::process::exit(ORPHANED);
 }
 
-/// Writes fields into the attempt's folder and tells of the file. A disk that takes no more is no fault of the study: a
-/// full one is waited for, unless the process is asked to end; for another reason it ends without a verdict, and another
-/// attempt is made.
-fn keep(folder: &Path, fields: &FieldsFile, stop: &AtomicBool) -> Flow {
+/// Writes fields into the attempt's folder and reports the file. A disk error is not the fault of the job: on a full disk
+/// writing is retried until SIGTERM; on any other error the process exits without a result, and the job is retried.
+fn write_fields(folder: &Path, fields: &FieldsFile, stop: &AtomicBool) -> Flow {
     let FieldsFile { name, cycle, bytes } = fields;
-    let mut told = false;
+    let mut reported = false;
     while let Err(error) = files::keep(folder, name, bytes) {
-        if !told {
-            tell(&error);
-            told = true;
+        if !reported {
+            write_err(&error);
+            reported = true;
         }
         match error {
             FilesError::Write { cause, .. } if files::is_full(&cause) => {}
@@ -147,7 +147,7 @@ fn keep(folder: &Path, fields: &FieldsFile, stop: &AtomicBool) -> Flow {
     )))
 }
 
-/// Writes a line; a supervisor that does not read any more stops the run.
+/// Writes a line; stops the run if the supervisor no longer reads.
 fn write(line: &Line) -> Flow {
     let Ok(mut bytes) = serde_json::to_vec(line) else {
         return Flow::Stop;

@@ -8,7 +8,7 @@ use api::results::{CycleRow, Snapshot, Summary};
 use indicatif::ProgressBar;
 use solver::observer::Flow;
 
-use crate::cli::terminal::{bar, failed, say, specification_for, tell};
+use crate::cli::terminal::{bar, failed, specification_for, write_err, write_out};
 use crate::export::documents::Results;
 use crate::export::files;
 use crate::solve;
@@ -89,11 +89,11 @@ pub(super) fn phase_name(phase: Phase) -> &'static str {
 
 fn report(summary: &Summary) -> ExitCode {
     match serde_json::to_string_pretty(summary) {
-        Ok(text) => say(text),
+        Ok(text) => write_out(text),
         Err(cause) => return failed(cause),
     }
     if summary.outcome == Outcome::Stopped {
-        tell("fretwear: the run was stopped");
+        write_err("fretwear: the run was stopped");
         return ExitCode::FAILURE;
     }
     ExitCode::SUCCESS

@@ -55,6 +55,8 @@ pub(super) enum ProblemType {
     JobActive,
     /// A job of the sweep has not ended.
     SweepActive,
+    /// A job of the study has not ended.
+    StudyActive,
     /// The request was sent for another host or from another origin.
     ForeignHost,
     /// The access token is missing or wrong.
@@ -102,6 +104,11 @@ impl ProblemType {
                 409,
                 "sweep-active",
                 "the sweep has jobs that have not ended",
+            ),
+            Self::StudyActive => (
+                409,
+                "study-active",
+                "the study has jobs that have not ended",
             ),
             Self::ForeignHost => (403, "foreign-host", "the request is for another host"),
             Self::TokenRequired => (
@@ -182,9 +189,6 @@ impl<E: RouteError> From<E> for ProblemResponse {
 impl From<StoreError> for ProblemResponse {
     fn from(error: StoreError) -> Self {
         let detail = match &error {
-            StoreError::StudyFormat { .. } => {
-                return ProblemType::StudyOutdated.with_detail(error.to_string());
-            }
             error if error.is_disk_full() => "no space left on the data disk",
             error if error.is_passing() => "the database is busy; send the request again",
             error => return Self::internal(error),

@@ -55,16 +55,6 @@ pub enum StoreError {
         /// Why.
         cause: String,
     },
-    /// A study was queued by another version of this program.
-    #[error("study {id} was stored in format {found}, this program compares format {wanted}")]
-    StudyFormat {
-        /// The study.
-        id: Uuid,
-        /// Its format.
-        found: u32,
-        /// The format that can be compared.
-        wanted: u32,
-    },
     /// A submission was broken off before it was written.
     #[error("the submission was broken off before it was written")]
     Unwritten,

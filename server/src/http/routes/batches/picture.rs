@@ -7,14 +7,14 @@ use axum::response::{IntoResponse, Response};
 use serde::Deserialize;
 use utoipa::{IntoParams, ToSchema};
 
-use crate::batch::accuracy::report;
+use crate::batch::Kind;
+use crate::batch::accuracy::{self, report};
 use crate::export::documents::{PNG, SVG};
 use crate::http::App;
 use crate::http::extract::{Params, StudyId};
 use crate::http::problem::ProblemResponse;
-use crate::http::routes::batches::show_study::evaluated;
 
-/// How a picture is written.
+/// Format of a picture.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize, ToSchema)]
 #[serde(rename_all = "snake_case")]
 pub(in crate::http) enum PictureFormat {
@@ -25,7 +25,7 @@ pub(in crate::http) enum PictureFormat {
     Png,
 }
 
-/// How the picture is wanted.
+/// Options of the picture.
 #[derive(Debug, Clone, Copy, Deserialize, IntoParams)]
 #[into_params(parameter_in = Query)]
 #[serde(deny_unknown_fields)]
@@ -35,7 +35,7 @@ pub(in crate::http) struct PictureQuery {
     format: PictureFormat,
 }
 
-/// Errors over processor seconds, both by decades, of the runs so far.
+/// Errors of the runs so far over processor seconds, both axes logarithmic.
 #[utoipa::path(
     get,
     path = "/v1/studies/{id}/picture",
@@ -46,7 +46,7 @@ pub(in crate::http) struct PictureQuery {
             (Vec<u8> = "image/svg+xml"),
             (Vec<u8> = "image/png"),
         )),
-        (status = 400, description = "A query parameter cannot be read", body = Problem),
+        (status = 400, description = "A query parameter is not valid", body = Problem),
         (status = 404, description = "No such study, or no results so far", body = Problem),
         (status = 410, description = "Queued by a version whose studies cannot be compared any more", body = Problem),
     )
@@ -56,13 +56,16 @@ pub(in crate::http) async fn study_picture(
     StudyId(id): StudyId,
     Params(query): Params<PictureQuery>,
 ) -> Result<Response, ProblemResponse> {
-    let study = evaluated(&app, id).await?;
-    // Rasterising takes a tenth of a second.
-    let draw = move || match query.format {
-        PictureFormat::Svg => report::svg(&study).map(|svg| (SVG, svg.into_bytes())),
-        PictureFormat::Png => report::png(&study).map(|png| (PNG, png)),
+    let (kind, format) = (Kind::AccuracyStudy, query.format);
+    let draw = move |batch| {
+        let study = accuracy::study(&batch)?;
+        Ok(match format {
+            PictureFormat::Svg => (SVG, report::svg(&study)?.into_bytes()),
+            PictureFormat::Png => (PNG, report::png(&study)?),
+        })
     };
-    let (media_type, bytes) = tokio::task::spawn_blocking(draw).await??;
+    let detail = kind.document_detail();
+    let (media_type, bytes) = app.evaluate_batch(kind, id, detail, draw).await?;
     Ok(([(header::CONTENT_TYPE, media_type)], bytes).into_response())
 }
 

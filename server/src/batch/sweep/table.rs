@@ -1,33 +1,20 @@
-//! The outcomes of a sweep as one table: a row a job, first what sets it apart, then what came out.
+//! The results of a sweep as one table: a row per job, first its changes against the base, then its figures.
 
 use std::collections::BTreeSet;
 
 use ::csv::Writer;
-use api::job::{Outcome, Status};
+use api::job::Outcome;
 use api::results::Summary;
-use api::sweep::Changes;
 use serde_json::Value;
 
+use crate::batch::error::EvaluateError;
 use crate::export::csv::CsvError;
-
-/// A job of the table.
-#[derive(Debug, Clone, Copy)]
-pub struct Row<'a> {
-    /// Its id.
-    pub id: uuid::Uuid,
-    /// What sets it apart.
-    pub overrides: &'a Changes,
-    /// Where it stands.
-    pub status: Status,
-    /// How its solve ended.
-    pub outcome: Option<Outcome>,
-    /// The result in short.
-    pub summary: Option<&'a Summary>,
-}
+use crate::export::documents::DocumentError;
+use crate::store::BatchJob;
 
 type Figure = (&'static str, fn(&Summary) -> f64);
 
-/// What the table says about a result.
+/// Figures of a summary that the table shows.
 const FIGURES: [Figure; 10] = [
     ("sliding_distance_mm", |s| s.sliding_distance_mm),
     ("receptacle_max_depth_mm", |s| s.receptacle.max_depth_mm),
@@ -47,29 +34,35 @@ const FIGURES: [Figure; 10] = [
     }),
 ];
 
-/// The table as CSV; cells of jobs without a result stay empty.
+/// Returns the table as CSV; cells of jobs without a result are empty.
 ///
 /// # Errors
-/// [`CsvError`] if the writer fails.
-pub fn table(rows: &[Row<'_>]) -> Result<Vec<u8>, CsvError> {
-    let pointers: BTreeSet<&String> = rows.iter().flat_map(|row| row.overrides.keys()).collect();
+/// [`EvaluateError::Write`] if the writer fails.
+pub(in crate::batch) fn csv(jobs: &[BatchJob]) -> Result<Vec<u8>, EvaluateError> {
+    let written = write(jobs).map_err(DocumentError::from)?;
+    Ok(written)
+}
+
+fn write(jobs: &[BatchJob]) -> Result<Vec<u8>, CsvError> {
+    let pointers: BTreeSet<&String> = jobs.iter().flat_map(|job| job.overrides.keys()).collect();
     let mut header = vec!["job".to_owned(), "status".to_owned(), "outcome".to_owned()];
     header.extend(pointers.iter().map(|pointer| harmless(pointer)));
     header.push("cycles_done".to_owned());
     header.extend(FIGURES.map(|(name, _)| name.to_owned()));
     let mut writer = Writer::from_writer(Vec::new());
     writer.write_record(header)?;
-    for row in rows {
-        let outcome = row.outcome.map(Outcome::as_str).unwrap_or_default();
+    for job in jobs {
+        let outcome = job.outcome.map(Outcome::as_str).unwrap_or_default();
         let mut cells = vec![
-            row.id.to_string(),
-            row.status.as_str().to_owned(),
+            job.id.to_string(),
+            job.status.as_str().to_owned(),
             outcome.to_owned(),
         ];
-        let overrides = pointers.iter().map(|pointer| row.overrides.get(*pointer));
+        let overrides = pointers.iter().map(|pointer| job.overrides.get(*pointer));
         cells.extend(overrides.map(|value| value.map(cell).unwrap_or_default()));
-        let figure =
-            |value: &dyn Fn(&Summary) -> String| row.summary.map(value).unwrap_or_default();
+        let figure = |value: &dyn Fn(&Summary) -> String| {
+            job.summary.as_ref().map(value).unwrap_or_default()
+        };
         cells.push(figure(&|summary| summary.cycles_done.to_string()));
         cells.extend(FIGURES.map(|(_, value)| figure(&|summary| value(summary).to_string())));
         writer.write_record(cells)?;
@@ -87,7 +80,7 @@ fn cell(value: &Value) -> String {
     }
 }
 
-/// A client's text as a cell that no spreadsheet executes: one that begins like a formula gets an apostrophe.
+/// Returns a client's text as a cell that no spreadsheet executes: one that begins like a formula gets an apostrophe.
 fn harmless(text: &str) -> String {
     if text.starts_with(['=', '+', '-', '@', '\t', '\r', '\n']) {
         format!("'{text}")
@@ -98,25 +91,29 @@ fn harmless(text: &str) -> String {
 
 #[cfg(test)]
 mod tests {
+    use api::job::Status;
+    use api::sweep::Changes;
     use serde_json::json;
 
     use super::*;
 
     #[test]
-    fn texts_of_clients_are_no_formulas() {
+    fn texts_of_clients_are_not_written_as_formulas() {
         let overrides = Changes::from([
             ("/name".to_owned(), json!("=cmd|'/c calc'!A1")),
             ("/load/n".to_owned(), json!(-0.5)),
             ("@x".to_owned(), json!(["=1"])),
         ]);
-        let row = Row {
+        let job = BatchJob {
             id: uuid::Uuid::nil(),
-            overrides: &overrides,
+            overrides,
             status: Status::Queued,
+            status_reason: None,
             outcome: None,
             summary: None,
+            profile: None,
         };
-        let text = String::from_utf8(table(&[row]).expect("a table")).expect("text");
+        let text = String::from_utf8(csv(&[job]).expect("a table")).expect("text");
         let lines: Vec<&str> = text.lines().collect();
         assert!(
             lines[0].starts_with("job,status,outcome,/load/n,/name,'@x,cycles_done,"),

@@ -1,19 +1,19 @@
-//! `GET /v1/sweeps/{id}/outcomes`: what came out of a sweep, one line a job.
+//! `GET /v1/sweeps/{id}/outcomes` and `GET /v1/studies/{id}/table`: the results of a batch as a table.
 
 use api::problem::Problem;
 use axum::extract::State;
 use axum::http::header;
 use axum::response::{IntoResponse, Response};
+use uuid::Uuid;
 
-use crate::batch::outcomes::{Row, table};
+use crate::batch::Kind;
 use crate::export::documents::CSV;
 use crate::http::App;
-use crate::http::extract::SweepId;
+use crate::http::extract::{StudyId, SweepId};
 use crate::http::problem::ProblemResponse;
-use crate::http::routes::batches::show_sweep::SweepError;
 use crate::http::routes::results::download_file::attachment;
 
-/// What came out of a sweep so far, as CSV: what sets each job apart, where it stands, and its result.
+/// The results of a sweep so far as CSV: changes, status and figures, one line per job.
 #[utoipa::path(
     get,
     path = "/v1/sweeps/{id}/outcomes",
@@ -28,26 +28,38 @@ pub(in crate::http) async fn sweep_outcomes(
     State(app): State<App>,
     SweepId(id): SweepId,
 ) -> Result<Response, ProblemResponse> {
-    let outcomes = app.store.sweep_outcomes(id).await?;
-    let outcomes = outcomes.ok_or(SweepError::Missing(id))?;
-    let rows: Vec<Row<'_>> = outcomes
-        .iter()
-        .map(|outcome| Row {
-            id: outcome.job.id,
-            overrides: &outcome.job.overrides,
-            status: outcome.job.status,
-            outcome: outcome.job.outcome,
-            summary: outcome.summary.as_ref(),
-        })
-        .collect();
+    table(&app, Kind::Sweep, id).await
+}
+
+/// The runs of a study so far as CSV: settings, errors, cost.
+#[utoipa::path(
+    get,
+    path = "/v1/studies/{id}/table",
+    tag = "studies",
+    params(("id" = Uuid, Path, description = "The study")),
+    responses(
+        (status = 200, description = "The table", content_type = "text/csv", body = String),
+        (status = 404, description = "No such study, or no results so far", body = Problem),
+        (status = 410, description = "Queued by a version whose studies cannot be compared any more", body = Problem),
+    )
+)]
+pub(in crate::http) async fn study_table(
+    State(app): State<App>,
+    StudyId(id): StudyId,
+) -> Result<Response, ProblemResponse> {
+    table(&app, Kind::AccuracyStudy, id).await
+}
+
+async fn table(app: &App, kind: Kind, id: Uuid) -> Result<Response, ProblemResponse> {
+    let detail = kind.table_detail();
+    let evaluate = move |batch| kind.table(&batch);
+    let table = app.evaluate_batch(kind, id, detail, evaluate).await?;
+    let name = attachment(&format!("{kind}-{id}.csv"));
     let headers = [
         (header::CONTENT_TYPE, CSV.to_owned()),
-        (
-            header::CONTENT_DISPOSITION,
-            attachment(&format!("sweep-{id}.csv")),
-        ),
+        (header::CONTENT_DISPOSITION, name),
     ];
-    Ok((headers, table(&rows)?).into_response())
+    Ok((headers, table).into_response())
 }
 
 #[cfg(test)]
@@ -72,6 +84,13 @@ mod tests {
         );
         assert!(text.contains(",queued,,10,0.3,"), "{text}");
         let nobody = "/v1/sweeps/00000000-0000-7000-8000-000000000000/outcomes";
+        assert_eq!(service.get(nobody).await.0, 404);
+    }
+
+    #[tokio::test]
+    async fn an_unknown_study_has_no_table() {
+        let service = Service::new().await;
+        let nobody = "/v1/studies/00000000-0000-7000-8000-000000000000/table";
         assert_eq!(service.get(nobody).await.0, 404);
     }
 }
