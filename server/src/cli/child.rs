@@ -1,11 +1,12 @@
 //! `fretwear solve-child`: a service's solving process.
 //!
-//! Two lines on standard input are the resolved specification and the checkpoint to resume from (base64, empty for none);
-//! every line on standard output is a [`Line`]. Standard input stays open as long as the supervisor runs; when it is
-//! closed, this process exits. Large results are written into the attempt's folder, and the lines only name them. On
-//! SIGTERM the process writes a checkpoint after the present cycle and exits.
+//! Two lines on standard input are the resolved specification and the checkpoint to go on from (base64, empty for none);
+//! every line on standard output is a [`Line`]. Standard input stays open as long as the supervisor lives: at its end
+//! this process ends too. Large results are written into the attempt's folder, and the lines only name them. Asked to
+//! terminate, the process tells a checkpoint after the present cycle and ends.
 
 use std::io::{BufRead, Read, Write};
+use std::ops::ControlFlow;
 use std::path::Path;
 use std::process::ExitCode;
 use std::sync::Arc;
@@ -17,7 +18,6 @@ use base64::Engine as _;
 use base64::prelude::BASE64_STANDARD;
 use nix::sys::resource::{Resource, setrlimit};
 use signal_hook::consts::SIGTERM;
-use solver::observer::Flow;
 
 use crate::cli::ChildArguments;
 use crate::cli::terminal::{failed, refused, write_err};
@@ -29,9 +29,9 @@ use crate::solve::checkpoint::{Keeping, Saved};
 use crate::solve::{Failure, FieldsFile, Line, UNWRITTEN};
 use crate::spec;
 
-/// Exit code after the supervisor has exited.
+/// Exit code when the supervisor is gone.
 const ORPHANED: i32 = 3;
-/// Pause before writing to a full disk is retried.
+/// Pause before a full disk is tried again.
 const DISK_PAUSE: Duration = Duration::from_millis(200);
 
 pub(super) fn run(arguments: &ChildArguments) -> ExitCode {
@@ -39,32 +39,37 @@ pub(super) fn run(arguments: &ChildArguments) -> ExitCode {
     if let Err(cause) = prepare(arguments, &stop) {
         return failed(cause);
     }
-    let (spec, checkpoint) = match input() {
-        Ok(input) => input,
+    let (spec, checkpoint) = match lines() {
+        Ok(lines) => lines,
         Err(cause) => return failed(cause),
     };
     let resolved = match spec::read(spec.as_bytes()) {
         Ok(resolved) => resolved,
         Err(error) => {
-            write(&Line::Failed(Failure {
+            let failed = Line::Failed(Failure {
                 outcome: Outcome::NotConverged,
                 reason: error.to_string(),
-            }));
-            return refused(&error);
+            });
+            return match write(&failed) {
+                ControlFlow::Continue(()) => refused(&error),
+                ControlFlow::Break(()) => ExitCode::FAILURE,
+            };
         }
     };
-    std::thread::spawn(exit_with_supervisor);
-    let from = match decoded(&checkpoint) {
+    std::thread::spawn(end_with_supervisor);
+    let from = match saved(&checkpoint) {
         Ok(from) => from,
         Err(why) => {
-            write(&Line::Anew(why));
+            if write(&Line::Anew(why)).is_break() {
+                return ExitCode::FAILURE;
+            }
             None
         }
     };
     let every = Duration::from_millis(arguments.checkpoint_every_ms);
     let keeping = Keeping::new(every, Arc::clone(&stop));
     let solved = solve::run_from(&resolved.scene, from, &keeping, &mut |line| match line {
-        Line::Fields(fields) => write_fields(&arguments.folder, &fields, &stop),
+        Line::Fields(fields) => keep(&arguments.folder, &fields, &stop),
         line => write(&line),
     });
     let last = match solved {
@@ -73,13 +78,13 @@ pub(super) fn run(arguments: &ChildArguments) -> ExitCode {
         Err(failure) => Line::Failed(failure),
     };
     match write(&last) {
-        Flow::Continue => ExitCode::SUCCESS,
-        Flow::Stop => ExitCode::FAILURE,
+        ControlFlow::Continue(()) => ExitCode::SUCCESS,
+        ControlFlow::Break(()) => ExitCode::FAILURE,
     }
 }
 
-/// Limits the writable memory, and turns SIGTERM into a flag. Address space that is only reserved, as allocators do, is
-/// not counted.
+/// Limits the memory that may be written to, and turns a request to terminate into a flag. Address space that is only
+/// reserved, as allocators do, is not counted.
 fn prepare(arguments: &ChildArguments, stop: &Arc<AtomicBool>) -> std::io::Result<()> {
     if let Some(limit) = arguments.memory_limit_mb {
         let bytes = limit.saturating_mul(1 << 20);
@@ -89,8 +94,8 @@ fn prepare(arguments: &ChildArguments, stop: &Arc<AtomicBool>) -> std::io::Resul
     Ok(())
 }
 
-/// Reads the specification and the checkpoint.
-fn input() -> std::io::Result<(String, String)> {
+/// The specification and the checkpoint.
+fn lines() -> std::io::Result<(String, String)> {
     let (mut spec, mut checkpoint) = (String::new(), String::new());
     let mut stdin = std::io::stdin().lock();
     stdin.read_line(&mut spec)?;
@@ -98,8 +103,7 @@ fn input() -> std::io::Result<(String, String)> {
     Ok((spec, checkpoint))
 }
 
-/// Decodes the checkpoint; `None` if the line is empty.
-fn decoded(text: &str) -> Result<Option<Saved>, String> {
+fn saved(text: &str) -> Result<Option<Saved>, String> {
     let text = text.trim();
     if text.is_empty() {
         return Ok(None);
@@ -112,30 +116,31 @@ fn decoded(text: &str) -> Result<Option<Saved>, String> {
         .map_err(|cause| cause.to_string())
 }
 
-/// Blocks until standard input is closed, then exits.
-fn exit_with_supervisor() {
+/// Blocks until standard input ends, then ends the process.
+fn end_with_supervisor() {
     let mut rest = [0_u8; 64];
     let mut stdin = std::io::stdin().lock();
     while stdin.read(&mut rest).is_ok_and(|length| length > 0) {}
     std::process::exit(ORPHANED);
 }
 
-/// Writes fields into the attempt's folder and reports the file. A disk error is not the fault of the job: on a full disk
-/// writing is retried until SIGTERM; on any other error the process exits without a result, and the job is retried.
-fn write_fields(folder: &Path, fields: &FieldsFile, stop: &AtomicBool) -> Flow {
+/// Writes fields into the attempt's folder and tells of the file. A disk that takes no more is no fault of the study: a
+/// full one is waited for, unless the process is asked to end; for another reason it ends without a verdict, and another
+/// attempt is made.
+fn keep(folder: &Path, fields: &FieldsFile, stop: &AtomicBool) -> ControlFlow<()> {
     let FieldsFile { name, cycle, bytes } = fields;
-    let mut reported = false;
+    let mut told = false;
     while let Err(error) = files::keep(folder, name, bytes) {
-        if !reported {
+        if !told {
             write_err(&error);
-            reported = true;
+            told = true;
         }
         match error {
             FilesError::Write { cause, .. } if files::is_full(&cause) => {}
             _ => std::process::exit(UNWRITTEN),
         }
         if stop.load(Ordering::Relaxed) {
-            return Flow::Stop;
+            return ControlFlow::Break(());
         }
         std::thread::sleep(DISK_PAUSE);
     }
@@ -147,15 +152,15 @@ fn write_fields(folder: &Path, fields: &FieldsFile, stop: &AtomicBool) -> Flow {
     )))
 }
 
-/// Writes a line; stops the run if the supervisor no longer reads.
-fn write(line: &Line) -> Flow {
+/// Writes a line; a supervisor that does not read any more stops the run.
+fn write(line: &Line) -> ControlFlow<()> {
     let Ok(mut bytes) = serde_json::to_vec(line) else {
-        return Flow::Stop;
+        return ControlFlow::Break(());
     };
     bytes.push(b'\n');
     let mut stdout = std::io::stdout().lock();
     match stdout.write_all(&bytes).and_then(|()| stdout.flush()) {
-        Ok(()) => Flow::Continue,
-        Err(_) => Flow::Stop,
+        Ok(()) => ControlFlow::Continue(()),
+        Err(_) => ControlFlow::Break(()),
     }
 }
