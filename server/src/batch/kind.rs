@@ -1,4 +1,4 @@
-//! Kinds of batches: names, paths and how they are told apart.
+//! Kinds of batches: names, paths and plans.
 
 use std::collections::BTreeMap;
 use std::fmt;

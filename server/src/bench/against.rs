@@ -61,7 +61,7 @@ pub fn ccx(element_um: f64) -> Result<Comparison, BenchError> {
     compared
 }
 
-/// The same, with a folder for the files.
+/// Runs both codes with their files in a folder.
 fn compare(folder: &Path, element_um: f64) -> Result<Comparison, BenchError> {
     let scene = scene(CYLINDER, |scene| {
         scene.accuracy.contact_element_mm = Some(1e-3 * element_um);

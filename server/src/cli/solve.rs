@@ -53,14 +53,14 @@ struct Recorded {
 fn solve(resolved: &Resolved, recorded: &mut Recorded) -> Result<Summary, Failure> {
     let bar = bar(resolved.scene.cycles);
     let solved = solve::run(&resolved.scene, &mut |line| {
-        take(line, recorded, &bar);
+        record(line, recorded, &bar);
         ControlFlow::Continue(())
     });
     bar.finish_and_clear();
     solved
 }
 
-fn take(line: Line, recorded: &mut Recorded, bar: &ProgressBar) {
+fn record(line: Line, recorded: &mut Recorded, bar: &ProgressBar) {
     match line {
         Line::Phase(phase) => bar.set_message(phase_name(phase)),
         Line::Cycle(row) => {

@@ -1,7 +1,7 @@
 //! Batches in the store: jobs that were queued together.
 //!
-//! A batch is queued as a whole or not at all, and deleted only after all its jobs have ended. A batch of a kind that
-//! evaluates its results against a plan keeps that plan as an opaque JSON text, which the store never reads.
+//! A batch is queued as a whole or not at all, and deleted only after all its jobs have ended. A batch may have an
+//! evaluation plan: an opaque JSON text that the store does not read.
 
 use std::collections::BTreeMap;
 

@@ -13,7 +13,8 @@ pub(crate) struct Solution {
 }
 
 impl Solution {
-    /// From the summary and the last profile of a run. Width and area are those of the receptacle, or of the slider if only that wears.
+    /// From the summary and the last profile of a run. Width and area are those of the receptacle, or of the slider if
+    /// only that wears.
     pub(crate) fn of(summary: &Summary, last: &Profile) -> Self {
         let worn = if summary.receptacle.worn_area_mm2 > 0.0 {
             &summary.receptacle

@@ -3,14 +3,13 @@
 use std::collections::BTreeMap;
 
 use api::job::{Outcome, Status};
-use serde::de::DeserializeOwned;
 use sqlx::{Sqlite, SqliteExecutor, Transaction};
 use uuid::Uuid;
 
 use crate::store::batches::{
     BatchDetail, BatchFilter, BatchJob, BatchOverview, NewBatch, StoredBatch,
 };
-use crate::store::sqlite::document::timestamp;
+use crate::store::sqlite::document::{parsed, timestamp};
 use crate::store::sqlite::jobs::{cancel, insert};
 use crate::store::sqlite::queries::{BEGIN, job_id};
 use crate::store::{Cancelled, Deleted, RequestKey, SnapshotPart, Store, StoreError, Submitted};
@@ -65,14 +64,6 @@ impl JobRow {
             profile: None,
         })
     }
-}
-
-fn parsed<T: DeserializeOwned>(id: Uuid, what: &'static str, text: &str) -> Result<T, StoreError> {
-    serde_json::from_str(text).map_err(|cause| StoreError::Corrupt {
-        id,
-        what,
-        cause: cause.to_string(),
-    })
 }
 
 impl Store {
