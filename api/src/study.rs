@@ -1,4 +1,4 @@
-//! What accuracy costs: one scene solved at many resolutions, compared with the converged solution.
+//! Accuracy studies: one scene solved at many resolutions, compared with the converged solution.
 
 use std::collections::BTreeMap;
 
@@ -7,20 +7,21 @@ use serde_json::Value;
 use utoipa::ToSchema;
 use uuid::Uuid;
 
+use crate::batch::BatchOverview;
 use crate::job::{Outcome, Status};
 use crate::spec::Spec;
 
-/// A study as it is submitted.
+/// A study to be submitted.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 #[serde(deny_unknown_fields)]
 pub struct StudyRequest {
-    /// A name for people.
+    /// Name for people.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub name: Option<String>,
     /// The specification whose accuracy is varied.
     #[schema(value_type = Spec)]
     pub base: Value,
-    /// Processor seconds that all runs together are expected to take at most; 180 unless given.
+    /// Budget for the expected time of all runs together, processor seconds; 180 unless given.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub budget_s: Option<f64>,
 }
@@ -30,64 +31,73 @@ pub struct StudyRequest {
 pub struct StudyJob {
     /// The job.
     pub id: Uuid,
-    /// The tolerance that it asks for; absent where the three settings are fixed.
+    /// Its tolerance; absent where the three settings are fixed.
     pub tolerance: Option<f64>,
     /// Its surface element size under the contact, mm, where it is fixed.
     pub contact_element_mm: Option<f64>,
-    /// Its increments a computed cycle, where they are fixed.
+    /// Its increments per computed cycle, where they are fixed.
     pub increments_per_cycle: Option<u32>,
     /// Its jump, where that is fixed.
     pub cycle_jump: Option<f64>,
-    /// Where it stands.
+    /// Its status.
     pub status: Status,
     /// How its solve ended.
     pub outcome: Option<Outcome>,
 }
 
-/// A study in the service: its jobs, and what their results so far come to.
+/// A study in the service: its jobs, and the comparison of their results so far.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct StudyDocument {
-    /// Its name in the service.
+    /// Its id.
     pub id: Uuid,
-    /// Its name for people.
+    /// Name for people.
     pub name: Option<String>,
-    /// When it was accepted (RFC 3339).
+    /// Time of its submission (RFC 3339).
     pub created_at: String,
-    /// Number of its jobs by status; every status is there.
+    /// Number of its jobs by status, including statuses that no job has.
     pub counts: BTreeMap<String, u64>,
-    /// Its jobs in order; deleted ones are gone from here too.
+    /// Its jobs in order, without those that were deleted.
     pub jobs: Vec<StudyJob>,
     /// The results so far, compared; absent until a job at a tolerance, or the finest of the grid, has succeeded.
     pub study: Option<Study>,
-    /// Where to go from here: relation to path.
+    /// Related resources: relation to path.
     pub links: BTreeMap<String, String>,
 }
 
-/// A study of accuracy against time.
+/// A page of studies, newest first.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
+pub struct StudyList {
+    /// The studies.
+    pub studies: Vec<BatchOverview>,
+    /// Token of the next page, if there is one.
+    pub next_page_token: Option<String>,
+}
+
+/// Accuracy against processor time.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct Study {
     /// The resolved specification whose accuracy was varied.
     pub spec: Spec,
-    /// What the runs are compared with.
+    /// The solution that the runs are compared with.
     pub reference: Reference,
     /// The runs, cheapest first.
     pub runs: Vec<StudyRun>,
-    /// What was left out to stay within the budget, in words.
+    /// Runs that were left out to stay within the budget, in words.
     pub left_out: Vec<String>,
 }
 
 /// One run of a study.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct StudyRun {
-    /// The tolerance it was asked for; absent where the three settings were fixed.
+    /// Its tolerance; absent where the three settings were fixed.
     pub tolerance: Option<f64>,
     /// Surface element size under the contact, mm.
     pub contact_element_mm: f64,
     /// Elements along the receptacle's contact surface.
     pub contact_elements: u64,
-    /// Increments a computed cycle (the most that were used).
+    /// Increments per computed cycle (the largest number that was used).
     pub increments_per_cycle: u32,
-    /// Physical cycles a computed one stands for, in the mean.
+    /// Mean number of physical cycles per computed cycle.
     pub cycle_jump: f64,
     /// How it ended; absent where it failed.
     pub outcome: Option<Outcome>,
@@ -95,20 +105,21 @@ pub struct StudyRun {
     pub failure: Option<String>,
     /// Its errors against the reference; absent where it failed.
     pub errors: Option<Errors>,
-    /// Names of its errors that are smaller than the doubt about the reference, and so mean no more than that.
-    pub below_doubt: Vec<String>,
-    /// Processor seconds of its process.
+    /// Names of its errors that are smaller than the uncertainty of the reference, and so only bounded by it.
+    #[serde(rename = "below_doubt")]
+    pub below_uncertainty: Vec<String>,
+    /// Processor time of its process, s.
     pub cpu_s: f64,
     /// Largest resident memory of its process, MiB.
     pub peak_memory_mb: f64,
-    /// Whether no cheaper run has errors of depth and width as small.
+    /// Whether it is on the Pareto front: no cheaper run has errors of depth and width as small.
     pub on_front: bool,
 }
 
 /// Relative differences of two solutions.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct Errors {
-    /// Largest difference of worn depth anywhere on either surface, over the deepest place.
+    /// Largest difference of worn depth anywhere on either surface, over the largest depth.
     pub depth: f64,
     /// Of the scar's half-width.
     pub width: f64,
@@ -119,12 +130,12 @@ pub struct Errors {
 }
 
 impl Errors {
-    /// The larger one of depth and width, which a tolerance speaks of.
-    pub fn promised(&self) -> f64 {
+    /// The error that a tolerance bounds: the larger one of depth and width.
+    pub fn tolerance_error(&self) -> f64 {
         self.depth.max(self.width)
     }
 
-    /// These errors, or others where those are larger.
+    /// The larger one of each of these errors and others.
     #[must_use]
     pub fn at_least(&self, other: &Self) -> Self {
         Self {
@@ -151,7 +162,7 @@ impl Errors {
 /// The solution that runs are compared with.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct Reference {
-    /// Where it comes from, in words.
+    /// Its derivation, in words.
     pub method: String,
     /// Largest worn depth, mm.
     pub max_depth_mm: f64,
@@ -161,14 +172,14 @@ pub struct Reference {
     pub peak_pressure_mpa: f64,
     /// Worn area, mm^2.
     pub worn_area_mm2: f64,
-    /// How uncertain it is: the sizes of all corrections that lead from the finest run to it.
+    /// Its uncertainty: the sizes of all corrections that lead from the finest run to it.
     pub uncertainty: Errors,
     /// Observed orders of convergence, one row for each setting.
     pub orders: Vec<Orders>,
 }
 
-/// Observed orders p of one setting: halving it divides the error by 2^p. Absent where three levels do not approach
-/// their limit from one side.
+/// Observed orders p of one setting: halving it divides the error by 2^p. Absent where three levels do not converge
+/// monotonically.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct Orders {
     /// The setting: `contact_element_mm`, `increments_per_cycle` or `cycle_jump`.

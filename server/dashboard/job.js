@@ -1,75 +1,75 @@
-// One job in full: where it stands and why, its figures, its wear so far, its pictures and its files.
+// Details of a job: status, summary, wear so far, pictures and files.
 
 import { chart } from "/assets/chart.js";
-import { ask, document_at, download_link, element, figure, span_of } from "/assets/page.js";
+import { download_link, element, fetch_json, format_duration, format_number, send_request } from "/assets/page.js";
 
-const POINTS = 200;
+const MAX_POINTS = 200;
 
-/** What is shown, so that it is only made anew when it changes. */
-let present = "";
-/** Turns begun, and the one whose job is shown: answers may overtake each other. */
-let turns = 0;
-let shown = 0;
+/** Id and status of the rendered job; details are rendered again only when they change. */
+let rendered = "";
+/** Number of started calls of `show`, and the rendered one: responses may arrive out of order. */
+let started = 0;
+let rendered_call = 0;
 
-/** The id that the address names. */
-export function showing() {
+/** Job id in the URL. */
+export function selected_id() {
   const name = location.hash.slice(1);
   return /^[0-9a-f-]{36}$/.test(name) ? name : null;
 }
 
-function pairs(entries) {
-  const known = entries.filter(([, value]) => value != null && value !== "");
-  return element("dl", {}, ...known.flatMap(([name, value]) => [element("dt", {}, name), element("dd", {}, value)]));
+function definition_list(entries) {
+  const present = entries.filter(([, value]) => value != null && value !== "");
+  return element("dl", {}, ...present.flatMap(([name, value]) => [element("dt", {}, name), element("dd", {}, value)]));
 }
 
-function time(text) {
+function format_time(text) {
   return text == null ? null : new Date(text).toLocaleString();
 }
 
-function standing(job) {
+function render_status(job) {
   const { phase, eta_s, fraction } = job.progress;
   const running = job.status === "running";
-  return pairs([
+  return definition_list([
     ["status", element("span", { class: job.status }, job.outcome ? `${job.status} (${job.outcome})` : job.status)],
     ["reason", job.status_reason],
-    ["progress", running ? `${(100 * fraction).toFixed(1)} %, ${phase ?? ""}${eta_s == null ? "" : `, ${span_of(eta_s)} left`}` : null],
+    ["progress", running ? `${(100 * fraction).toFixed(1)} %, ${phase ?? ""}${eta_s == null ? "" : `, ${format_duration(eta_s)} left`}` : null],
     ["attempts", job.attempts > 1 ? `${job.attempts}` : null],
-    ["accepted", time(job.created_at)],
-    ["started", time(job.started_at)],
-    ["ended", time(job.finished_at)],
+    ["submitted", format_time(job.created_at)],
+    ["started", format_time(job.started_at)],
+    ["ended", format_time(job.finished_at)],
   ]);
 }
 
-function figures({ receptacle, slider, peak_pressure_mpa, initial, accuracy, cost, cycles_done }) {
-  const sides = (field, scale, unit) => `${figure(receptacle[field], scale)} / ${figure(slider[field], scale)} ${unit}`;
-  return pairs([
+function render_summary({ receptacle, slider, peak_pressure_mpa, initial, accuracy, cost, cycles_done }) {
+  const sides = (field, scale, unit) => `${format_number(receptacle[field], scale)} / ${format_number(slider[field], scale)} ${unit}`;
+  return definition_list([
     ["cycles", `${cycles_done}, ${accuracy.computed_cycles} of them computed`],
-    ["deepest, receptacle / slider", sides("max_depth_mm", 1000, "µm")],
-    ["half-width of the scar", sides("scar_half_width_mm", 1000, "µm")],
+    ["maximum worn depth, receptacle / slider", sides("max_depth_mm", 1000, "µm")],
+    ["scar half-width", sides("scar_half_width_mm", 1000, "µm")],
     ["worn area", sides("worn_area_mm2", 1e6, "µm²")],
-    ["peak pressure, unworn / worn", `${figure(initial.peak_pressure_mpa)} / ${figure(peak_pressure_mpa)} MPa`],
-    ["estimated error", accuracy.estimated_relative_error == null ? null : `${figure(accuracy.estimated_relative_error, 100)} %`],
-    ["computing time", span_of(cost.wall_s)],
+    ["peak pressure, unworn / worn", `${format_number(initial.peak_pressure_mpa)} / ${format_number(peak_pressure_mpa)} MPa`],
+    ["estimated error", accuracy.estimated_relative_error == null ? null : `${format_number(accuracy.estimated_relative_error, 100)} %`],
+    ["computing time", format_duration(cost.wall_s)],
   ]);
 }
 
-async function wear(job) {
-  const history = await document_at(`${job.links.wear_history}?max_points=${POINTS}`);
+async function wear_chart(job) {
+  const history = await fetch_json(`${job.links.wear_history}?max_points=${MAX_POINTS}`);
   const side = (name) => ({ name, x: history.cycle, y: history[name].max_depth_mm.map((depth) => 1000 * depth) });
-  return chart("cycle", "deepest, µm", [side("receptacle"), side("slider")]);
+  return chart("cycle", "maximum worn depth, µm", [side("receptacle"), side("slider")]);
 }
 
 async function picture(path, name) {
-  const answer = await ask(path);
-  if (!answer.ok) return "";
-  const address = URL.createObjectURL(new Blob([await answer.arrayBuffer()], { type: "image/svg+xml" }));
-  const image = element("img", { src: address, alt: name });
-  image.addEventListener("load", () => URL.revokeObjectURL(address));
+  const response = await send_request(path);
+  if (!response.ok) return "";
+  const url = URL.createObjectURL(new Blob([await response.arrayBuffer()], { type: "image/svg+xml" }));
+  const image = element("img", { src: url, alt: name });
+  image.addEventListener("load", () => URL.revokeObjectURL(url));
   return element("figure", {}, image, element("figcaption", { class: "soft" }, name));
 }
 
-async function produced(job) {
-  const { files, links } = await document_at(job.links.results);
+async function render_files(job) {
+  const { files, links } = await fetch_json(job.links.results);
   const list = files.map(({ name, bytes }) => element("li", {}, download_link(links[name], name, name),
     element("span", { class: "soft" }, ` ${Math.ceil(bytes / 1000)} kB`)));
   const pictures = files.filter(({ name }) => name.endsWith(".svg"));
@@ -79,31 +79,31 @@ async function produced(job) {
   ];
 }
 
-/** Shows a job, or nothing. */
+/** Renders the details of a job; clears them for null. */
 export async function show(job) {
-  const place = document.getElementById("job");
-  const turn = ++turns;
+  const section = document.getElementById("job");
+  const call = ++started;
   if (!job) {
-    [present, shown] = ["", turn];
-    return place.replaceChildren();
+    [rendered, rendered_call] = ["", call];
+    return section.replaceChildren();
   }
-  const wanted = `${job.id} ${job.status}`;
-  if (wanted === present) {
-    place.querySelector("#standing").replaceChildren(standing(job));
+  const current = `${job.id} ${job.status}`;
+  if (current === rendered) {
+    section.querySelector("#status").replaceChildren(render_status(job));
     if (job.status !== "running") return;
-    const picture = await wear(job);
-    if (wanted === present) place.querySelector("#wear").replaceChildren(picture);
+    const chart = await wear_chart(job);
+    if (current === rendered) section.querySelector("#wear").replaceChildren(chart);
     return;
   }
-  // What fails here is made again the next time.
+  // After an error, the next poll renders it again.
   const children = [
     element("h2", {}, job.spec.name ?? job.spec.system.kind), element("p", { class: "mono soft" }, job.id),
-    element("div", { id: "standing" }, standing(job)), ...(job.summary ? [figures(job.summary)] : []),
-    element("div", { id: "wear" }, await wear(job)), ...(job.finished_at ? await produced(job) : []),
+    element("div", { id: "status" }, render_status(job)), ...(job.summary ? [render_summary(job.summary)] : []),
+    element("div", { id: "wear" }, await wear_chart(job)), ...(job.finished_at ? await render_files(job) : []),
     element("details", {}, element("summary", {}, "resolved specification and plan"),
       element("div", {}, element("pre", {}, JSON.stringify({ spec: job.spec, plan: job.plan }, null, 2)))),
   ];
-  if (showing() !== job.id || turn < shown) return;
-  place.replaceChildren(...children);
-  [present, shown] = [wanted, turn];
+  if (selected_id() !== job.id || call < rendered_call) return;
+  section.replaceChildren(...children);
+  [rendered, rendered_call] = [current, call];
 }

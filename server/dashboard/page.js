@@ -1,60 +1,60 @@
-// What the pages use: elements without markup in strings, requests that show the token where one is needed, and figures.
+// Shared by the pages: DOM elements, requests with the access token, formatted numbers.
 
-/** An element with attributes, text and children; text is never read as markup. */
+/** Creates an element with attributes and children; text is never parsed as markup. */
 export function element(name, attributes = {}, ...children) {
-  const made = document.createElement(name);
-  for (const [key, value] of Object.entries(attributes)) made.setAttribute(key, value);
-  made.append(...children);
-  return made;
+  const node = document.createElement(name);
+  for (const [key, value] of Object.entries(attributes)) node.setAttribute(key, value);
+  node.append(...children);
+  return node;
 }
 
-/** A request; asks for the token once if the service wants one. The token lives as long as the tab. */
-export async function ask(path, options = {}) {
+/** Sends a request; prompts for the token if the service requires one. The token is stored for as long as the tab. */
+export async function send_request(path, options = {}) {
   const send = () => {
     const token = sessionStorage.getItem("token");
     const headers = { ...options.headers, ...(token ? { authorization: `Bearer ${token}` } : {}) };
     return fetch(path, { ...options, headers });
   };
-  let answer = await send();
-  if (answer.status === 401) {
-    const token = prompt("This service asks for its access token");
+  let response = await send();
+  if (response.status === 401) {
+    const token = prompt("Access token of this service");
     if (token) {
       sessionStorage.setItem("token", token.trim());
-      answer = await send();
+      response = await send();
     }
   }
-  return answer;
+  return response;
 }
 
-/** A JSON document, or an error with the problem's own words. */
-export async function document_at(path, options) {
-  const answer = await ask(path, options);
-  const body = await answer.json().catch(() => null);
-  if (!answer.ok) throw new Error(body?.detail ?? body?.title ?? `${path}: ${answer.status}`);
+/** Fetches a JSON document; throws the detail of a problem. */
+export async function fetch_json(path, options) {
+  const response = await send_request(path, options);
+  const body = await response.json().catch(() => null);
+  if (!response.ok) throw new Error(body?.detail ?? body?.title ?? `${path}: ${response.status}`);
   return body;
 }
 
-/** A number with four digits; nothing for none. */
-export function figure(value, scale = 1) {
+/** Formats a number with four digits; empty for null. */
+export function format_number(value, scale = 1) {
   return value == null ? "" : Number((value * scale).toPrecision(4)).toString();
 }
 
-/** A span of time in words: `7 s`, `12 min`, `3.5 h`. */
-export function span_of(seconds) {
+/** Formats a duration: `7 s`, `12 min`, `3.5 h`. */
+export function format_duration(seconds) {
   if (seconds < 100) return `${Number(Math.max(seconds, 0).toPrecision(2))} s`;
   if (seconds < 6000) return `${Math.round(seconds / 60)} min`;
   return `${(seconds / 3600).toFixed(1)} h`;
 }
 
-/** A link to a file. Where a token is needed the browser cannot follow it, so the file is fetched with the token. */
-export function download_link(path, name, words) {
-  const link = element("a", { href: path, download: name }, words);
+/** A link to a file. With a token the browser cannot follow it, so the file is fetched with the token. */
+export function download_link(path, name, text) {
+  const link = element("a", { href: path, download: name }, text);
   link.addEventListener("click", async (event) => {
     if (!sessionStorage.getItem("token")) return;
     event.preventDefault();
-    const address = URL.createObjectURL(await (await ask(path)).blob());
-    element("a", { href: address, download: name }).click();
-    setTimeout(() => URL.revokeObjectURL(address), 60_000);
+    const url = URL.createObjectURL(await (await send_request(path)).blob());
+    element("a", { href: url, download: name }).click();
+    setTimeout(() => URL.revokeObjectURL(url), 60_000);
   });
   return link;
 }

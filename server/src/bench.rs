@@ -1,7 +1,7 @@
 //! Benchmarks of the engine on this machine.
 //!
 //! Processor time of this process, one case after the other; the smallest of a few repetitions where a case is short.
-//! Knows specifications and the engine; does not know the terminal.
+//! Does not know the terminal.
 
 pub mod against;
 mod cases;
@@ -19,9 +19,9 @@ pub use cases::{Case, all};
 /// A measured case.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Row {
-    /// What was done.
+    /// Name of the task.
     pub what: String,
-    /// How large it was.
+    /// Size of the task.
     pub size: String,
     /// Processor seconds.
     pub cpu_s: f64,
@@ -30,30 +30,30 @@ pub struct Row {
 /// Why a case could not be measured.
 #[derive(Debug, thiserror::Error)]
 pub enum BenchError {
-    /// Its specification.
+    /// The specification is refused.
     #[error(transparent)]
     Refused(#[from] Refused),
-    /// The engine.
+    /// The engine failed.
     #[error(transparent)]
     Solve(#[from] SolveError),
-    /// A whole run.
+    /// A run failed.
     #[error(transparent)]
     Failed(#[from] Failure),
-    /// A file, or another program.
+    /// A file or another program failed.
     #[error("{0}")]
     System(#[from] std::io::Error),
-    /// The calibration.
+    /// The calibration failed.
     #[error(transparent)]
     Machine(#[from] MachineError),
     /// A process could not be run.
     #[error(transparent)]
     Process(#[from] StudyError),
-    /// A run in a process of its own ended without a result.
+    /// A run in a process of its own failed.
     #[error("{0}")]
-    OtherFailed(String),
+    RunFailed(String),
 }
 
-/// Processor seconds of a task, the smallest of `times` repetitions, and what the last one returned.
+/// Returns the processor seconds of a task, the smallest of `times` repetitions, and the value of the last one.
 fn measured<T, E>(times: u32, mut task: impl FnMut() -> Result<T, E>) -> Result<(f64, T), E> {
     let once = |task: &mut dyn FnMut() -> Result<T, E>| {
         let before = cpu_s();

@@ -6,6 +6,7 @@ mod bench;
 mod child;
 mod demo;
 mod export;
+mod markdown;
 mod options;
 mod plan;
 mod probe;
@@ -30,12 +31,12 @@ use options::WorkOptions;
 /// Exit code of a refused specification.
 const REFUSED: u8 = 2;
 
-/// Where a service listens unless told otherwise.
+/// Default address of a service.
 const LISTEN: &str = "127.0.0.1:8080";
-/// The database unless another is named.
+/// Default database.
 const DATABASE: &str = "sqlite://fretwear.db";
 
-/// What `--help` begins with.
+/// First line of `--help`.
 const ABOUT: &str = "Wear of electrical contacts under vibration, by finite elements: on the command line and over HTTP";
 
 #[derive(Debug, Parser)]
@@ -47,7 +48,7 @@ struct Arguments {
 
 #[derive(Debug, Subcommand)]
 enum Command {
-    /// Serve studies over HTTP.
+    /// Solve jobs that are submitted over HTTP.
     Serve(ServeArguments),
     /// Solve one specification here, without a server.
     Solve {
@@ -57,19 +58,19 @@ enum Command {
         #[arg(long)]
         out: Option<PathBuf>,
     },
-    /// Tell what would be simulated and why.
+    /// Show what would be simulated and why.
     Plan {
         /// The specification, JSON.
         spec: PathBuf,
     },
-    /// Solve one specification at many accuracies, and show what each costs and how far off it is.
+    /// Solve one specification at many accuracies, and show the cost and error of each.
     Study {
         /// The specification, JSON.
         spec: PathBuf,
         /// Write table, picture and figures as files into this folder.
         #[arg(long)]
         out: Option<PathBuf>,
-        /// Processor seconds that all runs together should take.
+        /// Budget of all runs together, processor seconds.
         #[arg(long, default_value_t = crate::batch::accuracy::BUDGET_S)]
         budget_s: f64,
     },
@@ -77,31 +78,31 @@ enum Command {
     Export {
         /// The specification, JSON.
         spec: PathBuf,
-        /// Which code: `inp` is read by Abaqus and CalculiX.
+        /// Format: `inp` is read by Abaqus and CalculiX.
         #[arg(long, value_enum, default_value = "inp")]
         format: DeckFormat,
-        /// The cycle whose worn surfaces the model has; 0 is unworn.
+        /// Cycle of the worn surfaces; 0 is unworn.
         #[arg(long, default_value_t = 0)]
         cycle: u64,
     },
     /// Measure the engine on this machine.
     Bench(BenchArguments),
-    /// Start a service in a fresh folder, run the fuzz-button study through it and show its wear.
+    /// Start a service in a new folder, solve the fuzz-button job with it and show its wear.
     Demo {
-        /// End when the study has ended instead of serving on.
+        /// Exit when the job has ended instead of continuing to serve.
         #[arg(long)]
         exit: bool,
-        /// Where to listen; a free port unless one is named.
+        /// Address to listen on; port 0 is any free port.
         #[arg(long, default_value = "127.0.0.1:0")]
         listen: SocketAddr,
     },
-    /// Tell by the exit code whether the service that listens there can work.
+    /// Check whether a service is ready; the exit code is 0 if it is.
     Probe {
-        /// Where it listens.
+        /// Address of the service.
         #[arg(long, env = "FRETWEAR_LISTEN", default_value = LISTEN)]
         listen: SocketAddr,
     },
-    /// Copy a database, which may be served meanwhile, and its files into a new folder, and verify the copy.
+    /// Copy a database, also while it is served, and its files into a new folder, and verify the copy.
     Backup {
         /// The folder.
         into: PathBuf,
@@ -109,7 +110,7 @@ enum Command {
         #[arg(long, env = "FRETWEAR_DATABASE", default_value = DATABASE)]
         database: String,
     },
-    /// Verify a backup and copy it to where a database is to be; nothing is overwritten.
+    /// Verify a backup and copy it to a database that does not exist yet.
     Restore {
         /// The folder of the backup.
         from: PathBuf,
@@ -133,7 +134,7 @@ enum DeckFormat {
 
 #[derive(Debug, clap::Args)]
 struct ServeArguments {
-    /// Where to listen; a loopback address unless there is an access token.
+    /// Address to listen on; must be a loopback address unless there is an access token.
     #[arg(long, env = "FRETWEAR_LISTEN", default_value = LISTEN)]
     listen: SocketAddr,
     #[command(flatten)]
@@ -141,19 +142,19 @@ struct ServeArguments {
     /// The database.
     #[arg(long, env = "FRETWEAR_DATABASE", default_value = DATABASE)]
     database: String,
-    /// How the log on standard error is written.
+    /// Format of the log on standard error.
     #[arg(long, env = "FRETWEAR_LOG", value_enum, default_value = "text")]
     log: LogFormat,
     #[command(flatten)]
     work: WorkOptions,
 }
 
-/// Forms of the log.
+/// Formats of the log.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
 enum LogFormat {
-    /// For people.
+    /// Text for people.
     Text,
-    /// A JSON object a line.
+    /// One JSON object per line.
     Json,
 }
 
@@ -166,33 +167,33 @@ enum OtherCode {
 
 #[derive(Debug, clap::Args)]
 struct BenchArguments {
-    /// Compare what plans expect with what solves take instead, on all systems and both published scenes.
+    /// Compare the estimates of plans with measurements instead, on all systems and both published scenes.
     #[arg(long)]
     predictions: bool,
-    /// Compare with another code on the same work instead: a friction cycle on the same meshes.
+    /// Compare with another code on the same problem instead: a friction cycle on the same meshes.
     #[arg(long, value_enum, conflicts_with = "predictions")]
     against: Option<OtherCode>,
-    /// With contact elements of these sizes, um.
+    /// Sizes of the contact elements, um.
     #[arg(long, value_delimiter = ',', requires = "against", default_values_t = against::ELEMENTS_UM)]
     elements_um: Vec<f64>,
-    /// At these tolerances.
+    /// Tolerances of the compared solves.
     #[arg(long, value_delimiter = ',', requires = "predictions", default_values_t = predictions::TOLERANCES)]
     tolerances: Vec<f64>,
 }
 
 #[derive(Debug, clap::Args)]
 struct ChildArguments {
-    /// Where its files go.
+    /// Folder for its files.
     folder: PathBuf,
-    /// How often a checkpoint is told.
+    /// Interval of checkpoints.
     #[arg(long)]
     checkpoint_every_ms: u64,
-    /// Most memory that may be written to.
+    /// Limit of writable memory.
     #[arg(long)]
     memory_limit_mb: Option<u64>,
 }
 
-/// Runs the command that was asked for.
+/// Runs the command of the arguments.
 pub fn main() -> ExitCode {
     let arguments = Arguments::parse();
     match arguments.command {
@@ -237,13 +238,13 @@ pub fn main() -> ExitCode {
         Command::Restore { from, database } => backup::run_restore(&from, &database),
         Command::SolveChild(arguments) => child::run(&arguments),
         Command::Openapi => {
-            terminal::say(crate::http::openapi::text().trim_end());
+            terminal::write_out(crate::http::openapi::text().trim_end());
             ExitCode::SUCCESS
         }
     }
 }
 
-/// Logs go to standard error; `RUST_LOG` changes how much is told.
+/// Starts logging to standard error; `RUST_LOG` overrides the level.
 fn log(level: &str, format: LogFormat) {
     let filter = EnvFilter::try_from_default_env().unwrap_or_else(|_| EnvFilter::new(level));
     let builder = tracing_subscriber::fmt()
@@ -256,8 +257,9 @@ fn log(level: &str, format: LogFormat) {
     }
 }
 
-fn workers(named: Option<u16>) -> usize {
-    named.map_or_else(
+/// Number of jobs solved at once; one per processor unless given.
+fn workers(given: Option<u16>) -> usize {
+    given.map_or_else(
         || std::thread::available_parallelism().map_or(1, usize::from),
         usize::from,
     )

@@ -1,17 +1,16 @@
-//! HTTP: one file a route, each in the order error, handler, tests.
+//! HTTP server: router, and what the routes share.
 
 mod access;
 mod body_problems;
 mod extract;
+mod idempotency_key;
 mod job_error;
 mod limits;
 mod listener;
+pub mod openapi;
 mod paging;
 mod problem;
-mod request_key;
 mod routes;
-
-pub use routes::operation::openapi;
 
 use std::sync::Arc;
 
@@ -31,53 +30,53 @@ use utoipa_axum::routes;
 use crate::estimate::machine::CalibrationCache;
 use crate::store::Store;
 
+use problem::ProblemType;
 use routes::{batches, jobs, operation, results, systems};
 
 pub use access::{Access, TokenError};
 pub use listener::serve;
 
-/// Requests that are worked on at once, over all connections; more wait. Streams count until they have begun, and long
-/// polls have a limit of their own below it.
-const REQUESTS: usize = 1024;
-/// Long polls that wait at once; one more is answered at once, as if its time were over.
-const LONG_POLLS: usize = 768;
-/// Event streams that are open at once.
-const STREAMS: usize = 1024;
-/// What an answer that is no page may do in a browser: nothing.
-const NO_CONTENT_POLICY: &str = "default-src 'none'; frame-ancestors 'none'";
-/// Largest accepted body, bytes.
-const BODY_LIMIT: usize = 1 << 20;
+/// Maximum number of concurrent requests, over all connections; more wait. Event streams count until their response
+/// starts; long polls have a lower limit of their own.
+const MAX_REQUESTS: usize = 1024;
+/// Maximum number of waiting long polls; another one is answered at once, as if it had timed out.
+const MAX_LONG_POLLS: usize = 768;
+/// Maximum number of open event streams.
+const MAX_STREAMS: usize = 1024;
+/// `Content-Security-Policy` of everything but the pages: a browser loads and runs nothing.
+const DEFAULT_CONTENT_POLICY: &str = "default-src 'none'; frame-ancestors 'none'";
+/// Maximum size of a body, bytes.
+const MAX_BODY_BYTES: usize = 1 << 20;
 
-/// What every route may use.
+/// State that the routes share.
 #[derive(Debug, Clone)]
 pub struct App {
-    /// The store.
+    /// Job store.
     pub store: Arc<Store>,
-    /// Ends streams and long polls when the service stops.
+    /// Cancelled at shutdown; ends streams and long polls.
     pub stopping: CancellationToken,
     access: Access,
-    /// What this machine takes for the engine's work.
+    /// Measured speed of this machine.
     machine: CalibrationCache,
-    /// Archives that may be made at once.
-    archives: Arc<Semaphore>,
-    /// Studies whose runs may be chosen at once.
-    programmes: Arc<Semaphore>,
-    long_polls: Arc<Semaphore>,
-    streams: Arc<Semaphore>,
+    archive_permits: Arc<Semaphore>,
+    /// Permits to expand a batch into its jobs.
+    expansion_permits: Arc<Semaphore>,
+    long_poll_permits: Arc<Semaphore>,
+    stream_permits: Arc<Semaphore>,
 }
 
 impl App {
-    /// Over a store, for those who have access.
+    /// State over a store.
     pub fn new(store: Arc<Store>, access: Access, stopping: CancellationToken) -> Self {
         Self {
             machine: CalibrationCache::open(Some(store.machine_file())),
             store,
             stopping,
             access,
-            archives: Arc::new(Semaphore::new(results::archive::AT_ONCE)),
-            programmes: Arc::new(Semaphore::new(batches::submit_study::AT_ONCE)),
-            long_polls: Arc::new(Semaphore::new(LONG_POLLS)),
-            streams: Arc::new(Semaphore::new(STREAMS)),
+            archive_permits: Arc::new(Semaphore::new(results::download_archive::MAX_ARCHIVES)),
+            expansion_permits: Arc::new(Semaphore::new(batches::submit::MAX_EXPANSIONS)),
+            long_poll_permits: Arc::new(Semaphore::new(MAX_LONG_POLLS)),
+            stream_permits: Arc::new(Semaphore::new(MAX_STREAMS)),
         }
     }
 }
@@ -85,30 +84,30 @@ impl App {
 #[derive(OpenApi)]
 #[openapi(
     components(schemas(
-        results::stored_part::Format,
-        batches::study_picture::PictureFormat,
-        results::wear_history::HistoryFormat,
+        results::read_snapshot::Format,
+        batches::picture::PictureFormat,
+        results::read_history::HistoryFormat,
         api::event::Done
     )),
     info(
         title = "fretwear",
-        description = "Wear of electrical contacts under vibration: submit a study, follow it, fetch its results."
+        description = "Wear of electrical contacts under vibration: submit jobs, follow them, fetch their results."
     )
 )]
-struct Described;
+struct Interface;
 
-/// All routes.
+/// Router of all routes.
 pub fn router(app: App) -> Router {
     let access = middleware::from_fn_with_state(app.access.clone(), access::check);
-    described()
+    routes_and_document()
         .0
-        .fallback(no_route)
+        .fallback(no_such_path)
         .method_not_allowed_fallback(wrong_method)
         .layer(access)
-        .layer(GlobalConcurrencyLimitLayer::new(REQUESTS))
+        .layer(GlobalConcurrencyLimitLayer::new(MAX_REQUESTS))
         .layer(SetResponseHeaderLayer::if_not_present(
             header::CONTENT_SECURITY_POLICY,
-            HeaderValue::from_static(NO_CONTENT_POLICY),
+            HeaderValue::from_static(DEFAULT_CONTENT_POLICY),
         ))
         .layer(SetResponseHeaderLayer::if_not_present(
             header::X_CONTENT_TYPE_OPTIONS,
@@ -118,56 +117,63 @@ pub fn router(app: App) -> Router {
         .with_state(app)
 }
 
-fn described() -> (Router<App>, Document) {
-    OpenApiRouter::with_openapi(Described::openapi())
+/// The routes and their OpenAPI document.
+fn routes_and_document() -> (Router<App>, Document) {
+    OpenApiRouter::with_openapi(Interface::openapi())
         .routes(routes!(jobs::submit::submit, jobs::list::list))
         .routes(routes!(jobs::show::show, jobs::delete::remove))
         .routes(routes!(jobs::cancel::cancel))
-        .routes(routes!(jobs::stream_events::events))
+        .routes(routes!(jobs::stream::events))
         .routes(routes!(results::list::manifest))
-        .routes(routes!(results::download::file))
-        .routes(routes!(results::archive::archive))
-        .routes(routes!(results::wear_history::wear_history))
-        .routes(routes!(results::profile::profile))
-        .routes(routes!(results::pressure::pressure))
-        .routes(routes!(results::friction_loop::friction_loop))
+        .routes(routes!(results::download_file::file))
+        .routes(routes!(results::download_archive::archive))
+        .routes(routes!(results::read_history::wear_history))
+        .routes(routes!(results::read_snapshot::profile))
+        .routes(routes!(results::read_snapshot::pressure))
+        .routes(routes!(results::read_snapshot::friction_loop))
         .routes(routes!(
-            batches::submit_sweep::submit_sweep,
-            batches::list_sweeps::list_sweeps
+            batches::submit::submit_sweep,
+            batches::list::list_sweeps
         ))
         .routes(routes!(
-            batches::show_sweep::show_sweep,
-            batches::remove_sweep::remove_sweep
+            batches::show::show_sweep,
+            batches::delete::remove_sweep
         ))
-        .routes(routes!(batches::sweep_outcomes::sweep_outcomes))
-        .routes(routes!(batches::cancel_sweep::cancel_sweep))
-        .routes(routes!(batches::submit_study::submit_study))
-        .routes(routes!(batches::show_study::show_study))
-        .routes(routes!(batches::study_table::study_table))
-        .routes(routes!(batches::study_picture::study_picture))
-        .routes(routes!(batches::cancel_study::cancel_study))
-        .routes(routes!(jobs::make_plan::make_plan))
-        .routes(routes!(systems::read::systems))
-        .routes(routes!(systems::read::system))
-        .routes(routes!(operation::pages::dashboard))
-        .routes(routes!(operation::pages::docs))
-        .routes(routes!(operation::pages::asset))
-        .routes(routes!(operation::openapi::openapi))
-        .routes(routes!(operation::health::healthz))
-        .routes(routes!(operation::health::readyz))
-        .routes(routes!(operation::metrics::metrics))
+        .routes(routes!(batches::outcomes::sweep_outcomes))
+        .routes(routes!(batches::cancel::cancel_sweep))
+        .routes(routes!(
+            batches::submit::submit_study,
+            batches::list::list_studies
+        ))
+        .routes(routes!(
+            batches::show::show_study,
+            batches::delete::remove_study
+        ))
+        .routes(routes!(batches::outcomes::study_table))
+        .routes(routes!(batches::picture::study_picture))
+        .routes(routes!(batches::cancel::cancel_study))
+        .routes(routes!(jobs::plan::make_plan))
+        .routes(routes!(systems::list::systems))
+        .routes(routes!(systems::show::system))
+        .routes(routes!(operation::serve_pages::dashboard))
+        .routes(routes!(operation::serve_pages::docs))
+        .routes(routes!(operation::serve_pages::asset))
+        .routes(routes!(operation::show_openapi::openapi))
+        .routes(routes!(operation::check_health::healthz))
+        .routes(routes!(operation::check_health::readyz))
+        .routes(routes!(operation::show_metrics::metrics))
         .split_for_parts()
 }
 
-async fn no_route(uri: Uri) -> Response {
-    problem::Kind::NoRoute
-        .because(format!("nothing is at {}", uri.path()))
+async fn no_such_path(uri: Uri) -> Response {
+    ProblemType::NoSuchPath
+        .with_detail(format!("there is no route {}", uri.path()))
         .into_response()
 }
 
 async fn wrong_method(method: Method, uri: Uri) -> Response {
-    problem::Kind::WrongMethod
-        .because(format!("{} does not take {method}", uri.path()))
+    ProblemType::WrongMethod
+        .with_detail(format!("{} does not support {method}", uri.path()))
         .into_response()
 }
 

@@ -14,4 +14,5 @@ pub mod service;
 pub mod solve;
 pub mod spec;
 pub mod store;
+mod text;
 pub mod worker;

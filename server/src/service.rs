@@ -76,7 +76,7 @@ impl Service {
     /// # Errors
     /// [`ServiceError`]; nothing keeps running then.
     pub async fn start(config: Config) -> Result<Self, ServiceError> {
-        if !config.listen.ip().is_loopback() && !config.access.asks_for_token() {
+        if !config.listen.ip().is_loopback() && !config.access.requires_token() {
             return Err(ServiceError::NotLoopback(config.listen));
         }
         let listen = |cause| ServiceError::Listen {

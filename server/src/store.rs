@@ -3,6 +3,7 @@
 //! One writing connection and a pool of readers on an embedded database in WAL mode. A lock file beside the database
 //! makes sure that one process serves it; so at start-up every lease in it belongs to a process that is gone.
 
+mod batches;
 mod error;
 mod sqlite;
 
@@ -17,6 +18,7 @@ use uuid::Uuid;
 
 use crate::metrics::Metrics;
 
+pub use batches::{BatchDetail, BatchFilter, BatchJob, BatchOverview, NewBatch, StoredBatch};
 pub use error::StoreError;
 pub use sqlite::backup::{BackupError, Copied, backup, restore};
 pub use sqlite::checkpoints::NewCheckpoint;
@@ -29,8 +31,6 @@ pub use sqlite::jobs::{
 pub use sqlite::leases::{Batch, Claim, Held};
 pub use sqlite::rescues::Reclaimed;
 pub use sqlite::results::SnapshotPart;
-pub use sqlite::studies::{StoredStudy, StudyPlan};
-pub use sqlite::sweeps::{NewSweep, SweepOutcome};
 
 /// How many job ids may wait in a listener's channel before it has to look for itself.
 const CHANGES_KEPT: usize = 1024;

@@ -1,71 +1,53 @@
-//! A sweep to specifications: its size is checked before it is expanded, and every fault of every job is told.
+//! Parameter sweeps. The size of a sweep is checked before it is expanded, and the faults of all jobs are reported.
+
+mod patch;
+pub(super) mod table;
 
 use std::collections::{BTreeMap, BTreeSet};
 
 use api::problem::Fault;
-use api::spec::{ParseError, pointer_token};
-use api::sweep::{Changes, SweepRequest};
-use serde::de::DeserializeOwned;
-use serde_json::{Map, Value};
+use api::spec::pointer_token;
+use api::sweep::{Changes, Sweep, SweepJob, SweepRequest};
+use serde_json::Value;
 
+use crate::batch::kind::Kind;
+use crate::batch::variation::{self, Accept, Variation};
 use crate::estimate::Estimate;
-use crate::spec::{NAME_LIMIT, Refused, Resolved};
+use crate::spec::{Refused, Resolved};
+use crate::store::{BatchJob, StoredBatch};
 
-/// Most jobs of a sweep.
-pub const JOB_LIMIT: usize = 1000;
-/// Most pointers that a job of a sweep changes.
+/// Largest number of jobs of a sweep.
+const JOB_LIMIT: usize = 1000;
+/// Largest number of pointers that a job of a sweep changes.
 const CHANGE_LIMIT: usize = 32;
-/// Most bytes of all specifications together.
+/// Largest size of all specifications together, bytes.
 const EXPANDED_LIMIT: usize = 32 << 20;
-/// Faults that are told before the rest is left out.
-const FAULTS_TOLD: usize = 100;
+/// Largest number of reported faults.
+const FAULT_LIMIT: usize = 100;
 
-/// A job of a sweep.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Variation {
-    /// What sets it apart.
-    pub overrides: Changes,
-    /// Its specification.
-    pub resolved: Resolved,
-    /// Its estimate.
-    pub estimate: Estimate,
-}
-
-/// Reads a sweep.
+/// Reads a sweep and checks how large it would become.
 ///
 /// # Errors
-/// [`Refused`] for what cannot be read.
-pub fn read(bytes: &[u8]) -> Result<SweepRequest, Refused> {
-    document(bytes)
+/// [`Refused`] for a body that cannot be read and for sizes beyond the limits.
+pub(super) fn read(bytes: &[u8]) -> Result<SweepRequest, Refused> {
+    let request = variation::read(bytes)?;
+    check_size(&request).map_err(Refused::Faults)?;
+    Ok(request)
 }
 
-/// Reads a document with a specification in it.
-pub(crate) fn document<T: DeserializeOwned>(bytes: &[u8]) -> Result<T, Refused> {
-    serde_json::from_slice(bytes).map_err(|error| {
-        let mut detail = error.to_string();
-        if let Some(end) = detail.rfind(" at line ") {
-            detail.truncate(end);
-        }
-        Refused::Parse(ParseError {
-            pointer: String::new(),
-            detail,
-            line: error.line(),
-            column: error.column(),
-        })
-    })
-}
-
-/// The jobs of a sweep, in order.
+/// Returns the jobs of a sweep, in order.
 ///
 /// # Errors
 /// [`Refused`] with the faults of the sweep, or of the jobs it would make.
-pub fn expand(request: &SweepRequest) -> Result<Vec<Variation>, Refused> {
-    measure(request).map_err(Refused::Faults)?;
+pub(super) fn expand(
+    request: &SweepRequest,
+    accept: &Accept<'_>,
+) -> Result<Vec<Variation>, Refused> {
     let all = match (&request.grid, &request.list) {
         (Some(grid), _) => combinations(grid),
         (None, list) => list.clone().unwrap_or_default(),
     };
-    // What the base leaves out, where a change needs the whole of a variant: `/load/n` of the preset's load.
+    // Completes variants of which the base has nothing and a change sets one field: `/load/n` of the preset's load.
     let preset = serde_json::to_vec(&request.base)
         .ok()
         .and_then(|base| crate::spec::read(&base).ok())
@@ -80,35 +62,51 @@ pub fn expand(request: &SweepRequest) -> Result<Vec<Variation>, Refused> {
                 resolved,
             }),
             Err(found) => {
-                let place = |fault| placed(fault, index, &overrides, request.grid.is_some());
-                faults.extend(found.into_iter().map(place));
+                let in_sweep = |fault| in_sweep(fault, index, &overrides, request.grid.is_some());
+                faults.extend(found.into_iter().map(in_sweep));
             }
         }
-        if faults.len() >= FAULTS_TOLD {
+        if faults.len() >= FAULT_LIMIT {
             break;
         }
     }
-    if faults.is_empty() {
-        return Ok(variations);
+    if !faults.is_empty() {
+        let reported = faults.into_iter().take(FAULT_LIMIT);
+        let faults = reported.map(|(pointer, detail)| Fault { pointer, detail });
+        return Err(Refused::Faults(faults.collect()));
     }
-    let told = faults.into_iter().take(FAULTS_TOLD);
-    Err(Refused::Faults(
-        told.map(|(pointer, detail)| Fault { pointer, detail })
-            .collect(),
-    ))
+    for variation in &variations {
+        accept(&variation.estimate)?;
+    }
+    Ok(variations)
+}
+
+/// Returns a stored batch as a sweep.
+pub(super) fn document(batch: StoredBatch) -> Sweep {
+    let overview = batch.overview;
+    Sweep {
+        id: overview.id,
+        name: overview.name,
+        created_at: overview.created_at,
+        counts: overview.counts,
+        jobs: batch.jobs.into_iter().map(shown).collect(),
+        links: Kind::Sweep.links(overview.id),
+    }
+}
+
+fn shown(job: BatchJob) -> SweepJob {
+    SweepJob {
+        id: job.id,
+        overrides: job.overrides,
+        status: job.status,
+        outcome: job.outcome,
+    }
 }
 
 /// Checks how large a sweep would become.
-fn measure(request: &SweepRequest) -> Result<(), Vec<Fault>> {
-    let mut faults = Vec::new();
+fn check_size(request: &SweepRequest) -> Result<(), Vec<Fault>> {
+    let mut faults = Vec::from_iter(variation::name_fault(request.name.as_deref()));
     let mut fault = |pointer: &str, detail: String| faults.push(Fault::new(pointer, detail));
-    let name = request.name.as_deref().unwrap_or_default().chars().count();
-    if name > NAME_LIMIT {
-        fault(
-            "/name",
-            format!("{name} characters, at most {NAME_LIMIT} are kept"),
-        );
-    }
     let (pointer, jobs, changes) = match (&request.grid, &request.list) {
         (Some(grid), None) => {
             let jobs = grid
@@ -152,7 +150,7 @@ fn measure(request: &SweepRequest) -> Result<(), Vec<Fault>> {
     }
 }
 
-/// Every combination of a grid, the last pointer varying fastest.
+/// Returns every combination of a grid, the last pointer varying fastest.
 fn combinations(grid: &BTreeMap<String, Vec<Value>>) -> Vec<Changes> {
     let mut all = vec![Changes::new()];
     for (pointer, values) in grid {
@@ -170,19 +168,19 @@ fn combinations(grid: &BTreeMap<String, Vec<Value>>) -> Vec<Changes> {
     all
 }
 
-/// The base with its changes, resolved.
+/// Resolves the base with its changes.
 fn vary(base: &Value, preset: &Value, overrides: &Changes) -> Result<Resolved, Vec<Fault>> {
     let mut document = base.clone();
     let mut faults = Vec::new();
     for (pointer, value) in overrides {
-        if let Err(detail) = put(&mut document, preset, pointer, value.clone()) {
+        if let Err(detail) = patch::set(&mut document, preset, pointer, value.clone()) {
             faults.push(Fault::new(pointer.clone(), detail));
         }
     }
     if !faults.is_empty() {
         return Err(faults);
     }
-    // A document that was read can be written.
+    // A document that was read can be serialized.
     let bytes = serde_json::to_vec(&document).unwrap_or_default();
     crate::spec::read(&bytes).map_err(|refused| match refused {
         Refused::Parse(error) => vec![Fault::new(error.pointer, error.detail)],
@@ -190,67 +188,19 @@ fn vary(base: &Value, preset: &Value, overrides: &Changes) -> Result<Resolved, V
     })
 }
 
-/// Puts a value where a pointer says. Objects that are missing on the way are made; a missing variant or material, which
-/// a single field cannot describe, is the preset's.
-fn put(
-    document: &mut Value,
-    preset: &Value,
-    pointer: &str,
-    value: Value,
-) -> Result<(), &'static str> {
-    let Some(tokens) = pointer.strip_prefix('/') else {
-        return Err("not a JSON pointer such as `/load/n`");
-    };
-    if let Some((parent, _)) = pointer.rsplit_once('/')
-        && document.pointer(parent).is_none_or(Value::is_null)
-        && let Some(whole) = preset.pointer(parent)
-        && is_whole(parent, whole)
-    {
-        put(document, preset, parent, whole.clone())?;
-    }
-    let mut place = document;
-    for token in tokens.split('/') {
-        let token = token.replace("~1", "/").replace("~0", "~");
-        place = match place {
-            Value::Array(items) => token
-                .parse::<usize>()
-                .ok()
-                .and_then(|index| items.get_mut(index))
-                .ok_or("there is no such item in the base specification")?,
-            Value::Object(fields) => fields.entry(token).or_insert(Value::Null),
-            Value::Null => {
-                *place = Value::Object(Map::new());
-                match place {
-                    Value::Object(fields) => fields.entry(token).or_insert(Value::Null),
-                    _ => return Err("the place cannot be made"),
-                }
-            }
-            _ => return Err("a value of the base specification stands where an object is needed"),
-        };
-    }
-    *place = value;
-    Ok(())
-}
-
-/// Whether an object means nothing in parts.
-fn is_whole(pointer: &str, object: &Value) -> bool {
-    let variant = object.get("kind").or(object.get("law")).is_some();
-    variant || pointer.starts_with("/materials/")
-}
-
-/// A fault at its place in the submitted sweep: in the changes of its job, or in the base.
-fn placed(fault: Fault, index: usize, overrides: &Changes, grid: bool) -> (String, String) {
+/// Moves a fault to its pointer in the submitted sweep: into the changes of its job, or into the base.
+fn in_sweep(fault: Fault, index: usize, overrides: &Changes, grid: bool) -> (String, String) {
     let Fault { pointer, detail } = fault;
     let changed = overrides.keys().find(|changed| {
         let below = pointer.strip_prefix(changed.as_str());
         below.is_some_and(|rest| rest.is_empty() || rest.starts_with('/'))
     });
-    let place = match changed {
+    let pointer_in_sweep = match changed {
         Some(changed) if grid => format!("/grid/{}", pointer_token(changed)),
         Some(changed) => format!("/list/{index}/{}", pointer_token(changed)),
         None => return (format!("/base{pointer}"), detail),
     };
-    (place, format!("{detail} ({pointer} of a job)"))
+    (pointer_in_sweep, format!("{detail} ({pointer} of a job)"))
 }
 
 #[cfg(test)]
@@ -260,15 +210,16 @@ mod tests {
     use super::*;
 
     fn expanded(text: &Value) -> Result<Vec<Variation>, Vec<Fault>> {
-        let request = read(text.to_string().as_bytes()).expect("a sweep");
-        expand(&request).map_err(|refused| match refused {
+        let request = read(text.to_string().as_bytes());
+        let variations = request.and_then(|request| expand(&request, &|_| Ok(())));
+        variations.map_err(|refused| match refused {
             Refused::Faults(faults) => faults,
             Refused::Parse(error) => panic!("{error}"),
         })
     }
 
     #[test]
-    fn a_grid_makes_every_combination_and_missing_objects() {
+    fn a_grid_makes_every_combination_and_creates_missing_objects() {
         let variations = expanded(&json!({
             "base": {"system": {"kind": "dimm"}},
             "grid": {"/cycles": [10, 20], "/interface/friction": [
@@ -299,7 +250,7 @@ mod tests {
     }
 
     #[test]
-    fn faults_are_told_where_they_were_written() {
+    fn faults_point_to_where_they_were_written() {
         let faults = expanded(&json!({
             "base": {"system": {"kind": "dimm"}, "cycels": 3, "stop": []},
             "list": [{"/cycles": 0}, {"/stop/0/worn_depth_mm": 1.0}, {"cycles": 1}, {"/load/n": "x"}, {"/system/kind/x": 1}]

@@ -1,5 +1,5 @@
-//! Another code on the same work: one cycle of frictional sliding without wear, on the same meshes and in as many
-//! increments, one code after the other on this machine.
+//! Comparison with CalculiX on the same problem: one cycle of frictional sliding without wear, on the same meshes and with
+//! the same number of increments, one code after the other on this machine.
 
 use std::path::Path;
 use std::process::{Command, Stdio};
@@ -15,44 +15,44 @@ use crate::bench::{BenchError, measured};
 use crate::export::deck::cycle;
 use crate::solve::children_cpu_s;
 
-/// Contact elements that are compared unless others are named, um.
+/// Default sizes of the contact elements, um.
 pub const ELEMENTS_UM: [f64; 3] = [20.0, 10.0, 5.0];
-/// Increments of a quarter of a cycle: 32 a cycle.
+/// Increments per quarter of a cycle: 32 per cycle.
 const QUARTER: u32 = 8;
 /// Name of the deck.
 const DECK: &str = "cycle";
 
-/// What both codes iterate to.
+/// Tolerances of both codes.
 pub const TOLERANCES: [&str; 2] = [
     "contact conditions and load balance to 1e-11 of the indentation and to round-off, no penalty",
     "residual force 0.5 % of the mean force (its default), penalty of 5 E over an element, stick slope a tenth of it",
 ];
 
-/// Both codes on the same meshes.
+/// Results of both codes on the same meshes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Comparison {
     /// Contact element, um.
     pub element_um: f64,
     /// Nodes of both bodies.
     pub nodes: usize,
-    /// Processor seconds: our set-up, and our 40 increments (settling, the way to the first turning point, the cycle).
+    /// Processor seconds of this program: the set-up, and 40 increments (initial quarter and cycle).
     pub ours_s: [f64; 2],
-    /// The other code's processor seconds for the whole, or why it gave up, with what it had taken until then.
+    /// Processor seconds of the other code for all of it, or why it failed, with the seconds until then.
     pub theirs_s: Result<f64, String>,
-    /// Largest |Q| / (mu P) of both over the cycle: never above 1 but by the penalty's slope.
+    /// Largest |Q| / (mu P) of both codes over the cycle: above 1 only by the slope of the penalty.
     pub friction_use: [f64; 2],
 }
 
-/// Whether `ccx` (CalculiX) can be started here.
+/// Checks whether `ccx` (CalculiX) can be started here.
 pub fn is_installed() -> bool {
     let ran = Command::new("ccx").arg("-v").stdout(Stdio::null()).status();
     ran.is_ok()
 }
 
-/// Runs both codes with an element size.
+/// Runs both codes with one element size.
 ///
 /// # Errors
-/// [`BenchError`] if ours fails or the other one cannot be started.
+/// [`BenchError`] if this engine fails or the other code cannot be started.
 pub fn ccx(element_um: f64) -> Result<Comparison, BenchError> {
     let folder = std::env::temp_dir().join(format!("fretwear-ccx-{}", std::process::id()));
     std::fs::create_dir_all(&folder)?;
@@ -61,13 +61,13 @@ pub fn ccx(element_um: f64) -> Result<Comparison, BenchError> {
     compared
 }
 
-/// The same; files go into a folder.
+/// Runs both codes with their files in a folder.
 fn compare(folder: &Path, element_um: f64) -> Result<Comparison, BenchError> {
     let scene = scene(CYLINDER, |scene| {
         scene.accuracy.contact_element_mm = Some(1e-3 * element_um);
         scene.accuracy.increments_per_cycle = Some(4 * QUARTER);
     })?;
-    let full = friction_limit(&scene);
+    let limit = friction_limit(&scene);
     let (setup_s, (model, condensed)) = measured(3, || {
         let model = model::build(&scene).map_err(SolveError::from)?;
         let condensed = condensation::condense(&model).map_err(SolveError::from)?;
@@ -80,8 +80,8 @@ fn compare(folder: &Path, element_um: f64) -> Result<Comparison, BenchError> {
         integrator.apply_load(&mut state)?;
         let lowered_mm = -state.contact.height;
         integrator.initial_quarter(&mut state)?;
-        let sweep = integrator.compute_cycle(&mut state, 1)?;
-        Ok((lowered_mm, sweep.friction_loop.tangential_force_n_per_mm))
+        let cycle = integrator.compute_cycle(&mut state, 1)?;
+        Ok((lowered_mm, cycle.friction_loop.tangential_force_n_per_mm))
     })
     .map_err(|error: solver::cycle::CycleError| SolveError::from(error))?;
 
@@ -98,7 +98,7 @@ fn compare(folder: &Path, element_um: f64) -> Result<Comparison, BenchError> {
     let took_s = children_cpu_s() - before;
     let printed = std::fs::read_to_string(folder.join(format!("{DECK}.dat"))).unwrap_or_default();
     let theirs = total_forces(&printed);
-    let largest = |forces: &[f64]| forces.iter().fold(0.0, |m: f64, q| m.max(q.abs())) / full;
+    let largest = |forces: &[f64]| forces.iter().fold(0.0, |m: f64, q| m.max(q.abs())) / limit;
     Ok(Comparison {
         element_um,
         nodes: model.bodies.slider.mesh.nodes() + model.bodies.receptacle.mesh.nodes(),
@@ -112,12 +112,12 @@ fn compare(folder: &Path, element_um: f64) -> Result<Comparison, BenchError> {
     })
 }
 
-/// mu P, N/mm.
+/// Returns mu P, N/mm.
 fn friction_limit(scene: &Scene) -> f64 {
     solver::law::friction::coefficient(scene.friction) * scene.load_n_per_mm
 }
 
-/// Total force along x of each increment in what CalculiX printed.
+/// Returns the total force along x of each increment in the output of CalculiX.
 fn total_forces(printed: &str) -> Vec<f64> {
     let mut lines = printed.lines();
     let mut forces = Vec::new();
@@ -136,7 +136,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn total_forces_are_read_from_what_calculix_prints() {
+    fn total_forces_are_read_from_the_output_of_calculix() {
         let printed = "\n total force (fx,fy,fz) for set RECEPTACLE_FAR and time  0.1000000E+00\n\n        \
                        1.475E+02  1.850E+02  3.3E-14\n\n total force (fx,fy,fz) for set RECEPTACLE_FAR and time  \
                        0.2E+00\n\n       -1.0E+00  1.850E+02  3.1E-14\n";

@@ -1,4 +1,4 @@
-//! The cases.
+//! The cases of the benchmark.
 
 use std::ops::ControlFlow;
 
@@ -15,17 +15,17 @@ use crate::spec;
 pub(super) const MCCOLL: &str = include_str!("../../examples/mccoll.json");
 pub(super) const FUZZ_BUTTON: &str = include_str!("../../examples/fuzz_button.json");
 
-/// Unknowns of both bodies to condense.
+/// Target numbers of unknowns of both bodies for the condensation.
 const CONDENSED: [f64; 3] = [5e3, 20e3, 50e3];
-/// Nodes in contact of an increment.
+/// Numbers of nodes in contact for the increments.
 const ACTIVE: [u32; 3] = [20, 50, 150];
-/// Hertz half-width of `mccoll.json`, mm: what element sizes are chosen from.
+/// Hertz half-width of `mccoll.json`, mm, from which element sizes are derived.
 const HERTZ: f64 = 0.03586;
-/// Contact elements, mm, and cycles, of the scaling cases.
+/// Contact elements, mm, and numbers of cycles of the scaling cases.
 const ELEMENTS: [f64; 3] = [0.02, 0.01, 0.005];
 const CYCLES: [u64; 3] = [2_000, 6_000, 18_000];
 
-/// A case: its name, and how it is measured.
+/// A case: its name and its measurement.
 pub type Case = (&'static str, fn() -> Result<Vec<Row>, BenchError>);
 
 /// All cases, in the order of the table.
@@ -50,7 +50,7 @@ pub fn all() -> Vec<Case> {
     ]
 }
 
-/// The cylinder of *Other codes on the same work*: R = 6 mm on a block of 12 x 6 mm, 185 N/mm, mu = 0.8, +-25 um, no
+/// The cylinder of *Other codes on the same work* (README.md): R = 6 mm on a block of 12 x 6 mm, 185 N/mm, mu = 0.8, +-25 um, no
 /// wear, elements of 10 um.
 pub(super) const CYLINDER: &str = r#"{
   "system": {"kind": "cylinder_on_flat", "radius_mm": 6.0, "flat_length_mm": 12.0, "flat_height_mm": 6.0},
@@ -68,7 +68,7 @@ pub(super) const CYLINDER: &str = r#"{
   "accuracy": {"preset": "standard", "overrides": {"contact_element_mm": 0.01, "increments_per_cycle": 32}}
 }"#;
 
-/// A scene with changed settings.
+/// Returns a scene with changed settings.
 pub(super) fn scene(spec: &str, change: impl FnOnce(&mut Scene)) -> Result<Scene, BenchError> {
     let mut scene = spec::read(spec.as_bytes())?.scene;
     change(&mut scene);
@@ -100,7 +100,7 @@ fn condensations() -> Result<Vec<Row>, BenchError> {
     Ok(rows)
 }
 
-/// McColl's scene with about so many unknowns: the element is halved between bounds.
+/// Returns McColl's scene with about so many unknowns: bisects the element size.
 fn sized(target: f64) -> Result<Scene, BenchError> {
     let (mut fine, mut coarse) = (1e-3_f64, 1e-1_f64);
     let at = |element: f64| {
@@ -128,10 +128,10 @@ fn increments() -> Result<Vec<Row>, BenchError> {
             scene.accuracy.contact_element_mm = Some(2.0 * HERTZ / f64::from(active));
             scene.accuracy.increments_per_cycle = Some(40);
             scene.accuracy.cycle_jump = Some(1);
-            // The scar stays as small as the contact, and the mesh with it.
+            // Few cycles keep the scar, and so the mesh, as small as the contact.
             scene.cycles = 10;
         })?;
-        let (_, cycle_s, increments) = a_cycle(&scene)?;
+        let (_, cycle_s, increments) = time_cycle(&scene)?;
         rows.push(Row {
             what: "contact increment with wear of both sides".to_owned(),
             size: format!("{active} nodes in contact"),
@@ -141,8 +141,8 @@ fn increments() -> Result<Vec<Row>, BenchError> {
     Ok(rows)
 }
 
-/// Seconds of set-up and of one cycle, and its increments.
-fn a_cycle(scene: &Scene) -> Result<(f64, f64, f64), BenchError> {
+/// Returns the seconds of the set-up and of one cycle, and the increments of the cycle.
+fn time_cycle(scene: &Scene) -> Result<(f64, f64, f64), BenchError> {
     let (setup_s, (model, condensed)) = measured(3, || condensed(scene))?;
     let operators = &condensed.operators;
     let mut increments = 0;
@@ -168,7 +168,7 @@ fn a_cycle(scene: &Scene) -> Result<(f64, f64, f64), BenchError> {
 
 fn friction_cycle() -> Result<Vec<Row>, BenchError> {
     let scene = scene(CYLINDER, |_| {})?;
-    let (setup_s, cycle_s, increments) = a_cycle(&scene)?;
+    let (setup_s, cycle_s, increments) = time_cycle(&scene)?;
     let row = |what: &str, size: String, cpu_s| Row {
         what: what.to_owned(),
         size,
@@ -275,15 +275,15 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_friction_cycle_has_the_increments_that_it_is_named_after() {
+    fn a_friction_cycle_has_32_increments() {
         let scene = scene(CYLINDER, |_| {}).expect("the specification is sound");
-        let (setup_s, cycle_s, increments) = a_cycle(&scene).expect("it can be solved");
+        let (setup_s, cycle_s, increments) = time_cycle(&scene).expect("it can be solved");
         assert!(setup_s > 0.0 && cycle_s > 0.0);
         assert!((increments - 32.0).abs() < 1e-9, "{increments}");
     }
 
     #[test]
-    fn meshes_of_the_condensation_are_as_large_as_they_should_be() {
+    fn meshes_of_the_condensation_have_the_target_size() {
         for target in CONDENSED {
             let scene = sized(target).expect("a size is found");
             let model = model::build(&scene).expect("it can be meshed");

@@ -1,5 +1,5 @@
-//! What the plan expects of a solve, beside what the solve took: every system and both published scenes at several
-//! tolerances, each in a process of its own.
+//! Estimates of the plan compared with measurements: every system and both published scenes at several tolerances, each
+//! in a process of its own.
 
 use std::path::Path;
 
@@ -14,17 +14,17 @@ use crate::estimate::Estimate;
 use crate::spec;
 use crate::spec::Refused;
 
-/// Tolerances that are compared unless others are named: the presets and two between.
+/// Default tolerances: the presets and two between.
 pub const TOLERANCES: [f64; 5] = [0.1, 0.05, 0.02, 0.01, 0.003];
 
-/// A figure of a plan and of the run that followed.
+/// An estimate and the measured value.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Pair {
     /// Its name.
     pub what: &'static str,
-    /// The plan's.
+    /// Estimate of the plan.
     pub expected: f64,
-    /// The run's.
+    /// Measured value of the run.
     pub measured: f64,
 }
 
@@ -35,18 +35,18 @@ impl Pair {
     }
 }
 
-/// A scene at a tolerance.
+/// The comparison for a scene at a tolerance.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Prediction {
     /// The scene's name.
     pub scene: String,
     /// The tolerance.
     pub tolerance: f64,
-    /// Expected and measured.
+    /// Estimates and measured values.
     pub pairs: Vec<Pair>,
 }
 
-/// Every system and both published scenes, by name.
+/// Returns every system and both published scenes by name.
 ///
 /// # Errors
 /// [`BenchError`] if a committed specification cannot be read.
@@ -88,7 +88,7 @@ pub fn compare(
         .plan(&resolved, Some(machine))
         .estimates;
     let (found, spent) = process::solve(program, &resolved.spec)?;
-    let summary = found.map_err(BenchError::OtherFailed)?.summary;
+    let summary = found.map_err(BenchError::RunFailed)?.summary;
     let pair = |(what, measured): (&'static str, f64)| Pair {
         what,
         expected: plan.get(what).copied().unwrap_or_default(),
@@ -101,7 +101,7 @@ pub fn compare(
     })
 }
 
-/// Figures of a run by the names that a plan gives them.
+/// Returns the measured values of a run by the names of the plan's estimates.
 fn measured(summary: &Summary, cpu_s: f64) -> [(&'static str, f64); 5] {
     let count = |count: u64| f64::from(u32::try_from(count).unwrap_or(u32::MAX));
     [

@@ -1,10 +1,10 @@
-//! Options of `serve` about who may ask.
+//! Options of `serve` for access control.
 
 use std::path::PathBuf;
 
 use crate::http::{Access, TokenError};
 
-/// Why the access that was asked for cannot be given.
+/// Why the access options are invalid.
 #[derive(Debug, thiserror::Error)]
 pub(super) enum AccessError {
     /// The file with the token cannot be read.
@@ -15,19 +15,19 @@ pub(super) enum AccessError {
         /// Why.
         cause: std::io::Error,
     },
-    /// The token cannot be used.
+    /// The token is invalid.
     #[error(transparent)]
     Token(#[from] TokenError),
 }
 
-/// Who may ask. A token is not an option of its own: other users of the machine can read the options of a process.
+/// Access options. The token itself is not an option: other users of the machine can read the options of a process.
 #[derive(Debug, clap::Args)]
 pub(super) struct AccessOptions {
-    /// A file that holds the access token, which every request must then show; needed to listen elsewhere than on
-    /// loopback. The variable FRETWEAR_TOKEN can hold the token itself.
+    /// File with the access token, which every request must then carry; required to listen on other addresses than
+    /// loopback. The variable FRETWEAR_TOKEN can contain the token itself.
     #[arg(long, env = "FRETWEAR_TOKEN_FILE")]
     token_file: Option<PathBuf>,
-    /// Name that the service answers to besides its addresses; may be given several times.
+    /// Host name that requests may name besides the service's addresses; may be given several times.
     #[arg(
         long = "allowed-host",
         env = "FRETWEAR_ALLOWED_HOSTS",
@@ -37,7 +37,7 @@ pub(super) struct AccessOptions {
 }
 
 impl AccessOptions {
-    /// The access; only a digest of the token stays in memory.
+    /// Returns the access rules; only a digest of the token stays in memory.
     pub(super) fn access(&self) -> Result<Access, AccessError> {
         let token = match &self.token_file {
             Some(path) => {

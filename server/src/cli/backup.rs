@@ -4,7 +4,7 @@ use std::path::Path;
 use std::process::ExitCode;
 
 use crate::cli::runtime;
-use crate::cli::terminal::{failed, say};
+use crate::cli::terminal::{failed, write_out};
 use crate::store::{BackupError, Copied, backup, restore};
 
 pub(super) fn run(database: &str, into: &Path) -> ExitCode {
@@ -22,7 +22,7 @@ fn ended(copied: std::io::Result<Result<Copied, BackupError>>) -> ExitCode {
             files,
             file_bytes,
         })) => {
-            say(format_args!(
+            write_out(format_args!(
                 "{jobs} jobs and {files} files of {file_bytes} bytes copied and verified"
             ));
             ExitCode::SUCCESS

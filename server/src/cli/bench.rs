@@ -1,10 +1,9 @@
-//! `fretwear bench`: what the engine does in how much time on this machine.
+//! `fretwear bench`: processor time of the engine on this machine.
 
 use std::process::ExitCode;
 
-use comfy_table::{CellAlignment, Table};
+use comfy_table::Table;
 
-use crate::batch::accuracy::StudyError;
 use crate::bench;
 use crate::bench::against;
 use crate::bench::against::Comparison;
@@ -12,14 +11,15 @@ use crate::bench::predictions;
 use crate::bench::predictions::{Pair, Prediction};
 use crate::bench::{BenchError, Row};
 use crate::cli::BenchArguments;
-use crate::cli::terminal::{failed, say, tell};
+use crate::cli::markdown;
+use crate::cli::terminal::{failed, write_err, write_out};
 use crate::estimate::machine;
 
 pub(super) fn run(arguments: &BenchArguments) -> ExitCode {
     if arguments.predictions {
         return match compare(&arguments.tolerances) {
             Ok(table) => {
-                say(table);
+                write_out(table);
                 ExitCode::SUCCESS
             }
             Err(error) => failed(error),
@@ -30,11 +30,11 @@ pub(super) fn run(arguments: &BenchArguments) -> ExitCode {
     }
     let mut rows = Vec::new();
     for (name, case) in bench::all() {
-        tell(format_args!("fretwear: {name}"));
+        write_err(format_args!("fretwear: {name}"));
         match case() {
             Ok(measured) => {
                 for row in &measured {
-                    tell(format_args!(
+                    write_err(format_args!(
                         "  {}, {}: {}",
                         row.what,
                         row.size,
@@ -46,19 +46,14 @@ pub(super) fn run(arguments: &BenchArguments) -> ExitCode {
             Err(error) => return failed(format_args!("{name}: {error}")),
         }
     }
-    say(table(&rows));
+    write_out(table(&rows));
     ExitCode::SUCCESS
 }
 
 fn table(rows: &[Row]) -> Table {
-    let mut table = Table::new();
-    table.load_style(comfy_table::presets::ASCII_MARKDOWN);
-    table.set_header(["case", "size", "CPU"]);
+    let mut table = markdown::table(["case", "size", "CPU"], 2);
     for row in rows {
         table.add_row([row.what.clone(), row.size.clone(), time(row.cpu_s)]);
-    }
-    if let Some(column) = table.column_mut(2) {
-        column.set_cell_alignment(CellAlignment::Right);
     }
     table
 }
@@ -71,67 +66,58 @@ fn time(seconds: f64) -> String {
     }
 }
 
-/// Both codes, one table; visibly skipped where the other one is absent.
+/// Compares with CalculiX; prints that the comparison is skipped where it is not installed.
 fn against_ccx(elements_um: &[f64]) -> ExitCode {
     if !against::is_installed() {
-        say("skipped: ccx (CalculiX) is not installed here");
+        write_out("skipped: ccx (CalculiX) is not installed here");
         return ExitCode::SUCCESS;
     }
-    let mut table = Table::new();
-    table.load_style(comfy_table::presets::ASCII_MARKDOWN);
-    table.set_header([
+    let header = [
         "element, um",
         "nodes",
         "fretwear: set-up + cycle, s",
         "ccx, s",
         "ratio",
         "largest |Q|/(mu P), fretwear / ccx",
-    ]);
+    ];
+    let mut table = markdown::table(header, 0);
     for element in elements_um {
-        tell(format_args!("fretwear: elements of {element} um"));
+        write_err(format_args!("fretwear: elements of {element} um"));
         let compared = match against::ccx(*element) {
             Ok(compared) => compared,
             Err(error) => return failed(error),
         };
         table.add_row(row(&compared));
     }
-    for column in table.column_iter_mut() {
-        column.set_cell_alignment(CellAlignment::Right);
-    }
-    say(table);
+    write_out(table);
     let [ours, theirs] = against::TOLERANCES;
-    say(format_args!(
+    write_out(format_args!(
         "Processor seconds, one thread each, one after the other on this machine. Tolerances:"
     ));
-    say(format_args!("fretwear: {ours}; ccx: {theirs}."));
+    write_out(format_args!("fretwear: {ours}; ccx: {theirs}."));
     ExitCode::SUCCESS
 }
 
-/// What plans expect beside what solves take, with a calibration of its own.
+/// Compares estimates of plans with measurements, with a calibration of its own.
 fn compare(tolerances: &[f64]) -> Result<Table, BenchError> {
-    tell("fretwear: measuring the machine");
+    write_err("fretwear: measuring the machine");
     let figures = machine::measure()?;
-    let program = std::env::current_exe().map_err(StudyError::from)?;
-    let mut table = Table::new();
-    table.load_style(comfy_table::presets::ASCII_MARKDOWN);
+    let program = std::env::current_exe()?;
+    let mut table: Option<Table> = None;
     for tolerance in tolerances {
         for scene in predictions::scenes()? {
-            tell(format_args!(
+            write_err(format_args!(
                 "fretwear: {} at {} %",
                 scene.0,
                 100.0 * tolerance
             ));
             let prediction = predictions::compare(&program, &figures, &scene, *tolerance)?;
-            if table.header().is_none() {
-                table.set_header(header(&prediction));
-            }
-            table.add_row(cells(&prediction));
+            table
+                .get_or_insert_with(|| markdown::table(header(&prediction), 1))
+                .add_row(cells(&prediction));
         }
     }
-    for column in table.column_iter_mut().skip(1) {
-        column.set_cell_alignment(CellAlignment::Right);
-    }
-    Ok(table)
+    Ok(table.unwrap_or_default())
 }
 
 fn header(prediction: &Prediction) -> Vec<String> {
@@ -143,7 +129,7 @@ fn header(prediction: &Prediction) -> Vec<String> {
         .collect()
 }
 
-/// Expected / measured = ratio.
+/// Cells of a prediction: expected / measured = ratio.
 fn cells(prediction: &Prediction) -> Vec<String> {
     let figure = |value: f64| {
         if value < 10.0 {

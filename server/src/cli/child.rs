@@ -20,7 +20,7 @@ use nix::sys::resource::{Resource, setrlimit};
 use signal_hook::consts::SIGTERM;
 
 use crate::cli::ChildArguments;
-use crate::cli::terminal::{failed, refused, tell};
+use crate::cli::terminal::{failed, refused, write_err};
 use crate::export::documents::VTU;
 use crate::export::files;
 use crate::export::files::FilesError;
@@ -132,7 +132,7 @@ fn keep(folder: &Path, fields: &FieldsFile, stop: &AtomicBool) -> ControlFlow<()
     let mut told = false;
     while let Err(error) = files::keep(folder, name, bytes) {
         if !told {
-            tell(&error);
+            write_err(&error);
             told = true;
         }
         match error {

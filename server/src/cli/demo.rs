@@ -1,4 +1,4 @@
-//! `fretwear demo`: the main job, end to end, through the service's own HTTP API.
+//! `fretwear demo`: the fuzz-button job, end to end, through the service's own HTTP API.
 
 use std::net::SocketAddr;
 use std::path::PathBuf;
@@ -13,14 +13,14 @@ use uuid::Uuid;
 
 use crate::cli::serve::until_signal;
 use crate::cli::solve::phase_name;
-use crate::cli::terminal::{bar, failed, say, tell};
+use crate::cli::terminal::{bar, failed, write_err, write_out};
 use crate::cli::{runtime, table, workers};
 use crate::http::Access;
 use crate::queue::ATTEMPT_LIMIT;
 use crate::service::{Config, Service, ServiceError};
 use crate::worker::Rules;
 
-/// The study: the source's fuzz button.
+/// The specification: the published fuzz button.
 const SPEC: &str = include_str!("../../examples/fuzz_button.json");
 
 /// Why the demonstration failed.
@@ -30,7 +30,7 @@ enum DemoError {
     Io(#[from] std::io::Error),
     #[error("{0}")]
     Service(#[from] ServiceError),
-    #[error("asking the service: {0}")]
+    #[error("requesting the service: {0}")]
     Http(#[from] reqwest::Error),
     #[error("the event stream broke off: {0}")]
     Stream(String),
@@ -67,27 +67,27 @@ async fn demonstrate(listen: SocketAddr, exit: bool) -> Result<(), DemoError> {
     })
     .await?;
     let base = format!("http://{}", service.address);
-    tell(format_args!(
+    write_err(format_args!(
         "fretwear serves on {base}, its data in {}",
         folder.display()
     ));
-    let told = tokio::select! {
-        told = study(&base) => told,
+    let shown = tokio::select! {
+        shown = show_job(&base) => shown,
         signal = until_signal() => {
             service.stop().await;
             return Ok(signal?);
         }
     };
-    if let (Ok(()), false) = (&told, exit) {
-        tell("serving on; Ctrl-C ends it");
+    if let (Ok(()), false) = (&shown, exit) {
+        write_err("the service continues; press Ctrl-C to stop it");
         until_signal().await?;
     }
     service.stop().await;
-    told
+    shown
 }
 
-/// Submits the study, follows it and shows what came of it.
-async fn study(base: &str) -> Result<(), DemoError> {
+/// Submits the job, waits for its end and shows its results.
+async fn show_job(base: &str) -> Result<(), DemoError> {
     let client = reqwest::Client::new();
     let request = client
         .post(format!("{base}/v1/jobs"))
@@ -115,15 +115,15 @@ async fn study(base: &str) -> Result<(), DemoError> {
         .json()
         .await?;
     for line in table::report(&job, &history) {
-        say(line);
+        write_out(line);
     }
     for line in next_steps(base, &own) {
-        say(line);
+        write_out(line);
     }
     Ok(())
 }
 
-/// Feeds a progress bar from the event stream until `done`.
+/// Updates a progress bar from the event stream until `done`.
 async fn follow(client: &reqwest::Client, own: &str, cycles: u64) -> Result<Done, DemoError> {
     let bar = bar(cycles);
     let response = client
@@ -149,7 +149,9 @@ async fn follow(client: &reqwest::Client, own: &str, cycles: u64) -> Result<Done
             _ => {}
         }
     }
-    Err(DemoError::Stream("it ended before the job".to_owned()))
+    Err(DemoError::Stream(
+        "the stream ended before the job".to_owned(),
+    ))
 }
 
 fn next_steps(base: &str, own: &str) -> [String; 7] {

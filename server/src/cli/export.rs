@@ -1,4 +1,4 @@
-//! `fretwear export SPEC`: the model for other codes.
+//! `fretwear export SPEC`: the model as an input deck for other codes.
 
 use std::ops::ControlFlow;
 use std::path::Path;
@@ -11,7 +11,7 @@ use solver::scene::Scene;
 use solver::sides::Sides;
 use solver::{SolveError, ale};
 
-use crate::cli::terminal::{failed, say, specification};
+use crate::cli::terminal::{failed, specification, write_out};
 use crate::export::deck;
 
 pub(super) fn run(spec: &Path, cycle: u64) -> ExitCode {
@@ -28,14 +28,14 @@ pub(super) fn run(spec: &Path, cycle: u64) -> ExitCode {
     }
     match worn(&scene, cycle) {
         Ok(model) => {
-            say(deck::inp(&scene, &model).trim_end());
+            write_out(deck::inp(&scene, &model).trim_end());
             ExitCode::SUCCESS
         }
         Err(error) => failed(error),
     }
 }
 
-/// The model at a cycle; the unworn one needs no solve.
+/// Returns the model at a cycle; the unworn one needs no solve.
 fn worn(scene: &Scene, cycle: u64) -> Result<Model, SolveError> {
     let model = model::build(scene)?;
     if cycle == 0 {
@@ -61,7 +61,7 @@ fn worn(scene: &Scene, cycle: u64) -> Result<Model, SolveError> {
     }
 }
 
-/// Keeps the newest snapshot.
+/// Stores the last snapshot.
 #[derive(Default)]
 struct Last(Option<Snapshot>);
 

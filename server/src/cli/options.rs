@@ -1,4 +1,4 @@
-//! Options of `serve` that say how jobs are worked on; each can be given in the environment too.
+//! Options of `serve` for queue and workers; each can also be given as an environment variable.
 
 use std::path::{Path, PathBuf};
 use std::time::Duration;
@@ -8,45 +8,45 @@ use clap::Args;
 use crate::queue::ATTEMPT_LIMIT;
 use crate::worker::Rules;
 
-/// How jobs are worked on.
+/// Options for queue and workers.
 #[derive(Debug, Args)]
 pub(super) struct WorkOptions {
-    /// Jobs solved at once; one a processor unless named.
+    /// Number of jobs solved at once; one per processor unless given.
     #[arg(long, env = "FRETWEAR_WORKERS", value_parser = clap::value_parser!(u16).range(1..=256))]
     workers: Option<u16>,
-    /// How often a job is tried whose workers are lost.
+    /// Largest number of attempts of a job whose workers are lost.
     #[arg(long, env = "FRETWEAR_ATTEMPTS", default_value_t = ATTEMPT_LIMIT, value_parser = clap::value_parser!(u32).range(1..))]
     pub(super) attempts: u32,
-    /// How long a worker that gives no sign keeps its job.
+    /// Time after the last heartbeat of a worker at which its job is reclaimed.
     #[arg(long, env = "FRETWEAR_LEASE_S", default_value = "10", value_parser = seconds)]
     lease_s: Duration,
-    /// How often a solve stores from where it could go on; 0 for after every computed cycle.
+    /// Interval of the checkpoints of a solve; 0 for one after every computed cycle.
     #[arg(long, env = "FRETWEAR_CHECKPOINT_EVERY_S", default_value = "5", value_parser = seconds)]
     checkpoint_every_s: Duration,
-    /// How long a solve has for its last checkpoint when the service stops.
+    /// Time that a solve has for its last checkpoint when the service stops.
     #[arg(long, env = "FRETWEAR_GRACE_S", default_value = "5", value_parser = seconds)]
     grace_s: Duration,
-    /// What running jobs may be expected to need together; four fifths of the machine's memory unless named.
+    /// Limit of the estimated memory of all running jobs; four fifths of the machine's memory unless given.
     #[arg(long, env = "FRETWEAR_MEMORY_MB", value_parser = clap::value_parser!(i64).range(1..))]
     memory_mb: Option<i64>,
-    /// What one solve may take; four times what its plan expects, and at least 1024, unless named.
+    /// Memory limit of one solve; four times the estimate of its plan, and at least 1024, unless given.
     #[arg(long, env = "FRETWEAR_JOB_MEMORY_MB", value_parser = clap::value_parser!(i64).range(1..))]
     job_memory_mb: Option<i64>,
-    /// No job is begun while the disk of the database has less than this left.
+    /// Free space on the database's disk below which no job is started.
     #[arg(long, env = "FRETWEAR_LEAST_FREE_DISK_MB", default_value_t = 256)]
     least_free_disk_mb: u64,
-    /// Delete jobs so many days after their end; kept for ever unless named.
+    /// Delete jobs so many days after their end; never unless given.
     #[arg(long, env = "FRETWEAR_KEEP_DAYS")]
     pub(super) keep_days: Option<u32>,
 }
 
 impl WorkOptions {
-    /// How many jobs are solved at once.
+    /// Number of jobs solved at once.
     pub(super) fn workers(&self) -> usize {
         super::workers(self.workers)
     }
 
-    /// The rules for a program that keeps its database here.
+    /// Rules of the workers for a program and a database.
     pub(super) fn rules(&self, program: PathBuf, database: &str) -> Rules {
         let rules = Rules::new(program, folder(database));
         Rules {
@@ -61,7 +61,7 @@ impl WorkOptions {
     }
 }
 
-/// The folder of a database.
+/// Returns the folder of a database.
 pub(super) fn folder(database: &str) -> PathBuf {
     let path = Path::new(
         database
@@ -95,7 +95,7 @@ mod tests {
     }
 
     #[test]
-    fn the_folder_of_a_database_is_found_in_its_address() {
+    fn the_folder_of_a_database_follows_from_its_address() {
         assert_eq!(folder("sqlite://fretwear.db"), Path::new("."));
         assert_eq!(folder("sqlite:///data/fretwear.db"), Path::new("/data"));
         assert_eq!(folder("sqlite:a/b.db"), Path::new("a"));

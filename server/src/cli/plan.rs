@@ -5,7 +5,7 @@ use std::process::ExitCode;
 
 use api::plan::PlanDocument;
 
-use crate::cli::terminal::{failed, say, specification};
+use crate::cli::terminal::{failed, specification, write_out};
 use crate::estimate::Estimate;
 use crate::estimate::machine::{CalibrationCache, cache_file};
 
@@ -14,8 +14,8 @@ pub(super) fn run(spec: &Path) -> ExitCode {
         Ok(resolved) => resolved,
         Err(code) => return code,
     };
-    let kept = CalibrationCache::open(cache_file());
-    let machine = kept.get_or_measure().cloned();
+    let cache = CalibrationCache::open(cache_file());
+    let machine = cache.get_or_measure().cloned();
     let plan = Estimate::of(&resolved).plan(&resolved, machine.as_ref());
     match serde_json::to_string_pretty(&PlanDocument {
         spec: resolved.spec,
@@ -23,7 +23,7 @@ pub(super) fn run(spec: &Path) -> ExitCode {
         machine,
     }) {
         Ok(text) => {
-            say(text);
+            write_out(text);
             ExitCode::SUCCESS
         }
         Err(cause) => failed(cause),

@@ -1,24 +1,24 @@
-//! `fretwear probe`: whether a service here can work, for health checks where no other client is.
+//! `fretwear probe`: checks whether a service on this machine is ready, for health checks without another HTTP client.
 
 use std::net::{IpAddr, Ipv4Addr, Ipv6Addr, SocketAddr};
 use std::process::ExitCode;
 use std::time::Duration;
 
 use crate::cli::runtime;
-use crate::cli::terminal::{failed, say};
+use crate::cli::terminal::{failed, write_out};
 
-/// How long the service may take.
-const PATIENCE: Duration = Duration::from_secs(4);
+/// Time limit of the request.
+const TIMEOUT: Duration = Duration::from_secs(4);
 
 pub(super) fn run(listen: SocketAddr) -> ExitCode {
     let runtime = match runtime() {
         Ok(runtime) => runtime,
         Err(cause) => return failed(cause),
     };
-    let url = format!("http://{}/readyz", here(listen));
-    match runtime.block_on(ask(&url)) {
+    let url = format!("http://{}/readyz", local(listen));
+    match runtime.block_on(request(&url)) {
         Ok(status) if status.is_success() => {
-            say("ready");
+            write_out("ready");
             ExitCode::SUCCESS
         }
         Ok(status) => failed(format_args!("{url}: {status}")),
@@ -26,13 +26,13 @@ pub(super) fn run(listen: SocketAddr) -> ExitCode {
     }
 }
 
-async fn ask(url: &str) -> reqwest::Result<reqwest::StatusCode> {
-    let client = reqwest::Client::builder().timeout(PATIENCE).build()?;
+async fn request(url: &str) -> reqwest::Result<reqwest::StatusCode> {
+    let client = reqwest::Client::builder().timeout(TIMEOUT).build()?;
     Ok(client.get(url).send().await?.status())
 }
 
-/// Where a service that listens there is reached from here.
-fn here(listen: SocketAddr) -> SocketAddr {
+/// Returns the address at which a local service with this listen address is reached.
+fn local(listen: SocketAddr) -> SocketAddr {
     let ip = match listen.ip() {
         IpAddr::V4(ip) if ip.is_unspecified() => IpAddr::V4(Ipv4Addr::LOCALHOST),
         IpAddr::V6(ip) if ip.is_unspecified() => IpAddr::V6(Ipv6Addr::LOCALHOST),
@@ -46,14 +46,14 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_service_on_all_addresses_is_asked_on_loopback() {
+    fn a_service_on_all_addresses_is_probed_on_loopback() {
         for (listen, expected) in [
             ("0.0.0.0:80", "127.0.0.1:80"),
             ("[::]:80", "[::1]:80"),
             ("127.0.0.2:8080", "127.0.0.2:8080"),
         ] {
             let listen: SocketAddr = listen.parse().expect("an address");
-            assert_eq!(here(listen).to_string(), expected);
+            assert_eq!(local(listen).to_string(), expected);
         }
     }
 }

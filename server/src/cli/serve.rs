@@ -1,10 +1,10 @@
-//! `fretwear serve`.
+//! `fretwear serve`: the service.
 
 use std::process::ExitCode;
 
 use tokio::signal::unix::{SignalKind, signal};
 
-use crate::cli::terminal::{failed, tell};
+use crate::cli::terminal::{failed, write_err};
 use crate::cli::{ServeArguments, runtime};
 use crate::service::{Config, Service};
 
@@ -36,7 +36,7 @@ pub(super) fn run(arguments: ServeArguments) -> ExitCode {
             Ok(service) => service,
             Err(error) => return failed(error),
         };
-        tell(format_args!(
+        write_err(format_args!(
             "fretwear serves on http://{}",
             service.address
         ));
@@ -49,7 +49,7 @@ pub(super) fn run(arguments: ServeArguments) -> ExitCode {
     })
 }
 
-/// Returns at an interrupt (Ctrl-C) or a request to terminate.
+/// Returns at SIGINT (Ctrl-C) or SIGTERM.
 pub(super) async fn until_signal() -> std::io::Result<()> {
     let mut interrupt = signal(SignalKind::interrupt())?;
     let mut terminate = signal(SignalKind::terminate())?;

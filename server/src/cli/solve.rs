@@ -8,7 +8,7 @@ use api::job::{Outcome, Phase};
 use api::results::{CycleRow, Snapshot, Summary};
 use indicatif::ProgressBar;
 
-use crate::cli::terminal::{bar, failed, say, specification_for, tell};
+use crate::cli::terminal::{bar, failed, specification_for, write_err, write_out};
 use crate::export::documents::Results;
 use crate::export::files;
 use crate::solve;
@@ -53,14 +53,14 @@ struct Recorded {
 fn solve(resolved: &Resolved, recorded: &mut Recorded) -> Result<Summary, Failure> {
     let bar = bar(resolved.scene.cycles);
     let solved = solve::run(&resolved.scene, &mut |line| {
-        take(line, recorded, &bar);
+        record(line, recorded, &bar);
         ControlFlow::Continue(())
     });
     bar.finish_and_clear();
     solved
 }
 
-fn take(line: Line, recorded: &mut Recorded, bar: &ProgressBar) {
+fn record(line: Line, recorded: &mut Recorded, bar: &ProgressBar) {
     match line {
         Line::Phase(phase) => bar.set_message(phase_name(phase)),
         Line::Cycle(row) => {
@@ -89,11 +89,11 @@ pub(super) fn phase_name(phase: Phase) -> &'static str {
 
 fn report(summary: &Summary) -> ExitCode {
     match serde_json::to_string_pretty(summary) {
-        Ok(text) => say(text),
+        Ok(text) => write_out(text),
         Err(cause) => return failed(cause),
     }
     if summary.outcome == Outcome::Stopped {
-        tell("fretwear: the run was stopped");
+        write_err("fretwear: the run was stopped");
         return ExitCode::FAILURE;
     }
     ExitCode::SUCCESS

@@ -1,4 +1,4 @@
-//! `fretwear study SPEC [--out DIR]`: what accuracy costs.
+//! `fretwear study SPEC [--out DIR]`: an accuracy study.
 
 use std::path::Path;
 use std::process::ExitCode;
@@ -7,7 +7,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::batch::accuracy;
 use crate::batch::accuracy::{Request, RunPlanError, StudyError, report};
-use crate::cli::terminal::{failed, refused, say, specification_for};
+use crate::cli::terminal::{failed, refused, specification_for, write_out};
 use crate::estimate::machine::{CalibrationCache, cache_file};
 
 pub(super) fn run(spec: &Path, out: Option<&Path>, budget_s: f64) -> ExitCode {
@@ -19,8 +19,8 @@ pub(super) fn run(spec: &Path, out: Option<&Path>, budget_s: f64) -> ExitCode {
         Ok(program) => program,
         Err(cause) => return failed(format_args!("the path of this program: {cause}")),
     };
-    let kept = CalibrationCache::open(cache_file());
-    let Some(machine) = kept.get_or_measure() else {
+    let cache = CalibrationCache::open(cache_file());
+    let Some(machine) = cache.get_or_measure() else {
         return failed("the machine could not be measured");
     };
     let spinner = spinner();
@@ -37,7 +37,7 @@ pub(super) fn run(spec: &Path, out: Option<&Path>, budget_s: f64) -> ExitCode {
         Err(StudyError::RunPlan(RunPlanError::Refused(error))) => return refused(&error),
         Err(error) => return failed(error),
     };
-    say(report::text(&study));
+    write_out(report::text(&study));
     let Some(folder) = out else {
         return ExitCode::SUCCESS;
     };
@@ -54,11 +54,11 @@ pub(super) fn run(spec: &Path, out: Option<&Path>, budget_s: f64) -> ExitCode {
     ExitCode::SUCCESS
 }
 
-/// Which run is on, on standard error; silent where that is no terminal.
+/// Returns a spinner for the present run on standard error; silent where that is no terminal.
 fn spinner() -> ProgressBar {
     let spinner = ProgressBar::new_spinner();
-    // The template is a constant; were it broken, the default would do.
-    if let Ok(style) = ProgressStyle::with_template("{spinner} {msg}, {elapsed} gone") {
+    // The template is a constant; if it is invalid, the default template is used.
+    if let Ok(style) = ProgressStyle::with_template("{spinner} {msg}, {elapsed} elapsed") {
         spinner.set_style(style);
     }
     spinner.enable_steady_tick(std::time::Duration::from_millis(200));

@@ -1,27 +1,29 @@
-//! The demonstration's table: worn depth by cycle and station, and what it should be.
+//! Report of the demonstration: worn depth by cycle and station, compared with the analytical values.
 
 use api::job::Job;
 use api::results::{Station, WearHistory};
-use comfy_table::{CellAlignment, Table};
+use comfy_table::Table;
+
+use crate::cli::markdown;
 
 /// mm to um and to nm.
 const UM: f64 = 1e3;
 const NM: f64 = 1e6;
 
-/// A wear history and its checks, as lines of text.
+/// Returns a wear history and its checks as lines of text.
 pub(super) fn report(job: &Job, history: &WearHistory) -> Vec<String> {
     let mut lines = vec![String::new(), job.spec.name.clone().unwrap_or_default()];
-    lines.push("Worn depth of the receptacle, um, by cycle and place x:".to_owned());
-    let rows = shown(job, history);
+    lines.push("Worn depth of the receptacle, um, by cycle and position x:".to_owned());
+    let rows = snapshot_rows(job, history);
     lines.push(depths(history, &rows).to_string());
     lines.extend(growth(job, history, &rows));
     lines.extend(area(job));
     lines
 }
 
-/// The rows nearest to the cycles of the snapshots.
-fn shown(job: &Job, history: &WearHistory) -> Vec<usize> {
-    let wanted = job
+/// Returns the rows nearest to the cycles of the snapshots.
+fn snapshot_rows(job: &Job, history: &WearHistory) -> Vec<usize> {
+    let cycles = job
         .spec
         .output
         .snapshots_at_cycles
@@ -31,15 +33,13 @@ fn shown(job: &Job, history: &WearHistory) -> Vec<usize> {
         let distance = |index: &usize| history.cycle[*index].abs_diff(cycle);
         (0..history.cycle.len()).min_by_key(distance)
     };
-    let mut rows: Vec<_> = wanted.into_iter().filter_map(nearest).collect();
+    let mut rows: Vec<_> = cycles.into_iter().filter_map(nearest).collect();
     rows.sort_unstable();
     rows.dedup();
     rows
 }
 
 fn depths(history: &WearHistory, rows: &[usize]) -> Table {
-    let mut table = Table::new();
-    table.load_style(comfy_table::presets::ASCII_MARKDOWN);
     let mut header = vec!["cycle".to_owned()];
     header.extend(
         history
@@ -48,8 +48,8 @@ fn depths(history: &WearHistory, rows: &[usize]) -> Table {
             .map(|station| format!("{} mm", station.x_mm)),
     );
     header.extend(["deepest".to_owned(), "middle, nm a cycle".to_owned()]);
-    table.set_header(header);
-    for (place, &row) in rows.iter().enumerate() {
+    let mut table = markdown::table(header, 0);
+    for (index, &row) in rows.iter().enumerate() {
         let mut cells = vec![history.cycle[row].to_string()];
         cells.extend(
             history
@@ -59,17 +59,14 @@ fn depths(history: &WearHistory, rows: &[usize]) -> Table {
         );
         cells.push(format!("{:.3}", UM * history.receptacle.max_depth_mm[row]));
         // The first row of a history is the unworn state.
-        let before = place.checked_sub(1).map_or(0, |place| rows[place]);
+        let before = index.checked_sub(1).map_or(0, |index| rows[index]);
         cells.push(slope(history, before, row).map_or_else(String::new, |nm| format!("{nm:.3}")));
         table.add_row(cells);
-    }
-    for column in table.column_iter_mut() {
-        column.set_cell_alignment(CellAlignment::Right);
     }
     table
 }
 
-/// The station in the middle of the block.
+/// Returns the station nearest to the middle of the block.
 fn middle(history: &WearHistory) -> Option<&Station> {
     history
         .stations
@@ -77,7 +74,7 @@ fn middle(history: &WearHistory) -> Option<&Station> {
         .min_by(|a, b| a.x_mm.abs().total_cmp(&b.x_mm.abs()))
 }
 
-/// Growth of the worn depth in the middle between two rows, nm a cycle.
+/// Returns the growth of the worn depth in the middle between two rows, nm per cycle.
 #[expect(clippy::cast_precision_loss, reason = "cycles stay below 1e9")]
 fn slope(history: &WearHistory, from: usize, to: usize) -> Option<f64> {
     let cycles = history.cycle[to]
@@ -87,9 +84,10 @@ fn slope(history: &WearHistory, from: usize, to: usize) -> Option<f64> {
     Some(NM * (depth[to] - depth[from]) / cycles as f64)
 }
 
-/// Each cycle the contact crosses the middle twice, and each crossing wears (k/H) P' as long as the floor of the groove
-/// is flat: between the first two rows shown. A hollow floor is crossed faster than the slider moves and wears less;
-/// worn area is conserved, so a block that is all worn cannot sink faster than worn area over length.
+/// Compares the growth between the first two rows shown with theory: each cycle the contact passes the middle twice, and
+/// each pass wears (k/H) P' as long as the floor of the scar is flat. Over a concave floor the contact moves faster than
+/// the slider and wears less; worn area is conserved, so once the whole block wears, its depth grows by worn area over
+/// length.
 fn growth(job: &Job, history: &WearHistory, rows: &[usize]) -> Option<String> {
     let plan = job.plan.as_ref()?;
     let expected = 2.0 * NM * plan.estimates.get("receptacle_full_pass_depth_mm")?;
@@ -98,13 +96,14 @@ fn growth(job: &Job, history: &WearHistory, rows: &[usize]) -> Option<String> {
     let found = slope(history, first, second)?;
     Some(format!(
         "On the flat floor, cycle {} to {}: {found:.3} nm a cycle in the middle; 2 (k/H) P' = {expected:.3} nm ({:+.2} %).\n\
-         Then the ends are felt: the whole block sinks, and worn area over length sets the pace (solver/README.md).",
+         Later the whole block wears, and its depth grows by worn area over length (solver/README.md).",
         history.cycle[first],
         history.cycle[second],
         100.0 * (found / expected - 1.0)
     ))
 }
 
+/// Compares the worn area with its ideal value, and lists accuracy and cost.
 fn area(job: &Job) -> Option<String> {
     let summary = job.summary.as_ref()?;
     let cost = &summary.cost;

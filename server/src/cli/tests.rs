@@ -1,4 +1,4 @@
-//! The table of options in the README against the command line itself.
+//! Compares the table of options in the README with the command line.
 
 use clap::{CommandFactory, Parser};
 
@@ -6,7 +6,7 @@ use crate::cli::Arguments;
 
 const README: &str = include_str!("../../README.md");
 
-/// Option, variable and default of each option of `serve`, as the command line has them.
+/// Option, variable and default of each option of `serve`.
 fn options() -> Vec<[String; 3]> {
     let command = Arguments::command();
     let serve = command.find_subcommand("serve").expect("`serve`");
@@ -32,7 +32,7 @@ fn options() -> Vec<[String; 3]> {
 }
 
 #[test]
-fn the_readme_s_table_names_every_option_with_its_variable_and_default() {
+fn the_readme_lists_every_option_with_its_variable_and_default() {
     let mut rows: Vec<[String; 3]> = README
         .lines()
         .filter(|line| line.starts_with("| `--"))

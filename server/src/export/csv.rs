@@ -154,7 +154,7 @@ pub fn study(study: &Study) -> Result<Vec<u8>, CsvError> {
             error(run, |errors| errors.peak_pressure)
         }),
         ("area_error", |run| error(run, |errors| errors.area)),
-        ("below_doubt", |run| run.below_doubt.join(" ")),
+        ("below_doubt", |run| run.below_uncertainty.join(" ")),
         ("cpu_s", |run| run.cpu_s.to_string()),
         ("peak_memory_mb", |run| run.peak_memory_mb.to_string()),
         ("on_front", |run| run.on_front.to_string()),

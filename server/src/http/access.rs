@@ -1,9 +1,8 @@
-//! Who may ask: requests must name a host that this service answers to, a browser's `Origin` must be that host, and
-//! where a token is set it must be shown.
+//! Access control: the `Host` of a request must be allowed, a browser's `Origin` must be the same host, and if a token is
+//! configured, the request must have it.
 //!
-//! On loopback a request must name a loopback host, so that a foreign page cannot reach the service by a name of its
-//! own that leads here. Listening elsewhere needs a token; then a host may also be any address, which no name can lead
-//! to, or a name that was allowed.
+//! On loopback the host must be a loopback name or address, which protects from DNS rebinding. Listening elsewhere needs
+//! a token; then the host may also be any IP address, which cannot be rebound, or a configured name.
 
 use std::net::IpAddr;
 use std::sync::Arc;
@@ -15,14 +14,14 @@ use axum::response::{IntoResponse, Response};
 use sha2::{Digest, Sha256};
 use subtle::ConstantTimeEq;
 
-use crate::http::problem::Kind;
+use crate::http::problem::ProblemType;
 
-/// Shortest token: 16 random characters are some 90 bits.
-const TOKEN_LEAST: usize = 16;
-/// Longest token; a header holds it.
-const TOKEN_MOST: usize = 512;
-/// What may be read without a token: whether the service lives and can work, and pages and scripts, which hold no data.
-const OPEN: [&str; 10] = [
+/// Minimum length of a token, characters: 16 random ones are some 90 bits.
+const MIN_TOKEN_LENGTH: usize = 16;
+/// Maximum length of a token, characters; it must fit into a header.
+const MAX_TOKEN_LENGTH: usize = 512;
+/// Paths that need no token: health checks, and pages and scripts, which contain no data.
+const PUBLIC_PATHS: [&str; 10] = [
     "/",
     "/docs",
     "/healthz",
@@ -35,54 +34,57 @@ const OPEN: [&str; 10] = [
     "/assets/page.css",
 ];
 
-/// Why a token cannot be used.
+/// Error of a configured token.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum TokenError {
     /// Too short to be safe, or too long for a header.
-    #[error("the access token has {0} characters; it must have {TOKEN_LEAST} to {TOKEN_MOST}")]
+    #[error(
+        "the access token has {0} characters; it must have {MIN_TOKEN_LENGTH} to {MAX_TOKEN_LENGTH}"
+    )]
     Length(usize),
-    /// Cannot be sent in a header.
+    /// Not valid in a header.
     #[error("the access token must be printable ASCII characters without spaces")]
     Text,
 }
 
-/// Who may ask.
+/// Rules of access.
 #[derive(Debug, Clone, Default)]
 pub struct Access {
-    /// Digest of the token; the token itself is not kept.
+    /// Digest of the token; the token itself is not stored.
     token_sha256: Option<[u8; 32]>,
-    /// Names that the service answers to, besides loopback ones.
+    /// Allowed host names, besides loopback ones.
     hosts: Arc<[String]>,
 }
 
 impl Access {
-    /// Access with a token, under these host names too.
+    /// Rules with a token, and with these host names besides loopback ones.
     ///
     /// # Errors
     /// [`TokenError`] for a token that is not safe.
     pub fn new(token: Option<&str>, hosts: &[String]) -> Result<Self, TokenError> {
-        let token_sha256 = token.map(checked).transpose()?;
+        let token_sha256 = token.map(token_digest).transpose()?;
         Ok(Self {
             token_sha256,
             hosts: hosts.iter().map(|host| host.to_ascii_lowercase()).collect(),
         })
     }
 
-    /// Whether a token is asked for.
-    pub fn asks_for_token(&self) -> bool {
+    /// Whether a token is required.
+    pub fn requires_token(&self) -> bool {
         self.token_sha256.is_some()
     }
 
-    fn refusal(&self, path: &str, headers: &HeaderMap) -> Option<Response> {
-        if let Some(what) = self.foreign(headers) {
-            return Some(Kind::Host.because(what).into_response());
+    /// Returns the response to a request that has no access.
+    fn rejection(&self, path: &str, headers: &HeaderMap) -> Option<Response> {
+        if let Some(detail) = self.foreign_host(headers) {
+            return Some(ProblemType::ForeignHost.with_detail(detail).into_response());
         }
         let digest = self.token_sha256.as_ref()?;
-        if OPEN.contains(&path) || shows(headers, digest) {
+        if PUBLIC_PATHS.contains(&path) || has_token(headers, digest) {
             return None;
         }
-        let mut response = Kind::Token
-            .because("send `Authorization: Bearer TOKEN` with this service's token")
+        let mut response = ProblemType::TokenRequired
+            .with_detail("send `Authorization: Bearer TOKEN` with this service's token")
             .into_response();
         let challenge = HeaderValue::from_static("Bearer realm=\"fretwear\"");
         response
@@ -91,14 +93,14 @@ impl Access {
         Some(response)
     }
 
-    fn foreign(&self, headers: &HeaderMap) -> Option<&'static str> {
+    fn foreign_host(&self, headers: &HeaderMap) -> Option<&'static str> {
         let text = |name| {
             headers
                 .get(name)
                 .map(|value| value.to_str().unwrap_or_default())
         };
         let host = text(header::HOST);
-        if host.is_some_and(|host| !self.answers_to(host)) {
+        if host.is_some_and(|host| !self.allows_host(host)) {
             return Some("the host header does not name this service");
         }
         let origin = text(header::ORIGIN)?;
@@ -106,7 +108,7 @@ impl Access {
         (!same).then_some("the origin is another host")
     }
 
-    fn answers_to(&self, authority: &str) -> bool {
+    fn allows_host(&self, authority: &str) -> bool {
         let name = match authority.strip_prefix('[') {
             Some(rest) => rest.split(']').next().unwrap_or_default(),
             None => authority.split(':').next().unwrap_or_default(),
@@ -114,14 +116,14 @@ impl Access {
         let name = name.to_ascii_lowercase();
         let address = name.parse::<IpAddr>();
         name == "localhost"
-            || address.is_ok_and(|address| address.is_loopback() || self.asks_for_token())
+            || address.is_ok_and(|address| address.is_loopback() || self.requires_token())
             || self.hosts.contains(&name)
     }
 }
 
-fn checked(token: &str) -> Result<[u8; 32], TokenError> {
+fn token_digest(token: &str) -> Result<[u8; 32], TokenError> {
     let length = token.chars().count();
-    if !(TOKEN_LEAST..=TOKEN_MOST).contains(&length) {
+    if !(MIN_TOKEN_LENGTH..=MAX_TOKEN_LENGTH).contains(&length) {
         return Err(TokenError::Length(length));
     }
     if !token.chars().all(|c| c.is_ascii_graphic()) {
@@ -130,23 +132,23 @@ fn checked(token: &str) -> Result<[u8; 32], TokenError> {
     Ok(Sha256::digest(token).into())
 }
 
-/// Whether the request shows the token. Digests of equal length are compared in constant time, so that neither the time
-/// taken nor the length tells anything about it.
-fn shows(headers: &HeaderMap, digest: &[u8; 32]) -> bool {
-    let shown = headers
+/// Whether the request has the token. Digests of equal length are compared in constant time, against timing attacks.
+fn has_token(headers: &HeaderMap, digest: &[u8; 32]) -> bool {
+    let sent = headers
         .get(header::AUTHORIZATION)
         .and_then(|value| value.to_str().ok())
         .and_then(|value| value.split_once(' '))
         .filter(|(scheme, _)| scheme.eq_ignore_ascii_case("bearer"))
         .map(|(_, token)| token.trim())
         .unwrap_or_default();
-    let shown: [u8; 32] = Sha256::digest(shown).into();
-    shown.ct_eq(digest).into()
+    let sent: [u8; 32] = Sha256::digest(sent).into();
+    sent.ct_eq(digest).into()
 }
 
+/// Middleware that rejects requests without access.
 pub(super) async fn check(State(access): State<Access>, request: Request, next: Next) -> Response {
-    match access.refusal(request.uri().path(), request.headers()) {
-        Some(refusal) => refusal,
+    match access.rejection(request.uri().path(), request.headers()) {
+        Some(rejection) => rejection,
         None => next.run(request).await,
     }
 }
@@ -167,7 +169,7 @@ mod tests {
     }
 
     #[test]
-    fn without_a_token_loopback_hosts_pass_and_others_do_not() {
+    fn without_a_token_only_loopback_hosts_are_allowed() {
         let access = Access::default();
         for host in [
             "localhost:8080",
@@ -176,7 +178,7 @@ mod tests {
             "[::1]:8080",
             "LOCALHOST",
         ] {
-            assert_eq!(access.foreign(&headers(host, &[])), None, "{host}");
+            assert_eq!(access.foreign_host(&headers(host, &[])), None, "{host}");
         }
         for host in [
             "attacker.test",
@@ -184,12 +186,12 @@ mod tests {
             "10.0.0.1:8080",
             "",
         ] {
-            assert!(access.foreign(&headers(host, &[])).is_some(), "{host}");
+            assert!(access.foreign_host(&headers(host, &[])).is_some(), "{host}");
         }
     }
 
     #[test]
-    fn with_a_token_addresses_and_allowed_names_pass_too() {
+    fn with_a_token_addresses_and_configured_names_are_allowed_too() {
         let access = Access::new(Some(TOKEN), &["Wear.Lab".to_owned()]).expect("access");
         for host in [
             "10.0.0.1:8080",
@@ -197,26 +199,30 @@ mod tests {
             "[2001:db8::1]:8080",
             "localhost",
         ] {
-            assert_eq!(access.foreign(&headers(host, &[])), None, "{host}");
+            assert_eq!(access.foreign_host(&headers(host, &[])), None, "{host}");
         }
-        assert!(access.foreign(&headers("attacker.test", &[])).is_some());
+        assert!(
+            access
+                .foreign_host(&headers("attacker.test", &[]))
+                .is_some()
+        );
     }
 
     #[test]
-    fn a_foreign_origin_does_not_pass() {
+    fn a_foreign_origin_is_rejected() {
         let access = Access::default();
         let from = |origin| headers("127.0.0.1:9", &[(header::ORIGIN, origin)]);
-        assert_eq!(access.foreign(&from("http://127.0.0.1:9")), None);
-        assert!(access.foreign(&from("http://attacker.test")).is_some());
-        assert!(access.foreign(&from("null")).is_some());
+        assert_eq!(access.foreign_host(&from("http://127.0.0.1:9")), None);
+        assert!(access.foreign_host(&from("http://attacker.test")).is_some());
+        assert!(access.foreign_host(&from("null")).is_some());
     }
 
     #[test]
-    fn only_the_token_opens_and_pages_are_open() {
+    fn only_the_token_gives_access_and_pages_need_none() {
         let access = Access::new(Some(TOKEN), &[]).expect("access");
         let with = |value: &str| headers("127.0.0.1", &[(header::AUTHORIZATION, value)]);
-        let passes = |path: &str, headers: &HeaderMap| access.refusal(path, headers).is_none();
-        for shown in [
+        let passes = |path: &str, headers: &HeaderMap| access.rejection(path, headers).is_none();
+        for sent in [
             "",
             "Bearer",
             "Bearer ",
@@ -225,17 +231,17 @@ mod tests {
             "Basic correct-horse-battery",
             TOKEN,
         ] {
-            assert!(!passes("/v1/jobs", &with(shown)), "{shown}");
+            assert!(!passes("/v1/jobs", &with(sent)), "{sent}");
         }
         for scheme in ["Bearer", "bearer"] {
             assert!(passes("/v1/jobs", &with(&format!("{scheme} {TOKEN}"))));
         }
-        assert!(OPEN.iter().all(|path| passes(path, &with(""))));
+        assert!(PUBLIC_PATHS.iter().all(|path| passes(path, &with(""))));
         assert!(!passes("/openapi.json", &with("")));
     }
 
     #[test]
-    fn weak_tokens_are_refused() {
+    fn weak_tokens_are_rejected() {
         let new = |token: &str| Access::new(Some(token), &[]).map(|_| ());
         assert_eq!(new("short"), Err(TokenError::Length(5)));
         assert_eq!(new(&"x".repeat(513)), Err(TokenError::Length(513)));

@@ -1,25 +1,28 @@
-//! What routes that take a specification answer if they do not take it, for their description.
+//! OpenAPI responses of the routes that receive a specification.
 
 use api::problem::Problem;
 use utoipa::IntoResponses;
 
-/// Why a body is not taken.
+/// Problems of a request with a body.
 #[derive(IntoResponses)]
-#[expect(dead_code, reason = "describes answers, which are made of `Refusal`")]
+#[expect(
+    dead_code,
+    reason = "only describes the responses in the OpenAPI document"
+)]
 pub(super) enum BodyProblems {
-    /// The body, the key or a query parameter cannot be read.
+    /// The body, the `Idempotency-Key` or a query parameter is not valid.
     #[response(status = 400)]
-    Unreadable(Problem),
+    UnreadableBody(Problem),
     /// The body did not arrive in time.
     #[response(status = 408)]
-    Slow(Problem),
+    RequestTimeout(Problem),
     /// The body is too large.
     #[response(status = 413)]
-    TooLarge(Problem),
+    BodyTooLarge(Problem),
     /// The body is not declared as JSON.
     #[response(status = 415)]
     MediaType(Problem),
-    /// What is asked for has faults, or the key belongs to another body.
+    /// The specification has faults, or the `Idempotency-Key` was used with another body.
     #[response(status = 422)]
-    Faults(Problem),
+    InvalidSpecification(Problem),
 }

@@ -1,4 +1,4 @@
-//! What routes take out of requests, with problem documents for what cannot be taken.
+//! Extractors, with problem documents as rejections.
 
 use std::time::Duration;
 
@@ -10,84 +10,90 @@ use futures_util::StreamExt;
 use serde::de::DeserializeOwned;
 use uuid::Uuid;
 
-use crate::http::BODY_LIMIT;
-use crate::http::problem::{Kind, Refusal};
+use crate::http::MAX_BODY_BYTES;
+use crate::http::problem::{ProblemResponse, ProblemType};
 
-/// Bytes of a body that is too large which are still read.
-const THROWN_AWAY_LIMIT: usize = 64 << 20;
-/// How long a body may take to arrive.
-const BODY_TIME: Duration = Duration::from_secs(30);
+/// Bytes of a body that are read at most, even if it is too large.
+const MAX_DISCARDED_BYTES: usize = 64 << 20;
+/// Timeout of a body.
+const BODY_TIMEOUT: Duration = Duration::from_secs(30);
 
-/// The id of a job, out of the path.
+/// Id of a job, from the path.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct JobId(pub(super) Uuid);
 
 impl<S: Send + Sync> FromRequestParts<S> for JobId {
-    type Rejection = Refusal;
+    type Rejection = ProblemResponse;
 
-    async fn from_request_parts(parts: &mut Parts, state: &S) -> Result<Self, Refusal> {
-        let text = path_parameter(parts, state, "id").await;
-        Uuid::parse_str(&text)
-            .map(Self)
-            .map_err(|_| Kind::NoJob.because("the id in the path is not the id of a job"))
+    async fn from_request_parts(parts: &mut Parts, state: &S) -> Result<Self, ProblemResponse> {
+        let id = path_id(parts, state, "job", ProblemType::NoSuchJob).await?;
+        Ok(Self(id))
     }
 }
 
-/// The id of a sweep, out of the path.
+/// Id of a sweep, from the path.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct SweepId(pub(super) Uuid);
 
 impl<S: Send + Sync> FromRequestParts<S> for SweepId {
-    type Rejection = Refusal;
+    type Rejection = ProblemResponse;
 
-    async fn from_request_parts(parts: &mut Parts, state: &S) -> Result<Self, Refusal> {
-        let text = path_parameter(parts, state, "id").await;
-        Uuid::parse_str(&text)
-            .map(Self)
-            .map_err(|_| Kind::NoSweep.because("the id in the path is not the id of a sweep"))
+    async fn from_request_parts(parts: &mut Parts, state: &S) -> Result<Self, ProblemResponse> {
+        let id = path_id(parts, state, "sweep", ProblemType::NoSuchSweep).await?;
+        Ok(Self(id))
     }
 }
 
-/// The id of a study, out of the path.
+/// Id of an accuracy study, from the path.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct StudyId(pub(super) Uuid);
 
 impl<S: Send + Sync> FromRequestParts<S> for StudyId {
-    type Rejection = Refusal;
+    type Rejection = ProblemResponse;
 
-    async fn from_request_parts(parts: &mut Parts, state: &S) -> Result<Self, Refusal> {
-        let text = path_parameter(parts, state, "id").await;
-        Uuid::parse_str(&text)
-            .map(Self)
-            .map_err(|_| Kind::NoStudy.because("the id in the path is not the id of a study"))
+    async fn from_request_parts(parts: &mut Parts, state: &S) -> Result<Self, ProblemResponse> {
+        let id = path_id(parts, state, "study", ProblemType::NoSuchStudy).await?;
+        Ok(Self(id))
     }
 }
 
-/// The name of a file, out of the path. It is compared with names in the database and never becomes a path.
+/// Name of a file, from the path. It is compared with names in the database and never used as a path.
 #[derive(Debug, Clone)]
 pub(super) struct FileName(pub(super) String);
 
 impl<S: Send + Sync> FromRequestParts<S> for FileName {
-    type Rejection = Refusal;
+    type Rejection = ProblemResponse;
 
-    async fn from_request_parts(parts: &mut Parts, state: &S) -> Result<Self, Refusal> {
+    async fn from_request_parts(parts: &mut Parts, state: &S) -> Result<Self, ProblemResponse> {
         Ok(Self(path_parameter(parts, state, "name").await))
     }
 }
 
-/// The name of a kind of system, out of the path.
+/// Name of a contact system, from the path.
 #[derive(Debug, Clone)]
 pub(super) struct SystemName(pub(super) String);
 
 impl<S: Send + Sync> FromRequestParts<S> for SystemName {
-    type Rejection = Refusal;
+    type Rejection = ProblemResponse;
 
-    async fn from_request_parts(parts: &mut Parts, state: &S) -> Result<Self, Refusal> {
+    async fn from_request_parts(parts: &mut Parts, state: &S) -> Result<Self, ProblemResponse> {
         Ok(Self(path_parameter(parts, state, "kind").await))
     }
 }
 
-/// A parameter of the path; empty, which names nothing, if it is no text.
+/// Parses the id in the path; the problem is that of an unknown id.
+async fn path_id<S: Send + Sync>(
+    parts: &mut Parts,
+    state: &S,
+    noun: &str,
+    problem: ProblemType,
+) -> Result<Uuid, ProblemResponse> {
+    let text = path_parameter(parts, state, "id").await;
+    Uuid::parse_str(&text)
+        .map_err(|_| problem.with_detail(format!("the id in the path is not the id of a {noun}")))
+}
+
+/// A parameter of the path; empty, which matches no name, if it is not valid UTF-8.
 async fn path_parameter<S: Send + Sync>(parts: &mut Parts, state: &S, name: &str) -> String {
     let Ok(parameters) = RawPathParams::from_request_parts(parts, state).await else {
         return String::new();
@@ -104,39 +110,38 @@ async fn path_parameter<S: Send + Sync>(parts: &mut Parts, state: &S, name: &str
 pub(super) struct Params<T>(pub(super) T);
 
 impl<T: DeserializeOwned, S: Send + Sync> FromRequestParts<S> for Params<T> {
-    type Rejection = Refusal;
+    type Rejection = ProblemResponse;
 
-    async fn from_request_parts(parts: &mut Parts, state: &S) -> Result<Self, Refusal> {
+    async fn from_request_parts(parts: &mut Parts, state: &S) -> Result<Self, ProblemResponse> {
         Query::<T>::from_request_parts(parts, state)
             .await
             .map(|query| Self(query.0))
             .map_err(|rejection| {
                 let text = rejection.body_text();
                 let detail = text.strip_prefix("Failed to deserialize query string: ");
-                Kind::InvalidQuery.because(detail.unwrap_or(&text))
+                ProblemType::InvalidQuery.with_detail(detail.unwrap_or(&text))
             })
     }
 }
 
-/// A body declared as JSON, not yet read.
+/// A body declared as JSON, not yet parsed.
 #[derive(Debug, Clone)]
 pub(super) struct JsonBody(pub(super) Bytes);
 
 impl<S: Send + Sync> FromRequest<S> for JsonBody {
-    type Rejection = Refusal;
+    type Rejection = ProblemResponse;
 
-    async fn from_request(request: Request, _: &S) -> Result<Self, Refusal> {
+    async fn from_request(request: Request, _: &S) -> Result<Self, ProblemResponse> {
         if !declared_as_json(request.headers()) {
-            return Err(Kind::MediaType
-                .because("send the specification with `content-type: application/json`"));
+            return Err(ProblemType::MediaType
+                .with_detail("send the specification with `content-type: application/json`"));
         }
-        received_within(BODY_TIME, request.into_body())
-            .await
-            .map(Self)
+        let body = receive_within(BODY_TIMEOUT, request.into_body()).await?;
+        Ok(Self(body))
     }
 }
 
-/// A form or plain text is what a foreign page can make a browser send; it is refused.
+/// Whether a body is declared as JSON. Forms and plain text are rejected: another site's page can make a browser send them.
 fn declared_as_json(headers: &HeaderMap) -> bool {
     let Some(value) = headers.get(header::CONTENT_TYPE) else {
         return true;
@@ -153,35 +158,39 @@ fn declared_as_json(headers: &HeaderMap) -> bool {
         || (essence.starts_with("application/") && essence.ends_with("+json"))
 }
 
-async fn received_within(time: Duration, body: Body) -> Result<Bytes, Refusal> {
-    let received = tokio::time::timeout(time, received(body)).await;
-    received.unwrap_or_else(|_| {
-        Err(Kind::Slow.because(format!("a body may take {} s", time.as_secs())))
-    })
+async fn receive_within(timeout: Duration, body: Body) -> Result<Bytes, ProblemResponse> {
+    tokio::time::timeout(timeout, receive(body))
+        .await
+        .unwrap_or_else(|_| {
+            let limit_s = timeout.as_secs();
+            let detail = format!("the body did not arrive within {limit_s} s");
+            Err(ProblemType::RequestTimeout.with_detail(detail))
+        })
 }
 
-/// The bytes of a body up to the limit. The rest of a larger one is read and thrown away, within reason, because a client
-/// that is hung up on while it sends does not learn why.
-async fn received(body: Body) -> Result<Bytes, Refusal> {
-    let mut pieces = body.into_data_stream();
-    let (mut kept, mut length) = (Vec::new(), 0_usize);
-    while let Some(piece) = pieces.next().await {
-        let piece =
-            piece.map_err(|_| Kind::Unreadable.because("the body could not be received"))?;
-        length = length.saturating_add(piece.len());
-        if length <= BODY_LIMIT {
-            kept.extend_from_slice(&piece);
+/// Reads a body up to the limit. The rest of a larger one is read and discarded, up to a second limit: a client whose
+/// connection closes while it sends does not read the response.
+async fn receive(body: Body) -> Result<Bytes, ProblemResponse> {
+    let mut chunks = body.into_data_stream();
+    let (mut bytes, mut length) = (Vec::new(), 0_usize);
+    while let Some(chunk) = chunks.next().await {
+        let failed = |_| ProblemType::UnreadableBody.with_detail("the body could not be received");
+        let chunk = chunk.map_err(failed)?;
+        length = length.saturating_add(chunk.len());
+        if length <= MAX_BODY_BYTES {
+            bytes.extend_from_slice(&chunk);
         } else {
-            kept = Vec::new();
+            bytes = Vec::new();
         }
-        if length > THROWN_AWAY_LIMIT {
+        if length > MAX_DISCARDED_BYTES {
             break;
         }
     }
-    if length > BODY_LIMIT {
-        return Err(Kind::TooLarge.because(format!("a body may have {BODY_LIMIT} bytes")));
+    if length > MAX_BODY_BYTES {
+        let detail = format!("the body has more than {MAX_BODY_BYTES} bytes");
+        return Err(ProblemType::BodyTooLarge.with_detail(detail));
     }
-    Ok(kept.into())
+    Ok(bytes.into())
 }
 
 #[cfg(test)]
@@ -191,12 +200,12 @@ mod tests {
     use super::*;
 
     #[tokio::test]
-    async fn a_body_that_does_not_arrive_is_given_up() {
+    async fn a_body_that_does_not_arrive_times_out() {
         let body = Body::from_stream(futures_util::stream::pending::<
             Result<Vec<u8>, std::io::Error>,
         >());
-        let refusal = received_within(Duration::from_millis(20), body).await;
-        let answer = refusal.expect_err("it never arrives").into_response();
-        assert_eq!(answer.status(), 408);
+        let received = receive_within(Duration::from_millis(20), body).await;
+        let response = received.expect_err("it never arrives").into_response();
+        assert_eq!(response.status(), 408);
     }
 }

@@ -1,45 +1,37 @@
-//! What routes about one job share: finding it, and why it cannot be had.
+//! Lookup of a job, and its errors.
 
-use axum::response::{IntoResponse, Response};
 use uuid::Uuid;
 
 use crate::http::App;
-use crate::http::problem::{Kind, Refusal};
-use crate::store::{StoreError, StoredJob};
+use crate::http::problem::{ProblemResponse, ProblemType, RouteError};
+use crate::store::StoredJob;
 
-/// Why a job cannot be had.
+/// Error of a route about one job.
 #[derive(Debug, thiserror::Error)]
 pub(super) enum JobError {
-    /// There is none of that id.
+    /// No job has this id.
     #[error("there is no job {0}")]
     Missing(Uuid),
-    /// It has not ended.
+    /// The job has not ended.
     #[error("job {0} has not ended; cancel it first, or wait")]
     Active(Uuid),
-    /// The store failed.
-    #[error(transparent)]
-    Store(#[from] StoreError),
+    /// The job was deleted between its submission and the response.
+    #[error("job {0} was deleted right after its submission")]
+    Deleted(Uuid),
 }
 
-impl From<&JobError> for Refusal {
-    fn from(error: &JobError) -> Self {
-        match error {
-            JobError::Missing(_) => Kind::NoJob.because(error.to_string()),
-            JobError::Active(_) => Kind::Active.because(error.to_string()),
-            JobError::Store(error) => Self::from(error),
+impl RouteError for JobError {
+    fn problem_type(&self) -> ProblemType {
+        match self {
+            Self::Missing(_) | Self::Deleted(_) => ProblemType::NoSuchJob,
+            Self::Active(_) => ProblemType::JobActive,
         }
     }
 }
 
-impl IntoResponse for JobError {
-    fn into_response(self) -> Response {
-        Refusal::from(&self).into_response()
-    }
-}
-
 impl App {
-    /// A job that is there.
-    pub(super) async fn job(&self, id: Uuid) -> Result<StoredJob, JobError> {
-        self.store.job(id).await?.ok_or(JobError::Missing(id))
+    /// Returns a job, or the problem that there is none.
+    pub(super) async fn job(&self, id: Uuid) -> Result<StoredJob, ProblemResponse> {
+        Ok(self.store.job(id).await?.ok_or(JobError::Missing(id))?)
     }
 }

@@ -1,5 +1,5 @@
-//! Takes connections and serves them, with limits that a client cannot outwait: on connections, on the time that the
-//! head of a request may take, and on the time that open requests get when the service stops.
+//! Accepts and serves connections, with limits against slow clients: on the number of connections, on the time to read
+//! the head of a request, and on the time that sent data stays unacknowledged.
 
 use std::sync::Arc;
 use std::time::Duration;
@@ -15,79 +15,79 @@ use tokio::net::{TcpListener, TcpStream};
 use tokio::sync::Semaphore;
 use tokio_util::sync::CancellationToken;
 
-/// Open connections; more wait to be taken. Each costs a file handle and a few kB.
-const CONNECTIONS: usize = 4096;
-/// How long the head of a request may take, counted from the moment a connection is taken or its last answer was sent:
-/// slow heads, and connections that nobody uses, end after it.
-const HEAD_TIME: Duration = Duration::from_secs(30);
-/// How long a client may leave what it was sent lying, ms: it has gone, or has stopped reading. The kernel breaks the
-/// connection off then; otherwise such streams and downloads would stay for ever.
-const UNREAD_TIME_MS: u32 = 60_000;
-/// Largest head, bytes; a token and a long query fit.
-const HEAD_LIMIT: usize = 64 << 10;
-/// Most header fields of a request.
-const FIELD_LIMIT: usize = 64;
-/// Pause after a connection could not be taken, because the process has no more file handles for instance.
-const PAUSE: Duration = Duration::from_millis(50);
+/// Maximum number of open connections; more wait to be accepted. Each costs a file handle and a few kB.
+const MAX_CONNECTIONS: usize = 4096;
+/// Timeout of the head of a request, from the moment a connection is accepted or its last response was sent; also ends
+/// idle connections.
+const HEAD_TIMEOUT: Duration = Duration::from_secs(30);
+/// `TCP_USER_TIMEOUT`, ms: the kernel closes a connection whose client has not acknowledged data for this long. Streams
+/// and downloads to clients that stopped reading would otherwise stay open for ever.
+const USER_TIMEOUT_MS: u32 = 60_000;
+/// Maximum size of a head, bytes; a token and a long query fit.
+const MAX_HEAD_BYTES: usize = 64 << 10;
+/// Maximum number of header fields of a request.
+const MAX_HEADERS: usize = 64;
+/// Pause after a failed accept, for instance because the process has no more file handles.
+const ACCEPT_PAUSE: Duration = Duration::from_millis(50);
 
-/// Serves until the service stops; returns when the last connection has ended.
+/// Serves until shutdown; returns when the last connection has ended.
 pub async fn serve(listener: TcpListener, router: Router, stopping: CancellationToken) {
-    serve_at_most(CONNECTIONS, listener, router, stopping).await;
+    serve_at_most(MAX_CONNECTIONS, listener, router, stopping).await;
 }
 
 async fn serve_at_most(
-    connections: usize,
+    max_connections: usize,
     listener: TcpListener,
     router: Router,
     stopping: CancellationToken,
 ) {
-    let room = Arc::new(Semaphore::new(connections));
+    let permits = Arc::new(Semaphore::new(max_connections));
     let open = GracefulShutdown::new();
     loop {
-        let taken = tokio::select! {
-            taken = take(&listener, &room) => taken,
+        let accepted = tokio::select! {
+            accepted = accept(&listener, &permits) => accepted,
             () = stopping.cancelled() => break,
         };
-        let Some((stream, place)) = taken else {
-            tokio::time::sleep(PAUSE).await;
+        let Some((stream, permit)) = accepted else {
+            tokio::time::sleep(ACCEPT_PAUSE).await;
             continue;
         };
-        let mut rules = http1::Builder::new();
-        rules
+        let mut builder = http1::Builder::new();
+        builder
             .timer(TokioTimer::new())
-            .header_read_timeout(HEAD_TIME)
-            .max_buf_size(HEAD_LIMIT)
-            .max_headers(FIELD_LIMIT);
+            .header_read_timeout(HEAD_TIMEOUT)
+            .max_buf_size(MAX_HEAD_BYTES)
+            .max_headers(MAX_HEADERS);
         let service = TowerToHyperService::new(router.clone());
-        let connection = open.watch(rules.serve_connection(TokioIo::new(stream), service));
+        let connection = open.watch(builder.serve_connection(TokioIo::new(stream), service));
         tokio::spawn(async move {
-            // A client that goes away or is too slow is no failure of the service.
+            // A client that disconnects or times out is not an error of the service.
             if let Err(error) = connection.await {
-                tracing::debug!(%error, "a connection was broken off");
+                tracing::debug!(%error, "a connection was aborted");
             }
-            drop(place);
+            drop(permit);
         });
     }
     drop(listener);
     open.shutdown().await;
 }
 
-async fn take(
+async fn accept(
     listener: &TcpListener,
-    room: &Arc<Semaphore>,
+    permits: &Arc<Semaphore>,
 ) -> Option<(TcpStream, tokio::sync::OwnedSemaphorePermit)> {
-    let place = Arc::clone(room).acquire_owned().await.ok()?;
+    let permit = Arc::clone(permits).acquire_owned().await.ok()?;
     match listener.accept().await {
         Ok((stream, _)) => {
-            // Answers are small and must not wait for each other; a socket that refuses is only slower.
+            // Small responses must not wait for each other; without the option the connection is only slower.
             let _ = stream.set_nodelay(true);
-            if let Err(error) = setsockopt(&stream, TcpUserTimeout, &UNREAD_TIME_MS) {
-                tracing::debug!(%error, "a connection has no limit on what is left unread");
+            if let Err(error) = setsockopt(&stream, TcpUserTimeout, &USER_TIMEOUT_MS) {
+                tracing::debug!(%error, "a connection has no user timeout");
             }
-            Some((stream, place))
+            Some((stream, permit))
         }
         Err(error) => {
-            tracing::warn!(%error, "a connection could not be taken");
+            tracing::warn!(%error, "a connection could not be accepted");
             None
         }
     }
@@ -105,7 +105,7 @@ mod tests {
 
     const REQUEST: &[u8] = b"GET / HTTP/1.1\r\nhost: 127.0.0.1\r\nconnection: close\r\n\r\n";
 
-    async fn asked(address: std::net::SocketAddr) -> TcpStream {
+    async fn request(address: std::net::SocketAddr) -> TcpStream {
         let mut stream = TcpStream::connect(address).await.expect("a connection");
         stream.write_all(REQUEST).await.expect("a request");
         stream
@@ -119,7 +119,7 @@ mod tests {
         let router = Router::new().route("/", get(|| async { "here" }));
         let served = tokio::spawn(serve_at_most(1, listener, router, stopping.clone()));
         let silent = TcpStream::connect(address).await.expect("a connection");
-        let mut waiting = asked(address).await;
+        let mut waiting = request(address).await;
         let (mut answer, shortly) = (String::new(), Duration::from_millis(200));
         let early = tokio::time::timeout(shortly, waiting.read_to_string(&mut answer)).await;
         assert!(early.is_err(), "{answer}");
@@ -134,23 +134,24 @@ mod tests {
     }
 
     #[tokio::test]
-    async fn what_nobody_reads_does_not_stay_for_ever() {
+    async fn connections_have_a_user_timeout() {
         let listener = TcpListener::bind("127.0.0.1:0").await.expect("a port");
         let address = listener.local_addr().expect("an address");
-        let room = Arc::new(Semaphore::new(1));
-        let (taken, _client) = tokio::join!(take(&listener, &room), TcpStream::connect(address));
-        let (stream, _) = taken.expect("a connection");
-        assert_eq!(getsockopt(&stream, TcpUserTimeout), Ok(UNREAD_TIME_MS));
+        let permits = Arc::new(Semaphore::new(1));
+        let client = TcpStream::connect(address);
+        let (accepted, _client) = tokio::join!(accept(&listener, &permits), client);
+        let (stream, _) = accepted.expect("a connection");
+        assert_eq!(getsockopt(&stream, TcpUserTimeout), Ok(USER_TIMEOUT_MS));
     }
 
     #[tokio::test]
-    async fn the_service_stops_although_a_request_never_ends_once_it_is_broken_off() {
+    async fn the_service_stops_once_the_client_of_an_endless_request_disconnects() {
         let listener = TcpListener::bind("127.0.0.1:0").await.expect("a port");
         let address = listener.local_addr().expect("an address");
         let stopping = CancellationToken::new();
         let router = Router::new().route("/", get(|| async { pending::<String>().await }));
         let served = tokio::spawn(serve_at_most(9, listener, router, stopping.clone()));
-        let stream = asked(address).await;
+        let stream = request(address).await;
         tokio::time::sleep(Duration::from_millis(50)).await;
         stopping.cancel();
         drop(stream);

@@ -1,4 +1,4 @@
-//! A service on a database in a temporary folder, without workers; and what concerns all routes.
+//! Fixture: a service on a database in a temporary folder, without workers. Tests of the router.
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -19,12 +19,12 @@ use tower::ServiceExt;
 use crate::estimate::machine::CalibrationCache;
 use crate::export::documents::{JSON, VTU};
 use crate::export::files;
-use crate::http::{Access, App, REQUESTS, router};
+use crate::http::{Access, App, MAX_REQUESTS, router};
 use crate::queue::Transition;
 use crate::store;
 use crate::store::{Batch, End, NewFile, Store};
 
-/// All routes over a fresh store.
+/// All routes over a new store.
 pub(crate) struct Service {
     pub(crate) app: App,
     folder: TempDir,
@@ -36,7 +36,7 @@ impl Service {
         let url = format!("sqlite://{}", folder.path().join("test.db").display());
         let store = Arc::new(Store::open(&url).await.expect("a store"));
         let mut app = App::new(store, Access::default(), CancellationToken::new());
-        // Measuring a machine takes a second or two.
+        // Fixed figures: a measurement takes a second or two.
         app.machine = CalibrationCache::of(MachineFigures {
             program: "test".to_owned(),
             increment_s: 2e-4,
@@ -113,14 +113,14 @@ impl Service {
             .await
     }
 
-    /// Queues a study and returns its id.
+    /// Queues a job and returns its id.
     pub(crate) async fn queued(&self, spec: &str) -> String {
         let (status, _, job) = self.post("/v1/jobs", spec).await;
         assert_eq!(status, 202, "{job}");
         job["id"].as_str().expect("an id").to_owned()
     }
 
-    /// An ended job with a file beside the database and one in it.
+    /// Adds an ended job with a file beside the database and one in it; returns its id.
     pub(crate) async fn with_files(&self) -> String {
         let id = self.queued(r#"{"system":{"kind":"dimm"}}"#).await;
         let store = &self.app.store;
@@ -159,7 +159,7 @@ impl Service {
         id
     }
 
-    /// A running job with rows and snapshots at the cycles 10 and 20.
+    /// Adds a running job with rows and snapshots at the cycles 10 and 20; returns its id.
     pub(crate) async fn with_results(&self) -> String {
         let id = self.queued(r#"{"system":{"kind":"dimm"}}"#).await;
         let claim = self
@@ -189,15 +189,15 @@ pub(crate) const SWEEP: &str = r#"{
   "grid": {"/cycles": [10, 20], "/load/n": [0.3, 0.6]}
 }"#;
 
-/// A study of a short fretting test.
+/// An accuracy study of a short fretting test.
 pub(crate) const STUDY: &str = r#"{
   "name": "accuracy", "base": {"system": {"kind": "cylinder_on_flat"}, "cycles": 100}, "budget_s": 10
 }"#;
 
-/// Stands for a large result.
+/// Content of the file that stands for a large result.
 pub(crate) const FIELDS: &str = "<VTKFile>0 1 2 3</VTKFile>";
 
-/// A row of the history.
+/// A row of a history.
 pub(crate) fn row(cycle: u64) -> CycleRow {
     CycleRow {
         cycle,
@@ -262,7 +262,7 @@ async fn paths_and_methods_that_do_not_exist_are_problems() {
 }
 
 #[tokio::test]
-async fn a_foreign_host_is_refused() {
+async fn a_foreign_host_is_rejected() {
     let service = Service::new().await;
     let request = Request::builder()
         .uri("/healthz")
@@ -275,25 +275,31 @@ async fn a_foreign_host_is_refused() {
     assert_eq!(response.status(), 403);
 }
 
-/// A body that never arrives.
-fn endless() -> Body {
+/// A body that never ends.
+fn endless_body() -> Body {
     Body::from_stream(futures_util::stream::pending::<
         Result<Vec<u8>, std::io::Error>,
     >())
 }
 
-fn posted(path: &str, body: Body) -> Request<Body> {
+fn post_request(path: &str, body: Body) -> Request<Body> {
     let request = Request::post(path).header("host", "127.0.0.1");
     let request = request.header("content-type", "application/json");
     request.body(body).expect("a request")
 }
 
 #[tokio::test]
-async fn requests_are_limited_over_all_connections() {
+async fn concurrent_requests_are_limited() {
     let service = Service::new().await;
     let router = router(service.app.clone());
-    let mut open: Vec<_> = (0..REQUESTS)
-        .map(|_| Box::pin(router.clone().oneshot(posted("/v1/plans", endless()))))
+    let mut open: Vec<_> = (0..MAX_REQUESTS)
+        .map(|_| {
+            Box::pin(
+                router
+                    .clone()
+                    .oneshot(post_request("/v1/plans", endless_body())),
+            )
+        })
         .collect();
     for request in &mut open {
         assert!(futures_util::poll!(request).is_pending());
@@ -307,11 +313,14 @@ async fn requests_are_limited_over_all_connections() {
 }
 
 #[tokio::test]
-async fn a_database_that_takes_no_write_is_a_503_that_says_when_to_come_again() {
+async fn a_locked_database_is_a_503_with_retry_after() {
     let service = Service::new().await;
     service.app.store.close().await;
     let (status, _, problem) = service.get("/v1/jobs").await;
-    assert_eq!(status, 500, "closed is no passing fault: {problem}");
+    assert_eq!(
+        status, 500,
+        "a closed database is an internal error: {problem}"
+    );
     let service = Service::new().await;
     let path = service.results_folder().with_file_name("test.db");
     let _other = store::tests::written_by_another(&path).await;

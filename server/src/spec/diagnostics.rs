@@ -10,6 +10,8 @@ use serde_json::Value;
 
 use crate::spec::sourced::Sourced;
 
+pub(crate) use crate::text::shortened;
+
 /// Faults and provenance, by JSON pointer.
 #[derive(Debug, Default)]
 pub(crate) struct Diagnostics {
@@ -190,13 +192,4 @@ fn formatted(value: f64) -> String {
     } else {
         value.to_string()
     }
-}
-
-/// A user's text cut to a length that fits a message.
-pub(crate) fn shortened(text: &str) -> String {
-    const MOST: usize = 40;
-    if text.chars().count() <= MOST {
-        return text.to_owned();
-    }
-    text.chars().take(MOST).chain(['\u{2026}']).collect()
 }

@@ -55,16 +55,6 @@ pub enum StoreError {
         /// Why.
         cause: String,
     },
-    /// A study was queued by another version of this program.
-    #[error("study {id} was stored in format {found}, this program compares format {wanted}")]
-    StudyFormat {
-        /// The study.
-        id: Uuid,
-        /// Its format.
-        found: u32,
-        /// The format that can be compared.
-        wanted: u32,
-    },
     /// A submission was broken off before it was written.
     #[error("the submission was broken off before it was written")]
     Unwritten,
@@ -73,22 +63,36 @@ pub enum StoreError {
     Write(#[from] serde_json::Error),
 }
 
-/// SQLite's result codes for a database that another process writes, that cannot be written or read at present, or
-/// whose disk is full: BUSY, LOCKED, IOERR, FULL (sqlite.org/rescode.html).
-const PASSING: [u32; 4] = [5, 6, 10, 13];
+/// SQLite's result codes for a database that another process writes or that cannot be written or read at present: BUSY,
+/// LOCKED, IOERR (sqlite.org/rescode.html).
+const PASSING: [u32; 3] = [5, 6, 10];
+/// SQLite's result code for a full disk: FULL.
+const DISK_FULL: u32 = 13;
 
 impl StoreError {
     /// Whether the same may succeed a little later: the database is busy, or its disk is full.
     pub fn is_passing(&self) -> bool {
+        matches!(self, Self::Sql(sqlx::Error::PoolTimedOut) | Self::Unwritten)
+            || self
+                .sqlite_code()
+                .is_some_and(|code| PASSING.contains(&code))
+            || self.is_disk_full()
+    }
+
+    /// Whether the disk of the database is full.
+    pub fn is_disk_full(&self) -> bool {
         match self {
-            Self::Sql(sqlx::Error::PoolTimedOut) | Self::Unwritten => true,
-            Self::Sql(sqlx::Error::Database(error)) => error
-                .code()
-                .and_then(|code| code.parse::<u32>().ok())
-                // An extended code has the primary one in its last byte.
-                .is_some_and(|code| PASSING.contains(&(code & 0xff))),
             Self::Prepare { cause, .. } => files::is_full(cause),
-            _ => false,
+            _ => self.sqlite_code() == Some(DISK_FULL),
         }
+    }
+
+    /// SQLite's primary result code; an extended code has it in its last byte.
+    fn sqlite_code(&self) -> Option<u32> {
+        let Self::Sql(sqlx::Error::Database(error)) = self else {
+            return None;
+        };
+        let code: u32 = error.code()?.parse().ok()?;
+        Some(code & 0xff)
     }
 }

@@ -1,6 +1,7 @@
 //! The embedded store: `SQLite` through one writing connection and a pool of readers.
 
 pub(in crate::store) mod backup;
+pub(in crate::store) mod batches;
 pub(in crate::store) mod checkpoints;
 pub(in crate::store) mod claims;
 pub(in crate::store) mod conclusion;
@@ -15,8 +16,5 @@ pub(in crate::store) mod open;
 pub(in crate::store) mod queries;
 pub(in crate::store) mod rescues;
 pub(in crate::store) mod results;
-pub(in crate::store) mod studies;
 pub(in crate::store) mod submissions;
-pub(in crate::store) mod sweep_ends;
-pub(in crate::store) mod sweeps;
 pub(in crate::store) mod upkeep;

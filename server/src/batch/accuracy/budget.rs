@@ -1,11 +1,12 @@
-//! How much a study may still cost.
+//! Remaining budget of a study.
 
 /// Processor seconds.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Budget {
     total: f64,
-    /// What the runs so far were expected to take, and took.
+    /// Expected time of the runs so far.
     expected: f64,
+    /// Measured time of the runs so far.
     spent: f64,
 }
 
@@ -23,17 +24,17 @@ impl Budget {
         self.spent += spent_s;
     }
 
-    /// What a run will take if expectations go on being as wrong as they were.
+    /// Expected time of a run, corrected by the ratio of measured to expected time of the runs so far.
     pub(crate) fn likely_s(&self, expected_s: f64) -> f64 {
-        let wrong = if self.expected > 0.0 {
+        let ratio = if self.expected > 0.0 {
             self.spent / self.expected
         } else {
             1.0
         };
-        wrong * expected_s
+        ratio * expected_s
     }
 
-    /// Whether a run of so many likely seconds fits.
+    /// Checks whether a run of so many seconds fits.
     pub(crate) fn allows(&self, likely_s: f64) -> bool {
         self.spent + likely_s <= self.total
     }
@@ -44,7 +45,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_run_is_judged_by_how_wrong_the_ones_before_it_were() {
+    fn expected_times_are_corrected_by_the_runs_before() {
         let mut budget = Budget::new(10.0);
         assert!(budget.allows(budget.likely_s(8.0)));
         budget.spend(1.0, 2.0);

@@ -1,9 +1,9 @@
-//! Solutions and how far apart they are.
+//! Differences of solutions.
 
 use api::results::{Profile, SideProfile, Summary};
 use api::study::Errors;
 
-/// What is compared.
+/// The compared quantities of a run.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Solution {
     /// Largest worn depth, half-width of the scar, peak pressure, worn area.
@@ -13,7 +13,8 @@ pub(crate) struct Solution {
 }
 
 impl Solution {
-    /// The end of a run. Width and area are those of the receptacle, or of the slider if only that wears.
+    /// From the summary and the last profile of a run. Width and area are those of the receptacle, or of the slider if
+    /// only that wears.
     pub(crate) fn of(summary: &Summary, last: &Profile) -> Self {
         let worn = if summary.receptacle.worn_area_mm2 > 0.0 {
             &summary.receptacle
@@ -31,7 +32,7 @@ impl Solution {
         }
     }
 
-    /// How far another solution is from this one, relative to this one.
+    /// Errors of another solution relative to this one.
     pub(crate) fn errors(&self, other: &Self) -> Errors {
         let relative = |index: usize| {
             relative(
@@ -42,9 +43,9 @@ impl Solution {
         let depths = self.profiles.iter().flat_map(|side| &side.depth_mm);
         let deepest = depths.fold(0.0, |deepest: f64, depth| deepest.max(*depth));
         let pairs = self.profiles.iter().zip(&other.profiles);
-        let apart = pairs.map(|(mine, other)| largest_difference(mine, other));
+        let differences = pairs.map(|(mine, other)| largest_difference(mine, other));
         Errors {
-            depth: relative_to(apart.fold(0.0, f64::max), deepest),
+            depth: relative_to(differences.fold(0.0, f64::max), deepest),
             width: relative(1),
             peak_pressure: relative(2),
             area: relative(3),
@@ -56,7 +57,7 @@ fn relative(difference: f64, of: f64) -> f64 {
     relative_to(difference.abs(), of.abs())
 }
 
-/// Nothing of nothing is no error.
+/// Returns the difference itself if the reference is zero.
 fn relative_to(difference: f64, of: f64) -> f64 {
     if of > 0.0 {
         difference / of
@@ -65,23 +66,23 @@ fn relative_to(difference: f64, of: f64) -> f64 {
     }
 }
 
-/// Largest difference of depth at the places of either profile.
+/// Returns the largest difference of depth at the points of either profile.
 fn largest_difference(mine: &SideProfile, other: &SideProfile) -> f64 {
-    let places = mine.x_mm.iter().chain(&other.x_mm);
-    let apart = places.map(|x| (depth_at(mine, *x) - depth_at(other, *x)).abs());
-    apart.fold(0.0, f64::max)
+    let points = mine.x_mm.iter().chain(&other.x_mm);
+    let differences = points.map(|x| (depth_at(mine, *x) - depth_at(other, *x)).abs());
+    differences.fold(0.0, f64::max)
 }
 
-/// Depth between the nodes of a profile; beyond its ends, its end values.
+/// Interpolates the depth between the nodes of a profile; constant beyond its ends.
 pub(crate) fn depth_at(profile: &SideProfile, x: f64) -> f64 {
-    let (places, depths) = (&profile.x_mm, &profile.depth_mm);
-    if places.len() < 2 {
+    let (nodes, depths) = (&profile.x_mm, &profile.depth_mm);
+    if nodes.len() < 2 {
         return depths.first().copied().unwrap_or_default();
     }
-    let i = places
-        .partition_point(|place| *place < x)
-        .clamp(1, places.len() - 1);
-    let t = ((x - places[i - 1]) / (places[i] - places[i - 1])).clamp(0.0, 1.0);
+    let i = nodes
+        .partition_point(|node| *node < x)
+        .clamp(1, nodes.len() - 1);
+    let t = ((x - nodes[i - 1]) / (nodes[i] - nodes[i - 1])).clamp(0.0, 1.0);
     (1.0 - t) * depths[i - 1] + t * depths[i]
 }
 
@@ -90,12 +91,12 @@ mod tests {
     use super::*;
 
     fn solution(depth_mm: &[f64], figures: [f64; 4]) -> Solution {
-        let places = (0..depth_mm.len()).map(|index| f64::from(u8::try_from(index).expect("few")));
+        let nodes = (0..depth_mm.len()).map(|index| f64::from(u8::try_from(index).expect("few")));
         Solution {
             figures,
             profiles: [
                 SideProfile {
-                    x_mm: places.collect(),
+                    x_mm: nodes.collect(),
                     depth_mm: depth_mm.to_vec(),
                 },
                 SideProfile::default(),
@@ -104,7 +105,7 @@ mod tests {
     }
 
     #[test]
-    fn depths_are_compared_everywhere_and_relative_to_the_deepest_place() {
+    fn depths_are_compared_everywhere_and_relative_to_the_largest_depth() {
         let reference = solution(&[0.0, 2.0, 0.0], [2.0, 1.0, 100.0, 2.0]);
         let other = solution(&[0.0, 1.9, 0.1], [1.9, 1.1, 90.0, 2.0]);
         let errors = reference.errors(&other);

@@ -1,4 +1,4 @@
-//! The grid: three levels, a factor of two apart, of contact element, increments a cycle and cycle jump.
+//! The grid: three levels, a factor of two apart, of contact element, increments per cycle and cycle jump.
 
 use std::fmt;
 
@@ -10,11 +10,11 @@ use crate::estimate::Estimate;
 use crate::spec;
 use crate::spec::Resolved;
 
-/// Gauges of each setting: three show an order.
+/// Levels of each setting: three are needed for an observed order.
 pub(crate) const LEVELS: usize = 3;
-/// Fewest increments a cycle of the coarsest level.
+/// Smallest number of increments per cycle at the coarsest level.
 const FEWEST_INCREMENTS: u32 = 8;
-/// The finest level lies at most this many halvings from what the tolerance chose, to either side.
+/// Largest distance of the finest level from the setting that the tolerance chooses, halvings to either side.
 const MOST_HALVINGS: i32 = 2;
 
 /// The three settings of a run.
@@ -22,14 +22,14 @@ const MOST_HALVINGS: i32 = 2;
 pub struct Settings {
     /// Surface element size under the contact, mm.
     pub contact_element_mm: f64,
-    /// Increments a computed cycle.
+    /// Increments per computed cycle.
     pub increments_per_cycle: u32,
-    /// Physical cycles a computed one stands for.
+    /// Physical cycles per computed cycle.
     pub cycle_jump: f64,
 }
 
 impl Settings {
-    /// The settings that a tolerance came to, in a run of so many cycles.
+    /// The settings that a tolerance led to, in a run of so many cycles.
     pub(crate) fn used(cycles: u64, used: &AccuracyReached) -> Self {
         Self {
             contact_element_mm: used.contact_element_mm,
@@ -38,7 +38,7 @@ impl Settings {
         }
     }
 
-    /// Settings that a specification fixes; nothing if it leaves one open.
+    /// Settings that a specification fixes; `None` if it leaves one open.
     pub(crate) fn of(overrides: &Overrides) -> Option<Self> {
         let Some(CycleJump::Fixed(jump)) = overrides.cycle_jump else {
             return None;
@@ -50,11 +50,11 @@ impl Settings {
         })
     }
 
-    /// The jump as a whole number.
+    /// The jump as an integer.
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,
-        reason = "jumps are whole numbers from 1 to 1e8"
+        reason = "jumps are integers from 1 to 1e8"
     )]
     pub fn jump(self) -> u64 {
         self.cycle_jump as u64
@@ -71,42 +71,42 @@ impl fmt::Display for Settings {
     }
 }
 
-/// What the specification's own tolerance is expected to choose, and to cost.
+/// Expected settings and cost of the specification at its own tolerance.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Base {
+pub(crate) struct Baseline {
     settings: Settings,
     cycles: f64,
-    /// Seconds an increment.
+    /// Seconds per increment.
     increment_s: f64,
-    /// A continuous motion has one increment a cycle.
+    /// Continuous motion, which has one increment per cycle.
     continuous: bool,
 }
 
-impl Base {
-    /// Of a scene that is expected to take so many seconds.
+impl Baseline {
+    /// Baseline of a scene with an expected time in seconds.
     pub(crate) fn of(scene: &Resolved, estimate: &Estimate, expected_s: f64) -> Self {
         let cycles = real(spec::cycles(&scene.spec));
-        let work = &estimate.workload;
+        let workload = &estimate.workload;
         Self {
             settings: Settings {
                 contact_element_mm: estimate.footprint.contact_element_mm,
-                increments_per_cycle: work.most_increments,
-                cycle_jump: cycles / work.computed_cycles.max(1.0),
+                increments_per_cycle: workload.most_increments,
+                cycle_jump: cycles / workload.computed_cycles.max(1.0),
             },
             cycles,
-            increment_s: expected_s / work.increments().max(1.0),
+            increment_s: expected_s / workload.increments().max(1.0),
             continuous: scene.spec.cycles.is_none(),
         }
     }
 
-    /// Expected seconds: increments times the time of one, which grows with the square of the elements.
+    /// Expected seconds: increments times the time per increment, which grows with the square of the elements.
     pub(crate) fn cost_s(&self, settings: Settings) -> f64 {
         let finer = self.settings.contact_element_mm / settings.contact_element_mm;
         let computed = self.cycles / settings.cycle_jump;
         self.increment_s * computed * f64::from(settings.increments_per_cycle) * finer.powi(2)
     }
 
-    /// A run one level coarser than the tolerance's in all settings.
+    /// Settings one level coarser than the baseline's.
     pub(crate) fn pilot(&self) -> Settings {
         Grid::at(self, [-1; 3]).levels(0, 0, 0)
     }
@@ -116,49 +116,49 @@ impl Base {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Grid {
     finest: Settings,
-    /// The longest jump that makes sense.
+    /// Largest jump: a tenth of the cycles.
     longest: f64,
     continuous: bool,
 }
 
 impl Grid {
-    /// A grid whose finest level is so many halvings finer than the base: of element, increment, jump.
-    fn at(base: &Base, halvings: [i32; 3]) -> Self {
+    /// The grid whose finest level is so many halvings finer than the baseline: of element, increment, jump.
+    fn at(baseline: &Baseline, halvings: [i32; 3]) -> Self {
         let factor = |setting: usize| 2.0_f64.powi(halvings[setting]);
-        let wanted = f64::from(base.settings.increments_per_cycle) * factor(1);
+        let target = f64::from(baseline.settings.increments_per_cycle) * factor(1);
         // The coarsest level is a multiple of four, so that all three are.
         let mut coarsest = FEWEST_INCREMENTS;
-        while f64::from(4 * (coarsest + 2)) < wanted {
+        while f64::from(4 * (coarsest + 2)) < target {
             coarsest += 4;
         }
         let finest = Settings {
-            contact_element_mm: base.settings.contact_element_mm / factor(0),
-            increments_per_cycle: if base.continuous {
-                base.settings.increments_per_cycle.max(4)
+            contact_element_mm: baseline.settings.contact_element_mm / factor(0),
+            increments_per_cycle: if baseline.continuous {
+                baseline.settings.increments_per_cycle.max(4)
             } else {
                 4 * coarsest
             },
-            cycle_jump: (base.settings.cycle_jump / factor(2)).round().max(1.0),
+            cycle_jump: (baseline.settings.cycle_jump / factor(2)).round().max(1.0),
         };
         Self {
             finest,
-            longest: (0.1 * base.cycles).floor().max(1.0),
-            continuous: base.continuous,
+            longest: (0.1 * baseline.cycles).floor().max(1.0),
+            continuous: baseline.continuous,
         }
     }
 
     /// The finest grid that fits: settings are refined in turn as long as all runs together stay within the budget and
-    /// the finest one, which all are compared with, is accepted.
+    /// the finest run, which the others are compared with, is accepted.
     pub(crate) fn within(
-        base: &Base,
+        baseline: &Baseline,
         factor: f64,
         budget_s: f64,
         accepted: &dyn Fn(Settings) -> bool,
     ) -> Self {
         let cost = |halvings| {
-            let runs = Self::at(base, halvings).coarsest_first();
+            let runs = Self::at(baseline, halvings).coarsest_first();
             runs.into_iter()
-                .map(|settings| factor * base.cost_s(settings))
+                .map(|settings| factor * baseline.cost_s(settings))
                 .sum::<f64>()
         };
         let mut halvings = [-MOST_HALVINGS; 3];
@@ -168,16 +168,16 @@ impl Grid {
                 finer[setting] = step + 1 - MOST_HALVINGS;
                 if finer[setting] == halvings[setting] + 1
                     && cost(finer) <= budget_s
-                    && accepted(Self::at(base, finer).levels(0, 0, 0))
+                    && accepted(Self::at(baseline, finer).levels(0, 0, 0))
                 {
                     halvings = finer;
                 }
             }
         }
-        Self::at(base, halvings)
+        Self::at(baseline, halvings)
     }
 
-    /// The run at a level of each setting.
+    /// Settings at a level of each, 0 the finest.
     pub(crate) fn levels(&self, element: usize, increments: usize, jump: usize) -> Settings {
         let factor = |level: usize| 2_u32.pow(u32::try_from(level).unwrap_or(0));
         let finest = self.finest;
@@ -192,7 +192,7 @@ impl Grid {
         }
     }
 
-    /// Every run once, the cheapest first.
+    /// All distinct settings, the cheapest first.
     pub(crate) fn coarsest_first(&self) -> Vec<Settings> {
         let mut runs: Vec<Settings> = Vec::new();
         for total in (0..=3 * (LEVELS - 1)).rev() {
@@ -219,8 +219,8 @@ fn real(count: u64) -> f64 {
 mod tests {
     use super::*;
 
-    fn base() -> Base {
-        Base {
+    fn baseline() -> Baseline {
+        Baseline {
             settings: Settings {
                 contact_element_mm: 0.01,
                 increments_per_cycle: 40,
@@ -234,7 +234,7 @@ mod tests {
 
     #[test]
     fn a_grid_has_three_levels_of_three_settings_a_factor_of_two_apart() {
-        let grid = Grid::at(&base(), [0; 3]);
+        let grid = Grid::at(&baseline(), [0; 3]);
         let runs = grid.coarsest_first();
         assert_eq!(runs.len(), 27);
         assert_eq!(
@@ -252,9 +252,9 @@ mod tests {
     #[test]
     fn a_larger_budget_makes_a_finer_grid() {
         let cost = |budget_s| {
-            let runs = Grid::within(&base(), 1.0, budget_s, &|_| true).coarsest_first();
+            let runs = Grid::within(&baseline(), 1.0, budget_s, &|_| true).coarsest_first();
             runs.into_iter()
-                .map(|settings| base().cost_s(settings))
+                .map(|settings| baseline().cost_s(settings))
                 .sum::<f64>()
         };
         assert!(cost(10.0) <= 10.0);
@@ -263,7 +263,7 @@ mod tests {
 
     #[test]
     fn a_jump_of_one_is_not_refined_and_runs_are_not_repeated() {
-        let mut few = base();
+        let mut few = baseline();
         few.settings.cycle_jump = 1.0;
         few.cycles = 10.0;
         let runs = Grid::at(&few, [0; 3]).coarsest_first();

@@ -1,24 +1,25 @@
 //! The converged solution by Richardson extrapolation: with q at steps h, 2h, 4h the observed order is
 //! p = log2((q_4h - q_2h)/(q_2h - q_h)), and the limit q_h + (q_h - q_2h)/(2^p - 1) (L. F. Richardson 1911). The
-//! corrections of the three settings are added; what two of them do together is of higher order.
+//! corrections of the three settings are added; their interactions are of higher order.
 
 use api::results::SideProfile;
 use api::study::{Errors, Orders, Reference};
 
+use crate::batch::accuracy::error::StudyError;
 use crate::batch::accuracy::errors::{Solution, depth_at};
 use crate::batch::accuracy::grid::{Grid, LEVELS, Settings};
-use crate::batch::accuracy::run_plan::Asked;
-use crate::batch::accuracy::{Run, StudyError};
+use crate::batch::accuracy::run::Run;
+use crate::batch::accuracy::run_accuracy::RunAccuracy;
 
-/// Orders outside of this range are cut for the extrapolation: a small one would blow a correction up, and elements are
-/// of second order.
+/// Range that observed orders are clamped to for the extrapolation: a small order would blow up the correction, and the
+/// elements are of second order.
 const ORDERS: (f64, f64) = (0.7, 2.5);
-/// The order that is assumed of a profile's places where the largest depth shows none.
+/// Order assumed for the points of a profile where the largest depth has no observed order.
 const ASSUMED_ORDER: f64 = 1.0;
-/// Differences below this part of a figure are round-off of the solver's own tolerances.
+/// Relative differences below this are noise of the solver's own tolerances.
 const NOISE: f64 = 1e-7;
 
-/// The converged solution and how it was found.
+/// The converged solution and its derivation.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Converged {
     pub(crate) reference: Reference,
@@ -33,12 +34,12 @@ struct Line<'a> {
 }
 
 impl Converged {
-    /// From the finest grid runs; from the best tolerance run as long as those are missing.
+    /// Extrapolates the finest grid runs; takes the best tolerance run as long as those are missing.
     pub(crate) fn of(grid: &Grid, runs: &[Run]) -> Result<Self, StudyError> {
         let at = |settings: Settings| -> Option<&Solution> {
             let run = runs
                 .iter()
-                .find(|run| run.asked == Asked::Fixed(settings))?;
+                .find(|run| run.accuracy == RunAccuracy::Fixed(settings))?;
             run.found.as_ref().ok().map(|found| &found.solution)
         };
         let Some(finest) = at(grid.levels(0, 0, 0)) else {
@@ -62,7 +63,7 @@ impl Converged {
     fn best_tolerance(runs: &[Run]) -> Result<Self, StudyError> {
         let solved = runs.iter().filter_map(|run| {
             let found = run.found.as_ref().ok()?;
-            let Asked::Tolerance(tolerance) = run.asked else {
+            let RunAccuracy::Tolerance(tolerance) = run.accuracy else {
                 return None;
             };
             Some((tolerance, &found.solution))
@@ -103,13 +104,13 @@ impl Converged {
         }
     }
 
-    /// Errors of a run against it.
+    /// Errors of a solution relative to this one.
     pub(crate) fn errors(&self, solution: &Solution) -> Errors {
         self.solution.errors(solution)
     }
 }
 
-/// The settings of which three different levels were solved.
+/// Returns the settings that were solved at three different levels.
 fn lines<'a>(grid: &Grid, at: &impl Fn(Settings) -> Option<&'a Solution>) -> Vec<Line<'a>> {
     type Setting = (&'static str, fn(usize) -> [usize; 3], fn(Settings) -> f64);
     let settings: [Setting; 3] = [
@@ -125,9 +126,9 @@ fn lines<'a>(grid: &Grid, at: &impl Fn(Settings) -> Option<&'a Solution>) -> Vec
         ),
         ("cycle_jump", |level| [0, 0, level], |s| s.cycle_jump),
     ];
-    let line = |(setting, place, value): Setting| {
+    let line = |(setting, indices, value): Setting| {
         let along = [0, 1, 2].map(|level| {
-            let [element, increments, jump] = place(level);
+            let [element, increments, jump] = indices(level);
             grid.levels(element, increments, jump)
         });
         let [Some(fine), Some(middle), Some(coarse)] = along.map(at) else {
@@ -162,8 +163,8 @@ impl Line<'_> {
         }
     }
 
-    /// The part of the way from the finest level to the limit: a jump's limit is a single cycle, not nothing.
-    fn way(&self) -> f64 {
+    /// Share of the extrapolation to zero that leads from the finest level to the limit: the limit of a jump is 1, not 0.
+    fn share(&self) -> f64 {
         if self.setting == "cycle_jump" {
             1.0 - 1.0 / self.levels[0]
         } else {
@@ -176,22 +177,22 @@ impl Line<'_> {
         let mut sizes = [0.0; 4];
         for (index, size) in sizes.iter_mut().enumerate() {
             let figures = self.figures(index);
-            let correction = self.way() * correction(figures);
+            let correction = self.share() * correction(figures);
             solution.figures[index] += correction;
-            // Where no order shows, the last difference is all that is known.
-            let doubt = correction.abs().max(if order(figures).is_none() {
-                self.way() * (figures[0] - figures[1]).abs()
+            // Without an observed order the last difference is the only estimate.
+            let uncertainty = correction.abs().max(if order(figures).is_none() {
+                self.share() * (figures[0] - figures[1]).abs()
             } else {
                 0.0
             });
-            *size = doubt / finest.figures[index].abs().max(f64::MIN_POSITIVE);
+            *size = uncertainty / finest.figures[index].abs().max(f64::MIN_POSITIVE);
         }
         let order = order(self.figures(0)).unwrap_or(ASSUMED_ORDER);
-        let part = self.way() / (2.0_f64.powf(order.clamp(ORDERS.0, ORDERS.1)) - 1.0);
+        let factor = self.share() / (2.0_f64.powf(order.clamp(ORDERS.0, ORDERS.1)) - 1.0);
         let mut largest = 0.0_f64;
         for side in 0..2 {
             let [fine, middle, _] = self.solutions.map(|solution| &solution.profiles[side]);
-            let corrections = places(fine, middle, part);
+            let corrections = point_corrections(fine, middle, factor);
             let depths = solution.profiles[side].depth_mm.iter_mut();
             for (depth, correction) in depths.zip(corrections) {
                 *depth += correction;
@@ -207,22 +208,22 @@ impl Line<'_> {
     }
 }
 
-/// Corrections at the places of the fine profile.
-fn places(fine: &SideProfile, middle: &SideProfile, part: f64) -> Vec<f64> {
+/// Returns the corrections at the points of the fine profile.
+fn point_corrections(fine: &SideProfile, middle: &SideProfile, factor: f64) -> Vec<f64> {
     let nodes = fine.x_mm.iter().zip(&fine.depth_mm);
     nodes
-        .map(|(x, depth)| part * (depth - depth_at(middle, *x)))
+        .map(|(x, depth)| factor * (depth - depth_at(middle, *x)))
         .collect()
 }
 
-/// The observed order of three levels, finest first; none where they do not approach a limit from one side.
+/// Returns the observed order of three levels, finest first; `None` if they do not converge monotonically.
 fn order([fine, middle, coarse]: [f64; LEVELS]) -> Option<f64> {
     let (near, far) = (middle - fine, coarse - middle);
     let visible = near.abs() > NOISE * fine.abs();
     (visible && near * far > 0.0 && far.abs() > near.abs()).then(|| (far / near).log2())
 }
 
-/// From the finest level to the limit; nothing where no order shows.
+/// Returns the correction from the finest level to the limit; 0 without an observed order.
 fn correction(levels: [f64; LEVELS]) -> f64 {
     let Some(order) = order(levels) else {
         return 0.0;
@@ -239,14 +240,14 @@ mod tests {
         for p in [1.0, 1.5, 2.0] {
             let at = |h: f64| 3.0 + 0.7 * h.powf(p);
             let levels = [at(0.1), at(0.2), at(0.4)];
-            let found = order(levels).expect("an order shows");
+            let found = order(levels).expect("an order");
             assert!((found - p).abs() < 1e-9, "{found}");
             assert!((levels[0] + correction(levels) - 3.0).abs() < 1e-12);
         }
     }
 
     #[test]
-    fn levels_that_swing_have_no_order_and_no_correction() {
+    fn levels_that_oscillate_have_no_order_and_no_correction() {
         assert_eq!(order([1.0, 1.1, 1.05]), None);
         assert!(correction([1.0, 1.1, 1.05]).abs() < 1e-15);
         assert_eq!(order([1.0, 1.0, 1.0]), None);

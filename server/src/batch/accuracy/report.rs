@@ -1,4 +1,4 @@
-//! A study as text, CSV, JSON and as a work-precision picture.
+//! A study as text, CSV, JSON and as a work-precision diagram.
 
 mod picture;
 
@@ -12,7 +12,7 @@ use crate::export::pictures;
 /// mm to um.
 const UM: f64 = 1e3;
 
-/// The study's files: `study.json`, `study.csv`, `study.svg`, `study.png`.
+/// Returns the study's files: `study.json`, `study.csv`, `study.svg`, `study.png`.
 ///
 /// # Errors
 /// [`DocumentError`] if one cannot be made.
@@ -33,7 +33,7 @@ pub fn documents(study: &Study) -> Result<Vec<Document>, DocumentError> {
     ])
 }
 
-/// The work-precision diagram as SVG.
+/// Draws the work-precision diagram as SVG.
 ///
 /// # Errors
 /// [`DocumentError`] if it cannot be drawn.
@@ -41,7 +41,7 @@ pub fn svg(study: &Study) -> Result<String, DocumentError> {
     Ok(pictures::svg(&picture::work_precision(study))?)
 }
 
-/// The work-precision diagram as PNG.
+/// Draws the work-precision diagram as PNG.
 ///
 /// # Errors
 /// [`DocumentError`] if it cannot be drawn.
@@ -49,7 +49,7 @@ pub fn png(study: &Study) -> Result<Vec<u8>, DocumentError> {
     Ok(pictures::png(&svg(study)?)?)
 }
 
-/// The study as text: runs, reference, observed orders.
+/// Returns the study as text: runs, reference, observed orders.
 pub fn text(study: &Study) -> String {
     let reference = &study.reference;
     let mut lines = vec![
@@ -58,9 +58,9 @@ pub fn text(study: &Study) -> String {
         runs(study).to_string(),
         String::new(),
         format!(
-            "* = on the Pareto front: no cheaper run is as exact in depth and width.\n\
+            "* = on the Pareto front: no cheaper run is as accurate in depth and width.\n\
              Reference: {}: depth {:.5} um, half-width {:.5} um, peak pressure {:.2} MPa, worn area {:.5e} mm^2;\n\
-             its doubt, the size of all corrections: {:.3} % of depth, {:.3} % of width, {:.3} % of peak pressure, {:.4} % of area.",
+             its uncertainty, the size of all corrections: {:.3} % of depth, {:.3} % of width, {:.3} % of peak pressure, {:.4} % of area.",
             reference.method,
             UM * reference.max_depth_mm,
             UM * reference.scar_half_width_mm,
@@ -90,7 +90,7 @@ pub fn text(study: &Study) -> String {
 }
 
 fn runs(study: &Study) -> Table {
-    let doubt = &study.reference.uncertainty;
+    let uncertainty = &study.reference.uncertainty;
     let mut table = Table::new();
     table.load_style(comfy_table::presets::ASCII_MARKDOWN);
     table.set_header([
@@ -108,10 +108,10 @@ fn runs(study: &Study) -> Table {
         "MiB",
     ]);
     for run in &study.runs {
-        // No figure of an error that is smaller than what is known of the reference.
-        let percent = |[error, doubt]: [f64; 2]| {
-            if error < doubt {
-                format!("< {:.3}", 100.0 * doubt)
+        // An error below the uncertainty of the reference is given as that bound.
+        let percent = |[error, uncertainty]: [f64; 2]| {
+            if error < uncertainty {
+                format!("< {:.3}", 100.0 * uncertainty)
             } else {
                 format!("{:.3}", 100.0 * error)
             }
@@ -120,10 +120,10 @@ fn runs(study: &Study) -> Table {
             || std::array::from_fn(|_| "failed".to_owned()),
             |errors| {
                 [
-                    [errors.depth, doubt.depth],
-                    [errors.width, doubt.width],
-                    [errors.peak_pressure, doubt.peak_pressure],
-                    [errors.area, doubt.area],
+                    [errors.depth, uncertainty.depth],
+                    [errors.width, uncertainty.width],
+                    [errors.peak_pressure, uncertainty.peak_pressure],
+                    [errors.area, uncertainty.area],
                 ]
                 .map(percent)
             },

@@ -1,40 +1,54 @@
-//! A submitted study of accuracy: its base is a specification like any other.
+//! A submitted accuracy study: its base is a specification like any other.
 
+use api::plan::MachineFigures;
 use api::problem::Fault;
 use api::spec::ParseError;
 use api::study::StudyRequest;
 
-use crate::batch::sweep;
-use crate::spec::{NAME_LIMIT, Refused, Resolved};
+use crate::batch::accuracy::evaluation_plan::EvaluationPlan;
+use crate::batch::accuracy::run_plan::{BUDGET_S, RunPlan, RunPlanError};
+use crate::batch::error::ExpandError;
+use crate::batch::variation::{Accept, Variation, name_fault};
+use crate::spec::{Refused, Resolved};
 
-/// Processor seconds that a study may be given.
-const BUDGET_S: (f64, f64) = (1.0, 86_400.0);
+/// Range of a study's budget, processor seconds.
+const BUDGET_RANGE_S: (f64, f64) = (1.0, 86_400.0);
 
-/// Reads a study.
+/// Returns the jobs of a study in order, and its evaluation plan as JSON. Up to some forty scenes are resolved, which takes
+/// seconds.
 ///
 /// # Errors
-/// [`Refused`] for what cannot be read.
-pub fn read(bytes: &[u8]) -> Result<StudyRequest, Refused> {
-    sweep::document(bytes)
+/// [`ExpandError`] with the faults of the study and of its base.
+pub(in crate::batch) fn expand(
+    request: &StudyRequest,
+    machine: &MachineFigures,
+    accept: &Accept<'_>,
+) -> Result<(Vec<Variation>, String), ExpandError> {
+    let base = resolve(request)?;
+    let budget_s = request.budget_s.unwrap_or(BUDGET_S);
+    let run_plan = RunPlan::within(&base, machine, budget_s, accept).map_err(refused)?;
+    let evaluation_plan = EvaluationPlan::new(base.spec, run_plan.grid, run_plan.left_out);
+    let runs = run_plan.runs.into_iter().map(|run| {
+        let accuracy = serde_json::to_value(run.accuracy.as_spec())?;
+        Ok(Variation {
+            overrides: [("/accuracy".to_owned(), accuracy)].into(),
+            resolved: run.resolved,
+            estimate: run.estimate,
+        })
+    });
+    let variations = runs.collect::<Result<_, serde_json::Error>>()?;
+    Ok((variations, serde_json::to_string(&evaluation_plan)?))
 }
 
-/// The scene of a study, with its own accuracy.
-///
-/// # Errors
-/// [`Refused`] with the faults of the study and of its base.
-pub fn scene(request: &StudyRequest) -> Result<Resolved, Refused> {
-    let mut faults = Vec::new();
-    let name = request.name.as_deref().unwrap_or_default().chars().count();
-    if name > NAME_LIMIT {
-        let detail = format!("{name} characters, at most {NAME_LIMIT} are kept");
-        faults.push(Fault::new("/name", detail));
-    }
-    let (least, most) = BUDGET_S;
+/// Resolves the base of a study, with its own accuracy.
+fn resolve(request: &StudyRequest) -> Result<Resolved, Refused> {
+    let mut faults = Vec::from_iter(name_fault(request.name.as_deref()));
+    let (least, most) = BUDGET_RANGE_S;
     if let Some(budget) = request.budget_s.filter(|s| !(least..=most).contains(s)) {
         let detail = format!("{budget} is outside {least} to {most}");
         faults.push(Fault::new("/budget_s", detail));
     }
-    // A document that was read can be written.
+    // A document that was read can be serialized.
     let base = serde_json::to_vec(&request.base).unwrap_or_default();
     match crate::spec::read(&base).map_err(of_base) {
         Ok(resolved) if faults.is_empty() => return Ok(resolved),
@@ -45,18 +59,28 @@ pub fn scene(request: &StudyRequest) -> Result<Resolved, Refused> {
     Err(Refused::Faults(faults))
 }
 
-/// What is wrong with the base, or with a run of it, with its place in the study.
-pub fn of_base(refused: Refused) -> Refused {
-    let placed = |pointer: &str| format!("/base{pointer}");
+/// Returns the faults of a study for which there are no runs.
+fn refused(error: RunPlanError) -> Refused {
+    match error {
+        RunPlanError::Refused(refused) => of_base(refused),
+        RunPlanError::TooExpensive { .. } => {
+            Refused::Faults(vec![Fault::new("/budget_s", error.to_string())])
+        }
+    }
+}
+
+/// Moves the faults of the base, or of a run of it, to their pointers in the study.
+fn of_base(refused: Refused) -> Refused {
+    let in_study = |pointer: &str| format!("/base{pointer}");
     match refused {
         Refused::Parse(error) => Refused::Parse(ParseError {
-            pointer: placed(&error.pointer),
+            pointer: in_study(&error.pointer),
             ..error
         }),
         Refused::Faults(faults) => Refused::Faults(
             faults
                 .into_iter()
-                .map(|fault| Fault::new(placed(&fault.pointer), fault.detail))
+                .map(|fault| Fault::new(in_study(&fault.pointer), fault.detail))
                 .collect(),
         ),
     }

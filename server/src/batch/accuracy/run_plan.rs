@@ -1,134 +1,87 @@
-//! Which runs a study is made of: chosen before anything is solved, from what each is expected to take.
+//! The run plan of a study: its runs, chosen before anything is solved, by their expected time.
 
 use api::plan::MachineFigures;
-use api::spec::{Accuracy, CycleJump, Overrides, Spec};
-use serde::{Deserialize, Serialize};
+use api::spec::Spec;
 
-use crate::batch::accuracy::grid::{Base, Grid, Settings};
+use crate::batch::accuracy::grid::{Baseline, Grid};
+use crate::batch::accuracy::run_accuracy::RunAccuracy;
+use crate::batch::variation::Accept;
 use crate::estimate::{Estimate, machine};
 use crate::spec;
 use crate::spec::{Refused, Resolved};
 
+/// Budget of all runs of a study together unless another is given, processor seconds.
+pub const BUDGET_S: f64 = 180.0;
+
 /// Tolerances of a study, loose to tight.
 const TOLERANCES: [f64; 6] = [0.1, 0.05, 0.02, 0.01, 0.005, 0.003];
-/// Part of the budget that the tolerances may take.
+/// Largest share of the budget for the runs at tolerances.
 const TOLERANCE_SHARE: f64 = 0.4;
-/// Part of the budget that all runs are expected to take: expectations hold within a factor of two.
+/// Share of the budget that the expected times of all runs may add up to: they are right within a factor of two.
 const EXPECTED_SHARE: f64 = 0.7;
-/// The tolerance of a run whose settings are fixed, for the parts of the mesh that are not.
-const TOLERANCE: f64 = 0.02;
 
-/// Whether a run may be made where it is to be made.
-pub type Accept<'a> = dyn Fn(&Estimate) -> Result<(), Refused> + 'a;
-
-/// Why there are no runs.
+/// Why there is no run plan.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum RunPlanError {
-    /// Each is refused; the first of them for this reason.
+    /// Every run is refused, the first of them for this reason.
     #[error("a run of the study: {0}")]
     Refused(#[from] Refused),
-    /// None fits.
+    /// No run fits into the budget.
     #[error(
         "the cheapest run is expected to take {least_s:.1} s; all together may be expected to take {:.1} s of a budget of {budget_s} s",
         EXPECTED_SHARE * budget_s
     )]
     TooExpensive {
-        /// The budget.
+        /// The budget, processor seconds.
         budget_s: f64,
-        /// What the cheapest run is expected to take.
+        /// Expected time of the cheapest run, processor seconds.
         least_s: f64,
     },
 }
 
-/// What one run asks for.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub enum Asked {
-    /// A tolerance.
-    Tolerance(f64),
-    /// Fixed settings.
-    Fixed(Settings),
-}
-
-impl Asked {
-    /// What a specification of a study's run asks for.
-    pub fn of(accuracy: &Accuracy) -> Option<Self> {
-        match &accuracy.overrides {
-            None => accuracy.tolerance.map(Self::Tolerance),
-            Some(overrides) => Settings::of(overrides).map(Self::Fixed),
-        }
-    }
-
-    /// As a specification asks for it.
-    pub fn accuracy(self) -> Accuracy {
-        match self {
-            Self::Tolerance(tolerance) => Accuracy {
-                tolerance: Some(tolerance),
-                ..Accuracy::default()
-            },
-            Self::Fixed(settings) => Accuracy {
-                preset: None,
-                tolerance: Some(TOLERANCE),
-                overrides: Some(Overrides {
-                    contact_element_mm: Some(settings.contact_element_mm),
-                    increments_per_cycle: Some(settings.increments_per_cycle),
-                    cycle_jump: Some(CycleJump::Fixed(settings.jump())),
-                }),
-            },
-        }
-    }
-}
-
-impl std::fmt::Display for Asked {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match self {
-            Self::Tolerance(tolerance) => write!(f, "tolerance {tolerance}"),
-            Self::Fixed(settings) => settings.fmt(f),
-        }
-    }
-}
-
-/// A run that is to be made.
+/// A planned run.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Wanted {
-    /// What it asks for.
-    pub asked: Asked,
+pub struct PlannedRun {
+    /// Its accuracy setting.
+    pub accuracy: RunAccuracy,
     /// Its specification.
     pub resolved: Resolved,
     /// Its estimate.
     pub estimate: Estimate,
-    /// Processor seconds that it is expected to take.
+    /// Expected processor seconds.
     pub expected_s: f64,
 }
 
-/// The runs of a study, in the order in which they are to be made.
+/// The runs of a study, in the order in which they are solved.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RunPlan {
-    /// The grid among them.
+    /// The grid among the runs.
     pub grid: Grid,
     /// All runs: tolerances, then the grid, coarsest first.
-    pub runs: Vec<Wanted>,
-    /// What does not fit into the budget, in words.
+    pub runs: Vec<PlannedRun>,
+    /// Runs that do not fit into the budget or are refused, in words.
     pub left_out: Vec<String>,
 }
 
 impl RunPlan {
-    /// The runs that are expected to fit into a budget of processor seconds, and that `accept` takes.
+    /// The accepted runs whose expected times fit into a budget of processor seconds.
     ///
     /// # Errors
-    /// [`RunPlanError`] if not even a coarse run can be meshed, is accepted and fits.
+    /// [`RunPlanError`] if no run can be resolved, is accepted and fits.
     pub fn within(
         scene: &Resolved,
         machine: &MachineFigures,
         budget_s: f64,
         accept: &Accept<'_>,
     ) -> Result<Self, RunPlanError> {
-        let want = |asked: Asked| -> Result<Wanted, Refused> {
-            let resolved = spec::resolve(&child(&scene.spec, asked)).map_err(Refused::Faults)?;
+        let planned = |accuracy: RunAccuracy| -> Result<PlannedRun, Refused> {
+            let resolved =
+                spec::resolve(&run_spec(&scene.spec, accuracy)).map_err(Refused::Faults)?;
             let estimate = Estimate::of(&resolved);
             accept(&estimate)?;
             let expected_s = machine::cpu_s(machine, &estimate.workload);
-            Ok(Wanted {
-                asked,
+            Ok(PlannedRun {
+                accuracy,
                 resolved,
                 estimate,
                 expected_s,
@@ -137,25 +90,23 @@ impl RunPlan {
         let mut chosen = Chosen::default();
         for tolerance in TOLERANCES {
             let most_s = TOLERANCE_SHARE * EXPECTED_SHARE * budget_s;
-            let asked = Asked::Tolerance(tolerance);
-            chosen.weigh(asked, want(asked), most_s);
+            let accuracy = RunAccuracy::Tolerance(tolerance);
+            chosen.add(accuracy, planned(accuracy), most_s);
         }
         let most_s = EXPECTED_SHARE * budget_s;
         let estimate = Estimate::of(scene);
-        let base = Base::of(
-            scene,
-            &estimate,
-            machine::cpu_s(machine, &estimate.workload),
-        );
-        let pilot = base.pilot();
-        let factor = want(Asked::Fixed(pilot))
-            .map_or(1.0, |pilot_run| pilot_run.expected_s / base.cost_s(pilot));
-        let grid = Grid::within(&base, factor, most_s - chosen.spent_s, &|settings| {
-            want(Asked::Fixed(settings)).is_ok()
+        let expected_s = machine::cpu_s(machine, &estimate.workload);
+        let baseline = Baseline::of(scene, &estimate, expected_s);
+        let pilot = baseline.pilot();
+        let factor = planned(RunAccuracy::Fixed(pilot)).map_or(1.0, |pilot_run| {
+            pilot_run.expected_s / baseline.cost_s(pilot)
+        });
+        let grid = Grid::within(&baseline, factor, most_s - chosen.spent_s, &|settings| {
+            planned(RunAccuracy::Fixed(settings)).is_ok()
         });
         for settings in grid.coarsest_first() {
-            let asked = Asked::Fixed(settings);
-            chosen.weigh(asked, want(asked), most_s);
+            let accuracy = RunAccuracy::Fixed(settings);
+            chosen.add(accuracy, planned(accuracy), most_s);
         }
         let Chosen { runs, left_out, .. } = chosen.unless_empty(budget_s)?;
         Ok(Self {
@@ -166,20 +117,20 @@ impl RunPlan {
     }
 }
 
-/// The runs that were chosen so far.
+/// Runs chosen so far.
 #[derive(Default)]
 struct Chosen {
-    runs: Vec<Wanted>,
+    runs: Vec<PlannedRun>,
     left_out: Vec<String>,
     spent_s: f64,
-    /// The least that a run which did not fit is expected to take.
+    /// Smallest expected time of a run that did not fit.
     least_s: Option<f64>,
     refused: Option<Refused>,
 }
 
 impl Chosen {
-    /// Takes a run if it can be made and fits, all together, into so many seconds.
-    fn weigh(&mut self, asked: Asked, run: Result<Wanted, Refused>, most_s: f64) {
+    /// Adds a run if it is not refused and all runs together still fit into so many seconds.
+    fn add(&mut self, accuracy: RunAccuracy, run: Result<PlannedRun, Refused>, most_s: f64) {
         match run {
             Ok(run) if self.spent_s + run.expected_s <= most_s => {
                 self.spent_s += run.expected_s;
@@ -188,17 +139,18 @@ impl Chosen {
             Ok(run) => {
                 let least_s = self.least_s.unwrap_or(f64::INFINITY);
                 self.least_s = Some(least_s.min(run.expected_s));
-                let line = format!("{asked}: about {:.0} s", run.expected_s);
+                let line = format!("{accuracy}: about {:.0} s", run.expected_s);
                 self.left_out.push(line);
             }
             Err(refused) => {
-                self.left_out.push(format!("{asked}: {}", reason(&refused)));
+                self.left_out
+                    .push(format!("{accuracy}: {}", reason(&refused)));
                 self.refused.get_or_insert(refused);
             }
         }
     }
 
-    /// A study without a run is none: the cheapest is too dear, or all are refused.
+    /// Refuses an empty study: the cheapest run is too expensive, or all are refused.
     fn unless_empty(self, budget_s: f64) -> Result<Self, RunPlanError> {
         match (self.least_s, self.refused) {
             _ if !self.runs.is_empty() => Ok(Self {
@@ -211,7 +163,7 @@ impl Chosen {
     }
 }
 
-/// Why a run cannot be made: its first fault.
+/// Returns the first fault of a refused run.
 fn reason(refused: &Refused) -> String {
     match refused {
         Refused::Faults(faults) if !faults.is_empty() => faults[0].detail.clone(),
@@ -219,13 +171,13 @@ fn reason(refused: &Refused) -> String {
     }
 }
 
-/// The specification of a run.
-fn child(spec: &Spec, asked: Asked) -> Spec {
+/// Returns the specification of a run.
+fn run_spec(spec: &Spec, accuracy: RunAccuracy) -> Spec {
     let mut spec = Spec {
-        accuracy: asked.accuracy(),
+        accuracy: accuracy.as_spec(),
         ..spec.clone()
     };
-    // The end is a snapshot of its own accord; any other would cut jumps short.
+    // The last cycle always has a snapshot; any other snapshot would cut jumps short.
     spec.output.fields = Some(false);
     spec.output.snapshots_at_distance_mm = None;
     spec.output.snapshots_at_cycles = spec.cycles.map(|cycles| vec![cycles]);
@@ -248,44 +200,40 @@ mod tests {
         }
     }
 
-    fn programme(budget_s: f64) -> RunPlan {
+    fn run_plan(budget_s: f64) -> RunPlan {
         let text = br#"{"system":{"kind":"cylinder_on_flat"},"cycles":300}"#;
         let scene = spec::read(text).expect("accepted");
-        RunPlan::within(&scene, &machine(), budget_s, &|_| Ok(())).expect("it can be studied")
+        RunPlan::within(&scene, &machine(), budget_s, &|_| Ok(())).expect("a run plan")
     }
 
     #[test]
-    fn runs_are_expected_to_fit_and_a_larger_budget_makes_more_and_finer_ones() {
-        let (small, large) = (programme(8.0), programme(80.0));
+    fn runs_fit_into_the_budget_and_a_larger_one_makes_more_and_finer_runs() {
+        let (small, large) = (run_plan(8.0), run_plan(80.0));
         assert!(expected_s(&small) <= 8.0 && expected_s(&large) <= 80.0);
         assert!(large.runs.len() >= small.runs.len());
         assert!(large.left_out.len() <= small.left_out.len());
-        let finest = |programme: &RunPlan| programme.grid.levels(0, 0, 0).contact_element_mm;
+        let finest = |plan: &RunPlan| plan.grid.levels(0, 0, 0).contact_element_mm;
         assert!(finest(&large) <= finest(&small));
     }
 
-    fn expected_s(programme: &RunPlan) -> f64 {
-        programme.runs.iter().map(|run| run.expected_s).sum()
+    fn expected_s(plan: &RunPlan) -> f64 {
+        plan.runs.iter().map(|run| run.expected_s).sum()
     }
 
     #[test]
-    fn a_grid_that_does_not_fit_even_at_its_coarsest_loses_runs() {
+    fn the_coarsest_grid_loses_the_runs_that_do_not_fit() {
         let text = br#"{"system":{"kind":"dimm"},"cycles":1000000,"accuracy":{"overrides":{"cycle_jump":1}}}"#;
         let scene = spec::read(text).expect("accepted");
         let within = |budget_s| RunPlan::within(&scene, &machine(), budget_s, &|_| Ok(()));
-        let programme = within(100.0).expect("some runs fit");
-        assert!(
-            expected_s(&programme) <= 100.0,
-            "{}",
-            expected_s(&programme)
-        );
-        assert!(programme.left_out.len() > 9, "{:?}", programme.left_out);
-        let none = within(0.01).map(|programme| programme.runs.len());
+        let plan = within(100.0).expect("some runs fit");
+        assert!(expected_s(&plan) <= 100.0, "{}", expected_s(&plan));
+        assert!(plan.left_out.len() > 9, "{:?}", plan.left_out);
+        let none = within(0.01).map(|plan| plan.runs.len());
         assert!(matches!(none, Err(RunPlanError::TooExpensive { least_s, .. }) if least_s > 0.01));
     }
 
     #[test]
-    fn the_finest_run_of_a_grid_is_one_that_is_accepted() {
+    fn the_finest_run_of_a_grid_is_accepted() {
         let text = br#"{"system":{"kind":"cylinder_on_flat"},"cycles":300}"#;
         let scene = spec::read(text).expect("accepted");
         let most = 1.5 * Estimate::of(&scene).footprint.dofs;
@@ -296,21 +244,16 @@ mod tests {
                 .then_some(())
                 .ok_or_else(|| Refused::Faults(vec![fault()]))
         };
-        let programme = RunPlan::within(&scene, &machine(), 8e4, &accept).expect("some runs");
-        let finest = Asked::Fixed(programme.grid.levels(0, 0, 0));
-        assert!(programme.runs.iter().any(|run| run.asked == finest));
+        let plan = RunPlan::within(&scene, &machine(), 8e4, &accept).expect("some runs");
+        let finest = RunAccuracy::Fixed(plan.grid.levels(0, 0, 0));
+        assert!(plan.runs.iter().any(|run| run.accuracy == finest));
         assert!(
-            programme
-                .runs
+            plan.runs
                 .iter()
                 .all(|run| run.estimate.footprint.dofs <= most)
         );
-        let told = |line: &String| line.starts_with("tolerance") && line.ends_with("unknowns");
-        assert!(
-            programme.left_out.iter().any(told),
-            "{:?}",
-            programme.left_out
-        );
+        let reported = |line: &String| line.starts_with("tolerance") && line.ends_with("unknowns");
+        assert!(plan.left_out.iter().any(reported), "{:?}", plan.left_out);
         let refused = RunPlan::within(&scene, &machine(), 8e4, &|_| {
             Err(Refused::Faults(vec![Fault::new("/output", "too much")]))
         });
@@ -318,25 +261,26 @@ mod tests {
     }
 
     #[test]
-    fn a_grid_that_could_be_paid_but_not_meshed_is_coarser() {
+    fn a_grid_that_fits_but_cannot_be_meshed_is_made_coarser() {
         let text = br#"{"system":{"kind":"fuzz_button"},"accuracy":{"preset":"fine"}}"#;
         let scene = spec::read(text).expect("accepted");
-        let programme =
-            RunPlan::within(&scene, &machine(), 86_400.0, &|_| Ok(())).expect("some runs");
-        let finest = Asked::Fixed(programme.grid.levels(0, 0, 0));
-        assert!(programme.runs.iter().any(|run| run.asked == finest));
+        let plan = RunPlan::within(&scene, &machine(), 86_400.0, &|_| Ok(())).expect("some runs");
+        let finest = RunAccuracy::Fixed(plan.grid.levels(0, 0, 0));
+        assert!(plan.runs.iter().any(|run| run.accuracy == finest));
     }
 
     #[test]
     fn runs_differ_in_their_accuracy_alone() {
-        let programme = programme(8.0);
-        for run in &programme.runs {
+        let plan = run_plan(8.0);
+        for run in &plan.runs {
             let spec = &run.resolved.spec;
             assert_eq!((spec.cycles, spec.output.fields), (Some(300), Some(false)));
             assert_eq!(spec.output.snapshots_at_cycles.as_deref(), Some(&[300][..]));
-            match run.asked {
-                Asked::Tolerance(tolerance) => assert_eq!(spec.accuracy.tolerance, Some(tolerance)),
-                Asked::Fixed(settings) => {
+            match run.accuracy {
+                RunAccuracy::Tolerance(tolerance) => {
+                    assert_eq!(spec.accuracy.tolerance, Some(tolerance));
+                }
+                RunAccuracy::Fixed(settings) => {
                     let overrides = spec.accuracy.overrides.as_ref().expect("overrides");
                     let element = overrides.contact_element_mm;
                     assert_eq!(element, Some(settings.contact_element_mm));

@@ -1,21 +1,24 @@
-//! Every problem as clients see it. The texts are compared with `snapshots/`; after a change that is meant, run the test
-//! with `INSTA_UPDATE=always`.
+//! Problems as clients see them, compared with `snapshots/`; after an intended change, run the tests with
+//! `INSTA_UPDATE=always`.
 
-use serde_json::Value;
+use std::path::PathBuf;
 
-use crate::http::problem::{Kind, Refusal};
-use crate::http::tests::Service;
-use crate::http::{Access, App};
 use axum::response::IntoResponse;
 use http_body_util::BodyExt;
+use serde_json::Value;
 
-const NOBODY: &str = "00000000-0000-7000-8000-000000000000";
+use crate::http::problem::{ProblemResponse, ProblemType};
+use crate::http::tests::Service;
+use crate::http::{Access, App};
+use crate::store::StoreError;
+
+const UNKNOWN_ID: &str = "00000000-0000-7000-8000-000000000000";
 const JSON: (&str, &str) = ("content-type", "application/json");
 
 type Case<'a> = (&'a str, String, Vec<(&'a str, &'a str)>, String);
 
-/// Sends requests; each with its problem, as text.
-async fn told(service: &Service, id: &str, cases: Vec<Case<'_>>) -> String {
+/// Sends requests and returns each with its problem, as text.
+async fn problems(service: &Service, id: &str, cases: Vec<Case<'_>>) -> String {
     let mut text = String::new();
     for (method, path, headers, body) in cases {
         let (status, headers_back, problem) = service.send(method, &path, &headers, &body).await;
@@ -32,7 +35,7 @@ async fn told(service: &Service, id: &str, cases: Vec<Case<'_>>) -> String {
 }
 
 #[tokio::test]
-async fn problems_of_submissions_are_told_as_before() {
+async fn problems_of_submissions_match_the_snapshot() {
     let service = Service::new().await;
     let post = |path: &str, more: &[(&'static str, &'static str)], body: &str| -> Case<'static> {
         let headers = [&[JSON], more].concat();
@@ -82,11 +85,11 @@ async fn problems_of_submissions_are_told_as_before() {
             r#"{"system":{"kind":"dimm"},"stop":[{}]}"#,
         ),
     ];
-    insta::assert_snapshot!(told(&service, "no id", cases).await);
+    insta::assert_snapshot!(problems(&service, "no id", cases).await);
 }
 
 #[tokio::test]
-async fn problems_of_queries_are_told_as_before() {
+async fn problems_of_queries_match_the_snapshot() {
     let service = Service::new().await;
     let id = service.with_files().await;
     let active = service.queued(r#"{"system":{"kind":"dimm"}}"#).await;
@@ -108,7 +111,7 @@ async fn problems_of_queries_are_told_as_before() {
     .map(get)
     .collect();
     for kind in ["jobs", "sweeps"] {
-        cases.push(get(&format!("/v1/{kind}/{NOBODY}")));
+        cases.push(get(&format!("/v1/{kind}/{UNKNOWN_ID}")));
     }
     for rest in [
         "?wait=61s",
@@ -129,7 +132,7 @@ async fn problems_of_queries_are_told_as_before() {
     let event = vec![("last-event-id", "x")];
     cases.push(("GET", format!("{own}/events"), event, String::new()));
     cases.push(("PUT", "/v1/jobs".to_owned(), vec![], String::new()));
-    let text = told(&service, &id, cases).await;
+    let text = problems(&service, &id, cases).await;
     let waiting = vec![
         (
             "DELETE",
@@ -144,11 +147,11 @@ async fn problems_of_queries_are_told_as_before() {
             String::new(),
         ),
     ];
-    insta::assert_snapshot!(text + &told(&service, &active, waiting).await);
+    insta::assert_snapshot!(text + &problems(&service, &active, waiting).await);
 }
 
 #[tokio::test]
-async fn problems_of_access_and_of_the_service_are_told_as_before() {
+async fn problems_of_access_and_of_the_service_match_the_snapshot() {
     let mut service = Service::new().await;
     let foreign: Case<'_> = (
         "GET",
@@ -156,18 +159,23 @@ async fn problems_of_access_and_of_the_service_are_told_as_before() {
         vec![("origin", "http://attacker.test")],
         String::new(),
     );
-    let mut text = told(&service, "no id", vec![foreign]).await;
+    let mut text = problems(&service, "no id", vec![foreign]).await;
     let id = service.queued(r#"{"system":{"kind":"dimm"}}"#).await;
-    let permits = service.app.streams.available_permits();
+    let permits = service.app.stream_permits.available_permits();
     let all = u32::try_from(permits).expect("small");
-    let held = service.app.streams.clone().acquire_many_owned(all).await;
+    let held = service
+        .app
+        .stream_permits
+        .clone()
+        .acquire_many_owned(all)
+        .await;
     let full = vec![(
         "GET",
         format!("/v1/jobs/{id}/events"),
         vec![],
         String::new(),
     )];
-    text += &told(&service, &id, full).await;
+    text += &problems(&service, &id, full).await;
     drop(held);
     let access = Access::new(Some("0123456789abcdef"), &[]).expect("access");
     let App {
@@ -175,13 +183,18 @@ async fn problems_of_access_and_of_the_service_are_told_as_before() {
     } = service.app.clone();
     service.app = App::new(store, access, stopping);
     let closed = vec![("GET", "/v1/jobs".to_owned(), vec![], String::new())];
-    text += &told(&service, "no id", closed).await;
+    text += &problems(&service, "no id", closed).await;
     let hidden = std::io::Error::other("a secret path");
-    for refusal in [
-        Kind::Slow.because("a body may take 30 s"),
-        Refusal::internal(&hidden),
+    let full = StoreError::Prepare {
+        path: PathBuf::from("a secret path"),
+        cause: std::io::ErrorKind::StorageFull.into(),
+    };
+    for response in [
+        ProblemType::RequestTimeout.with_detail("the body did not arrive within 30 s"),
+        ProblemResponse::from(full),
+        ProblemResponse::internal(&hidden),
     ] {
-        let body = refusal.into_response().into_body().collect().await;
+        let body = response.into_response().into_body().collect().await;
         let problem: Value =
             serde_json::from_slice(&body.expect("a body").to_bytes()).expect("JSON");
         text += &serde_json::to_string_pretty(&problem).expect("JSON");

@@ -1,6 +1,6 @@
-//! Operating the service: health, metrics, pages, and the description of the interface.
+//! Operation of the service: health checks, metrics, pages, OpenAPI document.
 
-pub(in crate::http) mod health;
-pub(in crate::http) mod metrics;
-pub mod openapi;
-pub(in crate::http) mod pages;
+pub(in crate::http) mod check_health;
+pub(in crate::http) mod serve_pages;
+pub(in crate::http) mod show_metrics;
+pub(in crate::http) mod show_openapi;

@@ -1,4 +1,5 @@
-//! Contact systems: presets, units, and the schema of a specification.
+//! Contact systems: presets, and JSON Schemas of their specifications.
 
-pub(in crate::http) mod read;
+pub(in crate::http) mod list;
 pub(in crate::http) mod schema;
+pub(in crate::http) mod show;

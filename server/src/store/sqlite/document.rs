@@ -80,7 +80,12 @@ fn links(id: Uuid) -> BTreeMap<String, String> {
     links
 }
 
-fn parsed<T: DeserializeOwned>(id: Uuid, what: &'static str, text: &str) -> Result<T, StoreError> {
+/// Parses a stored document.
+pub(in crate::store) fn parsed<T: DeserializeOwned>(
+    id: Uuid,
+    what: &'static str,
+    text: &str,
+) -> Result<T, StoreError> {
     serde_json::from_str(text).map_err(|cause| corrupt(id, what, &cause))
 }
 

@@ -1,28 +1,28 @@
-//! The work-precision diagram: errors over processor seconds, both by decades.
+//! The work-precision diagram: errors over processor seconds, both axes logarithmic.
 
 use api::study::{Errors, Study, StudyRun};
 
 use crate::export::pictures::{Axis, COLOURS, Mark, Panel, Picture, Scale, Series};
 
-/// What runs are told apart by in the picture.
+/// Labels of the series.
 const TOLERANCE: &str = "chosen from a tolerance";
 const FRONT: &str = "Pareto front";
-const DOUBT: &str = "doubt about the reference";
-const BELOW: &str = "error below the doubt";
+const UNCERTAINTY: &str = "uncertainty of the reference";
+const BELOW: &str = "error below the uncertainty";
 
 /// Errors of depth and width, and of the peak pressure, over the cost.
 pub(crate) fn work_precision(study: &Study) -> Picture {
     let name = study.spec.name.as_deref().unwrap_or_default();
-    let doubt = &study.reference.uncertainty;
-    let mut promised = panel(
+    let uncertainty = &study.reference.uncertainty;
+    let mut depth_and_width = panel(
         study,
         "error in worn depth and scar width (%)",
-        Errors::promised,
-        doubt,
+        Errors::tolerance_error,
+        uncertainty,
     );
     let front = study.runs.iter().filter(|run| run.on_front);
     // Under the tolerances, which are drawn last.
-    promised.series.insert(
+    depth_and_width.series.insert(
         1,
         Series {
             label: FRONT.to_owned(),
@@ -30,8 +30,8 @@ pub(crate) fn work_precision(study: &Study) -> Picture {
             colour: COLOURS[6],
             points: front
                 .filter_map(|run| {
-                    let errors = run.errors?.at_least(doubt);
-                    Some([run.cpu_s, 100.0 * errors.promised()])
+                    let errors = run.errors?.at_least(uncertainty);
+                    Some([run.cpu_s, 100.0 * errors.tolerance_error()])
                 })
                 .collect(),
         },
@@ -39,24 +39,26 @@ pub(crate) fn work_precision(study: &Study) -> Picture {
     Picture {
         title: format!("What accuracy costs: {name}"),
         panels: vec![
-            promised,
+            depth_and_width,
             panel(
                 study,
                 "error in peak pressure (%)",
                 |errors| errors.peak_pressure,
-                doubt,
+                uncertainty,
             ),
         ],
     }
 }
 
-fn panel(study: &Study, title: &str, of: fn(&Errors) -> f64, doubt: &Errors) -> Panel {
-    let point = point(of, of(doubt));
+fn panel(study: &Study, title: &str, of: fn(&Errors) -> f64, uncertainty: &Errors) -> Panel {
+    let point = point(of, of(uncertainty));
     let mut series = vec![Series {
-        label: DOUBT.to_owned(),
+        label: UNCERTAINTY.to_owned(),
         mark: Mark::Dashes,
         colour: COLOURS[6],
-        points: ends(study).map(|cpu_s| [cpu_s, 100.0 * of(doubt)]).to_vec(),
+        points: cost_range(study)
+            .map(|cpu_s| [cpu_s, 100.0 * of(uncertainty)])
+            .to_vec(),
     }];
     for (index, (label, element)) in elements(study).into_iter().enumerate() {
         let grid = study.runs.iter().filter(|run| {
@@ -76,7 +78,7 @@ fn panel(study: &Study, title: &str, of: fn(&Errors) -> f64, doubt: &Errors) -> 
         colour: COLOURS[1],
         points: tolerances.filter_map(&point).collect(),
     });
-    // What cannot be told from no error stands on the line of the doubt, apart from what can.
+    // Errors below the uncertainty are drawn on its line, as a series of their own.
     let below = study.runs.iter().filter(|run| point(run).is_none());
     series.push(Series {
         label: BELOW.to_owned(),
@@ -84,7 +86,7 @@ fn panel(study: &Study, title: &str, of: fn(&Errors) -> f64, doubt: &Errors) -> 
         colour: COLOURS[6],
         points: below
             .filter(|run| run.errors.is_some())
-            .map(|run| [run.cpu_s, 100.0 * of(doubt)])
+            .map(|run| [run.cpu_s, 100.0 * of(uncertainty)])
             .collect(),
     });
     Panel {
@@ -94,23 +96,23 @@ fn panel(study: &Study, title: &str, of: fn(&Errors) -> f64, doubt: &Errors) -> 
     }
 }
 
-/// Cost and error of a run that succeeded, with an error above the doubt.
-fn point(of: fn(&Errors) -> f64, doubt: f64) -> impl Fn(&StudyRun) -> Option<[f64; 2]> {
+/// Returns cost and error of a run that succeeded with an error above the uncertainty.
+fn point(of: fn(&Errors) -> f64, uncertainty: f64) -> impl Fn(&StudyRun) -> Option<[f64; 2]> {
     move |run| {
         let error = of(&run.errors?);
-        (error >= doubt).then_some([run.cpu_s, 100.0 * error])
+        (error >= uncertainty).then_some([run.cpu_s, 100.0 * error])
     }
 }
 
-/// The cheapest and the dearest run.
-fn ends(study: &Study) -> [f64; 2] {
+/// Returns the costs of the cheapest and of the most expensive run.
+fn cost_range(study: &Study) -> [f64; 2] {
     let cost = |fold: fn(f64, f64) -> f64, from: f64| {
         study.runs.iter().map(|run| run.cpu_s).fold(from, fold)
     };
     [cost(f64::min, f64::INFINITY), cost(f64::max, 0.0)]
 }
 
-/// Element sizes of the grid, coarsest first, with their labels.
+/// Returns the element sizes of the grid, coarsest first, with their labels.
 fn elements(study: &Study) -> Vec<(String, f64)> {
     let fixed = study.runs.iter().filter(|run| run.tolerance.is_none());
     let mut sizes: Vec<f64> = fixed.map(|run| run.contact_element_mm).collect();

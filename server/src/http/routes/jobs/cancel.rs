@@ -1,4 +1,4 @@
-//! `POST /v1/jobs/{id}/cancel`: asks for the end of a job; always accepted.
+//! `POST /v1/jobs/{id}/cancel`: requests the cancellation of a job; always accepted.
 
 use api::job::Job;
 use api::problem::Problem;
@@ -11,24 +11,25 @@ use crate::clock::now_ms;
 use crate::http::App;
 use crate::http::extract::JobId;
 use crate::http::job_error::JobError;
+use crate::http::problem::ProblemResponse;
 
-/// Asks for the end of a job: a waiting one ends at once, a running one within a second.
+/// Requests the cancellation of a job: a queued one ends at once, a running one within a second.
 #[utoipa::path(
     post,
     path = "/v1/jobs/{id}/cancel",
     tag = "jobs",
     params(("id" = Uuid, Path, description = "The job")),
     responses(
-        (status = 202, description = "Accepted; the job as it stands", body = Job),
+        (status = 202, description = "Accepted; the job in its current state", body = Job),
         (status = 404, description = "No such job", body = Problem),
     )
 )]
 pub(in crate::http) async fn cancel(
     State(app): State<App>,
     JobId(id): JobId,
-) -> Result<Response, JobError> {
-    let done = app.store.cancel(id, now_ms()).await?;
-    done.ok_or(JobError::Missing(id))?;
+) -> Result<Response, ProblemResponse> {
+    let cancelled = app.store.cancel(id, now_ms()).await?;
+    cancelled.ok_or(JobError::Missing(id))?;
     let job = app.job(id).await?;
     Ok((StatusCode::ACCEPTED, Json(job.document)).into_response())
 }
@@ -38,7 +39,7 @@ mod tests {
     use crate::http::tests::Service;
 
     #[tokio::test]
-    async fn a_waiting_job_ends_at_once_and_cancelling_again_changes_nothing() {
+    async fn a_queued_job_ends_at_once_and_cancelling_again_changes_nothing() {
         let service = Service::new().await;
         let id = service.queued(r#"{"system":{"kind":"dimm"}}"#).await;
         let path = format!("/v1/jobs/{id}/cancel");
@@ -52,7 +53,7 @@ mod tests {
     }
 
     #[tokio::test]
-    async fn a_running_job_is_asked_to_end() {
+    async fn a_running_job_ends_later() {
         let service = Service::new().await;
         let id = service.queued(r#"{"system":{"kind":"dimm"}}"#).await;
         service.app.store.claim(0, i64::MAX).await.expect("a claim");

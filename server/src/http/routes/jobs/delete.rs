@@ -7,6 +7,7 @@ use axum::http::StatusCode;
 use crate::http::App;
 use crate::http::extract::JobId;
 use crate::http::job_error::JobError;
+use crate::http::problem::ProblemResponse;
 use crate::store::Deleted;
 
 /// Deletes a job that has ended, with its events and results.
@@ -24,11 +25,11 @@ use crate::store::Deleted;
 pub(in crate::http) async fn remove(
     State(app): State<App>,
     JobId(id): JobId,
-) -> Result<StatusCode, JobError> {
+) -> Result<StatusCode, ProblemResponse> {
     match app.store.delete(id).await? {
         Deleted::Done => Ok(StatusCode::NO_CONTENT),
-        Deleted::Active => Err(JobError::Active(id)),
-        Deleted::Missing => Err(JobError::Missing(id)),
+        Deleted::Active => Err(JobError::Active(id).into()),
+        Deleted::Missing => Err(JobError::Missing(id).into()),
     }
 }
 

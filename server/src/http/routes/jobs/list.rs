@@ -4,35 +4,32 @@ use api::job::{JobList, Status};
 use api::problem::Problem;
 use axum::Json;
 use axum::extract::State;
-use axum::response::{IntoResponse, Response};
 use jiff::Timestamp;
 use utoipa::IntoParams;
 use uuid::Uuid;
 
 use crate::http::App;
 use crate::http::extract::Params;
-use crate::http::paging::{Page, PageError};
-use crate::http::problem::{Kind, Refusal, shortened};
-use crate::store::{Filter, StoreError};
+use crate::http::paging::Page;
+use crate::http::problem::{ProblemResponse, ProblemType, RouteError};
+use crate::store::Filter;
+use crate::text::shortened;
 
-/// Most labels of a filter.
-const LABEL_LIMIT: usize = 16;
+/// Maximum number of labels of a filter.
+const MAX_LABELS: usize = 16;
 
-/// Why there is no list.
+/// Error of a query parameter.
 #[derive(Debug, thiserror::Error)]
 pub(in crate::http) enum ListError {
     /// Not a status.
     #[error("`{0}` is not a status")]
     Status(String),
     /// Not a parameter of this list.
-    #[error("`{0}` is no parameter; parameters are {PARAMETERS}")]
+    #[error("`{0}` is not a parameter; parameters are {PARAMETERS}")]
     Unknown(String),
     /// Given twice.
     #[error("`{0}` is given twice")]
     Twice(String),
-    /// Not a page of this list.
-    #[error(transparent)]
-    Page(#[from] PageError),
     /// Not a time.
     #[error("`{0}` is not a time such as 2026-01-31T12:00:00Z")]
     Time(String),
@@ -40,23 +37,16 @@ pub(in crate::http) enum ListError {
     #[error("`{0}` is not the id of a sweep")]
     Sweep(String),
     /// Too many labels.
-    #[error("{0} labels, a filter takes {LABEL_LIMIT}")]
+    #[error("a filter can have {MAX_LABELS} labels, not {0}")]
     Labels(usize),
     /// Not a label.
     #[error("`{0}` is not a label such as key:value")]
     Label(String),
-    /// The store failed.
-    #[error(transparent)]
-    Store(#[from] StoreError),
 }
 
-impl IntoResponse for ListError {
-    fn into_response(self) -> Response {
-        match &self {
-            Self::Store(error) => Refusal::from(error),
-            _ => Kind::InvalidQuery.because(self.to_string()),
-        }
-        .into_response()
+impl RouteError for ListError {
+    fn problem_type(&self) -> ProblemType {
+        ProblemType::InvalidQuery
     }
 }
 
@@ -64,19 +54,19 @@ impl IntoResponse for ListError {
 const PARAMETERS: &str =
     "status, system, label, created_from, created_before, sweep, limit and page_token";
 
-/// Which jobs: all that every given filter lets through.
+/// Filters and page; a listed job passes all filters.
 #[derive(Debug, Default, IntoParams)]
 #[into_params(parameter_in = Query)]
 #[expect(
     dead_code,
-    reason = "describes the parameters, which are read one by one, some of them several times"
+    reason = "only describes the parameters, which are parsed one by one because labels repeat"
 )]
 pub(in crate::http) struct ListQuery {
     /// Any of these statuses, separated by commas.
     status: Option<String>,
     /// This kind of system.
     system: Option<String>,
-    /// This label, as `key:value`; may be given several times, for jobs that have all of them.
+    /// This label, as `key:value`; can be repeated, for jobs that have all of them.
     label: Option<Vec<String>>,
     /// Accepted at this time (RFC 3339) or later.
     created_from: Option<String>,
@@ -84,10 +74,10 @@ pub(in crate::http) struct ListQuery {
     created_before: Option<String>,
     /// Jobs of this sweep.
     sweep: Option<Uuid>,
-    /// Jobs of a page, 1 to 500.
+    /// Maximum number of jobs of the page.
     #[param(minimum = 1, maximum = 500)]
     limit: Option<u32>,
-    /// Where the page starts: `next_page_token` of the page before, with the same filters.
+    /// `next_page_token` of the previous page, with the same filters.
     page_token: Option<String>,
 }
 
@@ -99,27 +89,27 @@ pub(in crate::http) struct ListQuery {
     params(ListQuery),
     responses(
         (status = 200, description = "A page of jobs", body = JobList),
-        (status = 400, description = "A query parameter cannot be read", body = Problem),
+        (status = 400, description = "A query parameter is not valid", body = Problem),
     )
 )]
 pub(in crate::http) async fn list(
     State(app): State<App>,
     Params(pairs): Params<Vec<(String, String)>>,
-) -> Result<Json<JobList>, ListError> {
-    let (mut filter, limit, token) = read(&pairs)?;
-    let page = Page::asked(&format!("{filter:?}"), limit, token)?;
+) -> Result<Json<JobList>, ProblemResponse> {
+    let (mut filter, limit, token) = parse(&pairs)?;
+    let page = Page::parse(&format!("{filter:?}"), limit, token)?;
     filter.before = page.before;
-    filter.limit = page.wanted();
+    filter.limit = page.query_limit();
     let mut jobs = app.store.list(&filter).await?;
-    let next_page_token = page.cut(&mut jobs, |job| job.id);
+    let next_page_token = page.truncate(&mut jobs, |job| job.id);
     Ok(Json(JobList {
         jobs,
         next_page_token,
     }))
 }
 
-/// The filter that the parameters describe, and which page is asked for.
-fn read(pairs: &[(String, String)]) -> Result<(Filter, Option<&str>, Option<&str>), ListError> {
+/// Parses the query into filter, limit and page token.
+fn parse(pairs: &[(String, String)]) -> Result<(Filter, Option<&str>, Option<&str>), ListError> {
     let (mut filter, mut limit, mut token) = (Filter::default(), None, None);
     for (index, (name, value)) in pairs.iter().enumerate() {
         let twice = pairs[..index].iter().any(|(earlier, _)| earlier == name);
@@ -141,7 +131,7 @@ fn read(pairs: &[(String, String)]) -> Result<(Filter, Option<&str>, Option<&str
             _ => return Err(ListError::Unknown(shortened(name))),
         }
     }
-    if filter.labels.len() > LABEL_LIMIT {
+    if filter.labels.len() > MAX_LABELS {
         return Err(ListError::Labels(filter.labels.len()));
     }
     Ok((filter, limit, token))
@@ -240,7 +230,7 @@ mod tests {
     }
 
     #[tokio::test]
-    async fn unreadable_filters_are_problems() {
+    async fn invalid_filters_are_problems() {
         let service = Service::new().await;
         for query in [
             "status=done",

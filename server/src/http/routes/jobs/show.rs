@@ -14,46 +14,37 @@ use utoipa::IntoParams;
 
 use crate::http::App;
 use crate::http::extract::{JobId, Params};
-use crate::http::job_error::JobError;
-use crate::http::problem::{Kind, Refusal};
+use crate::http::problem::{ProblemResponse, ProblemType, RouteError};
 use crate::store::StoredJob;
+use crate::text::shortened;
 
-/// Longest wait, s.
-const WAIT_LIMIT: u64 = 60;
-/// A missed change is found at the latest after this long.
-const LOOK: Duration = Duration::from_secs(1);
+/// Longest long poll, s.
+const MAX_WAIT_S: u64 = 60;
+/// Poll interval of the store, in case a notification was missed.
+const POLL_INTERVAL: Duration = Duration::from_secs(1);
 
-/// Why there is no job.
+/// Error of the duration of a long poll.
 #[derive(Debug, thiserror::Error)]
-pub(in crate::http) enum ShowError {
-    /// There is none of that id.
-    #[error(transparent)]
-    Job(#[from] JobError),
-    /// Not a duration.
-    #[error("`{0}` is not a wait such as 25s, up to {WAIT_LIMIT}s")]
-    Wait(String),
-}
+#[error("`{0}` is not a duration such as 25s, up to {MAX_WAIT_S}s")]
+struct WaitError(String);
 
-impl IntoResponse for ShowError {
-    fn into_response(self) -> Response {
-        match &self {
-            Self::Job(error) => Refusal::from(error),
-            Self::Wait(_) => Kind::InvalidQuery.because(self.to_string()),
-        }
-        .into_response()
+impl RouteError for WaitError {
+    fn problem_type(&self) -> ProblemType {
+        ProblemType::InvalidQuery
     }
 }
 
-/// How long to wait.
+/// Query of a long poll.
 #[derive(Debug, Deserialize, IntoParams)]
 #[into_params(parameter_in = Query)]
 #[serde(deny_unknown_fields)]
 pub(in crate::http) struct ShowQuery {
-    /// Answer when the job has changed (with `If-None-Match`) or ended (without), or after this long; such as `25s`.
+    /// Long poll: responds when the job has changed (with `If-None-Match`) or ended (without), or after this duration, for
+    /// instance `25s`.
     wait: Option<String>,
 }
 
-/// A job.
+/// State, progress and results of a job.
 #[utoipa::path(
     get,
     path = "/v1/jobs/{id}",
@@ -62,10 +53,10 @@ pub(in crate::http) struct ShowQuery {
     responses(
         (status = 200, description = "The job", body = Job, headers(
             ("ETag" = String, description = "Its version"),
-            ("Retry-After" = u64, description = "When a poll is likely to find something new, s; until the job has ended"),
+            ("Retry-After" = u64, description = "Recommended pause before the next poll, s; absent once the job has ended"),
         )),
         (status = 304, description = "Not changed since the version in `If-None-Match`"),
-        (status = 400, description = "A query parameter cannot be read", body = Problem),
+        (status = 400, description = "A query parameter is not valid", body = Problem),
         (status = 404, description = "No such job", body = Problem),
     )
 )]
@@ -74,25 +65,25 @@ pub(in crate::http) async fn show(
     JobId(id): JobId,
     Params(query): Params<ShowQuery>,
     headers: HeaderMap,
-) -> Result<Response, ShowError> {
-    let wait = query.wait.as_deref().map(duration).transpose()?;
+) -> Result<Response, ProblemResponse> {
+    let wait = query.wait.as_deref().map(parse_wait).transpose()?;
     let known = headers
         .get(header::IF_NONE_MATCH)
         .and_then(|value| value.to_str().ok())
         .map(str::to_owned);
     let mut changes = app.store.changes(id);
     let mut job = app.job(id).await?;
-    // Without a place the answer comes at once, as if the time were over.
-    let place = app.long_polls.try_acquire().ok();
-    if let (Some(wait), Some(_)) = (wait, &place) {
+    // Without a permit the response is sent at once, as if the poll had timed out.
+    let permit = app.long_poll_permits.try_acquire().ok();
+    if let (Some(wait), Some(_)) = (wait, &permit) {
         let deadline = Instant::now() + wait;
-        while !worth_telling(&job, known.as_deref())
+        while !is_news(&job, known.as_deref())
             && Instant::now() < deadline
             && !app.stopping.is_cancelled()
         {
             tokio::select! {
                 () = changes.next() => {}
-                () = tokio::time::sleep_until(deadline.min(Instant::now() + LOOK)) => {}
+                () = tokio::time::sleep_until(deadline.min(Instant::now() + POLL_INTERVAL)) => {}
                 () = app.stopping.cancelled() => {}
             }
             job = app.job(id).await?;
@@ -102,7 +93,7 @@ pub(in crate::http) async fn show(
         (header::ETAG, etag(&job)),
         (header::CACHE_CONTROL, "no-cache".to_owned()),
     ];
-    if known.is_some_and(|known| matches(&known, &job)) {
+    if known.is_some_and(|known| has_version(&known, &job)) {
         return Ok((StatusCode::NOT_MODIFIED, etag).into_response());
     }
     let mut response = (etag, Json(&job.document)).into_response();
@@ -113,18 +104,18 @@ pub(in crate::http) async fn show(
     Ok(response)
 }
 
-/// When a poll of a job that has not ended is likely to find something new, s: a tenth of what is left, but neither
-/// hectic nor sleepy.
+/// Recommended pause before the next poll of a job that has not ended, s: a tenth of the remaining time, within bounds.
 pub(in crate::http) fn retry_after_s(job: &Job) -> u64 {
-    const LONGEST_S: f64 = 30.0;
+    const MAX_S: f64 = 30.0;
     let left_s = job.progress.eta_s.unwrap_or(10.0);
-    let pause = Duration::try_from_secs_f64((0.1 * left_s).clamp(1.0, LONGEST_S));
+    let pause = Duration::try_from_secs_f64((0.1 * left_s).clamp(1.0, MAX_S));
     pause.map_or(1, |pause| pause.as_secs())
 }
 
-fn worth_telling(job: &StoredJob, known: Option<&str>) -> bool {
+/// Whether a long poll ends with this job.
+fn is_news(job: &StoredJob, known: Option<&str>) -> bool {
     match known {
-        Some(known) => !matches(known, job),
+        Some(known) => !has_version(known, job),
         None => job.document.status.is_terminal(),
     }
 }
@@ -133,7 +124,8 @@ fn etag(job: &StoredJob) -> String {
     format!("\"{}\"", job.version)
 }
 
-fn matches(known: &str, job: &StoredJob) -> bool {
+/// Whether `If-None-Match` lists the version of the job.
+fn has_version(known: &str, job: &StoredJob) -> bool {
     let own = etag(job);
     known
         .split(',')
@@ -141,9 +133,9 @@ fn matches(known: &str, job: &StoredJob) -> bool {
         .any(|tag| tag == "*" || tag == own)
 }
 
-/// `25s`, `500ms` or `25`.
-fn duration(text: &str) -> Result<Duration, ShowError> {
-    let wrong = || ShowError::Wait(text.chars().take(20).collect());
+/// Parses `25s`, `500ms` or `25`.
+fn parse_wait(text: &str) -> Result<Duration, WaitError> {
+    let wrong = || WaitError(shortened(text));
     let (digits, scale_ms) = match text.strip_suffix("ms") {
         Some(digits) => (digits, 1),
         None => (text.strip_suffix('s').unwrap_or(text), 1000),
@@ -151,7 +143,7 @@ fn duration(text: &str) -> Result<Duration, ShowError> {
     let count: u64 = digits.parse().map_err(|_| wrong())?;
     let milliseconds = count
         .checked_mul(scale_ms)
-        .filter(|total| *total <= WAIT_LIMIT * 1000)
+        .filter(|total| *total <= MAX_WAIT_S * 1000)
         .ok_or_else(wrong)?;
     Ok(Duration::from_millis(milliseconds))
 }
@@ -195,7 +187,7 @@ mod tests {
     }
 
     #[tokio::test]
-    async fn a_long_poll_gives_up() {
+    async fn a_long_poll_times_out() {
         let service = Service::new().await;
         let id = service.queued(r#"{"system":{"kind":"dimm"}}"#).await;
         let (status, _, job) = service.get(&format!("/v1/jobs/{id}?wait=20ms")).await;
@@ -213,12 +205,17 @@ mod tests {
     }
 
     #[tokio::test]
-    async fn a_long_poll_without_a_place_is_answered_at_once() {
+    async fn a_long_poll_over_the_limit_is_answered_at_once() {
         let service = Service::new().await;
         let id = service.queued(r#"{"system":{"kind":"dimm"}}"#).await;
-        let all = u32::try_from(crate::http::LONG_POLLS).expect("a count");
-        let taken = service.app.long_polls.clone().acquire_many_owned(all).await;
-        // Would wait beyond any patience.
+        let all = u32::try_from(crate::http::MAX_LONG_POLLS).expect("a count");
+        let taken = service
+            .app
+            .long_poll_permits
+            .clone()
+            .acquire_many_owned(all)
+            .await;
+        // Would otherwise take a minute.
         let path = format!("/v1/jobs/{id}?wait=60s");
         let (status, _, job) = service.get(&path).await;
         drop(taken);

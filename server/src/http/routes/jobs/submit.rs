@@ -1,8 +1,7 @@
-//! `POST /v1/jobs`: queues a study.
+//! `POST /v1/jobs`: queues a job.
 
 use api::job::Job;
 use api::plan::PlanDocument;
-use api::problem::Fault;
 use api::spec::Spec;
 use axum::Json;
 use axum::body::Bytes;
@@ -17,100 +16,49 @@ use crate::estimate::Estimate;
 use crate::http::App;
 use crate::http::body_problems::BodyProblems;
 use crate::http::extract::{JsonBody, Params};
+use crate::http::idempotency_key::{KeyError, idempotency_key};
+use crate::http::job_error::JobError;
 use crate::http::limits;
-use crate::http::problem::{Kind, Refusal};
-use crate::http::request_key::{KeyError, request_key};
+use crate::http::problem::{ProblemResponse, ProblemType, RouteError};
 use crate::http::routes::jobs::show::retry_after_s;
 use crate::queue::MOST_PRIORITY;
 use crate::spec;
 use crate::spec::{Refused, Resolved};
-use crate::store::{NewJob, StoreError, SubmitOptions, Submitted};
+use crate::store::{NewJob, SubmitOptions, Submitted};
 
-/// Why a study was not queued.
+/// Error of a priority that is out of range.
 #[derive(Debug, thiserror::Error)]
-pub(in crate::http) enum SubmitError {
-    /// It is not a study.
-    #[error(transparent)]
-    Refused(#[from] Refused),
-    /// The store failed.
-    #[error(transparent)]
-    Store(#[from] StoreError),
-    /// The key cannot be taken.
-    #[error(transparent)]
-    Key(#[from] KeyError),
-    /// The priority is out of range.
-    #[error("priority {0} is not from -{MOST_PRIORITY} to {MOST_PRIORITY}")]
-    Priority(i32),
-    /// Its resolution was broken off.
-    #[error("the specification was not resolved: {0}")]
-    Broken(#[from] tokio::task::JoinError),
-    /// The job is gone again.
-    #[error("the job was deleted at once")]
-    Gone,
-}
+#[error("priority {0} is not from -{MOST_PRIORITY} to {MOST_PRIORITY}")]
+struct PriorityError(i32);
 
-impl IntoResponse for SubmitError {
-    fn into_response(self) -> Response {
-        match self {
-            Self::Refused(refused) => refusal(refused).into_response(),
-            Self::Store(error) => Refusal::from(&error).into_response(),
-            Self::Key(error) => error.into_response(),
-            Self::Priority(_) => Kind::InvalidQuery.because(self.to_string()).into_response(),
-            Self::Broken(error) => Refusal::internal(&error).into_response(),
-            Self::Gone => Kind::NoJob
-                .because("the job was deleted at once")
-                .into_response(),
-        }
+impl RouteError for PriorityError {
+    fn problem_type(&self) -> ProblemType {
+        ProblemType::InvalidQuery
     }
 }
 
-/// A refused document as a problem.
-fn refusal(refused: Refused) -> Refusal {
-    match refused {
-        Refused::Parse(error) => {
-            let fault = Fault::new(error.pointer.clone(), error.detail.clone());
-            Kind::Unreadable
-                .because(error.to_string())
-                .with_faults(vec![fault])
-        }
-        Refused::Faults(faults) => Kind::InvalidSpecification
-            .because(format!("{} fault(s) in the specification", faults.len()))
-            .with_faults(faults),
-    }
-}
-
-/// Resolves a specification and estimates its solve, without blocking other requests.
-pub(in crate::http) async fn resolved(body: Bytes) -> Result<(Resolved, Estimate), SubmitError> {
-    let resolve = move || {
-        let resolved = spec::read(&body)?;
-        let estimate = Estimate::of(&resolved);
-        Ok((resolved, estimate))
-    };
-    tokio::task::spawn_blocking(resolve).await?
-}
-
-/// How to submit.
+/// Options of a submission.
 #[derive(Debug, Clone, Copy, Deserialize, IntoParams)]
 #[into_params(parameter_in = Query)]
 #[serde(deny_unknown_fields)]
 pub(in crate::http) struct SubmitQuery {
-    /// Check the specification and answer with its plan; queue nothing.
+    /// Validates the specification and returns its plan; queues nothing.
     #[serde(default)]
     #[param(required = false)]
     validate_only: bool,
-    /// How many minutes older the job counts in the queue than it is.
+    /// Minutes that are added to the job's age in the queue.
     #[serde(default)]
     #[param(required = false, minimum = -100, maximum = 100)]
     priority: i32,
-    /// The job fails unless it has ended so many seconds after its submission.
+    /// The job fails if it has not ended this many seconds after its submission.
     deadline_s: Option<u32>,
 }
 
 impl SubmitQuery {
-    fn wishes(&self) -> Result<SubmitOptions, SubmitError> {
-        // Without `abs`, which the smallest number does not have.
+    fn options(&self) -> Result<SubmitOptions, PriorityError> {
+        // Not `abs`, which overflows for the smallest number.
         if !(-MOST_PRIORITY..=MOST_PRIORITY).contains(&self.priority) {
-            return Err(SubmitError::Priority(self.priority));
+            return Err(PriorityError(self.priority));
         }
         Ok(SubmitOptions {
             priority: self.priority,
@@ -119,7 +67,7 @@ impl SubmitQuery {
     }
 }
 
-/// Queues a study.
+/// Queues a job.
 #[utoipa::path(
     post,
     path = "/v1/jobs",
@@ -127,13 +75,13 @@ impl SubmitQuery {
     request_body = Spec,
     params(
         SubmitQuery,
-        ("Idempotency-Key" = Option<String>, Header, description = "Sent twice with the same body, one job"),
+        ("Idempotency-Key" = Option<String>, Header, description = "Requests with the same key and body queue one job"),
     ),
     responses(
-        (status = 200, description = "Valid, and nothing queued (`validate_only`)", body = PlanDocument),
+        (status = 200, description = "The specification is valid; nothing was queued (`validate_only`)", body = PlanDocument),
         (status = 202, description = "Queued", body = Job, headers(
             ("Location" = String, description = "The job"),
-            ("Retry-After" = u64, description = "When a poll is likely to find something new, s"),
+            ("Retry-After" = u64, description = "Recommended pause before the first poll, s"),
         )),
         BodyProblems,
     )
@@ -143,10 +91,10 @@ pub(in crate::http) async fn submit(
     Params(query): Params<SubmitQuery>,
     headers: HeaderMap,
     JsonBody(body): JsonBody,
-) -> Result<Response, SubmitError> {
-    let wishes = query.wishes()?;
-    let key = request_key(&headers, &body)?;
-    let (resolved, estimate) = resolved(body).await?;
+) -> Result<Response, ProblemResponse> {
+    let options = query.options()?;
+    let key = idempotency_key(&headers, &body)?;
+    let (resolved, estimate) = resolve(body).await?;
     limits::check(&estimate)?;
     let machine = app.machine.get();
     let plan = estimate.plan(&resolved, machine);
@@ -160,15 +108,19 @@ pub(in crate::http) async fn submit(
         };
         return Ok(Json(document).into_response());
     }
-    let new = NewJob { spec, plan, wishes };
+    let new = NewJob {
+        spec,
+        plan,
+        wishes: options,
+    };
     let id = match key {
         None => app.store.submit(&new, now_ms()).await?,
         Some(key) => match app.store.submit_once(&new, &key, now_ms()).await? {
             Submitted::Job(id) => id,
-            Submitted::KeyTaken => return Err(KeyError::Taken.into()),
+            Submitted::KeyTaken => return Err(KeyError::Reused.into()),
         },
     };
-    let job = app.store.job(id).await?.ok_or(SubmitError::Gone)?;
+    let job = app.store.job(id).await?.ok_or(JobError::Deleted(id))?;
     let headers = [
         (header::LOCATION, format!("/v1/jobs/{id}")),
         (
@@ -179,6 +131,16 @@ pub(in crate::http) async fn submit(
     Ok((StatusCode::ACCEPTED, headers, Json(job.document)).into_response())
 }
 
+/// Resolves a specification and estimates its solve, on a thread for blocking work.
+pub(in crate::http) async fn resolve(body: Bytes) -> Result<(Resolved, Estimate), ProblemResponse> {
+    let resolve = move || {
+        let resolved = spec::read(&body)?;
+        let estimate = Estimate::of(&resolved);
+        Ok::<_, Refused>((resolved, estimate))
+    };
+    Ok(tokio::task::spawn_blocking(resolve).await??)
+}
+
 #[cfg(test)]
 mod tests {
     use serde_json::Value;
@@ -186,7 +148,7 @@ mod tests {
     use crate::http::tests::Service;
 
     #[tokio::test]
-    async fn a_study_is_queued_and_located() {
+    async fn a_job_is_queued_and_located() {
         let service = Service::new().await;
         let (status, headers, job) = service
             .post("/v1/jobs", r#"{"system":{"kind":"sd_card"}}"#)
@@ -203,7 +165,7 @@ mod tests {
     }
 
     #[tokio::test]
-    async fn priority_and_deadline_are_kept_and_shown() {
+    async fn priority_and_deadline_are_stored_and_shown() {
         let service = Service::new().await;
         let body = r#"{"system":{"kind":"sd_card"}}"#;
         let (status, _, job) = service
@@ -245,7 +207,7 @@ mod tests {
     }
 
     #[tokio::test]
-    async fn what_cannot_be_read_is_a_400_with_its_place() {
+    async fn an_unreadable_body_is_a_400_with_line_and_pointer() {
         let service = Service::new().await;
         let cases = [
             ("{\"system\":{\"kind\":\"dimm\"},\"cycles\":NaN}", ""),
@@ -264,7 +226,7 @@ mod tests {
             assert!(
                 problem["detail"]
                     .as_str()
-                    .expect("words")
+                    .expect("text")
                     .contains("line 1, column"),
                 "{problem}"
             );
@@ -272,7 +234,7 @@ mod tests {
     }
 
     #[tokio::test]
-    async fn large_and_undeclared_bodies_are_refused() {
+    async fn large_and_undeclared_bodies_are_rejected() {
         let service = Service::new().await;
         let large = format!(r#"{{"name":"{}"}}"#, "x".repeat(2 << 20));
         let (status, _, problem) = service.post("/v1/jobs", &large).await;
@@ -290,7 +252,7 @@ mod tests {
     }
 
     #[tokio::test]
-    async fn validating_only_queues_nothing() {
+    async fn validate_only_queues_nothing() {
         let service = Service::new().await;
         let path = "/v1/jobs?validate_only=true";
         let (status, _, document) = service.post(path, r#"{"system":{"kind":"dimm"}}"#).await;

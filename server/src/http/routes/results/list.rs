@@ -1,4 +1,4 @@
-//! `GET /v1/jobs/{id}/results`: what a job produced.
+//! `GET /v1/jobs/{id}/results`: manifest of the files of a job.
 
 use std::collections::BTreeMap;
 
@@ -9,9 +9,9 @@ use axum::extract::State;
 
 use crate::http::App;
 use crate::http::extract::JobId;
-use crate::http::job_error::JobError;
+use crate::http::problem::ProblemResponse;
 
-/// What a job produced so far; complete once it has ended.
+/// Files that a job has written so far; complete once the job has ended.
 #[utoipa::path(
     get,
     path = "/v1/jobs/{id}/results",
@@ -25,7 +25,7 @@ use crate::http::job_error::JobError;
 pub(in crate::http) async fn manifest(
     State(app): State<App>,
     JobId(id): JobId,
-) -> Result<Json<Manifest>, JobError> {
+) -> Result<Json<Manifest>, ProblemResponse> {
     let job = app.job(id).await?;
     let status = job.document.status;
     let files = app.store.manifest(id).await?;

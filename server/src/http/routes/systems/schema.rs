@@ -1,45 +1,45 @@
-//! The JSON Schema of a specification for one kind of system: the schema of all specifications, with the dimensions
-//! that belong to the kind and no others.
+//! JSON Schema of a specification with one contact system: the schema of all specifications, restricted to the dimensions
+//! of this system.
 
 use std::collections::BTreeSet;
 
 use api::spec::SystemKind;
 use serde_json::{Map, Value, json};
 
-use crate::http::routes::operation::openapi;
+use crate::http::openapi;
 use crate::spec;
 
 const COMPONENTS: &str = "#/components/schemas/";
 const DEFINITIONS: &str = "#/$defs/";
 
-/// The schema.
+/// Returns the JSON Schema of a specification with this contact system.
 pub(in crate::http) fn of(kind: SystemKind) -> Value {
     let components = &openapi::document()["components"]["schemas"];
     let mut definitions = Map::new();
     let mut names = BTreeSet::new();
-    let mut schema = taken(components, "Spec", &mut names);
+    let mut schema = component(components, "Spec", &mut names);
     while let Some(name) = names.pop_first() {
         if !definitions.contains_key(&name) {
-            let definition = taken(components, &name, &mut names);
+            let definition = component(components, &name, &mut names);
             definitions.insert(name, definition);
         }
     }
     definitions.insert("System".to_owned(), system(kind, &components["System"]));
     schema["$schema"] = json!("https://json-schema.org/draft/2020-12/schema");
-    schema["title"] = json!(format!("A study of a {} contact", kind.as_str()));
+    schema["title"] = json!(format!("A job with a {} contact", kind.as_str()));
     schema["$defs"] = Value::Object(definitions);
     schema
 }
 
-/// A component whose references lead to definitions; the names it refers to are noted. Objects with fields have no
-/// others: unknown fields are refused.
-fn taken(components: &Value, name: &str, names: &mut BTreeSet<String>) -> Value {
+/// A component of the OpenAPI document with local references; adds the names that it refers to. Objects have no additional
+/// properties, because unknown fields are rejected.
+fn component(components: &Value, name: &str, names: &mut BTreeSet<String>) -> Value {
     let mut schema = components[name].clone();
-    localise(&mut schema, names);
+    make_local(&mut schema, names);
     schema
 }
 
-fn localise(schema: &mut Value, names: &mut BTreeSet<String>) {
+fn make_local(schema: &mut Value, names: &mut BTreeSet<String>) {
     match schema {
         Value::Object(fields) => {
             if let Some(Value::String(reference)) = fields.get_mut("$ref")
@@ -52,19 +52,19 @@ fn localise(schema: &mut Value, names: &mut BTreeSet<String>) {
                 fields.insert("additionalProperties".to_owned(), json!(false));
             }
             for field in fields.values_mut() {
-                localise(field, names);
+                make_local(field, names);
             }
         }
         Value::Array(items) => {
             for item in items {
-                localise(item, names);
+                make_local(item, names);
             }
         }
         _ => {}
     }
 }
 
-/// The system's schema, narrowed to a kind.
+/// Schema of the system, restricted to a kind.
 fn system(kind: SystemKind, all: &Value) -> Value {
     let mut properties = Map::new();
     properties.insert("kind".to_owned(), json!({"const": kind.as_str()}));
@@ -85,7 +85,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_reference_is_defined_and_only_own_dimensions_are_there() {
+    fn references_are_defined_and_only_own_dimensions_are_listed() {
         for kind in SystemKind::ALL {
             let schema = of(*kind);
             let text = schema.to_string();
@@ -107,7 +107,7 @@ mod tests {
         let zif = &of(SystemKind::Zif)["$defs"]["System"]["properties"];
         assert!(
             zif["pin_radius_mm"].is_object(),
-            "optional dimensions belong to it too"
+            "optional dimensions are listed too"
         );
     }
 }

@@ -1,0 +1,22 @@
+//! Batches, which are parameter sweeps or accuracy studies, as lists show them.
+
+use std::collections::BTreeMap;
+
+use serde::{Deserialize, Serialize};
+use utoipa::ToSchema;
+use uuid::Uuid;
+
+/// A batch without its jobs.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
+pub struct BatchOverview {
+    /// Its id.
+    pub id: Uuid,
+    /// Name for people.
+    pub name: Option<String>,
+    /// Time of its submission (RFC 3339).
+    pub created_at: String,
+    /// Number of its jobs by status, including statuses that no job has.
+    pub counts: BTreeMap<String, u64>,
+    /// Related resources: relation to path.
+    pub links: BTreeMap<String, String>,
+}

@@ -1,0 +1,41 @@
+//! A run of an accuracy study: its setting, cost and result.
+
+use api::results::{Profile, Summary};
+
+use crate::batch::accuracy::errors::Solution;
+use crate::batch::accuracy::run_accuracy::RunAccuracy;
+
+/// A run of a study that has ended.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Run {
+    /// Its accuracy setting.
+    pub accuracy: RunAccuracy,
+    /// Its cost.
+    pub spent: Spent,
+    /// Its result, or why it failed.
+    pub found: Result<Found, String>,
+}
+
+/// Cost of a run.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Spent {
+    /// Processor seconds.
+    pub cpu_s: f64,
+    /// Largest resident memory, MiB.
+    pub peak_memory_mb: f64,
+}
+
+/// Result of a run.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Found {
+    pub(crate) summary: Summary,
+    pub(super) solution: Solution,
+}
+
+impl Found {
+    /// From the summary and the last profile of a run.
+    pub fn new(summary: Summary, last: &Profile) -> Self {
+        let solution = Solution::of(&summary, last);
+        Self { summary, solution }
+    }
+}

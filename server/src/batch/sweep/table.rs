@@ -1,0 +1,130 @@
+//! The results of a sweep as one table: a row per job, first its changes against the base, then its figures.
+
+use std::collections::BTreeSet;
+
+use ::csv::Writer;
+use api::job::Outcome;
+use api::results::Summary;
+use serde_json::Value;
+
+use crate::batch::error::EvaluateError;
+use crate::export::csv::CsvError;
+use crate::export::documents::DocumentError;
+use crate::store::BatchJob;
+
+type Figure = (&'static str, fn(&Summary) -> f64);
+
+/// Figures of a summary that the table shows.
+const FIGURES: [Figure; 10] = [
+    ("sliding_distance_mm", |s| s.sliding_distance_mm),
+    ("receptacle_max_depth_mm", |s| s.receptacle.max_depth_mm),
+    ("receptacle_worn_area_mm2", |s| s.receptacle.worn_area_mm2),
+    ("receptacle_scar_half_width_mm", |s| {
+        s.receptacle.scar_half_width_mm
+    }),
+    ("slider_max_depth_mm", |s| s.slider.max_depth_mm),
+    ("slider_worn_area_mm2", |s| s.slider.worn_area_mm2),
+    ("slider_scar_half_width_mm", |s| s.slider.scar_half_width_mm),
+    ("peak_pressure_mpa", |s| s.peak_pressure_mpa),
+    ("dissipated_energy_mj_per_mm", |s| {
+        s.dissipated_energy_mj_per_mm
+    }),
+    ("estimated_relative_error", |s| {
+        s.accuracy.estimated_relative_error
+    }),
+];
+
+/// Returns the table as CSV; cells of jobs without a result are empty.
+///
+/// # Errors
+/// [`EvaluateError::Write`] if the writer fails.
+pub(in crate::batch) fn csv(jobs: &[BatchJob]) -> Result<Vec<u8>, EvaluateError> {
+    let written = write(jobs).map_err(DocumentError::from)?;
+    Ok(written)
+}
+
+fn write(jobs: &[BatchJob]) -> Result<Vec<u8>, CsvError> {
+    let pointers: BTreeSet<&String> = jobs.iter().flat_map(|job| job.overrides.keys()).collect();
+    let mut header = vec!["job".to_owned(), "status".to_owned(), "outcome".to_owned()];
+    header.extend(pointers.iter().map(|pointer| harmless(pointer)));
+    header.push("cycles_done".to_owned());
+    header.extend(FIGURES.map(|(name, _)| name.to_owned()));
+    let mut writer = Writer::from_writer(Vec::new());
+    writer.write_record(header)?;
+    for job in jobs {
+        let outcome = job.outcome.map(Outcome::as_str).unwrap_or_default();
+        let mut cells = vec![
+            job.id.to_string(),
+            job.status.as_str().to_owned(),
+            outcome.to_owned(),
+        ];
+        let overrides = pointers.iter().map(|pointer| job.overrides.get(*pointer));
+        cells.extend(overrides.map(|value| value.map(cell).unwrap_or_default()));
+        let figure = |value: &dyn Fn(&Summary) -> String| {
+            job.summary.as_ref().map(value).unwrap_or_default()
+        };
+        cells.push(figure(&|summary| summary.cycles_done.to_string()));
+        cells.extend(FIGURES.map(|(_, value)| figure(&|summary| value(summary).to_string())));
+        writer.write_record(cells)?;
+    }
+    writer
+        .into_inner()
+        .map_err(|error| CsvError(error.to_string()))
+}
+
+fn cell(value: &Value) -> String {
+    match value {
+        Value::String(text) => harmless(text),
+        Value::Number(number) => number.to_string(),
+        other => harmless(&other.to_string()),
+    }
+}
+
+/// Returns a client's text as a cell that no spreadsheet executes: one that begins like a formula gets an apostrophe.
+fn harmless(text: &str) -> String {
+    if text.starts_with(['=', '+', '-', '@', '\t', '\r', '\n']) {
+        format!("'{text}")
+    } else {
+        text.to_owned()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use api::job::Status;
+    use api::sweep::Changes;
+    use serde_json::json;
+
+    use super::*;
+
+    #[test]
+    fn texts_of_clients_are_not_written_as_formulas() {
+        let overrides = Changes::from([
+            ("/name".to_owned(), json!("=cmd|'/c calc'!A1")),
+            ("/load/n".to_owned(), json!(-0.5)),
+            ("@x".to_owned(), json!(["=1"])),
+        ]);
+        let job = BatchJob {
+            id: uuid::Uuid::nil(),
+            overrides,
+            status: Status::Queued,
+            status_reason: None,
+            outcome: None,
+            summary: None,
+            profile: None,
+        };
+        let text = String::from_utf8(csv(&[job]).expect("a table")).expect("text");
+        let lines: Vec<&str> = text.lines().collect();
+        assert!(
+            lines[0].starts_with("job,status,outcome,/load/n,/name,'@x,cycles_done,"),
+            "{text}"
+        );
+        assert!(
+            lines[1].starts_with(
+                "00000000-0000-0000-0000-000000000000,queued,,-0.5,'=cmd|'/c calc'!A1,"
+            ),
+            "{text}"
+        );
+        assert!(lines[1].ends_with(",,,,,,,,,,"), "{text}");
+    }
+}

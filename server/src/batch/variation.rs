@@ -1,0 +1,46 @@
+//! Parts that the requests of all kinds share: a base specification, a name, and the jobs they are expanded into.
+
+use api::problem::Fault;
+use api::spec::ParseError;
+use api::sweep::Changes;
+use serde::de::DeserializeOwned;
+
+use crate::estimate::Estimate;
+use crate::spec::{NAME_LIMIT, Refused, Resolved};
+
+/// Decides whether a job may be queued here.
+pub type Accept<'a> = dyn Fn(&Estimate) -> Result<(), Refused> + 'a;
+
+/// A job of a batch.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Variation {
+    /// Its changes against the base specification.
+    pub overrides: Changes,
+    /// Its specification.
+    pub resolved: Resolved,
+    /// Its estimate.
+    pub estimate: Estimate,
+}
+
+/// Reads a document with a specification in it.
+pub(in crate::batch) fn read<T: DeserializeOwned>(bytes: &[u8]) -> Result<T, Refused> {
+    serde_json::from_slice(bytes).map_err(|error| {
+        let mut detail = error.to_string();
+        if let Some(end) = detail.rfind(" at line ") {
+            detail.truncate(end);
+        }
+        Refused::Parse(ParseError {
+            pointer: String::new(),
+            detail,
+            line: error.line(),
+            column: error.column(),
+        })
+    })
+}
+
+/// Returns the fault of a name that is too long.
+pub(in crate::batch) fn name_fault(name: Option<&str>) -> Option<Fault> {
+    let length = name?.chars().count();
+    let detail = format!("{length} characters, at most {NAME_LIMIT} are allowed");
+    (length > NAME_LIMIT).then(|| Fault::new("/name", detail))
+}

@@ -1,0 +1,112 @@
+//! OpenAPI 3.1 document of the interface.
+//!
+//! `api/openapi.json` is the same document, committed, so that a diff shows every change of the interface. After an
+//! intended change:
+//!
+//! ```text
+//! cargo run --release -- openapi > api/openapi.json
+//! ```
+
+use std::sync::OnceLock;
+
+use serde_json::{Value, json};
+
+/// The document, built once.
+pub fn document() -> &'static Value {
+    static DOCUMENT: OnceLock<Value> = OnceLock::new();
+    DOCUMENT.get_or_init(|| {
+        // Cannot fail for types with derived schemas; if it did, the test below would.
+        let mut document =
+            serde_json::to_value(crate::http::routes_and_document().1).unwrap_or_default();
+        complete(&mut document);
+        document
+    })
+}
+
+/// The document as text, as it is committed.
+pub fn text() -> String {
+    let mut text = serde_json::to_string_pretty(document()).unwrap_or_default();
+    text.push('\n');
+    text
+}
+
+/// Adds what all operations share: the access token, and the problems of requests that do not reach their route.
+fn complete(document: &mut Value) {
+    document["components"]["securitySchemes"]["token"] = json!({
+        "type": "http",
+        "scheme": "bearer",
+        "description": "Access token of the service; required if one is configured"
+    });
+    document["security"] = json!([{}, {"token": []}]);
+    let problem = |description: &str| {
+        json!({
+            "description": description,
+            "content": {"application/problem+json": {"schema": {"$ref": "#/components/schemas/Problem"}}}
+        })
+    };
+    let paths = document["paths"].as_object_mut();
+    let operations = paths
+        .into_iter()
+        .flat_map(|paths| paths.values_mut())
+        .filter_map(Value::as_object_mut)
+        .flat_map(|methods| methods.values_mut());
+    for operation in operations {
+        let Some(responses) = operation["responses"].as_object_mut() else {
+            continue;
+        };
+        for response in responses.values_mut() {
+            set_problem_media_type(response);
+        }
+        for (status, description) in [
+            ("401", "The access token is missing or wrong"),
+            (
+                "403",
+                "The request was sent for another host or from another origin",
+            ),
+            (
+                "503",
+                "The service cannot take the request at present; `Retry-After` says when to send it again",
+            ),
+        ] {
+            let add = || problem(description);
+            responses.entry(status).or_insert_with(add);
+        }
+    }
+}
+
+/// Sets the media type of problem documents.
+fn set_problem_media_type(response: &mut Value) {
+    let content = response.get_mut("content").and_then(Value::as_object_mut);
+    let Some(content) = content else {
+        return;
+    };
+    let reference = &content.get("application/json").cloned().unwrap_or_default()["schema"]["$ref"];
+    if reference == "#/components/schemas/Problem"
+        && let Some(body) = content.remove("application/json")
+    {
+        content.insert("application/problem+json".to_owned(), body);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_committed_document_is_up_to_date() {
+        let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../api/openapi.json");
+        let committed = std::fs::read_to_string(path).expect("it is committed");
+        assert!(
+            committed == text(),
+            "the interface has changed; if that is intended: cargo run --release -- openapi > api/openapi.json"
+        );
+    }
+
+    #[test]
+    fn every_problem_has_its_media_type() {
+        let text = document().to_string();
+        assert!(!text.contains(
+            r##""application/json":{"schema":{"$ref":"#/components/schemas/Problem"}}"##
+        ));
+    }
+}

@@ -1,0 +1,106 @@
+//! `POST /v1/sweeps/{id}/cancel` and `POST /v1/studies/{id}/cancel`: cancels all jobs of a batch; always accepted.
+
+use api::problem::Problem;
+use api::study::StudyDocument;
+use api::sweep::Sweep;
+use axum::Json;
+use axum::extract::State;
+use axum::http::StatusCode;
+use uuid::Uuid;
+
+use crate::batch::{Document, Kind};
+use crate::clock::now_ms;
+use crate::http::App;
+use crate::http::extract::{StudyId, SweepId};
+use crate::http::problem::ProblemResponse;
+use crate::http::routes::batches::show::document;
+
+/// Cancels all jobs of a sweep.
+#[utoipa::path(
+    post,
+    path = "/v1/sweeps/{id}/cancel",
+    tag = "sweeps",
+    params(("id" = Uuid, Path, description = "The sweep")),
+    responses(
+        (status = 202, description = "Accepted; the sweep as it stands", body = Sweep),
+        (status = 404, description = "No such sweep", body = Problem),
+    )
+)]
+pub(in crate::http) async fn cancel_sweep(
+    State(app): State<App>,
+    SweepId(id): SweepId,
+) -> Result<(StatusCode, Json<Document>), ProblemResponse> {
+    cancel(&app, Kind::Sweep, id).await
+}
+
+/// Cancels all jobs of a study.
+#[utoipa::path(
+    post,
+    path = "/v1/studies/{id}/cancel",
+    tag = "studies",
+    params(("id" = Uuid, Path, description = "The study")),
+    responses(
+        (status = 202, description = "Accepted; the study as it stands", body = StudyDocument),
+        (status = 404, description = "No such study", body = Problem),
+        (status = 410, description = "Accepted, but queued by a version whose studies cannot be compared any more", body = Problem),
+    )
+)]
+pub(in crate::http) async fn cancel_study(
+    State(app): State<App>,
+    StudyId(id): StudyId,
+) -> Result<(StatusCode, Json<Document>), ProblemResponse> {
+    cancel(&app, Kind::AccuracyStudy, id).await
+}
+
+async fn cancel(
+    app: &App,
+    kind: Kind,
+    id: Uuid,
+) -> Result<(StatusCode, Json<Document>), ProblemResponse> {
+    app.require_batch(kind, id).await?;
+    app.store.cancel_batch(id, now_ms()).await?;
+    Ok((StatusCode::ACCEPTED, document(app, kind, id).await?))
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::http::tests::{STUDY, SWEEP, Service};
+
+    #[tokio::test]
+    async fn waiting_jobs_end_at_once_and_running_ones_are_asked_to_end() {
+        let service = Service::new().await;
+        let (_, _, sweep) = service.post("/v1/sweeps", SWEEP).await;
+        service.app.store.claim(0, i64::MAX).await.expect("a claim");
+        let path = format!("/v1/sweeps/{}/cancel", sweep["id"].as_str().expect("an id"));
+        let (status, _, sweep) = service.post(&path, "").await;
+        assert_eq!(status, 202);
+        assert_eq!(
+            (&sweep["counts"]["cancelled"], &sweep["counts"]["running"]),
+            (&3.into(), &1.into())
+        );
+        let (status, _, again) = service.post(&path, "").await;
+        assert_eq!((status.as_u16(), again), (202, sweep));
+        let nobody = "/v1/sweeps/00000000-0000-7000-8000-000000000000/cancel";
+        assert_eq!(service.post(nobody, "").await.0, 404);
+    }
+
+    #[tokio::test]
+    async fn all_jobs_of_a_study_are_cancelled_and_a_sweep_is_left_alone() {
+        let service = Service::new().await;
+        let (_, _, study) = service.post("/v1/studies", STUDY).await;
+        let path = format!(
+            "/v1/studies/{}/cancel",
+            study["id"].as_str().expect("an id")
+        );
+        let (status, _, study) = service.post(&path, "").await;
+        assert_eq!(status, 202);
+        let jobs = study["jobs"].as_array().expect("jobs").len();
+        assert_eq!(study["counts"]["cancelled"], jobs);
+        let (_, _, sweep) = service.post("/v1/sweeps", SWEEP).await;
+        let id = sweep["id"].as_str().expect("an id");
+        let (status, _, _) = service.post(&format!("/v1/studies/{id}/cancel"), "").await;
+        assert_eq!(status, 404);
+        let (_, _, sweep) = service.get(&format!("/v1/sweeps/{id}")).await;
+        assert_eq!(sweep["counts"]["cancelled"], 0);
+    }
+}

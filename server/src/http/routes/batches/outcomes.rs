@@ -1,0 +1,96 @@
+//! `GET /v1/sweeps/{id}/outcomes` and `GET /v1/studies/{id}/table`: the results of a batch as a table.
+
+use api::problem::Problem;
+use axum::extract::State;
+use axum::http::header;
+use axum::response::{IntoResponse, Response};
+use uuid::Uuid;
+
+use crate::batch::Kind;
+use crate::export::documents::CSV;
+use crate::http::App;
+use crate::http::extract::{StudyId, SweepId};
+use crate::http::problem::ProblemResponse;
+use crate::http::routes::results::download_file::attachment;
+
+/// The results of a sweep so far as CSV: changes, status and figures, one line per job.
+#[utoipa::path(
+    get,
+    path = "/v1/sweeps/{id}/outcomes",
+    tag = "sweeps",
+    params(("id" = Uuid, Path, description = "The sweep")),
+    responses(
+        (status = 200, description = "The table", content_type = "text/csv", body = String),
+        (status = 404, description = "No such sweep", body = Problem),
+    )
+)]
+pub(in crate::http) async fn sweep_outcomes(
+    State(app): State<App>,
+    SweepId(id): SweepId,
+) -> Result<Response, ProblemResponse> {
+    table(&app, Kind::Sweep, id).await
+}
+
+/// The runs of a study so far as CSV: settings, errors, cost.
+#[utoipa::path(
+    get,
+    path = "/v1/studies/{id}/table",
+    tag = "studies",
+    params(("id" = Uuid, Path, description = "The study")),
+    responses(
+        (status = 200, description = "The table", content_type = "text/csv", body = String),
+        (status = 404, description = "No such study, or no results so far", body = Problem),
+        (status = 410, description = "Queued by a version whose studies cannot be compared any more", body = Problem),
+    )
+)]
+pub(in crate::http) async fn study_table(
+    State(app): State<App>,
+    StudyId(id): StudyId,
+) -> Result<Response, ProblemResponse> {
+    table(&app, Kind::AccuracyStudy, id).await
+}
+
+async fn table(app: &App, kind: Kind, id: Uuid) -> Result<Response, ProblemResponse> {
+    let detail = kind.table_detail();
+    let evaluate = move |batch| kind.table(&batch);
+    let table = app.evaluate_batch(kind, id, detail, evaluate).await?;
+    let name = attachment(&format!("{kind}-{id}.csv"));
+    let headers = [
+        (header::CONTENT_TYPE, CSV.to_owned()),
+        (header::CONTENT_DISPOSITION, name),
+    ];
+    Ok((headers, table).into_response())
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::http::tests::{SWEEP, Service};
+
+    #[tokio::test]
+    async fn the_table_has_a_line_for_every_job() {
+        let service = Service::new().await;
+        let (_, _, sweep) = service.post("/v1/sweeps", SWEEP).await;
+        let path = format!(
+            "/v1/sweeps/{}/outcomes",
+            sweep["id"].as_str().expect("an id")
+        );
+        let (status, headers, text) = service.text("GET", &path, &[], "").await;
+        assert_eq!(status, 200);
+        assert_eq!(headers["content-type"], "text/csv; charset=utf-8");
+        assert_eq!(text.lines().count(), 5);
+        assert!(
+            text.starts_with("job,status,outcome,/cycles,/load/n,cycles_done,"),
+            "{text}"
+        );
+        assert!(text.contains(",queued,,10,0.3,"), "{text}");
+        let nobody = "/v1/sweeps/00000000-0000-7000-8000-000000000000/outcomes";
+        assert_eq!(service.get(nobody).await.0, 404);
+    }
+
+    #[tokio::test]
+    async fn an_unknown_study_has_no_table() {
+        let service = Service::new().await;
+        let nobody = "/v1/studies/00000000-0000-7000-8000-000000000000/table";
+        assert_eq!(service.get(nobody).await.0, 404);
+    }
+}

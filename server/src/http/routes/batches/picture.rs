@@ -1,0 +1,83 @@
+//! `GET /v1/studies/{id}/picture`: the work-precision diagram.
+
+use api::problem::Problem;
+use axum::extract::State;
+use axum::http::header;
+use axum::response::{IntoResponse, Response};
+use serde::Deserialize;
+use utoipa::{IntoParams, ToSchema};
+
+use crate::batch::Kind;
+use crate::batch::accuracy::{self, report};
+use crate::export::documents::{PNG, SVG};
+use crate::http::App;
+use crate::http::extract::{Params, StudyId};
+use crate::http::problem::ProblemResponse;
+
+/// Format of a picture.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize, ToSchema)]
+#[serde(rename_all = "snake_case")]
+pub(in crate::http) enum PictureFormat {
+    /// SVG.
+    #[default]
+    Svg,
+    /// PNG.
+    Png,
+}
+
+/// Options of the picture.
+#[derive(Debug, Clone, Copy, Deserialize, IntoParams)]
+#[into_params(parameter_in = Query)]
+#[serde(deny_unknown_fields)]
+pub(in crate::http) struct PictureQuery {
+    /// `svg` or `png`.
+    #[serde(default)]
+    format: PictureFormat,
+}
+
+/// Errors of the runs so far over processor seconds, both axes logarithmic.
+#[utoipa::path(
+    get,
+    path = "/v1/studies/{id}/picture",
+    tag = "studies",
+    params(("id" = Uuid, Path, description = "The study"), PictureQuery),
+    responses(
+        (status = 200, description = "The picture", content(
+            (Vec<u8> = "image/svg+xml"),
+            (Vec<u8> = "image/png"),
+        )),
+        (status = 400, description = "A query parameter is not valid", body = Problem),
+        (status = 404, description = "No such study, or no results so far", body = Problem),
+        (status = 410, description = "Queued by a version whose studies cannot be compared any more", body = Problem),
+    )
+)]
+pub(in crate::http) async fn study_picture(
+    State(app): State<App>,
+    StudyId(id): StudyId,
+    Params(query): Params<PictureQuery>,
+) -> Result<Response, ProblemResponse> {
+    let (kind, format) = (Kind::AccuracyStudy, query.format);
+    let draw = move |batch| {
+        let study = accuracy::study(&batch)?;
+        Ok(match format {
+            PictureFormat::Svg => (SVG, report::svg(&study)?.into_bytes()),
+            PictureFormat::Png => (PNG, report::png(&study)?),
+        })
+    };
+    let detail = kind.document_detail();
+    let (media_type, bytes) = app.evaluate_batch(kind, id, detail, draw).await?;
+    Ok(([(header::CONTENT_TYPE, media_type)], bytes).into_response())
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::http::tests::Service;
+
+    #[tokio::test]
+    async fn an_unknown_format_is_refused_and_an_unknown_study_is_missing() {
+        let service = Service::new().await;
+        let nobody = "/v1/studies/00000000-0000-7000-8000-000000000000/picture";
+        assert_eq!(service.get(nobody).await.0, 404);
+        assert_eq!(service.get(&format!("{nobody}?format=gif")).await.0, 400);
+    }
+}

@@ -1,0 +1,155 @@
+//! `GET /v1/sweeps/{id}` and `GET /v1/studies/{id}`: a batch with its jobs; a study with the comparison of its results.
+
+use api::problem::Problem;
+use api::study::StudyDocument;
+use api::sweep::Sweep;
+use axum::Json;
+use axum::extract::State;
+use uuid::Uuid;
+
+use crate::batch::{Document, Kind};
+use crate::http::App;
+use crate::http::extract::{StudyId, SweepId};
+use crate::http::problem::ProblemResponse;
+
+/// A sweep.
+#[utoipa::path(
+    get,
+    path = "/v1/sweeps/{id}",
+    tag = "sweeps",
+    params(("id" = Uuid, Path, description = "The sweep")),
+    responses(
+        (status = 200, description = "The sweep", body = Sweep),
+        (status = 404, description = "No such sweep", body = Problem),
+    )
+)]
+pub(in crate::http) async fn show_sweep(
+    State(app): State<App>,
+    SweepId(id): SweepId,
+) -> Result<Json<Document>, ProblemResponse> {
+    document(&app, Kind::Sweep, id).await
+}
+
+/// A study of accuracy: its jobs, and their results so far with errors, Pareto front and observed orders.
+#[utoipa::path(
+    get,
+    path = "/v1/studies/{id}",
+    tag = "studies",
+    params(("id" = Uuid, Path, description = "The study")),
+    responses(
+        (status = 200, description = "The study", body = StudyDocument),
+        (status = 404, description = "No such study", body = Problem),
+        (status = 410, description = "Queued by a version whose studies cannot be compared any more", body = Problem),
+    )
+)]
+pub(in crate::http) async fn show_study(
+    State(app): State<App>,
+    StudyId(id): StudyId,
+) -> Result<Json<Document>, ProblemResponse> {
+    document(&app, Kind::AccuracyStudy, id).await
+}
+
+/// Returns a batch with its jobs.
+pub(super) async fn document(
+    app: &App,
+    kind: Kind,
+    id: Uuid,
+) -> Result<Json<Document>, ProblemResponse> {
+    let detail = kind.document_detail();
+    let evaluate = move |batch| kind.document(batch);
+    let document = app.evaluate_batch(kind, id, detail, evaluate).await?;
+    Ok(Json(document))
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::http::tests::{STUDY, SWEEP, Service};
+    use crate::store::{BatchDetail, NewBatch, Submitted};
+
+    #[tokio::test]
+    async fn counts_follow_the_jobs() {
+        let service = Service::new().await;
+        let (_, _, sweep) = service.post("/v1/sweeps", SWEEP).await;
+        let path = format!("/v1/sweeps/{}", sweep["id"].as_str().expect("an id"));
+        service.app.store.claim(0, i64::MAX).await.expect("a claim");
+        let last = sweep["jobs"][3]["id"].as_str().expect("an id");
+        service.post(&format!("/v1/jobs/{last}/cancel"), "").await;
+        let (status, _, sweep) = service.get(&path).await;
+        assert_eq!(status, 200);
+        for (name, count) in [
+            ("queued", 2),
+            ("running", 1),
+            ("cancelled", 1),
+            ("failed", 0),
+        ] {
+            assert_eq!(sweep["counts"][name], count, "{name}");
+        }
+        service
+            .send("DELETE", &format!("/v1/jobs/{last}"), &[], "")
+            .await;
+        let (_, _, sweep) = service.get(&path).await;
+        assert_eq!(sweep["jobs"].as_array().map(Vec::len), Some(3));
+    }
+
+    #[tokio::test]
+    async fn an_unknown_sweep_is_a_404() {
+        let service = Service::new().await;
+        for id in ["00000000-0000-7000-8000-000000000000", "..%2Fjobs", "1"] {
+            let (status, _, problem) = service.get(&format!("/v1/sweeps/{id}")).await;
+            let found = (status.as_u16(), problem["type"].as_str());
+            assert_eq!(found, (404, Some("/problems/no-such-sweep")), "{id}");
+        }
+    }
+
+    #[tokio::test]
+    async fn a_study_has_no_results_before_its_jobs_have() {
+        let service = Service::new().await;
+        let (_, _, study) = service.post("/v1/studies", STUDY).await;
+        let path = format!("/v1/studies/{}", study["id"].as_str().expect("an id"));
+        let (status, _, study) = service.get(&path).await;
+        assert_eq!(status, 200);
+        assert!(study["study"].is_null());
+        let jobs = study["jobs"].as_array().expect("jobs").len();
+        assert_eq!(study["counts"]["queued"], jobs);
+        for part in ["table", "picture"] {
+            let (status, _, problem) = service.get(&format!("{path}/{part}")).await;
+            let found = (status.as_u16(), problem["type"].as_str());
+            assert_eq!(found, (404, Some("/problems/no-such-result")), "{part}");
+        }
+    }
+
+    #[tokio::test]
+    async fn a_study_of_another_format_cannot_be_compared() {
+        let service = Service::new().await;
+        let store = &service.app.store;
+        let (_, _, study) = service.post("/v1/studies", STUDY).await;
+        let id = study["id"].as_str().expect("an id");
+        let id = id.parse().expect("an id");
+        let known = store.batch(id, BatchDetail::Statuses).await;
+        let plan = known.expect("the store").expect("a study").plan;
+        let plan = plan.expect("an evaluation plan");
+        let other = NewBatch {
+            name: None,
+            jobs: Vec::new(),
+            plan: Some(plan.replacen(r#""format":1"#, r#""format":2"#, 1)),
+        };
+        let submitted = store.submit_batch(&other, None, 0).await;
+        let Ok(Submitted::Job(id)) = submitted else {
+            panic!("{submitted:?}");
+        };
+        let (status, _, problem) = service.get(&format!("/v1/studies/{id}")).await;
+        assert_eq!(status, 410, "{problem}");
+        assert_eq!(problem["title"], "the study cannot be compared any more");
+    }
+
+    #[tokio::test]
+    async fn a_sweep_is_not_shown_as_a_study() {
+        let service = Service::new().await;
+        let (_, _, sweep) = service.post("/v1/sweeps", SWEEP).await;
+        for id in [sweep["id"].as_str().expect("an id"), "1"] {
+            let (status, _, problem) = service.get(&format!("/v1/studies/{id}")).await;
+            let found = (status.as_u16(), problem["type"].as_str());
+            assert_eq!(found, (404, Some("/problems/no-such-study")), "{id}");
+        }
+    }
+}

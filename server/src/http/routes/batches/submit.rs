@@ -1,0 +1,230 @@
+//! `POST /v1/sweeps` and `POST /v1/studies`: queues the jobs of a batch.
+
+use std::sync::Arc;
+
+use api::study::{StudyDocument, StudyRequest};
+use api::sweep::{Sweep, SweepRequest};
+use axum::body::Bytes;
+use axum::extract::State;
+use axum::http::{HeaderMap, StatusCode, header};
+use axum::response::{IntoResponse, Response};
+
+use crate::batch::Kind;
+use crate::clock::now_ms;
+use crate::http::App;
+use crate::http::body_problems::BodyProblems;
+use crate::http::extract::JsonBody;
+use crate::http::idempotency_key::{KeyError, idempotency_key};
+use crate::http::limits;
+use crate::http::problem::ProblemResponse;
+use crate::http::routes::batches::show::document;
+use crate::store::Submitted;
+
+/// Largest number of batches that are expanded at once: each occupies a processor for up to seconds.
+pub(in crate::http) const MAX_EXPANSIONS: usize = 2;
+
+/// Queues many variations of one specification: all of them, or none if one has a fault.
+#[utoipa::path(
+    post,
+    path = "/v1/sweeps",
+    tag = "sweeps",
+    request_body = SweepRequest,
+    params(("Idempotency-Key" = Option<String>, Header, description = "Sent twice with the same body, one sweep")),
+    responses(
+        (status = 202, description = "Queued", body = Sweep, headers(("Location" = String, description = "The sweep"))),
+        BodyProblems,
+    )
+)]
+pub(in crate::http) async fn submit_sweep(
+    State(app): State<App>,
+    headers: HeaderMap,
+    JsonBody(body): JsonBody,
+) -> Result<Response, ProblemResponse> {
+    submit(&app, Kind::Sweep, &headers, &body).await
+}
+
+/// Queues the runs of one scene at many accuracies, as ordinary jobs: all of them, or none if one has a fault. They are
+/// chosen by their expected time; the first study of a service measures the machine, which takes a second or two.
+#[utoipa::path(
+    post,
+    path = "/v1/studies",
+    tag = "studies",
+    request_body = StudyRequest,
+    params(("Idempotency-Key" = Option<String>, Header, description = "Sent twice with the same body, one study")),
+    responses(
+        (status = 202, description = "Queued", body = StudyDocument, headers(("Location" = String, description = "The study"))),
+        BodyProblems,
+    )
+)]
+pub(in crate::http) async fn submit_study(
+    State(app): State<App>,
+    headers: HeaderMap,
+    JsonBody(body): JsonBody,
+) -> Result<Response, ProblemResponse> {
+    submit(&app, Kind::AccuracyStudy, &headers, &body).await
+}
+
+async fn submit(
+    app: &App,
+    kind: Kind,
+    headers: &HeaderMap,
+    body: &Bytes,
+) -> Result<Response, ProblemResponse> {
+    let key = idempotency_key(headers, body)?;
+    let request = kind.read(body)?;
+    let earlier = match &key {
+        Some(key) => app.store.submitted_batch(key).await?,
+        None => None,
+    };
+    let submitted = if let Some(earlier) = earlier {
+        earlier
+    } else {
+        let machine = match kind {
+            Kind::Sweep => app.machine.get().cloned(),
+            Kind::AccuracyStudy => app.machine.get_or_measure_async().await,
+        };
+        let permit = Arc::clone(&app.expansion_permits).acquire_owned().await;
+        let expand = move || {
+            // Held until the expansion ends, also after the client has disconnected.
+            let _permit = permit;
+            request.expand(machine.as_ref(), &limits::check)
+        };
+        let batch = tokio::task::spawn_blocking(expand).await??;
+        let store = &app.store;
+        store.submit_batch(&batch, key.as_ref(), now_ms()).await?
+    };
+    let Submitted::Job(id) = submitted else {
+        return Err(KeyError::Reused.into());
+    };
+    let document = document(app, kind, id).await?;
+    let path = format!("/v1/{}/{id}", kind.collection());
+    Ok((StatusCode::ACCEPTED, [(header::LOCATION, path)], document).into_response())
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+    use std::time::Duration;
+
+    use api::plan::MachineFigures;
+    use serde_json::json;
+    use tokio::sync::Semaphore;
+
+    use crate::estimate::machine::CalibrationCache;
+    use crate::http::tests::{STUDY, SWEEP, Service};
+
+    #[tokio::test]
+    async fn a_sweep_queues_its_jobs_in_order() {
+        let service = Service::new().await;
+        let (status, headers, sweep) = service.post("/v1/sweeps", SWEEP).await;
+        assert_eq!(status, 202, "{sweep}");
+        let id = sweep["id"].as_str().expect("an id");
+        assert_eq!(headers["location"], format!("/v1/sweeps/{id}").as_str());
+        assert_eq!(sweep["counts"]["queued"], 4);
+        assert_eq!(
+            sweep["jobs"][1]["overrides"],
+            json!({"/cycles": 10, "/load/n": 0.6})
+        );
+        let first = sweep["jobs"][0]["id"].as_str().expect("an id");
+        let (_, _, job) = service.get(&format!("/v1/jobs/{first}")).await;
+        assert_eq!(
+            (&job["spec"]["cycles"], &job["spec"]["load"]["n"]),
+            (&json!(10), &json!(0.3))
+        );
+        let (_, _, list) = service.get(&format!("/v1/jobs?sweep={id}")).await;
+        assert_eq!(list["jobs"].as_array().map(Vec::len), Some(4));
+    }
+
+    #[tokio::test]
+    async fn one_faulty_job_queues_none() {
+        let service = Service::new().await;
+        let body = r#"{"base":{"system":{"kind":"dimm"}},"grid":{"/cycles":[10,0]}}"#;
+        let (status, _, problem) = service.post("/v1/sweeps", body).await;
+        assert_eq!(status, 422);
+        assert_eq!(problem["faults"][0]["pointer"], "/grid/~1cycles");
+        assert_eq!(service.get("/v1/jobs").await.2["jobs"], json!([]));
+        let (status, _, problem) = service.post("/v1/sweeps", r#"{"base":{},"gird":{}}"#).await;
+        assert_eq!(status, 400, "{problem}");
+    }
+
+    #[tokio::test]
+    async fn the_same_key_and_body_make_one_sweep() {
+        let service = Service::new().await;
+        let keyed = [
+            ("content-type", "application/json"),
+            ("idempotency-key", "s"),
+        ];
+        let (_, _, first) = service.send("POST", "/v1/sweeps", &keyed, SWEEP).await;
+        let (_, _, again) = service.send("POST", "/v1/sweeps", &keyed, SWEEP).await;
+        assert_eq!(first["id"], again["id"]);
+        let other = r#"{"base":{"system":{"kind":"dimm"}},"list":[{}]}"#;
+        assert_eq!(
+            service.send("POST", "/v1/sweeps", &keyed, other).await.0,
+            422
+        );
+        let (_, _, list) = service.get("/v1/jobs").await;
+        assert_eq!(list["jobs"].as_array().map(Vec::len), Some(4));
+    }
+
+    #[tokio::test]
+    async fn a_study_queues_ordinary_jobs_that_differ_in_their_accuracy() {
+        let service = Service::new().await;
+        let (status, headers, study) = service.post("/v1/studies", STUDY).await;
+        assert_eq!(status, 202, "{study}");
+        let id = study["id"].as_str().expect("an id");
+        assert_eq!(headers["location"], format!("/v1/studies/{id}").as_str());
+        let jobs = study["jobs"].as_array().expect("jobs");
+        let with = |what: &str| jobs.iter().filter(|job| job[what].is_number()).count();
+        assert!(with("tolerance") >= 3 && with("cycle_jump") >= 9, "{study}");
+        assert_eq!(with("tolerance") + with("contact_element_mm"), jobs.len());
+        let first = jobs[0]["id"].as_str().expect("an id");
+        let (_, _, job) = service.get(&format!("/v1/jobs/{first}")).await;
+        assert_eq!(job["spec"]["accuracy"], json!({"tolerance": 0.1}));
+        assert!(job["plan"]["estimates"]["cpu_s"].as_f64() > Some(0.0));
+    }
+
+    #[tokio::test]
+    async fn faults_of_the_base_and_of_the_budget_are_reported_and_nothing_is_queued() {
+        let service = Service::new().await;
+        let body = r#"{"base":{"system":{"kind":"dimm"},"cycles":0},"budget_s":-1}"#;
+        let (status, _, problem) = service.post("/v1/studies", body).await;
+        assert_eq!(status, 422);
+        let faults = problem["faults"].as_array().expect("faults");
+        let pointers: Vec<_> = faults.iter().map(|fault| &fault["pointer"]).collect();
+        assert_eq!(pointers, ["/budget_s", "/base/cycles"]);
+        let (status, _, _) = service.post("/v1/studies", r#"{"basis":{}}"#).await;
+        assert_eq!(status, 400);
+        assert_eq!(service.get("/v1/jobs").await.2["jobs"], json!([]));
+    }
+
+    #[tokio::test]
+    async fn a_budget_too_small_for_any_run_is_refused() {
+        let mut service = Service::new().await;
+        let known = service.app.machine.get().expect("figures").clone();
+        service.app.machine = CalibrationCache::of(MachineFigures {
+            increment_s: 1e3,
+            ..known
+        });
+        let (status, _, problem) = service.post("/v1/studies", STUDY).await;
+        assert_eq!(
+            (status.as_u16(), &problem["faults"][0]["pointer"]),
+            (422, &json!("/budget_s")),
+            "{problem}"
+        );
+    }
+
+    #[tokio::test]
+    async fn the_same_key_and_body_make_one_study() {
+        let mut service = Service::new().await;
+        let keyed = [
+            ("content-type", "application/json"),
+            ("idempotency-key", "s"),
+        ];
+        let (_, _, first) = service.send("POST", "/v1/studies", &keyed, STUDY).await;
+        // A study that is queued already is shown without choosing its runs again.
+        service.app.expansion_permits = Arc::new(Semaphore::new(0));
+        let again = service.send("POST", "/v1/studies", &keyed, STUDY);
+        let again = tokio::time::timeout(Duration::from_mins(1), again).await;
+        assert_eq!(first["id"], again.expect("an answer").2["id"]);
+    }
+}

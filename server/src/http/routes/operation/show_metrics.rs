@@ -1,0 +1,53 @@
+//! `GET /metrics`: counters and gauges for Prometheus.
+
+use api::problem::Problem;
+use axum::extract::State;
+use axum::http::header;
+use axum::response::{IntoResponse, Response};
+
+use crate::clock::now_ms;
+use crate::http::App;
+use crate::http::problem::ProblemResponse;
+
+/// Media type of the OpenMetrics text format.
+const MEDIA_TYPE: &str = "application/openmetrics-text; version=1.0.0; charset=utf-8";
+
+/// Counters and gauges.
+#[utoipa::path(
+    get,
+    path = "/metrics",
+    tag = "operation",
+    responses(
+        (status = 200, description = "OpenMetrics text", body = String, content_type = "application/openmetrics-text"),
+        (status = 500, description = "The service failed", body = Problem),
+    )
+)]
+pub(in crate::http) async fn metrics(State(app): State<App>) -> Result<Response, ProblemResponse> {
+    let gauges = app.store.levels(now_ms()).await?;
+    let text = app.store.metrics().text(&gauges)?;
+    Ok(([(header::CONTENT_TYPE, MEDIA_TYPE)], text).into_response())
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::http::tests::Service;
+
+    #[tokio::test]
+    async fn jobs_are_counted_by_status() {
+        let service = Service::new().await;
+        service.with_results().await;
+        service.queued(r#"{"system":{"kind":"zif"}}"#).await;
+        let (status, headers, text) = service.text("GET", "/metrics", &[], "").await;
+        assert_eq!(status, 200);
+        let media_type = headers["content-type"].to_str().expect("text");
+        assert!(media_type.starts_with("application/openmetrics-text"));
+        for line in [
+            "fretwear_jobs{status=\"queued\"} 1",
+            "fretwear_jobs{status=\"running\"} 1",
+            "fretwear_jobs{status=\"failed\"} 0",
+            "fretwear_stale_writes_refused_total 0",
+        ] {
+            assert!(text.lines().any(|found| found == line), "{line} in\n{text}");
+        }
+    }
+}

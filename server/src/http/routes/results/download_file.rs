@@ -1,0 +1,300 @@
+//! `GET /v1/jobs/{id}/results/files/{name}`: a file of a job, or a byte range of it.
+//!
+//! The name is looked up in the manifest; the path is the manifest's, never the client's.
+
+use std::io::SeekFrom;
+use std::ops::RangeInclusive;
+use std::path::Path;
+
+use api::problem::Problem;
+use api::results::ResultFile;
+use axum::body::{Body, Bytes};
+use axum::extract::State;
+use axum::http::{HeaderMap, HeaderValue, StatusCode, header};
+use axum::response::{IntoResponse, Response};
+use http_range_header::RangeUnsatisfiableError;
+use tokio::fs::File;
+use tokio::io::{AsyncReadExt, AsyncSeekExt};
+use tokio_util::io::ReaderStream;
+use uuid::Uuid;
+
+use crate::http::App;
+use crate::http::extract::{FileName, JobId};
+use crate::http::problem::{ProblemResponse, ProblemType, RouteError};
+use crate::store::Content;
+
+/// Size of the chunks in which a file is read, bytes.
+const CHUNK_BYTES: usize = 64 << 10;
+
+/// Error of a download.
+#[derive(Debug, thiserror::Error)]
+enum FileError {
+    /// The manifest does not list the file.
+    #[error("the manifest of job {0} lists no such file")]
+    Missing(Uuid),
+    /// The file cannot be read.
+    #[error("a file of job {id} cannot be read: {cause}")]
+    Read {
+        /// The job.
+        id: Uuid,
+        /// Error of the file system.
+        cause: std::io::Error,
+    },
+}
+
+impl RouteError for FileError {
+    fn problem_type(&self) -> ProblemType {
+        match self {
+            Self::Missing(_) => ProblemType::NoSuchResult,
+            Self::Read { .. } => ProblemType::Internal,
+        }
+    }
+}
+
+/// A file of a job.
+#[utoipa::path(
+    get,
+    path = "/v1/jobs/{id}/results/files/{name}",
+    tag = "results",
+    params(
+        ("id" = Uuid, Path, description = "The job"),
+        ("name" = String, Path, description = "Name of the file in the manifest"),
+        ("Range" = Option<String>, Header, description = "One byte range, for instance `bytes=0-99`"),
+    ),
+    responses(
+        (status = 200, description = "The file", content_type = "*/*", body = serde_json::Value,
+            headers(("ETag" = String, description = "SHA-256 of the file"))),
+        (status = 206, description = "The requested bytes", content_type = "*/*", body = serde_json::Value),
+        (status = 304, description = "Not changed: `If-None-Match` has its digest"),
+        (status = 404, description = "No such job, or no such file", body = Problem),
+        (status = 416, description = "The range lies outside the file", body = Problem),
+    )
+)]
+pub(in crate::http) async fn file(
+    State(app): State<App>,
+    JobId(id): JobId,
+    FileName(name): FileName,
+    headers: HeaderMap,
+) -> Result<Response, ProblemResponse> {
+    let Some((file, content)) = app.store.result_file(id, &name).await? else {
+        app.job(id).await?;
+        return Err(FileError::Missing(id).into());
+    };
+    let etag = format!("\"{}\"", file.sha256);
+    let mut response = if text(&headers, header::IF_NONE_MATCH).contains(&etag) {
+        StatusCode::NOT_MODIFIED.into_response()
+    } else {
+        let Ok(range) = requested_range(&headers, &file, &etag) else {
+            return Ok(range_not_satisfiable(file.bytes));
+        };
+        respond(id, &file, content, range).await?
+    };
+    let response_headers = response.headers_mut();
+    for (name, value) in [
+        (header::ETAG, etag),
+        (header::ACCEPT_RANGES, "bytes".to_owned()),
+        // A stored file never changes; the client revalidates with its digest.
+        (header::CACHE_CONTROL, "private, no-cache".to_owned()),
+        (header::CONTENT_DISPOSITION, attachment(&file.name)),
+    ] {
+        if let Ok(value) = HeaderValue::from_str(&value) {
+            response_headers.insert(name, value);
+        }
+    }
+    Ok(response)
+}
+
+/// `Content-Disposition` of a download; characters of the name other than letters, digits, `.`, `-` and `_` are replaced.
+pub(in crate::http) fn attachment(name: &str) -> String {
+    let safe = |c: char| c.is_ascii_alphanumeric() || matches!(c, '.' | '-' | '_');
+    let name: String = name
+        .chars()
+        .map(|c| if safe(c) { c } else { '_' })
+        .collect();
+    format!("attachment; filename=\"{name}\"")
+}
+
+fn text(headers: &HeaderMap, name: header::HeaderName) -> &str {
+    headers
+        .get(name)
+        .and_then(|value| value.to_str().ok())
+        .unwrap_or_default()
+}
+
+/// The problem of a range that begins after the end of the file.
+fn range_not_satisfiable(bytes: u64) -> Response {
+    let detail = format!("the file has {bytes} bytes, and the range begins after them");
+    let content_range = [(header::CONTENT_RANGE, format!("bytes */{bytes}"))];
+    (content_range, ProblemType::Range.with_detail(detail)).into_response()
+}
+
+/// Returns the requested byte range; `None` for the whole file. An invalid range, several ranges and a range of another
+/// version are ignored (RFC 9110, 14.2).
+///
+/// # Errors
+/// If the range begins after the end of the file.
+fn requested_range(
+    headers: &HeaderMap,
+    file: &ResultFile,
+    etag: &str,
+) -> Result<Option<RangeInclusive<u64>>, RangeUnsatisfiableError> {
+    let range = text(headers, header::RANGE);
+    let version = text(headers, header::IF_RANGE);
+    if range.is_empty() || !(version.is_empty() || version == etag) {
+        return Ok(None);
+    }
+    let Ok(parsed) = http_range_header::parse_range_header(range) else {
+        return Ok(None);
+    };
+    if parsed.ranges.len() != 1 {
+        return Ok(None);
+    }
+    Ok(parsed.validate(file.bytes)?.pop())
+}
+
+/// Responds with the file, or with a range of it.
+async fn respond(
+    id: Uuid,
+    file: &ResultFile,
+    content: Content,
+    range: Option<RangeInclusive<u64>>,
+) -> Result<Response, FileError> {
+    let read_error = |cause| FileError::Read { id, cause };
+    let (from, length) = match &range {
+        None => (0, file.bytes),
+        Some(range) => (*range.start(), range.end() - range.start() + 1),
+    };
+    let body = match content {
+        Content::Inline(bytes) => slice(bytes, from, length),
+        Content::File(path) => stream(&path, from, length).await.map_err(read_error)?,
+    };
+    let mut response = Response::new(body);
+    let headers = response.headers_mut();
+    if let Ok(kind) = HeaderValue::from_str(&file.media_type) {
+        headers.insert(header::CONTENT_TYPE, kind);
+    }
+    headers.insert(header::CONTENT_LENGTH, length.into());
+    if let Some(range) = range {
+        let range = format!("bytes {}-{}/{}", range.start(), range.end(), file.bytes);
+        if let Ok(range) = HeaderValue::from_str(&range) {
+            headers.insert(header::CONTENT_RANGE, range);
+        }
+        *response.status_mut() = StatusCode::PARTIAL_CONTENT;
+    }
+    Ok(response)
+}
+
+fn slice(bytes: Vec<u8>, from: u64, length: u64) -> Body {
+    let index = |at: u64| usize::try_from(at).unwrap_or(usize::MAX).min(bytes.len());
+    let (from, to) = (index(from), index(from + length));
+    Body::from(Bytes::from(bytes).slice(from..to))
+}
+
+async fn stream(path: &Path, from: u64, length: u64) -> std::io::Result<Body> {
+    let mut file = File::open(path).await?;
+    file.seek(SeekFrom::Start(from)).await?;
+    Ok(Body::from_stream(ReaderStream::with_capacity(
+        file.take(length),
+        CHUNK_BYTES,
+    )))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::http::tests::{FIELDS, Service};
+
+    /// The large file is stored beside the database, the small one in it.
+    const NAMES: [(&str, &str); 2] = [("fields-20.vtu", FIELDS), ("summary.json", "{}")];
+
+    #[tokio::test]
+    async fn a_file_is_sent_with_its_digest() {
+        let service = Service::new().await;
+        let id = service.with_files().await;
+        for (name, content) in NAMES {
+            let path = format!("/v1/jobs/{id}/results/files/{name}");
+            let (status, headers, text) = service.text("GET", &path, &[], "").await;
+            assert_eq!((status.as_u16(), text.as_str()), (200, content));
+            assert_eq!(headers["accept-ranges"], "bytes");
+            let attached = format!("attachment; filename=\"{name}\"");
+            assert_eq!(headers["content-disposition"], attached.as_str());
+            let known = [("if-none-match", headers["etag"].to_str().expect("text"))];
+            let again = service.text("GET", &path, &known, "").await;
+            assert_eq!((again.0.as_u16(), again.2.as_str()), (304, ""));
+        }
+    }
+
+    #[tokio::test]
+    async fn a_range_is_sent_with_its_position() {
+        let service = Service::new().await;
+        let id = service.with_files().await;
+        for (name, content) in NAMES {
+            let path = format!("/v1/jobs/{id}/results/files/{name}");
+            let last = content.len() - 1;
+            for (range, from, to) in [
+                ("bytes=0-0", 0, 0),
+                ("bytes=1-", 1, last),
+                ("bytes=-1", last, last),
+                ("bytes=0-999999", 0, last),
+            ] {
+                let (status, headers, text) =
+                    service.text("GET", &path, &[("range", range)], "").await;
+                assert_eq!((status.as_u16(), text.as_str()), (206, &content[from..=to]));
+                let expected = format!("bytes {from}-{to}/{}", content.len());
+                assert_eq!(headers["content-range"], expected.as_str(), "{range}");
+            }
+            for (headers, expected) in [
+                (vec![("range", "bytes=99999-")], 416),
+                (vec![("range", "lines=1-2")], 200),
+                (vec![("range", "bytes=0-0,1-1")], 200),
+                (vec![("range", "bytes=0-0"), ("if-range", "\"older\"")], 200),
+            ] {
+                let (status, _, _) = service.text("GET", &path, &headers, "").await;
+                assert_eq!(status, expected, "{headers:?}");
+            }
+        }
+    }
+
+    #[tokio::test]
+    async fn names_that_are_not_in_the_manifest_are_404() {
+        let service = Service::new().await;
+        let id = service.with_files().await;
+        for name in [
+            "other.vtu",
+            "..%2F..%2Ftest.db",
+            "%2Fetc%2Fpasswd",
+            "summary.json%00",
+        ] {
+            let path = format!("/v1/jobs/{id}/results/files/{name}");
+            let (status, _, problem) = service.get(&path).await;
+            let found = (status.as_u16(), problem["type"].as_str());
+            assert_eq!(found, (404, Some("/problems/no-such-result")), "{name}");
+        }
+        let not_utf8 = format!("/v1/jobs/{id}/results/files/%FF");
+        assert_eq!(service.get(&not_utf8).await.0, 404);
+        let unknown = "/v1/jobs/00000000-0000-7000-8000-000000000000/results/files/summary.json";
+        assert_eq!(
+            service.get(unknown).await.2["type"],
+            "/problems/no-such-job"
+        );
+    }
+
+    #[tokio::test]
+    async fn deleting_a_job_deletes_its_files() {
+        let service = Service::new().await;
+        let id = service.with_files().await;
+        let folder = service.results_folder();
+        assert_eq!(std::fs::read_dir(&folder).expect("a folder").count(), 1);
+        let (status, _, _) = service
+            .send("DELETE", &format!("/v1/jobs/{id}"), &[], "")
+            .await;
+        assert_eq!(status, 204);
+        assert_eq!(std::fs::read_dir(&folder).expect("a folder").count(), 0);
+    }
+
+    #[test]
+    fn names_of_downloads_are_sanitized() {
+        let value = attachment("a\"b\r\nx: y/../ü.csv");
+        assert_eq!(value, "attachment; filename=\"a_b__x__y_..__.csv\"");
+    }
+}

@@ -1,0 +1,331 @@
+//! Batches: jobs that were queued together. An evaluation plan is a row of the table `studies`.
+
+use std::collections::BTreeMap;
+
+use api::job::{Outcome, Status};
+use sqlx::{Sqlite, SqliteExecutor, Transaction};
+use uuid::Uuid;
+
+use crate::store::batches::{
+    BatchDetail, BatchFilter, BatchJob, BatchOverview, NewBatch, StoredBatch,
+};
+use crate::store::sqlite::document::{parsed, timestamp};
+use crate::store::sqlite::jobs::{cancel, insert};
+use crate::store::sqlite::queries::{BEGIN, job_id};
+use crate::store::{Cancelled, Deleted, RequestKey, SnapshotPart, Store, StoreError, Submitted};
+
+#[derive(sqlx::FromRow)]
+struct BatchRow {
+    id: String,
+    name: Option<String>,
+    created_at: i64,
+    plan: Option<String>,
+}
+
+impl BatchRow {
+    fn overview(self, counts: BTreeMap<String, u64>) -> Result<BatchOverview, StoreError> {
+        Ok(BatchOverview {
+            id: job_id(&self.id)?,
+            name: self.name,
+            created_at: timestamp(self.created_at),
+            counts,
+        })
+    }
+}
+
+#[derive(sqlx::FromRow)]
+struct JobRow {
+    job_id: String,
+    overrides: String,
+    status: String,
+    status_reason: Option<String>,
+    outcome: Option<String>,
+    summary: Option<String>,
+}
+
+impl JobRow {
+    fn job(self) -> Result<BatchJob, StoreError> {
+        let id = job_id(&self.job_id)?;
+        let status = Status::from_name(&self.status).ok_or(StoreError::Corrupt {
+            id,
+            what: "status",
+            cause: self.status,
+        })?;
+        let summary = self.summary.as_deref();
+        Ok(BatchJob {
+            id,
+            overrides: parsed(id, "overrides", &self.overrides)?,
+            status,
+            status_reason: self.status_reason,
+            outcome: self.outcome.as_deref().and_then(Outcome::from_name),
+            summary: summary
+                .map(|text| parsed(id, "summary", text))
+                .transpose()?,
+            profile: None,
+        })
+    }
+}
+
+impl Store {
+    /// Queues all jobs of a batch or none; returns the earlier batch if a request with the same key and body has queued
+    /// one. `now` in milliseconds since 1970.
+    ///
+    /// # Errors
+    /// [`StoreError`] if the database fails.
+    pub async fn submit_batch(
+        &self,
+        batch: &NewBatch,
+        key: Option<&RequestKey>,
+        now: i64,
+    ) -> Result<Submitted, StoreError> {
+        let mut transaction = self.writer.begin_with(BEGIN).await?;
+        if let Some(key) = key
+            && let Some(earlier) = submitted(&mut *transaction, key).await?
+        {
+            return Ok(earlier);
+        }
+        let id = insert_batch(&mut transaction, batch, key, now).await?;
+        transaction.commit().await?;
+        // Wakes every idle worker; one that misses the notification polls within a second.
+        self.waiting.notify_waiters();
+        self.waiting.notify_one();
+        Ok(Submitted::Job(id))
+    }
+
+    /// Returns the batch that an earlier request with the same key queued, if there was one.
+    ///
+    /// # Errors
+    /// [`StoreError`] if the database fails.
+    pub async fn submitted_batch(&self, key: &RequestKey) -> Result<Option<Submitted>, StoreError> {
+        submitted(&self.readers, key).await
+    }
+
+    /// Returns a batch with its jobs and so much of their results; `None` if there is no batch of that id.
+    ///
+    /// # Errors
+    /// [`StoreError`] if the database fails or a document in it cannot be read.
+    pub async fn batch(
+        &self,
+        id: Uuid,
+        detail: BatchDetail,
+    ) -> Result<Option<StoredBatch>, StoreError> {
+        let Some(mut row) = self.batch_row(id).await? else {
+            return Ok(None);
+        };
+        let rows: Vec<JobRow> = sqlx::query_as(
+            "SELECT job_id, overrides, status, status_reason, outcome, CASE WHEN ? THEN summary END AS summary \
+             FROM sweep_jobs JOIN jobs ON jobs.id = job_id WHERE sweep_id = ? ORDER BY position",
+        )
+        .bind(detail >= BatchDetail::Summaries)
+        .bind(id.to_string())
+        .fetch_all(&self.readers)
+        .await?;
+        let mut counts = no_jobs();
+        let mut jobs = Vec::with_capacity(rows.len());
+        for row in rows {
+            let mut job = row.job()?;
+            *counts.entry(job.status.as_str().to_owned()).or_default() += 1;
+            if detail >= BatchDetail::Profiles && job.summary.is_some() {
+                job.profile = self.snapshot(job.id, SnapshotPart::Profile, None).await?;
+            }
+            jobs.push(job);
+        }
+        Ok(Some(StoredBatch {
+            plan: row.plan.take(),
+            overview: row.overview(counts)?,
+            jobs,
+        }))
+    }
+
+    /// Returns batches, newest first.
+    ///
+    /// # Errors
+    /// [`StoreError`] if the database fails.
+    pub async fn batches(&self, filter: BatchFilter) -> Result<Vec<BatchOverview>, StoreError> {
+        // Ids are hexadecimal text, all of which sorts before `g`.
+        let before = filter.before.map_or("g".to_owned(), |id| id.to_string());
+        let rows: Vec<BatchRow> = sqlx::query_as(
+            "SELECT id, name, created_at, NULL AS plan FROM sweeps \
+             WHERE id < ? AND (NOT ? OR id IN (SELECT sweep_id FROM studies)) ORDER BY id DESC LIMIT ?",
+        )
+        .bind(before)
+        .bind(filter.with_plan)
+        .bind(filter.limit)
+        .fetch_all(&self.readers)
+        .await?;
+        let mut batches = Vec::with_capacity(rows.len());
+        for row in rows {
+            let counts = self.batch_counts(&row.id).await?;
+            batches.push(row.overview(counts)?);
+        }
+        Ok(batches)
+    }
+
+    /// Checks whether a batch exists; with `with_plan`, whether it has an evaluation plan too.
+    ///
+    /// # Errors
+    /// [`StoreError`] if the database fails.
+    pub async fn has_batch(&self, id: Uuid, with_plan: bool) -> Result<bool, StoreError> {
+        let row = self.batch_row(id).await?;
+        Ok(row.is_some_and(|row| !with_plan || row.plan.is_some()))
+    }
+
+    /// Cancels all jobs of a batch: waiting ones end at once, running ones are ended by their workers.
+    ///
+    /// # Errors
+    /// [`StoreError`] if the database fails.
+    pub async fn cancel_batch(&self, id: Uuid, now: i64) -> Result<(), StoreError> {
+        let mut transaction = self.writer.begin_with(BEGIN).await?;
+        let jobs = jobs_of(&mut transaction, id).await?;
+        let mut changed = Vec::with_capacity(jobs.len());
+        for job in jobs {
+            match cancel(&mut transaction, job, now).await? {
+                Some(Cancelled::AtOnce) => changed.push((job, Some(Status::Cancelled))),
+                Some(Cancelled::Requested) => changed.push((job, None)),
+                Some(Cancelled::Already) | None => {}
+            }
+        }
+        transaction.commit().await?;
+        for (job, ended) in changed {
+            self.concluded(job, ended);
+        }
+        Ok(())
+    }
+
+    /// Deletes a batch whose jobs have all ended, with the jobs, their events, results and files.
+    ///
+    /// # Errors
+    /// [`StoreError`] if the database fails.
+    pub async fn delete_batch(&self, id: Uuid) -> Result<Deleted, StoreError> {
+        let mut transaction = self.writer.begin_with(BEGIN).await?;
+        let active: i64 = sqlx::query_scalar(
+            "SELECT count(*) FROM sweep_jobs JOIN jobs ON jobs.id = job_id \
+             WHERE sweep_id = ? AND finished_at IS NULL",
+        )
+        .bind(id.to_string())
+        .fetch_one(&mut *transaction)
+        .await?;
+        if active > 0 {
+            return Ok(Deleted::Active);
+        }
+        let jobs = jobs_of(&mut transaction, id).await?;
+        sqlx::query(
+            "DELETE FROM jobs WHERE id IN (SELECT job_id FROM sweep_jobs WHERE sweep_id = ?)",
+        )
+        .bind(id.to_string())
+        .execute(&mut *transaction)
+        .await?;
+        let deleted = sqlx::query("DELETE FROM sweeps WHERE id = ?")
+            .bind(id.to_string())
+            .execute(&mut *transaction)
+            .await?;
+        transaction.commit().await?;
+        for job in jobs {
+            self.remove_files(job).await;
+            self.changed(job);
+        }
+        Ok(match deleted.rows_affected() {
+            0 => Deleted::Missing,
+            _ => Deleted::Done,
+        })
+    }
+
+    async fn batch_row(&self, id: Uuid) -> Result<Option<BatchRow>, StoreError> {
+        Ok(sqlx::query_as(
+            "SELECT id, name, created_at, plan FROM sweeps LEFT JOIN studies ON sweep_id = id WHERE id = ?",
+        )
+        .bind(id.to_string())
+        .fetch_optional(&self.readers)
+        .await?)
+    }
+
+    async fn batch_counts(&self, id: &str) -> Result<BTreeMap<String, u64>, StoreError> {
+        let rows: Vec<(String, i64)> = sqlx::query_as(
+            "SELECT status, count(*) FROM sweep_jobs JOIN jobs ON jobs.id = job_id WHERE sweep_id = ? GROUP BY status",
+        )
+        .bind(id)
+        .fetch_all(&self.readers)
+        .await?;
+        let mut counts = no_jobs();
+        for (status, count) in rows {
+            counts.insert(status, u64::try_from(count).unwrap_or_default());
+        }
+        Ok(counts)
+    }
+}
+
+async fn insert_batch(
+    transaction: &mut Transaction<'_, Sqlite>,
+    batch: &NewBatch,
+    key: Option<&RequestKey>,
+    now: i64,
+) -> Result<Uuid, StoreError> {
+    let id = Uuid::now_v7();
+    sqlx::query(
+        "INSERT INTO sweeps (id, name, created_at, request_key, body_sha256) VALUES (?, ?, ?, ?, ?)",
+    )
+    .bind(id.to_string())
+    .bind(&batch.name)
+    .bind(now)
+    .bind(key.map(|key| &key.key))
+    .bind(key.map(|key| key.body_sha256.as_slice()))
+    .execute(&mut **transaction)
+    .await?;
+    for (position, (job, overrides)) in (0_i64..).zip(&batch.jobs) {
+        let job = insert(transaction, job, now).await?;
+        sqlx::query(
+            "INSERT INTO sweep_jobs (sweep_id, position, job_id, overrides) VALUES (?, ?, ?, ?)",
+        )
+        .bind(id.to_string())
+        .bind(position)
+        .bind(job.to_string())
+        .bind(serde_json::to_string(overrides)?)
+        .execute(&mut **transaction)
+        .await?;
+    }
+    if let Some(plan) = &batch.plan {
+        sqlx::query("INSERT INTO studies (sweep_id, plan) VALUES (?, ?)")
+            .bind(id.to_string())
+            .bind(plan)
+            .execute(&mut **transaction)
+            .await?;
+    }
+    Ok(id)
+}
+
+/// Returns the batch that an earlier request with the same key queued.
+async fn submitted(
+    database: impl SqliteExecutor<'_>,
+    key: &RequestKey,
+) -> Result<Option<Submitted>, StoreError> {
+    let earlier: Option<(Vec<u8>, String)> =
+        sqlx::query_as("SELECT body_sha256, id FROM sweeps WHERE request_key = ?")
+            .bind(&key.key)
+            .fetch_optional(database)
+            .await?;
+    let Some((body, id)) = earlier else {
+        return Ok(None);
+    };
+    Ok(Some(if body == key.body_sha256 {
+        Submitted::Job(job_id(&id)?)
+    } else {
+        Submitted::KeyTaken
+    }))
+}
+
+async fn jobs_of(
+    transaction: &mut Transaction<'_, Sqlite>,
+    id: Uuid,
+) -> Result<Vec<Uuid>, StoreError> {
+    let jobs: Vec<String> = sqlx::query_scalar("SELECT job_id FROM sweep_jobs WHERE sweep_id = ?")
+        .bind(id.to_string())
+        .fetch_all(&mut **transaction)
+        .await?;
+    jobs.iter().map(|id| job_id(id)).collect()
+}
+
+/// Zero for every status.
+fn no_jobs() -> BTreeMap<String, u64> {
+    let all = Status::ALL.iter();
+    all.map(|status| (status.as_str().to_owned(), 0)).collect()
+}
