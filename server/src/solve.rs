@@ -4,12 +4,12 @@ pub mod checkpoint;
 mod cost;
 
 use api::job::{Outcome, Phase};
-use api::results::{Cost, CycleRow, ResultFile, Snapshot, Summary};
+use api::results::{Cost, ResultFile, Snapshot, Summary};
 use serde::{Deserialize, Serialize};
 use solver::SolveError;
 use solver::checkpoint::Checkpoint;
-use solver::history::PlacedFields;
 use solver::observer::{Event, Flow, Observer};
+use solver::record::{CycleReport, PlacedFields};
 use solver::scene::Scene;
 
 use crate::export::{history, vtu};
@@ -27,7 +27,7 @@ pub enum Line {
     /// Another phase begins.
     Phase(Phase),
     /// A computed cycle is done.
-    Cycle(CycleRow),
+    Cycle(CycleReport),
     /// A requested snapshot.
     Snapshot(Box<Snapshot>),
     /// Fields inside the bodies at one position of a snapshot; never sent, but written where it was computed.
@@ -182,7 +182,7 @@ impl Observer for Recorder<'_> {
                 self.watch.enter(phase);
                 Line::Phase(phase)
             }
-            Event::Cycle(report) => Line::Cycle(history::row(report)),
+            Event::Cycle(report) => Line::Cycle(report.clone()),
             Event::Snapshot(snapshot) => {
                 for fields in &snapshot.fields {
                     if self.fields(snapshot.cycle, fields) == Flow::Stop {

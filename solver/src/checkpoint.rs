@@ -8,7 +8,6 @@ use serde::{Deserialize, Serialize};
 
 use crate::ale;
 use crate::cycle::CycleState;
-use crate::history::Initial;
 use crate::mesh::MeshError;
 use crate::model::Model;
 
@@ -20,6 +19,15 @@ pub struct Checkpoint {
     pub(crate) initial: Initial,
     pub(crate) built: Option<BuiltAt>,
     pub(crate) relocations: u64,
+}
+
+/// The unworn, loaded state.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Initial {
+    /// Highest pressure, MPa.
+    pub peak_pressure_mpa: f64,
+    /// Half the width of the contact, mm.
+    pub contact_half_width_mm: f64,
 }
 
 /// Worn depths at which the operators were last built, mm.

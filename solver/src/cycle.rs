@@ -8,29 +8,27 @@
 //! in front of the slider belongs to the wear law, not to the geometry of the scar: with a jump it would be
 //! `jump` times too high, and its slope would load the contact like a wall.
 
+mod checks;
 mod cycle_record;
 pub mod forecast;
 mod jump;
 mod path;
 mod probe;
 mod reach;
-mod record;
 mod share;
 mod state;
 
 use crate::ale::Spines;
 use crate::condensation::Operators;
 use crate::contact::{self, ContactError, ContactState, Move, Pair, Solver, Surfaces};
-use crate::history::{FrictionLoop, Position};
 use crate::material::contact_modulus;
 use crate::model::Model;
 use crate::number::{cycles_at_least, real, real_cycles};
 use crate::scene::Scene;
 
-pub use cycle_record::{CycleRecord, Neutral};
+pub use checks::Checks;
+pub use cycle_record::{CycleRecord, FrictionLoop, Neutral, Position};
 use probe::Probes;
-pub(crate) use record::worn_area_residual;
-pub use record::{report, snapshot};
 use share::check_wear;
 pub use state::{CycleError, CycleState};
 

@@ -1,7 +1,7 @@
 //! What a run tells while it goes on, and how it is stopped from outside.
 
 use crate::checkpoint::Checkpoint;
-use crate::history::{CycleReport, Snapshot};
+use crate::record::{CycleReport, Snapshot};
 
 /// Receives a run's events, in order. The only dynamic dispatch of the engine.
 pub trait Observer {

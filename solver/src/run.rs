@@ -4,12 +4,12 @@ use crate::SolveError;
 use crate::ale::{self, Spines};
 use crate::checkpoint::Checkpoint;
 use crate::condensation::{self, Condensed};
-use crate::cycle::{self, CycleRecord, CycleState, Integrator};
+use crate::cycle::{CycleRecord, CycleState, Integrator};
 use crate::fields;
-use crate::history::{CycleReport, Initial, Outcome, Resolution, Snapshot, Summary};
 use crate::model::{self, Model};
 use crate::number::count_at_least;
 use crate::observer::{Event, Flow, Observer, Phase};
+use crate::record::{self, CycleReport, Initial, Outcome, Resolution, Snapshot, Summary};
 use crate::scene::{Scene, StopCondition};
 
 /// Solves a scene from the unworn bodies to its end, telling the observer what happens.
@@ -77,7 +77,7 @@ fn load(
     let mut state = CycleState::start(&condensed.operators);
     let mut integrator = Integrator::new(scene, model, &condensed.operators);
     let record = integrator.apply_load(&mut state)?;
-    let report = cycle::report(scene, model, &state);
+    let report = record::report(scene, model, &state);
     observer.on(Event::Cycle(&report));
     observer.on(Event::Snapshot(&snapshot(
         scene, model, condensed, &state, record,
@@ -111,7 +111,7 @@ fn integrate(
         }
         let state = &mut run.state;
         let record = integrator.compute_cycle(state, next_stop(scene, &spines, state))?;
-        let report = cycle::report(scene, model, state);
+        let report = record::report(scene, model, state);
         let ended = end_of(scene, &spines, state, &report);
         let flow = observer.on(Event::Cycle(&report));
         if ended.is_some() || scene.output.snapshots_at_cycles.contains(&state.cycle) {
@@ -184,14 +184,14 @@ fn snapshot(
     } else {
         Vec::new()
     };
-    Ok(cycle::snapshot(model, state, record, fields))
+    Ok(record::snapshot(model, state, record, fields))
 }
 
 fn summary(scene: &Scene, model: &Model, run: &Checkpoint, outcome: Outcome) -> Summary {
     let state = &run.state;
-    let last = cycle::report(scene, model, state);
+    let last = record::report(scene, model, state);
     let mut checks = state.checks;
-    checks.worn_area = cycle::worn_area_residual(model, state, &last);
+    checks.worn_area = record::worn_area_residual(model, state, &last);
     Summary {
         outcome,
         initial: run.initial,

@@ -4,8 +4,8 @@ use crate::keep::Keep;
 use crate::scenes::{accuracy, fuzz_button, mccoll};
 use solver::SolveError;
 use solver::checkpoint::{Checkpoint, Misfit};
-use solver::history::{CycleReport, Snapshot, Summary};
 use solver::observer::{Event, Flow, Observer};
+use solver::record::{CycleReport, Snapshot, Summary};
 use solver::run;
 use solver::scene::{Motion, Scene};
 

@@ -3,9 +3,9 @@
 use std::path::Path;
 use std::process::ExitCode;
 
-use solver::history::Snapshot;
 use solver::model::{self, Model};
 use solver::observer::{Event, Flow, Observer};
+use solver::record::Snapshot;
 use solver::scene::Scene;
 use solver::{SolveError, ale};
 

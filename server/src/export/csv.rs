@@ -1,8 +1,9 @@
 //! Result documents as CSV: one header line with the units in the names, then numbers only.
 
 use ::csv::Writer;
-use api::results::{Loop, Pressure, Profile, SlidePosition, WearHistory};
+use api::results::{Loop, Pressure, Profile, SlidePosition};
 use api::study::{Errors, Study, StudyRun};
+use solver::record::Record;
 
 use crate::export::columns;
 use crate::export::columns::Values;
@@ -47,8 +48,8 @@ fn numbers<T: ToString>(header: impl Into<String>, values: &[T]) -> (String, Vec
 ///
 /// # Errors
 /// [`CsvError`] if the writer fails.
-pub fn wear_history(history: &WearHistory) -> Result<Vec<u8>, CsvError> {
-    let table = columns::of(history)
+pub fn wear_history(record: &Record) -> Result<Vec<u8>, CsvError> {
+    let table = columns::of(record)
         .into_iter()
         .map(|(header, values)| match values {
             Values::Counts(counts) => numbers(header, counts),

@@ -7,6 +7,7 @@
 
 pub mod cycle;
 
+use solver::interpolation;
 use solver::material::Lame;
 use solver::mesh::columns::Cell;
 use solver::model::{BodyModel, Model};
@@ -36,11 +37,7 @@ fn first_gap(slider: &BodyModel, receptacle: &BodyModel) -> f64 {
     let (x, y) = (slider.mesh.x(), slider.mesh.surface_y());
     let places = receptacle.mesh.x().iter().zip(receptacle.mesh.surface_y());
     let under = places.filter(|(at, _)| **at >= x[0] && **at <= x[x.len() - 1]);
-    let gaps = under.map(|(&at, below)| {
-        let i = x.partition_point(|&x| x < at).clamp(1, x.len() - 1);
-        let t = (at - x[i - 1]) / (x[i] - x[i - 1]);
-        (1.0 - t) * y[i - 1] + t * y[i] - below
-    });
+    let gaps = under.map(|(&at, below)| interpolation::linear(x, y, at) - below);
     gaps.fold(f64::INFINITY, f64::min)
 }
 

@@ -1,11 +1,11 @@
 //! What a run leaves, as documents with names: the same for `solve --out` and for a job of the service.
 
-use api::results::{CycleRow, Snapshot, Summary};
+use api::results::{Snapshot, Summary};
 use api::spec::Spec;
+use solver::record::{CycleReport, Record};
 
 use crate::export::csv;
 use crate::export::csv::CsvError;
-use crate::export::history;
 use crate::export::parquet;
 use crate::export::parquet::ParquetError;
 use crate::export::pictures;
@@ -45,7 +45,7 @@ pub struct Results<'a> {
     /// The result in short, if the run had one.
     pub summary: Option<&'a Summary>,
     /// The wear history.
-    pub rows: &'a [CycleRow],
+    pub rows: &'a [CycleReport],
     /// The snapshots.
     pub snapshots: &'a [Snapshot],
     /// Whether pictures are drawn as pixels too, which takes some 0.1 s of a processor.
@@ -90,11 +90,8 @@ pub fn all(results: &Results<'_>) -> Result<Vec<Document>, DocumentError> {
         add("summary.json".to_owned(), None, JSON, summary);
     }
     let stations = results.spec.output.stations_mm.as_deref();
-    let columns = history::columns(results.rows, stations.unwrap_or_default());
-    let (text, table) = (
-        csv::wear_history(&columns)?,
-        parquet::wear_history(&columns)?,
-    );
+    let record = Record::new(results.rows, stations.unwrap_or_default());
+    let (text, table) = (csv::wear_history(&record)?, parquet::wear_history(&record)?);
     add("wear-history.csv".to_owned(), None, CSV, text);
     add("wear-history.parquet".to_owned(), None, PARQUET, table);
     for snapshot in results.snapshots {
@@ -109,7 +106,7 @@ pub fn all(results: &Results<'_>) -> Result<Vec<Document>, DocumentError> {
         }
     }
     let name = results.spec.name.as_deref().unwrap_or_default();
-    for (picture, drawn) in pictures::run::pictures(name, &columns, results.snapshots) {
+    for (picture, drawn) in pictures::run::pictures(name, &record, results.snapshots) {
         let drawing = pictures::svg(&drawn)?;
         if results.pixels {
             add(

@@ -2,11 +2,11 @@
 
 use api::job::{Outcome, Phase};
 use api::results::{
-    AccuracyReached, Checks, Cost, CycleRow, Initial, Loop, Pressure, PressurePosition, Profile,
-    SideProfile, SideRow, SideSeries, SideSummary, SlidePosition, Snapshot, Station, Summary,
-    WearHistory,
+    AccuracyReached, Checks, Cost, Initial, Loop, Pressure, PressurePosition, Profile, SideProfile,
+    SideSummary, SlidePosition, Snapshot, Station, Summary, WearHistory,
 };
-use solver::{history, observer};
+use solver::observer;
+use solver::record::{self, Record, Side};
 
 /// A phase of the work.
 pub fn phase(phase: observer::Phase) -> Phase {
@@ -18,33 +18,8 @@ pub fn phase(phase: observer::Phase) -> Phase {
     }
 }
 
-/// A row of the wear history.
-pub fn row(report: &history::CycleReport) -> CycleRow {
-    CycleRow {
-        cycle: report.cycle,
-        jump: report.jump,
-        jump_error: report.jump_error,
-        sliding_distance_mm: report.sliding_distance_mm,
-        receptacle: side_row(&report.receptacle),
-        slider: side_row(&report.slider),
-        station_depth_mm: report.station_depth_mm.clone(),
-        load_n_per_mm: report.load_n_per_mm,
-        peak_pressure_mpa: report.peak_pressure_mpa,
-        contact_half_width_mm: report.contact_half_width_mm,
-        dissipated_energy_mj_per_mm: report.dissipated_energy_mj_per_mm,
-    }
-}
-
-fn side_row(side: &history::SideReport) -> SideRow {
-    SideRow {
-        max_depth_mm: side.max_depth_mm,
-        worn_area_mm2: side.worn_area_mm2,
-        scar_half_width_mm: side.scar_half_width_mm,
-    }
-}
-
 /// What is stored at a cycle.
-pub fn snapshot(snapshot: &history::Snapshot) -> Snapshot {
+pub fn snapshot(snapshot: &record::Snapshot) -> Snapshot {
     let cycle = snapshot.cycle;
     Snapshot {
         profile: Profile {
@@ -64,19 +39,19 @@ pub fn snapshot(snapshot: &history::Snapshot) -> Snapshot {
     }
 }
 
-fn side_profile(profile: &history::DepthProfile) -> SideProfile {
+fn side_profile(profile: &record::DepthProfile) -> SideProfile {
     SideProfile {
         x_mm: profile.x_mm.clone(),
         depth_mm: profile.depth_mm.clone(),
     }
 }
 
-fn position(field: &history::TractionField) -> PressurePosition {
+fn position(field: &record::TractionField) -> PressurePosition {
     PressurePosition {
         phase: match field.position {
-            history::Position::Neutral => SlidePosition::Neutral,
-            history::Position::Rightmost => SlidePosition::Rightmost,
-            history::Position::Leftmost => SlidePosition::Leftmost,
+            record::Position::Neutral => SlidePosition::Neutral,
+            record::Position::Rightmost => SlidePosition::Rightmost,
+            record::Position::Leftmost => SlidePosition::Leftmost,
         },
         slider_x_mm: field.slider_x_mm,
         x_mm: field.x_mm.clone(),
@@ -86,7 +61,7 @@ fn position(field: &history::TractionField) -> PressurePosition {
 }
 
 /// The result in short. `cost` was measured outside the engine, which knows no clock; its `dofs` are filled in here.
-pub fn summary(summary: &history::Summary, cost: Cost) -> Summary {
+pub fn summary(summary: &record::Summary, cost: Cost) -> Summary {
     let (last, resolution, checks) = (&summary.last, &summary.resolution, &summary.checks);
     Summary {
         cycles_done: last.cycle,
@@ -124,16 +99,16 @@ pub fn summary(summary: &history::Summary, cost: Cost) -> Summary {
     }
 }
 
-fn outcome(outcome: history::Outcome) -> Outcome {
+fn outcome(outcome: record::Outcome) -> Outcome {
     match outcome {
-        history::Outcome::Completed => Outcome::Completed,
-        history::Outcome::StopCondition => Outcome::StopCondition,
-        history::Outcome::WornThrough => Outcome::WornThrough,
-        history::Outcome::Stopped => Outcome::Stopped,
+        record::Outcome::Completed => Outcome::Completed,
+        record::Outcome::StopCondition => Outcome::StopCondition,
+        record::Outcome::WornThrough => Outcome::WornThrough,
+        record::Outcome::Stopped => Outcome::Stopped,
     }
 }
 
-fn side_summary(side: &history::SideReport) -> SideSummary {
+fn side_summary(side: &record::SideReport) -> SideSummary {
     SideSummary {
         max_depth_mm: side.max_depth_mm,
         worn_area_mm2: side.worn_area_mm2,
@@ -146,46 +121,29 @@ fn count(count: usize) -> u64 {
     u64::try_from(count).unwrap_or(u64::MAX)
 }
 
-/// Rows to columns; `stations_mm` in the order of the rows' depths.
-pub fn columns(rows: &[CycleRow], stations_mm: &[f64]) -> WearHistory {
-    let column = |value: fn(&CycleRow) -> f64| rows.iter().map(value).collect::<Vec<_>>();
-    WearHistory {
-        cycle: rows.iter().map(|row| row.cycle).collect(),
-        jump: rows.iter().map(|row| row.jump).collect(),
-        sliding_distance_mm: column(|row| row.sliding_distance_mm),
-        stations: stations_mm
-            .iter()
-            .enumerate()
-            .map(|(index, x_mm)| station(rows, index, *x_mm))
-            .collect(),
-        receptacle: side_series(rows, |row| &row.receptacle),
-        slider: side_series(rows, |row| &row.slider),
-        load_n_per_mm: column(|row| row.load_n_per_mm),
-        peak_pressure_mpa: column(|row| row.peak_pressure_mpa),
-        contact_half_width_mm: column(|row| row.contact_half_width_mm),
-        dissipated_energy_mj_per_mm: column(|row| row.dissipated_energy_mj_per_mm),
+/// The wear history as a document.
+pub fn document(record: Record) -> WearHistory {
+    let mut history = WearHistory {
+        cycle: record.cycle,
+        jump: record.jump,
+        sliding_distance_mm: record.sliding_distance_mm,
+        ..WearHistory::default()
+    };
+    for column in record.columns {
+        let columns = match (column.side, column.place_mm) {
+            (Some(side), Some(x_mm)) => {
+                history.stations.push(Station {
+                    side: side.name().to_owned(),
+                    x_mm,
+                    depth_mm: column.values,
+                });
+                continue;
+            }
+            (Some(Side::Receptacle), None) => &mut history.receptacle.columns,
+            (Some(Side::Slider), None) => &mut history.slider.columns,
+            (None, _) => &mut history.contact,
+        };
+        columns.insert(column.name.to_owned(), column.values);
     }
-}
-
-fn station(rows: &[CycleRow], index: usize, x_mm: f64) -> Station {
-    let depth_mm = rows
-        .iter()
-        .map(|row| row.station_depth_mm.get(index).copied().unwrap_or_default())
-        .collect();
-    Station {
-        side: "receptacle".to_owned(),
-        x_mm,
-        depth_mm,
-    }
-}
-
-fn side_series(rows: &[CycleRow], side: fn(&CycleRow) -> &SideRow) -> SideSeries {
-    SideSeries {
-        max_depth_mm: rows.iter().map(|row| side(row).max_depth_mm).collect(),
-        worn_area_mm2: rows.iter().map(|row| side(row).worn_area_mm2).collect(),
-        scar_half_width_mm: rows
-            .iter()
-            .map(|row| side(row).scar_half_width_mm)
-            .collect(),
-    }
+    history
 }

@@ -8,7 +8,7 @@ use ::parquet::errors::ParquetError as Cause;
 use ::parquet::file::properties::WriterProperties;
 use ::parquet::file::writer::SerializedFileWriter;
 use ::parquet::schema::types::Type;
-use api::results::WearHistory;
+use solver::record::Record;
 
 use crate::export::columns;
 use crate::export::columns::Values;
@@ -22,8 +22,8 @@ pub struct ParquetError(#[from] Cause);
 ///
 /// # Errors
 /// [`ParquetError`] if the writer fails.
-pub fn wear_history(history: &WearHistory) -> Result<Vec<u8>, ParquetError> {
-    let columns = columns::of(history);
+pub fn wear_history(record: &Record) -> Result<Vec<u8>, ParquetError> {
+    let columns = columns::of(record);
     let properties = Arc::new(WriterProperties::builder().build());
     let mut file = SerializedFileWriter::new(Vec::new(), schema(&columns)?, properties)?;
     let mut rows = file.next_row_group()?;
@@ -79,12 +79,11 @@ mod tests {
     use ::parquet::record::RowAccessor;
 
     use super::*;
-    use crate::export::history;
     use crate::http::tests::row;
 
     #[test]
     fn a_reader_finds_the_same_rows_under_the_same_names() {
-        let written = history::columns(&[10, 20].map(row), &[-0.5, 0.0, 0.5]);
+        let written = Record::new(&[10, 20].map(row), &[-0.5, 0.0, 0.5]);
         let bytes = wear_history(&written).expect("bytes");
         let reader = SerializedFileReader::new(axum::body::Bytes::from(bytes)).expect("a file");
         let names: Vec<String> = reader

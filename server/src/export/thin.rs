@@ -6,21 +6,22 @@
 use std::cmp::Ordering;
 use std::collections::{BTreeSet, BinaryHeap};
 
-use api::results::{CycleRow, Loop, Pressure, Profile, SideProfile};
+use api::results::{Loop, Pressure, Profile, SideProfile};
+use solver::record::{CycleReport, Record};
 
-use crate::export::{columns, history};
+use crate::export::columns;
 
 /// Fewest points that a client may ask for: room for the ends and the extremes of what is usually drawn.
 pub const FEWEST_POINTS: usize = 16;
 
 /// Rows of a wear history.
-pub fn rows(rows: Vec<CycleRow>, points: usize) -> Vec<CycleRow> {
+pub fn rows(rows: Vec<CycleReport>, points: usize) -> Vec<CycleReport> {
     if rows.len() <= points {
         return rows;
     }
     let stations = vec![0.0; rows[0].station_depth_mm.len()];
-    let history = history::columns(&rows, &stations);
-    let named = columns::of(&history);
+    let record = Record::new(&rows, &stations);
+    let named = columns::of(&record);
     let series: Vec<&[f64]> = named
         .iter()
         .filter_map(|(_, values)| match values {
@@ -28,7 +29,7 @@ pub fn rows(rows: Vec<CycleRow>, points: usize) -> Vec<CycleRow> {
             columns::Values::Counts(_) => None,
         })
         .collect();
-    let at: Vec<f64> = history.cycle.iter().map(|cycle| real(*cycle)).collect();
+    let at: Vec<f64> = record.cycle.iter().map(|cycle| real(*cycle)).collect();
     let kept = kept(&at, &series, points);
     let mut index = 0..;
     rows.into_iter()

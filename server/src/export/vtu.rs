@@ -4,8 +4,8 @@
 //! as a vector to warp them by, stresses in MPa.
 
 use solver::fields::BodyFields;
-use solver::history::{PlacedFields, Position};
 use solver::mesh::columns::Cell;
+use solver::record::{PlacedFields, Position};
 use vtkio::model::{
     Attribute, Attributes, ByteOrder, CellType, Cells, DataArray, DataSet, UnstructuredGridPiece,
     Version, VertexNumbers, Vtk,

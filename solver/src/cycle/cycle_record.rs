@@ -3,7 +3,6 @@
 use serde::{Deserialize, Serialize};
 
 use crate::contact::{ContactState, Pair};
-use crate::history::{FrictionLoop, Position};
 
 /// Contact at the neutral position on the way to +x.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
@@ -24,6 +23,34 @@ impl Neutral {
             peak_pressure: contact.peak_pressure(),
             half_width: contact.half_width(x),
         }
+    }
+}
+
+/// Named positions of a cycle.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Position {
+    /// Slider at x = 0 on its way to +x.
+    Neutral,
+    /// Slider at its rightmost place.
+    Rightmost,
+    /// Slider at its leftmost place.
+    Leftmost,
+}
+
+/// Friction force over displacement during one cycle.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct FrictionLoop {
+    /// Imposed displacement, mm.
+    pub displacement_mm: Vec<f64>,
+    /// Force of the slider on the receptacle along x, N/mm.
+    pub tangential_force_n_per_mm: Vec<f64>,
+}
+
+impl FrictionLoop {
+    /// Lets the closed loop begin after its first `steps` increments.
+    pub(super) fn begin_at(&mut self, steps: usize) {
+        self.displacement_mm.rotate_left(steps);
+        self.tangential_force_n_per_mm.rotate_left(steps);
     }
 }
 

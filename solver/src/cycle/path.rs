@@ -6,7 +6,7 @@
 //! Nothing in the contact problem depends on time, so steps are equal in displacement whatever the wave. A step
 //! must stay a fraction of the contact's half-width, or the wear that it sweeps would leave ripples.
 
-use crate::history::Position;
+use super::Position;
 use crate::number::{count_at_least, real};
 use crate::scene::{Accuracy, Motion};
 

@@ -7,9 +7,8 @@
 //! 19 % below it at the ends, whose shape the jumps have changed.
 
 use super::path::{self, Step};
-use super::{CycleState, Integrator};
+use super::{CycleState, Integrator, Position};
 use crate::contact::ContactState;
-use crate::history::Position;
 use crate::number::count_at_least;
 
 /// The way of a probe over the mean half-width of the contact: it leaves its whole width behind twice. Ways of 5 and 8

@@ -3,10 +3,9 @@
 use serde::{Deserialize, Serialize};
 
 use super::jump::JumpControl;
-use super::{Neutral, path};
+use super::{Checks, Neutral, path};
 use crate::condensation::Operators;
 use crate::contact::{ContactError, ContactState};
-use crate::history::Checks;
 
 /// Why a cycle could not be integrated.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]

@@ -2,7 +2,7 @@
 
 use solver::condensation::condense;
 use solver::contact::{ContactError, ContactState, Move, Pair, Solver, Surfaces, slopes};
-use solver::history::{Position, TractionField};
+use solver::record::{Position, TractionField};
 use solver::scene::Scene;
 
 /// Pressures at the end of some explicit cycles of a scene, each standing for `jump` physical ones.

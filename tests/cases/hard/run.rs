@@ -3,8 +3,8 @@
 use serde_json::Value;
 use server::spec;
 use solver::SolveError;
-use solver::history::{CycleReport, Snapshot, Summary};
 use solver::observer::{Event, Flow, Observer};
+use solver::record::{CycleReport, Snapshot, Summary};
 use solver::scene::Scene;
 
 /// A run that has ended, one way or the other.

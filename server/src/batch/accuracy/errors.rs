@@ -2,6 +2,7 @@
 
 use api::results::{Profile, SideProfile, Summary};
 use api::study::Errors;
+use solver::interpolation;
 
 /// What is compared.
 #[derive(Debug, Clone, PartialEq)]
@@ -74,15 +75,7 @@ fn largest_difference(mine: &SideProfile, other: &SideProfile) -> f64 {
 
 /// Depth between the nodes of a profile; beyond its ends, its end values.
 pub(crate) fn depth_at(profile: &SideProfile, x: f64) -> f64 {
-    let (places, depths) = (&profile.x_mm, &profile.depth_mm);
-    if places.len() < 2 {
-        return depths.first().copied().unwrap_or_default();
-    }
-    let i = places
-        .partition_point(|place| *place < x)
-        .clamp(1, places.len() - 1);
-    let t = ((x - places[i - 1]) / (places[i] - places[i - 1])).clamp(0.0, 1.0);
-    (1.0 - t) * depths[i - 1] + t * depths[i]
+    interpolation::linear(&profile.x_mm, &profile.depth_mm, x)
 }
 
 #[cfg(test)]

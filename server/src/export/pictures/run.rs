@@ -1,6 +1,7 @@
 //! The pictures of a run: wear history, profiles, tractions, friction loops.
 
-use api::results::{PressurePosition, SideProfile, SlidePosition, Snapshot, WearHistory};
+use api::results::{PressurePosition, SideProfile, SlidePosition, Snapshot};
+use solver::record::{Column, Record, Side};
 
 use crate::export::pictures::{
     Axis, COLOURS, Colour, Mark, Panel, Picture, Scale, Series, Span, ramp,
@@ -12,13 +13,13 @@ const MOST_SNAPSHOTS: usize = 12;
 /// The pictures of a run with the names of their files. `name` is what the user calls it.
 pub fn pictures(
     name: &str,
-    history: &WearHistory,
+    record: &Record,
     snapshots: &[Snapshot],
 ) -> Vec<(&'static str, Picture)> {
     let shown = thinned(snapshots);
     let mut pictures = Vec::new();
-    if history.cycle.len() > 1 {
-        pictures.push(("wear-history", wear_history(name, history)));
+    if record.cycle.len() > 1 {
+        pictures.push(("wear-history", wear_history(name, record)));
     }
     if !shown.is_empty() {
         pictures.extend(profiles(name, &shown).map(|picture| ("profiles", picture)));
@@ -61,37 +62,41 @@ fn scaled(values: &[f64], factor: f64) -> Vec<f64> {
     values.iter().map(|value| factor * value).collect()
 }
 
-/// Depth over cycles: the deepest place of each side that wears, and the stations.
-fn wear_history(name: &str, history: &WearHistory) -> Picture {
-    let sides = [
-        ("receptacle, deepest", &history.receptacle, COLOURS[0]),
-        ("slider, deepest", &history.slider, COLOURS[1]),
-    ];
-    let worn: Vec<_> = sides
-        .into_iter()
-        .filter(|(_, side, _)| largest(side.max_depth_mm.iter()) > 0.0)
-        .collect();
-    let deepest = worn
+/// Depth over cycles: the stations, and the channels that have a curve, of each side that wears.
+fn wear_history(name: &str, record: &Record) -> Picture {
+    let drawn = record
+        .columns
         .iter()
-        .map(|(_, side, _)| largest(side.max_depth_mm.iter()));
+        .filter(|column| !column.curve.is_empty());
+    let drawn: Vec<(&Column, Colour)> = drawn
+        .zip(COLOURS.into_iter().cycle())
+        .filter(|(column, _)| largest(column.values.iter()) > 0.0)
+        .collect();
+    let deepest = drawn
+        .iter()
+        .map(|(column, _)| largest(column.values.iter()));
     let (depth_unit, depth) = unit(deepest.fold(0.0, f64::max));
-    let cycles: Vec<f64> = history.cycle.iter().map(|cycle| count(*cycle)).collect();
+    let cycles: Vec<f64> = record.cycle.iter().map(|cycle| count(*cycle)).collect();
+    let curve = |label: String, colour, column: &Column| {
+        line(label, colour, &cycles, &scaled(&column.values, depth))
+    };
+    let stations: Vec<_> = record
+        .columns
+        .iter()
+        .filter_map(|column| Some((column, column.place_mm?)))
+        .collect();
     let mut series = Vec::new();
-    for (index, station) in history.stations.iter().enumerate() {
-        let (place_unit, place) = unit(station.x_mm.abs().max(1e-3));
-        let label = format!("x = {} {place_unit}", short(place * station.x_mm));
-        let colour = ramp(index, history.stations.len());
-        let mut at = line(label, colour, &cycles, &scaled(&station.depth_mm, depth));
-        at.mark = Mark::Dashes;
-        series.push(at);
+    for (index, (column, x_mm)) in stations.iter().enumerate() {
+        let (place_unit, place) = unit(x_mm.abs().max(1e-3));
+        let label = format!("x = {} {place_unit}", short(place * x_mm));
+        series.push(Series {
+            mark: Mark::Dashes,
+            ..curve(label, ramp(index, stations.len()), column)
+        });
     }
-    for (label, side, colour) in worn {
-        series.push(line(
-            label,
-            colour,
-            &cycles,
-            &scaled(&side.max_depth_mm, depth),
-        ));
+    for (column, colour) in drawn {
+        let side = column.side.map_or("contact", Side::name);
+        series.push(curve(format!("{side}, {}", column.curve), colour, column));
     }
     Picture {
         title: titled("Wear history", name),

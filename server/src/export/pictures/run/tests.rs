@@ -1,22 +1,20 @@
-use api::results::{Loop, Pressure, Profile, SideSeries, Station};
+use api::results::{Loop, Pressure, Profile};
+use solver::record::{CycleReport, SideReport};
 
 use super::*;
 use crate::export::pictures::{png, svg};
 
-fn history() -> WearHistory {
-    WearHistory {
-        cycle: vec![0, 10, 20],
-        stations: vec![Station {
-            side: "receptacle".to_owned(),
-            x_mm: 0.0,
-            depth_mm: vec![0.0, 1e-3, 2e-3],
-        }],
-        receptacle: SideSeries {
-            max_depth_mm: vec![0.0, 1e-3, 2e-3],
-            ..SideSeries::default()
+fn history() -> Record {
+    let reports = [(0, 0.0), (10, 1e-3), (20, 2e-3)].map(|(cycle, depth)| CycleReport {
+        cycle,
+        station_depth_mm: vec![depth],
+        receptacle: SideReport {
+            max_depth_mm: depth,
+            ..SideReport::default()
         },
-        ..WearHistory::default()
-    }
+        ..CycleReport::default()
+    });
+    Record::new(&reports, &[0.0])
 }
 
 fn snapshot(cycle: u64, depth_mm: f64) -> Snapshot {
@@ -117,7 +115,7 @@ fn pictures_are_drawn_without_fonts_of_the_system() {
 fn what_did_not_happen_has_no_picture() {
     let mut unworn = snapshot(0, 0.0);
     unworn.friction_loop = Loop::default();
-    let empty = WearHistory::default();
+    let empty = Record::default();
     let names: Vec<_> = pictures("", &empty, &[unworn])
         .into_iter()
         .map(|(name, _)| name)

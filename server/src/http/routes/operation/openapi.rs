@@ -12,6 +12,7 @@ use std::sync::OnceLock;
 use axum::http::header;
 use axum::response::IntoResponse;
 use serde_json::{Value, json};
+use solver::record::{Channels, CycleReport, SideReport};
 
 /// The document, made once.
 pub fn document() -> &'static Value {
@@ -52,6 +53,9 @@ fn complete(document: &mut Value) {
         "description": "The service's access token; asked for wherever one is set"
     });
     document["security"] = json!([{}, {"token": []}]);
+    let schemas = &mut document["components"]["schemas"];
+    describe_channels::<CycleReport>(&mut schemas["WearHistory"]);
+    describe_channels::<SideReport>(&mut schemas["SideSeries"]);
     let problem = |words: &str| {
         json!({
             "description": words,
@@ -83,6 +87,20 @@ fn complete(document: &mut Value) {
             responses.entry(status).or_insert_with(missing);
         }
     }
+}
+
+/// Adds the channels of a report of the engine, which `api` does not know, to the schema of their columns.
+fn describe_channels<R: Channels>(schema: &mut Value) {
+    let mut required = schema["required"].as_array().cloned().unwrap_or_default();
+    for channel in R::CHANNELS {
+        required.push(channel.name.into());
+        schema["properties"][channel.name] = json!({
+            "type": "array",
+            "description": channel.description,
+            "items": {"type": "number", "format": "double"}
+        });
+    }
+    schema["required"] = required.into();
 }
 
 /// Problem documents have a media type of their own.

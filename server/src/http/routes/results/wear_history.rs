@@ -1,12 +1,13 @@
 //! `GET /v1/jobs/{id}/results/wear-history`: wear over the cycles, there while the job runs.
 
 use api::problem::Problem;
-use api::results::{CycleRow, WearHistory};
+use api::results::WearHistory;
 use axum::Json;
 use axum::extract::State;
 use axum::http::header;
 use axum::response::{IntoResponse, Response};
 use serde::Deserialize;
+use solver::record::{CycleReport, Record};
 use utoipa::{IntoParams, ToSchema};
 
 use crate::export::documents::{CSV, DocumentError, PARQUET};
@@ -73,7 +74,7 @@ pub(in crate::http) async fn wear_history(
 }
 
 fn written(
-    mut rows: Vec<CycleRow>,
+    mut rows: Vec<CycleReport>,
     points: Option<usize>,
     stations: &[f64],
     format: HistoryFormat,
@@ -81,15 +82,15 @@ fn written(
     if let Some(points) = points {
         rows = thin::rows(rows, points);
     }
-    let columns = history::columns(&rows, stations);
+    let record = Record::new(&rows, stations);
     Ok(match format {
-        HistoryFormat::Json => Json(columns).into_response(),
+        HistoryFormat::Json => Json(history::document(record)).into_response(),
         HistoryFormat::Csv => {
-            let table = csv::wear_history(&columns).map_err(DocumentError::from)?;
+            let table = csv::wear_history(&record).map_err(DocumentError::from)?;
             ([(header::CONTENT_TYPE, CSV)], table).into_response()
         }
         HistoryFormat::Parquet => {
-            let table = parquet::wear_history(&columns).map_err(DocumentError::from)?;
+            let table = parquet::wear_history(&record).map_err(DocumentError::from)?;
             ([(header::CONTENT_TYPE, PARQUET)], table).into_response()
         }
     })
