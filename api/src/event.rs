@@ -30,7 +30,7 @@ pub struct Done {
     pub status_reason: Option<String>,
     /// How the solve ended.
     pub outcome: Option<Outcome>,
-    /// The result in short.
+    /// Summary of the result.
     pub summary: Option<Summary>,
 }
 

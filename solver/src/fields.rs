@@ -16,7 +16,7 @@ use crate::model::{BodyModel, Model};
 /// Fields of both bodies at one position of the slider.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PlacedFields {
-    /// Where in the cycle.
+    /// Position in the cycle.
     pub position: Position,
     /// The slider's fields, its nodes at its place at that moment.
     pub slider: BodyFields,

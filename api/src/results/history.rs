@@ -8,14 +8,14 @@ use utoipa::ToSchema;
 /// Columns by name, in order, one value a computed cycle.
 pub type Columns = IndexMap<String, Vec<f64>>;
 
-/// Worn depth followed at one place.
+/// Worn depth at a station.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct Station {
     /// The side: `receptacle`.
     pub side: String,
-    /// The place, mm.
+    /// Position along the surface, mm.
     pub x_mm: f64,
-    /// Worn depth, mm, one a row.
+    /// Worn depth, mm, one value per row.
     pub depth_mm: Vec<f64>,
 }
 
@@ -33,7 +33,7 @@ pub struct SideSeries {
 pub struct WearHistory {
     /// Physical cycles done.
     pub cycle: Vec<u64>,
-    /// Physical cycles that the computed cycle stood for.
+    /// Physical cycles that the computed cycle represents.
     pub jump: Vec<u64>,
     /// Accumulated imposed sliding distance, mm.
     pub sliding_distance_mm: Vec<f64>,

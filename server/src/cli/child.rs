@@ -125,7 +125,7 @@ fn end_with_supervisor() {
 fn keep(folder: &Path, fields: &FieldsFile, stop: &AtomicBool) -> Flow {
     let FieldsFile { name, cycle, bytes } = fields;
     let mut told = false;
-    while let Err(error) = files::keep(folder, name, bytes) {
+    while let Err(error) = files::write_atomically(folder, name, bytes) {
         if !told {
             tell(&error);
             told = true;
@@ -139,7 +139,7 @@ fn keep(folder: &Path, fields: &FieldsFile, stop: &AtomicBool) -> Flow {
         }
         std::thread::sleep(DISK_PAUSE);
     }
-    write(&Line::Kept(files::described(
+    write(&Line::Kept(files::manifest_entry(
         name,
         Some(*cycle),
         VTU,

@@ -8,7 +8,7 @@ use solver::record::Record;
 use crate::export::columns;
 use crate::export::columns::Values;
 
-/// Numbers could not be written as CSV.
+/// A table could not be written as CSV.
 #[derive(Debug, thiserror::Error)]
 #[error("writing CSV: {0}")]
 pub struct CsvError(pub(crate) String);
@@ -44,7 +44,7 @@ fn numbers<T: ToString>(header: impl Into<String>, values: &[T]) -> (String, Vec
     )
 }
 
-/// The wear history, one line a computed cycle.
+/// The wear history, one line per computed cycle.
 ///
 /// # Errors
 /// [`CsvError`] if the writer fails.
@@ -59,7 +59,7 @@ pub fn wear_history(record: &Record) -> Result<Vec<u8>, CsvError> {
     write(&table)
 }
 
-/// A profile: side, place, worn depth.
+/// A profile: side, position, worn depth.
 ///
 /// # Errors
 /// [`CsvError`] if the writer fails.
@@ -82,7 +82,7 @@ pub fn profile(profile: &Profile) -> Result<Vec<u8>, CsvError> {
     ])
 }
 
-/// Tractions: position, slider's displacement, place, pressure, shear.
+/// Tractions: phase, displacement of the slider, position on the receptacle, pressure, shear.
 ///
 /// # Errors
 /// [`CsvError`] if the writer fails.
@@ -126,7 +126,7 @@ pub fn friction_loop(friction_loop: &Loop) -> Result<Vec<u8>, CsvError> {
     ])
 }
 
-/// A study, one line a run; cells of what a run does not have are empty.
+/// A study, one line per run; values that a run does not have are empty cells.
 ///
 /// # Errors
 /// [`CsvError`] if the writer fails.

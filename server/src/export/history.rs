@@ -1,4 +1,4 @@
-//! The engine's reports to result documents.
+//! Result documents of the engine's results.
 
 use api::job::{Outcome, Phase};
 use api::results::{
@@ -6,9 +6,9 @@ use api::results::{
     SideSummary, SlidePosition, Snapshot, Station, Summary, WearHistory,
 };
 use solver::observer;
-use solver::record::{self, Record, Side};
+use solver::record::{self, Record, Side, SideReport};
 
-/// A phase of the work.
+/// The phase of a job.
 pub fn phase(phase: observer::Phase) -> Phase {
     match phase {
         observer::Phase::Mesh => Phase::Mesh,
@@ -18,85 +18,73 @@ pub fn phase(phase: observer::Phase) -> Phase {
     }
 }
 
-/// What is stored at a cycle.
+/// Copies the fields of the same names from a result of the engine into a document.
+macro_rules! document {
+    ($document:ident of $result:expr; $($field:ident),+ $(; $own:ident: $value:expr)*) => {{
+        let result = $result;
+        $document {
+            $($field: result.$field.clone(),)+
+            $($own: $value,)*
+        }
+    }};
+}
+
+/// The documents of a snapshot.
 pub fn snapshot(snapshot: &record::Snapshot) -> Snapshot {
     let cycle = snapshot.cycle;
     Snapshot {
         profile: Profile {
             cycle,
-            receptacle: side_profile(&snapshot.receptacle),
-            slider: side_profile(&snapshot.slider),
+            receptacle: document!(SideProfile of &snapshot.receptacle; x_mm, depth_mm),
+            slider: document!(SideProfile of &snapshot.slider; x_mm, depth_mm),
         },
         pressure: Pressure {
             cycle,
             positions: snapshot.positions.iter().map(position).collect(),
         },
-        friction_loop: Loop {
-            cycle,
-            displacement_mm: snapshot.friction_loop.displacement_mm.clone(),
-            tangential_force_n_per_mm: snapshot.friction_loop.tangential_force_n_per_mm.clone(),
-        },
-    }
-}
-
-fn side_profile(profile: &record::DepthProfile) -> SideProfile {
-    SideProfile {
-        x_mm: profile.x_mm.clone(),
-        depth_mm: profile.depth_mm.clone(),
+        friction_loop: document!(
+            Loop of &snapshot.friction_loop; displacement_mm, tangential_force_n_per_mm; cycle: cycle
+        ),
     }
 }
 
 fn position(field: &record::TractionField) -> PressurePosition {
-    PressurePosition {
-        phase: match field.position {
-            record::Position::Neutral => SlidePosition::Neutral,
-            record::Position::Rightmost => SlidePosition::Rightmost,
-            record::Position::Leftmost => SlidePosition::Leftmost,
-        },
-        slider_x_mm: field.slider_x_mm,
-        x_mm: field.x_mm.clone(),
-        pressure_mpa: field.pressure_mpa.clone(),
-        shear_mpa: field.shear_mpa.clone(),
-    }
+    let phase = match field.position {
+        record::Position::Neutral => SlidePosition::Neutral,
+        record::Position::Rightmost => SlidePosition::Rightmost,
+        record::Position::Leftmost => SlidePosition::Leftmost,
+    };
+    document!(PressurePosition of field; slider_x_mm, x_mm, pressure_mpa, shear_mpa; phase: phase)
 }
 
-/// The result in short. `cost` was measured outside the engine, which knows no clock; its `dofs` are filled in here.
+/// The summary document. `cost` was measured outside of the engine, which knows no clock; only its `dofs` are set here.
 pub fn summary(summary: &record::Summary, cost: Cost) -> Summary {
-    let (last, resolution, checks) = (&summary.last, &summary.resolution, &summary.checks);
-    Summary {
-        cycles_done: last.cycle,
-        sliding_distance_mm: last.sliding_distance_mm,
-        outcome: outcome(summary.outcome),
-        receptacle: side_summary(&last.receptacle),
-        slider: side_summary(&last.slider),
-        peak_pressure_mpa: last.peak_pressure_mpa,
-        contact_half_width_mm: last.contact_half_width_mm,
-        initial: Initial {
-            peak_pressure_mpa: summary.initial.peak_pressure_mpa,
-            contact_half_width_mm: summary.initial.contact_half_width_mm,
-        },
-        dissipated_energy_mj_per_mm: last.dissipated_energy_mj_per_mm,
-        accuracy: AccuracyReached {
-            estimated_relative_error: resolution.estimated_relative_error,
-            contact_elements: count(resolution.contact_elements),
-            contact_element_mm: resolution.contact_element_mm,
-            increments_per_cycle: resolution.increments_per_cycle,
-            computed_cycles: resolution.computed_cycles,
-            increments: resolution.increments,
-            relocations: resolution.relocations,
-        },
-        cost: Cost {
-            dofs: count(resolution.dofs),
-            ..cost
-        },
-        checks: Checks {
-            force_balance: checks.force_balance,
-            worn_area: checks.worn_area,
-            complementarity: checks.complementarity,
-            friction_cone: checks.friction_cone,
-            friction_use: checks.friction_use,
-        },
-    }
+    let (last, resolution) = (&summary.last, &summary.resolution);
+    let side = |side: &SideReport| {
+        document!(
+            SideSummary of side; max_depth_mm, worn_area_mm2, ideal_area_mm2, scar_half_width_mm
+        )
+    };
+    document!(
+        Summary of last;
+        sliding_distance_mm, peak_pressure_mpa, contact_half_width_mm, dissipated_energy_mj_per_mm;
+        cycles_done: last.cycle;
+        outcome: outcome(summary.outcome);
+        receptacle: side(&last.receptacle);
+        slider: side(&last.slider);
+        initial: document!(Initial of summary.initial; peak_pressure_mpa, contact_half_width_mm);
+        accuracy: document!(
+            AccuracyReached of resolution;
+            estimated_relative_error, contact_element_mm, increments_per_cycle, computed_cycles,
+            increments, relocations;
+            contact_elements: count(resolution.contact_elements)
+        );
+        cost: Cost { dofs: count(resolution.dofs), ..cost };
+        checks: document!(
+            Checks of summary.checks;
+            force_balance, worn_area, complementarity, friction_cone, friction_use
+        )
+    )
 }
 
 fn outcome(outcome: record::Outcome) -> Outcome {
@@ -108,21 +96,12 @@ fn outcome(outcome: record::Outcome) -> Outcome {
     }
 }
 
-fn side_summary(side: &record::SideReport) -> SideSummary {
-    SideSummary {
-        max_depth_mm: side.max_depth_mm,
-        worn_area_mm2: side.worn_area_mm2,
-        ideal_area_mm2: side.ideal_area_mm2,
-        scar_half_width_mm: side.scar_half_width_mm,
-    }
-}
-
 fn count(count: usize) -> u64 {
     u64::try_from(count).unwrap_or(u64::MAX)
 }
 
-/// The wear history as a document.
-pub fn document(record: Record) -> WearHistory {
+/// The document of a wear history.
+pub fn wear_history(record: Record) -> WearHistory {
     let mut history = WearHistory {
         cycle: record.cycle,
         jump: record.jump,

@@ -18,7 +18,7 @@ use crate::export::columns::Values;
 #[error("writing Parquet: {0}")]
 pub struct ParquetError(#[from] Cause);
 
-/// The wear history, one row a computed cycle.
+/// The wear history, one row per computed cycle.
 ///
 /// # Errors
 /// [`ParquetError`] if the writer fails.
@@ -33,7 +33,7 @@ pub fn wear_history(record: &Record) -> Result<Vec<u8>, ParquetError> {
         };
         match values {
             Values::Counts(counts) => {
-                let counts: Vec<i64> = counts.iter().map(|count| wide(*count)).collect();
+                let counts: Vec<i64> = counts.iter().map(|count| to_i64(*count)).collect();
                 column
                     .typed::<Int64Type>()
                     .write_batch(&counts, None, None)?;
@@ -68,8 +68,8 @@ fn schema(columns: &[(String, Values<'_>)]) -> Result<Arc<Type>, Cause> {
     Ok(Arc::new(root.build()?))
 }
 
-/// Counts stay far below 2^63.
-fn wide(count: u64) -> i64 {
+/// A count as Parquet stores it; counts stay far below 2^63.
+fn to_i64(count: u64) -> i64 {
     i64::try_from(count).unwrap_or(i64::MAX)
 }
 
@@ -82,7 +82,7 @@ mod tests {
     use crate::http::tests::row;
 
     #[test]
-    fn a_reader_finds_the_same_rows_under_the_same_names() {
+    fn a_reader_returns_the_same_rows_under_the_same_names() {
         let written = Record::new(&[10, 20].map(row), &[-0.5, 0.0, 0.5]);
         let bytes = wear_history(&written).expect("bytes");
         let reader = SerializedFileReader::new(axum::body::Bytes::from(bytes)).expect("a file");

@@ -129,8 +129,8 @@ impl Service {
             .await
             .expect("the store")
             .expect("a job");
-        let fields = files::described("fields-20.vtu", Some(20), VTU, FIELDS.as_bytes());
-        files::keep(
+        let fields = files::manifest_entry("fields-20.vtu", Some(20), VTU, FIELDS.as_bytes());
+        files::write_atomically(
             &store.attempt_folder(&claim),
             &fields.name,
             FIELDS.as_bytes(),
@@ -143,7 +143,7 @@ impl Service {
                     content: None,
                 },
                 NewFile {
-                    file: files::described("summary.json", None, JSON, b"{}"),
+                    file: files::manifest_entry("summary.json", None, JSON, b"{}"),
                     content: Some(b"{}".to_vec()),
                 },
             ],

@@ -31,9 +31,9 @@ impl Neutral {
 pub enum Position {
     /// Slider at x = 0 on its way to +x.
     Neutral,
-    /// Slider at its rightmost place.
+    /// Slider at its rightmost position.
     Rightmost,
-    /// Slider at its leftmost place.
+    /// Slider at its leftmost position.
     Leftmost,
 }
 

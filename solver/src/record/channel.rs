@@ -21,14 +21,16 @@ pub trait Channels: Sized + 'static {
     const CHANNELS: &'static [Channel<Self>];
 }
 
-/// Declares a report. `fields` are what every document knows by name; a line of `channels` is all that a new scalar
-/// takes: its description, its name, its unit, the name of its curve if it is a worn depth to be drawn, its value.
+/// Declares a report type, its table of channels and its constructor `of(source)`.
 ///
-/// A channel that a stored report lacks, because it is older than the channel, is read as 0.
+/// A line of `channels` is one scalar: description, name, unit, name of its curve if it is a worn depth to be drawn,
+/// value. Documents know `fields` by name, so a new field needs edits there; a new channel does not.
+///
+/// Stored reports that are older than a channel are read with 0 for it.
 macro_rules! declare_report {
     (
         $(#[$attribute:meta])*
-        $report:ident from $source:ident: $source_type:ty;
+        $visibility:vis $report:ident from $source:ident: $source_type:ty;
         fields {
             $($(#[$field_attribute:meta])* $field:ident: $field_type:ty = $field_value:expr,)*
         }
@@ -41,7 +43,7 @@ macro_rules! declare_report {
     ) => {
         $(#[$attribute])*
         #[derive(Debug, Clone, Default, PartialEq, serde::Serialize, serde::Deserialize)]
-        pub struct $report {
+        $visibility struct $report {
             $($(#[$field_attribute])* pub $field: $field_type,)*
             $(
                 #[doc = $description]

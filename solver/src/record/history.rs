@@ -59,7 +59,7 @@ impl Column {
 pub struct Record {
     /// Physical cycles done.
     pub cycle: Vec<u64>,
-    /// Physical cycles that each computed cycle stood for.
+    /// Physical cycles that each computed cycle represents.
     pub jump: Vec<u64>,
     /// Accumulated imposed sliding distance, mm.
     pub sliding_distance_mm: Vec<f64>,

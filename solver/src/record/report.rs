@@ -10,7 +10,7 @@ use crate::scene::Scene;
 declare_report! {
     /// Wear of one body.
     #[derive(Copy)]
-    SideReport from surface: &Surface<'_>;
+    pub SideReport from surface: &Surface<'_>;
     fields {
         /// k P' s for the whole load sliding the whole imposed distance, mm^2; `None` where nothing wears or a spring
         /// changes the load. Part of the summary, not of the history.
@@ -29,11 +29,11 @@ declare_report! {
 
 declare_report! {
     /// State after a computed cycle; cycle 0 is the unworn, loaded state.
-    CycleReport from end: &CycleEnd<'_>;
+    pub CycleReport from end: &CycleEnd<'_>;
     fields {
         /// Physical cycles done.
         cycle: u64 = end.state.cycle,
-        /// Physical cycles that the last computed cycle stood for.
+        /// Physical cycles that the last computed cycle represents.
         jump: u64 = end.state.jump.last,
         /// Estimated relative error of worn depth made by the last jump.
         jump_error: f64 = end.state.jump.error,
@@ -47,7 +47,7 @@ declare_report! {
         station_depth_mm: Vec<f64> = end.station_depths(),
     }
     channels {
-        /// Normal load that a spring leaves, N per mm of depth.
+        /// Normal load, which a spring reduces as the bodies wear, N per mm of depth.
         load_n_per_mm ["n_per_mm"] = end.state.neutral.load,
         /// Highest contact pressure, MPa.
         peak_pressure_mpa ["mpa"] = end.state.neutral.peak_pressure,

@@ -34,11 +34,11 @@ pub struct DepthProfile {
 /// Contact tractions on the receptacle at one position of the slider.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TractionField {
-    /// Where in the cycle.
+    /// Position in the cycle.
     pub position: Position,
     /// Imposed displacement of the slider relative to the receptacle, mm.
     pub slider_x_mm: f64,
-    /// Places on the receptacle, mm.
+    /// Positions on the receptacle, mm.
     pub x_mm: Vec<f64>,
     /// Normal pressure, MPa.
     pub pressure_mpa: Vec<f64>,

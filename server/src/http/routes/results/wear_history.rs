@@ -84,7 +84,7 @@ fn written(
     }
     let record = Record::new(&rows, stations);
     Ok(match format {
-        HistoryFormat::Json => Json(history::document(record)).into_response(),
+        HistoryFormat::Json => Json(history::wear_history(record)).into_response(),
         HistoryFormat::Csv => {
             let table = csv::wear_history(&record).map_err(DocumentError::from)?;
             ([(header::CONTENT_TYPE, CSV)], table).into_response()
