@@ -3,12 +3,14 @@
 pub mod checkpoint;
 mod cost;
 
+use std::ops::ControlFlow;
+
 use api::job::{Outcome, Phase};
 use api::results::{Cost, ResultFile, Snapshot, Summary};
 use serde::{Deserialize, Serialize};
 use solver::SolveError;
 use solver::checkpoint::Checkpoint;
-use solver::observer::{Event, Flow, Observer};
+use solver::observer::{self, Event, Observer};
 use solver::record::{CycleReport, PlacedFields};
 use solver::scene::Scene;
 
@@ -81,7 +83,7 @@ impl From<SolveError> for Failure {
 ///
 /// # Errors
 /// [`Failure`] with the engine's numbers.
-pub fn run(scene: &Scene, on: &mut dyn FnMut(Line) -> Flow) -> Result<Summary, Failure> {
+pub fn run(scene: &Scene, on: &mut dyn FnMut(Line) -> ControlFlow<()>) -> Result<Summary, Failure> {
     run_from(scene, None, &Keeping::default(), on)
 }
 
@@ -94,50 +96,58 @@ pub fn run_from(
     scene: &Scene,
     from: Option<Saved>,
     keeping: &Keeping,
-    on: &mut dyn FnMut(Line) -> Flow,
+    on: &mut dyn FnMut(Line) -> ControlFlow<()>,
 ) -> Result<Summary, Failure> {
     let Some(Saved { cost, run }) = from else {
-        return anew(scene, keeping, on);
+        return anew(scene, Recorder::new(on, keeping, Cost::default()));
     };
     let mut recorder = Recorder::new(on, keeping, cost);
     match solver::run::resume(scene, run, &mut recorder) {
         Err(SolveError::Checkpoint(misfit)) => {
-            on(Line::Anew(misfit.to_string()));
-            anew(scene, keeping, on)
+            let mut recorder = Recorder::new(on, keeping, Cost::default());
+            recorder.note(Line::Anew(misfit.to_string()));
+            anew(scene, recorder)
         }
         ended => Ok(history::summary(&ended?, recorder.watch.cost())),
     }
 }
 
-fn anew(
-    scene: &Scene,
-    keeping: &Keeping,
-    on: &mut dyn FnMut(Line) -> Flow,
-) -> Result<Summary, Failure> {
-    let mut recorder = Recorder::new(on, keeping, Cost::default());
+fn anew(scene: &Scene, mut recorder: Recorder<'_>) -> Result<Summary, Failure> {
     let summary = solver::run::solve(scene, &mut recorder)?;
     Ok(history::summary(&summary, recorder.watch.cost()))
 }
 
 struct Recorder<'a> {
-    on: &'a mut dyn FnMut(Line) -> Flow,
+    on: &'a mut dyn FnMut(Line) -> ControlFlow<()>,
     keeping: &'a Keeping,
     watch: Stopwatch,
+    /// Set by a line that was refused where the run could not be stopped; the next event stops it.
+    refused: bool,
 }
 
 impl<'a> Recorder<'a> {
-    fn new(on: &'a mut dyn FnMut(Line) -> Flow, keeping: &'a Keeping, earlier: Cost) -> Self {
+    fn new(
+        on: &'a mut dyn FnMut(Line) -> ControlFlow<()>,
+        keeping: &'a Keeping,
+        earlier: Cost,
+    ) -> Self {
         Self {
             on,
             keeping,
             watch: Stopwatch::start(earlier),
+            refused: false,
         }
     }
 
+    /// Sends a line that belongs to no event of the run.
+    fn note(&mut self, line: Line) {
+        self.refused |= (self.on)(line).is_break();
+    }
+
     /// Tells a checkpoint if one is due, and stops the run if it is asked to.
-    fn keep(&mut self, run: &Checkpoint) -> Flow {
+    fn keep(&mut self, run: &Checkpoint) -> ControlFlow<()> {
         if !self.keeping.is_due() {
-            return Flow::Continue;
+            return ControlFlow::Continue(());
         }
         let saved = Saved {
             cost: self.watch.cost(),
@@ -150,11 +160,11 @@ impl<'a> Recorder<'a> {
             })),
             Err(error) => {
                 tracing::error!(%error, "a checkpoint was left out");
-                Flow::Continue
+                ControlFlow::Continue(())
             }
         };
         if self.keeping.stops() {
-            Flow::Stop
+            ControlFlow::Break(())
         } else {
             told
         }
@@ -162,37 +172,39 @@ impl<'a> Recorder<'a> {
 }
 
 impl Recorder<'_> {
-    fn fields(&mut self, cycle: u64, fields: &PlacedFields) -> Flow {
+    fn fields(&mut self, cycle: u64, fields: &PlacedFields) -> ControlFlow<()> {
         let name = vtu::file_name(cycle, fields.position);
         match vtu::bytes(fields) {
             Ok(bytes) => (self.on)(Line::Fields(FieldsFile { name, cycle, bytes })),
             Err(error) => {
                 tracing::error!(%error, name, "fields were left out");
-                Flow::Continue
+                ControlFlow::Continue(())
             }
         }
     }
 }
 
 impl Observer for Recorder<'_> {
-    fn on(&mut self, event: Event<'_>) -> Flow {
+    fn on(&mut self, event: Event<'_>) -> ControlFlow<()> {
+        if self.refused {
+            return ControlFlow::Break(());
+        }
         let line = match event {
-            Event::Phase(phase) => {
-                let phase = history::phase(phase);
-                self.watch.enter(phase);
-                Line::Phase(phase)
-            }
             Event::Cycle(report) => Line::Cycle(report.clone()),
             Event::Snapshot(snapshot) => {
                 for fields in &snapshot.fields {
-                    if self.fields(snapshot.cycle, fields) == Flow::Stop {
-                        return Flow::Stop;
-                    }
+                    self.fields(snapshot.cycle, fields)?;
                 }
                 Line::Snapshot(Box::new(history::snapshot(snapshot)))
             }
             Event::Checkpoint(run) => return self.keep(run),
         };
         (self.on)(line)
+    }
+
+    fn on_phase(&mut self, phase: observer::Phase) {
+        let phase = history::phase(phase);
+        self.watch.enter(phase);
+        self.note(Line::Phase(phase));
     }
 }

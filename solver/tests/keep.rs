@@ -1,6 +1,8 @@
 //! An observer that keeps everything.
 
-use solver::observer::{Event, Flow, Observer};
+use std::ops::ControlFlow;
+
+use solver::observer::{Event, Observer};
 use solver::record::{CycleReport, DepthProfile, Snapshot, Summary};
 use solver::scene::Scene;
 use solver::{SolveError, interpolation};
@@ -13,13 +15,13 @@ pub(crate) struct Keep {
 }
 
 impl Observer for Keep {
-    fn on(&mut self, event: Event<'_>) -> Flow {
+    fn on(&mut self, event: Event<'_>) -> ControlFlow<()> {
         match event {
-            Event::Phase(_) | Event::Checkpoint(_) => {}
+            Event::Checkpoint(_) => {}
             Event::Cycle(report) => self.reports.push(report.clone()),
             Event::Snapshot(snapshot) => self.snapshots.push(snapshot.clone()),
         }
-        Flow::Continue
+        ControlFlow::Continue(())
     }
 }
 

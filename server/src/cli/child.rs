@@ -6,6 +6,7 @@
 //! terminate, the process tells a checkpoint after the present cycle and ends.
 
 use std::io::{BufRead, Read, Write};
+use std::ops::ControlFlow;
 use std::path::Path;
 use std::process::ExitCode;
 use std::sync::Arc;
@@ -17,7 +18,6 @@ use base64::Engine as _;
 use base64::prelude::BASE64_STANDARD;
 use nix::sys::resource::{Resource, setrlimit};
 use signal_hook::consts::SIGTERM;
-use solver::observer::Flow;
 
 use crate::cli::ChildArguments;
 use crate::cli::terminal::{failed, refused, tell};
@@ -46,18 +46,23 @@ pub(super) fn run(arguments: &ChildArguments) -> ExitCode {
     let resolved = match spec::read(spec.as_bytes()) {
         Ok(resolved) => resolved,
         Err(error) => {
-            write(&Line::Failed(Failure {
+            let failed = Line::Failed(Failure {
                 outcome: Outcome::NotConverged,
                 reason: error.to_string(),
-            }));
-            return refused(&error);
+            });
+            return match write(&failed) {
+                ControlFlow::Continue(()) => refused(&error),
+                ControlFlow::Break(()) => ExitCode::FAILURE,
+            };
         }
     };
     std::thread::spawn(end_with_supervisor);
     let from = match saved(&checkpoint) {
         Ok(from) => from,
         Err(why) => {
-            write(&Line::Anew(why));
+            if write(&Line::Anew(why)).is_break() {
+                return ExitCode::FAILURE;
+            }
             None
         }
     };
@@ -73,8 +78,8 @@ pub(super) fn run(arguments: &ChildArguments) -> ExitCode {
         Err(failure) => Line::Failed(failure),
     };
     match write(&last) {
-        Flow::Continue => ExitCode::SUCCESS,
-        Flow::Stop => ExitCode::FAILURE,
+        ControlFlow::Continue(()) => ExitCode::SUCCESS,
+        ControlFlow::Break(()) => ExitCode::FAILURE,
     }
 }
 
@@ -122,7 +127,7 @@ fn end_with_supervisor() {
 /// Writes fields into the attempt's folder and tells of the file. A disk that takes no more is no fault of the study: a
 /// full one is waited for, unless the process is asked to end; for another reason it ends without a verdict, and another
 /// attempt is made.
-fn keep(folder: &Path, fields: &FieldsFile, stop: &AtomicBool) -> Flow {
+fn keep(folder: &Path, fields: &FieldsFile, stop: &AtomicBool) -> ControlFlow<()> {
     let FieldsFile { name, cycle, bytes } = fields;
     let mut told = false;
     while let Err(error) = files::write_atomically(folder, name, bytes) {
@@ -135,7 +140,7 @@ fn keep(folder: &Path, fields: &FieldsFile, stop: &AtomicBool) -> Flow {
             _ => std::process::exit(UNWRITTEN),
         }
         if stop.load(Ordering::Relaxed) {
-            return Flow::Stop;
+            return ControlFlow::Break(());
         }
         std::thread::sleep(DISK_PAUSE);
     }
@@ -148,14 +153,14 @@ fn keep(folder: &Path, fields: &FieldsFile, stop: &AtomicBool) -> Flow {
 }
 
 /// Writes a line; a supervisor that does not read any more stops the run.
-fn write(line: &Line) -> Flow {
+fn write(line: &Line) -> ControlFlow<()> {
     let Ok(mut bytes) = serde_json::to_vec(line) else {
-        return Flow::Stop;
+        return ControlFlow::Break(());
     };
     bytes.push(b'\n');
     let mut stdout = std::io::stdout().lock();
     match stdout.write_all(&bytes).and_then(|()| stdout.flush()) {
-        Ok(()) => Flow::Continue,
-        Err(_) => Flow::Stop,
+        Ok(()) => ControlFlow::Continue(()),
+        Err(_) => ControlFlow::Break(()),
     }
 }
