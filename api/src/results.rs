@@ -5,7 +5,7 @@ mod manifest;
 mod snapshot;
 mod summary;
 
-pub use history::{CycleRow, SideRow, SideSeries, Station, WearHistory};
+pub use history::{Columns, SideSeries, Station, WearHistory};
 pub use manifest::{Manifest, ResultFile};
 pub use snapshot::{
     Loop, Pressure, PressurePosition, Profile, SideProfile, SlidePosition, Snapshot,

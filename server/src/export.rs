@@ -1,4 +1,4 @@
-//! Results in the formats that other programs read: CSV, Parquet, VTU, pictures, and the model as an input deck.
+//! Results in the formats of other programs: CSV, Parquet, VTU, pictures, and the model as an input deck.
 
 pub mod columns;
 pub mod csv;
@@ -10,3 +10,6 @@ pub mod parquet;
 pub mod pictures;
 pub mod thin;
 pub mod vtu;
+
+#[cfg(test)]
+mod tests;

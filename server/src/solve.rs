@@ -6,12 +6,12 @@ mod cost;
 use std::ops::ControlFlow;
 
 use api::job::{Outcome, Phase};
-use api::results::{Cost, CycleRow, ResultFile, Snapshot, Summary};
+use api::results::{Cost, ResultFile, Snapshot, Summary};
 use serde::{Deserialize, Serialize};
 use solver::SolveError;
 use solver::checkpoint::Checkpoint;
-use solver::history::PlacedFields;
 use solver::observer::{self, Event, Observer};
+use solver::record::{CycleReport, PlacedFields};
 use solver::scene::Scene;
 
 use crate::export::{history, vtu};
@@ -29,7 +29,7 @@ pub enum Line {
     /// Another phase begins.
     Phase(Phase),
     /// A computed cycle is done.
-    Cycle(CycleRow),
+    Cycle(CycleReport),
     /// A requested snapshot.
     Snapshot(Box<Snapshot>),
     /// Fields inside the bodies at one position of a snapshot; never sent, but written where it was computed.
@@ -190,7 +190,7 @@ impl Observer for Recorder<'_> {
             return ControlFlow::Break(());
         }
         let line = match event {
-            Event::Cycle(report) => Line::Cycle(history::row(report)),
+            Event::Cycle(report) => Line::Cycle(report.clone()),
             Event::Snapshot(snapshot) => {
                 for fields in &snapshot.fields {
                     self.fields(snapshot.cycle, fields)?;

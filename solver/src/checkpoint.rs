@@ -8,7 +8,6 @@ use serde::{Deserialize, Serialize};
 
 use crate::ale;
 use crate::cycle::CycleState;
-use crate::history::Initial;
 use crate::mesh::MeshError;
 use crate::model::Model;
 use crate::sides::Sides;
@@ -21,6 +20,15 @@ pub struct Checkpoint {
     /// Worn depths at which the operators were last rebuilt, mm.
     pub(crate) built: Option<Sides<Vec<f64>>>,
     pub(crate) relocations: u64,
+}
+
+/// The unworn, loaded state.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Initial {
+    /// Highest pressure, MPa.
+    pub peak_pressure_mpa: f64,
+    /// Half-width of the contact, mm.
+    pub contact_half_width_mm: f64,
 }
 
 /// Mismatch between a checkpoint and a scene.

@@ -8,9 +8,9 @@
 //! wears belongs to the wear law, not to the geometry of the scar: with a jump it would be `jump` times too high, and its
 //! slope would load the contact like a wall.
 
+mod checks;
 mod cycle_record;
-mod record;
-pub(crate) mod replay;
+mod replay;
 mod state;
 mod step_control;
 mod wear_limit;
@@ -18,18 +18,17 @@ mod wear_limit;
 use crate::ale::Spines;
 use crate::condensation::Operators;
 use crate::contact::{self, ContactError, ContactState, Displacement, Pair, Solver, Surfaces};
-use crate::history::{FrictionLoop, Position};
 use crate::law::elastic::contact_modulus;
 use crate::model::Model;
 use crate::number::{cycles_at_least, real, real_cycles};
 use crate::scene::Scene;
-use crate::schedule::increments::{self, Step};
+use crate::schedule::increments::{self, Position, Step};
 use crate::schedule::jump::Stroke;
+use crate::schedule::replay::ReplayPlan;
 use crate::sides::{Side, Sides};
 
-pub use cycle_record::{CycleRecord, Neutral};
-pub(crate) use record::worn_area_residual;
-pub use record::{report, snapshot};
+pub use checks::Checks;
+pub use cycle_record::{CycleRecord, FrictionLoop, Neutral};
 use replay::Replays;
 pub use state::{CycleError, CycleState};
 
@@ -159,18 +158,20 @@ impl<'a> Integrator<'a> {
         let mut record = CycleRecord::default();
         let mut replays = if gross && jump > 1 {
             let length = 4.0 * self.scene.motion.amplitude_mm() / real(steps.len());
-            Replays::of(
+            Replays::new(ReplayPlan::new(
                 (steps.len(), length),
                 self.scene.accuracy.tolerance,
                 state.mean_half_width,
                 state.neutral.half_width,
-            )
+            ))
         } else {
             Replays::default()
         };
         let (mut half_widths, mut touching, mut done) = (0.0, 0, 0);
         for (increment, step) in steps.iter().enumerate() {
-            replays.run(self, state, steps, increment);
+            replays.run(state, steps, increment, |state, step, parts| {
+                self.replay_step(state, step, parts)
+            });
             self.step(state, step, real_cycles(jump), increment)?;
             if state.contact.active_range().is_some() {
                 half_widths += state.contact.half_width(&self.pair.operators.receptacle.x);

@@ -7,12 +7,23 @@ use crate::ale;
 use crate::condensation::{Condensed, Interior};
 use crate::contact::ContactState;
 use crate::element::{Element, Quad4, Tri3, physical_gradient};
-use crate::history::{PlacedFields, Position};
 use crate::law::elastic::Lame;
 use crate::mesh::columns::Cell;
 use crate::mesh::{ColumnMesh, MeshError};
 use crate::model::{BodyModel, Model};
+use crate::schedule::increments::Position;
 use crate::sides::Sides;
+
+/// Fields of both bodies at one position of the slider.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PlacedFields {
+    /// Position in the cycle.
+    pub position: Position,
+    /// The slider's fields, its nodes at its place at that moment.
+    pub slider: BodyFields,
+    /// The receptacle's fields.
+    pub receptacle: BodyFields,
+}
 
 /// Fields of one body.
 #[derive(Debug, Clone, PartialEq)]

@@ -14,11 +14,11 @@
 
 mod surrogate;
 
-use crate::cycle::replay::Replays;
 use crate::model::Layout;
 use crate::number::{cycles_at_least, real, real_cycles};
 use crate::scene::Scene;
 use crate::schedule::jump::JumpControl;
+use crate::schedule::replay::ReplayPlan;
 use crate::schedule::{increments, stops};
 use crate::sides::Sides;
 
@@ -88,7 +88,7 @@ pub fn forecast(scene: &Scene, layout: &Layout) -> Forecast {
         let replays = if scar.is_gross() && step > 1 {
             let length = 4.0 * scar.amplitude / real(steps);
             let (tolerance, single) = (scene.accuracy.tolerance, scar.contact(1));
-            Replays::of((steps, length), tolerance, scar.half_width, single).increments()
+            ReplayPlan::new((steps, length), tolerance, scar.half_width, single).increments()
         } else {
             0
         };

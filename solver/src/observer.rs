@@ -3,7 +3,7 @@
 use std::ops::ControlFlow;
 
 use crate::checkpoint::Checkpoint;
-use crate::history::{CycleReport, Snapshot};
+use crate::record::{CycleReport, Snapshot};
 
 /// Receives a run's events, in order. The only dynamic dispatch of the engine.
 pub trait Observer {

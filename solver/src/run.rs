@@ -6,11 +6,11 @@ use crate::SolveError;
 use crate::ale::{self, Spines};
 use crate::checkpoint::Checkpoint;
 use crate::condensation::{self, Condensed};
-use crate::cycle::{self, CycleRecord, CycleState, Integrator};
+use crate::cycle::{CycleRecord, CycleState, Integrator};
 use crate::fields;
-use crate::history::{Initial, Outcome, Resolution, Snapshot, Summary};
 use crate::model::{self, Model};
 use crate::observer::{Event, Observer, Phase};
+use crate::record::{self, Initial, Outcome, Resolution, Snapshot, Summary};
 use crate::scene::Scene;
 use crate::schedule::stops::{self, Progress};
 
@@ -82,7 +82,7 @@ fn load(
     let mut state = CycleState::start(&condensed.operators);
     let mut integrator = Integrator::new(scene, model, &condensed.operators);
     let record = integrator.apply_load(&mut state)?;
-    let report = cycle::report(scene, model, &state);
+    let report = record::report(scene, model, &state);
     let mut flow = observer.on(Event::Cycle(&report));
     if flow.is_continue() {
         let snapshot = snapshot(scene, model, condensed, &state, record)?;
@@ -120,7 +120,7 @@ fn integrate(
         let state = &mut run.state;
         let until = stops::next(scene, progress(&spines, state));
         let record = integrator.compute_cycle(state, until)?;
-        let report = cycle::report(scene, model, state);
+        let report = record::report(scene, model, state);
         if observer.on(Event::Cycle(&report)).is_break() {
             return Ok(STOPPED);
         }
@@ -164,14 +164,14 @@ fn snapshot(
     } else {
         Vec::new()
     };
-    Ok(cycle::snapshot(model, state, record, fields))
+    Ok(record::snapshot(model, state, record, fields))
 }
 
 fn summary(scene: &Scene, model: &Model, run: &Checkpoint, outcome: Outcome) -> Summary {
     let state = &run.state;
-    let last = cycle::report(scene, model, state);
+    let last = record::report(scene, model, state);
     let mut checks = state.checks;
-    checks.worn_area = cycle::worn_area_residual(model, state, &last);
+    checks.worn_area = record::worn_area_residual(model, state, &last);
     Summary {
         outcome,
         initial: run.initial,

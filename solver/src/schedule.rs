@@ -3,4 +3,5 @@
 
 pub mod increments;
 pub mod jump;
+pub mod replay;
 pub mod stops;

@@ -7,7 +7,7 @@
 
 use crate::keep::{depth_at, solve};
 use crate::scenes::{fuzz_button, mccoll};
-use solver::history::DepthProfile;
+use solver::record::DepthProfile;
 use solver::scene::Scene;
 
 fn profile(scene: &Scene) -> DepthProfile {

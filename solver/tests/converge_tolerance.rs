@@ -8,7 +8,7 @@
 
 use crate::keep::{depth_at, solve};
 use crate::scenes::{fuzz_button, mccoll};
-use solver::history::{DepthProfile, SideReport};
+use solver::record::{DepthProfile, SideReport};
 use solver::scene::{BlockShape, Friction, Motion, Scene, SliderShape, WearLaw};
 
 const TOLERANCES: [f64; 3] = [0.1, 0.02, 0.005];

@@ -2,10 +2,10 @@
 
 use std::ops::ControlFlow;
 
-use solver::SolveError;
-use solver::history::{CycleReport, DepthProfile, Snapshot, Summary};
 use solver::observer::{Event, Observer};
+use solver::record::{CycleReport, DepthProfile, Snapshot, Summary};
 use solver::scene::Scene;
+use solver::{SolveError, interpolation};
 
 /// All reports and snapshots of a run.
 #[derive(Default)]
@@ -40,12 +40,7 @@ impl Keep {
 
 /// Depth of a profile at a place, mm.
 pub(crate) fn depth_at(profile: &DepthProfile, x: f64) -> f64 {
-    let i = profile
-        .x_mm
-        .partition_point(|&p| p < x)
-        .clamp(1, profile.x_mm.len() - 1);
-    let t = (x - profile.x_mm[i - 1]) / (profile.x_mm[i] - profile.x_mm[i - 1]);
-    (1.0 - t) * profile.depth_mm[i - 1] + t * profile.depth_mm[i]
+    interpolation::linear(&profile.x_mm, &profile.depth_mm, x)
 }
 
 /// Solves a scene and keeps what it told.

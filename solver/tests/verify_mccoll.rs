@@ -11,7 +11,7 @@
 
 use crate::keep::solve;
 use crate::scenes::mccoll;
-use solver::history::TractionField;
+use solver::record::TractionField;
 
 /// Cycles, depth of the flat in um (lowest and highest code), area ratio.
 const REFERENCE: [(u64, f64, f64, f64); 4] = [

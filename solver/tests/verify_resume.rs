@@ -6,8 +6,8 @@ use crate::keep::Keep;
 use crate::scenes::{accuracy, fuzz_button, mccoll};
 use solver::SolveError;
 use solver::checkpoint::{Checkpoint, Misfit};
-use solver::history::{CycleReport, Outcome, Snapshot, Summary};
 use solver::observer::{Event, Observer};
+use solver::record::{CycleReport, Outcome, Snapshot, Summary};
 use solver::run;
 use solver::scene::{Motion, Scene};
 

@@ -8,7 +8,7 @@
 
 use crate::keep::solve;
 use crate::scenes::mccoll;
-use solver::history::Position;
+use solver::record::Position;
 use solver::scene::{Friction, Motion, Scene, WearLaw};
 
 #[test]

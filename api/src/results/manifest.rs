@@ -11,29 +11,29 @@ use crate::job::Status;
 /// A file that a job produced.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
 pub struct ResultFile {
-    /// Its name, unique within the job.
+    /// File name, unique within the job.
     pub name: String,
-    /// The cycle it belongs to; absent where it belongs to the whole run.
+    /// The cycle it belongs to; null if it belongs to the whole run.
     pub cycle: Option<u64>,
-    /// Its media type.
+    /// Media type.
     pub media_type: String,
-    /// Its length.
+    /// Length in bytes.
     pub bytes: u64,
-    /// SHA-256 of its content, hexadecimal.
+    /// SHA-256 of the content, hexadecimal.
     pub sha256: String,
 }
 
-/// What a job produced.
+/// Result files of a job.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
 pub struct Manifest {
     /// The job.
     pub job: Uuid,
     /// Where it stands.
     pub status: Status,
-    /// Whether nothing will be added: the job has ended.
+    /// True once the job has ended: no file will be added.
     pub complete: bool,
     /// The files, by name.
     pub files: Vec<ResultFile>,
-    /// Where they are: name to path; and `archive`, all of them as a zip.
+    /// Paths of the files by name; `archive` is a zip of all files.
     pub links: BTreeMap<String, String>,
 }

@@ -6,7 +6,7 @@ use utoipa::ToSchema;
 /// Worn depth along one surface.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct SideProfile {
-    /// Places along the surface, mm, in the frame of its own body.
+    /// Positions along the surface, mm, in the frame of its body.
     pub x_mm: Vec<f64>,
     /// Worn depth, mm.
     pub depth_mm: Vec<f64>,
@@ -29,20 +29,20 @@ pub struct Profile {
 pub enum SlidePosition {
     /// Slider at x = 0 on its way to +x (the end of the cycle).
     Neutral,
-    /// Slider at its rightmost place.
+    /// Slider at its rightmost position.
     Rightmost,
-    /// Slider at its leftmost place.
+    /// Slider at its leftmost position.
     Leftmost,
 }
 
 /// Contact tractions at one position of the slider.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct PressurePosition {
-    /// Where in the cycle.
+    /// Position in the cycle.
     pub phase: SlidePosition,
     /// Imposed displacement of the slider relative to the receptacle, mm.
     pub slider_x_mm: f64,
-    /// Places on the receptacle, mm.
+    /// Positions on the receptacle, mm.
     pub x_mm: Vec<f64>,
     /// Normal pressure, MPa.
     pub pressure_mpa: Vec<f64>,
@@ -70,7 +70,7 @@ pub struct Loop {
     pub tangential_force_n_per_mm: Vec<f64>,
 }
 
-/// Everything stored at one cycle.
+/// Everything that is stored at one cycle.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct Snapshot {
     /// Worn depth.

@@ -1,4 +1,4 @@
-//! The result in short.
+//! Summary of the result.
 
 use std::collections::BTreeMap;
 
@@ -29,7 +29,7 @@ pub struct Initial {
     pub contact_half_width_mm: f64,
 }
 
-/// What the accuracy settings came to.
+/// Resolution that the accuracy settings led to.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct AccuracyReached {
     /// Accumulated estimate of the relative error of worn depth made by cycle jumps.
@@ -48,7 +48,7 @@ pub struct AccuracyReached {
     pub relocations: u64,
 }
 
-/// What the run cost.
+/// Cost of the run.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct Cost {
     /// Wall-clock seconds.
@@ -63,7 +63,7 @@ pub struct Cost {
     pub dofs: u64,
 }
 
-/// Worst residuals that were met, each relative to its scale.
+/// Worst residuals of the run, each relative to its scale.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct Checks {
     /// |sum of vertical forces - load| / load.
@@ -78,7 +78,7 @@ pub struct Checks {
     pub friction_use: f64,
 }
 
-/// The result in short.
+/// Summary of the result.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct Summary {
     /// Physical cycles done.
@@ -99,10 +99,10 @@ pub struct Summary {
     pub initial: Initial,
     /// Accumulated energy dissipated by friction, mJ per mm of depth.
     pub dissipated_energy_mj_per_mm: f64,
-    /// What the accuracy settings came to.
+    /// Resolution that the accuracy settings led to.
     pub accuracy: AccuracyReached,
-    /// What the run cost.
+    /// Cost of the run.
     pub cost: Cost,
-    /// The residuals that were reached.
+    /// Worst residuals of the run.
     pub checks: Checks,
 }

@@ -130,7 +130,7 @@ fn end_with_supervisor() {
 fn keep(folder: &Path, fields: &FieldsFile, stop: &AtomicBool) -> ControlFlow<()> {
     let FieldsFile { name, cycle, bytes } = fields;
     let mut told = false;
-    while let Err(error) = files::keep(folder, name, bytes) {
+    while let Err(error) = files::write_atomically(folder, name, bytes) {
         if !told {
             write_err(&error);
             told = true;
@@ -144,7 +144,7 @@ fn keep(folder: &Path, fields: &FieldsFile, stop: &AtomicBool) -> ControlFlow<()
         }
         std::thread::sleep(DISK_PAUSE);
     }
-    write(&Line::Kept(files::described(
+    write(&Line::Kept(files::manifest_entry(
         name,
         Some(*cycle),
         VTU,

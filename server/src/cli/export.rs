@@ -4,9 +4,9 @@ use std::ops::ControlFlow;
 use std::path::Path;
 use std::process::ExitCode;
 
-use solver::history::Snapshot;
 use solver::model::{self, Model};
 use solver::observer::{Event, Observer};
+use solver::record::Snapshot;
 use solver::scene::Scene;
 use solver::sides::Sides;
 use solver::{SolveError, ale};

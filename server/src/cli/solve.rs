@@ -5,8 +5,9 @@ use std::path::Path;
 use std::process::ExitCode;
 
 use api::job::{Outcome, Phase};
-use api::results::{CycleRow, Snapshot, Summary};
+use api::results::{Snapshot, Summary};
 use indicatif::ProgressBar;
+use solver::record::CycleReport;
 
 use crate::cli::terminal::{bar, failed, specification_for, write_err, write_out};
 use crate::export::documents::Results;
@@ -45,7 +46,7 @@ pub(super) fn run(spec: &Path, out: Option<&Path>) -> ExitCode {
 
 #[derive(Default)]
 struct Recorded {
-    rows: Vec<CycleRow>,
+    rows: Vec<CycleReport>,
     snapshots: Vec<Snapshot>,
     fields: Vec<FieldsFile>,
 }

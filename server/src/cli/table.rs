@@ -49,6 +49,7 @@ fn depths(history: &WearHistory, rows: &[usize]) -> Table {
     );
     header.extend(["deepest".to_owned(), "middle, nm a cycle".to_owned()]);
     let mut table = markdown::table(header, 0);
+    let deepest = history.receptacle.columns.get("max_depth_mm");
     for (index, &row) in rows.iter().enumerate() {
         let mut cells = vec![history.cycle[row].to_string()];
         cells.extend(
@@ -57,7 +58,7 @@ fn depths(history: &WearHistory, rows: &[usize]) -> Table {
                 .iter()
                 .map(|station| format!("{:.3}", UM * station.depth_mm[row])),
         );
-        cells.push(format!("{:.3}", UM * history.receptacle.max_depth_mm[row]));
+        cells.push(deepest.map_or_else(String::new, |depth| format!("{:.3}", UM * depth[row])));
         // The first row of a history is the unworn state.
         let before = index.checked_sub(1).map_or(0, |index| rows[index]);
         cells.push(slope(history, before, row).map_or_else(String::new, |nm| format!("{nm:.3}")));

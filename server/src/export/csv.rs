@@ -1,13 +1,14 @@
 //! Result documents as CSV: one header line with the units in the names, then numbers only.
 
 use ::csv::Writer;
-use api::results::{Loop, Pressure, Profile, SlidePosition, WearHistory};
+use api::results::{Loop, Pressure, Profile, SlidePosition};
 use api::study::{Errors, Study, StudyRun};
+use solver::record::Record;
 
 use crate::export::columns;
 use crate::export::columns::Values;
 
-/// Numbers could not be written as CSV.
+/// A table could not be written as CSV.
 #[derive(Debug, thiserror::Error)]
 #[error("writing CSV: {0}")]
 pub struct CsvError(pub(crate) String);
@@ -43,12 +44,12 @@ fn numbers<T: ToString>(header: impl Into<String>, values: &[T]) -> (String, Vec
     )
 }
 
-/// The wear history, one line a computed cycle.
+/// The wear history, one line per computed cycle.
 ///
 /// # Errors
 /// [`CsvError`] if the writer fails.
-pub fn wear_history(history: &WearHistory) -> Result<Vec<u8>, CsvError> {
-    let table = columns::of(history)
+pub fn wear_history(record: &Record) -> Result<Vec<u8>, CsvError> {
+    let table = columns::of(record)
         .into_iter()
         .map(|(header, values)| match values {
             Values::Counts(counts) => numbers(header, counts),
@@ -58,7 +59,7 @@ pub fn wear_history(history: &WearHistory) -> Result<Vec<u8>, CsvError> {
     write(&table)
 }
 
-/// A profile: side, place, worn depth.
+/// A profile: side, position, worn depth.
 ///
 /// # Errors
 /// [`CsvError`] if the writer fails.
@@ -81,7 +82,7 @@ pub fn profile(profile: &Profile) -> Result<Vec<u8>, CsvError> {
     ])
 }
 
-/// Tractions: position, slider's displacement, place, pressure, shear.
+/// Tractions: phase, displacement of the slider, position on the receptacle, pressure, shear.
 ///
 /// # Errors
 /// [`CsvError`] if the writer fails.
@@ -125,7 +126,7 @@ pub fn friction_loop(friction_loop: &Loop) -> Result<Vec<u8>, CsvError> {
     ])
 }
 
-/// A study, one line a run; cells of what a run does not have are empty.
+/// A study, one line per run; values that a run does not have are empty cells.
 ///
 /// # Errors
 /// [`CsvError`] if the writer fails.

@@ -1,12 +1,13 @@
-//! The model as an input deck for Abaqus and CalculiX, so that a user can check the contact with another code.
+//! The model as an input deck for Abaqus and CalculiX, for a check of the contact with another code.
 //!
-//! Plane strain CPE4 and CPE3, the receptacle's bottom held, the slider's top a rigid handle (`u_x` held, one common
-//! `u_y` by `*EQUATION`, the load on its middle node), surface-to-surface contact with Coulomb friction. The first step
-//! applies the load, the second moves the handle by the amplitude, where the scene has one. Units: mm, N, MPa, one mm
-//! of depth.
+//! Plane strain CPE4 and CPE3, the receptacle's bottom fixed, the slider's top rigid (`u_x` prescribed, `u_y` tied by
+//! `*EQUATION` to its middle node, the control node, which carries the load), surface-to-surface contact with Coulomb
+//! friction. The first step applies the load, the second moves the slider's top by the amplitude, if there is one.
+//! Units: mm, N, MPa, one mm of depth.
 
 pub mod cycle;
 
+use solver::interpolation;
 use solver::law::elastic::Lame;
 use solver::mesh::columns::Cell;
 use solver::model::{BodyModel, Model};
@@ -16,13 +17,13 @@ use solver::scene::{Elastic, Scene};
 const PENALTY: f64 = 50.0;
 /// Stick slope over the penalty stiffness.
 const STICK_SLOPE: f64 = 0.1;
-/// Numbers on a line.
+/// Node numbers per line of a set.
 const LINE: usize = 8;
 
-/// The deck. `amplitude_mm` of 0 leaves the second step out.
+/// The deck; without the second step if the motion has no amplitude.
 pub fn inp(scene: &Scene, model: &Model) -> String {
     let mut deck = Deck::default();
-    let slider = deck.head(scene, model, PENALTY);
+    let slider = deck.bodies_and_contact(scene, model, PENALTY);
     deck.load_step(scene, &slider);
     let amplitude = scene.motion.amplitude_mm();
     if amplitude > 0.0 {
@@ -31,23 +32,19 @@ pub fn inp(scene: &Scene, model: &Model) -> String {
     deck.text
 }
 
-/// Smallest vertical gap at the receptacle's contact nodes, mm: worn bodies have to be brought together.
+/// Smallest vertical gap at the receptacle's contact nodes, mm, by which worn bodies are brought into contact.
 fn first_gap(slider: &BodyModel, receptacle: &BodyModel) -> f64 {
     let (x, y) = (slider.mesh.x(), slider.mesh.surface_y());
     let places = receptacle.mesh.x().iter().zip(receptacle.mesh.surface_y());
     let under = places.filter(|(at, _)| **at >= x[0] && **at <= x[x.len() - 1]);
-    let gaps = under.map(|(&at, below)| {
-        let i = x.partition_point(|&x| x < at).clamp(1, x.len() - 1);
-        let t = (at - x[i - 1]) / (x[i] - x[i - 1]);
-        (1.0 - t) * y[i - 1] + t * y[i] - below
-    });
+    let gaps = under.map(|(&at, below)| interpolation::linear(x, y, at) - below);
     gaps.fold(f64::INFINITY, f64::min)
 }
 
-/// First node and first element of a body in the deck, and its handle.
+/// Node numbers of a body in the deck.
 struct Part {
     first_node: usize,
-    handle: usize,
+    control_node: usize,
     far: Vec<usize>,
 }
 
@@ -65,7 +62,7 @@ impl Deck {
     }
 
     /// Bodies, contact and supports; returns the slider.
-    fn head(&mut self, scene: &Scene, model: &Model, penalty: f64) -> Part {
+    fn bodies_and_contact(&mut self, scene: &Scene, model: &Model, penalty: f64) -> Part {
         self.line("*HEADING");
         self.line("fretwear: mm, N, MPa; plane strain, one mm of depth");
         let lowered = -first_gap(&model.bodies.slider, &model.bodies.receptacle);
@@ -118,7 +115,7 @@ impl Deck {
         self.set(&format!("{name}_NEAR"), &near);
         Part {
             first_node,
-            handle: far[spines / 2],
+            control_node: far[spines / 2],
             far,
         }
     }
@@ -129,7 +126,7 @@ impl Deck {
             if cells.iter().any(|cell| of_kind(&cell)) {
                 self.line(format!("*ELEMENT, TYPE={kind}, ELSET={name}"));
             }
-            // Numbers follow the columns, whatever the kind.
+            // Elements are numbered in the order of the mesh, not by kind.
             for (element, cell) in cells.iter().enumerate().filter(|(_, cell)| of_kind(cell)) {
                 let ids = nodes_of(cell)
                     .iter()
@@ -195,10 +192,14 @@ impl Deck {
             slider.first_node < receptacle.first_node,
             "the slider comes first"
         );
-        for node in slider.far.iter().filter(|node| **node != slider.handle) {
+        for node in slider
+            .far
+            .iter()
+            .filter(|node| **node != slider.control_node)
+        {
             self.line("*EQUATION");
             self.line("2");
-            self.line(format!("{node}, 2, 1., {}, 2, -1.", slider.handle));
+            self.line(format!("{node}, 2, 1., {}, 2, -1.", slider.control_node));
         }
         debug_assert!(
             model.mesh.spines() == slider.far.len(),
@@ -214,7 +215,10 @@ impl Deck {
         self.line("*STATIC");
         self.line("0.05, 1., 1e-6, 0.25");
         self.line("*CLOAD");
-        self.line(format!("{}, 2, {:e}", slider.handle, -scene.load_n_per_mm));
+        self.line(format!(
+            "{}, 2, {:e}",
+            slider.control_node, -scene.load_n_per_mm
+        ));
         self.output();
     }
 

@@ -1,35 +1,35 @@
-//! What a run leaves, as documents with names: the same for `solve --out` and for a job of the service.
+//! Result documents of a run: the same for `solve --out` and for a job of the service.
 
-use api::results::{CycleRow, Snapshot, Summary};
+use api::results::{Snapshot, Summary};
 use api::spec::Spec;
+use solver::record::{CycleReport, Record};
 
 use crate::export::csv;
 use crate::export::csv::CsvError;
-use crate::export::history;
 use crate::export::parquet;
 use crate::export::parquet::ParquetError;
 use crate::export::pictures;
 use crate::export::pictures::PlotError;
 
-/// Media types of documents.
+/// Media type of JSON.
 pub const JSON: &str = "application/json";
-/// Tables as text.
+/// Media type of CSV tables.
 pub const CSV: &str = "text/csv; charset=utf-8";
-/// Tables as Apache Parquet.
+/// Media type of Apache Parquet tables.
 pub const PARQUET: &str = "application/vnd.apache.parquet";
-/// Pictures as drawings.
+/// Media type of vector pictures.
 pub const SVG: &str = "image/svg+xml";
-/// Pictures as pixels.
+/// Media type of raster pictures.
 pub const PNG: &str = "image/png";
-/// Fields inside the bodies: VTK's XML, for which no type is registered.
+/// Media type of fields inside the bodies: VTK XML, for which no type is registered.
 pub const VTU: &str = "application/xml";
 
-/// A document.
+/// A named document.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Document {
     /// Its name.
     pub name: String,
-    /// The cycle it belongs to, if it does to one.
+    /// The cycle it belongs to; `None` for the whole run.
     pub cycle: Option<u64>,
     /// Its media type.
     pub media_type: &'static str,
@@ -37,22 +37,22 @@ pub struct Document {
     pub bytes: Vec<u8>,
 }
 
-/// What a run left.
+/// Results of a run.
 #[derive(Debug, Clone, Copy)]
 pub struct Results<'a> {
     /// The resolved specification.
     pub spec: &'a Spec,
-    /// The result in short, if the run had one.
+    /// The summary, if the run ended with one.
     pub summary: Option<&'a Summary>,
-    /// The wear history.
-    pub rows: &'a [CycleRow],
+    /// The reports of the computed cycles.
+    pub rows: &'a [CycleReport],
     /// The snapshots.
     pub snapshots: &'a [Snapshot],
-    /// Whether pictures are drawn as pixels too, which takes some 0.1 s of a processor.
+    /// Whether pictures are rasterised too, which takes about 0.1 s of processor time.
     pub pixels: bool,
 }
 
-/// Why a document could not be made.
+/// Why a document could not be rendered.
 #[derive(Debug, thiserror::Error)]
 pub enum DocumentError {
     /// As JSON.
@@ -69,10 +69,10 @@ pub enum DocumentError {
     Plot(#[from] PlotError),
 }
 
-/// All documents of a run; without the fields, which are large and written while it runs.
+/// All documents of a run except its fields, which are large and written during the run.
 ///
 /// # Errors
-/// [`DocumentError`] if one cannot be made.
+/// [`DocumentError`] if one cannot be rendered.
 pub fn all(results: &Results<'_>) -> Result<Vec<Document>, DocumentError> {
     let mut documents = Vec::new();
     let mut add = |name: String, cycle, media_type, bytes| {
@@ -90,11 +90,8 @@ pub fn all(results: &Results<'_>) -> Result<Vec<Document>, DocumentError> {
         add("summary.json".to_owned(), None, JSON, summary);
     }
     let stations = results.spec.output.stations_mm.as_deref();
-    let columns = history::columns(results.rows, stations.unwrap_or_default());
-    let (text, table) = (
-        csv::wear_history(&columns)?,
-        parquet::wear_history(&columns)?,
-    );
+    let record = Record::new(results.rows, stations.unwrap_or_default());
+    let (text, table) = (csv::wear_history(&record)?, parquet::wear_history(&record)?);
     add("wear-history.csv".to_owned(), None, CSV, text);
     add("wear-history.parquet".to_owned(), None, PARQUET, table);
     for snapshot in results.snapshots {
@@ -109,7 +106,7 @@ pub fn all(results: &Results<'_>) -> Result<Vec<Document>, DocumentError> {
         }
     }
     let name = results.spec.name.as_deref().unwrap_or_default();
-    for (picture, drawn) in pictures::run::pictures(name, &columns, results.snapshots) {
+    for (picture, drawn) in pictures::run::pictures(name, &record, results.snapshots) {
         let drawing = pictures::svg(&drawn)?;
         if results.pixels {
             add(

@@ -1,4 +1,4 @@
-//! Results as files in a folder.
+//! Results as files in a folder, and files that are written atomically.
 
 use std::fmt::Write as _;
 use std::fs::File;
@@ -15,20 +15,20 @@ use crate::solve::FieldsFile;
 /// Why a file was not written.
 #[derive(Debug, thiserror::Error)]
 pub enum FilesError {
-    /// The system refused.
+    /// The operating system reported an error.
     #[error("{}: {cause}", .path.display())]
     Write {
         /// The file or folder.
         path: PathBuf,
-        /// Why.
+        /// The error.
         cause: std::io::Error,
     },
-    /// A document could not be made.
+    /// A document could not be rendered.
     #[error(transparent)]
     Document(#[from] DocumentError),
 }
 
-/// Writes all results into a folder, which is made if it is missing.
+/// Writes all results into a folder, which is created if it is missing.
 ///
 /// # Errors
 /// [`FilesError`] naming the file.
@@ -54,47 +54,47 @@ pub fn write(
     Ok(())
 }
 
-/// Writes a file so that its name stands for the whole content or for nothing, also after a crash: under another name
-/// first, to the disk, then renamed. What was begun and cannot be finished is removed.
+/// Writes a file atomically, also with respect to a crash: to a temporary name, synced, then renamed. The temporary file
+/// is removed if this fails.
 ///
 /// # Errors
 /// [`FilesError`] naming the file.
-pub fn keep(folder: &Path, name: &str, bytes: &[u8]) -> Result<(), FilesError> {
+pub fn write_atomically(folder: &Path, name: &str, bytes: &[u8]) -> Result<(), FilesError> {
     let path = folder.join(name);
     let unfinished = folder.join(format!("{name}.unfinished"));
     let written = || -> std::io::Result<()> {
-        make_folder(folder)?;
+        create_folder(folder)?;
         let mut file = File::create(&unfinished)?;
         file.write_all(bytes)?;
         file.sync_all()?;
         std::fs::rename(&unfinished, &path)?;
-        // The rename is on the disk once the folder is.
+        // The rename is durable once the folder is synced.
         File::open(folder)?.sync_all()
     };
     written().map_err(|cause| {
-        // It would keep space that is missing elsewhere; if it stays, it is swept with what no manifest names.
+        // It would occupy disk space. If removal fails, retention deletes it with all files that no manifest lists.
         let _ = std::fs::remove_file(&unfinished);
         FilesError::Write { path, cause }
     })
 }
 
-/// Makes a folder and those above it that are missing, each on the disk before anything is put into it.
+/// Creates a folder and its missing parents, each synced before it is used.
 ///
 /// # Errors
-/// If the system refuses.
-pub fn make_folder(folder: &Path) -> std::io::Result<()> {
+/// The error of the operating system.
+pub fn create_folder(folder: &Path) -> std::io::Result<()> {
     if folder.is_dir() {
         return Ok(());
     }
     let above = parent(folder);
-    make_folder(above)?;
+    create_folder(above)?;
     match std::fs::create_dir(folder) {
         Err(cause) if cause.kind() != ErrorKind::AlreadyExists => Err(cause),
         _ => File::open(above)?.sync_all(),
     }
 }
 
-/// The folder of a file.
+/// The folder that contains a file.
 pub fn parent(path: &Path) -> &Path {
     match path.parent() {
         Some(folder) if !folder.as_os_str().is_empty() => folder,
@@ -102,7 +102,7 @@ pub fn parent(path: &Path) -> &Path {
     }
 }
 
-/// Whether something was not written for want of space, which may pass.
+/// Checks whether the disk or a quota was full, which may be temporary.
 pub fn is_full(cause: &std::io::Error) -> bool {
     matches!(
         cause.kind(),
@@ -110,8 +110,13 @@ pub fn is_full(cause: &std::io::Error) -> bool {
     )
 }
 
-/// What a manifest says about a file.
-pub fn described(name: &str, cycle: Option<u64>, media_type: &str, bytes: &[u8]) -> ResultFile {
+/// The manifest entry of a file.
+pub fn manifest_entry(
+    name: &str,
+    cycle: Option<u64>,
+    media_type: &str,
+    bytes: &[u8],
+) -> ResultFile {
     ResultFile {
         name: name.to_owned(),
         cycle,
@@ -121,12 +126,12 @@ pub fn described(name: &str, cycle: Option<u64>, media_type: &str, bytes: &[u8])
     }
 }
 
-/// The checksum of a file, as a manifest writes it.
+/// SHA-256 of a file, hexadecimal.
 pub fn sha256(bytes: &[u8]) -> String {
     Sha256::digest(bytes)
         .iter()
         .fold(String::with_capacity(64), |mut text, byte| {
-            // Writing to a text does not fail.
+            // Writing to a string cannot fail.
             let _ = write!(text, "{byte:02x}");
             text
         })
@@ -137,11 +142,11 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_kept_file_replaces_an_older_one_and_leaves_nothing_unfinished() {
+    fn an_atomic_write_replaces_the_file_and_leaves_no_temporary_one() {
         let folder = tempfile::tempdir().expect("a folder");
         let deep = folder.path().join("a/b");
-        keep(&deep, "x.vtu", b"first").expect("kept");
-        keep(&deep, "x.vtu", b"second").expect("kept");
+        write_atomically(&deep, "x.vtu", b"first").expect("written");
+        write_atomically(&deep, "x.vtu", b"second").expect("written");
         assert_eq!(
             std::fs::read(deep.join("x.vtu")).expect("a file"),
             b"second"
@@ -150,13 +155,13 @@ mod tests {
     }
 
     #[test]
-    fn digests_are_those_of_the_standard() {
+    fn digests_equal_the_example_of_the_standard() {
         // FIPS 180-2, appendix B.1.
-        let described = described("x", None, "text/plain", b"abc");
+        let entry = manifest_entry("x", None, "text/plain", b"abc");
         assert_eq!(
-            described.sha256,
+            entry.sha256,
             "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad"
         );
-        assert_eq!(described.bytes, 3);
+        assert_eq!(entry.bytes, 3);
     }
 }

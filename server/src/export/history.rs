@@ -1,14 +1,14 @@
-//! The engine's reports to result documents.
+//! Result documents of the engine's results.
 
 use api::job::{Outcome, Phase};
 use api::results::{
-    AccuracyReached, Checks, Cost, CycleRow, Initial, Loop, Pressure, PressurePosition, Profile,
-    SideProfile, SideRow, SideSeries, SideSummary, SlidePosition, Snapshot, Station, Summary,
-    WearHistory,
+    AccuracyReached, Checks, Cost, Initial, Loop, Pressure, PressurePosition, Profile, SideProfile,
+    SideSummary, SlidePosition, Snapshot, Station, Summary, WearHistory,
 };
-use solver::{history, observer};
+use solver::observer;
+use solver::record::{self, Record, Side, SideReport};
 
-/// A phase of the work.
+/// The phase of a job.
 pub fn phase(phase: observer::Phase) -> Phase {
     match phase {
         observer::Phase::Mesh => Phase::Mesh,
@@ -18,127 +18,81 @@ pub fn phase(phase: observer::Phase) -> Phase {
     }
 }
 
-/// A row of the wear history.
-pub fn row(report: &history::CycleReport) -> CycleRow {
-    CycleRow {
-        cycle: report.cycle,
-        jump: report.jump,
-        jump_error: report.jump_error,
-        sliding_distance_mm: report.sliding_distance_mm,
-        receptacle: side_row(&report.receptacle),
-        slider: side_row(&report.slider),
-        station_depth_mm: report.station_depth_mm.clone(),
-        load_n_per_mm: report.load_n_per_mm,
-        peak_pressure_mpa: report.peak_pressure_mpa,
-        contact_half_width_mm: report.contact_half_width_mm,
-        dissipated_energy_mj_per_mm: report.dissipated_energy_mj_per_mm,
-    }
+/// Copies the fields of the same names from a result of the engine into a document.
+macro_rules! document {
+    ($document:ident of $result:expr; $($field:ident),+ $(; $own:ident: $value:expr)*) => {{
+        let result = $result;
+        $document {
+            $($field: result.$field.clone(),)+
+            $($own: $value,)*
+        }
+    }};
 }
 
-fn side_row(side: &history::SideReport) -> SideRow {
-    SideRow {
-        max_depth_mm: side.max_depth_mm,
-        worn_area_mm2: side.worn_area_mm2,
-        scar_half_width_mm: side.scar_half_width_mm,
-    }
-}
-
-/// What is stored at a cycle.
-pub fn snapshot(snapshot: &history::Snapshot) -> Snapshot {
+/// The documents of a snapshot.
+pub fn snapshot(snapshot: &record::Snapshot) -> Snapshot {
     let cycle = snapshot.cycle;
     Snapshot {
         profile: Profile {
             cycle,
-            receptacle: side_profile(&snapshot.receptacle),
-            slider: side_profile(&snapshot.slider),
+            receptacle: document!(SideProfile of &snapshot.receptacle; x_mm, depth_mm),
+            slider: document!(SideProfile of &snapshot.slider; x_mm, depth_mm),
         },
         pressure: Pressure {
             cycle,
             positions: snapshot.positions.iter().map(position).collect(),
         },
-        friction_loop: Loop {
-            cycle,
-            displacement_mm: snapshot.friction_loop.displacement_mm.clone(),
-            tangential_force_n_per_mm: snapshot.friction_loop.tangential_force_n_per_mm.clone(),
-        },
+        friction_loop: document!(
+            Loop of &snapshot.friction_loop; displacement_mm, tangential_force_n_per_mm; cycle: cycle
+        ),
     }
 }
 
-fn side_profile(profile: &history::DepthProfile) -> SideProfile {
-    SideProfile {
-        x_mm: profile.x_mm.clone(),
-        depth_mm: profile.depth_mm.clone(),
-    }
+fn position(field: &record::TractionField) -> PressurePosition {
+    let phase = match field.position {
+        record::Position::Neutral => SlidePosition::Neutral,
+        record::Position::Rightmost => SlidePosition::Rightmost,
+        record::Position::Leftmost => SlidePosition::Leftmost,
+    };
+    document!(PressurePosition of field; slider_x_mm, x_mm, pressure_mpa, shear_mpa; phase: phase)
 }
 
-fn position(field: &history::TractionField) -> PressurePosition {
-    PressurePosition {
-        phase: match field.position {
-            history::Position::Neutral => SlidePosition::Neutral,
-            history::Position::Rightmost => SlidePosition::Rightmost,
-            history::Position::Leftmost => SlidePosition::Leftmost,
-        },
-        slider_x_mm: field.slider_x_mm,
-        x_mm: field.x_mm.clone(),
-        pressure_mpa: field.pressure_mpa.clone(),
-        shear_mpa: field.shear_mpa.clone(),
-    }
+/// The summary document. `cost` was measured outside of the engine, which knows no clock; only its `dofs` are set here.
+pub fn summary(summary: &record::Summary, cost: Cost) -> Summary {
+    let (last, resolution) = (&summary.last, &summary.resolution);
+    let side = |side: &SideReport| {
+        document!(
+            SideSummary of side; max_depth_mm, worn_area_mm2, ideal_area_mm2, scar_half_width_mm
+        )
+    };
+    document!(
+        Summary of last;
+        sliding_distance_mm, peak_pressure_mpa, contact_half_width_mm, dissipated_energy_mj_per_mm;
+        cycles_done: last.cycle;
+        outcome: outcome(summary.outcome);
+        receptacle: side(&last.receptacle);
+        slider: side(&last.slider);
+        initial: document!(Initial of summary.initial; peak_pressure_mpa, contact_half_width_mm);
+        accuracy: document!(
+            AccuracyReached of resolution;
+            estimated_relative_error, contact_element_mm, increments_per_cycle, computed_cycles,
+            increments, relocations;
+            contact_elements: count(resolution.contact_elements)
+        );
+        cost: Cost { dofs: count(resolution.dofs), ..cost };
+        checks: document!(
+            Checks of summary.checks;
+            force_balance, worn_area, complementarity, friction_cone, friction_use
+        )
+    )
 }
 
-/// The result in short. `cost` was measured outside the engine, which knows no clock; its `dofs` are filled in here.
-pub fn summary(summary: &history::Summary, cost: Cost) -> Summary {
-    let (last, resolution, checks) = (&summary.last, &summary.resolution, &summary.checks);
-    Summary {
-        cycles_done: last.cycle,
-        sliding_distance_mm: last.sliding_distance_mm,
-        outcome: outcome(summary.outcome),
-        receptacle: side_summary(&last.receptacle),
-        slider: side_summary(&last.slider),
-        peak_pressure_mpa: last.peak_pressure_mpa,
-        contact_half_width_mm: last.contact_half_width_mm,
-        initial: Initial {
-            peak_pressure_mpa: summary.initial.peak_pressure_mpa,
-            contact_half_width_mm: summary.initial.contact_half_width_mm,
-        },
-        dissipated_energy_mj_per_mm: last.dissipated_energy_mj_per_mm,
-        accuracy: AccuracyReached {
-            estimated_relative_error: resolution.estimated_relative_error,
-            contact_elements: count(resolution.contact_elements),
-            contact_element_mm: resolution.contact_element_mm,
-            increments_per_cycle: resolution.increments_per_cycle,
-            computed_cycles: resolution.computed_cycles,
-            increments: resolution.increments,
-            relocations: resolution.relocations,
-        },
-        cost: Cost {
-            dofs: count(resolution.dofs),
-            ..cost
-        },
-        checks: Checks {
-            force_balance: checks.force_balance,
-            worn_area: checks.worn_area,
-            complementarity: checks.complementarity,
-            friction_cone: checks.friction_cone,
-            friction_use: checks.friction_use,
-        },
-    }
-}
-
-fn outcome(outcome: history::Outcome) -> Outcome {
+fn outcome(outcome: record::Outcome) -> Outcome {
     match outcome {
-        history::Outcome::Completed => Outcome::Completed,
-        history::Outcome::StopCondition => Outcome::StopCondition,
-        history::Outcome::WornThrough => Outcome::WornThrough,
-        history::Outcome::Stopped => Outcome::Stopped,
-    }
-}
-
-fn side_summary(side: &history::SideReport) -> SideSummary {
-    SideSummary {
-        max_depth_mm: side.max_depth_mm,
-        worn_area_mm2: side.worn_area_mm2,
-        ideal_area_mm2: side.ideal_area_mm2,
-        scar_half_width_mm: side.scar_half_width_mm,
+        record::Outcome::Completed => Outcome::Completed,
+        record::Outcome::StopCondition => Outcome::StopCondition,
+        record::Outcome::WornThrough => Outcome::WornThrough,
+        record::Outcome::Stopped => Outcome::Stopped,
     }
 }
 
@@ -146,46 +100,29 @@ fn count(count: usize) -> u64 {
     u64::try_from(count).unwrap_or(u64::MAX)
 }
 
-/// Rows to columns; `stations_mm` in the order of the rows' depths.
-pub fn columns(rows: &[CycleRow], stations_mm: &[f64]) -> WearHistory {
-    let column = |value: fn(&CycleRow) -> f64| rows.iter().map(value).collect::<Vec<_>>();
-    WearHistory {
-        cycle: rows.iter().map(|row| row.cycle).collect(),
-        jump: rows.iter().map(|row| row.jump).collect(),
-        sliding_distance_mm: column(|row| row.sliding_distance_mm),
-        stations: stations_mm
-            .iter()
-            .enumerate()
-            .map(|(index, x_mm)| station(rows, index, *x_mm))
-            .collect(),
-        receptacle: side_series(rows, |row| &row.receptacle),
-        slider: side_series(rows, |row| &row.slider),
-        load_n_per_mm: column(|row| row.load_n_per_mm),
-        peak_pressure_mpa: column(|row| row.peak_pressure_mpa),
-        contact_half_width_mm: column(|row| row.contact_half_width_mm),
-        dissipated_energy_mj_per_mm: column(|row| row.dissipated_energy_mj_per_mm),
+/// The document of a wear history.
+pub fn wear_history(record: Record) -> WearHistory {
+    let mut history = WearHistory {
+        cycle: record.cycle,
+        jump: record.jump,
+        sliding_distance_mm: record.sliding_distance_mm,
+        ..WearHistory::default()
+    };
+    for column in record.columns {
+        let columns = match (column.side, column.place_mm) {
+            (Some(side), Some(x_mm)) => {
+                history.stations.push(Station {
+                    side: side.name().to_owned(),
+                    x_mm,
+                    depth_mm: column.values,
+                });
+                continue;
+            }
+            (Some(Side::Receptacle), None) => &mut history.receptacle.columns,
+            (Some(Side::Slider), None) => &mut history.slider.columns,
+            (None, _) => &mut history.contact,
+        };
+        columns.insert(column.name.to_owned(), column.values);
     }
-}
-
-fn station(rows: &[CycleRow], index: usize, x_mm: f64) -> Station {
-    let depth_mm = rows
-        .iter()
-        .map(|row| row.station_depth_mm.get(index).copied().unwrap_or_default())
-        .collect();
-    Station {
-        side: "receptacle".to_owned(),
-        x_mm,
-        depth_mm,
-    }
-}
-
-fn side_series(rows: &[CycleRow], side: fn(&CycleRow) -> &SideRow) -> SideSeries {
-    SideSeries {
-        max_depth_mm: rows.iter().map(|row| side(row).max_depth_mm).collect(),
-        worn_area_mm2: rows.iter().map(|row| side(row).worn_area_mm2).collect(),
-        scar_half_width_mm: rows
-            .iter()
-            .map(|row| side(row).scar_half_width_mm)
-            .collect(),
-    }
+    history
 }

@@ -8,7 +8,7 @@ use ::parquet::errors::ParquetError as Cause;
 use ::parquet::file::properties::WriterProperties;
 use ::parquet::file::writer::SerializedFileWriter;
 use ::parquet::schema::types::Type;
-use api::results::WearHistory;
+use solver::record::Record;
 
 use crate::export::columns;
 use crate::export::columns::Values;
@@ -18,12 +18,12 @@ use crate::export::columns::Values;
 #[error("writing Parquet: {0}")]
 pub struct ParquetError(#[from] Cause);
 
-/// The wear history, one row a computed cycle.
+/// The wear history, one row per computed cycle.
 ///
 /// # Errors
 /// [`ParquetError`] if the writer fails.
-pub fn wear_history(history: &WearHistory) -> Result<Vec<u8>, ParquetError> {
-    let columns = columns::of(history);
+pub fn wear_history(record: &Record) -> Result<Vec<u8>, ParquetError> {
+    let columns = columns::of(record);
     let properties = Arc::new(WriterProperties::builder().build());
     let mut file = SerializedFileWriter::new(Vec::new(), schema(&columns)?, properties)?;
     let mut rows = file.next_row_group()?;
@@ -33,7 +33,7 @@ pub fn wear_history(history: &WearHistory) -> Result<Vec<u8>, ParquetError> {
         };
         match values {
             Values::Counts(counts) => {
-                let counts: Vec<i64> = counts.iter().map(|count| wide(*count)).collect();
+                let counts: Vec<i64> = counts.iter().map(|count| to_i64(*count)).collect();
                 column
                     .typed::<Int64Type>()
                     .write_batch(&counts, None, None)?;
@@ -68,8 +68,8 @@ fn schema(columns: &[(String, Values<'_>)]) -> Result<Arc<Type>, Cause> {
     Ok(Arc::new(root.build()?))
 }
 
-/// Counts stay far below 2^63.
-fn wide(count: u64) -> i64 {
+/// A count as Parquet stores it; counts stay far below 2^63.
+fn to_i64(count: u64) -> i64 {
     i64::try_from(count).unwrap_or(i64::MAX)
 }
 
@@ -79,12 +79,11 @@ mod tests {
     use ::parquet::record::RowAccessor;
 
     use super::*;
-    use crate::export::history;
     use crate::http::tests::row;
 
     #[test]
-    fn a_reader_finds_the_same_rows_under_the_same_names() {
-        let written = history::columns(&[10, 20].map(row), &[-0.5, 0.0, 0.5]);
+    fn a_reader_returns_the_same_rows_under_the_same_names() {
+        let written = Record::new(&[10, 20].map(row), &[-0.5, 0.0, 0.5]);
         let bytes = wear_history(&written).expect("bytes");
         let reader = SerializedFileReader::new(axum::body::Bytes::from(bytes)).expect("a file");
         let names: Vec<String> = reader

@@ -1,47 +1,47 @@
-//! Pictures: panels of curves and marks, drawn as SVG and rasterised as PNG from the very same drawing.
+//! Plots: panels of curves and markers, drawn as SVG; the PNG is rasterised from the SVG.
 //!
-//! Text is measured and rasterised with an embedded font, so that no font of the system is needed and the same data
-//! give the same picture everywhere. Knows: curves and axes. Does not know: what the numbers mean.
+//! Text is measured and rasterised with an embedded font, so that no system font is needed and the same data give the
+//! same picture on every machine. Apart from `run`, nothing here knows the meaning of the numbers.
 
 mod axis;
 mod canvas;
 mod colour;
 mod raster;
-mod scale;
+mod ticks;
 
 pub mod run;
 
-pub use axis::{Axis, Scale, Span};
+pub use axis::{Axis, AxisRange, Scale};
 pub use canvas::svg;
 pub use colour::{COLOURS, Colour, ramp};
 pub use raster::png;
 
-/// A picture: panels one above the other, one legend for all of them.
+/// A picture: panels one above the other with a common legend.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Picture {
-    /// What it shows.
+    /// Its title.
     pub title: String,
-    /// Its panels, from the top.
+    /// Panels from top to bottom.
     pub panels: Vec<Panel>,
 }
 
-/// Axes and what is drawn between them.
+/// A pair of axes with its series.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Panel {
     /// The horizontal axis.
     pub x: Axis,
     /// The vertical axis.
     pub y: Axis,
-    /// What is drawn, the last one on top.
+    /// Series, the last one on top.
     pub series: Vec<Series>,
 }
 
-/// Points that belong together.
+/// A curve or a set of points.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Series {
-    /// Its name in the legend; empty for none.
+    /// Label in the legend; empty for none.
     pub label: String,
-    /// How it is drawn.
+    /// Line and marker style.
     pub mark: Mark,
     /// Its colour.
     pub colour: Colour,
@@ -49,28 +49,26 @@ pub struct Series {
     pub points: Vec<[f64; 2]>,
 }
 
-/// How points are drawn.
+/// Line and marker style of a series.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Mark {
-    /// A line through them.
+    /// A solid line.
     Line,
-    /// A broken line through them.
+    /// A dashed line.
     Dashes,
-    /// A filled circle at each.
+    /// Filled circles.
     Dots,
-    /// An open circle at each.
-    Rings,
-    /// A filled circle at each and a line through them.
-    Beads,
+    /// Open circles.
+    Circles,
 }
 
-/// Why there is no picture.
+/// Why a picture could not be rendered.
 #[derive(Debug, thiserror::Error)]
 pub enum PlotError {
-    /// The drawing failed.
+    /// SVG could not be written.
     #[error("drawing a picture: {0}")]
     Drawing(String),
-    /// The drawing could not be read as SVG.
+    /// The SVG could not be rasterised.
     #[error("rasterising a picture: {0}")]
     Raster(String),
 }

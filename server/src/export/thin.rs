@@ -1,26 +1,30 @@
-//! Fewer points of a curve for a client that draws it: the ends, the highest and lowest point of every series, and
-//! then, one by one, the point that lies farthest from the straight line between its kept neighbours.
+//! Line simplification for clients that draw curves: Douglas-Peucker with a number of points instead of a tolerance.
 //!
-//! Distances are measured in shares of each series' own range, so that no unit outweighs another.
+//! The ends and the extremes of every series are selected first. Then the segment with the largest distance between the
+//! curve and its chord is split at the farthest point, until the number of points is reached. Distances are vertical and
+//! relative to the range of each series, so that the choice of units does not matter.
+//!
+//! Source: D. H. Douglas and T. K. Peucker, *Cartographica* 10 (1973) 112-122, with a priority queue of the segments.
 
 use std::cmp::Ordering;
 use std::collections::{BTreeSet, BinaryHeap};
 
-use api::results::{CycleRow, Loop, Pressure, Profile, SideProfile};
+use api::results::{Loop, Pressure, Profile, SideProfile};
+use solver::record::{CycleReport, Record};
 
-use crate::export::{columns, history};
+use crate::export::columns;
 
-/// Fewest points that a client may ask for: room for the ends and the extremes of what is usually drawn.
+/// Fewest points that a client may request: enough for the ends and the extremes of a few series.
 pub const FEWEST_POINTS: usize = 16;
 
-/// Rows of a wear history.
-pub fn rows(rows: Vec<CycleRow>, points: usize) -> Vec<CycleRow> {
+/// Thins the rows of a wear history.
+pub fn rows(rows: Vec<CycleReport>, points: usize) -> Vec<CycleReport> {
     if rows.len() <= points {
         return rows;
     }
     let stations = vec![0.0; rows[0].station_depth_mm.len()];
-    let history = history::columns(&rows, &stations);
-    let named = columns::of(&history);
+    let record = Record::new(&rows, &stations);
+    let named = columns::of(&record);
     let series: Vec<&[f64]> = named
         .iter()
         .filter_map(|(_, values)| match values {
@@ -28,21 +32,21 @@ pub fn rows(rows: Vec<CycleRow>, points: usize) -> Vec<CycleRow> {
             columns::Values::Counts(_) => None,
         })
         .collect();
-    let at: Vec<f64> = history.cycle.iter().map(|cycle| real(*cycle)).collect();
-    let kept = kept(&at, &series, points);
+    let at: Vec<f64> = record.cycle.iter().map(|cycle| real(*cycle)).collect();
+    let selected = select(&at, &series, points);
     let mut index = 0..;
     rows.into_iter()
-        .filter(|_| index.next().is_some_and(|index| kept.contains(&index)))
+        .filter(|_| index.next().is_some_and(|index| selected.contains(&index)))
         .collect()
 }
 
-/// A profile; each side for itself.
+/// Thins a profile, each side separately.
 pub fn profile(profile: Profile, points: usize) -> Profile {
     let side = |side: SideProfile| {
-        let kept = kept(&side.x_mm, &[&side.depth_mm], points);
+        let selected = select(&side.x_mm, &[&side.depth_mm], points);
         SideProfile {
-            x_mm: picked(&side.x_mm, &kept),
-            depth_mm: picked(&side.depth_mm, &kept),
+            x_mm: at_indices(&side.x_mm, &selected),
+            depth_mm: at_indices(&side.depth_mm, &selected),
         }
     };
     Profile {
@@ -52,35 +56,36 @@ pub fn profile(profile: Profile, points: usize) -> Profile {
     }
 }
 
-/// Tractions; each position for itself.
+/// Thins tractions, each position separately.
 pub fn pressure(mut pressure: Pressure, points: usize) -> Pressure {
     for position in &mut pressure.positions {
         let series = [&position.pressure_mpa[..], &position.shear_mpa[..]];
-        let kept = kept(&position.x_mm, &series, points);
-        position.x_mm = picked(&position.x_mm, &kept);
-        position.pressure_mpa = picked(&position.pressure_mpa, &kept);
-        position.shear_mpa = picked(&position.shear_mpa, &kept);
+        let selected = select(&position.x_mm, &series, points);
+        position.x_mm = at_indices(&position.x_mm, &selected);
+        position.pressure_mpa = at_indices(&position.pressure_mpa, &selected);
+        position.shear_mpa = at_indices(&position.shear_mpa, &selected);
     }
     pressure
 }
 
-/// A friction loop, followed increment by increment.
+/// Thins a friction loop, as a curve over its increments.
 pub fn friction_loop(friction_loop: Loop, points: usize) -> Loop {
     let (x, force) = (
         friction_loop.displacement_mm,
         friction_loop.tangential_force_n_per_mm,
     );
     let increments: Vec<f64> = (0..u32::MAX).take(x.len()).map(f64::from).collect();
-    let kept = kept(&increments, &[&x, &force], points);
+    let selected = select(&increments, &[&x, &force], points);
     Loop {
         cycle: friction_loop.cycle,
-        displacement_mm: picked(&x, &kept),
-        tangential_force_n_per_mm: picked(&force, &kept),
+        displacement_mm: at_indices(&x, &selected),
+        tangential_force_n_per_mm: at_indices(&force, &selected),
     }
 }
 
-fn picked(values: &[f64], kept: &BTreeSet<usize>) -> Vec<f64> {
-    kept.iter()
+fn at_indices(values: &[f64], selected: &BTreeSet<usize>) -> Vec<f64> {
+    selected
+        .iter()
         .filter_map(|index| values.get(*index))
         .copied()
         .collect()
@@ -91,34 +96,35 @@ fn real(cycle: u64) -> f64 {
     cycle as f64
 }
 
-/// A stretch between two kept points, by its farthest point.
+/// A segment between two selected points with a point between them.
 #[derive(Debug, PartialEq)]
-struct Stretch {
-    off: f64,
+struct Segment {
+    /// Relative distance of the farthest point from the chord.
+    distance: f64,
     farthest: usize,
     from: usize,
     to: usize,
 }
 
-impl Eq for Stretch {}
+impl Eq for Segment {}
 
-impl Ord for Stretch {
+impl Ord for Segment {
     fn cmp(&self, other: &Self) -> Ordering {
-        // Of equals the earlier one, so that the same curve is always thinned the same way.
-        self.off
-            .total_cmp(&other.off)
+        // The earlier one of equals, so that the result is deterministic.
+        self.distance
+            .total_cmp(&other.distance)
             .then(other.farthest.cmp(&self.farthest))
     }
 }
 
-impl PartialOrd for Stretch {
+impl PartialOrd for Segment {
     fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
         Some(self.cmp(other))
     }
 }
 
-/// Indices of at most so many points of curves over `at`, which does not fall.
-fn kept(at: &[f64], series: &[&[f64]], points: usize) -> BTreeSet<usize> {
+/// Indices of the selected points, at most `points`, of curves over the ascending `at`.
+fn select(at: &[f64], series: &[&[f64]], points: usize) -> BTreeSet<usize> {
     let count = series
         .iter()
         .map(|values| values.len())
@@ -126,7 +132,7 @@ fn kept(at: &[f64], series: &[&[f64]], points: usize) -> BTreeSet<usize> {
     if count <= points {
         return (0..count).collect();
     }
-    let mut kept = BTreeSet::from([0, count - 1]);
+    let mut selected = BTreeSet::from([0, count - 1]);
     let mut scales = Vec::with_capacity(series.len());
     for values in series {
         let order = |a: &usize, b: &usize| values[*a].total_cmp(&values[*b]);
@@ -134,25 +140,25 @@ fn kept(at: &[f64], series: &[&[f64]], points: usize) -> BTreeSet<usize> {
         let highest = (0..count).max_by(order).unwrap_or(0);
         scales.push((values[highest] - values[lowest]).max(f64::MIN_POSITIVE));
         for extreme in [lowest, highest] {
-            if kept.len() < points {
-                kept.insert(extreme);
+            if selected.len() < points {
+                selected.insert(extreme);
             }
         }
     }
     let curves = Curves { at, series, scales };
-    let ends: Vec<usize> = kept.iter().copied().collect();
-    let mut stretches: BinaryHeap<Stretch> = ends
+    let ends: Vec<usize> = selected.iter().copied().collect();
+    let mut segments: BinaryHeap<Segment> = ends
         .windows(2)
-        .filter_map(|pair| curves.stretch(pair[0], pair[1]))
+        .filter_map(|pair| curves.segment(pair[0], pair[1]))
         .collect();
-    while kept.len() < points
-        && let Some(widest) = stretches.pop()
+    while selected.len() < points
+        && let Some(widest) = segments.pop()
     {
-        kept.insert(widest.farthest);
-        stretches.extend(curves.stretch(widest.from, widest.farthest));
-        stretches.extend(curves.stretch(widest.farthest, widest.to));
+        selected.insert(widest.farthest);
+        segments.extend(curves.segment(widest.from, widest.farthest));
+        segments.extend(curves.segment(widest.farthest, widest.to));
     }
-    kept
+    selected
 }
 
 struct Curves<'a> {
@@ -162,10 +168,10 @@ struct Curves<'a> {
 }
 
 impl Curves<'_> {
-    /// The stretch between two points, if there is one between them.
-    fn stretch(&self, from: usize, to: usize) -> Option<Stretch> {
+    /// The segment between two points, if there are points between them.
+    fn segment(&self, from: usize, to: usize) -> Option<Segment> {
         let width = (self.at[to] - self.at[from]).max(f64::MIN_POSITIVE);
-        let off = |index: usize| {
+        let distance = |index: usize| {
             let share = (self.at[index] - self.at[from]) / width;
             self.series
                 .iter()
@@ -177,10 +183,10 @@ impl Curves<'_> {
                 .fold(0.0, f64::max)
         };
         (from + 1..to)
-            .map(|index| (off(index), index))
+            .map(|index| (distance(index), index))
             .max_by(|a, b| a.0.total_cmp(&b.0).then(b.1.cmp(&a.1)))
-            .map(|(off, farthest)| Stretch {
-                off,
+            .map(|(distance, farthest)| Segment {
+                distance,
                 farthest,
                 from,
                 to,
@@ -199,7 +205,7 @@ mod tests {
     }
 
     #[test]
-    fn ends_and_extremes_of_every_series_stay() {
+    fn ends_and_extremes_of_every_series_are_selected() {
         let (at, first) = curve(10_000, |x| {
             if (x - 777.0).abs() < 0.5 {
                 1e3
@@ -211,18 +217,18 @@ mod tests {
             10_000,
             |x| if (x - 4242.0).abs() < 0.5 { -1e-9 } else { 0.0 },
         );
-        let kept = kept(&at, &[&first, &second], FEWEST_POINTS);
-        assert_eq!(kept.len(), FEWEST_POINTS);
+        let selected = select(&at, &[&first, &second], FEWEST_POINTS);
+        assert_eq!(selected.len(), FEWEST_POINTS);
         for index in [0, 777, 4242, 9999] {
-            assert!(kept.contains(&index), "{index}: {kept:?}");
+            assert!(selected.contains(&index), "{index}: {selected:?}");
         }
     }
 
     #[test]
     fn a_smooth_curve_keeps_its_shape() {
         let (at, values) = curve(100_000, f64::sqrt);
-        let kept: Vec<usize> = kept(&at, &[&values], 200).into_iter().collect();
-        let worst = kept
+        let selected: Vec<usize> = select(&at, &[&values], 200).into_iter().collect();
+        let worst = selected
             .windows(2)
             .flat_map(|pair| {
                 let (from, to) = (pair[0], pair[1]);
@@ -232,16 +238,16 @@ mod tests {
                     .map(move |i| (values[i] - values[from] - slope * (at[i] - at[from])).abs())
             })
             .fold(0.0, f64::max);
-        // A piece h of sqrt errs by h^2 / (32 x^(3/2)): 0.004 with 200 pieces of equal error, the best there is. Each
-        // choice is only the best of the moment, which costs a factor of a few.
+        // On a segment of length h the chord of sqrt is off by h^2 / (32 x^(3/2)): 0.004 with 200 segments of equal
+        // error, the optimum. The greedy choice loses a small factor.
         assert!(worst < 0.02, "{worst}");
     }
 
     #[test]
-    fn short_curves_and_equal_points_are_left_alone() {
+    fn short_curves_stay_as_they_are_and_constant_ones_are_thinned() {
         let (at, values) = curve(5, |_| 1.0);
-        assert_eq!(kept(&at, &[&values], FEWEST_POINTS).len(), 5);
+        assert_eq!(select(&at, &[&values], FEWEST_POINTS).len(), 5);
         let flat = vec![0.0; 100];
-        assert_eq!(kept(&flat, &[&flat], 20).len(), 20);
+        assert_eq!(select(&flat, &[&flat], 20).len(), 20);
     }
 }

@@ -1,22 +1,22 @@
-//! Fields inside the bodies as VTU files (VTK's XML format for unstructured grids), for ParaView and its like.
+//! Fields inside the bodies as VTU files (VTK's XML format for unstructured grids), for ParaView and similar programs.
 //!
-//! One file holds both bodies at one position: points where the undeformed, worn bodies are (mm), the displacement
-//! as a vector to warp them by, stresses in MPa.
+//! One file holds both bodies at one position: the nodes of the undeformed, worn bodies (mm), the displacement as a
+//! vector to warp them by, stresses in MPa.
 
 use solver::fields::BodyFields;
-use solver::history::{PlacedFields, Position};
 use solver::mesh::columns::Cell;
+use solver::record::{PlacedFields, Position};
 use vtkio::model::{
     Attribute, Attributes, ByteOrder, CellType, Cells, DataArray, DataSet, UnstructuredGridPiece,
     Version, VertexNumbers, Vtk,
 };
 
-/// Why a file could not be made.
+/// The fields could not be written as VTU.
 #[derive(Debug, thiserror::Error)]
 #[error("the fields cannot be written as VTU: {0}")]
 pub struct VtuError(String);
 
-/// The fields at one position as the bytes of a file.
+/// Content of the file of the fields at one position.
 ///
 /// # Errors
 /// [`VtuError`] if the writer fails.
@@ -46,7 +46,7 @@ pub fn bytes(fields: &PlacedFields) -> Result<Vec<u8>, VtuError> {
     Ok(bytes)
 }
 
-/// Name of the file of a cycle and position; the neutral position needs no further word.
+/// Name of the file of a cycle and position; the neutral position has no suffix.
 pub fn file_name(cycle: u64, position: Position) -> String {
     match position {
         Position::Neutral => format!("fields-{cycle}.vtu"),
@@ -72,9 +72,9 @@ fn cells(bodies: [&BodyFields; 2]) -> Result<Cells, VtuError> {
                 Cell::Tri(nodes) => (nodes, CellType::Triangle),
             };
             for node in nodes {
-                connectivity.push(wide(first + node)?);
+                connectivity.push(to_u64(first + node)?);
             }
-            offsets.push(wide(connectivity.len())?);
+            offsets.push(to_u64(connectivity.len())?);
             types.push(kind);
         }
         first += body.nodes.len();
@@ -86,7 +86,7 @@ fn cells(bodies: [&BodyFields; 2]) -> Result<Cells, VtuError> {
     Ok(Cells { cell_verts, types })
 }
 
-fn wide(count: usize) -> Result<u64, VtuError> {
+fn to_u64(count: usize) -> Result<u64, VtuError> {
     u64::try_from(count).map_err(|cause| VtuError(cause.to_string()))
 }
 
@@ -95,11 +95,11 @@ fn point_data(bodies: [&BodyFields; 2]) -> Vec<Attribute> {
         let values = collect(bodies, |body| body.stress.iter().map(value));
         Attribute::DataArray(DataArray::scalars(name, 1).with_vec(values))
     };
-    let moved = collect(bodies, |body| {
+    let displacement = collect(bodies, |body| {
         body.displacement_mm.iter().flat_map(|u| [u[0], u[1], 0.0])
     });
     vec![
-        Attribute::DataArray(DataArray::vectors("displacement_mm").with_vec(moved)),
+        Attribute::DataArray(DataArray::vectors("displacement_mm").with_vec(displacement)),
         scalars("stress_xx_mpa", |s| s.xx),
         scalars("stress_yy_mpa", |s| s.yy),
         scalars("stress_zz_mpa", |s| s.zz),

@@ -10,6 +10,7 @@
 use std::sync::OnceLock;
 
 use serde_json::{Value, json};
+use solver::record::{Channels, CycleReport, SideReport};
 
 /// The document, built once.
 pub fn document() -> &'static Value {
@@ -38,6 +39,9 @@ fn complete(document: &mut Value) {
         "description": "Access token of the service; required if one is configured"
     });
     document["security"] = json!([{}, {"token": []}]);
+    let schemas = &mut document["components"]["schemas"];
+    describe_channels::<CycleReport>(&mut schemas["WearHistory"]);
+    describe_channels::<SideReport>(&mut schemas["SideSeries"]);
     let problem = |description: &str| {
         json!({
             "description": description,
@@ -72,6 +76,20 @@ fn complete(document: &mut Value) {
             responses.entry(status).or_insert_with(add);
         }
     }
+}
+
+/// Adds the channels of a report of the engine, which `api` does not know, to the schema of their columns.
+fn describe_channels<R: Channels>(schema: &mut Value) {
+    let mut required = schema["required"].as_array().cloned().unwrap_or_default();
+    for channel in R::CHANNELS {
+        required.push(channel.name.into());
+        schema["properties"][channel.name] = json!({
+            "type": "array",
+            "description": channel.description,
+            "items": {"type": "number", "format": "double"}
+        });
+    }
+    schema["required"] = required.into();
 }
 
 /// Sets the media type of problem documents.

@@ -5,13 +5,13 @@ use std::sync::Arc;
 
 use api::plan::MachineFigures;
 use api::results::{
-    CycleRow, Loop, Pressure, PressurePosition, Profile, SideProfile, SideRow, SlidePosition,
-    Snapshot,
+    Loop, Pressure, PressurePosition, Profile, SideProfile, SlidePosition, Snapshot,
 };
 use axum::body::Body;
 use axum::http::{HeaderMap, Request, StatusCode};
 use http_body_util::BodyExt;
 use serde_json::Value;
+use solver::record::CycleReport;
 use tempfile::TempDir;
 use tokio_util::sync::CancellationToken;
 use tower::ServiceExt;
@@ -129,8 +129,8 @@ impl Service {
             .await
             .expect("the store")
             .expect("a job");
-        let fields = files::described("fields-20.vtu", Some(20), VTU, FIELDS.as_bytes());
-        files::keep(
+        let fields = files::manifest_entry("fields-20.vtu", Some(20), VTU, FIELDS.as_bytes());
+        files::write_atomically(
             &store.attempt_folder(&claim),
             &fields.name,
             FIELDS.as_bytes(),
@@ -143,7 +143,7 @@ impl Service {
                     content: None,
                 },
                 NewFile {
-                    file: files::described("summary.json", None, JSON, b"{}"),
+                    file: files::manifest_entry("summary.json", None, JSON, b"{}"),
                     content: Some(b"{}".to_vec()),
                 },
             ],
@@ -197,20 +197,18 @@ pub(crate) const STUDY: &str = r#"{
 /// Content of the file that stands for a large result.
 pub(crate) const FIELDS: &str = "<VTKFile>0 1 2 3</VTKFile>";
 
-/// A row of a history.
-pub(crate) fn row(cycle: u64) -> CycleRow {
-    CycleRow {
+/// A row of the history.
+pub(crate) fn row(cycle: u64) -> CycleReport {
+    CycleReport {
         cycle,
         jump: 1,
-        jump_error: 0.0,
         sliding_distance_mm: 1.0,
-        receptacle: SideRow::default(),
-        slider: SideRow::default(),
         station_depth_mm: vec![0.0, 0.5, 0.0],
         load_n_per_mm: 0.5,
         peak_pressure_mpa: 3.0,
         contact_half_width_mm: 0.1,
         dissipated_energy_mj_per_mm: 2.0,
+        ..CycleReport::default()
     }
 }
 

@@ -11,7 +11,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use api::job::{Outcome, Status};
-use api::results::CycleRow;
+use solver::record::CycleReport;
 use sqlx::ConnectOptions;
 use sqlx::sqlite::{SqliteConnectOptions, SqliteConnection};
 use tempfile::TempDir;
@@ -103,7 +103,7 @@ impl Fixture {
             .await
             .expect("the store")
             .iter()
-            .map(|row: &CycleRow| row.cycle)
+            .map(|row: &CycleReport| row.cycle)
             .collect()
     }
 }

@@ -6,8 +6,8 @@
 use std::time::{Duration, Instant};
 
 use api::job::Progress;
-use api::results::CycleRow;
 use jiff::Timestamp;
+use solver::record::CycleReport;
 
 use crate::solve::Line;
 use crate::solve::checkpoint::Encoded;
@@ -34,7 +34,7 @@ pub(super) struct Batcher {
     bytes: usize,
     /// The same of the batch that was taken last, should it be given back.
     in_hand: usize,
-    newest: Option<CycleRow>,
+    newest: Option<CycleReport>,
     started: Instant,
     last_event: Option<(Instant, f64)>,
     dirty: bool,
@@ -172,23 +172,13 @@ fn fraction(cycle: u64, cycles: u64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use api::results::SideRow;
-
     use super::*;
 
     fn row(cycle: u64) -> Line {
-        Line::Cycle(CycleRow {
+        Line::Cycle(CycleReport {
             cycle,
             jump: 1,
-            jump_error: 0.0,
-            sliding_distance_mm: 0.0,
-            receptacle: SideRow::default(),
-            slider: SideRow::default(),
-            station_depth_mm: Vec::new(),
-            load_n_per_mm: 0.0,
-            peak_pressure_mpa: 0.0,
-            contact_half_width_mm: 0.0,
-            dissipated_energy_mj_per_mm: 0.0,
+            ..CycleReport::default()
         })
     }
 

@@ -60,11 +60,11 @@ fn kept(folder: &std::path::Path, document: Document) -> Result<NewFile, FilesEr
         media_type,
         bytes,
     } = document;
-    let file = files::described(&name, cycle, media_type, &bytes);
+    let file = files::manifest_entry(&name, cycle, media_type, &bytes);
     let content = if bytes.len() <= INLINE_LIMIT {
         Some(bytes)
     } else {
-        files::keep(folder, &name, &bytes)?;
+        files::write_atomically(folder, &name, &bytes)?;
         None
     };
     Ok(NewFile { file, content })

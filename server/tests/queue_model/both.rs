@@ -7,6 +7,7 @@ use server::estimate::Estimate;
 use server::queue::{Transition, place};
 use server::spec;
 use server::store::{Batch, Claim, End, Held, NewCheckpoint, NewJob, Store, SubmitOptions};
+use solver::record::CycleReport;
 use tempfile::TempDir;
 
 use crate::model::{ATTEMPTS, Modelled};
@@ -313,19 +314,10 @@ fn expected(held: bool, cancel_requested: bool) -> Held {
     }
 }
 
-fn row(cycle: u64) -> api::results::CycleRow {
-    let side = api::results::SideRow::default;
-    api::results::CycleRow {
+fn row(cycle: u64) -> CycleReport {
+    CycleReport {
         cycle,
         jump: 1,
-        jump_error: 0.0,
-        sliding_distance_mm: 0.0,
-        receptacle: side(),
-        slider: side(),
-        station_depth_mm: Vec::new(),
-        load_n_per_mm: 0.0,
-        peak_pressure_mpa: 0.0,
-        contact_half_width_mm: 0.0,
-        dissipated_energy_mj_per_mm: 0.0,
+        ..CycleReport::default()
     }
 }

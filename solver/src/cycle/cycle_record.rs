@@ -1,9 +1,9 @@
-//! What one computed cycle recorded.
+//! Record of one computed cycle.
 
 use serde::{Deserialize, Serialize};
 
 use crate::contact::{ContactState, Pair};
-use crate::history::{FrictionLoop, Position};
+use crate::schedule::increments::Position;
 
 /// Contact at the neutral position on the way to +x.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
@@ -27,7 +27,24 @@ impl Neutral {
     }
 }
 
-/// What one computed cycle recorded besides the state.
+/// Friction force over displacement during one cycle.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct FrictionLoop {
+    /// Imposed displacement, mm.
+    pub displacement_mm: Vec<f64>,
+    /// Force of the slider on the receptacle along x, N/mm.
+    pub tangential_force_n_per_mm: Vec<f64>,
+}
+
+impl FrictionLoop {
+    /// Rotates the closed loop to begin after its first `steps` increments.
+    pub(super) fn begin_at(&mut self, steps: usize) {
+        self.displacement_mm.rotate_left(steps);
+        self.tangential_force_n_per_mm.rotate_left(steps);
+    }
+}
+
+/// Record of one computed cycle besides the state.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct CycleRecord {
     /// Friction force over the imposed displacement.

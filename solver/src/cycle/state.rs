@@ -2,10 +2,9 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::Neutral;
+use super::{Checks, Neutral};
 use crate::condensation::Operators;
 use crate::contact::{ContactError, ContactState};
-use crate::history::Checks;
 use crate::schedule::increments;
 use crate::schedule::jump::JumpControl;
 use crate::sides::Sides;

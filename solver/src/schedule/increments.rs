@@ -6,9 +6,19 @@
 //! Nothing in the contact problem depends on time, so steps are equal in displacement whatever the wave. A step
 //! must stay a fraction of the contact's half-width, or its wear would leave ripples.
 
-use crate::history::Position;
 use crate::number::{count_at_least, real};
 use crate::scene::{Accuracy, Motion};
+
+/// Named positions of a cycle.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Position {
+    /// Slider at x = 0 on its way to +x.
+    Neutral,
+    /// Slider at its rightmost position.
+    Rightmost,
+    /// Slider at its leftmost position.
+    Leftmost,
+}
 
 /// Largest step over the contact's half-width, and fewest steps a quarter of a cycle, for a tolerance: values fitted at
 /// 2 % with powers around it, as for the mesh; loose tolerances allow longer steps.

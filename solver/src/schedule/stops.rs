@@ -1,8 +1,20 @@
 //! Cycles that a run must hit exactly, and conditions that end it.
 
-use crate::history::Outcome;
 use crate::number::cycles_at_least;
 use crate::scene::{Scene, StopCondition};
+
+/// Why a run ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Outcome {
+    /// All cycles were done.
+    Completed,
+    /// A stop condition was met.
+    StopCondition,
+    /// A body was nearly consumed.
+    WornThrough,
+    /// The observer asked to stop.
+    Stopped,
+}
 
 /// What stops depend on.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -1,8 +1,8 @@
 //! What holds for every run, however hard: one list, asserted by every case.
 
 use solver::ale;
-use solver::history::{Checks, CycleReport, SideReport, Snapshot, TractionField};
 use solver::model;
+use solver::record::{Checks, CycleReport, SideReport, Snapshot, TractionField};
 use solver::sides::Sides;
 
 use super::run::Run;

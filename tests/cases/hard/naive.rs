@@ -2,7 +2,7 @@
 
 use solver::condensation::condense;
 use solver::contact::{ContactError, ContactState, Displacement, Pair, Solver, Surfaces, slopes};
-use solver::history::{Position, TractionField};
+use solver::record::{Position, TractionField};
 use solver::scene::Scene;
 use solver::sides::{Side, Sides};
 

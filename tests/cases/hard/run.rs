@@ -5,8 +5,8 @@ use std::ops::ControlFlow;
 use serde_json::Value;
 use server::spec;
 use solver::SolveError;
-use solver::history::{CycleReport, Snapshot, Summary};
 use solver::observer::{Event, Observer};
+use solver::record::{CycleReport, Snapshot, Summary};
 use solver::scene::Scene;
 
 /// A run that has ended, one way or the other.

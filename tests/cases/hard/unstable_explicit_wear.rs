@@ -5,7 +5,7 @@
 
 use serde_json::{Value, json};
 
-use solver::history::TractionField;
+use solver::record::TractionField;
 
 use super::invariants::{hold, worst_zigzag};
 use super::naive::explicit_wear;

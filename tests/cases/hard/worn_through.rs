@@ -4,7 +4,7 @@
 //! Naive: elements invert when their body is consumed, and the run ends in a negative Jacobian.
 
 use serde_json::json;
-use solver::history::Outcome;
+use solver::record::Outcome;
 
 use super::invariants::hold;
 use super::run::solve;

@@ -2,6 +2,7 @@
 
 use api::results::{Profile, SideProfile, Summary};
 use api::study::Errors;
+use solver::interpolation;
 
 /// The compared quantities of a run.
 #[derive(Debug, Clone, PartialEq)]
@@ -75,15 +76,7 @@ fn largest_difference(mine: &SideProfile, other: &SideProfile) -> f64 {
 
 /// Interpolates the depth between the nodes of a profile; constant beyond its ends.
 pub(crate) fn depth_at(profile: &SideProfile, x: f64) -> f64 {
-    let (nodes, depths) = (&profile.x_mm, &profile.depth_mm);
-    if nodes.len() < 2 {
-        return depths.first().copied().unwrap_or_default();
-    }
-    let i = nodes
-        .partition_point(|node| *node < x)
-        .clamp(1, nodes.len() - 1);
-    let t = ((x - nodes[i - 1]) / (nodes[i] - nodes[i - 1])).clamp(0.0, 1.0);
-    (1.0 - t) * depths[i - 1] + t * depths[i]
+    interpolation::linear(&profile.x_mm, &profile.depth_mm, x)
 }
 
 #[cfg(test)]

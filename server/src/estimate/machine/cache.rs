@@ -131,7 +131,7 @@ fn write(file: &Path, figures: &MachineFigures) {
     let Ok(bytes) = serde_json::to_vec_pretty(figures) else {
         return;
     };
-    if let Err(error) = files::keep(folder, &name.to_string_lossy(), &bytes) {
+    if let Err(error) = files::write_atomically(folder, &name.to_string_lossy(), &bytes) {
         tracing::debug!(%error, "the calibration was not written to its file");
     }
 }

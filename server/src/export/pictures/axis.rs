@@ -1,72 +1,72 @@
-//! Axes: title, scale, and how values become places along them.
+//! Axes: title, scale, range, and the map from values to coordinates along them.
 
 /// An axis.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Axis {
     /// Quantity and unit.
     pub title: String,
-    /// How values are spread along it.
+    /// Its scale.
     pub scale: Scale,
-    /// Which values it covers.
-    pub span: Span,
+    /// Its range.
+    pub range: AxisRange,
 }
 
-/// How values are spread along an axis.
+/// Scale of an axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Scale {
-    /// Evenly, growing to the right or upwards.
+    /// Linear, values increase to the right or upwards.
     Linear,
-    /// Evenly, growing downwards: depths.
+    /// Linear, values increase downwards, for depths.
     Downward,
-    /// By decades; values that are not positive are left out.
+    /// Logarithmic; values that are not positive are omitted.
     Logarithmic,
 }
 
-/// Which values an axis covers.
+/// Range of an axis.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Span {
-    /// What its data need.
+pub enum AxisRange {
+    /// Fitted to the data.
     Data,
-    /// What its data need, and zero.
+    /// Fitted to the data, zero included.
     DataAndZero,
-    /// From, to.
+    /// From one value to another.
     Fixed(f64, f64),
 }
 
 impl Axis {
-    /// An axis that covers what its data need.
+    /// An axis fitted to the data.
     pub fn new(title: impl Into<String>, scale: Scale) -> Self {
         Self {
             title: title.into(),
             scale,
-            span: Span::Data,
+            range: AxisRange::Data,
         }
     }
 
-    /// The same axis with another span.
+    /// The same axis with another range.
     #[must_use]
-    pub fn spanning(self, span: Span) -> Self {
-        Self { span, ..self }
+    pub fn with_range(self, range: AxisRange) -> Self {
+        Self { range, ..self }
     }
 }
 
 impl Scale {
-    /// The place of a value along the axis; none if it has no place on it.
-    pub(crate) fn place(self, value: f64) -> Option<f64> {
-        let place = match self {
+    /// The coordinate of a value along the axis; `None` if it has none.
+    pub(crate) fn coordinate(self, value: f64) -> Option<f64> {
+        let coordinate = match self {
             Self::Linear => value,
             Self::Downward => -value,
             Self::Logarithmic => value.log10(),
         };
-        place.is_finite().then_some(place)
+        coordinate.is_finite().then_some(coordinate)
     }
 
-    /// The value at a place.
-    pub(crate) fn value(self, place: f64) -> f64 {
+    /// The value at a coordinate.
+    pub(crate) fn value(self, coordinate: f64) -> f64 {
         match self {
-            Self::Linear => place,
-            Self::Downward => -place,
-            Self::Logarithmic => 10.0_f64.powf(place),
+            Self::Linear => coordinate,
+            Self::Downward => -coordinate,
+            Self::Logarithmic => 10.0_f64.powf(coordinate),
         }
     }
 }

@@ -1,4 +1,4 @@
-//! A picture as SVG.
+//! Pictures as SVG.
 
 use std::sync::Once;
 
@@ -10,14 +10,14 @@ use plotters::prelude::{
 };
 use plotters::style::{Color, FontStyle, ShapeStyle, TextStyle, WHITE, register_font};
 
-use crate::export::pictures::scale;
-use crate::export::pictures::scale::Ticks;
+use crate::export::pictures::ticks;
+use crate::export::pictures::ticks::Ticks;
 use crate::export::pictures::{Colour, Mark, Panel, Picture, PlotError, Series};
 
-/// Units of the drawing in a pixel of the picture: the drawing counts in whole units, and curves must not show it.
+/// Drawing units per pixel: the backend rounds coordinates to whole units, which must not be visible in curves.
 const UNIT: u32 = 4;
 
-/// Size of a panel with its axis titles, and of what stands around the panels.
+/// Size of a panel with its axis titles, and of title, legend and margins around it.
 const PANEL: (u32, u32) = (620 * UNIT, 380 * UNIT);
 const TITLE_HEIGHT: u32 = 40 * UNIT;
 const LEGEND_WIDTH: u32 = 190 * UNIT;
@@ -30,11 +30,11 @@ const TITLE: u32 = 18 * UNIT;
 const AXIS: u32 = 15 * UNIT;
 const LABEL: u32 = 13 * UNIT;
 const STROKE: u32 = 2 * UNIT;
-const HAIR: u32 = UNIT;
+const THIN_STROKE: u32 = UNIT;
 const DOT: u32 = 4 * UNIT;
 const TICK: u32 = 5 * UNIT;
 
-/// The legend: its first line, the distance of lines, where marks end and labels begin, how far a label is above.
+/// The legend: first line, line spacing, end of the markers, start of the labels, height of a label above its line.
 const LEGEND_TOP: i32 = px(24);
 const LEGEND_LINE: i32 = px(22);
 const LEGEND_MARK: i32 = px(26);
@@ -44,7 +44,7 @@ const LEGEND_RISE: i32 = px(7);
 const INK: RGBColor = RGBColor(30, 30, 30);
 const GRID: RGBColor = RGBColor(222, 222, 222);
 const FAINT: RGBColor = RGBColor(240, 240, 240);
-/// The family's name in the drawing; a viewer takes its own, measuring takes the embedded one.
+/// Font family in the SVG: a viewer substitutes its own, text is measured with the embedded one.
 const FAMILY: &str = "sans-serif";
 
 type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
@@ -57,7 +57,7 @@ type Chart<'a, 'b> = ChartContext<'a, SVGBackend<'b>, Cartesian2d<Ticks, Ticks>>
 pub fn svg(picture: &Picture) -> Result<String, PlotError> {
     static FONT: Once = Once::new();
     FONT.call_once(|| {
-        // A constant: were it broken, measuring text would fail below with a reason.
+        // The embedded font is valid; otherwise measuring text below returns an error.
         let _ = register_font(FAMILY, FontStyle::Normal, notosans::REGULAR_TTF);
     });
     let panels = u32::try_from(picture.panels.len()).unwrap_or(1);
@@ -69,11 +69,11 @@ pub fn svg(picture: &Picture) -> Result<String, PlotError> {
         root.present()
             .map_err(|error| PlotError::Drawing(reason(error)))?;
     }
-    Ok(in_pixels(&text, size))
+    Ok(sized_in_pixels(&text, size))
 }
 
-/// The drawing with its size in pixels; its `viewBox` stays in units.
-fn in_pixels(text: &str, (width, height): (u32, u32)) -> String {
+/// The SVG with its size in pixels; its `viewBox` stays in drawing units.
+fn sized_in_pixels(text: &str, (width, height): (u32, u32)) -> String {
     let header = |width, height| format!("width=\"{width}\" height=\"{height}\"");
     text.replacen(
         &header(width, height),
@@ -102,8 +102,8 @@ fn draw_panel(panel: &Panel, area: &Area<'_>) -> Result<(), String> {
             .iter()
             .flat_map(move |series| series.points.iter().map(move |point| point[axis]))
     };
-    let x = scale::ticks(&panel.x, along(0));
-    let y = scale::ticks(&panel.y, along(1));
+    let x = ticks::ticks(&panel.x, along(0));
+    let y = ticks::ticks(&panel.y, along(1));
     let mut chart = ChartBuilder::on(area)
         .margin(MARGIN)
         .x_label_area_size(X_TITLE)
@@ -116,11 +116,11 @@ fn draw_panel(panel: &Panel, area: &Area<'_>) -> Result<(), String> {
         .y_desc(panel.y.title.clone())
         .axis_desc_style(font(AXIS))
         .label_style(font(LABEL))
-        .x_label_formatter(&|place| scale::label(panel.x.scale, &x, *place))
-        .y_label_formatter(&|place| scale::label(panel.y.scale, &y, *place))
-        .bold_line_style(GRID.stroke_width(HAIR))
-        .light_line_style(FAINT.stroke_width(HAIR))
-        .axis_style(INK.stroke_width(HAIR))
+        .x_label_formatter(&|x_tick| ticks::label(panel.x.scale, &x, *x_tick))
+        .y_label_formatter(&|y_tick| ticks::label(panel.y.scale, &y, *y_tick))
+        .bold_line_style(GRID.stroke_width(THIN_STROKE))
+        .light_line_style(FAINT.stroke_width(THIN_STROKE))
+        .axis_style(INK.stroke_width(THIN_STROKE))
         .set_all_tick_mark_size(TICK)
         .draw()
         .map_err(reason)?;
@@ -131,17 +131,17 @@ fn draw_panel(panel: &Panel, area: &Area<'_>) -> Result<(), String> {
 }
 
 fn draw_series(panel: &Panel, series: &Series, chart: &mut Chart<'_, '_>) -> Result<(), String> {
-    let place = |point: &[f64; 2]| {
+    let coordinates = |point: &[f64; 2]| {
         Some((
-            panel.x.scale.place(point[0])?,
-            panel.y.scale.place(point[1])?,
+            panel.x.scale.coordinate(point[0])?,
+            panel.y.scale.coordinate(point[1])?,
         ))
     };
-    let points: Vec<(f64, f64)> = series.points.iter().filter_map(place).collect();
+    let points: Vec<(f64, f64)> = series.points.iter().filter_map(coordinates).collect();
     let colour = rgb(series.colour);
     let stroke = colour.stroke_width(STROKE);
     match series.mark {
-        Mark::Line | Mark::Beads => chart
+        Mark::Line => chart
             .draw_series(LineSeries::new(points.clone(), stroke))
             .map(drop),
         Mark::Dashes => chart
@@ -152,25 +152,25 @@ fn draw_series(panel: &Panel, series: &Series, chart: &mut Chart<'_, '_>) -> Res
                 stroke,
             ))
             .map(drop),
-        Mark::Dots | Mark::Rings => Ok(()),
+        Mark::Dots | Mark::Circles => Ok(()),
     }
     .map_err(reason)?;
-    if let Some(style) = dot(series.mark, colour) {
+    if let Some(style) = marker(series.mark, colour) {
         let circles = points.into_iter().map(|at| Circle::new(at, DOT, style));
         chart.draw_series(circles).map_err(reason)?;
     }
     Ok(())
 }
 
-fn dot(mark: Mark, colour: RGBColor) -> Option<ShapeStyle> {
+fn marker(mark: Mark, colour: RGBColor) -> Option<ShapeStyle> {
     match mark {
         Mark::Line | Mark::Dashes => None,
-        Mark::Dots | Mark::Beads => Some(colour.filled()),
-        Mark::Rings => Some(colour.stroke_width(STROKE)),
+        Mark::Dots => Some(colour.filled()),
+        Mark::Circles => Some(colour.stroke_width(STROKE)),
     }
 }
 
-/// Every label once, in order of appearance, beside the panels.
+/// Draws every label once, in order of appearance, beside the panels.
 fn legend(picture: &Picture, side: &Area<'_>) -> Result<(), String> {
     let mut shown: Vec<&Series> = Vec::new();
     for series in picture.panels.iter().flat_map(|panel| &panel.series) {
@@ -183,15 +183,15 @@ fn legend(picture: &Picture, side: &Area<'_>) -> Result<(), String> {
         let colour = rgb(series.colour);
         let stroke = colour.stroke_width(STROKE);
         let dashes: &[[i32; 2]] = match series.mark {
-            Mark::Line | Mark::Beads => &[[0, LEGEND_MARK]],
+            Mark::Line => &[[0, LEGEND_MARK]],
             Mark::Dashes => &[[0, px(7)], [px(10), px(17)], [px(19), LEGEND_MARK]],
-            Mark::Dots | Mark::Rings => &[],
+            Mark::Dots | Mark::Circles => &[],
         };
         for [from, to] in dashes {
             let line = PathElement::new(vec![(*from, y), (*to, y)], stroke);
             side.draw(&line).map_err(reason)?;
         }
-        if let Some(style) = dot(series.mark, colour) {
+        if let Some(style) = marker(series.mark, colour) {
             side.draw(&Circle::new((LEGEND_MARK / 2, y), DOT, style))
                 .map_err(reason)?;
         }
@@ -214,7 +214,7 @@ fn rgb([red, green, blue]: Colour) -> RGBColor {
     RGBColor(red, green, blue)
 }
 
-/// Pixels of the picture in units of the drawing.
+/// Pixels in drawing units.
 const fn px(pixels: i32) -> i32 {
     pixels * UNIT.cast_signed()
 }

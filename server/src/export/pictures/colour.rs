@@ -3,7 +3,7 @@
 /// A colour: red, green, blue.
 pub type Colour = [u8; 3];
 
-/// Colours that colour-blind readers can tell apart (M. Okabe and K. Ito, *Color Universal Design*).
+/// Qualitative palette that colour-blind readers can distinguish (M. Okabe and K. Ito, *Color Universal Design*).
 pub const COLOURS: [Colour; 7] = [
     [0, 114, 178],
     [213, 94, 0],
@@ -14,7 +14,7 @@ pub const COLOURS: [Colour; 7] = [
     [90, 90, 90],
 ];
 
-/// Colours from light to dark: which of how many.
+/// Sequential colour map from light to dark: colour `index` of `count`.
 pub fn ramp(index: usize, count: usize) -> Colour {
     const STOPS: [Colour; 5] = [
         [253, 179, 66],

@@ -1,4 +1,4 @@
-//! A drawing as PNG.
+//! SVG to PNG.
 
 use std::sync::{Arc, LazyLock};
 
@@ -7,7 +7,7 @@ use resvg::usvg::{Options, Tree, fontdb};
 
 use crate::export::pictures::PlotError;
 
-/// Pixels of the raster per pixel of the drawing.
+/// PNG pixels per SVG pixel.
 const DENSITY: u8 = 2;
 
 static FONTS: LazyLock<Arc<fontdb::Database>> = LazyLock::new(|| {
@@ -17,10 +17,10 @@ static FONTS: LazyLock<Arc<fontdb::Database>> = LazyLock::new(|| {
     Arc::new(fonts)
 });
 
-/// Rasterises a drawing.
+/// Rasterises an SVG.
 ///
 /// # Errors
-/// [`PlotError`] if the drawing cannot be read, or is empty.
+/// [`PlotError`] if the SVG cannot be parsed or is empty.
 pub fn png(svg: &str) -> Result<Vec<u8>, PlotError> {
     let fail = |reason: String| PlotError::Raster(reason);
     let options = Options {
@@ -29,12 +29,12 @@ pub fn png(svg: &str) -> Result<Vec<u8>, PlotError> {
     };
     let tree = Tree::from_str(svg, &options).map_err(|error| fail(error.to_string()))?;
     let size = tree.size().to_int_size();
-    let wide = (
+    let pixels = (
         u32::from(DENSITY) * size.width(),
         u32::from(DENSITY) * size.height(),
     );
-    let mut pixmap =
-        Pixmap::new(wide.0, wide.1).ok_or_else(|| fail("the drawing has no area".to_owned()))?;
+    let mut pixmap = Pixmap::new(pixels.0, pixels.1)
+        .ok_or_else(|| fail("the drawing has no area".to_owned()))?;
     let density = f32::from(DENSITY);
     resvg::render(
         &tree,

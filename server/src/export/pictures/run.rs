@@ -1,24 +1,25 @@
-//! The pictures of a run: wear history, profiles, tractions, friction loops.
+//! Pictures of a run: wear history, profiles, tractions, friction loops.
 
-use api::results::{PressurePosition, SideProfile, SlidePosition, Snapshot, WearHistory};
+use api::results::{PressurePosition, SideProfile, SlidePosition, Snapshot};
+use solver::record::{Column, Record, Side};
 
 use crate::export::pictures::{
-    Axis, COLOURS, Colour, Mark, Panel, Picture, Scale, Series, Span, ramp,
+    Axis, AxisRange, COLOURS, Colour, Mark, Panel, Picture, Scale, Series, ramp,
 };
 
-/// Snapshots beyond this number are thinned out evenly; the last one always stays.
+/// Most snapshots in one picture; of more, every n-th is drawn, the last one included.
 const MOST_SNAPSHOTS: usize = 12;
 
-/// The pictures of a run with the names of their files. `name` is what the user calls it.
+/// The pictures of a run with their file names. `name` is the name of the specification.
 pub fn pictures(
     name: &str,
-    history: &WearHistory,
+    record: &Record,
     snapshots: &[Snapshot],
 ) -> Vec<(&'static str, Picture)> {
-    let shown = thinned(snapshots);
+    let shown = every_nth(snapshots);
     let mut pictures = Vec::new();
-    if history.cycle.len() > 1 {
-        pictures.push(("wear-history", wear_history(name, history)));
+    if record.cycle.len() > 1 {
+        pictures.push(("wear-history", wear_history(name, record)));
     }
     if !shown.is_empty() {
         pictures.extend(profiles(name, &shown).map(|picture| ("profiles", picture)));
@@ -28,14 +29,14 @@ pub fn pictures(
     pictures
 }
 
-fn thinned(snapshots: &[Snapshot]) -> Vec<&Snapshot> {
+fn every_nth(snapshots: &[Snapshot]) -> Vec<&Snapshot> {
     let every = snapshots.len().div_ceil(MOST_SNAPSHOTS).max(1);
     let mut shown: Vec<_> = snapshots.iter().rev().step_by(every).collect();
     shown.reverse();
     shown
 }
 
-/// The unit that keeps the numbers of a length readable: its name and how many there are in a millimetre.
+/// The unit for lengths up to `largest_mm`: its name and the factor from mm.
 fn unit(largest_mm: f64) -> (&'static str, f64) {
     match largest_mm {
         small if small < 2e-4 => ("nm", 1e6),
@@ -61,50 +62,54 @@ fn scaled(values: &[f64], factor: f64) -> Vec<f64> {
     values.iter().map(|value| factor * value).collect()
 }
 
-/// Depth over cycles: the deepest place of each side that wears, and the stations.
-fn wear_history(name: &str, history: &WearHistory) -> Picture {
-    let sides = [
-        ("receptacle, deepest", &history.receptacle, COLOURS[0]),
-        ("slider, deepest", &history.slider, COLOURS[1]),
-    ];
-    let worn: Vec<_> = sides
-        .into_iter()
-        .filter(|(_, side, _)| largest(side.max_depth_mm.iter()) > 0.0)
-        .collect();
-    let deepest = worn
+/// Depth over cycles: the stations, and the channels that have a curve, of each side that wears.
+fn wear_history(name: &str, record: &Record) -> Picture {
+    let drawn = record
+        .columns
         .iter()
-        .map(|(_, side, _)| largest(side.max_depth_mm.iter()));
+        .filter(|column| !column.curve.is_empty());
+    let drawn: Vec<(&Column, Colour)> = drawn
+        .zip(COLOURS.into_iter().cycle())
+        .filter(|(column, _)| largest(column.values.iter()) > 0.0)
+        .collect();
+    let deepest = drawn
+        .iter()
+        .map(|(column, _)| largest(column.values.iter()));
     let (depth_unit, depth) = unit(deepest.fold(0.0, f64::max));
-    let cycles: Vec<f64> = history.cycle.iter().map(|cycle| count(*cycle)).collect();
+    let cycles: Vec<f64> = record.cycle.iter().map(|cycle| count(*cycle)).collect();
+    let curve = |label: String, colour, column: &Column| {
+        line(label, colour, &cycles, &scaled(&column.values, depth))
+    };
+    let stations: Vec<_> = record
+        .columns
+        .iter()
+        .filter_map(|column| Some((column, column.place_mm?)))
+        .collect();
     let mut series = Vec::new();
-    for (index, station) in history.stations.iter().enumerate() {
-        let (place_unit, place) = unit(station.x_mm.abs().max(1e-3));
-        let label = format!("x = {} {place_unit}", short(place * station.x_mm));
-        let colour = ramp(index, history.stations.len());
-        let mut at = line(label, colour, &cycles, &scaled(&station.depth_mm, depth));
-        at.mark = Mark::Dashes;
-        series.push(at);
+    for (index, (column, x_mm)) in stations.iter().enumerate() {
+        let (place_unit, place) = unit(x_mm.abs().max(1e-3));
+        let label = format!("x = {} {place_unit}", trimmed(place * x_mm));
+        series.push(Series {
+            mark: Mark::Dashes,
+            ..curve(label, ramp(index, stations.len()), column)
+        });
     }
-    for (label, side, colour) in worn {
-        series.push(line(
-            label,
-            colour,
-            &cycles,
-            &scaled(&side.max_depth_mm, depth),
-        ));
+    for (column, colour) in drawn {
+        let side = column.side.map_or("contact", Side::name);
+        series.push(curve(format!("{side}, {}", column.curve), colour, column));
     }
     Picture {
         title: titled("Wear history", name),
         panels: vec![Panel {
             x: Axis::new("cycle", Scale::Linear),
             y: Axis::new(format!("worn depth ({depth_unit})"), Scale::Downward)
-                .spanning(Span::DataAndZero),
+                .with_range(AxisRange::DataAndZero),
             series,
         }],
     }
 }
 
-/// Worn depth along each side that wears.
+/// Worn depth along each side that wears; `None` if neither does.
 fn profiles(name: &str, snapshots: &[&Snapshot]) -> Option<Picture> {
     type Side = fn(&Snapshot) -> &SideProfile;
     let sides: [(&str, Side); 2] = [
@@ -118,10 +123,10 @@ fn profiles(name: &str, snapshots: &[&Snapshot]) -> Option<Picture> {
             return None;
         }
         let (depth_unit, depth) = unit(deepest);
-        let reach = snapshots.iter().fold(0.0_f64, |reach, snapshot| {
-            reach.max(worn_reach(of(snapshot)))
+        let extent = snapshots.iter().fold(0.0_f64, |extent, snapshot| {
+            extent.max(scar_extent(of(snapshot)))
         });
-        let (place_unit, place) = unit(reach);
+        let (place_unit, place) = unit(extent);
         let curve = |(index, snapshot): (usize, &&Snapshot)| {
             let (label, colour) = (cycle_label(snapshot), ramp(index, snapshots.len()));
             let profile = of(snapshot);
@@ -132,7 +137,7 @@ fn profiles(name: &str, snapshots: &[&Snapshot]) -> Option<Picture> {
             let mut curve = line(label, colour, &x, &y);
             curve
                 .points
-                .retain(|point| point[0].abs() <= 1.15 * place * reach);
+                .retain(|point| point[0].abs() <= 1.15 * place * extent);
             curve
         };
         Some(Panel {
@@ -141,7 +146,7 @@ fn profiles(name: &str, snapshots: &[&Snapshot]) -> Option<Picture> {
                 Scale::Linear,
             ),
             y: Axis::new(format!("worn depth ({depth_unit})"), Scale::Downward)
-                .spanning(Span::DataAndZero),
+                .with_range(AxisRange::DataAndZero),
             series: snapshots.iter().enumerate().map(curve).collect(),
         })
     });
@@ -152,8 +157,8 @@ fn profiles(name: &str, snapshots: &[&Snapshot]) -> Option<Picture> {
     })
 }
 
-/// How far from the middle a side is worn, mm: to the first place beyond the scar.
-fn worn_reach(profile: &SideProfile) -> f64 {
+/// Largest distance of the scar from x = 0, mm, to the first node beyond it.
+fn scar_extent(profile: &SideProfile) -> f64 {
     let limit = 1e-3 * largest(profile.depth_mm.iter());
     let worn = |depth: &f64| *depth > limit;
     let first = profile.depth_mm.iter().position(worn);
@@ -191,7 +196,7 @@ fn tractions(name: &str, snapshots: &[&Snapshot]) -> Picture {
             format!("place along the receptacle ({place_unit})"),
             Scale::Linear,
         ),
-        y: Axis::new(title, Scale::Linear).spanning(Span::DataAndZero),
+        y: Axis::new(title, Scale::Linear).with_range(AxisRange::DataAndZero),
         series: fields
             .iter()
             .map(|(label, colour, at)| line(label, *colour, &scaled(&at.x_mm, place), of(at)))
@@ -207,7 +212,7 @@ fn tractions(name: &str, snapshots: &[&Snapshot]) -> Picture {
     }
 }
 
-/// Friction force over the imposed displacement; nothing where no cycle has been done.
+/// Friction force over the imposed displacement; `None` before the first cycle.
 fn loops(name: &str, snapshots: &[&Snapshot]) -> Option<Picture> {
     let drawn: Vec<_> = snapshots
         .iter()
@@ -219,14 +224,14 @@ fn loops(name: &str, snapshots: &[&Snapshot]) -> Option<Picture> {
         .flat_map(|(_, snapshot)| &snapshot.friction_loop.displacement_mm);
     let (place_unit, place) = unit(largest(displacements));
     let curve = |(index, snapshot): &(usize, &&Snapshot)| {
-        let lap = &snapshot.friction_loop;
+        let friction_loop = &snapshot.friction_loop;
         let mut curve = line(
             cycle_label(snapshot),
             ramp(*index, snapshots.len()),
-            &scaled(&lap.displacement_mm, place),
-            &lap.tangential_force_n_per_mm,
+            &scaled(&friction_loop.displacement_mm, place),
+            &friction_loop.tangential_force_n_per_mm,
         );
-        // A cycle ends where it began.
+        // Closes the loop.
         curve.points.extend(curve.points.first().copied());
         curve
     };
@@ -255,7 +260,7 @@ fn cycle_label(snapshot: &Snapshot) -> String {
     format!("cycle {}", snapshot.profile.cycle)
 }
 
-fn short(value: f64) -> String {
+fn trimmed(value: f64) -> String {
     let text = format!("{value:.3}");
     text.trim_end_matches('0').trim_end_matches('.').to_owned()
 }

@@ -9,7 +9,7 @@ use std::str::FromStr;
 use sqlx::sqlite::{SqliteConnectOptions, SqliteConnection};
 use sqlx::{ConnectOptions, Connection};
 
-use crate::export::files::{make_folder, parent, sha256};
+use crate::export::files::{create_folder, parent, sha256};
 use crate::store::StoreError;
 use crate::store::sqlite::folder::Folder;
 use crate::store::sqlite::open::locked;
@@ -82,7 +82,7 @@ pub async fn backup(url: &str, into: &Path) -> Result<Copied, BackupError> {
     let source = path_of(url)?;
     let target = into.join(NAME);
     absent(&target)?;
-    make_folder(into).map_err(|cause| file(into, cause))?;
+    create_folder(into).map_err(|cause| file(into, cause))?;
     copy_database(&source, &target).await?;
     copy_what_it_names(&source, &target).await
 }
@@ -261,7 +261,7 @@ fn copy_file(source: &Path, target: &Path, named: &str) -> Result<Option<u64>, B
         });
     }
     let folder = parent(target);
-    make_folder(folder).map_err(|cause| file(folder, cause))?;
+    create_folder(folder).map_err(|cause| file(folder, cause))?;
     std::fs::write(target, &bytes).map_err(|cause| file(target, cause))?;
     synced(target)?;
     synced(folder)?;

@@ -4,7 +4,8 @@
 //! matches: the lease number, raised by each claim, is the fence.
 
 use api::job::{Progress, Status};
-use api::results::{CycleRow, Snapshot};
+use api::results::Snapshot;
+use solver::record::CycleReport;
 use sqlx::{Sqlite, Transaction};
 use uuid::Uuid;
 
@@ -44,7 +45,7 @@ pub struct Batch {
     /// How far the job is.
     pub progress: Progress,
     /// New rows of the wear history.
-    pub rows: Vec<CycleRow>,
+    pub rows: Vec<CycleReport>,
     /// New snapshots.
     pub snapshots: Vec<Snapshot>,
     /// New files.

@@ -1,7 +1,7 @@
 //! Results of a job, there while it runs.
 
-use api::results::CycleRow;
 use futures_util::TryStreamExt;
+use solver::record::CycleReport;
 use uuid::Uuid;
 
 use crate::store::{Store, StoreError};
@@ -38,7 +38,7 @@ impl Store {
     ///
     /// # Errors
     /// [`StoreError`] if the database fails or a row cannot be read.
-    pub async fn history(&self, id: Uuid) -> Result<Vec<CycleRow>, StoreError> {
+    pub async fn history(&self, id: Uuid) -> Result<Vec<CycleReport>, StoreError> {
         // One text after the other: those of a long history together are several times as large as its rows.
         let text = sqlx::query_scalar::<_, String>(
             "SELECT data FROM history_rows WHERE job_id = ? ORDER BY cycle",

@@ -7,10 +7,10 @@ use crate::store::sqlite::backup::{BackupError, copy_database, copy_what_it_name
 
 /// A file that an attempt has written, on its way to the manifest.
 fn kept(store: &Store, claim: &Claim) -> Batch {
-    files::keep(&store.attempt_folder(claim), "a.vtu", b"fields").expect("kept");
+    files::write_atomically(&store.attempt_folder(claim), "a.vtu", b"fields").expect("kept");
     Batch {
         files: vec![NewFile {
-            file: files::described("a.vtu", Some(1), VTU, b"fields"),
+            file: files::manifest_entry("a.vtu", Some(1), VTU, b"fields"),
             content: None,
         }],
         ..saved(3)

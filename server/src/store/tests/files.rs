@@ -6,9 +6,9 @@ use crate::export::files;
 
 /// A file that an attempt has written, on its way to the manifest.
 fn kept(store: &Store, claim: &Claim, name: &str) -> NewFile {
-    files::keep(&store.attempt_folder(claim), name, b"fields").expect("kept");
+    files::write_atomically(&store.attempt_folder(claim), name, b"fields").expect("kept");
     NewFile {
-        file: files::described(name, Some(1), VTU, b"fields"),
+        file: files::manifest_entry(name, Some(1), VTU, b"fields"),
         content: None,
     }
 }

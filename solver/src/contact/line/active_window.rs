@@ -1,6 +1,7 @@
 //! Active window: the candidate nodes of the receptacle, those that may touch in an increment.
 
-use super::{ContactState, Pair, Surfaces};
+use super::pair::{Pair, Surfaces};
+use super::state::ContactState;
 
 /// A node whose undeformed gap is smaller than this part of the indentation is a candidate: the free surface beside a
 /// contact sinks, so a node with a positive undeformed gap closes only if shear lifts it, by far less than this.

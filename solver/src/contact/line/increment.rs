@@ -2,16 +2,16 @@
 
 use super::active_window::{candidates, initial_window, undeformed_gaps, widened};
 use super::complementarity::Complementarity;
+use super::error::ContactError;
 use super::mortar::{self, Coupling};
 use super::newton::{Convergence, Newton};
+use super::pair::{Displacement, Pair, Surfaces};
 use super::predictor::predict;
-use super::problem::{Iterate, Problem};
+use super::problem::{GAP_TOLERANCE, Iterate, MOST_ITERATIONS, Problem};
 use super::response::Response;
+use super::state::ContactState;
+use super::status::Status;
 use super::wear_coupling::{WearCoupling, transfer_path};
-use super::{
-    ContactError, ContactState, Displacement, GAP_TOLERANCE, MOST_ITERATIONS, Pair, Status,
-    Surfaces,
-};
 use crate::sides::Sides;
 
 /// Most extensions of the active window within one increment.

@@ -10,10 +10,10 @@
 
 use std::ops::Range;
 
-use super::GAP_TOLERANCE;
-use super::problem::{Iterate, Problem};
+use super::active_set;
+use super::problem::{GAP_TOLERANCE, Iterate, Problem};
 use super::response::Response;
-use super::status::{self, Status};
+use super::status::Status;
 use super::wear_coupling::WearCoupling;
 use crate::linear::{DenseLu, SquareMatrix};
 
@@ -83,7 +83,7 @@ impl Newton {
             }
             self.scatter(problem, it);
             residual = self.evaluate(problem, response, it);
-            changes = status::update(problem, it, iteration);
+            changes = active_set::update(problem, it, iteration);
             let stalled = has_stalled(last, residual / it.tolerance);
             if changes == 0 && (residual <= it.tolerance || stalled) {
                 return Convergence::Converged;

@@ -1,7 +1,9 @@
 //! Predictor: the initial iterate of an increment.
 
-use super::problem::{Iterate, Problem};
-use super::{ContactState, GAP_TOLERANCE, Pair, Status};
+use super::pair::Pair;
+use super::problem::{GAP_TOLERANCE, Iterate, Problem};
+use super::state::ContactState;
+use super::status::Status;
 
 /// Writes the last contact, shifted with the slider, to the iterate.
 pub(super) fn predict(

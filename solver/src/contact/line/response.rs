@@ -3,7 +3,8 @@
 //! A column of G = Mhat C_s Mhat^T + C_r is computed when its node first touches: most candidates never do.
 
 use super::mortar::Coupling;
-use super::{ContactState, Pair, Surfaces};
+use super::pair::{Pair, Surfaces};
+use super::state::ContactState;
 use crate::condensation::{Block, Compliance, Operators};
 
 /// Change of the gap and of the tangential jump of each coupled node, per force along N and T at coupled nodes.

@@ -66,7 +66,7 @@ fn panel(study: &Study, title: &str, of: fn(&Errors) -> f64, uncertainty: &Error
         });
         series.push(Series {
             label,
-            mark: Mark::Rings,
+            mark: Mark::Circles,
             colour: [COLOURS[4], COLOURS[2], COLOURS[5], COLOURS[3]][index % 4],
             points: grid.filter_map(&point).collect(),
         });
@@ -82,7 +82,7 @@ fn panel(study: &Study, title: &str, of: fn(&Errors) -> f64, uncertainty: &Error
     let below = study.runs.iter().filter(|run| point(run).is_none());
     series.push(Series {
         label: BELOW.to_owned(),
-        mark: Mark::Rings,
+        mark: Mark::Circles,
         colour: COLOURS[6],
         points: below
             .filter(|run| run.errors.is_some())

@@ -1,22 +1,20 @@
-use api::results::{Loop, Pressure, Profile, SideSeries, Station};
+use api::results::{Loop, Pressure, Profile};
+use solver::record::{CycleReport, SideReport};
 
 use super::*;
 use crate::export::pictures::{png, svg};
 
-fn history() -> WearHistory {
-    WearHistory {
-        cycle: vec![0, 10, 20],
-        stations: vec![Station {
-            side: "receptacle".to_owned(),
-            x_mm: 0.0,
-            depth_mm: vec![0.0, 1e-3, 2e-3],
-        }],
-        receptacle: SideSeries {
-            max_depth_mm: vec![0.0, 1e-3, 2e-3],
-            ..SideSeries::default()
+fn history() -> Record {
+    let reports = [(0, 0.0), (10, 1e-3), (20, 2e-3)].map(|(cycle, depth)| CycleReport {
+        cycle,
+        station_depth_mm: vec![depth],
+        receptacle: SideReport {
+            max_depth_mm: depth,
+            ..SideReport::default()
         },
-        ..WearHistory::default()
-    }
+        ..CycleReport::default()
+    });
+    Record::new(&reports, &[0.0])
 }
 
 fn snapshot(cycle: u64, depth_mm: f64) -> Snapshot {
@@ -92,7 +90,7 @@ fn a_run_has_four_pictures_whose_axes_name_their_units() {
 }
 
 #[test]
-fn pictures_are_drawn_without_fonts_of_the_system() {
+fn pictures_are_drawn_without_system_fonts() {
     let snapshots = [snapshot(10, 1e-3), snapshot(20, 2e-3)];
     for (name, picture) in pictures("a run", &history(), &snapshots) {
         let drawing = svg(&picture).expect("it can be drawn");
@@ -114,10 +112,10 @@ fn pictures_are_drawn_without_fonts_of_the_system() {
 }
 
 #[test]
-fn what_did_not_happen_has_no_picture() {
+fn a_run_without_wear_or_cycles_has_no_picture_of_them() {
     let mut unworn = snapshot(0, 0.0);
     unworn.friction_loop = Loop::default();
-    let empty = WearHistory::default();
+    let empty = Record::default();
     let names: Vec<_> = pictures("", &empty, &[unworn])
         .into_iter()
         .map(|(name, _)| name)
@@ -126,9 +124,9 @@ fn what_did_not_happen_has_no_picture() {
 }
 
 #[test]
-fn many_snapshots_are_thinned_out_and_the_last_stays() {
+fn of_many_snapshots_every_nth_is_drawn_and_the_last_one() {
     let snapshots: Vec<_> = (1..=40).map(|cycle| snapshot(cycle, 1e-3)).collect();
-    let shown = thinned(&snapshots);
+    let shown = every_nth(&snapshots);
     assert!(shown.len() <= MOST_SNAPSHOTS);
     assert_eq!(shown.last().map(|last| last.profile.cycle), Some(40));
 }

@@ -1,12 +1,13 @@
 //! `GET /v1/jobs/{id}/results/wear-history`: wear over the cycles, also while the job runs.
 
 use api::problem::Problem;
-use api::results::{CycleRow, WearHistory};
+use api::results::WearHistory;
 use axum::Json;
 use axum::extract::State;
 use axum::http::header;
 use axum::response::{IntoResponse, Response};
 use serde::Deserialize;
+use solver::record::{CycleReport, Record};
 use utoipa::{IntoParams, ToSchema};
 
 use crate::export::documents::{CSV, PARQUET};
@@ -73,22 +74,22 @@ pub(in crate::http) async fn wear_history(
 }
 
 fn write(
-    mut rows: Vec<CycleRow>,
+    mut rows: Vec<CycleReport>,
     stations: &[f64],
     query: HistoryQuery,
 ) -> Result<Response, ProblemResponse> {
     if let Some(points) = query.max_points {
         rows = thin::rows(rows, points);
     }
-    let columns = history::columns(&rows, stations);
+    let record = Record::new(&rows, stations);
     Ok(match query.format {
-        HistoryFormat::Json => Json(columns).into_response(),
+        HistoryFormat::Json => Json(history::wear_history(record)).into_response(),
         HistoryFormat::Csv => {
-            let table = csv::wear_history(&columns)?;
+            let table = csv::wear_history(&record)?;
             ([(header::CONTENT_TYPE, CSV)], table).into_response()
         }
         HistoryFormat::Parquet => {
-            let table = parquet::wear_history(&columns)?;
+            let table = parquet::wear_history(&record)?;
             ([(header::CONTENT_TYPE, PARQUET)], table).into_response()
         }
     })

@@ -1,20 +1,20 @@
-//! Ranges and ticks of an axis, in places along it.
+//! Range and ticks of an axis, as coordinates along it.
 
 use std::ops::Range;
 
 use plotters::coord::ranged1d::{DefaultFormatting, KeyPointHint, Ranged};
 use plotters::coord::types::RangedCoordf64;
 
-use crate::export::pictures::axis::{Axis, Scale, Span};
+use crate::export::pictures::axis::{Axis, AxisRange, Scale};
 
-/// Part of the range of the data that stays free on either side.
+/// Margin on either side over the range of the data.
 const MARGIN: f64 = 0.03;
-/// Ticks that a linear axis has at most.
+/// Maximum number of intervals between the ticks of a linear axis.
 const MOST_TICKS: f64 = 7.0;
-/// With fewer labelled decades than this, 2 and 5 are labelled too.
+/// Below this number of decades, 2 and 5 are labelled too.
 const FEW_DECADES: f64 = 2.5;
 
-/// Where an axis begins and ends, and its labelled and unlabelled ticks, all as places.
+/// Ends of an axis, and its labelled (major) and unlabelled (minor) ticks, as coordinates.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Ticks {
     pub(crate) from: f64,
@@ -27,8 +27,8 @@ impl Ranged for Ticks {
     type FormatOption = DefaultFormatting;
     type ValueType = f64;
 
-    fn map(&self, place: &f64, limit: (i32, i32)) -> i32 {
-        RangedCoordf64::from(self.range()).map(place, limit)
+    fn map(&self, coordinate: &f64, limit: (i32, i32)) -> i32 {
+        RangedCoordf64::from(self.range()).map(coordinate, limit)
     }
 
     fn key_points<Hint: KeyPointHint>(&self, hint: Hint) -> Vec<f64> {
@@ -54,28 +54,29 @@ pub(crate) fn ticks(axis: &Axis, values: impl Iterator<Item = f64>) -> Ticks {
 }
 
 fn range(axis: &Axis, values: impl Iterator<Item = f64>) -> (f64, f64) {
-    let place = |value: f64| axis.scale.place(value);
-    if let Span::Fixed(from, to) = axis.span
-        && let (Some(from), Some(to)) = (place(from), place(to))
+    let coordinate = |value: f64| axis.scale.coordinate(value);
+    if let AxisRange::Fixed(from, to) = axis.range
+        && let (Some(from), Some(to)) = (coordinate(from), coordinate(to))
     {
         return (from.min(to), from.max(to));
     }
-    let zero = (axis.span == Span::DataAndZero).then_some(0.0);
-    let places = values.chain(zero).filter_map(place);
-    let (low, high) = places.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), place| {
-        (low.min(place), high.max(place))
-    });
+    let zero = (axis.range == AxisRange::DataAndZero).then_some(0.0);
+    let coordinates = values.chain(zero).filter_map(coordinate);
+    let (low, high) = coordinates.fold(
+        (f64::INFINITY, f64::NEG_INFINITY),
+        |(low, high), coordinate| (low.min(coordinate), high.max(coordinate)),
+    );
     if low > high {
         return (0.0, 1.0);
     }
-    // A constant gets a range around it.
+    // Constant data get a range around their value.
     let width = if high > low {
         high - low
     } else {
         high.abs().max(1.0)
     };
     let margin = MARGIN * width;
-    let touches_zero = |end: f64| axis.span == Span::DataAndZero && end == 0.0;
+    let touches_zero = |end: f64| axis.range == AxisRange::DataAndZero && end == 0.0;
     let from = if touches_zero(low) { low } else { low - margin };
     let to = if touches_zero(high) {
         high
@@ -111,18 +112,18 @@ fn multiples(from: f64, to: f64, step: f64) -> Vec<f64> {
     let first = (from / step - 1e-9).ceil();
     (0_u32..64)
         .map(|index| (first + f64::from(index)) * step)
-        .take_while(|place| *place <= to + 1e-9 * step)
+        .take_while(|coordinate| *coordinate <= to + 1e-9 * step)
         .collect()
 }
 
 fn logarithmic(from: f64, to: f64) -> Ticks {
-    let inside = |place: &f64| (from - 1e-9..=to + 1e-9).contains(place);
+    let inside = |coordinate: &f64| (from - 1e-9..=to + 1e-9).contains(coordinate);
     let at = |factors: &[f64]| -> Vec<f64> {
         let decades = multiples(from.floor(), to.ceil(), 1.0);
-        let places = decades
+        let coordinates = decades
             .iter()
             .flat_map(|decade| factors.iter().map(move |factor| decade + factor.log10()));
-        places.filter(inside).collect()
+        coordinates.filter(inside).collect()
     };
     let major: &[f64] = if to - from < FEW_DECADES {
         &[1.0, 2.0, 5.0]
@@ -137,9 +138,9 @@ fn logarithmic(from: f64, to: f64) -> Ticks {
     }
 }
 
-/// The label of a tick: as many decimals as tell it from its neighbours.
-pub(crate) fn label(scale: Scale, ticks: &Ticks, place: f64) -> String {
-    let value = scale.value(place);
+/// The label of a tick, with as many decimals as the tick interval has.
+pub(crate) fn label(scale: Scale, ticks: &Ticks, coordinate: f64) -> String {
+    let value = scale.value(coordinate);
     let unit = match scale {
         Scale::Linear | Scale::Downward => step(ticks.to - ticks.from),
         Scale::Logarithmic => value,
@@ -152,7 +153,7 @@ pub(crate) fn label(scale: Scale, ticks: &Ticks, place: f64) -> String {
         unit *= 10.0;
         decimals += 1;
     }
-    // No "-0".
+    // Avoids "-0".
     let value = if value.abs() < 1e-9 * 10.0_f64.powi(-decimals) {
         0.0
     } else {
@@ -168,7 +169,7 @@ mod tests {
 
     fn labels(axis: &Axis, values: &[f64]) -> Vec<String> {
         let ticks = ticks(axis, values.iter().copied());
-        let label = |place: &f64| label(axis.scale, &ticks, *place);
+        let label = |coordinate: &f64| label(axis.scale, &ticks, *coordinate);
         ticks.major.iter().map(label).collect()
     }
 
@@ -187,7 +188,7 @@ mod tests {
 
     #[test]
     fn depths_grow_downwards_from_zero() {
-        let axis = Axis::new("depth", Scale::Downward).spanning(Span::DataAndZero);
+        let axis = Axis::new("depth", Scale::Downward).with_range(AxisRange::DataAndZero);
         assert_eq!(
             labels(&axis, &[0.5, 2.7]),
             ["2.5", "2.0", "1.5", "1.0", "0.5", "0.0"]
@@ -196,7 +197,7 @@ mod tests {
     }
 
     #[test]
-    fn decades_are_labelled_and_what_is_not_positive_is_left_out() {
+    fn decades_are_labelled_and_values_that_are_not_positive_are_omitted() {
         let axis = Axis::new("error", Scale::Logarithmic);
         assert_eq!(
             labels(&axis, &[0.0, -1.0, 0.009, 0.9, 20.0]),
@@ -206,7 +207,7 @@ mod tests {
     }
 
     #[test]
-    fn an_axis_without_data_has_ticks_too() {
+    fn an_axis_without_data_has_ticks() {
         for scale in [Scale::Linear, Scale::Downward, Scale::Logarithmic] {
             assert!(!labels(&Axis::new("", scale), &[]).is_empty());
         }

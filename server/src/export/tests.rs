@@ -1,0 +1,156 @@
+//! Every channel of the engine's reports reaches every format, without an edit outside of its table.
+
+use ::parquet::file::reader::{FileReader, SerializedFileReader};
+use ::parquet::record::RowAccessor;
+use serde_json::{Value, json};
+use solver::record::{Channel, Channels, CycleReport, Record, SideReport};
+
+use crate::export::thin::FEWEST_POINTS;
+use crate::export::{csv, history, parquet, pictures, thin};
+use crate::http::openapi::document;
+
+/// A value that no other channel has, in one row of a hundred.
+const PEAK: f64 = 0.375;
+const PEAK_ROW: usize = 42;
+const PEAK_CYCLE: u64 = 42;
+
+/// A channel where documents have it.
+struct Found {
+    side: Option<&'static str>,
+    name: &'static str,
+    curve: &'static str,
+    schema: &'static str,
+}
+
+impl Found {
+    fn new<R>(side: Option<&'static str>, schema: &'static str) -> impl Fn(&Channel<R>) -> Self {
+        move |channel| Self {
+            side,
+            name: channel.name,
+            curve: channel.curve,
+            schema,
+        }
+    }
+
+    /// The object that has the channel as a field, in a row or a wear history.
+    fn holder<'a>(&self, document: &'a mut Value) -> &'a mut Value {
+        match self.side {
+            Some(side) => &mut document[side],
+            None => document,
+        }
+    }
+
+    /// Reports in which only this channel differs from 0, in one row; read from JSON as from a store.
+    fn reports(&self) -> Vec<CycleReport> {
+        let report = |cycle: u64| {
+            let report = CycleReport {
+                cycle,
+                ..CycleReport::default()
+            };
+            let mut row = json!(report);
+            if cycle == PEAK_CYCLE {
+                self.holder(&mut row)[self.name] = PEAK.into();
+            }
+            serde_json::from_value(row).expect("a report")
+        };
+        (0..100).map(report).collect()
+    }
+
+    fn header(&self) -> String {
+        let side = self
+            .side
+            .map_or_else(String::new, |side| format!("{side}_"));
+        side + self.name
+    }
+}
+
+fn channels() -> Vec<Found> {
+    let sides = ["receptacle", "slider"].map(|side| {
+        let found = Found::new(Some(side), "SideSeries");
+        SideReport::CHANNELS.iter().map(found).collect::<Vec<_>>()
+    });
+    let contact = Found::new(None, "WearHistory");
+    let contact = CycleReport::CHANNELS.iter().map(contact);
+    sides.into_iter().flatten().chain(contact).collect()
+}
+
+#[test]
+fn every_channel_is_in_the_rows_and_the_document() {
+    for channel in channels() {
+        let reports = channel.reports();
+        let mut row = json!(reports[PEAK_ROW]);
+        assert_eq!(channel.holder(&mut row)[channel.name], json!(PEAK));
+        let mut document = json!(history::wear_history(Record::new(&reports, &[])));
+        let column = &channel.holder(&mut document)[channel.name];
+        assert_eq!(column[PEAK_ROW], json!(PEAK), "{}", channel.header());
+        assert_eq!(column.as_array().map(Vec::len), Some(100));
+    }
+}
+
+#[test]
+fn every_channel_is_a_column_of_the_tables() {
+    for channel in channels() {
+        let (record, header) = (Record::new(&channel.reports(), &[]), channel.header());
+        let text = csv::wear_history(&record).expect("a table");
+        let mut table = ::csv::Reader::from_reader(&text[..]);
+        let mut headers = table.headers().expect("headers").iter();
+        let index = headers.position(|found| found == header);
+        let index = index.unwrap_or_else(|| panic!("{header} is a column"));
+        let row = table.records().nth(PEAK_ROW).expect("a row").expect("text");
+        assert_eq!(row[index], PEAK.to_string());
+        let bytes = parquet::wear_history(&record).expect("a table");
+        let table = SerializedFileReader::new(axum::body::Bytes::from(bytes)).expect("a file");
+        let schema = table.metadata().file_metadata().schema_descr_ptr();
+        assert_eq!(schema.column(index).name(), header);
+        let mut rows = table.get_row_iter(None).expect("rows");
+        let row = rows.nth(PEAK_ROW).expect("a row").expect("values");
+        assert!((row.get_double(index).expect("a number") - PEAK).abs() < 1e-15);
+    }
+}
+
+#[test]
+fn thinning_selects_the_peak_of_every_channel() {
+    for channel in channels() {
+        let rows = thin::rows(channel.reports(), FEWEST_POINTS);
+        assert_eq!(rows.len(), FEWEST_POINTS);
+        assert!(
+            rows.iter().any(|row| row.cycle == PEAK_CYCLE),
+            "{}",
+            channel.header()
+        );
+    }
+}
+
+#[test]
+fn channels_with_a_curve_are_drawn() {
+    for channel in channels() {
+        let record = Record::new(&channel.reports(), &[]);
+        let pictures = pictures::run::pictures("", &record, &[]);
+        let series = &pictures[0].1.panels[0].series;
+        let labels: Vec<&str> = series.iter().map(|series| series.label.as_str()).collect();
+        let expected = format!("{}, {}", channel.side.unwrap_or("contact"), channel.curve);
+        let drawn = !channel.curve.is_empty();
+        assert_eq!(
+            labels,
+            if drawn {
+                vec![expected.as_str()]
+            } else {
+                vec![]
+            }
+        );
+    }
+}
+
+#[test]
+fn every_channel_is_described() {
+    for channel in channels() {
+        let schema = &document()["components"]["schemas"][channel.schema];
+        assert_eq!(schema["properties"][channel.name]["type"], "array");
+        let required = schema["required"].as_array().expect("a list");
+        assert!(
+            required.contains(&channel.name.into()),
+            "{}",
+            channel.header()
+        );
+    }
+}

@@ -1,0 +1,50 @@
+//! The pair of bodies in contact, their worn surfaces, and the displacement of an increment.
+
+use crate::condensation::{BodyOperators, Operators};
+use crate::model::Interface;
+use crate::sides::{Side, Sides};
+
+/// The interface between two bodies: operators and laws.
+#[derive(Debug, Clone, Copy)]
+pub struct Pair<'a> {
+    /// Condensed bodies.
+    pub operators: &'a Operators,
+    /// Friction, wear, load.
+    pub interface: Interface,
+}
+
+/// Imposed displacement of one increment.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Displacement {
+    /// Displacement of the slider at the end of the increment, mm.
+    pub slider_x: f64,
+    /// Additional slip of the slider's surface that does not move the contact, mm.
+    pub surface_slip: f64,
+    /// Number of equal slips that each slip represents in the wear.
+    pub cycles: f64,
+    /// Whether Lemke's method is tried where Newton's method does not converge: reliable, but far more expensive than
+    /// two half increments.
+    pub lemke: bool,
+}
+
+/// Worn surfaces, at the contact nodes.
+#[derive(Debug, Clone, Copy)]
+pub struct Surfaces<'a> {
+    /// Vertical worn depth, mm.
+    pub depth: Sides<&'a [f64]>,
+    /// Slope dy/dx; normals are those of the receptacle's surface.
+    pub slope: Sides<&'a [f64]>,
+}
+
+/// Slopes dy/dx of a body's contact surface that has receded by `depth`: of the unworn shape exactly, of the depth by
+/// central differences.
+pub fn slopes(body: &BodyOperators, depth: &[f64], side: Side) -> Vec<f64> {
+    let x = &body.x;
+    (0..x.len())
+        .map(|i| {
+            let (left, right) = (i.saturating_sub(1), (i + 1).min(x.len() - 1));
+            let worn = (depth[right] - depth[left]) / (x[right] - x[left]);
+            body.profile.slope(x[i]) + side.recession() * worn
+        })
+        .collect()
+}

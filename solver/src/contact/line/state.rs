@@ -1,0 +1,139 @@
+//! Contact state: position of the bodies and the tractions between them.
+
+use serde::{Deserialize, Serialize};
+
+use super::status::Status;
+use crate::condensation::Operators;
+use crate::model::Interface;
+use crate::sides::Sides;
+
+/// Position of the bodies and the tractions between them.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct ContactState {
+    /// Imposed displacement of the slider relative to the receptacle, mm.
+    pub slider_x: f64,
+    /// Rigid height of the slider over its place at first touch of the unworn bodies, mm.
+    pub height: f64,
+    /// Status of each node of the receptacle.
+    pub status: Vec<Status>,
+    /// Pressure p at each node of the receptacle, MPa.
+    pub pressure: Vec<f64>,
+    /// Shear traction q on the receptacle, MPa.
+    pub shear: Vec<f64>,
+    /// Forces that act on the slider (x, y), at the nodes of each side, N/mm; the receptacle carries the reaction.
+    pub force: Sides<Vec<f64>>,
+    /// Largest indentation of the last increment, mm: the scale of gaps.
+    pub indentation: f64,
+    /// Height of the loaded, unworn contact, the reference of a spring in the load; `None` before the first load.
+    pub reference_height: Option<f64>,
+}
+
+impl ContactState {
+    /// Bodies that touch without load at the neutral position.
+    pub fn untouched(operators: &Operators) -> Self {
+        let (n, m) = (operators.receptacle.x.len(), operators.slider.x.len());
+        Self {
+            slider_x: 0.0,
+            height: 0.0,
+            status: vec![Status::Open; n],
+            pressure: vec![0.0; n],
+            shear: vec![0.0; n],
+            force: Sides {
+                slider: vec![0.0; 2 * m],
+                receptacle: vec![0.0; 2 * n],
+            },
+            indentation: 0.0,
+            reference_height: None,
+        }
+    }
+
+    /// Resets to an open contact with the slider at a position.
+    pub(super) fn reset_open(&mut self, last: &Self, slider_x: f64) {
+        self.slider_x = slider_x;
+        self.height = last.height;
+        self.indentation = last.indentation;
+        self.reference_height = last.reference_height;
+        self.status.fill(Status::Open);
+        for values in [
+            &mut self.pressure,
+            &mut self.shear,
+            &mut self.force.receptacle,
+            &mut self.force.slider,
+        ] {
+            values.fill(0.0);
+        }
+    }
+
+    /// First node in contact and one past the last.
+    pub fn active_range(&self) -> Option<(usize, usize)> {
+        let first = self.status.iter().position(|s| *s != Status::Open)?;
+        let last = self.status.iter().rposition(|s| *s != Status::Open)?;
+        Some((first, last + 1))
+    }
+
+    /// Force of the slider on the receptacle along x, N/mm.
+    pub fn tangential_force(&self) -> f64 {
+        -self.force.receptacle.iter().step_by(2).sum::<f64>()
+    }
+
+    /// |sum of shear forces| over the sum of normal ones, in the frame of the surface; at most mu.
+    pub fn friction_use(&self, widths: &[f64]) -> f64 {
+        let (mut normal, mut shear) = (0.0, 0.0);
+        for (width, (p, q)) in widths.iter().zip(self.pressure.iter().zip(&self.shear)) {
+            normal += width * p;
+            shear += width * q;
+        }
+        if normal > 0.0 {
+            shear.abs() / normal
+        } else {
+            0.0
+        }
+    }
+
+    /// Normal load at the present height, reduced by the spring, N/mm; not negative, since round-off below zero is no
+    /// load.
+    pub fn load(&self, interface: &Interface) -> f64 {
+        self.equilibrium_load(interface).max(0.0)
+    }
+
+    /// The load of the vertical balance, which round-off may make negative.
+    pub(super) fn equilibrium_load(&self, interface: &Interface) -> f64 {
+        interface.load
+            + self
+                .reference_height
+                .map_or(0.0, |h| interface.spring * (self.height - h))
+    }
+
+    /// Highest pressure, MPa.
+    pub fn peak_pressure(&self) -> f64 {
+        self.pressure.iter().fold(0.0, |m: f64, p| m.max(*p))
+    }
+
+    /// Half the distance between the edges of the contact, mm.
+    ///
+    /// An edge lies between the last loaded node and the next one, where the parabola through the squares of the
+    /// last two pressures vanishes: exact for Hertz, where p^2 falls linearly at the edge.
+    pub fn half_width(&self, x: &[f64]) -> f64 {
+        let Some((first, end)) = self.active_range() else {
+            return 0.0;
+        };
+        let edge = |last: usize, inner: usize, outer: usize| -> f64 {
+            let (p, q) = (self.pressure[last].powi(2), self.pressure[inner].powi(2));
+            let step = x[last] - x[inner];
+            let fall = q - p;
+            let beyond = if fall > 0.0 {
+                p / fall * step.abs()
+            } else {
+                f64::INFINITY
+            };
+            x[last] + step.signum() * beyond.min((x[outer] - x[last]).abs())
+        };
+        let last = end - 1;
+        if first == last {
+            return 0.25 * (x[(last + 1).min(x.len() - 1)] - x[last.saturating_sub(1)]);
+        }
+        let right = edge(last, last - 1, (last + 1).min(x.len() - 1));
+        let left = edge(first, first + 1, first.saturating_sub(1));
+        0.5 * (right - left)
+    }
+}

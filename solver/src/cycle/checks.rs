@@ -1,0 +1,18 @@
+//! Residuals that a run reports.
+
+use serde::{Deserialize, Serialize};
+
+/// Worst residuals over the run, each relative to its scale.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+pub struct Checks {
+    /// |sum of vertical forces - load| over the load on the unworn contact.
+    pub force_balance: f64,
+    /// |worn area of the profile - accumulated k times integral of p |slip|| / worn area.
+    pub worn_area: f64,
+    /// Largest violation of gap >= 0, p >= 0, p gap = 0, over its scale.
+    pub complementarity: f64,
+    /// Largest excess of |q| over mu p, over the peak pressure.
+    pub friction_cone: f64,
+    /// Largest |sum of shear forces| over mu times the sum of normal ones; 1 in gross slip.
+    pub friction_use: f64,
+}

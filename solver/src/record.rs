@@ -1,0 +1,25 @@
+//! Results of a run, append only: the report of every computed cycle, snapshots, the summary.
+//!
+//! A report consists of named scalars, its [`Channel`]s; the reports of a run give the columns of its wear history, a
+//! [`Record`]. Documents, tables, pictures and the description of the interface iterate over the channels, so a new
+//! scalar is one line of the tables in `record/report.rs` and nothing else.
+
+mod channel;
+mod history;
+mod report;
+mod scar;
+mod snapshot;
+mod summary;
+
+pub use crate::checkpoint::Initial;
+pub use crate::cycle::{Checks, FrictionLoop};
+pub use crate::fields::PlacedFields;
+pub use crate::schedule::increments::Position;
+pub use crate::schedule::stops::Outcome;
+pub use crate::sides::Side;
+pub use channel::{Channel, Channels};
+pub use history::{Column, Record};
+pub use report::{CycleReport, SideReport, report};
+pub use snapshot::{DepthProfile, Snapshot, TractionField, snapshot};
+pub(crate) use summary::worn_area_residual;
+pub use summary::{Resolution, Summary};

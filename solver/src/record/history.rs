@@ -1,0 +1,173 @@
+//! The wear history as a list of named columns of equal length.
+
+use crate::record::{Channels, CycleReport};
+use crate::sides::Side;
+
+/// One scalar over the computed cycles.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Column {
+    /// Name of the scalar; it ends with the unit.
+    pub name: &'static str,
+    /// Unit as names spell it.
+    pub unit: &'static str,
+    /// The body it belongs to; `None` for the contact as a whole.
+    pub side: Option<Side>,
+    /// The place on the body, mm; `None` for the body as a whole.
+    pub place_mm: Option<f64>,
+    /// Name of its curve in the picture of worn depths; empty if it is not drawn there.
+    pub curve: &'static str,
+    /// One value a report.
+    pub values: Vec<f64>,
+}
+
+impl Column {
+    /// Header in tables: `receptacle_depth_at_0.1_mm`, `slider_max_depth_mm`, `peak_pressure_mpa`.
+    pub fn header(&self) -> String {
+        let side = self
+            .side
+            .map_or_else(String::new, |side| format!("{}_", side.name()));
+        match self.place_mm {
+            None => format!("{side}{}", self.name),
+            Some(place) => {
+                let quantity = self.name.strip_suffix(self.unit).unwrap_or(self.name);
+                format!("{side}{quantity}at_{place}_{}", self.unit)
+            }
+        }
+    }
+}
+
+/// The wear history of a run.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Record {
+    /// Physical cycles done.
+    pub cycle: Vec<u64>,
+    /// Physical cycles that each computed cycle represents.
+    pub jump: Vec<u64>,
+    /// Accumulated imposed sliding distance, mm.
+    pub sliding_distance_mm: Vec<f64>,
+    /// Worn depth at the stations, then the channels of the receptacle, the slider and the contact.
+    pub columns: Vec<Column>,
+}
+
+impl Record {
+    /// The columns of reports; `stations_mm` in the order of the reports' station depths.
+    pub fn new(reports: &[CycleReport], stations_mm: &[f64]) -> Self {
+        let stations = stations_mm.iter().enumerate().map(|(index, &x)| Column {
+            name: "depth_mm",
+            unit: "mm",
+            side: Some(Side::Receptacle),
+            place_mm: Some(x),
+            curve: "",
+            values: reports
+                .iter()
+                .map(|report| {
+                    report
+                        .station_depth_mm
+                        .get(index)
+                        .copied()
+                        .unwrap_or_default()
+                })
+                .collect(),
+        });
+        let receptacle = columns(reports, Some(Side::Receptacle), |report| &report.receptacle);
+        let slider = columns(reports, Some(Side::Slider), |report| &report.slider);
+        let contact = columns(reports, None, |report| report);
+        Self {
+            cycle: reports.iter().map(|report| report.cycle).collect(),
+            jump: reports.iter().map(|report| report.jump).collect(),
+            sliding_distance_mm: reports
+                .iter()
+                .map(|report| report.sliding_distance_mm)
+                .collect(),
+            columns: stations
+                .chain(receptacle)
+                .chain(slider)
+                .chain(contact)
+                .collect(),
+        }
+    }
+}
+
+/// One column a channel of the part of each report that `part` selects.
+fn columns<R: Channels>(
+    reports: &[CycleReport],
+    side: Option<Side>,
+    part: fn(&CycleReport) -> &R,
+) -> impl Iterator<Item = Column> {
+    R::CHANNELS.iter().map(move |channel| Column {
+        name: channel.name,
+        unit: channel.unit,
+        side,
+        place_mm: None,
+        curve: channel.curve,
+        values: reports
+            .iter()
+            .map(|report| (channel.value)(part(report)))
+            .collect(),
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::record::SideReport;
+    use crate::record::channel::declare_report;
+
+    declare_report! {
+        /// A report with one channel more than any other.
+        Probe from temperature: f64;
+        fields {
+            /// Where it was taken.
+            place: usize = 3,
+        }
+        channels {
+            /// Flash temperature, degrees Celsius.
+            flash_temperature_c ["c"] = temperature,
+        }
+    }
+
+    #[test]
+    fn one_line_declares_a_field_its_value_and_its_channel() {
+        let probe = Probe::of(85.0);
+        let channel = &Probe::CHANNELS[0];
+        assert_eq!(
+            (channel.name, channel.unit, channel.curve),
+            ("flash_temperature_c", "c", "")
+        );
+        assert_eq!(channel.description, "Flash temperature, degrees Celsius.");
+        assert!(((channel.value)(&probe) - 85.0).abs() < 1e-15 && probe.place == 3);
+    }
+
+    fn names_end_with_units<R: Channels>() {
+        for channel in R::CHANNELS {
+            let (name, unit) = (channel.name, channel.unit);
+            assert!(name.ends_with(&format!("_{unit}")), "{name}: {unit}");
+        }
+    }
+
+    #[test]
+    fn every_channel_has_its_unit_in_its_name() {
+        names_end_with_units::<SideReport>();
+        names_end_with_units::<CycleReport>();
+    }
+
+    #[test]
+    fn columns_are_named_after_side_quantity_place_and_unit() {
+        let report = CycleReport {
+            cycle: 7,
+            station_depth_mm: vec![0.25],
+            ..CycleReport::default()
+        };
+        let record = Record::new(&[report], &[-0.1]);
+        let headers: Vec<String> = record.columns.iter().map(Column::header).collect();
+        assert_eq!(headers[0], "receptacle_depth_at_-0.1_mm");
+        assert_eq!(headers[1], "receptacle_max_depth_mm");
+        assert_eq!(
+            headers.last().map(String::as_str),
+            Some("dissipated_energy_mj_per_mm")
+        );
+        assert_eq!(record.cycle, [7]);
+        assert!(record.columns.iter().all(|column| column.values.len() == 1));
+        assert!((record.columns[0].values[0] - 0.25).abs() < 1e-15);
+    }
+}

@@ -1,0 +1,111 @@
+//! The report of a computed cycle: every scalar of it is one line of a table here.
+
+use crate::cycle::CycleState;
+use crate::interpolation;
+use crate::model::Model;
+use crate::record::channel::declare_report;
+use crate::record::scar;
+use crate::scene::Scene;
+use crate::sides::Side;
+
+declare_report! {
+    /// Wear of one body.
+    #[derive(Copy)]
+    pub SideReport from surface: &Surface<'_>;
+    fields {
+        /// k P' s for the whole load sliding the whole imposed distance, mm^2; `None` where nothing wears or a spring
+        /// changes the load. Part of the summary, not of the history.
+        #[serde(skip)]
+        ideal_area_mm2: Option<f64> = surface.ideal_area,
+    }
+    channels {
+        /// Largest worn depth, mm.
+        max_depth_mm ["mm", curve "deepest"] = surface.depth.iter().fold(0.0, |m: f64, d| m.max(*d)),
+        /// Worn area of the section, mm^2.
+        worn_area_mm2 ["mm2"] = surface.widths.iter().zip(surface.depth).map(|(w, d)| w * d).sum(),
+        /// Half the width of the scar, mm.
+        scar_half_width_mm ["mm"] = scar::half_width(surface.x, surface.depth),
+    }
+}
+
+declare_report! {
+    /// State after a computed cycle; cycle 0 is the unworn, loaded state.
+    pub CycleReport from end: &CycleEnd<'_>;
+    fields {
+        /// Physical cycles done.
+        cycle: u64 = end.state.cycle,
+        /// Physical cycles that the last computed cycle represents.
+        jump: u64 = end.state.jump.last,
+        /// Estimated relative error of worn depth made by the last jump.
+        jump_error: f64 = end.state.jump.error,
+        /// Accumulated imposed sliding distance, mm.
+        sliding_distance_mm: f64 = end.state.sliding_distance,
+        /// The receptacle's wear.
+        receptacle: SideReport = SideReport::of(&end.surface(Side::Receptacle)),
+        /// The slider's wear.
+        slider: SideReport = SideReport::of(&end.surface(Side::Slider)),
+        /// Worn depth of the receptacle at the stations of the scene, mm.
+        station_depth_mm: Vec<f64> = end.station_depths(),
+    }
+    channels {
+        /// Normal load, which a spring reduces as the bodies wear, N per mm of depth.
+        load_n_per_mm ["n_per_mm"] = end.state.neutral.load,
+        /// Highest contact pressure, MPa.
+        peak_pressure_mpa ["mpa"] = end.state.neutral.peak_pressure,
+        /// Half the width of the contact, mm.
+        contact_half_width_mm ["mm"] = end.state.neutral.half_width,
+        /// Accumulated energy dissipated by friction, mJ per mm of depth.
+        dissipated_energy_mj_per_mm ["mj_per_mm"] = end.state.energy,
+    }
+}
+
+/// The report of the present state.
+pub fn report(scene: &Scene, model: &Model, state: &CycleState) -> CycleReport {
+    CycleReport::of(&CycleEnd {
+        scene,
+        model,
+        state,
+    })
+}
+
+/// What a report is computed from.
+struct CycleEnd<'a> {
+    scene: &'a Scene,
+    model: &'a Model,
+    state: &'a CycleState,
+}
+
+/// A worn contact surface.
+struct Surface<'a> {
+    x: &'a [f64],
+    widths: Vec<f64>,
+    depth: &'a [f64],
+    ideal_area: Option<f64>,
+}
+
+impl<'a> CycleEnd<'a> {
+    fn surface(&self, side: Side) -> Surface<'a> {
+        let interface = &self.model.interface;
+        let body = self.model.bodies.of(side);
+        let wear = *interface.wear.of(side);
+        let has_identity = wear > 0.0 && interface.spring <= 0.0;
+        let ideal_area = wear * interface.load * self.state.sliding_distance;
+        Surface {
+            x: body.contact_x(),
+            widths: body.contact_widths(),
+            depth: self.state.depth.of(side),
+            ideal_area: has_identity.then_some(ideal_area),
+        }
+    }
+
+    fn station_depths(&self) -> Vec<f64> {
+        let (x, depth) = (
+            self.model.bodies.receptacle.contact_x(),
+            &self.state.depth.receptacle,
+        );
+        let stations = self.scene.output.stations_mm.iter();
+        stations
+            .map(|&station| interpolation::linear(x, depth, station))
+            .collect()
+    }
+}

@@ -1,0 +1,84 @@
+//! Snapshots: profiles, tractions, the friction loop and fields at one cycle.
+
+use crate::contact::ContactState;
+use crate::cycle::{CycleRecord, CycleState, FrictionLoop};
+use crate::fields::PlacedFields;
+use crate::model::Model;
+use crate::schedule::increments::Position;
+
+/// Profiles, pressures and the friction loop at one cycle.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Snapshot {
+    /// Physical cycles done.
+    pub cycle: u64,
+    /// Worn depth over the receptacle's surface.
+    pub receptacle: DepthProfile,
+    /// Worn depth over the slider's surface, x in the slider's own frame.
+    pub slider: DepthProfile,
+    /// Tractions at the neutral, rightmost and leftmost position of the cycle.
+    pub positions: Vec<TractionField>,
+    /// Friction force over the imposed displacement of the cycle.
+    pub friction_loop: FrictionLoop,
+    /// Fields inside the bodies at the same positions, if the scene asks for them.
+    pub fields: Vec<PlacedFields>,
+}
+
+/// Worn depth along a surface.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct DepthProfile {
+    /// Places along the surface, mm.
+    pub x_mm: Vec<f64>,
+    /// Worn depth, mm.
+    pub depth_mm: Vec<f64>,
+}
+
+/// Contact tractions on the receptacle at one position of the slider.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TractionField {
+    /// Position in the cycle.
+    pub position: Position,
+    /// Imposed displacement of the slider relative to the receptacle, mm.
+    pub slider_x_mm: f64,
+    /// Positions on the receptacle, mm.
+    pub x_mm: Vec<f64>,
+    /// Normal pressure, MPa.
+    pub pressure_mpa: Vec<f64>,
+    /// Shear traction on the receptacle, MPa.
+    pub shear_mpa: Vec<f64>,
+}
+
+/// The snapshot of the present state with what the last computed cycle recorded, and fields if there are any.
+pub fn snapshot(
+    model: &Model,
+    state: &CycleState,
+    record: CycleRecord,
+    fields: Vec<PlacedFields>,
+) -> Snapshot {
+    let profile = |x: &[f64], depth: &[f64]| DepthProfile {
+        x_mm: x.to_vec(),
+        depth_mm: depth.to_vec(),
+    };
+    let x = model.bodies.receptacle.contact_x();
+    let at = |(position, contact): &(Position, ContactState)| tractions(*position, x, contact);
+    Snapshot {
+        cycle: state.cycle,
+        receptacle: profile(x, &state.depth.receptacle),
+        slider: profile(model.bodies.slider.contact_x(), &state.depth.slider),
+        positions: record.contacts.iter().map(at).collect(),
+        friction_loop: record.friction_loop,
+        fields,
+    }
+}
+
+/// Tractions of the present contact, with one unloaded node at either end.
+fn tractions(position: Position, x: &[f64], contact: &ContactState) -> TractionField {
+    let (first, end) = contact.active_range().unwrap_or((0, 0));
+    let span = first.saturating_sub(1)..(end + 1).min(x.len());
+    TractionField {
+        position,
+        slider_x_mm: contact.slider_x,
+        x_mm: x[span.clone()].to_vec(),
+        pressure_mpa: contact.pressure[span.clone()].to_vec(),
+        shear_mpa: contact.shear[span].to_vec(),
+    }
+}

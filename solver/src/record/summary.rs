@@ -1,0 +1,58 @@
+//! The summary of a run.
+
+use crate::checkpoint::Initial;
+use crate::cycle::{Checks, CycleState};
+use crate::model::Model;
+use crate::record::CycleReport;
+use crate::schedule::stops::Outcome;
+
+/// Result of a finished run.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Summary {
+    /// Why it ended.
+    pub outcome: Outcome,
+    /// The state at the end.
+    pub last: CycleReport,
+    /// The unworn, loaded state.
+    pub initial: Initial,
+    /// Resolution that the accuracy settings led to.
+    pub resolution: Resolution,
+    /// Worst residuals of the run.
+    pub checks: Checks,
+}
+
+/// Resolution that the accuracy settings led to.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Resolution {
+    /// Surface element size under the contact, mm.
+    pub contact_element_mm: f64,
+    /// Elements along the receptacle's contact surface.
+    pub contact_elements: usize,
+    /// Increments per computed cycle (the maximum over the run).
+    pub increments_per_cycle: u32,
+    /// Computed cycles.
+    pub computed_cycles: u64,
+    /// Contact increments that were solved.
+    pub increments: u64,
+    /// Degrees of freedom of both meshes.
+    pub dofs: usize,
+    /// How often the operators were rebuilt after the first time.
+    pub relocations: u64,
+    /// Accumulated estimate of the relative error made by cycle jumps; the error of the mesh is not in it.
+    pub estimated_relative_error: f64,
+}
+
+/// |worn area of the profiles - k times the accumulated integral of p |slip||, over the latter; 0 without wear.
+pub(crate) fn worn_area_residual(model: &Model, state: &CycleState, report: &CycleReport) -> f64 {
+    let relative = |area: f64, k: f64| {
+        let expected = k * state.friction_path;
+        if expected > 0.0 {
+            (area - expected).abs() / expected
+        } else {
+            0.0
+        }
+    };
+    let interface = &model.interface;
+    relative(report.receptacle.worn_area_mm2, interface.wear.receptacle)
+        .max(relative(report.slider.worn_area_mm2, interface.wear.slider))
+}
