@@ -1,150 +1,94 @@
-//! Running the engine in this process: its events as documents, and what it cost.
+//! Solves: the engine's events as documents, checkpoints and cost; in this process, or in one of its own.
 
 pub mod checkpoint;
 mod cost;
+pub(crate) mod process;
+pub(crate) mod protocol;
 
-use api::job::{Outcome, Phase};
-use api::results::{Cost, CycleRow, ResultFile, Snapshot, Summary};
-use serde::{Deserialize, Serialize};
+use api::results::{Cost, Summary};
 use solver::SolveError;
-use solver::checkpoint::Checkpoint;
 use solver::history::PlacedFields;
 use solver::observer::{Event, Flow, Observer};
 use solver::scene::Scene;
 
 use crate::export::{history, vtu};
-use checkpoint::{Encoded, Keeping, Saved};
+use checkpoint::{Checkpoint, CheckpointPolicy, EncodedCheckpoint};
 use cost::Stopwatch;
 pub use cost::{children_cpu_s, cpu_s, thread_cpu_s};
+pub use protocol::{Failure, FieldsFile, Line};
 
-/// Exit code of a solving process that could not write a result: the disk's fault, so it is tried again.
-pub const UNWRITTEN: i32 = 4;
-
-/// One line of a solving process, in order; the last one is `Summary`, `Failed` or `Stopped`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(tag = "event", content = "data", rename_all = "snake_case")]
-pub enum Line {
-    /// Another phase begins.
-    Phase(Phase),
-    /// A computed cycle is done.
-    Cycle(CycleRow),
-    /// A requested snapshot.
-    Snapshot(Box<Snapshot>),
-    /// Fields inside the bodies at one position of a snapshot; never sent, but written where it was computed.
-    #[serde(skip)]
-    Fields(FieldsFile),
-    /// A file was written into the attempt's folder.
-    Kept(ResultFile),
-    /// The first line, where the checkpoint that was to be gone on from cannot be: the run begins anew.
-    Anew(String),
-    /// A place to go on from; what belongs to its cycle came before.
-    Checkpoint(Encoded),
-    /// The run ended with a result.
-    Summary(Box<Summary>),
-    /// The run failed; the same input would fail again.
-    Failed(Failure),
-    /// The process was asked to end, and did so after a checkpoint.
-    Stopped,
-}
-
-/// Fields as a file.
-#[derive(Debug, Clone, PartialEq)]
-pub struct FieldsFile {
-    /// Its name.
-    pub name: String,
-    /// The cycle.
-    pub cycle: u64,
-    /// Its content, VTU.
-    pub bytes: Vec<u8>,
-}
-
-/// A solver's own failure.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, thiserror::Error)]
-#[error("{reason}")]
-pub struct Failure {
-    /// How the solve ended.
-    pub outcome: Outcome,
-    /// Why, with numbers.
-    pub reason: String,
-}
-
-impl From<SolveError> for Failure {
-    fn from(error: SolveError) -> Self {
-        Self {
-            outcome: Outcome::NotConverged,
-            reason: error.to_string(),
-        }
-    }
-}
-
-/// Solves a scene. `on` receives each line but the last, and may stop the run.
+/// Solves a scene. `on` receives every line except the last one, and may stop the run.
 ///
 /// # Errors
 /// [`Failure`] with the engine's numbers.
 pub fn run(scene: &Scene, on: &mut dyn FnMut(Line) -> Flow) -> Result<Summary, Failure> {
-    run_from(scene, None, &Keeping::default(), on)
+    run_from(scene, None, &CheckpointPolicy::default(), on)
 }
 
-/// Solves a scene from a checkpoint, if there is one, and tells checkpoints on the way. A checkpoint that does not fit
-/// the scene is told, and the run begins anew.
+/// Solves a scene from a checkpoint, if there is one, and emits checkpoints. If the checkpoint does not fit the scene, the
+/// run emits [`Line::Restarted`] and starts at cycle 0.
 ///
 /// # Errors
 /// [`Failure`] with the engine's numbers.
 pub fn run_from(
     scene: &Scene,
-    from: Option<Saved>,
-    keeping: &Keeping,
+    from: Option<Checkpoint>,
+    policy: &CheckpointPolicy,
     on: &mut dyn FnMut(Line) -> Flow,
 ) -> Result<Summary, Failure> {
-    let Some(Saved { cost, run }) = from else {
-        return anew(scene, keeping, on);
+    let Some(Checkpoint { cost, run }) = from else {
+        return run_from_start(scene, policy, on);
     };
-    let mut recorder = Recorder::new(on, keeping, cost);
+    let mut recorder = Recorder::new(on, policy, cost);
     match solver::run::resume(scene, run, &mut recorder) {
         Err(SolveError::Checkpoint(misfit)) => {
-            on(Line::Anew(misfit.to_string()));
-            anew(scene, keeping, on)
+            on(Line::Restarted(misfit.to_string()));
+            run_from_start(scene, policy, on)
         }
         ended => Ok(history::summary(&ended?, recorder.watch.cost())),
     }
 }
 
-fn anew(
+fn run_from_start(
     scene: &Scene,
-    keeping: &Keeping,
+    policy: &CheckpointPolicy,
     on: &mut dyn FnMut(Line) -> Flow,
 ) -> Result<Summary, Failure> {
-    let mut recorder = Recorder::new(on, keeping, Cost::default());
+    let mut recorder = Recorder::new(on, policy, Cost::default());
     let summary = solver::run::solve(scene, &mut recorder)?;
     Ok(history::summary(&summary, recorder.watch.cost()))
 }
 
 struct Recorder<'a> {
     on: &'a mut dyn FnMut(Line) -> Flow,
-    keeping: &'a Keeping,
+    policy: &'a CheckpointPolicy,
     watch: Stopwatch,
 }
 
 impl<'a> Recorder<'a> {
-    fn new(on: &'a mut dyn FnMut(Line) -> Flow, keeping: &'a Keeping, earlier: Cost) -> Self {
+    fn new(
+        on: &'a mut dyn FnMut(Line) -> Flow,
+        policy: &'a CheckpointPolicy,
+        earlier: Cost,
+    ) -> Self {
         Self {
             on,
-            keeping,
+            policy,
             watch: Stopwatch::start(earlier),
         }
     }
 
-    /// Tells a checkpoint if one is due, and stops the run if it is asked to.
-    fn keep(&mut self, run: &Checkpoint) -> Flow {
-        if !self.keeping.is_due() {
+    /// Emits a checkpoint if one is due, and stops the run if it is asked to.
+    fn checkpoint(&mut self, run: &solver::checkpoint::Checkpoint) -> Flow {
+        if !self.policy.is_due() {
             return Flow::Continue;
         }
-        let saved = Saved {
+        let checkpoint = Checkpoint {
             cost: self.watch.cost(),
             run: run.clone(),
         };
-        let told = match saved.encode() {
-            Ok(state) => (self.on)(Line::Checkpoint(Encoded {
+        let flow = match checkpoint.encode() {
+            Ok(state) => (self.on)(Line::Checkpoint(EncodedCheckpoint {
                 cycle: run.cycle(),
                 state,
             })),
@@ -153,10 +97,10 @@ impl<'a> Recorder<'a> {
                 Flow::Continue
             }
         };
-        if self.keeping.stops() {
+        if self.policy.is_stopped() {
             Flow::Stop
         } else {
-            told
+            flow
         }
     }
 }
@@ -191,7 +135,7 @@ impl Observer for Recorder<'_> {
                 }
                 Line::Snapshot(Box::new(history::snapshot(snapshot)))
             }
-            Event::Checkpoint(run) => return self.keep(run),
+            Event::Checkpoint(run) => return self.checkpoint(run),
         };
         (self.on)(line)
     }

@@ -209,7 +209,7 @@ impl Refusal {
 
 impl From<&StoreError> for Refusal {
     fn from(error: &StoreError) -> Self {
-        if error.is_passing() {
+        if error.is_transient() {
             tracing::warn!(%error, "a request was put off");
             return Kind::Busy.because("the database does not take this at present; send it again");
         }

@@ -1,26 +1,27 @@
-//! What can go wrong in the store.
+//! Errors of the store.
 
+use std::error::Error;
 use std::path::PathBuf;
 
 use uuid::Uuid;
 
 use crate::export::files;
 
-/// Why the store could not do what was asked.
+/// Why an operation of the store failed.
 #[derive(Debug, thiserror::Error)]
 pub enum StoreError {
-    /// The address of the database cannot be read.
+    /// The database address is invalid.
     #[error("`{url}` is not the address of a database such as sqlite://fretwear.db")]
     Address {
         /// The address.
         url: String,
     },
-    /// The database's folder or lock file cannot be made.
+    /// A file or folder of the store cannot be created or written.
     #[error("cannot prepare {}: {cause}", .path.display())]
     Prepare {
         /// The file or folder.
         path: PathBuf,
-        /// Why.
+        /// The system's error.
         cause: std::io::Error,
     },
     /// Another process serves this database.
@@ -31,62 +32,60 @@ pub enum StoreError {
     },
     /// The linked SQLite is too old.
     #[error(
-        "the linked SQLite is {found}, at least {wanted} is needed: older ones can corrupt the log when it is reset"
+        "the linked SQLite is {found}, at least {oldest} is needed: older ones can corrupt the log when it is reset"
     )]
     OldSqlite {
         /// Its version.
         found: String,
-        /// The oldest that is accepted.
-        wanted: &'static str,
+        /// The oldest accepted version.
+        oldest: &'static str,
     },
-    /// The schema cannot be brought up to date.
+    /// A schema migration failed.
     #[error("migrating the database: {0}")]
-    Migrate(#[from] sqlx::migrate::MigrateError),
-    /// The database refused a statement.
-    #[error("database: {0}")]
-    Sql(#[from] sqlx::Error),
+    Migrate(#[source] Box<dyn Error + Send + Sync>),
+    /// A statement or a connection failed.
+    #[error("database: {cause}")]
+    Database {
+        /// The engine's error.
+        #[source]
+        cause: Box<dyn Error + Send + Sync>,
+        /// Whether a retry may succeed.
+        is_transient: bool,
+    },
     /// A stored document cannot be read.
     #[error("job {id}: stored {what} cannot be read: {cause}")]
     Corrupt {
         /// The job.
         id: Uuid,
-        /// Which part.
+        /// Name of the document.
         what: &'static str,
-        /// Why.
+        /// The parser's error.
         cause: String,
     },
-    /// A study was queued by another version of this program.
+    /// A study was stored by another version of this program.
     #[error("study {id} was stored in format {found}, this program compares format {wanted}")]
     StudyFormat {
         /// The study.
         id: Uuid,
         /// Its format.
         found: u32,
-        /// The format that can be compared.
+        /// The format of this program.
         wanted: u32,
     },
-    /// A submission was broken off before it was written.
-    #[error("the submission was broken off before it was written")]
+    /// A submission was interrupted before it was written.
+    #[error("the submission was interrupted before it was written")]
     Unwritten,
-    /// A document cannot be written.
+    /// A document cannot be serialized.
     #[error("writing a document: {0}")]
     Write(#[from] serde_json::Error),
 }
 
-/// SQLite's result codes for a database that another process writes, that cannot be written or read at present, or
-/// whose disk is full: BUSY, LOCKED, IOERR, FULL (sqlite.org/rescode.html).
-const PASSING: [u32; 4] = [5, 6, 10, 13];
-
 impl StoreError {
-    /// Whether the same may succeed a little later: the database is busy, or its disk is full.
-    pub fn is_passing(&self) -> bool {
+    /// Whether a retry may succeed: the database is busy, or its disk is full.
+    pub fn is_transient(&self) -> bool {
         match self {
-            Self::Sql(sqlx::Error::PoolTimedOut) | Self::Unwritten => true,
-            Self::Sql(sqlx::Error::Database(error)) => error
-                .code()
-                .and_then(|code| code.parse::<u32>().ok())
-                // An extended code has the primary one in its last byte.
-                .is_some_and(|code| PASSING.contains(&(code & 0xff))),
+            Self::Unwritten => true,
+            Self::Database { is_transient, .. } => *is_transient,
             Self::Prepare { cause, .. } => files::is_full(cause),
             _ => false,
         }

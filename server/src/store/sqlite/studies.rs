@@ -7,9 +7,8 @@ use sqlx::{Sqlite, Transaction};
 use uuid::Uuid;
 
 use crate::batch::accuracy::Grid;
-use crate::store::sqlite::results::SnapshotPart;
 use crate::store::sqlite::sweeps::SweepOutcome;
-use crate::store::{Store, StoreError};
+use crate::store::{SnapshotPart, Store, StoreError};
 
 /// What the results of a study are compared by.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

@@ -4,9 +4,9 @@ use api::job::Status;
 use sqlx::{Sqlite, Transaction};
 use uuid::Uuid;
 
-use crate::store::sqlite::jobs::{Cancelled, Deleted, cancel};
+use crate::store::sqlite::jobs::cancel;
 use crate::store::sqlite::queries::{BEGIN, job_id};
-use crate::store::{Store, StoreError};
+use crate::store::{Cancelled, Deleted, Store, StoreError};
 
 impl Store {
     /// Asks for the end of all jobs of a sweep; `false` if there is no such sweep.

@@ -9,10 +9,10 @@ use sqlx::SqliteExecutor;
 use uuid::Uuid;
 
 use crate::store::sqlite::document::timestamp;
-use crate::store::sqlite::jobs::{NewJob, RequestKey, Submitted, insert};
+use crate::store::sqlite::jobs::insert;
 use crate::store::sqlite::queries::{BEGIN, job_id};
 use crate::store::sqlite::studies::{StudyPlan, insert_study};
-use crate::store::{Store, StoreError};
+use crate::store::{NewJob, RequestKey, Store, StoreError, Submitted};
 
 /// A sweep to be queued.
 #[derive(Debug, Clone, PartialEq)]

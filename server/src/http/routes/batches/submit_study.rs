@@ -127,7 +127,7 @@ pub(in crate::http) async fn submit_study(
         let job = NewJob {
             plan: machine::plan(&run.resolved, Some(&machine)),
             spec: run.resolved.spec,
-            wishes: SubmitOptions {
+            options: SubmitOptions {
                 priority: queue::sweep_priority(position),
                 deadline_s: None,
             },

@@ -92,7 +92,14 @@ pub(in crate::http) async fn submit_sweep(
                 priority: queue::sweep_priority(position),
                 deadline_s: None,
             };
-            (NewJob { spec, plan, wishes }, variation.overrides)
+            (
+                NewJob {
+                    spec,
+                    plan,
+                    options: wishes,
+                },
+                variation.overrides,
+            )
         })
         .collect();
     let new = NewSweep {

@@ -21,7 +21,7 @@ use crate::http::limits;
 use crate::http::problem::{Kind, Refusal};
 use crate::http::request_key::{KeyError, request_key};
 use crate::http::routes::jobs::show::retry_after_s;
-use crate::queue::MOST_PRIORITY;
+use crate::queue::MAX_PRIORITY;
 use crate::spec;
 use crate::spec::{Refused, Resolved};
 use crate::store::{NewJob, StoreError, SubmitOptions, Submitted};
@@ -39,7 +39,7 @@ pub(in crate::http) enum SubmitError {
     #[error(transparent)]
     Key(#[from] KeyError),
     /// The priority is out of range.
-    #[error("priority {0} is not from -{MOST_PRIORITY} to {MOST_PRIORITY}")]
+    #[error("priority {0} is not from -{MAX_PRIORITY} to {MAX_PRIORITY}")]
     Priority(i32),
     /// Its resolution was broken off.
     #[error("the specification was not resolved: {0}")]
@@ -104,7 +104,7 @@ pub(in crate::http) struct SubmitQuery {
 impl SubmitQuery {
     fn wishes(&self) -> Result<SubmitOptions, SubmitError> {
         // Without `abs`, which the smallest number does not have.
-        if !(-MOST_PRIORITY..=MOST_PRIORITY).contains(&self.priority) {
+        if !(-MAX_PRIORITY..=MAX_PRIORITY).contains(&self.priority) {
             return Err(SubmitError::Priority(self.priority));
         }
         Ok(SubmitOptions {
@@ -155,7 +155,11 @@ pub(in crate::http) async fn submit(
         };
         return Ok(Json(document).into_response());
     }
-    let new = NewJob { spec, plan, wishes };
+    let new = NewJob {
+        spec,
+        plan,
+        options: wishes,
+    };
     let id = match key {
         None => app.store.submit(&new, now_ms()).await?,
         Some(key) => match app.store.submit_once(&new, &key, now_ms()).await? {

@@ -45,7 +45,7 @@ impl IntoResponse for MetricsError {
     )
 )]
 pub(in crate::http) async fn metrics(State(app): State<App>) -> Result<Response, MetricsError> {
-    let levels = app.store.levels(now_ms()).await?;
+    let levels = app.store.gauges(now_ms()).await?;
     let text = app.store.metrics().text(&levels)?;
     Ok(([(header::CONTENT_TYPE, TYPE)], text).into_response())
 }
