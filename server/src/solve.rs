@@ -5,10 +5,12 @@ mod cost;
 pub(crate) mod process;
 pub(crate) mod protocol;
 
+use std::ops::ControlFlow;
+
 use api::results::{Cost, Summary};
 use solver::SolveError;
 use solver::history::PlacedFields;
-use solver::observer::{Event, Flow, Observer};
+use solver::observer::{self, Event, Observer};
 use solver::scene::Scene;
 
 use crate::export::{history, vtu};
@@ -21,7 +23,7 @@ pub use protocol::{Failure, FieldsFile, Line};
 ///
 /// # Errors
 /// [`Failure`] with the engine's numbers.
-pub fn run(scene: &Scene, on: &mut dyn FnMut(Line) -> Flow) -> Result<Summary, Failure> {
+pub fn run(scene: &Scene, on: &mut dyn FnMut(Line) -> ControlFlow<()>) -> Result<Summary, Failure> {
     run_from(scene, None, &CheckpointPolicy::default(), on)
 }
 
@@ -34,40 +36,38 @@ pub fn run_from(
     scene: &Scene,
     from: Option<Checkpoint>,
     policy: &CheckpointPolicy,
-    on: &mut dyn FnMut(Line) -> Flow,
+    on: &mut dyn FnMut(Line) -> ControlFlow<()>,
 ) -> Result<Summary, Failure> {
     let Some(Checkpoint { cost, run }) = from else {
-        return run_from_start(scene, policy, on);
+        return run_from_start(scene, Recorder::new(on, policy, Cost::default()));
     };
     let mut recorder = Recorder::new(on, policy, cost);
     match solver::run::resume(scene, run, &mut recorder) {
         Err(SolveError::Checkpoint(misfit)) => {
-            on(Line::Restarted(misfit.to_string()));
-            run_from_start(scene, policy, on)
+            let mut recorder = Recorder::new(on, policy, Cost::default());
+            recorder.emit(Line::Restarted(misfit.to_string()));
+            run_from_start(scene, recorder)
         }
         ended => Ok(history::summary(&ended?, recorder.watch.cost())),
     }
 }
 
-fn run_from_start(
-    scene: &Scene,
-    policy: &CheckpointPolicy,
-    on: &mut dyn FnMut(Line) -> Flow,
-) -> Result<Summary, Failure> {
-    let mut recorder = Recorder::new(on, policy, Cost::default());
+fn run_from_start(scene: &Scene, mut recorder: Recorder<'_>) -> Result<Summary, Failure> {
     let summary = solver::run::solve(scene, &mut recorder)?;
     Ok(history::summary(&summary, recorder.watch.cost()))
 }
 
 struct Recorder<'a> {
-    on: &'a mut dyn FnMut(Line) -> Flow,
+    on: &'a mut dyn FnMut(Line) -> ControlFlow<()>,
     policy: &'a CheckpointPolicy,
     watch: Stopwatch,
+    /// Set if `on` stopped the run at a line that is not an event of the engine; the next event stops it.
+    is_stopped: bool,
 }
 
 impl<'a> Recorder<'a> {
     fn new(
-        on: &'a mut dyn FnMut(Line) -> Flow,
+        on: &'a mut dyn FnMut(Line) -> ControlFlow<()>,
         policy: &'a CheckpointPolicy,
         earlier: Cost,
     ) -> Self {
@@ -75,13 +75,19 @@ impl<'a> Recorder<'a> {
             on,
             policy,
             watch: Stopwatch::start(earlier),
+            is_stopped: false,
         }
     }
 
+    /// Emits a line that is not an event at which the engine can be stopped.
+    fn emit(&mut self, line: Line) {
+        self.is_stopped |= (self.on)(line).is_break();
+    }
+
     /// Emits a checkpoint if one is due, and stops the run if it is asked to.
-    fn checkpoint(&mut self, run: &solver::checkpoint::Checkpoint) -> Flow {
+    fn checkpoint(&mut self, run: &solver::checkpoint::Checkpoint) -> ControlFlow<()> {
         if !self.policy.is_due() {
-            return Flow::Continue;
+            return ControlFlow::Continue(());
         }
         let checkpoint = Checkpoint {
             cost: self.watch.cost(),
@@ -93,50 +99,50 @@ impl<'a> Recorder<'a> {
                 state,
             })),
             Err(error) => {
-                tracing::error!(%error, "a checkpoint was left out");
-                Flow::Continue
+                tracing::error!(%error, "a checkpoint was not encoded");
+                ControlFlow::Continue(())
             }
         };
         if self.policy.is_stopped() {
-            Flow::Stop
+            ControlFlow::Break(())
         } else {
             flow
         }
     }
-}
 
-impl Recorder<'_> {
-    fn fields(&mut self, cycle: u64, fields: &PlacedFields) -> Flow {
+    fn fields(&mut self, cycle: u64, fields: &PlacedFields) -> ControlFlow<()> {
         let name = vtu::file_name(cycle, fields.position);
         match vtu::bytes(fields) {
             Ok(bytes) => (self.on)(Line::Fields(FieldsFile { name, cycle, bytes })),
             Err(error) => {
-                tracing::error!(%error, name, "fields were left out");
-                Flow::Continue
+                tracing::error!(%error, name, "fields were not written");
+                ControlFlow::Continue(())
             }
         }
     }
 }
 
 impl Observer for Recorder<'_> {
-    fn on(&mut self, event: Event<'_>) -> Flow {
+    fn on(&mut self, event: Event<'_>) -> ControlFlow<()> {
+        if self.is_stopped {
+            return ControlFlow::Break(());
+        }
         let line = match event {
-            Event::Phase(phase) => {
-                let phase = history::phase(phase);
-                self.watch.enter(phase);
-                Line::Phase(phase)
-            }
             Event::Cycle(report) => Line::Cycle(history::row(report)),
             Event::Snapshot(snapshot) => {
                 for fields in &snapshot.fields {
-                    if self.fields(snapshot.cycle, fields) == Flow::Stop {
-                        return Flow::Stop;
-                    }
+                    self.fields(snapshot.cycle, fields)?;
                 }
                 Line::Snapshot(Box::new(history::snapshot(snapshot)))
             }
             Event::Checkpoint(run) => return self.checkpoint(run),
         };
         (self.on)(line)
+    }
+
+    fn on_phase(&mut self, phase: observer::Phase) {
+        let phase = history::phase(phase);
+        self.watch.enter(phase);
+        self.emit(Line::Phase(phase));
     }
 }

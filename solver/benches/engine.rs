@@ -70,7 +70,7 @@ fn fuzz_button_20_cycles(bencher: Bencher<'_, '_>) {
 struct Silent;
 
 impl solver::observer::Observer for Silent {
-    fn on(&mut self, _: solver::observer::Event<'_>) -> solver::observer::Flow {
-        solver::observer::Flow::Continue
+    fn on(&mut self, _: solver::observer::Event<'_>) -> std::ops::ControlFlow<()> {
+        std::ops::ControlFlow::Continue(())
     }
 }

@@ -1,22 +1,18 @@
 //! The model: two meshed bodies with their surfaces, materials and supports. Knows both meshes and laws.
 
+pub mod layout;
 pub mod profile;
 pub mod resolution;
 
 use crate::material::Lame;
-use crate::mesh::{ColumnMesh, MeshError, grading};
-use crate::number::{count_at_least, real};
+use crate::mesh::{ColumnMesh, MeshError};
+use crate::number::real;
 use crate::scene::{Drive, Elastic, Scene};
 use crate::{element, friction, wear};
 
+pub use layout::{BodyLayout, Layout};
 pub use profile::Profile;
 pub use resolution::Sizes;
-
-/// A contact surface ends where its arc is steeper than this; beyond it the surface is no graph.
-const STEEPEST_ANGLE_DEG: f64 = 80.0;
-/// More surface nodes than this on one body are refused: its dense compliance takes (2 n)^2 x 8 bytes, 288 MB, and
-/// condensation holds four such matrices for a moment.
-const MOST_SURFACE_NODES: usize = 3_000;
 
 /// Two bodies ready to be condensed.
 #[derive(Debug, Clone, PartialEq)]
@@ -78,18 +74,11 @@ pub struct Interface {
 /// # Errors
 /// [`MeshError`] if the mesh would be too large or inverted.
 pub fn build(scene: &Scene) -> Result<Model, MeshError> {
-    let sizes = resolution::choose(scene);
-    for spacing in [&sizes.receptacle, &sizes.slider] {
-        let nodes = count_at_least(2.0 * spacing.core_half / spacing.core);
-        if nodes > MOST_SURFACE_NODES {
-            return Err(MeshError::TooLarge {
-                nodes,
-                limit: MOST_SURFACE_NODES,
-            });
-        }
-    }
-    let receptacle = receptacle(scene, &sizes)?;
-    let slider = slider(scene, &sizes)?;
+    let layout = Layout::of(scene)?;
+    let slider_support = match scene.drive {
+        Drive::Handle => Support::FarFaceHeld,
+        Drive::WholeBody => Support::GuidedUnderPressure,
+    };
     let interface = Interface {
         friction: friction::coefficient(scene.friction),
         receptacle_wear: wear::coefficient(scene.receptacle.wear),
@@ -98,112 +87,36 @@ pub fn build(scene: &Scene) -> Result<Model, MeshError> {
         spring: scene.spring_n_per_mm2,
     };
     Ok(Model {
-        slider,
-        receptacle,
+        slider: body(layout.slider, scene.slider.elastic, slider_support)?,
+        receptacle: body(
+            layout.receptacle,
+            scene.receptacle.elastic,
+            Support::FarFaceHeld,
+        )?,
         interface,
-        sizes,
+        sizes: layout.sizes,
     })
 }
 
-fn receptacle(scene: &Scene, sizes: &Sizes) -> Result<BodyModel, MeshError> {
-    let shape = scene.receptacle.shape;
-    let half = 0.5 * shape.length_mm;
-    let (profile, x) = match shape.crown_radius_mm {
-        None => (Profile::Flat, grading::symmetric(half, &sizes.receptacle)),
-        Some(radius) => (
-            Profile::Crown { radius },
-            on_arc(radius, half, &sizes.receptacle),
-        ),
-    };
-    let fractions = grading::layers(sizes.contact_element / shape.height_mm, sizes.layer_growth);
-    let support = Support::FarFaceHeld;
-    body(
+fn body(layout: BodyLayout, elastic: Elastic, support: Support) -> Result<BodyModel, MeshError> {
+    let surface = layout.heights();
+    let BodyLayout {
         x,
         profile,
-        -shape.height_mm,
+        far_y,
         fractions,
-        scene.receptacle.elastic,
-        support,
-    )
-}
-
-fn slider(scene: &Scene, sizes: &Sizes) -> Result<BodyModel, MeshError> {
-    let shape = scene.slider.shape;
-    let profile = Profile::Arc {
-        radius: shape.radius_mm,
-    };
-    let x = on_arc(shape.radius_mm, shape.half_width_mm, &sizes.slider);
-    let fractions = grading::layers(sizes.contact_element / shape.height_mm, sizes.layer_growth);
-    let support = match scene.drive {
-        Drive::Handle => Support::FarFaceHeld,
-        Drive::WholeBody => Support::GuidedUnderPressure,
-    };
-    body(
-        x,
-        profile,
-        shape.height_mm,
-        fractions,
-        scene.slider.elastic,
-        support,
-    )
-}
-
-fn body(
-    x: Vec<f64>,
-    profile: Profile,
-    far_y: f64,
-    fractions: Vec<f64>,
-    elastic: Elastic,
-    support: Support,
-) -> Result<BodyModel, MeshError> {
-    let reach = match profile {
-        Profile::Flat => f64::INFINITY,
-        Profile::Arc { radius } | Profile::Crown { radius } => {
-            radius * STEEPEST_ANGLE_DEG.to_radians().sin()
-        }
-    };
-    let contact = (
-        x.partition_point(|&x| x < -reach),
-        x.partition_point(|&x| x <= reach),
-    );
-    let surface = x.iter().map(|&x| profile.height(x)).collect();
-    let mesh = checked(ColumnMesh::new(x, surface, far_y, fractions))?;
-    let lame = elastic.into();
+        contact,
+    } = layout;
+    let mesh = ColumnMesh::new(x, surface, far_y, fractions);
+    mesh.quality()?;
     Ok(BodyModel {
         mesh,
         profile,
-        lame,
-        b_bar: b_bar(elastic),
+        lame: elastic.into(),
+        b_bar: elastic.poisson_ratio > element::B_BAR_FROM_POISSON_RATIO,
         support,
         contact,
     })
-}
-
-/// Node places over an arc, spaced along its length, on [-half, half] or to its rim.
-fn on_arc(radius: f64, half: f64, spacing: &grading::Spacing) -> Vec<f64> {
-    let half = half.min(radius);
-    let mut x = grading::symmetric(radius * (half / radius).asin(), spacing);
-    for place in &mut x {
-        *place = radius * (*place / radius).sin();
-    }
-    let last = x.len() - 1;
-    (x[0], x[last]) = (-half, half);
-    x
-}
-
-fn checked(mesh: ColumnMesh) -> Result<ColumnMesh, MeshError> {
-    if mesh.spines() > MOST_SURFACE_NODES {
-        return Err(MeshError::TooLarge {
-            nodes: mesh.spines(),
-            limit: MOST_SURFACE_NODES,
-        });
-    }
-    mesh.quality()?;
-    Ok(mesh)
-}
-
-fn b_bar(elastic: Elastic) -> bool {
-    elastic.poisson_ratio > element::B_BAR_FROM_POISSON_RATIO
 }
 
 impl BodyModel {

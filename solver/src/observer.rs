@@ -1,33 +1,28 @@
-//! What a run tells while it goes on, and how it is stopped from outside.
+//! Events of a run, and how it is stopped from outside.
+
+use std::ops::ControlFlow;
 
 use crate::checkpoint::Checkpoint;
 use crate::history::{CycleReport, Snapshot};
 
 /// Receives a run's events, in order. The only dynamic dispatch of the engine.
 pub trait Observer {
-    /// Takes one event; `Flow::Stop` ends the run after the current increment with its histories kept.
-    fn on(&mut self, event: Event<'_>) -> Flow;
-}
+    /// Takes one event. `Break` ends the run at once with the outcome `Stopped`; no later event is delivered, so a
+    /// checkpoint never lies beyond an event that was refused.
+    fn on(&mut self, event: Event<'_>) -> ControlFlow<()>;
 
-/// Whether a run goes on.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Flow {
-    /// Go on.
-    Continue,
-    /// End the run with the outcome `Stopped`.
-    Stop,
+    /// Another phase of the work begins.
+    fn on_phase(&mut self, _phase: Phase) {}
 }
 
 /// What happened.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Event<'a> {
-    /// Another phase of the work begins.
-    Phase(Phase),
     /// A computed cycle (or cycle 0, the unworn loaded state) is done.
     Cycle(&'a CycleReport),
     /// A requested snapshot.
     Snapshot(&'a Snapshot),
-    /// A place from which the run could go on; what belongs to its cycle was told before. `Flow::Stop` is obeyed.
+    /// A state that the run can be resumed from; every event up to its cycle was delivered before.
     Checkpoint(&'a Checkpoint),
 }
 

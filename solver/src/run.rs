@@ -1,5 +1,7 @@
 //! The run: integrate until the geometry has drifted, relocate, condense again.
 
+use std::ops::ControlFlow;
+
 use crate::SolveError;
 use crate::ale::{self, Spines};
 use crate::checkpoint::Checkpoint;
@@ -9,24 +11,27 @@ use crate::fields;
 use crate::history::{CycleReport, Initial, Outcome, Resolution, Snapshot, Summary};
 use crate::model::{self, Model};
 use crate::number::count_at_least;
-use crate::observer::{Event, Flow, Observer, Phase};
+use crate::observer::{Event, Observer, Phase};
 use crate::scene::{Scene, StopCondition};
 
-/// Solves a scene from the unworn bodies to its end, telling the observer what happens.
+/// Solves a scene from the unworn bodies to its end.
 ///
 /// # Errors
-/// [`SolveError`]; everything told to the observer before stays true.
+/// [`SolveError`]; events delivered before it stay valid.
 pub fn solve(scene: &Scene, observer: &mut dyn Observer) -> Result<Summary, SolveError> {
-    observer.on(Event::Phase(Phase::Mesh));
+    observer.on_phase(Phase::Mesh);
     let model = model::build(scene)?;
-    observer.on(Event::Phase(Phase::Condense));
+    observer.on_phase(Phase::Condense);
     let condensed = condensation::condense(&model)?;
-    let run = load(scene, &model, &condensed, observer)?;
-    go_on(scene, model, condensed, run, observer)
+    let (run, flow) = load(scene, &model, &condensed, observer)?;
+    match flow {
+        ControlFlow::Continue(()) => advance(scene, model, condensed, run, observer),
+        ControlFlow::Break(()) => Ok(summary(scene, &model, &run, Outcome::Stopped)),
+    }
 }
 
-/// Solves a scene from a checkpoint of it to its end, to the same bits as an undisturbed run; the observer is told what
-/// follows the checkpoint.
+/// Solves a scene from a checkpoint of it to its end, to the same bits as an undisturbed run; only events after the
+/// checkpoint are delivered.
 ///
 /// # Errors
 /// [`SolveError`], among others if the checkpoint is not one of this scene.
@@ -35,17 +40,17 @@ pub fn resume(
     run: Checkpoint,
     observer: &mut dyn Observer,
 ) -> Result<Summary, SolveError> {
-    observer.on(Event::Phase(Phase::Mesh));
+    observer.on_phase(Phase::Mesh);
     let unworn = model::build(scene)?;
     run.check(&unworn, scene.cycles)?;
     let model = run.model(unworn)?;
-    observer.on(Event::Phase(Phase::Condense));
+    observer.on_phase(Phase::Condense);
     let condensed = condensation::condense(&model)?;
-    go_on(scene, model, condensed, run, observer)
+    advance(scene, model, condensed, run, observer)
 }
 
 /// Integrates, relocates and condenses until the run ends.
-fn go_on(
+fn advance(
     scene: &Scene,
     mut model: Model,
     mut condensed: Condensed,
@@ -53,15 +58,15 @@ fn go_on(
     observer: &mut dyn Observer,
 ) -> Result<Summary, SolveError> {
     loop {
-        observer.on(Event::Phase(Phase::Cycles));
-        let end = integrate(scene, &model, &condensed, &mut run, observer)?;
-        if let Some(outcome) = end {
+        observer.on_phase(Phase::Cycles);
+        let flow = integrate(scene, &model, &condensed, &mut run, observer)?;
+        if let ControlFlow::Break(outcome) = flow {
             return Ok(summary(scene, &model, &run, outcome));
         }
-        observer.on(Event::Phase(Phase::Relocate));
+        observer.on_phase(Phase::Relocate);
         let moved = ale::relocate(&model, &run.state)?;
         run.relocated();
-        observer.on(Event::Phase(Phase::Condense));
+        observer.on_phase(Phase::Condense);
         condensed = condensation::renew(&moved, &model, condensed)?;
         model = moved;
     }
@@ -73,59 +78,66 @@ fn load(
     model: &Model,
     condensed: &Condensed,
     observer: &mut dyn Observer,
-) -> Result<Checkpoint, SolveError> {
+) -> Result<(Checkpoint, ControlFlow<()>), SolveError> {
     let mut state = CycleState::start(&condensed.operators);
     let mut integrator = Integrator::new(scene, model, &condensed.operators);
     let record = integrator.apply_load(&mut state)?;
     let report = cycle::report(scene, model, &state);
-    observer.on(Event::Cycle(&report));
-    observer.on(Event::Snapshot(&snapshot(
-        scene, model, condensed, &state, record,
-    )?));
+    let mut flow = observer.on(Event::Cycle(&report));
+    if flow.is_continue() {
+        let snapshot = snapshot(scene, model, condensed, &state, record)?;
+        flow = observer.on(Event::Snapshot(&snapshot));
+    }
     integrator.initial_quarter(&mut state)?;
     let initial = Initial {
         peak_pressure_mpa: report.peak_pressure_mpa,
         contact_half_width_mm: report.contact_half_width_mm,
     };
-    Ok(Checkpoint {
+    let run = Checkpoint {
         state,
         initial,
         built: None,
         relocations: 0,
-    })
+    };
+    Ok((run, flow))
 }
 
-/// Computed cycles until the run ends (an outcome) or the geometry has drifted (none).
+/// Computes cycles until the run ends (`Break`) or the geometry has drifted (`Continue`).
 fn integrate(
     scene: &Scene,
     model: &Model,
     condensed: &Condensed,
     run: &mut Checkpoint,
     observer: &mut dyn Observer,
-) -> Result<Option<Outcome>, SolveError> {
+) -> Result<ControlFlow<Outcome>, SolveError> {
+    const STOPPED: ControlFlow<Outcome> = ControlFlow::Break(Outcome::Stopped);
     let mut integrator = Integrator::new(scene, model, &condensed.operators);
     let spines = Spines::of(model);
     while run.state.cycle < scene.cycles {
         if ale::has_drifted(model, &run.state, scene.accuracy.tolerance) {
-            return Ok(None);
+            return Ok(ControlFlow::Continue(()));
         }
         let state = &mut run.state;
         let record = integrator.compute_cycle(state, next_stop(scene, &spines, state))?;
         let report = cycle::report(scene, model, state);
-        let ended = end_of(scene, &spines, state, &report);
-        let flow = observer.on(Event::Cycle(&report));
-        if ended.is_some() || scene.output.snapshots_at_cycles.contains(&state.cycle) {
+        if observer.on(Event::Cycle(&report)).is_break() {
+            return Ok(STOPPED);
+        }
+        let end = end_of(scene, &spines, state, &report);
+        if end.is_some() || scene.output.snapshots_at_cycles.contains(&state.cycle) {
             let snapshot = snapshot(scene, model, condensed, state, record)?;
-            observer.on(Event::Snapshot(&snapshot));
+            if observer.on(Event::Snapshot(&snapshot)).is_break() {
+                return Ok(STOPPED);
+            }
         }
-        if ended.is_some() {
-            return Ok(ended);
+        if let Some(outcome) = end {
+            return Ok(ControlFlow::Break(outcome));
         }
-        if flow == Flow::Stop || observer.on(Event::Checkpoint(run)) == Flow::Stop {
-            return Ok(Some(Outcome::Stopped));
+        if observer.on(Event::Checkpoint(run)).is_break() {
+            return Ok(STOPPED);
         }
     }
-    Ok(Some(Outcome::Completed))
+    Ok(ControlFlow::Break(Outcome::Completed))
 }
 
 /// The next cycle that must be hit exactly, or beyond which the depths of stop conditions and of the bodies

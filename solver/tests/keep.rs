@@ -1,8 +1,10 @@
 //! An observer that keeps everything.
 
+use std::ops::ControlFlow;
+
 use solver::SolveError;
 use solver::history::{CycleReport, DepthProfile, Snapshot, Summary};
-use solver::observer::{Event, Flow, Observer};
+use solver::observer::{Event, Observer};
 use solver::scene::Scene;
 
 /// All reports and snapshots of a run.
@@ -13,13 +15,13 @@ pub(crate) struct Keep {
 }
 
 impl Observer for Keep {
-    fn on(&mut self, event: Event<'_>) -> Flow {
+    fn on(&mut self, event: Event<'_>) -> ControlFlow<()> {
         match event {
-            Event::Phase(_) | Event::Checkpoint(_) => {}
+            Event::Checkpoint(_) => {}
             Event::Cycle(report) => self.reports.push(report.clone()),
             Event::Snapshot(snapshot) => self.snapshots.push(snapshot.clone()),
         }
-        Flow::Continue
+        ControlFlow::Continue(())
     }
 }
 

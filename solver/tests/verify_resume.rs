@@ -1,11 +1,13 @@
 //! A run that goes on from a checkpoint reaches the bits of the run that was never disturbed.
 
+use std::ops::ControlFlow;
+
 use crate::keep::Keep;
 use crate::scenes::{accuracy, fuzz_button, mccoll};
 use solver::SolveError;
 use solver::checkpoint::{Checkpoint, Misfit};
-use solver::history::{CycleReport, Snapshot, Summary};
-use solver::observer::{Event, Flow, Observer};
+use solver::history::{CycleReport, Outcome, Snapshot, Summary};
+use solver::observer::{Event, Observer};
 use solver::run;
 use solver::scene::{Motion, Scene};
 
@@ -17,7 +19,7 @@ struct KeepAll {
 }
 
 impl Observer for KeepAll {
-    fn on(&mut self, event: Event<'_>) -> Flow {
+    fn on(&mut self, event: Event<'_>) -> ControlFlow<()> {
         if let Event::Checkpoint(checkpoint) = event {
             self.checkpoints.push(checkpoint.clone());
         }
@@ -142,4 +144,51 @@ fn a_checkpoint_of_another_scene_is_refused_with_its_numbers() {
         ),
         "{refused:?}"
     );
+}
+
+/// An observer that cannot store a snapshot and asks for a stop, as on a full disk.
+#[derive(Default)]
+struct FullDisk {
+    keep: Keep,
+    refused_cycle: u64,
+    checkpoints: Vec<Checkpoint>,
+}
+
+impl Observer for FullDisk {
+    fn on(&mut self, event: Event<'_>) -> ControlFlow<()> {
+        match event {
+            Event::Snapshot(snapshot) if snapshot.cycle == self.refused_cycle => {
+                return ControlFlow::Break(());
+            }
+            Event::Checkpoint(checkpoint) => self.checkpoints.push(checkpoint.clone()),
+            _ => {}
+        }
+        self.keep.on(event)
+    }
+}
+
+/// A stop at a snapshot ends the run before the checkpoint of that cycle, so that the resumed run takes the snapshot
+/// again; at the last cycle too.
+#[test]
+fn a_snapshot_that_could_not_be_stored_is_taken_again_by_the_resumed_run() {
+    let mut scene = Scene {
+        cycles: 20,
+        ..mccoll()
+    };
+    scene.output.snapshots_at_cycles = vec![5, 20];
+    for refused_cycle in [5, 20] {
+        let mut stopped = FullDisk {
+            refused_cycle,
+            ..FullDisk::default()
+        };
+        let summary = run::solve(&scene, &mut stopped).expect("the scene can be solved");
+        assert_eq!(summary.outcome, Outcome::Stopped);
+        let last = stopped.checkpoints.pop().expect("a checkpoint");
+        assert!(last.cycle() < refused_cycle, "{}", last.cycle());
+        let mut resumed = Keep::default();
+        run::resume(&scene, last, &mut resumed).expect("it can be resumed");
+        let snapshots = stopped.keep.snapshots.iter().chain(&resumed.snapshots);
+        let cycles: Vec<u64> = snapshots.map(|snapshot| snapshot.cycle).collect();
+        assert_eq!(cycles, [0, 5, 20]);
+    }
 }

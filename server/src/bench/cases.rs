@@ -1,10 +1,11 @@
 //! The cases.
 
+use std::ops::ControlFlow;
+
 use solver::SolveError;
 use solver::condensation::{self, Condensed};
 use solver::cycle::{CycleState, Integrator};
 use solver::model::{self, Model};
-use solver::observer::Flow;
 use solver::scene::Scene;
 
 use crate::bench::{BenchError, Row, measured};
@@ -189,7 +190,7 @@ fn solved(
     size: impl Into<String>,
     scene: &Scene,
 ) -> Result<Row, BenchError> {
-    let summary = solve::run(scene, &mut |_| Flow::Continue)?;
+    let summary = solve::run(scene, &mut |_| ControlFlow::Continue(()))?;
     Ok(Row {
         what: what.into(),
         size: format!(

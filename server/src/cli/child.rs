@@ -1,6 +1,7 @@
 //! `fretwear solve-child`: a solving process; its protocol is described in [`crate::solve::protocol`].
 
 use std::io::{Read, Write};
+use std::ops::ControlFlow;
 use std::path::Path;
 use std::process::ExitCode;
 use std::sync::Arc;
@@ -10,7 +11,6 @@ use std::time::Duration;
 use api::job::Outcome;
 use nix::sys::resource::{Resource, setrlimit};
 use signal_hook::consts::SIGTERM;
-use solver::observer::Flow;
 
 use crate::cli::ChildArguments;
 use crate::cli::terminal::{failed, refused, tell};
@@ -38,18 +38,23 @@ pub(super) fn run(arguments: &ChildArguments) -> ExitCode {
     let resolved = match spec::read(input.spec.as_bytes()) {
         Ok(resolved) => resolved,
         Err(error) => {
-            write(&Line::Failed(Failure {
+            let failed = Line::Failed(Failure {
                 outcome: Outcome::NotConverged,
                 reason: error.to_string(),
-            }));
-            return refused(&error);
+            });
+            return match write(&failed) {
+                ControlFlow::Continue(()) => refused(&error),
+                ControlFlow::Break(()) => ExitCode::FAILURE,
+            };
         }
     };
     std::thread::spawn(end_with_supervisor);
     let from = match input.checkpoint() {
         Ok(from) => from,
         Err(cause) => {
-            write(&Line::Restarted(cause));
+            if write(&Line::Restarted(cause)).is_break() {
+                return ExitCode::FAILURE;
+            }
             None
         }
     };
@@ -65,8 +70,8 @@ pub(super) fn run(arguments: &ChildArguments) -> ExitCode {
         Err(failure) => Line::Failed(failure),
     };
     match write(&last) {
-        Flow::Continue => ExitCode::SUCCESS,
-        Flow::Stop => ExitCode::FAILURE,
+        ControlFlow::Continue(()) => ExitCode::SUCCESS,
+        ControlFlow::Break(()) => ExitCode::FAILURE,
     }
 }
 
@@ -92,7 +97,7 @@ fn end_with_supervisor() {
 /// Writes fields into the attempt's folder and tells of the file. A disk that takes no more is no fault of the study: a
 /// full one is waited for, unless the process is asked to end; for another reason it ends without a verdict, and another
 /// attempt is made.
-fn keep(folder: &Path, fields: &FieldsFile, stop: &AtomicBool) -> Flow {
+fn keep(folder: &Path, fields: &FieldsFile, stop: &AtomicBool) -> ControlFlow<()> {
     let FieldsFile { name, cycle, bytes } = fields;
     let mut told = false;
     while let Err(error) = files::keep(folder, name, bytes) {
@@ -105,7 +110,7 @@ fn keep(folder: &Path, fields: &FieldsFile, stop: &AtomicBool) -> Flow {
             _ => std::process::exit(EXIT_FILE_NOT_WRITTEN),
         }
         if stop.load(Ordering::Relaxed) {
-            return Flow::Stop;
+            return ControlFlow::Break(());
         }
         std::thread::sleep(DISK_PAUSE);
     }
@@ -118,14 +123,14 @@ fn keep(folder: &Path, fields: &FieldsFile, stop: &AtomicBool) -> Flow {
 }
 
 /// Writes a line; a supervisor that does not read any more stops the run.
-fn write(line: &Line) -> Flow {
+fn write(line: &Line) -> ControlFlow<()> {
     let Ok(mut bytes) = serde_json::to_vec(line) else {
-        return Flow::Stop;
+        return ControlFlow::Break(());
     };
     bytes.push(b'\n');
     let mut stdout = std::io::stdout().lock();
     match stdout.write_all(&bytes).and_then(|()| stdout.flush()) {
-        Ok(()) => Flow::Continue,
-        Err(_) => Flow::Stop,
+        Ok(()) => ControlFlow::Continue(()),
+        Err(_) => ControlFlow::Break(()),
     }
 }

@@ -1,11 +1,12 @@
 //! `fretwear export SPEC`: the model for other codes.
 
+use std::ops::ControlFlow;
 use std::path::Path;
 use std::process::ExitCode;
 
 use solver::history::Snapshot;
 use solver::model::{self, Model};
-use solver::observer::{Event, Flow, Observer};
+use solver::observer::{Event, Observer};
 use solver::scene::Scene;
 use solver::{SolveError, ale};
 
@@ -61,10 +62,10 @@ fn worn(scene: &Scene, cycle: u64) -> Result<Model, SolveError> {
 struct Last(Option<Snapshot>);
 
 impl Observer for Last {
-    fn on(&mut self, event: Event<'_>) -> Flow {
+    fn on(&mut self, event: Event<'_>) -> ControlFlow<()> {
         if let Event::Snapshot(snapshot) = event {
             self.0 = Some(snapshot.clone());
         }
-        Flow::Continue
+        ControlFlow::Continue(())
     }
 }

@@ -1,12 +1,12 @@
 //! `fretwear solve SPEC [--out DIR]`: no server; progress on standard error, the summary on standard output.
 
+use std::ops::ControlFlow;
 use std::path::Path;
 use std::process::ExitCode;
 
 use api::job::{Outcome, Phase};
 use api::results::{CycleRow, Snapshot, Summary};
 use indicatif::ProgressBar;
-use solver::observer::Flow;
 
 use crate::cli::terminal::{bar, failed, say, specification_for, tell};
 use crate::export::documents::Results;
@@ -54,7 +54,7 @@ fn solve(resolved: &Resolved, recorded: &mut Recorded) -> Result<Summary, Failur
     let bar = bar(resolved.scene.cycles);
     let solved = solve::run(&resolved.scene, &mut |line| {
         take(line, recorded, &bar);
-        Flow::Continue
+        ControlFlow::Continue(())
     });
     bar.finish_and_clear();
     solved

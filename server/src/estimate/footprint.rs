@@ -7,7 +7,7 @@
 
 use std::collections::BTreeMap;
 
-use solver::model::Model;
+use solver::model::Layout;
 use solver::scene::Scene;
 
 use crate::estimate::workload::{Workload, count};
@@ -40,11 +40,11 @@ pub struct Footprint {
 }
 
 impl Footprint {
-    /// Of a scene, its model and the work that it makes.
-    pub(crate) fn of(scene: &Scene, model: &Model, work: &Workload) -> Self {
-        let dofs = count(model.slider.dofs() + model.receptacle.dofs());
-        let elements = count(model.receptacle.contact_x().len());
-        let surface = elements.max(count(model.slider.contact_x().len()));
+    /// Of a scene, the layout of its meshes and its workload.
+    pub(crate) fn of(scene: &Scene, layout: &Layout, work: &Workload) -> Self {
+        let dofs = count(layout.slider.dofs() + layout.receptacle.dofs());
+        let elements = count(layout.receptacle.contact_x().len());
+        let surface = elements.max(count(layout.slider.contact_x().len()));
         let snapshots = count(scene.output.snapshots_at_cycles.len());
         let stations = count(scene.output.stations_mm.len());
         // Three positions each, and the neutral one of the unworn state.
@@ -57,7 +57,7 @@ impl Footprint {
             + snapshots * SNAPSHOT_ELEMENT_BYTES * elements
             + work.computed_cycles * (CYCLE_BYTES + STATION_BYTES * stations);
         Self {
-            contact_element_mm: model.sizes.contact_element,
+            contact_element_mm: layout.sizes.contact_element,
             dofs,
             memory_mb: MEMORY_BASE_MB + MEMORY_DOF_MB * dofs + MEMORY_PAIR_MB * surface * surface,
             output_mb: 1e-6 * bytes,

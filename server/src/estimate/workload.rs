@@ -4,7 +4,7 @@
 use std::collections::BTreeMap;
 
 use solver::cycle::forecast::forecast;
-use solver::model::{BodyModel, Model};
+use solver::model::{BodyLayout, Layout};
 use solver::scene::Scene;
 
 /// What a solve has to do.
@@ -32,9 +32,9 @@ pub struct Condensations {
 }
 
 impl Workload {
-    /// Of a scene on its unworn model.
-    pub(crate) fn of(scene: &Scene, model: &Model) -> Self {
-        let foreseen = forecast(scene, model);
+    /// Of a scene on the layout of its meshes.
+    pub(crate) fn of(scene: &Scene, layout: &Layout) -> Self {
+        let foreseen = forecast(scene, layout);
         let mut increments = BTreeMap::new();
         for part in &foreseen.segments {
             *increments.entry(part.watched).or_insert(0.0) += part.increments;
@@ -49,8 +49,8 @@ impl Workload {
                 .map(|(nodes, many)| (count(nodes), many))
                 .collect(),
             condensations: [
-                condensations(slider, &model.slider),
-                condensations(receptacle, &model.receptacle),
+                condensations(slider, &layout.slider),
+                condensations(receptacle, &layout.receptacle),
             ],
         }
     }
@@ -71,7 +71,7 @@ impl Workload {
     }
 }
 
-fn condensations(count_of: u32, body: &BodyModel) -> Condensations {
+fn condensations(count_of: u32, body: &BodyLayout) -> Condensations {
     Condensations {
         count: f64::from(count_of),
         dofs: count(body.dofs()),

@@ -123,7 +123,9 @@ fn from_base64<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<u8>, D:
 
 #[cfg(test)]
 mod tests {
-    use solver::observer::{Event, Flow, Observer};
+    use std::ops::ControlFlow;
+
+    use solver::observer::{Event, Observer};
 
     use super::*;
     use crate::spec;
@@ -132,11 +134,11 @@ mod tests {
     struct Last(Option<solver::checkpoint::Checkpoint>);
 
     impl Observer for Last {
-        fn on(&mut self, event: Event<'_>) -> Flow {
+        fn on(&mut self, event: Event<'_>) -> ControlFlow<()> {
             if let Event::Checkpoint(checkpoint) = event {
                 self.0 = Some(checkpoint.clone());
             }
-            Flow::Continue
+            ControlFlow::Continue(())
         }
     }
 

@@ -141,7 +141,7 @@ pub(crate) fn meshable(
     scene: &scene::Scene,
     diagnostics: &mut Diagnostics,
 ) -> Option<(Footprint, Workload)> {
-    let built = solver::model::build(scene);
+    let built = solver::model::Layout::of(scene);
     if let Err(error) = &built {
         let pointer = match scene.accuracy.contact_element_mm {
             Some(_) => "/accuracy/overrides/contact_element_mm",
@@ -149,9 +149,9 @@ pub(crate) fn meshable(
         };
         diagnostics.fault(pointer, error.to_string());
     }
-    built.ok().map(|model| {
-        let work = Workload::of(scene, &model);
-        (Footprint::of(scene, &model, &work), work)
+    built.ok().map(|layout| {
+        let work = Workload::of(scene, &layout);
+        (Footprint::of(scene, &layout, &work), work)
     })
 }
 

@@ -1,4 +1,4 @@
-//! Leases: what a worker holds, writes and is told.
+//! Leases: jobs held by workers, their writes and their ends.
 
 use api::job::{Outcome, Progress};
 use api::results::{CycleRow, Snapshot, Summary};

@@ -18,7 +18,7 @@ mod scar;
 use super::jump::JumpControl;
 use super::path;
 use super::probe::Probes;
-use crate::model::Model;
+use crate::model::Layout;
 use crate::number::{cycles_at_least, real, real_cycles};
 use crate::scene::Scene;
 
@@ -64,9 +64,9 @@ impl Forecast {
     }
 }
 
-/// Foresees a run of a scene on its unworn model.
-pub fn forecast(scene: &Scene, model: &Model) -> Forecast {
-    let mut scar = Scar::new(scene, model);
+/// Forecasts a run of a scene from the layout of its meshes.
+pub fn forecast(scene: &Scene, layout: &Layout) -> Forecast {
+    let mut scar = Scar::new(scene, layout);
     let mut run = Forecast {
         condensations: [1, 1],
         ..Forecast::default()
@@ -101,8 +101,8 @@ pub fn forecast(scene: &Scene, model: &Model) -> Forecast {
             increments: real_cycles(together) * real(steps + probes),
             steps,
             half_width_mm: scar.half_width,
-            nodes: nodes_within(model, scar.half_width),
-            watched: nodes_within(model, scar.watched()),
+            nodes: nodes_within(layout, scar.half_width),
+            watched: nodes_within(layout, scar.watched()),
         });
         scar.rebuild(scene, &mut run.condensations);
     }
@@ -140,8 +140,8 @@ impl Forecast {
 }
 
 /// Nodes of the receptacle that a contact of a half-width covers.
-fn nodes_within(model: &Model, half_width: f64) -> usize {
-    let x = model.receptacle.contact_x();
+fn nodes_within(layout: &Layout, half_width: f64) -> usize {
+    let x = layout.receptacle.contact_x();
     let within = x.partition_point(|&x| x <= half_width) - x.partition_point(|&x| x < -half_width);
     within.max(1)
 }

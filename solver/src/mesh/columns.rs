@@ -15,6 +15,11 @@ use crate::element::{Element, Quad4, Tri3, physical_gradient};
 /// Spines shorter than this part of the longest one are taken as one node.
 const TIP: f64 = 1e-9;
 
+/// Whether a spine of a length, in a mesh whose longest spine is `longest`, is a single node.
+pub(crate) fn is_tip(length: f64, longest: f64) -> bool {
+    length.abs() <= TIP * longest
+}
+
 /// A structured mesh of one body.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ColumnMesh {
@@ -55,7 +60,7 @@ impl ColumnMesh {
         let mut next = 0;
         for y in &surface_y {
             first.push(next);
-            next += if (far_y - y).abs() <= TIP * longest {
+            next += if is_tip(far_y - y, longest) {
                 1
             } else {
                 fractions.len()

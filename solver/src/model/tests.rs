@@ -79,7 +79,7 @@ fn too_fine_an_element_is_refused_with_the_limit() {
     assert!(matches!(
         build(&scene),
         Err(MeshError::TooLarge {
-            limit: MOST_SURFACE_NODES,
+            limit: layout::MOST_SURFACE_NODES,
             ..
         })
     ));

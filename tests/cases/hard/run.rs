@@ -1,10 +1,12 @@
 //! Running a specification through the border and the engine, keeping everything that it told.
 
+use std::ops::ControlFlow;
+
 use serde_json::Value;
 use server::spec;
 use solver::SolveError;
 use solver::history::{CycleReport, Snapshot, Summary};
-use solver::observer::{Event, Flow, Observer};
+use solver::observer::{Event, Observer};
 use solver::scene::Scene;
 
 /// A run that has ended, one way or the other.
@@ -44,16 +46,16 @@ struct Keep {
 }
 
 impl Observer for Keep {
-    fn on(&mut self, event: Event<'_>) -> Flow {
+    fn on(&mut self, event: Event<'_>) -> ControlFlow<()> {
         match event {
-            Event::Phase(_) | Event::Checkpoint(_) => {}
+            Event::Checkpoint(_) => {}
             Event::Cycle(report) => self.reports.push(report.clone()),
             Event::Snapshot(snapshot) => self.snapshots.push(snapshot.clone()),
         }
         if self.reports.len() > self.most_cycles {
-            Flow::Stop
+            ControlFlow::Break(())
         } else {
-            Flow::Continue
+            ControlFlow::Continue(())
         }
     }
 }

@@ -2,8 +2,10 @@
 //! the ends of its groove, on coarse and fine meshes; a power law through the times of their increments, and two parts of their
 //! condensations.
 
+use std::ops::ControlFlow;
+
 use api::plan::MachineFigures;
-use solver::observer::{Event, Flow, Observer, Phase};
+use solver::observer::{Event, Observer, Phase};
 
 use crate::estimate::machine::{MachineError, NODES, checked, parts};
 use crate::estimate::workload::Workload;
@@ -97,11 +99,12 @@ impl PhaseClock {
 }
 
 impl Observer for PhaseClock {
-    fn on(&mut self, event: Event<'_>) -> Flow {
-        if let Event::Phase(phase) = event {
-            self.enter(Some(phase));
-        }
-        Flow::Continue
+    fn on(&mut self, _: Event<'_>) -> ControlFlow<()> {
+        ControlFlow::Continue(())
+    }
+
+    fn on_phase(&mut self, phase: Phase) {
+        self.enter(Some(phase));
     }
 }
 

@@ -4,10 +4,10 @@ use super::super::RUNS_FROM;
 use super::super::jump::Stroke;
 use crate::contact::WATCHED;
 use crate::material::contact_modulus;
-use crate::model::{Model, resolution};
+use crate::model::{Layout, resolution};
 use crate::number::{cycles_at_least, real, real_cycles};
 use crate::scene::{Scene, StopCondition};
-use crate::{ale, friction};
+use crate::{ale, friction, wear};
 
 /// Places of the stand-in, from the middle to the end.
 const PLACES: usize = 240;
@@ -62,11 +62,12 @@ pub(super) struct Scar {
 }
 
 impl Scar {
-    pub(super) fn new(scene: &Scene, model: &Model) -> Self {
+    pub(super) fn new(scene: &Scene, layout: &Layout) -> Self {
         let modulus = contact_modulus(scene.slider.elastic, scene.receptacle.elastic);
-        let (slider, receptacle) = (model.interface.slider_wear, model.interface.receptacle_wear);
+        let slider = wear::coefficient(scene.slider.wear);
+        let receptacle = wear::coefficient(scene.receptacle.wear);
         let wear = slider + receptacle;
-        let hertz = model.sizes.hertz_half_width;
+        let hertz = layout.sizes.hertz_half_width;
         let approach = resolution::approach(scene, hertz, modulus);
         let amplitude = scene.motion.amplitude_mm();
         let sliding = if amplitude > 0.0 {
@@ -76,7 +77,7 @@ impl Scar {
             scene.motion.distance_per_cycle_mm()
         };
         let half_block = 0.5 * scene.receptacle.shape.length_mm;
-        let end = (amplitude + 1.5 * model.sizes.final_half_width + hertz).min(half_block);
+        let end = (amplitude + 1.5 * layout.sizes.final_half_width + hertz).min(half_block);
         let width = end / real(PLACES);
         let share = |k: f64| if wear > 0.0 { k / wear } else { 0.0 };
         let heights = [

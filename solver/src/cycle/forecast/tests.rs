@@ -1,12 +1,12 @@
 use super::*;
-use crate::model::{build, tests::fuzz_button};
+use crate::model::{Layout, tests::fuzz_button};
 use crate::number::real_cycles;
 
 #[test]
 fn the_stand_in_holds_the_area_that_was_worn() {
     let scene = fuzz_button();
-    let model = build(&scene).expect("it can be meshed");
-    let mut scar = Scar::new(&scene, &model);
+    let layout = Layout::of(&scene).expect("it can be meshed");
+    let mut scar = Scar::new(&scene, &layout);
     for jump in [1, 10, 100] {
         scar.wear(jump, 1);
         let held: f64 = scar
@@ -25,8 +25,8 @@ fn the_stand_in_holds_the_area_that_was_worn() {
 #[test]
 fn a_run_counts_to_its_last_cycle_and_rebuilds_what_has_drifted() {
     let scene = fuzz_button();
-    let model = build(&scene).expect("it can be meshed");
-    let run = forecast(&scene, &model);
+    let layout = Layout::of(&scene).expect("it can be meshed");
+    let run = forecast(&scene, &layout);
     let last = run.segments.last().expect("some cycles");
     assert_eq!(last.cycle, scene.cycles);
     // The block loses three quarters of its height; the slider does not wear.
@@ -41,7 +41,7 @@ fn a_tighter_tolerance_costs_more_cycles_of_more_increments() {
     let work = |tolerance: f64| {
         let mut scene = fuzz_button();
         scene.accuracy.tolerance = tolerance;
-        let run = forecast(&scene, &build(&scene).expect("it can be meshed"));
+        let run = forecast(&scene, &Layout::of(&scene).expect("it can be meshed"));
         (run.computed_cycles, run.increments() / run.computed_cycles)
     };
     let (loose, tight) = (work(0.1), work(0.01));
@@ -59,7 +59,7 @@ fn a_fixed_jump_is_foreseen_in_few_stretches() {
     scene.cycles = 1_000_000;
     scene.accuracy.cycle_jump = Some(1);
     scene.accuracy.increments_per_cycle = Some(1_000_000);
-    let run = forecast(&scene, &build(&scene).expect("it can be meshed"));
+    let run = forecast(&scene, &Layout::of(&scene).expect("it can be meshed"));
     let last = run.segments.last().expect("some cycles").cycle;
     assert!(run.segments.len() < 2_000, "{}", run.segments.len());
     assert!((run.computed_cycles - real_cycles(last)).abs() < 0.5);

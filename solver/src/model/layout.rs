@@ -1,0 +1,217 @@
+//! Positions of mesh lines, before any element exists: what a solve is sized by.
+//!
+//! A body is cut by vertical spines at `x` and by layers at fixed fractions of a spine's length, so node counts and
+//! surface positions follow from one dimension.
+
+use super::profile::Profile;
+use super::resolution::{self, Sizes};
+use crate::mesh::columns::is_tip;
+use crate::mesh::{MeshError, grading};
+use crate::number::count_at_least;
+use crate::scene::Scene;
+
+/// The contact surface ends where its arc is steeper than this; beyond it the surface is no graph.
+const STEEPEST_ANGLE_DEG: f64 = 80.0;
+/// More surface nodes than this on one body are refused: its dense compliance takes (2 n)^2 x 8 bytes, 288 MB, and
+/// condensation holds four such matrices for a moment.
+pub(super) const MOST_SURFACE_NODES: usize = 3_000;
+
+/// Mesh lines of both bodies.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Layout {
+    /// The slider, in its own frame.
+    pub slider: BodyLayout,
+    /// The receptacle.
+    pub receptacle: BodyLayout,
+    /// The lengths that the spacing was chosen from.
+    pub sizes: Sizes,
+}
+
+/// Mesh lines of one body.
+#[derive(Debug, Clone, PartialEq)]
+pub struct BodyLayout {
+    /// Positions of the spines, mm, ascending.
+    pub x: Vec<f64>,
+    /// Unworn surface.
+    pub profile: Profile,
+    /// Height of the far face, mm.
+    pub far_y: f64,
+    /// Layers as fractions of a spine, 0 on the surface to 1 on the far face.
+    pub fractions: Vec<f64>,
+    /// Spines whose surface nodes may touch the other body: first and one past the last.
+    pub contact: (usize, usize),
+}
+
+impl Layout {
+    /// Places the mesh lines of a scene.
+    ///
+    /// # Errors
+    /// [`MeshError::TooLarge`] beyond the limit of surface nodes, [`MeshError::Inverted`] if a surface crosses the far
+    /// face.
+    pub fn of(scene: &Scene) -> Result<Self, MeshError> {
+        let sizes = resolution::choose(scene);
+        for spacing in [&sizes.receptacle, &sizes.slider] {
+            within_limit(count_at_least(2.0 * spacing.core_half / spacing.core))?;
+        }
+        Ok(Self {
+            receptacle: receptacle(scene, &sizes)?,
+            slider: slider(scene, &sizes)?,
+            sizes,
+        })
+    }
+}
+
+impl BodyLayout {
+    fn new(
+        x: Vec<f64>,
+        profile: Profile,
+        far_y: f64,
+        fractions: Vec<f64>,
+    ) -> Result<Self, MeshError> {
+        within_limit(x.len())?;
+        let half = match profile {
+            Profile::Flat => f64::INFINITY,
+            Profile::Arc { radius } | Profile::Crown { radius } => {
+                radius * STEEPEST_ANGLE_DEG.to_radians().sin()
+            }
+        };
+        let contact = (
+            x.partition_point(|&x| x < -half),
+            x.partition_point(|&x| x <= half),
+        );
+        let layout = Self {
+            x,
+            profile,
+            far_y,
+            fractions,
+            contact,
+        };
+        layout.check_sides()?;
+        Ok(layout)
+    }
+
+    /// Checks that the whole surface lies on one side of the far face.
+    fn check_sides(&self) -> Result<(), MeshError> {
+        let longest = self.longest();
+        let length = |y: f64| self.far_y.signum() * (self.far_y - y);
+        let heights = self.heights();
+        let crossed = |y: &f64| length(*y) < 0.0 && !is_tip(length(*y), longest);
+        match heights.iter().position(crossed) {
+            None => Ok(()),
+            Some(spine) => Err(MeshError::Inverted {
+                element: spine.saturating_sub(1) * (self.fractions.len() - 1),
+                x_mm: self.x[spine],
+            }),
+        }
+    }
+
+    /// Heights of the surface nodes, mm.
+    pub fn heights(&self) -> Vec<f64> {
+        self.x.iter().map(|&x| self.profile.height(x)).collect()
+    }
+
+    fn longest(&self) -> f64 {
+        let lengths = self.heights().into_iter().map(|y| (self.far_y - y).abs());
+        lengths.fold(0.0, f64::max)
+    }
+
+    /// Positions of the contact nodes, mm, ascending.
+    pub fn contact_x(&self) -> &[f64] {
+        &self.x[self.contact.0..self.contact.1]
+    }
+
+    /// Number of nodes of the whole body: a spine without length is one node.
+    pub fn nodes(&self) -> usize {
+        let longest = self.longest();
+        let tips = self
+            .heights()
+            .into_iter()
+            .filter(|y| is_tip(self.far_y - y, longest));
+        let tips = tips.count();
+        (self.x.len() - tips) * self.fractions.len() + tips
+    }
+
+    /// Displacement unknowns of the whole body before condensation.
+    pub fn dofs(&self) -> usize {
+        2 * self.nodes()
+    }
+}
+
+fn within_limit(nodes: usize) -> Result<(), MeshError> {
+    if nodes > MOST_SURFACE_NODES {
+        return Err(MeshError::TooLarge {
+            nodes,
+            limit: MOST_SURFACE_NODES,
+        });
+    }
+    Ok(())
+}
+
+fn receptacle(scene: &Scene, sizes: &Sizes) -> Result<BodyLayout, MeshError> {
+    let shape = scene.receptacle.shape;
+    let half = 0.5 * shape.length_mm;
+    let (profile, x) = match shape.crown_radius_mm {
+        None => (Profile::Flat, grading::symmetric(half, &sizes.receptacle)),
+        Some(radius) => (
+            Profile::Crown { radius },
+            on_arc(radius, half, &sizes.receptacle),
+        ),
+    };
+    let fractions = grading::layers(sizes.contact_element / shape.height_mm, sizes.layer_growth);
+    BodyLayout::new(x, profile, -shape.height_mm, fractions)
+}
+
+fn slider(scene: &Scene, sizes: &Sizes) -> Result<BodyLayout, MeshError> {
+    let shape = scene.slider.shape;
+    let profile = Profile::Arc {
+        radius: shape.radius_mm,
+    };
+    let x = on_arc(shape.radius_mm, shape.half_width_mm, &sizes.slider);
+    let fractions = grading::layers(sizes.contact_element / shape.height_mm, sizes.layer_growth);
+    BodyLayout::new(x, profile, shape.height_mm, fractions)
+}
+
+/// Positions on an arc, spaced along its length, on [-half, half] or to its rim.
+fn on_arc(radius: f64, half: f64, spacing: &grading::Spacing) -> Vec<f64> {
+    let half = half.min(radius);
+    let mut x = grading::symmetric(radius * (half / radius).asin(), spacing);
+    for place in &mut x {
+        *place = radius * (*place / radius).sin();
+    }
+    let last = x.len() - 1;
+    (x[0], x[last]) = (-half, half);
+    x
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::model::build;
+    use crate::model::tests::fuzz_button;
+
+    #[test]
+    fn a_layout_counts_the_nodes_of_the_mesh_that_is_built_from_it() {
+        let mut scene = fuzz_button();
+        for crown in [None, Some(0.06)] {
+            scene.receptacle.shape.crown_radius_mm = crown;
+            let layout = Layout::of(&scene).expect("within the limit");
+            let model = build(&scene).expect("the preset can be meshed");
+            for (layout, model) in [
+                (&layout.slider, &model.slider),
+                (&layout.receptacle, &model.receptacle),
+            ] {
+                assert_eq!(layout.nodes(), model.mesh.nodes());
+                assert_eq!(layout.contact_x(), model.contact_x());
+            }
+        }
+    }
+
+    #[test]
+    fn a_surface_beyond_the_far_face_is_refused() {
+        let mut scene = fuzz_button();
+        scene.slider.shape.height_mm = 0.01;
+        let error = Layout::of(&scene).expect_err("the arc crosses the top face");
+        assert!(matches!(error, MeshError::Inverted { .. }), "{error}");
+        assert!(build(&scene).is_err());
+    }
+}
