@@ -43,11 +43,11 @@ pub(super) async fn build_manifest(
         Ok(Err(FilesError::Write { path, cause })) => Err(StoreError::Prepare { path, cause }),
         // A retry would fail again; rows and snapshots remain readable on their own routes.
         Ok(Err(FilesError::Document(error))) => {
-            tracing::error!(job = %claim.id, %error, "documents were left out of a manifest");
+            tracing::error!(job = %claim.id, %error, "documents are missing from a manifest");
             Ok(Vec::new())
         }
         Err(error) => {
-            tracing::error!(job = %claim.id, %error, "documents were left out of a manifest");
+            tracing::error!(job = %claim.id, %error, "documents are missing from a manifest");
             Ok(Vec::new())
         }
     }

@@ -122,22 +122,24 @@ mod tests {
     fn named_files_stay_and_empty_folders_are_removed() {
         let place = tempfile::tempdir().expect("a folder");
         let folder = Folder::beside(&place.path().join("x.db"));
-        let (kept, lost) = (Uuid::from_u128(1), Uuid::from_u128(2));
-        for (id, lease) in [(kept, 1), (kept, 2), (lost, 1)] {
+        let (named_job, other_job) = (Uuid::from_u128(1), Uuid::from_u128(2));
+        for (id, lease) in [(named_job, 1), (named_job, 2), (other_job, 1)] {
             let attempt = folder.of_attempt(id, lease);
             std::fs::create_dir_all(&attempt).expect("a folder");
             std::fs::write(attempt.join("a.vtu"), "x").expect("a file");
         }
-        let named = HashSet::from([Folder::place(kept, 2, "a.vtu")]);
+        let named = HashSet::from([Folder::place(named_job, 2, "a.vtu")]);
         assert_eq!(
             folder
-                .remove_unnamed(Some((kept, 1)), &named)
+                .remove_unnamed(Some((named_job, 1)), &named)
                 .expect("removed"),
             1
         );
-        assert!(folder.of_attempt(lost, 1).exists());
+        assert!(folder.of_attempt(other_job, 1).exists());
         assert_eq!(folder.remove_unnamed(None, &named).expect("removed"), 1);
-        assert!(folder.of_attempt(kept, 2).join("a.vtu").exists());
-        assert!(!folder.of_attempt(kept, 1).exists() && !folder.of_attempt(lost, 1).exists());
+        assert!(folder.of_attempt(named_job, 2).join("a.vtu").exists());
+        assert!(
+            !folder.of_attempt(named_job, 1).exists() && !folder.of_attempt(other_job, 1).exists()
+        );
     }
 }

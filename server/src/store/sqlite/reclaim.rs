@@ -1,12 +1,12 @@
 //! Reclaiming jobs from lost workers: into the queue, or under a new lease to be ended.
 
+use api::job::Status;
 use uuid::Uuid;
 
 use crate::queue::Transition;
 use crate::store::sqlite::queries::{BEGIN, attempt_count, job_id};
 use crate::store::sqlite::transitions::{RunningJob, end_running};
 use crate::store::{Claim, End, Reclaimed, Store, StoreError};
-use api::job::Status;
 
 #[derive(sqlx::FromRow)]
 struct LostRow {
