@@ -39,9 +39,6 @@ use uuid::Uuid;
 use crate::metrics::Metrics;
 use crate::store::{Changes, LeaseState, NewJob, RequestKey, StoreError, Submitted};
 
-/// Number of changes that a subscriber may fall behind.
-const CHANGE_CAPACITY: usize = 1024;
-
 /// Jobs, batches, events and results, durable.
 #[derive(Debug)]
 pub struct Store {

@@ -80,19 +80,38 @@ impl Fixture {
         let reclaimed = self.store.reclaim_expired(by, by + 1).await;
         let reclaimed = reclaimed.expect("the store");
         for claim in &reclaimed.ending {
-            let (empty, end) = (JobUpdate::default(), end(Transition::WorkerLost));
-            let ended = self.store.end(claim, &empty, &end, by).await;
-            ended.expect("the store").expect("the lease is held");
+            let empty = JobUpdate::default();
+            let ended = self.ended(claim, &empty, Transition::WorkerLost, by).await;
+            ended.expect("the lease is held");
         }
         reclaimed.queued + reclaimed.ending.len()
     }
 
+    pub(in crate::store) async fn recorded(
+        &self,
+        claim: &Claim,
+        update: &JobUpdate,
+        expires_at: i64,
+    ) -> LeaseState {
+        let state = self.store.record(claim, update, expires_at).await;
+        state.expect("the store")
+    }
+
+    /// Ends a job; returns its status, or `None` if the lease was lost.
+    pub(in crate::store) async fn ended(
+        &self,
+        claim: &Claim,
+        update: &JobUpdate,
+        transition: Transition,
+        now: i64,
+    ) -> Option<Status> {
+        let status = self.store.end(claim, update, &end(transition), now).await;
+        status.expect("the store")
+    }
+
     pub(in crate::store) async fn ended_with(&self, claim: &Claim, update: &JobUpdate) {
-        let ended = self
-            .store
-            .end(claim, update, &end(Transition::Succeed), 2)
-            .await;
-        ended.expect("the store").expect("the lease is held");
+        let ended = self.ended(claim, update, Transition::Succeed, 2).await;
+        ended.expect("the lease is held");
     }
 
     pub(in crate::store) async fn cycles(&self, id: Uuid) -> Vec<u64> {

@@ -13,7 +13,6 @@ use sqlx::sqlite::{
 use tokio::sync::{Notify, broadcast};
 
 use crate::queue::ATTEMPT_LIMIT;
-use crate::store::sqlite::CHANGE_CAPACITY;
 use crate::store::sqlite::folder::Folder;
 use crate::store::sqlite::submissions::Submissions;
 use crate::store::{Store, StoreError};
@@ -26,7 +25,10 @@ const OLDEST_SQLITE_TEXT: &str = "3.51.3";
 const BUSY_TIMEOUT: Duration = Duration::from_secs(2);
 /// Longest wait for a reading connection; shorter than a lease, because workers read too.
 const READER_TIMEOUT: Duration = Duration::from_secs(2);
+/// Number of reading connections.
 const READERS: u32 = 4;
+/// Number of changes that a subscriber may fall behind.
+const CHANGE_CAPACITY: usize = 1024;
 
 impl Store {
     /// Opens the database at `url` (`sqlite://PATH`), creates it if it is missing, and migrates its schema.

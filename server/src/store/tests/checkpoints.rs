@@ -7,11 +7,7 @@ async fn a_second_attempt_starts_with_an_empty_history() {
     let fixture = Fixture::new().await;
     let id = fixture.queued().await;
     let claim = fixture.claimed(10).await;
-    fixture
-        .store
-        .record(&claim, &update(5), 10)
-        .await
-        .expect("the store");
+    fixture.recorded(&claim, &update(5), 10).await;
     fixture.reclaimed(10).await;
     assert_eq!(
         fixture.cycles(id).await,
@@ -27,10 +23,7 @@ async fn the_next_attempt_resumes_from_the_checkpoint_and_keeps_earlier_results(
     let fixture = Fixture::new().await;
     let (id, store) = (fixture.queued().await, &fixture.store);
     let lost = fixture.claimed(10).await;
-    store
-        .record(&lost, &with_checkpoint(3), 10)
-        .await
-        .expect("the store");
+    fixture.recorded(&lost, &with_checkpoint(3), 10).await;
     fixture.reclaimed(10).await;
     let late = store.record(&lost, &with_checkpoint(9), 10).await;
     assert_eq!(late.expect("the store"), LeaseState::Lost);

@@ -13,10 +13,7 @@ async fn a_worker_that_lost_its_lease_writes_nothing() {
     assert!(fresh.lease > stale.lease);
 
     assert_eq!(
-        store
-            .record(&stale, &update(7), 50)
-            .await
-            .expect("the store"),
+        fixture.recorded(&stale, &update(7), 50).await,
         LeaseState::Lost
     );
     assert_eq!(
@@ -24,36 +21,28 @@ async fn a_worker_that_lost_its_lease_writes_nothing() {
         LeaseState::Lost
     );
     assert_eq!(
-        store
-            .end(&stale, &update(8), &end(Transition::Succeed), 60)
-            .await
-            .expect("the store"),
+        fixture
+            .ended(&stale, &update(8), Transition::Succeed, 60)
+            .await,
         None
     );
     assert_eq!(fixture.cycles(id).await, Vec::<u64>::new());
     assert_eq!(fixture.job(id).await.status, Status::Running);
 
-    let held = store
-        .record(&fresh, &update(1), 100)
-        .await
-        .expect("the store");
+    let held = fixture.recorded(&fresh, &update(1), 100).await;
     assert_eq!(
         held,
         LeaseState::Held {
             cancel_requested: false
         }
     );
-    let status = store
-        .end(&fresh, &update(2), &end(Transition::Succeed), 60)
-        .await
-        .expect("the store");
+    let status = fixture
+        .ended(&fresh, &update(2), Transition::Succeed, 60)
+        .await;
     assert_eq!(status, Some(Status::Succeeded));
     assert_eq!(fixture.cycles(id).await, [1, 2]);
     assert_eq!(
-        store
-            .record(&fresh, &update(3), 100)
-            .await
-            .expect("the store"),
+        fixture.recorded(&fresh, &update(3), 100).await,
         LeaseState::Lost
     );
     assert_eq!(fixture.job(id).await.outcome, Some(Outcome::Completed));
@@ -90,10 +79,8 @@ async fn releasing_a_job_costs_no_attempt() {
     for _ in 0..2 * ATTEMPT_LIMIT {
         let claim = fixture.claimed(10).await;
         let status = fixture
-            .store
-            .end(&claim, &JobUpdate::default(), &end(Transition::Release), 2)
-            .await
-            .expect("the store");
+            .ended(&claim, &JobUpdate::default(), Transition::Release, 2)
+            .await;
         assert_eq!(status, Some(Status::Queued));
     }
     let job = fixture.job(id).await;
@@ -109,11 +96,7 @@ async fn a_job_with_a_cancel_request_gets_no_further_attempt() {
         fixture.store.cancel(id, 2).await.expect("the store"),
         Some(Cancelled::Requested)
     );
-    let held = fixture
-        .store
-        .record(&claim, &update(1), 10)
-        .await
-        .expect("the store");
+    let held = fixture.recorded(&claim, &update(1), 10).await;
     assert_eq!(
         held,
         LeaseState::Held {
@@ -134,28 +117,14 @@ async fn event_numbers_have_no_gaps() {
     let fixture = Fixture::new().await;
     let id = fixture.queued().await;
     let lost = fixture.claimed(10).await;
-    fixture
-        .store
-        .record(&lost, &update(1), 10)
-        .await
-        .expect("the store");
+    fixture.recorded(&lost, &update(1), 10).await;
     fixture.reclaimed(10).await;
-    fixture
-        .store
-        .record(&lost, &update(2), 10)
-        .await
-        .expect("the store");
+    fixture.recorded(&lost, &update(2), 10).await;
     let claim = fixture.claimed(10).await;
+    fixture.recorded(&claim, &update(1), 10).await;
     fixture
-        .store
-        .record(&claim, &update(1), 10)
-        .await
-        .expect("the store");
-    fixture
-        .store
-        .end(&claim, &JobUpdate::default(), &end(Transition::Fail), 3)
-        .await
-        .expect("the store");
+        .ended(&claim, &JobUpdate::default(), Transition::Fail, 3)
+        .await;
     let events = fixture.store.events(id, 0).await.expect("the store");
     let found: Vec<_> = events
         .iter()
