@@ -79,12 +79,11 @@ impl Store {
             return Ok(None);
         };
         let place = stored.place.unwrap_or_default();
-        let content = match stored.content {
-            Some(content) => Content::Inline(content),
-            None => {
-                let path = self.folder.path(&place);
-                Content::File(path.ok_or_else(|| corrupt(id, "path of a file", &place))?)
-            }
+        let content = if let Some(content) = stored.content {
+            Content::Inline(content)
+        } else {
+            let path = self.folder.path(&place);
+            Content::File(path.ok_or_else(|| corrupt(id, "path of a file", &place))?)
         };
         Ok(Some((stored.row.into(), content)))
     }
