@@ -137,8 +137,8 @@ fn job(
     let job = NewJob {
         plan: estimate.plan(&resolved, machine),
         spec: resolved.spec,
-        wishes: SubmitOptions {
-            priority: queue::sweep_priority(position),
+        options: SubmitOptions {
+            priority: queue::batch_priority(position),
             deadline_s: None,
         },
     };

@@ -1,9 +1,9 @@
-//! The service's clocks.
+//! Clocks of the service.
 
 use std::sync::OnceLock;
 use std::time::{Instant, SystemTime, UNIX_EPOCH};
 
-/// Milliseconds since 1970-01-01 UTC.
+/// Returns the milliseconds since 1970-01-01 UTC.
 pub fn now_ms() -> i64 {
     let since = SystemTime::now()
         .duration_since(UNIX_EPOCH)
@@ -11,9 +11,9 @@ pub fn now_ms() -> i64 {
     i64::try_from(since.as_millis()).unwrap_or(i64::MAX)
 }
 
-/// Milliseconds on a clock that nobody sets: it starts with the process at [`now_ms`] and only goes on. Leases, which
-/// never outlive a process, are measured by it, so that a machine whose time is corrected loses no worker.
-pub fn steady_ms() -> i64 {
+/// Returns the milliseconds of a monotonic clock, which starts with the process at [`now_ms`]. Leases, which never outlive
+/// a process, are measured by it, so that a correction of the system time expires none.
+pub fn monotonic_ms() -> i64 {
     static START: OnceLock<(i64, Instant)> = OnceLock::new();
     let (start, since) = START.get_or_init(|| (now_ms(), Instant::now()));
     start.saturating_add(i64::try_from(since.elapsed().as_millis()).unwrap_or(i64::MAX))

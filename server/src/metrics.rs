@@ -1,4 +1,4 @@
-//! What is counted for `/metrics` (Prometheus).
+//! Metrics for `/metrics` (Prometheus).
 
 use std::fmt;
 
@@ -10,17 +10,17 @@ use prometheus_client::metrics::gauge::Gauge;
 use prometheus_client::metrics::histogram::Histogram;
 use prometheus_client::registry::{Registry, Unit};
 
-/// Bounds of a wait for a worker, s: at once, soon, after a coffee, tomorrow.
+/// Histogram bounds of the wait for a worker, s: from an idle worker to a queue of a day.
 const WAIT_BOUNDS_S: [f64; 9] = [0.01, 0.1, 0.5, 1.0, 10.0, 60.0, 600.0, 3_600.0, 86_400.0];
-/// Bounds of a solve, s: from a draft to a study over a weekend.
+/// Histogram bounds of a solve, s: from a draft to a run of a day.
 const SOLVE_BOUNDS_S: [f64; 9] = [0.1, 0.5, 1.0, 5.0, 10.0, 60.0, 600.0, 3_600.0, 86_400.0];
 
 type ByStatus = Family<[(&'static str, &'static str); 1], Gauge>;
 
-/// What the store tells when it is asked for metrics.
+/// Gauges that the store reads on request.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Gauges {
-    /// Jobs by status, and the age of the oldest of them, s.
+    /// Status, number of jobs, age of the oldest job in s.
     pub jobs: Vec<(Status, i64, i64)>,
     /// Age of the oldest checkpoint of a running job, s; 0 if there is none.
     pub oldest_checkpoint_s: i64,
@@ -28,7 +28,7 @@ pub struct Gauges {
     pub wal_bytes: i64,
 }
 
-/// Counters, and levels as they were when they were last asked for.
+/// Counters, histograms and the last read gauges.
 pub struct Metrics {
     registry: Registry,
     jobs: ByStatus,
@@ -36,22 +36,22 @@ pub struct Metrics {
     ended: Family<[(&'static str, &'static str); 1], Counter>,
     oldest_checkpoint: Gauge,
     wal: Gauge,
-    /// From a job's submission to its first claim.
+    /// Time from a job's submission to its first claim, s.
     pub claim_latency: Histogram,
-    /// From a claim to the end of its job.
+    /// Time from a claim to the end of its attempt, s.
     pub solve_duration: Histogram,
-    /// Claims.
+    /// Claims by workers.
     pub attempts: Counter,
-    /// Jobs taken back from lost workers.
-    pub rescues: Counter,
-    /// Writes that came after their lease and were thrown away.
+    /// Jobs reclaimed from lost workers.
+    pub reclaimed: Counter,
+    /// Writes that were discarded because their lease was lost.
     pub stale_writes: Counter,
-    /// Checkpoints that were stored.
+    /// Stored checkpoints.
     pub checkpoints: Counter,
     streams_open: Gauge,
 }
 
-/// An open event stream, counted as long as it lives.
+/// Guard of an open event stream, which is counted as long as the guard lives.
 #[derive(Debug)]
 pub struct OpenStream(Gauge);
 
@@ -62,31 +62,31 @@ impl Drop for OpenStream {
 }
 
 impl Metrics {
-    /// Counts a stream.
+    /// Counts an open event stream.
     pub fn stream(&self) -> OpenStream {
         self.streams_open.inc();
         OpenStream(self.streams_open.clone())
     }
 
-    /// A job has come to its end.
+    /// Counts an ended job.
     pub fn ended(&self, status: Status) {
         self.ended
             .get_or_create(&[("status", status.as_str())])
             .inc();
     }
 
-    /// The exposition, with these levels.
+    /// Returns the exposition, with these gauges.
     ///
     /// # Errors
-    /// If it cannot be formatted.
-    pub fn text(&self, levels: &Gauges) -> Result<String, fmt::Error> {
-        for (status, count, oldest_s) in &levels.jobs {
+    /// [`fmt::Error`] if it cannot be formatted.
+    pub fn text(&self, gauges: &Gauges) -> Result<String, fmt::Error> {
+        for (status, count, oldest_s) in &gauges.jobs {
             let label = [("status", status.as_str())];
             self.jobs.get_or_create(&label).set(*count);
             self.oldest.get_or_create(&label).set(*oldest_s);
         }
-        self.oldest_checkpoint.set(levels.oldest_checkpoint_s);
-        self.wal.set(levels.wal_bytes);
+        self.oldest_checkpoint.set(gauges.oldest_checkpoint_s);
+        self.wal.set(gauges.wal_bytes);
         let mut text = String::new();
         encode(&mut text, &self.registry)?;
         Ok(text)
@@ -105,7 +105,7 @@ impl Default for Metrics {
             claim_latency: Histogram::new(WAIT_BOUNDS_S),
             solve_duration: Histogram::new(SOLVE_BOUNDS_S),
             attempts: Counter::default(),
-            rescues: Counter::default(),
+            reclaimed: Counter::default(),
             stale_writes: Counter::default(),
             checkpoints: Counter::default(),
             streams_open: Gauge::default(),
@@ -124,7 +124,7 @@ impl Metrics {
             Unit::Seconds,
             self.oldest.clone(),
         );
-        r.register("jobs_ended", "Jobs that came to an end", self.ended.clone());
+        r.register("jobs_ended", "Ended jobs", self.ended.clone());
         r.register_with_unit(
             "claim_latency",
             "From submission to the first claim",
@@ -140,12 +140,12 @@ impl Metrics {
         r.register("attempts", "Claims by workers", self.attempts.clone());
         r.register(
             "rescues",
-            "Jobs taken back from lost workers",
-            self.rescues.clone(),
+            "Jobs reclaimed from lost workers",
+            self.reclaimed.clone(),
         );
         r.register(
             "stale_writes_refused",
-            "Writes that came after their lease",
+            "Writes discarded because their lease was lost",
             self.stale_writes.clone(),
         );
         r.register(
@@ -167,7 +167,7 @@ impl Metrics {
         );
         r.register(
             "streams_open",
-            "Event streams that are open",
+            "Open event streams",
             self.streams_open.clone(),
         );
         self
@@ -185,20 +185,20 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_was_counted_is_told_by_name_and_unit() {
+    fn metrics_are_exposed_by_name_and_unit() {
         let metrics = Metrics::default();
-        metrics.rescues.inc();
+        metrics.reclaimed.inc();
         metrics.attempts.inc();
         metrics.claim_latency.observe(0.05);
         metrics.ended(Status::Succeeded);
-        let levels = Gauges {
+        let gauges = Gauges {
             jobs: vec![(Status::Queued, 3, 42)],
             oldest_checkpoint_s: 2,
             wal_bytes: 4096,
         };
         let open = metrics.stream();
         drop(metrics.stream());
-        let text = metrics.text(&levels).expect("text");
+        let text = metrics.text(&gauges).expect("text");
         drop(open);
         for line in [
             "fretwear_jobs{status=\"queued\"} 3",

@@ -1,82 +1,88 @@
 //! The queue's rules, as pure functions.
 //!
-//! Moves: `queued -> running -> succeeded | failed | cancelled`; a running job returns to the queue when its worker was
-//! lost (a bounded number of times) or gave it back (which costs no attempt).
+//! Transitions: `queued -> running -> succeeded | failed | cancelled`; a running job returns to the queue when its worker
+//! was lost (a bounded number of times) or released it (which costs no attempt).
 
 mod admission;
 mod order;
 
 use api::job::Status;
 
-pub use admission::{Choice, Room, Waiting, choose};
-pub use order::{MOST_PRIORITY, place, sweep_priority};
+pub use admission::{Admission, MemoryBudget, WaitingJob, admit};
+pub use order::{MAX_PRIORITY, batch_priority, sort_key};
 
-/// Why a job waits that nothing stands in the way of.
+/// Status reason of a job that waits for a free worker only.
 pub const WAITING_FOR_WORKER: &str = "waiting for a worker";
-/// How the reason of jobs begins that wait because the disk is short.
+/// Prefix of the status reason of jobs that wait for disk space.
 pub const WAITING_FOR_DISK: &str = "waiting for disk space: ";
 
-/// How often a job is tried before lost workers make it fail, unless the service is told otherwise.
+/// Default number of attempts after which a job whose workers were lost fails.
 pub const ATTEMPT_LIMIT: u32 = 3;
 
-/// What happens to a job.
+/// A transition of a job.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Transition {
-    /// A worker takes it.
+    /// A worker claims it.
     Claim,
-    /// The solve ended with a result.
+    /// The solve returned a result.
     Succeed,
     /// The solve failed; the same input would fail again.
     Fail,
     /// It was cancelled: by the user while queued, by its worker while running.
     Cancel,
-    /// Its worker gives it back at a graceful shutdown.
-    GiveBack,
+    /// Its worker releases it at a graceful shutdown.
+    Release,
     /// Its worker was lost.
-    Lose,
+    WorkerLost,
     /// Its deadline has passed.
     Expire,
 }
 
 impl Transition {
-    /// Every move.
+    /// Every transition.
     pub const ALL: [Self; 7] = [
         Self::Claim,
         Self::Succeed,
         Self::Fail,
         Self::Cancel,
-        Self::GiveBack,
-        Self::Lose,
+        Self::Release,
+        Self::WorkerLost,
         Self::Expire,
     ];
 }
 
-/// How often a job was tried, and how often it may be.
+/// Attempts at a job, and their limit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Tries {
-    /// Claims so far, those that were given back not counted.
+pub struct Attempts {
+    /// Claims so far, without the released ones.
     pub made: u32,
-    /// How many there may be.
+    /// Largest number of attempts.
     pub limit: u32,
 }
 
-/// The status after a move, or nothing if the move is not allowed. `unwanted` tells whether the user has asked for the
-/// job's end.
-pub fn after(status: Status, step: Transition, tries: Tries, unwanted: bool) -> Option<Status> {
-    match (status, step) {
+/// Returns the status after a transition, or `None` if the transition is not allowed.
+pub fn next_status(
+    status: Status,
+    transition: Transition,
+    attempts: Attempts,
+    cancel_requested: bool,
+) -> Option<Status> {
+    match (status, transition) {
         (Status::Queued, Transition::Claim) => Some(Status::Running),
         (Status::Queued | Status::Running, Transition::Cancel) => Some(Status::Cancelled),
         (Status::Running, Transition::Succeed) => Some(Status::Succeeded),
-        (Status::Running, Transition::GiveBack | Transition::Lose) if unwanted => {
+        (Status::Running, Transition::Release | Transition::WorkerLost) if cancel_requested => {
             Some(Status::Cancelled)
         }
-        (Status::Running, Transition::GiveBack) => Some(Status::Queued),
-        (Status::Running, Transition::Lose) if tries.made < tries.limit => Some(Status::Queued),
-        (Status::Running, Transition::Lose | Transition::Fail)
+        (Status::Running, Transition::Release) => Some(Status::Queued),
+        (Status::Running, Transition::WorkerLost) if attempts.made < attempts.limit => {
+            Some(Status::Queued)
+        }
+        (Status::Running, Transition::WorkerLost | Transition::Fail)
         | (Status::Queued | Status::Running, Transition::Expire) => Some(Status::Failed),
         (
             Status::Queued,
-            Transition::Succeed | Transition::Fail | Transition::GiveBack | Transition::Lose,
+            Transition::Succeed | Transition::Fail | Transition::Release | Transition::WorkerLost,
         )
         | (Status::Running, Transition::Claim)
         | (Status::Succeeded | Status::Failed | Status::Cancelled, _) => None,
@@ -87,34 +93,42 @@ pub fn after(status: Status, step: Transition, tries: Tries, unwanted: bool) -> 
 mod tests {
     use super::*;
 
-    /// Every status, move, number of attempts around the limit, and wish, against the table of the module's head.
+    /// Every status, transition, number of attempts around the limit and cancel request against the module's table.
     #[test]
-    fn every_move_from_every_status_is_as_the_table_says() {
+    fn every_transition_from_every_status_matches_the_table() {
         for status in Status::ALL {
-            for step in Transition::ALL {
+            for transition in Transition::ALL {
                 for made in 0..=ATTEMPT_LIMIT + 1 {
-                    for unwanted in [false, true] {
-                        let expected = match (status.as_str(), step) {
+                    for cancel_requested in [false, true] {
+                        let expected = match (status.as_str(), transition) {
                             ("queued", Transition::Claim) => Some("running"),
                             ("queued" | "running", Transition::Cancel) => Some("cancelled"),
                             ("running", Transition::Succeed) => Some("succeeded"),
                             ("queued" | "running", Transition::Expire)
                             | ("running", Transition::Fail) => Some("failed"),
-                            ("running", Transition::GiveBack | Transition::Lose) if unwanted => {
+                            ("running", Transition::Release | Transition::WorkerLost)
+                                if cancel_requested =>
+                            {
                                 Some("cancelled")
                             }
-                            ("running", Transition::Lose) if made >= ATTEMPT_LIMIT => {
+                            ("running", Transition::WorkerLost) if made >= ATTEMPT_LIMIT => {
                                 Some("failed")
                             }
-                            ("running", Transition::GiveBack | Transition::Lose) => Some("queued"),
+                            ("running", Transition::Release | Transition::WorkerLost) => {
+                                Some("queued")
+                            }
                             _ => None,
                         };
-                        let tries = Tries {
+                        let attempts = Attempts {
                             made,
                             limit: ATTEMPT_LIMIT,
                         };
-                        let found = after(status, step, tries, unwanted).map(Status::as_str);
-                        assert_eq!(found, expected, "{status:?} {step:?} {made} {unwanted}");
+                        let found = next_status(status, transition, attempts, cancel_requested)
+                            .map(Status::as_str);
+                        assert_eq!(
+                            found, expected,
+                            "{status:?} {transition:?} {made} {cancel_requested}"
+                        );
                     }
                 }
             }
@@ -123,7 +137,7 @@ mod tests {
 
     #[test]
     fn nothing_follows_a_terminal_status() {
-        let tries = Tries { made: 1, limit: 3 };
+        let attempts = Attempts { made: 1, limit: 3 };
         for status in Status::ALL
             .into_iter()
             .filter(|status| status.is_terminal())
@@ -131,7 +145,7 @@ mod tests {
             assert!(
                 Transition::ALL
                     .into_iter()
-                    .all(|step| after(status, step, tries, false).is_none())
+                    .all(|transition| next_status(status, transition, attempts, false).is_none())
             );
         }
     }

@@ -1,6 +1,6 @@
-//! The running service: store, workers, maintenance and HTTP, started and stopped together.
+//! The service: store, workers, maintenance and HTTP, started and stopped together.
 
-mod upkeep;
+mod maintenance;
 
 use std::net::SocketAddr;
 use std::sync::Arc;
@@ -16,45 +16,45 @@ use crate::store::{Store, StoreError};
 use crate::worker;
 use crate::worker::Rules;
 
-/// How long a stop waits for open requests, beyond what solving processes are given.
+/// Time for open requests to end when the service stops, after the grace period of solving processes.
 const GRACE: Duration = Duration::from_secs(5);
 
-/// How the service is to run.
+/// Configuration of the service.
 #[derive(Debug, Clone)]
 pub struct Config {
-    /// Where it listens; a loopback address unless a token is asked for.
+    /// Address to listen on; loopback unless an access token is required.
     pub listen: SocketAddr,
-    /// Who may ask.
+    /// Access control.
     pub access: Access,
-    /// Its database, `sqlite://PATH`.
+    /// Address of the database, `sqlite://PATH`.
     pub database: String,
-    /// How many jobs are solved at once.
+    /// Number of jobs solved at the same time.
     pub workers: usize,
-    /// How often a job is tried whose workers are lost.
+    /// Largest number of attempts at a job whose workers are lost.
     pub attempts: u32,
-    /// After how many days ended jobs are deleted, if they are.
+    /// Days after which ended jobs are deleted.
     pub keep_days: Option<u32>,
-    /// How workers work.
+    /// Rules of the workers.
     pub rules: Rules,
 }
 
-/// Why the service cannot run.
+/// Why the service cannot start.
 #[derive(Debug, thiserror::Error)]
 pub enum ServiceError {
-    /// Listening elsewhere than on loopback is not safe without a token.
+    /// Listening beyond loopback requires an access token.
     #[error(
         "{0} is not a loopback address; listening elsewhere needs an access token (--token-file)"
     )]
     NotLoopback(SocketAddr),
-    /// The address cannot be taken.
+    /// The address cannot be bound.
     #[error("cannot listen on {address}: {cause}")]
     Listen {
         /// The address.
         address: SocketAddr,
-        /// Why.
+        /// The system's error.
         cause: std::io::Error,
     },
-    /// The store cannot be used.
+    /// The store cannot be opened.
     #[error(transparent)]
     Store(#[from] StoreError),
 }
@@ -62,7 +62,7 @@ pub enum ServiceError {
 /// A running service.
 #[derive(Debug)]
 pub struct Service {
-    /// Where it listens.
+    /// Address that it listens on.
     pub address: SocketAddr,
     store: Arc<Store>,
     stopping: CancellationToken,
@@ -71,10 +71,10 @@ pub struct Service {
 }
 
 impl Service {
-    /// Starts everything. Jobs that an ended process left running are queued again first.
+    /// Starts everything, after reclaiming the jobs of a process that has ended.
     ///
     /// # Errors
-    /// [`ServiceError`]; nothing keeps running then.
+    /// [`ServiceError`]; nothing is left running.
     pub async fn start(config: Config) -> Result<Self, ServiceError> {
         if !config.listen.ip().is_loopback() && !config.access.requires_token() {
             return Err(ServiceError::NotLoopback(config.listen));
@@ -87,8 +87,8 @@ impl Service {
         let address = listener.local_addr().map_err(listen)?;
         let store = Arc::new(Store::open_with(&config.database, config.attempts).await?);
         let rules = Arc::new(config.rules);
-        let rescued = store.rescue_all(rules.lease_end()).await?;
-        let (queued, ending) = (rescued.queued, rescued.ending.len());
+        let reclaimed = store.reclaim_all(rules.lease_end()).await?;
+        let (queued, ending) = (reclaimed.queued, reclaimed.ending.len());
         tracing::info!(%address, database = config.database, workers = config.workers, queued, ending, "service started");
         let stopping = CancellationToken::new();
         let mut tasks = JoinSet::new();
@@ -99,11 +99,11 @@ impl Service {
                 stopping.clone(),
             ));
         }
-        tasks.spawn(upkeep::maintain(
+        tasks.spawn(maintenance::maintain(
             Arc::clone(&store),
             Arc::clone(&rules),
             config.keep_days,
-            rescued,
+            reclaimed,
             stopping.clone(),
         ));
         let router = http::router(App::new(
@@ -121,13 +121,13 @@ impl Service {
         })
     }
 
-    /// Stops everything: streams end, running jobs go back to the queue without costing an attempt.
+    /// Stops everything: streams end, running jobs return to the queue without losing an attempt.
     pub async fn stop(mut self) {
         self.stopping.cancel();
         let ended = async { while self.tasks.join_next().await.is_some() {} };
         if tokio::time::timeout(self.grace, ended).await.is_err() {
-            // A client that neither sends nor receives must not keep the service alive.
-            tracing::warn!("connections that would not end are broken off");
+            // A client that neither sends nor receives must not block the stop.
+            tracing::warn!("connections that did not end in time are aborted");
             self.tasks.shutdown().await;
         }
         self.store.close().await;

@@ -1,183 +1,121 @@
-//! Running the engine in this process: its events as documents, and what it cost.
+//! Solves: the engine's events as documents, checkpoints and cost; in this process, or in one of its own.
 
 pub mod checkpoint;
 mod cost;
+pub(crate) mod process;
+pub(crate) mod protocol;
 
 use std::ops::ControlFlow;
 
-use api::job::{Outcome, Phase};
-use api::results::{Cost, ResultFile, Snapshot, Summary};
-use serde::{Deserialize, Serialize};
+use api::results::{Cost, Summary};
 use solver::SolveError;
-use solver::checkpoint::Checkpoint;
 use solver::observer::{self, Event, Observer};
-use solver::record::{CycleReport, PlacedFields};
+use solver::record::PlacedFields;
 use solver::scene::Scene;
 
 use crate::export::{history, vtu};
-use checkpoint::{Encoded, Keeping, Saved};
+use checkpoint::{Checkpoint, CheckpointPolicy, EncodedCheckpoint};
 use cost::Stopwatch;
 pub use cost::{children_cpu_s, cpu_s, thread_cpu_s};
+pub use protocol::{Failure, FieldsFile, Line};
 
-/// Exit code of a solving process that could not write a result: the disk's fault, so it is tried again.
-pub const UNWRITTEN: i32 = 4;
-
-/// One line of a solving process, in order; the last one is `Summary`, `Failed` or `Stopped`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(tag = "event", content = "data", rename_all = "snake_case")]
-pub enum Line {
-    /// Another phase begins.
-    Phase(Phase),
-    /// A computed cycle is done.
-    Cycle(CycleReport),
-    /// A requested snapshot.
-    Snapshot(Box<Snapshot>),
-    /// Fields inside the bodies at one position of a snapshot; never sent, but written where it was computed.
-    #[serde(skip)]
-    Fields(FieldsFile),
-    /// A file was written into the attempt's folder.
-    Kept(ResultFile),
-    /// The first line, where the checkpoint that was to be gone on from cannot be: the run begins anew.
-    Anew(String),
-    /// A place to go on from; what belongs to its cycle came before.
-    Checkpoint(Encoded),
-    /// The run ended with a result.
-    Summary(Box<Summary>),
-    /// The run failed; the same input would fail again.
-    Failed(Failure),
-    /// The process was asked to end, and did so after a checkpoint.
-    Stopped,
-}
-
-/// Fields as a file.
-#[derive(Debug, Clone, PartialEq)]
-pub struct FieldsFile {
-    /// Its name.
-    pub name: String,
-    /// The cycle.
-    pub cycle: u64,
-    /// Its content, VTU.
-    pub bytes: Vec<u8>,
-}
-
-/// A solver's own failure.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, thiserror::Error)]
-#[error("{reason}")]
-pub struct Failure {
-    /// How the solve ended.
-    pub outcome: Outcome,
-    /// Why, with numbers.
-    pub reason: String,
-}
-
-impl From<SolveError> for Failure {
-    fn from(error: SolveError) -> Self {
-        Self {
-            outcome: Outcome::NotConverged,
-            reason: error.to_string(),
-        }
-    }
-}
-
-/// Solves a scene. `on` receives each line but the last, and may stop the run.
+/// Solves a scene. `on` receives every line except the last one, and may stop the run.
 ///
 /// # Errors
 /// [`Failure`] with the engine's numbers.
 pub fn run(scene: &Scene, on: &mut dyn FnMut(Line) -> ControlFlow<()>) -> Result<Summary, Failure> {
-    run_from(scene, None, &Keeping::default(), on)
+    run_from(scene, None, &CheckpointPolicy::default(), on)
 }
 
-/// Solves a scene from a checkpoint, if there is one, and tells checkpoints on the way. A checkpoint that does not fit
-/// the scene is told, and the run begins anew.
+/// Solves a scene from a checkpoint, if there is one, and emits checkpoints. If the checkpoint does not fit the scene, the
+/// run emits [`Line::Restarted`] and starts at cycle 0.
 ///
 /// # Errors
 /// [`Failure`] with the engine's numbers.
 pub fn run_from(
     scene: &Scene,
-    from: Option<Saved>,
-    keeping: &Keeping,
+    from: Option<Checkpoint>,
+    policy: &CheckpointPolicy,
     on: &mut dyn FnMut(Line) -> ControlFlow<()>,
 ) -> Result<Summary, Failure> {
-    let Some(Saved { cost, run }) = from else {
-        return anew(scene, Recorder::new(on, keeping, Cost::default()));
+    let Some(Checkpoint { cost, run }) = from else {
+        return run_from_start(scene, Recorder::new(on, policy, Cost::default()));
     };
-    let mut recorder = Recorder::new(on, keeping, cost);
+    let mut recorder = Recorder::new(on, policy, cost);
     match solver::run::resume(scene, run, &mut recorder) {
         Err(SolveError::Checkpoint(misfit)) => {
-            let mut recorder = Recorder::new(on, keeping, Cost::default());
-            recorder.note(Line::Anew(misfit.to_string()));
-            anew(scene, recorder)
+            let mut recorder = Recorder::new(on, policy, Cost::default());
+            recorder.emit(Line::Restarted(misfit.to_string()));
+            run_from_start(scene, recorder)
         }
         ended => Ok(history::summary(&ended?, recorder.watch.cost())),
     }
 }
 
-fn anew(scene: &Scene, mut recorder: Recorder<'_>) -> Result<Summary, Failure> {
+fn run_from_start(scene: &Scene, mut recorder: Recorder<'_>) -> Result<Summary, Failure> {
     let summary = solver::run::solve(scene, &mut recorder)?;
     Ok(history::summary(&summary, recorder.watch.cost()))
 }
 
 struct Recorder<'a> {
     on: &'a mut dyn FnMut(Line) -> ControlFlow<()>,
-    keeping: &'a Keeping,
+    policy: &'a CheckpointPolicy,
     watch: Stopwatch,
-    /// Set by a line that was refused where the run could not be stopped; the next event stops it.
-    refused: bool,
+    /// Set if `on` stopped the run at a line that is not an event of the engine; the next event stops it.
+    is_stopped: bool,
 }
 
 impl<'a> Recorder<'a> {
     fn new(
         on: &'a mut dyn FnMut(Line) -> ControlFlow<()>,
-        keeping: &'a Keeping,
+        policy: &'a CheckpointPolicy,
         earlier: Cost,
     ) -> Self {
         Self {
             on,
-            keeping,
+            policy,
             watch: Stopwatch::start(earlier),
-            refused: false,
+            is_stopped: false,
         }
     }
 
-    /// Sends a line that belongs to no event of the run.
-    fn note(&mut self, line: Line) {
-        self.refused |= (self.on)(line).is_break();
+    /// Emits a line that is not an event at which the engine can be stopped.
+    fn emit(&mut self, line: Line) {
+        self.is_stopped |= (self.on)(line).is_break();
     }
 
-    /// Tells a checkpoint if one is due, and stops the run if it is asked to.
-    fn keep(&mut self, run: &Checkpoint) -> ControlFlow<()> {
-        if !self.keeping.is_due() {
+    /// Emits a checkpoint if one is due, and stops the run if it is asked to.
+    fn checkpoint(&mut self, run: &solver::checkpoint::Checkpoint) -> ControlFlow<()> {
+        if !self.policy.is_due() {
             return ControlFlow::Continue(());
         }
-        let saved = Saved {
+        let checkpoint = Checkpoint {
             cost: self.watch.cost(),
             run: run.clone(),
         };
-        let told = match saved.encode() {
-            Ok(state) => (self.on)(Line::Checkpoint(Encoded {
+        let flow = match checkpoint.encode() {
+            Ok(state) => (self.on)(Line::Checkpoint(EncodedCheckpoint {
                 cycle: run.cycle(),
                 state,
             })),
             Err(error) => {
-                tracing::error!(%error, "a checkpoint was left out");
+                tracing::error!(%error, "a checkpoint was not encoded");
                 ControlFlow::Continue(())
             }
         };
-        if self.keeping.stops() {
+        if self.policy.is_stopped() {
             ControlFlow::Break(())
         } else {
-            told
+            flow
         }
     }
-}
 
-impl Recorder<'_> {
     fn fields(&mut self, cycle: u64, fields: &PlacedFields) -> ControlFlow<()> {
         let name = vtu::file_name(cycle, fields.position);
         match vtu::bytes(fields) {
             Ok(bytes) => (self.on)(Line::Fields(FieldsFile { name, cycle, bytes })),
             Err(error) => {
-                tracing::error!(%error, name, "fields were left out");
+                tracing::error!(%error, name, "fields were not written");
                 ControlFlow::Continue(())
             }
         }
@@ -186,7 +124,7 @@ impl Recorder<'_> {
 
 impl Observer for Recorder<'_> {
     fn on(&mut self, event: Event<'_>) -> ControlFlow<()> {
-        if self.refused {
+        if self.is_stopped {
             return ControlFlow::Break(());
         }
         let line = match event {
@@ -197,7 +135,7 @@ impl Observer for Recorder<'_> {
                 }
                 Line::Snapshot(Box::new(history::snapshot(snapshot)))
             }
-            Event::Checkpoint(run) => return self.keep(run),
+            Event::Checkpoint(run) => return self.checkpoint(run),
         };
         (self.on)(line)
     }
@@ -205,6 +143,6 @@ impl Observer for Recorder<'_> {
     fn on_phase(&mut self, phase: observer::Phase) {
         let phase = history::phase(phase);
         self.watch.enter(phase);
-        self.note(Line::Phase(phase));
+        self.emit(Line::Phase(phase));
     }
 }

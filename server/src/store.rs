@@ -1,112 +1,58 @@
-//! The store: the only place with SQL.
+//! The store: jobs, batches, events and results, durable. The only place with SQL.
 //!
-//! One writing connection and a pool of readers on an embedded database in WAL mode. A lock file beside the database
-//! makes sure that one process serves it; so at start-up every lease in it belongs to a process that is gone.
+//! The types of this module and of its files are the contract of every storage engine; the SQL of an engine, its
+//! connections and its rows are below a folder of its own (`store/sqlite/`). Nothing outside of that folder knows which
+//! engine it is. The tests in `store/tests/` are those of the contract.
+//!
+//! # Guarantees
+//!
+//! Every operation is one transaction and durable when it returns `Ok`, unless the table says otherwise. A *fenced*
+//! operation names a [`Claim`] and has an effect only while the job is `running` under the lease number of that claim;
+//! every claim and every reclaim of a lost job raises the number. If the lease was lost, nothing is written, the write is
+//! counted in `fretwear_stale_writes_refused_total`, and the answer says so.
+//!
+//! | operation | atomic | fenced; answer if the lease was lost |
+//! | --- | --- | --- |
+//! | `submit`, `submit_once` | job, labels, first event, request key; several submissions may share a transaction | no |
+//! | `submit_batch` | all jobs of the batch, or none | no |
+//! | `claim`, `claim_within` | status, lease, attempt, `attempt` event, rows after the checkpoint deleted; reasons of jobs that do not fit | no; two claims never return the same lease |
+//! | `record` | progress, rows, snapshots, files, checkpoint, events, renewed lease | yes; [`LeaseState::Lost`] |
+//! | `renew` | end of the lease | yes; [`LeaseState::Lost`], not counted |
+//! | `lease_state` | reads only | yes; [`LeaseState::Lost`], not counted |
+//! | `restart` | rows, snapshots, files and checkpoint deleted, `attempt` event | yes; [`LeaseState::Lost`] |
+//! | `end` | rows, files, status, summary, `done` event, checkpoint deleted | yes; `None` |
+//! | `reclaim_expired`, `reclaim_all` | all lost jobs: into the queue, or under a new lease | no; they end leases |
+//! | `cancel`, `cancel_batch` | a queued job ends with its `done` event; a running one is marked, and its worker ends it | no |
+//! | `expire` | all queued jobs whose deadline has passed end with their `done` events | no |
+//! | `delete`, `delete_batch` | jobs with all rows; files are removed afterwards, or at the next start | no; only ended jobs |
+//! | `delete_ended_before` | each job; a limited number a call | no; only ended jobs |
+//!
+//! Event numbers of a job count from 1 without gaps, in the order of the transactions; `done` is the last one. Reads see
+//! committed transactions only. A file counts once a manifest names it; [`Store::attempt_folder`] gives every lease a
+//! folder of its own, so that a worker that lost its lease cannot touch the files of the next attempt.
+//!
+//! Times are milliseconds since 1970 and come from the caller; those of leases come from a monotonic clock.
 
+mod backup;
 mod batches;
+mod changes;
 mod error;
+mod jobs;
+mod leases;
+mod results;
 mod sqlite;
 
-use std::fs::File;
-use std::path::PathBuf;
-use std::sync::Arc;
-use std::time::Instant;
-
-use sqlx::sqlite::SqlitePool;
-use tokio::sync::{Notify, broadcast};
-use uuid::Uuid;
-
-use crate::metrics::Metrics;
-
+pub use backup::{BackupError, CopySummary};
 pub use batches::{BatchDetail, BatchFilter, BatchJob, BatchOverview, NewBatch, StoredBatch};
+pub use changes::Changes;
 pub use error::StoreError;
-pub use sqlite::backup::{BackupError, Copied, backup, restore};
-pub use sqlite::checkpoints::NewCheckpoint;
-pub use sqlite::conclusion::End;
-pub use sqlite::events::StoredEvent;
-pub use sqlite::files::{Content, NewFile};
-pub use sqlite::jobs::{
+pub use jobs::{
     Cancelled, Deleted, Filter, NewJob, RequestKey, StoredJob, SubmitOptions, Submitted,
 };
-pub use sqlite::leases::{Batch, Claim, Held};
-pub use sqlite::rescues::Reclaimed;
-pub use sqlite::results::SnapshotPart;
-
-/// How many job ids may wait in a listener's channel before it has to look for itself.
-const CHANGES_KEPT: usize = 1024;
-
-/// Jobs, events and results, durable.
-#[derive(Debug)]
-pub struct Store {
-    writer: SqlitePool,
-    readers: SqlitePool,
-    changes: broadcast::Sender<Uuid>,
-    waiting: Notify,
-    folder: sqlite::folder::Folder,
-    /// The write-ahead log.
-    wal: PathBuf,
-    /// Figures of the machine.
-    machine: PathBuf,
-    /// How often a job is tried.
-    attempt_limit: u32,
-    /// What is counted for `/metrics`.
-    metrics: Arc<Metrics>,
-    submissions: sqlite::submissions::Submissions,
-    /// When a write for the sake of it succeeded.
-    proved_ready: tokio::sync::Mutex<Option<Instant>>,
-    /// Held as long as the store is open.
-    _lock: File,
-}
-
-/// The changes of a job.
-#[derive(Debug)]
-pub struct Changes {
-    id: Uuid,
-    changed: broadcast::Receiver<Uuid>,
-}
-
-impl Changes {
-    /// Returns when the job changed, or may have: too many changes of others at once hide one of its own.
-    pub async fn next(&mut self) {
-        while self.changed.recv().await.is_ok_and(|id| id != self.id) {}
-    }
-}
-
-impl Store {
-    /// The changes of a job from now on.
-    pub fn changes(&self, id: Uuid) -> Changes {
-        Changes {
-            id,
-            changed: self.changes.subscribe(),
-        }
-    }
-
-    /// Returns when a job may be waiting in the queue.
-    pub async fn job_waiting(&self) {
-        self.waiting.notified().await;
-    }
-
-    /// The file beside the database that holds the machine's figures.
-    pub fn machine_file(&self) -> PathBuf {
-        self.machine.clone()
-    }
-
-    /// What is counted for `/metrics`.
-    pub fn metrics(&self) -> &Arc<Metrics> {
-        &self.metrics
-    }
-
-    /// Counts a write that came after its lease.
-    fn refused(&self) -> Held {
-        self.metrics.stale_writes.inc();
-        Held::No
-    }
-
-    fn changed(&self, id: Uuid) {
-        // Nobody listening is not an error.
-        let _ = self.changes.send(id);
-    }
-}
+pub use leases::{Claim, End, JobUpdate, LeaseState, Reclaimed};
+pub use results::{Content, NewFile, SnapshotPart, StoredEvent};
+pub use sqlite::Store;
+pub use sqlite::backup::{backup, restore};
 
 #[cfg(test)]
 pub(crate) mod tests;

@@ -1,12 +1,11 @@
-//! Workers: each takes a job from the queue, supervises one child process that solves it, and writes what it tells.
+//! Workers: each claims a job, supervises one child process that solves it, and stores its results.
 
-mod batcher;
-mod child;
-mod ending;
-mod gather;
+mod end;
+mod finalize;
+mod manifest;
 mod rules;
 mod supervisor;
-mod verdict;
+mod update_buffer;
 
 use std::panic::AssertUnwindSafe;
 use std::sync::Arc;
@@ -16,64 +15,64 @@ use futures_util::FutureExt;
 use tokio_util::sync::CancellationToken;
 use tracing::Instrument;
 
-use crate::clock::{now_ms, steady_ms};
+use crate::clock::{monotonic_ms, now_ms};
 use crate::store::{Claim, Store, StoreError};
 
-pub use ending::bury;
+pub use finalize::finalize_lost_job;
 pub use rules::Rules;
 
-/// How often an idle worker looks for itself, should it have missed a call.
-const LOOK: Duration = Duration::from_secs(1);
-/// Pause after the store failed.
-const STORE_PAUSE: Duration = Duration::from_secs(1);
+/// Interval at which an idle worker polls the queue, in case it missed a notification.
+const POLL_INTERVAL: Duration = Duration::from_secs(1);
+/// Pause before an operation of the store is retried.
+const RETRY_PAUSE: Duration = Duration::from_secs(1);
 
 impl Rules {
-    /// When a lease taken or renewed now ends, ms of the steady clock.
+    /// Returns the end of a lease taken or renewed now, ms of the monotonic clock.
     pub fn lease_end(&self) -> i64 {
-        steady_ms().saturating_add(i64::try_from(self.lease.as_millis()).unwrap_or(i64::MAX))
+        monotonic_ms().saturating_add(i64::try_from(self.lease.as_millis()).unwrap_or(i64::MAX))
     }
 }
 
-/// Takes and supervises jobs until the service stops.
+/// Claims and supervises jobs until the service stops.
 pub async fn work(store: Arc<Store>, rules: Arc<Rules>, stopping: CancellationToken) {
-    // Before the service was started it may have been.
-    let mut short_of_disk = true;
+    // Jobs may still have the reason from before the service was started.
+    let mut disk_short = true;
     while !stopping.is_cancelled() {
-        let turn = AssertUnwindSafe(next(&store, &rules, &mut short_of_disk, &stopping));
-        match turn.catch_unwind().await {
+        let job = AssertUnwindSafe(next(&store, &rules, &mut disk_short, &stopping));
+        match job.catch_unwind().await {
             Ok(Ok(true)) => {}
             Ok(Ok(false)) => {
                 tokio::select! {
                     () = store.job_waiting() => {}
-                    () = tokio::time::sleep(LOOK) => {}
+                    () = tokio::time::sleep(POLL_INTERVAL) => {}
                     () = stopping.cancelled() => {}
                 }
             }
             Ok(Err(error)) => {
                 tracing::error!(%error, "a worker could not use the store");
-                tokio::time::sleep(STORE_PAUSE).await;
+                tokio::time::sleep(RETRY_PAUSE).await;
             }
-            // The panic is in the log. The job is taken back when its lease ends, and the worker works on.
-            Err(_) => tokio::time::sleep(STORE_PAUSE).await,
+            // The panic hook has logged it. The job is reclaimed when its lease ends, and the worker continues.
+            Err(_) => tokio::time::sleep(RETRY_PAUSE).await,
         }
     }
 }
 
-/// Takes one job and sees it through; `false` if none could be taken.
+/// Claims one job and supervises it to its end; `false` if there was none to claim.
 async fn next(
     store: &Store,
     rules: &Rules,
-    short_of_disk: &mut bool,
+    disk_short: &mut bool,
     stopping: &CancellationToken,
 ) -> Result<bool, StoreError> {
     if let Some(reason) = rules.disk_shortage() {
-        *short_of_disk = true;
-        store.explain_waiting(&reason).await?;
+        *disk_short = true;
+        store.set_waiting_reason(&reason).await?;
         return Ok(false);
     }
-    if *short_of_disk {
-        store.explain_no_shortage().await?;
-        *short_of_disk = false;
+    if *disk_short {
+        store.reset_disk_reason().await?;
+        *disk_short = false;
     }
     let claimed = store
         .claim_within(rules.memory_mb, now_ms(), rules.lease_end())
@@ -81,21 +80,21 @@ async fn next(
     let Some(claim) = claimed else {
         return Ok(false);
     };
-    count(store, &claim);
+    count_claim(store, &claim);
     let span =
         tracing::info_span!("job", id = %claim.id, lease = claim.lease, attempt = claim.attempt);
-    let began = Instant::now();
+    let started = Instant::now();
     supervisor::supervise(store, &claim, rules, stopping)
         .instrument(span)
         .await?;
     let metrics = store.metrics();
     metrics
         .solve_duration
-        .observe(began.elapsed().as_secs_f64());
+        .observe(started.elapsed().as_secs_f64());
     Ok(true)
 }
 
-fn count(store: &Store, claim: &Claim) {
+fn count_claim(store: &Store, claim: &Claim) {
     let metrics = store.metrics();
     metrics.attempts.inc();
     if claim.lease == 1 {

@@ -1,4 +1,4 @@
-//! Commands that end by themselves: what they write, and with which code they end.
+//! Output and exit codes of commands that end by themselves.
 
 use std::path::PathBuf;
 use std::process::{Command, Output};
@@ -27,14 +27,14 @@ fn solve(spec: &str, arguments: &[&str]) -> (Output, TempDir) {
 }
 
 #[test]
-fn refused_specifications_exit_with_2_and_all_faults() {
+fn rejected_specifications_exit_with_2_and_all_faults() {
     let spec = r#"{"frobnicate":1,"system":{"kind":"cylinder_on_flat","radius_mm":-6},"materials":{"slider":"cheese"}}"#;
     let (output, _folder) = solve(spec, &[]);
     assert_eq!(output.status.code(), Some(2));
     assert!(output.stdout.is_empty());
-    let told = String::from_utf8(output.stderr).expect("text");
+    let stderr = String::from_utf8(output.stderr).expect("text");
     for pointer in ["/frobnicate", "/system/radius_mm", "/materials/slider"] {
-        assert!(told.contains(pointer), "{told}");
+        assert!(stderr.contains(pointer), "{stderr}");
     }
     let (output, _folder) = solve(r#"{"system":{"kind":"dimm"},"cycles":NaN}"#, &[]);
     assert_eq!(output.status.code(), Some(2));
@@ -77,7 +77,7 @@ fn solve_writes_summary_and_files() {
 }
 
 #[test]
-fn other_addresses_than_loopback_are_refused() {
+fn addresses_other_than_loopback_are_rejected() {
     let folder = folder();
     let output = Command::new(FRETWEAR)
         .args(["serve", "--listen", "0.0.0.0:0"])

@@ -11,12 +11,12 @@ use serde_json::{Value, json};
 use tempfile::TempDir;
 
 const FRETWEAR: &str = env!("CARGO_BIN_EXE_fretwear");
-/// Pause between two looks at a job.
-const LOOK: Duration = Duration::from_millis(20);
-/// A job that should have moved on by now never will.
-const PATIENCE: usize = 15_000;
+/// Interval at which a job is polled.
+const POLL_INTERVAL: Duration = Duration::from_millis(20);
+/// Number of polls before a test fails.
+const POLL_LIMIT: usize = 15_000;
 
-/// A served database in a temporary folder; killed with the value.
+/// A server with a database in a temporary folder; killed on drop.
 struct Server {
     child: Child,
     base: String,
@@ -92,17 +92,17 @@ impl Server {
             .to_owned()
     }
 
-    /// Looks at a job until it is as wanted.
-    async fn until(&self, id: &str, wanted: impl Fn(&Value) -> bool) -> Value {
-        for _ in 0..PATIENCE {
+    /// Polls a job until it satisfies a condition.
+    async fn until(&self, id: &str, condition: impl Fn(&Value) -> bool) -> Value {
+        for _ in 0..POLL_LIMIT {
             let job = self.get(&format!("/v1/jobs/{id}")).await;
-            if wanted(&job) {
+            if condition(&job) {
                 return job;
             }
-            tokio::time::sleep(LOOK).await;
+            tokio::time::sleep(POLL_INTERVAL).await;
         }
         panic!(
-            "the job never became as wanted: {}",
+            "the job never satisfied the condition: {}",
             self.get(&format!("/v1/jobs/{id}")).await
         );
     }
@@ -121,14 +121,14 @@ impl Server {
 
 impl Drop for Server {
     fn drop(&mut self) {
-        // Already gone is as good.
+        // It may have exited already.
         let _ = self.child.kill();
         let _ = self.child.wait();
     }
 }
 
-/// A study of so many computed cycles.
-fn study(cycles: u64) -> Value {
+/// A specification with this number of computed cycles.
+fn spec(cycles: u64) -> Value {
     json!({
         "system": {"kind": "fuzz_button"},
         "cycles": cycles,
@@ -141,7 +141,7 @@ fn folder() -> TempDir {
     TempDir::new().expect("a temporary folder")
 }
 
-/// Ids of solving processes of a server: its children.
+/// Returns the process ids of a server's solving processes, its children.
 fn solving_processes(server: &Server) -> Vec<i32> {
     let id = server.child.id();
     let tasks = std::fs::read_dir(format!("/proc/{id}/task")).expect("a list of threads");
@@ -160,7 +160,7 @@ fn solving_processes(server: &Server) -> Vec<i32> {
 async fn a_job_goes_from_submission_to_results() {
     let folder = folder();
     let server = Server::start(folder.path());
-    let id = server.submit(&study(3)).await;
+    let id = server.submit(&spec(3)).await;
     let job = server.until_ended(&id).await;
     assert_eq!(
         (&job["status"], &job["outcome"]),
@@ -197,7 +197,7 @@ async fn a_job_goes_from_submission_to_results() {
 async fn killing_the_server_loses_no_job() {
     let folder = folder();
     let server = Server::start(folder.path());
-    let id = server.submit(&study(500)).await;
+    let id = server.submit(&spec(500)).await;
     server.until_computing(&id).await;
     server.signal(Signal::SIGKILL);
     drop(server);
@@ -220,7 +220,7 @@ async fn killing_the_server_loses_no_job() {
 async fn a_killed_solving_process_is_tried_again() {
     let folder = folder();
     let server = Server::start(folder.path());
-    let id = server.submit(&study(500)).await;
+    let id = server.submit(&spec(500)).await;
     server.until_computing(&id).await;
     for process in solving_processes(&server) {
         kill(Pid::from_raw(process), Signal::SIGKILL).expect("a signal");
@@ -234,27 +234,27 @@ async fn a_killed_solving_process_is_tried_again() {
 }
 
 #[tokio::test]
-async fn a_killed_server_takes_its_solving_processes_with_it() {
+async fn solving_processes_end_with_a_killed_server() {
     let folder = folder();
     let server = Server::start(folder.path());
-    let id = server.submit(&study(1_000_000)).await;
+    let id = server.submit(&spec(1_000_000)).await;
     server.until_computing(&id).await;
     let processes = solving_processes(&server);
     assert_eq!(processes.len(), 1);
     server.signal(Signal::SIGKILL);
     drop(server);
-    let alive = || processes.iter().any(|id| runs(*id));
-    for _ in 0..PATIENCE {
+    let alive = || processes.iter().any(|id| is_running(*id));
+    for _ in 0..POLL_LIMIT {
         if !alive() {
             return;
         }
-        tokio::time::sleep(LOOK).await;
+        tokio::time::sleep(POLL_INTERVAL).await;
     }
     panic!("a solving process outlives its server");
 }
 
-/// Whether a process runs; a dead one that nobody has waited for does not.
-fn runs(id: i32) -> bool {
+/// Whether a process is running; a zombie is not.
+fn is_running(id: i32) -> bool {
     std::fs::read_to_string(format!("/proc/{id}/stat")).is_ok_and(|stat| {
         stat.rsplit(')')
             .next()
@@ -263,10 +263,10 @@ fn runs(id: i32) -> bool {
 }
 
 #[tokio::test]
-async fn a_cancelled_job_keeps_what_was_computed() {
+async fn a_cancelled_job_keeps_its_results() {
     let folder = folder();
     let server = Server::start(folder.path());
-    let id = server.submit(&study(1_000_000)).await;
+    let id = server.submit(&spec(1_000_000)).await;
     server.until_computing(&id).await;
     server
         .post(&format!("/v1/jobs/{id}/cancel"), &json!(null))
@@ -284,7 +284,7 @@ async fn a_cancelled_job_keeps_what_was_computed() {
 async fn a_graceful_stop_costs_no_attempt_and_ends_open_streams() {
     let folder = folder();
     let mut server = Server::start(folder.path());
-    let id = server.submit(&study(1_000_000)).await;
+    let id = server.submit(&spec(1_000_000)).await;
     server.until_computing(&id).await;
     let url = format!("{}/v1/jobs/{id}/events", server.base);
     let stream = server.client.get(url).send().await.expect("a stream");

@@ -53,7 +53,7 @@ async fn every_line_is_an_object_and_a_job_has_one_span() {
         .json()
         .await
         .expect("a job");
-    told("job concluded").await;
+    told("attempt ended").await;
     server.kill().expect("the service is there");
     server.wait().expect("it ends");
 
@@ -76,7 +76,7 @@ async fn every_line_is_an_object_and_a_job_has_one_span() {
         .map(|span| serde_json::from_str(span).expect("JSON"))
         .collect();
     assert_eq!(spans, [span], "{text}");
-    for words in ["job taken", "job concluded"] {
+    for words in ["job claimed", "attempt ended"] {
         let line = lines.iter().find(|line| line["fields"]["message"] == words);
         assert_eq!(line.expect("a line")["span"]["name"], "job");
     }

@@ -5,7 +5,7 @@ use std::process::ExitCode;
 
 use crate::cli::runtime;
 use crate::cli::terminal::{failed, write_out};
-use crate::store::{BackupError, Copied, backup, restore};
+use crate::store::{BackupError, CopySummary, backup, restore};
 
 pub(super) fn run(database: &str, into: &Path) -> ExitCode {
     ended(runtime().map(|runtime| runtime.block_on(backup(database, into))))
@@ -15,9 +15,9 @@ pub(super) fn run_restore(from: &Path, database: &str) -> ExitCode {
     ended(runtime().map(|runtime| runtime.block_on(restore(from, database))))
 }
 
-fn ended(copied: std::io::Result<Result<Copied, BackupError>>) -> ExitCode {
+fn ended(copied: std::io::Result<Result<CopySummary, BackupError>>) -> ExitCode {
     match copied {
-        Ok(Ok(Copied {
+        Ok(Ok(CopySummary {
             jobs,
             files,
             file_bytes,

@@ -1,11 +1,6 @@
-//! `fretwear solve-child`: a service's solving process.
-//!
-//! Two lines on standard input are the resolved specification and the checkpoint to go on from (base64, empty for none);
-//! every line on standard output is a [`Line`]. Standard input stays open as long as the supervisor lives: at its end
-//! this process ends too. Large results are written into the attempt's folder, and the lines only name them. Asked to
-//! terminate, the process tells a checkpoint after the present cycle and ends.
+//! `fretwear solve-child`: a solving process; its protocol is described in [`crate::solve::protocol`].
 
-use std::io::{BufRead, Read, Write};
+use std::io::{Read, Write};
 use std::ops::ControlFlow;
 use std::path::Path;
 use std::process::ExitCode;
@@ -14,8 +9,6 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
 use api::job::Outcome;
-use base64::Engine as _;
-use base64::prelude::BASE64_STANDARD;
 use nix::sys::resource::{Resource, setrlimit};
 use signal_hook::consts::SIGTERM;
 
@@ -25,12 +18,11 @@ use crate::export::documents::VTU;
 use crate::export::files;
 use crate::export::files::FilesError;
 use crate::solve;
-use crate::solve::checkpoint::{Keeping, Saved};
-use crate::solve::{Failure, FieldsFile, Line, UNWRITTEN};
+use crate::solve::checkpoint::CheckpointPolicy;
+use crate::solve::protocol::{EXIT_FILE_NOT_WRITTEN, EXIT_ORPHANED, Input};
+use crate::solve::{Failure, FieldsFile, Line};
 use crate::spec;
 
-/// Exit code when the supervisor is gone.
-const ORPHANED: i32 = 3;
 /// Pause before a full disk is tried again.
 const DISK_PAUSE: Duration = Duration::from_millis(200);
 
@@ -39,11 +31,11 @@ pub(super) fn run(arguments: &ChildArguments) -> ExitCode {
     if let Err(cause) = prepare(arguments, &stop) {
         return failed(cause);
     }
-    let (spec, checkpoint) = match lines() {
-        Ok(lines) => lines,
+    let input = match Input::read(std::io::stdin().lock()) {
+        Ok(input) => input,
         Err(cause) => return failed(cause),
     };
-    let resolved = match spec::read(spec.as_bytes()) {
+    let resolved = match spec::read(input.spec.as_bytes()) {
         Ok(resolved) => resolved,
         Err(error) => {
             let failed = Line::Failed(Failure {
@@ -57,18 +49,18 @@ pub(super) fn run(arguments: &ChildArguments) -> ExitCode {
         }
     };
     std::thread::spawn(end_with_supervisor);
-    let from = match saved(&checkpoint) {
+    let from = match input.checkpoint() {
         Ok(from) => from,
-        Err(why) => {
-            if write(&Line::Anew(why)).is_break() {
+        Err(cause) => {
+            if write(&Line::Restarted(cause)).is_break() {
                 return ExitCode::FAILURE;
             }
             None
         }
     };
     let every = Duration::from_millis(arguments.checkpoint_every_ms);
-    let keeping = Keeping::new(every, Arc::clone(&stop));
-    let solved = solve::run_from(&resolved.scene, from, &keeping, &mut |line| match line {
+    let policy = CheckpointPolicy::new(every, Arc::clone(&stop));
+    let solved = solve::run_from(&resolved.scene, from, &policy, &mut |line| match line {
         Line::Fields(fields) => keep(&arguments.folder, &fields, &stop),
         line => write(&line),
     });
@@ -94,34 +86,12 @@ fn prepare(arguments: &ChildArguments, stop: &Arc<AtomicBool>) -> std::io::Resul
     Ok(())
 }
 
-/// The specification and the checkpoint.
-fn lines() -> std::io::Result<(String, String)> {
-    let (mut spec, mut checkpoint) = (String::new(), String::new());
-    let mut stdin = std::io::stdin().lock();
-    stdin.read_line(&mut spec)?;
-    stdin.read_line(&mut checkpoint)?;
-    Ok((spec, checkpoint))
-}
-
-fn saved(text: &str) -> Result<Option<Saved>, String> {
-    let text = text.trim();
-    if text.is_empty() {
-        return Ok(None);
-    }
-    let bytes = BASE64_STANDARD
-        .decode(text)
-        .map_err(|cause| cause.to_string())?;
-    Saved::decode(&bytes)
-        .map(Some)
-        .map_err(|cause| cause.to_string())
-}
-
 /// Blocks until standard input ends, then ends the process.
 fn end_with_supervisor() {
     let mut rest = [0_u8; 64];
     let mut stdin = std::io::stdin().lock();
     while stdin.read(&mut rest).is_ok_and(|length| length > 0) {}
-    std::process::exit(ORPHANED);
+    std::process::exit(EXIT_ORPHANED);
 }
 
 /// Writes fields into the attempt's folder and tells of the file. A disk that takes no more is no fault of the study: a
@@ -137,14 +107,14 @@ fn keep(folder: &Path, fields: &FieldsFile, stop: &AtomicBool) -> ControlFlow<()
         }
         match error {
             FilesError::Write { cause, .. } if files::is_full(&cause) => {}
-            _ => std::process::exit(UNWRITTEN),
+            _ => std::process::exit(EXIT_FILE_NOT_WRITTEN),
         }
         if stop.load(Ordering::Relaxed) {
             return ControlFlow::Break(());
         }
         std::thread::sleep(DISK_PAUSE);
     }
-    write(&Line::Kept(files::manifest_entry(
+    write(&Line::File(files::manifest_entry(
         name,
         Some(*cycle),
         VTU,

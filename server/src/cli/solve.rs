@@ -70,8 +70,8 @@ fn record(line: Line, recorded: &mut Recorded, bar: &ProgressBar) {
         }
         Line::Snapshot(snapshot) => recorded.snapshots.push(*snapshot),
         Line::Fields(file) => recorded.fields.push(file),
-        Line::Kept(_)
-        | Line::Anew(_)
+        Line::File(_)
+        | Line::Restarted(_)
         | Line::Checkpoint(_)
         | Line::Summary(_)
         | Line::Failed(_)

@@ -190,7 +190,7 @@ impl From<StoreError> for ProblemResponse {
     fn from(error: StoreError) -> Self {
         let detail = match &error {
             error if error.is_disk_full() => "no space left on the data disk",
-            error if error.is_passing() => "the database is busy; send the request again",
+            error if error.is_transient() => "the database is busy; send the request again",
             error => return Self::internal(error),
         };
         tracing::warn!(%error, "a request was rejected for now");

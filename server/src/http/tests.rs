@@ -22,7 +22,7 @@ use crate::export::files;
 use crate::http::{Access, App, MAX_REQUESTS, router};
 use crate::queue::Transition;
 use crate::store;
-use crate::store::{Batch, End, NewFile, Store};
+use crate::store::{End, JobUpdate, NewFile, Store};
 
 /// All routes over a new store.
 pub(crate) struct Service {
@@ -136,7 +136,7 @@ impl Service {
             FIELDS.as_bytes(),
         )
         .expect("kept");
-        let batch = Batch {
+        let update = JobUpdate {
             files: vec![
                 NewFile {
                     file: fields,
@@ -147,15 +147,18 @@ impl Service {
                     content: Some(b"{}".to_vec()),
                 },
             ],
-            ..Batch::default()
+            ..JobUpdate::default()
         };
         let end = End {
-            step: Transition::Succeed,
+            transition: Transition::Succeed,
             reason: None,
             outcome: None,
             summary: None,
         };
-        store.end(&claim, &batch, &end, 1).await.expect("the store");
+        store
+            .end(&claim, &update, &end, 1)
+            .await
+            .expect("the store");
         id
     }
 
@@ -169,14 +172,14 @@ impl Service {
             .await
             .expect("the store")
             .expect("a job");
-        let batch = Batch {
+        let update = JobUpdate {
             rows: [10, 20].map(row).to_vec(),
             snapshots: [10, 20].map(snapshot).to_vec(),
-            ..Batch::default()
+            ..JobUpdate::default()
         };
         self.app
             .store
-            .record(&claim, &batch, i64::MAX)
+            .record(&claim, &update, i64::MAX)
             .await
             .expect("the store");
         id
@@ -321,7 +324,7 @@ async fn a_locked_database_is_a_503_with_retry_after() {
     );
     let service = Service::new().await;
     let path = service.results_folder().with_file_name("test.db");
-    let _other = store::tests::written_by_another(&path).await;
+    let _other = store::tests::hold_write_lock(&path).await;
     let (status, headers, problem) = service
         .post("/v1/jobs", r#"{"system":{"kind":"dimm"}}"#)
         .await;

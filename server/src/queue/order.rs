@@ -1,24 +1,24 @@
-//! The order of waiting jobs: age, moved by priority.
+//! The order of waiting jobs: age, shifted by priority.
 //!
-//! A job of priority p counts as p minutes older than it is. So a preferred job goes first among its contemporaries, and
-//! no job waits for ever: one of the lowest priority precedes whatever comes 200 minutes after it.
+//! A job of priority p counts as p minutes older than it is: it precedes jobs of the same age, and no job starves. One of
+//! the lowest priority precedes every job submitted more than 200 minutes after it.
 
 /// The largest priority; its negative is the smallest.
-pub const MOST_PRIORITY: i32 = 100;
+pub const MAX_PRIORITY: i32 = 100;
 
-/// What a step of priority is worth, ms.
-const STEP_MS: i64 = 60_000;
+/// Age that one unit of priority adds, ms.
+const AGE_PER_PRIORITY_MS: i64 = 60_000;
 
-/// The place in the queue of a job submitted at this time (ms); smaller is earlier.
-pub fn place(submitted_at: i64, priority: i32) -> i64 {
-    let priority = priority.clamp(-MOST_PRIORITY, MOST_PRIORITY);
-    submitted_at.saturating_sub(i64::from(priority) * STEP_MS)
+/// Returns the sort key of a job submitted at this time (ms); the smallest is claimed first.
+pub fn sort_key(submitted_at: i64, priority: i32) -> i64 {
+    let priority = priority.clamp(-MAX_PRIORITY, MAX_PRIORITY);
+    submitted_at.saturating_sub(i64::from(priority) * AGE_PER_PRIORITY_MS)
 }
 
-/// The priority of a job at this position of a sweep: each counts a minute younger than the one before it, so that a
-/// study that comes later does not wait for all of a long sweep.
-pub fn sweep_priority(position: usize) -> i32 {
-    i32::try_from(position).map_or(-MOST_PRIORITY, |position| -position.min(MOST_PRIORITY))
+/// Returns the priority of the job at this position of a parameter sweep: each counts one minute younger than the one
+/// before it, so that a job submitted later does not wait for all of a long sweep.
+pub fn batch_priority(position: usize) -> i32 {
+    i32::try_from(position).map_or(-MAX_PRIORITY, |position| -position.min(MAX_PRIORITY))
 }
 
 #[cfg(test)]
@@ -26,17 +26,17 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_preferred_job_goes_first_but_the_others_age() {
+    fn a_higher_priority_precedes_but_older_jobs_do_not_starve() {
         let minute = 60_000;
-        assert!(place(minute, 5) < place(0, 0));
-        assert!(place(0, -MOST_PRIORITY) < place(201 * minute, MOST_PRIORITY));
-        assert_eq!(place(7, 1_000), place(7, MOST_PRIORITY));
+        assert!(sort_key(minute, 5) < sort_key(0, 0));
+        assert!(sort_key(0, -MAX_PRIORITY) < sort_key(201 * minute, MAX_PRIORITY));
+        assert_eq!(sort_key(7, 1_000), sort_key(7, MAX_PRIORITY));
     }
 
     #[test]
-    fn a_study_does_not_wait_for_all_of_a_sweep_before_it() {
-        assert!(place(0, sweep_priority(3)) > place(60_000, 0));
-        assert!(place(0, sweep_priority(0)) < place(60_000, 0));
-        assert_eq!(sweep_priority(usize::MAX), -MOST_PRIORITY);
+    fn a_later_job_does_not_wait_for_a_whole_sweep() {
+        assert!(sort_key(0, batch_priority(3)) > sort_key(60_000, 0));
+        assert!(sort_key(0, batch_priority(0)) < sort_key(60_000, 0));
+        assert_eq!(batch_priority(usize::MAX), -MAX_PRIORITY);
     }
 }

@@ -1,4 +1,4 @@
-//! Checkpoints as bytes: what the engine offers and what the run has cost so far, in a compact form that keeps every bit.
+//! Checkpoints as bytes: the engine's state and the cost of the run so far, in a compact form that preserves every bit.
 
 use std::cell::Cell;
 use std::sync::Arc;
@@ -9,97 +9,100 @@ use api::results::Cost;
 use base64::Engine as _;
 use base64::prelude::BASE64_STANDARD;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
-use solver::checkpoint::Checkpoint;
 
-/// Raised whenever the fields of a checkpoint or the bits that follow from them change: an older one is then not gone on
-/// from.
+/// Format number, raised whenever the fields of a checkpoint or the results computed from them change: runs do not resume
+/// from an older format.
 const FORMAT: u32 = 5;
 
-/// A run between two cycles, as it is kept.
+/// The state of a run between two cycles.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Saved {
-    /// What the run has cost so far.
+pub struct Checkpoint {
+    /// Cost of the run so far.
     pub cost: Cost,
-    /// The engine's part.
-    pub run: Checkpoint,
+    /// State of the engine.
+    pub run: solver::checkpoint::Checkpoint,
 }
 
-/// A checkpoint on its way to the supervisor.
+/// An encoded checkpoint.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Encoded {
-    /// Its cycle.
+pub struct EncodedCheckpoint {
+    /// Cycle of the checkpoint.
     pub cycle: u64,
-    /// A [`Saved`], encoded.
+    /// A [`Checkpoint`], encoded.
     #[serde(serialize_with = "to_base64", deserialize_with = "from_base64")]
     pub state: Vec<u8>,
 }
 
-/// Why bytes are not a checkpoint.
+/// Why bytes cannot be decoded as a checkpoint.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-pub enum Unreadable {
-    /// It was written by another version.
+pub enum CheckpointError {
+    /// It was written by another version of the program.
     #[error("it has format {found}, this is format {FORMAT}")]
     Format {
-        /// Its format.
+        /// Its format number.
         found: u32,
     },
-    /// It is cut off or garbled.
+    /// It is truncated or damaged.
     #[error("it cannot be decoded: {0}")]
-    Garbled(#[from] postcard::Error),
+    Damaged(#[from] postcard::Error),
 }
 
-impl Saved {
-    /// As bytes.
+impl Checkpoint {
+    /// Encodes the checkpoint.
     ///
     /// # Errors
-    /// If there is no memory for them.
-    pub fn encode(&self) -> Result<Vec<u8>, Unreadable> {
+    /// [`CheckpointError`] if there is not enough memory.
+    pub fn encode(&self) -> Result<Vec<u8>, CheckpointError> {
         let head = postcard::to_stdvec(&FORMAT)?;
         Ok(postcard::to_extend(self, head)?)
     }
 
-    /// From bytes.
+    /// Decodes a checkpoint.
     ///
     /// # Errors
-    /// [`Unreadable`] if they are no checkpoint of this version.
-    pub fn decode(bytes: &[u8]) -> Result<Self, Unreadable> {
+    /// [`CheckpointError`] if they are not a checkpoint of this version.
+    pub fn decode(bytes: &[u8]) -> Result<Self, CheckpointError> {
         let (found, rest) = postcard::take_from_bytes::<u32>(bytes)?;
         if found != FORMAT {
-            return Err(Unreadable::Format { found });
+            return Err(CheckpointError::Format { found });
         }
         Ok(postcard::from_bytes(rest)?)
     }
 }
 
-/// When a run's checkpoints are told, and whether it is asked to stop at the next one.
+/// When a run emits checkpoints, and whether it stops at the next one.
 #[derive(Debug, Clone, Default)]
-pub struct Keeping {
-    every: Option<Duration>,
+pub struct CheckpointPolicy {
+    interval: Option<Duration>,
     stop: Arc<AtomicBool>,
     last: Cell<Option<Instant>>,
 }
 
-impl Keeping {
-    /// Checkpoints are told this often; the run stops at the next one once `stop` is set.
-    pub fn new(every: Duration, stop: Arc<AtomicBool>) -> Self {
+impl CheckpointPolicy {
+    /// A policy with this time between two checkpoints; the run stops at the next one once `stop` is set.
+    pub fn new(interval: Duration, stop: Arc<AtomicBool>) -> Self {
         Self {
-            every: Some(every),
+            interval: Some(interval),
             stop,
             last: Cell::new(Some(Instant::now())),
         }
     }
 
     /// Whether the run is asked to stop.
-    pub(super) fn stops(&self) -> bool {
+    pub(super) fn is_stopped(&self) -> bool {
         self.stop.load(Ordering::Relaxed)
     }
 
-    /// Whether a checkpoint is due; it counts as told then.
+    /// Whether a checkpoint is due; if so, the next interval starts.
     pub(super) fn is_due(&self) -> bool {
-        let Some(every) = self.every else {
+        let Some(interval) = self.interval else {
             return false;
         };
-        let due = self.stops() || self.last.get().is_none_or(|last| last.elapsed() >= every);
+        let due = self.is_stopped()
+            || self
+                .last
+                .get()
+                .is_none_or(|last| last.elapsed() >= interval);
         if due {
             self.last.set(Some(Instant::now()));
         }
@@ -128,7 +131,7 @@ mod tests {
     use crate::spec;
 
     #[derive(Default)]
-    struct Last(Option<Checkpoint>);
+    struct Last(Option<solver::checkpoint::Checkpoint>);
 
     impl Observer for Last {
         fn on(&mut self, event: Event<'_>) -> ControlFlow<()> {
@@ -139,12 +142,12 @@ mod tests {
         }
     }
 
-    fn saved() -> Saved {
+    fn checkpoint() -> Checkpoint {
         let text = br#"{"system":{"kind":"fuzz_button"},"cycles":3,"accuracy":{"preset":"draft"}}"#;
         let resolved = spec::read(text).expect("accepted");
         let mut last = Last::default();
         solver::run::solve(&resolved.scene, &mut last).expect("solved");
-        Saved {
+        Checkpoint {
             cost: Cost::default(),
             run: last.0.expect("a checkpoint"),
         }
@@ -152,47 +155,50 @@ mod tests {
 
     #[test]
     fn a_checkpoint_is_the_same_after_writing_and_reading() {
-        let saved = saved();
-        let bytes = saved.encode().expect("bytes");
-        let read = Saved::decode(&bytes).expect("a checkpoint");
-        // Equality of texts, which tell 0 from -0.
-        assert_eq!(format!("{saved:?}"), format!("{read:?}"));
-        let line = Encoded {
+        let checkpoint = checkpoint();
+        let bytes = checkpoint.encode().expect("bytes");
+        let read = Checkpoint::decode(&bytes).expect("a checkpoint");
+        // As text, because it distinguishes 0 from -0.
+        assert_eq!(format!("{checkpoint:?}"), format!("{read:?}"));
+        let line = EncodedCheckpoint {
             cycle: 2,
             state: bytes,
         };
         let text = serde_json::to_string(&line).expect("JSON");
         assert_eq!(
-            serde_json::from_str::<Encoded>(&text).expect("a line"),
+            serde_json::from_str::<EncodedCheckpoint>(&text).expect("a line"),
             line
         );
     }
 
     #[test]
-    fn other_formats_and_cut_off_bytes_are_refused() {
-        let mut bytes = saved().encode().expect("bytes");
+    fn other_formats_and_truncated_bytes_are_refused() {
+        let mut bytes = checkpoint().encode().expect("bytes");
         for length in [0, 1, 10, bytes.len() - 1] {
             assert!(
-                matches!(Saved::decode(&bytes[..length]), Err(Unreadable::Garbled(_))),
+                matches!(
+                    Checkpoint::decode(&bytes[..length]),
+                    Err(CheckpointError::Damaged(_))
+                ),
                 "{length}"
             );
         }
         bytes[0] += 1;
         assert_eq!(
-            Saved::decode(&bytes),
-            Err(Unreadable::Format { found: FORMAT + 1 })
+            Checkpoint::decode(&bytes),
+            Err(CheckpointError::Format { found: FORMAT + 1 })
         );
     }
 
     #[test]
-    fn checkpoints_are_told_when_they_are_due_and_at_once_when_the_run_is_to_stop() {
-        assert!(!Keeping::default().is_due());
+    fn checkpoints_are_due_after_the_interval_and_at_once_when_the_run_is_stopped() {
+        assert!(!CheckpointPolicy::default().is_due());
         let stop = Arc::new(AtomicBool::new(false));
-        let rarely = Keeping::new(Duration::from_hours(1), Arc::clone(&stop));
+        let rarely = CheckpointPolicy::new(Duration::from_hours(1), Arc::clone(&stop));
         assert!(!rarely.is_due());
         stop.store(true, Ordering::Relaxed);
-        assert!(rarely.is_due() && rarely.stops());
-        let always = Keeping::new(Duration::ZERO, Arc::default());
-        assert!(always.is_due() && always.is_due() && !always.stops());
+        assert!(rarely.is_due() && rarely.is_stopped());
+        let always = CheckpointPolicy::new(Duration::ZERO, Arc::default());
+        assert!(always.is_due() && always.is_due() && !always.is_stopped());
     }
 }

@@ -1,4 +1,4 @@
-//! What a run cost: measured here, because the engine knows no clock.
+//! The cost of a run, measured here because the engine reads no clock.
 
 use std::collections::BTreeMap;
 use std::time::Instant;
@@ -8,7 +8,7 @@ use api::results::Cost;
 use nix::sys::resource::{Usage, UsageWho, getrusage};
 use nix::sys::time::TimeVal;
 
-/// Wall-clock time by phase, from the start of a run.
+/// Wall-clock time of a run by phase.
 #[derive(Debug)]
 pub(super) struct Stopwatch {
     earlier: Cost,
@@ -19,7 +19,7 @@ pub(super) struct Stopwatch {
 }
 
 impl Stopwatch {
-    /// Starts after what an earlier part of the run has cost.
+    /// Starts with the cost of the earlier part of the run.
     pub(super) fn start(earlier: Cost) -> Self {
         let cpu_at_start = cpu_s();
         Self {
@@ -31,13 +31,13 @@ impl Stopwatch {
         }
     }
 
-    /// Another phase begins.
+    /// Starts the next phase.
     pub(super) fn enter(&mut self, phase: Phase) {
         self.close();
         self.current = Some((phase, Instant::now()));
     }
 
-    /// The cost so far; degrees of freedom are the engine's to tell.
+    /// Returns the cost so far, without the degrees of freedom, which the engine reports.
     pub(super) fn cost(&mut self) -> Cost {
         if let Some((phase, _)) = self.current {
             self.enter(phase);
@@ -66,17 +66,17 @@ impl Stopwatch {
     }
 }
 
-/// Processor seconds of this process.
+/// Returns the processor seconds of this process.
 pub fn cpu_s() -> f64 {
     usage().map_or(0.0, |usage| cpu_seconds(&usage))
 }
 
-/// Processor seconds of this thread.
+/// Returns the processor seconds of this thread.
 pub fn thread_cpu_s() -> f64 {
     getrusage(UsageWho::RUSAGE_THREAD).map_or(0.0, |usage| cpu_seconds(&usage))
 }
 
-/// Processor seconds of all child processes that were waited for.
+/// Returns the processor seconds of all child processes that were waited for.
 pub fn children_cpu_s() -> f64 {
     getrusage(UsageWho::RUSAGE_CHILDREN).map_or(0.0, |usage| cpu_seconds(&usage))
 }
@@ -97,8 +97,8 @@ fn seconds(time: TimeVal) -> f64 {
     time.tv_sec() as f64 + 1e-6 * time.tv_usec() as f64
 }
 
-/// The largest resident memory of this program. The kernel's own account of a process (`ru_maxrss`) is kept through
-/// `exec` and so begins with the memory of whoever started it; the address space's account does not.
+/// Returns the peak resident memory of this program. The kernel preserves `ru_maxrss` through `exec`, so it starts with
+/// the memory of the parent process; `VmHWM` belongs to the address space and does not.
 fn peak_memory_mb(usage: &Usage) -> f64 {
     let status = std::fs::read_to_string("/proc/self/status").ok();
     let own = status.as_deref().and_then(high_water_kib);
@@ -112,7 +112,7 @@ fn high_water_kib(status: &str) -> Option<f64> {
     line.trim().strip_suffix("kB")?.trim().parse().ok()
 }
 
-/// The kernel counts KiB.
+/// Returns `ru_maxrss`, which the kernel counts in KiB.
 #[expect(
     clippy::cast_precision_loss,
     reason = "KiB of a process stay far below 2^53"

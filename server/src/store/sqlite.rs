@@ -1,20 +1,142 @@
-//! The embedded store: `SQLite` through one writing connection and a pool of readers.
+//! The embedded store: SQLite in WAL mode through one writing connection and a pool of readers.
+//!
+//! A lock file beside the database makes sure that one process serves it; so at start-up every lease in it belongs to a
+//! process that has ended.
 
 pub(in crate::store) mod backup;
-pub(in crate::store) mod batches;
-pub(in crate::store) mod checkpoints;
-pub(in crate::store) mod claims;
-pub(in crate::store) mod conclusion;
-pub(in crate::store) mod document;
-pub(in crate::store) mod events;
-pub(in crate::store) mod files;
-pub(in crate::store) mod folder;
-pub(in crate::store) mod jobs;
-pub(in crate::store) mod leases;
-pub(in crate::store) mod levels;
-pub(in crate::store) mod open;
-pub(in crate::store) mod queries;
-pub(in crate::store) mod rescues;
-pub(in crate::store) mod results;
-pub(in crate::store) mod submissions;
-pub(in crate::store) mod upkeep;
+mod batches;
+mod checkpoints;
+mod claims;
+mod document;
+mod errors;
+mod events;
+mod files;
+mod folder;
+mod gauges;
+mod job_list;
+mod jobs;
+mod leases;
+mod maintenance;
+mod open;
+mod queries;
+mod reclaim;
+mod results;
+mod submissions;
+mod transitions;
+
+use std::fs::File;
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::time::Instant;
+
+use api::job::Status;
+use sqlx::sqlite::SqlitePool;
+use tokio::sync::{Notify, broadcast};
+use uuid::Uuid;
+
+use crate::metrics::Metrics;
+use crate::store::{Changes, LeaseState, NewJob, RequestKey, StoreError, Submitted};
+
+/// Jobs, batches, events and results, durable.
+#[derive(Debug)]
+pub struct Store {
+    writer: SqlitePool,
+    readers: SqlitePool,
+    changes: broadcast::Sender<Uuid>,
+    waiting: Notify,
+    folder: folder::Folder,
+    wal: PathBuf,
+    machine: PathBuf,
+    attempt_limit: u32,
+    metrics: Arc<Metrics>,
+    submissions: submissions::Submissions,
+    /// When the database was last written by [`Store::ready`].
+    last_probe: tokio::sync::Mutex<Option<Instant>>,
+    /// Held as long as the store is open.
+    _lock: File,
+}
+
+impl Store {
+    /// Queues a job. `now` in milliseconds since 1970.
+    ///
+    /// # Errors
+    /// [`StoreError`] if the database fails.
+    pub async fn submit(&self, job: &NewJob, now: i64) -> Result<Uuid, StoreError> {
+        match self.submit_any(job, None, now).await? {
+            Submitted::Job(id) => Ok(id),
+            Submitted::KeyTaken => Err(StoreError::Unwritten),
+        }
+    }
+
+    /// Queues a job, unless a request with the same key has done so already. `now` in milliseconds since 1970.
+    ///
+    /// # Errors
+    /// [`StoreError`] if the database fails.
+    pub async fn submit_once(
+        &self,
+        job: &NewJob,
+        key: &RequestKey,
+        now: i64,
+    ) -> Result<Submitted, StoreError> {
+        self.submit_any(job, Some(key), now).await
+    }
+
+    async fn submit_any(
+        &self,
+        job: &NewJob,
+        key: Option<&RequestKey>,
+        now: i64,
+    ) -> Result<Submitted, StoreError> {
+        let submitted = self.submissions.submit(&self.writer, job, key, now).await?;
+        if let Submitted::Job(id) = submitted {
+            self.changed(id);
+            self.waiting.notify_one();
+        }
+        Ok(submitted)
+    }
+
+    /// Subscribes to the changes of a job.
+    pub fn changes(&self, id: Uuid) -> Changes {
+        Changes::new(id, self.changes.subscribe())
+    }
+
+    /// Returns when a job may be waiting in the queue.
+    pub async fn job_waiting(&self) {
+        self.waiting.notified().await;
+    }
+
+    /// Path of the machine's calibration cache, beside the database.
+    pub fn machine_file(&self) -> PathBuf {
+        self.machine.clone()
+    }
+
+    /// Counters and histograms for `/metrics`.
+    pub fn metrics(&self) -> &Arc<Metrics> {
+        &self.metrics
+    }
+
+    /// Counts a write whose lease was lost.
+    fn stale_write(&self) -> LeaseState {
+        self.metrics.stale_writes.inc();
+        LeaseState::Lost
+    }
+
+    /// Notifies the subscribers of a job.
+    fn changed(&self, id: Uuid) {
+        // Without a subscriber this is not an error.
+        let _ = self.changes.send(id);
+    }
+
+    /// Notifies subscribers and workers of a committed transition, and counts ended jobs.
+    fn concluded(&self, id: Uuid, status: Option<Status>) {
+        self.changed(id);
+        match status {
+            Some(Status::Queued) => self.waiting.notify_one(),
+            Some(status) if status.is_terminal() => self.metrics.ended(status),
+            _ => {}
+        }
+    }
+}
+
+#[cfg(test)]
+pub(in crate::store) mod tests;

@@ -1,19 +1,14 @@
-//! The queue over a real database: fencing, contention, rescue, restarts.
+//! The contract of the store over a real database: fencing, contention, reclaiming, restarts.
 
-mod backups;
 mod checkpoints;
 mod files;
 mod leases;
-mod opening;
 mod order;
 
-use std::path::Path;
 use std::sync::Arc;
 
 use api::job::{Outcome, Status};
 use solver::record::CycleReport;
-use sqlx::ConnectOptions;
-use sqlx::sqlite::{SqliteConnectOptions, SqliteConnection};
 use tempfile::TempDir;
 use tokio::sync::Barrier;
 use uuid::Uuid;
@@ -21,16 +16,19 @@ use uuid::Uuid;
 use super::*;
 use crate::http::tests::row;
 use crate::queue::{ATTEMPT_LIMIT, Transition};
+use crate::solve::checkpoint::EncodedCheckpoint;
 use crate::spec;
 
-struct Fixture {
-    store: Arc<Store>,
-    url: String,
-    folder: TempDir,
+pub(crate) use super::sqlite::tests::hold_write_lock;
+
+pub(in crate::store) struct Fixture {
+    pub(in crate::store) store: Arc<Store>,
+    pub(in crate::store) url: String,
+    pub(in crate::store) folder: TempDir,
 }
 
 impl Fixture {
-    async fn new() -> Self {
+    pub(in crate::store) async fn new() -> Self {
         let folder = TempDir::new().expect("a temporary folder");
         let url = format!(
             "sqlite://{}",
@@ -40,11 +38,11 @@ impl Fixture {
         Self { store, url, folder }
     }
 
-    async fn queued(&self) -> Uuid {
-        self.wished(SubmitOptions::default()).await
+    pub(in crate::store) async fn queued(&self) -> Uuid {
+        self.queued_with(SubmitOptions::default()).await
     }
 
-    async fn wished(&self, wishes: SubmitOptions) -> Uuid {
+    pub(in crate::store) async fn queued_with(&self, options: SubmitOptions) -> Uuid {
         let resolved = spec::read(br#"{"system":{"kind":"fuzz_button"}}"#).expect("accepted");
         let plan = crate::estimate::Estimate::of(&resolved).plan(&resolved, None);
         self.store
@@ -52,7 +50,7 @@ impl Fixture {
                 &NewJob {
                     spec: resolved.spec,
                     plan,
-                    wishes,
+                    options,
                 },
                 0,
             )
@@ -60,7 +58,7 @@ impl Fixture {
             .expect("queued")
     }
 
-    async fn claimed(&self, expires_at: i64) -> Claim {
+    pub(in crate::store) async fn claimed(&self, expires_at: i64) -> Claim {
         self.store
             .claim(1, expires_at)
             .await
@@ -68,7 +66,7 @@ impl Fixture {
             .expect("a job")
     }
 
-    async fn job(&self, id: Uuid) -> api::job::Job {
+    pub(in crate::store) async fn job(&self, id: Uuid) -> api::job::Job {
         self.store
             .job(id)
             .await
@@ -77,27 +75,46 @@ impl Fixture {
             .document
     }
 
-    /// Takes jobs back whose lease has ended by this time, and ends those that are not tried again; how many.
-    async fn rescued(&self, by: i64) -> usize {
-        let rescued = self.store.rescue_expired(by, by + 1).await;
-        let rescued = rescued.expect("the store");
-        for claim in &rescued.ending {
-            let (nothing, end) = (Batch::default(), end(Transition::Lose));
-            let ended = self.store.end(claim, &nothing, &end, by).await;
-            ended.expect("the store").expect("it is held");
+    /// Reclaims jobs whose lease has ended by this time, and ends those without another attempt; returns how many.
+    pub(in crate::store) async fn reclaimed(&self, by: i64) -> usize {
+        let reclaimed = self.store.reclaim_expired(by, by + 1).await;
+        let reclaimed = reclaimed.expect("the store");
+        for claim in &reclaimed.ending {
+            let empty = JobUpdate::default();
+            let ended = self.ended(claim, &empty, Transition::WorkerLost, by).await;
+            ended.expect("the lease is held");
         }
-        rescued.queued + rescued.ending.len()
+        reclaimed.queued + reclaimed.ending.len()
     }
 
-    async fn ended_with(&self, claim: &Claim, batch: &Batch) {
-        let ended = self
-            .store
-            .end(claim, batch, &end(Transition::Succeed), 2)
-            .await;
-        ended.expect("the store").expect("it is held");
+    pub(in crate::store) async fn recorded(
+        &self,
+        claim: &Claim,
+        update: &JobUpdate,
+        expires_at: i64,
+    ) -> LeaseState {
+        let state = self.store.record(claim, update, expires_at).await;
+        state.expect("the store")
     }
 
-    async fn cycles(&self, id: Uuid) -> Vec<u64> {
+    /// Ends a job; returns its status, or `None` if the lease was lost.
+    pub(in crate::store) async fn ended(
+        &self,
+        claim: &Claim,
+        update: &JobUpdate,
+        transition: Transition,
+        now: i64,
+    ) -> Option<Status> {
+        let status = self.store.end(claim, update, &end(transition), now).await;
+        status.expect("the store")
+    }
+
+    pub(in crate::store) async fn ended_with(&self, claim: &Claim, update: &JobUpdate) {
+        let ended = self.ended(claim, update, Transition::Succeed, 2).await;
+        ended.expect("the lease is held");
+    }
+
+    pub(in crate::store) async fn cycles(&self, id: Uuid) -> Vec<u64> {
         self.store
             .history(id)
             .await
@@ -108,28 +125,29 @@ impl Fixture {
     }
 }
 
-fn batch(cycle: u64) -> Batch {
-    Batch {
+pub(in crate::store) fn update(cycle: u64) -> JobUpdate {
+    JobUpdate {
         rows: vec![row(cycle)],
         events: vec![("cycle", "{}".to_owned())],
-        ..Batch::default()
+        ..JobUpdate::default()
     }
 }
 
-/// Another process that is about to write, and keeps everyone else from it as long as it lives.
-pub(crate) async fn written_by_another(database: &Path) -> SqliteConnection {
-    let options = SqliteConnectOptions::new().filename(database);
-    let mut other = options.connect().await.expect("another process");
-    sqlx::query("BEGIN IMMEDIATE")
-        .execute(&mut other)
-        .await
-        .expect("the lock");
-    other
+/// An update with rows up to one after a cycle, and a checkpoint at it.
+pub(in crate::store) fn with_checkpoint(cycle: u64) -> JobUpdate {
+    JobUpdate {
+        rows: (1..=cycle + 1).map(row).collect(),
+        checkpoint: Some(EncodedCheckpoint {
+            cycle,
+            state: b"a state".to_vec(),
+        }),
+        ..JobUpdate::default()
+    }
 }
 
-fn end(step: Transition) -> End {
+pub(in crate::store) fn end(transition: Transition) -> End {
     End {
-        step,
+        transition,
         reason: Some("because".to_owned()),
         outcome: Some(Outcome::Completed),
         summary: None,

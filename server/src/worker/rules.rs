@@ -8,37 +8,37 @@ use nix::sys::sysinfo::sysinfo;
 
 use crate::queue::WAITING_FOR_DISK;
 
-/// A solving process may take this many times what its plan expects: the estimate sizes the queue, the limit only keeps
-/// one job from taking the machine down.
+/// Memory limit of a solving process over its estimate: the estimate controls admission, the limit only protects the
+/// machine from one job.
 const MEMORY_MARGIN: i64 = 4;
-/// And never less than this, MB.
-const LEAST_MEMORY_MB: i64 = 1_024;
-/// Part of the machine's memory that solving processes may expect to need together, per cent.
+/// Smallest memory limit, MB.
+const MIN_MEMORY_MB: i64 = 1_024;
+/// Part of the machine's memory for all solving processes together, per cent.
 const MEMORY_SHARE_PERCENT: u64 = 80;
 
 /// How workers work.
 #[derive(Debug, Clone)]
 pub struct Rules {
-    /// The binary that has the hidden subcommand `solve-child`.
+    /// The binary with the hidden subcommand `solve-child`.
     pub program: PathBuf,
-    /// How long a lease holds unless it is renewed, which happens three times within.
+    /// Length of a lease; it is renewed three times within.
     pub lease: Duration,
-    /// How often a solving process tells a checkpoint.
+    /// Time between two checkpoints of a solving process.
     pub checkpoint_every: Duration,
-    /// How long a solving process has for its last checkpoint before it is killed.
+    /// Time for the last checkpoint of a solving process before it is killed.
     pub grace: Duration,
-    /// What running jobs may be expected to need together, MB.
+    /// Largest estimated peak memory of all running jobs together, MB.
     pub memory_mb: i64,
-    /// What a solving process may take; from its plan unless named, MB.
+    /// Memory limit of a solving process, MB; from its plan if not set.
     pub job_memory_mb: Option<i64>,
-    /// No job is taken while the disk has less than this left, MB.
+    /// Free disk space below which no job is claimed, MB.
     pub least_free_disk_mb: u64,
-    /// Where results are kept.
+    /// Folder of the results.
     pub folder: PathBuf,
 }
 
 impl Rules {
-    /// The rules for a program that keeps its results in a folder.
+    /// Default rules for a program and its folder of results.
     pub fn new(program: PathBuf, folder: PathBuf) -> Self {
         Self {
             program,
@@ -52,16 +52,16 @@ impl Rules {
         }
     }
 
-    /// What a solving process may take whose plan expects this, MB.
-    pub(super) fn memory_limit_mb(&self, expected_mb: i64) -> i64 {
+    /// Returns the memory limit of a solving process with this estimate, MB.
+    pub(super) fn memory_limit_mb(&self, estimated_mb: i64) -> i64 {
         self.job_memory_mb.unwrap_or_else(|| {
-            expected_mb
+            estimated_mb
                 .saturating_mul(MEMORY_MARGIN)
-                .max(LEAST_MEMORY_MB)
+                .max(MIN_MEMORY_MB)
         })
     }
 
-    /// Why no job may be taken for want of disk space, if so.
+    /// Returns the status reason of waiting jobs if there is not enough disk space.
     pub(super) fn disk_shortage(&self) -> Option<String> {
         let free_mb = free_disk_mb(&self.folder)?;
         (free_mb < self.least_free_disk_mb).then(|| {
@@ -73,7 +73,7 @@ impl Rules {
     }
 }
 
-/// Disk space that is free for results; nothing where the system does not tell.
+/// Returns the free disk space of a folder; `None` if the system does not report it.
 fn free_disk_mb(folder: &Path) -> Option<u64> {
     let found = statvfs(folder).ok()?;
     Some(
@@ -84,13 +84,11 @@ fn free_disk_mb(folder: &Path) -> Option<u64> {
     )
 }
 
-/// The machine's share for solving processes.
+/// Returns the default memory of all solving processes together.
 fn machine_memory_mb() -> i64 {
     let total = sysinfo().map_or(0, |info| info.ram_total() >> 20);
     let share = total.saturating_mul(MEMORY_SHARE_PERCENT) / 100;
-    i64::try_from(share)
-        .unwrap_or(i64::MAX)
-        .max(LEAST_MEMORY_MB)
+    i64::try_from(share).unwrap_or(i64::MAX).max(MIN_MEMORY_MB)
 }
 
 #[cfg(test)]
@@ -102,19 +100,19 @@ mod tests {
     }
 
     #[test]
-    fn a_solving_process_may_take_more_than_its_plan_expects() {
+    fn the_memory_limit_is_larger_than_the_estimate() {
         let rules = rules();
-        assert_eq!(rules.memory_limit_mb(100), LEAST_MEMORY_MB);
+        assert_eq!(rules.memory_limit_mb(100), MIN_MEMORY_MB);
         assert_eq!(rules.memory_limit_mb(1_000), 4_000);
-        let named = Rules {
+        let explicit = Rules {
             job_memory_mb: Some(64),
             ..rules
         };
-        assert_eq!(named.memory_limit_mb(1_000), 64);
+        assert_eq!(explicit.memory_limit_mb(1_000), 64);
     }
 
     #[test]
-    fn a_disk_with_less_than_needed_is_a_reason_to_wait() {
+    fn a_disk_with_too_little_free_space_is_a_reason_to_wait() {
         let rules = Rules {
             least_free_disk_mb: u64::MAX,
             ..rules()

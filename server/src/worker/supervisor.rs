@@ -1,4 +1,5 @@
-//! Seeing one job through: read the child's lines, write batches under the lease, obey cancel and shutdown, conclude.
+//! Supervision of one job: reads the lines of its solving process, stores them under the lease, reacts to a cancel request
+//! and to the stop of the service, ends the attempt.
 
 use std::time::Duration;
 
@@ -10,44 +11,44 @@ use tokio_util::sync::CancellationToken;
 use crate::clock::now_ms;
 use crate::queue::Transition;
 use crate::solve::Line;
+use crate::solve::process::{LineError, ReceivedLine, SolveCommand, SolveProcess};
 use crate::spec;
-use crate::store::{Claim, End, Held, Store, StoreError};
-use crate::worker::batcher::Batcher;
-use crate::worker::child::Solving;
-use crate::worker::ending::{beat, conclude, patiently};
-use crate::worker::verdict::{end, verdict};
-use crate::worker::{Rules, STORE_PAUSE};
+use crate::store::{Claim, End, LeaseState, Store, StoreError};
+use crate::worker::end::{end_by_exit, failed};
+use crate::worker::finalize::{finalize, heartbeat, retry};
+use crate::worker::update_buffer::UpdateBuffer;
+use crate::worker::{RETRY_PAUSE, Rules};
 
-/// How often gathered lines are written and a cancel request is looked for.
+/// Interval at which updates are written and the cancel request is read.
 const TICK: Duration = Duration::from_millis(150);
-/// How long the end of the output is waited for after a line that cannot be read.
-const NEXT_LINE: Duration = Duration::from_secs(1);
+/// Longest wait for the end of the output after a malformed line.
+const MALFORMED_TIMEOUT: Duration = Duration::from_secs(1);
 
-/// Why the reading of lines ended.
+/// Why reading the output of the process has ended.
 enum Stop {
-    /// The child closed its output; its last line, if it was one that ends a job.
+    /// The process closed its output; with its last line, if there was one.
     Output(Option<Line>),
-    /// A line could not be read.
-    Unreadable(String),
-    /// The user no longer wants the job.
+    /// A line cannot be read.
+    Unreadable(LineError),
+    /// The user has requested the end of the job.
     Cancelled,
-    /// The job's deadline has passed.
-    Late,
+    /// The deadline has passed.
+    DeadlinePassed,
     /// Another worker holds the job.
     LeaseLost,
     /// The service stops.
     Shutdown,
 }
 
-/// What is due.
-enum Due {
-    Batch,
-    /// The child could not go on from the checkpoint, and says why.
-    Anew(String),
+/// A write that is due.
+enum Write {
+    Update,
+    /// The process cannot resume from the checkpoint, with the cause.
+    Restart(String),
 }
 
-/// Sees a job through under a lease that is renewed until then. Whatever happens to the child, the job is concluded or
-/// another worker holds it.
+/// Supervises a job under a lease that is renewed until the end. Whatever happens to the process, the attempt is ended or
+/// another worker holds the job.
 pub(super) async fn supervise(
     store: &Store,
     claim: &Claim,
@@ -55,12 +56,12 @@ pub(super) async fn supervise(
     stopping: &CancellationToken,
 ) -> Result<(), StoreError> {
     tokio::select! {
-        seen = see_through(store, claim, rules, stopping) => seen,
-        never = beat(store, claim, rules) => match never {},
+        ended = run_attempt(store, claim, rules, stopping) => ended,
+        never = heartbeat(store, claim, rules) => match never {},
     }
 }
 
-async fn see_through(
+async fn run_attempt(
     store: &Store,
     claim: &Claim,
     rules: &Rules,
@@ -68,84 +69,93 @@ async fn see_through(
 ) -> Result<(), StoreError> {
     let cycles = serde_json::from_str::<Spec>(&claim.spec).map_or(0, |spec| spec::cycles(&spec));
     let from_cycle = claim.checkpoint.as_ref().map_or(0, |found| found.cycle);
-    tracing::info!(from_cycle, memory_mb = claim.memory_mb, "job taken");
-    let mut batcher = Batcher::new(cycles, from_cycle);
-    let folder = store.attempt_folder(claim);
-    let mut child = match Solving::start(rules, claim, &folder) {
-        Ok(child) => child,
-        Err(cause) => {
-            let end = end(
-                Transition::Lose,
-                format!("its solving process could not be started: {cause}"),
-            );
-            return conclude(store, claim, rules, &batcher.batch(true), &end).await;
+    tracing::info!(from_cycle, memory_mb = claim.memory_mb, "job claimed");
+    let mut buffer = UpdateBuffer::new(cycles, from_cycle);
+    let end = match start(store, claim, rules) {
+        Ok(mut process) => {
+            let stop =
+                read_output(store, claim, rules, &mut process, &mut buffer, stopping).await?;
+            end_process(stop, &mut process, &mut buffer, rules.grace).await
         }
+        Err(cause) => Some(End::without_result(
+            Transition::WorkerLost,
+            format!("its solving process could not be started: {cause}"),
+        )),
     };
-    let stop = follow(store, claim, rules, &mut child, &mut batcher, stopping).await?;
-    let end = match stop {
-        Stop::Output(last) => concluded(last, &mut child).await,
-        Stop::Shutdown => {
-            let last = wind_down(&mut child, &mut batcher, rules.grace).await;
-            match last {
-                Some(last) => concluded(Some(last), &mut child).await,
-                None => end(Transition::GiveBack, ""),
-            }
-        }
-        other => {
-            child.kill().await;
-            match ended_by(other) {
-                Some(end) => end,
-                None => return Ok(()),
-            }
-        }
+    let Some(mut end) = end else {
+        tracing::warn!("lease lost; nothing more is written");
+        return Ok(());
     };
-    let end = match end.step {
-        Transition::GiveBack if stopping.is_cancelled() => End {
-            reason: Some("the service was stopped".to_owned()),
-            ..end
+    if end.transition == Transition::Release && stopping.is_cancelled() {
+        end.reason = Some("the service was stopped".to_owned());
+    }
+    finalize(store, claim, rules, &buffer.take(true), &end).await
+}
+
+fn start(store: &Store, claim: &Claim, rules: &Rules) -> std::io::Result<SolveProcess> {
+    SolveCommand {
+        program: &rules.program,
+        folder: &store.attempt_folder(claim),
+        spec: &claim.spec,
+        checkpoint: claim.checkpoint.as_ref(),
+        checkpoint_every: rules.checkpoint_every,
+        memory_limit_mb: Some(rules.memory_limit_mb(claim.memory_mb)),
+    }
+    .spawn()
+}
+
+/// Waits for the exit of the process or kills it. Returns the end of the attempt; `None` if another worker holds the job.
+async fn end_process(
+    stop: Stop,
+    process: &mut SolveProcess,
+    buffer: &mut UpdateBuffer,
+    grace: Duration,
+) -> Option<End> {
+    let last = match stop {
+        Stop::Output(last) => last,
+        Stop::Shutdown => match stop_gracefully(process, buffer, grace).await {
+            Some(last) => Some(last),
+            None => return Some(End::without_result(Transition::Release, "")),
         },
-        _ => end,
-    };
-    conclude(store, claim, rules, &batcher.batch(true), &end).await
-}
-
-async fn concluded(last: Option<Line>, child: &mut Solving) -> End {
-    let (ended, words) = child.ended().await;
-    verdict(last, ended, words)
-}
-
-/// The end of a job whose child was killed for this reason; nothing if it is another worker's to end.
-fn ended_by(stop: Stop) -> Option<End> {
-    match stop {
-        Stop::Cancelled => Some(end(Transition::Cancel, "cancelled while running")),
-        Stop::Late => Some(End {
-            outcome: Some(Outcome::DeadlineExceeded),
-            ..end(Transition::Expire, "its deadline passed while it ran")
-        }),
-        Stop::Unreadable(why) => Some(End {
-            outcome: Some(Outcome::NotConverged),
-            ..end(Transition::Fail, why)
-        }),
-        Stop::Output(_) | Stop::Shutdown | Stop::LeaseLost => {
-            tracing::warn!("lease lost; nothing more is written");
-            None
+        _ => {
+            process.kill().await;
+            return end_of_killed(stop);
         }
+    };
+    Some(end_by_exit(last, &process.wait().await))
+}
+
+/// Returns the end of an attempt whose process the worker has killed.
+fn end_of_killed(stop: Stop) -> Option<End> {
+    match stop {
+        Stop::Cancelled => Some(End::without_result(
+            Transition::Cancel,
+            "cancelled while running",
+        )),
+        Stop::DeadlinePassed => Some(End {
+            outcome: Some(Outcome::DeadlineExceeded),
+            ..End::without_result(Transition::Expire, "its deadline passed while it ran")
+        }),
+        Stop::Unreadable(error) => Some(failed(Outcome::NotConverged, error.to_string())),
+        Stop::Output(_) | Stop::Shutdown | Stop::LeaseLost => None,
     }
 }
 
-/// Lets the child tell a last checkpoint and end; kills it when the grace is over. Returns the line that it ended with.
-async fn wind_down(child: &mut Solving, batcher: &mut Batcher, grace: Duration) -> Option<Line> {
-    child.terminate();
+/// Asks the process for a last checkpoint and its exit; kills it after the grace period. Returns its last line.
+async fn stop_gracefully(
+    process: &mut SolveProcess,
+    buffer: &mut UpdateBuffer,
+    grace: Duration,
+) -> Option<Line> {
+    process.terminate();
     let mut last = None;
     let read = async {
-        while let Ok(Some(text)) = child.line().await {
-            match serde_json::from_str::<Line>(&text) {
-                Ok(line @ (Line::Summary(_) | Line::Failed(_) | Line::Stopped)) => {
-                    last = Some(line);
-                }
-                // What earlier attempts left would have to go first; instead the next attempt begins anew.
-                Ok(Line::Anew(_)) | Err(_) => break,
-                Ok(line) => batcher.take(line, text.len()),
+        while let Ok(Some(ReceivedLine { line, bytes })) = process.next_line().await {
+            match line {
+                line if line.is_last() => last = Some(line),
+                // The results of earlier attempts would have to be deleted first; instead the next attempt restarts.
+                Line::Restarted(_) => break,
+                line => buffer.push(line, bytes),
             }
         }
     };
@@ -153,103 +163,105 @@ async fn wind_down(child: &mut Solving, batcher: &mut Batcher, grace: Duration) 
         tracing::warn!("the solving process did not end in time and is killed");
     }
     if last.is_none() {
-        child.kill().await;
+        process.kill().await;
     }
     last
 }
 
-async fn follow(
+async fn read_output(
     store: &Store,
     claim: &Claim,
     rules: &Rules,
-    child: &mut Solving,
-    batcher: &mut Batcher,
+    process: &mut SolveProcess,
+    buffer: &mut UpdateBuffer,
     stopping: &CancellationToken,
 ) -> Result<Stop, StoreError> {
     let mut tick = tokio::time::interval(TICK);
     tick.set_missed_tick_behavior(MissedTickBehavior::Delay);
-    let (mut last, mut refused) = (None, false);
+    let (mut last, mut store_failed) = (None, false);
     loop {
-        let due = tokio::select! {
-            // What the store does not take stays in the child's pipe, so that memory stays bounded.
-            line = child.line(), if !(refused && batcher.is_full()) => match line.map(|line| line.map(|line| (line.len(), serde_json::from_str::<Line>(&line)))) {
-                Ok(Some((_, Ok(line @ (Line::Summary(_) | Line::Failed(_) | Line::Stopped))))) => {
-                    last = Some(line);
-                    continue;
-                }
-                Ok(Some((_, Ok(Line::Anew(why))))) => Due::Anew(why),
-                Ok(Some((length, Ok(line)))) => {
-                    batcher.take(line, length);
-                    if !batcher.is_full() {
+        let write = tokio::select! {
+            // While the store fails, lines stay in the pipe, so that memory stays bounded.
+            received = process.next_line(), if !(store_failed && buffer.is_full()) => match received {
+                Ok(Some(ReceivedLine { line, bytes })) => match line {
+                    Line::Restarted(cause) => Write::Restart(cause),
+                    line if line.is_last() => {
+                        last = Some(line);
                         continue;
                     }
-                    Due::Batch
-                }
-                Ok(Some((_, Err(cause)))) => return Ok(broken(child, last, &cause).await),
+                    line => {
+                        buffer.push(line, bytes);
+                        if !buffer.is_full() {
+                            continue;
+                        }
+                        Write::Update
+                    }
+                },
                 Ok(None) => return Ok(Stop::Output(last)),
-                Err(cause) => return Ok(Stop::Unreadable(format!("the solver's output cannot be read: {cause}"))),
+                Err(error) => return Ok(stop_by(error, process, last).await),
             },
-            _ = tick.tick() => Due::Batch,
+            _ = tick.tick() => Write::Update,
             () = stopping.cancelled() => return Ok(Stop::Shutdown),
         };
         if claim.deadline_at.is_some_and(|at| now_ms() >= at) {
-            return Ok(Stop::Late);
+            return Ok(Stop::DeadlinePassed);
         }
-        match told(store, claim, rules, batcher, due).await {
-            Ok(Held::Yes {
+        match execute(store, claim, rules, buffer, write).await {
+            Ok(LeaseState::Held {
                 cancel_requested: false,
-            }) => refused = false,
-            Ok(Held::Yes {
+            }) => store_failed = false,
+            Ok(LeaseState::Held {
                 cancel_requested: true,
             }) => return Ok(Stop::Cancelled),
-            Ok(Held::No) => return Ok(Stop::LeaseLost),
-            // The solve goes on and the batch is written again; the fence keeps what comes too late from counting.
-            Err(error @ StoreError::Sql(_)) => {
-                tracing::warn!(%error, "the store did not take a write; trying again");
-                refused = true;
-                tick.reset_after(STORE_PAUSE);
+            Ok(LeaseState::Lost) => return Ok(Stop::LeaseLost),
+            // The solve continues and the update is written again; the fence discards writes that come too late.
+            Err(error @ StoreError::Database { .. }) => {
+                tracing::warn!(%error, "the store failed; retrying");
+                store_failed = true;
+                tick.reset_after(RETRY_PAUSE);
             }
             Err(error) => return Err(error),
         }
     }
 }
 
-/// What a line means that cannot be read: the last words of a process that was killed while it wrote them, or a fault of
-/// the solver if more follows.
-async fn broken(child: &mut Solving, last: Option<Line>, cause: &serde_json::Error) -> Stop {
-    match tokio::time::timeout(NEXT_LINE, child.line()).await {
-        Ok(Ok(None)) => Stop::Output(last),
-        _ => Stop::Unreadable(format!(
-            "the solver wrote something that cannot be read: {cause}"
-        )),
+/// Returns the meaning of a line error. A malformed line at the end of the output was truncated when the process was
+/// killed; followed by more output it is a failure of the solver.
+async fn stop_by(error: LineError, process: &mut SolveProcess, last: Option<Line>) -> Stop {
+    if matches!(error, LineError::Malformed(_)) {
+        let next = tokio::time::timeout(MALFORMED_TIMEOUT, process.next_line()).await;
+        if matches!(next, Ok(Ok(None))) {
+            return Stop::Output(last);
+        }
     }
+    Stop::Unreadable(error)
 }
 
-/// Writes what is due; whether the worker still holds the job.
-async fn told(
+/// Executes a write. An update without new lines only reads the state of the lease.
+async fn execute(
     store: &Store,
     claim: &Claim,
     rules: &Rules,
-    batcher: &mut Batcher,
-    due: Due,
-) -> Result<Held, StoreError> {
-    match due {
-        Due::Anew(why) => {
+    buffer: &mut UpdateBuffer,
+    write: Write,
+) -> Result<LeaseState, StoreError> {
+    match write {
+        Write::Restart(cause) => {
             tracing::error!(
-                why,
-                "the checkpoint cannot be gone on from; the job begins anew"
+                cause,
+                "the run cannot resume from its checkpoint and restarts at cycle 0"
             );
-            batcher.begin_anew();
-            patiently(|| store.begin_anew(claim)).await
+            buffer.restart();
+            retry(|| store.restart(claim)).await
         }
-        Due::Batch if batcher.is_dirty() => {
-            let batch = batcher.batch(false);
-            let answer = store.record(claim, &batch, rules.lease_end()).await;
+        Write::Update if buffer.is_dirty() => {
+            let update = buffer.take(false);
+            let answer = store.record(claim, &update, rules.lease_end()).await;
             if answer.is_err() {
-                batcher.give_back(batch);
+                buffer.put_back(update);
             }
             answer
         }
-        Due::Batch => store.held(claim).await,
+        Write::Update => store.lease_state(claim).await,
     }
 }

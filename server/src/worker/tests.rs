@@ -1,4 +1,4 @@
-//! Workers with solving processes that misbehave.
+//! Workers with faulty solving processes.
 
 use std::os::unix::fs::PermissionsExt;
 use std::path::PathBuf;
@@ -15,10 +15,10 @@ use uuid::Uuid;
 use crate::http::tests::row;
 use crate::solve::Line;
 use crate::spec;
-use crate::store::{Batch, NewJob, Store, SubmitOptions};
+use crate::store::{JobUpdate, NewJob, Store, SubmitOptions};
 use crate::worker::{Rules, work};
 
-/// A worker whose solving process is a shell script, and the one job that it has, with one attempt.
+/// A worker whose solving process is a shell script, with one job and one attempt.
 struct Scripted {
     store: Arc<Store>,
     id: Uuid,
@@ -48,7 +48,7 @@ impl Scripted {
         let job = NewJob {
             plan: crate::estimate::Estimate::of(&resolved).plan(&resolved, None),
             spec,
-            wishes: SubmitOptions::default(),
+            options: SubmitOptions::default(),
         };
         let id = store.submit(&job, 0).await.expect("queued");
         let rules = Rules {
@@ -66,21 +66,21 @@ impl Scripted {
         }
     }
 
-    /// The job once it is as wanted.
-    async fn job_when(&self, wanted: impl Fn(&Job) -> bool) -> Job {
-        let asked = async {
+    /// Waits until the job satisfies a condition.
+    async fn job_when(&self, condition: impl Fn(&Job) -> bool) -> Job {
+        let polled = async {
             loop {
                 let found = self.store.job(self.id).await.expect("the store");
                 let job = found.expect("a job").document;
-                if wanted(&job) {
+                if condition(&job) {
                     return job;
                 }
                 tokio::time::sleep(Duration::from_millis(20)).await;
             }
         };
-        tokio::time::timeout(PATIENCE, asked)
+        tokio::time::timeout(TEST_TIMEOUT, polled)
             .await
-            .expect("the job gets there")
+            .expect("the condition is met in time")
     }
 
     async fn ended(&self) -> Job {
@@ -93,10 +93,10 @@ impl Scripted {
     }
 }
 
-/// How long anything may take before a test gives up; it is no measure of speed.
-const PATIENCE: Duration = Duration::from_mins(1);
+/// Longest wait of a test; not a measure of speed.
+const TEST_TIMEOUT: Duration = Duration::from_mins(1);
 
-/// The job after its one attempt.
+/// Runs a script; returns the job after its attempt.
 async fn ended_job(script: &str) -> Job {
     let scripted = Scripted::new(script).await;
     let job = scripted.ended().await;
@@ -105,7 +105,7 @@ async fn ended_job(script: &str) -> Job {
 }
 
 #[tokio::test]
-async fn a_process_that_is_killed_while_it_writes_is_a_lost_worker() {
+async fn a_process_killed_while_writing_is_a_lost_worker() {
     let job = ended_job("read spec; read checkpoint; printf '{\"event\":\"cyc'; kill -9 $$").await;
     assert_eq!(job.outcome, Some(Outcome::WorkerLost), "{job:?}");
     let reason = job.status_reason.expect("a reason");
@@ -116,7 +116,7 @@ async fn a_process_that_is_killed_while_it_writes_is_a_lost_worker() {
 }
 
 #[tokio::test]
-async fn a_process_that_writes_nonsense_is_a_fault_of_the_solver() {
+async fn a_process_that_writes_nonsense_is_a_failure_of_the_solver() {
     let job = ended_job("read spec; read checkpoint; echo nonsense; exec sleep 60").await;
     assert_eq!(job.outcome, Some(Outcome::NotConverged), "{job:?}");
     let reason = job.status_reason.expect("a reason");
@@ -139,13 +139,13 @@ async fn a_job_whose_process_never_reads_its_specification_can_be_cancelled() {
 }
 
 #[tokio::test]
-async fn a_process_that_closes_its_output_and_stays_is_killed() {
+async fn a_process_that_closes_its_output_and_does_not_exit_is_killed() {
     let job = ended_job("read spec; read checkpoint; exec >&-; exec sleep 100").await;
     assert_eq!(job.outcome, Some(Outcome::WorkerLost), "{job:?}");
 }
 
 #[tokio::test]
-async fn a_job_whose_last_worker_is_lost_keeps_documents_of_what_was_computed() {
+async fn a_job_whose_last_worker_is_lost_has_documents_of_its_results() {
     let row = serde_json::to_string(&Line::Cycle(row(1))).expect("a line");
     let script = format!("read spec; read checkpoint; echo '{row}'; sleep 0.1; kill -9 $$");
     let scripted = Scripted::new(&script).await;
@@ -162,18 +162,18 @@ async fn a_job_whose_last_worker_is_lost_keeps_documents_of_what_was_computed() 
 }
 
 #[tokio::test]
-async fn a_stop_before_a_job_has_begun_anew_leaves_what_earlier_attempts_computed() {
-    let anew = serde_json::to_string(&Line::Anew("it is of another version".to_owned()));
+async fn a_stop_before_a_restart_discards_the_rows_of_the_restarted_run() {
+    let restarted = serde_json::to_string(&Line::Restarted("it is of another version".to_owned()));
     let row = serde_json::to_string(&Line::Cycle(row(1))).expect("a line");
-    // Tells that it begins anew only when it is asked to end.
+    // It reports the restart only when it is asked to end.
     let script = format!(
         "trap \"echo '{}'; echo '{row}'; exit 0\" TERM; read spec; read checkpoint; while :; do sleep 0.05; done",
-        anew.expect("a line").replace('"', "\\\"")
+        restarted.expect("a line").replace('"', "\\\"")
     );
     let script = script.replace(&row, &row.replace('"', "\\\""));
     let scripted = Scripted::new(&script).await;
     scripted.job_when(|job| job.status == Status::Running).await;
-    // The process has to set its trap first.
+    // The process has to install its signal handler first.
     tokio::time::sleep(Duration::from_millis(300)).await;
     let (store, id) = (Arc::clone(&scripted.store), scripted.id);
     scripted.stop().await;
@@ -181,12 +181,12 @@ async fn a_stop_before_a_job_has_begun_anew_leaves_what_earlier_attempts_compute
     assert_eq!(
         rows,
         [],
-        "rows of a run that begins anew are mixed with others"
+        "rows of a restarted run are mixed with those of the first one"
     );
 }
 
 #[tokio::test]
-async fn an_unwanted_job_whose_worker_is_lost_keeps_documents_of_what_was_computed() {
+async fn a_job_with_a_cancel_request_whose_worker_is_lost_has_documents_of_its_results() {
     let folder = TempDir::new().expect("a temporary folder");
     let url = format!("sqlite://{}", folder.path().join("test.db").display());
     let store = Store::open(&url).await.expect("a store");
@@ -194,21 +194,25 @@ async fn an_unwanted_job_whose_worker_is_lost_keeps_documents_of_what_was_comput
     let job = NewJob {
         plan: crate::estimate::Estimate::of(&resolved).plan(&resolved, None),
         spec: resolved.spec,
-        wishes: SubmitOptions::default(),
+        options: SubmitOptions::default(),
     };
     let id = store.submit(&job, 0).await.expect("queued");
     let claim = store.claim(0, 10).await.expect("the store");
-    let batch = Batch {
+    let update = JobUpdate {
         rows: vec![row(1)],
-        ..Batch::default()
+        ..JobUpdate::default()
     };
-    let recorded = store.record(&claim.expect("a job"), &batch, 10).await;
+    let recorded = store.record(&claim.expect("a job"), &update, 10).await;
     recorded.expect("the store");
     store.cancel(id, 1).await.expect("the store");
-    let rescued = store.rescue_expired(10, i64::MAX).await.expect("the store");
+    let reclaimed = store
+        .reclaim_expired(10, i64::MAX)
+        .await
+        .expect("the store");
     let rules = Rules::new(PathBuf::from("none"), folder.path().to_owned());
-    let buried = super::bury(&store, &rescued.ending[0], &rules, rescued.reason).await;
-    buried.expect("the store");
+    let ended =
+        super::finalize_lost_job(&store, &reclaimed.ending[0], &rules, reclaimed.reason).await;
+    ended.expect("the store");
     let job = store.job(id).await.expect("the store").expect("a job");
     assert_eq!(job.document.status, Status::Cancelled);
     let files = store.manifest(id).await.expect("the store");

@@ -1,37 +1,39 @@
 //! The model of a job.
 
 use api::job::Status;
-use server::queue::{Transition, Tries, after};
+use server::queue::{Attempts, Transition, next_status};
 use uuid::Uuid;
 
-/// How often a job is tried.
-pub(crate) const ATTEMPTS: u32 = 3;
+/// Limit of attempts at a job.
+pub(crate) const ATTEMPT_LIMIT: u32 = 3;
 
-/// A job as the model has it.
+/// A job of the model.
 #[derive(Debug, Clone)]
-pub(crate) struct Modelled {
+pub(crate) struct ModelJob {
     pub(crate) id: Uuid,
     pub(crate) status: Status,
-    pub(crate) place: i64,
+    pub(crate) sort_key: i64,
     pub(crate) deadline_at: Option<i64>,
     pub(crate) attempts: u32,
     pub(crate) lease: i64,
     pub(crate) expires_at: i64,
-    pub(crate) unwanted: bool,
+    pub(crate) cancel_requested: bool,
     pub(crate) events: i64,
-    /// Cycles whose rows are there, counted from 1, and the one that the checkpoint is at.
+    /// Last cycle with a row, counted from 1, and the cycle of the checkpoint.
     pub(crate) rows: u64,
     pub(crate) checkpoint: u64,
     pub(crate) deleted: bool,
 }
 
-impl Modelled {
-    pub(crate) fn moves(&mut self, step: Transition) -> bool {
-        let tries = Tries {
+impl ModelJob {
+    /// Applies a transition; `false` if it is not allowed.
+    pub(crate) fn apply(&mut self, transition: Transition) -> bool {
+        let attempts = Attempts {
             made: self.attempts,
-            limit: ATTEMPTS,
+            limit: ATTEMPT_LIMIT,
         };
-        let Some(status) = after(self.status, step, tries, self.unwanted) else {
+        let Some(status) = next_status(self.status, transition, attempts, self.cancel_requested)
+        else {
             return false;
         };
         self.status = status;

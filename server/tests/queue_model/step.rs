@@ -1,12 +1,12 @@
-//! What is done to the queue, drawn at random.
+//! Random operations on the queue.
 
 use proptest::prelude::*;
 use server::queue::Transition;
 
-/// How long a lease holds, ms.
+/// Length of a lease, ms.
 pub(crate) const LEASE_MS: i64 = 1_000;
 
-/// What is done to the queue. Numbers choose among jobs or claims, whatever their count is.
+/// An operation on the queue. Indices are taken modulo the number of jobs or claims.
 #[derive(Debug, Clone)]
 pub(crate) enum Step {
     Submit {
@@ -21,17 +21,17 @@ pub(crate) enum Step {
     Renew {
         claim: usize,
     },
-    BeginAnew {
+    Restart {
         claim: usize,
     },
     End {
         claim: usize,
-        step: usize,
+        transition: usize,
     },
     Cancel {
         job: usize,
     },
-    Rescue,
+    Reclaim,
     Expire,
     Delete {
         job: usize,
@@ -45,8 +45,8 @@ pub(crate) const ENDS: [Transition; 5] = [
     Transition::Succeed,
     Transition::Fail,
     Transition::Cancel,
-    Transition::GiveBack,
-    Transition::Lose,
+    Transition::Release,
+    Transition::WorkerLost,
 ];
 
 pub(crate) fn step() -> impl Strategy<Value = Step> {
@@ -57,10 +57,10 @@ pub(crate) fn step() -> impl Strategy<Value = Step> {
         4 => (any::<usize>(), any::<bool>())
             .prop_map(|(claim, checkpoint)| Step::Record { claim, checkpoint }),
         2 => any::<usize>().prop_map(|claim| Step::Renew { claim }),
-        1 => any::<usize>().prop_map(|claim| Step::BeginAnew { claim }),
-        3 => (any::<usize>(), 0..ENDS.len()).prop_map(|(claim, step)| Step::End { claim, step }),
+        1 => any::<usize>().prop_map(|claim| Step::Restart { claim }),
+        3 => (any::<usize>(), 0..ENDS.len()).prop_map(|(claim, transition)| Step::End { claim, transition }),
         1 => any::<usize>().prop_map(|job| Step::Cancel { job }),
-        2 => Just(Step::Rescue),
+        2 => Just(Step::Reclaim),
         1 => Just(Step::Expire),
         1 => any::<usize>().prop_map(|job| Step::Delete { job }),
         3 => (0..LEASE_MS).prop_map(|ms| Step::Wait { ms }),

@@ -1,45 +1,34 @@
-//! One run in a process of its own: what it found and what it cost.
+//! One run in a process of its own: its solution and its cost.
 
-use std::io::{BufRead, BufReader, Write};
 use std::path::Path;
-use std::process::{Command, Stdio};
+use std::time::Duration;
 
 use api::results::Profile;
 use api::spec::Spec;
 
 use crate::batch::accuracy::{Found, Spent, StudyError};
+use crate::solve::process::{LineError, SolveCommand};
 use crate::solve::{Line, children_cpu_s};
 
-/// A run of a study is not gone on with: no checkpoints, which would cost time.
-const NEVER_MS: &str = "1000000000";
+/// Time between two checkpoints: longer than any run, because a run of a study is never resumed.
+const NO_CHECKPOINTS: Duration = Duration::from_secs(1_000_000);
 
-/// Solves a specification with the program's `solve-child` and waits for it.
+/// Solves a specification with the program's `solve-child`; blocks until the process has exited.
 pub(crate) fn solve(
     program: &Path,
     spec: &Spec,
 ) -> Result<(Result<Found, String>, Spent), StudyError> {
+    let spec = serde_json::to_string(spec)?;
+    let runtime = tokio::runtime::Builder::new_current_thread()
+        .enable_all()
+        .build()?;
     let before = children_cpu_s();
-    let mut child = Command::new(program)
-        .arg("solve-child")
-        .arg("--checkpoint-every-ms")
-        .arg(NEVER_MS)
-        .arg(std::env::temp_dir())
-        .stdin(Stdio::piped())
-        .stdout(Stdio::piped())
-        .stderr(Stdio::inherit())
-        .spawn()?;
-    let missing = || std::io::Error::other("the process has no pipe");
-    // Held until the process has ended: it ends when its standard input does.
-    let mut stdin = child.stdin.take().ok_or_else(missing)?;
-    let stdout = child.stdout.take().ok_or_else(missing)?;
-    let mut line = serde_json::to_vec(spec)?;
-    // The second line would be a checkpoint to go on from.
-    line.extend(b"\n\n");
-    stdin.write_all(&line)?;
-    stdin.flush()?;
-    let found = read(BufReader::new(stdout))?;
-    child.wait()?;
-    drop(stdin);
+    let found = runtime
+        .block_on(run(program, &spec))
+        .map_err(|error| match error {
+            LineError::Read(cause) => StudyError::Process(cause),
+            LineError::Malformed(cause) => StudyError::Line(cause),
+        })?;
     let cpu_s = children_cpu_s() - before;
     let peak_memory_mb = found
         .as_ref()
@@ -51,17 +40,30 @@ pub(crate) fn solve(
     Ok((found, spent))
 }
 
-fn read(lines: impl BufRead) -> Result<Result<Found, String>, StudyError> {
-    let mut last: Option<Profile> = None;
-    for line in lines.lines() {
-        match serde_json::from_str(&line?)? {
-            Line::Snapshot(snapshot) => last = Some(snapshot.profile),
-            Line::Summary(summary) => {
-                return Ok(Ok(Found::new(*summary, &last.unwrap_or_default())));
-            }
-            Line::Failed(failure) => return Ok(Err(failure.reason)),
+async fn run(program: &Path, spec: &str) -> Result<Result<Found, String>, LineError> {
+    let command = SolveCommand {
+        program,
+        folder: &std::env::temp_dir(),
+        spec,
+        checkpoint: None,
+        checkpoint_every: NO_CHECKPOINTS,
+        memory_limit_mb: None,
+    };
+    let mut process = command.spawn().map_err(LineError::Read)?;
+    let (mut profile, mut found) = (Profile::default(), None);
+    while let Some(received) = process.next_line().await? {
+        match received.line {
+            Line::Snapshot(snapshot) => profile = snapshot.profile,
+            Line::Summary(summary) => found = Some(Ok(Found::new(*summary, &profile))),
+            Line::Failed(failure) => found = Some(Err(failure.reason)),
             _ => {}
         }
     }
-    Ok(Err("the process ended without a result".to_owned()))
+    let exit = process.wait().await;
+    Ok(found.unwrap_or_else(|| {
+        Err(format!(
+            "the process ended without a result{}",
+            exit.details()
+        ))
+    }))
 }

@@ -1,6 +1,6 @@
-//! Backup and restore: one consistent copy of the database and the files that it names, verified.
+//! Backup and restore: one consistent, verified copy of the database and the files that it names.
 //!
-//! A backup is a folder with `fretwear.db` and `fretwear.db.results`, so it can be served as it is.
+//! A backup is a folder with `fretwear.db` and `fretwear.db.results`, which can be served as it is.
 
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
@@ -10,88 +10,28 @@ use sqlx::sqlite::{SqliteConnectOptions, SqliteConnection};
 use sqlx::{ConnectOptions, Connection};
 
 use crate::export::files::{create_folder, parent, sha256};
-use crate::store::StoreError;
 use crate::store::sqlite::folder::Folder;
-use crate::store::sqlite::open::locked;
+use crate::store::sqlite::open::lock;
+use crate::store::{BackupError, CopySummary, StoreError};
 
-/// Name of the database in a backup.
+/// File name of the database in a backup.
 const NAME: &str = "fretwear.db";
 
-/// Why there is no backup, or nothing was restored.
-#[derive(Debug, thiserror::Error)]
-pub enum BackupError {
-    /// The store cannot be used.
-    #[error(transparent)]
-    Store(#[from] StoreError),
-    /// The database refused a statement.
-    #[error("database: {0}")]
-    Sql(#[from] sqlx::Error),
-    /// A file cannot be read or written.
-    #[error("{}: {cause}", .path.display())]
-    File {
-        /// The file.
-        path: PathBuf,
-        /// Why.
-        cause: std::io::Error,
-    },
-    /// Nothing is overwritten.
-    #[error("{} exists; nothing is overwritten", .0.display())]
-    Exists(PathBuf),
-    /// The database is damaged.
-    #[error("{} is damaged: {found}", .path.display())]
-    Damaged {
-        /// The database.
-        path: PathBuf,
-        /// What its check said.
-        found: String,
-    },
-    /// A file that the database names is not there.
-    #[error("the database names {0}, which is not there")]
-    Missing(String),
-    /// A file is not the one that the database names.
-    #[error("{} has the checksum {found}, the database names {named}", .path.display())]
-    Checksum {
-        /// The file.
-        path: PathBuf,
-        /// Its checksum.
-        found: String,
-        /// The one it should have.
-        named: String,
-    },
-    /// The database names a place outside of its folder.
-    #[error("the database names `{0}`, which is no place for a file")]
-    Place(String),
-}
-
-/// What was copied and verified.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Copied {
-    /// Jobs in the database.
-    pub jobs: i64,
-    /// Files beside it.
-    pub files: usize,
-    /// Their size together, bytes.
-    pub file_bytes: u64,
-}
-
-/// Copies the database at `url`, which may be served meanwhile, and its files into a new folder.
+/// Copies the database at `url`, which may be in use, and its files into a new folder.
 ///
 /// # Errors
-/// [`BackupError`]; what was copied so far stays there to be looked at.
-pub async fn backup(url: &str, into: &Path) -> Result<Copied, BackupError> {
+/// [`BackupError`]; the incomplete copy is not removed.
+pub async fn backup(url: &str, into: &Path) -> Result<CopySummary, BackupError> {
     let source = path_of(url)?;
     let target = into.join(NAME);
     absent(&target)?;
     create_folder(into).map_err(|cause| file(into, cause))?;
     copy_database(&source, &target).await?;
-    copy_what_it_names(&source, &target).await
+    copy_named_files(&source, &target).await
 }
 
-/// Copies a database, which may be served meanwhile, as it stands.
-pub(in crate::store) async fn copy_database(
-    source: &Path,
-    target: &Path,
-) -> Result<(), BackupError> {
+/// Copies a database, which may be in use.
+pub(super) async fn copy_database(source: &Path, target: &Path) -> Result<(), BackupError> {
     let mut database = SqliteConnectOptions::new()
         .filename(source)
         .connect()
@@ -103,23 +43,24 @@ pub(in crate::store) async fn copy_database(
     Ok(database.close().await?)
 }
 
-/// Copies the files that a copied database names; what was deleted from its source meanwhile is deleted from it too.
-pub(in crate::store) async fn copy_what_it_names(
+/// Copies the files that a copied database names; jobs that were deleted from the source meanwhile are deleted from the
+/// copy too.
+pub(super) async fn copy_named_files(
     source: &Path,
     target: &Path,
-) -> Result<Copied, BackupError> {
-    let (mut copied, gone) =
+) -> Result<CopySummary, BackupError> {
+    let (mut copied, missing) =
         copy_files(target, &Folder::beside(source), &Folder::beside(target)).await?;
-    still_named(source, &gone).await?;
-    copied.jobs = forget(target, &gone).await?;
-    synced(target)?;
-    synced(parent(target))?;
+    check_deleted(source, &missing).await?;
+    copied.jobs = delete_missing(target, &missing).await?;
+    sync(target)?;
+    sync(parent(target))?;
     Ok(copied)
 }
 
-/// Files that are gone although a database names them are damage.
-async fn still_named(database: &Path, gone: &[String]) -> Result<(), BackupError> {
-    if gone.is_empty() {
+/// Checks that a database no longer names these missing files.
+async fn check_deleted(database: &Path, missing: &[String]) -> Result<(), BackupError> {
+    if missing.is_empty() {
         return Ok(());
     }
     let mut connection = SqliteConnectOptions::new()
@@ -127,7 +68,7 @@ async fn still_named(database: &Path, gone: &[String]) -> Result<(), BackupError
         .read_only(true)
         .connect()
         .await?;
-    for place in gone {
+    for place in missing {
         let named: i64 = sqlx::query_scalar("SELECT count(*) FROM result_files WHERE place = ?")
             .bind(place)
             .fetch_one(&mut connection)
@@ -139,16 +80,16 @@ async fn still_named(database: &Path, gone: &[String]) -> Result<(), BackupError
     Ok(connection.close().await?)
 }
 
-/// Brings a copy up to what has become of files that are gone: jobs that had ended were deleted, others begin anew.
-/// Returns how many jobs the copy has.
-async fn forget(copy: &Path, gone: &[String]) -> Result<i64, BackupError> {
+/// Deletes the owners of missing files from a copy: ended jobs were deleted from the source, other jobs restart at cycle 0.
+/// Returns the number of jobs in the copy.
+async fn delete_missing(copy: &Path, missing: &[String]) -> Result<i64, BackupError> {
     let mut database = SqliteConnectOptions::new()
         .filename(copy)
         .foreign_keys(true)
         .connect()
         .await?;
     let mut transaction = database.begin().await?;
-    for place in gone {
+    for place in missing {
         for statement in [
             "DELETE FROM jobs WHERE finished_at IS NOT NULL AND id IN (SELECT job_id FROM result_files WHERE place = ?)",
             "DELETE FROM checkpoints WHERE job_id IN (SELECT job_id FROM result_files WHERE place = ?)",
@@ -168,36 +109,35 @@ async fn forget(copy: &Path, gone: &[String]) -> Result<i64, BackupError> {
     Ok(jobs)
 }
 
-/// Copies a backup to where the database at `url` is to be; refuses to overwrite one.
+/// Copies a backup to the database address `url`; overwrites nothing.
 ///
 /// # Errors
-/// [`BackupError`]; the database is there only if all of the backup was found to be sound.
-pub async fn restore(from: &Path, url: &str) -> Result<Copied, BackupError> {
+/// [`BackupError`]; the database is created only if the whole backup is valid.
+pub async fn restore(from: &Path, url: &str) -> Result<CopySummary, BackupError> {
     let (source, target) = (from.join(NAME), path_of(url)?);
     absent(&target)?;
-    // Nobody may begin to serve it before all of it is there.
-    let _lock = locked(&target)?;
-    let (copied, gone) =
+    // No process may serve it before it is complete.
+    let _lock = lock(&target)?;
+    let (copied, missing) =
         copy_files(&source, &Folder::beside(&source), &Folder::beside(&target)).await?;
-    still_named(&source, &gone).await?;
+    check_deleted(&source, &missing).await?;
     let mut partial = target.clone().into_os_string();
     partial.push(".partial");
     let partial = PathBuf::from(partial);
     std::fs::copy(&source, &partial).map_err(|cause| file(&partial, cause))?;
-    synced(&partial)?;
+    sync(&partial)?;
     std::fs::rename(&partial, &target).map_err(|cause| file(&target, cause))?;
-    // The rename is on the disk once the folder is.
-    synced(parent(&target))?;
+    // The rename is durable once the folder is synced.
+    sync(parent(&target))?;
     Ok(copied)
 }
 
-/// Checks a database and copies the files it names, each against its checksum; with the places of those that are not
-/// there.
+/// Checks a database and copies the files it names, comparing their checksums. Also returns the paths of missing files.
 async fn copy_files(
     database: &Path,
     from: &Folder,
     to: &Folder,
-) -> Result<(Copied, Vec<String>), BackupError> {
+) -> Result<(CopySummary, Vec<String>), BackupError> {
     let mut connection = SqliteConnectOptions::new()
         .filename(database)
         .read_only(true)
@@ -215,12 +155,12 @@ async fn copy_files(
         .await?;
     let named = named_files(&mut connection).await?;
     connection.close().await?;
-    let mut copied = Copied {
+    let mut copied = CopySummary {
         jobs,
         files: 0,
         file_bytes: 0,
     };
-    let mut gone = Vec::new();
+    let mut missing = Vec::new();
     for (place, sha256) in named {
         let (Some(source), Some(target)) = (from.path(&place), to.path(&place)) else {
             return Err(BackupError::Place(place));
@@ -230,10 +170,10 @@ async fn copy_files(
                 copied.files += 1;
                 copied.file_bytes += bytes;
             }
-            None => gone.push(place),
+            None => missing.push(place),
         }
     }
-    Ok((copied, gone))
+    Ok((copied, missing))
 }
 
 async fn named_files(
@@ -246,7 +186,7 @@ async fn named_files(
     )
 }
 
-/// Copies a file; its length, or nothing if it is not there.
+/// Copies a file; returns its length, or `None` if it does not exist.
 fn copy_file(source: &Path, target: &Path, named: &str) -> Result<Option<u64>, BackupError> {
     let bytes = match std::fs::read(source) {
         Err(cause) if cause.kind() == ErrorKind::NotFound => return Ok(None),
@@ -263,8 +203,8 @@ fn copy_file(source: &Path, target: &Path, named: &str) -> Result<Option<u64>, B
     let folder = parent(target);
     create_folder(folder).map_err(|cause| file(folder, cause))?;
     std::fs::write(target, &bytes).map_err(|cause| file(target, cause))?;
-    synced(target)?;
-    synced(folder)?;
+    sync(target)?;
+    sync(folder)?;
     Ok(Some(u64::try_from(bytes.len()).unwrap_or(u64::MAX)))
 }
 
@@ -282,7 +222,7 @@ fn absent(path: &Path) -> Result<(), BackupError> {
     Ok(())
 }
 
-fn synced(path: &Path) -> Result<(), BackupError> {
+fn sync(path: &Path) -> Result<(), BackupError> {
     std::fs::File::open(path)
         .and_then(|opened| opened.sync_all())
         .map_err(|cause| file(path, cause))

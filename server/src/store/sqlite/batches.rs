@@ -9,9 +9,9 @@ use uuid::Uuid;
 use crate::store::batches::{
     BatchDetail, BatchFilter, BatchJob, BatchOverview, NewBatch, StoredBatch,
 };
-use crate::store::sqlite::document::{parsed, timestamp};
+use crate::store::sqlite::document::timestamp;
 use crate::store::sqlite::jobs::{cancel, insert};
-use crate::store::sqlite::queries::{BEGIN, job_id};
+use crate::store::sqlite::queries::{BEGIN, job_id, parsed};
 use crate::store::{Cancelled, Deleted, RequestKey, SnapshotPart, Store, StoreError, Submitted};
 
 #[derive(sqlx::FromRow)]

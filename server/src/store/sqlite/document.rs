@@ -1,18 +1,18 @@
-//! Stored rows to job documents.
+//! Rows of `jobs` as job documents.
 
 use std::collections::BTreeMap;
 
 use api::job::{Job, Outcome, Status};
 use jiff::Timestamp;
-use serde::de::DeserializeOwned;
+use sqlx::{QueryBuilder, Sqlite};
 use uuid::Uuid;
 
 use crate::store::StoreError;
-use crate::store::sqlite::queries::job_id;
+use crate::store::sqlite::queries::{attempt_count, corrupt, job_id, parsed};
 
 /// A row of `jobs`.
 #[derive(Debug, sqlx::FromRow)]
-pub(in crate::store) struct JobRow {
+pub(super) struct JobRow {
     id: String,
     spec: String,
     plan: String,
@@ -27,13 +27,21 @@ pub(in crate::store) struct JobRow {
     progress: String,
     summary: Option<String>,
     attempts: i64,
-    pub(in crate::store) last_event: i64,
-    pub(in crate::store) version: i64,
+    pub(super) last_event: i64,
+    pub(super) version: i64,
 }
 
 impl JobRow {
-    /// The document.
-    pub(in crate::store) fn document(&self) -> Result<Job, StoreError> {
+    /// Starts a query of rows.
+    pub(super) fn select() -> QueryBuilder<Sqlite> {
+        QueryBuilder::new(
+            "SELECT id, spec, plan, status, status_reason, outcome, created_at, started_at, finished_at, \
+             priority, deadline_at, progress, summary, attempts, last_event, version FROM jobs",
+        )
+    }
+
+    /// Returns the document.
+    pub(super) fn document(&self) -> Result<Job, StoreError> {
         let id = job_id(&self.id)?;
         let status =
             Status::from_name(&self.status).ok_or_else(|| corrupt(id, "status", &self.status))?;
@@ -48,7 +56,7 @@ impl JobRow {
             started_at: self.started_at.map(timestamp),
             finished_at: self.finished_at.map(timestamp),
             progress: parsed(id, "progress", &self.progress)?,
-            attempts: u32::try_from(self.attempts).unwrap_or(u32::MAX),
+            attempts: attempt_count(self.attempts),
             spec: parsed(id, "specification", &self.spec)?,
             plan: Some(parsed(id, "plan", &self.plan)?),
             summary: self
@@ -80,25 +88,8 @@ fn links(id: Uuid) -> BTreeMap<String, String> {
     links
 }
 
-/// Parses a stored document.
-pub(in crate::store) fn parsed<T: DeserializeOwned>(
-    id: Uuid,
-    what: &'static str,
-    text: &str,
-) -> Result<T, StoreError> {
-    serde_json::from_str(text).map_err(|cause| corrupt(id, what, &cause))
-}
-
-fn corrupt(id: Uuid, what: &'static str, cause: &impl ToString) -> StoreError {
-    StoreError::Corrupt {
-        id,
-        what,
-        cause: cause.to_string(),
-    }
-}
-
-/// Milliseconds since 1970 as RFC 3339.
-pub(in crate::store) fn timestamp(milliseconds: i64) -> String {
+/// Formats milliseconds since 1970 as RFC 3339.
+pub(super) fn timestamp(milliseconds: i64) -> String {
     Timestamp::from_millisecond(milliseconds)
         .map_or_else(|_| milliseconds.to_string(), |time| time.to_string())
 }

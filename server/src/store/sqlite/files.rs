@@ -1,33 +1,15 @@
-//! The manifest of a job: what it produced, by name, and where the content is.
+//! Manifests: the files of a job by name, and their content.
 
 use std::collections::HashSet;
 use std::path::PathBuf;
 
-use api::results::{ResultFile, Snapshot};
+use api::results::ResultFile;
 use sqlx::{Sqlite, Transaction};
 use uuid::Uuid;
 
 use crate::store::sqlite::folder::Folder;
-use crate::store::sqlite::leases::Claim;
-use crate::store::{Store, StoreError};
-
-/// A file to be added to the manifest.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct NewFile {
-    /// What the manifest says.
-    pub file: ResultFile,
-    /// The content, if it is small; otherwise it is a file of that name in the attempt's folder.
-    pub content: Option<Vec<u8>>,
-}
-
-/// Where the content of a file is.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub enum Content {
-    /// Here.
-    Inline(Vec<u8>),
-    /// In this file.
-    File(PathBuf),
-}
+use crate::store::sqlite::queries::{corrupt, integer};
+use crate::store::{Claim, Content, NewFile, Store, StoreError};
 
 #[derive(sqlx::FromRow)]
 struct FileRow {
@@ -51,12 +33,12 @@ impl From<FileRow> for ResultFile {
 }
 
 impl Store {
-    /// Where an attempt at a job writes its large results.
+    /// Returns the folder into which an attempt at a job writes its large results.
     pub fn attempt_folder(&self, claim: &Claim) -> PathBuf {
         self.folder.of_attempt(claim.id, claim.lease)
     }
 
-    /// The manifest of a job so far, by name.
+    /// Returns the manifest of a job so far, by name.
     ///
     /// # Errors
     /// [`StoreError`] if the database fails.
@@ -70,7 +52,7 @@ impl Store {
         Ok(rows.into_iter().map(ResultFile::from).collect())
     }
 
-    /// A file that the manifest names, and where its content is.
+    /// Returns a file that the manifest names, and its content.
     ///
     /// # Errors
     /// [`StoreError`] if the database fails.
@@ -97,52 +79,22 @@ impl Store {
             return Ok(None);
         };
         let place = stored.place.unwrap_or_default();
-        let content = match stored.content {
-            Some(content) => Content::Inline(content),
-            None => Content::File(self.folder.path(&place).ok_or(StoreError::Corrupt {
-                id,
-                what: "place of a file",
-                cause: place,
-            })?),
+        let content = if let Some(content) = stored.content {
+            Content::Inline(content)
+        } else {
+            let path = self.folder.path(&place);
+            Content::File(path.ok_or_else(|| corrupt(id, "path of a file", &place))?)
         };
         Ok(Some((stored.row.into(), content)))
     }
 
-    /// All snapshots of a job, by cycle.
-    ///
-    /// # Errors
-    /// [`StoreError`] if the database fails or a document cannot be read.
-    pub async fn snapshots(&self, id: Uuid) -> Result<Vec<Snapshot>, StoreError> {
-        let rows: Vec<(String, String, String)> = sqlx::query_as(
-            "SELECT profile, pressure, friction_loop FROM snapshots WHERE job_id = ? ORDER BY cycle",
-        )
-        .bind(id.to_string())
-        .fetch_all(&self.readers)
-        .await?;
-        let read = |(profile, pressure, friction_loop): &(String, String, String)| {
-            Ok(Snapshot {
-                profile: serde_json::from_str(profile)?,
-                pressure: serde_json::from_str(pressure)?,
-                friction_loop: serde_json::from_str(friction_loop)?,
-            })
-        };
-        rows.iter()
-            .map(read)
-            .collect::<Result<_, serde_json::Error>>()
-            .map_err(|cause| StoreError::Corrupt {
-                id,
-                what: "snapshot",
-                cause: cause.to_string(),
-            })
-    }
-
-    /// Removes files that no manifest names: of the attempts at a job up to this one, or at start-up of all. A later
-    /// attempt may write files that the manifest does not name yet. What cannot be removed is logged and left for the
-    /// next start.
+    /// Removes files that no manifest names: of the attempts at a job up to this one, or of all jobs at start-up. A later
+    /// attempt may write files that the manifest does not name yet. Files that cannot be removed are logged and remain
+    /// until the next start.
     ///
     /// # Errors
     /// [`StoreError`] if the database fails.
-    pub async fn sweep_files(&self, attempt: Option<&Claim>) -> Result<(), StoreError> {
+    pub async fn remove_unnamed_files(&self, attempt: Option<&Claim>) -> Result<(), StoreError> {
         let attempt = attempt.map(|claim| (claim.id, claim.lease));
         let named: Vec<String> = sqlx::query_scalar(
             "SELECT place FROM result_files WHERE place IS NOT NULL AND (job_id = ?1 OR ?1 IS NULL)",
@@ -151,29 +103,34 @@ impl Store {
         .fetch_all(&self.readers)
         .await?;
         let named: HashSet<String> = named.into_iter().collect();
-        let folder = self.folder.clone();
-        match tokio::task::spawn_blocking(move || folder.sweep(attempt, &named)).await {
-            Ok(Ok(0)) => {}
-            Ok(Ok(gone)) => tracing::info!(gone, "files that no manifest names were removed"),
-            Ok(Err(error)) => tracing::warn!(%error, "files could not be swept"),
-            Err(error) => tracing::warn!(%error, "files could not be swept"),
+        let remove = move |folder: Folder| folder.remove_unnamed(attempt, &named);
+        match self.in_folder(remove).await {
+            Ok(0) => {}
+            Ok(removed) => tracing::info!(removed, "files that no manifest names were removed"),
+            Err(error) => tracing::warn!(%error, "files that no manifest names were not removed"),
         }
         Ok(())
     }
 
-    /// Removes the files of a job that is gone. What cannot be removed is logged and left for the next start.
-    pub(in crate::store) async fn remove_files(&self, id: Uuid) {
-        let folder = self.folder.clone();
-        match tokio::task::spawn_blocking(move || folder.remove(id)).await {
-            Ok(Ok(())) => {}
-            Ok(Err(error)) => tracing::warn!(job = %id, %error, "files could not be removed"),
-            Err(error) => tracing::warn!(job = %id, %error, "files could not be removed"),
+    /// Removes the files of a deleted job. Files that cannot be removed are logged and remain until the next start.
+    pub(super) async fn remove_files(&self, id: Uuid) {
+        if let Err(error) = self.in_folder(move |folder| folder.remove(id)).await {
+            tracing::warn!(job = %id, %error, "files could not be removed");
         }
+    }
+
+    /// Runs a blocking operation on the folder of results.
+    async fn in_folder<T: Send + 'static>(
+        &self,
+        operation: impl FnOnce(Folder) -> std::io::Result<T> + Send + 'static,
+    ) -> std::io::Result<T> {
+        let folder = self.folder.clone();
+        tokio::task::spawn_blocking(move || operation(folder)).await?
     }
 }
 
 /// Adds files to the manifest, in a transaction that has checked the lease.
-pub(in crate::store) async fn insert_files(
+pub(super) async fn insert_files(
     transaction: &mut Transaction<'_, Sqlite>,
     claim: &Claim,
     files: &[NewFile],
@@ -188,9 +145,9 @@ pub(in crate::store) async fn insert_files(
         )
         .bind(claim.id.to_string())
         .bind(&file.name)
-        .bind(file.cycle.map(|cycle| i64::try_from(cycle).unwrap_or(i64::MAX)))
+        .bind(file.cycle.map(integer))
         .bind(&file.media_type)
-        .bind(i64::try_from(file.bytes).unwrap_or(i64::MAX))
+        .bind(integer(file.bytes))
         .bind(&file.sha256)
         .bind(content.as_deref())
         .bind(place)

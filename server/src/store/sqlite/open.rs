@@ -13,24 +13,25 @@ use sqlx::sqlite::{
 use tokio::sync::{Notify, broadcast};
 
 use crate::queue::ATTEMPT_LIMIT;
-
 use crate::store::sqlite::folder::Folder;
-use crate::store::sqlite::queries;
 use crate::store::sqlite::submissions::Submissions;
-use crate::store::{CHANGES_KEPT, Store, StoreError};
+use crate::store::{Store, StoreError};
 
-/// Older ones can corrupt the write-ahead log when it is reset.
+/// Oldest accepted version: older ones can corrupt the write-ahead log when it is reset.
 const OLDEST_SQLITE: (u32, u32, u32) = (3, 51, 3);
 const OLDEST_SQLITE_TEXT: &str = "3.51.3";
-/// Readers wait for nobody in WAL mode; the writer waits for a checkpoint at most. Far below a lease, so that a worker
-/// whose write was refused can try again while it still holds its job.
+/// Longest wait for a lock. In WAL mode readers wait for nothing, the writer for a checkpoint at most. Much shorter than a
+/// lease, so that a worker can retry a write while it still holds its job.
 const BUSY_TIMEOUT: Duration = Duration::from_secs(2);
-/// How long a reader waits for a connection; below a lease, because workers ask too.
-const READER_WAIT: Duration = Duration::from_secs(2);
+/// Longest wait for a reading connection; shorter than a lease, because workers read too.
+const READER_TIMEOUT: Duration = Duration::from_secs(2);
+/// Number of reading connections.
 const READERS: u32 = 4;
+/// Number of changes that a subscriber may fall behind.
+const CHANGE_CAPACITY: usize = 1024;
 
 impl Store {
-    /// Opens the database at `url` (`sqlite://PATH`), makes it if it is missing, and brings its schema up to date.
+    /// Opens the database at `url` (`sqlite://PATH`), creates it if it is missing, and migrates its schema.
     ///
     /// # Errors
     /// [`StoreError`], among others if another process serves the database.
@@ -38,7 +39,7 @@ impl Store {
         Self::open_with(url, ATTEMPT_LIMIT).await
     }
 
-    /// The same, with another limit for the attempts at a job.
+    /// Opens a database as [`Store::open`] does, with another limit on the attempts at a job.
     ///
     /// # Errors
     /// [`StoreError`], among others if another process serves the database.
@@ -53,28 +54,28 @@ impl Store {
             .foreign_keys(true)
             .busy_timeout(BUSY_TIMEOUT);
         let path = options.get_filename().to_owned();
-        // A database in memory would lose every job, and has no place for a lock file.
+        // A database in memory would lose every job, and has no folder for a lock file.
         let in_memory = path.to_string_lossy().starts_with("file:sqlx-in-memory");
-        // Parameters could ask for a database in memory, or for one that cannot be written.
-        let plain = url.starts_with("sqlite:") && !url.contains('?');
-        if !plain || in_memory || path.as_os_str().is_empty() {
+        // Parameters could select a database in memory or a read-only one.
+        let is_plain = url.starts_with("sqlite:") && !url.contains('?');
+        if !is_plain || in_memory || path.as_os_str().is_empty() {
             return Err(StoreError::Address {
                 url: url.to_owned(),
             });
         }
-        let lock = locked(&path)?;
+        let lock = lock(&path)?;
         let writer = SqlitePoolOptions::new()
             .max_connections(1)
             // SQLite ends a transaction by itself when the disk is full or fails, and then cannot roll it back; sqlx
-            // takes that for one that is still open, and refuses to begin another on that connection. It is replaced.
+            // takes it for an open one and refuses to begin another on that connection. The pool replaces it.
             .before_acquire(|writer, _| Box::pin(async { Ok(!writer.is_in_transaction()) }))
             .connect_with(options.clone())
             .await?;
-        check_version(&queries::sqlite_version(&writer).await?)?;
+        check_version(&sqlite_version(&writer).await?)?;
         sqlx::migrate!("../migrations").run(&writer).await?;
-        queries::checkpoint(&writer).await?;
+        truncate_wal(&writer).await?;
         let readers = readers(options.read_only(true)).await?;
-        let (changes, _) = broadcast::channel(CHANGES_KEPT);
+        let (changes, _) = broadcast::channel(CHANGE_CAPACITY);
         let store = Self {
             writer,
             readers,
@@ -86,10 +87,10 @@ impl Store {
             attempt_limit,
             metrics: Arc::default(),
             submissions: Submissions::default(),
-            proved_ready: tokio::sync::Mutex::default(),
+            last_probe: tokio::sync::Mutex::default(),
             _lock: lock,
         };
-        store.sweep_files(None).await?;
+        store.remove_unnamed_files(None).await?;
         Ok(store)
     }
 
@@ -103,13 +104,13 @@ impl Store {
 async fn readers(options: SqliteConnectOptions) -> Result<SqlitePool, StoreError> {
     Ok(SqlitePoolOptions::new()
         .max_connections(READERS)
-        .acquire_timeout(READER_WAIT)
+        .acquire_timeout(READER_TIMEOUT)
         .connect_with(options)
         .await?)
 }
 
-/// Takes the lock file beside the database; the operating system gives it back when the process ends, however it ends.
-pub(in crate::store) fn locked(database: &Path) -> Result<File, StoreError> {
+/// Locks the file beside the database; the operating system releases it when the process ends, however it ends.
+pub(super) fn lock(database: &Path) -> Result<File, StoreError> {
     let prepare = |cause| StoreError::Prepare {
         path: database.to_owned(),
         cause,
@@ -131,14 +132,14 @@ pub(in crate::store) fn locked(database: &Path) -> Result<File, StoreError> {
     }
 }
 
-/// The file of this ending beside a database.
-fn beside(database: &Path, ending: &str) -> PathBuf {
+/// Returns the path of a file beside a database, by its suffix.
+fn beside(database: &Path, suffix: &str) -> PathBuf {
     let mut name = database.as_os_str().to_owned();
-    name.push(ending);
+    name.push(suffix);
     PathBuf::from(name)
 }
 
-/// The database's path without links, so that two names of one database share a lock.
+/// Returns the database's path without links, so that two names of one database share a lock.
 fn real_path(database: &Path) -> std::io::Result<PathBuf> {
     match database.canonicalize() {
         Ok(path) => Ok(path),
@@ -154,13 +155,28 @@ fn real_path(database: &Path) -> std::io::Result<PathBuf> {
     }
 }
 
+/// Returns the version of the linked SQLite.
+async fn sqlite_version(pool: &SqlitePool) -> Result<String, StoreError> {
+    Ok(sqlx::query_scalar("SELECT sqlite_version()")
+        .fetch_one(pool)
+        .await?)
+}
+
+/// Moves the write-ahead log into the database and empties it; for start-up, when there are no readers.
+async fn truncate_wal(pool: &SqlitePool) -> Result<(), StoreError> {
+    sqlx::query("PRAGMA wal_checkpoint(TRUNCATE)")
+        .execute(pool)
+        .await?;
+    Ok(())
+}
+
 fn check_version(found: &str) -> Result<(), StoreError> {
     let mut parts = found.split('.').map(|part| part.parse().unwrap_or(0));
     let mut next = || parts.next().unwrap_or(0);
     if (next(), next(), next()) < OLDEST_SQLITE {
         return Err(StoreError::OldSqlite {
             found: found.to_owned(),
-            wanted: OLDEST_SQLITE_TEXT,
+            oldest: OLDEST_SQLITE_TEXT,
         });
     }
     Ok(())
@@ -171,7 +187,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn old_versions_are_refused() {
+    fn old_versions_are_rejected() {
         assert!(check_version("3.51.2").is_err());
         assert!(check_version("3.9.99").is_err());
         assert!(check_version("3.51.3").is_ok());

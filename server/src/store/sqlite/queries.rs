@@ -1,54 +1,50 @@
-//! Statements that several parts of the store share.
+//! Statements and conversions that several files share.
 
 use api::event::Attempt;
+use serde::de::DeserializeOwned;
 use sqlx::SqliteConnection;
-use sqlx::sqlite::SqlitePool;
 use uuid::Uuid;
 
-use crate::store::{Store, StoreError};
+use crate::store::StoreError;
 
 /// Takes the write lock at once: a transaction that reads first and writes later would fail under contention.
-pub(in crate::store) const BEGIN: &str = "BEGIN IMMEDIATE";
+pub(super) const BEGIN: &str = "BEGIN IMMEDIATE";
 
-/// The id of a job as it is stored.
-pub(in crate::store) fn job_id(text: &str) -> Result<Uuid, StoreError> {
-    Uuid::parse_str(text).map_err(|cause| StoreError::Corrupt {
-        id: Uuid::nil(),
-        what: "id",
+/// Parses the stored id of a job.
+pub(super) fn job_id(text: &str) -> Result<Uuid, StoreError> {
+    Uuid::parse_str(text).map_err(|cause| corrupt(Uuid::nil(), "id", &cause))
+}
+
+/// Parses a stored JSON document.
+pub(super) fn parsed<T: DeserializeOwned>(
+    id: Uuid,
+    what: &'static str,
+    text: &str,
+) -> Result<T, StoreError> {
+    serde_json::from_str(text).map_err(|cause| corrupt(id, what, &cause))
+}
+
+/// The error of a stored value that cannot be read.
+pub(super) fn corrupt(id: Uuid, what: &'static str, cause: &impl ToString) -> StoreError {
+    StoreError::Corrupt {
+        id,
+        what,
         cause: cause.to_string(),
-    })
-}
-
-/// The version of the linked SQLite.
-pub(in crate::store) async fn sqlite_version(pool: &SqlitePool) -> Result<String, StoreError> {
-    Ok(sqlx::query_scalar("SELECT sqlite_version()")
-        .fetch_one(pool)
-        .await?)
-}
-
-/// Moves the write-ahead log into the database and empties it; for start-up, when nobody reads.
-pub(in crate::store) async fn checkpoint(pool: &SqlitePool) -> Result<(), StoreError> {
-    sqlx::query("PRAGMA wal_checkpoint(TRUNCATE)")
-        .execute(pool)
-        .await?;
-    Ok(())
-}
-
-impl Store {
-    /// Moves the write-ahead log into the database, as far as readers let it and without waiting for them.
-    ///
-    /// # Errors
-    /// [`StoreError`] if the database fails.
-    pub async fn checkpoint(&self) -> Result<(), StoreError> {
-        sqlx::query("PRAGMA wal_checkpoint(PASSIVE)")
-            .execute(&self.writer)
-            .await?;
-        Ok(())
     }
 }
 
-/// Appends the event that an attempt begins, at a cycle.
-pub(in crate::store) async fn attempt_event(
+/// Converts a count or cycle to SQLite's integer; saturates.
+pub(super) fn integer(value: impl TryInto<i64>) -> i64 {
+    value.try_into().unwrap_or(i64::MAX)
+}
+
+/// Converts a stored number of attempts; saturates.
+pub(super) fn attempt_count(stored: i64) -> u32 {
+    u32::try_from(stored).unwrap_or(u32::MAX)
+}
+
+/// Appends the event of a new attempt, which starts at a cycle.
+pub(super) async fn insert_attempt_event(
     connection: &mut SqliteConnection,
     id: Uuid,
     seq: i64,
@@ -62,8 +58,8 @@ pub(in crate::store) async fn attempt_event(
     insert_event(connection, id, seq, "attempt", &data).await
 }
 
-/// Appends an event and returns nothing; the caller has raised `jobs.last_event` to `seq` in the same transaction.
-pub(in crate::store) async fn insert_event(
+/// Appends an event; the caller has raised `jobs.last_event` to `seq` in the same transaction.
+pub(super) async fn insert_event(
     connection: &mut SqliteConnection,
     id: Uuid,
     seq: i64,

@@ -1,62 +1,32 @@
-//! Results of a job, there while it runs.
+//! Wear history and snapshots, readable while the job is running.
 
+use api::results::Snapshot;
 use futures_util::TryStreamExt;
 use solver::record::CycleReport;
 use uuid::Uuid;
 
-use crate::store::{Store, StoreError};
-
-/// A document of a snapshot.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum SnapshotPart {
-    /// Worn depth.
-    Profile,
-    /// Contact tractions.
-    Pressure,
-    /// Friction loop.
-    Loop,
-}
-
-impl SnapshotPart {
-    fn nearest(self) -> &'static str {
-        match self {
-            Self::Profile => {
-                "SELECT profile FROM snapshots WHERE job_id = ? ORDER BY abs(cycle - ?), cycle LIMIT 1"
-            }
-            Self::Pressure => {
-                "SELECT pressure FROM snapshots WHERE job_id = ? ORDER BY abs(cycle - ?), cycle LIMIT 1"
-            }
-            Self::Loop => {
-                "SELECT friction_loop FROM snapshots WHERE job_id = ? ORDER BY abs(cycle - ?), cycle LIMIT 1"
-            }
-        }
-    }
-}
+use crate::store::sqlite::queries::{integer, parsed};
+use crate::store::{SnapshotPart, Store, StoreError};
 
 impl Store {
-    /// The rows of the wear history so far, by cycle.
+    /// Returns the rows of the wear history so far, by cycle.
     ///
     /// # Errors
     /// [`StoreError`] if the database fails or a row cannot be read.
     pub async fn history(&self, id: Uuid) -> Result<Vec<CycleReport>, StoreError> {
-        // One text after the other: those of a long history together are several times as large as its rows.
+        // As a stream: the texts of a long history together are several times as large as its rows.
         let text = sqlx::query_scalar::<_, String>(
             "SELECT data FROM history_rows WHERE job_id = ? ORDER BY cycle",
         );
         let mut texts = text.bind(id.to_string()).fetch(&self.readers);
         let mut rows = Vec::new();
         while let Some(text) = texts.try_next().await? {
-            let row = serde_json::from_str(&text).map_err(|cause| StoreError::Corrupt {
-                id,
-                what: "history row",
-                cause: cause.to_string(),
-            })?;
-            rows.push(row);
+            rows.push(parsed(id, "history row", &text)?);
         }
         Ok(rows)
     }
 
-    /// A document (JSON) of the stored snapshot nearest to a cycle; the last one if no cycle is named.
+    /// Returns a document (JSON) of the snapshot nearest to a cycle; of the last snapshot if no cycle is given.
     ///
     /// # Errors
     /// [`StoreError`] if the database fails.
@@ -66,8 +36,8 @@ impl Store {
         part: SnapshotPart,
         cycle: Option<u64>,
     ) -> Result<Option<String>, StoreError> {
-        let cycle = cycle.map_or(i64::MAX, |cycle| i64::try_from(cycle).unwrap_or(i64::MAX));
-        let document = sqlx::query_scalar(part.nearest())
+        let cycle = cycle.map_or(i64::MAX, integer);
+        let document = sqlx::query_scalar(nearest(part))
             .bind(id.to_string())
             .bind(cycle)
             .fetch_optional(&self.readers)
@@ -75,7 +45,7 @@ impl Store {
         Ok(document)
     }
 
-    /// The cycles at which snapshots are stored.
+    /// Returns the cycles of the snapshots.
     ///
     /// # Errors
     /// [`StoreError`] if the database fails.
@@ -86,5 +56,40 @@ impl Store {
                 .fetch_all(&self.readers)
                 .await?,
         )
+    }
+
+    /// Returns all snapshots of a job, by cycle.
+    ///
+    /// # Errors
+    /// [`StoreError`] if the database fails or a document cannot be read.
+    pub async fn snapshots(&self, id: Uuid) -> Result<Vec<Snapshot>, StoreError> {
+        let rows: Vec<(String, String, String)> = sqlx::query_as(
+            "SELECT profile, pressure, friction_loop FROM snapshots WHERE job_id = ? ORDER BY cycle",
+        )
+        .bind(id.to_string())
+        .fetch_all(&self.readers)
+        .await?;
+        let snapshot = |(profile, pressure, friction_loop): &(String, String, String)| {
+            Ok(Snapshot {
+                profile: parsed(id, "snapshot", profile)?,
+                pressure: parsed(id, "snapshot", pressure)?,
+                friction_loop: parsed(id, "snapshot", friction_loop)?,
+            })
+        };
+        rows.iter().map(snapshot).collect()
+    }
+}
+
+fn nearest(part: SnapshotPart) -> &'static str {
+    match part {
+        SnapshotPart::Profile => {
+            "SELECT profile FROM snapshots WHERE job_id = ? ORDER BY abs(cycle - ?), cycle LIMIT 1"
+        }
+        SnapshotPart::Pressure => {
+            "SELECT pressure FROM snapshots WHERE job_id = ? ORDER BY abs(cycle - ?), cycle LIMIT 1"
+        }
+        SnapshotPart::Loop => {
+            "SELECT friction_loop FROM snapshots WHERE job_id = ? ORDER BY abs(cycle - ?), cycle LIMIT 1"
+        }
     }
 }

@@ -1,4 +1,4 @@
-//! What another attempt goes on from.
+//! Checkpoints: what the next attempt resumes from.
 
 use super::*;
 
@@ -7,41 +7,26 @@ async fn a_second_attempt_starts_with_an_empty_history() {
     let fixture = Fixture::new().await;
     let id = fixture.queued().await;
     let claim = fixture.claimed(10).await;
-    fixture
-        .store
-        .record(&claim, &batch(5), 10)
-        .await
-        .expect("the store");
-    fixture.rescued(10).await;
+    fixture.recorded(&claim, &update(5), 10).await;
+    fixture.reclaimed(10).await;
     assert_eq!(
         fixture.cycles(id).await,
         [5],
-        "what was computed stays readable while it waits"
+        "results stay readable while the job waits"
     );
     fixture.claimed(10).await;
     assert_eq!(fixture.cycles(id).await, Vec::<u64>::new());
 }
 
-fn saved(cycle: u64) -> Batch {
-    Batch {
-        rows: (1..=cycle + 1).map(row).collect(),
-        checkpoint: Some(NewCheckpoint {
-            cycle,
-            state: b"a state".to_vec(),
-        }),
-        ..Batch::default()
-    }
-}
-
 #[tokio::test]
-async fn another_attempt_goes_on_from_the_checkpoint_and_keeps_what_came_before() {
+async fn the_next_attempt_resumes_from_the_checkpoint_and_keeps_earlier_results() {
     let fixture = Fixture::new().await;
     let (id, store) = (fixture.queued().await, &fixture.store);
     let lost = fixture.claimed(10).await;
-    store.record(&lost, &saved(3), 10).await.expect("the store");
-    fixture.rescued(10).await;
-    let late = store.record(&lost, &saved(9), 10).await;
-    assert_eq!(late.expect("the store"), Held::No);
+    fixture.recorded(&lost, &with_checkpoint(3), 10).await;
+    fixture.reclaimed(10).await;
+    let late = store.record(&lost, &with_checkpoint(9), 10).await;
+    assert_eq!(late.expect("the store"), LeaseState::Lost);
     let claim = fixture.claimed(20).await;
     let checkpoint = claim.checkpoint.clone().expect("a checkpoint");
     assert_eq!(
@@ -55,30 +40,11 @@ async fn another_attempt_goes_on_from_the_checkpoint_and_keeps_what_came_before(
         (last.name.as_str(), last.data.as_str()),
         ("attempt", r#"{"attempt":2,"from_cycle":3}"#)
     );
-    // The child may find that it cannot go on from it.
-    store.begin_anew(&claim).await.expect("the store");
+    // The solving process may fail to resume from it.
+    store.restart(&claim).await.expect("the store");
     assert_eq!(fixture.cycles(id).await, Vec::<u64>::new());
     let events = store.events(id, 3).await.expect("the store");
     assert_eq!(events[0].data, r#"{"attempt":2,"from_cycle":0}"#);
-    fixture.rescued(20).await;
+    fixture.reclaimed(20).await;
     assert_eq!(fixture.claimed(30).await.checkpoint, None);
-}
-
-#[tokio::test]
-async fn a_damaged_checkpoint_is_noticed_and_the_job_begins_anew() {
-    let fixture = Fixture::new().await;
-    let (id, store) = (fixture.queued().await, &fixture.store);
-    let claim = fixture.claimed(10).await;
-    store
-        .record(&claim, &saved(3), 10)
-        .await
-        .expect("the store");
-    sqlx::query("UPDATE checkpoints SET state = X'00'")
-        .execute(&store.writer)
-        .await
-        .expect("damage");
-    fixture.rescued(10).await;
-    let claim = fixture.claimed(20).await;
-    assert_eq!(claim.checkpoint, None);
-    assert_eq!(fixture.cycles(id).await, Vec::<u64>::new());
 }

@@ -1,12 +1,12 @@
-//! Files beside the database.
+//! Result files.
 
 use super::*;
 use crate::export::documents::VTU;
 use crate::export::files;
 
-/// A file that an attempt has written, on its way to the manifest.
-fn kept(store: &Store, claim: &Claim, name: &str) -> NewFile {
-    files::write_atomically(&store.attempt_folder(claim), name, b"fields").expect("kept");
+/// Writes a file of an attempt; returns its entry.
+fn written(store: &Store, claim: &Claim, name: &str) -> NewFile {
+    files::write_atomically(&store.attempt_folder(claim), name, b"fields").expect("written");
     NewFile {
         file: files::manifest_entry(name, Some(1), VTU, b"fields"),
         content: None,
@@ -14,33 +14,39 @@ fn kept(store: &Store, claim: &Claim, name: &str) -> NewFile {
 }
 
 #[tokio::test]
-async fn sweeping_after_an_attempt_leaves_what_the_next_one_is_about_to_name() {
+async fn removing_files_of_a_lost_attempt_leaves_those_of_the_next_one() {
     let fixture = Fixture::new().await;
     let (id, store) = (fixture.queued().await, &fixture.store);
     let lost = fixture.claimed(10).await;
-    kept(store, &lost, "lost.vtu");
-    fixture.rescued(10).await;
+    written(store, &lost, "lost.vtu");
+    fixture.reclaimed(10).await;
     let fresh = fixture.claimed(20).await;
-    let file = kept(store, &fresh, "fresh.vtu");
-    // The worker of the lost attempt is late with what it does last.
-    store.sweep_files(Some(&lost)).await.expect("the store");
-    let batch = Batch {
+    let file = written(store, &fresh, "fresh.vtu");
+    // The worker of the lost attempt cleans up late.
+    store
+        .remove_unnamed_files(Some(&lost))
+        .await
+        .expect("the store");
+    let update = JobUpdate {
         files: vec![file],
-        ..Batch::default()
+        ..JobUpdate::default()
     };
     let ended = store
-        .end(&fresh, &batch, &end(Transition::Succeed), 30)
+        .end(&fresh, &update, &end(Transition::Succeed), 30)
         .await;
     assert_eq!(ended.expect("the store"), Some(Status::Succeeded));
-    store.sweep_files(Some(&fresh)).await.expect("the store");
+    store
+        .remove_unnamed_files(Some(&fresh))
+        .await
+        .expect("the store");
     let (_, content) = store
         .result_file(id, "fresh.vtu")
         .await
         .expect("the store")
         .expect("a file");
     let Content::File(path) = content else {
-        panic!("it lies beside the database");
+        panic!("its content is a file");
     };
-    assert_eq!(std::fs::read(path).expect("it is there"), b"fields");
+    assert_eq!(std::fs::read(path).expect("it exists"), b"fields");
     assert!(!store.attempt_folder(&lost).exists());
 }

@@ -1,4 +1,4 @@
-//! Fencing, attempts and events.
+//! Fencing, attempts, events and ends.
 
 use super::*;
 
@@ -7,51 +7,43 @@ async fn a_worker_that_lost_its_lease_writes_nothing() {
     let fixture = Fixture::new().await;
     let (id, store) = (fixture.queued().await, &fixture.store);
     let stale = fixture.claimed(10).await;
-    assert_eq!(fixture.rescued(10).await, 1);
+    assert_eq!(fixture.reclaimed(10).await, 1);
     let fresh = fixture.claimed(100).await;
     assert_eq!((stale.id, fresh.id), (id, id));
     assert!(fresh.lease > stale.lease);
 
     assert_eq!(
-        store
-            .record(&stale, &batch(7), 50)
-            .await
-            .expect("the store"),
-        Held::No
+        fixture.recorded(&stale, &update(7), 50).await,
+        LeaseState::Lost
     );
-    assert_eq!(store.held(&stale).await.expect("the store"), Held::No);
     assert_eq!(
-        store
-            .end(&stale, &batch(8), &end(Transition::Succeed), 60)
-            .await
-            .expect("the store"),
+        store.lease_state(&stale).await.expect("the store"),
+        LeaseState::Lost
+    );
+    assert_eq!(
+        fixture
+            .ended(&stale, &update(8), Transition::Succeed, 60)
+            .await,
         None
     );
     assert_eq!(fixture.cycles(id).await, Vec::<u64>::new());
     assert_eq!(fixture.job(id).await.status, Status::Running);
 
-    let held = store
-        .record(&fresh, &batch(1), 100)
-        .await
-        .expect("the store");
+    let held = fixture.recorded(&fresh, &update(1), 100).await;
     assert_eq!(
         held,
-        Held::Yes {
+        LeaseState::Held {
             cancel_requested: false
         }
     );
-    let status = store
-        .end(&fresh, &batch(2), &end(Transition::Succeed), 60)
-        .await
-        .expect("the store");
+    let status = fixture
+        .ended(&fresh, &update(2), Transition::Succeed, 60)
+        .await;
     assert_eq!(status, Some(Status::Succeeded));
     assert_eq!(fixture.cycles(id).await, [1, 2]);
     assert_eq!(
-        store
-            .record(&fresh, &batch(3), 100)
-            .await
-            .expect("the store"),
-        Held::No
+        fixture.recorded(&fresh, &update(3), 100).await,
+        LeaseState::Lost
     );
     assert_eq!(fixture.job(id).await.outcome, Some(Outcome::Completed));
 }
@@ -62,8 +54,8 @@ async fn a_job_whose_workers_are_lost_fails_after_its_last_attempt() {
     let id = fixture.queued().await;
     for attempt in 1..=ATTEMPT_LIMIT {
         assert_eq!(fixture.claimed(10).await.id, id);
-        assert_eq!(fixture.rescued(9).await, 0, "the lease still holds");
-        assert_eq!(fixture.rescued(10).await, 1);
+        assert_eq!(fixture.reclaimed(9).await, 0, "the lease still holds");
+        assert_eq!(fixture.reclaimed(10).await, 1);
         assert_eq!(fixture.job(id).await.attempts, attempt);
     }
     let job = fixture.job(id).await;
@@ -81,16 +73,14 @@ async fn a_job_whose_workers_are_lost_fails_after_its_last_attempt() {
 }
 
 #[tokio::test]
-async fn giving_a_job_back_costs_no_attempt() {
+async fn releasing_a_job_costs_no_attempt() {
     let fixture = Fixture::new().await;
     let id = fixture.queued().await;
     for _ in 0..2 * ATTEMPT_LIMIT {
         let claim = fixture.claimed(10).await;
         let status = fixture
-            .store
-            .end(&claim, &Batch::default(), &end(Transition::GiveBack), 2)
-            .await
-            .expect("the store");
+            .ended(&claim, &JobUpdate::default(), Transition::Release, 2)
+            .await;
         assert_eq!(status, Some(Status::Queued));
     }
     let job = fixture.job(id).await;
@@ -98,7 +88,7 @@ async fn giving_a_job_back_costs_no_attempt() {
 }
 
 #[tokio::test]
-async fn an_unwanted_job_is_not_tried_again() {
+async fn a_job_with_a_cancel_request_gets_no_further_attempt() {
     let fixture = Fixture::new().await;
     let id = fixture.queued().await;
     let claim = fixture.claimed(10).await;
@@ -106,18 +96,14 @@ async fn an_unwanted_job_is_not_tried_again() {
         fixture.store.cancel(id, 2).await.expect("the store"),
         Some(Cancelled::Requested)
     );
-    let held = fixture
-        .store
-        .record(&claim, &batch(1), 10)
-        .await
-        .expect("the store");
+    let held = fixture.recorded(&claim, &update(1), 10).await;
     assert_eq!(
         held,
-        Held::Yes {
+        LeaseState::Held {
             cancel_requested: true
         }
     );
-    assert_eq!(fixture.rescued(10).await, 1);
+    assert_eq!(fixture.reclaimed(10).await, 1);
     assert_eq!(fixture.job(id).await.status, Status::Cancelled);
     assert_eq!(fixture.cycles(id).await, [1]);
     assert_eq!(
@@ -131,28 +117,14 @@ async fn event_numbers_have_no_gaps() {
     let fixture = Fixture::new().await;
     let id = fixture.queued().await;
     let lost = fixture.claimed(10).await;
-    fixture
-        .store
-        .record(&lost, &batch(1), 10)
-        .await
-        .expect("the store");
-    fixture.rescued(10).await;
-    fixture
-        .store
-        .record(&lost, &batch(2), 10)
-        .await
-        .expect("the store");
+    fixture.recorded(&lost, &update(1), 10).await;
+    fixture.reclaimed(10).await;
+    fixture.recorded(&lost, &update(2), 10).await;
     let claim = fixture.claimed(10).await;
+    fixture.recorded(&claim, &update(1), 10).await;
     fixture
-        .store
-        .record(&claim, &batch(1), 10)
-        .await
-        .expect("the store");
-    fixture
-        .store
-        .end(&claim, &Batch::default(), &end(Transition::Fail), 3)
-        .await
-        .expect("the store");
+        .ended(&claim, &JobUpdate::default(), Transition::Fail, 3)
+        .await;
     let events = fixture.store.events(id, 0).await.expect("the store");
     let found: Vec<_> = events
         .iter()
@@ -172,7 +144,7 @@ async fn event_numbers_have_no_gaps() {
 }
 
 #[tokio::test]
-async fn every_end_is_counted_wherever_it_comes_from() {
+async fn every_kind_of_end_is_counted() {
     let fixture = Fixture::new().await;
     let store = &fixture.store;
     let cancelled = fixture.queued().await;
@@ -182,15 +154,15 @@ async fn every_end_is_counted_wherever_it_comes_from() {
         priority: 0,
         deadline_s: Some(1),
     };
-    fixture.wished(late).await;
+    fixture.queued_with(late).await;
     store.expire(1_000).await.expect("the store");
     fixture.queued().await;
     for _ in 0..ATTEMPT_LIMIT {
         fixture.claimed(10).await;
-        fixture.rescued(10).await;
+        fixture.reclaimed(10).await;
     }
-    let levels = store.levels(0).await.expect("the store");
-    let text = store.metrics().text(&levels).expect("text");
+    let gauges = store.gauges(0).await.expect("the store");
+    let text = store.metrics().text(&gauges).expect("text");
     for line in [
         "fretwear_jobs_ended_total{status=\"cancelled\"} 1",
         "fretwear_jobs_ended_total{status=\"failed\"} 2",

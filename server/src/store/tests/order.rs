@@ -1,9 +1,9 @@
-//! What is taken when, and what ends while it waits.
+//! Order of claims, and ends of queued jobs.
 
 use super::*;
 
 #[tokio::test(flavor = "multi_thread", worker_threads = 4)]
-async fn contending_workers_never_share_a_job() {
+async fn concurrent_workers_never_claim_the_same_job() {
     const JOBS: usize = 40;
     const WORKERS: usize = 8;
     let fixture = Fixture::new().await;
@@ -15,28 +15,28 @@ async fn contending_workers_never_share_a_job() {
         let (store, barrier) = (Arc::clone(&fixture.store), Arc::clone(&barrier));
         tokio::spawn(async move {
             barrier.wait().await;
-            let mut taken = Vec::new();
+            let mut claimed = Vec::new();
             while let Some(claim) = store.claim(1, i64::MAX).await.expect("the store") {
                 store
-                    .record(&claim, &batch(1), i64::MAX)
+                    .record(&claim, &update(1), i64::MAX)
                     .await
                     .expect("the store");
-                taken.push(claim.id);
+                claimed.push(claim.id);
             }
-            taken
+            claimed
         })
     });
-    let mut taken = Vec::new();
+    let mut claimed = Vec::new();
     for worker in workers.collect::<Vec<_>>() {
-        taken.extend(worker.await.expect("a worker"));
+        claimed.extend(worker.await.expect("a worker"));
     }
-    taken.sort();
-    taken.dedup();
-    assert_eq!(taken.len(), JOBS);
+    claimed.sort();
+    claimed.dedup();
+    assert_eq!(claimed.len(), JOBS);
 }
 
 #[tokio::test]
-async fn the_oldest_job_is_taken_first() {
+async fn the_oldest_job_is_claimed_first() {
     let fixture = Fixture::new().await;
     let first = fixture.queued().await;
     let second = fixture.queued().await;
@@ -46,16 +46,16 @@ async fn the_oldest_job_is_taken_first() {
 }
 
 #[tokio::test]
-async fn a_preferred_job_goes_first_and_a_large_one_says_what_it_waits_for() {
+async fn a_higher_priority_is_claimed_first_and_a_large_job_says_that_it_waits_for_memory() {
     let fixture = Fixture::new().await;
     let plain = fixture.queued().await;
-    let preferred = fixture
-        .wished(SubmitOptions {
+    let urgent = fixture
+        .queued_with(SubmitOptions {
             priority: 1,
             deadline_s: None,
         })
         .await;
-    assert_eq!(fixture.claimed(10).await.id, preferred);
+    assert_eq!(fixture.claimed(10).await.id, urgent);
     let claimed = fixture.store.claim_within(1, 1, 10).await;
     assert_eq!(claimed.expect("the store"), None);
     let reason = fixture.job(plain).await.status_reason.expect("a reason");
@@ -68,13 +68,13 @@ async fn a_preferred_job_goes_first_and_a_large_one_says_what_it_waits_for() {
 }
 
 #[tokio::test]
-async fn a_deadline_ends_a_waiting_job_and_only_old_ends_are_deleted() {
+async fn a_deadline_ends_a_queued_job_and_only_old_jobs_are_deleted() {
     let fixture = Fixture::new().await;
-    let wishes = SubmitOptions {
+    let options = SubmitOptions {
         priority: 0,
         deadline_s: Some(5),
     };
-    let late = fixture.wished(wishes).await;
+    let late = fixture.queued_with(options).await;
     assert_eq!(fixture.store.expire(4_999).await.expect("the store"), 0);
     assert_eq!(fixture.store.expire(5_000).await.expect("the store"), 1);
     let job = fixture.job(late).await;

@@ -21,14 +21,14 @@ use crate::http::job_error::JobError;
 use crate::http::limits;
 use crate::http::problem::{ProblemResponse, ProblemType, RouteError};
 use crate::http::routes::jobs::show::retry_after_s;
-use crate::queue::MOST_PRIORITY;
+use crate::queue::MAX_PRIORITY;
 use crate::spec;
 use crate::spec::{Refused, Resolved};
 use crate::store::{NewJob, SubmitOptions, Submitted};
 
 /// Error of a priority that is out of range.
 #[derive(Debug, thiserror::Error)]
-#[error("priority {0} is not from -{MOST_PRIORITY} to {MOST_PRIORITY}")]
+#[error("priority {0} is not from -{MAX_PRIORITY} to {MAX_PRIORITY}")]
 struct PriorityError(i32);
 
 impl RouteError for PriorityError {
@@ -57,7 +57,7 @@ pub(in crate::http) struct SubmitQuery {
 impl SubmitQuery {
     fn options(&self) -> Result<SubmitOptions, PriorityError> {
         // Not `abs`, which overflows for the smallest number.
-        if !(-MOST_PRIORITY..=MOST_PRIORITY).contains(&self.priority) {
+        if !(-MAX_PRIORITY..=MAX_PRIORITY).contains(&self.priority) {
             return Err(PriorityError(self.priority));
         }
         Ok(SubmitOptions {
@@ -111,7 +111,7 @@ pub(in crate::http) async fn submit(
     let new = NewJob {
         spec,
         plan,
-        wishes: options,
+        options,
     };
     let id = match key {
         None => app.store.submit(&new, now_ms()).await?,

@@ -49,7 +49,7 @@ mod tests {
     async fn a_service_whose_database_accepts_no_write_is_not_ready() {
         let service = Service::new().await;
         let path = service.results_folder().with_file_name("test.db");
-        let _other = store::tests::written_by_another(&path).await;
+        let _other = store::tests::hold_write_lock(&path).await;
         let (status, _, problem) = service.get("/readyz").await;
         assert_eq!(
             (status.as_u16(), problem["type"].as_str()),

@@ -2,7 +2,7 @@
 
 use crate::http::tests::Service;
 use crate::queue::Transition;
-use crate::store::{Batch, End};
+use crate::store::{End, JobUpdate};
 
 /// Names and ids of a stream's events.
 fn parse(text: &str) -> Vec<(String, Option<i64>)> {
@@ -27,26 +27,26 @@ async fn finished_job(service: &Service) -> String {
         .await
         .expect("the store")
         .expect("a job");
-    let batch = Batch {
+    let update = JobUpdate {
         events: vec![("progress", "{}".into()), ("cycle", "{}".into())],
-        ..Batch::default()
+        ..JobUpdate::default()
     };
     store
-        .record(&claim, &batch, i64::MAX)
+        .record(&claim, &update, i64::MAX)
         .await
         .expect("the store");
     store
-        .record(&claim, &batch, i64::MAX)
+        .record(&claim, &update, i64::MAX)
         .await
         .expect("the store");
     let end = End {
-        step: Transition::Succeed,
+        transition: Transition::Succeed,
         reason: None,
         outcome: None,
         summary: None,
     };
     store
-        .end(&claim, &Batch::default(), &end, 1)
+        .end(&claim, &JobUpdate::default(), &end, 1)
         .await
         .expect("the store");
     id

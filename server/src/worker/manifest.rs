@@ -1,4 +1,4 @@
-//! The documents of a job that ends, for its manifest.
+//! The manifest of a job that ends.
 
 use api::results::Summary;
 
@@ -8,12 +8,12 @@ use crate::export::files;
 use crate::export::files::FilesError;
 use crate::store::{Claim, NewFile, Store, StoreError};
 
-/// Documents up to this size are kept in the database, where they cost no file of their own; bytes. Below some 100 kB a
-/// row is read faster than a file (sqlite.org/intern-v-extern-blob.html).
+/// Largest document that is stored in the database instead of a file, bytes. Below some 100 kB a row is read faster than
+/// a file (sqlite.org/intern-v-extern-blob.html).
 const INLINE_LIMIT: usize = 64 << 10;
 
-/// Makes all documents; the large ones are written into the attempt's folder.
-pub(super) async fn gather(
+/// Makes all documents of a job; the large ones are written into the attempt's folder.
+pub(super) async fn build_manifest(
     store: &Store,
     claim: &Claim,
     summary: Option<&Summary>,
@@ -29,31 +29,31 @@ pub(super) async fn gather(
             summary: summary.as_ref(),
             rows: &rows,
             snapshots: &snapshots,
-            // Whoever looks at a job has a browser, which draws the other form itself.
+            // Users of the service have a browser, which draws SVG.
             pixels: false,
         })?;
         documents
             .into_iter()
-            .map(|document| kept(&folder, document))
+            .map(|document| write(&folder, document))
             .collect::<Result<Vec<_>, FilesError>>()
     })
     .await;
     match made {
         Ok(Ok(files)) => Ok(files),
         Ok(Err(FilesError::Write { path, cause })) => Err(StoreError::Prepare { path, cause }),
-        // Rows and snapshots stay readable on their own routes; the same documents would fail again.
+        // A retry would fail again; rows and snapshots remain readable on their own routes.
         Ok(Err(FilesError::Document(error))) => {
-            tracing::error!(job = %claim.id, %error, "documents were left out of a manifest");
+            tracing::error!(job = %claim.id, %error, "documents are missing from a manifest");
             Ok(Vec::new())
         }
         Err(error) => {
-            tracing::error!(job = %claim.id, %error, "documents were left out of a manifest");
+            tracing::error!(job = %claim.id, %error, "documents are missing from a manifest");
             Ok(Vec::new())
         }
     }
 }
 
-fn kept(folder: &std::path::Path, document: Document) -> Result<NewFile, FilesError> {
+fn write(folder: &std::path::Path, document: Document) -> Result<NewFile, FilesError> {
     let Document {
         name,
         cycle,

@@ -1,18 +1,18 @@
-//! Upkeep: deadlines of waiting jobs, and the retention of ended ones.
+//! Maintenance: deadlines of queued jobs, retention of ended ones, and the write-ahead log.
 
+use api::job::{Outcome, Status};
 use uuid::Uuid;
 
 use crate::queue::Transition;
-use crate::store::sqlite::conclusion::{End, end_waiting};
 use crate::store::sqlite::queries::{BEGIN, job_id};
-use crate::store::{Store, StoreError};
-use api::job::{Outcome, Status};
+use crate::store::sqlite::transitions::end_queued;
+use crate::store::{End, Store, StoreError};
 
-/// Ended jobs removed at once, so that nobody waits long for the writer.
-const REMOVED_AT_ONCE: i64 = 50;
+/// Largest number of jobs deleted in a call; bounds how long other writes wait.
+const DELETE_LIMIT: i64 = 50;
 
 impl Store {
-    /// Fails waiting jobs whose deadline has passed. Returns how many.
+    /// Fails queued jobs whose deadline has passed. Returns how many.
     ///
     /// # Errors
     /// [`StoreError`] if the database fails.
@@ -24,15 +24,13 @@ impl Store {
                 .fetch_all(&mut *transaction)
                 .await?;
         let end = End {
-            step: Transition::Expire,
-            reason: Some("its deadline passed while it waited".to_owned()),
             outcome: Some(Outcome::DeadlineExceeded),
-            summary: None,
+            ..End::without_result(Transition::Expire, "its deadline passed while it waited")
         };
         let mut ended = Vec::with_capacity(late.len());
         for text in late {
             let id = job_id(&text)?;
-            end_waiting(&mut transaction, id, &end, now).await?;
+            end_queued(&mut transaction, id, &end, now).await?;
             ended.push(id);
         }
         transaction.commit().await?;
@@ -42,8 +40,8 @@ impl Store {
         Ok(ended.len())
     }
 
-    /// Deletes some of the jobs that ended before a time, the oldest first, and sweeps that this leaves without jobs.
-    /// Returns how many jobs.
+    /// Deletes jobs that ended before a time, the oldest first and a limited number, and batches without remaining jobs.
+    /// Returns the number of jobs.
     ///
     /// # Errors
     /// [`StoreError`] if the database fails.
@@ -52,7 +50,7 @@ impl Store {
             "SELECT id FROM jobs WHERE finished_at < ? ORDER BY finished_at LIMIT ?",
         )
         .bind(time)
-        .bind(REMOVED_AT_ONCE)
+        .bind(DELETE_LIMIT)
         .fetch_all(&self.readers)
         .await?;
         let old: Vec<Uuid> = old.iter().map(|id| job_id(id)).collect::<Result<_, _>>()?;
@@ -69,5 +67,16 @@ impl Store {
             .await?;
         }
         Ok(old.len())
+    }
+
+    /// Moves the write-ahead log into the database, as far as readers allow and without waiting for them.
+    ///
+    /// # Errors
+    /// [`StoreError`] if the database fails.
+    pub async fn checkpoint_wal(&self) -> Result<(), StoreError> {
+        sqlx::query("PRAGMA wal_checkpoint(PASSIVE)")
+            .execute(&self.writer)
+            .await?;
+        Ok(())
     }
 }

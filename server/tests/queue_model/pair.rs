@@ -1,37 +1,40 @@
-//! The queue and its model, which do the same.
+//! The queue beside its model.
 
 use api::job::Status;
 use proptest::prelude::*;
 use proptest::test_runner::TestCaseResult;
 use server::estimate::Estimate;
-use server::queue::{Transition, place};
+use server::queue::{Transition, sort_key};
+use server::solve::checkpoint::EncodedCheckpoint;
 use server::spec;
-use server::store::{Batch, Claim, End, Held, NewCheckpoint, NewJob, Store, SubmitOptions};
+use server::store::{Claim, End, JobUpdate, LeaseState, NewJob, Store, SubmitOptions};
 use solver::record::CycleReport;
 use tempfile::TempDir;
 
-use crate::model::{ATTEMPTS, Modelled};
+use crate::model::{ATTEMPT_LIMIT, ModelJob};
 use crate::step::{ENDS, LEASE_MS, Step};
 
-/// The queue and its model, side by side.
-pub(crate) struct Both {
+/// The queue and its model.
+pub(crate) struct Pair {
     pub(crate) store: Store,
     now: i64,
     job: NewJob,
-    jobs: Vec<Modelled>,
+    jobs: Vec<ModelJob>,
     claims: Vec<Claim>,
 }
 
-impl Both {
+impl Pair {
     pub(crate) async fn new(folder: &TempDir) -> Self {
         let url = format!("sqlite://{}", folder.path().join("test.db").display());
-        let store = Store::open_with(&url, ATTEMPTS).await.expect("a store");
+        let store = Store::open_with(&url, ATTEMPT_LIMIT)
+            .await
+            .expect("a store");
         let resolved = spec::read(br#"{"system":{"kind":"fuzz_button"}}"#).expect("accepted");
         let plan = Estimate::of(&resolved).plan(&resolved, None);
         let job = NewJob {
             spec: resolved.spec,
             plan,
-            wishes: SubmitOptions::default(),
+            options: SubmitOptions::default(),
         };
         Self {
             store,
@@ -42,7 +45,7 @@ impl Both {
         }
     }
 
-    /// The job of one of the claims ever made, and whether that claim still holds it.
+    /// Returns a claim, the index of its job and whether the claim still holds it.
     fn claimed(&self, claim: usize) -> Option<(Claim, usize, bool)> {
         let claim = self.claims.get(claim % self.claims.len().max(1))?.clone();
         let index = self.jobs.iter().position(|job| job.id == claim.id)?;
@@ -60,10 +63,10 @@ impl Both {
             Step::Claim => self.claim().await?,
             Step::Record { claim, checkpoint } => self.record(*claim, *checkpoint).await?,
             Step::Renew { claim } => self.renew(*claim).await?,
-            Step::BeginAnew { claim } => self.begin_anew(*claim).await?,
-            Step::End { claim, step } => self.end(*claim, ENDS[*step]).await?,
+            Step::Restart { claim } => self.restart(*claim).await?,
+            Step::End { claim, transition } => self.end(*claim, ENDS[*transition]).await?,
             Step::Cancel { job } => self.cancel(*job).await,
-            Step::Rescue => self.rescue().await?,
+            Step::Reclaim => self.reclaim().await?,
             Step::Expire => self.expire().await?,
             Step::Delete { job } => self.delete(*job).await?,
             Step::Wait { ms } => self.now += ms,
@@ -72,7 +75,7 @@ impl Both {
     }
 
     async fn submit(&mut self, priority: i32, deadline_s: Option<u32>) {
-        self.job.wishes = SubmitOptions {
+        self.job.options = SubmitOptions {
             priority,
             deadline_s,
         };
@@ -81,15 +84,15 @@ impl Both {
             .submit(&self.job, self.now)
             .await
             .expect("queued");
-        self.jobs.push(Modelled {
+        self.jobs.push(ModelJob {
             id,
             status: Status::Queued,
-            place: place(self.now, priority),
+            sort_key: sort_key(self.now, priority),
             deadline_at: deadline_s.map(|s| self.now + 1_000 * i64::from(s)),
             attempts: 0,
             lease: 0,
             expires_at: 0,
-            unwanted: false,
+            cancel_requested: false,
             events: 1,
             rows: 0,
             checkpoint: 0,
@@ -108,17 +111,17 @@ impl Both {
             .jobs
             .iter_mut()
             .filter(|job| !job.deleted && job.status == Status::Queued);
-        let Some(job) = waiting.min_by_key(|job| (job.place, job.id)) else {
+        let Some(job) = waiting.min_by_key(|job| (job.sort_key, job.id)) else {
             prop_assert_eq!(claim, None);
             return Ok(());
         };
-        job.moves(Transition::Claim);
+        job.apply(Transition::Claim);
         job.attempts += 1;
         job.lease += 1;
         job.events += 1;
         job.expires_at = expires_at;
         job.rows = job.checkpoint;
-        let claim = claim.expect("a job waits");
+        let claim = claim.expect("a queued job");
         prop_assert_eq!((claim.id, claim.lease), (job.id, job.lease));
         prop_assert_eq!(claim.attempt, job.attempts);
         let from = claim.checkpoint.as_ref().map_or(0, |found| found.cycle);
@@ -133,24 +136,27 @@ impl Both {
         };
         let job = &mut self.jobs[index];
         let cycle = job.rows + 1;
-        let batch = Batch {
+        let update = JobUpdate {
             rows: vec![row(cycle)],
             events: vec![("cycle", "{}".to_owned())],
-            checkpoint: checkpoint.then(|| NewCheckpoint {
+            checkpoint: checkpoint.then(|| EncodedCheckpoint {
                 cycle,
                 state: cycle.to_le_bytes().to_vec(),
             }),
-            ..Batch::default()
+            ..JobUpdate::default()
         };
         let expires_at = self.now + LEASE_MS;
-        let answer = self.store.record(&claim, &batch, expires_at).await;
+        let answer = self.store.record(&claim, &update, expires_at).await;
         if held {
             job.rows = cycle;
             job.events += 1;
             job.expires_at = expires_at;
             job.checkpoint = if checkpoint { cycle } else { job.checkpoint };
         }
-        prop_assert_eq!(answer.expect("the store"), expected(held, job.unwanted));
+        prop_assert_eq!(
+            answer.expect("the store"),
+            expected(held, job.cancel_requested)
+        );
         Ok(())
     }
 
@@ -164,41 +170,47 @@ impl Both {
         if held {
             job.expires_at = expires_at;
         }
-        prop_assert_eq!(answer.expect("the store"), expected(held, job.unwanted));
+        prop_assert_eq!(
+            answer.expect("the store"),
+            expected(held, job.cancel_requested)
+        );
         Ok(())
     }
 
-    async fn begin_anew(&mut self, claim: usize) -> TestCaseResult {
+    async fn restart(&mut self, claim: usize) -> TestCaseResult {
         let Some((claim, index, held)) = self.claimed(claim) else {
             return Ok(());
         };
         let job = &mut self.jobs[index];
-        let answer = self.store.begin_anew(&claim).await;
+        let answer = self.store.restart(&claim).await;
         if held {
             (job.rows, job.checkpoint) = (0, 0);
             job.events += 1;
         }
-        prop_assert_eq!(answer.expect("the store"), expected(held, job.unwanted));
+        prop_assert_eq!(
+            answer.expect("the store"),
+            expected(held, job.cancel_requested)
+        );
         Ok(())
     }
 
-    async fn end(&mut self, claim: usize, step: Transition) -> TestCaseResult {
+    async fn end(&mut self, claim: usize, transition: Transition) -> TestCaseResult {
         let Some((claim, index, held)) = self.claimed(claim) else {
             return Ok(());
         };
         let end = End {
-            step,
+            transition,
             reason: None,
             outcome: None,
             summary: None,
         };
         let answer = self
             .store
-            .end(&claim, &Batch::default(), &end, self.now)
+            .end(&claim, &JobUpdate::default(), &end, self.now)
             .await;
         let job = &mut self.jobs[index];
-        let moved = held && job.moves(step);
-        if moved && step == Transition::GiveBack && job.status == Status::Queued {
+        let moved = held && job.apply(transition);
+        if moved && transition == Transition::Release && job.status == Status::Queued {
             job.attempts -= 1;
         }
         prop_assert_eq!(answer.expect("the store"), moved.then_some(job.status));
@@ -217,41 +229,41 @@ impl Both {
         match job.status {
             _ if job.deleted => {}
             Status::Queued => {
-                job.moves(Transition::Cancel);
+                job.apply(Transition::Cancel);
             }
-            Status::Running => job.unwanted = true,
+            Status::Running => job.cancel_requested = true,
             _ => {}
         }
     }
 
-    async fn rescue(&mut self) -> TestCaseResult {
-        let rescued = self
+    async fn reclaim(&mut self) -> TestCaseResult {
+        let reclaimed = self
             .store
-            .rescue_expired(self.now, self.now + LEASE_MS)
+            .reclaim_expired(self.now, self.now + LEASE_MS)
             .await
             .expect("the store");
         let (mut queued, mut ending) = (0, Vec::new());
         for job in &mut self.jobs {
             if job.status == Status::Running && job.expires_at <= self.now {
                 let mut after = job.clone();
-                after.moves(Transition::Lose);
+                after.apply(Transition::WorkerLost);
                 if after.status == Status::Queued {
                     *job = after;
                     queued += 1;
                 } else {
-                    // It is held under a new lease until what it left has been gathered.
+                    // It is held under a new lease until its manifest is built.
                     job.lease += 1;
                     job.expires_at = self.now + LEASE_MS;
                     ending.push((job.id, job.lease));
                 }
             }
         }
-        prop_assert_eq!(rescued.queued, queued);
-        let mut found: Vec<_> = rescued.ending.iter().map(|c| (c.id, c.lease)).collect();
+        prop_assert_eq!(reclaimed.queued, queued);
+        let mut found: Vec<_> = reclaimed.ending.iter().map(|c| (c.id, c.lease)).collect();
         found.sort_unstable();
         ending.sort_unstable();
         prop_assert_eq!(found, ending);
-        self.claims.extend(rescued.ending);
+        self.claims.extend(reclaimed.ending);
         Ok(())
     }
 
@@ -261,7 +273,7 @@ impl Both {
         for job in self.jobs.iter_mut().filter(|job| !job.deleted) {
             let late = job.deadline_at.is_some_and(|at| at <= self.now);
             if late && job.status == Status::Queued {
-                job.moves(Transition::Expire);
+                job.apply(Transition::Expire);
                 expected += 1;
             }
         }
@@ -279,7 +291,7 @@ impl Both {
         Ok(())
     }
 
-    /// Every job of the store is as the model has it; its events are without gaps and `done` is the last.
+    /// Compares every job with the model; its events have no gaps and `done` is the last one.
     async fn compare(&self) -> TestCaseResult {
         for job in &self.jobs {
             let stored = self.store.job(job.id).await.expect("the store");
@@ -306,11 +318,11 @@ impl Both {
     }
 }
 
-fn expected(held: bool, cancel_requested: bool) -> Held {
+fn expected(held: bool, cancel_requested: bool) -> LeaseState {
     if held {
-        Held::Yes { cancel_requested }
+        LeaseState::Held { cancel_requested }
     } else {
-        Held::No
+        LeaseState::Lost
     }
 }
 

@@ -1,9 +1,12 @@
-//! One process a database.
+//! Opening: one process serves a database.
 
-use super::*;
+use std::sync::Arc;
+
+use crate::store::tests::Fixture;
+use crate::store::{Store, StoreError};
 
 #[tokio::test]
-async fn a_database_is_served_by_one_process_and_survives_it() {
+async fn a_database_is_served_by_one_process_and_its_jobs_survive_it() {
     let Fixture { store, url, folder } = Fixture::new().await;
     assert!(matches!(
         Store::open(&url).await,
@@ -26,7 +29,12 @@ async fn a_database_is_served_by_one_process_and_survives_it() {
     let store = Arc::new(Store::open(&url).await.expect("free again"));
     let fixture = Fixture { store, url, folder };
     assert_eq!(
-        fixture.store.rescue_all(5).await.expect("the store").queued,
+        fixture
+            .store
+            .reclaim_all(5)
+            .await
+            .expect("the store")
+            .queued,
         1
     );
     assert_eq!(fixture.claimed(10).await.id, id);
@@ -34,7 +42,7 @@ async fn a_database_is_served_by_one_process_and_survives_it() {
 }
 
 #[tokio::test]
-async fn addresses_that_are_no_files_are_refused() {
+async fn addresses_other_than_files_are_rejected() {
     for url in [
         "postgres://x",
         "sqlite::memory:",
@@ -42,20 +50,4 @@ async fn addresses_that_are_no_files_are_refused() {
     ] {
         assert!(Store::open(url).await.is_err(), "{url}");
     }
-}
-
-#[tokio::test]
-async fn a_transaction_that_the_database_ended_by_itself_does_not_end_all_writing() {
-    let fixture = Fixture::new().await;
-    let store = &fixture.store;
-    let mut transaction = store
-        .writer
-        .begin_with(crate::store::sqlite::queries::BEGIN)
-        .await;
-    // As SQLite does when the disk is full.
-    let ended = sqlx::query("ROLLBACK").execute(transaction.as_deref_mut().expect("begun"));
-    ended.await.expect("ended");
-    drop(transaction);
-    let id = fixture.queued().await;
-    assert_eq!(fixture.claimed(10).await.id, id);
 }

@@ -1,4 +1,4 @@
-//! Gauges for `/metrics`, and whether the database can be written.
+//! Gauges for `/metrics`, and the write probe.
 
 use std::time::{Duration, Instant};
 
@@ -7,23 +7,23 @@ use api::job::Status;
 use crate::metrics::Gauges;
 use crate::store::{Store, StoreError};
 
-/// How long a write proves that the database can be written.
-const PROOF: Duration = Duration::from_secs(1);
+/// Shortest time between two write probes.
+const PROBE_INTERVAL: Duration = Duration::from_secs(1);
 
 impl Store {
-    /// Jobs by status, checkpoint age and the size of the write-ahead log.
+    /// Returns jobs by status, the age of the oldest checkpoint and the size of the write-ahead log.
     ///
     /// # Errors
     /// [`StoreError`] if the database fails.
-    pub async fn levels(&self, now: i64) -> Result<Gauges, StoreError> {
-        let found: Vec<(String, i64, i64)> =
+    pub async fn gauges(&self, now: i64) -> Result<Gauges, StoreError> {
+        let rows: Vec<(String, i64, i64)> =
             sqlx::query_as("SELECT status, count(*), min(created_at) FROM jobs GROUP BY status")
                 .fetch_all(&self.readers)
                 .await?;
         let jobs = Status::ALL
             .into_iter()
             .map(|status| {
-                let row = found.iter().find(|(name, ..)| name == status.as_str());
+                let row = rows.iter().find(|(name, ..)| name == status.as_str());
                 row.map_or((status, 0, 0), |(_, count, oldest)| {
                     (status, *count, seconds(now, *oldest))
                 })
@@ -38,26 +38,26 @@ impl Store {
         Ok(Gauges {
             jobs,
             oldest_checkpoint_s: oldest.map_or(0, |written| seconds(now, written)),
-            // There is none before the first write.
+            // The file does not exist before the first write.
             wal_bytes: wal.map_or(0, |file| i64::try_from(file.len()).unwrap_or(i64::MAX)),
         })
     }
 
-    /// Writes to the database for the sake of it, unless that has succeeded just now: everyone may ask, and those who ask
-    /// often must not keep workers from writing.
+    /// Checks that the database can be written, by a write; at most once a second, so that frequent requests do not block
+    /// the workers' writes.
     ///
     /// # Errors
-    /// [`StoreError`] if it cannot be written.
+    /// [`StoreError`] if the database cannot be written.
     pub async fn ready(&self, now: i64) -> Result<(), StoreError> {
-        let mut proved = self.proved_ready.lock().await;
-        if proved.is_some_and(|at| at.elapsed() < PROOF) {
+        let mut last = self.last_probe.lock().await;
+        if last.is_some_and(|at| at.elapsed() < PROBE_INTERVAL) {
             return Ok(());
         }
         sqlx::query("INSERT OR REPLACE INTO probes (name, written_at) VALUES ('ready', ?)")
             .bind(now)
             .execute(&self.writer)
             .await?;
-        *proved = Some(Instant::now());
+        *last = Some(Instant::now());
         Ok(())
     }
 }

@@ -1,0 +1,123 @@
+//! Maintenance beside the workers: jobs of lost workers, deadlines, retention, the write-ahead log.
+
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use tokio::task::JoinSet;
+use tokio_util::sync::CancellationToken;
+use tracing::Instrument;
+
+use crate::clock::{monotonic_ms, now_ms};
+use crate::store::{Reclaimed, Store, StoreError};
+use crate::worker;
+use crate::worker::Rules;
+
+/// Interval between two checks for expired leases and deadlines.
+const INTERVAL: Duration = Duration::from_secs(1);
+/// Rounds between two checkpoints of the write-ahead log.
+const WAL_ROUNDS: u32 = 60;
+/// Milliseconds of a day.
+const DAY_MS: i64 = 86_400_000;
+
+/// Runs until the service stops. `reclaimed` are the jobs that were reclaimed at its start.
+pub(super) async fn maintain(
+    store: Arc<Store>,
+    rules: Arc<Rules>,
+    keep_days: Option<u32>,
+    reclaimed: Reclaimed,
+    stopping: CancellationToken,
+) {
+    let lease = rules.lease;
+    let mut finalizing = JoinSet::new();
+    finalize(&store, &rules, reclaimed, &mut finalizing);
+    let mut rounds = 0_u32;
+    // Since when process and store have run without a stall. After a stall all leases are expired, also those of this
+    // process's own supervisors, which first get the time of one lease to renew them.
+    let mut healthy = Some(Instant::now());
+    loop {
+        let started = Instant::now();
+        tokio::select! {
+            () = stopping.cancelled() => return,
+            () = tokio::time::sleep(INTERVAL) => {}
+        }
+        if started.elapsed() > INTERVAL + lease / 2 {
+            tracing::warn!("the service stalled; expired leases are ignored for a while");
+            healthy = None;
+        }
+        while finalizing.try_join_next().is_some() {}
+        let reclaims = healthy.is_some_and(|since| since.elapsed() >= lease);
+        let started = Instant::now();
+        healthy = match round(&store, &rules, reclaims, keep_days).await {
+            Ok(reclaimed) => {
+                finalize(&store, &rules, reclaimed, &mut finalizing);
+                let is_healthy = started.elapsed() <= lease / 2;
+                is_healthy.then(|| healthy.unwrap_or_else(Instant::now))
+            }
+            Err(error) => {
+                tracing::error!(%error, "expired leases and deadlines could not be checked");
+                None
+            }
+        };
+        rounds = (rounds + 1) % WAL_ROUNDS;
+        if rounds == 0
+            && let Err(error) = store.checkpoint_wal().await
+        {
+            tracing::warn!(%error, "the write-ahead log could not be checkpointed");
+        }
+    }
+}
+
+/// Ends jobs without another attempt, in tasks of their own: their results may be large, and the disk may be full.
+fn finalize(
+    store: &Arc<Store>,
+    rules: &Arc<Rules>,
+    reclaimed: Reclaimed,
+    finalizing: &mut JoinSet<()>,
+) {
+    for claim in reclaimed.ending {
+        let (store, rules) = (Arc::clone(store), Arc::clone(rules));
+        let span = tracing::info_span!("job", id = %claim.id, lease = claim.lease, attempt = claim.attempt);
+        let ending = async move {
+            if let Err(error) =
+                worker::finalize_lost_job(&store, &claim, &rules, reclaimed.reason).await
+            {
+                tracing::error!(%error, "a job whose worker was lost could not be ended");
+            }
+        };
+        finalizing.spawn(ending.instrument(span));
+    }
+}
+
+async fn round(
+    store: &Store,
+    rules: &Rules,
+    reclaims: bool,
+    keep_days: Option<u32>,
+) -> Result<Reclaimed, StoreError> {
+    let reclaimed = if reclaims {
+        store
+            .reclaim_expired(monotonic_ms(), rules.lease_end())
+            .await?
+    } else {
+        Reclaimed::default()
+    };
+    let (queued, ending) = (reclaimed.queued, reclaimed.ending.len());
+    if queued + ending > 0 {
+        tracing::warn!(queued, ending, "jobs reclaimed from lost workers");
+    }
+    let expired = store.expire(now_ms()).await?;
+    if expired > 0 {
+        tracing::warn!(
+            expired,
+            "jobs failed because their deadline passed while they waited"
+        );
+    }
+    if let Some(days) = keep_days {
+        let before = now_ms().saturating_sub(DAY_MS.saturating_mul(i64::from(days)));
+        let deleted = store.delete_ended_before(before).await?;
+        if deleted > 0 {
+            tracing::info!(deleted, keep_days = days, "old jobs deleted");
+        }
+    }
+    Ok(reclaimed)
+}

@@ -1,0 +1,243 @@
+//! The solving process: started in a process group of its own, given its input, ended with its supervisor.
+
+use std::os::unix::process::ExitStatusExt;
+use std::path::Path;
+use std::process::{ExitStatus, Stdio};
+use std::time::Duration;
+
+use futures_util::StreamExt;
+use nix::sys::signal::{Signal, kill};
+use nix::unistd::Pid;
+use tokio::io::AsyncWriteExt;
+use tokio::process::{Child, ChildStderr, ChildStdin, ChildStdout, Command};
+use tokio::task::JoinHandle;
+use tokio_util::codec::{FramedRead, LinesCodec, LinesCodecError};
+use tokio_util::task::AbortOnDropHandle;
+use tracing::Instrument;
+
+use crate::solve::Line;
+use crate::solve::checkpoint::EncodedCheckpoint;
+use crate::solve::protocol::Input;
+
+/// Longest line of a solving process, bytes: several times a snapshot with the largest allowed number of surface elements.
+const LINE_LIMIT: usize = 256 << 20;
+/// Longest line on its standard error, bytes; longer ones are dropped.
+const STDERR_LINE_LIMIT: usize = 64 << 10;
+/// Longest time between the end of a process's output and its exit.
+const EXIT_TIMEOUT: Duration = Duration::from_secs(5);
+/// Longest wait for the standard error of a process that has exited.
+const STDERR_TIMEOUT: Duration = Duration::from_secs(1);
+
+/// Beginning of the Rust runtime's message about a failed allocation.
+const FAILED_ALLOCATION: &str = "memory allocation of ";
+
+/// How a solving process is started.
+#[derive(Debug)]
+pub(crate) struct SolveCommand<'a> {
+    /// The binary with the hidden subcommand `solve-child`.
+    pub(crate) program: &'a Path,
+    /// Folder of the files that the process writes.
+    pub(crate) folder: &'a Path,
+    /// The resolved specification, JSON.
+    pub(crate) spec: &'a str,
+    /// The checkpoint to resume from.
+    pub(crate) checkpoint: Option<&'a EncodedCheckpoint>,
+    /// Time between two checkpoints.
+    pub(crate) checkpoint_every: Duration,
+    /// Memory limit, MB.
+    pub(crate) memory_limit_mb: Option<i64>,
+}
+
+/// A solving process; killed when it is dropped.
+#[derive(Debug)]
+pub(crate) struct SolveProcess {
+    child: Child,
+    _stdin: AbortOnDropHandle<()>,
+    lines: FramedRead<ChildStdout, LinesCodec>,
+    stderr: JoinHandle<Option<String>>,
+}
+
+/// A line of a solving process.
+#[derive(Debug)]
+pub(crate) struct ReceivedLine {
+    /// The line.
+    pub(crate) line: Line,
+    /// Its length.
+    pub(crate) bytes: usize,
+}
+
+/// Why a line was not received.
+#[derive(Debug, thiserror::Error)]
+pub(crate) enum LineError {
+    /// The pipe failed, or the line is longer than allowed.
+    #[error("the solver's output cannot be read: {0}")]
+    Read(std::io::Error),
+    /// The line is not a [`Line`].
+    #[error("the solver wrote something that cannot be read: {0}")]
+    Malformed(serde_json::Error),
+}
+
+/// Why a solving process ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum ExitCause {
+    /// It exited with this code.
+    Code(i32),
+    /// It was killed from outside.
+    Killed,
+    /// It caused this signal itself: the same input would do so again.
+    Crashed(i32),
+}
+
+/// The end of a solving process.
+#[derive(Debug)]
+pub(crate) struct Exit {
+    /// Why it ended.
+    pub(crate) cause: ExitCause,
+    /// The last line of its standard error, or the one about a failed allocation.
+    pub(crate) stderr: Option<String>,
+}
+
+impl Exit {
+    /// Whether the process reported a failed allocation.
+    pub(crate) fn is_out_of_memory(&self) -> bool {
+        self.stderr
+            .as_deref()
+            .is_some_and(|line| line.starts_with(FAILED_ALLOCATION))
+    }
+
+    /// The standard error as the end of a sentence.
+    pub(crate) fn details(&self) -> String {
+        self.stderr
+            .as_ref()
+            .map_or_else(String::new, |line| format!(": {line}"))
+    }
+}
+
+impl SolveCommand<'_> {
+    /// Starts the process and sends its input. Needs a tokio runtime.
+    pub(crate) fn spawn(&self) -> std::io::Result<SolveProcess> {
+        let mut command = Command::new(self.program);
+        command
+            .arg("solve-child")
+            .arg("--checkpoint-every-ms")
+            .arg(self.checkpoint_every.as_millis().to_string());
+        if let Some(limit) = self.memory_limit_mb {
+            command.arg("--memory-limit-mb").arg(limit.to_string());
+        }
+        let mut child = command
+            .arg(self.folder)
+            .stdin(Stdio::piped())
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped())
+            .process_group(0)
+            .kill_on_drop(true)
+            .spawn()?;
+        let missing = || std::io::Error::other("the process has no pipe");
+        let stdin = child.stdin.take().ok_or_else(missing)?;
+        let stdout = child.stdout.take().ok_or_else(missing)?;
+        let stderr = child.stderr.take().ok_or_else(missing)?;
+        let input = Input::lines(self.spec, self.checkpoint);
+        Ok(SolveProcess {
+            child,
+            _stdin: AbortOnDropHandle::new(tokio::spawn(
+                send_input(stdin, input).in_current_span(),
+            )),
+            lines: FramedRead::new(stdout, LinesCodec::new_with_max_length(LINE_LIMIT)),
+            stderr: tokio::spawn(log_stderr(stderr).in_current_span()),
+        })
+    }
+}
+
+impl SolveProcess {
+    /// Returns the next line, or `None` at the end of the output. Safe to cancel.
+    pub(crate) async fn next_line(&mut self) -> Result<Option<ReceivedLine>, LineError> {
+        let text = self.lines.next().await.transpose();
+        let text = text.map_err(|cause| LineError::Read(std::io::Error::other(cause)))?;
+        text.map(|text| {
+            let line = serde_json::from_str(&text).map_err(LineError::Malformed)?;
+            let bytes = text.len();
+            Ok(ReceivedLine { line, bytes })
+        })
+        .transpose()
+    }
+
+    /// Waits for the exit of a process whose output has ended; kills one that does not exit.
+    pub(crate) async fn wait(&mut self) -> Exit {
+        let waited = tokio::time::timeout(EXIT_TIMEOUT, self.child.wait()).await;
+        let cause = if let Ok(status) = waited {
+            status.map_or(ExitCause::Killed, ExitCause::from)
+        } else {
+            tracing::warn!("a solving process closed its output but did not exit; it is killed");
+            self.kill().await;
+            ExitCause::Killed
+        };
+        let stderr = tokio::time::timeout(STDERR_TIMEOUT, &mut self.stderr).await;
+        Exit {
+            cause,
+            stderr: stderr.ok().and_then(Result::ok).flatten(),
+        }
+    }
+
+    /// Asks the process for a last checkpoint and its exit.
+    pub(crate) fn terminate(&self) {
+        let id = self.child.id().and_then(|id| i32::try_from(id).ok());
+        let sent = id.map(|id| kill(Pid::from_raw(id), Signal::SIGTERM));
+        if let Some(Err(error)) = sent {
+            tracing::warn!(%error, "a solving process could not be asked to end");
+        }
+    }
+
+    /// Kills the process and waits for its exit.
+    pub(crate) async fn kill(&mut self) {
+        if let Err(error) = self.child.kill().await {
+            tracing::warn!(%error, "a solving process could not be killed");
+        }
+    }
+}
+
+/// Writes the input of a process, which may be slow to read it, and then holds the pipe open: its end tells the process
+/// that its supervisor has ended.
+async fn send_input(mut stdin: ChildStdin, input: String) {
+    if let Err(error) = stdin.write_all(input.as_bytes()).await {
+        tracing::warn!(%error, "a solving process did not read its input");
+    }
+    std::future::pending::<()>().await;
+}
+
+/// Logs the standard error of a process; returns its last line, or the one about a failed allocation.
+async fn log_stderr(stderr: ChildStderr) -> Option<String> {
+    let mut lines = FramedRead::new(stderr, LinesCodec::new_with_max_length(STDERR_LINE_LIMIT));
+    let mut last: Option<String> = None;
+    while let Some(line) = lines.next().await {
+        match line {
+            Ok(line) if !line.trim().is_empty() => {
+                tracing::warn!("solving process: {line}");
+                last = last
+                    .filter(|earlier| earlier.starts_with(FAILED_ALLOCATION))
+                    .or(Some(line));
+            }
+            Ok(_) | Err(LinesCodecError::MaxLineLengthExceeded) => {}
+            Err(LinesCodecError::Io(_)) => break,
+        }
+    }
+    last
+}
+
+impl From<ExitStatus> for ExitCause {
+    fn from(status: ExitStatus) -> Self {
+        let crashes = [
+            Signal::SIGABRT,
+            Signal::SIGBUS,
+            Signal::SIGFPE,
+            Signal::SIGILL,
+            Signal::SIGSEGV,
+        ];
+        match (status.code(), status.signal()) {
+            (Some(code), _) => Self::Code(code),
+            (None, Some(signal)) if crashes.iter().any(|crash| *crash as i32 == signal) => {
+                Self::Crashed(signal)
+            }
+            (None, _) => Self::Killed,
+        }
+    }
+}

@@ -1,0 +1,149 @@
+//! The protocol between a solving process (`fretwear solve-child`) and its supervisor.
+//!
+//! Standard input: two lines, the resolved specification (JSON) and the checkpoint to resume from (base64, empty for
+//! none). It stays open as long as the supervisor lives; the process ends when it closes. Standard output: one [`Line`]
+//! (JSON) a line. Files are written into the attempt's folder, and the lines only name them. SIGTERM asks for a
+//! checkpoint after the current cycle and the end of the process.
+
+use std::io::BufRead;
+
+use api::job::{Outcome, Phase};
+use api::results::{ResultFile, Snapshot, Summary};
+use base64::Engine as _;
+use base64::prelude::BASE64_STANDARD;
+use serde::{Deserialize, Serialize};
+use solver::SolveError;
+use solver::record::CycleReport;
+
+use crate::solve::checkpoint::{Checkpoint, EncodedCheckpoint};
+
+/// Exit code of a solving process whose supervisor has ended.
+pub(crate) const EXIT_ORPHANED: i32 = 3;
+/// Exit code of a solving process that could not write a file: not a failure of the solve, so the job is tried again.
+pub(crate) const EXIT_FILE_NOT_WRITTEN: i32 = 4;
+
+/// One line of a solving process, in order; the last one is `Summary`, `Failed` or `Stopped`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "event", content = "data", rename_all = "snake_case")]
+pub enum Line {
+    /// The next phase starts.
+    Phase(Phase),
+    /// A computed cycle.
+    Cycle(CycleReport),
+    /// A requested snapshot.
+    Snapshot(Box<Snapshot>),
+    /// Fields inside the bodies at one position of a snapshot; written by the solving process, never sent.
+    #[serde(skip)]
+    Fields(FieldsFile),
+    /// A file in the attempt's folder.
+    File(ResultFile),
+    /// The first line if the run cannot resume from its checkpoint and starts at cycle 0, with the cause.
+    Restarted(String),
+    /// A checkpoint, sent after all lines up to its cycle.
+    Checkpoint(EncodedCheckpoint),
+    /// The result of the run.
+    Summary(Box<Summary>),
+    /// The failure of the run; the same input would fail again.
+    Failed(Failure),
+    /// The process was asked to end and has sent its last checkpoint.
+    Stopped,
+}
+
+impl Line {
+    /// Whether it is the last line of a run.
+    pub(crate) fn is_last(&self) -> bool {
+        matches!(self, Self::Summary(_) | Self::Failed(_) | Self::Stopped)
+    }
+}
+
+/// Fields as a file.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FieldsFile {
+    /// File name.
+    pub name: String,
+    /// Cycle of the fields.
+    pub cycle: u64,
+    /// Content, VTU.
+    pub bytes: Vec<u8>,
+}
+
+/// A failure of the solve itself.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, thiserror::Error)]
+#[error("{reason}")]
+pub struct Failure {
+    /// Outcome of the job.
+    pub outcome: Outcome,
+    /// The cause, with its numbers.
+    pub reason: String,
+}
+
+impl From<SolveError> for Failure {
+    fn from(error: SolveError) -> Self {
+        Self {
+            outcome: Outcome::NotConverged,
+            reason: error.to_string(),
+        }
+    }
+}
+
+/// Input of a solving process.
+#[derive(Debug)]
+pub(crate) struct Input {
+    /// The resolved specification, JSON.
+    pub(crate) spec: String,
+    checkpoint: String,
+}
+
+impl Input {
+    /// Returns the input as lines.
+    pub(super) fn lines(spec: &str, checkpoint: Option<&EncodedCheckpoint>) -> String {
+        let checkpoint = checkpoint.map_or_else(String::new, |checkpoint| {
+            BASE64_STANDARD.encode(&checkpoint.state)
+        });
+        format!("{spec}\n{checkpoint}\n")
+    }
+
+    /// Reads the input from standard input.
+    pub(crate) fn read(mut from: impl BufRead) -> std::io::Result<Self> {
+        let (mut spec, mut checkpoint) = (String::new(), String::new());
+        from.read_line(&mut spec)?;
+        from.read_line(&mut checkpoint)?;
+        Ok(Self { spec, checkpoint })
+    }
+
+    /// Returns the checkpoint to resume from, or why it cannot be decoded.
+    pub(crate) fn checkpoint(&self) -> Result<Option<Checkpoint>, String> {
+        let text = self.checkpoint.trim();
+        if text.is_empty() {
+            return Ok(None);
+        }
+        let bytes = BASE64_STANDARD
+            .decode(text)
+            .map_err(|cause| cause.to_string())?;
+        Checkpoint::decode(&bytes)
+            .map(Some)
+            .map_err(|cause| cause.to_string())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn input_is_read_as_it_was_written() {
+        let checkpoint = EncodedCheckpoint {
+            cycle: 1,
+            state: vec![0xff],
+        };
+        let read = |text: String| Input::read(text.as_bytes()).expect("two lines");
+        let without = read(Input::lines("{}", None));
+        assert_eq!(
+            (without.spec.trim(), without.checkpoint()),
+            ("{}", Ok(None))
+        );
+        let with = read(Input::lines("{}", Some(&checkpoint)));
+        let cause = with.checkpoint().expect_err("no valid checkpoint");
+        assert!(cause.starts_with("it cannot be decoded"), "{cause}");
+    }
+}

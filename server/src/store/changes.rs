@@ -1,0 +1,23 @@
+//! Change notifications of a job.
+
+use tokio::sync::broadcast;
+use uuid::Uuid;
+
+/// Changes of one job, from the time of the subscription.
+#[derive(Debug)]
+pub struct Changes {
+    id: Uuid,
+    changed: broadcast::Receiver<Uuid>,
+}
+
+impl Changes {
+    /// Selects the changes of one job from those of all jobs.
+    pub(in crate::store) fn new(id: Uuid, changed: broadcast::Receiver<Uuid>) -> Self {
+        Self { id, changed }
+    }
+
+    /// Returns when the job has changed, or when so many other changes were missed that it may have.
+    pub async fn next(&mut self) {
+        while self.changed.recv().await.is_ok_and(|id| id != self.id) {}
+    }
+}

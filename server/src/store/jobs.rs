@@ -1,0 +1,109 @@
+//! Jobs as they are submitted, listed, cancelled and deleted.
+
+use api::job::{Job, Status};
+use api::plan::Plan;
+use api::spec::Spec;
+use uuid::Uuid;
+
+/// A job to be queued.
+#[derive(Debug, Clone, PartialEq)]
+pub struct NewJob {
+    /// The resolved specification.
+    pub spec: Spec,
+    /// Its plan.
+    pub plan: Plan,
+    /// Priority and deadline.
+    pub options: SubmitOptions,
+}
+
+/// Options of a submission besides the specification.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct SubmitOptions {
+    /// Priority: minutes added to the job's age in the queue.
+    pub priority: i32,
+    /// Time after the submission at which the job fails unless it has ended, s.
+    pub deadline_s: Option<u32>,
+}
+
+/// A stored job.
+#[derive(Debug, Clone, PartialEq)]
+pub struct StoredJob {
+    /// The document.
+    pub document: Job,
+    /// Version of the document, raised by every change.
+    pub version: i64,
+    /// Number of its newest event.
+    pub last_event: i64,
+}
+
+/// Which jobs a list contains.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Filter {
+    /// Any of these statuses; all if empty.
+    pub statuses: Vec<Status>,
+    /// This kind of system.
+    pub system: Option<String>,
+    /// All of these labels.
+    pub labels: Vec<(String, String)>,
+    /// Submitted at this time or later, ms since 1970.
+    pub created_from: Option<i64>,
+    /// Submitted before this time, ms since 1970.
+    pub created_before: Option<i64>,
+    /// Jobs of this parameter sweep.
+    pub sweep: Option<Uuid>,
+    /// Jobs older than this one.
+    pub before: Option<Uuid>,
+    /// Largest number of jobs.
+    pub limit: u32,
+}
+
+/// Effect of a cancel request.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Cancelled {
+    /// The job was queued and is cancelled.
+    AtOnce,
+    /// The job is running; its worker ends it.
+    Requested,
+    /// The job had ended already.
+    Already,
+}
+
+/// Effect of a delete request.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Deleted {
+    /// The job and its results are deleted.
+    Done,
+    /// The job has not ended.
+    Active,
+    /// There is no such job.
+    Missing,
+}
+
+/// Idempotency key of a submission, and the digest of its body.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct RequestKey {
+    /// The key.
+    pub key: String,
+    /// SHA-256 of the body.
+    pub body_sha256: [u8; 32],
+}
+
+impl RequestKey {
+    /// Returns the answer to a repeated request, from the digest and the id of the first one.
+    pub(in crate::store) fn repeated(&self, body_sha256: &[u8], id: Uuid) -> Submitted {
+        if body_sha256 == self.body_sha256 {
+            Submitted::Job(id)
+        } else {
+            Submitted::KeyTaken
+        }
+    }
+}
+
+/// Effect of a submission.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Submitted {
+    /// A job, queued now or by an earlier request with the same key and body.
+    Job(Uuid),
+    /// The key was used with another body.
+    KeyTaken,
+}

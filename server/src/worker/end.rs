@@ -1,0 +1,124 @@
+//! The end of a job by the end of its solving process.
+
+use api::job::Outcome;
+
+use crate::queue::Transition;
+use crate::solve::Line;
+use crate::solve::process::{Exit, ExitCause};
+use crate::solve::protocol::EXIT_FILE_NOT_WRITTEN;
+use crate::store::End;
+
+/// Returns the end of a job. A result, a failure and a crash are final; a job whose process was killed from outside is
+/// tried again; a job whose process was asked to stop returns to the queue.
+pub(super) fn end_by_exit(last: Option<Line>, exit: &Exit) -> End {
+    match (last, exit.cause) {
+        (Some(Line::Summary(summary)), _) => End {
+            transition: Transition::Succeed,
+            reason: None,
+            outcome: Some(summary.outcome),
+            summary: Some(*summary),
+        },
+        (Some(Line::Failed(failure)), _) => failed(failure.outcome, failure.reason),
+        (Some(Line::Stopped), _) => {
+            End::without_result(Transition::Release, "its solving process was asked to stop")
+        }
+        (_, ExitCause::Killed) => {
+            End::without_result(Transition::WorkerLost, "its solving process was killed")
+        }
+        (_, ExitCause::Code(EXIT_FILE_NOT_WRITTEN)) => End::without_result(
+            Transition::WorkerLost,
+            "its solving process could not write its files",
+        ),
+        (_, ExitCause::Crashed(signal)) => {
+            let outcome = if exit.is_out_of_memory() {
+                Outcome::OutOfMemory
+            } else {
+                Outcome::NotConverged
+            };
+            let details = exit.details();
+            failed(
+                outcome,
+                format!("the solving process crashed with signal {signal}{details}"),
+            )
+        }
+        (_, ExitCause::Code(code)) => failed(
+            Outcome::NotConverged,
+            format!(
+                "the solving process ended with code {code} and without a result{}",
+                exit.details()
+            ),
+        ),
+    }
+}
+
+/// Returns the end of a job that would fail again.
+pub(super) fn failed(outcome: Outcome, reason: impl Into<String>) -> End {
+    End {
+        outcome: Some(outcome),
+        ..End::without_result(Transition::Fail, reason)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_a_process_that_was_ended_from_outside_is_tried_again() {
+        let cases = [
+            (None, ExitCause::Killed, Transition::WorkerLost, None),
+            (
+                None,
+                ExitCause::Code(EXIT_FILE_NOT_WRITTEN),
+                Transition::WorkerLost,
+                None,
+            ),
+            (
+                None,
+                ExitCause::Code(1),
+                Transition::Fail,
+                Some(Outcome::NotConverged),
+            ),
+            (
+                None,
+                ExitCause::Crashed(6),
+                Transition::Fail,
+                Some(Outcome::NotConverged),
+            ),
+            (
+                Some(Line::Stopped),
+                ExitCause::Code(0),
+                Transition::Release,
+                None,
+            ),
+        ];
+        for (last, cause, transition, outcome) in cases {
+            let exit = Exit {
+                cause,
+                stderr: None,
+            };
+            let found = end_by_exit(last, &exit);
+            assert_eq!(
+                (found.transition, found.outcome),
+                (transition, outcome),
+                "{cause:?}"
+            );
+        }
+    }
+
+    #[test]
+    fn a_failed_allocation_is_distinguished_from_other_crashes() {
+        let exit = Exit {
+            cause: ExitCause::Crashed(6),
+            stderr: Some("memory allocation of 8192 bytes failed".to_owned()),
+        };
+        let found = end_by_exit(None, &exit);
+        assert_eq!(found.outcome, Some(Outcome::OutOfMemory));
+        assert_eq!(
+            found.reason.as_deref(),
+            Some(
+                "the solving process crashed with signal 6: memory allocation of 8192 bytes failed"
+            )
+        );
+    }
+}

@@ -1,0 +1,280 @@
+//! Collects the lines of a solving process into updates, and decides which of them become events.
+//!
+//! All rows of the wear history are stored, but an event is only made every half per cent of the cycles or every few
+//! seconds, so that the stream of a long job has some hundred events.
+
+use std::time::{Duration, Instant};
+
+use api::job::Progress;
+use jiff::Timestamp;
+use solver::record::CycleReport;
+
+use crate::solve::Line;
+use crate::store::{JobUpdate, NewFile};
+
+/// Smallest fraction of the cycles between two events.
+const EVENT_FRACTION: f64 = 0.005;
+/// Shortest time between two events.
+const EVENT_PAUSE: Duration = Duration::from_millis(100);
+/// Longest time between two events while something changes.
+const EVENT_WAIT: Duration = Duration::from_secs(5);
+/// Largest number of rows in an update.
+const ROW_LIMIT: usize = 1000;
+/// Largest length of the lines in an update, bytes; snapshots and checkpoints are long.
+const BYTE_LIMIT: usize = 16 << 20;
+
+/// Lines that are not stored yet.
+#[derive(Debug)]
+pub(super) struct UpdateBuffer {
+    progress: Progress,
+    from_cycle: u64,
+    update: JobUpdate,
+    /// Length of the lines in `update`.
+    bytes: usize,
+    /// Length of the lines in the update that was taken last.
+    taken_bytes: usize,
+    newest: Option<CycleReport>,
+    started: Instant,
+    last_event: Option<(Instant, f64)>,
+    dirty: bool,
+}
+
+impl UpdateBuffer {
+    /// A buffer for a job with this number of cycles that starts after `from_cycle`.
+    pub(super) fn new(cycles: u64, from_cycle: u64) -> Self {
+        Self {
+            progress: Progress {
+                cycle: from_cycle,
+                cycles,
+                fraction: fraction(from_cycle, cycles),
+                updated_at: Some(Timestamp::now().to_string()),
+                ..Progress::default()
+            },
+            from_cycle,
+            update: JobUpdate::default(),
+            bytes: 0,
+            taken_bytes: 0,
+            newest: None,
+            started: Instant::now(),
+            last_event: None,
+            dirty: false,
+        }
+    }
+
+    /// Discards everything; the run starts at cycle 0.
+    pub(super) fn restart(&mut self) {
+        *self = Self::new(self.progress.cycles, 0);
+    }
+
+    /// Adds a line that is not the last one.
+    pub(super) fn push(&mut self, line: Line, bytes: usize) {
+        self.dirty = true;
+        self.bytes = self.bytes.saturating_add(bytes);
+        self.progress.updated_at = Some(Timestamp::now().to_string());
+        match line {
+            Line::Phase(phase) => self.progress.phase = Some(phase),
+            Line::Cycle(row) => {
+                self.progress.cycle = row.cycle;
+                self.progress.fraction = fraction(row.cycle, self.progress.cycles);
+                self.update.rows.push(row.clone());
+                self.newest = Some(row);
+            }
+            Line::Snapshot(snapshot) => self.update.snapshots.push(*snapshot),
+            Line::File(file) => self.update.files.push(NewFile {
+                file,
+                content: None,
+            }),
+            Line::Checkpoint(checkpoint) => self.update.checkpoint = Some(checkpoint),
+            Line::Fields(_)
+            | Line::Restarted(_)
+            | Line::Summary(_)
+            | Line::Failed(_)
+            | Line::Stopped => {}
+        }
+    }
+
+    /// Whether there is something to write.
+    pub(super) fn is_dirty(&self) -> bool {
+        self.dirty
+    }
+
+    /// Whether a limit is reached, so that the update should be written at once.
+    pub(super) fn is_full(&self) -> bool {
+        self.update.rows.len() >= ROW_LIMIT || self.bytes >= BYTE_LIMIT
+    }
+
+    /// Takes the update; with events if they are due, or if it is the last update.
+    pub(super) fn take(&mut self, is_last: bool) -> JobUpdate {
+        self.dirty = false;
+        self.taken_bytes = std::mem::take(&mut self.bytes);
+        self.progress.eta_s = self.eta_s();
+        let mut update = std::mem::take(&mut self.update);
+        update.progress = self.progress.clone();
+        if is_last || self.event_due() {
+            self.last_event = Some((Instant::now(), self.progress.fraction));
+            update.events.extend(self.events());
+        }
+        update
+    }
+
+    /// Puts back an update that was not stored, before the lines that were added since.
+    pub(super) fn put_back(&mut self, update: JobUpdate) {
+        let newer = std::mem::replace(&mut self.update, update);
+        self.update.rows.extend(newer.rows);
+        self.update.snapshots.extend(newer.snapshots);
+        self.update.files.extend(newer.files);
+        self.update.events.extend(newer.events);
+        self.update.checkpoint = newer.checkpoint.or(self.update.checkpoint.take());
+        self.bytes = self
+            .bytes
+            .saturating_add(std::mem::take(&mut self.taken_bytes));
+        self.dirty = true;
+    }
+
+    fn events(&mut self) -> Vec<(&'static str, String)> {
+        // Serializing numbers and texts does not fail; if it did, the event would be omitted.
+        let progress = serde_json::to_string(&self.progress)
+            .ok()
+            .map(|data| ("progress", data));
+        let cycle = self
+            .newest
+            .take()
+            .and_then(|row| serde_json::to_string(&row).ok())
+            .map(|data| ("cycle", data));
+        progress.into_iter().chain(cycle).collect()
+    }
+
+    fn event_due(&self) -> bool {
+        let Some((at, fraction)) = self.last_event else {
+            return true;
+        };
+        let waited = at.elapsed();
+        waited >= EVENT_WAIT
+            || (waited >= EVENT_PAUSE && self.progress.fraction >= fraction + EVENT_FRACTION)
+    }
+
+    fn eta_s(&self) -> Option<f64> {
+        let done = self.progress.fraction;
+        let done_here = done - fraction(self.from_cycle, self.progress.cycles);
+        (done_here > 0.0).then(|| self.started.elapsed().as_secs_f64() * (1.0 - done) / done_here)
+    }
+}
+
+#[expect(clippy::cast_precision_loss, reason = "cycles stay below 1e9")]
+fn fraction(cycle: u64, cycles: u64) -> f64 {
+    if cycles == 0 {
+        0.0
+    } else {
+        (cycle as f64 / cycles as f64).min(1.0)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use solver::record::SideReport;
+
+    use super::*;
+    use crate::solve::checkpoint::EncodedCheckpoint;
+
+    fn row(cycle: u64) -> Line {
+        Line::Cycle(CycleReport {
+            cycle,
+            jump: 1,
+            jump_error: 0.0,
+            sliding_distance_mm: 0.0,
+            receptacle: SideReport::default(),
+            slider: SideReport::default(),
+            station_depth_mm: Vec::new(),
+            load_n_per_mm: 0.0,
+            peak_pressure_mpa: 0.0,
+            contact_half_width_mm: 0.0,
+            dissipated_energy_mj_per_mm: 0.0,
+        })
+    }
+
+    #[test]
+    fn every_row_is_stored_but_few_become_events() {
+        let mut buffer = UpdateBuffer::new(2000, 0);
+        let (mut rows, mut events) = (0, 0);
+        for cycle in 0..=2000 {
+            buffer.push(row(cycle), 100);
+            let update = buffer.take(false);
+            rows += update.rows.len();
+            events += update.events.len();
+        }
+        assert_eq!(rows, 2001);
+        assert!(events < 900, "{events}");
+        assert!(!buffer.is_dirty());
+    }
+
+    #[test]
+    fn an_update_that_was_not_stored_is_part_of_the_next_one() {
+        let mut buffer = UpdateBuffer::new(10, 0);
+        buffer.push(row(1), 100);
+        let failed = buffer.take(false);
+        assert_eq!(failed.events.len(), 2);
+        buffer.push(row(2), 100);
+        buffer.put_back(failed);
+        assert!(buffer.is_dirty());
+        let next = buffer.take(true);
+        let cycles: Vec<u64> = next.rows.iter().map(|row| row.cycle).collect();
+        assert_eq!(cycles, [1, 2]);
+        let names: Vec<_> = next.events.iter().map(|event| event.0).collect();
+        assert_eq!(names, ["progress", "cycle", "progress", "cycle"]);
+        assert!(buffer.take(false).rows.is_empty());
+    }
+
+    #[test]
+    fn the_last_update_has_the_last_cycle() {
+        let mut buffer = UpdateBuffer::new(10, 0);
+        buffer.push(row(1), 100);
+        buffer.take(false);
+        buffer.push(row(10), 100);
+        let update = buffer.take(true);
+        assert!((update.progress.fraction - 1.0).abs() < 1e-15);
+        assert_eq!(
+            update
+                .events
+                .iter()
+                .map(|event| event.0)
+                .collect::<Vec<_>>(),
+            ["progress", "cycle"]
+        );
+    }
+
+    #[test]
+    fn the_newest_checkpoint_is_stored_with_the_rows_before_it() {
+        let checkpoint = |cycle| {
+            Line::Checkpoint(EncodedCheckpoint {
+                cycle,
+                state: Vec::new(),
+            })
+        };
+        let mut buffer = UpdateBuffer::new(10, 3);
+        assert!((buffer.take(false).progress.fraction - 0.3).abs() < 1e-15);
+        buffer.push(row(4), 100);
+        buffer.push(checkpoint(4), 100);
+        let failed = buffer.take(false);
+        buffer.put_back(failed);
+        buffer.push(row(5), 100);
+        assert_eq!(buffer.take(false).checkpoint.map(|c| c.cycle), Some(4));
+        buffer.push(checkpoint(5), 100);
+        let failed = buffer.take(false);
+        buffer.push(checkpoint(6), 100);
+        buffer.put_back(failed);
+        assert_eq!(buffer.take(false).checkpoint.map(|c| c.cycle), Some(6));
+    }
+
+    #[test]
+    fn long_lines_fill_the_buffer_before_many_rows_do() {
+        let mut buffer = UpdateBuffer::new(10, 0);
+        buffer.push(row(1), BYTE_LIMIT - 1);
+        assert!(!buffer.is_full());
+        buffer.push(row(2), 1);
+        assert!(buffer.is_full());
+        let failed = buffer.take(false);
+        assert!(!buffer.is_full());
+        buffer.put_back(failed);
+        assert!(buffer.is_full());
+    }
+}
