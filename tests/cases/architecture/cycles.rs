@@ -10,30 +10,28 @@ const RULE: &str = "no two files need each other";
 /// Edge of the file graph, and the first line that makes it.
 type Edges = BTreeMap<usize, BTreeMap<usize, (usize, String)>>;
 
-/// One violation for each strongly connected component of more than one file.
+/// One violation for each file of a strongly connected component, with the lines that tie it to the others.
 pub(super) fn violations(sources: &Sources) -> Vec<Violation> {
     let edges = edges(sources);
-    components(sources.files.len(), &edges)
-        .into_iter()
-        .filter(|component| component.len() > 1)
-        .map(|component| {
-            let names: BTreeSet<&str> = component.iter().map(|f| sources.files[*f].as_str()).collect();
-            let mut lines = Vec::new();
-            for file in &component {
-                for (to, (line, name)) in edges.get(file).into_iter().flatten() {
-                    if component.contains(to) {
-                        let (from, to) = (&sources.files[*file], &sources.files[*to]);
-                        lines.push(format!("{from}:{line} names `{name}` of {to}"));
-                    }
-                }
-            }
-            Violation {
+    let mut found = Vec::new();
+    for component in components(sources.files.len(), &edges) {
+        for file in &component {
+            let from = &sources.files[*file];
+            let inside = edges.get(file).into_iter().flatten();
+            let lines: Vec<String> = inside
+                .filter(|(to, _)| component.contains(to))
+                .map(|(to, (line, name))| {
+                    format!("{from}:{line} names `{name}` of {}", sources.files[*to])
+                })
+                .collect();
+            found.extend((!lines.is_empty()).then(|| Violation {
                 rule: RULE,
-                what: Vec::from_iter(names).join(", "),
+                what: from.clone(),
                 lines,
-            }
-        })
-        .collect()
+            }));
+        }
+    }
+    found
 }
 
 fn edges(sources: &Sources) -> Edges {
@@ -50,7 +48,7 @@ fn edges(sources: &Sources) -> Edges {
     edges
 }
 
-/// Files that reach each other, by reachability: the graphs have some hundred nodes.
+/// Strongly connected components, by reachability: the graphs have some hundred nodes.
 fn components(count: usize, edges: &Edges) -> Vec<BTreeSet<usize>> {
     let reached: Vec<BTreeSet<usize>> = (0..count).map(|file| reachable(file, edges)).collect();
     let mut components: Vec<BTreeSet<usize>> = Vec::new();

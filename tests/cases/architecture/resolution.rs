@@ -34,7 +34,9 @@ impl Reader<'_> {
     fn refer(&mut self, path: &[String], line: usize) {
         if let Some(target) = self.sources.resolve(self.module, path, MOST_RE_EXPORTS) {
             let file = self.file();
-            self.sources.references.push(Reference { file, line, target });
+            self.sources
+                .references
+                .push(Reference { file, line, target });
         }
     }
 
@@ -44,7 +46,9 @@ impl Reader<'_> {
         if path.leading_colon.is_some() {
             let file = self.file();
             let target = Target::External(names);
-            self.sources.references.push(Reference { file, line, target });
+            self.sources
+                .references
+                .push(Reference { file, line, target });
         } else {
             self.refer(&names, line);
         }
@@ -242,12 +246,10 @@ impl Sources {
         if let Some(child) = child {
             return Some(Target::Module(*child));
         }
-        let globs = here.imports.iter().filter(|import| import.name == "*");
-        globs
-            .filter_map(|glob| match self.resolve(module, &glob.path, left)? {
-                Target::Module(inner) if inner != module => self.resolve_below(inner, path, left),
-                _ => None,
-            })
-            .next()
+        let mut globs = here.imports.iter().filter(|import| import.name == "*");
+        globs.find_map(|glob| match self.resolve(module, &glob.path, left)? {
+            Target::Module(inner) if inner != module => self.resolve_below(inner, path, left),
+            _ => None,
+        })
     }
 }

@@ -23,7 +23,9 @@ impl Violation {
 impl fmt::Display for Violation {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}: {}", self.rule, self.what)?;
-        self.lines.iter().try_for_each(|line| write!(f, "\n    {line}"))
+        self.lines
+            .iter()
+            .try_for_each(|line| write!(f, "\n    {line}"))
     }
 }
 
@@ -33,18 +35,26 @@ enum Rule {
     /// No file of the first places names an item that a file of the second places defines.
     MustNotName(&'static [&'static str], &'static [&'static str]),
     /// Paths that begin so occur only in these places of the crate.
-    OnlyIn(&'static str, &'static [&'static str], &'static [&'static str]),
+    OnlyIn(
+        &'static str,
+        &'static [&'static str],
+        &'static [&'static str],
+    ),
     /// No path of the crate has one of these names in it.
     Nowhere(&'static str, &'static [&'static str]),
     /// Texts that begin so occur only in these places of the crate.
-    TextOnlyIn(&'static str, &'static [&'static str], &'static [&'static str]),
+    TextOnlyIn(
+        &'static str,
+        &'static [&'static str],
+        &'static [&'static str],
+    ),
     /// A file of these places holds the handler of one route at most.
     OneRoute(&'static [&'static str]),
 }
 
 use Rule::{MustNotName, Nowhere, OneRoute, OnlyIn, TextOnlyIn};
 
-const RULES: [(&str, Rule); 13] = [
+const RULES: [(&str, Rule); 14] = [
     (
         "laws know no mesh",
         MustNotName(
@@ -69,7 +79,11 @@ const RULES: [(&str, Rule); 13] = [
     ),
     (
         "`faer` is named only in `linear` and `condensation`",
-        OnlyIn("solver", &["faer"], &["solver/src/linear", "solver/src/condensation"]),
+        OnlyIn(
+            "solver",
+            &["faer"],
+            &["solver/src/linear", "solver/src/condensation"],
+        ),
     ),
     (
         "the same scene gives the same bits: no order of hashes in `solver`",
@@ -80,8 +94,17 @@ const RULES: [(&str, Rule); 13] = [
         OnlyIn(
             "solver",
             &[
-                "std::time", "std::fs", "std::env", "std::net", "std::process", "std::io", "println", "eprintln",
-                "print", "eprint", "dbg",
+                "std::time",
+                "std::fs",
+                "std::env",
+                "std::net",
+                "std::process",
+                "std::io",
+                "println",
+                "eprintln",
+                "print",
+                "eprint",
+                "dbg",
             ],
             &[],
         ),
@@ -95,8 +118,17 @@ const RULES: [(&str, Rule); 13] = [
         TextOnlyIn(
             "server",
             &[
-                "SELECT ", "INSERT ", "UPDATE ", "DELETE FROM ", "CREATE ", "ALTER ", "DROP ", "WITH ", "PRAGMA ",
-                "VACUUM", "BEGIN",
+                "SELECT ",
+                "INSERT ",
+                "UPDATE ",
+                "DELETE FROM ",
+                "CREATE ",
+                "ALTER ",
+                "DROP ",
+                "WITH ",
+                "PRAGMA ",
+                "VACUUM",
+                "BEGIN",
             ],
             &["server/src/store"],
         ),
@@ -109,23 +141,47 @@ const RULES: [(&str, Rule); 13] = [
         "storage does not know HTTP, workers or the command line",
         MustNotName(
             &["server/src/store"],
-            &["server/src/http", "server/src/worker", "server/src/cli", "server/src/service"],
+            &[
+                "server/src/http",
+                "server/src/worker",
+                "server/src/cli",
+                "server/src/service",
+            ],
+        ),
+    ),
+    (
+        "HTTP, queue, store and workers do not know the engine",
+        OnlyIn(
+            "server",
+            &["solver"],
+            &[
+                "server/src/batch",
+                "server/src/bench",
+                "server/src/cli",
+                "server/src/estimate",
+                "server/src/export",
+                "server/src/solve",
+                "server/src/spec",
+            ],
         ),
     ),
     (
         "only the command line and the service know the routes",
         MustNotName(
             &[
-                "server/src/batch", "server/src/estimate", "server/src/export", "server/src/queue",
-                "server/src/reference", "server/src/solve", "server/src/spec", "server/src/worker",
+                "server/src/batch",
+                "server/src/estimate",
+                "server/src/export",
+                "server/src/queue",
+                "server/src/reference",
+                "server/src/solve",
+                "server/src/spec",
+                "server/src/worker",
             ],
             &["server/src/http"],
         ),
     ),
-    (
-        "one file per route",
-        OneRoute(&["server/src/http/routes"]),
-    ),
+    ("one file per route", OneRoute(&["server/src/http/routes"])),
 ];
 
 /// Everything in the crates that contradicts a rule, one entry for each pair of files or names.
@@ -133,8 +189,16 @@ pub(super) fn violations(crates: &[Sources]) -> Vec<Violation> {
     let mut found: Vec<Violation> = Vec::new();
     for (sentence, rule) in &RULES {
         for place in places(rule) {
-            if !crates.iter().any(|s| s.files.iter().any(|f| lies_in(f, place))) {
-                add(&mut found, sentence, format!("{place} does not exist"), None);
+            if !crates
+                .iter()
+                .any(|s| s.files.iter().any(|f| lies_in(f, place)))
+            {
+                add(
+                    &mut found,
+                    sentence,
+                    format!("{place} does not exist"),
+                    None,
+                );
             }
         }
         for sources in crates {
@@ -154,11 +218,18 @@ fn places(rule: &Rule) -> Vec<&'static str> {
 
 fn check(sentence: &'static str, rule: &Rule, sources: &Sources, found: &mut Vec<Violation>) {
     let within = |file: usize, places: &[&str]| {
-        places.iter().any(|place| lies_in(&sources.files[file], place))
+        places
+            .iter()
+            .any(|place| lies_in(&sources.files[file], place))
     };
     let mut report = |file: usize, what: &str, line: usize| {
         let file = &sources.files[file];
-        add(found, sentence, format!("{file} -> {what}"), Some(format!("{file}:{line} names {what}")));
+        add(
+            found,
+            sentence,
+            format!("{file} -> {what}"),
+            Some(format!("{file}:{line} names {what}")),
+        );
     };
     match rule {
         MustNotName(from, to) => {
@@ -194,7 +265,9 @@ fn check(sentence: &'static str, rule: &Rule, sources: &Sources, found: &mut Vec
         TextOnlyIn(name, starts, places) if sources.name == *name => {
             for (file, line, text) in &sources.literals {
                 if !within(*file, places)
-                    && let Some(start) = starts.iter().find(|start| text.trim_start().starts_with(*start))
+                    && let Some(start) = starts
+                        .iter()
+                        .find(|start| text.trim_start().starts_with(*start))
                 {
                     report(*file, start, *line);
                 }
@@ -227,7 +300,9 @@ fn add(found: &mut Vec<Violation>, rule: &'static str, what: String, line: Optio
 /// Checks whether a path begins with these names, separated by `::`.
 fn begins(path: &[String], start: &str) -> bool {
     let mut names = path.iter();
-    start.split("::").all(|name| names.next().is_some_and(|n| n == name))
+    start
+        .split("::")
+        .all(|name| names.next().is_some_and(|n| n == name))
 }
 
 /// Checks whether a file belongs to a place.

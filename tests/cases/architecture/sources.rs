@@ -8,9 +8,9 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
-use syn::{Attribute, Ident, Item, UseTree, Visibility};
+use syn::{Attribute, Ident, Item, UseTree};
 
 use super::resolution;
 
@@ -41,8 +41,6 @@ pub(super) struct Import {
     /// `*` for all names of the path.
     pub(super) name: String,
     pub(super) path: Vec<String>,
-    pub(super) re_export: bool,
-    pub(super) line: usize,
 }
 
 /// A line that names something.
@@ -63,8 +61,8 @@ pub(super) enum Target {
 }
 
 impl Sources {
-    /// Reads a crate of the workspace from its `src/lib.rs` on.
-    pub(super) fn read(name: &'static str) -> Self {
+    /// Reads a crate, the folder `name` of a workspace, from its `src/lib.rs` on.
+    pub(super) fn read(workspace: &Path, name: &'static str) -> Self {
         let mut sources = Self {
             name,
             files: Vec::new(),
@@ -73,10 +71,13 @@ impl Sources {
             literals: Vec::new(),
             routes: Vec::new(),
         };
-        let root = workspace();
         let mut parsed = Vec::new();
-        let top = root.join(name).join("src");
+        let top = workspace.join(name).join("src");
         sources.read_file(&top.join("lib.rs"), &top, None, &mut parsed);
+        let root = format!("{}/", workspace.display());
+        for file in &mut sources.files {
+            *file = file.replacen(&root, "", 1);
+        }
         resolution::record(&mut sources, &parsed);
         sources
     }
@@ -89,10 +90,11 @@ impl Sources {
         parent: Option<usize>,
         parsed: &mut Vec<(usize, syn::File)>,
     ) -> usize {
-        let text = fs::read_to_string(path).unwrap_or_else(|error| panic!("{path:?}: {error}"));
-        let file = syn::parse_file(&text).unwrap_or_else(|error| panic!("{path:?}: {error}"));
-        let shown = path.strip_prefix(workspace()).expect("a file of the workspace");
-        self.files.push(shown.display().to_string());
+        let text =
+            fs::read_to_string(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
+        let file =
+            syn::parse_file(&text).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
+        self.files.push(path.display().to_string());
         let module = self.add_module(self.files.len() - 1, parent);
         self.read_items(&file.items, module, folder, parsed);
         parsed.push((module, file));
@@ -133,15 +135,11 @@ impl Sources {
                     self.modules[module].children.insert(name, child);
                 }
                 Item::Use(import) => {
-                    let re_export = !matches!(import.vis, Visibility::Inherited);
                     let mut names = Vec::new();
                     flatten(&import.tree, &mut Vec::new(), &mut names);
-                    let imports = names.into_iter().map(|(name, path, line)| Import {
-                        name,
-                        path,
-                        re_export,
-                        line,
-                    });
+                    let imports = names
+                        .into_iter()
+                        .map(|(name, path, _)| Import { name, path });
                     self.modules[module].imports.extend(imports);
                 }
                 other => self.modules[module].items.extend(defined_name(other)),
@@ -180,7 +178,6 @@ pub(super) fn flatten(
             let path = joined(prefix, &leaf.ident);
             names.push((leaf.rename.to_string(), path, line_of(&leaf.ident)));
         }
-        _ => {}
     }
 }
 
@@ -240,9 +237,4 @@ fn defined_name(item: &Item) -> Option<String> {
         _ => return None,
     };
     Some(ident.to_string())
-}
-
-pub(super) fn workspace() -> PathBuf {
-    let tests = Path::new(env!("CARGO_MANIFEST_DIR"));
-    tests.parent().expect("the workspace").to_path_buf()
 }
