@@ -1,4 +1,4 @@
-//! The naive variant: forward Euler, wear taken off after each increment from the pressure at its end.
+//! The naive variant: forward Euler, wear applied after each increment from the pressure at its end.
 
 use solver::condensation::condense;
 use solver::contact::{ContactError, ContactState, Move, Pair, Solver, Surfaces, slopes};
@@ -47,7 +47,7 @@ pub(crate) fn explicit_wear(
                 slope: &slope,
                 slider_slope: &slider_slope,
             };
-            // No cycles: the solve itself knows no wear.
+            // No cycles: the solve itself is without wear.
             let to = Move {
                 slider_x,
                 run: 0.0,
