@@ -1,4 +1,4 @@
-//! Looks for the optional programs that some cases compare with; cases without theirs are visibly ignored.
+//! Detects the optional programs that some cases need; cases whose program is absent are ignored, visibly.
 
 use std::process::Command;
 
@@ -33,7 +33,7 @@ fn main() {
     }
 }
 
-/// Whether the processor has the vector instructions that the golden results were computed with.
+/// Checks whether the processor has the vector instructions that the golden results were computed with.
 #[cfg(target_arch = "x86_64")]
 fn has_fma() -> bool {
     std::arch::is_x86_feature_detected!("avx2") && std::arch::is_x86_feature_detected!("fma")
@@ -45,7 +45,7 @@ fn has_fma() -> bool {
     false
 }
 
-/// Whether a program is there and does not fail; `ccx -v` ends with a code of its own.
+/// Checks whether a program exists and runs; `ccx -v` ends with a code of its own.
 fn runs(command: &mut Command) -> bool {
     let program = command.get_program().to_string_lossy().into_owned();
     command

@@ -2,17 +2,17 @@
 //! order.
 //!
 //! E(h) = integral |d_h - d_(h/2)| dx / integral d dx at the same cycles, jumps and increments; order = log2 of the
-//! ratio of two such changes. Linear elements and a contact edge that lies anywhere between two nodes let expect first
-//! order in the width of the scar and more in its depth.
+//! ratio of two such changes. Linear elements and a contact edge that lies anywhere between two nodes suggest
+//! first order in the width of the scar and a higher one in its depth.
 
-use crate::keep::{depth_at, solve};
+use crate::recorder::{depth_at, solve};
 use crate::scenes::{fuzz_button, mccoll};
 use solver::record::DepthProfile;
 use solver::scene::Scene;
 
 fn profile(scene: &Scene) -> DepthProfile {
-    let (_, keep) = solve(scene).expect("the scene can be solved");
-    keep.last_profile().clone()
+    let (_, recorder) = solve(scene).expect("the scene can be solved");
+    recorder.last_profile().clone()
 }
 
 /// Relative L1 distance of two profiles on [-half, half].
@@ -42,7 +42,7 @@ fn order(name: &str, scene: &Scene, coarsest: f64, half: f64) -> f64 {
 }
 
 #[test]
-fn the_scar_of_a_short_stroke_converges_with_the_mesh() {
+fn short_stroke_scar_converges_with_mesh_refinement() {
     let mut scene = Scene {
         cycles: 1_000,
         ..mccoll()
@@ -54,7 +54,7 @@ fn the_scar_of_a_short_stroke_converges_with_the_mesh() {
 }
 
 #[test]
-fn the_groove_of_a_long_stroke_converges_with_the_mesh() {
+fn long_stroke_groove_converges_with_mesh_refinement() {
     let mut scene = Scene {
         cycles: 40,
         ..fuzz_button()

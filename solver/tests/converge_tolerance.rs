@@ -1,12 +1,12 @@
 //! The tolerance holds: deepest wear, scar width and every place of the profile, its steep edges included, lie within it
-//! of the answer at a tolerance of 0.25 %. In partial slip the profile holds it in area only: the walls beside the
-//! place that sticks are so steep that a part of an element to the side is much in depth.
+//! of the solution at a tolerance of 0.25 %. In partial slip the profile meets it in area only: the walls beside the
+//! stick zone are so steep that a sideways shift by a fraction of an element is a large error in depth.
 //!
-//! Four scenes: the scar of a short stroke (McColl), the groove of a long one (fuzz button), a stroke that leaves the
-//! contact behind at first and not in the end (a sprung contact on a pad), and partial slip (the cylinder at 120 N/mm
+//! Four scenes: the scar of a short stroke (McColl), the groove of a long one (fuzz button), a stroke longer than the
+//! contact at first and shorter in the end (a sprung contact on a pad), and partial slip (the cylinder at 120 N/mm
 //! and +-3 um, where two thirds of the contact stick).
 
-use crate::keep::{depth_at, solve};
+use crate::recorder::{depth_at, solve};
 use crate::scenes::{fuzz_button, mccoll};
 use solver::record::{DepthProfile, SideReport};
 use solver::scene::{BlockShape, Friction, Motion, Scene, SliderShape, WearLaw};
@@ -17,8 +17,8 @@ const REFERENCE: f64 = 0.0025;
 fn worn(scene: &Scene, tolerance: f64) -> (SideReport, DepthProfile) {
     let mut scene = scene.clone();
     scene.accuracy.tolerance = tolerance;
-    let (summary, keep) = solve(&scene).expect("the scene can be solved");
-    (summary.last.receptacle, keep.last_profile().clone())
+    let (summary, recorder) = solve(&scene).expect("the scene can be solved");
+    (summary.last.receptacle, recorder.last_profile().clone())
 }
 
 /// Largest distance of two profiles at the nodes of either, over the largest depth of the second.
@@ -49,7 +49,7 @@ fn assert_tolerances_hold(
     distance: fn(&DepthProfile, &DepthProfile) -> f64,
 ) {
     let (reference, converged) = worn(scene, REFERENCE);
-    let mut held = true;
+    let mut all_met = true;
     for tolerance in TOLERANCES {
         let (found, profile) = worn(scene, tolerance);
         let depth = found.max_depth_mm / reference.max_depth_mm - 1.0;
@@ -61,9 +61,9 @@ fn assert_tolerances_hold(
              at most, {area:.1e} in area"
         );
         let errors = [depth.abs(), width.abs(), distance(&profile, &converged)];
-        held &= errors.iter().all(|error| *error < tolerance);
+        all_met &= errors.iter().all(|error| *error < tolerance);
     }
-    assert!(held, "{name}");
+    assert!(all_met, "{name}");
 }
 
 fn short(mut scene: Scene, cycles: u64) -> Scene {
@@ -83,7 +83,7 @@ fn tolerances_hold_for_the_groove_of_a_long_stroke() {
 }
 
 #[test]
-fn tolerances_hold_for_a_contact_that_grows_over_its_stroke() {
+fn tolerances_hold_for_a_contact_that_outgrows_its_stroke() {
     let mut scene = short(fuzz_button(), 200);
     scene.slider.shape = SliderShape {
         radius_mm: 0.4,

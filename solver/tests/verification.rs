@@ -7,7 +7,7 @@
 
 mod converge_scars;
 mod converge_tolerance;
-mod keep;
+mod recorder;
 mod scenes;
 mod verify_block_on_ring;
 mod verify_cattaneo_mindlin;

@@ -1,4 +1,4 @@
-//! Block on ring: the slider's surface runs past a contact that stays at one place of the block.
+//! Block on ring: the slider's surface slides continuously past a contact that stays at one place of the block.
 //!
 //! ```text
 //!       .--.            the block takes the shape of the ring: a circular segment of chord 2 b with the worn area
@@ -6,12 +6,12 @@
 //!    ___`--'___         P / (2 b), exactly once elastic flattening is small beside the depth
 //! ```
 
-use crate::keep::solve;
+use crate::recorder::solve;
 use crate::scenes::mccoll;
 use solver::scene::{Motion, Scene, WearLaw};
 
 #[test]
-fn the_block_takes_the_shape_of_the_ring() {
+fn block_takes_the_shape_of_the_ring() {
     let (k, load, radius, distance) = (2.9e-6, 18.5, 6.0, 300.0);
     let mut scene = Scene {
         cycles: 10_000,
@@ -25,7 +25,7 @@ fn the_block_takes_the_shape_of_the_ring() {
         k_over_h_per_mpa: k,
     });
     scene.output.snapshots_at_cycles = vec![10_000];
-    let (summary, keep) = solve(&scene).expect("the scene can be solved");
+    let (summary, recorder) = solve(&scene).expect("the scene can be solved");
     let last = &summary.last;
     let area = k * load * distance;
     let half_width = (1.5_f64 * radius * area).cbrt();
@@ -41,7 +41,11 @@ fn the_block_takes_the_shape_of_the_ring() {
         ratio.abs() < 0.015 && width.abs() < 0.015,
         "{ratio} {width}"
     );
-    let field = &keep.snapshots.last().expect("the end is kept").positions[0];
+    let field = &recorder
+        .snapshots
+        .last()
+        .expect("the last cycle has a snapshot")
+        .positions[0];
     let mean = load / (2.0 * half_width);
     let inner = field
         .x_mm

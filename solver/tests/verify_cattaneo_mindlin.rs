@@ -6,8 +6,8 @@
 //!     (     )                loading to Q = mu P / 2:    c/a = sqrt(1 - Q/(mu P)) = 0.70711
 //!   ___`-.-'___              unloading back to Q = 0:   c'/a = sqrt(1 - Q/(2 mu P)) = 0.86603
 //! ```
-//! On unloading, slip in the new direction has come in from the edge to c' although Q is zero: the tangential
-//! history matters.
+//! On unloading, reverse slip has spread from the edge to c' although Q is zero: the solution depends on the
+//! tangential history.
 
 use crate::scenes::mccoll;
 use solver::condensation::{Condensed, condense};
@@ -88,7 +88,7 @@ impl Bench {
         next
     }
 
-    /// Moves in small steps until the tangential force has reached `target`, and ends on it.
+    /// Moves in small steps until the tangential force has reached `target`, and ends at it.
     fn drive(&mut self, from: &ContactState, target: f64, step: f64) -> ContactState {
         let mut last = from.clone();
         loop {

@@ -1,8 +1,8 @@
-//! Contact patch test: an even pressure passes through non-matching meshes unchanged.
+//! Contact patch test: a uniform pressure passes through non-matching meshes unchanged.
 //!
 //! ```text
-//!     p = 10 MPa           both bodies 1 mm wide, nu = 0, so the exact stress is even;
-//!   v v v v v v v          the slider's mesh is laid so that at its position s it stands
+//!     p = 10 MPa           both bodies 1 mm wide, nu = 0, so the exact stress is uniform;
+//!   v v v v v v v          the slider's mesh is chosen so that at its position s it lies
 //!   +--+---+--+-+          exactly over the receptacle
 //!   +-+--+----+-+
 //!   ~~~~ fixed ~~
@@ -35,7 +35,7 @@ fn body(x: Vec<f64>, far_y: f64, support: Support) -> BodyModel {
 }
 
 #[test]
-fn an_even_pressure_passes_through_non_matching_meshes_at_any_position() {
+fn uniform_pressure_passes_through_non_matching_meshes_at_any_position() {
     let (pressure, friction) = (10.0, 0.5);
     let sizes = solver::model::build(&mccoll())
         .expect("the scene can be meshed")

@@ -1,4 +1,4 @@
-//! The groove of a slider that runs over the block: the thesis' fuzz button.
+//! The groove of a slider in gross reciprocating sliding: the thesis' fuzz button.
 //!
 //! ```text
 //!            <-- 2 A = 67.7 um -->
@@ -7,13 +7,13 @@
 //!   |~~~~~~~~~`-'~~~~~~~~~|
 //!   |                     | 84.67 um
 //! ```
-//! A contact that passes a point altogether wears it by the integral of k p ds over the pass, which is k P' if the
+//! A contact that passes a point completely wears it by the integral of k p ds over the pass, which is k P' if the
 //! contact moves with the slider: on a flat floor, whatever the pressure's shape (the thesis' check with 10 MPa in
 //! place of the pressure is not this). As the floor becomes hollow with radius rho the contact travels faster than
 //! the slider, dX/ds = 1/(1 - R/rho), and wears less: the flatness is lost by diffusion from the ends with
 //! D = 2 k P' R a cycle, which reaches the middle after some A^2/(4 D) = 430 cycles.
 
-use crate::keep::solve;
+use crate::recorder::solve;
 use crate::scenes::{COPPER_WEAR, fuzz_button};
 use solver::scene::{Motion, Scene};
 
@@ -25,10 +25,10 @@ fn a_flat_floor_sinks_by_two_passes_of_k_p_a_cycle() {
         cycles: 150,
         ..fuzz_button()
     };
-    let (summary, keep) = solve(&scene).expect("the scene can be solved");
+    let (summary, recorder) = solve(&scene).expect("the scene can be solved");
     let ideal = 2.0 * COPPER_WEAR * LOAD;
     assert!((ideal - 26.17e-6).abs() < 0.01e-6);
-    let middle = |cycle: u64| keep.at(cycle).station_depth_mm[3];
+    let middle = |cycle: u64| recorder.at(cycle).station_depth_mm[3];
     println!(
         "middle: {:.3} nm after 1 cycle, {:.3} nm a cycle to 150",
         1e6 * middle(1),
@@ -39,16 +39,16 @@ fn a_flat_floor_sinks_by_two_passes_of_k_p_a_cycle() {
     assert!(summary.checks.worn_area < 1e-9);
 }
 
-/// Where nothing sets left apart from right, the groove is symmetric but for the pass that came last.
+/// Scene and motion are symmetric, so the groove is symmetric except for the last pass.
 #[test]
 fn the_groove_is_symmetric_within_the_tolerance() {
     let scene = Scene {
         cycles: 240,
         ..fuzz_button()
     };
-    let (_, keep) = solve(&scene).expect("the scene can be solved");
-    let depth = &keep.at(240).station_depth_mm;
-    let deepest = keep.at(240).receptacle.max_depth_mm;
+    let (_, recorder) = solve(&scene).expect("the scene can be solved");
+    let depth = &recorder.at(240).station_depth_mm;
+    let deepest = recorder.at(240).receptacle.max_depth_mm;
     for i in 0..3 {
         assert!(
             (depth[i] - depth[6 - i]).abs() < 0.02 * deepest,
@@ -57,12 +57,12 @@ fn the_groove_is_symmetric_within_the_tolerance() {
     }
 }
 
-/// Once the whole block wears at one rate, that rate is the worn area over the block's length; the contact leans
-/// by then, so the area exceeds k P' s by the factor (1 + t^2)/(1 - mu^2 t^2) averaged over the floor's slopes t.
+/// Once the whole block wears at one rate, that rate is the worn area over the block's length; the contact is on a
+/// slope by then, so the area exceeds k P' s by the factor (1 + t^2)/(1 - mu^2 t^2) averaged over the floor's slopes t.
 #[test]
-fn a_block_shorter_than_the_groove_sinks_evenly_in_the_end() {
-    let (summary, keep) = solve(&fuzz_button()).expect("the scene can be solved");
-    let (early, late) = (keep.at(1_600), keep.at(2_000));
+fn block_shorter_than_the_groove_finally_wears_at_one_rate() {
+    let (summary, recorder) = solve(&fuzz_button()).expect("the scene can be solved");
+    let (early, late) = (recorder.at(1_600), recorder.at(2_000));
     let area = (late.receptacle.worn_area_mm2 - early.receptacle.worn_area_mm2) / 400.0;
     let middle = (late.station_depth_mm[3] - early.station_depth_mm[3]) / 400.0;
     println!(
@@ -76,10 +76,10 @@ fn a_block_shorter_than_the_groove_sinks_evenly_in_the_end() {
     assert!(summary.checks.worn_area < 1e-9 && summary.checks.force_balance < 1e-9);
 }
 
-/// What a jump reports of the pressure in the middle of the groove is what a single cycle finds there, and not the
-/// pressure on the front that the whole jump digs at once.
+/// The pressure that a jump reports in the middle of the groove equals that of a single cycle, not that on the
+/// leading-edge step that the whole jump wears at once.
 #[test]
-fn pressure_of_a_running_contact_is_that_of_single_cycles() {
+fn pressure_in_gross_reciprocating_sliding_is_that_of_single_cycles() {
     let peak = |cycle_jump: Option<u64>| {
         let mut scene = Scene {
             cycles: 240,
@@ -94,14 +94,14 @@ fn pressure_of_a_running_contact_is_that_of_single_cycles() {
         "peak pressure at cycle 240: {chosen:.1} MPa with jumps of {jump}, {single:.1} MPa without"
     );
     assert!(jump > 3);
-    // Reached: 0.2 %. On the front of the jump it would be 39 % low.
+    // Reached: 0.2 %. On the jump's leading-edge step it would be 39 % low.
     assert!((chosen / single - 1.0).abs() < 0.03);
 }
 
-/// Of a stroke of some four half-widths as well, where the probe of a position begins before the last one is reached. The
-/// jump is fixed from the first cycle on and has shaped the floor that the probe comes over.
+/// The same for a stroke of some four half-widths, where the single-cycle replay of a position starts before the
+/// previous position. The jump is fixed from the first cycle on and has shaped the floor that the replay slides over.
 #[test]
-fn pressure_of_a_contact_that_hardly_runs_is_that_of_single_cycles() {
+fn pressure_of_a_stroke_of_four_half_widths_is_that_of_single_cycles() {
     let peak = |cycle_jump: u64| {
         let mut scene = Scene {
             cycles: 100,
@@ -118,6 +118,6 @@ fn pressure_of_a_contact_that_hardly_runs_is_that_of_single_cycles() {
     };
     let (ten, single) = (peak(10), peak(1));
     println!("peak pressure at cycle 100: {ten:.1} MPa with jumps of 10, {single:.1} MPa without");
-    // Reached: 10 %. On the front of the jump it would be 54 % low.
+    // Reached: 10 %. On the jump's leading-edge step it would be 54 % low.
     assert!((ten / single - 1.0).abs() < 0.2);
 }

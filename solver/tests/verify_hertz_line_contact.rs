@@ -8,7 +8,7 @@
 //! ```
 //! The bodies are finite (12 x 6 mm and a cylinder section of 9 x 6 mm), a/R = 0.6 %, so Hertz holds to O(a/R).
 
-use crate::keep::solve;
+use crate::recorder::solve;
 use crate::scenes::mccoll;
 use solver::scene::{Elastic, Friction, Motion, Scene};
 use std::f64::consts::PI;
@@ -41,8 +41,8 @@ fn standard_accuracy_meets_hertz_within_two_per_cent() {
 }
 
 /// The pressure's error, integral |p - p_Hertz| dx / P, at 1/100 of the load: a/R = 0.06 %, so that the bodies'
-/// finite size (O(a/R)) stays below the mesh's error. Hertz' pressure ends like a square root, for which linear
-/// elements have the order 3/2 in this norm; an edge that lies anywhere between two nodes makes it scatter.
+/// finite size (O(a/R)) stays below the mesh's error. Hertz' pressure ends as a square root, for which linear
+/// elements converge with order 3/2 in this norm; the position of the edge between two nodes adds scatter.
 #[test]
 fn pressure_converges_to_hertz_at_the_order_that_its_edge_allows() {
     let (half_width, peak) = hertz();
@@ -59,10 +59,10 @@ fn pressure_converges_to_hertz_at_the_order_that_its_edge_allows() {
         scene.accuracy.contact_element_mm = Some(half_width / elements);
         scene.receptacle.wear = None;
         scene.slider.wear = None;
-        let (_, keep) = solve(&scene).expect("the scene can be solved");
-        let field = &keep.snapshots[0].positions[0];
+        let (_, recorder) = solve(&scene).expect("the scene can be solved");
+        let field = &recorder.snapshots[0].positions[0];
         let spots = field.x_mm.windows(2).zip(field.pressure_mpa.windows(2));
-        // Ten places an element, so that the norm's own quadrature does not count.
+        // Ten places an element, so that the quadrature of the norm adds no error.
         let difference = |x: &[f64], p: &[f64]| {
             let places = (0..10).map(|i| 0.1 * (f64::from(i) + 0.5));
             let at = |t: f64| {

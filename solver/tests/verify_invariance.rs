@@ -1,13 +1,13 @@
-//! What must not matter: the unit of length, and whether wear comes from a large k or a long way.
+//! Invariance to the unit of length, and to the exchange of wear coefficient for sliding distance; energy balance.
 
-use crate::keep::solve;
+use crate::recorder::solve;
 use crate::scenes::mccoll;
 use solver::scene::{Motion, Scene, WearLaw};
 
-/// All lengths times 4 (and the line load with them) at the same stresses: all depths times 4, exactly but for
+/// All lengths times 4 (and the line load with them) at the same stresses: all depths times 4, up to
 /// round-off in the mesh grading.
 #[test]
-fn lengths_scale() {
+fn depths_scale_with_all_lengths() {
     let scene = Scene {
         cycles: 300,
         ..mccoll()
@@ -34,9 +34,9 @@ fn lengths_scale() {
     );
 }
 
-/// Half the wear coefficient over twice the cycles digs the same scar, within the tolerance of both runs.
+/// Half the wear coefficient over twice the cycles wears the same scar, within the tolerance of both runs.
 #[test]
-fn half_the_coefficient_over_twice_the_way_digs_the_same_scar() {
+fn half_the_coefficient_over_twice_the_distance_wears_the_same_scar() {
     let scene = Scene {
         cycles: 4_000,
         ..mccoll()
@@ -62,27 +62,27 @@ fn half_the_coefficient_over_twice_the_way_digs_the_same_scar() {
     let (fast, slow) = (run(&scene), run(&slow));
     let depth = slow.max_depth_mm / fast.max_depth_mm - 1.0;
     let width = slow.scar_half_width_mm / fast.scar_half_width_mm - 1.0;
-    println!("half k over twice the way: depth {depth:.1e}, half-width {width:.1e}");
+    println!("half k over twice the distance: depth {depth:.1e}, half-width {width:.1e}");
     assert!(depth.abs() < 0.01 && width.abs() < 0.01, "{depth} {width}");
 }
 
-/// What friction dissipates in a cycle is the area of the force-displacement loop. Backward Euler takes the force at
-/// the end of an increment, so the loop of 40 increments is met to some per cent of its elastic corners.
+/// The energy dissipated in a cycle equals the area of the force-displacement loop. Backward Euler takes the force at
+/// the end of an increment, so with 40 increments they agree to some per cent of the elastic corners.
 #[test]
-fn dissipated_energy_is_the_area_of_the_loop() {
+fn dissipated_energy_is_the_area_of_the_friction_loop() {
     let mut scene = Scene {
         cycles: 2,
         ..mccoll()
     };
     scene.accuracy.increments_per_cycle = Some(160);
     scene.output.snapshots_at_cycles = vec![1, 2];
-    let (_, keep) = solve(&scene).expect("the scene can be solved");
+    let (_, recorder) = solve(&scene).expect("the scene can be solved");
     let dissipated =
-        keep.at(2).dissipated_energy_mj_per_mm - keep.at(1).dissipated_energy_mj_per_mm;
-    let friction_loop = &keep
+        recorder.at(2).dissipated_energy_mj_per_mm - recorder.at(1).dissipated_energy_mj_per_mm;
+    let friction_loop = &recorder
         .snapshots
         .last()
-        .expect("cycle 2 is kept")
+        .expect("cycle 2 has a snapshot")
         .friction_loop;
     let (x, q) = (
         &friction_loop.displacement_mm,

@@ -9,7 +9,7 @@
 //! Reference: depth of the flat from two independent finite-element codes (public data set illavori/LevelSetWear),
 //! the area ratio worn/(k P s), the half-width 0.255 mm and a peak pressure of about 73 MPa at the end.
 
-use crate::keep::solve;
+use crate::recorder::solve;
 use crate::scenes::mccoll;
 use solver::record::TractionField;
 
@@ -23,9 +23,9 @@ const REFERENCE: [(u64, f64, f64, f64); 4] = [
 
 #[test]
 fn depth_and_area_follow_two_published_codes() {
-    let (summary, keep) = solve(&mccoll()).expect("the scene can be solved");
+    let (summary, recorder) = solve(&mccoll()).expect("the scene can be solved");
     for (cycle, low, high, ratio) in REFERENCE {
-        let report = keep.at(cycle);
+        let report = recorder.at(cycle);
         let depth = 1e3 * report.receptacle.max_depth_mm;
         let ideal = report.receptacle.ideal_area_mm2.expect("the flat wears");
         let computed = report.receptacle.worn_area_mm2 / ideal;
@@ -44,10 +44,13 @@ fn depth_and_area_follow_two_published_codes() {
 }
 
 #[test]
-fn final_scar_and_pressure_are_those_of_the_reference_without_zigzag() {
-    let (_, keep) = solve(&mccoll()).expect("the scene can be solved");
-    let last = keep.at(18_000);
-    let snapshot = keep.snapshots.last().expect("the last cycle is kept");
+fn final_scar_and_pressure_agree_with_the_reference_without_zigzag() {
+    let (_, recorder) = solve(&mccoll()).expect("the scene can be solved");
+    let last = recorder.at(18_000);
+    let snapshot = recorder
+        .snapshots
+        .last()
+        .expect("the last cycle has a snapshot");
     println!(
         "scar {:.4} mm, peak {:.1} MPa",
         last.receptacle.scar_half_width_mm, last.peak_pressure_mpa
@@ -58,8 +61,8 @@ fn final_scar_and_pressure_are_those_of_the_reference_without_zigzag() {
     for field in &snapshot.positions {
         let roughness = zigzag(field);
         println!("{:?}: zigzag {roughness:.3}", field.position);
-        // An unstable run alternates by tens of per cent from node to node; ours bends by a few where the pass
-        // before ended.
+        // An unstable run alternates by tens of per cent from node to node; ours bends by a few where the
+        // previous pass ended.
         assert!(roughness < 0.05);
     }
 }
@@ -81,12 +84,12 @@ fn measured() -> Vec<(f64, f64)> {
 /// Roughness and debris of the worn surface are 0.2 to 0.4 um from place to place, so the profile is compared in its
 /// middle, in its area and in its mean deviation, not point by point.
 #[test]
-fn the_profile_is_that_of_the_measurement_within_its_roughness() {
-    let (_, keep) = solve(&mccoll()).expect("the scene can be solved");
-    let profile = &keep
+fn profile_agrees_with_the_measurement_within_its_roughness() {
+    let (_, recorder) = solve(&mccoll()).expect("the scene can be solved");
+    let profile = &recorder
         .snapshots
         .last()
-        .expect("the last cycle is kept")
+        .expect("the last cycle has a snapshot")
         .receptacle;
     let at = |x: f64| {
         let i = profile

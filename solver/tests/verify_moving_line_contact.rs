@@ -3,20 +3,20 @@
 //!
 //! ```text
 //!    P ->  ...  ->         each place between the turning points is passed twice in a cycle: 2 k P deep
-//!   ( )        ( )         (engine: k = 1e-10 per MPa, so that the groove, 0.4 pm, is no geometry)
+//!   ( )        ( )         (engine: k = 1e-10 per MPa, so that the groove, 0.4 pm, does not change the geometry)
 //!  ___________________
 //! ```
-//! Not exactly 2 k P: the contact sticks for the first micrometre after each turning point and the surface is strained
-//! as it passes, together 0.1 %; and elements or steps as long as half the half-width sample the pressure coarsely, by
-//! a few per cent at single places and not in the mean.
+//! The depth differs from 2 k P because the contact sticks for the first micrometre after each turning point and the
+//! surface is strained as it passes, together 0.1 %; and because elements or steps as long as half the half-width sample the pressure coarsely, by
+//! a few per cent at single places, without effect on the mean.
 
-use crate::keep::solve;
+use crate::recorder::solve;
 use crate::scenes::mccoll;
 use solver::scene::{Friction, Motion, Scene, WearLaw};
 
 const K: f64 = 1e-10;
 
-/// Largest and mean deviation of the depth from 2 k P over the places that the contact has wholly passed.
+/// Largest and mean deviation of the depth from 2 k P over the places that the contact has passed completely.
 fn deviation(radius: f64, friction: f64, element: f64, increments: u32) -> (f64, f64) {
     let amplitude = 0.4;
     let mut scene = Scene {
@@ -44,9 +44,13 @@ fn deviation(radius: f64, friction: f64, element: f64, increments: u32) -> (f64,
     scene.accuracy.contact_element_mm = Some(element);
     scene.accuracy.increments_per_cycle = Some(increments);
     scene.output.snapshots_at_cycles = vec![1];
-    let (summary, keep) = solve(&scene).expect("the scene can be solved");
+    let (summary, recorder) = solve(&scene).expect("the scene can be solved");
     let passed = amplitude - 2.0 * summary.initial.contact_half_width_mm - 2.0 * element;
-    let profile = &keep.snapshots.last().expect("cycle 1 is kept").receptacle;
+    let profile = &recorder
+        .snapshots
+        .last()
+        .expect("cycle 1 has a snapshot")
+        .receptacle;
     let places = profile.x_mm.iter().zip(&profile.depth_mm);
     let ratios: Vec<f64> = places
         .filter(|(x, _)| x.abs() < passed)
@@ -65,7 +69,7 @@ fn deviation(radius: f64, friction: f64, element: f64, increments: u32) -> (f64,
 
 /// Half-widths are 36 um at R = 6 mm and 18 um at R = 1.5 mm; meshes from a/9 to a/2, steps from a/9 to a/2.
 #[test]
-fn every_place_that_is_passed_wears_by_the_line_load() {
+fn every_passed_place_wears_by_k_times_the_line_load() {
     for (radius, friction, element, increments, largest) in [
         (6.0, 0.0, 0.004, 400, 0.005),
         (6.0, 0.9, 0.004, 400, 0.005),

@@ -1,20 +1,20 @@
-//! The same input gives the same bits, however many solves go on at once.
+//! The same input gives the same bits, however many solves run at once.
 
-use crate::keep::{Keep, solve};
+use crate::recorder::{Recorder, solve};
 use crate::scenes::{fuzz_button, mccoll};
 use solver::scene::Scene;
 
-fn bits(keep: &Keep) -> Vec<u64> {
-    let depths = keep
+fn bits(recorder: &Recorder) -> Vec<u64> {
+    let depths = recorder
         .snapshots
         .iter()
         .flat_map(|s| s.receptacle.depth_mm.iter().chain(&s.slider.depth_mm));
     depths.map(|d| d.to_bits()).collect()
 }
 
-/// Runs the scene on `threads` threads at once and asserts that all of them tell the same as `alone`.
-fn assert_same(scene: &Scene, alone: &Keep, threads: usize) {
-    let runs: Vec<Keep> = std::thread::scope(|scope| {
+/// Runs the scene on `threads` threads at once and asserts that all of them give the same as `alone`.
+fn assert_same(scene: &Scene, alone: &Recorder, threads: usize) {
+    let runs: Vec<Recorder> = std::thread::scope(|scope| {
         let started: Vec<_> = (0..threads)
             .map(|_| scope.spawn(|| solve(scene).expect("the scene can be solved").1))
             .collect();
@@ -36,7 +36,7 @@ fn one_two_and_four_threads_give_the_same_bits() {
         ..mccoll()
     };
     short.output.snapshots_at_cycles = vec![50, 200];
-    // Long enough that the block is meshed and condensed anew.
+    // Long enough that the block is meshed and condensed again.
     let mut worn = Scene {
         cycles: 400,
         ..fuzz_button()

@@ -1,8 +1,8 @@
-//! A run that goes on from a checkpoint reaches the bits of the run that was never disturbed.
+//! A run resumed from a checkpoint reaches the bits of the uninterrupted run.
 
 use std::ops::ControlFlow;
 
-use crate::keep::Keep;
+use crate::recorder::Recorder;
 use crate::scenes::{accuracy, fuzz_button, mccoll};
 use solver::SolveError;
 use solver::checkpoint::{Checkpoint, Misfit};
@@ -11,50 +11,62 @@ use solver::record::{CycleReport, Outcome, Snapshot, Summary};
 use solver::run;
 use solver::scene::{Motion, Scene};
 
-/// An observer that keeps everything, checkpoints too.
+/// An observer that records everything, checkpoints included.
 #[derive(Default)]
-struct KeepAll {
-    keep: Keep,
+struct CheckpointRecorder {
+    recorder: Recorder,
     checkpoints: Vec<Checkpoint>,
 }
 
-impl Observer for KeepAll {
+impl Observer for CheckpointRecorder {
     fn on(&mut self, event: Event<'_>) -> ControlFlow<()> {
         if let Event::Checkpoint(checkpoint) = event {
             self.checkpoints.push(checkpoint.clone());
         }
-        self.keep.on(event)
+        self.recorder.on(event)
     }
 }
 
-/// Every bit that a run tells after a cycle. A number's shortest text names its bits, but for those of NaN, which a
-/// run never tells.
-fn bits_after(cycle: u64, keep: &Keep, summary: &Summary) -> String {
-    let reports: Vec<&CycleReport> = keep.reports.iter().filter(|r| r.cycle > cycle).collect();
-    let snapshots: Vec<&Snapshot> = keep.snapshots.iter().filter(|s| s.cycle > cycle).collect();
+/// Every bit that a run reports after a cycle. The shortest text of a number identifies its bits, except those of NaN,
+/// which a run never reports.
+fn bits_after(cycle: u64, recorder: &Recorder, summary: &Summary) -> String {
+    let reports: Vec<&CycleReport> = recorder
+        .reports
+        .iter()
+        .filter(|r| r.cycle > cycle)
+        .collect();
+    let snapshots: Vec<&Snapshot> = recorder
+        .snapshots
+        .iter()
+        .filter(|s| s.cycle > cycle)
+        .collect();
     let text = format!("{reports:?} {snapshots:?} {summary:?}");
     assert!(!text.contains("NaN"), "no number is missing");
     text
 }
 
-/// Resumes a scene at about so many of its checkpoints, spread evenly, the last among them.
-fn resumes_to_the_same_bits(name: &str, scene: &Scene, times: usize) -> (Summary, KeepAll) {
-    let mut whole = KeepAll::default();
+/// Resumes a scene from about `times` of its checkpoints, spread evenly, the last one included.
+fn resumes_to_the_same_bits(
+    name: &str,
+    scene: &Scene,
+    times: usize,
+) -> (Summary, CheckpointRecorder) {
+    let mut whole = CheckpointRecorder::default();
     let summary = run::solve(scene, &mut whole).expect("the scene can be solved");
     let count = whole.checkpoints.len();
     assert!(count > times, "{name}: {count} checkpoints");
     let step = count.div_ceil(times);
     for checkpoint in whole.checkpoints.iter().rev().step_by(step).rev() {
         let cycle = checkpoint.cycle();
-        let mut rest = Keep::default();
-        let resumed = run::resume(scene, checkpoint.clone(), &mut rest).expect("it goes on");
+        let mut rest = Recorder::default();
+        let resumed = run::resume(scene, checkpoint.clone(), &mut rest).expect("the run resumes");
         assert!(
-            bits_after(cycle, &rest, &resumed) == bits_after(cycle, &whole.keep, &summary),
+            bits_after(cycle, &rest, &resumed) == bits_after(cycle, &whole.recorder, &summary),
             "{name}: other bits after cycle {cycle}"
         );
         assert!(
             rest.reports.iter().all(|report| report.cycle > cycle),
-            "{name}: nothing is told twice"
+            "{name}: no cycle is reported twice"
         );
     }
     println!(
@@ -117,14 +129,14 @@ fn a_checkpoint_of_another_scene_is_refused_with_its_numbers() {
         cycles: 20,
         ..mccoll()
     };
-    let mut whole = KeepAll::default();
+    let mut whole = CheckpointRecorder::default();
     run::solve(&scene, &mut whole).expect("the scene can be solved");
     let last = whole.checkpoints.pop().expect("a checkpoint");
     let other = Scene {
         cycles: 20,
         ..fuzz_button()
     };
-    let refused = run::resume(&other, last.clone(), &mut Keep::default());
+    let refused = run::resume(&other, last.clone(), &mut Recorder::default());
     assert!(
         matches!(
             refused,
@@ -136,7 +148,7 @@ fn a_checkpoint_of_another_scene_is_refused_with_its_numbers() {
         "{refused:?}"
     );
     let shorter = Scene { cycles: 2, ..scene };
-    let refused = run::resume(&shorter, last, &mut Keep::default());
+    let refused = run::resume(&shorter, last, &mut Recorder::default());
     assert!(
         matches!(
             refused,
@@ -149,7 +161,7 @@ fn a_checkpoint_of_another_scene_is_refused_with_its_numbers() {
 /// An observer that cannot store a snapshot and asks for a stop, as on a full disk.
 #[derive(Default)]
 struct FullDisk {
-    keep: Keep,
+    recorder: Recorder,
     refused_cycle: u64,
     checkpoints: Vec<Checkpoint>,
 }
@@ -163,7 +175,7 @@ impl Observer for FullDisk {
             Event::Checkpoint(checkpoint) => self.checkpoints.push(checkpoint.clone()),
             _ => {}
         }
-        self.keep.on(event)
+        self.recorder.on(event)
     }
 }
 
@@ -185,9 +197,9 @@ fn a_snapshot_that_could_not_be_stored_is_taken_again_by_the_resumed_run() {
         assert_eq!(summary.outcome, Outcome::Stopped);
         let last = stopped.checkpoints.pop().expect("a checkpoint");
         assert!(last.cycle() < refused_cycle, "{}", last.cycle());
-        let mut resumed = Keep::default();
+        let mut resumed = Recorder::default();
         run::resume(&scene, last, &mut resumed).expect("it can be resumed");
-        let snapshots = stopped.keep.snapshots.iter().chain(&resumed.snapshots);
+        let snapshots = stopped.recorder.snapshots.iter().chain(&resumed.snapshots);
         let cycles: Vec<u64> = snapshots.map(|snapshot| snapshot.cycle).collect();
         assert_eq!(cycles, [0, 5, 20]);
     }

@@ -6,13 +6,13 @@
 //!   ___`-.-'___         as elastic flattening (a^2/(2R) = 0.1 um) and the stroke (2 um) fade beside b and the depth
 //! ```
 
-use crate::keep::solve;
+use crate::recorder::solve;
 use crate::scenes::mccoll;
 use solver::record::Position;
 use solver::scene::{Friction, Motion, Scene, WearLaw};
 
 #[test]
-fn the_flat_takes_the_shape_of_the_cylinder() {
+fn flat_takes_the_shape_of_the_cylinder() {
     let (k, load, radius) = (1e-6, 18.5, 6.0);
     let mut scene = Scene {
         cycles: 100_000,
@@ -28,7 +28,7 @@ fn the_flat_takes_the_shape_of_the_cylinder() {
         k_over_h_per_mpa: k,
     });
     scene.output.snapshots_at_cycles = vec![100_000];
-    let (summary, keep) = solve(&scene).expect("the scene can be solved");
+    let (summary, recorder) = solve(&scene).expect("the scene can be solved");
     let area = summary.last.receptacle.worn_area_mm2;
     let half_width = (1.5_f64 * radius * area).cbrt();
     let depth = half_width * half_width / (2.0 * radius);
@@ -39,19 +39,19 @@ fn the_flat_takes_the_shape_of_the_cylinder() {
         "short stroke: depth off by {ratio:.1e}, half-width by {width:.1e}, slip over motion {slipped:.3}"
     );
     assert!(ratio.abs() < 0.01 && width.abs() < 0.01, "{ratio} {width}");
-    // The contact sticks for some of the stroke, never gains on it.
+    // The contact sticks for part of the stroke, so it slips less than it moves.
     assert!(slipped > 0.8 && slipped < 1.0, "{slipped}");
-    let field = &keep
+    let field = &recorder
         .snapshots
         .last()
-        .expect("the end is kept")
+        .expect("the last cycle has a snapshot")
         .positions
         .iter()
         .find(|field| field.position == Position::Neutral)
         .expect("every cycle passes it");
     let mean = load / (2.0 * half_width);
-    // Even but for what elasticity leaves: at the turning points the arc stands beside its trough and leans on the
-    // far side, so the outer parts wear more there and less in between.
+    // Uniform except for elasticity: at the turning points the arc is beside the middle of its trough and presses on
+    // the far side, so the outer parts wear more there and less in between.
     let inner = field.x_mm.iter().zip(&field.pressure_mpa);
     for (x, p) in inner.filter(|(x, _)| x.abs() < 0.8 * half_width) {
         assert!((p / mean - 1.0).abs() < 0.2, "{x} {p} {mean}");

@@ -7,12 +7,12 @@
 //!   ~~~~`-'~~~~
 //! ```
 
-use crate::keep::solve;
+use crate::recorder::solve;
 use crate::scenes::{COPPER_WEAR, fuzz_button};
 use solver::scene::{Drive, Scene};
 
 #[test]
-fn force_and_depth_fade_exponentially_whatever_the_drive() {
+fn force_and_depth_fade_exponentially_with_either_drive() {
     let cycles = 150.0;
     let spring = 0.5 / (2.0 * COPPER_WEAR * cycles);
     for drive in [Drive::Handle, Drive::WholeBody] {
@@ -22,10 +22,10 @@ fn force_and_depth_fade_exponentially_whatever_the_drive() {
             spring_n_per_mm2: spring,
             ..fuzz_button()
         };
-        let (summary, keep) = solve(&scene).expect("the scene can be solved");
+        let (summary, recorder) = solve(&scene).expect("the scene can be solved");
         let fade = (-0.5_f64).exp();
-        let load = keep.at(150).load_n_per_mm / (0.508 * fade);
-        let depth = keep.at(150).station_depth_mm[3] / (0.508 / spring * (1.0 - fade));
+        let load = recorder.at(150).load_n_per_mm / (0.508 * fade);
+        let depth = recorder.at(150).station_depth_mm[3] / (0.508 / spring * (1.0 - fade));
         println!("spring, {drive:?}: load {load:.4}, depth {depth:.4} of the closed solution");
         // The tolerance of the run is 2 %; the hollowing of the floor is 0.5 % by cycle 150.
         assert!((load - 1.0).abs() < 0.01 && (depth - 1.0).abs() < 0.015);

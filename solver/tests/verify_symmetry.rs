@@ -1,4 +1,4 @@
-//! What must not matter: which way the slider goes first, and which of two bodies is called the slider.
+//! Symmetry: mirrored motion gives mirrored tractions, and exchanging the roles of two bodies gives the same scars.
 //!
 //! ```text
 //!   ( R1 )  <->            turned upside down:      ( R2 )  <->
@@ -6,17 +6,17 @@
 //!  /  R2   \   block, crowned                      /  R1   \
 //! ```
 
-use crate::keep::solve;
+use crate::recorder::solve;
 use crate::scenes::mccoll;
 use solver::condensation::condense;
 use solver::contact::{ContactState, Displacement, Pair, Solver, Surfaces, slopes};
 use solver::scene::{BlockShape, Friction, Scene, SliderShape};
 use solver::sides::{Side, Sides};
 
-/// The same moves to the other side give the mirrored pressure and the mirrored, opposite shear: stick, partial slip,
+/// The same displacements to the other side give the mirrored pressure and the mirrored, opposite shear: stick, partial slip,
 /// reversal and gross slip.
 #[test]
-fn a_mirrored_motion_gives_mirrored_tractions() {
+fn mirrored_motion_gives_mirrored_tractions() {
     let model = solver::model::build(&mccoll()).expect("the scene can be meshed");
     let condensed = condense(&model).expect("the scene can be condensed");
     let operators = &condensed.operators;
@@ -52,7 +52,7 @@ fn a_mirrored_motion_gives_mirrored_tractions() {
             };
             solver
                 .advance(&pair, &surfaces, &states[states.len() - 1], to, &mut next)
-                .expect("every place is in equilibrium");
+                .expect("every position is in equilibrium");
             states.push(next);
         }
         states.remove(0);
@@ -95,7 +95,7 @@ fn pair(upper: f64, lower: f64) -> Scene {
 /// Both bodies have the same outline upside down, so only the roles change: which surface carries the multipliers
 /// and which one is meshed for the motion. Depths and widths must agree within the tolerance of both runs.
 #[test]
-fn swapped_bodies_wear_alike() {
+fn swapped_bodies_wear_to_the_same_scars() {
     let here = pair(6.0, 9.0);
     let mut there = pair(9.0, 6.0);
     (there.slider.wear, there.receptacle.wear) = (here.receptacle.wear, here.slider.wear);

@@ -1,12 +1,12 @@
-//! Requirement: a service with an access token answers nobody without it but for its health and its empty pages, and
-//! one without a token does not listen beyond loopback.
+//! Requirement: a service with an access token answers requests without it only for its health and its static pages, and
+//! a service without a token listens on loopback only.
 
 use tests::{Server, fretwear};
 
 const TOKEN: &str = "0123456789-abcdefghij";
 
 #[tokio::test]
-async fn only_those_who_show_the_token_are_answered() {
+async fn only_requests_with_the_token_are_answered() {
     let folder = tempfile::tempdir().expect("a folder can be made");
     let file = folder.path().join("token");
     std::fs::write(&file, format!("{TOKEN}\n")).expect("a file can be written");
@@ -38,7 +38,7 @@ async fn only_those_who_show_the_token_are_answered() {
 }
 
 #[test]
-fn without_a_token_only_loopback_is_listened_on() {
+fn without_a_token_the_service_listens_on_loopback_only() {
     let folder = tempfile::tempdir().expect("a folder can be made");
     let ran = fretwear(folder.path(), &["serve", "--listen", "0.0.0.0:0"]);
     assert_eq!(ran.code, Some(1));

@@ -1,9 +1,9 @@
-//! Requirement: requests made from the OpenAPI document, well-formed and malformed, are never answered with a 5xx, with
+//! Requirement: requests generated from the OpenAPI document, valid and malformed, are never answered with a 5xx, with
 //! a status that the document does not name, or with a body that it does not describe. The requests come from
 //! schemathesis, an independent program that reads the document.
 //!
-//! Ids are drawn too, so that most requests name jobs that there are not; a second run asks about a job that has ended,
-//! whose event stream therefore ends.
+//! Ids are generated too, so most requests name jobs that do not exist; a second run requests a job that has ended, whose
+//! event stream therefore ends.
 
 use std::path::Path;
 use std::process::Command;
@@ -11,10 +11,10 @@ use std::process::Command;
 use serde_json::json;
 use tests::Server;
 
-/// What is checked of every answer.
+/// Checks of every answer.
 const CHECKS: &str = "not_a_server_error,status_code_conformance,content_type_conformance,response_schema_conformance";
 
-/// Makes requests for so many seconds; `chosen` says which.
+/// Sends requests for `seconds`; `chosen` selects the routes.
 fn fuzzed(server: &Server, folder: &Path, seconds: &str, chosen: &[&str]) {
     let output = Command::new(env!("FRETWEAR_PYTHON"))
         .args(["-m", "schemathesis.cli", "run"])
@@ -27,8 +27,8 @@ fn fuzzed(server: &Server, folder: &Path, seconds: &str, chosen: &[&str]) {
         .current_dir(folder)
         .output()
         .expect("schemathesis can be started");
-    let told = String::from_utf8_lossy(&output.stdout);
-    assert!(output.status.success(), "{told}");
+    let text = String::from_utf8_lossy(&output.stdout);
+    assert!(output.status.success(), "{text}");
 }
 
 fn configured(folder: &Path, more: &str) {
@@ -41,7 +41,7 @@ fn configured(folder: &Path, more: &str) {
     not(has_schemathesis),
     ignore = "needs the Python package schemathesis"
 )]
-async fn no_request_made_from_the_document_is_answered_otherwise_than_it_says() {
+async fn every_answer_to_a_generated_request_conforms_to_the_openapi_document() {
     let folder = tempfile::tempdir().expect("a folder can be made");
     let server = Server::start(folder.path());
     configured(folder.path(), "");
@@ -64,7 +64,7 @@ async fn no_request_made_from_the_document_is_answered_otherwise_than_it_says() 
         "GET",
     ];
     fuzzed(&server, folder.path(), "30", &about_the_job);
-    // On a connection of its own: the service may just be closing the one that was not used for so long.
+    // On a new connection: the service may be closing the idle one.
     let alive = reqwest::get(format!("{}/healthz", server.base)).await;
     assert_eq!(alive.expect("the service answers").status(), 200);
 }

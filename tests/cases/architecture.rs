@@ -1,27 +1,45 @@
-//! Which crate may know which: the table of the house, against what cargo says.
+//! The architecture that the READMEs state: which crate, which folder and which file may depend on which.
+//!
+//! The crates are compared with what cargo reports, the folders and files with what their sources name
+//! (`sources` says precisely what counts). Each rule is a sentence of a README; a test fails with that sentence and
+//! with the lines that contradict it.
+
+mod cycles;
+mod known_violations;
+mod resolution;
+mod rules;
+mod sources;
+mod tests;
+
+use std::collections::BTreeSet;
+use std::path::Path;
 
 use cargo_metadata::MetadataCommand;
 
-/// Crate, and the crates of this workspace that it knows (test-only edges included).
-const KNOWS: [(&str, &[&str]); 4] = [
+use known_violations::KNOWN_VIOLATIONS;
+use rules::Violation;
+use sources::Sources;
+
+/// Crate, and the crates of this workspace that it depends on (dev-dependencies included).
+const CRATE_DEPENDENCIES: [(&str, &[&str]); 4] = [
     ("api", &[]),
     ("server", &["api", "solver"]),
     ("solver", &[]),
     ("tests", &["server", "solver"]),
 ];
 
-/// Crates that the engine must not know, whoever brings them: async, JSON, SQL, clocks, logs. (`serde` itself writes nothing:
-/// it only names the fields of a checkpoint.)
+/// Crates that the engine must not depend on: async, JSON, SQL, clocks, logs. (`serde` itself writes nothing: it only
+/// names the fields of a checkpoint.)
 const NOT_IN_SOLVER: [&str; 5] = ["serde_json", "sqlx", "tokio", "tracing", "jiff"];
 
 #[test]
-fn crates_know_only_what_the_table_allows() {
+fn crates_depend_only_on_what_the_table_allows() {
     let metadata = MetadataCommand::new()
         .no_deps()
         .exec()
         .expect("cargo describes the workspace");
-    let names: Vec<&str> = KNOWS.iter().map(|(name, _)| *name).collect();
-    for (name, known) in KNOWS {
+    let names: Vec<&str> = CRATE_DEPENDENCIES.iter().map(|(name, _)| *name).collect();
+    for (name, allowed) in CRATE_DEPENDENCIES {
         let found = metadata
             .packages
             .iter()
@@ -35,7 +53,7 @@ fn crates_know_only_what_the_table_allows() {
             .collect();
         edges.sort_unstable();
         edges.dedup();
-        assert_eq!(edges, known, "{name}");
+        assert_eq!(edges, allowed, "{name}");
         if name == "solver" {
             let foreign = |dependency: &&str| NOT_IN_SOLVER.contains(dependency);
             let names = package
@@ -45,5 +63,31 @@ fn crates_know_only_what_the_table_allows() {
             assert_eq!(names.filter(|name| foreign(name)).count(), 0);
         }
     }
-    assert_eq!(metadata.workspace_members.len(), KNOWS.len());
+    assert_eq!(metadata.workspace_members.len(), CRATE_DEPENDENCIES.len());
+}
+
+#[test]
+fn folders_and_files_depend_only_on_what_the_rules_allow() {
+    let tests = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let workspace = tests.parent().expect("the workspace");
+    let sources = ["api", "solver", "server"].map(|name| Sources::read(workspace, name));
+    let mut found = rules::violations(&sources);
+    found.extend(sources.iter().flat_map(cycles::violations));
+    let unknown = |violation: &&Violation| !KNOWN_VIOLATIONS.contains(&violation.key());
+    let new: Vec<String> = found
+        .iter()
+        .filter(unknown)
+        .map(ToString::to_string)
+        .collect();
+    assert!(new.is_empty(), "\n\n{}\n", new.join("\n\n"));
+    let keys: BTreeSet<_> = found.iter().map(Violation::key).collect();
+    let gone = KNOWN_VIOLATIONS
+        .iter()
+        .filter(|known| !keys.contains(known));
+    let gone: Vec<String> = gone.map(|known| format!("{known:?}")).collect();
+    assert!(
+        gone.is_empty(),
+        "no longer violated, to be deleted from KNOWN_VIOLATIONS:\n{}",
+        gone.join("\n")
+    );
 }

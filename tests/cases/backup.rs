@@ -4,7 +4,7 @@ use serde_json::json;
 use tests::{Server, bits, fretwear};
 
 #[tokio::test]
-async fn a_backup_restores_every_job_and_file_and_harm_is_noticed() {
+async fn a_backup_restores_every_job_and_file_and_damage_is_detected() {
     let folder = tempfile::tempdir().expect("a folder can be made");
     let server = Server::start(folder.path());
     let study = json!({
@@ -39,7 +39,7 @@ async fn a_backup_restores_every_job_and_file_and_harm_is_noticed() {
     let attempt = attempt.expect("an attempt").expect("its folder").path();
     let file = std::fs::read_dir(attempt).expect("files").next();
     let file = file.expect("a file").expect("a file").path();
-    std::fs::write(&file, "not what it was").expect("harm");
+    std::fs::write(&file, "not what it was").expect("damage");
     let third = tempfile::tempdir().expect("a folder can be made");
     let ran = fretwear(third.path(), &["restore", &copy, "--database", database]);
     assert_eq!(ran.code, Some(1));

@@ -5,7 +5,7 @@ use tests::fretwear;
 
 #[test]
 #[cfg_attr(not(has_ccx), ignore = "needs the program ccx of CalculiX")]
-fn calculix_comes_through_the_same_cycle() {
+fn calculix_solves_the_same_cycle() {
     let folder = tempfile::tempdir().expect("a folder can be made");
     let arguments = ["bench", "--against", "ccx", "--elements-um", "60"];
     let ran = fretwear(folder.path(), &arguments);

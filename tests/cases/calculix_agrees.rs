@@ -1,8 +1,8 @@
 //! Requirement: on the exported deck of a normal-load case, nodal contact pressure and displacement of CalculiX agree
-//! with ours within 2 % where both are converged.
+//! with fretwear within 2 % where both are converged.
 //!
 //! The edge is not converged in CalculiX: its surface-to-surface penalty alternates over the last three nodes by 5 % of
-//! the peak. So pressures are compared inside of 3/4 of the half-width, against the peak; displacements everywhere.
+//! the peak. So pressures are compared within 3/4 of the half-width, relative to the peak; displacements everywhere.
 
 use solver::condensation::condense;
 use solver::cycle::{CycleState, Integrator};
@@ -16,7 +16,7 @@ const SPEC: &str = r#"{
   "accuracy": {"preset": "draft", "overrides": {"contact_element_mm": 0.0025}}
 }"#;
 
-/// Ours at the receptacle's contact nodes: places, pressures, displacements.
+/// Results of fretwear at the receptacle's contact nodes: positions, pressures, displacements.
 struct Ours {
     x: Vec<f64>,
     pressure: Vec<f64>,

@@ -1,10 +1,10 @@
-//! Requirement: cancelling a running job ends it within a second; what was computed so far stays readable.
+//! Requirement: cancelling a running job ends it within a second; results computed so far stay readable.
 
 use std::time::Duration;
 use tests::{Server, spec};
 
 #[tokio::test]
-async fn a_running_job_ends_soon_and_keeps_what_it_had() {
+async fn a_cancelled_running_job_ends_soon_and_retains_its_results() {
     let folder = tempfile::tempdir().expect("a folder can be made");
     let server = Server::start(folder.path());
     let body = std::fs::read(spec("fuzz_button.json")).expect("the study is there");
@@ -16,7 +16,7 @@ async fn a_running_job_ends_soon_and_keeps_what_it_had() {
     let (status, answer) = server.post(&format!("/v1/jobs/{id}/cancel")).await;
     assert!(status == 200 || status == 202, "{status} {answer}");
     let ended = server.job_when(&id, |job| job["status"] == "cancelled");
-    // Ten times the promised second: a machine that is busy with other tests must not fail this one.
+    // Ten times the required second: other load on the machine must not fail this test.
     let job = tokio::time::timeout(Duration::from_secs(10), ended)
         .await
         .expect("it ends soon");

@@ -1,6 +1,5 @@
-//! Requirement: whatever is killed, stopped, filled up or damaged at whatever moment, every accepted job is terminal
-//! exactly once, nothing holds a stale lease, event ids have no gaps, and every result has the bits of an undisturbed
-//! run.
+//! Requirement: whatever is killed, stopped, filled or damaged at any moment, every accepted job is terminal exactly
+//! once, no stale lease is held, event ids have no gaps, and every result has the bits of an undisturbed run.
 //!
 //! The short form runs with every test. The long one:
 //! `cargo test --release -p tests --test cases -- --ignored --nocapture chaos_long`, with `FRETWEAR_CHAOS_JOBS` (200)
@@ -28,16 +27,16 @@ const OPTIONS: [&str; 10] = [
     "--least-free-disk-mb",
     "0",
 ];
-/// A lease of the service above, and then some.
+/// Longer than a lease of the service above.
 const PAST_A_LEASE: Duration = Duration::from_millis(1_500);
 /// Size of the disk that is filled up: empty, and for the results of a job, MB.
 const DISK_MB: (usize, usize) = (64, 2);
-/// Jobs that wait or run at most, so that submissions are disturbed too.
+/// Largest number of queued and running jobs, so that submissions are disturbed too.
 const AHEAD: usize = 12;
 
-/// What is done to the service.
+/// A fault that is injected.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-enum Harm {
+enum Fault {
     KillChild,
     PauseChild,
     TerminateChild,
@@ -49,19 +48,19 @@ enum Harm {
     FillDisk,
 }
 
-const HARMS: [Harm; 9] = [
-    Harm::KillChild,
-    Harm::PauseChild,
-    Harm::TerminateChild,
-    Harm::KillServer,
-    Harm::KillServerAndDamageCheckpoints,
-    Harm::StopServer,
-    Harm::PauseServer,
-    Harm::StallStore,
-    Harm::FillDisk,
+const FAULTS: [Fault; 9] = [
+    Fault::KillChild,
+    Fault::PauseChild,
+    Fault::TerminateChild,
+    Fault::KillServer,
+    Fault::KillServerAndDamageCheckpoints,
+    Fault::StopServer,
+    Fault::PauseServer,
+    Fault::StallStore,
+    Fault::FillDisk,
 ];
 
-/// The studies that jobs are made of, by turns.
+/// The specifications of the jobs, in rotation.
 fn studies() -> Vec<Value> {
     let study = |kind: &str, cycles: u64, jump: u64| {
         json!({
@@ -80,17 +79,17 @@ fn studies() -> Vec<Value> {
     ]
 }
 
-/// A service under attack, and what was asked of it.
-struct Arena {
+/// A service under fault injection, and the jobs submitted to it.
+struct Trial {
     disk: Disk,
     folder: PathBuf,
     server: Option<Server>,
     rng: Rng,
     accepted: Vec<String>,
-    harms: BTreeMap<Harm, u32>,
+    faults: BTreeMap<Fault, u32>,
 }
 
-impl Arena {
+impl Trial {
     fn new(jobs: usize, seed: u64) -> Self {
         let disk = Disk::new(DISK_MB.0 + DISK_MB.1 * jobs);
         let folder = disk.path().to_owned();
@@ -100,7 +99,7 @@ impl Arena {
             folder,
             rng: Rng::with_seed(seed),
             accepted: Vec::new(),
-            harms: BTreeMap::new(),
+            faults: BTreeMap::new(),
         }
     }
 
@@ -108,7 +107,7 @@ impl Arena {
         self.server.as_ref().expect("the service runs")
     }
 
-    /// Submits the next job, under a key that makes it safe to ask again.
+    /// Submits the next job with an idempotency key, so that the request can be repeated.
     async fn submit(&mut self, studies: &[Value]) {
         let number = self.accepted.len();
         let server = self.server();
@@ -128,7 +127,7 @@ impl Arena {
         }
     }
 
-    /// How many accepted jobs have not ended.
+    /// Number of accepted jobs that have not ended.
     async fn open(&self) -> usize {
         let (_, list) = self
             .server()
@@ -137,40 +136,40 @@ impl Arena {
         list["jobs"].as_array().map_or(0, Vec::len)
     }
 
-    async fn harm(&mut self) {
-        let harm = HARMS[self.rng.usize(..HARMS.len())];
-        if harm == Harm::FillDisk && !self.disk.is_mounted() {
+    async fn inject_fault(&mut self) {
+        let fault = FAULTS[self.rng.usize(..FAULTS.len())];
+        if fault == Fault::FillDisk && !self.disk.is_mounted() {
             return;
         }
-        *self.harms.entry(harm).or_default() += 1;
+        *self.faults.entry(fault).or_default() += 1;
         let moment = Duration::from_millis(self.rng.u64(..1_500));
-        match harm {
-            Harm::KillChild => {
+        match fault {
+            Fault::KillChild => {
                 self.signal_child(Signal::SIGKILL);
             }
-            Harm::TerminateChild => {
+            Fault::TerminateChild => {
                 self.signal_child(Signal::SIGTERM);
             }
-            Harm::PauseChild => {
+            Fault::PauseChild => {
                 let paused = self.signal_child(Signal::SIGSTOP);
                 tokio::time::sleep(PAST_A_LEASE).await;
                 if let Some(child) = paused {
-                    // It may have been ended meanwhile.
+                    // It may have ended meanwhile.
                     let _ = kill(child, Signal::SIGCONT);
                 }
                 return;
             }
-            Harm::KillServer => self.restart(Signal::SIGKILL, false).await,
-            Harm::KillServerAndDamageCheckpoints => self.restart(Signal::SIGKILL, true).await,
-            Harm::StopServer => self.restart(Signal::SIGTERM, false).await,
-            Harm::PauseServer => {
+            Fault::KillServer => self.restart(Signal::SIGKILL, false).await,
+            Fault::KillServerAndDamageCheckpoints => self.restart(Signal::SIGKILL, true).await,
+            Fault::StopServer => self.restart(Signal::SIGTERM, false).await,
+            Fault::PauseServer => {
                 self.server().signal(Signal::SIGSTOP);
                 tokio::time::sleep(PAST_A_LEASE + moment).await;
                 self.server().signal(Signal::SIGCONT);
                 return;
             }
-            Harm::StallStore => database::stall(&self.folder, moment * 3).await,
-            Harm::FillDisk => self.disk.fill(moment).await,
+            Fault::StallStore => database::stall(&self.folder, moment * 3).await,
+            Fault::FillDisk => self.disk.fill(moment).await,
         }
         tokio::time::sleep(moment).await;
     }
@@ -195,7 +194,7 @@ impl Arena {
     }
 }
 
-/// The bits of each study when nobody disturbs it.
+/// The bits of each specification in an undisturbed run.
 async fn undisturbed(studies: &[Value]) -> Vec<Value> {
     let folder = tempfile::tempdir().expect("a folder can be made");
     let server = Server::start(folder.path());
@@ -216,22 +215,22 @@ async fn chaos(jobs: usize, seed: u64) {
     let began = Instant::now();
     let studies = studies();
     let expected = undisturbed(&studies).await;
-    let mut arena = Arena::new(jobs, seed);
+    let mut trial = Trial::new(jobs, seed);
     loop {
-        let open = arena.open().await;
-        if arena.accepted.len() == jobs && open == 0 {
+        let open = trial.open().await;
+        if trial.accepted.len() == jobs && open == 0 {
             break;
         }
         for _ in open..AHEAD {
-            if arena.accepted.len() < jobs {
-                arena.submit(&studies).await;
+            if trial.accepted.len() < jobs {
+                trial.submit(&studies).await;
             }
         }
-        arena.harm().await;
+        trial.inject_fault().await;
     }
     let (mut attempts, mut resumed) = (0, 0);
-    for (number, id) in arena.accepted.iter().enumerate() {
-        let server = arena.server();
+    for (number, id) in trial.accepted.iter().enumerate() {
+        let server = trial.server();
         let found = bits::of(server, id).await;
         assert_eq!(
             found,
@@ -243,12 +242,12 @@ async fn chaos(jobs: usize, seed: u64) {
         attempts += began.len();
         resumed += began.iter().filter(|a| a["from_cycle"] != 0).count();
     }
-    check_database(&arena.folder, jobs).await;
+    check_database(&trial.folder, jobs).await;
     println!(
         "chaos, seed {seed}: {jobs} jobs, {attempts} attempts, {resumed} of them from a checkpoint, {:?}{}, {:.0} s: \
          every job ended once with the bits of an undisturbed run",
-        arena.harms,
-        if arena.disk.is_mounted() {
+        trial.faults,
+        if trial.disk.is_mounted() {
             ""
         } else {
             " (no disk of its own could be mounted)"

@@ -1,4 +1,4 @@
-//! Requirement: `fretwear solve` runs the published fretting case and writes what the contract names.
+//! Requirement: `fretwear solve` runs the published fretting case and writes the files that the contract names.
 
 use serde_json::Value;
 use tests::{fretwear, spec};

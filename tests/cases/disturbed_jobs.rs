@@ -1,5 +1,5 @@
-//! Requirement: a job that was interrupted goes on from its last checkpoint and reaches the same bits; what cannot be
-//! gone on from is noticed; a store that stalls costs nothing; a job that takes too much memory ends alone.
+//! Requirement: an interrupted job resumes from its last checkpoint and reaches the same bits; a damaged checkpoint is
+//! detected; a stalled store uses no attempt; a job that exceeds its memory limit ends without affecting others.
 
 use std::path::Path;
 use std::time::Duration;
@@ -38,7 +38,7 @@ async fn computing(server: &Server, id: &str, from: u64) {
         .await;
 }
 
-/// The bits of a study that nobody disturbs.
+/// The bits of an undisturbed run.
 async fn undisturbed(study: &Value) -> Value {
     let folder = tempfile::tempdir().expect("a folder can be made");
     let server = Server::start(folder.path());
@@ -47,12 +47,12 @@ async fn undisturbed(study: &Value) -> Value {
     bits::of(&server, &id).await
 }
 
-/// Runs a study that is interrupted by a signal to its service and harmed in between; its bits, its attempts as the
-/// job counts them, and the cycles that they began at.
+/// Runs a job that is interrupted by a signal to its service, with damage before the restart; returns its bits, the
+/// job's attempts, and the cycles from which they started.
 async fn interrupted(
     study: &Value,
     signal: Signal,
-    harm: impl AsyncFnOnce(&Path),
+    damage: impl AsyncFnOnce(&Path),
 ) -> (Value, Value, Vec<u64>) {
     let folder = tempfile::tempdir().expect("a folder can be made");
     let server = Server::start_with(folder.path(), &EVERY_CYCLE);
@@ -60,7 +60,7 @@ async fn interrupted(
     computing(&server, &id, 25).await;
     server.signal(signal);
     server.wait();
-    harm(folder.path()).await;
+    damage(folder.path()).await;
     let server = Server::start_with(folder.path(), &EVERY_CYCLE);
     let job = ended(&server, &id).await;
     let attempts = bits::events(&server, &id, "attempt").await;
@@ -91,7 +91,7 @@ async fn an_interrupted_job_reaches_the_bits_of_an_undisturbed_one() {
 }
 
 #[tokio::test]
-async fn a_store_that_stalls_across_the_end_of_a_job_costs_nothing() {
+async fn a_store_that_stalls_across_the_end_of_a_job_uses_no_attempt() {
     let study = study(40);
     let expected = undisturbed(&study).await;
     let folder = tempfile::tempdir().expect("a folder can be made");
@@ -108,7 +108,7 @@ async fn a_store_that_stalls_across_the_end_of_a_job_costs_nothing() {
 }
 
 #[tokio::test]
-async fn a_job_that_takes_too_much_memory_ends_alone_and_says_so() {
+async fn a_job_beyond_its_memory_limit_ends_alone_with_the_reason() {
     let folder = tempfile::tempdir().expect("a folder can be made");
     let server = Server::start_with(folder.path(), &["--job-memory-mb", "64"]);
     let large = json!({
@@ -131,7 +131,7 @@ async fn a_job_that_takes_too_much_memory_ends_alone_and_says_so() {
 }
 
 #[tokio::test]
-async fn a_solve_that_does_not_end_in_time_is_killed_without_costing_an_attempt() {
+async fn a_solve_that_exceeds_the_grace_time_is_killed_without_using_an_attempt() {
     let folder = tempfile::tempdir().expect("a folder can be made");
     let options = ["--checkpoint-every-s", "0", "--grace-s", "0.5"];
     let server = Server::start_with(folder.path(), &options);
@@ -153,20 +153,20 @@ async fn a_solve_that_does_not_end_in_time_is_killed_without_costing_an_attempt(
 }
 
 #[tokio::test]
-async fn a_job_that_waits_for_the_disk_says_so() {
+async fn a_job_that_waits_for_disk_space_states_the_reason() {
     let folder = tempfile::tempdir().expect("a folder can be made");
     let server = Server::start_with(folder.path(), &["--least-free-disk-mb", "1000000000"]);
     let id = submitted(&server, &study(30)).await;
-    let told = |job: &Value| {
+    let states_the_reason = |job: &Value| {
         let reason = job["status_reason"].as_str().unwrap_or_default();
         reason.starts_with("waiting for disk space: ")
     };
-    let job = server.job_when(&id, told).await;
+    let job = server.job_when(&id, states_the_reason).await;
     assert_eq!(job["status"], "queued", "{job}");
 }
 
 #[tokio::test]
-async fn a_running_job_ends_at_its_deadline_and_keeps_what_it_had() {
+async fn a_running_job_ends_at_its_deadline_and_retains_its_results() {
     let folder = tempfile::tempdir().expect("a folder can be made");
     let server = Server::start(folder.path());
     let request = server
@@ -195,10 +195,10 @@ async fn a_running_job_ends_at_its_deadline_and_keeps_what_it_had() {
 }
 
 #[tokio::test]
-async fn a_disk_that_is_full_while_fields_are_written_costs_no_attempt() {
+async fn a_disk_that_is_full_while_fields_are_written_uses_no_attempt() {
     let disk = Disk::new(256);
     if !disk.is_mounted() {
-        println!("left out: no disk of its own could be mounted");
+        println!("skipped: no disk could be mounted");
         return;
     }
     let cycles: Vec<u64> = (1..=30).collect();

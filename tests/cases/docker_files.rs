@@ -1,4 +1,4 @@
-//! Requirement: the container files name what is there: paths, the binary, its commands and variables.
+//! Requirement: the container files name existing paths, the binary, its commands and variables.
 
 use std::path::{Path, PathBuf};
 
@@ -13,7 +13,7 @@ fn read(name: &str) -> String {
     std::fs::read_to_string(root().join(name)).unwrap_or_else(|cause| panic!("{name}: {cause}"))
 }
 
-/// What follows an instruction of the Dockerfile, each time it comes.
+/// Arguments of each occurrence of a Dockerfile instruction.
 fn instructions<'a>(dockerfile: &'a str, name: &str) -> Vec<&'a str> {
     let lines = dockerfile.lines();
     lines
@@ -22,7 +22,7 @@ fn instructions<'a>(dockerfile: &'a str, name: &str) -> Vec<&'a str> {
 }
 
 #[test]
-fn the_image_is_built_from_this_workspace_and_holds_its_binary() {
+fn the_image_is_built_from_this_workspace_and_contains_its_binary() {
     let dockerfile = read("docker/Dockerfile");
     assert_eq!(instructions(&dockerfile, "FROM").len(), 2, "two stages");
     let build = instructions(&dockerfile, "RUN")[0];
@@ -46,7 +46,7 @@ fn the_image_is_built_from_this_workspace_and_holds_its_binary() {
 }
 
 #[test]
-fn the_container_runs_as_nobody_special_with_one_volume_and_a_health_check() {
+fn the_container_runs_unprivileged_with_one_volume_and_a_health_check() {
     let dockerfile = read("docker/Dockerfile");
     let user = instructions(&dockerfile, "USER");
     assert!(user.len() == 1 && user[0] != "root");
@@ -70,7 +70,7 @@ fn the_container_runs_as_nobody_special_with_one_volume_and_a_health_check() {
 }
 
 #[test]
-fn the_compose_file_names_the_dockerfile_and_keeps_the_volume() {
+fn the_compose_file_names_the_dockerfile_and_the_volume() {
     let compose = read("docker/compose.yaml");
     let field = |name: &str| {
         let line = compose.lines().find(|line| line.trim().starts_with(name));
@@ -87,7 +87,7 @@ fn the_compose_file_names_the_dockerfile_and_keeps_the_volume() {
 }
 
 #[tokio::test]
-async fn the_health_check_tells_a_service_from_none() {
+async fn the_health_check_distinguishes_a_running_service_from_none() {
     let folder = tempfile::tempdir().expect("a folder can be made");
     let server = tests::Server::start(folder.path());
     let listen = server.base.trim_start_matches("http://").to_owned();

@@ -1,5 +1,5 @@
-//! Requirement: each system solves from `{"system": {"kind": ..}}` alone to a sensible answer; the READMEs' table of
-//! systems is what this case prints.
+//! Requirement: each system solves from `{"system": {"kind": ..}}` alone to a plausible result; this case prints the
+//! README's table of systems.
 
 use serde_json::{Value, json};
 use tests::fretwear;
@@ -31,7 +31,7 @@ fn every_kind_ends_with_a_scar_of_its_load_and_sliding_distance() {
             1e3 * number(&block["scar_half_width_mm"]),
         );
         assert_eq!(summary["outcome"], "completed", "{kind}");
-        // Below 1 what sticks does not wear; above it what climbs walls of a groove carries more than the load.
+        // Below 1 since sticking places do not wear; above 1 since a contact on the walls of a groove carries more than the load.
         assert!((0.9..1.1).contains(&area), "{kind}: {area}");
         for check in [
             "force_balance",

@@ -29,7 +29,7 @@ for data in (grid.GetPointData(), grid.GetCellData()):
 
 #[test]
 #[cfg_attr(not(has_vtk), ignore = "needs the Python package vtk")]
-fn fields_open_in_vtk_with_what_is_asked_for() {
+fn requested_fields_open_in_vtk() {
     let folder = tempfile::tempdir().expect("a folder can be made");
     std::fs::write(folder.path().join("spec.json"), SPEC).expect("a file can be written");
     let ran = fretwear(folder.path(), &["solve", "spec.json", "--out", "results"]);
@@ -46,13 +46,13 @@ fn fields_open_in_vtk_with_what_is_asked_for() {
             .arg(&file)
             .output()
             .expect("the reader can be started");
-        let told = String::from_utf8_lossy(&read.stdout).into_owned();
+        let output = String::from_utf8_lossy(&read.stdout).into_owned();
         let range = |array: &str| -> (f64, f64) {
-            let line = told
+            let line = output
                 .lines()
                 .find(|line| line.split(' ').next() == Some(array));
             let mut numbers = line
-                .unwrap_or_else(|| panic!("{array} is missing in {name}: {told}"))
+                .unwrap_or_else(|| panic!("{array} is missing in {name}: {output}"))
                 .split(' ')
                 .skip(1)
                 .map(|number| number.parse::<f64>().expect("the reader prints numbers"));

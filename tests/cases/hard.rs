@@ -1,5 +1,5 @@
-//! The hard cases: scenes on which a naive code loses its balance. One file a case, each with the requirement, its
-//! source and what goes wrong in a naive code; all of them assert the one list of invariants.
+//! The hard cases: scenes on which a naive code fails. One file a case, each with the requirement, its source and the
+//! failure of a naive code; all of them assert one list of invariants.
 
 mod change_of_wear;
 mod conforming;

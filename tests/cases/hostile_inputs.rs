@@ -1,6 +1,6 @@
-//! Requirement: input that means harm is refused with a problem of the 4xx kind, at no more cost than reading it, and
-//! the service goes on answering: bodies of 50 MB, JSON 10 000 levels deep, numbers at the end of the range, a mesh of
-//! 1e9 elements, heads that never end, paths that lead out, 10 000 labels. Nothing of it is queued.
+//! Requirement: malicious input is refused with a 4xx problem, at no more cost than reading it, and the service stays
+//! available: bodies of 50 MB, JSON 10 000 levels deep, numbers at the end of the range, a mesh of 1e9 elements, heads
+//! that never end, path traversal, 10 000 labels. No job is queued.
 
 use std::io::{ErrorKind, Read, Write};
 use std::net::TcpStream;
@@ -9,27 +9,27 @@ use std::time::Duration;
 use serde_json::{Value, json};
 use tests::Server;
 
-/// Peak memory that a service needs at most to refuse all of this, MB.
+/// Largest accepted peak memory of a service that refuses all of this, MB.
 const MEMORY_LIMIT_MB: f64 = 256.0;
-/// Longer than the service waits for a head; a connection that is still open then stays open.
-const PATIENCE: Duration = Duration::from_mins(2);
+/// Longer than the service's timeout for a head.
+const HEAD_TIMEOUT: Duration = Duration::from_mins(2);
 
 fn connection(server: &Server) -> TcpStream {
     let address = server.base.trim_start_matches("http://");
     let stream = TcpStream::connect(address).expect("the service takes connections");
     stream
-        .set_read_timeout(Some(PATIENCE))
+        .set_read_timeout(Some(HEAD_TIMEOUT))
         .expect("a time can be set");
     stream
 }
 
-/// Sends bytes as they are, as far as the service takes them; the first line of its answer.
+/// Sends raw bytes, as far as the service reads them; returns the first line of its answer.
 fn raw(server: &Server, head: &str, body: &[u8]) -> String {
     let mut stream = connection(server);
     stream
         .write_all(head.as_bytes())
         .expect("a head can be sent");
-    // The service may answer and hang up before it has read everything.
+    // The service may answer and close the connection before it has read everything.
     let _ = stream.write_all(body);
     let mut answer = [0_u8; 64];
     let length = stream.read(&mut answer).expect("the service answers");
@@ -59,7 +59,7 @@ async fn alive_and_empty(server: &Server) {
 }
 
 #[tokio::test]
-async fn large_bodies_are_refused_and_not_kept() {
+async fn large_bodies_are_refused_without_buffering() {
     let folder = tempfile::tempdir().expect("a folder can be made");
     let server = Server::start(folder.path());
     let head = "POST /v1/jobs HTTP/1.1\r\nhost: 127.0.0.1\r\ncontent-type: application/json\r\n";
@@ -79,7 +79,7 @@ async fn large_bodies_are_refused_and_not_kept() {
 }
 
 #[tokio::test]
-async fn documents_that_mean_harm_are_refused_with_a_problem() {
+async fn malicious_documents_are_refused_with_a_problem() {
     let folder = tempfile::tempdir().expect("a folder can be made");
     let server = Server::start(folder.path());
     for (open, close) in [("[", "]"), (r#"{"system":"#, "}")] {
@@ -106,7 +106,7 @@ async fn documents_that_mean_harm_are_refused_with_a_problem() {
         problem["faults"][0]["pointer"],
         "/accuracy/overrides/contact_element_mm"
     );
-    // Wear that would end the run early would make it small.
+    // A wear coefficient so small that the run does not end early.
     let rows = json!({
         "system": {"kind": "dimm"},
         "interface": {"wear": {"receptacle": {"law": "archard", "k_over_h_per_mpa": 1e-12}}},
@@ -131,7 +131,7 @@ async fn documents_that_mean_harm_are_refused_with_a_problem() {
 }
 
 #[tokio::test]
-async fn paths_that_lead_out_lead_nowhere() {
+async fn path_traversal_is_answered_with_404() {
     let folder = tempfile::tempdir().expect("a folder can be made");
     let server = Server::start(folder.path());
     for path in [
@@ -156,7 +156,7 @@ async fn paths_that_lead_out_lead_nowhere() {
 }
 
 #[tokio::test]
-async fn heads_that_never_end_are_hung_up_on_while_others_are_answered() {
+async fn endless_heads_are_disconnected_while_others_are_answered() {
     let folder = tempfile::tempdir().expect("a folder can be made");
     let server = Server::start(folder.path());
     let mut slow: Vec<TcpStream> = (0..200)
@@ -175,8 +175,8 @@ async fn heads_that_never_end_are_hung_up_on_while_others_are_answered() {
             Ok(_) => {}
             Err(error) => assert_eq!(error.kind(), ErrorKind::ConnectionReset),
         }
-        let told = String::from_utf8_lossy(&answer);
-        assert!(!told.contains(" 200 "), "{told}");
+        let text = String::from_utf8_lossy(&answer);
+        assert!(!text.contains(" 200 "), "{text}");
     }
     let many = "x: y\r\n".repeat(1000);
     let line = raw(

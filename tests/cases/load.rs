@@ -1,5 +1,5 @@
 //! Requirement: while many small jobs go through, many clients poll and many streams are open, nothing is lost, no
-//! answer is a 5xx, and every stream tells all events of its job in order and ends with `done`.
+//! answer is a 5xx, and every stream carries all events of its job in order and ends with `done`.
 //!
 //! The short form runs with all cases. The long one, 1 000 jobs with 500 clients and 200 streams, prints latencies,
 //! jobs per second and memory:
@@ -16,15 +16,15 @@ use futures_util::{StreamExt, future};
 use serde_json::Value;
 use tests::Server;
 
-/// A study of some 10 ms.
+/// A job of some 10 ms.
 const SPEC: &str = r#"{"system":{"kind":"cylinder_on_flat"},"cycles":2,
     "accuracy":{"preset":"draft"},"output":{"snapshots_at_cycles":[2]}}"#;
-/// Between two polls of a client, as `Retry-After` asks of it.
+/// Interval between two polls of a client, as `Retry-After` requests.
 const PAUSE: Duration = Duration::from_secs(1);
-/// Submissions on their way at once.
+/// Concurrent submissions.
 const SUBMITTERS: usize = 16;
 
-/// How much is asked of the service.
+/// Load on the service.
 #[derive(Clone, Copy)]
 struct Load {
     jobs: usize,
@@ -50,7 +50,7 @@ impl Load {
     }
 }
 
-/// What all clients share.
+/// State that all clients share.
 struct Shared {
     base: String,
     client: reqwest::Client,
@@ -58,7 +58,7 @@ struct Shared {
 }
 
 impl Shared {
-    /// The status and body of a request, and how long the answer took.
+    /// Duration and body of a request.
     async fn timed(&self, request: reqwest::RequestBuilder) -> (Duration, Value) {
         let began = Instant::now();
         let answer = request.send().await.expect("the service answers");
@@ -75,7 +75,7 @@ impl Shared {
 }
 
 #[tokio::test(flavor = "multi_thread", worker_threads = 2)]
-async fn nothing_is_lost_while_many_poll_and_many_listen() {
+async fn nothing_is_lost_under_many_polls_and_streams() {
     let load = Load::asked_for();
     let folder = tempfile::tempdir().expect("a folder can be made");
     let server = Server::start_with(folder.path(), &["--workers", "2"]);
@@ -94,7 +94,7 @@ async fn nothing_is_lost_while_many_poll_and_many_listen() {
     });
     let polls: Vec<_> = polls.collect();
     let streams = (0..load.streams).map(|listener| {
-        // Spread over all jobs, so that some are open to the end.
+        // Spread over all jobs, so that some streams are open until the end.
         let id = ids[listener * load.jobs / load.streams].clone();
         let shared = Arc::clone(&shared);
         tokio::spawn(async move { listened(&shared, &id).await })
@@ -142,10 +142,10 @@ async fn submitted(shared: &Arc<Shared>, jobs: usize) -> (Vec<String>, Vec<Durat
     done.into_iter().unzip()
 }
 
-/// Polls one job after the other until all have ended; how long each answer took.
+/// Polls one job after the other until all have ended; returns the duration of each answer.
 async fn polled(shared: &Shared, ids: &[String], client: usize) -> Vec<Duration> {
     let mut waits = Vec::new();
-    // Clients do not poll in step.
+    // Clients do not poll simultaneously.
     let share = u32::try_from(client % 100).expect("small");
     tokio::time::sleep(PAUSE * share / 100).await;
     while !shared.ended.load(Ordering::Relaxed) {
@@ -240,7 +240,7 @@ fn report(
     ));
 }
 
-/// A figure for people; a reader that has gone is no failure.
+/// Prints a figure; a closed pipe is no failure.
 fn tell(line: std::fmt::Arguments<'_>) {
     let _ = writeln!(std::io::stdout().lock(), "{line}");
 }

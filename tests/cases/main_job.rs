@@ -1,7 +1,7 @@
 //! The main job: the fuzz-button study, submitted over HTTP, solved, streamed back.
 //!
 //! Requirement: `fretwear demo --exit` ends with 0 and a table of worn depth by cycle and station; where the contact
-//! lies on the flat floor of the groove the depth grows by 2 (k/H) P' = 26.17 nm a cycle, and the worn area equals
+//! is on the flat floor of the groove the depth grows by 2 (k/H) P' = 26.17 nm a cycle, and the worn area equals
 //! (k/H) times the accumulated integral of p |slip|.
 
 use serde_json::Value;
@@ -11,7 +11,7 @@ use tests::{Server, fretwear, spec};
 const FLAT_FLOOR: f64 = 2.0 * 0.011 / 427.0 * 0.508;
 
 #[test]
-fn the_demo_runs_the_study_and_ends_with_zero() {
+fn the_demo_solves_its_job_and_exits_with_zero() {
     let folder = tempfile::tempdir().expect("a folder can be made");
     let ran = fretwear(folder.path(), &["demo", "--exit"]);
     assert_eq!(ran.code, Some(0), "{}", ran.stderr);
@@ -36,7 +36,7 @@ fn the_demo_runs_the_study_and_ends_with_zero() {
 }
 
 #[tokio::test]
-async fn the_study_wears_the_flat_floor_by_two_passes_a_cycle() {
+async fn the_job_wears_the_flat_floor_by_two_passes_a_cycle() {
     let folder = tempfile::tempdir().expect("a folder can be made");
     let server = Server::start(folder.path());
     let body = std::fs::read(spec("fuzz_button.json")).expect("the study is there");
@@ -65,7 +65,7 @@ async fn the_study_wears_the_flat_floor_by_two_passes_a_cycle() {
     let cycles = numbers(&history["cycle"]);
     let stations = history["stations"]
         .as_array()
-        .expect("stations were asked for");
+        .expect("stations were requested");
     let middle = stations
         .iter()
         .find(|station| station["x_mm"] == 0.0)
@@ -74,7 +74,7 @@ async fn the_study_wears_the_flat_floor_by_two_passes_a_cycle() {
     assert_eq!(cycles.len(), depth.len());
     let at = |cycle: f64| {
         let row = cycles.iter().position(|c| (c - cycle).abs() < 0.5);
-        depth[row.expect("the cycle was asked for")]
+        depth[row.expect("the cycle was requested")]
     };
     assert!((at(1.0) / FLAT_FLOOR - 1.0).abs() < 0.01);
     assert!(((at(150.0) - at(1.0)) / 149.0 / FLAT_FLOOR - 1.0).abs() < 0.01);

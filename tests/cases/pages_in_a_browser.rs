@@ -1,6 +1,5 @@
-//! Requirement: in a real browser the pages show what they are for: jobs with their progress and a way to cancel them, a
-//! job in full with figures, pictures and files, and the interface; nothing is refused by the pages' own policy and
-//! nothing fails in a script.
+//! Requirement: in a real browser the pages show jobs with their progress and a cancel button, a job in full with
+//! figures, pictures and files, and the interface; the content security policy blocks nothing and no script fails.
 
 use std::path::Path;
 use std::process::Command;
@@ -8,10 +7,10 @@ use std::process::Command;
 use serde_json::{Value, json};
 use tests::Server;
 
-/// How much of its own time a page gets to fetch and draw, ms.
+/// Virtual time for a page to load and draw, ms.
 const PAGE_TIME_MS: u32 = 8_000;
 
-/// The page at a path as the browser has it in the end, which must have nothing to complain about.
+/// The final document of the page at a path; its console must be empty.
 fn seen(server: &Server, folder: &Path, path: &str) -> String {
     let (page, complaints) = seen_with_complaints(server, folder, path);
     assert_eq!(complaints, Vec::<String>::new(), "{path}");
@@ -30,14 +29,14 @@ fn seen_with_complaints(server: &Server, folder: &Path, path: &str) -> (String, 
         .arg(format!("{}{path}", server.base))
         .output()
         .expect("chromium can be started");
-    let told = String::from_utf8_lossy(&output.stderr);
-    let complaints = told.lines().filter(|line| line.contains(":CONSOLE"));
+    let log = String::from_utf8_lossy(&output.stderr);
+    let complaints = log.lines().filter(|line| line.contains(":CONSOLE"));
     let complaints = complaints.map(str::to_owned).collect();
     let page = String::from_utf8_lossy(&output.stdout).into_owned();
     (page, complaints)
 }
 
-/// What stands between a beginning and the next end.
+/// Text between a start and the next end.
 fn part<'a>(page: &'a str, from: &str, to: &str) -> &'a str {
     let (_, rest) = page
         .split_once(from)
@@ -53,7 +52,7 @@ async fn submitted(server: &Server, study: &Value) -> String {
 
 #[tokio::test]
 #[cfg_attr(not(has_chromium), ignore = "needs the program chromium")]
-async fn a_browser_shows_jobs_and_what_came_out_of_them() {
+async fn a_browser_shows_jobs_and_their_results() {
     let folder = tempfile::tempdir().expect("a folder can be made");
     let server = Server::start(folder.path());
     let done = json!({
@@ -73,7 +72,7 @@ async fn a_browser_shows_jobs_and_what_came_out_of_them() {
 
     let page = seen(&server, folder.path(), "/");
     let row = part(&page, &format!("id=\"row-{done}\""), "</tr>");
-    // Names are text, whatever they hold.
+    // Names are escaped.
     for shown in [
         "short &lt;b&gt;study",
         "succeeded (completed)",

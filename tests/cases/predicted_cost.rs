@@ -1,7 +1,7 @@
-//! Requirement: a plan tells what a solve will take, within a factor of two: unknowns, memory, computed cycles, increments,
+//! Requirement: a plan estimates the unknowns, memory, computed cycles and increments of a solve within a factor of two,
 //! on all systems and both published scenes, at every tolerance.
 //!
-//! Workload is counted here; time depends on what else a machine does, and `fretwear bench --predictions` compares it. The
+//! Workload is counted here; time depends on other load of the machine; `fretwear bench --predictions` compares it. The
 //! looser tolerances run with every test; `FRETWEAR_PREDICTIONS=long` runs all.
 
 use server::bench::predictions::{TOLERANCES, compare, scenes};

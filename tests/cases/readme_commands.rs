@@ -1,4 +1,4 @@
-//! Requirement: the curl lines of README.md work as they stand, one after the other, against a service.
+//! Requirement: the curl lines of README.md work unchanged, one after the other, against a service.
 
 use std::path::Path;
 use std::process::Command;
@@ -8,7 +8,7 @@ use tests::Server;
 /// The address that README.md uses.
 const ADDRESS: &str = "http://127.0.0.1:8080";
 
-/// Lines that begin a command, without the comments behind them.
+/// Command lines, without their comments.
 fn commands(readme: &str) -> Vec<String> {
     readme
         .lines()
@@ -22,7 +22,7 @@ fn commands(readme: &str) -> Vec<String> {
         .collect()
 }
 
-/// Ids that the answers told.
+/// Ids from earlier answers.
 #[derive(Default)]
 struct Known {
     job: String,
@@ -41,10 +41,10 @@ fn run(folder: &Path, base: &str, known: &Known, command: &str) -> (Option<i32>,
         .current_dir(folder)
         .output()
         .expect("bash can be started");
-    let told = String::from_utf8_lossy(&output.stdout).into_owned();
+    let answer = String::from_utf8_lossy(&output.stdout).into_owned();
     (
         output.status.code(),
-        told + &String::from_utf8_lossy(&output.stderr),
+        answer + &String::from_utf8_lossy(&output.stderr),
     )
 }
 
@@ -77,9 +77,9 @@ async fn the_curl_lines_of_the_readme_work() {
         if command.contains("DELETE") {
             ended(&server, &known.sweep).await;
         }
-        let (code, told) = run(folder.path(), &server.base, &known, command);
-        assert_eq!(code, Some(0), "{command}\n{told}");
-        if let Some(location) = told
+        let (code, answer) = run(folder.path(), &server.base, &known, command);
+        assert_eq!(code, Some(0), "{command}\n{answer}");
+        if let Some(location) = answer
             .lines()
             .find_map(|line| line.strip_prefix("location: /v1/jobs/"))
         {
@@ -90,12 +90,12 @@ async fn the_curl_lines_of_the_readme_work() {
             ("study.json", &mut known.study),
         ] {
             if command.contains(submitted) {
-                let told: serde_json::Value = serde_json::from_str(&told).expect("JSON");
-                told["id"].as_str().expect("an id").clone_into(id);
+                let answer: serde_json::Value = serde_json::from_str(&answer).expect("JSON");
+                answer["id"].as_str().expect("an id").clone_into(id);
             }
         }
         if command.contains("/events") {
-            assert!(told.contains("event: done"), "{told}");
+            assert!(answer.contains("event: done"), "{answer}");
         }
     }
 }

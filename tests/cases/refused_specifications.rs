@@ -1,6 +1,6 @@
 //! Requirement: a specification with an unknown field, a negative radius and an unknown material is refused at once
-//! with three faults, each with its JSON pointer; `NaN`, a wrong type or broken JSON get a 400 with the place; nothing
-//! is queued by a refused request.
+//! with three faults, each with its JSON pointer; `NaN`, a wrong type or malformed JSON get a 400 with the position; a
+//! refused request queues no job.
 
 use serde_json::Value;
 use tests::{Server, fretwear};
@@ -14,7 +14,7 @@ const THREE_FAULTS: &str = r#"{
 const POINTERS: [&str; 3] = ["/cylces", "/materials/slider", "/system/radius_mm"];
 
 #[tokio::test]
-async fn three_faults_are_told_at_once_and_nothing_is_queued() {
+async fn three_faults_are_reported_at_once_and_no_job_is_queued() {
     let folder = tempfile::tempdir().expect("a folder can be made");
     let server = Server::start(folder.path());
     let (status, problem) = server.submit(THREE_FAULTS).await;
@@ -35,8 +35,8 @@ async fn three_faults_are_told_at_once_and_nothing_is_queued() {
     ] {
         let (status, problem) = server.submit(broken).await;
         assert_eq!(status, 400, "{broken}: {problem}");
-        let told = problem.to_string();
-        assert!(told.contains("/cycles") || told.contains("line"), "{told}");
+        let text = problem.to_string();
+        assert!(text.contains("/cycles") || text.contains("line"), "{text}");
     }
     let (_, list) = server.get("/v1/jobs").await;
     let count = list
@@ -48,7 +48,7 @@ async fn three_faults_are_told_at_once_and_nothing_is_queued() {
 }
 
 #[test]
-fn the_command_line_refuses_with_code_two() {
+fn the_command_line_refuses_with_exit_code_two() {
     let folder = tempfile::tempdir().expect("a folder can be made");
     let path = folder.path().join("spec.json");
     std::fs::write(&path, THREE_FAULTS).expect("a file can be written");

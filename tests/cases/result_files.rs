@@ -1,6 +1,6 @@
-//! Requirement: a job that asked for fields lists them and all its documents with length and SHA-256; each file comes
-//! back with exactly these bytes, whole and in ranges; the fields are those of `fretwear solve`, bit for bit; with the
-//! job its files are gone.
+//! Requirement: a job with requested fields lists them and all its documents with length and SHA-256; each file is
+//! served with exactly these bytes, whole and in ranges; the fields are those of `fretwear solve`, bit for bit; deleting
+//! the job deletes its files.
 
 use std::path::Path;
 
@@ -14,7 +14,7 @@ const SPEC: &str = r#"{
   "output": {"fields": true, "snapshots_at_cycles": [20]}
 }"#;
 
-/// What the solved job must list, at least.
+/// Files that the solved job must list, at least.
 const NAMES: [&str; 11] = [
     "fields-0.vtu",
     "fields-20.vtu",
@@ -30,7 +30,7 @@ const NAMES: [&str; 11] = [
 ];
 
 #[tokio::test]
-async fn every_file_of_the_manifest_comes_back_as_it_was_described() {
+async fn every_file_is_served_as_the_manifest_describes_it() {
     let folder = tempfile::tempdir().expect("a folder can be made");
     let server = Server::start(folder.path());
     let (status, job) = server.submit(SPEC).await;
@@ -73,7 +73,7 @@ async fn every_file_of_the_manifest_comes_back_as_it_was_described() {
     assert!(!results.join(&id).exists());
 }
 
-/// The same study solved without a service; the folder of its files.
+/// Solves the same specification without a service; returns the folder of its files.
 fn solved(folder: &Path) -> std::path::PathBuf {
     std::fs::write(folder.join("spec.json"), SPEC).expect("a file can be written");
     let ran = fretwear(folder, &["solve", "spec.json", "--out", "solved"]);
@@ -81,7 +81,7 @@ fn solved(folder: &Path) -> std::path::PathBuf {
     folder.join("solved")
 }
 
-/// A file, fetched whole and compared with its description and with its second half fetched alone.
+/// Fetches a whole file; compares it with its description and with its second half, fetched by range.
 async fn fetched(server: &Server, id: &str, name: &str, described: &Value) -> Vec<u8> {
     let url = format!("{}/v1/jobs/{id}/results/files/{name}", server.base);
     let get = |range: Option<String>| {

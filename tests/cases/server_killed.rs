@@ -1,10 +1,10 @@
-//! Requirement: killing the server with SIGKILL in the middle of a job and starting it again finishes that job.
+//! Requirement: killing the server with SIGKILL during a job and restarting it completes the job.
 
 use nix::sys::signal::Signal;
 use tests::{Server, spec};
 
 #[tokio::test]
-async fn a_job_outlives_the_server_that_was_killed_under_it() {
+async fn a_job_is_completed_after_its_server_was_killed_and_restarted() {
     let folder = tempfile::tempdir().expect("a folder can be made");
     let server = Server::start(folder.path());
     let body = std::fs::read(spec("fuzz_button.json")).expect("the study is there");
@@ -40,7 +40,7 @@ async fn a_job_outlives_the_server_that_was_killed_under_it() {
 }
 
 #[tokio::test]
-async fn a_server_that_is_asked_to_end_gives_its_job_back_without_an_attempt() {
+async fn a_server_that_is_terminated_releases_its_job_without_using_an_attempt() {
     let folder = tempfile::tempdir().expect("a folder can be made");
     let server = Server::start(folder.path());
     let body = std::fs::read(spec("fuzz_button.json")).expect("the study is there");

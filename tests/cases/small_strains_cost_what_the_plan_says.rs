@@ -1,4 +1,4 @@
-//! Requirement: strains are taken as small, and the plan says what that costs; beyond 1 % a scene is refused.
+//! Requirement: strains are assumed small, and the plan states the error; beyond 1 % a scene is refused.
 //!
 //! CalculiX solves the exported deck of a cylinder on a block with and without geometric non-linearity. The peak pressure
 //! falls by 1/2 p0/E* (0.4 % where p0/E* = 0.85 %), the rule that `solver::effects::small_strain_cost` applies.
@@ -40,7 +40,7 @@ fn middle(load: f64, step: &str) -> f64 {
 
 #[test]
 #[cfg_attr(not(has_ccx), ignore = "needs the program ccx of CalculiX")]
-fn the_peak_falls_by_half_the_contact_strain() {
+fn peak_pressure_falls_by_half_the_contact_strain() {
     for (load, strain) in [(18.5, 0.0030), (150.0, 0.0085)] {
         let linear = middle(load, "*STEP, INC=1000, NLGEOM=NO");
         let finite = middle(load, "*STEP, INC=1000, NLGEOM");
@@ -49,13 +49,13 @@ fn the_peak_falls_by_half_the_contact_strain() {
             "p0/E* = {strain}: peak changes by {change:.2e}, the rule says {:.2e}",
             -0.5 * strain
         );
-        // The rule is the first order; what is left is the second.
+        // The rule is of first order; the difference is of second order.
         assert!((change / (-0.5 * strain) - 1.0).abs() < 0.25, "{change}");
     }
 }
 
 #[test]
-fn the_plan_names_the_cost_of_every_preset_and_it_is_below_the_limit() {
+fn the_plan_states_the_small_strain_error_of_every_preset_below_the_limit() {
     let folder = tempfile::tempdir().expect("a folder can be made");
     for kind in ["fuzz_button", "sd_card", "dimm", "zif", "cylinder_on_flat"] {
         let spec = json!({"system": {"kind": kind}}).to_string();

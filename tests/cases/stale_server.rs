@@ -1,4 +1,4 @@
-//! Requirement: a worker that was stopped past its lease writes nothing when it wakes.
+//! Requirement: a worker that was stopped beyond its lease writes nothing when it continues.
 
 use std::time::Duration;
 
@@ -6,13 +6,13 @@ use nix::sys::signal::Signal;
 use serde_json::json;
 use tests::{Server, bits, database};
 
-/// How often the stopped service may look at the database after it wakes.
+/// Time that the stopped service has to access the database after it continues.
 const AWAKE: Duration = Duration::from_secs(3);
 
-/// One process serves a database, so nobody can take over from a stopped one. Should the lock be lost, as on a file
-/// system that does not keep it, the lease must keep the two apart.
+/// One process serves a database, so no other can take over from a stopped one. If the lock is lost, as on a file
+/// system without locks, the lease number must separate the two.
 #[tokio::test]
-async fn a_service_that_wakes_after_another_has_finished_its_job_writes_nothing() {
+async fn a_service_that_continues_after_another_finished_its_job_writes_nothing() {
     let folder = tempfile::tempdir().expect("a folder can be made");
     let options = ["--lease-s", "1", "--checkpoint-every-s", "0"];
     let stopped = Server::start_with(folder.path(), &options);
@@ -39,10 +39,10 @@ async fn a_service_that_wakes_after_another_has_finished_its_job_writes_nothing(
     );
     let before = bits::of(&server, &id).await;
     let events = "SELECT count(*) FROM events";
-    let told = database::number(folder.path(), events).await;
+    let count = database::number(folder.path(), events).await;
 
     stopped.signal(Signal::SIGCONT);
-    // Its solving process goes on to its end, and the service tries to write what it tells.
+    // Its solving process continues to its end, and the service tries to write the results.
     let refused = async {
         loop {
             let (_, text) = stopped.get("/metrics").await;
@@ -62,13 +62,13 @@ async fn a_service_that_wakes_after_another_has_finished_its_job_writes_nothing(
     assert!(refused.is_ok(), "the stopped service gives its job up");
     tokio::time::sleep(AWAKE).await;
     assert_eq!(bits::of(&server, &id).await, before);
-    assert_eq!(database::number(folder.path(), events).await, told);
+    assert_eq!(database::number(folder.path(), events).await, count);
     let done = bits::events(&server, &id, "done").await;
     assert_eq!(done.len(), 1);
 }
 
 #[tokio::test]
-async fn a_service_that_stood_still_past_its_leases_goes_on_with_its_jobs() {
+async fn a_service_that_was_paused_beyond_its_leases_continues_its_jobs() {
     let folder = tempfile::tempdir().expect("a folder can be made");
     let server = Server::start_with(folder.path(), &["--lease-s", "1"]);
     let study = json!({

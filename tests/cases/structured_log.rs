@@ -1,5 +1,5 @@
-//! Requirement: with `--log json` every line of the log is an object, and what belongs to a job carries one span that
-//! names it, with lease and attempt.
+//! Requirement: with `--log json` every line of the log is a JSON object, and lines about a job carry one span with its
+//! id, lease and attempt.
 
 use std::collections::BTreeSet;
 use std::process::{Command, Stdio};
@@ -8,8 +8,8 @@ use std::time::Duration;
 use serde_json::{Value, json};
 use tests::program::binary;
 
-/// Looks at the log before a test gives up.
-const LOOKS: usize = 2_000;
+/// Polls of the log before the test fails.
+const POLLS: usize = 2_000;
 
 #[tokio::test]
 async fn every_line_is_an_object_and_a_job_has_one_span() {
@@ -31,8 +31,8 @@ async fn every_line_is_an_object_and_a_job_has_one_span() {
         .stderr(Stdio::from(log))
         .spawn()
         .expect("the service can be started");
-    let told = async |words: &str| {
-        for _ in 0..LOOKS {
+    let line_with = async |words: &str| {
+        for _ in 0..POLLS {
             let text = std::fs::read_to_string(&path).expect("a log");
             if let Some(line) = text.lines().find(|line| line.contains(words)) {
                 return line.to_owned();
@@ -41,7 +41,7 @@ async fn every_line_is_an_object_and_a_job_has_one_span() {
         }
         panic!("nobody said {words}");
     };
-    let line = told("serves on http://").await;
+    let line = line_with("serves on http://").await;
     let base = line.rsplit(' ').next().expect("an address").to_owned();
     let study = json!({"system": {"kind": "cylinder_on_flat"}, "cycles": 2, "accuracy": {"preset": "draft"}});
     let request = reqwest::Client::new().post(format!("{base}/v1/jobs"));
@@ -53,12 +53,12 @@ async fn every_line_is_an_object_and_a_job_has_one_span() {
         .json()
         .await
         .expect("a job");
-    told("attempt ended").await;
+    line_with("attempt ended").await;
     server.kill().expect("the service is there");
     server.wait().expect("it ends");
 
     let text = std::fs::read_to_string(&path).expect("a log");
-    // What the command itself says is for whoever started it.
+    // Output of the command itself is for the user.
     let lines = text
         .lines()
         .filter(|line| !line.starts_with("fretwear serves on"));

@@ -1,4 +1,4 @@
-//! Requirement: `fretwear study` solves one scene at many accuracies and shows what each costs and how far off it is:
+//! Requirement: `fretwear study` solves one scene at many accuracies and shows cost and error of each:
 //! table, Pareto front, observed orders, work-precision picture.
 
 use serde_json::Value;
@@ -16,7 +16,7 @@ const SPEC: &str = r#"{
 }"#;
 
 #[test]
-fn a_study_shows_what_accuracy_costs() {
+fn an_accuracy_study_shows_error_against_cost() {
     let folder = tempfile::tempdir().expect("a folder can be made");
     std::fs::write(folder.path().join("spec.json"), SPEC).expect("a file can be written");
     let arguments = ["study", "spec.json", "--out", "results", "--budget-s", "8"];
@@ -39,7 +39,7 @@ fn a_study_shows_what_accuracy_costs() {
     let by_tolerance = |a: &&&Value, b: &&&Value| tolerance(a).total_cmp(&tolerance(b));
     let tightest = chosen.iter().min_by(by_tolerance).expect("some");
     let loosest = chosen.iter().max_by(by_tolerance).expect("some");
-    // Differences below the doubt about the reference mean nothing.
+    // Differences below the uncertainty of the reference are not significant.
     let doubt = |what: &str| {
         let doubts = &study["reference"]["uncertainty"];
         doubts[what].as_f64().expect("a doubt")
@@ -50,7 +50,7 @@ fn a_study_shows_what_accuracy_costs() {
         ran.stdout
     );
 
-    // The front: dearer means better, and nothing off it is both cheaper and better.
+    // The front: more expensive means more accurate, and no other run is both cheaper and more accurate.
     let front: Vec<&Value> = runs.iter().filter(|run| run["on_front"] == true).collect();
     assert!(front.is_sorted_by(|a, b| promised(a) > promised(b)));
     for run in runs {

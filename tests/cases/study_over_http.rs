@@ -1,11 +1,11 @@
-//! Requirement: `POST /v1/studies` queues the runs of a study as ordinary jobs; when they have ended, errors, Pareto front,
-//! observed orders, table and picture are there.
+//! Requirement: `POST /v1/studies` queues the runs of a study as ordinary jobs; after their end, errors, Pareto front,
+//! observed orders, table and picture are available.
 
 use serde_json::{Value, json};
 use tests::Server;
 
 #[tokio::test]
-async fn a_study_of_accuracy_runs_as_jobs_of_the_service() {
+async fn an_accuracy_study_runs_as_jobs_of_the_service() {
     let folder = tempfile::tempdir().expect("a folder can be made");
     let server = Server::start(folder.path());
     let request = json!({

@@ -1,5 +1,5 @@
-//! Requirement: a sweep makes one ordinary job for each combination, its counts follow them, and its table has a line
-//! for each with what sets it apart and what came out; more load wears more.
+//! Requirement: a parameter sweep creates one ordinary job for each combination, counts them by status, and its table has
+//! a line for each with its parameters and its outcome; more load wears more.
 
 use serde_json::{Value, json};
 use tests::Server;
@@ -39,7 +39,7 @@ async fn a_sweep_over_the_load_ends_in_one_table() {
     let depth = header
         .iter()
         .position(|name| *name == "receptacle_max_depth_mm");
-    // An override that is an object holds commas, so it is counted from the end of the line.
+    // An override that is an object contains commas, so cells are counted from the end of the line.
     let from_end = header.len() - depth.expect("a column");
     let depths: Vec<f64> = lines
         .map(|line| {

@@ -4,8 +4,8 @@ use serde_json::Value;
 
 use crate::Server;
 
-/// Everything that a finished job tells and that must not depend on what happened to it: name and checksum of each
-/// result, and the summary without what it cost.
+/// Everything in a finished job that must not depend on interruptions: name and checksum of each result, and the
+/// summary without its cost.
 ///
 /// # Panics
 /// If the service does not answer.
@@ -27,8 +27,7 @@ pub async fn of(server: &Server, id: &str) -> Value {
     serde_json::json!([job["status"], job["outcome"], job["summary"], files])
 }
 
-/// The data of a job's events of a name, after the events were found to be without gaps and to end with `done` if the
-/// job has ended.
+/// Data of a job's events of one name; checks that the events have no gaps and end with `done` if the job has ended.
 ///
 /// # Panics
 /// If the numbers of the events have gaps, or `done` is missing or not the last.

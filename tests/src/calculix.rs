@@ -1,4 +1,4 @@
-//! CalculiX on our exported decks, and what it printed.
+//! Runs CalculiX on exported decks and reads its output.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -27,12 +27,12 @@ pub fn run(folder: &Path, deck: &str) {
     assert!(ran.expect("ccx can be started").status.success());
 }
 
-/// The key of a place: its x in whole nanometres.
+/// Key of a node: its x in whole nanometres.
 pub fn nanometres(x: f64) -> String {
     format!("{:.0}", 1e6 * x)
 }
 
-/// Contact pressures of the last increment by the place of the node, where y = 0.
+/// Contact pressures of the last increment by the node's x, where y = 0.
 ///
 /// # Panics
 /// If there are no results.

@@ -1,4 +1,4 @@
-//! Looking into a service's database, and doing harm to it, from outside.
+//! Reads and damages a service's database from outside.
 
 use std::path::Path;
 use std::time::Duration;
@@ -6,7 +6,7 @@ use std::time::Duration;
 use sqlx::sqlite::{SqliteConnectOptions, SqliteConnection};
 use sqlx::{Connection, Executor};
 
-/// The database of a service in a folder.
+/// Opens the database of the service in a folder.
 ///
 /// # Panics
 /// If it cannot be opened.
@@ -19,7 +19,7 @@ pub async fn open(folder: &Path) -> SqliteConnection {
         .expect("the database can be opened")
 }
 
-/// Garbles all checkpoints; how many there were.
+/// Corrupts all checkpoints; returns their number.
 ///
 /// # Panics
 /// If the database cannot be written.
@@ -33,7 +33,7 @@ pub async fn damage_checkpoints(folder: &Path) -> u64 {
     done.rows_affected()
 }
 
-/// Keeps everyone else from writing for a while.
+/// Holds the write lock for a while.
 ///
 /// # Panics
 /// If the database cannot be written.
@@ -51,7 +51,7 @@ pub async fn stall(folder: &Path, time: Duration) {
     database.close().await.expect("the database can be closed");
 }
 
-/// A number that the database is asked for.
+/// Returns the number that a query yields.
 ///
 /// # Panics
 /// If it cannot be read.

@@ -1,4 +1,4 @@
-//! A small disk of its own, to be filled up.
+//! A small mounted disk that a test can fill.
 
 use std::io::Write;
 use std::path::Path;
@@ -7,7 +7,7 @@ use std::time::Duration;
 
 use tempfile::TempDir;
 
-/// A folder, on a small disk of its own where the tests may make one.
+/// A folder, on a small disk of its own if the tests can mount one.
 #[derive(Debug)]
 pub struct Disk {
     folder: TempDir,
@@ -34,15 +34,15 @@ impl Disk {
         self.folder.path()
     }
 
-    /// Whether it is a disk of its own, so that it can be filled up.
+    /// Checks whether it is a disk of its own, so that it can be filled.
     pub fn is_mounted(&self) -> bool {
         self.mounted
     }
 
-    /// Takes all space for a while.
+    /// Fills all free space for a while.
     ///
     /// # Panics
-    /// If that cannot be begun or ended.
+    /// If the space cannot be filled or freed.
     pub async fn fill(&self, time: Duration) {
         let path = self.folder.path().join("filler");
         let mut file = std::fs::File::create(&path).expect("a file can be made");
@@ -59,7 +59,7 @@ impl Disk {
 impl Drop for Disk {
     fn drop(&mut self) {
         if self.mounted {
-            // What stays mounted after a failed test is small.
+            // A disk that stays mounted after a failed test is small.
             let _ = Command::new("umount")
                 .arg("-l")
                 .arg(self.folder.path())

@@ -1,4 +1,4 @@
-//! What every end-to-end case needs: the real binary, run as a user would run it, in a folder of its own.
+//! Shared by the end-to-end cases: runs the real binary as a user would, in a folder of its own.
 
 pub mod bits;
 pub mod calculix;

@@ -11,7 +11,7 @@ use serde_json::Value;
 
 use crate::program::binary;
 
-/// How long anything may take before a test gives up; it is no measure of speed.
+/// Timeout of every wait; no measure of speed.
 const PATIENCE: Duration = Duration::from_mins(4);
 
 /// A running service.
@@ -60,7 +60,7 @@ impl Server {
                 break line[at..].trim().to_owned();
             }
         };
-        // Its further words are read and dropped, so that it never waits for a full pipe.
+        // Its further output is read and discarded, so that it never blocks on a full pipe.
         std::thread::spawn(move || lines.for_each(drop));
         Self {
             child,
@@ -72,7 +72,7 @@ impl Server {
     /// Sends a signal to the service alone, not to its children.
     ///
     /// # Panics
-    /// If it is gone already.
+    /// If it has already ended.
     pub fn signal(&self, signal: Signal) {
         kill(self.id(), signal).expect("the service is there");
     }
@@ -80,7 +80,7 @@ impl Server {
     /// Its process id.
     ///
     /// # Panics
-    /// If the id is larger than any.
+    /// If the id is out of range.
     pub fn id(&self) -> Pid {
         Pid::from_raw(i32::try_from(self.child.id()).expect("process ids are small"))
     }
@@ -99,10 +99,10 @@ impl Server {
             .collect()
     }
 
-    /// The most memory that the service itself has held so far, MB.
+    /// Peak memory of the service process so far, MB.
     ///
     /// # Panics
-    /// If it is gone.
+    /// If it has ended.
     pub fn peak_memory_mb(&self) -> f64 {
         let status = std::fs::read_to_string(format!("/proc/{}/status", self.child.id()))
             .expect("the service is there");
@@ -114,7 +114,7 @@ impl Server {
         f64::from(kilobytes) / 1024.0
     }
 
-    /// Waits for the service to end; its exit code.
+    /// Waits for the service to end; returns its exit code.
     ///
     /// # Panics
     /// If it cannot be waited for.
@@ -125,7 +125,7 @@ impl Server {
             .code()
     }
 
-    /// Submits a specification; its status and body.
+    /// Submits a specification; returns status and body.
     ///
     /// # Panics
     /// If the service does not answer.
@@ -137,7 +137,7 @@ impl Server {
         answer(request).await
     }
 
-    /// Gets a path; its status and body.
+    /// Gets a path; returns status and body.
     ///
     /// # Panics
     /// If the service does not answer.
@@ -145,7 +145,7 @@ impl Server {
         answer(self.client.get(format!("{}{path}", self.base))).await
     }
 
-    /// Posts nothing to a path; its status and body.
+    /// Posts an empty body to a path; returns status and body.
     ///
     /// # Panics
     /// If the service does not answer.
@@ -153,7 +153,7 @@ impl Server {
         answer(self.client.post(format!("{}{path}", self.base))).await
     }
 
-    /// Asks for a job until it meets a condition.
+    /// Polls a job until it meets a condition.
     ///
     /// # Panics
     /// If it does not in four minutes.
@@ -186,7 +186,7 @@ async fn answer(request: reqwest::RequestBuilder) -> (u16, Value) {
 
 impl Drop for Server {
     fn drop(&mut self) {
-        // Already ended is fine: there is nothing left to end then.
+        // An error means that it has already ended.
         if self.child.kill().is_ok() {
             let _ = self.child.wait();
         }

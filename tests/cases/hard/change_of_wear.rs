@@ -1,6 +1,6 @@
 //! Requirement: a wear coefficient that changes a hundredfold from one cycle to the next (a plating that is worn
-//! through) leaves balance and worn area intact.
-//! Source: plated contacts; two runs joined, the second one going on from the state of the first.
+//! through) preserves balance and worn area.
+//! Source: plated contacts; two runs joined, the second one continuing from the state of the first.
 //! Naive: a jump chosen for the slow wear is a hundred times too large for the fast one.
 
 use serde_json::json;
@@ -11,7 +11,7 @@ use super::run::scene;
 use super::specs::cylinder;
 
 #[test]
-fn a_hundredfold_wear_coefficient_from_one_cycle_to_the_next_goes_through() {
+fn wear_coefficient_can_change_a_hundredfold_between_two_cycles() {
     let scene = scene(&cylinder(json!({
         "interface": {"wear": {"receptacle": {"k_over_h_per_mpa": 1e-6}}},
         "cycles": 2000,

@@ -1,8 +1,8 @@
-//! Requirement: bodies of nearly equal curvature stay in balance: the contact grows wide under a light load.
+//! Requirement: bodies of nearly equal curvature stay in balance: the contact is wide under a light load.
 //! Source: Johnson 1985, eq. 4.43: with 1/R = 1/R1 + 1/R2 the half-width grows without bound as R2 -> -R1. A concave
-//! receptacle cannot be written, so the closest are a cylinder of 10 m on a flat, and a scar worn by its own cylinder.
-//! Naive: the gap is the difference of two nearly equal heights, R - sqrt(R^2 - x^2) loses all its digits, and the
-//! contact flickers.
+//! receptacle cannot be specified, so the closest are a cylinder of 10 m on a flat, and a scar worn by its own cylinder.
+//! Naive: the gap is the difference of two nearly equal heights, R - sqrt(R^2 - x^2) cancels all its digits, and the
+//! contact status alternates.
 
 use std::f64::consts::PI;
 
@@ -31,7 +31,7 @@ fn a_cylinder_of_ten_metres_on_a_flat_meets_hertz() {
     );
 }
 
-/// A scar that a cylinder has worn to its own radius: as wide as the segment of its worn area, its pressure even.
+/// A scar that a cylinder has worn to its own radius: as wide as the segment of its worn area, its pressure uniform.
 #[test]
 fn a_scar_that_has_taken_the_cylinders_shape_is_smooth() {
     let run = solve(&cylinder(json!({

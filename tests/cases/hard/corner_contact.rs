@@ -1,4 +1,4 @@
-//! Requirement: a slider that turns back exactly over the block's corner stays in balance, its friction within the
+//! Requirement: a slider that reverses exactly over the block's corner stays in balance, its friction within the
 //! cone.
 //! Source: the base scene with the amplitude of half the block's length.
 //! Naive: the corner's normal is undefined; interpolating it makes the load jump between two directions from one
@@ -11,7 +11,7 @@ use super::run::solve;
 use super::specs::{cylinder, fuzz_button};
 
 #[test]
-fn turning_back_over_the_corner_keeps_the_balance() {
+fn reversal_over_the_corner_preserves_the_balance() {
     for share in [0.98, 1.0, 1.02] {
         let amplitude = share * 0.5 * 0.084_67;
         let run = solve(&fuzz_button(
@@ -22,7 +22,7 @@ fn turning_back_over_the_corner_keeps_the_balance() {
     }
 }
 
-/// Nothing wears and the corner is a corner: its pressure grows, the force stays.
+/// Without wear the corner stays sharp: its pressure is high, the force is unchanged.
 #[test]
 fn an_unworn_corner_carries_the_load() {
     let run = solve(&cylinder(json!({

@@ -5,10 +5,10 @@ use std::f64::consts::{FRAC_PI_4, PI};
 
 use serde_json::{Value, json};
 
-/// Numbers that a draw takes at most.
+/// Largest number of random numbers that a specification uses.
 pub(crate) const NUMBERS: usize = 48;
 
-/// Numbers not yet used.
+/// Random numbers not yet used.
 struct Numbers<'a>(std::slice::Iter<'a, f64>);
 
 impl Numbers<'_> {
@@ -35,7 +35,7 @@ impl Numbers<'_> {
     }
 }
 
-/// Lengths that the rest is drawn in proportion to.
+/// Lengths to which other quantities are drawn in proportion.
 struct Lengths {
     radius: f64,
     block: f64,
@@ -148,7 +148,7 @@ fn wear(u: &mut Numbers<'_>, lengths: &Lengths, load: f64, cycles: f64) -> Value
     json!({"law": "archard", "k_over_h_per_mpa": k.min(1.0)})
 }
 
-/// In proportion to the contact, to the block, or anything that is allowed.
+/// In proportion to the contact or to the block, or any allowed value.
 fn amplitude(u: &mut Numbers<'_>, lengths: &Lengths) -> f64 {
     let amplitude = match u.next() {
         chance if chance < 0.05 => 0.0,

@@ -1,4 +1,4 @@
-//! Requirement: a nearly incompressible body, and bodies whose moduli differ by 1e4, meet Hertz and wear soundly.
+//! Requirement: a nearly incompressible body, and bodies whose moduli differ by 1e4, agree with Hertz and satisfy the invariants.
 //! Source: Johnson 1985, eq. 4.43 to 4.45, with 1/E* = (1 - n1^2)/E1 + (1 - n2^2)/E2.
 //! Naive: four-node elements lock at a Poisson's ratio of 0.499 and carry a multiple of the pressure; a penalty chosen
 //! for one body is far off for the other.
@@ -18,7 +18,7 @@ fn over(modulus: f64, poisson: f64) -> (Run, f64) {
     let load = PI * a * a / (4.0 * 6.0 * compliance);
     let run = solve(&cylinder(json!({
         "materials": {"receptacle": {"youngs_modulus_mpa": modulus, "poisson_ratio": poisson}},
-        // Without friction: bodies of unequal moduli that stick under the load are pressed 7 % more than Hertz says.
+        // Without friction: bodies of unequal moduli that stick under the load have 7 % more pressure than Hertz.
         "interface": {"friction": {"law": "frictionless", "coefficient": null}, "wear": {"receptacle": {"k_over_h_per_mpa": 1e-4 / load}}},
         "load": {"kind": "line_force", "n_per_mm": load},
         "accuracy": {"preset": "standard"},

@@ -1,7 +1,7 @@
-//! Requirement: no load is refused, a load so small that one node's wear ends the contact goes through, and so does
-//! a hundredfold load.
+//! Requirement: zero load is refused; a load so small that the wear of one node ends the contact is solved, and so is a
+//! hundredfold load.
 //! Source: contract.md (load); an unloaded spring, a contact at the end of its life, a press fit.
-//! Naive: dividing by the load or by the contact width gives NaN; contact that is lost for an instant never returns.
+//! Naive: dividing by the load or by the contact width gives NaN; a contact lost for one iteration never returns.
 
 use serde_json::json;
 use server::spec::{self, Refused};
@@ -14,14 +14,14 @@ fn under(n_per_mm: f64) -> Run {
     solve(&cylinder(json!({
         "load": {"kind": "line_force", "n_per_mm": n_per_mm},
         "cycles": 20,
-        // A hundredfold load strains the contact by 3 %, beyond what small strains are good for.
+        // A hundredfold load strains the contact by 3 %, beyond the limit of small strains.
         "effects": {"geometric_nonlinearity": "off"},
     })))
 }
 
-/// A contact without a load is no contact: it is refused before any work, with the field and the limit.
+/// A contact without a load is refused before any computation, with the field and the limit.
 #[test]
-fn no_load_is_refused_by_its_field() {
+fn zero_load_is_refused_with_its_field() {
     let spec = cylinder(json!({"load": {"kind": "line_force", "n_per_mm": 0}}));
     let Err(Refused::Faults(faults)) = spec::read(spec.to_string().as_bytes()) else {
         panic!("a load of 0 is accepted");
@@ -31,7 +31,7 @@ fn no_load_is_refused_by_its_field() {
 }
 
 #[test]
-fn a_load_that_barely_touches_wears_its_share() {
+fn a_load_close_to_zero_wears_k_p_s() {
     let run = solve(&cylinder(json!({
         "load": {"n_per_mm": 1e-6},
         "motion": {"amplitude_mm": 2e-4},
@@ -47,7 +47,7 @@ fn a_load_that_barely_touches_wears_its_share() {
 
 /// A hundredfold load has a tenfold contact, in which the stroke of 25 um is a partial slip.
 #[test]
-fn a_hundredfold_load_goes_through() {
+fn a_hundredfold_load_is_solved() {
     let (one, hundred) = (under(18.5), under(1850.0));
     hold(&hundred);
     let [one_peak, hundred_peak] =

@@ -11,7 +11,7 @@ use super::run::{solve, solve_part};
 use super::specs::fuzz_button;
 
 #[test]
-fn a_stiff_spring_fades_to_nothing_and_stops_the_wear() {
+fn a_stiff_spring_fades_to_zero_and_stops_the_wear() {
     // 0.508 N/mm over 0.0005 mm of sinking.
     let run = solve(&fuzz_button(json!({
         "load": {"kind": "pressure", "mpa": 10, "spring_n_per_mm": 1016},
@@ -36,7 +36,7 @@ fn a_stiff_spring_fades_to_nothing_and_stops_the_wear() {
     );
 }
 
-/// As it was drawn by `random_specifications`: round-off once told a load below zero.
+/// As drawn by `random_specifications`: round-off gave a load below zero in an earlier version.
 #[test]
 fn a_spring_that_fades_within_a_jump_leaves_no_force_and_never_pulls() {
     let path = tests::spec("found/spring_fades_within_a_jump.json");

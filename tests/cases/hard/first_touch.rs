@@ -1,7 +1,7 @@
 //! Requirement: a contact narrower than one element, and one of thousands of elements, both carry their load.
 //! Source: Johnson 1985, eq. 4.43 to 4.45 (Hertz line contact: a = 35.86 um, p0 = 328.4 MPa).
-//! Naive: a coarse mesh touches with one node, whose neighbours chatter between open and closed; an active set that may
-//! only grow or shrink by one node takes thousands of iterations on a fine one.
+//! Naive: a coarse mesh touches with one node, whose neighbours alternate between open and closed; an active set that
+//! grows or shrinks by one node an iteration takes thousands of iterations on a fine one.
 
 use serde_json::json;
 
@@ -16,7 +16,7 @@ fn with_elements_of(contact_element_mm: f64, changes: serde_json::Value) -> Run 
 }
 
 #[test]
-fn the_first_touch_of_one_node_carries_the_load() {
+fn a_contact_of_one_node_carries_the_load() {
     let run = with_elements_of(0.4, json!({"cycles": 50}));
     hold(&run);
     let touch = &run.snapshots[0].positions[0];

@@ -1,10 +1,10 @@
-//! Requirement: specifications on which the random draws once found no contact state go through.
-//! Source: `random_specifications`; each is kept as it was drawn, in `tests/specs/found`.
-//! Naive: statuses chosen from the signs of one iterate go round in circles: a node that opens when stuck closes when
-//! free (dissimilar bodies, mu near 1), one whose wear takes the pressure off while it slips sticks again (wear on both
+//! Requirement: random specifications for which earlier versions found no contact state are solved.
+//! Source: `random_specifications`; each is stored as drawn, in `tests/specs/found`.
+//! Naive: statuses chosen from the signs of one iterate cycle: a node that opens when stuck closes when
+//! free (dissimilar bodies, mu near 1), one whose wear removes the pressure while it slips sticks again (wear on both
 //! sides), one at the block's corner does both. Pivoting on the complementarity problem finds a state. Where round-off
-//! alone keeps a residual above its tolerance, iterating on helps nothing, nor do halves: what it leaves is taken. Where
-//! the system is nearly singular, heights of 1e34 mm made every residual look like round-off.
+//! alone holds a residual above its tolerance, neither more iterations nor smaller increments help: the result is
+//! accepted. In a nearly singular system heights of 1e34 mm made every residual look like round-off.
 
 use server::spec;
 
@@ -12,7 +12,7 @@ use super::invariants::hold;
 use super::run::solve_part;
 
 #[test]
-fn specifications_that_once_found_no_contact_state_go_through() {
+fn specifications_without_a_contact_state_in_earlier_versions_are_solved() {
     for name in [
         "dissimilar_bodies_settle",
         "nearly_singular_without_friction",

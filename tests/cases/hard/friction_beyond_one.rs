@@ -1,6 +1,6 @@
-//! Requirement: friction of 0.78, 1.21 and 1.5, as measured on clean metals, leaves the contact in balance and the
-//! worn area what Archard's law says.
-//! Source: D. Shinde's thesis (0.78 steel, 1.21 copper); 1.5 is what noble metals reach in air.
+//! Requirement: friction of 0.78, 1.21 and 1.5, as measured on clean metals, preserves the balance of the contact, and the
+//! worn area follows Archard's law.
+//! Source: D. Shinde's thesis (0.78 steel, 1.21 copper); noble metals reach 1.5 in air.
 //! Naive: a symmetric solve or shear taken from the last iteration diverges from mu near 1 on; pairing frozen at the
 //! start of an increment gives |Q| up to 1.7 mu P with perfect vertical balance.
 
@@ -11,7 +11,7 @@ use super::run::solve;
 use super::specs::fuzz_button;
 
 #[test]
-fn high_friction_keeps_balance_cone_and_worn_area() {
+fn high_friction_preserves_balance_cone_and_worn_area() {
     for mu in [0.78, 1.21, 1.5] {
         let run = solve(&fuzz_button(json!({
             "interface": {"friction": {"law": "coulomb", "coefficient": mu}},

@@ -1,4 +1,4 @@
-//! What holds for every run, however hard: one list, asserted by every case.
+//! Invariants of every run: one list, asserted by every case.
 
 use solver::ale;
 use solver::model;
@@ -24,8 +24,8 @@ pub(crate) fn hold(run: &Run) {
     assert!(faults.is_empty(), "{}", faults.join("\n"));
 }
 
-/// All faults of a run, as sentences; empty for a sound one. A run that failed is sound if it says why, with numbers,
-/// and if what it told before is sound.
+/// All faults of a run, as sentences; empty if the invariants hold. A failed run satisfies them if its error contains
+/// numbers and its earlier reports satisfy them.
 pub(crate) fn faults(run: &Run) -> Vec<String> {
     let mut faults = Vec::new();
     faults.extend(run.reports.iter().find_map(not_finite));
@@ -38,10 +38,10 @@ pub(crate) fn faults(run: &Run) -> Vec<String> {
     match &run.end {
         Ok(summary) => faults.extend(large_residual(&summary.checks)),
         Err(error) => {
-            let told = error.to_string();
-            let numbers = told.contains(|c: char| c.is_ascii_digit());
-            if !numbers || told.contains("NaN") || told.contains("inf") {
-                faults.push(format!("the reason has no numbers: {told}"));
+            let message = error.to_string();
+            let numbers = message.contains(|c: char| c.is_ascii_digit());
+            if !numbers || message.contains("NaN") || message.contains("inf") {
+                faults.push(format!("the reason has no numbers: {message}"));
             }
         }
     }
@@ -76,7 +76,7 @@ fn unsound_tractions(snapshot: &Snapshot) -> Option<String> {
     ))
 }
 
-/// Everything that only grows.
+/// Quantities that never decrease.
 fn wear(report: &CycleReport) -> Vec<f64> {
     let sides = [&report.receptacle, &report.slider];
     let depth = |side: &SideReport| [side.max_depth_mm, side.worn_area_mm2];
@@ -98,8 +98,8 @@ fn taken_back(pair: &[CycleReport]) -> Option<String> {
     })
 }
 
-/// Whether the engine chose the increments itself, and the wear is on the receptacle, whose nodes the pressure stands
-/// on. Increments fixed by hand may leap over the contact and leave ripples; and where the slider wears on a coarser
+/// Checks whether the engine chose the increments, and the wear is on the receptacle, whose nodes carry the pressure.
+/// Prescribed increments may be longer than the contact and leave ripples; and where the slider wears on a coarser
 /// mesh than the receptacle's, its linear depths let the pressure alternate from node to node.
 fn resolved(run: &Run) -> bool {
     run.scene.accuracy.increments_per_cycle.is_none() && run.scene.slider.wear.is_none()
@@ -120,7 +120,7 @@ pub(crate) fn worst_zigzag(snapshot: &Snapshot) -> f64 {
     snapshot.positions.iter().map(zigzag).fold(0.0, f64::max)
 }
 
-/// How far four neighbours in a row alternate around the lines through their own neighbours, over the peak pressure.
+/// Largest alternation of four successive neighbours around the lines through their own neighbours, over the peak pressure.
 pub(crate) fn zigzag(field: &TractionField) -> f64 {
     let (x, p) = (&field.x_mm, &field.pressure_mpa);
     let peak = p.iter().fold(f64::MIN_POSITIVE, |m, p| m.max(*p));

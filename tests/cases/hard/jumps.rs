@@ -1,8 +1,8 @@
-//! Requirement: fixed jumps of 1 to 5000 cycles go through; where one has no contact state it is cut, not given up.
-//! Source: McColl, Ding and Leen 2004 use jumps of 100 to 1000; the base scene is where jumps of 0.15 of what was done
-//! used to fail on the steep ends of the groove.
-//! Naive: a fixed jump from the first cycle on digs the first pass of thousands of cycles into the unworn contact: the
-//! worn area is right, the pressure is not.
+//! Requirement: fixed jumps of 1 to 5000 cycles are solved; a jump without a contact state is shortened.
+//! Source: McColl, Ding and Leen 2004 use jumps of 100 to 1000; on the base scene jumps of 0.15 of the computed cycles
+//! once failed on the steep ends of the groove.
+//! Naive: a fixed jump from the first cycle on applies the first pass of thousands of cycles to the unworn contact: the
+//! worn area is correct, the pressure is not.
 
 use serde_json::{Value, json};
 
@@ -17,7 +17,7 @@ fn with_jump(cycles: u64, jump: &Value) -> Run {
 }
 
 #[test]
-fn any_fixed_jump_goes_through_with_the_worn_area_of_the_adaptive_one() {
+fn any_fixed_jump_gives_the_worn_area_of_the_adaptive_one() {
     let adaptive = with_jump(10_000, &json!("adaptive"));
     hold(&adaptive);
     for (cycles, jump) in [
@@ -30,13 +30,13 @@ fn any_fixed_jump_goes_through_with_the_worn_area_of_the_adaptive_one() {
         let run = with_jump(cycles, &json!(jump));
         hold(&run);
         let difference = run.area_ratio() / adaptive.area_ratio() - 1.0;
-        // Worn area hardly knows of the jump: 0.3 % at the most.
+        // Worn area hardly depends on the jump: 0.3 % at most.
         assert!(difference.abs() < 0.01, "jump {jump}: {difference}");
     }
 }
 
 #[test]
-fn a_large_fixed_jump_from_the_start_spoils_the_contacts_width() {
+fn a_large_fixed_jump_from_the_start_falsifies_the_contact_width() {
     let width = |jump: Value| {
         with_jump(10_000, &jump)
             .summary()
@@ -50,7 +50,7 @@ fn a_large_fixed_jump_from_the_start_spoils_the_contacts_width() {
 }
 
 #[test]
-fn large_jumps_up_the_ends_of_a_groove_go_through() {
+fn large_jumps_at_the_ends_of_a_groove_are_solved() {
     for jump in [20, 100, 400] {
         let run = solve(&fuzz_button(json!({
             "cycles": 800,
@@ -58,7 +58,7 @@ fn large_jumps_up_the_ends_of_a_groove_go_through() {
         })));
         hold(&run);
         let ratio = run.area_ratio();
-        // More than k P s, since the contact leans on the walls of the groove: 1.05 with each of these jumps.
+        // More than k P s, since the contact presses on the walls of the groove: 1.05 with each of these jumps.
         assert!(ratio > 1.0 && ratio < 1.1, "jump {jump}: {ratio}");
     }
 }

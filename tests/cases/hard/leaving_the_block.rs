@@ -1,7 +1,7 @@
-//! Requirement: a slider whose stroke takes it off the block's end and back goes through: no contact and no wear
-//! while it is away, its height held by a stop, balance again when it is back.
+//! Requirement: a slider whose stroke takes it off the block's end and back is solved: no contact and no wear
+//! off the block, its height held by a stop, balance again after its return.
 //! Source: the base scene, whose slider overhangs the block's ends; a part that slides off its pad.
-//! Naive: the search for contact finds no pair, the load has nothing to stand on, and the height is lost to infinity.
+//! Naive: the search for contact finds no pair, nothing balances the load, and the height diverges.
 
 use serde_json::json;
 
@@ -25,7 +25,7 @@ fn on_a_short_block(amplitude_mm: f64) -> Run {
 }
 
 #[test]
-fn a_slider_that_leaves_comes_back_into_balance() {
+fn a_slider_that_leaves_the_block_returns_into_balance() {
     let run = on_a_short_block(1.5);
     hold(&run);
     let last = run.snapshots.last().expect("the end is kept");
@@ -37,9 +37,9 @@ fn a_slider_that_leaves_comes_back_into_balance() {
     assert!(last.friction_loop.tangential_force_n_per_mm.contains(&0.0));
 }
 
-/// What is away does not wear: a stroke of 10 mm wears no more than one of 1.5 mm.
+/// The part of the stroke off the block causes no wear: a stroke of 10 mm wears no more than one of 1.5 mm.
 #[test]
-fn what_is_away_does_not_wear() {
+fn sliding_off_the_block_causes_no_wear() {
     let (near, far) = (on_a_short_block(1.5), on_a_short_block(10.0));
     hold(&far);
     let (near, far) = [near, far]
@@ -49,11 +49,11 @@ fn what_is_away_does_not_wear() {
 }
 
 /// Far beyond the block's length: 0.0847 mm of block, 0.6 mm of stroke. The round slider sinks beside the block until its
-/// flank is vertical, and digs the corner to a slope of 2.7 in the first cycle; friction (mu = 1.21) lets nothing climb
-/// beyond 0.83. Whether the slider wears its way up when it is back hangs on where its increments end: worn areas are
+/// flank is vertical, and wears the corner to a slope of 2.7 in the first cycle; with friction (mu = 1.21) no slope beyond
+/// 0.83 can be climbed. Whether the slider wears its way up on its return depends on where its increments end: worn areas are
 /// 7.7e-6 to 12.7e-6 mm^2 with 800 to 4 000 increments a cycle, while with 2 200 it jams.
 #[test]
-fn a_slider_that_sank_beside_the_block_climbs_its_corner_or_says_why_not() {
+fn a_slider_that_sank_beside_the_block_climbs_its_corner_or_jams() {
     for increments in [1_200, 2_000, 2_200] {
         let run = solve(&fuzz_button(json!({
             "motion": {"amplitude_mm": 0.3},

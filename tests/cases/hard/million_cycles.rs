@@ -9,7 +9,7 @@ use super::run::solve;
 use super::specs::{AGREEMENT, cylinder};
 
 #[test]
-fn a_million_cycles_dig_the_segment_of_their_worn_area() {
+fn a_million_cycles_wear_the_segment_of_their_worn_area() {
     let run = solve(&cylinder(json!({"cycles": 1_000_000})));
     hold(&run);
     let area = run.summary().last.receptacle.worn_area_mm2;

@@ -1,4 +1,4 @@
-//! The naive variant: forward Euler, wear taken off after each increment from the pressure at its end.
+//! The naive variant: forward Euler, wear applied after each increment from the pressure at its end.
 
 use solver::condensation::condense;
 use solver::contact::{ContactError, ContactState, Displacement, Pair, Solver, Surfaces, slopes};
@@ -52,7 +52,7 @@ pub(crate) fn explicit_wear(
                     receptacle: &slope,
                 },
             };
-            // No cycles: the solve itself knows no wear.
+            // No cycles: the solve itself is without wear.
             let to = Displacement {
                 slider_x,
                 surface_slip: 0.0,

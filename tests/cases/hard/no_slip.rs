@@ -1,5 +1,5 @@
-//! Requirement: what does not slip does not wear: amplitude 0, and an amplitude far below what the contact takes
-//! elastically.
+//! Requirement: without slip there is no wear: amplitude 0, and an amplitude far below the elastic displacement of the
+//! contact.
 //! Source: Cattaneo 1938, Mindlin 1949: slip begins at the edge, its width grows with Q/(mu P).
 //! Naive: taking the imposed displacement for the slip (as the thesis does) wears a sticking contact.
 
@@ -21,7 +21,7 @@ fn an_amplitude_of_zero_wears_nothing() {
 }
 
 #[test]
-fn an_amplitude_that_sticks_wears_nothing() {
+fn a_sticking_contact_wears_nothing() {
     let run = solve(&cylinder(
         json!({"motion": {"amplitude_mm": 1e-7}, "cycles": 1000}),
     ));

@@ -1,9 +1,9 @@
-//! Requirement: whatever specification is drawn from the documented ranges, it is refused with pointers, or it runs
-//! and its invariants hold, or it ends with numbers that say why.
-//! Source: contract.md; every failure that was found and mended is a case of `found_by_draws`.
-//! Naive: ranges that nobody ever tried together.
+//! Requirement: any specification from the documented ranges is refused with pointers, or runs and satisfies the
+//! invariants, or ends with an error that contains its numbers.
+//! Source: contract.md; every failure that was found and corrected is a case of `found_by_draws`.
+//! Naive: combinations of ranges that were never tested.
 //!
-//! `FRETWEAR_DRAWS` sets how many are run, `FRETWEAR_SEED` (0 to 255) which ones.
+//! `FRETWEAR_DRAWS` sets the number of runs, `FRETWEAR_SEED` (0 to 255) the seed.
 
 use std::str::FromStr;
 
@@ -17,13 +17,13 @@ use super::draws::{NUMBERS, specification};
 use super::invariants::faults;
 use super::run::solve_part;
 
-/// Draws that are run, by default; others are refused, or take too long.
+/// Default number of runs; other draws are refused or too expensive.
 const DRAWS: usize = 200;
-/// At most so many are drawn for each that is run.
+/// Largest number of draws for each run.
 const DRAWN_FOR_ONE: usize = 20;
 /// Computed cycles of a run.
 const MOST_CYCLES: usize = 8;
-/// At most one run in so many may end without a result.
+/// At most one run in this many may end without a result.
 const FAILURES_ONE_IN: usize = 25;
 
 fn setting<T: FromStr>(name: &str, default: T) -> T {
@@ -31,7 +31,7 @@ fn setting<T: FromStr>(name: &str, default: T) -> T {
     text.and_then(|text| text.parse().ok()).unwrap_or(default)
 }
 
-/// Whether a scene takes seconds at most.
+/// Checks whether a scene takes seconds at most.
 fn is_cheap(scene: &Scene) -> bool {
     let model = solver::model::build(scene).expect("what is accepted can be meshed");
     let spines = model.bodies.receptacle.mesh.spines() + model.bodies.slider.mesh.spines();
@@ -43,7 +43,7 @@ fn is_cheap(scene: &Scene) -> bool {
 }
 
 #[test]
-fn any_specification_is_refused_or_sound_or_says_why_not() {
+fn any_specification_is_refused_or_satisfies_the_invariants_or_fails_with_numbers() {
     let seed = TestRng::from_seed(RngAlgorithm::ChaCha, &[setting("FRETWEAR_SEED", 1); 32]);
     let mut runner = TestRunner::new_with_rng(Config::default(), seed);
     let numbers = vec(0.0..1.0_f64, NUMBERS);

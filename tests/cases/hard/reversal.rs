@@ -1,8 +1,8 @@
-//! Requirement: where the motion turns exactly at the end of an increment (it always does) the friction force turns
+//! Requirement: where the motion reverses exactly at the end of an increment (it always does) the friction force reverses
 //! from mu P to -mu P within the elastic displacement, and never exceeds mu P.
-//! Source: Cattaneo-Mindlin: after a turn the contact sticks until the displacement has taken the stuck shear back.
+//! Source: Cattaneo-Mindlin: after a reversal the contact sticks until the displacement has reversed the shear of stick.
 //! Naive: the direction of friction is taken from the velocity, which is zero there; or from the last increment, which
-//! makes the first increment after the turn push with the old sign.
+//! gives the first increment after the reversal the old sign.
 
 use serde_json::json;
 
@@ -11,7 +11,7 @@ use super::run::solve;
 use super::specs::cylinder;
 
 #[test]
-fn friction_turns_with_the_motion_at_any_number_of_increments() {
+fn friction_reverses_with_the_motion_at_any_number_of_increments() {
     let limit = 0.9 * 18.5;
     for increments in [4, 8, 20, 100, 400] {
         let run = solve(&cylinder(json!({

@@ -1,4 +1,4 @@
-//! Running a specification through the border and the engine, keeping everything that it told.
+//! Resolves and solves a specification, recording all reports and snapshots.
 
 use std::ops::ControlFlow;
 
@@ -9,7 +9,7 @@ use solver::observer::{Event, Observer};
 use solver::record::{CycleReport, Snapshot, Summary};
 use solver::scene::Scene;
 
-/// A run that has ended, one way or the other.
+/// A run that has ended, with or without success.
 pub(crate) struct Run {
     pub(crate) scene: Scene,
     pub(crate) reports: Vec<CycleReport>,
@@ -38,14 +38,14 @@ impl Run {
     }
 }
 
-/// Keeps what a run tells, and stops it after so many computed cycles.
-struct Keep {
+/// Records a run, and stops it after a number of computed cycles.
+struct Recorder {
     reports: Vec<CycleReport>,
     snapshots: Vec<Snapshot>,
     most_cycles: usize,
 }
 
-impl Observer for Keep {
+impl Observer for Recorder {
     fn on(&mut self, event: Event<'_>) -> ControlFlow<()> {
         match event {
             Event::Checkpoint(_) => {}
@@ -60,7 +60,7 @@ impl Observer for Keep {
     }
 }
 
-/// The scene of a specification that is accepted.
+/// Scene of a valid specification.
 pub(crate) fn scene(spec: &Value) -> Scene {
     let resolved = spec::read(spec.to_string().as_bytes());
     resolved.expect("the specification is accepted").scene
@@ -71,18 +71,18 @@ pub(crate) fn solve(spec: &Value) -> Run {
     solve_part(scene(spec), usize::MAX)
 }
 
-/// Solves a scene, at most so many computed cycles of it.
+/// Solves at most `most_cycles` computed cycles of a scene.
 pub(crate) fn solve_part(scene: Scene, most_cycles: usize) -> Run {
-    let mut keep = Keep {
+    let mut recorder = Recorder {
         reports: Vec::new(),
         snapshots: Vec::new(),
         most_cycles,
     };
-    let end = solver::run::solve(&scene, &mut keep);
+    let end = solver::run::solve(&scene, &mut recorder);
     Run {
         scene,
-        reports: keep.reports,
-        snapshots: keep.snapshots,
+        reports: recorder.reports,
+        snapshots: recorder.snapshots,
         end,
     }
 }

@@ -1,7 +1,7 @@
-//! Requirement: elements a thousand times as high as wide do not spoil the contact.
+//! Requirement: elements a thousand times as high as wide do not affect the contact.
 //! Source: Johnson 1985, eq. 4.43 to 4.45 (Hertz line contact, p0 = 328.4 MPa).
-//! Naive: triangles or reduced integration turn stiff or hourglass at that aspect, and quality checks that look at the
-//! aspect alone refuse the mesh.
+//! Naive: triangles or reduced integration lock or show hourglass modes at that aspect ratio, and quality checks of the
+//! aspect ratio alone refuse the mesh.
 
 use serde_json::json;
 
@@ -10,7 +10,7 @@ use super::run::solve;
 use super::specs::cylinder;
 
 #[test]
-fn slender_elements_far_below_the_contact_leave_hertz_alone() {
+fn slender_elements_far_below_the_contact_do_not_change_hertz_pressure() {
     let run = solve(&cylinder(json!({
         "interface": {"friction": {"law": "frictionless", "coefficient": null}, "wear": {"receptacle": null}},
         "motion": {"amplitude_mm": 0.001},

@@ -2,8 +2,8 @@
 
 use serde_json::{Value, json};
 
-/// How closely closed solutions are met. The worst of these cases reaches 1.5 %, the others 0.9 % and better; the
-/// tolerance that most of them are solved with, `draft`, promises 10 %.
+/// Accepted error against closed solutions. The worst of these cases reaches 1.5 %, the others 0.9 % and better; the
+/// tolerance of most of them, `draft`, is 10 %.
 pub(crate) const AGREEMENT: f64 = 0.02;
 
 /// The thesis' fuzz button, coarse enough for a test, with changes.
@@ -35,7 +35,7 @@ pub(crate) fn cylinder(changes: Value) -> Value {
     merged(base, changes)
 }
 
-/// A document with changes laid over it, member by member.
+/// Merges changes into a document, member by member.
 fn merged(base: Value, changes: Value) -> Value {
     match (base, changes) {
         (Value::Object(mut base), Value::Object(changes)) => {

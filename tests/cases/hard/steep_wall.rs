@@ -1,5 +1,5 @@
-//! Requirement: a scar whose wall is steeper than atan(1/mu) goes through: there the slider would jam but for the wear
-//! in the same solve.
+//! Requirement: a scar whose wall is steeper than atan(1/mu) is solved: without wear in the same
+//! solve the slider would jam there.
 //! Source: the base scene on a longer block with mu = 1.5, whose walls pass 33.7 degrees; engine.md 2.8.
 //! Naive: without wear in the contact solve P/(cos t - mu sin t) has no solution beyond that slope, and the run ends in
 //! a singular matrix.
@@ -11,7 +11,7 @@ use super::run::solve;
 use super::specs::fuzz_button;
 
 #[test]
-fn a_wall_beyond_the_angle_of_friction_is_climbed_and_worn() {
+fn a_wall_steeper_than_the_friction_angle_is_climbed_and_worn() {
     let mu = 1.5;
     let run = solve(&fuzz_button(json!({
         "system": {"pcb_length_mm": 0.2, "pcb_height_mm": 0.1},

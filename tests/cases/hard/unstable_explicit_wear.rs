@@ -1,7 +1,7 @@
 //! Requirement: the base scene on a fine mesh stays smooth when a computed cycle stands for 1, 10 or 100 cycles.
 //! Source: engine.md 2.4: forward Euler needs |ds| < 4 dx / (pi k E*) an increment; copper on copper with 0.1 um
 //! elements 0.07 um, which steps of 0.1 um exceed 1.3, 13 and 130 times with jumps of 1, 10 and 100.
-//! Naive: wear taken off after each increment turns the pressure into needles on single nodes, while the worn area stays exact.
+//! Naive: wear applied after each increment concentrates the pressure on single nodes, while the worn area stays exact.
 
 use serde_json::{Value, json};
 
@@ -12,7 +12,7 @@ use super::naive::explicit_wear;
 use super::run::{scene, solve};
 use super::specs::fuzz_button;
 
-/// A short stroke, so that fine elements are few.
+/// A short stroke, so that few fine elements are needed.
 fn fine(cycles: u64, jump: u64) -> Value {
     fuzz_button(json!({
         "motion": {"amplitude_mm": 0.002},
@@ -45,13 +45,13 @@ fn broken(field: &TractionField) -> f64 {
 }
 
 #[test]
-fn explicit_wear_turns_into_needles() {
+fn explicit_wear_concentrates_pressure_on_single_nodes() {
     for jump in [10, 100] {
         let run = solve(&fine(4 * jump, jump));
         let last = run.snapshots.last().expect("the end is kept");
         let implicit = last.positions.iter().map(broken).fold(0.0, f64::max);
         assert!(implicit == 0.0, "jump {jump}: {implicit}");
-        // Either most of the contact hangs on single nodes, or no contact state is found any more.
+        // Either most of the contact is carried by single nodes, or no contact state is found.
         if let Ok(field) = explicit_wear(&scene(&fine(4, 1)), 4, real(jump), 20) {
             let explicit = broken(&field);
             assert!(explicit > 0.5, "jump {jump}: {explicit}");

@@ -1,5 +1,5 @@
-//! Requirement: wear deeper than half the block's height goes through; wear of all of it ends the run with the outcome
-//! `worn_through`, the histories kept and the elements positive.
+//! Requirement: wear deeper than half the block's height is solved; wear of all of it ends the run with the outcome
+//! `worn_through`, complete histories and positive elements.
 //! Source: the base scene, whose constants remove more than the wire's radius in 2000 cycles.
 //! Naive: elements invert when their body is consumed, and the run ends in a negative Jacobian.
 
@@ -31,9 +31,9 @@ fn a_consumed_block_ends_the_run_with_its_histories() {
     assert!(consumed.reports.len() > 10 && consumed.summary().last.cycle < 2000);
 }
 
-/// Eight cycles are enough here, and the last of them stops where the block is gone.
+/// Eight cycles are enough here; the last one stops where the block is worn through.
 #[test]
-fn a_block_consumed_within_a_few_cycles_is_told() {
+fn a_block_consumed_within_a_few_cycles_is_reported() {
     let run = solve(&fuzz_button(json!({
         "interface": {"wear": {"receptacle": {"law": "archard", "k_over_h_per_mpa": 0.01}}},
         "cycles": 40,

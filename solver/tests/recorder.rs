@@ -1,4 +1,4 @@
-//! An observer that keeps everything.
+//! An observer that records everything.
 
 use std::ops::ControlFlow;
 
@@ -9,12 +9,12 @@ use solver::{SolveError, interpolation};
 
 /// All reports and snapshots of a run.
 #[derive(Default)]
-pub(crate) struct Keep {
+pub(crate) struct Recorder {
     pub(crate) reports: Vec<CycleReport>,
     pub(crate) snapshots: Vec<Snapshot>,
 }
 
-impl Observer for Keep {
+impl Observer for Recorder {
     fn on(&mut self, event: Event<'_>) -> ControlFlow<()> {
         match event {
             Event::Checkpoint(_) => {}
@@ -25,16 +25,20 @@ impl Observer for Keep {
     }
 }
 
-impl Keep {
+impl Recorder {
     /// The report at a physical cycle.
     pub(crate) fn at(&self, cycle: u64) -> &CycleReport {
         let found = self.reports.iter().find(|report| report.cycle == cycle);
-        found.expect("the cycle was asked for")
+        found.expect("the cycle is reported")
     }
 
-    /// The receptacle's profile at the end.
+    /// Receptacle profile after the last cycle.
     pub(crate) fn last_profile(&self) -> &DepthProfile {
-        &self.snapshots.last().expect("the end is kept").receptacle
+        &self
+            .snapshots
+            .last()
+            .expect("the last cycle has a snapshot")
+            .receptacle
     }
 }
 
@@ -43,9 +47,9 @@ pub(crate) fn depth_at(profile: &DepthProfile, x: f64) -> f64 {
     interpolation::linear(&profile.x_mm, &profile.depth_mm, x)
 }
 
-/// Solves a scene and keeps what it told.
-pub(crate) fn solve(scene: &Scene) -> Result<(Summary, Keep), SolveError> {
-    let mut keep = Keep::default();
-    let summary = solver::run::solve(scene, &mut keep)?;
-    Ok((summary, keep))
+/// Solves a scene; returns its summary with all reports and snapshots.
+pub(crate) fn solve(scene: &Scene) -> Result<(Summary, Recorder), SolveError> {
+    let mut recorder = Recorder::default();
+    let summary = solver::run::solve(scene, &mut recorder)?;
+    Ok((summary, recorder))
 }

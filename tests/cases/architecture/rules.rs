@@ -1,0 +1,312 @@
+//! Rules between the folders of a crate, each with its sentence.
+
+use std::fmt;
+
+use super::sources::{Sources, Target};
+
+/// Something that contradicts a rule.
+pub(super) struct Violation {
+    pub(super) rule: &'static str,
+    /// The files concerned.
+    pub(super) what: String,
+    /// The lines that contradict the rule, and why.
+    pub(super) lines: Vec<String>,
+}
+
+impl Violation {
+    /// The entry of the list of known violations.
+    pub(super) fn key(&self) -> (&str, &str) {
+        (self.rule, &self.what)
+    }
+}
+
+impl fmt::Display for Violation {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}: {}", self.rule, self.what)?;
+        self.lines
+            .iter()
+            .try_for_each(|line| write!(f, "\n    {line}"))
+    }
+}
+
+/// Folders and files are given from the root of the workspace without `.rs`: `solver/src/mesh` is `solver/src/mesh.rs`
+/// and all below `solver/src/mesh/`.
+enum Rule {
+    /// No file of the first places names an item that a file of the second places defines.
+    MustNotName(&'static [&'static str], &'static [&'static str]),
+    /// Paths that begin so occur only in these places of the crate.
+    OnlyIn(
+        &'static str,
+        &'static [&'static str],
+        &'static [&'static str],
+    ),
+    /// No path of the crate has one of these names in it.
+    Nowhere(&'static str, &'static [&'static str]),
+    /// Texts that begin so occur only in these places of the crate.
+    TextOnlyIn(
+        &'static str,
+        &'static [&'static str],
+        &'static [&'static str],
+    ),
+    /// A file of these places holds the handler of one route at most.
+    OneRoute(&'static [&'static str]),
+}
+
+use Rule::{MustNotName, Nowhere, OneRoute, OnlyIn, TextOnlyIn};
+
+const RULES: [(&str, Rule); 14] = [
+    (
+        "laws know no mesh",
+        MustNotName(
+            &["solver/src/law"],
+            &["solver/src/mesh", "solver/src/element", "solver/src/model"],
+        ),
+    ),
+    (
+        "`mesh` knows no law",
+        MustNotName(&["solver/src/mesh"], &["solver/src/law"]),
+    ),
+    (
+        "`contact` knows operators, not meshes",
+        MustNotName(
+            &["solver/src/contact"],
+            &["solver/src/mesh", "solver/src/element", "solver/src/ale"],
+        ),
+    ),
+    (
+        "nothing knows `run`",
+        MustNotName(&["solver/src"], &["solver/src/run"]),
+    ),
+    (
+        "`faer` is named only in `linear` and `condensation`",
+        OnlyIn(
+            "solver",
+            &["faer"],
+            &["solver/src/linear", "solver/src/condensation"],
+        ),
+    ),
+    (
+        "the same scene gives the same bits: no order of hashes in `solver`",
+        Nowhere("solver", &["HashMap", "HashSet", "RandomState"]),
+    ),
+    (
+        "`solver` knows no clock, file, environment, network, process or terminal",
+        OnlyIn(
+            "solver",
+            &[
+                "std::time",
+                "std::fs",
+                "std::env",
+                "std::net",
+                "std::process",
+                "std::io",
+                "println",
+                "eprintln",
+                "print",
+                "eprint",
+                "dbg",
+            ],
+            &[],
+        ),
+    ),
+    (
+        "sqlx is named only under `store/`",
+        OnlyIn("server", &["sqlx"], &["server/src/store"]),
+    ),
+    (
+        "SQL text stands only under `store/`",
+        TextOnlyIn(
+            "server",
+            &[
+                "SELECT ",
+                "INSERT ",
+                "UPDATE ",
+                "DELETE FROM ",
+                "CREATE ",
+                "ALTER ",
+                "DROP ",
+                "WITH ",
+                "PRAGMA ",
+                "VACUUM",
+                "BEGIN",
+            ],
+            &["server/src/store"],
+        ),
+    ),
+    (
+        "storage does not know evaluation",
+        MustNotName(&["server/src/store"], &["server/src/batch"]),
+    ),
+    (
+        "storage does not know HTTP, workers or the command line",
+        MustNotName(
+            &["server/src/store"],
+            &[
+                "server/src/http",
+                "server/src/worker",
+                "server/src/cli",
+                "server/src/service",
+            ],
+        ),
+    ),
+    (
+        "HTTP, queue, store and workers do not know the engine",
+        OnlyIn(
+            "server",
+            &["solver"],
+            &[
+                "server/src/batch",
+                "server/src/bench",
+                "server/src/cli",
+                "server/src/estimate",
+                "server/src/export",
+                "server/src/solve",
+                "server/src/spec",
+            ],
+        ),
+    ),
+    (
+        "only the command line and the service know the routes",
+        MustNotName(
+            &[
+                "server/src/batch",
+                "server/src/estimate",
+                "server/src/export",
+                "server/src/queue",
+                "server/src/reference",
+                "server/src/solve",
+                "server/src/spec",
+                "server/src/worker",
+            ],
+            &["server/src/http"],
+        ),
+    ),
+    ("one file per route", OneRoute(&["server/src/http/routes"])),
+];
+
+/// Everything in the crates that contradicts a rule, one entry for each pair of files or names.
+pub(super) fn violations(crates: &[Sources]) -> Vec<Violation> {
+    let mut found: Vec<Violation> = Vec::new();
+    for (sentence, rule) in &RULES {
+        for place in places(rule) {
+            if !crates
+                .iter()
+                .any(|s| s.files.iter().any(|f| lies_in(f, place)))
+            {
+                add(
+                    &mut found,
+                    sentence,
+                    format!("{place} does not exist"),
+                    None,
+                );
+            }
+        }
+        for sources in crates {
+            check(sentence, rule, sources, &mut found);
+        }
+    }
+    found
+}
+
+fn places(rule: &Rule) -> Vec<&'static str> {
+    match rule {
+        MustNotName(from, to) => [*from, *to].concat(),
+        OnlyIn(_, _, places) | TextOnlyIn(_, _, places) | OneRoute(places) => places.to_vec(),
+        Nowhere(..) => Vec::new(),
+    }
+}
+
+fn check(sentence: &'static str, rule: &Rule, sources: &Sources, found: &mut Vec<Violation>) {
+    let within = |file: usize, places: &[&str]| {
+        places
+            .iter()
+            .any(|place| lies_in(&sources.files[file], place))
+    };
+    let mut report = |file: usize, what: &str, line: usize| {
+        let file = &sources.files[file];
+        add(
+            found,
+            sentence,
+            format!("{file} -> {what}"),
+            Some(format!("{file}:{line} names {what}")),
+        );
+    };
+    match rule {
+        MustNotName(from, to) => {
+            for reference in &sources.references {
+                if let Target::Item(defined, _) = &reference.target
+                    && within(reference.file, from)
+                    && within(*defined, to)
+                    && !(within(reference.file, to))
+                {
+                    report(reference.file, &sources.files[*defined], reference.line);
+                }
+            }
+        }
+        OnlyIn(name, starts, places) if sources.name == *name => {
+            for reference in &sources.references {
+                if let Target::External(path) = &reference.target
+                    && !within(reference.file, places)
+                    && let Some(start) = starts.iter().find(|start| begins(path, start))
+                {
+                    report(reference.file, start, reference.line);
+                }
+            }
+        }
+        Nowhere(name, names) if sources.name == *name => {
+            for reference in &sources.references {
+                if let Target::External(path) = &reference.target
+                    && let Some(name) = names.iter().find(|name| path.iter().any(|s| s == *name))
+                {
+                    report(reference.file, name, reference.line);
+                }
+            }
+        }
+        TextOnlyIn(name, starts, places) if sources.name == *name => {
+            for (file, line, text) in &sources.literals {
+                if !within(*file, places)
+                    && let Some(start) = starts
+                        .iter()
+                        .find(|start| text.trim_start().starts_with(*start))
+                {
+                    report(*file, start, *line);
+                }
+            }
+        }
+        OneRoute(places) => {
+            for (i, (file, line)) in sources.routes.iter().enumerate() {
+                let before = sources.routes[..i].iter().any(|(other, _)| other == file);
+                if before && within(*file, places) {
+                    report(*file, "a second route", *line);
+                }
+            }
+        }
+        _ => {}
+    }
+}
+
+/// Adds a line to the violation of the same rule by the same files, or begins one.
+fn add(found: &mut Vec<Violation>, rule: &'static str, what: String, line: Option<String>) {
+    match found.iter_mut().find(|v| v.rule == rule && v.what == what) {
+        Some(violation) => violation.lines.extend(line),
+        None => found.push(Violation {
+            rule,
+            what,
+            lines: line.into_iter().collect(),
+        }),
+    }
+}
+
+/// Checks whether a path begins with these names, separated by `::`.
+fn begins(path: &[String], start: &str) -> bool {
+    let mut names = path.iter();
+    start
+        .split("::")
+        .all(|name| names.next().is_some_and(|n| n == name))
+}
+
+/// Checks whether a file belongs to a place.
+fn lies_in(file: &str, place: &str) -> bool {
+    file.strip_prefix(place)
+        .is_some_and(|rest| rest == ".rs" || rest.starts_with('/'))
+}

@@ -1,0 +1,106 @@
+//! The reader of sources, on a small crate with every form that it must understand.
+
+use std::fs;
+
+use super::cycles;
+use super::sources::{Sources, Target};
+
+const FILES: [(&str, &str); 5] = [
+    (
+        "lib.rs",
+        "mod shapes;\nmod report;\npub use shapes::Circle;\n#[cfg(test)]\nmod tests;",
+    ),
+    (
+        "shapes.rs",
+        "mod circle;\npub(crate) mod square;\npub use circle::Circle;\nuse std::fmt;\n\
+         pub const SIDES: usize = 4;\npub fn area() { circle::unit(); fmt::format(); }",
+    ),
+    (
+        "shapes/circle.rs",
+        "pub struct Circle;\npub fn unit() -> &'static str { \"SELECT 1\" }",
+    ),
+    (
+        "shapes/square.rs",
+        "use super::{\n    super::report::{self as said},\n    SIDES,\n};\n\
+         pub fn corners() -> usize { let report = SIDES; said::say(report); report }\n\
+         #[cfg(test)]\nmod tests { use super::super::circle::unit; }",
+    ),
+    (
+        "report.rs",
+        "pub fn say(_: usize) { println!(\"{}\", crate::shapes::square::corners()); }\n\
+         pub fn of(_: crate::Circle) {}",
+    ),
+];
+
+fn read() -> Sources {
+    let folder = tempfile::tempdir().expect("a folder");
+    let source = folder.path().join("small/src");
+    fs::create_dir_all(source.join("shapes")).expect("a folder");
+    for (name, text) in FILES {
+        fs::write(source.join(name), text).expect("the file is written");
+    }
+    Sources::read(folder.path(), "small")
+}
+
+/// Every item that a file names of another, with the line.
+fn named(sources: &Sources) -> Vec<String> {
+    let short = |file: usize| sources.files[file].replace("small/src/", "");
+    let mut lines = Vec::new();
+    for reference in &sources.references {
+        if let Target::Item(file, name) = &reference.target
+            && *file != reference.file
+        {
+            let (from, to) = (short(reference.file), short(*file));
+            lines.push(format!("{from}:{} {name} of {to}", reference.line));
+        }
+    }
+    lines.sort();
+    lines.dedup();
+    lines
+}
+
+#[test]
+fn an_item_counts_as_named_from_the_file_that_defines_it() {
+    let expected = [
+        "report.rs:1 corners of shapes/square.rs",
+        "report.rs:2 Circle of shapes/circle.rs",
+        "shapes.rs:6 unit of shapes/circle.rs",
+        "shapes/square.rs:3 SIDES of shapes.rs",
+        "shapes/square.rs:5 SIDES of shapes.rs",
+        "shapes/square.rs:5 say of report.rs",
+    ];
+    assert_eq!(named(&read()), expected);
+}
+
+#[test]
+fn paths_into_other_crates_are_expanded_and_texts_are_found() {
+    let sources = read();
+    let external = |path: &[&str]| Target::External(path.iter().map(ToString::to_string).collect());
+    let names = |path: &[&str]| {
+        sources
+            .references
+            .iter()
+            .any(|r| r.target == external(path))
+    };
+    assert!(names(&["std", "fmt", "format"]) && names(&["println"]));
+    assert!(
+        sources
+            .literals
+            .iter()
+            .any(|(_, line, text)| *line == 2 && text == "SELECT 1")
+    );
+}
+
+#[test]
+fn a_cycle_is_reported_with_the_lines_that_make_it() {
+    let found = cycles::violations(&read());
+    let lines: Vec<&str> = found
+        .iter()
+        .flat_map(|v| v.lines.iter().map(String::as_str))
+        .collect();
+    let expected = [
+        "small/src/shapes/square.rs:5 names `say` of small/src/report.rs",
+        "small/src/report.rs:1 names `corners` of small/src/shapes/square.rs",
+    ];
+    assert_eq!(lines, expected);
+}
