@@ -110,6 +110,7 @@ impl Service {
             Arc::clone(&store),
             config.access,
             stopping.clone(),
+            http::openapi::document(),
         ));
         tasks.spawn(http::serve(listener, router, stopping.clone()));
         Ok(Self {

@@ -15,23 +15,15 @@ use futures_util::FutureExt;
 use tokio_util::sync::CancellationToken;
 use tracing::Instrument;
 
-use crate::clock::{monotonic_ms, now_ms};
+use crate::clock::now_ms;
 use crate::store::{Claim, Store, StoreError};
 
 pub use finalize::finalize_lost_job;
+use rules::RETRY_PAUSE;
 pub use rules::Rules;
 
 /// Interval at which an idle worker polls the queue, in case it missed a notification.
 const POLL_INTERVAL: Duration = Duration::from_secs(1);
-/// Pause before an operation of the store is retried.
-const RETRY_PAUSE: Duration = Duration::from_secs(1);
-
-impl Rules {
-    /// Returns the end of a lease taken or renewed now, ms of the monotonic clock.
-    pub fn lease_end(&self) -> i64 {
-        monotonic_ms().saturating_add(i64::try_from(self.lease.as_millis()).unwrap_or(i64::MAX))
-    }
-}
 
 /// Claims and supervises jobs until the service stops.
 pub async fn work(store: Arc<Store>, rules: Arc<Rules>, stopping: CancellationToken) {

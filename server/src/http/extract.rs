@@ -10,8 +10,10 @@ use futures_util::StreamExt;
 use serde::de::DeserializeOwned;
 use uuid::Uuid;
 
-use crate::http::MAX_BODY_BYTES;
 use crate::http::problem::{ProblemResponse, ProblemType};
+
+/// Maximum size of a body, bytes.
+pub(super) const MAX_BODY_BYTES: usize = 1 << 20;
 
 /// Bytes of a body that are read at most, even if it is too large.
 const MAX_DISCARDED_BYTES: usize = 64 << 20;

@@ -2,7 +2,7 @@
 
 use uuid::Uuid;
 
-use crate::http::App;
+use crate::http::app::App;
 use crate::http::problem::{ProblemResponse, ProblemType, RouteError};
 use crate::store::StoredJob;
 

@@ -18,7 +18,7 @@ pub fn document() -> &'static Value {
     DOCUMENT.get_or_init(|| {
         // Cannot fail for types with derived schemas; if it did, the test below would.
         let mut document =
-            serde_json::to_value(crate::http::routes_and_document().1).unwrap_or_default();
+            serde_json::to_value(crate::http::table::routes_and_document().1).unwrap_or_default();
         complete(&mut document);
         document
     })

@@ -19,7 +19,7 @@ use tower::ServiceExt;
 use crate::estimate::machine::CalibrationCache;
 use crate::export::documents::{JSON, VTU};
 use crate::export::files;
-use crate::http::{Access, App, MAX_REQUESTS, router};
+use crate::http::{Access, App, MAX_REQUESTS, openapi, router};
 use crate::queue::Transition;
 use crate::store;
 use crate::store::{End, JobUpdate, NewFile, Store};
@@ -35,7 +35,12 @@ impl Service {
         let folder = TempDir::new().expect("a temporary folder");
         let url = format!("sqlite://{}", folder.path().join("test.db").display());
         let store = Arc::new(Store::open(&url).await.expect("a store"));
-        let mut app = App::new(store, Access::default(), CancellationToken::new());
+        let mut app = App::new(
+            store,
+            Access::default(),
+            CancellationToken::new(),
+            openapi::document(),
+        );
         // Fixed figures: a measurement takes a second or two.
         app.machine = CalibrationCache::of(MachineFigures {
             program: "test".to_owned(),

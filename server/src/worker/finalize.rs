@@ -9,7 +9,7 @@ use crate::clock::now_ms;
 use crate::queue::Transition;
 use crate::store::{Claim, End, JobUpdate, LeaseState, Store, StoreError};
 use crate::worker::manifest::build_manifest;
-use crate::worker::{RETRY_PAUSE, Rules};
+use crate::worker::rules::{RETRY_PAUSE, Rules};
 
 /// Heartbeats within a lease.
 const HEARTBEATS: u32 = 3;

@@ -6,6 +6,7 @@ use std::time::Duration;
 use nix::sys::statvfs::statvfs;
 use nix::sys::sysinfo::sysinfo;
 
+use crate::clock::monotonic_ms;
 use crate::queue::WAITING_FOR_DISK;
 
 /// Memory limit of a solving process over its estimate: the estimate controls admission, the limit only protects the
@@ -15,6 +16,9 @@ const MEMORY_MARGIN: i64 = 4;
 const MIN_MEMORY_MB: i64 = 1_024;
 /// Part of the machine's memory for all solving processes together, per cent.
 const MEMORY_SHARE_PERCENT: u64 = 80;
+
+/// Pause before an operation of the store is retried.
+pub(super) const RETRY_PAUSE: Duration = Duration::from_secs(1);
 
 /// How workers work.
 #[derive(Debug, Clone)]
@@ -38,6 +42,11 @@ pub struct Rules {
 }
 
 impl Rules {
+    /// Returns the end of a lease taken or renewed now, ms of the monotonic clock.
+    pub fn lease_end(&self) -> i64 {
+        monotonic_ms().saturating_add(i64::try_from(self.lease.as_millis()).unwrap_or(i64::MAX))
+    }
+
     /// Default rules for a program and its folder of results.
     pub fn new(program: PathBuf, folder: PathBuf) -> Self {
         Self {

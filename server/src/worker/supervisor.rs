@@ -16,8 +16,8 @@ use crate::spec;
 use crate::store::{Claim, End, LeaseState, Store, StoreError};
 use crate::worker::end::{end_by_exit, failed};
 use crate::worker::finalize::{finalize, heartbeat, retry};
+use crate::worker::rules::{RETRY_PAUSE, Rules};
 use crate::worker::update_buffer::UpdateBuffer;
-use crate::worker::{RETRY_PAUSE, Rules};
 
 /// Interval at which updates are written and the cancel request is read.
 const TICK: Duration = Duration::from_millis(150);

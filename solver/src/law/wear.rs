@@ -6,29 +6,11 @@
 //! that sticking points do not wear and a return stroke removes material like the stroke before.
 
 pub mod archard;
+mod rate;
 
 use crate::scene::WearLaw;
 
-/// Local state of a contact point over one increment of slip.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub struct LocalState {
-    /// Contact pressure p, MPa.
-    pub pressure: f64,
-    /// Magnitude of the slip |ds| in the increment, mm.
-    pub slip: f64,
-}
-
-/// Specific wear rate k_D = dh / (p |ds|) and its derivatives: worn depth per pressure and slip. Every law can be
-/// written in it, and the contact solve then conserves the worn area for all of them alike.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub struct Rate {
-    /// k_D, 1/MPa.
-    pub value: f64,
-    /// Derivative with respect to pressure, 1/MPa^2.
-    pub d_pressure: f64,
-    /// Derivative with respect to slip, 1/(MPa mm).
-    pub d_slip: f64,
-}
+pub use rate::{LocalState, Rate};
 
 impl WearLaw {
     /// Specific wear rate at a local state.

@@ -7,9 +7,10 @@ use axum::response::IntoResponse;
 use http_body_util::BodyExt;
 use serde_json::Value;
 
+use crate::http::access::Access;
+use crate::http::app::App;
 use crate::http::problem::{ProblemResponse, ProblemType};
 use crate::http::tests::Service;
-use crate::http::{Access, App};
 use crate::store::StoreError;
 
 const UNKNOWN_ID: &str = "00000000-0000-7000-8000-000000000000";
@@ -181,7 +182,7 @@ async fn problems_of_access_and_of_the_service_match_the_snapshot() {
     let App {
         store, stopping, ..
     } = service.app.clone();
-    service.app = App::new(store, access, stopping);
+    service.app = App::new(store, access, stopping, service.app.document);
     let closed = vec![("GET", "/v1/jobs".to_owned(), vec![], String::new())];
     text += &problems(&service, "no id", closed).await;
     let hidden = std::io::Error::other("a secret path");

@@ -3,7 +3,7 @@
 //! k: wear coefficient, -; H: hardness of the worn surface, MPa; p: pressure, MPa; ds: slip, mm. Published for
 //! p <= H/3. The recession vanishes with the pressure and does not depend on speed.
 
-use super::{LocalState, Rate};
+use super::rate::{LocalState, Rate};
 
 /// Specific wear rate for k/H in 1/MPa.
 pub(super) fn rate(k_over_h: f64, _: LocalState) -> Rate {

@@ -10,7 +10,7 @@ use uuid::Uuid;
 
 use crate::batch::{Document, Kind};
 use crate::clock::now_ms;
-use crate::http::App;
+use crate::http::app::App;
 use crate::http::extract::{StudyId, SweepId};
 use crate::http::problem::ProblemResponse;
 use crate::http::routes::batches::show::document;

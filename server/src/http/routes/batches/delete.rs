@@ -6,7 +6,7 @@ use axum::http::StatusCode;
 use uuid::Uuid;
 
 use crate::batch::Kind;
-use crate::http::App;
+use crate::http::app::App;
 use crate::http::extract::{StudyId, SweepId};
 use crate::http::problem::ProblemResponse;
 use crate::http::routes::batches::error::BatchError;

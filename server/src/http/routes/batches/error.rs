@@ -3,7 +3,7 @@
 use uuid::Uuid;
 
 use crate::batch::{EvaluateError, ExpandError, Kind};
-use crate::http::App;
+use crate::http::app::App;
 use crate::http::problem::{ProblemResponse, ProblemType, RouteError};
 use crate::store::{BatchDetail, StoredBatch};
 

@@ -10,7 +10,7 @@ use serde::Deserialize;
 use utoipa::IntoParams;
 
 use crate::batch::Kind;
-use crate::http::App;
+use crate::http::app::App;
 use crate::http::extract::Params;
 use crate::http::paging::Page;
 use crate::http::problem::ProblemResponse;

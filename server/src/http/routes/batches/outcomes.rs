@@ -8,7 +8,7 @@ use uuid::Uuid;
 
 use crate::batch::Kind;
 use crate::export::documents::CSV;
-use crate::http::App;
+use crate::http::app::App;
 use crate::http::extract::{StudyId, SweepId};
 use crate::http::problem::ProblemResponse;
 use crate::http::routes::results::download_file::attachment;

@@ -10,7 +10,7 @@ use utoipa::{IntoParams, ToSchema};
 use crate::batch::Kind;
 use crate::batch::accuracy::{self, report};
 use crate::export::documents::{PNG, SVG};
-use crate::http::App;
+use crate::http::app::App;
 use crate::http::extract::{Params, StudyId};
 use crate::http::problem::ProblemResponse;
 

@@ -8,7 +8,7 @@ use axum::extract::State;
 use uuid::Uuid;
 
 use crate::batch::{Document, Kind};
-use crate::http::App;
+use crate::http::app::App;
 use crate::http::extract::{StudyId, SweepId};
 use crate::http::problem::ProblemResponse;
 

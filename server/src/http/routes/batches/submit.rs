@@ -11,7 +11,7 @@ use axum::response::{IntoResponse, Response};
 
 use crate::batch::Kind;
 use crate::clock::now_ms;
-use crate::http::App;
+use crate::http::app::App;
 use crate::http::body_problems::BodyProblems;
 use crate::http::extract::JsonBody;
 use crate::http::idempotency_key::{KeyError, idempotency_key};
@@ -19,9 +19,6 @@ use crate::http::limits;
 use crate::http::problem::ProblemResponse;
 use crate::http::routes::batches::show::document;
 use crate::store::Submitted;
-
-/// Largest number of batches that are expanded at once: each occupies a processor for up to seconds.
-pub(in crate::http) const MAX_EXPANSIONS: usize = 2;
 
 /// Queues many variations of one specification: all of them, or none if one has a fault.
 #[utoipa::path(

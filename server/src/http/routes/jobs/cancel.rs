@@ -8,7 +8,7 @@ use axum::http::StatusCode;
 use axum::response::{IntoResponse, Response};
 
 use crate::clock::now_ms;
-use crate::http::App;
+use crate::http::app::App;
 use crate::http::extract::JobId;
 use crate::http::job_error::JobError;
 use crate::http::problem::ProblemResponse;

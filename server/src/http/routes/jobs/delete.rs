@@ -4,7 +4,7 @@ use api::problem::Problem;
 use axum::extract::State;
 use axum::http::StatusCode;
 
-use crate::http::App;
+use crate::http::app::App;
 use crate::http::extract::JobId;
 use crate::http::job_error::JobError;
 use crate::http::problem::ProblemResponse;

@@ -8,7 +8,7 @@ use jiff::Timestamp;
 use utoipa::IntoParams;
 use uuid::Uuid;
 
-use crate::http::App;
+use crate::http::app::App;
 use crate::http::extract::Params;
 use crate::http::paging::Page;
 use crate::http::problem::{ProblemResponse, ProblemType, RouteError};

@@ -5,7 +5,7 @@ use api::spec::Spec;
 use axum::Json;
 use axum::extract::State;
 
-use crate::http::App;
+use crate::http::app::App;
 use crate::http::body_problems::BodyProblems;
 use crate::http::extract::JsonBody;
 use crate::http::problem::ProblemResponse;

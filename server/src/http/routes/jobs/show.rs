@@ -12,7 +12,7 @@ use serde::Deserialize;
 use tokio::time::Instant;
 use utoipa::IntoParams;
 
-use crate::http::App;
+use crate::http::app::App;
 use crate::http::extract::{JobId, Params};
 use crate::http::problem::{ProblemResponse, ProblemType, RouteError};
 use crate::store::StoredJob;
@@ -208,7 +208,7 @@ mod tests {
     async fn a_long_poll_over_the_limit_is_answered_at_once() {
         let service = Service::new().await;
         let id = service.queued(r#"{"system":{"kind":"dimm"}}"#).await;
-        let all = u32::try_from(crate::http::MAX_LONG_POLLS).expect("a count");
+        let all = u32::try_from(crate::http::app::MAX_LONG_POLLS).expect("a count");
         let taken = service
             .app
             .long_poll_permits

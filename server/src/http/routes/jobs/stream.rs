@@ -18,9 +18,9 @@ use futures_util::stream;
 use tokio::sync::OwnedSemaphorePermit;
 use uuid::Uuid;
 
+use crate::http::app::{App, MAX_STREAMS};
 use crate::http::extract::JobId;
 use crate::http::problem::{ProblemResponse, ProblemType, RouteError};
-use crate::http::{App, MAX_STREAMS};
 use crate::metrics::OpenStream;
 use crate::store::{Changes, StoreError, StoredEvent};
 

@@ -13,7 +13,7 @@ use utoipa::IntoParams;
 
 use crate::clock::now_ms;
 use crate::estimate::Estimate;
-use crate::http::App;
+use crate::http::app::App;
 use crate::http::body_problems::BodyProblems;
 use crate::http::extract::{JsonBody, Params};
 use crate::http::idempotency_key::{KeyError, idempotency_key};

@@ -6,7 +6,7 @@ use axum::extract::State;
 use serde_json::{Value, json};
 
 use crate::clock::now_ms;
-use crate::http::App;
+use crate::http::app::App;
 use crate::http::problem::ProblemResponse;
 
 /// Liveness check: the process responds.

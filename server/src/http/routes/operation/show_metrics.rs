@@ -6,7 +6,7 @@ use axum::http::header;
 use axum::response::{IntoResponse, Response};
 
 use crate::clock::now_ms;
-use crate::http::App;
+use crate::http::app::App;
 use crate::http::problem::ProblemResponse;
 
 /// Media type of the OpenMetrics text format.

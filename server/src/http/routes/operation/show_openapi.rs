@@ -1,9 +1,10 @@
 //! `GET /openapi.json`: the OpenAPI document of the interface.
 
-use std::sync::OnceLock;
-
+use axum::extract::State;
 use axum::http::header;
 use axum::response::IntoResponse;
+
+use crate::http::app::App;
 
 /// OpenAPI document of the interface.
 #[utoipa::path(
@@ -12,9 +13,9 @@ use axum::response::IntoResponse;
     tag = "operation",
     responses((status = 200, description = "The document", content_type = "application/json"))
 )]
-pub(in crate::http) async fn openapi() -> impl IntoResponse {
-    static TEXT: OnceLock<String> = OnceLock::new();
-    let text = TEXT.get_or_init(crate::http::openapi::text).as_str();
+pub(in crate::http) async fn openapi(State(app): State<App>) -> impl IntoResponse {
+    let mut text = serde_json::to_string_pretty(app.document).unwrap_or_default();
+    text.push('\n');
     ([(header::CONTENT_TYPE, "application/json")], text)
 }
 

@@ -16,15 +16,13 @@ use uuid::Uuid;
 use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, ZipWriter};
 
-use crate::http::App;
+use crate::http::app::{App, MAX_ARCHIVES};
 use crate::http::extract::JobId;
 use crate::http::job_error::JobError;
 use crate::http::problem::{ProblemResponse, ProblemType, RouteError};
 use crate::http::routes::results::download_file::attachment;
 use crate::store::Content;
 
-/// Maximum number of concurrent archives: each occupies a thread for as long as its client takes to read it.
-pub(in crate::http) const MAX_ARCHIVES: usize = 4;
 /// Size of the chunks of the body, bytes.
 const CHUNK_BYTES: usize = 64 << 10;
 /// Chunks that are buffered for a client.

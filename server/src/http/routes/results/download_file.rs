@@ -18,7 +18,7 @@ use tokio::io::{AsyncReadExt, AsyncSeekExt};
 use tokio_util::io::ReaderStream;
 use uuid::Uuid;
 
-use crate::http::App;
+use crate::http::app::App;
 use crate::http::extract::{FileName, JobId};
 use crate::http::problem::{ProblemResponse, ProblemType, RouteError};
 use crate::store::Content;

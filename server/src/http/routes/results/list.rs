@@ -7,7 +7,7 @@ use api::results::Manifest;
 use axum::Json;
 use axum::extract::State;
 
-use crate::http::App;
+use crate::http::app::App;
 use crate::http::extract::JobId;
 use crate::http::problem::ProblemResponse;
 

@@ -12,7 +12,7 @@ use utoipa::{IntoParams, ToSchema};
 
 use crate::export::documents::{CSV, PARQUET};
 use crate::export::{csv, history, parquet, thin};
-use crate::http::App;
+use crate::http::app::App;
 use crate::http::extract::{JobId, Params};
 use crate::http::problem::ProblemResponse;
 use crate::http::routes::results::max_points;

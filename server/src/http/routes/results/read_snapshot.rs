@@ -14,7 +14,7 @@ use uuid::Uuid;
 use crate::export::csv::CsvError;
 use crate::export::documents::{CSV, JSON};
 use crate::export::{csv, thin};
-use crate::http::App;
+use crate::http::app::App;
 use crate::http::extract::{JobId, Params};
 use crate::http::problem::{ProblemResponse, ProblemType, RouteError};
 use crate::http::routes::results::max_points;

@@ -3,7 +3,9 @@
 use api::spec::SystemKind;
 use api::system::SystemList;
 use axum::Json;
+use axum::extract::State;
 
+use crate::http::app::App;
 use crate::http::problem::ProblemResponse;
 use crate::http::routes::systems::show::document;
 
@@ -14,10 +16,12 @@ use crate::http::routes::systems::show::document;
     tag = "systems",
     responses((status = 200, description = "The systems", body = SystemList))
 )]
-pub(in crate::http) async fn systems() -> Result<Json<SystemList>, ProblemResponse> {
+pub(in crate::http) async fn systems(
+    State(app): State<App>,
+) -> Result<Json<SystemList>, ProblemResponse> {
     let systems = SystemKind::ALL
         .iter()
-        .map(|kind| document(*kind))
+        .map(|kind| document(*kind, app.document))
         .collect::<Result<_, _>>()?;
     Ok(Json(SystemList { systems }))
 }

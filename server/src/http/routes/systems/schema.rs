@@ -6,15 +6,14 @@ use std::collections::BTreeSet;
 use api::spec::SystemKind;
 use serde_json::{Map, Value, json};
 
-use crate::http::openapi;
 use crate::spec;
 
 const COMPONENTS: &str = "#/components/schemas/";
 const DEFINITIONS: &str = "#/$defs/";
 
-/// Returns the JSON Schema of a specification with this contact system.
-pub(in crate::http) fn of(kind: SystemKind) -> Value {
-    let components = &openapi::document()["components"]["schemas"];
+/// Returns the JSON Schema of a specification with this contact system, from the OpenAPI document.
+pub(in crate::http) fn of(kind: SystemKind, document: &Value) -> Value {
+    let components = &document["components"]["schemas"];
     let mut definitions = Map::new();
     let mut names = BTreeSet::new();
     let mut schema = component(components, "Spec", &mut names);
@@ -83,11 +82,12 @@ fn system(kind: SystemKind, all: &Value) -> Value {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::http::openapi::document;
 
     #[test]
     fn references_are_defined_and_only_own_dimensions_are_listed() {
         for kind in SystemKind::ALL {
-            let schema = of(*kind);
+            let schema = of(*kind, document());
             let text = schema.to_string();
             assert!(!text.contains(COMPONENTS));
             for reference in text.split(DEFINITIONS).skip(1) {
@@ -99,12 +99,12 @@ mod tests {
                 kind.as_str()
             );
         }
-        let loads = &of(SystemKind::Dimm)["$defs"]["LoadKind"]["enum"];
+        let loads = &of(SystemKind::Dimm, document())["$defs"]["LoadKind"]["enum"];
         assert_eq!(loads, &json!(["pressure", "line_force", "force"]));
-        let dimm = &of(SystemKind::Dimm)["$defs"]["System"]["properties"];
+        let dimm = &of(SystemKind::Dimm, document())["$defs"]["System"]["properties"];
         assert_eq!(dimm["pad_length_mm"]["type"], json!(["number", "null"]));
         assert!(dimm["wire_diameter_mm"].is_null());
-        let zif = &of(SystemKind::Zif)["$defs"]["System"]["properties"];
+        let zif = &of(SystemKind::Zif, document())["$defs"]["System"]["properties"];
         assert!(
             zif["pin_radius_mm"].is_object(),
             "optional dimensions are listed too"

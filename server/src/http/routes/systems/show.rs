@@ -4,7 +4,10 @@ use api::problem::Problem;
 use api::spec::{Spec, System, SystemKind};
 use api::system::SystemDocument;
 use axum::Json;
+use axum::extract::State;
+use serde_json::Value;
 
+use crate::http::app::App;
 use crate::http::extract::SystemName;
 use crate::http::problem::{ProblemResponse, ProblemType, RouteError};
 use crate::http::routes::systems::schema;
@@ -50,17 +53,21 @@ fn kinds() -> String {
     )
 )]
 pub(in crate::http) async fn system(
+    State(app): State<App>,
     SystemName(name): SystemName,
 ) -> Result<Json<SystemDocument>, ProblemResponse> {
     let kind = SystemKind::ALL
         .iter()
         .find(|kind| kind.as_str() == name)
         .ok_or(SystemError::Missing)?;
-    Ok(Json(document(*kind)?))
+    Ok(Json(document(*kind, app.document)?))
 }
 
-/// Returns the document of a contact system.
-pub(in crate::http) fn document(kind: SystemKind) -> Result<SystemDocument, SystemError> {
+/// Returns the document of a contact system, with its schema from the OpenAPI document.
+pub(in crate::http) fn document(
+    kind: SystemKind,
+    openapi: &Value,
+) -> Result<SystemDocument, SystemError> {
     let spec = Spec {
         system: System::of_kind(kind),
         ..Spec::default()
@@ -70,7 +77,7 @@ pub(in crate::http) fn document(kind: SystemKind) -> Result<SystemDocument, Syst
         kind,
         description: spec::system_description(kind).to_owned(),
         preset: resolved.spec,
-        schema: schema::of(kind),
+        schema: schema::of(kind, openapi),
     })
 }
 

@@ -144,7 +144,7 @@ async fn invalid_event_ids_are_problems() {
 async fn a_stream_over_the_limit_is_rejected() {
     let service = Service::new().await;
     let id = service.queued(r#"{"system":{"kind":"dimm"}}"#).await;
-    let all = u32::try_from(crate::http::MAX_STREAMS).expect("a count");
+    let all = u32::try_from(crate::http::app::MAX_STREAMS).expect("a count");
     let taken = service
         .app
         .stream_permits

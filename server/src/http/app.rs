@@ -1,0 +1,61 @@
+//! State that the routes share, and the limits of its resources.
+
+use std::sync::Arc;
+
+use serde_json::Value;
+use tokio::sync::Semaphore;
+use tokio_util::sync::CancellationToken;
+
+use crate::estimate::machine::CalibrationCache;
+use crate::http::access::Access;
+use crate::store::Store;
+
+/// Maximum number of waiting long polls; another one is answered at once, as if it had timed out.
+pub(super) const MAX_LONG_POLLS: usize = 768;
+/// Maximum number of open event streams.
+pub(super) const MAX_STREAMS: usize = 1024;
+/// Maximum number of concurrent archives: each occupies a thread for as long as its client takes to read it.
+pub(super) const MAX_ARCHIVES: usize = 4;
+/// Largest number of batches that are expanded at once: each occupies a processor for up to seconds.
+const MAX_EXPANSIONS: usize = 2;
+
+/// State that the routes share.
+#[derive(Debug, Clone)]
+pub struct App {
+    /// Job store.
+    pub store: Arc<Store>,
+    /// Cancelled at shutdown; ends streams and long polls.
+    pub stopping: CancellationToken,
+    pub(super) access: Access,
+    /// OpenAPI document of the interface.
+    pub(super) document: &'static Value,
+    /// Measured speed of this machine.
+    pub(super) machine: CalibrationCache,
+    pub(super) archive_permits: Arc<Semaphore>,
+    /// Permits to expand a batch into its jobs.
+    pub(super) expansion_permits: Arc<Semaphore>,
+    pub(super) long_poll_permits: Arc<Semaphore>,
+    pub(super) stream_permits: Arc<Semaphore>,
+}
+
+impl App {
+    /// State over a store, with the OpenAPI document of the interface.
+    pub fn new(
+        store: Arc<Store>,
+        access: Access,
+        stopping: CancellationToken,
+        document: &'static Value,
+    ) -> Self {
+        Self {
+            machine: CalibrationCache::open(Some(store.machine_file())),
+            store,
+            stopping,
+            access,
+            document,
+            archive_permits: Arc::new(Semaphore::new(MAX_ARCHIVES)),
+            expansion_permits: Arc::new(Semaphore::new(MAX_EXPANSIONS)),
+            long_poll_permits: Arc::new(Semaphore::new(MAX_LONG_POLLS)),
+            stream_permits: Arc::new(Semaphore::new(MAX_STREAMS)),
+        }
+    }
+}

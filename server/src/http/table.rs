@@ -1,0 +1,73 @@
+//! The table of routes: every handler, and the OpenAPI document that follows from them.
+
+use axum::Router;
+use utoipa::OpenApi;
+use utoipa::openapi::OpenApi as Document;
+use utoipa_axum::router::OpenApiRouter;
+use utoipa_axum::routes;
+
+use crate::http::app::App;
+use crate::http::routes::{batches, jobs, operation, results, systems};
+
+#[derive(OpenApi)]
+#[openapi(
+    components(schemas(
+        results::read_snapshot::Format,
+        batches::picture::PictureFormat,
+        results::read_history::HistoryFormat,
+        api::event::Done
+    )),
+    info(
+        title = "fretwear",
+        description = "Wear of electrical contacts under vibration: submit jobs, follow them, fetch their results."
+    )
+)]
+struct Interface;
+
+/// The routes and their OpenAPI document.
+pub(super) fn routes_and_document() -> (Router<App>, Document) {
+    OpenApiRouter::with_openapi(Interface::openapi())
+        .routes(routes!(jobs::submit::submit, jobs::list::list))
+        .routes(routes!(jobs::show::show, jobs::delete::remove))
+        .routes(routes!(jobs::cancel::cancel))
+        .routes(routes!(jobs::stream::events))
+        .routes(routes!(results::list::manifest))
+        .routes(routes!(results::download_file::file))
+        .routes(routes!(results::download_archive::archive))
+        .routes(routes!(results::read_history::wear_history))
+        .routes(routes!(results::read_snapshot::profile))
+        .routes(routes!(results::read_snapshot::pressure))
+        .routes(routes!(results::read_snapshot::friction_loop))
+        .routes(routes!(
+            batches::submit::submit_sweep,
+            batches::list::list_sweeps
+        ))
+        .routes(routes!(
+            batches::show::show_sweep,
+            batches::delete::remove_sweep
+        ))
+        .routes(routes!(batches::outcomes::sweep_outcomes))
+        .routes(routes!(batches::cancel::cancel_sweep))
+        .routes(routes!(
+            batches::submit::submit_study,
+            batches::list::list_studies
+        ))
+        .routes(routes!(
+            batches::show::show_study,
+            batches::delete::remove_study
+        ))
+        .routes(routes!(batches::outcomes::study_table))
+        .routes(routes!(batches::picture::study_picture))
+        .routes(routes!(batches::cancel::cancel_study))
+        .routes(routes!(jobs::plan::make_plan))
+        .routes(routes!(systems::list::systems))
+        .routes(routes!(systems::show::system))
+        .routes(routes!(operation::serve_pages::dashboard))
+        .routes(routes!(operation::serve_pages::docs))
+        .routes(routes!(operation::serve_pages::asset))
+        .routes(routes!(operation::show_openapi::openapi))
+        .routes(routes!(operation::check_health::healthz))
+        .routes(routes!(operation::check_health::readyz))
+        .routes(routes!(operation::show_metrics::metrics))
+        .split_for_parts()
+}

@@ -1,0 +1,22 @@
+//! Local state of a contact, and the rate that a wear law returns for it.
+
+/// Local state of a contact point over one increment of slip.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct LocalState {
+    /// Contact pressure p, MPa.
+    pub pressure: f64,
+    /// Magnitude of the slip |ds| in the increment, mm.
+    pub slip: f64,
+}
+
+/// Specific wear rate k_D = dh / (p |ds|) and its derivatives: worn depth per pressure and slip. Every law can be
+/// written in it, and the contact solve then conserves the worn area for all of them alike.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Rate {
+    /// k_D, 1/MPa.
+    pub value: f64,
+    /// Derivative with respect to pressure, 1/MPa^2.
+    pub d_pressure: f64,
+    /// Derivative with respect to slip, 1/(MPa mm).
+    pub d_slip: f64,
+}
