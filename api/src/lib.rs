@@ -4,6 +4,7 @@
 pub mod batch;
 pub mod event;
 pub mod job;
+pub mod outcome;
 pub mod plan;
 pub mod problem;
 pub mod results;

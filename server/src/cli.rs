@@ -1,6 +1,7 @@
 //! The command line.
 
 mod access;
+mod arguments;
 mod backup;
 mod bench;
 mod child;
@@ -10,6 +11,7 @@ mod markdown;
 mod options;
 mod plan;
 mod probe;
+mod runtime;
 mod serve;
 mod solve;
 mod study;
@@ -21,20 +23,9 @@ use std::net::SocketAddr;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-use crate::bench::{against, predictions};
-use access::AccessOptions;
+use arguments::{BenchArguments, ChildArguments, DATABASE, LISTEN, LogFormat, ServeArguments};
 use clap::{Parser, Subcommand};
 use tracing_subscriber::EnvFilter;
-
-use options::WorkOptions;
-
-/// Exit code of a refused specification.
-const REFUSED: u8 = 2;
-
-/// Default address of a service.
-const LISTEN: &str = "127.0.0.1:8080";
-/// Default database.
-const DATABASE: &str = "sqlite://fretwear.db";
 
 /// First line of `--help`.
 const ABOUT: &str = "Wear of electrical contacts under vibration, by finite elements: on the command line and over HTTP";
@@ -132,67 +123,6 @@ enum DeckFormat {
     Inp,
 }
 
-#[derive(Debug, clap::Args)]
-struct ServeArguments {
-    /// Address to listen on; must be a loopback address unless there is an access token.
-    #[arg(long, env = "FRETWEAR_LISTEN", default_value = LISTEN)]
-    listen: SocketAddr,
-    #[command(flatten)]
-    access: AccessOptions,
-    /// The database.
-    #[arg(long, env = "FRETWEAR_DATABASE", default_value = DATABASE)]
-    database: String,
-    /// Format of the log on standard error.
-    #[arg(long, env = "FRETWEAR_LOG", value_enum, default_value = "text")]
-    log: LogFormat,
-    #[command(flatten)]
-    work: WorkOptions,
-}
-
-/// Formats of the log.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
-enum LogFormat {
-    /// Text for people.
-    Text,
-    /// One JSON object per line.
-    Json,
-}
-
-/// Codes to compare with.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
-enum OtherCode {
-    /// CalculiX.
-    Ccx,
-}
-
-#[derive(Debug, clap::Args)]
-struct BenchArguments {
-    /// Compare the estimates of plans with measurements instead, on all systems and both published scenes.
-    #[arg(long)]
-    predictions: bool,
-    /// Compare with another code on the same problem instead: a friction cycle on the same meshes.
-    #[arg(long, value_enum, conflicts_with = "predictions")]
-    against: Option<OtherCode>,
-    /// Sizes of the contact elements, um.
-    #[arg(long, value_delimiter = ',', requires = "against", default_values_t = against::ELEMENTS_UM)]
-    elements_um: Vec<f64>,
-    /// Tolerances of the compared solves.
-    #[arg(long, value_delimiter = ',', requires = "predictions", default_values_t = predictions::TOLERANCES)]
-    tolerances: Vec<f64>,
-}
-
-#[derive(Debug, clap::Args)]
-struct ChildArguments {
-    /// Folder for its files.
-    folder: PathBuf,
-    /// Interval of checkpoints.
-    #[arg(long)]
-    checkpoint_every_ms: u64,
-    /// Limit of writable memory.
-    #[arg(long)]
-    memory_limit_mb: Option<u64>,
-}
-
 /// Runs the command of the arguments.
 pub fn main() -> ExitCode {
     let arguments = Arguments::parse();
@@ -255,20 +185,6 @@ fn log(level: &str, format: LogFormat) {
         LogFormat::Text => builder.init(),
         LogFormat::Json => builder.json().init(),
     }
-}
-
-/// Number of jobs solved at once; one per processor unless given.
-fn workers(given: Option<u16>) -> usize {
-    given.map_or_else(
-        || std::thread::available_parallelism().map_or(1, usize::from),
-        usize::from,
-    )
-}
-
-fn runtime() -> std::io::Result<tokio::runtime::Runtime> {
-    tokio::runtime::Builder::new_multi_thread()
-        .enable_all()
-        .build()
 }
 
 #[cfg(test)]

@@ -23,9 +23,8 @@ use solver::model::Layout;
 use solver::scene::{Body, Scene};
 
 use diagnostics::Diagnostics;
+pub(crate) use diagnostics::NAME_LIMIT;
 
-/// Longest accepted name, characters.
-pub(crate) const NAME_LIMIT: usize = 200;
 /// Most labels of a job.
 const LABEL_LIMIT: usize = 64;
 /// Longest key or value of a label, characters.

@@ -5,19 +5,15 @@
 //! with the lines that contradict it.
 
 mod cycles;
-mod known_violations;
 mod resolution;
 mod rules;
 mod sources;
 mod tests;
 
-use std::collections::BTreeSet;
 use std::path::Path;
 
 use cargo_metadata::MetadataCommand;
 
-use known_violations::KNOWN_VIOLATIONS;
-use rules::Violation;
 use sources::Sources;
 
 /// Crate, and the crates of this workspace that it depends on (dev-dependencies included).
@@ -73,21 +69,6 @@ fn folders_and_files_depend_only_on_what_the_rules_allow() {
     let sources = ["api", "solver", "server"].map(|name| Sources::read(workspace, name));
     let mut found = rules::violations(&sources);
     found.extend(sources.iter().flat_map(cycles::violations));
-    let unknown = |violation: &&Violation| !KNOWN_VIOLATIONS.contains(&violation.key());
-    let new: Vec<String> = found
-        .iter()
-        .filter(unknown)
-        .map(ToString::to_string)
-        .collect();
-    assert!(new.is_empty(), "\n\n{}\n", new.join("\n\n"));
-    let keys: BTreeSet<_> = found.iter().map(Violation::key).collect();
-    let gone = KNOWN_VIOLATIONS
-        .iter()
-        .filter(|known| !keys.contains(known));
-    let gone: Vec<String> = gone.map(|known| format!("{known:?}")).collect();
-    assert!(
-        gone.is_empty(),
-        "no longer violated, to be deleted from KNOWN_VIOLATIONS:\n{}",
-        gone.join("\n")
-    );
+    let found: Vec<String> = found.iter().map(ToString::to_string).collect();
+    assert!(found.is_empty(), "\n\n{}\n", found.join("\n\n"));
 }

@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::process::ExitCode;
 
-use crate::cli::runtime;
+use crate::cli::runtime::runtime;
 use crate::cli::terminal::{failed, write_out};
 use crate::store::{BackupError, CopySummary, backup, restore};
 

@@ -10,7 +10,7 @@ use crate::bench::against::Comparison;
 use crate::bench::predictions;
 use crate::bench::predictions::{Pair, Prediction};
 use crate::bench::{BenchError, Row};
-use crate::cli::BenchArguments;
+use crate::cli::arguments::BenchArguments;
 use crate::cli::markdown;
 use crate::cli::terminal::{failed, write_err, write_out};
 use crate::estimate::machine;

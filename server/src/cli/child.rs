@@ -12,7 +12,7 @@ use api::job::Outcome;
 use nix::sys::resource::{Resource, setrlimit};
 use signal_hook::consts::SIGTERM;
 
-use crate::cli::ChildArguments;
+use crate::cli::arguments::ChildArguments;
 use crate::cli::terminal::{failed, refused, write_err};
 use crate::export::documents::VTU;
 use crate::export::files;

@@ -11,10 +11,11 @@ use eventsource_stream::Eventsource;
 use futures_util::StreamExt;
 use uuid::Uuid;
 
+use crate::cli::runtime::{runtime, workers};
 use crate::cli::serve::until_signal;
 use crate::cli::solve::phase_name;
+use crate::cli::table;
 use crate::cli::terminal::{bar, failed, write_err, write_out};
-use crate::cli::{runtime, table, workers};
 use crate::http::Access;
 use crate::queue::ATTEMPT_LIMIT;
 use crate::service::{Config, Service, ServiceError};

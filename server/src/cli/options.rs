@@ -43,7 +43,7 @@ pub(super) struct WorkOptions {
 impl WorkOptions {
     /// Number of jobs solved at once.
     pub(super) fn workers(&self) -> usize {
-        super::workers(self.workers)
+        crate::cli::runtime::workers(self.workers)
     }
 
     /// Rules of the workers for a program and a database.

@@ -4,7 +4,7 @@ use std::net::{IpAddr, Ipv4Addr, Ipv6Addr, SocketAddr};
 use std::process::ExitCode;
 use std::time::Duration;
 
-use crate::cli::runtime;
+use crate::cli::runtime::runtime;
 use crate::cli::terminal::{failed, write_out};
 
 /// Time limit of the request.

@@ -4,8 +4,9 @@ use std::process::ExitCode;
 
 use tokio::signal::unix::{SignalKind, signal};
 
+use crate::cli::arguments::ServeArguments;
+use crate::cli::runtime::runtime;
 use crate::cli::terminal::{failed, write_err};
-use crate::cli::{ServeArguments, runtime};
 use crate::service::{Config, Service};
 
 pub(super) fn run(arguments: ServeArguments) -> ExitCode {

@@ -9,9 +9,11 @@ use std::time::Duration;
 use api::problem::Fault;
 use indicatif::{ProgressBar, ProgressStyle};
 
-use crate::cli::REFUSED;
 use crate::spec;
 use crate::spec::{Refused, Resolved};
+
+/// Exit code of a refused specification.
+const REFUSED: u8 = 2;
 
 /// Writes a line on standard output. A closed pipe (`| head`) is not an error.
 pub(super) fn write_out(line: impl Display) {

@@ -12,6 +12,9 @@ use crate::spec::sourced::Sourced;
 
 pub(crate) use crate::text::shortened;
 
+/// Longest accepted name, characters.
+pub(crate) const NAME_LIMIT: usize = 200;
+
 /// Faults and provenance, by JSON pointer.
 #[derive(Debug, Default)]
 pub(crate) struct Diagnostics {

@@ -3,16 +3,17 @@
 mod archard;
 mod coulomb;
 mod frictionless;
+mod wearing_side;
 
 use api::spec::{
     Friction, FrictionLaw, Interface, Material, Materials, Provenance, Sides, WearLaw, WearLawName,
 };
 use solver::scene;
 
-use crate::reference::materials::LibraryMaterial;
 use crate::spec::diagnostics::Diagnostics;
 use crate::spec::sourced::Sourced;
 use crate::spec::system::{ArchardPreset, Preset};
+use wearing_side::WearingSide;
 
 const FRICTION: &str = "/interface/friction";
 
@@ -44,8 +45,14 @@ pub(crate) fn resolve(
         resolved: resolved.receptacle.as_ref(),
     };
     let wear = &given.wear;
-    let (slider, slider_law) = slider.wear(wear.slider.as_ref(), preset.slider_wear, diagnostics);
-    let (receptacle, receptacle_law) = receptacle.wear(
+    let (slider, slider_law) = self::wear(
+        &slider,
+        wear.slider.as_ref(),
+        preset.slider_wear,
+        diagnostics,
+    );
+    let (receptacle, receptacle_law) = self::wear(
+        &receptacle,
         wear.receptacle.as_ref(),
         preset.receptacle_wear,
         diagnostics,
@@ -95,60 +102,31 @@ fn friction(
     (given.clone(), law)
 }
 
-/// A side with its material as given and as resolved.
-struct WearingSide<'a> {
-    pointer: &'static str,
-    given: Option<&'a Material>,
-    resolved: Option<&'a Material>,
-}
-
-impl WearingSide<'_> {
-    fn wear(
-        &self,
-        given: Option<&Option<WearLaw>>,
-        preset: Sourced<Option<ArchardPreset>>,
-        diagnostics: &mut Diagnostics,
-    ) -> (Option<WearLaw>, Option<scene::WearLaw>) {
-        let unworn = match (given, preset.value) {
-            (Some(Some(given)), _) => {
-                let law = diagnostics.enum_member(&self.field("law"), &given.law);
-                diagnostics.provenance(self.field("law"), Provenance::Given);
-                let (filled, law) = match law {
-                    Some(WearLawName::Archard) => archard::resolve(self, given, diagnostics),
-                    None => (given.clone(), None),
-                };
-                return (Some(filled), law);
-            }
-            (None, Some(law)) => {
-                diagnostics.provenance(self.field("law"), preset.provenance);
-                let (filled, law) = archard::from_preset(self, law, preset.provenance, diagnostics);
-                return (Some(filled), Some(law));
-            }
-            (Some(None), _) => Provenance::Given,
-            (None, None) => preset.provenance,
-        };
-        diagnostics.provenance(self.pointer, unworn);
-        (None, None)
-    }
-
-    /// JSON pointer of a field of the law.
-    fn field(&self, name: &str) -> String {
-        format!("{}/{name}", self.pointer)
-    }
-
-    /// The material of the library that was named.
-    fn library(&self) -> Option<&'static LibraryMaterial> {
-        match self.given {
-            Some(Material::Named(name)) => LibraryMaterial::named(name),
-            _ => None,
+/// Resolves the wear law of a side.
+fn wear(
+    side: &WearingSide<'_>,
+    given: Option<&Option<WearLaw>>,
+    preset: Sourced<Option<ArchardPreset>>,
+    diagnostics: &mut Diagnostics,
+) -> (Option<WearLaw>, Option<scene::WearLaw>) {
+    let unworn = match (given, preset.value) {
+        (Some(Some(given)), _) => {
+            let law = diagnostics.enum_member(&side.field("law"), &given.law);
+            diagnostics.provenance(side.field("law"), Provenance::Given);
+            let (filled, law) = match law {
+                Some(WearLawName::Archard) => archard::resolve(side, given, diagnostics),
+                None => (given.clone(), None),
+            };
+            return (Some(filled), law);
         }
-    }
-
-    /// Hardness of the resolved material, MPa.
-    fn hardness_mpa(&self) -> Option<f64> {
-        match self.resolved {
-            Some(Material::Given(properties)) => properties.hardness_mpa,
-            _ => None,
+        (None, Some(law)) => {
+            diagnostics.provenance(side.field("law"), preset.provenance);
+            let (filled, law) = archard::from_preset(side, law, preset.provenance, diagnostics);
+            return (Some(filled), Some(law));
         }
-    }
+        (Some(None), _) => Provenance::Given,
+        (None, None) => preset.provenance,
+    };
+    diagnostics.provenance(side.pointer, unworn);
+    (None, None)
 }

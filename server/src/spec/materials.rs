@@ -6,7 +6,7 @@ use api::spec::{Material, MaterialProperties, Materials, Provenance};
 use solver::scene::Elastic;
 
 use crate::reference::materials::{LibraryMaterial, MATERIALS};
-use crate::spec::NAME_LIMIT;
+use crate::spec::diagnostics::NAME_LIMIT;
 use crate::spec::diagnostics::{Diagnostics, shortened};
 use crate::spec::sourced::Sourced;
 use crate::spec::system::Preset;

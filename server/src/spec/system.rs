@@ -2,6 +2,7 @@
 //! preset. The rest of the crate knows no kind.
 
 mod cylinder_on_flat;
+mod definition;
 mod dimm;
 mod fuzz_button;
 mod preset;
@@ -15,25 +16,12 @@ use api::spec::{Provenance, System, SystemKind};
 
 use crate::spec::diagnostics::Diagnostics;
 
+use definition::SystemDefinition;
 pub(crate) use preset::{ArchardPreset, Preset};
 pub(crate) use shapes::Shapes;
 
 /// Lengths of a contact system, mm: from 1 nm to 10 m.
 const LENGTH_MM: RangeInclusive<f64> = 1e-6..=1e4;
-
-/// One kind of contact system.
-pub(crate) struct SystemDefinition {
-    /// Description in a few words.
-    pub(crate) description: &'static str,
-    /// Its dimensions, in the order in which defaults are computed from one another.
-    dimensions: &'static [Dimension],
-    /// Builds both bodies from the dimensions.
-    shapes: fn(&System) -> Shapes,
-    /// Adds a fault for each dimension that cannot be combined with the others.
-    check: fn(&Shapes, &mut Diagnostics),
-    /// Values for what a specification leaves out.
-    pub(crate) preset: fn() -> Preset,
-}
 
 /// Returns the definition of a kind.
 pub(crate) fn definition(kind: SystemKind) -> &'static SystemDefinition {
@@ -43,45 +31,6 @@ pub(crate) fn definition(kind: SystemKind) -> &'static SystemDefinition {
         SystemKind::Dimm => &dimm::DEFINITION,
         SystemKind::Zif => &zif::DEFINITION,
         SystemKind::CylinderOnFlat => &cylinder_on_flat::DEFINITION,
-    }
-}
-
-/// A dimension of a kind.
-struct Dimension {
-    /// Its field in the specification.
-    name: &'static str,
-    field: fn(&mut System) -> &mut Option<f64>,
-    /// Its default, from the dimensions before it; `None` for an optional dimension.
-    default: fn(&System) -> Option<f64>,
-    /// Provenance of the default.
-    provenance: Provenance,
-}
-
-/// `dimension!(field, |system| default, provenance)`, or `dimension!(field)` for an optional dimension.
-macro_rules! dimension {
-    ($field:ident, |$system:pat_param| $default:expr, $provenance:ident) => {
-        $crate::spec::system::Dimension {
-            name: stringify!($field),
-            field: |system| &mut system.$field,
-            default: |$system| Some($default),
-            provenance: api::spec::Provenance::$provenance,
-        }
-    };
-    ($field:ident) => {
-        $crate::spec::system::Dimension {
-            name: stringify!($field),
-            field: |system| &mut system.$field,
-            default: |_| None,
-            provenance: api::spec::Provenance::Given,
-        }
-    };
-}
-use dimension;
-
-impl SystemDefinition {
-    /// Names of all dimensions, optional ones included.
-    pub(crate) fn dimension_names(&self) -> impl Iterator<Item = &'static str> {
-        self.dimensions.iter().map(|dimension| dimension.name)
     }
 }
 

@@ -14,6 +14,7 @@ mod files;
 mod folder;
 mod gauges;
 mod job_list;
+mod job_rows;
 mod jobs;
 mod leases;
 mod maintenance;

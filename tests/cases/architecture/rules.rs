@@ -13,13 +13,6 @@ pub(super) struct Violation {
     pub(super) lines: Vec<String>,
 }
 
-impl Violation {
-    /// The entry of the list of known violations.
-    pub(super) fn key(&self) -> (&str, &str) {
-        (self.rule, &self.what)
-    }
-}
-
 impl fmt::Display for Violation {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}: {}", self.rule, self.what)?;

@@ -7,7 +7,8 @@ use std::time::{Duration, Instant};
 use api::plan::MachineFigures;
 use tokio::sync::Mutex;
 
-use crate::estimate::machine::MachineError;
+use crate::estimate::machine::calibration::{measure, program};
+use crate::estimate::machine::coefficients::{MachineError, checked};
 use crate::export::files;
 
 /// Wait after a failed measurement before the next one.
@@ -36,7 +37,7 @@ impl CalibrationCache {
             file,
             cached: Arc::new(cached),
             measuring: Arc::default(),
-            measure: crate::estimate::machine::measure,
+            measure,
         }
     }
 
@@ -46,7 +47,7 @@ impl CalibrationCache {
             file: None,
             cached: Arc::new(OnceLock::from(figures)),
             measuring: Arc::default(),
-            measure: crate::estimate::machine::measure,
+            measure,
         }
     }
 
@@ -104,23 +105,8 @@ pub fn cache_file() -> Option<PathBuf> {
     Some(folder.join("fretwear").join("machine.json"))
 }
 
-/// Identifies this build of the program: version and build time.
-pub(crate) fn program() -> String {
-    let built = || {
-        let program = std::env::current_exe().ok()?;
-        let modified = program.metadata().ok()?.modified().ok()?;
-        let since = modified.duration_since(std::time::UNIX_EPOCH).ok()?;
-        Some(since.as_secs())
-    };
-    format!(
-        "{} {}",
-        env!("CARGO_PKG_VERSION"),
-        built().unwrap_or_default()
-    )
-}
-
 fn read(file: &Path) -> Option<MachineFigures> {
-    crate::estimate::machine::checked(serde_json::from_slice(&std::fs::read(file).ok()?).ok()?).ok()
+    checked(serde_json::from_slice(&std::fs::read(file).ok()?).ok()?).ok()
 }
 
 /// Writes the figures; if that fails, the next process measures again.
@@ -158,7 +144,7 @@ mod tests {
         fn slowly() -> Result<MachineFigures, MachineError> {
             MEASURED.fetch_add(1, Ordering::SeqCst);
             std::thread::sleep(Duration::from_millis(100));
-            crate::estimate::machine::checked(figures())
+            checked(figures())
         }
         let cache = CalibrationCache {
             measure: slowly,

@@ -8,7 +8,7 @@ use api::plan::MachineFigures;
 use solver::observer::{Event, Observer, Phase};
 
 use crate::estimate::Estimate;
-use crate::estimate::machine::{MachineError, NODES, checked, condensation_terms};
+use crate::estimate::machine::coefficients::{MachineError, NODES, checked, condensation_terms};
 use crate::estimate::workload::Workload;
 use crate::solve::thread_cpu_s;
 use crate::spec;
@@ -25,14 +25,22 @@ struct Sample {
     condensation_s: f64,
 }
 
+/// Measures this machine.
+///
+/// # Errors
+/// [`MachineError`] if a solve fails.
+pub fn measure() -> Result<MachineFigures, MachineError> {
+    calibrate(program())
+}
+
 /// Measures this machine; `program` identifies the measured build.
 ///
 /// # Errors
 /// [`MachineError`] if a solve fails or a coefficient is impossible.
-pub(crate) fn calibrate(program: String) -> Result<MachineFigures, MachineError> {
+fn calibrate(program: String) -> Result<MachineFigures, MachineError> {
     let samples: Result<Vec<Sample>, MachineError> = specifications()?
         .iter()
-        .map(|specification| measure(specification))
+        .map(|specification| solve(specification))
         .collect();
     let samples = samples?;
     let (increment_s, increment_power) = power_law(&samples);
@@ -66,7 +74,7 @@ fn specifications() -> Result<[String; 5], MachineError> {
     ])
 }
 
-fn measure(specification: &str) -> Result<Sample, MachineError> {
+fn solve(specification: &str) -> Result<Sample, MachineError> {
     let resolved = spec::read(specification.as_bytes())?;
     let mut clock = PhaseClock::default();
     let summary = solver::run::solve(&resolved.scene, &mut clock)?;
@@ -164,6 +172,21 @@ fn two_terms(samples: &[Sample]) -> [f64; 2] {
 
 fn count<T>(items: &[T]) -> u32 {
     u32::try_from(items.len()).unwrap_or(u32::MAX)
+}
+
+/// Identifies this build of the program: version and build time.
+pub(crate) fn program() -> String {
+    let built = || {
+        let program = std::env::current_exe().ok()?;
+        let modified = program.metadata().ok()?.modified().ok()?;
+        let since = modified.duration_since(std::time::UNIX_EPOCH).ok()?;
+        Some(since.as_secs())
+    };
+    format!(
+        "{} {}",
+        env!("CARGO_PKG_VERSION"),
+        built().unwrap_or_default()
+    )
 }
 
 #[cfg(test)]

@@ -6,7 +6,7 @@ use api::spec::{Material, Provenance, WearLaw, WearLawName};
 use solver::scene;
 
 use crate::spec::diagnostics::Diagnostics;
-use crate::spec::law::WearingSide;
+use crate::spec::law::wearing_side::WearingSide;
 use crate::spec::materials::HARDNESS_MPA;
 use crate::spec::system::ArchardPreset;
 

@@ -5,9 +5,9 @@ use solver::scene::{BlockShape, SliderShape};
 
 use crate::spec::diagnostics::Diagnostics;
 use crate::spec::sourced::{assumed, typical};
+use crate::spec::system::definition::{SystemDefinition, dimension};
 use crate::spec::system::preset::{Preset, archard, load};
 use crate::spec::system::shapes::{Shapes, check_crown, flat, length, sagitta};
-use crate::spec::system::{SystemDefinition, dimension};
 
 pub(super) const DEFINITION: SystemDefinition = SystemDefinition {
     description: "a cylinder on a block, the bench geometry of the literature",

@@ -2,9 +2,9 @@
 
 use api::spec::System;
 
+use crate::spec::system::definition::{SystemDefinition, dimension};
 use crate::spec::system::preset::plated;
 use crate::spec::system::shapes::{Shapes, flat, half_round, length};
-use crate::spec::system::{SystemDefinition, dimension};
 
 pub(super) const DEFINITION: SystemDefinition = SystemDefinition {
     description: "a semicircular socket contact on a memory module's pad",

@@ -10,9 +10,9 @@
 use api::spec::{Drive, Load, LoadKind, System, Waveform};
 
 use crate::spec::sourced::{assumed, source};
+use crate::spec::system::definition::{SystemDefinition, dimension};
 use crate::spec::system::preset::{Preset, archard, load};
 use crate::spec::system::shapes::{Shapes, flat, half_round, length};
-use crate::spec::system::{SystemDefinition, dimension};
 
 pub(super) const DEFINITION: SystemDefinition = SystemDefinition {
     description: "a wire's lower half on a circuit board's block",

@@ -10,9 +10,9 @@
 
 use api::spec::System;
 
+use crate::spec::system::definition::{SystemDefinition, dimension};
 use crate::spec::system::preset::plated;
 use crate::spec::system::shapes::{Shapes, flat, length, tip};
-use crate::spec::system::{SystemDefinition, dimension};
 
 pub(super) const DEFINITION: SystemDefinition = SystemDefinition {
     description: "a rounded spring contact on a memory card's flat pad",

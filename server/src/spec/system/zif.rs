@@ -10,9 +10,9 @@
 use api::spec::System;
 use solver::scene::BlockShape;
 
+use crate::spec::system::definition::{SystemDefinition, dimension};
 use crate::spec::system::preset::plated;
 use crate::spec::system::shapes::{Shapes, check_crown, flat, length, tip};
-use crate::spec::system::{SystemDefinition, dimension};
 
 pub(super) const DEFINITION: SystemDefinition = SystemDefinition {
     description: "a sprung socket contact on the pin of an integrated circuit",

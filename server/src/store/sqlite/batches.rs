@@ -10,7 +10,7 @@ use crate::store::batches::{
     BatchDetail, BatchFilter, BatchJob, BatchOverview, NewBatch, StoredBatch,
 };
 use crate::store::sqlite::document::timestamp;
-use crate::store::sqlite::jobs::{cancel, insert};
+use crate::store::sqlite::job_rows::{cancel, insert};
 use crate::store::sqlite::queries::{BEGIN, job_id, parsed};
 use crate::store::{Cancelled, Deleted, RequestKey, SnapshotPart, Store, StoreError, Submitted};
 

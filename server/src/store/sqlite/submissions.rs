@@ -7,7 +7,7 @@ use sqlx::sqlite::SqlitePool;
 use sqlx::{Sqlite, Transaction};
 use tokio::sync::oneshot;
 
-use crate::store::sqlite::jobs::insert;
+use crate::store::sqlite::job_rows::insert;
 use crate::store::sqlite::queries::{BEGIN, job_id};
 use crate::store::{NewJob, RequestKey, StoreError, Submitted};
 

@@ -1,0 +1,74 @@
+//! Arguments of the commands with many options.
+
+use std::net::SocketAddr;
+use std::path::PathBuf;
+
+use crate::bench::{against, predictions};
+use crate::cli::access::AccessOptions;
+use crate::cli::options::WorkOptions;
+
+/// Default address of a service.
+pub(super) const LISTEN: &str = "127.0.0.1:8080";
+/// Default database.
+pub(super) const DATABASE: &str = "sqlite://fretwear.db";
+
+#[derive(Debug, clap::Args)]
+pub(super) struct ServeArguments {
+    /// Address to listen on; must be a loopback address unless there is an access token.
+    #[arg(long, env = "FRETWEAR_LISTEN", default_value = LISTEN)]
+    pub(super) listen: SocketAddr,
+    #[command(flatten)]
+    pub(super) access: AccessOptions,
+    /// The database.
+    #[arg(long, env = "FRETWEAR_DATABASE", default_value = DATABASE)]
+    pub(super) database: String,
+    /// Format of the log on standard error.
+    #[arg(long, env = "FRETWEAR_LOG", value_enum, default_value = "text")]
+    pub(super) log: LogFormat,
+    #[command(flatten)]
+    pub(super) work: WorkOptions,
+}
+
+/// Formats of the log.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+pub(super) enum LogFormat {
+    /// Text for people.
+    Text,
+    /// One JSON object per line.
+    Json,
+}
+
+/// Codes to compare with.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+pub(super) enum OtherCode {
+    /// CalculiX.
+    Ccx,
+}
+
+#[derive(Debug, clap::Args)]
+pub(super) struct BenchArguments {
+    /// Compare the estimates of plans with measurements instead, on all systems and both published scenes.
+    #[arg(long)]
+    pub(super) predictions: bool,
+    /// Compare with another code on the same problem instead: a friction cycle on the same meshes.
+    #[arg(long, value_enum, conflicts_with = "predictions")]
+    pub(super) against: Option<OtherCode>,
+    /// Sizes of the contact elements, um.
+    #[arg(long, value_delimiter = ',', requires = "against", default_values_t = against::ELEMENTS_UM)]
+    pub(super) elements_um: Vec<f64>,
+    /// Tolerances of the compared solves.
+    #[arg(long, value_delimiter = ',', requires = "predictions", default_values_t = predictions::TOLERANCES)]
+    pub(super) tolerances: Vec<f64>,
+}
+
+#[derive(Debug, clap::Args)]
+pub(super) struct ChildArguments {
+    /// Folder for its files.
+    pub(super) folder: PathBuf,
+    /// Interval of checkpoints.
+    #[arg(long)]
+    pub(super) checkpoint_every_ms: u64,
+    /// Limit of writable memory.
+    #[arg(long)]
+    pub(super) memory_limit_mb: Option<u64>,
+}

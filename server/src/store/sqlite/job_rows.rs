@@ -1,0 +1,114 @@
+//! Statements about one job within a transaction.
+
+use api::job::{Progress, Status};
+use api::plan::Plan;
+use sqlx::{Sqlite, SqliteConnection, Transaction};
+use uuid::Uuid;
+
+use crate::queue;
+use crate::queue::Transition;
+use crate::store::sqlite::document::timestamp;
+use crate::store::sqlite::queries::{corrupt, insert_event};
+use crate::store::sqlite::transitions::end_queued;
+use crate::store::{Cancelled, End, NewJob, StoreError, SubmitOptions};
+
+pub(super) async fn status(
+    connection: &mut SqliteConnection,
+    id: Uuid,
+) -> Result<Option<Status>, StoreError> {
+    let name: Option<String> = sqlx::query_scalar("SELECT status FROM jobs WHERE id = ?")
+        .bind(id.to_string())
+        .fetch_optional(connection)
+        .await?;
+    name.map(|name| Status::from_name(&name).ok_or_else(|| corrupt(id, "status", &name)))
+        .transpose()
+}
+
+/// Requests the end of a job, within a transaction.
+pub(super) async fn cancel(
+    connection: &mut SqliteConnection,
+    id: Uuid,
+    now: i64,
+) -> Result<Option<Cancelled>, StoreError> {
+    let Some(status) = status(&mut *connection, id).await? else {
+        return Ok(None);
+    };
+    let effect = if status == Status::Queued {
+        let end = End::without_result(Transition::Cancel, "cancelled while waiting");
+        end_queued(&mut *connection, id, &end, now).await?;
+        Cancelled::AtOnce
+    } else if status == Status::Running {
+        sqlx::query(
+            "UPDATE jobs SET cancel_requested = 1, status_reason = 'cancel requested', version = version + 1 WHERE id = ?",
+        )
+        .bind(id.to_string())
+        .execute(&mut *connection)
+        .await?;
+        Cancelled::Requested
+    } else {
+        Cancelled::Already
+    };
+    Ok(Some(effect))
+}
+
+/// Adds a job to the queue, with its first event.
+pub(super) async fn insert(
+    transaction: &mut Transaction<'_, Sqlite>,
+    job: &NewJob,
+    now: i64,
+) -> Result<Uuid, StoreError> {
+    let id = Uuid::now_v7();
+    let SubmitOptions {
+        priority,
+        deadline_s,
+    } = job.options;
+    let system = job
+        .spec
+        .system
+        .kind
+        .known()
+        .map_or("", api::spec::SystemKind::as_str);
+    let progress = Progress {
+        cycles: crate::spec::cycles(&job.spec),
+        updated_at: Some(timestamp(now)),
+        ..Progress::default()
+    };
+    let progress = serde_json::to_string(&progress)?;
+    sqlx::query(
+        "INSERT INTO jobs (id, system, spec, plan, status, status_reason, created_at, progress, last_event, priority, \
+         place, deadline_at, memory_mb) VALUES (?, ?, ?, ?, 'queued', ?, ?, ?, 1, ?, ?, ?, ?)",
+    )
+    .bind(id.to_string())
+    .bind(system)
+    .bind(serde_json::to_string(&job.spec)?)
+    .bind(serde_json::to_string(&job.plan)?)
+    .bind(queue::WAITING_FOR_WORKER)
+    .bind(now)
+    .bind(&progress)
+    .bind(priority)
+    .bind(queue::sort_key(now, priority))
+    .bind(deadline_s.map(|s| now.saturating_add(1_000 * i64::from(s))))
+    .bind(memory_mb(&job.plan))
+    .execute(&mut **transaction)
+    .await?;
+    for (key, value) in &job.spec.labels {
+        sqlx::query("INSERT INTO labels (job_id, key, value) VALUES (?, ?, ?)")
+            .bind(id.to_string())
+            .bind(key)
+            .bind(value)
+            .execute(&mut **transaction)
+            .await?;
+    }
+    insert_event(transaction, id, 1, "progress", &progress).await?;
+    Ok(id)
+}
+
+/// Returns the estimated peak memory of the solve, MB.
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "the value is clamped to a range that fits"
+)]
+fn memory_mb(plan: &Plan) -> i64 {
+    let estimate = plan.estimates.get("memory_mb").copied().unwrap_or_default();
+    estimate.ceil().clamp(0.0, 1e9) as i64
+}
