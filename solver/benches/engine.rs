@@ -26,14 +26,18 @@ fn mccoll(element_um: u32) -> Scene {
 
 #[divan::bench(args = [8, 4, 2])]
 fn condensation(bencher: Bencher<'_, '_>, element_um: u32) {
-    let model = model::build(&mccoll(element_um)).expect("it can be meshed");
+    let model = model::build(
+        &mccoll(element_um),
+        &solver::effects::plan(&mccoll(element_um)),
+    )
+    .expect("it can be meshed");
     bencher.bench_local(|| condense(&model).expect("it can be condensed"));
 }
 
 #[divan::bench(args = [4, 2, 1])]
 fn cycle_of_40_increments(bencher: Bencher<'_, '_>, element_um: u32) {
     let scene = mccoll(element_um);
-    let model = model::build(&scene).expect("it can be meshed");
+    let model = model::build(&scene, &solver::effects::plan(&scene)).expect("it can be meshed");
     let condensed = condense(&model).expect("it can be condensed");
     let operators = &condensed.operators;
     let mut loaded = CycleState::start(operators);

@@ -1,25 +1,33 @@
-//! The effects plan: what a scene calls for, and nothing else, is simulated.
+//! Effects plan: only the effects that a scene calls for are simulated.
 
 use crate::law::elastic::contact_modulus;
 use crate::law::{friction, wear};
 use crate::model::resolution;
 use crate::scene::{Friction, Scene};
 
-/// Which effects take part, and why.
+/// Decisions about all effects.
 #[derive(Debug, Clone, PartialEq)]
 pub struct EffectsPlan {
-    /// One decision an effect, always in the same order.
+    /// One decision per effect, always in the same order.
     pub decisions: Vec<Decision>,
 }
 
-/// One effect's part in the simulation.
+impl EffectsPlan {
+    /// Whether an effect is simulated.
+    pub fn simulates(&self, effect: Effect) -> bool {
+        let mut decisions = self.decisions.iter();
+        decisions.any(|decision| decision.effect == effect && decision.simulated)
+    }
+}
+
+/// Decision about one effect.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Decision {
     /// The effect.
     pub effect: Effect,
     /// Whether it is simulated.
     pub simulated: bool,
-    /// Why, with the numbers that decided.
+    /// Reason, with the numbers that decided.
     pub reason: String,
 }
 
@@ -36,15 +44,15 @@ pub enum Effect {
     SliderWear,
     /// Moving mesh and rebuilt stiffness.
     Relocation,
-    /// Finite strains and rotations of the bodies; never simulated, a scene that calls for it is to be refused.
+    /// Finite strains and rotations of the bodies; never simulated: a scene that calls for it is refused.
     GeometricNonlinearity,
 }
 
-/// Small strains are good for a scene as long as they cost less than this part of the peak pressure and half-width.
+/// Largest accepted error of small-strain elasticity, relative to peak pressure and half-width.
 pub const SMALL_STRAIN_LIMIT: f64 = 0.01;
 
 impl Effect {
-    /// Its stable name.
+    /// Stable name.
     pub fn name(self) -> &'static str {
         match self {
             Self::Elasticity => "elasticity",
@@ -57,8 +65,8 @@ impl Effect {
     }
 }
 
-/// Decides which effects a scene calls for. Relocation is decided anew after every computed cycle, from the
-/// geometry; the plan tells what to expect.
+/// Decides which effects a scene calls for. Where relocation is planned, each computed cycle checks whether the geometry
+/// has drifted enough for it.
 pub fn plan(scene: &Scene) -> EffectsPlan {
     let sizes = resolution::choose(scene);
     let modulus = contact_modulus(scene.slider.elastic, scene.receptacle.elastic);
@@ -126,7 +134,7 @@ pub fn plan(scene: &Scene) -> EffectsPlan {
     }
 }
 
-/// By how much small-strain elasticity misses the peak pressure and half-width of the unworn contact, relative:
+/// Relative error of small-strain elasticity in peak pressure and half-width of the unworn contact:
 ///   1/2 (p0/E*) (1 + 0.16 mu^2),  p0 = E* a/(2 R).
 /// Measured, not derived: the surface of a block under Hertz' pressure and sliding friction with and without geometric
 /// non-linearity (CalculiX 2.20, p0/E* from 0.3 to 3 %, mu from 0 to 1.21) changes its curvature by twice this, and

@@ -229,7 +229,8 @@ mod tests {
         scene.receptacle.shape.length_mm = 2.0;
         scene.receptacle.shape.height_mm = 0.05;
         scene.accuracy.contact_element_mm = Some(0.002);
-        let model = model::build(&scene).expect("the block can be meshed");
+        let model =
+            model::build(&scene, &crate::effects::plan(&scene)).expect("the block can be meshed");
         let condensed = condense(&model).expect("the block can be condensed");
         let force: Vec<f64> = model
             .bodies

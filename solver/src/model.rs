@@ -4,6 +4,7 @@ pub mod layout;
 pub mod profile;
 pub mod resolution;
 
+use crate::effects::{Effect, EffectsPlan};
 use crate::element;
 use crate::law::elastic::Lame;
 use crate::law::{friction, wear};
@@ -23,6 +24,8 @@ pub struct Model {
     pub bodies: Sides<BodyModel>,
     /// Laws and load of the interface.
     pub interface: Interface,
+    /// Whether the meshes follow the worn surfaces.
+    pub relocates: bool,
     /// The lengths that the mesh was chosen from.
     pub sizes: Sizes,
 }
@@ -67,21 +70,30 @@ pub struct Interface {
     pub spring: f64,
 }
 
-/// Meshes both bodies of a scene.
+/// Builds the model of a scene from its plan: meshes both bodies, and gives the interface the laws of simulated effects
+/// only.
 ///
 /// # Errors
 /// [`MeshError`] if the mesh would be too large or inverted.
-pub fn build(scene: &Scene) -> Result<Model, MeshError> {
+pub fn build(scene: &Scene, plan: &EffectsPlan) -> Result<Model, MeshError> {
     let layout = Layout::of(scene)?;
     let slider_support = match scene.drive {
         Drive::Handle => Support::FarFaceHeld,
         Drive::WholeBody => Support::GuidedUnderPressure,
     };
+    let wear_rate = |effect, law| {
+        let simulated = plan.simulates(effect);
+        wear::coefficient(simulated.then_some(law).flatten())
+    };
     let interface = Interface {
-        friction: friction::coefficient(scene.friction),
+        friction: if plan.simulates(Effect::Friction) {
+            friction::coefficient(scene.friction)
+        } else {
+            0.0
+        },
         wear: Sides {
-            slider: wear::coefficient(scene.slider.wear),
-            receptacle: wear::coefficient(scene.receptacle.wear),
+            slider: wear_rate(Effect::SliderWear, scene.slider.wear),
+            receptacle: wear_rate(Effect::ReceptacleWear, scene.receptacle.wear),
         },
         load: scene.load_n_per_mm,
         spring: scene.spring_n_per_mm2,
@@ -93,6 +105,7 @@ pub fn build(scene: &Scene) -> Result<Model, MeshError> {
             receptacle: body(receptacle, scene.receptacle.elastic, Support::FarFaceHeld)?,
         },
         interface,
+        relocates: plan.simulates(Effect::Relocation),
         sizes: layout.sizes,
     })
 }

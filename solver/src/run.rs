@@ -7,6 +7,7 @@ use crate::ale::{self, Spines};
 use crate::checkpoint::Checkpoint;
 use crate::condensation::{self, Condensed};
 use crate::cycle::{CycleRecord, CycleState, Integrator};
+use crate::effects;
 use crate::fields;
 use crate::model::{self, Model};
 use crate::observer::{Event, Observer, Phase};
@@ -20,7 +21,7 @@ use crate::schedule::stops::{self, Progress};
 /// [`SolveError`]; events delivered before it stay valid.
 pub fn solve(scene: &Scene, observer: &mut dyn Observer) -> Result<Summary, SolveError> {
     observer.on_phase(Phase::Mesh);
-    let model = model::build(scene)?;
+    let model = model::build(scene, &effects::plan(scene))?;
     observer.on_phase(Phase::Condense);
     let condensed = condensation::condense(&model)?;
     let (run, flow) = load(scene, &model, &condensed, observer)?;
@@ -41,7 +42,7 @@ pub fn resume(
     observer: &mut dyn Observer,
 ) -> Result<Summary, SolveError> {
     observer.on_phase(Phase::Mesh);
-    let unworn = model::build(scene)?;
+    let unworn = model::build(scene, &effects::plan(scene))?;
     run.check(&unworn, scene.cycles)?;
     let model = run.model(unworn)?;
     observer.on_phase(Phase::Condense);
@@ -114,7 +115,7 @@ fn integrate(
     let mut integrator = Integrator::new(scene, model, &condensed.operators);
     let spines = Spines::of(model);
     while run.state.cycle < scene.cycles {
-        if ale::has_drifted(model, &run.state.depth, scene.accuracy.tolerance) {
+        if model.relocates && ale::has_drifted(model, &run.state.depth, scene.accuracy.tolerance) {
             return Ok(ControlFlow::Continue(()));
         }
         let state = &mut run.state;

@@ -1,8 +1,12 @@
 //! The scene: everything the engine needs to know about a contact system, in engine units.
 //!
 //! Units: mm, N, MPa. In two dimensions forces are per mm of depth (N/mm). x runs along the sliding
-//! direction with its origin at the neutral position, y points up. A scene is plain data that was checked
-//! where it was made; the engine does not look behind it.
+//! direction with its origin at the neutral position, y points up. A scene is plain data, validated
+//! where it is created; the engine does not check it again.
+
+pub use crate::law::elastic::Elastic;
+pub use crate::law::friction::Friction;
+pub use crate::law::wear::WearLaw;
 
 /// A contact system with its loads, motion and numerical settings.
 #[derive(Debug, Clone, PartialEq)]
@@ -15,10 +19,10 @@ pub struct Scene {
     pub friction: Friction,
     /// Normal load on the unworn contact, N per mm of depth.
     pub load_n_per_mm: f64,
-    /// Stiffness of the spring that makes the load: it loses this much as the slider sinks, N per mm of depth and mm
-    /// of sinking; 0 for a dead load.
+    /// Stiffness of the spring that applies the load, which decreases as the slider sinks, N/mm per mm of depth; 0 for a
+    /// dead load.
     pub spring_n_per_mm2: f64,
-    /// Where the load enters the slider and how its motion is imposed.
+    /// Boundary conditions of the slider.
     pub drive: Drive,
     /// The imposed relative motion (slider minus receptacle).
     pub motion: Motion,
@@ -26,9 +30,9 @@ pub struct Scene {
     pub cycles: u64,
     /// Mesh and integration settings.
     pub accuracy: Accuracy,
-    /// What is recorded.
+    /// Recorded output.
     pub output: Output,
-    /// The run ends when one of these is met.
+    /// Conditions that end the run.
     pub stop: Vec<StopCondition>,
 }
 
@@ -39,17 +43,8 @@ pub struct Body<S> {
     pub shape: S,
     /// Its elastic constants.
     pub elastic: Elastic,
-    /// How its surface wears; `None` does not wear.
+    /// Wear law of its surface; `None` does not wear.
     pub wear: Option<WearLaw>,
-}
-
-/// Isotropic linear elasticity.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Elastic {
-    /// Young's modulus E, MPa.
-    pub youngs_modulus_mpa: f64,
-    /// Poisson's ratio nu, -.
-    pub poisson_ratio: f64,
 }
 
 /// The slider: a circular arc around x = 0 whose lowest point touches y = 0, under a flat top face.
@@ -74,33 +69,11 @@ pub struct BlockShape {
     pub crown_radius_mm: Option<f64>,
 }
 
-/// Friction laws.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Friction {
-    /// No shear traction.
-    Frictionless,
-    /// |q| <= mu p.
-    Coulomb {
-        /// Coefficient of friction mu, -.
-        coefficient: f64,
-    },
-}
-
-/// Wear laws: normal recession rate of a surface.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum WearLaw {
-    /// Archard: recession = (k/H) p |slip| (thesis, equations 5 and 6).
-    Archard {
-        /// k/H, 1/MPa.
-        k_over_h_per_mpa: f64,
-    },
-}
-
-/// How load and motion enter the slider.
+/// Boundary conditions of the slider: load and motion.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Drive {
-    /// The top face is a rigid handle: it does not rotate, carries the load, and moves against the block.
-    /// It makes no difference to the quasi-static contact which of the two is held.
+    /// The top face is rigid: it does not rotate, the load acts on it, and it moves relative to the block. Which of the two
+    /// is fixed makes no difference to the quasi-static contact.
     Handle,
     /// The thesis' drive: `u_x` of every slider node prescribed, `u_y` free, pressure on the top face.
     WholeBody,
@@ -109,16 +82,16 @@ pub enum Drive {
 /// Imposed relative motion.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Motion {
-    /// Back and forth around the neutral position, to +x first. Quasi-static contact does not depend on time: neither
-    /// the wave's shape nor the period changes anything.
+    /// Reciprocating around the neutral position, toward +x first. Quasi-static contact does not depend on time: waveform
+    /// and period do not change the result.
     Reciprocating {
         /// Amplitude, mm.
         amplitude_mm: f64,
         /// Duration of a cycle, s.
         period_s: f64,
     },
-    /// The slider's surface runs past a contact that stays at one place of the receptacle, as a ring turning on a
-    /// block. A cycle of the run is the distance `step_mm`; the slider must not wear.
+    /// The slider's surface slides through a contact that stays at one position of the receptacle, as for a ring rotating
+    /// on a block. A cycle of the run is the distance `step_mm`; the slider must not wear.
     Continuous {
         /// Distance of one cycle, mm.
         step_mm: f64,
@@ -134,7 +107,7 @@ impl Motion {
         }
     }
 
-    /// How far the contact travels over the receptacle to either side, mm.
+    /// Amplitude of the contact's motion over the receptacle, mm.
     pub fn amplitude_mm(self) -> f64 {
         match self {
             Self::Reciprocating { amplitude_mm, .. } => amplitude_mm,
@@ -156,12 +129,12 @@ pub struct Accuracy {
     pub cycle_jump: Option<u64>,
 }
 
-/// What is recorded.
+/// Recorded output.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Output {
-    /// Places on the receptacle whose worn depth is followed, mm.
+    /// Positions on the receptacle whose worn depth is recorded, mm.
     pub stations_mm: Vec<f64>,
-    /// Cycles at which profile, pressure and loop are kept, ascending.
+    /// Cycles at which profile, pressure and loop are recorded, ascending.
     pub snapshots_at_cycles: Vec<u64>,
     /// Whether snapshots hold displacement and stress inside the bodies.
     pub fields: bool,

@@ -42,7 +42,8 @@ impl Bench {
         scene.receptacle.wear = None;
         scene.accuracy.tolerance = 0.003;
         scene.accuracy.contact_element_mm = Some(HALF_WIDTH / elements);
-        let model = solver::model::build(&scene).expect("the scene can be meshed");
+        let model = solver::model::build(&scene, &solver::effects::plan(&scene))
+            .expect("the scene can be meshed");
         let condensed = condense(&model).expect("the scene can be condensed");
         let operators = &condensed.operators;
         let zero = [

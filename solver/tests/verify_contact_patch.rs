@@ -37,7 +37,7 @@ fn body(x: Vec<f64>, far_y: f64, support: Support) -> BodyModel {
 #[test]
 fn uniform_pressure_passes_through_non_matching_meshes_at_any_position() {
     let (pressure, friction) = (10.0, 0.5);
-    let sizes = solver::model::build(&mccoll())
+    let sizes = solver::model::build(&mccoll(), &solver::effects::plan(&mccoll()))
         .expect("the scene can be meshed")
         .sizes;
     for slider_x in [-0.731, -0.05, 0.0, 0.2, 1.37] {
@@ -54,6 +54,7 @@ fn uniform_pressure_passes_through_non_matching_meshes_at_any_position() {
                 load: pressure * 1.0,
                 spring: 0.0,
             },
+            relocates: false,
             sizes,
         };
         let operators = condense(&model)

@@ -17,7 +17,8 @@ use solver::sides::{Side, Sides};
 /// reversal and gross slip.
 #[test]
 fn mirrored_motion_gives_mirrored_tractions() {
-    let model = solver::model::build(&mccoll()).expect("the scene can be meshed");
+    let model = solver::model::build(&mccoll(), &solver::effects::plan(&mccoll()))
+        .expect("the scene can be meshed");
     let condensed = condense(&model).expect("the scene can be condensed");
     let operators = &condensed.operators;
     let pair = Pair {

@@ -27,7 +27,8 @@ fn ours() -> Ours {
     let scene = server::spec::read(SPEC.as_bytes())
         .expect("the specification is sound")
         .scene;
-    let model = solver::model::build(&scene).expect("it can be meshed");
+    let model =
+        solver::model::build(&scene, &solver::effects::plan(&scene)).expect("it can be meshed");
     let condensed = condense(&model).expect("it can be condensed");
     let operators = &condensed.operators;
     let mut state = CycleState::start(operators);

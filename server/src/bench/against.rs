@@ -69,7 +69,8 @@ fn compare(folder: &Path, element_um: f64) -> Result<Comparison, BenchError> {
     })?;
     let limit = friction_limit(&scene);
     let (setup_s, (model, condensed)) = measured(3, || {
-        let model = model::build(&scene).map_err(SolveError::from)?;
+        let model =
+            model::build(&scene, &solver::effects::plan(&scene)).map_err(SolveError::from)?;
         let condensed = condensation::condense(&model).map_err(SolveError::from)?;
         Ok::<_, SolveError>((model, condensed))
     })?;

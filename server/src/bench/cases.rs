@@ -76,7 +76,7 @@ pub(super) fn scene(spec: &str, change: impl FnOnce(&mut Scene)) -> Result<Scene
 }
 
 fn condensed(scene: &Scene) -> Result<(Model, Condensed), SolveError> {
-    let model = model::build(scene)?;
+    let model = model::build(scene, &solver::effects::plan(scene))?;
     let condensed = condensation::condense(&model)?;
     Ok((model, condensed))
 }
@@ -85,7 +85,8 @@ fn condensations() -> Result<Vec<Row>, BenchError> {
     let mut rows = Vec::new();
     for target in CONDENSED {
         let scene = sized(target)?;
-        let model = model::build(&scene).map_err(SolveError::from)?;
+        let model =
+            model::build(&scene, &solver::effects::plan(&scene)).map_err(SolveError::from)?;
         let (cpu_s, _) =
             measured(3, || condensation::condense(&model)).map_err(SolveError::from)?;
         let surface =
@@ -110,7 +111,8 @@ fn sized(target: f64) -> Result<Scene, BenchError> {
     };
     for _ in 0..12 {
         let middle = (fine * coarse).sqrt();
-        let too_many = match model::build(&at(middle)?) {
+        let scene = at(middle)?;
+        let too_many = match model::build(&scene, &solver::effects::plan(&scene)) {
             Ok(model) => {
                 count(model.bodies.slider.dofs() + model.bodies.receptacle.dofs()) > target
             }
@@ -286,7 +288,8 @@ mod tests {
     fn meshes_of_the_condensation_have_the_target_size() {
         for target in CONDENSED {
             let scene = sized(target).expect("a size is found");
-            let model = model::build(&scene).expect("it can be meshed");
+            let model =
+                model::build(&scene, &solver::effects::plan(&scene)).expect("it can be meshed");
             let dofs = count(model.bodies.slider.dofs() + model.bodies.receptacle.dofs());
             assert!(
                 (0.8..=1.0).contains(&(dofs / target)),

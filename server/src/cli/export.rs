@@ -37,7 +37,7 @@ pub(super) fn run(spec: &Path, cycle: u64) -> ExitCode {
 
 /// Returns the model at a cycle; the unworn one needs no solve.
 fn worn(scene: &Scene, cycle: u64) -> Result<Model, SolveError> {
-    let model = model::build(scene)?;
+    let model = model::build(scene, &solver::effects::plan(scene))?;
     if cycle == 0 {
         return Ok(model);
     }

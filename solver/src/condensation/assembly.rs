@@ -7,10 +7,10 @@ use crate::mesh::columns::Cell;
 use crate::model::{BodyModel, Support};
 use nalgebra::Matrix2;
 
-/// No unknown: this displacement is zero.
+/// Marks a constrained displacement, which is zero.
 const HELD: usize = usize::MAX;
 
-/// Which displacement is which unknown; those of the contact surface come last.
+/// Numbering of the unknowns; those of the contact surface are last.
 #[derive(Debug)]
 pub(super) struct Numbering {
     /// Unknown of (node, direction).

@@ -7,11 +7,11 @@ pub struct Compliance {
     blocks: Vec<Block>,
 }
 
-/// How a node answers to a force at a node: u_x and u_y per force along x, then per force along y.
+/// Response of a node to a force at a node: u_x and u_y per force along x, then per force along y.
 pub type Block = [f64; 4];
 
 impl Compliance {
-    /// No response at all.
+    /// A compliance of zeros.
     pub(super) fn zeros(nodes: usize) -> Self {
         Self {
             nodes,
@@ -24,7 +24,7 @@ impl Compliance {
         self.nodes
     }
 
-    /// The answers of all nodes to a force at a node.
+    /// The response of all nodes to a force at a node.
     pub fn to_force_at(&self, node: usize) -> &[Block] {
         &self.blocks[node * self.nodes..(node + 1) * self.nodes]
     }
@@ -34,7 +34,7 @@ impl Compliance {
         self.blocks[(column / 2) * self.nodes + row / 2][2 * (column % 2) + row % 2]
     }
 
-    /// The same, to be changed.
+    /// Mutable access to the same entry.
     pub(super) fn at(&mut self, row: usize, column: usize) -> &mut f64 {
         &mut self.blocks[(column / 2) * self.nodes + row / 2][2 * (column % 2) + row % 2]
     }

@@ -5,7 +5,8 @@ use crate::scene::Drive;
 
 #[test]
 fn compliance_is_symmetric_and_positive() {
-    let model = model::build(&fuzz_button()).expect("the preset can be meshed");
+    let model = model::build(&fuzz_button(), &crate::effects::plan(&fuzz_button()))
+        .expect("the preset can be meshed");
     let operators = condense(&model)
         .expect("the preset can be condensed")
         .operators;
@@ -28,7 +29,8 @@ fn an_even_pressure_squeezes_a_wide_block_uniaxially() {
     scene.receptacle.shape.length_mm = 2.0;
     scene.receptacle.shape.height_mm = 0.05;
     scene.accuracy.contact_element_mm = Some(0.002);
-    let model = model::build(&scene).expect("the block can be meshed");
+    let model =
+        model::build(&scene, &crate::effects::plan(&scene)).expect("the block can be meshed");
     let body = condense(&model)
         .expect("the block can be condensed")
         .operators
@@ -52,7 +54,8 @@ fn an_even_pressure_squeezes_a_wide_block_uniaxially() {
 fn a_guided_slider_moves_only_vertically() {
     let mut scene = fuzz_button();
     scene.drive = Drive::WholeBody;
-    let model = model::build(&scene).expect("the preset can be meshed");
+    let model =
+        model::build(&scene, &crate::effects::plan(&scene)).expect("the preset can be meshed");
     let slider = condense(&model)
         .expect("the preset can be condensed")
         .operators
@@ -63,10 +66,11 @@ fn a_guided_slider_moves_only_vertically() {
     }
 }
 
-/// The interior gives back what the compliance says of the surface, and satisfies the clamp.
+/// The recovered interior agrees with the compliance on the surface, and satisfies the clamp.
 #[test]
 fn interior_and_surface_agree() {
-    let model = model::build(&fuzz_button()).expect("the preset can be meshed");
+    let model = model::build(&fuzz_button(), &crate::effects::plan(&fuzz_button()))
+        .expect("the preset can be meshed");
     let condensed = condense(&model).expect("the preset can be condensed");
     let body = &condensed.operators.receptacle;
     let middle = body.x.len() / 2;

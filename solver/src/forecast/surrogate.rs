@@ -128,9 +128,9 @@ impl Scar {
         self.grow();
         let drawn = (self.amplitude - self.flat).max(0.0);
         // The rest of the stroke moves the contact over the scar, which smears its growing edges.
-        let carried = self.amplitude.min(self.flat);
+        let smearing = self.amplitude.min(self.flat);
         for (depth, x) in self.depth.iter_mut().zip(&self.x) {
-            let places = PASSES.map(|pass| (x + pass * carried).abs());
+            let places = PASSES.map(|pass| (x + pass * smearing).abs());
             let sum: f64 = places
                 .iter()
                 .map(|&x| shape(x, drawn, self.flat, self.reach))
@@ -167,10 +167,10 @@ impl Scar {
 
     /// Half-width of the contact after a jump: between that in gross sliding and the whole segment.
     pub(super) fn contact(&self, jump: u64) -> f64 {
-        let front = 2.0 * self.radius * self.pass * real_cycles(jump);
-        let running = self.hertz.hypot((STEP_SHARE * front).sqrt());
-        let runs = (self.amplitude / running - 1.0).clamp(0.0, 1.0);
-        running.powf(runs) * (self.reach / ELASTIC).max(running).powf(1.0 - runs)
+        let step = 2.0 * self.radius * self.pass * real_cycles(jump);
+        let gross = self.hertz.hypot((STEP_SHARE * step).sqrt());
+        let share = (self.amplitude / gross - 1.0).clamp(0.0, 1.0);
+        gross.powf(share) * (self.reach / ELASTIC).max(gross).powf(1.0 - share)
     }
 
     /// Half-width of the candidate nodes.

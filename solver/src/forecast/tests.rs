@@ -15,7 +15,7 @@ fn the_surrogate_has_the_worn_area() {
             .zip(&scar.widths)
             .map(|(h, w)| h * w)
             .sum();
-        // Half of it is kept.
+        // One half of the scar is stored.
         assert!((2.0 * held / scar.area - 1.0).abs() < 1e-3, "{held}");
     }
     let full = 111.0 * scar.area_per_cycle;
@@ -52,7 +52,7 @@ fn a_tighter_tolerance_costs_more_cycles_of_more_increments() {
     assert!(tight.0 < real_cycles(fuzz_button().cycles));
 }
 
-/// A run of a million cycles, each computed in 200 000 increments, is foreseen in some thousand segments.
+/// A run of a million cycles, each computed in 200 000 increments, is forecast in some thousand segments.
 #[test]
 fn a_fixed_jump_is_forecast_in_few_segments() {
     let mut scene = fuzz_button();

@@ -4,7 +4,14 @@
 //! lambda = E nu / ((1 + nu)(1 - 2 nu)), mu = E / (2 (1 + nu)), both in MPa.
 //! Valid for 0 <= nu < 0.5; as nu -> 0.5 lambda grows without bound and the volume is kept.
 
-use crate::scene::Elastic;
+/// Isotropic linear elasticity.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Elastic {
+    /// Young's modulus E, MPa.
+    pub youngs_modulus_mpa: f64,
+    /// Poisson's ratio nu, -.
+    pub poisson_ratio: f64,
+}
 
 /// Lame's constants, MPa.
 #[derive(Debug, Clone, Copy, PartialEq)]

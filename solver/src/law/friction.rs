@@ -1,6 +1,16 @@
 //! Coulomb's law: |q| <= mu p, and q = mu p in the direction of slip where there is slip.
 
-use crate::scene::Friction;
+/// Friction laws.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Friction {
+    /// No shear traction.
+    Frictionless,
+    /// |q| <= mu p.
+    Coulomb {
+        /// Coefficient of friction mu, -.
+        coefficient: f64,
+    },
+}
 
 /// Coefficient of friction mu, -.
 pub fn coefficient(friction: Friction) -> f64 {

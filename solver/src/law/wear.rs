@@ -8,9 +8,17 @@
 pub mod archard;
 mod rate;
 
-use crate::scene::WearLaw;
-
 pub use rate::{LocalState, Rate};
+
+/// Wear laws: normal recession rate of a surface.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum WearLaw {
+    /// Archard: recession = (k/H) p |slip| (thesis, equations 5 and 6).
+    Archard {
+        /// k/H, 1/MPa.
+        k_over_h_per_mpa: f64,
+    },
+}
 
 impl WearLaw {
     /// Specific wear rate at a local state.

@@ -1,4 +1,4 @@
-//! Dense matrices and their LU factorisation, in memory that is reused from call to call.
+//! Dense matrices and their LU factorisation, with buffers that are reused from call to call.
 
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::lu::partial_pivoting::{factor, solve};
@@ -21,14 +21,14 @@ impl SquareMatrix {
         }
     }
 
-    /// Makes it a zero matrix of another order, keeping its memory.
+    /// Resizes to another order and sets all entries to zero; the allocation is reused.
     pub fn reset(&mut self, order: usize) {
         self.order = order;
         self.values.clear();
         self.values.resize(order * order, 0.0);
     }
 
-    /// Makes it a matrix of another order, keeping its memory; its entries are of no use until they are written.
+    /// Resizes to another order with unspecified entries; the allocation is reused.
     pub fn reshape(&mut self, order: usize) {
         self.order = order;
         self.values.resize(order * order, 0.0);
@@ -44,7 +44,7 @@ impl SquareMatrix {
         self.values[column * self.order + row]
     }
 
-    /// Entry (row, column), to be changed.
+    /// Mutable entry (row, column).
     pub fn at(&mut self, row: usize, column: usize) -> &mut f64 {
         &mut self.values[column * self.order + row]
     }
@@ -54,7 +54,7 @@ impl SquareMatrix {
         &self.values
     }
 
-    /// All entries, by columns, to be changed.
+    /// All entries, by columns, mutable.
     pub(super) fn values_mut(&mut self) -> &mut [f64] {
         &mut self.values
     }
@@ -64,13 +64,13 @@ impl SquareMatrix {
         &self.values[column * self.order..(column + 1) * self.order]
     }
 
-    /// A column, to be changed.
+    /// A mutable column.
     pub fn column_mut(&mut self, column: usize) -> &mut [f64] {
         &mut self.values[column * self.order..(column + 1) * self.order]
     }
 }
 
-/// Solves small dense systems by LU with partial pivoting, without allocating once it has grown.
+/// Solves small dense systems by LU with partial pivoting, without allocating once its buffers have grown.
 #[derive(Default)]
 pub struct DenseLu {
     forward: Vec<usize>,

@@ -1,21 +1,21 @@
 //! Linear complementarity problems by Lemke's method (Cottle, Pang and Stone, *The Linear Complementarity Problem*,
 //! 2009, section 4.4): w = M z + q, w >= 0, z >= 0, w'z = 0.
 //!
-//! An artificial unknown z0 is added to every row and driven out again by complementary pivots. Where M is copositive
-//! and q does not oppose its kernel, the method ends with a solution; else it can end on a ray.
+//! An artificial unknown z0 is added to every row and removed by complementary pivots. Where M is copositive
+//! and q does not oppose its kernel, the method terminates at a solution; otherwise it may terminate on a ray.
 
 use super::SquareMatrix;
 
-/// Entries of a column below this part of its largest one are no pivots.
+/// Smallest pivot over the largest entry of its column.
 const PIVOT: f64 = 1e-11;
-/// Ratios that agree to this part are ties; the largest pivot among them is taken.
+/// Relative difference below which ratios are ties; the row with the largest pivot is chosen among them.
 const TIE: f64 = 1e-12;
-/// z0 counts as driven out where it has fallen below this part of what it began with.
+/// z0 is taken as zero below this part of its initial value.
 const NEARLY_OUT: f64 = 1e-5;
-/// Pivots per unknown before it is given up; some two or three are usual.
+/// Most pivots per unknown; two or three are usual.
 const MOST_PIVOTS: usize = 30;
 
-/// Solves complementarity problems, in memory that is reused from call to call.
+/// Solves complementarity problems; its buffers are reused from call to call.
 #[derive(Debug, Default)]
 pub struct Lemke {
     order: usize,
@@ -28,12 +28,12 @@ pub struct Lemke {
 }
 
 impl Lemke {
-    /// z, or `None` if the method ends on a ray. Ties and round-off can end it shortly before the solution: what comes
-    /// back is a start for a method that looks at the residual.
+    /// Returns z, or `None` if the method terminates on a ray. Ties and round-off can end it shortly before the solution:
+    /// the result is a starting point for a method that checks the residual.
     pub fn solve(&mut self, matrix: &SquareMatrix, q: &[f64]) -> Option<&[f64]> {
         let n = matrix.order();
         debug_assert!(q.len() == n, "one constant a row");
-        self.lay(matrix, q);
+        self.assemble(matrix, q);
         let (lowest, constant) = q
             .iter()
             .enumerate()
@@ -44,7 +44,7 @@ impl Lemke {
             while entering != 2 * n {
                 let column = self.nonbasic.iter().position(|v| *v == entering)?;
                 let Some(row) = self.leaving(column) else {
-                    // A ray that begins this close to a solution is made by round-off.
+                    // A ray that begins this close to a solution is due to round-off.
                     if self.artificial() <= NEARLY_OUT * -constant {
                         break;
                     }
@@ -64,7 +64,7 @@ impl Lemke {
     }
 
     /// The dictionary of the slack basis; unknowns are w (0..n), z (n..2n) and z0 (2n).
-    fn lay(&mut self, matrix: &SquareMatrix, q: &[f64]) {
+    fn assemble(&mut self, matrix: &SquareMatrix, q: &[f64]) {
         let n = matrix.order();
         self.order = n;
         self.rows.clear();
@@ -78,7 +78,7 @@ impl Lemke {
         self.nonbasic.extend(n..=2 * n);
     }
 
-    /// The row whose unknown falls to zero first as a nonbasic one grows; z0 before any other.
+    /// Ratio test: the row whose unknown falls to zero first as a nonbasic one grows; z0 before any other.
     fn leaving(&self, column: usize) -> Option<usize> {
         let n = self.order;
         let rows = || self.rows.chunks_exact(n + 2).enumerate();

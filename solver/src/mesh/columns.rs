@@ -95,7 +95,7 @@ impl ColumnMesh {
         self.first[self.x.len()]
     }
 
-    /// Places of the spines, mm.
+    /// Positions of the spines, mm.
     pub fn x(&self) -> &[f64] {
         &self.x
     }

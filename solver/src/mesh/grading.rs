@@ -1,15 +1,15 @@
-//! Spacings of nodes: fine where the contact is, growing away from it.
+//! Mesh grading: fine under the contact, growing away from it.
 
 use crate::number::{count_at_least, real};
 
-/// Wanted spacing along a line, as a function of the distance from its middle.
+/// Target spacing along a line, as a function of the distance from its middle.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Spacing {
     /// Spacing in the core, mm.
     pub core: f64,
     /// Half the length of the core, where spacing is uniform, mm.
     pub core_half: f64,
-    /// Growth per element in the zone that the contact may come to later.
+    /// Growth per element in the zone that the contact may reach later.
     pub zone_growth: f64,
     /// Half the length of that zone, mm.
     pub zone_half: f64,
@@ -19,10 +19,10 @@ pub struct Spacing {
     pub largest: f64,
 }
 
-/// Symmetric node places on [-half, half] with one node in the middle and one at each end, ascending.
+/// Symmetric node positions on [-half, half] with one node in the middle and one at each end, ascending.
 ///
-/// The core is cut evenly. Beyond it the spacing grows by a fixed ratio an element, slower where the contact may
-/// come to later; the last stretch is shrunk evenly so that a node falls on the end.
+/// The core is divided evenly. Beyond it the spacing grows by a fixed ratio per element, more slowly in the zone that the
+/// contact may reach later; the rest is scaled so that a node lies on the end.
 pub fn symmetric(half: f64, spacing: &Spacing) -> Vec<f64> {
     let core_half = spacing.core_half.min(half);
     let n_core = count_at_least(core_half / spacing.core - 1e-9);

@@ -198,7 +198,8 @@ mod tests {
         for crown in [None, Some(0.06)] {
             scene.receptacle.shape.crown_radius_mm = crown;
             let layout = Layout::of(&scene).expect("within the limit");
-            let model = build(&scene).expect("the preset can be meshed");
+            let model =
+                build(&scene, &crate::effects::plan(&scene)).expect("the preset can be meshed");
             for (layout, model) in [
                 (&layout.bodies.slider, &model.bodies.slider),
                 (&layout.bodies.receptacle, &model.bodies.receptacle),
@@ -215,6 +216,6 @@ mod tests {
         scene.slider.shape.height_mm = 0.01;
         let error = Layout::of(&scene).expect_err("the arc crosses the top face");
         assert!(matches!(error, MeshError::Inverted { .. }), "{error}");
-        assert!(build(&scene).is_err());
+        assert!(build(&scene, &crate::effects::plan(&scene)).is_err());
     }
 }

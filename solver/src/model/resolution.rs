@@ -1,7 +1,7 @@
-//! Which lengths the contact has, and from them the spacing of the meshes.
+//! Characteristic lengths of the contact, and the mesh spacing that follows from them.
 //!
 //! * Hertz half-width a = sqrt(4 P R / (pi E*)) with 1/R = 1/R_slider + 1/R_crown (Johnson 1985, eq. 4.43);
-//! * front of one pass, where a rigid round slider wears the floor it runs over: the swept section k P equals
+//! * leading-edge step of one pass, where a rigid round slider wears the floor in gross sliding: the section k P equals
 //!   b^2 / (2 R), so b = sqrt(2 R k P);
 //! * scar of a short stroke: the circular segment that was worn off, b = (3 R W / 2)^(1/3) with the worn area
 //!   W = (k_s + k_r) P s (parabola of height b^2/(2R) over 2 b);
@@ -18,23 +18,23 @@ use std::f64::consts::PI;
 /// The estimate of the largest scar is widened by this factor before it sizes the mesh.
 const SCAR_MARGIN: f64 = 1.3;
 
-/// Where part of the contact sticks, wear is confined to a slip zone that is narrower than the contact, with steep walls
-/// beside the place that sticks: with 2.5 times as many elements its profile is off by 2.6 % of the worn area at a
+/// In partial slip, wear is confined to a slip zone that is narrower than the contact, with steep walls beside the stick
+/// zone: with 2.5 times as many elements its profile is off by 2.6 % of the worn area at a
 /// tolerance of 2 %, with 3.5 by 1.9 %.
 const STICKING_REFINEMENT: f64 = 3.5;
 
-/// No element that is chosen is longer than this part of the narrower body's half-length: however soft or heavily loaded
-/// the bodies are, each has some elements.
+/// Largest element chosen from the tolerance, over the narrower body's half-length: also soft or heavily loaded bodies have
+/// some elements. Arbitrary.
 const FEWEST_SHARE: f64 = 0.1;
-/// No element that is given is longer than this part of it: each half of a body has two at least.
+/// Largest element given by the user, over the same half-length: each half of a body has at least two. Arbitrary.
 const FEWEST_GIVEN_SHARE: f64 = 0.5;
 
-/// Lengths of the contact and what follows from them for the mesh, mm.
+/// Characteristic lengths of the contact and the mesh, mm.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Sizes {
     /// Hertz half-width of the unworn contact.
     pub hertz_half_width: f64,
-    /// Half-width that the contact itself has at the end.
+    /// Estimated half-width of the contact at the end.
     pub final_half_width: f64,
     /// Surface element size under the contact.
     pub contact_element: f64,
@@ -51,17 +51,17 @@ struct Rule {
     layer_growth: f64,
 }
 
-/// Powers of the tolerance around what serves at 2 %. The error of a worn profile falls with the element's size at
-/// an order of 1.3 to 2.1 (`solver/tests/converge_scars.rs`), which alone would let elements follow the power 0.5 to
-/// 0.8; depth and width are less sensitive than the profile's worst place, so 0.4 keeps the tolerance
+/// Powers of the tolerance, fitted at 2 %. The error of a worn profile falls with the element's size at
+/// an order of 1.3 to 2.1 (`solver/tests/converge_scars.rs`), which alone would allow elements to follow the power 0.5 to
+/// 0.8; depth and width are less sensitive than the profile's worst place, so 0.4 holds the tolerance
 /// (`solver/tests/converge_tolerance.rs`). In the scar of a short stroke that worst place is the edge, far out in the
 /// zone, where the error is of first order: below 2 % the zone must grow finer faster than the core. On `mccoll.json`
 /// at 1, 0.5 and 0.3 % the power 0.35 left 1.5, 1.3 and 1.0 % there; 1.5 leaves 1.0, 0.4 and 0.4 % (`fretwear study`).
-fn rule(tolerance: f64, runs: bool) -> Rule {
+fn rule(tolerance: f64, gross: bool) -> Rule {
     let finer = 0.02 / tolerance;
     Rule {
         elements: 8.0 * finer.powf(0.4),
-        zone_growth: 0.06 * finer.powf(if runs || finer < 1.0 { -0.35 } else { -1.5 }),
+        zone_growth: 0.06 * finer.powf(if gross || finer < 1.0 { -0.35 } else { -1.5 }),
         layer_growth: 1.0 + 0.25 * finer.powf(-0.3),
     }
 }
@@ -75,12 +75,12 @@ pub(crate) fn approach(scene: &Scene, half_width: f64, modulus: f64) -> f64 {
         .shape
         .height_mm
         .min(scene.receptacle.shape.height_mm);
-    let reach = (2.0 * (4.0 * height / half_width).ln() - 1.0).max(0.0);
-    scene.load_n_per_mm / (PI * modulus) * reach
+    let factor = (2.0 * (4.0 * height / half_width).ln() - 1.0).max(0.0);
+    scene.load_n_per_mm / (PI * modulus) * factor
 }
 
-/// Whether part of the contact may stick through the whole stroke: the amplitude is below twice the displacement at
-/// which all of it slips.
+/// Whether part of the contact may stick through the whole stroke: the amplitude is below twice the displacement of gross
+/// slip.
 fn sticks(scene: &Scene, half_width: f64, modulus: f64) -> bool {
     let Motion::Reciprocating { amplitude_mm, .. } = scene.motion else {
         return false;
@@ -108,20 +108,20 @@ pub fn choose(scene: &Scene) -> Sizes {
     let k_slider = wear::coefficient(scene.slider.wear);
     let sliding = scene.motion.distance_per_cycle_mm() * real_cycles(scene.cycles);
     let worn = (k_receptacle + k_slider) * load * sliding;
-    let front = (2.0 * radius * (k_receptacle + k_slider) * load).sqrt();
-    let narrowest = hertz.max(front);
-    // A stroke that leaves the contact behind wears a groove, at whose ends the contact climbs the walls; a shorter
-    // one wears a scar around the contact.
-    let runs = amplitude > 2.0 * narrowest;
-    let last = if runs {
+    let edge_step = (2.0 * radius * (k_receptacle + k_slider) * load).sqrt();
+    let narrowest = hertz.max(edge_step);
+    // Gross reciprocating sliding wears a groove, at whose ends the contact climbs the walls; a shorter stroke wears a scar
+    // around the contact.
+    let gross = amplitude > 2.0 * narrowest;
+    let last = if gross {
         (radius * worn / amplitude).sqrt().min(radius)
     } else {
         (1.5 * radius * worn).cbrt().min(radius)
     }
     .max(narrowest);
-    let narrowest = if runs { narrowest } else { hertz };
+    let narrowest = if gross { narrowest } else { hertz };
 
-    let rule = rule(scene.accuracy.tolerance, runs);
+    let rule = rule(scene.accuracy.tolerance, gross);
     let elements = if sticks(scene, hertz, modulus) {
         STICKING_REFINEMENT * rule.elements
     } else {
@@ -134,9 +134,9 @@ pub fn choose(scene: &Scene) -> Sizes {
         Some(element) => element.min(FEWEST_GIVEN_SHARE * narrower),
         None => (narrowest / elements).min(FEWEST_SHARE * narrower),
     };
-    let reach = SCAR_MARGIN * last + element;
+    let zone = SCAR_MARGIN * last + element;
     let core = if given.is_some() {
-        reach
+        zone
     } else {
         2.0 * narrowest
     };
@@ -144,7 +144,7 @@ pub fn choose(scene: &Scene) -> Sizes {
         core: element,
         core_half: (core + travel).min(half),
         zone_growth: rule.zone_growth,
-        zone_half: reach + travel,
+        zone_half: zone + travel,
         outer_growth: 0.25,
         largest: (0.1 * half).max(element),
     };

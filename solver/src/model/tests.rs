@@ -55,7 +55,8 @@ pub(crate) fn fuzz_button() -> Scene {
 
 #[test]
 fn a_half_round_slider_ends_in_tips_on_its_top_face() {
-    let model = build(&fuzz_button()).expect("the preset can be meshed");
+    let model = build(&fuzz_button(), &crate::effects::plan(&fuzz_button()))
+        .expect("the preset can be meshed");
     let x = model.bodies.slider.mesh.x();
     assert!((x[0] + 0.0254).abs() < 1e-15);
     assert_eq!(
@@ -67,7 +68,8 @@ fn a_half_round_slider_ends_in_tips_on_its_top_face() {
 
 #[test]
 fn widths_of_contact_nodes_add_up_to_the_surface() {
-    let model = build(&fuzz_button()).expect("the preset can be meshed");
+    let model = build(&fuzz_button(), &crate::effects::plan(&fuzz_button()))
+        .expect("the preset can be meshed");
     let sum: f64 = model.bodies.receptacle.contact_widths().iter().sum();
     assert!((sum - 0.08467).abs() < 1e-14);
 }
@@ -77,10 +79,26 @@ fn too_fine_an_element_is_refused_with_the_limit() {
     let mut scene = fuzz_button();
     scene.accuracy.contact_element_mm = Some(1e-6);
     assert!(matches!(
-        build(&scene),
+        build(&scene, &crate::effects::plan(&scene)),
         Err(MeshError::TooLarge {
             limit: layout::MOST_SURFACE_NODES,
             ..
         })
     ));
+}
+
+#[test]
+fn skipped_effects_leave_the_model() {
+    let mut scene = fuzz_button();
+    let plan = crate::effects::plan(&scene);
+    let model = build(&scene, &plan).expect("the preset can be meshed");
+    assert!(model.relocates && model.interface.wear.receptacle > 0.0);
+    scene.motion = Motion::Reciprocating {
+        amplitude_mm: 0.0,
+        period_s: 1.0,
+    };
+    let plan = crate::effects::plan(&scene);
+    let model = build(&scene, &plan).expect("the preset can be meshed");
+    assert!(!model.relocates);
+    assert_eq!(model.interface.wear, Sides::default());
 }

@@ -2,6 +2,7 @@
 
 use crate::cycle::CycleState;
 use crate::interpolation;
+use crate::law::wear;
 use crate::model::Model;
 use crate::record::channel::declare_report;
 use crate::record::scar;
@@ -87,7 +88,11 @@ impl<'a> CycleEnd<'a> {
     fn surface(&self, side: Side) -> Surface<'a> {
         let interface = &self.model.interface;
         let body = self.model.bodies.of(side);
-        let wear = *interface.wear.of(side);
+        // The identity is that of the law, also where nothing slides and the plan leaves wear out.
+        let wear = wear::coefficient(match side {
+            Side::Slider => self.scene.slider.wear,
+            Side::Receptacle => self.scene.receptacle.wear,
+        });
         let has_identity = wear > 0.0 && interface.spring <= 0.0;
         let ideal_area = wear * interface.load * self.state.sliding_distance;
         Surface {

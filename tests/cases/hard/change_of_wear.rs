@@ -16,7 +16,8 @@ fn wear_coefficient_can_change_a_hundredfold_between_two_cycles() {
         "interface": {"wear": {"receptacle": {"k_over_h_per_mpa": 1e-6}}},
         "cycles": 2000,
     })));
-    let mut model = solver::model::build(&scene).expect("the scene can be meshed");
+    let mut model = solver::model::build(&scene, &solver::effects::plan(&scene))
+        .expect("the scene can be meshed");
     let condensed = condense(&model).expect("it can be condensed");
     let operators = &condensed.operators;
     let widths = model.bodies.receptacle.contact_widths();

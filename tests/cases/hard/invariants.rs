@@ -141,7 +141,8 @@ pub(crate) fn zigzag(field: &TractionField) -> f64 {
 /// Elements of the worn bodies are positive.
 fn inverted_elements(run: &Run) -> Option<String> {
     let last = run.snapshots.last()?;
-    let model = model::build(&run.scene).expect("it was built before");
+    let model =
+        model::build(&run.scene, &solver::effects::plan(&run.scene)).expect("it was built before");
     let depth = Sides {
         slider: last.slider.depth_mm.clone(),
         receptacle: last.receptacle.depth_mm.clone(),

@@ -13,7 +13,8 @@ pub(crate) fn explicit_wear(
     jump: f64,
     steps_per_quarter: u32,
 ) -> Result<TractionField, ContactError> {
-    let model = solver::model::build(scene).expect("the scene can be meshed");
+    let model = solver::model::build(scene, &solver::effects::plan(scene))
+        .expect("the scene can be meshed");
     let operators = condense(&model).expect("it can be condensed").operators;
     let pair = Pair {
         operators: &operators,

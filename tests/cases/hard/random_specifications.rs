@@ -33,7 +33,8 @@ fn setting<T: FromStr>(name: &str, default: T) -> T {
 
 /// Checks whether a scene takes seconds at most.
 fn is_cheap(scene: &Scene) -> bool {
-    let model = solver::model::build(scene).expect("what is accepted can be meshed");
+    let model = solver::model::build(scene, &solver::effects::plan(scene))
+        .expect("what is accepted can be meshed");
     let spines = model.bodies.receptacle.mesh.spines() + model.bodies.slider.mesh.spines();
     let dofs = model.bodies.receptacle.dofs() + model.bodies.slider.dofs();
     let way = scene.motion.amplitude_mm() / model.sizes.hertz_half_width;

@@ -18,7 +18,8 @@ fn slender_elements_far_below_the_contact_do_not_change_hertz_pressure() {
         "accuracy": {"overrides": {"contact_element_mm": 0.001}},
     })));
     hold(&run);
-    let model = solver::model::build(&run.scene).expect("it can be meshed");
+    let model = solver::model::build(&run.scene, &solver::effects::plan(&run.scene))
+        .expect("it can be meshed");
     let mesh = &model.bodies.receptacle.mesh;
     let (nodes, middle) = (mesh.coordinates(), mesh.spines() / 2);
     let width = mesh.x()[middle + 1] - mesh.x()[middle];
