@@ -89,7 +89,9 @@ fn load(
         let snapshot = snapshot(scene, model, condensed, &state, record)?;
         flow = observer.on(Event::Snapshot(&snapshot));
     }
-    integrator.initial_quarter(&mut state)?;
+    if flow.is_continue() {
+        integrator.initial_quarter(&mut state)?;
+    }
     let initial = Initial {
         peak_pressure_mpa: report.peak_pressure_mpa,
         contact_half_width_mm: report.contact_half_width_mm,

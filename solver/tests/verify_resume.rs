@@ -204,3 +204,60 @@ fn a_snapshot_that_could_not_be_stored_is_taken_again_by_the_resumed_run() {
         assert_eq!(cycles, [0, 5, 20]);
     }
 }
+
+/// An observer that stops the run at the n-th event.
+struct StopAt {
+    remaining: usize,
+    recorder: Recorder,
+    last: Option<Checkpoint>,
+}
+
+impl Observer for StopAt {
+    fn on(&mut self, event: Event<'_>) -> ControlFlow<()> {
+        assert!(self.remaining > 0, "no event follows a stop");
+        self.remaining -= 1;
+        if self.remaining == 0 {
+            return ControlFlow::Break(());
+        }
+        if let Event::Checkpoint(checkpoint) = event {
+            self.last = Some(checkpoint.clone());
+        }
+        self.recorder.on(event)
+    }
+}
+
+/// Whichever event of a run is refused, the run stops there, and what follows its last checkpoint has the bits of the
+/// uninterrupted run.
+#[test]
+fn a_stop_at_any_event_loses_nothing() {
+    let mut scene = Scene {
+        cycles: 4,
+        ..mccoll()
+    };
+    scene.output.snapshots_at_cycles = vec![2, 4];
+    scene.accuracy.cycle_jump = Some(1);
+    let mut whole = CheckpointRecorder::default();
+    let summary = run::solve(&scene, &mut whole).expect("the scene can be solved");
+    let recorded = &whole.recorder;
+    let events = recorded.reports.len() + recorded.snapshots.len() + whole.checkpoints.len();
+    assert!(events >= 10, "{events}");
+    for remaining in 1..=events {
+        let mut stopped = StopAt {
+            remaining,
+            recorder: Recorder::default(),
+            last: None,
+        };
+        let end = run::solve(&scene, &mut stopped).expect("the scene can be solved");
+        assert_eq!(end.outcome, Outcome::Stopped, "event {remaining}");
+        let mut rest = Recorder::default();
+        let (cycle, resumed) = match stopped.last {
+            Some(last) => (last.cycle(), run::resume(&scene, last, &mut rest)),
+            None => (0, run::solve(&scene, &mut rest)),
+        };
+        let resumed = resumed.expect("it can be resumed");
+        assert!(
+            bits_after(cycle, &rest, &resumed) == bits_after(cycle, &whole.recorder, &summary),
+            "other bits after a stop at event {remaining}"
+        );
+    }
+}

@@ -16,7 +16,7 @@ pub(super) const MAX_LONG_POLLS: usize = 768;
 pub(super) const MAX_STREAMS: usize = 1024;
 /// Maximum number of concurrent archives: each occupies a thread for as long as its client takes to read it.
 pub(super) const MAX_ARCHIVES: usize = 4;
-/// Largest number of batches that are expanded at once: each occupies a processor for up to seconds.
+/// Largest number of studies that are expanded at once: each occupies a processor for up to seconds.
 const MAX_EXPANSIONS: usize = 2;
 
 /// State that the routes share.
@@ -32,7 +32,7 @@ pub struct App {
     /// Measured speed of this machine.
     pub(super) machine: CalibrationCache,
     pub(super) archive_permits: Arc<Semaphore>,
-    /// Permits to expand a batch into its jobs.
+    /// Permits to expand a study into its jobs.
     pub(super) expansion_permits: Arc<Semaphore>,
     pub(super) long_poll_permits: Arc<Semaphore>,
     pub(super) stream_permits: Arc<Semaphore>,

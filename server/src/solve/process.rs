@@ -46,6 +46,8 @@ pub(crate) struct SolveCommand<'a> {
     pub(crate) checkpoint_every: Duration,
     /// Memory limit, MB.
     pub(crate) memory_limit_mb: Option<i64>,
+    /// Whether it gets a process group of its own; otherwise the signals of a terminal reach it too.
+    pub(crate) own_group: bool,
 }
 
 /// A solving process; killed when it is dropped.
@@ -124,14 +126,16 @@ impl SolveCommand<'_> {
         if let Some(limit) = self.memory_limit_mb {
             command.arg("--memory-limit-mb").arg(limit.to_string());
         }
-        let mut child = command
+        command
             .arg(self.folder)
             .stdin(Stdio::piped())
             .stdout(Stdio::piped())
             .stderr(Stdio::piped())
-            .process_group(0)
-            .kill_on_drop(true)
-            .spawn()?;
+            .kill_on_drop(true);
+        if self.own_group {
+            command.process_group(0);
+        }
+        let mut child = command.spawn()?;
         let missing = || std::io::Error::other("the process has no pipe");
         let stdin = child.stdin.take().ok_or_else(missing)?;
         let stdout = child.stdout.take().ok_or_else(missing)?;

@@ -100,6 +100,7 @@ fn start(store: &Store, claim: &Claim, rules: &Rules) -> std::io::Result<SolvePr
         checkpoint: claim.checkpoint.as_ref(),
         checkpoint_every: rules.checkpoint_every,
         memory_limit_mb: Some(rules.memory_limit_mb(claim.memory_mb)),
+        own_group: true,
     }
     .spawn()
 }

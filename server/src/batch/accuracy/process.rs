@@ -48,6 +48,7 @@ async fn run(program: &Path, spec: &str) -> Result<Result<Found, String>, LineEr
         checkpoint: None,
         checkpoint_every: NO_CHECKPOINTS,
         memory_limit_mb: None,
+        own_group: false,
     };
     let mut process = command.spawn().map_err(LineError::Read)?;
     let (mut profile, mut found) = (Profile::default(), None);

@@ -80,7 +80,10 @@ async fn submit(
             Kind::Sweep => app.machine.get().cloned(),
             Kind::AccuracyStudy => app.machine.get_or_measure_async().await,
         };
-        let permit = Arc::clone(&app.expansion_permits).acquire_owned().await;
+        let permit = match kind {
+            Kind::Sweep => None,
+            Kind::AccuracyStudy => Some(Arc::clone(&app.expansion_permits).acquire_owned().await),
+        };
         let expand = move || {
             // Held until the expansion ends, also after the client has disconnected.
             let _permit = permit;
