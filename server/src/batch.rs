@@ -70,6 +70,17 @@ impl Kind {
         }
     }
 
+    /// Checks that the evaluation plan of a batch can be read.
+    ///
+    /// # Errors
+    /// [`EvaluateError::Format`] for the plan of another version.
+    pub fn check_plan(self, batch: &StoredBatch) -> Result<(), EvaluateError> {
+        match self {
+            Self::Sweep => Ok(()),
+            Self::AccuracyStudy => accuracy::outcomes::check_plan(batch),
+        }
+    }
+
     /// Returns a batch as a document.
     ///
     /// # Errors

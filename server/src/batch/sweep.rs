@@ -43,6 +43,7 @@ pub(super) fn expand(
     request: &SweepRequest,
     accept: &Accept<'_>,
 ) -> Result<Vec<Variation>, Refused> {
+    check_size(request).map_err(Refused::Faults)?;
     let all = match (&request.grid, &request.list) {
         (Some(grid), _) => combinations(grid),
         (None, list) => list.clone().unwrap_or_default(),

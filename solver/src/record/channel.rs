@@ -26,7 +26,8 @@ pub trait Channels: Sized + 'static {
 /// A line of `channels` is one scalar: description, name, unit, name of its curve if it is a worn depth to be drawn,
 /// value. Documents know `fields` by name, so a new field needs edits there; a new channel does not.
 ///
-/// Stored reports that are older than a channel are read with 0 for it.
+/// A channel that is added later carries `#[serde(default)]` after its description: stored reports without it are read
+/// with 0 for it.
 macro_rules! declare_report {
     (
         $(#[$attribute:meta])*
@@ -37,6 +38,7 @@ macro_rules! declare_report {
         channels {
             $(
                 #[doc = $description:literal]
+                $(#[$channel_attribute:meta])*
                 $channel:ident [$unit:literal $(, curve $curve:literal)?] = $value:expr,
             )+
         }
@@ -47,7 +49,7 @@ macro_rules! declare_report {
             $($(#[$field_attribute])* pub $field: $field_type,)*
             $(
                 #[doc = $description]
-                #[serde(default)]
+                $(#[$channel_attribute])*
                 pub $channel: f64,
             )+
         }

@@ -50,6 +50,7 @@ declare_report! {
     }
     channels {
         /// Normal load, which a spring reduces as the bodies wear, N per mm of depth.
+        #[serde(default)]
         load_n_per_mm ["n_per_mm"] = end.state.neutral.load,
         /// Highest contact pressure, MPa.
         peak_pressure_mpa ["mpa"] = end.state.neutral.peak_pressure,

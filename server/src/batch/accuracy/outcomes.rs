@@ -49,10 +49,22 @@ pub(in crate::batch) fn table(batch: &StoredBatch) -> Result<Vec<u8>, EvaluateEr
 /// [`EvaluateError`] if something stored cannot be read, or there is nothing to compare yet.
 pub fn study(batch: &StoredBatch) -> Result<Study, EvaluateError> {
     let id = batch.overview.id;
-    let plan = EvaluationPlan::decode(id, batch.plan.as_deref().unwrap_or_default())?;
+    let plan = plan(batch)?;
     let runs = batch.jobs.iter().filter_map(|job| run(job).transpose());
     let runs = runs.collect::<Result<Vec<Run>, _>>()?;
     evaluate(&plan.spec, &plan.grid, &runs, plan.left_out).map_err(|_| EvaluateError::Empty(id))
+}
+
+/// Checks that the evaluation plan can be read.
+///
+/// # Errors
+/// [`EvaluateError::Format`] for the plan of another version.
+pub(in crate::batch) fn check_plan(batch: &StoredBatch) -> Result<(), EvaluateError> {
+    plan(batch).map(drop)
+}
+
+fn plan(batch: &StoredBatch) -> Result<EvaluationPlan, EvaluateError> {
+    EvaluationPlan::decode(batch.overview.id, batch.plan.as_deref().unwrap_or_default())
 }
 
 fn accuracy(job: &BatchJob) -> Option<RunAccuracy> {

@@ -66,9 +66,15 @@ impl App {
         detail: BatchDetail,
         evaluate: impl FnOnce(StoredBatch) -> Result<T, EvaluateError> + Send + 'static,
     ) -> Result<T, ProblemResponse> {
-        let batch = self.store.batch(id, detail).await?;
-        let batch = batch.filter(|batch| kind.includes(batch));
-        let batch = batch.ok_or(BatchError::Missing(kind, id))?;
+        let missing = || BatchError::Missing(kind, id);
+        let read = |batch: Option<StoredBatch>| {
+            let batch = batch.filter(|batch| kind.includes(batch));
+            batch.ok_or_else(missing)
+        };
+        // The plan first: results of another format need not be readable.
+        let overview = read(self.store.batch(id, BatchDetail::Statuses).await?)?;
+        kind.check_plan(&overview)?;
+        let batch = read(self.store.batch(id, detail).await?)?;
         Ok(tokio::task::spawn_blocking(move || evaluate(batch)).await??)
     }
 }

@@ -227,4 +227,13 @@ mod tests {
         let again = tokio::time::timeout(Duration::from_mins(1), again).await;
         assert_eq!(first["id"], again.expect("an answer").2["id"]);
     }
+
+    #[tokio::test]
+    async fn a_sweep_does_not_wait_for_studies_that_are_expanded() {
+        let mut service = Service::new().await;
+        service.app.expansion_permits = Arc::new(Semaphore::new(0));
+        let sweep = service.post("/v1/sweeps", SWEEP);
+        let sweep = tokio::time::timeout(Duration::from_mins(1), sweep).await;
+        assert_eq!(sweep.expect("an answer").0, 202);
+    }
 }

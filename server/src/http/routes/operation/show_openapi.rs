@@ -1,5 +1,7 @@
 //! `GET /openapi.json`: the OpenAPI document of the interface.
 
+use std::sync::OnceLock;
+
 use axum::extract::State;
 use axum::http::header;
 use axum::response::IntoResponse;
@@ -14,9 +16,9 @@ use crate::http::app::App;
     responses((status = 200, description = "The document", content_type = "application/json"))
 )]
 pub(in crate::http) async fn openapi(State(app): State<App>) -> impl IntoResponse {
-    let mut text = serde_json::to_string_pretty(app.document).unwrap_or_default();
-    text.push('\n');
-    ([(header::CONTENT_TYPE, "application/json")], text)
+    static TEXT: OnceLock<String> = OnceLock::new();
+    let text = TEXT.get_or_init(|| format!("{:#}\n", app.document));
+    ([(header::CONTENT_TYPE, "application/json")], text.as_str())
 }
 
 #[cfg(test)]
