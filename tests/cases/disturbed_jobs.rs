@@ -71,7 +71,7 @@ async fn interrupted(
 
 #[tokio::test]
 async fn an_interrupted_job_reaches_the_bits_of_an_undisturbed_one() {
-    let study = study(60);
+    let study = study(300);
     let expected = undisturbed(&study).await;
 
     let (found, attempts, began) = interrupted(&study, Signal::SIGKILL, async |_| {}).await;
@@ -135,7 +135,7 @@ async fn a_solve_that_exceeds_the_grace_time_is_killed_without_using_an_attempt(
     let folder = tempfile::tempdir().expect("a folder can be made");
     let options = ["--checkpoint-every-s", "0", "--grace-s", "0.5"];
     let server = Server::start_with(folder.path(), &options);
-    let study = study(60);
+    let study = study(300);
     let id = submitted(&server, &study).await;
     computing(&server, &id, 10).await;
     for child in server.solving() {
