@@ -11,6 +11,8 @@ use tests::{Disk, Server, bits, database};
 /// Checkpoints after every computed cycle.
 const EVERY_CYCLE: [&str; 2] = ["--checkpoint-every-s", "0"];
 
+/// A job of so many computed cycles; interrupted ones have enough to be found running after a poll, also where other
+/// programs occupy the processors.
 fn study(cycles: u64) -> Value {
     json!({
         "system": {"kind": "fuzz_button"},

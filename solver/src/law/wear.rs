@@ -1,6 +1,7 @@
 //! Wear laws: recession of a surface from the local state of the contact.
 //!
-//! A law returns its rate with derivatives; the contact solve takes these and knows no law. One file a law.
+//! A law returns its rate with derivatives, and the contact solve knows no law. So far it takes the rate of the unloaded
+//! surface as a constant (`coefficient`), which is exact for Archard's law only. One file a law.
 //!
 //! The thesis' own subroutine takes the signed velocity of the slider; here it is the magnitude of the local slip, so
 //! that sticking points do not wear and a return stroke removes material like the stroke before.

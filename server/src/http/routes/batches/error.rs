@@ -71,9 +71,11 @@ impl App {
             let batch = batch.filter(|batch| kind.includes(batch));
             batch.ok_or_else(missing)
         };
-        // The plan first: results of another format need not be readable.
-        let overview = read(self.store.batch(id, BatchDetail::Statuses).await?)?;
-        kind.check_plan(&overview)?;
+        // The plan first: beside one of another format, results need not be readable.
+        if kind.has_plan() {
+            let statuses = read(self.store.batch(id, BatchDetail::Statuses).await?)?;
+            kind.check_plan(&statuses)?;
+        }
         let batch = read(self.store.batch(id, detail).await?)?;
         Ok(tokio::task::spawn_blocking(move || evaluate(batch)).await??)
     }
