@@ -19,6 +19,7 @@ use crate::ale::Spines;
 use crate::condensation::Operators;
 use crate::contact::{self, ContactError, ContactState, Displacement, Pair, Solver, Surfaces};
 use crate::law::elastic::contact_modulus;
+use crate::law::wear::{self, LocalState};
 use crate::model::Model;
 use crate::number::{cycles_at_least, real, real_cycles};
 use crate::scene::Scene;
@@ -205,9 +206,10 @@ impl<'a> Integrator<'a> {
         let (scene, interface) = (self.scene, &self.pair.interface);
         let amplitude = scene.motion.amplitude_mm();
         let modulus = contact_modulus(scene.slider.elastic, scene.receptacle.elastic);
-        let wear = interface.wear.receptacle + interface.wear.slider;
+        let at = LocalState::mean(interface.load, state.mean_half_width);
+        let wear = wear::coefficients(interface.wear, at);
         Stroke::new(
-            wear,
+            wear.receptacle + wear.slider,
             modulus,
             (amplitude, state.mean_half_width),
             scene.cycles,
@@ -215,7 +217,6 @@ impl<'a> Integrator<'a> {
     }
 
     fn increment(&mut self, state: &mut CycleState, to: Displacement) -> Result<(), ContactError> {
-        let cycles = to.cycles;
         let surfaces = Surfaces {
             depth: state.depth.as_slices(),
             slope: self.slope.as_slices(),
@@ -224,36 +225,27 @@ impl<'a> Integrator<'a> {
         let done = self
             .solver
             .advance(&self.pair, &surfaces, last, to, &mut self.next)?;
-        wear_limit::check(
-            &self.spines,
-            self.pair.interface.wear,
-            &state.depth,
-            to,
-            &done,
-        )?;
-        let interface = &self.pair.interface;
-        let widths = &self.pair.operators.receptacle.widths[done.first.receptacle..];
-        for (width, path) in widths.iter().zip(done.path.receptacle) {
-            state.friction_path += cycles * width * path;
-        }
+        wear_limit::check(&self.spines, &state.depth, to.slider_x, &done)?;
         for side in Side::BOTH {
+            *state.worn_area.of_mut(side) += done.worn_area.of(side);
             let depths = &mut state.depth.of_mut(side)[*done.first.of(side)..];
-            for (depth, path) in depths.iter_mut().zip(*done.path.of(side)) {
-                *depth += interface.wear.of(side) * cycles * path;
+            for (depth, recession) in depths.iter_mut().zip(*done.recession.of(side)) {
+                *depth += recession;
             }
         }
-        state.energy += cycles * done.energy;
+        state.energy += to.cycles * done.energy;
         state.increments += 1;
         let checks = &mut state.checks;
         checks.force_balance = checks.force_balance.max(done.force_balance);
         checks.complementarity = checks.complementarity.max(done.complementarity);
         checks.friction_cone = checks.friction_cone.max(done.friction_cone);
         std::mem::swap(&mut state.contact, &mut self.next);
-        if interface.friction > 0.0 {
+        let friction = self.pair.interface.friction;
+        if friction > 0.0 {
             let used = state
                 .contact
                 .friction_use(&self.pair.operators.receptacle.widths)
-                / interface.friction;
+                / friction;
             state.checks.friction_use = state.checks.friction_use.max(used);
         }
         Ok(())

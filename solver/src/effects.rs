@@ -1,7 +1,7 @@
 //! Effects plan: only the effects that a scene calls for are simulated.
 
 use crate::law::elastic::contact_modulus;
-use crate::law::{friction, wear};
+use crate::law::friction;
 use crate::model::resolution;
 use crate::scene::{Friction, Scene};
 
@@ -87,8 +87,8 @@ pub fn plan(scene: &Scene) -> EffectsPlan {
             "no friction in the scene: the shear unknowns are left out".to_owned(),
         ),
     };
-    let wear = |effect, law, side: &str| {
-        let k = wear::coefficient(law);
+    let rates = resolution::wear_rates(scene, sizes.hertz_half_width);
+    let wear = |effect, k: f64, side: &str| {
         let (simulated, reason) = if k <= 0.0 {
             (false, format!("the {side} has no wear law"))
         } else if scene.motion.distance_per_cycle_mm() <= 0.0 {
@@ -102,8 +102,8 @@ pub fn plan(scene: &Scene) -> EffectsPlan {
             reason,
         }
     };
-    let receptacle = wear(Effect::ReceptacleWear, scene.receptacle.wear, "receptacle");
-    let slider = wear(Effect::SliderWear, scene.slider.wear, "slider");
+    let receptacle = wear(Effect::ReceptacleWear, rates.receptacle, "receptacle");
+    let slider = wear(Effect::SliderWear, rates.slider, "slider");
     let wears = receptacle.simulated || slider.simulated;
     let relocation = Decision {
         effect: Effect::Relocation,

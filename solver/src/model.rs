@@ -7,7 +7,8 @@ pub mod resolution;
 use crate::effects::{Effect, EffectsPlan};
 use crate::element;
 use crate::law::elastic::Lame;
-use crate::law::{friction, wear};
+use crate::law::friction;
+use crate::law::wear::WearLaw;
 use crate::mesh::{ColumnMesh, MeshError};
 use crate::number::real;
 use crate::scene::{Drive, Elastic, Scene};
@@ -62,8 +63,8 @@ pub enum Support {
 pub struct Interface {
     /// Coefficient of friction, -.
     pub friction: f64,
-    /// Specific wear rates: recession per pressure and slip, 1/MPa.
-    pub wear: Sides<f64>,
+    /// Wear laws; none where nothing wears.
+    pub wear: Sides<Option<WearLaw>>,
     /// Normal load on the unworn contact, N/mm.
     pub load: f64,
     /// Stiffness of the spring that applies the load: the load decreases by this as the slider sinks, N/mm per mm.
@@ -81,10 +82,7 @@ pub fn build(scene: &Scene, plan: &EffectsPlan) -> Result<Model, MeshError> {
         Drive::Handle => Support::FarFaceHeld,
         Drive::WholeBody => Support::GuidedUnderPressure,
     };
-    let wear_rate = |effect, law| {
-        let simulated = plan.simulates(effect);
-        wear::coefficient(simulated.then_some(law).flatten())
-    };
+    let wear = |effect, law: Option<WearLaw>| law.filter(|_| plan.simulates(effect));
     let interface = Interface {
         friction: if plan.simulates(Effect::Friction) {
             friction::coefficient(scene.friction)
@@ -92,8 +90,8 @@ pub fn build(scene: &Scene, plan: &EffectsPlan) -> Result<Model, MeshError> {
             0.0
         },
         wear: Sides {
-            slider: wear_rate(Effect::SliderWear, scene.slider.wear),
-            receptacle: wear_rate(Effect::ReceptacleWear, scene.receptacle.wear),
+            slider: wear(Effect::SliderWear, scene.slider.wear),
+            receptacle: wear(Effect::ReceptacleWear, scene.receptacle.wear),
         },
         load: scene.load_n_per_mm,
         spring: scene.spring_n_per_mm2,

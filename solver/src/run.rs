@@ -174,7 +174,7 @@ fn summary(scene: &Scene, model: &Model, run: &Checkpoint, outcome: Outcome) -> 
     let state = &run.state;
     let last = record::report(scene, model, state);
     let mut checks = state.checks;
-    checks.worn_area = record::worn_area_residual(model, state, &last);
+    checks.worn_area = record::worn_area_residual(state, &last);
     Summary {
         outcome,
         initial: run.initial,

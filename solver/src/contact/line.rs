@@ -17,6 +17,7 @@
 
 mod active_set;
 mod active_window;
+mod band;
 mod complementarity;
 mod error;
 mod increment;
@@ -37,3 +38,6 @@ pub use pair::{Displacement, Pair, Surfaces, slopes};
 pub use problem::{GAP_TOLERANCE, MOST_ITERATIONS};
 pub use state::ContactState;
 pub use status::Status;
+
+#[cfg(test)]
+mod tests;

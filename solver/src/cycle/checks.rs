@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 pub struct Checks {
     /// |sum of vertical forces - load| over the load on the unworn contact.
     pub force_balance: f64,
-    /// |worn area of the profile - accumulated k times integral of p |slip|| / worn area.
+    /// |worn area of the profile - accumulated integral of the wear rate| over the latter.
     pub worn_area: f64,
     /// Largest violation of gap >= 0, p >= 0, p gap = 0, over its scale.
     pub complementarity: f64,

@@ -39,8 +39,8 @@ pub struct CycleState {
     pub depth: Sides<Vec<f64>>,
     /// Imposed sliding distance, mm.
     pub sliding_distance: f64,
-    /// Accumulated integral of p |slip|, N/mm mm.
-    pub friction_path: f64,
+    /// Accumulated integrals of the wear rates over contact and time, mm^2.
+    pub worn_area: Sides<f64>,
     /// Accumulated energy dissipated by friction, mJ/mm.
     pub energy: f64,
     /// Jump control.
@@ -67,7 +67,7 @@ impl CycleState {
             contact: ContactState::untouched(operators),
             depth: operators.as_ref().map(|body| vec![0.0; body.x.len()]),
             sliding_distance: 0.0,
-            friction_path: 0.0,
+            worn_area: Sides::default(),
             energy: 0.0,
             jump: JumpControl::default(),
             neutral: Neutral::default(),

@@ -3,7 +3,7 @@
 use crate::ale;
 use crate::contact::line::CANDIDATE_GAP;
 use crate::law::elastic::contact_modulus;
-use crate::law::{friction, wear};
+use crate::law::friction;
 use crate::model::{Layout, resolution};
 use crate::number::{real, real_cycles};
 use crate::scene::Scene;
@@ -68,12 +68,9 @@ pub(super) struct Scar {
 impl Scar {
     pub(super) fn new(scene: &Scene, layout: &Layout) -> Self {
         let modulus = contact_modulus(scene.slider.elastic, scene.receptacle.elastic);
-        let rates = Sides {
-            slider: wear::coefficient(scene.slider.wear),
-            receptacle: wear::coefficient(scene.receptacle.wear),
-        };
-        let wear = rates.slider + rates.receptacle;
         let hertz = layout.sizes.hertz_half_width;
+        let rates = resolution::wear_rates(scene, hertz);
+        let wear = rates.slider + rates.receptacle;
         let approach = resolution::approach(scene, hertz, modulus);
         let amplitude = scene.motion.amplitude_mm();
         let sliding = if amplitude > 0.0 {

@@ -1,15 +1,18 @@
-//! Wear laws: recession of a surface from the local state of the contact.
+//! Wear laws: recession of a surface from the local state of the contact. One file a law.
 //!
-//! A law returns its rate with derivatives, and the contact solve knows no law. So far it takes the rate of the unloaded
-//! surface as a constant (`coefficient`), which is exact for Archard's law only. One file a law.
+//! A law returns its specific wear rate with derivatives; the contact solve takes these and knows no law.
 //!
 //! The thesis' own subroutine takes the signed velocity of the slider; here it is the magnitude of the local slip, so
 //! that sticking points do not wear and a return stroke removes material like the stroke before.
 
 pub mod archard;
+#[cfg(test)]
+mod pressure_power;
 mod rate;
 
 pub use rate::{LocalState, Rate};
+
+use crate::sides::Sides;
 
 /// Wear laws: normal recession rate of a surface.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -19,6 +22,16 @@ pub enum WearLaw {
         /// k/H, 1/MPa.
         k_over_h_per_mpa: f64,
     },
+    /// A specific wear rate that grows with the pressure, for tests of the contact solve.
+    #[cfg(test)]
+    PressurePower {
+        /// Specific wear rate at the reference pressure, 1/MPa.
+        k_per_mpa: f64,
+        /// Reference pressure, MPa.
+        reference_mpa: f64,
+        /// Exponent of the pressure, -.
+        exponent: f64,
+    },
 }
 
 impl WearLaw {
@@ -26,29 +39,52 @@ impl WearLaw {
     pub fn rate(self, at: LocalState) -> Rate {
         match self {
             Self::Archard { k_over_h_per_mpa } => archard::rate(k_over_h_per_mpa, at),
+            #[cfg(test)]
+            Self::PressurePower {
+                k_per_mpa,
+                reference_mpa,
+                exponent,
+            } => pressure_power::rate(k_per_mpa, reference_mpa, exponent, at),
+        }
+    }
+
+    /// The specific wear rate of a law for which it is the same in every state, 1/MPa.
+    pub fn uniform(self) -> Option<f64> {
+        match self {
+            Self::Archard { k_over_h_per_mpa } => Some(k_over_h_per_mpa),
+            #[cfg(test)]
+            Self::PressurePower { .. } => None,
         }
     }
 }
 
-/// Specific wear rate of an unloaded surface, 1/MPa; 0 where nothing wears.
-pub fn coefficient(law: Option<WearLaw>) -> f64 {
-    law.map_or(0.0, |law| law.rate(LocalState::default()).value)
+/// Specific wear rates of both surfaces at a representative state, 1/MPa, for estimates; 0 where nothing wears.
+pub fn coefficients(laws: Sides<Option<WearLaw>>, at: LocalState) -> Sides<f64> {
+    laws.map(|law| law.map_or(0.0, |law| law.rate(at).value))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    const LAWS: [WearLaw; 1] = [WearLaw::Archard {
-        k_over_h_per_mpa: 2.5761e-5,
-    }];
+    const LAWS: [WearLaw; 2] = [
+        WearLaw::Archard {
+            k_over_h_per_mpa: 2.5761e-5,
+        },
+        WearLaw::PressurePower {
+            k_per_mpa: 2.5761e-5,
+            reference_mpa: 100.0,
+            exponent: 0.6,
+        },
+    ];
+    const STATE: LocalState = LocalState {
+        pressure: 150.0,
+        slip: 0.02,
+    };
 
     #[test]
     fn derivatives_are_those_of_the_value() {
-        let at = LocalState {
-            pressure: 150.0,
-            slip: 0.02,
-        };
+        let at = STATE;
         for law in LAWS {
             let rate = law.rate(at);
             let step = 1e-4;
@@ -72,8 +108,21 @@ mod tests {
     }
 
     #[test]
+    fn a_uniform_rate_is_that_of_every_state() {
+        for law in LAWS {
+            let (here, unloaded) = (law.rate(STATE), law.rate(LocalState::default()));
+            assert_eq!(law.uniform().is_some(), here == unloaded, "{law:?}");
+            assert!(law.uniform().is_none_or(|k| (k - here.value).abs() <= 0.0));
+        }
+    }
+
+    #[test]
     fn a_surface_without_a_law_does_not_wear() {
-        assert!(coefficient(None).abs() < f64::MIN_POSITIVE);
-        assert!((coefficient(Some(LAWS[0])) - 2.5761e-5).abs() < 1e-20);
+        let laws = Sides {
+            slider: None,
+            receptacle: Some(LAWS[0]),
+        };
+        let rates = coefficients(laws, STATE);
+        assert_eq!((rates.slider, rates.receptacle), (0.0, 2.5761e-5));
     }
 }

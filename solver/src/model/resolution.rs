@@ -8,7 +8,8 @@
 //! * ends of the groove of a long stroke 2 A, W/(2 A) deep: the slider's arc reaches b = sqrt(R W / A) up them.
 
 use crate::law::elastic::contact_modulus;
-use crate::law::{friction, wear};
+use crate::law::friction;
+use crate::law::wear::{self, LocalState};
 use crate::mesh::grading::Spacing;
 use crate::number::real_cycles;
 use crate::scene::{Motion, Scene};
@@ -95,6 +96,15 @@ pub(crate) fn radius(scene: &Scene) -> f64 {
     1.0 / (1.0 / scene.slider.shape.radius_mm + crown.map_or(0.0, |crown| 1.0 / crown))
 }
 
+/// Specific wear rates in a contact of a half-width, 1/MPa.
+pub(crate) fn wear_rates(scene: &Scene, half_width: f64) -> Sides<f64> {
+    let laws = Sides {
+        slider: scene.slider.wear,
+        receptacle: scene.receptacle.wear,
+    };
+    wear::coefficients(laws, LocalState::mean(scene.load_n_per_mm, half_width))
+}
+
 /// Chooses the spacing of a scene's meshes.
 pub fn choose(scene: &Scene) -> Sizes {
     let slider_radius = scene.slider.shape.radius_mm;
@@ -104,11 +114,11 @@ pub fn choose(scene: &Scene) -> Sizes {
     let modulus = contact_modulus(scene.slider.elastic, scene.receptacle.elastic);
     let hertz = (4.0 * load * radius / (PI * modulus)).sqrt();
     let amplitude = scene.motion.amplitude_mm();
-    let k_receptacle = wear::coefficient(scene.receptacle.wear);
-    let k_slider = wear::coefficient(scene.slider.wear);
+    let wear = wear_rates(scene, hertz);
+    let wear = wear.receptacle + wear.slider;
     let sliding = scene.motion.distance_per_cycle_mm() * real_cycles(scene.cycles);
-    let worn = (k_receptacle + k_slider) * load * sliding;
-    let edge_step = (2.0 * radius * (k_receptacle + k_slider) * load).sqrt();
+    let worn = wear * load * sliding;
+    let edge_step = (2.0 * radius * wear * load).sqrt();
     let narrowest = hertz.max(edge_step);
     // Gross reciprocating sliding wears a groove, at whose ends the contact climbs the walls; a shorter stroke wears a scar
     // around the contact.

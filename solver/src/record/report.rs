@@ -2,7 +2,7 @@
 
 use crate::cycle::CycleState;
 use crate::interpolation;
-use crate::law::wear;
+use crate::law::wear::WearLaw;
 use crate::model::Model;
 use crate::record::channel::declare_report;
 use crate::record::scar;
@@ -90,17 +90,17 @@ impl<'a> CycleEnd<'a> {
         let interface = &self.model.interface;
         let body = self.model.bodies.of(side);
         // The identity is that of the law, also where nothing slides and the plan leaves wear out.
-        let wear = wear::coefficient(match side {
+        let law = match side {
             Side::Slider => self.scene.slider.wear,
             Side::Receptacle => self.scene.receptacle.wear,
-        });
-        let has_identity = wear > 0.0 && interface.spring <= 0.0;
-        let ideal_area = wear * interface.load * self.state.sliding_distance;
+        };
+        let uniform = law.and_then(WearLaw::uniform).filter(|k| *k > 0.0);
+        let ideal_area = uniform.map(|k| k * interface.load * self.state.sliding_distance);
         Surface {
             x: body.contact_x(),
             widths: body.contact_widths(),
             depth: self.state.depth.of(side),
-            ideal_area: has_identity.then_some(ideal_area),
+            ideal_area: ideal_area.filter(|_| interface.spring <= 0.0),
         }
     }
 

@@ -2,9 +2,9 @@
 
 use crate::checkpoint::Initial;
 use crate::cycle::{Checks, CycleState};
-use crate::model::Model;
 use crate::record::CycleReport;
 use crate::schedule::stops::Outcome;
+use crate::sides::Sides;
 
 /// Result of a finished run.
 #[derive(Debug, Clone, PartialEq)]
@@ -42,17 +42,16 @@ pub struct Resolution {
     pub estimated_relative_error: f64,
 }
 
-/// |worn area of the profiles - k times the accumulated integral of p |slip||, over the latter; 0 without wear.
-pub(crate) fn worn_area_residual(model: &Model, state: &CycleState, report: &CycleReport) -> f64 {
-    let relative = |area: f64, k: f64| {
-        let expected = k * state.friction_path;
+/// |worn area of the profile - accumulated integral of the wear rate| over the latter, of the worse side; 0 without wear.
+pub(crate) fn worn_area_residual(state: &CycleState, report: &CycleReport) -> f64 {
+    let relative = |area: f64, expected: f64| {
         if expected > 0.0 {
             (area - expected).abs() / expected
         } else {
             0.0
         }
     };
-    let interface = &model.interface;
-    relative(report.receptacle.worn_area_mm2, interface.wear.receptacle)
-        .max(relative(report.slider.worn_area_mm2, interface.wear.slider))
+    let Sides { slider, receptacle } = state.worn_area;
+    relative(report.receptacle.worn_area_mm2, receptacle)
+        .max(relative(report.slider.worn_area_mm2, slider))
 }

@@ -2,6 +2,7 @@
 
 use solver::condensation::condense;
 use solver::contact::{ContactError, ContactState, Displacement, Pair, Solver, Surfaces, slopes};
+use solver::law::wear::WearLaw;
 use solver::record::{Position, TractionField};
 use solver::scene::Scene;
 use solver::sides::{Side, Sides};
@@ -20,7 +21,13 @@ pub(crate) fn explicit_wear(
         operators: &operators,
         interface: model.interface,
     };
-    let wear = jump * model.interface.wear.receptacle;
+    let wear = jump
+        * model
+            .interface
+            .wear
+            .receptacle
+            .and_then(WearLaw::uniform)
+            .expect("the receptacle wears by Archard's law");
     let mut solver = Solver::default();
     let mut depth = vec![0.0; operators.receptacle.x.len()];
     let slider_depth = vec![0.0; operators.slider.x.len()];
@@ -61,10 +68,7 @@ pub(crate) fn explicit_wear(
                 lemke: true,
             };
             let done = solver.advance(&pair, &surfaces, &last, to, &mut next)?;
-            for (depth, path) in depth[done.first.receptacle..]
-                .iter_mut()
-                .zip(done.path.receptacle)
-            {
+            for (depth, path) in depth[done.first.receptacle..].iter_mut().zip(done.path) {
                 *depth += wear * path;
             }
             std::mem::swap(&mut last, &mut next);

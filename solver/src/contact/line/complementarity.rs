@@ -3,7 +3,8 @@
 //! With the wear linearised, an increment is a linear complementarity problem (Klarbring 1986; Stewart and Trinkle
 //! 1996). Per coupled node with q = a - b:
 //!
-//! * gap >= 0 with p >= 0, its wear k (p' gamma + p gamma' - p' gamma') about the last solution p', gamma',
+//! * gap >= 0 with p >= 0, its wear linearised about the last solution p', gamma': k (p' gamma + p gamma' - p' gamma')
+//!   where the rate is uniform,
 //! * gamma - sigma >= 0 with a >= 0, and gamma + sigma >= 0 with b >= 0, where gamma is the slip's magnitude,
 //! * mu p - a - b >= 0 with gamma >= 0,
 //! * and once: load - sum of vertical forces >= 0 with the height above a bound far below any solution.
@@ -12,10 +13,13 @@
 //! slopes: the wear adds products of p and gamma, which are not negative. The wear is relinearised about that solution
 //! (Josephy 1979), and the result is the warm start of Newton's method, with the right signs.
 
+use super::band::Band;
 use super::newton::{Convergence, Newton};
 use super::problem::{Iterate, Problem};
 use super::response::Response;
 use super::status::Status;
+use super::wear_coupling::WearCoupling;
+use crate::law::wear::LocalState;
 use crate::linear::{Lemke, SquareMatrix};
 use crate::number::real;
 
@@ -121,6 +125,7 @@ impl Complementarity {
         newton: &mut Newton,
         problem: &Problem<'_>,
         response: &mut Response,
+        wear: &mut WearCoupling,
         it: &mut Iterate,
         mut end: Convergence,
     ) -> Convergence {
@@ -132,14 +137,15 @@ impl Complementarity {
         }
         self.reset(problem, it);
         for _ in 0..MOST_LINEARISATIONS {
-            let Linearised::Solution { changes } = self.relinearise(problem, response, it) else {
+            let Linearised::Solution { changes } = self.relinearise(problem, response, wear, it)
+            else {
                 return end;
             };
             if changes > 0 {
                 continue;
             }
             self.warm_start(it);
-            end = newton.solve(problem, response, it, ITERATIONS_AFTER);
+            end = newton.solve(problem, response, wear, it, ITERATIONS_AFTER);
             if matches!(end, Convergence::Converged) {
                 return end;
             }
@@ -163,10 +169,13 @@ impl Complementarity {
         &mut self,
         problem: &Problem<'_>,
         response: &Response,
+        wear: &mut WearCoupling,
         it: &Iterate,
     ) -> Linearised {
         let layout = Layout::of(problem, response, it);
-        self.assemble(problem, response, layout);
+        let solution = self.pressure.iter().zip(&self.slip);
+        wear.linearise(solution.map(|(&pressure, &slip)| LocalState { pressure, slip }));
+        self.assemble(problem, response, wear, layout);
         let Some(z) = self.lemke.solve(&self.matrix, &self.constant) else {
             return Linearised::Ray;
         };
@@ -209,28 +218,35 @@ impl Complementarity {
         }
     }
 
-    fn assemble(&mut self, problem: &Problem<'_>, response: &Response, layout: Layout) {
+    fn assemble(
+        &mut self,
+        problem: &Problem<'_>,
+        response: &Response,
+        wear: &WearCoupling,
+        layout: Layout,
+    ) {
         self.matrix.reset(layout.order());
         self.constant.clear();
         self.constant.resize(layout.order(), 0.0);
         for a in 0..layout.n {
-            self.pressure_column(problem, response, layout, a);
+            self.pressure_column(problem, response, wear, layout, a);
             if layout.sheared {
-                self.shear_columns(problem, response, layout, a);
+                self.shear_columns(problem, response, wear, layout, a);
             }
         }
         self.height_column(problem, layout);
-        self.assemble_constant(problem, layout);
+        self.assemble_constant(problem, wear, layout);
     }
 
     fn pressure_column(
         &mut self,
         problem: &Problem<'_>,
         response: &Response,
+        wear: &WearCoupling,
         layout: Layout,
         a: usize,
     ) {
-        self.open(problem, layout.n, a, self.slip[a]);
+        self.open_column(wear.per_pressure(), a, self.slip[a]);
         let force = problem.width[a];
         let scale = layout.pressure / layout.length;
         let (gaps, jumps) = response.along_normal(a);
@@ -252,6 +268,7 @@ impl Complementarity {
         &mut self,
         problem: &Problem<'_>,
         response: &Response,
+        wear: &WearCoupling,
         layout: Layout,
         k: usize,
     ) {
@@ -272,7 +289,7 @@ impl Complementarity {
             *self.matrix.at(layout.height(), place) = sign * lean;
         }
         if self.pressure[k] > 0.0 {
-            self.open(problem, layout.n, k, self.pressure[k]);
+            self.open_column(wear.per_slip(), k, self.pressure[k]);
             for (i, opened) in self.opened.iter().enumerate() {
                 *self.matrix.at(i, gamma) = *opened;
             }
@@ -280,20 +297,27 @@ impl Complementarity {
     }
 
     /// Gaps that a path at one node opens.
-    fn open(&mut self, problem: &Problem<'_>, n: usize, node: usize, path: f64) {
-        self.path.clear();
-        self.path.resize(n, 0.0);
-        self.path[node] = path;
-        self.open_all(problem, n);
-    }
-
-    /// Gaps that the paths open.
-    fn open_all(&mut self, problem: &Problem<'_>, n: usize) {
+    fn open_column(&mut self, per_path: &Band, node: usize, path: f64) {
+        let n = self.pressure.len();
         self.opened.clear();
         self.opened.resize(n, 0.0);
-        problem
-            .wear
-            .add_opening(&(0..n), &self.path, &mut self.opened);
+        per_path.add_column(&(0..n), node, path, &mut self.opened);
+    }
+
+    /// Gaps that the linearised wear subtracts at the last solution: (W_p + W_s - W) e.
+    fn open_path(&mut self, wear: &WearCoupling) {
+        let n = self.pressure.len();
+        self.opened.clear();
+        self.opened.resize(n, 0.0);
+        wear.per_pressure()
+            .add_product(&(0..n), &self.path, &mut self.opened);
+        if wear.varies() {
+            wear.per_slip()
+                .add_product(&(0..n), &self.path, &mut self.opened);
+            self.path.iter_mut().for_each(|e| *e = -*e);
+            wear.opening()
+                .add_product(&(0..n), &self.path, &mut self.opened);
+        }
     }
 
     fn height_column(&mut self, problem: &Problem<'_>, layout: Layout) {
@@ -310,7 +334,7 @@ impl Complementarity {
             problem.spring * layout.length / (layout.pressure * mean_width(problem));
     }
 
-    fn assemble_constant(&mut self, problem: &Problem<'_>, layout: Layout) {
+    fn assemble_constant(&mut self, problem: &Problem<'_>, wear: &WearCoupling, layout: Layout) {
         self.path.clear();
         if layout.sheared {
             let paths = self
@@ -322,7 +346,7 @@ impl Complementarity {
         } else {
             self.path.resize(layout.n, 0.0);
         }
-        self.open_all(problem, layout.n);
+        self.open_path(wear);
         for i in 0..layout.n {
             let raised = (1.0 + problem.sag[i]) * layout.lowest;
             self.constant[i] = (problem.gap[i] + raised - self.opened[i]) / layout.length;

@@ -11,7 +11,7 @@ use super::problem::{GAP_TOLERANCE, Iterate, MOST_ITERATIONS, Problem};
 use super::response::Response;
 use super::state::ContactState;
 use super::status::Status;
-use super::wear_coupling::{WearCoupling, transfer_path};
+use super::wear_coupling::WearCoupling;
 use crate::sides::Sides;
 
 /// Most extensions of the active window within one increment.
@@ -31,7 +31,7 @@ pub struct Solver {
     gap: Vec<f64>,
     sag: Vec<f64>,
     fixed_slip: Vec<f64>,
-    slider_path: Vec<f64>,
+    recession: Sides<Vec<f64>>,
 }
 
 /// Result of an increment; arrays begin at the first coupled node of their side.
@@ -39,8 +39,12 @@ pub struct Solver {
 pub struct Increment<'a> {
     /// First coupled node.
     pub first: Sides<usize>,
-    /// p |sigma| at the coupled nodes, MPa mm: vertical recession over the specific wear rate.
-    pub path: Sides<&'a [f64]>,
+    /// Path p |sigma| of the receptacle's nodes from there on, MPa mm.
+    pub path: &'a [f64],
+    /// Vertical recession at the nodes from there on, mm; empty where nothing wears.
+    pub recession: Sides<&'a [f64]>,
+    /// Integral of the wear rate over the contact, mm^2.
+    pub worn_area: Sides<f64>,
     /// Energy dissipated by friction, N/mm mm.
     pub energy: f64,
     /// |sum of vertical forces - load| over the load on the unworn contact.
@@ -115,14 +119,12 @@ impl Solver {
 
     /// No wear, no energy, no residuals.
     fn no_increment(&mut self) -> Increment<'_> {
-        self.iterate.path.clear();
-        self.slider_path.clear();
+        self.recession = Sides::default();
         Increment {
             first: Sides::default(),
-            path: Sides {
-                slider: &self.slider_path,
-                receptacle: &self.iterate.path,
-            },
+            path: &[],
+            recession: self.recession.as_slices(),
+            worn_area: Sides::default(),
             energy: 0.0,
             force_balance: 0.0,
             complementarity: 0.0,
@@ -143,9 +145,10 @@ impl Solver {
             .integrate(pair.operators, slider_x, first, end);
         self.response.reset(pair, &self.coupling, surfaces, last);
         let interface = &pair.interface;
-        let rate = interface.wear.map(|k| k * cycles);
+        let laws = interface.wear.map(|law| law.filter(|_| cycles > 0.0));
         let slider_widths = &pair.operators.slider.widths;
-        self.wear.assemble(&self.coupling, slider_widths, rate);
+        self.wear
+            .assemble(&self.coupling, slider_widths, laws, cycles);
         // Before the first load the spring has no reference height.
         let (spring, reference) = last
             .reference_height
@@ -157,7 +160,6 @@ impl Solver {
         let problem = Problem {
             operators: pair.operators,
             coupling: &self.coupling,
-            wear: &self.wear,
             gap: &self.gap,
             width: &pair.operators.receptacle.widths[first..end],
             slope: &surfaces.slope.receptacle[first..end],
@@ -166,18 +168,18 @@ impl Solver {
             spring,
             sag: &self.sag,
             fixed_slip: &self.fixed_slip,
-            wears: rate.slider + rate.receptacle > 0.0,
+            wears: laws.slider.is_some() || laws.receptacle.is_some(),
             travel: slider_x - last.slider_x,
             step,
         };
         predict(&mut self.iterate, pair, last, &problem);
         let (newton, it) = (&mut self.newton, &mut self.iterate);
-        let response = &mut self.response;
-        let mut end = newton.solve(&problem, response, it, MOST_ITERATIONS);
+        let (response, wear) = (&mut self.response, &mut self.wear);
+        let mut end = newton.solve(&problem, response, wear, it, MOST_ITERATIONS);
         if to.lemke && !matches!(end, Convergence::Converged) {
             end = self
                 .complementarity
-                .solve(newton, &problem, response, it, end);
+                .solve(newton, &problem, response, wear, it, end);
         }
         let wall = || mean_slope_ahead(last, surfaces, &pair.operators.receptacle.widths, step);
         match end {
@@ -268,12 +270,14 @@ impl Solver {
     fn report(&mut self, pair: &Pair<'_>, next: &ContactState) -> Increment<'_> {
         let (coupling, it) = (&self.coupling, &self.iterate);
         let widths = &pair.operators.receptacle.widths[coupling.first..coupling.end];
-        transfer_path(
-            coupling,
-            &pair.operators.slider.widths,
-            &it.path,
-            &mut self.slider_path,
-        );
+        let all_widths = Sides {
+            slider: &pair.operators.slider.widths[..],
+            receptacle: widths,
+        };
+        let recession = &mut self.recession;
+        let worn_area = self
+            .wear
+            .recession(coupling, all_widths, &it.path, recession);
         let energy = widths
             .iter()
             .zip(it.shear.iter().zip(&it.slip))
@@ -301,10 +305,9 @@ impl Solver {
                 slider: coupling.slider_range.0,
                 receptacle: coupling.first,
             },
-            path: Sides {
-                slider: &self.slider_path,
-                receptacle: &it.path,
-            },
+            path: &it.path,
+            recession: self.recession.as_slices(),
+            worn_area,
             energy,
             force_balance: (vertical - load).abs() / pair.interface.load,
             complementarity: complementarity / scale,

@@ -11,6 +11,7 @@
 use std::ops::Range;
 
 use super::active_set;
+use super::band::Band;
 use super::problem::{GAP_TOLERANCE, Iterate, Problem};
 use super::response::Response;
 use super::status::Status;
@@ -45,8 +46,10 @@ pub(super) struct Newton {
     /// Gaps and slips of the coupled nodes per unit of an unknown.
     gap: Vec<f64>,
     slip: Vec<f64>,
+    /// Paths of the closed nodes.
+    path: Vec<f64>,
     /// Gap opened by wear, per slip.
-    wear: WearCoupling,
+    opening: Band,
     lu: DenseLu,
 }
 
@@ -65,6 +68,7 @@ impl Newton {
         &mut self,
         problem: &Problem<'_>,
         response: &mut Response,
+        wear: &mut WearCoupling,
         it: &mut Iterate,
         most_iterations: usize,
     ) -> Convergence {
@@ -75,14 +79,14 @@ impl Newton {
             for a in (0..it.status.len()).filter(|a| it.status[*a] != Status::Open) {
                 response.compute(problem.operators, problem.coupling, a);
             }
-            self.assemble(problem, response, it);
+            self.assemble(problem, response, wear, it);
             if !self.lu.solve(&mut self.jacobian, &mut self.rhs) {
                 return Convergence::Singular {
                     active: self.unknowns.len(),
                 };
             }
             self.scatter(problem, it);
-            residual = self.evaluate(problem, response, it);
+            residual = self.evaluate(problem, response, wear, it);
             changes = active_set::update(problem, it, iteration);
             let stalled = has_stalled(last, residual / it.tolerance);
             if changes == 0 && (residual <= it.tolerance || stalled) {
@@ -113,7 +117,13 @@ impl Newton {
         }
     }
 
-    fn assemble(&mut self, problem: &Problem<'_>, response: &Response, it: &Iterate) {
+    fn assemble(
+        &mut self,
+        problem: &Problem<'_>,
+        response: &Response,
+        wear: &mut WearCoupling,
+        it: &Iterate,
+    ) {
         let order = self.unknowns.len() + 1;
         let span = closed_span(&it.status);
         self.jacobian.reshape(order);
@@ -121,16 +131,19 @@ impl Newton {
         self.slip.resize(it.status.len(), 0.0);
         if problem.wears {
             let per_slip = |l: usize| it.status[l].direction() * it.pressure[l];
-            problem.wear.scaled(per_slip, &mut self.wear);
+            wear.linearise((0..it.status.len()).map(|l| it.local_state(l)));
+            wear.per_slip()
+                .combine(per_slip, |_| 0.0, &mut self.opening);
         }
         for u in 0..order - 1 {
             let unknown = self.unknowns[u];
             self.unit_response(problem, response, it, &span, unknown);
             if problem.wears {
-                self.wear.add_opening(&span, &self.slip, &mut self.gap);
+                self.opening.add_product(&span, &self.slip, &mut self.gap);
                 if let Unknown::Pressure(a) = unknown {
-                    let path = (it.status[a].direction() * it.slip[a]).max(0.0);
-                    problem.wear.add_opening_from(&span, a, path, &mut self.gap);
+                    let slip = it.local_state(a).slip;
+                    wear.per_pressure()
+                        .add_column(&span, a, slip, &mut self.gap);
                 }
             }
             self.write_column(u);
@@ -147,11 +160,11 @@ impl Newton {
             self.slip[i] = problem.slope[i];
         }
         if problem.wears {
-            self.wear.add_opening(&span, &self.slip, &mut self.gap);
+            self.opening.add_product(&span, &self.slip, &mut self.gap);
         }
         self.write_column(order - 1);
         *self.jacobian.at(order - 1, order - 1) = -problem.spring;
-        self.assemble_rhs(problem, it, &span);
+        self.assemble_rhs(problem, wear, it, &span);
     }
 
     /// Gaps and slips of a span of nodes per unit of one unknown.
@@ -191,13 +204,20 @@ impl Newton {
         }
     }
 
-    fn assemble_rhs(&mut self, problem: &Problem<'_>, it: &Iterate, span: &Range<usize>) {
+    fn assemble_rhs(
+        &mut self,
+        problem: &Problem<'_>,
+        wear: &WearCoupling,
+        it: &Iterate,
+        span: &Range<usize>,
+    ) {
         for i in span.clone() {
             self.gap[i] = problem.gap[i];
             self.slip[i] = problem.fixed_slip[i] - it.slip[i];
         }
         if problem.wears {
-            self.wear.add_opening(span, &self.slip, &mut self.gap);
+            self.opening.add_product(span, &self.slip, &mut self.gap);
+            self.add_curvature(wear, it, span);
         }
         self.rhs.clear();
         for unknown in &self.unknowns {
@@ -207,6 +227,20 @@ impl Newton {
             });
         }
         self.rhs.push(problem.load);
+    }
+
+    /// Adds the part of the opening that its linearisation in p leaves over where rates vary, W e - W_p e.
+    fn add_curvature(&mut self, wear: &WearCoupling, it: &Iterate, span: &Range<usize>) {
+        if !wear.varies() {
+            return;
+        }
+        let path = |l: usize| it.pressure[l] * it.local_state(l).slip;
+        self.path.clear();
+        self.path.extend((0..it.status.len()).map(path));
+        wear.opening().add_product(span, &self.path, &mut self.gap);
+        self.path.iter_mut().for_each(|e| *e = -*e);
+        wear.per_pressure()
+            .add_product(span, &self.path, &mut self.gap);
     }
 
     fn scatter(&self, problem: &Problem<'_>, it: &mut Iterate) {
@@ -227,7 +261,13 @@ impl Newton {
     }
 
     /// Slips, paths and gaps of the iterate; returns the largest gap of a closed node over the indentation.
-    fn evaluate(&mut self, problem: &Problem<'_>, response: &Response, it: &mut Iterate) -> f64 {
+    fn evaluate(
+        &mut self,
+        problem: &Problem<'_>,
+        response: &Response,
+        wear: &mut WearCoupling,
+        it: &mut Iterate,
+    ) -> f64 {
         let n = it.status.len();
         for values in [&mut self.gap, &mut self.slip, &mut it.gap] {
             values.clear();
@@ -251,7 +291,8 @@ impl Newton {
         }
         // The wear alone first: it is part of the scale of gaps.
         if problem.wears {
-            problem.wear.add_opening(&(0..n), &it.path, &mut it.gap);
+            wear.linearise((0..n).map(|l| it.local_state(l)));
+            wear.opening().add_product(&(0..n), &it.path, &mut it.gap);
         }
         let (mut residual, mut largest) = (0.0_f64, 0.0_f64);
         for (i, jump) in self.gap.iter().enumerate() {

@@ -2,8 +2,8 @@
 
 use super::mortar::Coupling;
 use super::status::Status;
-use super::wear_coupling::WearCoupling;
 use crate::condensation::Operators;
+use crate::law::wear::LocalState;
 
 /// Most Newton iterations of one increment before it is halved, or solved as a complementarity problem.
 pub const MOST_ITERATIONS: usize = 60;
@@ -16,8 +16,6 @@ pub const GAP_TOLERANCE: f64 = 1e-11;
 pub(super) struct Problem<'a> {
     pub(super) operators: &'a Operators,
     pub(super) coupling: &'a Coupling,
-    /// Gap opened by wear, per path p |sigma|.
-    pub(super) wear: &'a WearCoupling,
     /// Gap of the worn, undeformed bodies at height 0, mm.
     pub(super) gap: &'a [f64],
     /// Projected widths of the coupled nodes, mm.
@@ -55,4 +53,14 @@ pub(super) struct Iterate {
     pub(super) indentation: f64,
     /// Gap residual over the indentation at which the iteration has converged.
     pub(super) tolerance: f64,
+}
+
+impl Iterate {
+    /// Pressure and slip of a node as a wear law takes them: no slip against the direction of its status.
+    pub(super) fn local_state(&self, node: usize) -> LocalState {
+        LocalState {
+            pressure: self.pressure[node],
+            slip: (self.status[node].direction() * self.slip[node]).max(0.0),
+        }
+    }
 }

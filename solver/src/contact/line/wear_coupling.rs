@@ -1,39 +1,56 @@
 //! Wear in the contact solve: the gap that the wear of both surfaces opens.
+//!
+//! With e = p |sigma| and the specific wear rates k_r, k_s at the coupled nodes, an increment of n cycles opens the gaps
+//!   F = W e,  W = n (diag k_r + S diag k_s),  S = Mhat D^-1 M^T,
+//! where S transfers the slider's recession to its nodes and averages it back. A rate that varies with p and |sigma| adds
+//! its derivatives: dF/dp = W_p |sigma| with k + p dk/dp in place of k, dF/d|sigma| = W_s p with
+//! k + |sigma| dk/d|sigma|. Uniform rates are assembled once an increment.
 
-use std::ops::Range;
-
+use super::band::Band;
 use super::mortar::Coupling;
-use crate::sides::Sides;
+use crate::law::wear::{LocalState, Rate, WearLaw};
+use crate::sides::{Side, Sides};
 
-/// Gap opened at each coupled node per path p |sigma| at each, 1/MPa: k_r on the diagonal, and the slider's recession,
-/// transferred to its nodes and averaged back, k_s Mhat D^-1 M^T, on a few diagonals. A banded matrix.
+/// Gap opening of an increment, and its derivatives.
 #[derive(Debug, Default)]
 pub(super) struct WearCoupling {
-    nodes: usize,
-    /// Number of diagonals on each side of the main one.
-    bandwidth: usize,
-    /// Diagonal d holds the entries (i, i + d - bandwidth) at i.
-    diagonals: Vec<f64>,
+    laws: Sides<Option<WearLaw>>,
+    cycles: f64,
+    /// S; zero where the slider does not wear.
+    transfer: Band,
+    /// States of the coupled nodes with their rates, where these vary.
+    local: Vec<(LocalState, Sides<Rate>)>,
+    opening: Band,
+    per_pressure: Band,
+    per_slip: Band,
 }
 
 impl WearCoupling {
-    /// Assembles the matrix for specific wear rates times cycles, 1/MPa.
-    pub(super) fn assemble(&mut self, coupling: &Coupling, slider_width: &[f64], rate: Sides<f64>) {
-        let n = coupling.len();
-        let Sides { slider, receptacle } = rate;
-        self.nodes = n;
-        self.bandwidth = if slider > 0.0 {
-            half_bandwidth(coupling)
-        } else {
-            0
-        };
-        self.diagonals.clear();
-        self.diagonals.resize((2 * self.bandwidth + 1) * n, 0.0);
-        let b = self.bandwidth;
-        self.diagonals[b * n..(b + 1) * n].fill(receptacle);
-        if slider <= 0.0 {
-            return;
+    /// Assembles the matrices for the laws of both surfaces and a number of cycles. Rates that vary are evaluated by
+    /// [`Self::linearise`].
+    pub(super) fn assemble(
+        &mut self,
+        coupling: &Coupling,
+        slider_width: &[f64],
+        laws: Sides<Option<WearLaw>>,
+        cycles: f64,
+    ) {
+        self.laws = laws;
+        self.cycles = cycles;
+        self.transfer.reset(coupling.len(), 0);
+        if laws.slider.is_some() {
+            self.assemble_transfer(coupling, slider_width);
         }
+        if !self.varies() {
+            let Sides { slider, receptacle } = laws.map(|law| uniform(law) * cycles);
+            self.transfer
+                .combine(|_| slider, |_| receptacle, &mut self.opening);
+        }
+    }
+
+    fn assemble_transfer(&mut self, coupling: &Coupling, slider_width: &[f64]) {
+        let (n, b) = (coupling.len(), half_bandwidth(coupling));
+        self.transfer.reset(n, b);
         for i in 0..n {
             let (to, averages) = coupling.dual_row(coupling.first + i);
             for l in i.saturating_sub(b)..(i + b + 1).min(n) {
@@ -44,61 +61,105 @@ impl WearCoupling {
                 for j in begin..end {
                     sum += averages[j - to] * shares[j - from] / slider_width[j];
                 }
-                self.diagonals[(l + b - i) * n + i] += slider * sum;
+                *self.transfer.at(i, l) = sum;
             }
         }
     }
 
-    /// Writes the matrix with every column multiplied by a factor.
-    pub(super) fn scaled(&self, factor: impl Fn(usize) -> f64, scaled: &mut Self) {
-        scaled.nodes = self.nodes;
-        scaled.bandwidth = self.bandwidth;
-        scaled.diagonals.clear();
-        scaled.diagonals.extend_from_slice(&self.diagonals);
-        for d in 0..=2 * self.bandwidth {
-            let rows = self.rows(d, &(0..self.nodes));
-            for i in rows {
-                scaled.diagonals[d * self.nodes + i] *= factor(i + d - self.bandwidth);
-            }
+    /// Whether a rate depends on the local state.
+    pub(super) fn varies(&self) -> bool {
+        let varies = |law: Option<WearLaw>| law.is_some_and(|law| law.uniform().is_none());
+        varies(self.laws.slider) || varies(self.laws.receptacle)
+    }
+
+    /// Linearises rates that vary about the pressures and slips of the coupled nodes.
+    pub(super) fn linearise(&mut self, states: impl Iterator<Item = LocalState>) {
+        if !self.varies() {
+            return;
+        }
+        let laws = self.laws;
+        let rate = |at| laws.map(|law| law.map_or_else(Rate::default, |law| law.rate(at)));
+        self.local.clear();
+        self.local.extend(states.map(|at| (at, rate(at))));
+        let (transfer, local, cycles) = (&self.transfer, &self.local, self.cycles);
+        let combine = |factor: fn(LocalState, Rate) -> f64, combined: &mut Band| {
+            let factor = |at, rate| cycles * factor(at, rate);
+            transfer.combine(
+                |l| factor(local[l].0, local[l].1.slider),
+                |l| factor(local[l].0, local[l].1.receptacle),
+                combined,
+            );
+        };
+        combine(|_, k| k.value, &mut self.opening);
+        combine(
+            |at, k| k.value + at.pressure * k.d_pressure,
+            &mut self.per_pressure,
+        );
+        combine(|at, k| k.value + at.slip * k.d_slip, &mut self.per_slip);
+    }
+
+    /// W: gap opened per path p |sigma|, 1/MPa.
+    pub(super) fn opening(&self) -> &Band {
+        &self.opening
+    }
+
+    /// W_p: gap opened per pressure, over the slip.
+    pub(super) fn per_pressure(&self) -> &Band {
+        if self.varies() {
+            &self.per_pressure
+        } else {
+            &self.opening
         }
     }
 
-    /// Adds the gaps opened at the nodes of a span by paths at them, mm.
-    pub(super) fn add_opening(&self, span: &Range<usize>, path: &[f64], gap: &mut [f64]) {
-        for d in 0..=2 * self.bandwidth {
-            let rows = self.rows(d, span);
-            if rows.is_empty() {
-                continue;
-            }
-            let path = &path[rows.start + d - self.bandwidth..rows.end + d - self.bandwidth];
-            let entries = &self.diagonals[d * self.nodes..][rows.clone()];
-            for (gap, (w, e)) in gap[rows].iter_mut().zip(entries.iter().zip(path)) {
-                *gap += w * e;
-            }
+    /// W_s: gap opened per slip, over the pressure.
+    pub(super) fn per_slip(&self) -> &Band {
+        if self.varies() {
+            &self.per_slip
+        } else {
+            &self.opening
         }
     }
 
-    /// Adds the gaps opened at the nodes of a span by a path at one of them, mm.
-    pub(super) fn add_opening_from(
+    /// Writes the recession of both surfaces, mm, the receptacle's at the coupled nodes and the slider's at its nodes in the
+    /// coupled range; returns the worn areas as the integrals of the rates over the coupled nodes, mm^2.
+    pub(super) fn recession(
         &self,
-        span: &Range<usize>,
-        node: usize,
-        path: f64,
-        gap: &mut [f64],
-    ) {
-        let begin = node.saturating_sub(self.bandwidth).max(span.start);
-        let end = (node + self.bandwidth + 1).min(span.end);
-        for (i, gap) in (begin..end).zip(&mut gap[begin..end]) {
-            *gap += self.diagonals[(node + self.bandwidth - i) * self.nodes + i] * path;
-        }
+        coupling: &Coupling,
+        widths: Sides<&[f64]>,
+        path: &[f64],
+        recession: &mut Sides<Vec<f64>>,
+    ) -> Sides<f64> {
+        Sides::from_fn(|side| {
+            let recession = recession.of_mut(side);
+            recession.clear();
+            let Some(law) = *self.laws.of(side) else {
+                return 0.0;
+            };
+            // A uniform rate is a factor of the transferred path.
+            let factor = law.uniform().unwrap_or(1.0) * self.cycles;
+            let share = |(l, e): (usize, &f64)| match law.uniform() {
+                Some(_) => *e,
+                None => self.local[l].1.of(side).value * e,
+            };
+            let shares = path.iter().enumerate().map(share);
+            let area = widths.receptacle.iter().zip(shares.clone());
+            let area = factor * area.map(|(width, e)| width * e).sum::<f64>();
+            match side {
+                Side::Receptacle => recession.extend(shares),
+                Side::Slider => transfer_path(coupling, widths.slider, shares, recession),
+            }
+            for depth in recession.iter_mut() {
+                *depth *= factor;
+            }
+            area
+        })
     }
+}
 
-    /// Rows of diagonal d that lie in a span with their columns.
-    fn rows(&self, d: usize, span: &Range<usize>) -> Range<usize> {
-        let above = self.bandwidth.saturating_sub(d);
-        let below = d.saturating_sub(self.bandwidth);
-        span.start + above..span.end.saturating_sub(below)
-    }
+/// The specific wear rate of a law whose rate is uniform, 1/MPa.
+fn uniform(law: Option<WearLaw>) -> f64 {
+    law.and_then(WearLaw::uniform).unwrap_or(0.0)
 }
 
 /// Largest distance of two rows of the coupling that share a slider node.
@@ -113,18 +174,16 @@ fn half_bandwidth(coupling: &Coupling) -> usize {
     bandwidth
 }
 
-/// Path p |sigma| transferred from the coupled nodes to the slider's nodes in the coupled range, MPa mm: the slider's
-/// recession over its specific wear rate.
-pub(super) fn transfer_path(
+/// Transfers a path p |sigma| from the coupled nodes to the slider's nodes in the coupled range, MPa mm.
+fn transfer_path(
     coupling: &Coupling,
     slider_width: &[f64],
-    path: &[f64],
+    path: impl Iterator<Item = f64>,
     transferred: &mut Vec<f64>,
 ) {
     let (begin, end) = coupling.slider_range;
-    transferred.clear();
     transferred.resize(end - begin, 0.0);
-    for (l, e) in path.iter().enumerate().filter(|(_, e)| **e != 0.0) {
+    for (l, e) in path.enumerate().filter(|(_, e)| *e != 0.0) {
         let (from, weights) = coupling.standard_row(coupling.first + l);
         for (r, weight) in transferred[from - begin..].iter_mut().zip(weights) {
             *r += weight * e;

@@ -9,6 +9,17 @@ pub struct LocalState {
     pub slip: f64,
 }
 
+impl LocalState {
+    /// Representative state for estimates: the mean pressure P/(2 b) under a load in N/mm and a half-width in mm, and a slip
+    /// of b/2, about an increment at a tolerance of 2 %.
+    pub fn mean(load: f64, half_width: f64) -> Self {
+        Self {
+            pressure: load / (2.0 * half_width),
+            slip: 0.5 * half_width,
+        }
+    }
+}
+
 /// Specific wear rate k_D = dh / (p |ds|) and its derivatives: worn depth per pressure and slip. Every law can be
 /// written in it, and the contact solve then conserves the worn area for all of them alike.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
