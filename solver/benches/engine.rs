@@ -1,6 +1,7 @@
 //! Condensation and contact increments, for comparing one version of the engine with another:
 //! `cargo bench -p solver`.
 
+#[expect(dead_code, reason = "the verification suite uses more of it")]
 #[path = "../tests/scenes.rs"]
 mod scenes;
 

@@ -8,23 +8,21 @@ mod spines;
 
 use crate::mesh::MeshError;
 use crate::model::{BodyModel, Model};
+use crate::scene::Accuracy;
 use crate::sides::{Side, Sides};
 
 pub use spines::Spines;
 pub(crate) use spines::WORN_THROUGH_SHARE;
 
-/// The stiffness is rebuilt when a spine has lost this part of its length since it was last built. The condensed
-/// response depends on the height through the logarithm of height over contact width, and a rigid lowering costs
-/// nothing because the slider's height is free. Measured on `fuzz_button.json`, whose block loses three quarters of its
-/// height: shares of 0.05, 0.1, 0.2 and 0.3 (20, 11, 5 and 3 rebuilds) agree at the deepest place to 0.02 %, and
-/// everywhere to 0.25 % of it; 0.3 and 0.5 (1 rebuild) to 0.001 % at the deepest place.
-pub(crate) fn drift_share(tolerance: f64) -> f64 {
-    (25.0 * tolerance).clamp(0.05, 0.5)
+/// The stiffness is rebuilt when a spine has lost this part of its length since it was last built.
+pub(crate) fn drift_share(accuracy: &Accuracy) -> f64 {
+    let (least, most) = accuracy.tuning.drift_bounds;
+    (accuracy.tuning.drift * accuracy.tolerance).clamp(least, most)
 }
 
 /// Whether the geometry has changed enough since the operators were built to rebuild them; worn depths in mm.
-pub fn has_drifted(model: &Model, depth: &Sides<Vec<f64>>, tolerance: f64) -> bool {
-    let share = drift_share(tolerance);
+pub fn has_drifted(model: &Model, depth: &Sides<Vec<f64>>, accuracy: &Accuracy) -> bool {
+    let share = drift_share(accuracy);
     let drifted = |side: &Side| drift(model.bodies.of(*side), depth.of(*side), *side) > share;
     Side::BOTH.iter().any(drifted)
 }

@@ -106,7 +106,11 @@ impl<'a> Integrator<'a> {
     /// [`CycleError`] if an increment fails however small it is.
     pub fn initial_quarter(&mut self, state: &mut CycleState) -> Result<(), CycleError> {
         let (motion, accuracy) = (self.scene.motion, &self.scene.accuracy);
-        let steps = increments::steps(motion, accuracy, state.followed_half_width());
+        let steps = increments::steps(
+            motion,
+            accuracy,
+            state.followed_half_width(&accuracy.tuning),
+        );
         for (increment, step) in increments::initial_quarter(&steps).iter().enumerate() {
             self.step(state, step, 0.0, increment)?;
         }
@@ -125,7 +129,11 @@ impl<'a> Integrator<'a> {
         let (motion, accuracy) = (self.scene.motion, &self.scene.accuracy);
         let stroke = self.stroke(state);
         let mut jump = state.jump.next(accuracy, stroke, until - state.cycle);
-        let steps = increments::steps(motion, accuracy, state.followed_half_width());
+        let steps = increments::steps(
+            motion,
+            accuracy,
+            state.followed_half_width(&accuracy.tuning),
+        );
         self.update_slopes(state);
         let before = state.clone();
         loop {
@@ -161,7 +169,7 @@ impl<'a> Integrator<'a> {
             let length = 4.0 * self.scene.motion.amplitude_mm() / real(steps.len());
             Replays::new(ReplayPlan::new(
                 (steps.len(), length),
-                self.scene.accuracy.tolerance,
+                &self.scene.accuracy,
                 state.mean_half_width,
                 state.neutral.half_width,
             ))
@@ -209,6 +217,7 @@ impl<'a> Integrator<'a> {
         let at = LocalState::mean(interface.load, state.mean_half_width);
         let wear = wear::coefficients(interface.wear, at);
         Stroke::new(
+            &scene.accuracy.tuning,
             wear.receptacle + wear.slider,
             modulus,
             (amplitude, state.mean_half_width),

@@ -83,12 +83,13 @@ pub fn forecast(scene: &Scene, layout: &Layout) -> Forecast {
         }
         let until = stops::next(scene, scar.progress(cycle, &jump));
         let step = jump.next(&scene.accuracy, scar.stroke(scene), until - cycle);
-        let followed = increments::followed(scar.half_width, scar.contact(1));
+        let followed =
+            increments::followed(&scene.accuracy.tuning, scar.half_width, scar.contact(1));
         let steps = increments::count(scene.motion, &scene.accuracy, followed);
         let replays = if scar.is_gross() && step > 1 {
             let length = 4.0 * scar.amplitude / real(steps);
-            let (tolerance, single) = (scene.accuracy.tolerance, scar.contact(1));
-            ReplayPlan::new((steps, length), tolerance, scar.half_width, single).increments()
+            let (accuracy, single) = (&scene.accuracy, scar.contact(1));
+            ReplayPlan::new((steps, length), accuracy, scar.half_width, single).increments()
         } else {
             0
         };

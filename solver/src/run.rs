@@ -117,7 +117,7 @@ fn integrate(
     let mut integrator = Integrator::new(scene, model, &condensed.operators);
     let spines = Spines::of(model);
     while run.state.cycle < scene.cycles {
-        if model.relocates && ale::has_drifted(model, &run.state.depth, scene.accuracy.tolerance) {
+        if model.relocates && ale::has_drifted(model, &run.state.depth, &scene.accuracy) {
             return Ok(ControlFlow::Continue(()));
         }
         let state = &mut run.state;

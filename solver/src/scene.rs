@@ -4,6 +4,10 @@
 //! direction with its origin at the neutral position, y points up. A scene is plain data, validated
 //! where it is created; the engine does not check it again.
 
+mod tuning;
+
+pub use tuning::{Power, Tuning};
+
 pub use crate::law::elastic::Elastic;
 pub use crate::law::friction::Friction;
 pub use crate::law::wear::WearLaw;
@@ -127,6 +131,8 @@ pub struct Accuracy {
     pub increments_per_cycle: Option<u32>,
     /// Physical cycles per computed cycle; chosen from the tolerance if absent.
     pub cycle_jump: Option<u64>,
+    /// Constants by which the tolerance chooses these.
+    pub tuning: Tuning,
 }
 
 /// Recorded output.

@@ -53,3 +53,24 @@ pub(crate) fn solve(scene: &Scene) -> Result<(Summary, Recorder), SolveError> {
     let summary = solver::run::solve(scene, &mut recorder)?;
     Ok((summary, recorder))
 }
+
+/// Largest distance of two profiles at the nodes of either, over the largest depth of the second.
+pub(crate) fn largest_distance(a: &DepthProfile, b: &DepthProfile) -> f64 {
+    let places = a.x_mm.iter().chain(&b.x_mm);
+    let apart = |x: &f64| (depth_at(a, *x) - depth_at(b, *x)).abs();
+    let deepest = b.depth_mm.iter().fold(0.0, |m: f64, d| m.max(*d));
+    places.map(apart).fold(0.0, f64::max) / deepest
+}
+
+/// Area between two profiles over the area of the second.
+pub(crate) fn area_between(a: &DepthProfile, b: &DepthProfile) -> f64 {
+    const PLACES: u32 = 20_000;
+    let (first, last) = (b.x_mm[0], b.x_mm[b.x_mm.len() - 1]);
+    let places = (0..PLACES).map(|i| first + (last - first) * f64::from(i) / f64::from(PLACES));
+    let (mut between, mut below) = (0.0, 0.0);
+    for x in places {
+        between += (depth_at(a, x) - depth_at(b, x)).abs();
+        below += depth_at(b, x);
+    }
+    between / below
+}

@@ -2,7 +2,7 @@
 
 use solver::scene::{
     Accuracy, BlockShape, Body, Drive, Elastic, Friction, Motion, Output, Scene, SliderShape,
-    WearLaw,
+    Tuning, WearLaw,
 };
 
 const STEEL: Elastic = Elastic {
@@ -24,6 +24,7 @@ pub(crate) fn accuracy(tolerance: f64) -> Accuracy {
         contact_element_mm: None,
         increments_per_cycle: None,
         cycle_jump: None,
+        tuning: Tuning::FITTED,
     }
 }
 
@@ -108,4 +109,58 @@ pub(crate) fn fuzz_button() -> Scene {
         },
         stop: Vec::new(),
     }
+}
+
+fn short(mut scene: Scene, cycles: u64) -> Scene {
+    scene.cycles = cycles;
+    scene.output.snapshots_at_cycles = Vec::new();
+    scene
+}
+
+/// The scar of a short stroke: McColl's for 1 500 cycles.
+pub(crate) fn scar() -> Scene {
+    short(mccoll(), 1_500)
+}
+
+/// The groove of a long stroke: the fuzz button's for 25 cycles.
+pub(crate) fn groove() -> Scene {
+    short(fuzz_button(), 25)
+}
+
+/// A sprung contact on a pad, whose stroke is longer than the contact at first and shorter in the end.
+pub(crate) fn sprung_contact() -> Scene {
+    let mut scene = short(fuzz_button(), 200);
+    scene.slider.shape = SliderShape {
+        radius_mm: 0.4,
+        half_width_mm: 0.3,
+        height_mm: 0.4,
+    };
+    scene.receptacle.shape = BlockShape {
+        length_mm: 2.0,
+        height_mm: 0.3,
+        crown_radius_mm: None,
+    };
+    scene.friction = Friction::Coulomb { coefficient: 0.3 };
+    scene.receptacle.wear = Some(WearLaw::Archard {
+        k_over_h_per_mpa: 0.004 / 1700.0,
+    });
+    scene.load_n_per_mm = 0.625;
+    scene.motion = Motion::Reciprocating {
+        amplitude_mm: 0.02,
+        period_s: 1.0,
+    };
+    scene.output.stations_mm = Vec::new();
+    scene
+}
+
+/// Partial slip: McColl's cylinder at 120 N/mm and +-3 um, where two thirds of the contact stick.
+pub(crate) fn partial_slip() -> Scene {
+    let mut scene = short(mccoll(), 3_000);
+    scene.load_n_per_mm = 120.0;
+    scene.friction = Friction::Coulomb { coefficient: 0.8 };
+    scene.motion = Motion::Reciprocating {
+        amplitude_mm: 0.003,
+        period_s: 1.0,
+    };
+    scene
 }

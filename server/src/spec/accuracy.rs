@@ -54,6 +54,7 @@ pub(crate) fn resolve(
         contact_element_mm: contact_element(overrides, shapes, diagnostics).or(source_element),
         increments_per_cycle: increments(overrides, diagnostics).or(source_increments),
         cycle_jump: cycle_jump(overrides, cycles, diagnostics),
+        tuning: scene::Tuning::FITTED,
     };
     (filled, numerical)
 }

@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::{Checks, Neutral};
 use crate::condensation::Operators;
 use crate::contact::{ContactError, ContactState};
+use crate::scene::Tuning;
 use crate::schedule::increments;
 use crate::schedule::jump::JumpControl;
 use crate::sides::Sides;
@@ -80,7 +81,7 @@ impl CycleState {
     }
 
     /// Half-width that the increments are chosen for, mm.
-    pub(super) fn followed_half_width(&self) -> f64 {
-        increments::followed(self.mean_half_width, self.neutral.half_width)
+    pub(super) fn followed_half_width(&self, tuning: &Tuning) -> f64 {
+        increments::followed(tuning, self.mean_half_width, self.neutral.half_width)
     }
 }

@@ -6,7 +6,7 @@ use crate::law::elastic::contact_modulus;
 use crate::law::friction;
 use crate::model::{Layout, resolution};
 use crate::number::{real, real_cycles};
-use crate::scene::Scene;
+use crate::scene::{Scene, Tuning};
 use crate::schedule::jump::{self, JumpControl, Stroke};
 use crate::schedule::stops::Progress;
 use crate::sides::{Side, Sides};
@@ -18,14 +18,6 @@ const PASSES: [f64; 5] = [-0.8, -0.4, 0.0, 0.4, 0.8];
 /// Relative precision of the end of the scar, and most Newton steps; few are needed.
 const PRECISION: f64 = 1e-9;
 const MOST_ITERATIONS: usize = 50;
-/// The surrogate's a over the Hertz half-width: elastic pressures change more slowly than those of a rigid segment.
-/// Measured on `mccoll.json` and `cylinder_on_flat`: with 1.3 the error of a jump agrees within a fifth from the 50th cycle
-/// on, with 1 it is two and a half times too large at first.
-const ELASTIC: f64 = 1.3;
-/// Share of the squared leading-edge step in the squared half-width of a contact in gross sliding. Measured on all systems at
-/// tolerances of 10 and 2 %, jumps of 1 to 300 cycles: 0.27 to 0.47.
-const STEP_SHARE: f64 = 0.42;
-
 /// Depth of a scar times 2 R.
 fn shape(x: f64, drawn: f64, flat: f64, reach: f64) -> f64 {
     let beyond = (x - drawn).max(flat);
@@ -34,6 +26,7 @@ fn shape(x: f64, drawn: f64, flat: f64, reach: f64) -> f64 {
 
 /// Surrogate for the worn surfaces, one half of the symmetric scar.
 pub(super) struct Scar {
+    tuning: Tuning,
     /// Radius of the relative curvature, Hertz half-width, amplitude, mm.
     radius: f64,
     hertz: f64,
@@ -68,6 +61,7 @@ pub(super) struct Scar {
 impl Scar {
     pub(super) fn new(scene: &Scene, layout: &Layout) -> Self {
         let modulus = contact_modulus(scene.slider.elastic, scene.receptacle.elastic);
+        let tuning = scene.accuracy.tuning;
         let hertz = layout.sizes.hertz_half_width;
         let rates = resolution::wear_rates(scene, hertz);
         let wear = rates.slider + rates.receptacle;
@@ -90,7 +84,8 @@ impl Scar {
         Self {
             radius: resolution::radius(scene),
             hertz,
-            flat: ELASTIC * hertz,
+            flat: tuning.surrogate_half_width * hertz,
+            tuning,
             amplitude,
             approach,
             wear,
@@ -106,12 +101,13 @@ impl Scar {
             depth: vec![0.0; PLACES],
             deepest: 0.0,
             half_width: hertz,
-            reach: ELASTIC * hertz,
+            reach: tuning.surrogate_half_width * hertz,
         }
     }
 
     pub(super) fn stroke(&self, scene: &Scene) -> Stroke {
         Stroke::new(
+            &self.tuning,
             self.wear,
             self.modulus,
             (self.amplitude, self.half_width),
@@ -165,9 +161,12 @@ impl Scar {
     /// Half-width of the contact after a jump: between that in gross sliding and the whole segment.
     pub(super) fn contact(&self, jump: u64) -> f64 {
         let step = 2.0 * self.radius * self.pass * real_cycles(jump);
-        let gross = self.hertz.hypot((STEP_SHARE * step).sqrt());
+        let gross = self.hertz.hypot((self.tuning.step_share * step).sqrt());
         let share = (self.amplitude / gross - 1.0).clamp(0.0, 1.0);
-        gross.powf(share) * (self.reach / ELASTIC).max(gross).powf(1.0 - share)
+        gross.powf(share)
+            * (self.reach / self.tuning.surrogate_half_width)
+                .max(gross)
+                .powf(1.0 - share)
     }
 
     /// Half-width of the candidate nodes.
@@ -182,7 +181,7 @@ impl Scar {
     }
 
     pub(super) fn is_gross(&self) -> bool {
-        jump::is_gross(self.amplitude, self.half_width)
+        jump::is_gross(&self.tuning, self.amplitude, self.half_width)
     }
 
     /// Progress of the forecast run for its stops.
@@ -209,7 +208,7 @@ impl Scar {
     /// Counts a condensation of the bodies that have changed where one has drifted.
     pub(super) fn rebuild(&mut self, scene: &Scene, condensations: &mut Sides<u32>) {
         let now = self.remaining();
-        let share = ale::drift_share(scene.accuracy.tolerance);
+        let share = ale::drift_share(&scene.accuracy);
         let drifted = |side: Side| self.built.of(side) - now.of(side) > share * self.built.of(side);
         if Side::BOTH.into_iter().any(drifted) {
             for side in Side::BOTH {

@@ -12,22 +12,11 @@ use crate::law::friction;
 use crate::law::wear::{self, LocalState};
 use crate::mesh::grading::Spacing;
 use crate::number::real_cycles;
-use crate::scene::{Motion, Scene};
+use crate::scene::{Accuracy, Motion, Scene};
 use crate::sides::Sides;
 use std::f64::consts::PI;
 
-/// The estimate of the largest scar is widened by this factor before it sizes the mesh.
-const SCAR_MARGIN: f64 = 1.3;
-
-/// In partial slip, wear is confined to a slip zone that is narrower than the contact, with steep walls beside the stick
-/// zone: with 2.5 times as many elements its profile is off by 2.6 % of the worn area at a
-/// tolerance of 2 %, with 3.5 by 1.9 %.
-const STICKING_REFINEMENT: f64 = 3.5;
-
-/// Largest element chosen from the tolerance, over the narrower body's half-length: also soft or heavily loaded bodies have
-/// some elements. Arbitrary.
-const FEWEST_SHARE: f64 = 0.1;
-/// Largest element given by the user, over the same half-length: each half of a body has at least two. Arbitrary.
+/// Largest element given by the user, over the narrower body's half-length: each half of a body has at least two. Arbitrary.
 const FEWEST_GIVEN_SHARE: f64 = 0.5;
 
 /// Characteristic lengths of the contact and the mesh, mm.
@@ -43,28 +32,6 @@ pub struct Sizes {
     pub layer_growth: f64,
     /// Spacing along each surface.
     pub spacing: Sides<Spacing>,
-}
-
-/// Elements across the narrowest half-width, and growth of elements, for a tolerance.
-struct Rule {
-    elements: f64,
-    zone_growth: f64,
-    layer_growth: f64,
-}
-
-/// Powers of the tolerance, fitted at 2 %. The error of a worn profile falls with the element's size at
-/// an order of 1.3 to 2.1 (`solver/tests/converge_scars.rs`), which alone would allow elements to follow the power 0.5 to
-/// 0.8; depth and width are less sensitive than the profile's worst place, so 0.4 holds the tolerance
-/// (`solver/tests/converge_tolerance.rs`). In the scar of a short stroke that worst place is the edge, far out in the
-/// zone, where the error is of first order: below 2 % the zone must grow finer faster than the core. On `mccoll.json`
-/// at 1, 0.5 and 0.3 % the power 0.35 left 1.5, 1.3 and 1.0 % there; 1.5 leaves 1.0, 0.4 and 0.4 % (`fretwear study`).
-fn rule(tolerance: f64, gross: bool) -> Rule {
-    let finer = 0.02 / tolerance;
-    Rule {
-        elements: 8.0 * finer.powf(0.4),
-        zone_growth: 0.06 * finer.powf(if gross || finer < 1.0 { -0.35 } else { -1.5 }),
-        layer_growth: 1.0 + 0.25 * finer.powf(-0.3),
-    }
 }
 
 /// Approach of the bodies under the load, mm:  P / (pi E*) (2 ln(4 H/a) - 1)  with the lower body height H (Johnson 1985,
@@ -131,32 +98,40 @@ pub fn choose(scene: &Scene) -> Sizes {
     .max(narrowest);
     let narrowest = if gross { narrowest } else { hertz };
 
-    let rule = rule(scene.accuracy.tolerance, gross);
+    let Accuracy {
+        tolerance, tuning, ..
+    } = &scene.accuracy;
+    let elements = tuning.elements.at(*tolerance);
     let elements = if sticks(scene, hertz, modulus) {
-        STICKING_REFINEMENT * rule.elements
+        tuning.sticking_refinement * elements
     } else {
-        rule.elements
+        elements
+    };
+    let zone_growth = if gross || *tolerance > 0.02 {
+        tuning.zone_growth
+    } else {
+        tuning.scar_zone_growth
     };
     let given = scene.accuracy.contact_element_mm;
     let half_block = 0.5 * scene.receptacle.shape.length_mm;
     let narrower = half_block.min(scene.slider.shape.half_width_mm);
     let element = match given {
         Some(element) => element.min(FEWEST_GIVEN_SHARE * narrower),
-        None => (narrowest / elements).min(FEWEST_SHARE * narrower),
+        None => (narrowest / elements).min(tuning.largest_element * narrower),
     };
-    let zone = SCAR_MARGIN * last + element;
+    let zone = tuning.scar_margin * last + element;
     let core = if given.is_some() {
         zone
     } else {
-        2.0 * narrowest
+        tuning.core * narrowest
     };
     let spacing = |travel: f64, half: f64| Spacing {
         core: element,
         core_half: (core + travel).min(half),
-        zone_growth: rule.zone_growth,
+        zone_growth: zone_growth.at(*tolerance),
         zone_half: zone + travel,
-        outer_growth: 0.25,
-        largest: (0.1 * half).max(element),
+        outer_growth: tuning.outer_growth,
+        largest: (tuning.outer_element * half).max(element),
     };
     let arc = |radius: f64, half: f64| radius * (half / radius).min(1.0).asin();
     let half_arc = arc(slider_radius, scene.slider.shape.half_width_mm);
@@ -165,7 +140,7 @@ pub fn choose(scene: &Scene) -> Sizes {
         hertz_half_width: hertz,
         final_half_width: last,
         contact_element: element,
-        layer_growth: rule.layer_growth,
+        layer_growth: 1.0 + tuning.layer_growth.at(*tolerance),
         spacing: Sides {
             slider: spacing(0.0, half_arc),
             receptacle: spacing(amplitude, half_top),

@@ -1,6 +1,7 @@
 use super::*;
 use crate::scene::{
-    Accuracy, BlockShape, Body, Friction, Motion, Output, SliderShape, StopCondition, WearLaw,
+    Accuracy, BlockShape, Body, Friction, Motion, Output, SliderShape, StopCondition, Tuning,
+    WearLaw,
 };
 
 pub(crate) fn fuzz_button() -> Scene {
@@ -43,6 +44,7 @@ pub(crate) fn fuzz_button() -> Scene {
             contact_element_mm: None,
             increments_per_cycle: None,
             cycle_jump: None,
+            tuning: Tuning::FITTED,
         },
         output: Output {
             stations_mm: vec![0.0],

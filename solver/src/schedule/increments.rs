@@ -7,7 +7,7 @@
 //! must stay a fraction of the contact's half-width, or its wear would leave ripples.
 
 use crate::number::{count_at_least, real};
-use crate::scene::{Accuracy, Motion};
+use crate::scene::{Accuracy, Motion, Tuning};
 
 /// Named positions of a cycle.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -20,31 +20,23 @@ pub enum Position {
     Leftmost,
 }
 
-/// Largest step over the contact's half-width, and fewest steps a quarter of a cycle, for a tolerance: values fitted at
-/// 2 % with powers around it, as for the mesh; loose tolerances allow longer steps.
-fn rule(tolerance: f64) -> (f64, usize) {
-    let finer = 0.02 / tolerance;
-    (
-        0.5 * finer.powf(if finer < 1.0 { -0.55 } else { -0.4 }),
-        count_at_least((5.0 * finer.powf(0.36)).round()),
-    )
-}
-
 /// Largest step for a contact of a half-width, mm.
-pub(crate) fn largest_step(tolerance: f64, half_width: f64) -> f64 {
-    rule(tolerance).0 * half_width
+pub(crate) fn largest_step(accuracy: &Accuracy, half_width: f64) -> f64 {
+    let Accuracy {
+        tolerance, tuning, ..
+    } = accuracy;
+    let step = if *tolerance > 0.02 {
+        tuning.loose_step
+    } else {
+        tuning.step
+    };
+    step.at(*tolerance) * half_width
 }
-
-/// A contact widened by a jump is resolved as if it were at most so many times as wide as that of a single cycle: each
-/// increment leaves an imprint of the slider's shape, and longer ones leave scallops that disturb the next pass. Measured on
-/// `fuzz_button.json` at 2 % after 2 000 cycles: without this they are 2 um long and 18 nm high, and the peak pressure
-/// is 30 % off; it is 12 % with 2, 6 % with 1.75 and 5 % with 1.5, in 1.25, 1.35 and 1.5 times the time.
-const WIDEST: f64 = 1.75;
 
 /// Half-width that the increments are chosen for, mm, from that of the present contact and of a single cycle.
-pub(crate) fn followed(half_width: f64, single: f64) -> f64 {
+pub(crate) fn followed(tuning: &Tuning, half_width: f64, single: f64) -> f64 {
     if single > 0.0 {
-        half_width.min(WIDEST * single)
+        half_width.min(tuning.widest * single)
     } else {
         half_width
     }
@@ -108,12 +100,13 @@ pub(crate) fn initial_quarter(steps: &[Step]) -> &[Step] {
 }
 
 fn steps_per_quarter(accuracy: &Accuracy, amplitude: f64, half_width: f64) -> usize {
-    let (fraction, fewest) = rule(accuracy.tolerance);
+    let fewest = accuracy.tuning.steps_per_quarter.at(accuracy.tolerance);
+    let fewest = count_at_least(fewest.round());
     match accuracy.increments_per_cycle {
         Some(n) => usize::try_from(n).unwrap_or(MOST_STEPS).div_ceil(4),
         // Without a contact there is nothing to resolve.
         None if half_width <= 0.0 => fewest,
-        None => count_at_least(amplitude / (fraction * half_width)).max(fewest),
+        None => count_at_least(amplitude / largest_step(accuracy, half_width)).max(fewest),
     }
     .clamp(1, MOST_STEPS)
 }
@@ -143,6 +136,7 @@ mod tests {
         contact_element_mm: None,
         increments_per_cycle: Some(8),
         cycle_jump: None,
+        tuning: Tuning::FITTED,
     };
 
     fn places(steps: &[Step]) -> Vec<f64> {

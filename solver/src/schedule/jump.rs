@@ -8,36 +8,22 @@
 use serde::{Deserialize, Serialize};
 
 use crate::number::{real, real_cycles};
-use crate::scene::Accuracy;
-
-/// Bounds of the change of a jump from one computed cycle to the next.
-const CHANGE: (f64, f64) = (0.5, 2.0);
-/// A jump is at most this part of the cycles done, so that the first cycles are resolved.
-const MOST_OF_DONE: f64 = 1.0;
-/// In gross reciprocating sliding each pass of a jump wears the whole jump at once, and the ends of the stroke wear too
-/// early. Measured on `fuzz_button.json` at 240 cycles and 0.04 mm, relative to the
-/// deepest place: 8 % with jumps of 0.16 of the cycles done, 4 % with 0.08, 2 % with 0.04.
-const GROSS_PART_PER_TOLERANCE: f64 = 2.0;
+use crate::scene::{Accuracy, Tuning};
 
 /// A computed cycle wears `jump` passes at once, so that scar and pressure are skewed toward the last pass, the pressure
 /// by about a third of k jump s E*/b (b: half-width, s: stroke), which stays below this.
-/// Measured on `mccoll.json` at 18 000 cycles, 0.1 mm to either side of the middle: 27 % apart with jumps of 700,
-/// 2 % with 100, where they are 5 % apart without jumps, while no depth changes by more than 0.15 %.
-fn largest_skew(tolerance: f64) -> f64 {
-    (12.0 * tolerance).max(0.15)
+fn largest_skew(accuracy: &Accuracy) -> f64 {
+    let tuning = &accuracy.tuning;
+    (tuning.skew * accuracy.tolerance).max(tuning.least_skew)
 }
 
-/// Where even single cycles are skewed, so many computed cycles over the tolerance suffice.
-const ENOUGH_PER_TOLERANCE: f64 = 2.5;
-
-/// A jump without a solution is divided by this; jumps may double again afterwards.
+/// A jump without a solution is divided by this; jumps may double again afterwards. Arbitrary: no result depends on it as
+/// long as one of the jumps has a solution.
 const CUT: u64 = 4;
 
-/// Floor of the error estimate: where nothing changes, or nothing wears, jumps grow as fast as they may.
+/// Floor of the error estimate: where nothing changes, or nothing wears, jumps grow as fast as they may. Any value far below
+/// the smallest tolerance does the same.
 const SMALLEST_ERROR: f64 = 1e-6;
-
-/// A stroke is gross reciprocating sliding where its amplitude exceeds so many half-widths of the contact.
-const GROSS_FROM: f64 = 2.0;
 
 /// Limits of a jump besides its error.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -53,33 +39,37 @@ pub(crate) struct Stroke {
 impl Stroke {
     /// The stroke of an amplitude under a contact of a half-width, mm, for k_s + k_r in 1/MPa and E* in MPa.
     pub(crate) fn new(
+        tuning: &Tuning,
         wear: f64,
         modulus: f64,
         (amplitude, half_width): (f64, f64),
         cycles: u64,
     ) -> Self {
         Self {
-            gross: is_gross(amplitude, half_width),
+            gross: is_gross(tuning, amplitude, half_width),
             skew: wear * 2.0 * amplitude * modulus / half_width,
             cycles,
         }
     }
 
     /// The largest jump after `done` cycles.
-    fn most(self, tolerance: f64, done: u64) -> f64 {
+    fn most(self, accuracy: &Accuracy, done: u64) -> f64 {
+        let Accuracy {
+            tolerance, tuning, ..
+        } = accuracy;
         let done = real_cycles(done);
         if self.gross {
-            return GROSS_PART_PER_TOLERANCE * tolerance * done;
+            return tuning.gross_jump_of_done * tolerance * done;
         }
-        let sufficient = real_cycles(self.cycles) * tolerance / ENOUGH_PER_TOLERANCE;
-        let unskewed = largest_skew(tolerance) / self.skew.max(f64::MIN_POSITIVE);
-        (MOST_OF_DONE * done).min(unskewed.max(sufficient))
+        let sufficient = real_cycles(self.cycles) * tolerance / tuning.sufficient_cycles;
+        let unskewed = largest_skew(accuracy) / self.skew.max(f64::MIN_POSITIVE);
+        (tuning.jump_of_done * done).min(unskewed.max(sufficient))
     }
 }
 
 /// Whether a stroke is gross reciprocating sliding.
-pub(crate) fn is_gross(amplitude: f64, half_width: f64) -> bool {
-    amplitude > GROSS_FROM * half_width
+pub(crate) fn is_gross(tuning: &Tuning, amplitude: f64, half_width: f64) -> bool {
+    amplitude > tuning.gross_from * half_width
 }
 
 /// State of the jump control.
@@ -125,8 +115,9 @@ impl JumpControl {
         if self.base <= 0.0 || self.error <= 0.0 {
             return 1;
         }
-        let factor = (accuracy.tolerance / self.error).clamp(CHANGE.0, CHANGE.1);
-        let most = stroke.most(accuracy.tolerance, self.done);
+        let (least, most) = accuracy.tuning.jump_change;
+        let factor = (accuracy.tolerance / self.error).clamp(least, most);
+        let most = stroke.most(accuracy, self.done);
         let target = (self.base * factor).min(most).max(1.0);
         even_share(target, remaining)
     }
@@ -189,6 +180,7 @@ mod tests {
         contact_element_mm: None,
         increments_per_cycle: None,
         cycle_jump: None,
+        tuning: Tuning::FITTED,
     };
 
     const STROKE: Stroke = Stroke {

@@ -7,15 +7,8 @@
 //! middle of the groove, 19 % below it at the ends, whose shape the jumps have changed.
 
 use crate::number::count_at_least;
+use crate::scene::Accuracy;
 use crate::schedule::increments;
-
-/// Length of the lead-in over the mean half-width of the contact: twice the contact's width. Lengths of 5 and 8
-/// half-widths change the pressure of the groove by 0.02 %.
-const LEAD_IN: f64 = 4.0;
-
-/// Last part of the lead-in, over the half-width of the contact of a single cycle, whose steps are chosen for that
-/// contact; in the steps of the wider one the pressure is 6 % low.
-const FINE_LEAD_IN: f64 = 4.0;
 
 /// Most parts of a step: a contact this much wider does not relax to the narrow one within the lead-in.
 const MOST_PARTS: usize = 64;
@@ -36,19 +29,20 @@ impl ReplayPlan {
     /// present contact and of that of a single cycle.
     pub(crate) fn new(
         (steps, length): (usize, f64),
-        tolerance: f64,
+        accuracy: &Accuracy,
         half_width: f64,
         single: f64,
     ) -> Self {
         if single <= 0.0 {
             return Self::default();
         }
-        let count = count_at_least(LEAD_IN * half_width / length);
+        let tuning = &accuracy.tuning;
+        let count = count_at_least(tuning.lead_in * half_width / length);
         let ends = increments::named(steps).into_iter();
-        let largest_step = increments::largest_step(tolerance, single);
+        let largest_step = increments::largest_step(accuracy, single);
         Self {
             spans: ends.map(|end| (end.saturating_sub(count), end)).collect(),
-            fine: count_at_least(FINE_LEAD_IN * single / length),
+            fine: count_at_least(tuning.fine_lead_in * single / length),
             parts: count_at_least(length / largest_step).min(MOST_PARTS),
         }
     }

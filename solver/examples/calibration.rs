@@ -1,0 +1,217 @@
+//! Data that the fitted constants of `solver::scene::Tuning` were chosen by: each is varied alone, on the scenes that it
+//! concerns, against a solution at a tolerance of 0.25 %.
+//!
+//! `cargo run --release -p solver --example calibration [NAME]` prints all of them, or those whose name contains NAME.
+//! Columns: value of the constant; errors of worn depth, scar width, profile (at its worst place, and in area) and peak
+//! pressure in per cent; surface elements, computed cycles and increments as the work. The forecast's constants:
+//! computed cycles and increments of the forecast over those of the run.
+
+#![expect(clippy::print_stdout, reason = "it prints a table")]
+
+#[expect(dead_code, reason = "the verification suite uses more of it")]
+#[path = "../tests/recorder.rs"]
+mod recorder;
+#[path = "../tests/scenes.rs"]
+mod scenes;
+
+use std::collections::BTreeMap;
+
+use recorder::{Recorder, area_between, largest_distance, solve};
+use scenes::{fuzz_button, groove, mccoll, partial_slip, scar, sprung_contact};
+use solver::SolveError;
+use solver::record::Summary;
+use solver::scene::{Elastic, Scene, Tuning};
+
+const REFERENCE: f64 = 0.0025;
+
+/// One constant with the values it takes, at a tolerance, on some scenes.
+struct Variation {
+    name: &'static str,
+    constant: fn(&mut Tuning) -> &mut f64,
+    values: &'static [f64],
+    tolerance: f64,
+    scenes: &'static [&'static str],
+}
+
+macro_rules! variations {
+    ($($($path:ident).+ = $values:expr, $tolerance:expr, $scenes:expr;)*) => {
+        [$(Variation {
+            name: stringify!($($path).+),
+            constant: |tuning| &mut tuning.$($path).+,
+            values: &$values,
+            tolerance: $tolerance,
+            scenes: &$scenes,
+        }),*]
+    };
+}
+
+const ERRORS: [Variation; 27] = variations! {
+    elements.value = [4.0, 8.0, 16.0], 0.02, ["scar", "groove", "sprung contact", "partial slip"];
+    elements.exponent = [0.2, 0.4, 0.6], 0.005, ["scar", "groove", "sprung contact"];
+    zone_growth.value = [0.03, 0.06, 0.12], 0.02, ["groove"];
+    zone_growth.exponent = [0.0, -0.35, -0.7], 0.1, ["scar", "groove"];
+    scar_zone_growth.value = [0.03, 0.06, 0.12], 0.02, ["scar", "sprung contact"];
+    scar_zone_growth.exponent = [-0.35, -1.5], 0.005, ["scar", "sprung contact"];
+    layer_growth.value = [0.12, 0.25, 0.5], 0.02, ["scar", "groove"];
+    layer_growth.exponent = [0.0, -0.3, -0.6], 0.005, ["scar"];
+    sticking_refinement = [2.5, 3.5, 5.0], 0.02, ["partial slip"];
+    scar_margin = [1.0, 1.3, 2.0], 0.02, ["scar", "groove", "sprung contact", "partial slip"];
+    core = [1.0, 2.0, 4.0], 0.02, ["scar", "sprung contact"];
+    outer_growth = [0.12, 0.25, 0.5], 0.02, ["scar", "groove"];
+    outer_element = [0.05, 0.1, 0.2], 0.02, ["scar", "groove"];
+    largest_element = [0.05, 0.1, 0.2], 0.02, ["soft scar"];
+    step.value = [0.25, 0.5, 1.0], 0.02, ["scar", "groove", "sprung contact"];
+    step.exponent = [0.2, 0.4, 0.6], 0.005, ["groove", "sprung contact"];
+    loose_step.exponent = [-0.3, -0.55, -0.8], 0.1, ["groove", "sprung contact"];
+    steps_per_quarter.value = [2.0, 5.0, 10.0], 0.02, ["scar", "partial slip"];
+    steps_per_quarter.exponent = [0.0, 0.36, 0.7], 0.005, ["scar"];
+    widest = [1.5, 1.75, 2.0, 10.0], 0.02, ["long groove"];
+    drift = [2.5, 10.0, 25.0], 0.02, ["long groove"];
+    jump_of_done = [0.25, 0.5, 1.0], 0.02, ["scar", "sprung contact"];
+    gross_jump_of_done = [1.0, 2.0, 4.0, 8.0], 0.02, ["long groove"];
+    gross_from = [1.0, 2.0, 4.0], 0.02, ["sprung contact"];
+    least_skew = [0.05, 0.15, 0.5, 2.0], 0.02, ["long scar"];
+    sufficient_cycles = [1.0, 2.5, 10.0], 0.02, ["sprung contact"];
+    lead_in = [2.0, 4.0, 8.0], 0.02, ["groove"];
+};
+
+const FORECASTS: [Variation; 2] = variations! {
+    surrogate_half_width = [1.0, 1.3, 1.6], 0.02, ["scar", "groove", "sprung contact", "long scar"];
+    step_share = [0.27, 0.42, 0.47], 0.02, ["groove", "sprung contact", "long groove"];
+};
+
+fn scene(name: &str) -> Scene {
+    let of_cycles = |mut scene: Scene, cycles| {
+        scene.cycles = cycles;
+        scene.output.snapshots_at_cycles.clear();
+        scene
+    };
+    match name {
+        "scar" => scar(),
+        "long scar" => of_cycles(mccoll(), 18_000),
+        "groove" => groove(),
+        "long groove" => of_cycles(fuzz_button(), 240),
+        "sprung contact" => sprung_contact(),
+        "partial slip" => partial_slip(),
+        "soft scar" => {
+            let mut scene = scar();
+            scene.slider.elastic = Elastic {
+                youngs_modulus_mpa: 200.0,
+                poisson_ratio: 0.3,
+            };
+            scene
+        }
+        _ => unreachable!("scenes of the tables above"),
+    }
+}
+
+fn main() -> Result<(), SolveError> {
+    let wanted = std::env::args().nth(1).unwrap_or_default();
+    let chosen = |variation: &&Variation| variation.name.contains(&wanted);
+    let mut references = BTreeMap::new();
+    for variation in ERRORS.iter().filter(chosen) {
+        println!(
+            "\n{} at a tolerance of {}",
+            variation.name, variation.tolerance
+        );
+        println!(
+            "{:>16} {:>7} {:>7} {:>7} {:>7} {:>7} {:>7} {:>8} {:>8} {:>10}",
+            "scene",
+            "value",
+            "depth",
+            "width",
+            "worst",
+            "area",
+            "peak",
+            "elements",
+            "cycles",
+            "increments"
+        );
+        for name in variation.scenes {
+            if !references.contains_key(name) {
+                let mut fine = scene(name);
+                fine.accuracy.tolerance = REFERENCE;
+                references.insert(*name, solve(&fine)?);
+            }
+            for value in variation.values {
+                print_errors(
+                    name,
+                    *value,
+                    &solve(&varied(variation, name, *value))?,
+                    &references[name],
+                );
+            }
+        }
+    }
+    for variation in FORECASTS.iter().filter(chosen) {
+        println!(
+            "\n{} at a tolerance of {}",
+            variation.name, variation.tolerance
+        );
+        println!(
+            "{:>16} {:>7} {:>8} {:>10}",
+            "scene", "value", "cycles", "increments"
+        );
+        for name in variation.scenes {
+            print_forecasts(variation, name)?;
+        }
+    }
+    Ok(())
+}
+
+fn varied(variation: &Variation, name: &str, value: f64) -> Scene {
+    let mut scene = scene(name);
+    scene.accuracy.tolerance = variation.tolerance;
+    *(variation.constant)(&mut scene.accuracy.tuning) = value;
+    scene
+}
+
+fn print_errors(
+    name: &str,
+    value: f64,
+    (found, run): &(Summary, Recorder),
+    (reference, fine): &(Summary, Recorder),
+) {
+    let percent = |a: f64, b: f64| 100.0 * (a / b - 1.0);
+    let (side, exact) = (&found.last.receptacle, &reference.last.receptacle);
+    let (profile, converged) = (run.last_profile(), fine.last_profile());
+    println!(
+        "{name:>16} {value:>7} {:>+7.2} {:>+7.2} {:>7.2} {:>7.2} {:>+7.2} {:>8} {:>8} {:>10}",
+        percent(side.max_depth_mm, exact.max_depth_mm),
+        percent(side.scar_half_width_mm, exact.scar_half_width_mm),
+        100.0 * largest_distance(profile, converged),
+        100.0 * area_between(profile, converged),
+        percent(
+            found.last.peak_pressure_mpa,
+            reference.last.peak_pressure_mpa
+        ),
+        found.resolution.contact_elements,
+        found.resolution.computed_cycles,
+        found.resolution.increments,
+    );
+}
+
+fn print_forecasts(variation: &Variation, name: &str) -> Result<(), SolveError> {
+    let mut run = scene(name);
+    run.accuracy.tolerance = variation.tolerance;
+    let (solved, _) = solve(&run)?;
+    for value in variation.values {
+        let scene = varied(variation, name, *value);
+        let layout = solver::model::Layout::of(&scene)?;
+        let forecast = solver::forecast::forecast(&scene, &layout);
+        let (cycles, increments) = (
+            solved.resolution.computed_cycles,
+            solved.resolution.increments,
+        );
+        println!(
+            "{name:>16} {value:>7} {:>8.2} {:>10.2}",
+            forecast.computed_cycles / real(cycles),
+            forecast.increments() / real(increments),
+        );
+    }
+    Ok(())
+}
+
+fn real(count: u64) -> f64 {
+    f64::from(u32::try_from(count).unwrap_or(u32::MAX))
+}
