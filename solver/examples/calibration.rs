@@ -20,7 +20,7 @@ use recorder::{Recorder, area_between, largest_distance, solve};
 use scenes::{fuzz_button, groove, mccoll, partial_slip, scar, sprung_contact};
 use solver::SolveError;
 use solver::record::Summary;
-use solver::scene::{Elastic, Scene, Tuning};
+use solver::scene::{Elastic, Friction, Scene, Tuning};
 
 const REFERENCE: f64 = 0.0025;
 
@@ -34,7 +34,7 @@ struct Variation {
 }
 
 macro_rules! variations {
-    ($($($path:ident).+ = $values:expr, $tolerance:expr, $scenes:expr;)*) => {
+    ($($($path:tt).+ = $values:expr, $tolerance:expr, $scenes:expr;)*) => {
         [$(Variation {
             name: stringify!($($path).+),
             constant: |tuning| &mut tuning.$($path).+,
@@ -45,7 +45,7 @@ macro_rules! variations {
     };
 }
 
-const ERRORS: [Variation; 27] = variations! {
+const ERRORS: [Variation; 31] = variations! {
     elements.value = [4.0, 8.0, 16.0], 0.02, ["scar", "groove", "sprung contact", "partial slip"];
     elements.exponent = [0.2, 0.4, 0.6], 0.005, ["scar", "groove", "sprung contact"];
     zone_growth.value = [0.03, 0.06, 0.12], 0.02, ["groove"];
@@ -59,7 +59,7 @@ const ERRORS: [Variation; 27] = variations! {
     core = [1.0, 2.0, 4.0], 0.02, ["scar", "sprung contact"];
     outer_growth = [0.12, 0.25, 0.5], 0.02, ["scar", "groove"];
     outer_element = [0.05, 0.1, 0.2], 0.02, ["scar", "groove"];
-    largest_element = [0.05, 0.1, 0.2], 0.02, ["soft scar"];
+    largest_element = [0.05, 0.1, 0.2], 0.02, ["wide contact"];
     step.value = [0.25, 0.5, 1.0], 0.02, ["scar", "groove", "sprung contact"];
     step.exponent = [0.2, 0.4, 0.6], 0.005, ["groove", "sprung contact"];
     loose_step.exponent = [-0.3, -0.55, -0.8], 0.1, ["groove", "sprung contact"];
@@ -67,12 +67,16 @@ const ERRORS: [Variation; 27] = variations! {
     steps_per_quarter.exponent = [0.0, 0.36, 0.7], 0.005, ["scar"];
     widest = [1.5, 1.75, 2.0, 10.0], 0.02, ["long groove"];
     drift = [2.5, 10.0, 25.0], 0.02, ["long groove"];
-    jump_of_done = [0.25, 0.5, 1.0], 0.02, ["scar", "sprung contact"];
+    jump_change.0 = [0.25, 0.5, 0.8], 0.02, ["scar", "long sprung contact"];
+    jump_change.1 = [1.2, 2.0, 4.0], 0.02, ["scar", "long sprung contact"];
+    jump_of_done = [0.25, 0.5, 1.0], 0.02, ["scar", "long sprung contact"];
     gross_jump_of_done = [1.0, 2.0, 4.0, 8.0], 0.02, ["long groove"];
-    gross_from = [1.0, 2.0, 4.0], 0.02, ["sprung contact"];
-    least_skew = [0.05, 0.15, 0.5, 2.0], 0.02, ["long scar"];
-    sufficient_cycles = [1.0, 2.5, 10.0], 0.02, ["sprung contact"];
-    lead_in = [2.0, 4.0, 8.0], 0.02, ["groove"];
+    gross_from = [1.0, 2.0, 4.0], 0.02, ["long sprung contact"];
+    skew = [3.0, 12.0, 48.0], 0.02, ["long scar"];
+    least_skew = [0.05, 0.15, 0.45], 0.005, ["long scar"];
+    sufficient_cycles = [1.0, 2.5, 10.0], 0.02, ["long sprung contact"];
+    lead_in = [2.0, 4.0, 8.0], 0.02, ["long groove"];
+    fine_lead_in = [1.0, 4.0, 8.0], 0.02, ["long groove"];
 };
 
 const FORECASTS: [Variation; 2] = variations! {
@@ -92,11 +96,14 @@ fn scene(name: &str) -> Scene {
         "groove" => groove(),
         "long groove" => of_cycles(fuzz_button(), 240),
         "sprung contact" => sprung_contact(),
+        "long sprung contact" => of_cycles(sprung_contact(), 2_000),
         "partial slip" => partial_slip(),
-        "soft scar" => {
+        // Half as wide as the bodies, without friction, so that it slides.
+        "wide contact" => {
             let mut scene = scar();
+            scene.friction = Friction::Frictionless;
             scene.slider.elastic = Elastic {
-                youngs_modulus_mpa: 200.0,
+                youngs_modulus_mpa: 10.0,
                 poisson_ratio: 0.3,
             };
             scene
@@ -115,7 +122,7 @@ fn main() -> Result<(), SolveError> {
             variation.name, variation.tolerance
         );
         println!(
-            "{:>16} {:>7} {:>7} {:>7} {:>7} {:>7} {:>7} {:>8} {:>8} {:>10}",
+            "{:>20} {:>7} {:>7} {:>7} {:>7} {:>7} {:>7} {:>8} {:>8} {:>10}",
             "scene",
             "value",
             "depth",
@@ -149,7 +156,7 @@ fn main() -> Result<(), SolveError> {
             variation.name, variation.tolerance
         );
         println!(
-            "{:>16} {:>7} {:>8} {:>10}",
+            "{:>20} {:>7} {:>8} {:>10}",
             "scene", "value", "cycles", "increments"
         );
         for name in variation.scenes {
@@ -176,7 +183,7 @@ fn print_errors(
     let (side, exact) = (&found.last.receptacle, &reference.last.receptacle);
     let (profile, converged) = (run.last_profile(), fine.last_profile());
     println!(
-        "{name:>16} {value:>7} {:>+7.2} {:>+7.2} {:>7.2} {:>7.2} {:>+7.2} {:>8} {:>8} {:>10}",
+        "{name:>20} {value:>7} {:>+7.2} {:>+7.2} {:>7.2} {:>7.2} {:>+7.2} {:>8} {:>8} {:>10}",
         percent(side.max_depth_mm, exact.max_depth_mm),
         percent(side.scar_half_width_mm, exact.scar_half_width_mm),
         100.0 * largest_distance(profile, converged),
@@ -204,7 +211,7 @@ fn print_forecasts(variation: &Variation, name: &str) -> Result<(), SolveError> 
             solved.resolution.increments,
         );
         println!(
-            "{name:>16} {value:>7} {:>8.2} {:>10.2}",
+            "{name:>20} {value:>7} {:>8.2} {:>10.2}",
             forecast.computed_cycles / real(cycles),
             forecast.increments() / real(increments),
         );

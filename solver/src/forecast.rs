@@ -10,7 +10,8 @@
 //! from the first cycles this is b = (3 R W / 2)^(1/3) for a short stroke and a groove W/(2 A) deep for a long one.
 //! Stick takes from the stroke what the bodies shear before they slip.
 //!
-//! The contact of a short stroke is nearly as wide as the segment; that of a long one rests on the leading-edge step of one pass, sqrt(2 R k P jump) deep into the floor, to which its half-width adds by a measured share.
+//! The contact of a short stroke is nearly as wide as the segment; that of a long one rests on the leading-edge step of
+//! one pass, sqrt(2 R k P jump) deep into the floor, to which its half-width adds by a share (`scene::Tuning`).
 
 mod surrogate;
 
