@@ -55,15 +55,14 @@ pub enum BenchError {
 
 /// Returns the processor seconds of a task, the smallest of `times` repetitions, and the value of the last one.
 fn measured<T, E>(times: u32, mut task: impl FnMut() -> Result<T, E>) -> Result<(f64, T), E> {
-    let once = |task: &mut dyn FnMut() -> Result<T, E>| {
+    let mut once = || {
         let before = cpu_s();
         let done = task()?;
         Ok((cpu_s() - before, done))
     };
-    let mut best = once(&mut task)?;
-    for _ in 1..times {
-        let again = once(&mut task)?;
-        best = (best.0.min(again.0), again.1);
-    }
-    Ok(best)
+    let first = once()?;
+    (1..times).try_fold(first, |(best_s, _), _| {
+        let (again_s, done) = once()?;
+        Ok((best_s.min(again_s), done))
+    })
 }

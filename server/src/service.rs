@@ -14,7 +14,7 @@ use crate::http;
 use crate::http::{Access, App};
 use crate::store::{Store, StoreError};
 use crate::worker;
-use crate::worker::Rules;
+use crate::worker::WorkerConfig;
 
 /// Time for open requests to end when the service stops, after the grace period of solving processes.
 const GRACE: Duration = Duration::from_secs(5);
@@ -34,8 +34,8 @@ pub struct Config {
     pub attempts: u32,
     /// Days after which ended jobs are deleted.
     pub keep_days: Option<u32>,
-    /// Rules of the workers.
-    pub rules: Rules,
+    /// Configuration of the workers.
+    pub worker: WorkerConfig,
 }
 
 /// Why the service cannot start.
@@ -86,8 +86,8 @@ impl Service {
         let listener = TcpListener::bind(config.listen).await.map_err(listen)?;
         let address = listener.local_addr().map_err(listen)?;
         let store = Arc::new(Store::open_with(&config.database, config.attempts).await?);
-        let rules = Arc::new(config.rules);
-        let reclaimed = store.reclaim_all(rules.lease_end()).await?;
+        let worker = Arc::new(config.worker);
+        let reclaimed = store.reclaim_all(worker.lease_end()).await?;
         let (queued, ending) = (reclaimed.queued, reclaimed.ending.len());
         tracing::info!(%address, database = config.database, workers = config.workers, queued, ending, "service started");
         let stopping = CancellationToken::new();
@@ -95,13 +95,13 @@ impl Service {
         for _ in 0..config.workers {
             tasks.spawn(worker::work(
                 Arc::clone(&store),
-                Arc::clone(&rules),
+                Arc::clone(&worker),
                 stopping.clone(),
             ));
         }
         tasks.spawn(maintenance::maintain(
             Arc::clone(&store),
-            Arc::clone(&rules),
+            Arc::clone(&worker),
             config.keep_days,
             reclaimed,
             stopping.clone(),
@@ -118,7 +118,7 @@ impl Service {
             store,
             stopping,
             tasks,
-            grace: rules.grace + GRACE,
+            grace: worker.grace + GRACE,
         })
     }
 

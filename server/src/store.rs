@@ -13,9 +13,9 @@
 //!
 //! | operation | atomic | fenced; answer if the lease was lost |
 //! | --- | --- | --- |
-//! | `submit`, `submit_once` | job, labels, first event, request key; several submissions may share a transaction | no |
+//! | `submit` | job, labels, first event, request key; several submissions may share a transaction | no |
 //! | `submit_batch` | all jobs of the batch, or none | no |
-//! | `claim`, `claim_within` | status, lease, attempt, `attempt` event, rows after the checkpoint deleted; reasons of jobs that do not fit | no; two claims never return the same lease |
+//! | `claim_within` | status, lease, attempt, `attempt` event, rows after the checkpoint deleted; reasons of jobs that do not fit | no; two claims never return the same lease |
 //! | `record` | progress, rows, snapshots, files, checkpoint, events, renewed lease | yes; [`LeaseState::Lost`] |
 //! | `renew` | end of the lease | yes; [`LeaseState::Lost`], not counted |
 //! | `lease_state` | reads only | yes; [`LeaseState::Lost`], not counted |

@@ -1,9 +1,9 @@
 //! Workers: each claims a job, supervises one child process that solves it, and stores its results.
 
+mod attempt;
+mod config;
 mod end;
-mod finalize;
 mod manifest;
-mod rules;
 mod supervisor;
 mod update_buffer;
 
@@ -18,19 +18,22 @@ use tracing::Instrument;
 use crate::clock::now_ms;
 use crate::store::{Claim, Store, StoreError};
 
-pub use finalize::finalize_lost_job;
-use rules::RETRY_PAUSE;
-pub use rules::Rules;
+use attempt::Attempt;
+use config::RETRY_PAUSE;
+use supervisor::supervise;
+
+pub use attempt::finalize_lost_job;
+pub use config::WorkerConfig;
 
 /// Interval at which an idle worker polls the queue, in case it missed a notification.
 const POLL_INTERVAL: Duration = Duration::from_secs(1);
 
 /// Claims and supervises jobs until the service stops.
-pub async fn work(store: Arc<Store>, rules: Arc<Rules>, stopping: CancellationToken) {
+pub async fn work(store: Arc<Store>, config: Arc<WorkerConfig>, stopping: CancellationToken) {
     // Jobs may still have the reason from before the service was started.
     let mut disk_short = true;
     while !stopping.is_cancelled() {
-        let job = AssertUnwindSafe(next(&store, &rules, &mut disk_short, &stopping));
+        let job = AssertUnwindSafe(next(&store, &config, &mut disk_short, &stopping));
         match job.catch_unwind().await {
             Ok(Ok(true)) => {}
             Ok(Ok(false)) => {
@@ -53,11 +56,11 @@ pub async fn work(store: Arc<Store>, rules: Arc<Rules>, stopping: CancellationTo
 /// Claims one job and supervises it to its end; `false` if there was none to claim.
 async fn next(
     store: &Store,
-    rules: &Rules,
+    config: &WorkerConfig,
     disk_short: &mut bool,
     stopping: &CancellationToken,
 ) -> Result<bool, StoreError> {
-    if let Some(reason) = rules.disk_shortage() {
+    if let Some(reason) = config.disk_shortage() {
         *disk_short = true;
         store.set_waiting_reason(&reason).await?;
         return Ok(false);
@@ -67,7 +70,7 @@ async fn next(
         *disk_short = false;
     }
     let claimed = store
-        .claim_within(rules.memory_mb, now_ms(), rules.lease_end())
+        .claim_within(config.memory_mb, now_ms(), config.lease_end())
         .await?;
     let Some(claim) = claimed else {
         return Ok(false);
@@ -76,13 +79,14 @@ async fn next(
     let span =
         tracing::info_span!("job", id = %claim.id, lease = claim.lease, attempt = claim.attempt);
     let started = Instant::now();
-    supervisor::supervise(store, &claim, rules, stopping)
-        .instrument(span)
-        .await?;
-    let metrics = store.metrics();
-    metrics
-        .solve_duration
-        .observe(started.elapsed().as_secs_f64());
+    let attempt = Attempt {
+        store,
+        claim: &claim,
+        config,
+    };
+    supervise(attempt, stopping).instrument(span).await?;
+    let solve_s = started.elapsed().as_secs_f64();
+    store.metrics().solve_duration.observe(solve_s);
     Ok(true)
 }
 

@@ -5,12 +5,9 @@ use std::path::Path;
 use std::process::{Command, Stdio};
 
 use solver::SolveError;
-use solver::condensation;
-use solver::cycle::{CycleState, Integrator};
-use solver::model;
-use solver::scene::Scene;
+use solver::cycle::{CycleError, CycleState, Integrator};
 
-use crate::bench::cases::{CYLINDER, scene};
+use crate::bench::cases::{CYLINDER, scene, set_up};
 use crate::bench::{BenchError, measured};
 use crate::export::deck::cycle;
 use crate::solve::children_cpu_s;
@@ -67,13 +64,9 @@ fn compare(folder: &Path, element_um: f64) -> Result<Comparison, BenchError> {
         scene.accuracy.contact_element_mm = Some(1e-3 * element_um);
         scene.accuracy.increments_per_cycle = Some(4 * QUARTER);
     })?;
-    let limit = friction_limit(&scene);
-    let (setup_s, (model, condensed)) = measured(3, || {
-        let model =
-            model::build(&scene, &solver::effects::plan(&scene)).map_err(SolveError::from)?;
-        let condensed = condensation::condense(&model).map_err(SolveError::from)?;
-        Ok::<_, SolveError>((model, condensed))
-    })?;
+    // mu P, N/mm.
+    let limit = solver::law::friction::coefficient(scene.friction) * scene.load_n_per_mm;
+    let (setup_s, (model, condensed)) = set_up(&scene)?;
     let operators = &condensed.operators;
     let (cycle_s, (lowered_mm, forces)) = measured(3, || {
         let mut state = CycleState::start(operators);
@@ -84,7 +77,7 @@ fn compare(folder: &Path, element_um: f64) -> Result<Comparison, BenchError> {
         let cycle = integrator.compute_cycle(&mut state, 1)?;
         Ok((lowered_mm, cycle.friction_loop.tangential_force_n_per_mm))
     })
-    .map_err(|error: solver::cycle::CycleError| SolveError::from(error))?;
+    .map_err(|error: CycleError| SolveError::from(error))?;
 
     let deck = cycle::friction_cycle(&scene, &model, lowered_mm, QUARTER);
     std::fs::write(folder.join(format!("{DECK}.inp")), deck)?;
@@ -111,11 +104,6 @@ fn compare(folder: &Path, element_um: f64) -> Result<Comparison, BenchError> {
         },
         friction_use: [largest(&forces), largest(&theirs)],
     })
-}
-
-/// Returns mu P, N/mm.
-fn friction_limit(scene: &Scene) -> f64 {
-    solver::law::friction::coefficient(scene.friction) * scene.load_n_per_mm
 }
 
 /// Returns the total force along x of each increment in the output of CalculiX.

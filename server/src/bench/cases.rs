@@ -75,30 +75,45 @@ pub(super) fn scene(spec: &str, change: impl FnOnce(&mut Scene)) -> Result<Scene
     Ok(scene)
 }
 
-fn condensed(scene: &Scene) -> Result<(Model, Condensed), SolveError> {
-    let model = model::build(scene, &solver::effects::plan(scene))?;
-    let condensed = condensation::condense(&model)?;
-    Ok((model, condensed))
+/// Fixes the settings that are otherwise chosen from the tolerance.
+fn fix(scene: &mut Scene, element_mm: f64, increments: u32, jump: u64) {
+    scene.accuracy.contact_element_mm = Some(element_mm);
+    scene.accuracy.increments_per_cycle = Some(increments);
+    scene.accuracy.cycle_jump = Some(jump);
+}
+
+fn build(scene: &Scene) -> Result<Model, SolveError> {
+    Ok(model::build(scene, &solver::effects::plan(scene))?)
+}
+
+/// Builds and condenses a scene; with the processor seconds of both.
+pub(super) fn set_up(scene: &Scene) -> Result<(f64, (Model, Condensed)), SolveError> {
+    measured(3, || {
+        let model = build(scene)?;
+        let condensed = condensation::condense(&model)?;
+        Ok((model, condensed))
+    })
+}
+
+fn row(what: impl Into<String>, size: String, cpu_s: f64) -> Row {
+    Row {
+        what: what.into(),
+        size,
+        cpu_s,
+    }
 }
 
 fn condensations() -> Result<Vec<Row>, BenchError> {
-    let mut rows = Vec::new();
-    for target in CONDENSED {
-        let scene = sized(target)?;
-        let model =
-            model::build(&scene, &solver::effects::plan(&scene)).map_err(SolveError::from)?;
-        let (cpu_s, _) =
-            measured(3, || condensation::condense(&model)).map_err(SolveError::from)?;
-        let surface =
-            2 * (model.bodies.slider.contact_x().len() + model.bodies.receptacle.contact_x().len());
-        let dofs = model.bodies.slider.dofs() + model.bodies.receptacle.dofs();
-        rows.push(Row {
-            what: "condensation of two bodies".to_owned(),
-            size: format!("{dofs} DOF, {surface} of them on the surfaces"),
-            cpu_s,
-        });
-    }
-    Ok(rows)
+    let condensation = |target: f64| {
+        let model = build(&sized(target)?)?;
+        let condense = || condensation::condense(&model).map_err(SolveError::from);
+        let (cpu_s, _) = measured(3, condense)?;
+        let bodies = &model.bodies;
+        let surface = 2 * (bodies.slider.contact_x().len() + bodies.receptacle.contact_x().len());
+        let size = format!("{} DOF, {surface} of them on the surfaces", dofs(&model));
+        Ok(row("condensation of two bodies", size, cpu_s))
+    };
+    CONDENSED.into_iter().map(condensation).collect()
 }
 
 /// Returns McColl's scene with about so many unknowns: bisects the element size.
@@ -111,56 +126,40 @@ fn sized(target: f64) -> Result<Scene, BenchError> {
     };
     for _ in 0..12 {
         let middle = (fine * coarse).sqrt();
-        let scene = at(middle)?;
-        let too_many = match model::build(&scene, &solver::effects::plan(&scene)) {
-            Ok(model) => {
-                count(model.bodies.slider.dofs() + model.bodies.receptacle.dofs()) > target
-            }
-            Err(_) => true,
-        };
-        *(if too_many { &mut fine } else { &mut coarse }) = middle;
+        let is_too_fine = !build(&at(middle)?).is_ok_and(|model| count(dofs(&model)) <= target);
+        *(if is_too_fine { &mut fine } else { &mut coarse }) = middle;
     }
     at(coarse)
 }
 
 fn increments() -> Result<Vec<Row>, BenchError> {
-    let mut rows = Vec::new();
-    for active in ACTIVE {
+    let increment = |active: u32| {
         let scene = scene(MCCOLL, |scene| {
-            scene.accuracy.contact_element_mm = Some(2.0 * HERTZ / f64::from(active));
-            scene.accuracy.increments_per_cycle = Some(40);
-            scene.accuracy.cycle_jump = Some(1);
+            fix(scene, 2.0 * HERTZ / f64::from(active), 40, 1);
             // Few cycles keep the scar, and so the mesh, as small as the contact.
             scene.cycles = 10;
         })?;
         let (_, cycle_s, increments) = time_cycle(&scene)?;
-        rows.push(Row {
-            what: "contact increment with wear of both sides".to_owned(),
-            size: format!("{active} nodes in contact"),
-            cpu_s: cycle_s / increments,
-        });
-    }
-    Ok(rows)
+        let size = format!("{active} nodes in contact");
+        let what = "contact increment with wear of both sides";
+        Ok(row(what, size, cycle_s / increments))
+    };
+    ACTIVE.into_iter().map(increment).collect()
 }
 
 /// Returns the seconds of the set-up and of one cycle, and the increments of the cycle.
-fn time_cycle(scene: &Scene) -> Result<(f64, f64, f64), BenchError> {
-    let (setup_s, (model, condensed)) = measured(3, || condensed(scene))?;
+fn time_cycle(scene: &Scene) -> Result<(f64, f64, f64), SolveError> {
+    let (setup_s, (model, condensed)) = set_up(scene)?;
     let operators = &condensed.operators;
     let mut increments = 0;
     let mut best = f64::INFINITY;
     for _ in 0..3 {
         let mut state = CycleState::start(operators);
         let mut integrator = Integrator::new(scene, &model, operators);
-        integrator
-            .apply_load(&mut state)
-            .map_err(SolveError::from)?;
-        integrator
-            .initial_quarter(&mut state)
-            .map_err(SolveError::from)?;
+        integrator.apply_load(&mut state)?;
+        integrator.initial_quarter(&mut state)?;
         let before = state.increments;
-        let (cycle_s, _) =
-            measured(1, || integrator.compute_cycle(&mut state, 1)).map_err(SolveError::from)?;
+        let (cycle_s, _) = measured(1, || integrator.compute_cycle(&mut state, 1))?;
         best = best.min(cycle_s);
         increments = state.increments - before;
     }
@@ -171,56 +170,29 @@ fn time_cycle(scene: &Scene) -> Result<(f64, f64, f64), BenchError> {
 fn friction_cycle() -> Result<Vec<Row>, BenchError> {
     let scene = scene(CYLINDER, |_| {})?;
     let (setup_s, cycle_s, increments) = time_cycle(&scene)?;
-    let row = |what: &str, size: String, cpu_s| Row {
-        what: what.to_owned(),
-        size,
-        cpu_s,
-    };
+    let (mesh, cycle) = ("elements of 10 um", format!("{increments} increments"));
     Ok(vec![
-        row(
-            "cylinder at 185 N/mm: set-up",
-            "elements of 10 um".to_owned(),
-            setup_s,
-        ),
-        row(
-            "the same: one friction cycle",
-            format!("{increments} increments"),
-            cycle_s,
-        ),
+        row("cylinder at 185 N/mm: set-up", mesh.to_owned(), setup_s),
+        row("the same: one friction cycle", cycle, cycle_s),
     ])
 }
 
-fn solved(
-    what: impl Into<String>,
-    size: impl Into<String>,
-    scene: &Scene,
-) -> Result<Row, BenchError> {
+fn solved(what: impl Into<String>, size: &str, scene: &Scene) -> Result<Row, BenchError> {
     let summary = solve::run(scene, &mut |_| ControlFlow::Continue(()))?;
-    Ok(Row {
-        what: what.into(),
-        size: format!(
-            "{}{} elements, {} computed cycles, {} increments",
-            size.into(),
-            summary.accuracy.contact_elements,
-            summary.accuracy.computed_cycles,
-            summary.accuracy.increments,
-        ),
-        cpu_s: summary.cost.cpu_s,
-    })
+    let size = format!(
+        "{size}{} elements, {} computed cycles, {} increments",
+        summary.accuracy.contact_elements,
+        summary.accuracy.computed_cycles,
+        summary.accuracy.increments,
+    );
+    Ok(row(what, size, summary.cost.cpu_s))
 }
 
 fn reference() -> Result<Vec<Row>, BenchError> {
-    let scene = scene(MCCOLL, |scene| {
-        scene.accuracy.contact_element_mm = Some(0.01);
-        scene.accuracy.increments_per_cycle = Some(40);
-        scene.accuracy.cycle_jump = Some(100);
-    })?;
+    let scene = scene(MCCOLL, |scene| fix(scene, 0.01, 40, 100))?;
     let size = "10 um, 40 increments, jump 100: ";
-    Ok(vec![solved(
-        "mccoll.json at the reference's resolution",
-        size,
-        &scene,
-    )?])
+    let what = "mccoll.json at the reference's resolution";
+    Ok(vec![solved(what, size, &scene)?])
 }
 
 fn mccoll(preset: &str, tolerance: f64) -> Result<Vec<Row>, BenchError> {
@@ -238,34 +210,32 @@ fn at_preset(name: &str, spec: &str, preset: &str, tolerance: f64) -> Result<Vec
 
 fn scaling_with_elements() -> Result<Vec<Row>, BenchError> {
     let row = |element: f64| {
-        let scene = scene(MCCOLL, |scene| {
-            scene.accuracy.contact_element_mm = Some(element);
-            scene.accuracy.increments_per_cycle = Some(40);
-            scene.accuracy.cycle_jump = Some(100);
-            scene.cycles = 6_000;
-            scene.output.snapshots_at_cycles = Vec::new();
-        })?;
-        solved(
-            "scaling with elements",
-            format!("{} um: ", 1e3 * element),
-            &scene,
-        )
+        let scene = scaled(element, 100, 6_000)?;
+        let size = format!("{} um: ", 1e3 * element);
+        solved("scaling with elements", &size, &scene)
     };
     ELEMENTS.into_iter().map(row).collect()
 }
 
 fn scaling_with_cycles() -> Result<Vec<Row>, BenchError> {
     let row = |cycles: u64| {
-        let scene = scene(MCCOLL, |scene| {
-            scene.accuracy.contact_element_mm = Some(0.02);
-            scene.accuracy.increments_per_cycle = Some(40);
-            scene.accuracy.cycle_jump = Some(20);
-            scene.cycles = cycles;
-            scene.output.snapshots_at_cycles = Vec::new();
-        })?;
-        solved("scaling with cycles", format!("{cycles} cycles: "), &scene)
+        let scene = scaled(0.02, 20, cycles)?;
+        solved("scaling with cycles", &format!("{cycles} cycles: "), &scene)
     };
     CYCLES.into_iter().map(row).collect()
+}
+
+/// Returns McColl's scene without snapshots.
+fn scaled(element_mm: f64, jump: u64, cycles: u64) -> Result<Scene, BenchError> {
+    scene(MCCOLL, |scene| {
+        fix(scene, element_mm, 40, jump);
+        scene.cycles = cycles;
+        scene.output.snapshots_at_cycles = Vec::new();
+    })
+}
+
+fn dofs(model: &Model) -> usize {
+    model.bodies.slider.dofs() + model.bodies.receptacle.dofs()
 }
 
 fn count(dofs: usize) -> f64 {
@@ -288,9 +258,7 @@ mod tests {
     fn meshes_of_the_condensation_have_the_target_size() {
         for target in CONDENSED {
             let scene = sized(target).expect("a size is found");
-            let model =
-                model::build(&scene, &solver::effects::plan(&scene)).expect("it can be meshed");
-            let dofs = count(model.bodies.slider.dofs() + model.bodies.receptacle.dofs());
+            let dofs = count(dofs(&build(&scene).expect("it can be meshed")));
             assert!(
                 (0.8..=1.0).contains(&(dofs / target)),
                 "{dofs} for {target}"

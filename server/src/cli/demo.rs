@@ -19,7 +19,7 @@ use crate::cli::terminal::{bar, failed, write_err, write_out};
 use crate::http::Access;
 use crate::queue::ATTEMPT_LIMIT;
 use crate::service::{Config, Service, ServiceError};
-use crate::worker::Rules;
+use crate::worker::WorkerConfig;
 
 /// The specification: the published fuzz button.
 const SPEC: &str = include_str!("../../examples/fuzz_button.json");
@@ -64,7 +64,7 @@ async fn demonstrate(listen: SocketAddr, exit: bool) -> Result<(), DemoError> {
         workers: workers(None),
         attempts: ATTEMPT_LIMIT,
         keep_days: None,
-        rules: Rules::new(program, folder.clone()),
+        worker: WorkerConfig::new(program, folder.clone()),
     })
     .await?;
     let base = format!("http://{}", service.address);

@@ -6,7 +6,7 @@ use std::time::Duration;
 use clap::Args;
 
 use crate::queue::ATTEMPT_LIMIT;
-use crate::worker::Rules;
+use crate::worker::WorkerConfig;
 
 /// Options for queue and workers.
 #[derive(Debug, Args)]
@@ -46,17 +46,17 @@ impl WorkOptions {
         crate::cli::runtime::workers(self.workers)
     }
 
-    /// Rules of the workers for a program and a database.
-    pub(super) fn rules(&self, program: PathBuf, database: &str) -> Rules {
-        let rules = Rules::new(program, folder(database));
-        Rules {
+    /// Configuration of the workers for a program and a database.
+    pub(super) fn config(&self, program: PathBuf, database: &str) -> WorkerConfig {
+        let config = WorkerConfig::new(program, folder(database));
+        WorkerConfig {
             lease: self.lease_s.max(Duration::from_millis(100)),
             checkpoint_every: self.checkpoint_every_s,
             grace: self.grace_s,
-            memory_mb: self.memory_mb.unwrap_or(rules.memory_mb),
+            memory_mb: self.memory_mb.unwrap_or(config.memory_mb),
             job_memory_mb: self.job_memory_mb,
             least_free_disk_mb: self.least_free_disk_mb,
-            ..rules
+            ..config
         }
     }
 }

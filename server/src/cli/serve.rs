@@ -30,7 +30,7 @@ pub(super) fn run(arguments: ServeArguments) -> ExitCode {
             workers: work.workers(),
             attempts: work.attempts,
             keep_days: work.keep_days,
-            rules: work.rules(program, &arguments.database),
+            worker: work.config(program, &arguments.database),
             database: arguments.database,
         };
         let service = match Service::start(config).await {

@@ -10,7 +10,7 @@ use tracing::Instrument;
 use crate::clock::{monotonic_ms, now_ms};
 use crate::store::{Reclaimed, Store, StoreError};
 use crate::worker;
-use crate::worker::Rules;
+use crate::worker::WorkerConfig;
 
 /// Interval between two checks for expired leases and deadlines.
 const INTERVAL: Duration = Duration::from_secs(1);
@@ -22,14 +22,14 @@ const DAY_MS: i64 = 86_400_000;
 /// Runs until the service stops. `reclaimed` are the jobs that were reclaimed at its start.
 pub(super) async fn maintain(
     store: Arc<Store>,
-    rules: Arc<Rules>,
+    config: Arc<WorkerConfig>,
     keep_days: Option<u32>,
     reclaimed: Reclaimed,
     stopping: CancellationToken,
 ) {
-    let lease = rules.lease;
+    let lease = config.lease;
     let mut finalizing = JoinSet::new();
-    finalize(&store, &rules, reclaimed, &mut finalizing);
+    finalize(&store, &config, reclaimed, &mut finalizing);
     let mut rounds = 0_u32;
     // Since when process and store have run without a stall. After a stall all leases are expired, also those of this
     // process's own supervisors, which first get the time of one lease to renew them.
@@ -47,9 +47,9 @@ pub(super) async fn maintain(
         while finalizing.try_join_next().is_some() {}
         let reclaims = healthy.is_some_and(|since| since.elapsed() >= lease);
         let started = Instant::now();
-        healthy = match round(&store, &rules, reclaims, keep_days).await {
+        healthy = match round(&store, &config, reclaims, keep_days).await {
             Ok(reclaimed) => {
-                finalize(&store, &rules, reclaimed, &mut finalizing);
+                finalize(&store, &config, reclaimed, &mut finalizing);
                 let is_healthy = started.elapsed() <= lease / 2;
                 is_healthy.then(|| healthy.unwrap_or_else(Instant::now))
             }
@@ -70,16 +70,16 @@ pub(super) async fn maintain(
 /// Ends jobs without another attempt, in tasks of their own: their results may be large, and the disk may be full.
 fn finalize(
     store: &Arc<Store>,
-    rules: &Arc<Rules>,
+    config: &Arc<WorkerConfig>,
     reclaimed: Reclaimed,
     finalizing: &mut JoinSet<()>,
 ) {
     for claim in reclaimed.ending {
-        let (store, rules) = (Arc::clone(store), Arc::clone(rules));
+        let (store, config) = (Arc::clone(store), Arc::clone(config));
         let span = tracing::info_span!("job", id = %claim.id, lease = claim.lease, attempt = claim.attempt);
         let ending = async move {
             if let Err(error) =
-                worker::finalize_lost_job(&store, &claim, &rules, reclaimed.reason).await
+                worker::finalize_lost_job(&store, &claim, &config, reclaimed.reason).await
             {
                 tracing::error!(%error, "a job whose worker was lost could not be ended");
             }
@@ -90,13 +90,13 @@ fn finalize(
 
 async fn round(
     store: &Store,
-    rules: &Rules,
+    config: &WorkerConfig,
     reclaims: bool,
     keep_days: Option<u32>,
 ) -> Result<Reclaimed, StoreError> {
     let reclaimed = if reclaims {
         store
-            .reclaim_expired(monotonic_ms(), rules.lease_end())
+            .reclaim_expired(monotonic_ms(), config.lease_end())
             .await?
     } else {
         Reclaimed::default()

@@ -48,7 +48,7 @@ pub enum BackupError {
 }
 
 /// What was copied and verified.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct CopySummary {
     /// Number of jobs in the database.
     pub jobs: i64,

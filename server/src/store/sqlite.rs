@@ -18,6 +18,7 @@ mod job_rows;
 mod jobs;
 mod leases;
 mod maintenance;
+mod migrations;
 mod open;
 mod queries;
 mod reclaim;
@@ -36,7 +37,7 @@ use tokio::sync::{Notify, broadcast};
 use uuid::Uuid;
 
 use crate::metrics::Metrics;
-use crate::store::{Changes, LeaseState, NewJob, RequestKey, StoreError, Submitted};
+use crate::store::{Cancelled, Changes, LeaseState, NewJob, RequestKey, StoreError, Submitted};
 
 /// Jobs, batches, events and results, durable.
 #[derive(Debug)]
@@ -58,31 +59,11 @@ pub struct Store {
 }
 
 impl Store {
-    /// Queues a job. `now` in milliseconds since 1970.
-    ///
-    /// # Errors
-    /// [`StoreError`] if the database fails.
-    pub async fn submit(&self, job: &NewJob, now: i64) -> Result<Uuid, StoreError> {
-        match self.submit_any(job, None, now).await? {
-            Submitted::Job(id) => Ok(id),
-            Submitted::KeyTaken => Err(StoreError::Unwritten),
-        }
-    }
-
     /// Queues a job, unless a request with the same key has done so already. `now` in milliseconds since 1970.
     ///
     /// # Errors
     /// [`StoreError`] if the database fails.
-    pub async fn submit_once(
-        &self,
-        job: &NewJob,
-        key: &RequestKey,
-        now: i64,
-    ) -> Result<Submitted, StoreError> {
-        self.submit_any(job, Some(key), now).await
-    }
-
-    async fn submit_any(
+    pub async fn submit(
         &self,
         job: &NewJob,
         key: Option<&RequestKey>,
@@ -126,6 +107,15 @@ impl Store {
     fn changed(&self, id: Uuid) {
         // Without a subscriber this is not an error.
         let _ = self.changes.send(id);
+    }
+
+    /// Notifies subscribers of a committed cancel request, which ends a queued job.
+    fn cancelled(&self, id: Uuid, effect: Option<Cancelled>) {
+        match effect {
+            Some(Cancelled::AtOnce) => self.concluded(id, Some(Status::Cancelled)),
+            Some(Cancelled::Requested) => self.changed(id),
+            Some(Cancelled::Already) | None => {}
+        }
     }
 
     /// Notifies subscribers and workers of a committed transition, and counts ended jobs.

@@ -21,6 +21,32 @@ use crate::spec;
 
 pub(crate) use super::sqlite::tests::hold_write_lock;
 
+/// Operations with defaults that only tests use.
+impl Store {
+    /// Opens a database with the default number of attempts.
+    pub(crate) async fn open(url: &str) -> Result<Self, StoreError> {
+        Self::open_with(url, ATTEMPT_LIMIT).await
+    }
+
+    /// Queues a job.
+    pub(crate) async fn queue(&self, job: &NewJob, now: i64) -> Uuid {
+        let submitted = self.submit(job, None, now).await.expect("the store");
+        let Submitted::Job(id) = submitted else {
+            panic!("there is no key");
+        };
+        id
+    }
+
+    /// Claims the first job in the order of the queue, whatever memory it needs.
+    pub(crate) async fn claim(
+        &self,
+        now: i64,
+        expires_at: i64,
+    ) -> Result<Option<Claim>, StoreError> {
+        self.claim_within(i64::MAX, now, expires_at).await
+    }
+}
+
 pub(in crate::store) struct Fixture {
     pub(in crate::store) store: Arc<Store>,
     pub(in crate::store) url: String,
@@ -45,17 +71,12 @@ impl Fixture {
     pub(in crate::store) async fn queued_with(&self, options: SubmitOptions) -> Uuid {
         let resolved = spec::read(br#"{"system":{"kind":"fuzz_button"}}"#).expect("accepted");
         let plan = crate::estimate::Estimate::of(&resolved).plan(&resolved, None);
-        self.store
-            .submit(
-                &NewJob {
-                    spec: resolved.spec,
-                    plan,
-                    options,
-                },
-                0,
-            )
-            .await
-            .expect("queued")
+        let job = NewJob {
+            spec: resolved.spec,
+            plan,
+            options,
+        };
+        self.store.queue(&job, 0).await
     }
 
     pub(in crate::store) async fn claimed(&self, expires_at: i64) -> Claim {

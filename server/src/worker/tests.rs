@@ -16,7 +16,7 @@ use crate::http::tests::row;
 use crate::solve::Line;
 use crate::spec;
 use crate::store::{JobUpdate, NewJob, Store, SubmitOptions};
-use crate::worker::{Rules, work};
+use crate::worker::{WorkerConfig, work};
 
 /// A worker whose solving process is a shell script, with one job and one attempt.
 struct Scripted {
@@ -50,13 +50,13 @@ impl Scripted {
             spec,
             options: SubmitOptions::default(),
         };
-        let id = store.submit(&job, 0).await.expect("queued");
-        let rules = Rules {
+        let id = store.queue(&job, 0).await;
+        let config = WorkerConfig {
             least_free_disk_mb: 0,
-            ..Rules::new(program, folder.path().to_owned())
+            ..WorkerConfig::new(program, folder.path().to_owned())
         };
         let stopping = CancellationToken::new();
-        let worker = tokio::spawn(work(Arc::clone(&store), Arc::new(rules), stopping.clone()));
+        let worker = tokio::spawn(work(Arc::clone(&store), Arc::new(config), stopping.clone()));
         Self {
             store,
             id,
@@ -196,7 +196,7 @@ async fn a_job_with_a_cancel_request_whose_worker_is_lost_has_documents_of_its_r
         spec: resolved.spec,
         options: SubmitOptions::default(),
     };
-    let id = store.submit(&job, 0).await.expect("queued");
+    let id = store.queue(&job, 0).await;
     let claim = store.claim(0, 10).await.expect("the store");
     let update = JobUpdate {
         rows: vec![row(1)],
@@ -209,9 +209,9 @@ async fn a_job_with_a_cancel_request_whose_worker_is_lost_has_documents_of_its_r
         .reclaim_expired(10, i64::MAX)
         .await
         .expect("the store");
-    let rules = Rules::new(PathBuf::from("none"), folder.path().to_owned());
+    let config = WorkerConfig::new(PathBuf::from("none"), folder.path().to_owned());
     let ended =
-        super::finalize_lost_job(&store, &reclaimed.ending[0], &rules, reclaimed.reason).await;
+        super::finalize_lost_job(&store, &reclaimed.ending[0], &config, reclaimed.reason).await;
     ended.expect("the store");
     let job = store.job(id).await.expect("the store").expect("a job");
     assert_eq!(job.document.status, Status::Cancelled);

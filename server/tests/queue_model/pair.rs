@@ -7,7 +7,7 @@ use server::estimate::Estimate;
 use server::queue::{Transition, sort_key};
 use server::solve::checkpoint::EncodedCheckpoint;
 use server::spec;
-use server::store::{Claim, End, JobUpdate, LeaseState, NewJob, Store, SubmitOptions};
+use server::store::{Claim, End, JobUpdate, LeaseState, NewJob, Store, SubmitOptions, Submitted};
 use solver::record::CycleReport;
 use tempfile::TempDir;
 
@@ -79,11 +79,10 @@ impl Pair {
             priority,
             deadline_s,
         };
-        let id = self
-            .store
-            .submit(&self.job, self.now)
-            .await
-            .expect("queued");
+        let submitted = self.store.submit(&self.job, None, self.now).await;
+        let Submitted::Job(id) = submitted.expect("queued") else {
+            panic!("there is no key");
+        };
         self.jobs.push(ModelJob {
             id,
             status: Status::Queued,
@@ -104,7 +103,7 @@ impl Pair {
         let expires_at = self.now + LEASE_MS;
         let claim = self
             .store
-            .claim(self.now, expires_at)
+            .claim_within(i64::MAX, self.now, expires_at)
             .await
             .expect("the store");
         let waiting = self

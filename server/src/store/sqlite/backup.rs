@@ -6,11 +6,11 @@ use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
-use sqlx::sqlite::{SqliteConnectOptions, SqliteConnection};
+use sqlx::sqlite::SqliteConnectOptions;
 use sqlx::{ConnectOptions, Connection};
 
 use crate::export::files::{create_folder, parent, sha256};
-use crate::store::sqlite::folder::Folder;
+use crate::store::sqlite::folder::{Folder, beside};
 use crate::store::sqlite::open::lock;
 use crate::store::{BackupError, CopySummary, StoreError};
 
@@ -32,10 +32,7 @@ pub async fn backup(url: &str, into: &Path) -> Result<CopySummary, BackupError> 
 
 /// Copies a database, which may be in use.
 pub(super) async fn copy_database(source: &Path, target: &Path) -> Result<(), BackupError> {
-    let mut database = SqliteConnectOptions::new()
-        .filename(source)
-        .connect()
-        .await?;
+    let mut database = at(source).connect().await?;
     sqlx::query("VACUUM INTO ?")
         .bind(target.to_string_lossy().into_owned())
         .execute(&mut database)
@@ -63,11 +60,7 @@ async fn check_deleted(database: &Path, missing: &[String]) -> Result<(), Backup
     if missing.is_empty() {
         return Ok(());
     }
-    let mut connection = SqliteConnectOptions::new()
-        .filename(database)
-        .read_only(true)
-        .connect()
-        .await?;
+    let mut connection = at(database).read_only(true).connect().await?;
     for place in missing {
         let named: i64 = sqlx::query_scalar("SELECT count(*) FROM result_files WHERE place = ?")
             .bind(place)
@@ -83,11 +76,7 @@ async fn check_deleted(database: &Path, missing: &[String]) -> Result<(), Backup
 /// Deletes the owners of missing files from a copy: ended jobs were deleted from the source, other jobs restart at cycle 0.
 /// Returns the number of jobs in the copy.
 async fn delete_missing(copy: &Path, missing: &[String]) -> Result<i64, BackupError> {
-    let mut database = SqliteConnectOptions::new()
-        .filename(copy)
-        .foreign_keys(true)
-        .connect()
-        .await?;
+    let mut database = at(copy).foreign_keys(true).connect().await?;
     let mut transaction = database.begin().await?;
     for place in missing {
         for statement in [
@@ -121,9 +110,7 @@ pub async fn restore(from: &Path, url: &str) -> Result<CopySummary, BackupError>
     let (copied, missing) =
         copy_files(&source, &Folder::beside(&source), &Folder::beside(&target)).await?;
     check_deleted(&source, &missing).await?;
-    let mut partial = target.clone().into_os_string();
-    partial.push(".partial");
-    let partial = PathBuf::from(partial);
+    let partial = beside(&target, ".partial");
     std::fs::copy(&source, &partial).map_err(|cause| file(&partial, cause))?;
     sync(&partial)?;
     std::fs::rename(&partial, &target).map_err(|cause| file(&target, cause))?;
@@ -138,11 +125,7 @@ async fn copy_files(
     from: &Folder,
     to: &Folder,
 ) -> Result<(CopySummary, Vec<String>), BackupError> {
-    let mut connection = SqliteConnectOptions::new()
-        .filename(database)
-        .read_only(true)
-        .connect()
-        .await?;
+    let mut connection = at(database).read_only(true).connect().await?;
     let found: String = sqlx::query_scalar("PRAGMA integrity_check(1)")
         .fetch_one(&mut connection)
         .await?;
@@ -153,12 +136,14 @@ async fn copy_files(
     let jobs = sqlx::query_scalar("SELECT count(*) FROM jobs")
         .fetch_one(&mut connection)
         .await?;
-    let named = named_files(&mut connection).await?;
+    let named: Vec<(String, String)> =
+        sqlx::query_as("SELECT place, sha256 FROM result_files WHERE place IS NOT NULL")
+            .fetch_all(&mut connection)
+            .await?;
     connection.close().await?;
     let mut copied = CopySummary {
         jobs,
-        files: 0,
-        file_bytes: 0,
+        ..CopySummary::default()
     };
     let mut missing = Vec::new();
     for (place, sha256) in named {
@@ -174,16 +159,6 @@ async fn copy_files(
         }
     }
     Ok((copied, missing))
-}
-
-async fn named_files(
-    connection: &mut SqliteConnection,
-) -> Result<Vec<(String, String)>, BackupError> {
-    Ok(
-        sqlx::query_as("SELECT place, sha256 FROM result_files WHERE place IS NOT NULL")
-            .fetch_all(connection)
-            .await?,
-    )
 }
 
 /// Copies a file; returns its length, or `None` if it does not exist.
@@ -206,6 +181,11 @@ fn copy_file(source: &Path, target: &Path, named: &str) -> Result<Option<u64>, B
     sync(target)?;
     sync(folder)?;
     Ok(Some(u64::try_from(bytes.len()).unwrap_or(u64::MAX)))
+}
+
+/// Options to connect to a database file.
+fn at(path: &Path) -> SqliteConnectOptions {
+    SqliteConnectOptions::new().filename(path)
 }
 
 fn path_of(url: &str) -> Result<PathBuf, BackupError> {

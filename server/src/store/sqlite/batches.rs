@@ -2,69 +2,19 @@
 
 use std::collections::BTreeMap;
 
-use api::job::{Outcome, Status};
-use sqlx::{Sqlite, SqliteExecutor, Transaction};
+use api::job::Status;
+use sqlx::sqlite::SqliteRow;
+use sqlx::{Row, Sqlite, SqliteExecutor, Transaction};
 use uuid::Uuid;
+use uuid::fmt::Hyphenated;
 
 use crate::store::batches::{
     BatchDetail, BatchFilter, BatchJob, BatchOverview, NewBatch, StoredBatch,
 };
 use crate::store::sqlite::document::timestamp;
 use crate::store::sqlite::job_rows::{cancel, insert};
-use crate::store::sqlite::queries::{BEGIN, job_id, parsed};
-use crate::store::{Cancelled, Deleted, RequestKey, SnapshotPart, Store, StoreError, Submitted};
-
-#[derive(sqlx::FromRow)]
-struct BatchRow {
-    id: String,
-    name: Option<String>,
-    created_at: i64,
-    plan: Option<String>,
-}
-
-impl BatchRow {
-    fn overview(self, counts: BTreeMap<String, u64>) -> Result<BatchOverview, StoreError> {
-        Ok(BatchOverview {
-            id: job_id(&self.id)?,
-            name: self.name,
-            created_at: timestamp(self.created_at),
-            counts,
-        })
-    }
-}
-
-#[derive(sqlx::FromRow)]
-struct JobRow {
-    job_id: String,
-    overrides: String,
-    status: String,
-    status_reason: Option<String>,
-    outcome: Option<String>,
-    summary: Option<String>,
-}
-
-impl JobRow {
-    fn job(self) -> Result<BatchJob, StoreError> {
-        let id = job_id(&self.job_id)?;
-        let status = Status::from_name(&self.status).ok_or(StoreError::Corrupt {
-            id,
-            what: "status",
-            cause: self.status,
-        })?;
-        let summary = self.summary.as_deref();
-        Ok(BatchJob {
-            id,
-            overrides: parsed(id, "overrides", &self.overrides)?,
-            status,
-            status_reason: self.status_reason,
-            outcome: self.outcome.as_deref().and_then(Outcome::from_name),
-            summary: summary
-                .map(|text| parsed(id, "summary", text))
-                .transpose()?,
-            profile: None,
-        })
-    }
-}
+use crate::store::sqlite::queries::{BEGIN, id, outcome, parsed, status, summary};
+use crate::store::{Deleted, RequestKey, SnapshotPart, Store, StoreError, Submitted};
 
 impl Store {
     /// Queues all jobs of a batch or none; returns the earlier batch if a request with the same key and body has queued
@@ -109,10 +59,10 @@ impl Store {
         id: Uuid,
         detail: BatchDetail,
     ) -> Result<Option<StoredBatch>, StoreError> {
-        let Some(mut row) = self.batch_row(id).await? else {
+        let Some(row) = self.batch_row(id).await? else {
             return Ok(None);
         };
-        let rows: Vec<JobRow> = sqlx::query_as(
+        let rows = sqlx::query(
             "SELECT job_id, overrides, status, status_reason, outcome, CASE WHEN ? THEN summary END AS summary \
              FROM sweep_jobs JOIN jobs ON jobs.id = job_id WHERE sweep_id = ? ORDER BY position",
         )
@@ -123,7 +73,7 @@ impl Store {
         let mut counts = no_jobs();
         let mut jobs = Vec::with_capacity(rows.len());
         for row in rows {
-            let mut job = row.job()?;
+            let mut job = job(&row)?;
             *counts.entry(job.status.as_str().to_owned()).or_default() += 1;
             if detail >= BatchDetail::Profiles && job.summary.is_some() {
                 job.profile = self.snapshot(job.id, SnapshotPart::Profile, None).await?;
@@ -131,8 +81,8 @@ impl Store {
             jobs.push(job);
         }
         Ok(Some(StoredBatch {
-            plan: row.plan.take(),
-            overview: row.overview(counts)?,
+            overview: overview(&row, counts)?,
+            plan: row.try_get("plan")?,
             jobs,
         }))
     }
@@ -144,8 +94,8 @@ impl Store {
     pub async fn batches(&self, filter: BatchFilter) -> Result<Vec<BatchOverview>, StoreError> {
         // Ids are hexadecimal text, all of which sorts before `g`.
         let before = filter.before.map_or("g".to_owned(), |id| id.to_string());
-        let rows: Vec<BatchRow> = sqlx::query_as(
-            "SELECT id, name, created_at, NULL AS plan FROM sweeps \
+        let rows = sqlx::query(
+            "SELECT id, name, created_at FROM sweeps \
              WHERE id < ? AND (NOT ? OR id IN (SELECT sweep_id FROM studies)) ORDER BY id DESC LIMIT ?",
         )
         .bind(before)
@@ -155,8 +105,8 @@ impl Store {
         .await?;
         let mut batches = Vec::with_capacity(rows.len());
         for row in rows {
-            let counts = self.batch_counts(&row.id).await?;
-            batches.push(row.overview(counts)?);
+            let counts = self.batch_counts(id(&row, "id")?).await?;
+            batches.push(overview(&row, counts)?);
         }
         Ok(batches)
     }
@@ -166,8 +116,11 @@ impl Store {
     /// # Errors
     /// [`StoreError`] if the database fails.
     pub async fn has_batch(&self, id: Uuid, with_plan: bool) -> Result<bool, StoreError> {
-        let row = self.batch_row(id).await?;
-        Ok(row.is_some_and(|row| !with_plan || row.plan.is_some()))
+        let plan: Option<Option<String>> = match self.batch_row(id).await? {
+            Some(row) => Some(row.try_get("plan")?),
+            None => None,
+        };
+        Ok(plan.is_some_and(|plan| !with_plan || plan.is_some()))
     }
 
     /// Cancels all jobs of a batch: waiting ones end at once, running ones are ended by their workers.
@@ -177,17 +130,13 @@ impl Store {
     pub async fn cancel_batch(&self, id: Uuid, now: i64) -> Result<(), StoreError> {
         let mut transaction = self.writer.begin_with(BEGIN).await?;
         let jobs = jobs_of(&mut transaction, id).await?;
-        let mut changed = Vec::with_capacity(jobs.len());
+        let mut effects = Vec::with_capacity(jobs.len());
         for job in jobs {
-            match cancel(&mut transaction, job, now).await? {
-                Some(Cancelled::AtOnce) => changed.push((job, Some(Status::Cancelled))),
-                Some(Cancelled::Requested) => changed.push((job, None)),
-                Some(Cancelled::Already) | None => {}
-            }
+            effects.push((job, cancel(&mut transaction, job, now).await?));
         }
         transaction.commit().await?;
-        for (job, ended) in changed {
-            self.concluded(job, ended);
+        for (job, effect) in effects {
+            self.cancelled(job, effect);
         }
         Ok(())
     }
@@ -230,8 +179,8 @@ impl Store {
         })
     }
 
-    async fn batch_row(&self, id: Uuid) -> Result<Option<BatchRow>, StoreError> {
-        Ok(sqlx::query_as(
+    async fn batch_row(&self, id: Uuid) -> Result<Option<SqliteRow>, StoreError> {
+        Ok(sqlx::query(
             "SELECT id, name, created_at, plan FROM sweeps LEFT JOIN studies ON sweep_id = id WHERE id = ?",
         )
         .bind(id.to_string())
@@ -239,17 +188,15 @@ impl Store {
         .await?)
     }
 
-    async fn batch_counts(&self, id: &str) -> Result<BTreeMap<String, u64>, StoreError> {
-        let rows: Vec<(String, i64)> = sqlx::query_as(
+    async fn batch_counts(&self, id: Uuid) -> Result<BTreeMap<String, u64>, StoreError> {
+        let rows: Vec<(String, u64)> = sqlx::query_as(
             "SELECT status, count(*) FROM sweep_jobs JOIN jobs ON jobs.id = job_id WHERE sweep_id = ? GROUP BY status",
         )
-        .bind(id)
+        .bind(id.to_string())
         .fetch_all(&self.readers)
         .await?;
         let mut counts = no_jobs();
-        for (status, count) in rows {
-            counts.insert(status, u64::try_from(count).unwrap_or_default());
-        }
+        counts.extend(rows);
         Ok(counts)
     }
 }
@@ -298,30 +245,48 @@ async fn submitted(
     database: impl SqliteExecutor<'_>,
     key: &RequestKey,
 ) -> Result<Option<Submitted>, StoreError> {
-    let earlier: Option<(Vec<u8>, String)> =
+    let earlier: Option<(Vec<u8>, Hyphenated)> =
         sqlx::query_as("SELECT body_sha256, id FROM sweeps WHERE request_key = ?")
             .bind(&key.key)
             .fetch_optional(database)
             .await?;
-    let Some((body, id)) = earlier else {
-        return Ok(None);
-    };
-    Ok(Some(if body == key.body_sha256 {
-        Submitted::Job(job_id(&id)?)
-    } else {
-        Submitted::KeyTaken
-    }))
+    Ok(earlier.map(|(body, id)| key.repeated(&body, id.into())))
 }
 
 async fn jobs_of(
     transaction: &mut Transaction<'_, Sqlite>,
     id: Uuid,
 ) -> Result<Vec<Uuid>, StoreError> {
-    let jobs: Vec<String> = sqlx::query_scalar("SELECT job_id FROM sweep_jobs WHERE sweep_id = ?")
-        .bind(id.to_string())
-        .fetch_all(&mut **transaction)
-        .await?;
-    jobs.iter().map(|id| job_id(id)).collect()
+    let jobs: Vec<Hyphenated> =
+        sqlx::query_scalar("SELECT job_id FROM sweep_jobs WHERE sweep_id = ?")
+            .bind(id.to_string())
+            .fetch_all(&mut **transaction)
+            .await?;
+    Ok(jobs.into_iter().map(Uuid::from).collect())
+}
+
+/// Returns a batch without its jobs.
+fn overview(row: &SqliteRow, counts: BTreeMap<String, u64>) -> Result<BatchOverview, StoreError> {
+    Ok(BatchOverview {
+        id: id(row, "id")?,
+        name: row.try_get("name")?,
+        created_at: timestamp(row.try_get("created_at")?),
+        counts,
+    })
+}
+
+/// Returns a job of a batch, without its profile.
+fn job(row: &SqliteRow) -> Result<BatchJob, StoreError> {
+    let id = id(row, "job_id")?;
+    Ok(BatchJob {
+        id,
+        overrides: parsed(id, "overrides", row.try_get("overrides")?)?,
+        status: status(id, row)?,
+        status_reason: row.try_get("status_reason")?,
+        outcome: outcome(row)?,
+        summary: summary(id, row)?,
+        profile: None,
+    })
 }
 
 /// Zero for every status.

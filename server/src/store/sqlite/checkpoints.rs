@@ -15,14 +15,13 @@ pub(super) async fn restore(
     transaction: &mut Transaction<'_, Sqlite>,
     id: Uuid,
 ) -> Result<Option<EncodedCheckpoint>, StoreError> {
-    let stored: Option<(i64, Vec<u8>, Vec<u8>)> =
+    let stored: Option<(u64, Vec<u8>, Vec<u8>)> =
         sqlx::query_as("SELECT cycle, sha256, state FROM checkpoints WHERE job_id = ?")
             .bind(id.to_string())
             .fetch_optional(&mut **transaction)
             .await?;
     let valid = stored.and_then(|(cycle, sha256, state)| {
         if Sha256::digest(&state).as_slice() == sha256 {
-            let cycle = u64::try_from(cycle).unwrap_or_default();
             return Some(EncodedCheckpoint { cycle, state });
         }
         tracing::error!(job = %id, cycle, "the checkpoint is damaged: its checksum differs; the job restarts at cycle 0");
@@ -71,14 +70,5 @@ pub(super) async fn write(
     .bind(&checkpoint.state)
     .execute(&mut **transaction)
     .await?;
-    Ok(())
-}
-
-/// Deletes the checkpoint of a job that has ended.
-pub(super) async fn delete(connection: &mut SqliteConnection, id: Uuid) -> Result<(), StoreError> {
-    sqlx::query("DELETE FROM checkpoints WHERE job_id = ?")
-        .bind(id.to_string())
-        .execute(connection)
-        .await?;
     Ok(())
 }

@@ -2,76 +2,52 @@
 
 use std::collections::BTreeMap;
 
-use api::job::{Job, Outcome, Status};
+use api::job::Job;
 use jiff::Timestamp;
-use sqlx::{QueryBuilder, Sqlite};
+use sqlx::sqlite::SqliteRow;
+use sqlx::{QueryBuilder, Row, Sqlite};
 use uuid::Uuid;
 
 use crate::store::StoreError;
-use crate::store::sqlite::queries::{attempt_count, corrupt, job_id, parsed};
+use crate::store::sqlite::queries::{self, outcome, parsed, status, summary};
 
-/// A row of `jobs`.
-#[derive(Debug, sqlx::FromRow)]
-pub(super) struct JobRow {
-    id: String,
-    spec: String,
-    plan: String,
-    status: String,
-    status_reason: Option<String>,
-    outcome: Option<String>,
-    priority: i32,
-    deadline_at: Option<i64>,
-    created_at: i64,
-    started_at: Option<i64>,
-    finished_at: Option<i64>,
-    progress: String,
-    summary: Option<String>,
-    attempts: i64,
-    pub(super) last_event: i64,
-    pub(super) version: i64,
+/// Starts a query of job documents.
+pub(super) fn select() -> QueryBuilder<Sqlite> {
+    QueryBuilder::new(
+        "SELECT id, spec, plan, status, status_reason, outcome, created_at, started_at, finished_at, \
+         priority, deadline_at, progress, summary, attempts, last_event, version FROM jobs",
+    )
 }
 
-impl JobRow {
-    /// Starts a query of rows.
-    pub(super) fn select() -> QueryBuilder<Sqlite> {
-        QueryBuilder::new(
-            "SELECT id, spec, plan, status, status_reason, outcome, created_at, started_at, finished_at, \
-             priority, deadline_at, progress, summary, attempts, last_event, version FROM jobs",
-        )
-    }
-
-    /// Returns the document.
-    pub(super) fn document(&self) -> Result<Job, StoreError> {
-        let id = job_id(&self.id)?;
-        let status =
-            Status::from_name(&self.status).ok_or_else(|| corrupt(id, "status", &self.status))?;
-        Ok(Job {
-            id,
-            status,
-            status_reason: self.status_reason.clone(),
-            outcome: self.outcome.as_deref().and_then(Outcome::from_name),
-            priority: self.priority,
-            deadline_at: self.deadline_at.map(timestamp),
-            created_at: timestamp(self.created_at),
-            started_at: self.started_at.map(timestamp),
-            finished_at: self.finished_at.map(timestamp),
-            progress: parsed(id, "progress", &self.progress)?,
-            attempts: attempt_count(self.attempts),
-            spec: parsed(id, "specification", &self.spec)?,
-            plan: Some(parsed(id, "plan", &self.plan)?),
-            summary: self
-                .summary
-                .as_deref()
-                .map(|text| parsed(id, "summary", text))
-                .transpose()?,
-            links: links(id),
-        })
-    }
+/// Returns the document of a selected row.
+pub(super) fn document(row: &SqliteRow) -> Result<Job, StoreError> {
+    let id = queries::id(row, "id")?;
+    let time = |column| -> Result<Option<String>, sqlx::Error> {
+        Ok(row.try_get::<Option<i64>, _>(column)?.map(timestamp))
+    };
+    Ok(Job {
+        id,
+        status: status(id, row)?,
+        status_reason: row.try_get("status_reason")?,
+        outcome: outcome(row)?,
+        priority: row.try_get("priority")?,
+        deadline_at: time("deadline_at")?,
+        created_at: timestamp(row.try_get("created_at")?),
+        started_at: time("started_at")?,
+        finished_at: time("finished_at")?,
+        progress: parsed(id, "progress", row.try_get("progress")?)?,
+        attempts: row.try_get("attempts")?,
+        spec: parsed(id, "specification", row.try_get("spec")?)?,
+        plan: Some(parsed(id, "plan", row.try_get("plan")?)?),
+        summary: summary(id, row)?,
+        links: links(id),
+    })
 }
 
 fn links(id: Uuid) -> BTreeMap<String, String> {
     let own = format!("/v1/jobs/{id}");
     let relations = [
+        ("self", ""),
         ("events", "/events"),
         ("cancel", "/cancel"),
         ("results", "/results"),
@@ -80,12 +56,8 @@ fn links(id: Uuid) -> BTreeMap<String, String> {
         ("pressure", "/results/pressure"),
         ("loop", "/results/loop"),
     ];
-    let mut links: BTreeMap<_, _> = relations
-        .into_iter()
-        .map(|(relation, path)| (relation.to_owned(), format!("{own}{path}")))
-        .collect();
-    links.insert("self".to_owned(), own);
-    links
+    let links = relations.map(|(relation, path)| (relation.to_owned(), format!("{own}{path}")));
+    links.into()
 }
 
 /// Formats milliseconds since 1970 as RFC 3339.

@@ -4,33 +4,13 @@ use std::collections::HashSet;
 use std::path::PathBuf;
 
 use api::results::ResultFile;
-use sqlx::{Sqlite, Transaction};
+use sqlx::sqlite::SqliteRow;
+use sqlx::{Row, Sqlite, Transaction};
 use uuid::Uuid;
 
 use crate::store::sqlite::folder::Folder;
 use crate::store::sqlite::queries::{corrupt, integer};
 use crate::store::{Claim, Content, NewFile, Store, StoreError};
-
-#[derive(sqlx::FromRow)]
-struct FileRow {
-    name: String,
-    cycle: Option<i64>,
-    media_type: String,
-    bytes: i64,
-    sha256: String,
-}
-
-impl From<FileRow> for ResultFile {
-    fn from(row: FileRow) -> Self {
-        Self {
-            name: row.name,
-            cycle: row.cycle.and_then(|cycle| u64::try_from(cycle).ok()),
-            media_type: row.media_type,
-            bytes: u64::try_from(row.bytes).unwrap_or_default(),
-            sha256: row.sha256,
-        }
-    }
-}
 
 impl Store {
     /// Returns the folder into which an attempt at a job writes its large results.
@@ -43,13 +23,13 @@ impl Store {
     /// # Errors
     /// [`StoreError`] if the database fails.
     pub async fn manifest(&self, id: Uuid) -> Result<Vec<ResultFile>, StoreError> {
-        let rows: Vec<FileRow> = sqlx::query_as(
+        let rows = sqlx::query(
             "SELECT name, cycle, media_type, bytes, sha256 FROM result_files WHERE job_id = ? ORDER BY name",
         )
         .bind(id.to_string())
         .fetch_all(&self.readers)
         .await?;
-        Ok(rows.into_iter().map(ResultFile::from).collect())
+        rows.iter().map(entry).collect()
     }
 
     /// Returns a file that the manifest names, and its content.
@@ -61,31 +41,24 @@ impl Store {
         id: Uuid,
         name: &str,
     ) -> Result<Option<(ResultFile, Content)>, StoreError> {
-        #[derive(sqlx::FromRow)]
-        struct Stored {
-            #[sqlx(flatten)]
-            row: FileRow,
-            content: Option<Vec<u8>>,
-            place: Option<String>,
-        }
-        let stored: Option<Stored> = sqlx::query_as(
+        let row = sqlx::query(
             "SELECT name, cycle, media_type, bytes, sha256, content, place FROM result_files WHERE job_id = ? AND name = ?",
         )
         .bind(id.to_string())
         .bind(name)
         .fetch_optional(&self.readers)
         .await?;
-        let Some(stored) = stored else {
+        let Some(row) = row else {
             return Ok(None);
         };
-        let place = stored.place.unwrap_or_default();
-        let content = if let Some(content) = stored.content {
+        let content = if let Some(content) = row.try_get("content")? {
             Content::Inline(content)
         } else {
-            let path = self.folder.path(&place);
+            let place = row.try_get("place")?;
+            let path = self.folder.path(place);
             Content::File(path.ok_or_else(|| corrupt(id, "path of a file", &place))?)
         };
-        Ok(Some((stored.row.into(), content)))
+        Ok(Some((entry(&row)?, content)))
     }
 
     /// Removes files that no manifest names: of the attempts at a job up to this one, or of all jobs at start-up. A later
@@ -129,6 +102,17 @@ impl Store {
     }
 }
 
+/// Returns the entry of a file in the manifest.
+fn entry(row: &SqliteRow) -> Result<ResultFile, StoreError> {
+    Ok(ResultFile {
+        name: row.try_get("name")?,
+        cycle: row.try_get("cycle")?,
+        media_type: row.try_get("media_type")?,
+        bytes: row.try_get("bytes")?,
+        sha256: row.try_get("sha256")?,
+    })
+}
+
 /// Adds files to the manifest, in a transaction that has checked the lease.
 pub(super) async fn insert_files(
     transaction: &mut Transaction<'_, Sqlite>,
@@ -136,9 +120,7 @@ pub(super) async fn insert_files(
     files: &[NewFile],
 ) -> Result<(), StoreError> {
     for NewFile { file, content } in files {
-        let place = content
-            .is_none()
-            .then(|| Folder::place(claim.id, claim.lease, &file.name));
+        let place = Folder::place(claim.id, claim.lease, &file.name);
         sqlx::query(
             "INSERT OR REPLACE INTO result_files (job_id, name, cycle, media_type, bytes, sha256, content, place) \
              VALUES (?, ?, ?, ?, ?, ?, ?, ?)",
@@ -150,7 +132,7 @@ pub(super) async fn insert_files(
         .bind(integer(file.bytes))
         .bind(&file.sha256)
         .bind(content.as_deref())
-        .bind(place)
+        .bind(content.is_none().then_some(place))
         .execute(&mut **transaction)
         .await?;
     }

@@ -7,6 +7,13 @@ use std::path::{Component, Path, PathBuf};
 
 use uuid::Uuid;
 
+/// Returns the path of a file or folder beside a database, by its suffix.
+pub(super) fn beside(database: &Path, suffix: &str) -> PathBuf {
+    let mut name = database.as_os_str().to_owned();
+    name.push(suffix);
+    PathBuf::from(name)
+}
+
 /// The folder of large results.
 #[derive(Debug, Clone)]
 pub(super) struct Folder {
@@ -16,9 +23,9 @@ pub(super) struct Folder {
 impl Folder {
     /// The folder of a database.
     pub(super) fn beside(database: &Path) -> Self {
-        let mut name = database.as_os_str().to_owned();
-        name.push(".results");
-        Self { root: name.into() }
+        Self {
+            root: beside(database, ".results"),
+        }
     }
 
     /// Returns the folder of an attempt.
@@ -61,11 +68,9 @@ impl Folder {
         // The job's own folder is not removed, even if empty: the next attempt may be about to write into it.
         let mut removed = 0;
         for entry in entries(&self.root.join(id.to_string()))? {
-            let number = entry
-                .file_name()
-                .to_str()
-                .and_then(|name| name.parse().ok());
-            if number.is_some_and(|number: i64| number <= last) {
+            let name = entry.file_name();
+            let lease = name.to_str().and_then(|name| name.parse::<i64>().ok());
+            if lease.is_some_and(|lease| lease <= last) {
                 removed += remove_unnamed(&entry.path(), &named)?;
             }
         }

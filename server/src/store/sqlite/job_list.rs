@@ -2,7 +2,7 @@
 
 use api::job::Job;
 
-use crate::store::sqlite::document::JobRow;
+use crate::store::sqlite::document::{document, select};
 use crate::store::{Filter, Store, StoreError};
 
 impl Store {
@@ -11,7 +11,7 @@ impl Store {
     /// # Errors
     /// [`StoreError`] if the database fails.
     pub async fn list(&self, filter: &Filter) -> Result<Vec<Job>, StoreError> {
-        let mut query = JobRow::select();
+        let mut query = select();
         query.push(" WHERE 1");
         if !filter.statuses.is_empty() {
             query.push(" AND status IN (");
@@ -22,15 +22,14 @@ impl Store {
             query.push(")");
         }
         if let Some(system) = &filter.system {
-            query.push(" AND system = ").push_bind(system.clone());
+            query.push(" AND system = ").push_bind(system);
         }
         for (key, value) in &filter.labels {
             query
                 .push(" AND id IN (SELECT job_id FROM labels WHERE key = ")
-                .push_bind(key.clone());
-            query
+                .push_bind(key)
                 .push(" AND value = ")
-                .push_bind(value.clone())
+                .push_bind(value)
                 .push(")");
         }
         if let Some(from) = filter.created_from {
@@ -51,7 +50,7 @@ impl Store {
         query
             .push(" ORDER BY id DESC LIMIT ")
             .push_bind(filter.limit);
-        let rows: Vec<JobRow> = query.build_query_as().fetch_all(&self.readers).await?;
-        rows.iter().map(JobRow::document).collect()
+        let rows = query.build().fetch_all(&self.readers).await?;
+        rows.iter().map(document).collect()
     }
 }

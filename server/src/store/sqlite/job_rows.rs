@@ -2,26 +2,27 @@
 
 use api::job::{Progress, Status};
 use api::plan::Plan;
+use api::spec::SystemKind;
 use sqlx::{Sqlite, SqliteConnection, Transaction};
 use uuid::Uuid;
 
 use crate::queue;
 use crate::queue::Transition;
 use crate::store::sqlite::document::timestamp;
-use crate::store::sqlite::queries::{corrupt, insert_event};
-use crate::store::sqlite::transitions::end_queued;
+use crate::store::sqlite::queries::{insert_event, status};
+use crate::store::sqlite::transitions::{EndingJob, end_job};
 use crate::store::{Cancelled, End, NewJob, StoreError, SubmitOptions};
 
-pub(super) async fn status(
+/// Returns the status of a job; `None` if there is no such job.
+pub(super) async fn status_of(
     connection: &mut SqliteConnection,
     id: Uuid,
 ) -> Result<Option<Status>, StoreError> {
-    let name: Option<String> = sqlx::query_scalar("SELECT status FROM jobs WHERE id = ?")
+    let row = sqlx::query("SELECT status FROM jobs WHERE id = ?")
         .bind(id.to_string())
         .fetch_optional(connection)
         .await?;
-    name.map(|name| Status::from_name(&name).ok_or_else(|| corrupt(id, "status", &name)))
-        .transpose()
+    row.map(|row| status(id, &row)).transpose()
 }
 
 /// Requests the end of a job, within a transaction.
@@ -30,25 +31,24 @@ pub(super) async fn cancel(
     id: Uuid,
     now: i64,
 ) -> Result<Option<Cancelled>, StoreError> {
-    let Some(status) = status(&mut *connection, id).await? else {
-        return Ok(None);
-    };
-    let effect = if status == Status::Queued {
-        let end = End::without_result(Transition::Cancel, "cancelled while waiting");
-        end_queued(&mut *connection, id, &end, now).await?;
-        Cancelled::AtOnce
-    } else if status == Status::Running {
-        sqlx::query(
-            "UPDATE jobs SET cancel_requested = 1, status_reason = 'cancel requested', version = version + 1 WHERE id = ?",
-        )
-        .bind(id.to_string())
-        .execute(&mut *connection)
-        .await?;
-        Cancelled::Requested
-    } else {
-        Cancelled::Already
-    };
-    Ok(Some(effect))
+    Ok(match status_of(connection, id).await? {
+        Some(Status::Queued) => {
+            let end = End::without_result(Transition::Cancel, "cancelled while waiting");
+            end_job(connection, &EndingJob::queued(id, true), &end, None, now).await?;
+            Some(Cancelled::AtOnce)
+        }
+        Some(Status::Running) => {
+            sqlx::query(
+                "UPDATE jobs SET cancel_requested = 1, status_reason = 'cancel requested', version = version + 1 WHERE id = ?",
+            )
+            .bind(id.to_string())
+            .execute(connection)
+            .await?;
+            Some(Cancelled::Requested)
+        }
+        Some(_) => Some(Cancelled::Already),
+        None => None,
+    })
 }
 
 /// Adds a job to the queue, with its first event.
@@ -62,12 +62,7 @@ pub(super) async fn insert(
         priority,
         deadline_s,
     } = job.options;
-    let system = job
-        .spec
-        .system
-        .kind
-        .known()
-        .map_or("", api::spec::SystemKind::as_str);
+    let system = job.spec.system.kind.known().map_or("", SystemKind::as_str);
     let progress = Progress {
         cycles: crate::spec::cycles(&job.spec),
         updated_at: Some(timestamp(now)),

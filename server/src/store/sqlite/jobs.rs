@@ -1,10 +1,10 @@
 //! Reading, cancelling, deleting and inserting jobs.
 
-use api::job::Status;
+use sqlx::Row;
 use uuid::Uuid;
 
-use crate::store::sqlite::document::JobRow;
-use crate::store::sqlite::job_rows::{cancel, status};
+use crate::store::sqlite::document::{document, select};
+use crate::store::sqlite::job_rows::{cancel, status_of};
 use crate::store::sqlite::queries::BEGIN;
 use crate::store::{Cancelled, Deleted, Store, StoreError, StoredJob};
 
@@ -14,17 +14,16 @@ impl Store {
     /// # Errors
     /// [`StoreError`] if the database fails.
     pub async fn job(&self, id: Uuid) -> Result<Option<StoredJob>, StoreError> {
-        let mut query = JobRow::select();
+        let mut query = select();
         query.push(" WHERE id = ").push_bind(id.to_string());
-        let row: Option<JobRow> = query.build_query_as().fetch_optional(&self.readers).await?;
-        row.map(|row| {
-            Ok(StoredJob {
-                document: row.document()?,
-                version: row.version,
-                last_event: row.last_event,
-            })
-        })
-        .transpose()
+        let Some(row) = query.build().fetch_optional(&self.readers).await? else {
+            return Ok(None);
+        };
+        Ok(Some(StoredJob {
+            document: document(&row)?,
+            version: row.try_get("version")?,
+            last_event: row.try_get("last_event")?,
+        }))
     }
 
     /// Requests the end of a job: a queued one ends at once, a running one is ended by its worker. `None` if there is no
@@ -36,8 +35,7 @@ impl Store {
         let mut transaction = self.writer.begin_with(BEGIN).await?;
         let effect = cancel(&mut transaction, id, now).await?;
         transaction.commit().await?;
-        let ended = (effect == Some(Cancelled::AtOnce)).then_some(Status::Cancelled);
-        self.concluded(id, ended);
+        self.cancelled(id, effect);
         Ok(effect)
     }
 
@@ -47,7 +45,7 @@ impl Store {
     /// [`StoreError`] if the database fails.
     pub async fn delete(&self, id: Uuid) -> Result<Deleted, StoreError> {
         let mut transaction = self.writer.begin_with(BEGIN).await?;
-        let effect = match status(&mut transaction, id).await? {
+        let effect = match status_of(&mut transaction, id).await? {
             None => Deleted::Missing,
             Some(status) if !status.is_terminal() => Deleted::Active,
             Some(_) => {

@@ -10,7 +10,7 @@ use crate::queue::Transition;
 use crate::store::sqlite::checkpoints;
 use crate::store::sqlite::files::insert_files;
 use crate::store::sqlite::queries::{BEGIN, insert_attempt_event, insert_event, integer};
-use crate::store::sqlite::transitions::{RunningJob, end_running};
+use crate::store::sqlite::transitions::{EndingJob, end_job};
 use crate::store::{Claim, End, JobUpdate, LeaseState, Store, StoreError};
 
 impl Store {
@@ -123,7 +123,7 @@ impl Store {
         now: i64,
     ) -> Result<Option<Status>, StoreError> {
         let mut transaction = self.writer.begin_with(BEGIN).await?;
-        let held: Option<(i64, bool)> = sqlx::query_as(
+        let held = sqlx::query_as(
             "SELECT attempts, cancel_requested FROM jobs WHERE id = ? AND lease = ? AND status = 'running'",
         )
         .bind(claim.id.to_string())
@@ -135,10 +135,9 @@ impl Store {
             return Ok(None);
         };
         write_results(&mut transaction, claim, update).await?;
-        let job = RunningJob::new(attempts, cancel_requested, self.attempt_limit);
+        let job = EndingJob::running(claim.id, attempts, self.attempt_limit, cancel_requested);
         let progress = serde_json::to_string(&update.progress)?;
-        let status =
-            end_running(&mut transaction, claim.id, &job, end, Some(&progress), now).await?;
+        let status = end_job(&mut transaction, &job, end, Some(&progress), now).await?;
         transaction.commit().await?;
         self.concluded(claim.id, status);
         Ok(status)
@@ -146,10 +145,14 @@ impl Store {
 
     /// Whether a transition ends a claimed job instead of returning it to the queue.
     pub fn is_final(&self, claim: &Claim, transition: Transition, cancel_requested: bool) -> bool {
-        let attempts = i64::from(claim.attempt);
-        RunningJob::new(attempts, cancel_requested, self.attempt_limit)
-            .after(transition)
-            .is_some_and(Status::is_terminal)
+        EndingJob::running(
+            claim.id,
+            claim.attempt,
+            self.attempt_limit,
+            cancel_requested,
+        )
+        .after(transition)
+        .is_some_and(Status::is_terminal)
     }
 }
 

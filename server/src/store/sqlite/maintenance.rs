@@ -1,11 +1,11 @@
 //! Maintenance: deadlines of queued jobs, retention of ended ones, and the write-ahead log.
 
 use api::job::{Outcome, Status};
-use uuid::Uuid;
+use uuid::fmt::Hyphenated;
 
 use crate::queue::Transition;
-use crate::store::sqlite::queries::{BEGIN, job_id};
-use crate::store::sqlite::transitions::end_queued;
+use crate::store::sqlite::queries::BEGIN;
+use crate::store::sqlite::transitions::{EndingJob, end_job};
 use crate::store::{End, Store, StoreError};
 
 /// Largest number of jobs deleted in a call; bounds how long other writes wait.
@@ -18,7 +18,7 @@ impl Store {
     /// [`StoreError`] if the database fails.
     pub async fn expire(&self, now: i64) -> Result<usize, StoreError> {
         let mut transaction = self.writer.begin_with(BEGIN).await?;
-        let late: Vec<String> =
+        let late: Vec<Hyphenated> =
             sqlx::query_scalar("SELECT id FROM jobs WHERE status = 'queued' AND deadline_at <= ?")
                 .bind(now)
                 .fetch_all(&mut *transaction)
@@ -27,17 +27,15 @@ impl Store {
             outcome: Some(Outcome::DeadlineExceeded),
             ..End::without_result(Transition::Expire, "its deadline passed while it waited")
         };
-        let mut ended = Vec::with_capacity(late.len());
-        for text in late {
-            let id = job_id(&text)?;
-            end_queued(&mut transaction, id, &end, now).await?;
-            ended.push(id);
+        for id in &late {
+            let job = EndingJob::queued((*id).into(), false);
+            end_job(&mut transaction, &job, &end, None, now).await?;
         }
         transaction.commit().await?;
-        for id in &ended {
-            self.concluded(*id, Some(Status::Failed));
+        for id in &late {
+            self.concluded((*id).into(), Some(Status::Failed));
         }
-        Ok(ended.len())
+        Ok(late.len())
     }
 
     /// Deletes jobs that ended before a time, the oldest first and a limited number, and batches without remaining jobs.
@@ -46,16 +44,15 @@ impl Store {
     /// # Errors
     /// [`StoreError`] if the database fails.
     pub async fn delete_ended_before(&self, time: i64) -> Result<usize, StoreError> {
-        let old: Vec<String> = sqlx::query_scalar(
+        let old: Vec<Hyphenated> = sqlx::query_scalar(
             "SELECT id FROM jobs WHERE finished_at < ? ORDER BY finished_at LIMIT ?",
         )
         .bind(time)
         .bind(DELETE_LIMIT)
         .fetch_all(&self.readers)
         .await?;
-        let old: Vec<Uuid> = old.iter().map(|id| job_id(id)).collect::<Result<_, _>>()?;
         for id in &old {
-            self.delete(*id).await?;
+            self.delete((*id).into()).await?;
         }
         if !old.is_empty() {
             sqlx::query(

@@ -7,13 +7,12 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use sqlx::Connection;
-use sqlx::sqlite::{
-    SqliteConnectOptions, SqliteJournalMode, SqlitePool, SqlitePoolOptions, SqliteSynchronous,
-};
+use sqlx::sqlite::{SqliteConnectOptions, SqliteJournalMode, SqlitePoolOptions, SqliteSynchronous};
 use tokio::sync::{Notify, broadcast};
 
-use crate::queue::ATTEMPT_LIMIT;
-use crate::store::sqlite::folder::Folder;
+use crate::export::files::parent;
+use crate::store::sqlite::folder::{Folder, beside};
+use crate::store::sqlite::migrations::migrator;
 use crate::store::sqlite::submissions::Submissions;
 use crate::store::{Store, StoreError};
 
@@ -32,22 +31,16 @@ const CHANGE_CAPACITY: usize = 1024;
 
 impl Store {
     /// Opens the database at `url` (`sqlite://PATH`), creates it if it is missing, and migrates its schema.
-    ///
-    /// # Errors
-    /// [`StoreError`], among others if another process serves the database.
-    pub async fn open(url: &str) -> Result<Self, StoreError> {
-        Self::open_with(url, ATTEMPT_LIMIT).await
-    }
-
-    /// Opens a database as [`Store::open`] does, with another limit on the attempts at a job.
+    /// `attempt_limit` is the limit on the attempts at a job.
     ///
     /// # Errors
     /// [`StoreError`], among others if another process serves the database.
     pub async fn open_with(url: &str, attempt_limit: u32) -> Result<Self, StoreError> {
+        let invalid = || StoreError::Address {
+            url: url.to_owned(),
+        };
         let options = SqliteConnectOptions::from_str(url)
-            .map_err(|_| StoreError::Address {
-                url: url.to_owned(),
-            })?
+            .map_err(|_| invalid())?
             .create_if_missing(true)
             .journal_mode(SqliteJournalMode::Wal)
             .synchronous(SqliteSynchronous::Full)
@@ -59,9 +52,7 @@ impl Store {
         // Parameters could select a database in memory or a read-only one.
         let is_plain = url.starts_with("sqlite:") && !url.contains('?');
         if !is_plain || in_memory || path.as_os_str().is_empty() {
-            return Err(StoreError::Address {
-                url: url.to_owned(),
-            });
+            return Err(invalid());
         }
         let lock = lock(&path)?;
         let writer = SqlitePoolOptions::new()
@@ -71,10 +62,20 @@ impl Store {
             .before_acquire(|writer, _| Box::pin(async { Ok(!writer.is_in_transaction()) }))
             .connect_with(options.clone())
             .await?;
-        check_version(&sqlite_version(&writer).await?)?;
-        sqlx::migrate!("../migrations").run(&writer).await?;
-        truncate_wal(&writer).await?;
-        let readers = readers(options.read_only(true)).await?;
+        let version: String = sqlx::query_scalar("SELECT sqlite_version()")
+            .fetch_one(&writer)
+            .await?;
+        check_version(&version)?;
+        migrator().run(&writer).await?;
+        // There are no readers yet that it would have to wait for.
+        sqlx::query("PRAGMA wal_checkpoint(TRUNCATE)")
+            .execute(&writer)
+            .await?;
+        let readers = SqlitePoolOptions::new()
+            .max_connections(READERS)
+            .acquire_timeout(READER_TIMEOUT)
+            .connect_with(options.read_only(true))
+            .await?;
         let (changes, _) = broadcast::channel(CHANGE_CAPACITY);
         let store = Self {
             writer,
@@ -101,23 +102,13 @@ impl Store {
     }
 }
 
-async fn readers(options: SqliteConnectOptions) -> Result<SqlitePool, StoreError> {
-    Ok(SqlitePoolOptions::new()
-        .max_connections(READERS)
-        .acquire_timeout(READER_TIMEOUT)
-        .connect_with(options)
-        .await?)
-}
-
 /// Locks the file beside the database; the operating system releases it when the process ends, however it ends.
 pub(super) fn lock(database: &Path) -> Result<File, StoreError> {
     let prepare = |cause| StoreError::Prepare {
         path: database.to_owned(),
         cause,
     };
-    if let Some(folder) = database.parent() {
-        std::fs::create_dir_all(folder).map_err(prepare)?;
-    }
+    std::fs::create_dir_all(parent(database)).map_err(prepare)?;
     let path = beside(&real_path(database).map_err(prepare)?, ".lock");
     let file = File::options()
         .create(true)
@@ -132,42 +123,15 @@ pub(super) fn lock(database: &Path) -> Result<File, StoreError> {
     }
 }
 
-/// Returns the path of a file beside a database, by its suffix.
-fn beside(database: &Path, suffix: &str) -> PathBuf {
-    let mut name = database.as_os_str().to_owned();
-    name.push(suffix);
-    PathBuf::from(name)
-}
-
 /// Returns the database's path without links, so that two names of one database share a lock.
 fn real_path(database: &Path) -> std::io::Result<PathBuf> {
     match database.canonicalize() {
-        Ok(path) => Ok(path),
         Err(cause) if cause.kind() == std::io::ErrorKind::NotFound => {
-            let folder = match database.parent() {
-                Some(folder) if !folder.as_os_str().is_empty() => folder,
-                _ => Path::new("."),
-            };
             let name = database.file_name().unwrap_or_default();
-            Ok(folder.canonicalize()?.join(name))
+            Ok(parent(database).canonicalize()?.join(name))
         }
-        Err(cause) => Err(cause),
+        path => path,
     }
-}
-
-/// Returns the version of the linked SQLite.
-async fn sqlite_version(pool: &SqlitePool) -> Result<String, StoreError> {
-    Ok(sqlx::query_scalar("SELECT sqlite_version()")
-        .fetch_one(pool)
-        .await?)
-}
-
-/// Moves the write-ahead log into the database and empties it; for start-up, when there are no readers.
-async fn truncate_wal(pool: &SqlitePool) -> Result<(), StoreError> {
-    sqlx::query("PRAGMA wal_checkpoint(TRUNCATE)")
-        .execute(pool)
-        .await?;
-    Ok(())
 }
 
 fn check_version(found: &str) -> Result<(), StoreError> {

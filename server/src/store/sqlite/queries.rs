@@ -1,18 +1,40 @@
 //! Statements and conversions that several files share.
 
 use api::event::Attempt;
+use api::job::{Outcome, Status};
+use api::results::Summary;
 use serde::de::DeserializeOwned;
-use sqlx::SqliteConnection;
+use sqlx::sqlite::SqliteRow;
+use sqlx::{Row, SqliteConnection};
 use uuid::Uuid;
+use uuid::fmt::Hyphenated;
 
 use crate::store::StoreError;
 
 /// Takes the write lock at once: a transaction that reads first and writes later would fail under contention.
 pub(super) const BEGIN: &str = "BEGIN IMMEDIATE";
 
-/// Parses the stored id of a job.
-pub(super) fn job_id(text: &str) -> Result<Uuid, StoreError> {
-    Uuid::parse_str(text).map_err(|cause| corrupt(Uuid::nil(), "id", &cause))
+/// Reads an id; ids are stored as text with hyphens.
+pub(super) fn id(row: &SqliteRow, column: &str) -> Result<Uuid, sqlx::Error> {
+    row.try_get::<Hyphenated, _>(column).map(Uuid::from)
+}
+
+/// Reads the status of a job.
+pub(super) fn status(id: Uuid, row: &SqliteRow) -> Result<Status, StoreError> {
+    let name = row.try_get("status")?;
+    Status::from_name(name).ok_or_else(|| corrupt(id, "status", &name))
+}
+
+/// Reads the outcome of a job.
+pub(super) fn outcome(row: &SqliteRow) -> Result<Option<Outcome>, sqlx::Error> {
+    let name: Option<&str> = row.try_get("outcome")?;
+    Ok(name.and_then(Outcome::from_name))
+}
+
+/// Reads the summary of a job.
+pub(super) fn summary(id: Uuid, row: &SqliteRow) -> Result<Option<Summary>, StoreError> {
+    let text: Option<&str> = row.try_get("summary")?;
+    text.map(|text| parsed(id, "summary", text)).transpose()
 }
 
 /// Parses a stored JSON document.
@@ -36,11 +58,6 @@ pub(super) fn corrupt(id: Uuid, what: &'static str, cause: &impl ToString) -> St
 /// Converts a count or cycle to SQLite's integer; saturates.
 pub(super) fn integer(value: impl TryInto<i64>) -> i64 {
     value.try_into().unwrap_or(i64::MAX)
-}
-
-/// Converts a stored number of attempts; saturates.
-pub(super) fn attempt_count(stored: i64) -> u32 {
-    u32::try_from(stored).unwrap_or(u32::MAX)
 }
 
 /// Appends the event of a new attempt, which starts at a cycle.

@@ -2,37 +2,13 @@
 
 use api::job::Status;
 use uuid::Uuid;
+use uuid::fmt::Hyphenated;
 
 use crate::queue::Transition;
-use crate::store::sqlite::queries::{BEGIN, attempt_count, job_id};
-use crate::store::sqlite::transitions::{RunningJob, end_running};
-use crate::store::{Claim, End, Reclaimed, Store, StoreError};
-
-#[derive(sqlx::FromRow)]
-struct LostRow {
-    id: String,
-    spec: String,
-    attempts: i64,
-    cancel_requested: bool,
-    deadline_at: Option<i64>,
-    memory_mb: i64,
-}
-
-impl LostRow {
-    /// A claim under a new lease; nothing is solved under it.
-    fn claim(self, id: Uuid, lease: i64) -> Claim {
-        Claim {
-            id,
-            lease,
-            spec: self.spec,
-            attempt: attempt_count(self.attempts),
-            waited_ms: 0,
-            deadline_at: self.deadline_at,
-            memory_mb: self.memory_mb,
-            checkpoint: None,
-        }
-    }
-}
+use crate::store::sqlite::claims::claimed;
+use crate::store::sqlite::queries::BEGIN;
+use crate::store::sqlite::transitions::{EndingJob, end_job};
+use crate::store::{End, Reclaimed, Store, StoreError};
 
 impl Store {
     /// Reclaims running jobs whose lease has ended by this time. Those without another attempt are held under new leases
@@ -60,29 +36,30 @@ impl Store {
         reason: &'static str,
     ) -> Result<Reclaimed, StoreError> {
         let mut transaction = self.writer.begin_with(BEGIN).await?;
-        let lost: Vec<LostRow> = sqlx::query_as(
-            "SELECT id, spec, attempts, cancel_requested, deadline_at, memory_mb FROM jobs \
-             WHERE status = 'running' AND lease_expires_at <= ?",
+        let lost: Vec<(Hyphenated, u32, bool)> = sqlx::query_as(
+            "SELECT id, attempts, cancel_requested FROM jobs WHERE status = 'running' AND lease_expires_at <= ?",
         )
         .bind(by)
         .fetch_all(&mut *transaction)
         .await?;
         let end = End::without_result(Transition::WorkerLost, reason);
         let (mut queued, mut ending) = (Vec::new(), Vec::new());
-        for row in lost {
-            let id = job_id(&row.id)?;
-            let job = RunningJob::new(row.attempts, row.cancel_requested, self.attempt_limit);
+        for (id, made, cancel_requested) in lost {
+            let id = Uuid::from(id);
+            let job = EndingJob::running(id, made, self.attempt_limit, cancel_requested);
             if job.after(end.transition).is_some_and(Status::is_terminal) {
-                let lease = sqlx::query_scalar(
-                    "UPDATE jobs SET lease = lease + 1, lease_expires_at = ? WHERE id = ? RETURNING lease",
+                // Nothing is solved under the new lease.
+                let row = sqlx::query(
+                    "UPDATE jobs SET lease = lease + 1, lease_expires_at = ? WHERE id = ? \
+                     RETURNING lease, spec, attempts, deadline_at, memory_mb",
                 )
                 .bind(expires_at)
-                .bind(&row.id)
+                .bind(id.to_string())
                 .fetch_one(&mut *transaction)
                 .await?;
-                ending.push(row.claim(id, lease));
+                ending.push(claimed(id, &row, 0, None)?);
             } else {
-                let status = end_running(&mut transaction, id, &job, &end, None, 0).await?;
+                let status = end_job(&mut transaction, &job, &end, None, 0).await?;
                 queued.push((id, status));
             }
         }

@@ -3,6 +3,7 @@
 use api::results::Snapshot;
 use futures_util::TryStreamExt;
 use solver::record::CycleReport;
+use sqlx::AssertSqlSafe;
 use uuid::Uuid;
 
 use crate::store::sqlite::queries::{integer, parsed};
@@ -36,13 +37,19 @@ impl Store {
         part: SnapshotPart,
         cycle: Option<u64>,
     ) -> Result<Option<String>, StoreError> {
-        let cycle = cycle.map_or(i64::MAX, integer);
-        let document = sqlx::query_scalar(nearest(part))
+        let column = match part {
+            SnapshotPart::Profile => "profile",
+            SnapshotPart::Pressure => "pressure",
+            SnapshotPart::Loop => "friction_loop",
+        };
+        let sql = format!(
+            "SELECT {column} FROM snapshots WHERE job_id = ? ORDER BY abs(cycle - ?), cycle LIMIT 1"
+        );
+        Ok(sqlx::query_scalar(AssertSqlSafe(sql))
             .bind(id.to_string())
-            .bind(cycle)
+            .bind(cycle.map_or(i64::MAX, integer))
             .fetch_optional(&self.readers)
-            .await?;
-        Ok(document)
+            .await?)
     }
 
     /// Returns the cycles of the snapshots.
@@ -77,19 +84,5 @@ impl Store {
             })
         };
         rows.iter().map(snapshot).collect()
-    }
-}
-
-fn nearest(part: SnapshotPart) -> &'static str {
-    match part {
-        SnapshotPart::Profile => {
-            "SELECT profile FROM snapshots WHERE job_id = ? ORDER BY abs(cycle - ?), cycle LIMIT 1"
-        }
-        SnapshotPart::Pressure => {
-            "SELECT pressure FROM snapshots WHERE job_id = ? ORDER BY abs(cycle - ?), cycle LIMIT 1"
-        }
-        SnapshotPart::Loop => {
-            "SELECT friction_loop FROM snapshots WHERE job_id = ? ORDER BY abs(cycle - ?), cycle LIMIT 1"
-        }
     }
 }

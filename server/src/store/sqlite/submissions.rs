@@ -1,14 +1,15 @@
 //! Group commit of submissions. A commit waits some milliseconds for the disk; submissions that arrive meanwhile are
 //! written together by the next commit, and each is answered only after its own.
 
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use sqlx::sqlite::SqlitePool;
 use sqlx::{Sqlite, Transaction};
 use tokio::sync::oneshot;
+use uuid::fmt::Hyphenated;
 
 use crate::store::sqlite::job_rows::insert;
-use crate::store::sqlite::queries::{BEGIN, job_id};
+use crate::store::sqlite::queries::BEGIN;
 use crate::store::{NewJob, RequestKey, StoreError, Submitted};
 
 /// Largest number of submissions in a commit; bounds how long other writes wait.
@@ -39,7 +40,7 @@ impl Submissions {
         now: i64,
     ) -> Result<Submitted, StoreError> {
         let (answer, mut answered) = oneshot::channel();
-        self.push(Pending {
+        self.pending().push(Pending {
             job: job.clone(),
             key: key.cloned(),
             now,
@@ -60,16 +61,13 @@ impl Submissions {
         }
     }
 
-    fn push(&self, submission: Pending) {
+    fn pending(&self) -> MutexGuard<'_, Vec<Pending>> {
         let pending = self.pending.lock();
-        pending
-            .unwrap_or_else(PoisonError::into_inner)
-            .push(submission);
+        pending.unwrap_or_else(PoisonError::into_inner)
     }
 
     fn take(&self) -> Vec<Pending> {
-        let pending = self.pending.lock();
-        let mut pending = pending.unwrap_or_else(PoisonError::into_inner);
+        let mut pending = self.pending();
         // A client that has disconnected got no answer, so its job must not be queued later.
         pending.retain(|submission| !submission.answer.is_closed());
         let count = pending.len().min(GROUP_LIMIT);
@@ -109,13 +107,13 @@ async fn write_one(
     pending: &Pending,
 ) -> Result<Submitted, StoreError> {
     if let Some(key) = &pending.key {
-        let known: Option<(Vec<u8>, String)> =
+        let known: Option<(Vec<u8>, Hyphenated)> =
             sqlx::query_as("SELECT body_sha256, job_id FROM request_keys WHERE key = ?")
                 .bind(&key.key)
                 .fetch_optional(&mut **transaction)
                 .await?;
         if let Some((body, job)) = known {
-            return Ok(key.repeated(&body, job_id(&job)?));
+            return Ok(key.repeated(&body, job.into()));
         }
     }
     let id = insert(transaction, &pending.job, pending.now).await?;

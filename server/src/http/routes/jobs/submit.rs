@@ -113,12 +113,8 @@ pub(in crate::http) async fn submit(
         plan,
         options,
     };
-    let id = match key {
-        None => app.store.submit(&new, now_ms()).await?,
-        Some(key) => match app.store.submit_once(&new, &key, now_ms()).await? {
-            Submitted::Job(id) => id,
-            Submitted::KeyTaken => return Err(KeyError::Reused.into()),
-        },
+    let Submitted::Job(id) = app.store.submit(&new, key.as_ref(), now_ms()).await? else {
+        return Err(KeyError::Reused.into());
     };
     let job = app.store.job(id).await?.ok_or(JobError::Deleted(id))?;
     let headers = [

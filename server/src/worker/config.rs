@@ -1,4 +1,4 @@
-//! How workers work: leases, checkpoints, memory.
+//! Configuration of workers: leases, checkpoints, memory.
 
 use std::path::{Path, PathBuf};
 use std::time::Duration;
@@ -20,9 +20,9 @@ const MEMORY_SHARE_PERCENT: u64 = 80;
 /// Pause before an operation of the store is retried.
 pub(super) const RETRY_PAUSE: Duration = Duration::from_secs(1);
 
-/// How workers work.
+/// Configuration of workers.
 #[derive(Debug, Clone)]
-pub struct Rules {
+pub struct WorkerConfig {
     /// The binary with the hidden subcommand `solve-child`.
     pub program: PathBuf,
     /// Length of a lease; it is renewed three times within.
@@ -41,13 +41,13 @@ pub struct Rules {
     pub folder: PathBuf,
 }
 
-impl Rules {
+impl WorkerConfig {
     /// Returns the end of a lease taken or renewed now, ms of the monotonic clock.
     pub fn lease_end(&self) -> i64 {
         monotonic_ms().saturating_add(i64::try_from(self.lease.as_millis()).unwrap_or(i64::MAX))
     }
 
-    /// Default rules for a program and its folder of results.
+    /// Default configuration for a program and its folder of results.
     pub fn new(program: PathBuf, folder: PathBuf) -> Self {
         Self {
             program,
@@ -104,34 +104,34 @@ fn machine_memory_mb() -> i64 {
 mod tests {
     use super::*;
 
-    fn rules() -> Rules {
-        Rules::new(PathBuf::from("fretwear"), std::env::temp_dir())
+    fn config() -> WorkerConfig {
+        WorkerConfig::new(PathBuf::from("fretwear"), std::env::temp_dir())
     }
 
     #[test]
     fn the_memory_limit_is_larger_than_the_estimate() {
-        let rules = rules();
-        assert_eq!(rules.memory_limit_mb(100), MIN_MEMORY_MB);
-        assert_eq!(rules.memory_limit_mb(1_000), 4_000);
-        let explicit = Rules {
+        let config = config();
+        assert_eq!(config.memory_limit_mb(100), MIN_MEMORY_MB);
+        assert_eq!(config.memory_limit_mb(1_000), 4_000);
+        let explicit = WorkerConfig {
             job_memory_mb: Some(64),
-            ..rules
+            ..config
         };
         assert_eq!(explicit.memory_limit_mb(1_000), 64);
     }
 
     #[test]
     fn a_disk_with_too_little_free_space_is_a_reason_to_wait() {
-        let rules = Rules {
+        let config = WorkerConfig {
             least_free_disk_mb: u64::MAX,
-            ..rules()
+            ..config()
         };
-        let reason = rules.disk_shortage().expect("a reason");
+        let reason = config.disk_shortage().expect("a reason");
         assert!(reason.starts_with("waiting for disk space: "), "{reason}");
-        let rules = Rules {
+        let config = WorkerConfig {
             least_free_disk_mb: 0,
-            ..rules
+            ..config
         };
-        assert_eq!(rules.disk_shortage(), None);
+        assert_eq!(config.disk_shortage(), None);
     }
 }

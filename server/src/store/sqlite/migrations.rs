@@ -1,0 +1,65 @@
+//! The migrations of the schema, embedded.
+
+use sqlx::SqlSafeStr;
+use sqlx::migrate::{Migration, MigrationType, Migrator};
+
+/// A file of the folder `migrations`: its name and its SQL.
+macro_rules! file {
+    ($name:literal) => {
+        (
+            $name,
+            include_str!(concat!("../../../../migrations/", $name)),
+        )
+    };
+}
+
+/// All of them; a name is the version and what it is about.
+const FILES: [(&str, &str); 11] = [
+    file!("0001_jobs.sql"),
+    file!("0002_labels.sql"),
+    file!("0003_events.sql"),
+    file!("0004_results.sql"),
+    file!("0005_request_keys.sql"),
+    file!("0010_checkpoints.sql"),
+    file!("0011_scheduling.sql"),
+    file!("0012_probes.sql"),
+    file!("0020_result_files.sql"),
+    file!("0021_sweeps.sql"),
+    file!("0040_studies.sql"),
+];
+
+/// Applies the migrations that a database does not have; refuses a database with others.
+pub(super) fn migrator() -> Migrator {
+    let migration = |(name, sql): (&str, &'static str)| {
+        let (version, topic) = name.trim_end_matches(".sql").split_once('_')?;
+        let (version, topic) = (version.parse().ok()?, topic.replace('_', " "));
+        let sql = sql.into_sql_str();
+        Some(Migration::new(
+            version,
+            topic.into(),
+            MigrationType::Simple,
+            sql,
+            false,
+        ))
+    };
+    Migrator::with_migrations(FILES.into_iter().filter_map(migration).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_file_of_the_folder_is_embedded_and_has_a_version() {
+        let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../migrations");
+        let entries = std::fs::read_dir(folder).expect("the folder");
+        let name = |entry: std::io::Result<std::fs::DirEntry>| {
+            let name = entry.expect("an entry").file_name();
+            name.into_string().expect("text")
+        };
+        let mut names: Vec<String> = entries.map(name).collect();
+        names.sort();
+        assert_eq!(names, FILES.map(|(name, _)| name));
+        assert_eq!(migrator().iter().count(), FILES.len());
+    }
+}
