@@ -8,6 +8,7 @@ pub mod estimate;
 pub mod export;
 pub mod http;
 pub mod metrics;
+mod number;
 pub mod queue;
 pub mod reference;
 pub mod service;

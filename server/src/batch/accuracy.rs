@@ -30,7 +30,7 @@ use evaluation::evaluate;
 
 pub use error::StudyError;
 pub use outcomes::study;
-pub use run::{Found, Run, Spent};
+pub use run::{Found, Run};
 pub use run_plan::{BUDGET_S, RunPlan, RunPlanError};
 
 /// A study on this machine.
@@ -52,16 +52,11 @@ pub struct Request<'a> {
 /// # Errors
 /// [`StudyError`] if processes cannot be run or no run succeeds.
 pub fn make(request: &Request<'_>, on_run: &mut dyn FnMut(&str)) -> Result<Study, StudyError> {
-    let Request {
-        resolved,
-        machine,
-        program,
-        budget_s,
-    } = request;
-    let run_plan = RunPlan::within(resolved, machine, *budget_s, &|_| Ok(()))?;
+    let (resolved, budget_s) = (request.resolved, request.budget_s);
+    let run_plan = RunPlan::within(resolved, request.machine, budget_s, &|_| Ok(()))?;
     let mut left_out = run_plan.left_out;
     let mut runs = Vec::new();
-    let mut budget = Budget::new(*budget_s);
+    let mut budget = Budget::new(budget_s);
     for planned in &run_plan.runs {
         let likely_s = budget.likely_s(planned.expected_s);
         if !budget.allows(likely_s) {
@@ -69,11 +64,11 @@ pub fn make(request: &Request<'_>, on_run: &mut dyn FnMut(&str)) -> Result<Study
             continue;
         }
         on_run(&planned.accuracy.to_string());
-        let (found, spent) = process::solve(program, &planned.resolved.spec)?;
-        budget.spend(planned.expected_s, spent.cpu_s);
+        let (found, cpu_s) = process::solve(&request.program, &planned.resolved.spec)?;
+        budget.spend(planned.expected_s, cpu_s);
         runs.push(Run {
             accuracy: planned.accuracy,
-            spent,
+            cpu_s,
             found,
         });
     }

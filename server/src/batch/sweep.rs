@@ -85,6 +85,12 @@ pub(super) fn expand(
 /// Returns a stored batch as a sweep.
 pub(super) fn document(batch: StoredBatch) -> Sweep {
     let overview = batch.overview;
+    let shown = |job: BatchJob| SweepJob {
+        id: job.id,
+        overrides: job.overrides,
+        status: job.status,
+        outcome: job.outcome,
+    };
     Sweep {
         id: overview.id,
         name: overview.name,
@@ -92,15 +98,6 @@ pub(super) fn document(batch: StoredBatch) -> Sweep {
         counts: overview.counts,
         jobs: batch.jobs.into_iter().map(shown).collect(),
         links: Kind::Sweep.links(overview.id),
-    }
-}
-
-fn shown(job: BatchJob) -> SweepJob {
-    SweepJob {
-        id: job.id,
-        overrides: job.overrides,
-        status: job.status,
-        outcome: job.outcome,
     }
 }
 
@@ -144,11 +141,7 @@ fn check_size(request: &SweepRequest) -> Result<(), Vec<Fault>> {
             format!("{expanded} bytes in all jobs together, at most {EXPANDED_LIMIT}"),
         );
     }
-    if faults.is_empty() {
-        Ok(())
-    } else {
-        Err(faults)
-    }
+    faults.is_empty().then_some(()).ok_or(faults)
 }
 
 /// Returns every combination of a grid, the last pointer varying fastest.
@@ -172,12 +165,11 @@ fn combinations(grid: &BTreeMap<String, Vec<Value>>) -> Vec<Changes> {
 /// Resolves the base with its changes.
 fn vary(base: &Value, preset: &Value, overrides: &Changes) -> Result<Resolved, Vec<Fault>> {
     let mut document = base.clone();
-    let mut faults = Vec::new();
-    for (pointer, value) in overrides {
-        if let Err(detail) = patch::set(&mut document, preset, pointer, value.clone()) {
-            faults.push(Fault::new(pointer.clone(), detail));
-        }
-    }
+    let set = |(pointer, value): (&String, &Value)| {
+        let set = patch::set(&mut document, preset, pointer, value.clone());
+        Some(Fault::new(pointer.clone(), set.err()?))
+    };
+    let faults: Vec<Fault> = overrides.iter().filter_map(set).collect();
     if !faults.is_empty() {
         return Err(faults);
     }

@@ -9,6 +9,7 @@ use solver::model::{self, Model};
 use solver::scene::Scene;
 
 use crate::bench::{BenchError, Row, measured};
+use crate::number::real;
 use crate::solve;
 use crate::spec;
 
@@ -126,7 +127,7 @@ fn sized(target: f64) -> Result<Scene, BenchError> {
     };
     for _ in 0..12 {
         let middle = (fine * coarse).sqrt();
-        let is_too_fine = !build(&at(middle)?).is_ok_and(|model| count(dofs(&model)) <= target);
+        let is_too_fine = !build(&at(middle)?).is_ok_and(|model| real(dofs(&model)) <= target);
         *(if is_too_fine { &mut fine } else { &mut coarse }) = middle;
     }
     at(coarse)
@@ -163,8 +164,7 @@ fn time_cycle(scene: &Scene) -> Result<(f64, f64, f64), SolveError> {
         best = best.min(cycle_s);
         increments = state.increments - before;
     }
-    let increments = f64::from(u32::try_from(increments).unwrap_or(u32::MAX));
-    Ok((setup_s, best, increments))
+    Ok((setup_s, best, real(increments)))
 }
 
 fn friction_cycle() -> Result<Vec<Row>, BenchError> {
@@ -238,10 +238,6 @@ fn dofs(model: &Model) -> usize {
     model.bodies.slider.dofs() + model.bodies.receptacle.dofs()
 }
 
-fn count(dofs: usize) -> f64 {
-    f64::from(u32::try_from(dofs).unwrap_or(u32::MAX))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -258,7 +254,7 @@ mod tests {
     fn meshes_of_the_condensation_have_the_target_size() {
         for target in CONDENSED {
             let scene = sized(target).expect("a size is found");
-            let dofs = count(dofs(&build(&scene).expect("it can be meshed")));
+            let dofs = real(dofs(&build(&scene).expect("it can be meshed")));
             assert!(
                 (0.8..=1.0).contains(&(dofs / target)),
                 "{dofs} for {target}"

@@ -11,6 +11,7 @@ use crate::batch::accuracy::process;
 use crate::bench::BenchError;
 use crate::bench::cases::{FUZZ_BUTTON, MCCOLL};
 use crate::estimate::Estimate;
+use crate::number::real;
 use crate::spec;
 use crate::spec::Refused;
 
@@ -87,7 +88,7 @@ pub fn compare(
     let plan = Estimate::of(&resolved)
         .plan(&resolved, Some(machine))
         .estimates;
-    let (found, spent) = process::solve(program, &resolved.spec)?;
+    let (found, cpu_s) = process::solve(program, &resolved.spec)?;
     let summary = found.map_err(BenchError::RunFailed)?.summary;
     let pair = |(what, measured): (&'static str, f64)| Pair {
         what,
@@ -97,18 +98,17 @@ pub fn compare(
     Ok(Prediction {
         scene: name.clone(),
         tolerance,
-        pairs: measured(&summary, spent.cpu_s).map(pair).to_vec(),
+        pairs: measured(&summary, cpu_s).map(pair).to_vec(),
     })
 }
 
 /// Returns the measured values of a run by the names of the plan's estimates.
 fn measured(summary: &Summary, cpu_s: f64) -> [(&'static str, f64); 5] {
-    let count = |count: u64| f64::from(u32::try_from(count).unwrap_or(u32::MAX));
     [
-        ("dofs", count(summary.cost.dofs)),
+        ("dofs", real(summary.cost.dofs)),
         ("memory_mb", summary.cost.peak_memory_mb),
-        ("computed_cycles", count(summary.accuracy.computed_cycles)),
-        ("increments", count(summary.accuracy.increments)),
+        ("computed_cycles", real(summary.accuracy.computed_cycles)),
+        ("increments", real(summary.accuracy.increments)),
         ("cpu_s", cpu_s),
     ]
 }

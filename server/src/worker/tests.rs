@@ -24,7 +24,7 @@ struct Scripted {
     id: Uuid,
     stopping: CancellationToken,
     worker: JoinHandle<()>,
-    _folder: TempDir,
+    folder: TempDir,
 }
 
 impl Scripted {
@@ -62,7 +62,7 @@ impl Scripted {
             id,
             stopping,
             worker,
-            _folder: folder,
+            folder,
         }
     }
 
@@ -87,9 +87,11 @@ impl Scripted {
         self.job_when(|job| job.status.is_terminal()).await
     }
 
-    async fn stop(self) {
+    /// Stops the worker; returns the folder of the database.
+    async fn stop(self) -> TempDir {
         self.stopping.cancel();
         self.worker.await.expect("the worker ends");
+        self.folder
     }
 }
 
@@ -176,7 +178,7 @@ async fn a_stop_before_a_restart_discards_the_rows_of_the_restarted_run() {
     // The process has to install its signal handler first.
     tokio::time::sleep(Duration::from_millis(300)).await;
     let (store, id) = (Arc::clone(&scripted.store), scripted.id);
-    scripted.stop().await;
+    let _folder = scripted.stop().await;
     let rows = store.history(id).await.expect("the store");
     assert_eq!(
         rows,

@@ -9,6 +9,7 @@ use api::job::Progress;
 use jiff::Timestamp;
 use solver::record::CycleReport;
 
+use crate::number::real;
 use crate::solve::Line;
 use crate::store::{JobUpdate, NewFile};
 
@@ -133,15 +134,12 @@ impl UpdateBuffer {
 
     fn events(&mut self) -> Vec<(&'static str, String)> {
         // Serializing numbers and texts does not fail; if it did, the event would be omitted.
-        let progress = serde_json::to_string(&self.progress)
-            .ok()
-            .map(|data| ("progress", data));
-        let cycle = self
-            .newest
-            .take()
-            .and_then(|row| serde_json::to_string(&row).ok())
-            .map(|data| ("cycle", data));
-        progress.into_iter().chain(cycle).collect()
+        let progress = serde_json::to_string(&self.progress).ok();
+        let newest = self.newest.take();
+        let cycle = newest.and_then(|row| serde_json::to_string(&row).ok());
+        let events = [("progress", progress), ("cycle", cycle)];
+        let with_data = |(name, data): (_, Option<String>)| Some((name, data?));
+        events.into_iter().filter_map(with_data).collect()
     }
 
     fn event_due(&self) -> bool {
@@ -160,12 +158,11 @@ impl UpdateBuffer {
     }
 }
 
-#[expect(clippy::cast_precision_loss, reason = "cycles stay below 1e9")]
 fn fraction(cycle: u64, cycles: u64) -> f64 {
     if cycles == 0 {
         0.0
     } else {
-        (cycle as f64 / cycles as f64).min(1.0)
+        (real(cycle) / real(cycles)).min(1.0)
     }
 }
 

@@ -33,20 +33,22 @@ impl Solution {
         }
     }
 
+    /// Largest worn depth, mm.
+    pub(crate) fn deepest(&self) -> f64 {
+        let depths = self.profiles.iter().flat_map(|side| &side.depth_mm);
+        depths.fold(0.0, |deepest: f64, depth| deepest.max(*depth))
+    }
+
     /// Errors of another solution relative to this one.
     pub(crate) fn errors(&self, other: &Self) -> Errors {
         let relative = |index: usize| {
-            relative(
-                other.figures[index] - self.figures[index],
-                self.figures[index],
-            )
+            let of = self.figures[index];
+            relative((other.figures[index] - of).abs(), of.abs())
         };
-        let depths = self.profiles.iter().flat_map(|side| &side.depth_mm);
-        let deepest = depths.fold(0.0, |deepest: f64, depth| deepest.max(*depth));
         let pairs = self.profiles.iter().zip(&other.profiles);
         let differences = pairs.map(|(mine, other)| largest_difference(mine, other));
         Errors {
-            depth: relative_to(differences.fold(0.0, f64::max), deepest),
+            depth: self::relative(differences.fold(0.0, f64::max), self.deepest()),
             width: relative(1),
             peak_pressure: relative(2),
             area: relative(3),
@@ -54,12 +56,8 @@ impl Solution {
     }
 }
 
-fn relative(difference: f64, of: f64) -> f64 {
-    relative_to(difference.abs(), of.abs())
-}
-
 /// Returns the difference itself if the reference is zero.
-fn relative_to(difference: f64, of: f64) -> f64 {
+fn relative(difference: f64, of: f64) -> f64 {
     if of > 0.0 {
         difference / of
     } else {

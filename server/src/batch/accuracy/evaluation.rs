@@ -7,7 +7,6 @@ use crate::batch::accuracy::error::StudyError;
 use crate::batch::accuracy::grid::{Grid, Settings};
 use crate::batch::accuracy::reference::Converged;
 use crate::batch::accuracy::run::Run;
-use crate::batch::accuracy::run_accuracy::RunAccuracy;
 use crate::spec;
 
 /// Compares the runs of a study with the converged solution that the grid among them leads to.
@@ -41,26 +40,21 @@ fn row(run: &Run, cycles: u64, converged: &Converged) -> StudyRun {
     let summary = found.map(|found| &found.summary);
     let errors = found.map(|found| converged.errors(&found.solution));
     let uncertainty = &converged.reference.uncertainty;
-    let used = || {
-        let reached = summary.map(|summary| summary.accuracy);
-        Settings::used(cycles, &reached.unwrap_or_default())
-    };
-    let (tolerance, settings) = match run.accuracy {
-        RunAccuracy::Tolerance(tolerance) => (Some(tolerance), used()),
-        RunAccuracy::Fixed(settings) => (None, settings),
-    };
+    let reached = summary.map(|summary| summary.accuracy).unwrap_or_default();
+    let (tolerance, settings) = run.accuracy.parts();
+    let settings = settings.unwrap_or_else(|| Settings::used(cycles, &reached));
     StudyRun {
         tolerance,
         contact_element_mm: settings.contact_element_mm,
-        contact_elements: summary.map_or(0, |summary| summary.accuracy.contact_elements),
+        contact_elements: reached.contact_elements,
         increments_per_cycle: settings.increments_per_cycle,
         cycle_jump: settings.cycle_jump,
         outcome: summary.map(|summary| summary.outcome),
         failure: run.found.as_ref().err().cloned(),
         errors,
         below_uncertainty: errors.map_or_else(Vec::new, |errors| errors.below(uncertainty)),
-        cpu_s: run.spent.cpu_s,
-        peak_memory_mb: run.spent.peak_memory_mb,
+        cpu_s: run.cpu_s,
+        peak_memory_mb: summary.map_or(0.0, |summary| summary.cost.peak_memory_mb),
         on_front: false,
     }
 }

@@ -7,6 +7,7 @@ use api::spec::{CycleJump, Overrides};
 use serde::{Deserialize, Serialize};
 
 use crate::estimate::Estimate;
+use crate::number::real;
 use crate::spec;
 use crate::spec::Resolved;
 
@@ -108,7 +109,7 @@ impl Baseline {
 
     /// Settings one level coarser than the baseline's.
     pub(crate) fn pilot(&self) -> Settings {
-        Grid::at(self, [-1; 3]).levels(0, 0, 0)
+        Grid::at(self, [-1; 3]).finest()
     }
 }
 
@@ -168,7 +169,7 @@ impl Grid {
                 finer[setting] = step + 1 - MOST_HALVINGS;
                 if finer[setting] == halvings[setting] + 1
                     && cost(finer) <= budget_s
-                    && accepted(Self::at(baseline, finer).levels(0, 0, 0))
+                    && accepted(Self::at(baseline, finer).finest())
                 {
                     halvings = finer;
                 }
@@ -177,8 +178,13 @@ impl Grid {
         Self::at(baseline, halvings)
     }
 
-    /// Settings at a level of each, 0 the finest.
-    pub(crate) fn levels(&self, element: usize, increments: usize, jump: usize) -> Settings {
+    /// The finest settings.
+    pub(crate) fn finest(&self) -> Settings {
+        self.levels([0; 3])
+    }
+
+    /// Settings at a level of element, increments and jump each, 0 the finest.
+    pub(crate) fn levels(&self, [element, increments, jump]: [usize; 3]) -> Settings {
         let factor = |level: usize| 2_u32.pow(u32::try_from(level).unwrap_or(0));
         let finest = self.finest;
         Settings {
@@ -199,7 +205,7 @@ impl Grid {
             for element in 0..LEVELS {
                 for increments in 0..LEVELS {
                     let jump = total.wrapping_sub(element + increments);
-                    let settings = self.levels(element, increments, jump.min(LEVELS - 1));
+                    let settings = self.levels([element, increments, jump.min(LEVELS - 1)]);
                     if jump < LEVELS && !runs.contains(&settings) {
                         runs.push(settings);
                     }
@@ -208,11 +214,6 @@ impl Grid {
         }
         runs
     }
-}
-
-#[expect(clippy::cast_precision_loss, reason = "cycles stay below 1e9")]
-fn real(count: u64) -> f64 {
-    count as f64
 }
 
 #[cfg(test)]
@@ -245,7 +246,7 @@ mod tests {
                 cycle_jump: 400.0
             }
         );
-        assert_eq!(runs[26], grid.levels(0, 0, 0));
+        assert_eq!(runs[26], grid.finest());
         assert_eq!(runs[26].increments_per_cycle, 32);
     }
 

@@ -4,7 +4,7 @@ use api::study::{Study, StudyDocument, StudyJob};
 
 use crate::batch::accuracy::evaluation::evaluate;
 use crate::batch::accuracy::evaluation_plan::EvaluationPlan;
-use crate::batch::accuracy::run::{Found, Run, Spent};
+use crate::batch::accuracy::run::{Found, Run};
 use crate::batch::accuracy::run_accuracy::RunAccuracy;
 use crate::batch::error::EvaluateError;
 use crate::batch::kind::Kind;
@@ -39,8 +39,7 @@ pub(in crate::batch) fn document(batch: StoredBatch) -> Result<StudyDocument, Ev
 /// # Errors
 /// [`EvaluateError`] if something stored cannot be read, or there is nothing to compare yet.
 pub(in crate::batch) fn table(batch: &StoredBatch) -> Result<Vec<u8>, EvaluateError> {
-    let table = csv::study(&study(batch)?).map_err(DocumentError::from)?;
-    Ok(table)
+    Ok(csv::study(&study(batch)?).map_err(DocumentError::from)?)
 }
 
 /// Compares the results of a stored study.
@@ -73,11 +72,7 @@ fn accuracy(job: &BatchJob) -> Option<RunAccuracy> {
 }
 
 fn shown(job: &BatchJob) -> StudyJob {
-    let (tolerance, settings) = match accuracy(job) {
-        Some(RunAccuracy::Tolerance(tolerance)) => (Some(tolerance), None),
-        Some(RunAccuracy::Fixed(settings)) => (None, Some(settings)),
-        None => (None, None),
-    };
+    let (tolerance, settings) = accuracy(job).map_or((None, None), RunAccuracy::parts);
     StudyJob {
         id: job.id,
         tolerance,
@@ -100,20 +95,16 @@ fn run(job: &BatchJob) -> Result<Option<Run>, EvaluateError> {
         what: "profile",
         cause,
     })?;
-    let cost = job.summary.as_ref().map(|summary| Spent {
-        cpu_s: summary.cost.cpu_s,
-        peak_memory_mb: summary.cost.peak_memory_mb,
-    });
-    let found = match (&job.summary, profile) {
-        (Some(summary), Some(profile)) => Ok(Found::new(summary.clone(), &profile)),
-        _ => Err(match &job.status_reason {
-            Some(reason) => reason.clone(),
-            None => job.status.as_str().to_owned(),
-        }),
+    let summary = job.summary.as_ref();
+    let found = if let (Some(summary), Some(profile)) = (summary, profile) {
+        Ok(Found::new(summary.clone(), &profile))
+    } else {
+        let reason = job.status_reason.as_deref();
+        Err(reason.unwrap_or(job.status.as_str()).to_owned())
     };
     Ok(Some(Run {
         accuracy,
-        spent: cost.unwrap_or_default(),
+        cpu_s: summary.map_or(0.0, |summary| summary.cost.cpu_s),
         found,
     }))
 }

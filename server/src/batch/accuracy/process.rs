@@ -6,18 +6,19 @@ use std::time::Duration;
 use api::results::Profile;
 use api::spec::Spec;
 
-use crate::batch::accuracy::{Found, Spent, StudyError};
+use crate::batch::accuracy::{Found, StudyError};
 use crate::solve::process::{LineError, SolveCommand};
 use crate::solve::{Line, children_cpu_s};
 
 /// Time between two checkpoints: longer than any run, because a run of a study is never resumed.
 const NO_CHECKPOINTS: Duration = Duration::from_secs(1_000_000);
 
-/// Solves a specification with the program's `solve-child`; blocks until the process has exited.
+/// Solves a specification with the program's `solve-child`; blocks until the process has exited. Returns its solution, or
+/// why there is none, and its processor seconds.
 pub(crate) fn solve(
     program: &Path,
     spec: &Spec,
-) -> Result<(Result<Found, String>, Spent), StudyError> {
+) -> Result<(Result<Found, String>, f64), StudyError> {
     let spec = serde_json::to_string(spec)?;
     let runtime = tokio::runtime::Builder::new_current_thread()
         .enable_all()
@@ -29,15 +30,7 @@ pub(crate) fn solve(
             LineError::Read(cause) => StudyError::Process(cause),
             LineError::Malformed(cause) => StudyError::Line(cause),
         })?;
-    let cpu_s = children_cpu_s() - before;
-    let peak_memory_mb = found
-        .as_ref()
-        .map_or(0.0, |found| found.summary.cost.peak_memory_mb);
-    let spent = Spent {
-        cpu_s,
-        peak_memory_mb,
-    };
-    Ok((found, spent))
+    Ok((found, children_cpu_s() - before))
 }
 
 async fn run(program: &Path, spec: &str) -> Result<Result<Found, String>, LineError> {
@@ -60,11 +53,6 @@ async fn run(program: &Path, spec: &str) -> Result<Result<Found, String>, LineEr
             _ => {}
         }
     }
-    let exit = process.wait().await;
-    Ok(found.unwrap_or_else(|| {
-        Err(format!(
-            "the process ended without a result{}",
-            exit.details()
-        ))
-    }))
+    let details = process.wait().await.details();
+    Ok(found.unwrap_or_else(|| Err(format!("the process ended without a result{details}"))))
 }

@@ -26,10 +26,21 @@ pub(crate) struct Converged {
     solution: Solution,
 }
 
+type Setting = (&'static str, fn(Settings) -> f64);
+
+/// The settings in the order of their indices in [`Grid::levels`]: name and value.
+const SETTINGS: [Setting; 3] = [
+    ("contact_element_mm", |settings| settings.contact_element_mm),
+    ("increments_per_cycle", |settings| {
+        f64::from(settings.increments_per_cycle)
+    }),
+    ("cycle_jump", |settings| settings.cycle_jump),
+];
+
 /// Runs along one setting, the others finest.
 struct Line<'a> {
     setting: &'static str,
-    levels: Vec<f64>,
+    levels: [f64; LEVELS],
     solutions: [&'a Solution; LEVELS],
 }
 
@@ -42,21 +53,18 @@ impl Converged {
                 .find(|run| run.accuracy == RunAccuracy::Fixed(settings))?;
             run.found.as_ref().ok().map(|found| &found.solution)
         };
-        let Some(finest) = at(grid.levels(0, 0, 0)) else {
+        let Some(finest) = at(grid.finest()) else {
             return Self::best_tolerance(runs);
         };
-        let lines = lines(grid, &at);
         let mut solution = finest.clone();
-        let mut uncertainty = Errors::default();
+        let mut uncertainty = [0.0; 4];
         let mut orders = Vec::new();
-        for line in &lines {
+        for line in lines(grid, &at) {
             orders.push(line.orders());
             line.correct(&mut solution, finest, &mut uncertainty);
         }
-        let method = format!(
-            "Richardson extrapolation of the grid from {}",
-            grid.levels(0, 0, 0)
-        );
+        let finest = grid.finest();
+        let method = format!("Richardson extrapolation of the grid from {finest}");
         Ok(Self::new(solution, method, uncertainty, orders))
     }
 
@@ -73,29 +81,24 @@ impl Converged {
         };
         let method =
             format!("the run at tolerance {tolerance}: there is no result of the finest grid run");
-        let uncertainty = Errors {
-            depth: tolerance,
-            width: tolerance,
-            peak_pressure: tolerance,
-            area: tolerance,
-        };
-        Ok(Self::new(best.clone(), method, uncertainty, Vec::new()))
+        Ok(Self::new(best.clone(), method, [tolerance; 4], Vec::new()))
     }
 
-    fn new(solution: Solution, method: String, uncertainty: Errors, orders: Vec<Orders>) -> Self {
-        let [
-            max_depth_mm,
-            scar_half_width_mm,
-            peak_pressure_mpa,
-            worn_area_mm2,
-        ] = solution.figures;
+    /// `uncertainty` is in the order of [`Solution::figures`].
+    fn new(solution: Solution, method: String, uncertainty: [f64; 4], orders: Vec<Orders>) -> Self {
+        let figures = solution.figures;
         let reference = Reference {
             method,
-            max_depth_mm,
-            scar_half_width_mm,
-            peak_pressure_mpa,
-            worn_area_mm2,
-            uncertainty,
+            max_depth_mm: figures[0],
+            scar_half_width_mm: figures[1],
+            peak_pressure_mpa: figures[2],
+            worn_area_mm2: figures[3],
+            uncertainty: Errors {
+                depth: uncertainty[0],
+                width: uncertainty[1],
+                peak_pressure: uncertainty[2],
+                area: uncertainty[3],
+            },
             orders,
         };
         Self {
@@ -110,26 +113,13 @@ impl Converged {
     }
 }
 
-/// Returns the settings that were solved at three different levels.
+/// Returns the settings that were solved at three levels, each twice or half the one before.
 fn lines<'a>(grid: &Grid, at: &impl Fn(Settings) -> Option<&'a Solution>) -> Vec<Line<'a>> {
-    type Setting = (&'static str, fn(usize) -> [usize; 3], fn(Settings) -> f64);
-    let settings: [Setting; 3] = [
-        (
-            "contact_element_mm",
-            |level| [level, 0, 0],
-            |s| s.contact_element_mm,
-        ),
-        (
-            "increments_per_cycle",
-            |level| [0, level, 0],
-            |s| f64::from(s.increments_per_cycle),
-        ),
-        ("cycle_jump", |level| [0, 0, level], |s| s.cycle_jump),
-    ];
-    let line = |(setting, indices, value): Setting| {
+    let line = |(index, (setting, value)): (usize, Setting)| {
         let along = [0, 1, 2].map(|level| {
-            let [element, increments, jump] = indices(level);
-            grid.levels(element, increments, jump)
+            let mut levels = [0; 3];
+            levels[index] = level;
+            grid.levels(levels)
         });
         let [Some(fine), Some(middle), Some(coarse)] = along.map(at) else {
             return None;
@@ -139,11 +129,11 @@ fn lines<'a>(grid: &Grid, at: &impl Fn(Settings) -> Option<&'a Solution>) -> Vec
             |from: f64, to: f64| (to / from - 2.0).abs() < 1e-9 || (from / to - 2.0).abs() < 1e-9;
         (doubled(levels[0], levels[1]) && doubled(levels[1], levels[2])).then_some(Line {
             setting,
-            levels: levels.to_vec(),
+            levels,
             solutions: [fine, middle, coarse],
         })
     };
-    settings.into_iter().filter_map(line).collect()
+    SETTINGS.into_iter().enumerate().filter_map(line).collect()
 }
 
 impl Line<'_> {
@@ -155,7 +145,7 @@ impl Line<'_> {
         let order = |index: usize| order(self.figures(index));
         Orders {
             setting: self.setting.to_owned(),
-            levels: self.levels.clone(),
+            levels: self.levels.into(),
             depth: order(0),
             width: order(1),
             peak_pressure: order(2),
@@ -173,22 +163,22 @@ impl Line<'_> {
     }
 
     /// Adds this setting's corrections to the solution, and their sizes to the uncertainty.
-    fn correct(&self, solution: &mut Solution, finest: &Solution, uncertainty: &mut Errors) {
+    fn correct(&self, solution: &mut Solution, finest: &Solution, uncertainty: &mut [f64; 4]) {
         let mut sizes = [0.0; 4];
         for (index, size) in sizes.iter_mut().enumerate() {
             let figures = self.figures(index);
             let correction = self.share() * correction(figures);
             solution.figures[index] += correction;
             // Without an observed order the last difference is the only estimate.
-            let uncertainty = correction.abs().max(if order(figures).is_none() {
-                self.share() * (figures[0] - figures[1]).abs()
-            } else {
-                0.0
-            });
-            *size = uncertainty / finest.figures[index].abs().max(f64::MIN_POSITIVE);
+            let last = match order(figures) {
+                Some(_) => 0.0,
+                None => self.share() * (figures[0] - figures[1]).abs(),
+            };
+            let of = finest.figures[index].abs().max(f64::MIN_POSITIVE);
+            *size = correction.abs().max(last) / of;
         }
         let order = order(self.figures(0)).unwrap_or(ASSUMED_ORDER);
-        let factor = self.share() / (2.0_f64.powf(order.clamp(ORDERS.0, ORDERS.1)) - 1.0);
+        let factor = self.share() / divisor(order);
         let mut largest = 0.0_f64;
         for side in 0..2 {
             let [fine, middle, _] = self.solutions.map(|solution| &solution.profiles[side]);
@@ -199,12 +189,11 @@ impl Line<'_> {
                 largest = largest.max(correction.abs());
             }
         }
-        let deepest = finest.profiles.iter().flat_map(|side| &side.depth_mm);
-        let deepest = deepest.fold(f64::MIN_POSITIVE, |deepest: f64, depth| deepest.max(*depth));
-        uncertainty.depth += largest / deepest;
-        uncertainty.width += sizes[1];
-        uncertainty.peak_pressure += sizes[2];
-        uncertainty.area += sizes[3];
+        // The depth is compared at every point of the profiles.
+        sizes[0] = largest / finest.deepest().max(f64::MIN_POSITIVE);
+        for (sum, size) in uncertainty.iter_mut().zip(sizes) {
+            *sum += size;
+        }
     }
 }
 
@@ -225,10 +214,12 @@ fn order([fine, middle, coarse]: [f64; LEVELS]) -> Option<f64> {
 
 /// Returns the correction from the finest level to the limit; 0 without an observed order.
 fn correction(levels: [f64; LEVELS]) -> f64 {
-    let Some(order) = order(levels) else {
-        return 0.0;
-    };
-    (levels[0] - levels[1]) / (2.0_f64.powf(order.clamp(ORDERS.0, ORDERS.1)) - 1.0)
+    order(levels).map_or(0.0, |order| (levels[0] - levels[1]) / divisor(order))
+}
+
+/// Returns 2^p - 1.
+fn divisor(order: f64) -> f64 {
+    2.0_f64.powf(order.clamp(ORDERS.0, ORDERS.1)) - 1.0
 }
 
 #[cfg(test)]

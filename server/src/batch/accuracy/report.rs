@@ -2,8 +2,9 @@
 
 mod picture;
 
-use api::study::{Orders, Study};
-use comfy_table::{CellAlignment, Table};
+use api::study::{Errors, Orders, Study};
+use comfy_table::presets::ASCII_MARKDOWN;
+use comfy_table::{CellAlignment, Row, Table};
 
 use crate::export::csv;
 use crate::export::documents::{CSV, Document, DocumentError, JSON, PNG, SVG};
@@ -91,9 +92,7 @@ pub fn text(study: &Study) -> String {
 
 fn runs(study: &Study) -> Table {
     let uncertainty = &study.reference.uncertainty;
-    let mut table = Table::new();
-    table.load_style(comfy_table::presets::ASCII_MARKDOWN);
-    table.set_header([
+    let mut table = table([
         "",
         "tolerance",
         "element, um",
@@ -109,49 +108,40 @@ fn runs(study: &Study) -> Table {
     ]);
     for run in &study.runs {
         // An error below the uncertainty of the reference is given as that bound.
-        let percent = |[error, uncertainty]: [f64; 2]| {
-            if error < uncertainty {
-                format!("< {:.3}", 100.0 * uncertainty)
+        let percent = |of: fn(&Errors) -> f64| {
+            let Some(errors) = &run.errors else {
+                return "failed".to_owned();
+            };
+            let (error, bound) = (100.0 * of(errors), 100.0 * of(uncertainty));
+            if error < bound {
+                format!("< {bound:.3}")
             } else {
-                format!("{:.3}", 100.0 * error)
+                format!("{error:.3}")
             }
         };
-        let errors = run.errors.map_or_else(
-            || std::array::from_fn(|_| "failed".to_owned()),
-            |errors| {
-                [
-                    [errors.depth, uncertainty.depth],
-                    [errors.width, uncertainty.width],
-                    [errors.peak_pressure, uncertainty.peak_pressure],
-                    [errors.area, uncertainty.area],
-                ]
-                .map(percent)
-            },
-        );
-        let mut cells = vec![
+        let tolerance = run
+            .tolerance
+            .map(|tolerance| format!("{} %", 100.0 * tolerance));
+        table.add_row([
             if run.on_front { "*" } else { "" }.to_owned(),
-            run.tolerance.map_or_else(
-                || "fixed".to_owned(),
-                |tolerance| format!("{} %", 100.0 * tolerance),
-            ),
+            tolerance.unwrap_or_else(|| "fixed".to_owned()),
             format!("{:.3}", UM * run.contact_element_mm),
             run.contact_elements.to_string(),
             run.increments_per_cycle.to_string(),
             format!("{:.1}", run.cycle_jump),
-        ];
-        cells.extend(errors);
-        cells.push(format!("{:.2}", run.cpu_s));
-        cells.push(format!("{:.0}", run.peak_memory_mb));
-        table.add_row(cells);
+            percent(|errors| errors.depth),
+            percent(|errors| errors.width),
+            percent(|errors| errors.peak_pressure),
+            percent(|errors| errors.area),
+            format!("{:.2}", run.cpu_s),
+            format!("{:.0}", run.peak_memory_mb),
+        ]);
     }
-    align(&mut table);
     table
 }
 
 fn orders(orders: &[Orders]) -> Table {
-    let mut table = Table::new();
-    table.load_style(comfy_table::presets::ASCII_MARKDOWN);
-    table.set_header(["setting", "levels", "depth", "width", "peak p", "area"]);
+    let mut table = table(["setting", "levels", "depth", "width", "peak p", "area"]);
     for row in orders {
         let order =
             |order: Option<f64>| order.map_or_else(|| "-".to_owned(), |p| format!("{p:.2}"));
@@ -172,12 +162,16 @@ fn orders(orders: &[Orders]) -> Table {
             order(row.area),
         ]);
     }
-    align(&mut table);
     table
 }
 
-fn align(table: &mut Table) {
+/// Returns a table without rows in Markdown; the columns after the first one are right-aligned.
+fn table(header: impl Into<Row>) -> Table {
+    let mut table = Table::new();
+    table.load_style(ASCII_MARKDOWN);
+    table.set_header(header);
     for column in table.column_iter_mut().skip(1) {
         column.set_cell_alignment(CellAlignment::Right);
     }
+    table
 }

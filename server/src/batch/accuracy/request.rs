@@ -2,7 +2,6 @@
 
 use api::plan::MachineFigures;
 use api::problem::Fault;
-use api::spec::ParseError;
 use api::study::StudyRequest;
 
 use crate::batch::accuracy::evaluation_plan::EvaluationPlan;
@@ -71,17 +70,16 @@ fn refused(error: RunPlanError) -> Refused {
 
 /// Moves the faults of the base, or of a run of it, to their pointers in the study.
 fn of_base(refused: Refused) -> Refused {
-    let in_study = |pointer: &str| format!("/base{pointer}");
     match refused {
-        Refused::Parse(error) => Refused::Parse(ParseError {
-            pointer: in_study(&error.pointer),
-            ..error
-        }),
-        Refused::Faults(faults) => Refused::Faults(
-            faults
-                .into_iter()
-                .map(|fault| Fault::new(in_study(&fault.pointer), fault.detail))
-                .collect(),
-        ),
+        Refused::Parse(mut error) => {
+            error.pointer.insert_str(0, "/base");
+            Refused::Parse(error)
+        }
+        Refused::Faults(mut faults) => {
+            for fault in &mut faults {
+                fault.pointer.insert_str(0, "/base");
+            }
+            Refused::Faults(faults)
+        }
     }
 }

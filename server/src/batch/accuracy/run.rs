@@ -10,19 +10,10 @@ use crate::batch::accuracy::run_accuracy::RunAccuracy;
 pub struct Run {
     /// Its accuracy setting.
     pub accuracy: RunAccuracy,
-    /// Its cost.
-    pub spent: Spent,
-    /// Its result, or why it failed.
-    pub found: Result<Found, String>,
-}
-
-/// Cost of a run.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub struct Spent {
     /// Processor seconds.
     pub cpu_s: f64,
-    /// Largest resident memory, MiB.
-    pub peak_memory_mb: f64,
+    /// Its result, or why it failed.
+    pub found: Result<Found, String>,
 }
 
 /// Result of a run.

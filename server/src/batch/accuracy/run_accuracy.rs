@@ -25,6 +25,14 @@ impl RunAccuracy {
         }
     }
 
+    /// The tolerance, or the fixed settings.
+    pub(super) fn parts(self) -> (Option<f64>, Option<Settings>) {
+        match self {
+            Self::Tolerance(tolerance) => (Some(tolerance), None),
+            Self::Fixed(settings) => (None, Some(settings)),
+        }
+    }
+
     /// The setting as part of a specification.
     pub fn as_spec(self) -> Accuracy {
         match self {

@@ -212,7 +212,7 @@ mod tests {
         assert!(expected_s(&small) <= 8.0 && expected_s(&large) <= 80.0);
         assert!(large.runs.len() >= small.runs.len());
         assert!(large.left_out.len() <= small.left_out.len());
-        let finest = |plan: &RunPlan| plan.grid.levels(0, 0, 0).contact_element_mm;
+        let finest = |plan: &RunPlan| plan.grid.finest().contact_element_mm;
         assert!(finest(&large) <= finest(&small));
     }
 
@@ -245,7 +245,7 @@ mod tests {
                 .ok_or_else(|| Refused::Faults(vec![fault()]))
         };
         let plan = RunPlan::within(&scene, &machine(), 8e4, &accept).expect("some runs");
-        let finest = RunAccuracy::Fixed(plan.grid.levels(0, 0, 0));
+        let finest = RunAccuracy::Fixed(plan.grid.finest());
         assert!(plan.runs.iter().any(|run| run.accuracy == finest));
         assert!(
             plan.runs
@@ -265,7 +265,7 @@ mod tests {
         let text = br#"{"system":{"kind":"fuzz_button"},"accuracy":{"preset":"fine"}}"#;
         let scene = spec::read(text).expect("accepted");
         let plan = RunPlan::within(&scene, &machine(), 86_400.0, &|_| Ok(())).expect("some runs");
-        let finest = RunAccuracy::Fixed(plan.grid.levels(0, 0, 0));
+        let finest = RunAccuracy::Fixed(plan.grid.finest());
         assert!(plan.runs.iter().any(|run| run.accuracy == finest));
     }
 

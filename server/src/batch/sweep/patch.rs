@@ -1,6 +1,6 @@
 //! Changes of a JSON document at JSON pointers (RFC 6901).
 
-use serde_json::{Map, Value};
+use serde_json::Value;
 
 /// Sets the value at a pointer. Missing objects on the way are created; a missing variant or material, which a single
 /// field cannot describe, is copied from the preset.
@@ -30,13 +30,8 @@ pub(super) fn set(
                 .and_then(|index| items.get_mut(index))
                 .ok_or("there is no such item in the base specification")?,
             Value::Object(fields) => fields.entry(token).or_insert(Value::Null),
-            Value::Null => {
-                *target = Value::Object(Map::new());
-                match target {
-                    Value::Object(fields) => fields.entry(token).or_insert(Value::Null),
-                    _ => return Err("the object cannot be created"),
-                }
-            }
+            // Indexing replaces a null by an object, and creates the field.
+            Value::Null => &mut target[token],
             _ => return Err("a value of the base specification stands where an object is needed"),
         };
     }

@@ -39,8 +39,7 @@ const FIGURES: [Figure; 10] = [
 /// # Errors
 /// [`EvaluateError::Write`] if the writer fails.
 pub(in crate::batch) fn csv(jobs: &[BatchJob]) -> Result<Vec<u8>, EvaluateError> {
-    let written = write(jobs).map_err(DocumentError::from)?;
-    Ok(written)
+    Ok(write(jobs).map_err(DocumentError::from)?)
 }
 
 fn write(jobs: &[BatchJob]) -> Result<Vec<u8>, CsvError> {
@@ -53,11 +52,8 @@ fn write(jobs: &[BatchJob]) -> Result<Vec<u8>, CsvError> {
     writer.write_record(header)?;
     for job in jobs {
         let outcome = job.outcome.map(Outcome::as_str).unwrap_or_default();
-        let mut cells = vec![
-            job.id.to_string(),
-            job.status.as_str().to_owned(),
-            outcome.to_owned(),
-        ];
+        let mut cells = vec![job.id.to_string()];
+        cells.extend([job.status.as_str(), outcome].map(str::to_owned));
         let overrides = pointers.iter().map(|pointer| job.overrides.get(*pointer));
         cells.extend(overrides.map(|value| value.map(cell).unwrap_or_default()));
         let figure = |value: &dyn Fn(&Summary) -> String| {

@@ -2,7 +2,7 @@
 
 use api::study::{Errors, Study, StudyRun};
 
-use crate::export::pictures::{Axis, COLOURS, Mark, Panel, Picture, Scale, Series};
+use crate::export::pictures::{Axis, COLOURS, Colour, Mark, Panel, Picture, Scale, Series};
 
 /// Labels of the series.
 const TOLERANCE: &str = "chosen from a tolerance";
@@ -21,21 +21,13 @@ pub(crate) fn work_precision(study: &Study) -> Picture {
         uncertainty,
     );
     let front = study.runs.iter().filter(|run| run.on_front);
+    let front = front.filter_map(|run| {
+        let errors = run.errors?.at_least(uncertainty);
+        Some([run.cpu_s, 100.0 * errors.tolerance_error()])
+    });
     // Under the tolerances, which are drawn last.
-    depth_and_width.series.insert(
-        1,
-        Series {
-            label: FRONT.to_owned(),
-            mark: Mark::Line,
-            colour: COLOURS[6],
-            points: front
-                .filter_map(|run| {
-                    let errors = run.errors?.at_least(uncertainty);
-                    Some([run.cpu_s, 100.0 * errors.tolerance_error()])
-                })
-                .collect(),
-        },
-    );
+    let front = series(FRONT, Mark::Line, COLOURS[6], front);
+    depth_and_width.series.insert(1, front);
     Picture {
         title: format!("What accuracy costs: {name}"),
         panels: vec![
@@ -51,48 +43,49 @@ pub(crate) fn work_precision(study: &Study) -> Picture {
 }
 
 fn panel(study: &Study, title: &str, of: fn(&Errors) -> f64, uncertainty: &Errors) -> Panel {
-    let point = point(of, of(uncertainty));
-    let mut series = vec![Series {
-        label: UNCERTAINTY.to_owned(),
-        mark: Mark::Dashes,
-        colour: COLOURS[6],
-        points: cost_range(study)
-            .map(|cpu_s| [cpu_s, 100.0 * of(uncertainty)])
-            .to_vec(),
-    }];
+    let bound = of(uncertainty);
+    let point = point(of, bound);
+    let at_bound = |cpu_s| [cpu_s, 100.0 * bound];
+    let runs = || study.runs.iter();
+    let line = cost_range(study).map(at_bound);
+    let mut all = vec![series(UNCERTAINTY, Mark::Dashes, COLOURS[6], line)];
     for (index, (label, element)) in elements(study).into_iter().enumerate() {
-        let grid = study.runs.iter().filter(|run| {
+        let grid = runs().filter(|run| {
             run.tolerance.is_none() && (run.contact_element_mm / element - 1.0).abs() < 1e-6
         });
-        series.push(Series {
-            label,
-            mark: Mark::Circles,
-            colour: [COLOURS[4], COLOURS[2], COLOURS[5], COLOURS[3]][index % 4],
-            points: grid.filter_map(&point).collect(),
-        });
+        let colour = [COLOURS[4], COLOURS[2], COLOURS[5], COLOURS[3]][index % 4];
+        all.push(series(
+            &label,
+            Mark::Circles,
+            colour,
+            grid.filter_map(&point),
+        ));
     }
-    let tolerances = study.runs.iter().filter(|run| run.tolerance.is_some());
-    series.push(Series {
-        label: TOLERANCE.to_owned(),
-        mark: Mark::Dots,
-        colour: COLOURS[1],
-        points: tolerances.filter_map(&point).collect(),
-    });
+    let tolerances = runs().filter(|run| run.tolerance.is_some());
+    let tolerances = tolerances.filter_map(&point);
+    all.push(series(TOLERANCE, Mark::Dots, COLOURS[1], tolerances));
     // Errors below the uncertainty are drawn on its line, as a series of their own.
-    let below = study.runs.iter().filter(|run| point(run).is_none());
-    series.push(Series {
-        label: BELOW.to_owned(),
-        mark: Mark::Circles,
-        colour: COLOURS[6],
-        points: below
-            .filter(|run| run.errors.is_some())
-            .map(|run| [run.cpu_s, 100.0 * of(uncertainty)])
-            .collect(),
-    });
+    let below = runs().filter(|run| run.errors.is_some() && point(run).is_none());
+    let below = below.map(|run| at_bound(run.cpu_s));
+    all.push(series(BELOW, Mark::Circles, COLOURS[6], below));
     Panel {
         x: Axis::new("processor time (s)", Scale::Logarithmic),
         y: Axis::new(title, Scale::Logarithmic),
-        series,
+        series: all,
+    }
+}
+
+fn series(
+    label: &str,
+    mark: Mark,
+    colour: Colour,
+    points: impl IntoIterator<Item = [f64; 2]>,
+) -> Series {
+    Series {
+        label: label.to_owned(),
+        mark,
+        colour,
+        points: points.into_iter().collect(),
     }
 }
 
