@@ -38,19 +38,6 @@ pub enum Transition {
     Expire,
 }
 
-impl Transition {
-    /// Every transition.
-    pub const ALL: [Self; 7] = [
-        Self::Claim,
-        Self::Succeed,
-        Self::Fail,
-        Self::Cancel,
-        Self::Release,
-        Self::WorkerLost,
-        Self::Expire,
-    ];
-}
-
 /// Attempts at a job, and their limit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Attempts {
@@ -93,11 +80,21 @@ pub fn next_status(
 mod tests {
     use super::*;
 
+    const TRANSITIONS: [Transition; 7] = [
+        Transition::Claim,
+        Transition::Succeed,
+        Transition::Fail,
+        Transition::Cancel,
+        Transition::Release,
+        Transition::WorkerLost,
+        Transition::Expire,
+    ];
+
     /// Every status, transition, number of attempts around the limit and cancel request against the module's table.
     #[test]
     fn every_transition_from_every_status_matches_the_table() {
         for status in Status::ALL {
-            for transition in Transition::ALL {
+            for transition in TRANSITIONS {
                 for made in 0..=ATTEMPT_LIMIT + 1 {
                     for cancel_requested in [false, true] {
                         let expected = match (status.as_str(), transition) {
@@ -143,7 +140,7 @@ mod tests {
             .filter(|status| status.is_terminal())
         {
             assert!(
-                Transition::ALL
+                TRANSITIONS
                     .into_iter()
                     .all(|transition| next_status(status, transition, attempts, false).is_none())
             );

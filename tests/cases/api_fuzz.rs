@@ -47,11 +47,11 @@ async fn every_answer_to_a_generated_request_conforms_to_the_openapi_document() 
     configured(folder.path(), "");
     fuzzed(&server, folder.path(), "60", &[]);
 
-    let study = json!({
+    let spec = json!({
         "system": {"kind": "fuzz_button"}, "cycles": 2,
         "accuracy": {"preset": "draft", "overrides": {"cycle_jump": 1}}
     });
-    let (_, job) = server.submit(study.to_string()).await;
+    let (_, job) = server.submit(spec.to_string()).await;
     let id = job["id"].as_str().expect("a job has an id");
     let ended = |job: &serde_json::Value| job["finished_at"].is_string();
     server.job_when(id, ended).await;

@@ -7,13 +7,13 @@ use tests::{Server, bits, fretwear};
 async fn a_backup_restores_every_job_and_file_and_damage_is_detected() {
     let folder = tempfile::tempdir().expect("a folder can be made");
     let server = Server::start(folder.path());
-    let study = json!({
+    let spec = json!({
         "system": {"kind": "fuzz_button"},
         "cycles": 2,
         "accuracy": {"preset": "draft"},
         "output": {"fields": true}
     });
-    let (_, job) = server.submit(study.to_string()).await;
+    let (_, job) = server.submit(spec.to_string()).await;
     let id = job["id"].as_str().expect("a job has an id").to_owned();
     let ended = |job: &serde_json::Value| job["finished_at"].is_string();
     server.job_when(&id, ended).await;

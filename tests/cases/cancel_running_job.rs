@@ -7,7 +7,7 @@ use tests::{Server, spec};
 async fn a_cancelled_running_job_ends_soon_and_retains_its_results() {
     let folder = tempfile::tempdir().expect("a folder can be made");
     let server = Server::start(folder.path());
-    let body = std::fs::read(spec("fuzz_button.json")).expect("the study is there");
+    let body = std::fs::read(spec("fuzz_button.json")).expect("the specification is there");
     let (_, job) = server.submit(body).await;
     let id = job["id"].as_str().expect("a job has an id").to_owned();
     server

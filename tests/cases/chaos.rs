@@ -1,5 +1,5 @@
 //! Requirement: whatever is killed, stopped, filled or damaged at any moment, every accepted job is terminal exactly
-//! once, no stale lease is held, event ids have no gaps, and every result has the bits of an undisturbed run.
+//! once, no stale lease is held, event ids have no gaps, and every result has the bits of an uninterrupted run.
 //!
 //! The short form runs with every test. The long one:
 //! `cargo test --release -p tests --test cases -- --ignored --nocapture chaos_long`, with `FRETWEAR_CHAOS_JOBS` (200)
@@ -31,7 +31,7 @@ const OPTIONS: [&str; 10] = [
 const PAST_A_LEASE: Duration = Duration::from_millis(1_500);
 /// Size of the disk that is filled up: empty, and for the results of a job, MB.
 const DISK_MB: (usize, usize) = (64, 2);
-/// Largest number of queued and running jobs, so that submissions are disturbed too.
+/// Largest number of queued and running jobs, so that submissions are interrupted too.
 const AHEAD: usize = 12;
 
 /// A fault that is injected.
@@ -61,8 +61,8 @@ const FAULTS: [Fault; 9] = [
 ];
 
 /// The specifications of the jobs, in rotation.
-fn studies() -> Vec<Value> {
-    let study = |kind: &str, cycles: u64, jump: u64| {
+fn specs() -> Vec<Value> {
+    let spec = |kind: &str, cycles: u64, jump: u64| {
         json!({
             "system": {"kind": kind},
             "cycles": cycles,
@@ -71,11 +71,11 @@ fn studies() -> Vec<Value> {
         })
     };
     vec![
-        study("fuzz_button", 30, 1),
-        study("cylinder_on_flat", 12_000, 60),
+        spec("fuzz_button", 30, 1),
+        spec("cylinder_on_flat", 12_000, 60),
         // The block loses so much height that the mesh is moved.
-        study("fuzz_button", 700, 20),
-        study("dimm", 40, 1),
+        spec("fuzz_button", 700, 20),
+        spec("dimm", 40, 1),
     ]
 }
 
@@ -108,7 +108,7 @@ impl Trial {
     }
 
     /// Submits the next job with an idempotency key, so that the request can be repeated.
-    async fn submit(&mut self, studies: &[Value]) {
+    async fn submit(&mut self, specs: &[Value]) {
         let number = self.accepted.len();
         let server = self.server();
         let request = server
@@ -116,7 +116,7 @@ impl Trial {
             .post(format!("{}/v1/jobs", server.base))
             .header("content-type", "application/json")
             .header("idempotency-key", format!("chaos-{number}"))
-            .body(studies[number % studies.len()].to_string());
+            .body(specs[number % specs.len()].to_string());
         let Ok(response) = request.send().await else {
             return;
         };
@@ -194,13 +194,13 @@ impl Trial {
     }
 }
 
-/// The bits of each specification in an undisturbed run.
-async fn undisturbed(studies: &[Value]) -> Vec<Value> {
+/// The bits of each specification in an uninterrupted run.
+async fn uninterrupted(specs: &[Value]) -> Vec<Value> {
     let folder = tempfile::tempdir().expect("a folder can be made");
     let server = Server::start(folder.path());
     let mut found = Vec::new();
-    for study in studies {
-        let (_, job) = server.submit(study.to_string()).await;
+    for spec in specs {
+        let (_, job) = server.submit(spec.to_string()).await;
         let id = job["id"].as_str().expect("a job has an id").to_owned();
         server
             .job_when(&id, |job| job["finished_at"].is_string())
@@ -213,8 +213,8 @@ async fn undisturbed(studies: &[Value]) -> Vec<Value> {
 #[expect(clippy::print_stdout, reason = "the figures that the README quotes")]
 async fn chaos(jobs: usize, seed: u64) {
     let began = Instant::now();
-    let studies = studies();
-    let expected = undisturbed(&studies).await;
+    let specs = specs();
+    let expected = uninterrupted(&specs).await;
     let mut trial = Trial::new(jobs, seed);
     loop {
         let open = trial.open().await;
@@ -223,7 +223,7 @@ async fn chaos(jobs: usize, seed: u64) {
         }
         for _ in open..AHEAD {
             if trial.accepted.len() < jobs {
-                trial.submit(&studies).await;
+                trial.submit(&specs).await;
             }
         }
         trial.inject_fault().await;
@@ -234,7 +234,7 @@ async fn chaos(jobs: usize, seed: u64) {
         let found = bits::of(server, id).await;
         assert_eq!(
             found,
-            expected[number % studies.len()],
+            expected[number % specs.len()],
             "seed {seed}, job {number}"
         );
         assert_eq!(bits::events(server, id, "done").await.len(), 1);
@@ -245,7 +245,7 @@ async fn chaos(jobs: usize, seed: u64) {
     check_database(&trial.folder, jobs).await;
     println!(
         "chaos, seed {seed}: {jobs} jobs, {attempts} attempts, {resumed} of them from a checkpoint, {:?}{}, {:.0} s: \
-         every job ended once with the bits of an undisturbed run",
+         every job ended once with the bits of an uninterrupted run",
         trial.faults,
         if trial.disk.is_mounted() {
             ""

@@ -1,4 +1,4 @@
-//! The main job: the fuzz-button study, submitted over HTTP, solved, streamed back.
+//! The main job: the fuzz-button specification, submitted over HTTP, solved, streamed back.
 //!
 //! Requirement: `fretwear demo --exit` ends with 0 and a table of worn depth by cycle and station; where the contact
 //! is on the flat floor of the groove the depth grows by 2 (k/H) P' = 26.17 nm a cycle, and the worn area equals
@@ -39,7 +39,7 @@ fn the_demo_solves_its_job_and_exits_with_zero() {
 async fn the_job_wears_the_flat_floor_by_two_passes_a_cycle() {
     let folder = tempfile::tempdir().expect("a folder can be made");
     let server = Server::start(folder.path());
-    let body = std::fs::read(spec("fuzz_button.json")).expect("the study is there");
+    let body = std::fs::read(spec("fuzz_button.json")).expect("the specification is there");
     let (status, job) = server.submit(body).await;
     assert_eq!(status, 202, "{job}");
     let id = job["id"].as_str().expect("a job has an id").to_owned();

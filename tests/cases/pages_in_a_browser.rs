@@ -44,8 +44,8 @@ fn part<'a>(page: &'a str, from: &str, to: &str) -> &'a str {
     rest.split(to).next().unwrap_or_default()
 }
 
-async fn submitted(server: &Server, study: &Value) -> String {
-    let (status, job) = server.submit(study.to_string()).await;
+async fn submitted(server: &Server, spec: &Value) -> String {
+    let (status, job) = server.submit(spec.to_string()).await;
     assert_eq!(status, 202, "{job}");
     job["id"].as_str().expect("a job has an id").to_owned()
 }
@@ -56,11 +56,11 @@ async fn a_browser_shows_jobs_and_their_results() {
     let folder = tempfile::tempdir().expect("a folder can be made");
     let server = Server::start(folder.path());
     let done = json!({
-        "name": "short <b>study</b>", "system": {"kind": "cylinder_on_flat"}, "cycles": 20,
+        "name": "short <b>job</b>", "system": {"kind": "cylinder_on_flat"}, "cycles": 20,
         "accuracy": {"preset": "draft"}, "output": {"snapshots_at_cycles": [1, 20]}
     });
     let long = json!({
-        "name": "long study", "system": {"kind": "cylinder_on_flat"}, "cycles": 1_000_000,
+        "name": "long job", "system": {"kind": "cylinder_on_flat"}, "cycles": 1_000_000,
         "accuracy": {"preset": "draft", "overrides": {"cycle_jump": 1}}
     });
     let done = submitted(&server, &done).await;
@@ -74,7 +74,7 @@ async fn a_browser_shows_jobs_and_their_results() {
     let row = part(&page, &format!("id=\"row-{done}\""), "</tr>");
     // Names are escaped.
     for shown in [
-        "short &lt;b&gt;study",
+        "short &lt;b&gt;job",
         "succeeded (completed)",
         "20 / 20",
         "/results/archive",
@@ -83,7 +83,7 @@ async fn a_browser_shows_jobs_and_their_results() {
     }
     assert!(row.contains("width: 100%"), "{row}");
     let row = part(&page, &format!("id=\"row-{long}\""), "</tr>");
-    for shown in ["long study", "running", " / 1000000", ">cancel</button>"] {
+    for shown in ["long job", "running", " / 1000000", ">cancel</button>"] {
         assert!(row.contains(shown), "{shown} in {row}");
     }
     assert_eq!(part(&page, "<p id=\"trouble\" role=\"alert\">", "</p>"), "");

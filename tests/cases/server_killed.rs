@@ -7,7 +7,7 @@ use tests::{Server, spec};
 async fn a_job_is_completed_after_its_server_was_killed_and_restarted() {
     let folder = tempfile::tempdir().expect("a folder can be made");
     let server = Server::start(folder.path());
-    let body = std::fs::read(spec("fuzz_button.json")).expect("the study is there");
+    let body = std::fs::read(spec("fuzz_button.json")).expect("the specification is there");
     let (_, job) = server.submit(body).await;
     let id = job["id"].as_str().expect("a job has an id").to_owned();
     let under_way = |job: &serde_json::Value| job["progress"]["cycle"].as_u64() > Some(20);
@@ -43,7 +43,7 @@ async fn a_job_is_completed_after_its_server_was_killed_and_restarted() {
 async fn a_server_that_is_terminated_releases_its_job_without_using_an_attempt() {
     let folder = tempfile::tempdir().expect("a folder can be made");
     let server = Server::start(folder.path());
-    let body = std::fs::read(spec("fuzz_button.json")).expect("the study is there");
+    let body = std::fs::read(spec("fuzz_button.json")).expect("the specification is there");
     let (_, job) = server.submit(body).await;
     let id = job["id"].as_str().expect("a job has an id").to_owned();
     server.job_when(&id, |job| job["status"] == "running").await;

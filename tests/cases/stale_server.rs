@@ -16,12 +16,12 @@ async fn a_service_that_continues_after_another_finished_its_job_writes_nothing(
     let folder = tempfile::tempdir().expect("a folder can be made");
     let options = ["--lease-s", "1", "--checkpoint-every-s", "0"];
     let stopped = Server::start_with(folder.path(), &options);
-    let study = json!({
+    let spec = json!({
         "system": {"kind": "fuzz_button"},
         "cycles": 60,
         "accuracy": {"preset": "draft", "overrides": {"cycle_jump": 1}}
     });
-    let (_, job) = stopped.submit(study.to_string()).await;
+    let (_, job) = stopped.submit(spec.to_string()).await;
     let id = job["id"].as_str().expect("a job has an id").to_owned();
     stopped
         .job_when(&id, |job| job["progress"]["cycle"].as_u64() > Some(10))
@@ -71,12 +71,12 @@ async fn a_service_that_continues_after_another_finished_its_job_writes_nothing(
 async fn a_service_that_was_paused_beyond_its_leases_continues_its_jobs() {
     let folder = tempfile::tempdir().expect("a folder can be made");
     let server = Server::start_with(folder.path(), &["--lease-s", "1"]);
-    let study = json!({
+    let spec = json!({
         "system": {"kind": "fuzz_button"},
         "cycles": 200,
         "accuracy": {"preset": "draft", "overrides": {"cycle_jump": 1}}
     });
-    let (_, job) = server.submit(study.to_string()).await;
+    let (_, job) = server.submit(spec.to_string()).await;
     let id = job["id"].as_str().expect("a job has an id").to_owned();
     server
         .job_when(&id, |job| job["progress"]["cycle"].as_u64() > Some(10))

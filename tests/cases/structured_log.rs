@@ -43,10 +43,10 @@ async fn every_line_is_an_object_and_a_job_has_one_span() {
     };
     let line = line_with("serves on http://").await;
     let base = line.rsplit(' ').next().expect("an address").to_owned();
-    let study = json!({"system": {"kind": "cylinder_on_flat"}, "cycles": 2, "accuracy": {"preset": "draft"}});
+    let spec = json!({"system": {"kind": "cylinder_on_flat"}, "cycles": 2, "accuracy": {"preset": "draft"}});
     let request = reqwest::Client::new().post(format!("{base}/v1/jobs"));
     let job: Value = request
-        .json(&study)
+        .json(&spec)
         .send()
         .await
         .expect("an answer")

@@ -73,18 +73,17 @@ impl Checkpoint {
 /// When a run emits checkpoints, and whether it stops at the next one.
 #[derive(Debug, Clone, Default)]
 pub struct CheckpointPolicy {
-    interval: Option<Duration>,
+    /// Time between two checkpoints, and the time of the last one; none are emitted without it.
+    interval: Option<(Duration, Cell<Instant>)>,
     stop: Arc<AtomicBool>,
-    last: Cell<Option<Instant>>,
 }
 
 impl CheckpointPolicy {
     /// A policy with this time between two checkpoints; the run stops at the next one once `stop` is set.
     pub fn new(interval: Duration, stop: Arc<AtomicBool>) -> Self {
         Self {
-            interval: Some(interval),
+            interval: Some((interval, Cell::new(Instant::now()))),
             stop,
-            last: Cell::new(Some(Instant::now())),
         }
     }
 
@@ -95,16 +94,12 @@ impl CheckpointPolicy {
 
     /// Whether a checkpoint is due; if so, the next interval starts.
     pub(super) fn is_due(&self) -> bool {
-        let Some(interval) = self.interval else {
+        let Some((interval, last)) = &self.interval else {
             return false;
         };
-        let due = self.is_stopped()
-            || self
-                .last
-                .get()
-                .is_none_or(|last| last.elapsed() >= interval);
+        let due = self.is_stopped() || last.get().elapsed() >= *interval;
         if due {
-            self.last.set(Some(Instant::now()));
+            last.set(Instant::now());
         }
         due
     }

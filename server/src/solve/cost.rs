@@ -5,8 +5,10 @@ use std::time::Instant;
 
 use api::job::Phase;
 use api::results::Cost;
-use nix::sys::resource::{Usage, UsageWho, getrusage};
+use nix::sys::resource::{UsageWho, getrusage};
 use nix::sys::time::TimeVal;
+
+use crate::number::real;
 
 /// Wall-clock time of a run by phase.
 #[derive(Debug)]
@@ -21,20 +23,21 @@ pub(super) struct Stopwatch {
 impl Stopwatch {
     /// Starts with the cost of the earlier part of the run.
     pub(super) fn start(earlier: Cost) -> Self {
-        let cpu_at_start = cpu_s();
         Self {
             phases: earlier.phases_s.clone(),
             earlier,
             started: Instant::now(),
-            cpu_at_start,
+            cpu_at_start: cpu_s(),
             current: None,
         }
     }
 
     /// Starts the next phase.
     pub(super) fn enter(&mut self, phase: Phase) {
-        self.close();
-        self.current = Some((phase, Instant::now()));
+        let next = (phase, Instant::now());
+        if let Some((phase, since)) = self.current.replace(next) {
+            *self.phases.entry(phase).or_default() += since.elapsed().as_secs_f64();
+        }
     }
 
     /// Returns the cost so far, without the degrees of freedom, which the engine reports.
@@ -42,67 +45,46 @@ impl Stopwatch {
         if let Some((phase, _)) = self.current {
             self.enter(phase);
         }
-        let usage = usage();
         let earlier = &self.earlier;
-        let cpu_s = usage
-            .as_ref()
-            .map_or(0.0, |usage| cpu_seconds(usage) - self.cpu_at_start);
         Cost {
             wall_s: earlier.wall_s + self.started.elapsed().as_secs_f64(),
-            cpu_s: earlier.cpu_s + cpu_s,
+            cpu_s: earlier.cpu_s + cpu_s() - self.cpu_at_start,
             phases_s: self.phases.clone(),
-            peak_memory_mb: usage
-                .as_ref()
-                .map_or(0.0, peak_memory_mb)
-                .max(earlier.peak_memory_mb),
+            peak_memory_mb: peak_memory_mb().max(earlier.peak_memory_mb),
             dofs: 0,
-        }
-    }
-
-    fn close(&mut self) {
-        if let Some((phase, since)) = self.current.take() {
-            *self.phases.entry(phase).or_default() += since.elapsed().as_secs_f64();
         }
     }
 }
 
 /// Returns the processor seconds of this process.
 pub fn cpu_s() -> f64 {
-    usage().map_or(0.0, |usage| cpu_seconds(&usage))
+    used_s(UsageWho::RUSAGE_SELF)
 }
 
 /// Returns the processor seconds of this thread.
 pub fn thread_cpu_s() -> f64 {
-    getrusage(UsageWho::RUSAGE_THREAD).map_or(0.0, |usage| cpu_seconds(&usage))
+    used_s(UsageWho::RUSAGE_THREAD)
 }
 
 /// Returns the processor seconds of all child processes that were waited for.
 pub fn children_cpu_s() -> f64 {
-    getrusage(UsageWho::RUSAGE_CHILDREN).map_or(0.0, |usage| cpu_seconds(&usage))
+    used_s(UsageWho::RUSAGE_CHILDREN)
 }
 
-fn usage() -> Option<Usage> {
-    getrusage(UsageWho::RUSAGE_SELF).ok()
-}
-
-fn cpu_seconds(usage: &Usage) -> f64 {
-    seconds(usage.user_time()) + seconds(usage.system_time())
-}
-
-#[expect(
-    clippy::cast_precision_loss,
-    reason = "seconds of a process stay far below 2^53"
-)]
-fn seconds(time: TimeVal) -> f64 {
-    time.tv_sec() as f64 + 1e-6 * time.tv_usec() as f64
+fn used_s(who: UsageWho) -> f64 {
+    let seconds = |time: TimeVal| real(time.tv_sec()) + 1e-6 * real(time.tv_usec());
+    getrusage(who).map_or(0.0, |usage| {
+        seconds(usage.user_time()) + seconds(usage.system_time())
+    })
 }
 
 /// Returns the peak resident memory of this program. The kernel preserves `ru_maxrss` through `exec`, so it starts with
-/// the memory of the parent process; `VmHWM` belongs to the address space and does not.
-fn peak_memory_mb(usage: &Usage) -> f64 {
+/// the memory of the parent process; `VmHWM` belongs to the address space and does not. Both are in KiB.
+fn peak_memory_mb() -> f64 {
     let status = std::fs::read_to_string("/proc/self/status").ok();
     let own = status.as_deref().and_then(high_water_kib);
-    own.unwrap_or_else(|| maxrss_kib(usage)) / 1024.0
+    let maxrss = || getrusage(UsageWho::RUSAGE_SELF).map_or(0.0, |usage| real(usage.max_rss()));
+    own.unwrap_or_else(maxrss) / 1024.0
 }
 
 fn high_water_kib(status: &str) -> Option<f64> {
@@ -110,15 +92,6 @@ fn high_water_kib(status: &str) -> Option<f64> {
         .lines()
         .find_map(|line| line.strip_prefix("VmHWM:"))?;
     line.trim().strip_suffix("kB")?.trim().parse().ok()
-}
-
-/// Returns `ru_maxrss`, which the kernel counts in KiB.
-#[expect(
-    clippy::cast_precision_loss,
-    reason = "KiB of a process stay far below 2^53"
-)]
-fn maxrss_kib(usage: &Usage) -> f64 {
-    usage.max_rss() as f64
 }
 
 #[cfg(test)]

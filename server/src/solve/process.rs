@@ -118,13 +118,11 @@ impl Exit {
 impl SolveCommand<'_> {
     /// Starts the process and sends its input. Needs a tokio runtime.
     pub(crate) fn spawn(&self) -> std::io::Result<SolveProcess> {
+        let every_ms = self.checkpoint_every.as_millis().to_string();
         let mut command = Command::new(self.program);
-        command
-            .arg("solve-child")
-            .arg("--checkpoint-every-ms")
-            .arg(self.checkpoint_every.as_millis().to_string());
+        command.args(["solve-child", "--checkpoint-every-ms", &every_ms]);
         if let Some(limit) = self.memory_limit_mb {
-            command.arg("--memory-limit-mb").arg(limit.to_string());
+            command.args(["--memory-limit-mb", &limit.to_string()]);
         }
         command
             .arg(self.folder)
@@ -135,17 +133,16 @@ impl SolveCommand<'_> {
         if self.own_group {
             command.process_group(0);
         }
+        let input = Input::lines(self.spec, self.checkpoint)?;
         let mut child = command.spawn()?;
         let missing = || std::io::Error::other("the process has no pipe");
         let stdin = child.stdin.take().ok_or_else(missing)?;
         let stdout = child.stdout.take().ok_or_else(missing)?;
         let stderr = child.stderr.take().ok_or_else(missing)?;
-        let input = Input::lines(self.spec, self.checkpoint);
+        let sending = tokio::spawn(send_input(stdin, input).in_current_span());
         Ok(SolveProcess {
             child,
-            _stdin: AbortOnDropHandle::new(tokio::spawn(
-                send_input(stdin, input).in_current_span(),
-            )),
+            _stdin: AbortOnDropHandle::new(sending),
             lines: FramedRead::new(stdout, LinesCodec::new_with_max_length(LINE_LIMIT)),
             stderr: tokio::spawn(log_stderr(stderr).in_current_span()),
         })

@@ -1,7 +1,6 @@
 //! The protocol between a solving process (`fretwear solve-child`) and its supervisor.
 //!
-//! Standard input: two lines, the resolved specification (JSON) and the checkpoint to resume from (base64, empty for
-//! none). It stays open as long as the supervisor lives; the process ends when it closes. Standard output: one [`Line`]
+//! Standard input: two lines of JSON, the resolved specification and the checkpoint to resume from (`null` for none). It stays open as long as the supervisor lives; the process ends when it closes. Standard output: one [`Line`]
 //! (JSON) a line. Files are written into the attempt's folder, and the lines only name them. SIGTERM asks for a
 //! checkpoint after the current cycle and the end of the process.
 
@@ -9,8 +8,6 @@ use std::io::BufRead;
 
 use api::job::{Outcome, Phase};
 use api::results::{ResultFile, Snapshot, Summary};
-use base64::Engine as _;
-use base64::prelude::BASE64_STANDARD;
 use serde::{Deserialize, Serialize};
 use solver::SolveError;
 use solver::record::CycleReport;
@@ -96,11 +93,12 @@ pub(crate) struct Input {
 
 impl Input {
     /// Returns the input as lines.
-    pub(super) fn lines(spec: &str, checkpoint: Option<&EncodedCheckpoint>) -> String {
-        let checkpoint = checkpoint.map_or_else(String::new, |checkpoint| {
-            BASE64_STANDARD.encode(&checkpoint.state)
-        });
-        format!("{spec}\n{checkpoint}\n")
+    pub(super) fn lines(
+        spec: &str,
+        checkpoint: Option<&EncodedCheckpoint>,
+    ) -> serde_json::Result<String> {
+        let checkpoint = serde_json::to_string(&checkpoint)?;
+        Ok(format!("{spec}\n{checkpoint}\n"))
     }
 
     /// Reads the input from standard input.
@@ -113,16 +111,10 @@ impl Input {
 
     /// Returns the checkpoint to resume from, or why it cannot be decoded.
     pub(crate) fn checkpoint(&self) -> Result<Option<Checkpoint>, String> {
-        let text = self.checkpoint.trim();
-        if text.is_empty() {
-            return Ok(None);
-        }
-        let bytes = BASE64_STANDARD
-            .decode(text)
-            .map_err(|cause| cause.to_string())?;
-        Checkpoint::decode(&bytes)
-            .map(Some)
-            .map_err(|cause| cause.to_string())
+        let encoded: Option<EncodedCheckpoint> =
+            serde_json::from_str(&self.checkpoint).map_err(|cause| cause.to_string())?;
+        let decoded = encoded.map(|encoded| Checkpoint::decode(&encoded.state));
+        decoded.transpose().map_err(|cause| cause.to_string())
     }
 }
 
@@ -136,13 +128,16 @@ mod tests {
             cycle: 1,
             state: vec![0xff],
         };
-        let read = |text: String| Input::read(text.as_bytes()).expect("two lines");
-        let without = read(Input::lines("{}", None));
+        let read = |checkpoint| {
+            let text = Input::lines("{}", checkpoint).expect("JSON");
+            Input::read(text.as_bytes()).expect("two lines")
+        };
+        let without = read(None);
         assert_eq!(
             (without.spec.trim(), without.checkpoint()),
             ("{}", Ok(None))
         );
-        let with = read(Input::lines("{}", Some(&checkpoint)));
+        let with = read(Some(&checkpoint));
         let cause = with.checkpoint().expect_err("no valid checkpoint");
         assert!(cause.starts_with("it cannot be decoded"), "{cause}");
     }

@@ -11,6 +11,7 @@ use crate::store::End;
 /// Returns the end of a job. A result, a failure and a crash are final; a job whose process was killed from outside is
 /// tried again; a job whose process was asked to stop returns to the queue.
 pub(super) fn end_by_exit(last: Option<Line>, exit: &Exit) -> End {
+    let details = exit.details();
     match (last, exit.cause) {
         (Some(Line::Summary(summary)), _) => End {
             transition: Transition::Succeed,
@@ -35,19 +36,13 @@ pub(super) fn end_by_exit(last: Option<Line>, exit: &Exit) -> End {
             } else {
                 Outcome::NotConverged
             };
-            let details = exit.details();
-            failed(
-                outcome,
-                format!("the solving process crashed with signal {signal}{details}"),
-            )
+            let reason = format!("the solving process crashed with signal {signal}{details}");
+            failed(outcome, reason)
         }
-        (_, ExitCause::Code(code)) => failed(
-            Outcome::NotConverged,
-            format!(
-                "the solving process ended with code {code} and without a result{}",
-                exit.details()
-            ),
-        ),
+        (_, ExitCause::Code(code)) => {
+            let ended = format!("the solving process ended with code {code} and without a result");
+            failed(Outcome::NotConverged, ended + &details)
+        }
     }
 }
 

@@ -1,5 +1,7 @@
 //! The manifest of a job that ends.
 
+use std::path::Path;
+
 use api::results::Summary;
 
 use crate::export::documents;
@@ -39,28 +41,24 @@ pub(super) async fn build_manifest(
     })
     .await;
     match made {
-        Ok(Ok(files)) => Ok(files),
-        Ok(Err(FilesError::Write { path, cause })) => Err(StoreError::Prepare { path, cause }),
+        Ok(Ok(files)) => return Ok(files),
+        Ok(Err(FilesError::Write { path, cause })) => {
+            return Err(StoreError::Prepare { path, cause });
+        }
         // A retry would fail again; rows and snapshots remain readable on their own routes.
         Ok(Err(FilesError::Document(error))) => {
             tracing::error!(job = %claim.id, %error, "documents are missing from a manifest");
-            Ok(Vec::new())
         }
         Err(error) => {
             tracing::error!(job = %claim.id, %error, "documents are missing from a manifest");
-            Ok(Vec::new())
         }
     }
+    Ok(Vec::new())
 }
 
-fn write(folder: &std::path::Path, document: Document) -> Result<NewFile, FilesError> {
-    let Document {
-        name,
-        cycle,
-        media_type,
-        bytes,
-    } = document;
-    let file = files::manifest_entry(&name, cycle, media_type, &bytes);
+fn write(folder: &Path, document: Document) -> Result<NewFile, FilesError> {
+    let Document { name, bytes, .. } = document;
+    let file = files::manifest_entry(&name, document.cycle, document.media_type, &bytes);
     let content = if bytes.len() <= INLINE_LIMIT {
         Some(bytes)
     } else {

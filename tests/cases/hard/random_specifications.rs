@@ -1,6 +1,6 @@
 //! Requirement: any specification from the documented ranges is refused with pointers, or runs and satisfies the
 //! invariants, or ends with an error that contains its numbers.
-//! Source: contract.md; every failure that was found and corrected is a case of `found_by_draws`.
+//! Source: contract.md; every failure that was found and corrected is a case of `regressions_of_random_specifications`.
 //! Naive: combinations of ranges that were never tested.
 //!
 //! `FRETWEAR_DRAWS` sets the number of runs, `FRETWEAR_SEED` (0 to 255) the seed.

@@ -13,7 +13,7 @@ const EVERY_CYCLE: [&str; 2] = ["--checkpoint-every-s", "0"];
 
 /// A job of so many computed cycles; interrupted ones have enough to be found running after a poll, also where other
 /// programs occupy the processors.
-fn study(cycles: u64) -> Value {
+fn spec(cycles: u64) -> Value {
     json!({
         "system": {"kind": "fuzz_button"},
         "cycles": cycles,
@@ -22,8 +22,8 @@ fn study(cycles: u64) -> Value {
     })
 }
 
-async fn submitted(server: &Server, study: &Value) -> String {
-    let (status, job) = server.submit(study.to_string()).await;
+async fn submitted(server: &Server, spec: &Value) -> String {
+    let (status, job) = server.submit(spec.to_string()).await;
     assert_eq!(status, 202, "{job}");
     job["id"].as_str().expect("a job has an id").to_owned()
 }
@@ -40,11 +40,11 @@ async fn computing(server: &Server, id: &str, from: u64) {
         .await;
 }
 
-/// The bits of an undisturbed run.
-async fn undisturbed(study: &Value) -> Value {
+/// The bits of an uninterrupted run.
+async fn uninterrupted(spec: &Value) -> Value {
     let folder = tempfile::tempdir().expect("a folder can be made");
     let server = Server::start(folder.path());
-    let id = submitted(&server, study).await;
+    let id = submitted(&server, spec).await;
     ended(&server, &id).await;
     bits::of(&server, &id).await
 }
@@ -52,13 +52,13 @@ async fn undisturbed(study: &Value) -> Value {
 /// Runs a job that is interrupted by a signal to its service, with damage before the restart; returns its bits, the
 /// job's attempts, and the cycles from which they started.
 async fn interrupted(
-    study: &Value,
+    spec: &Value,
     signal: Signal,
     damage: impl AsyncFnOnce(&Path),
 ) -> (Value, Value, Vec<u64>) {
     let folder = tempfile::tempdir().expect("a folder can be made");
     let server = Server::start_with(folder.path(), &EVERY_CYCLE);
-    let id = submitted(&server, study).await;
+    let id = submitted(&server, spec).await;
     computing(&server, &id, 25).await;
     server.signal(signal);
     server.wait();
@@ -72,19 +72,19 @@ async fn interrupted(
 }
 
 #[tokio::test]
-async fn an_interrupted_job_reaches_the_bits_of_an_undisturbed_one() {
-    let study = study(300);
-    let expected = undisturbed(&study).await;
+async fn an_interrupted_job_reaches_the_bits_of_an_uninterrupted_one() {
+    let spec = spec(300);
+    let expected = uninterrupted(&spec).await;
 
-    let (found, attempts, began) = interrupted(&study, Signal::SIGKILL, async |_| {}).await;
+    let (found, attempts, began) = interrupted(&spec, Signal::SIGKILL, async |_| {}).await;
     assert_eq!((&found, attempts), (&expected, json!(2)), "killed");
     assert!(began.len() == 2 && began[1] > 1, "{began:?}");
 
-    let (found, attempts, began) = interrupted(&study, Signal::SIGTERM, async |_| {}).await;
+    let (found, attempts, began) = interrupted(&spec, Signal::SIGTERM, async |_| {}).await;
     assert_eq!((&found, attempts), (&expected, json!(1)), "asked to end");
     assert!(began.len() == 2 && began[1] > 1, "{began:?}");
 
-    let (found, attempts, began) = interrupted(&study, Signal::SIGKILL, async |folder| {
+    let (found, attempts, began) = interrupted(&spec, Signal::SIGKILL, async |folder| {
         assert_eq!(database::damage_checkpoints(folder).await, 1);
     })
     .await;
@@ -94,12 +94,12 @@ async fn an_interrupted_job_reaches_the_bits_of_an_undisturbed_one() {
 
 #[tokio::test]
 async fn a_store_that_stalls_across_the_end_of_a_job_uses_no_attempt() {
-    let study = study(40);
-    let expected = undisturbed(&study).await;
+    let spec = spec(40);
+    let expected = uninterrupted(&spec).await;
     let folder = tempfile::tempdir().expect("a folder can be made");
     // The stall is longer than a lease.
     let server = Server::start_with(folder.path(), &["--lease-s", "1"]);
-    let id = submitted(&server, &study).await;
+    let id = submitted(&server, &spec).await;
     computing(&server, &id, 5).await;
     database::stall(folder.path(), Duration::from_secs(6)).await;
     let job = ended(&server, &id).await;
@@ -137,8 +137,8 @@ async fn a_solve_that_exceeds_the_grace_time_is_killed_without_using_an_attempt(
     let folder = tempfile::tempdir().expect("a folder can be made");
     let options = ["--checkpoint-every-s", "0", "--grace-s", "0.5"];
     let server = Server::start_with(folder.path(), &options);
-    let study = study(300);
-    let id = submitted(&server, &study).await;
+    let spec = spec(300);
+    let id = submitted(&server, &spec).await;
     computing(&server, &id, 10).await;
     for child in server.solving() {
         kill(child, Signal::SIGSTOP).expect("a solving process");
@@ -158,7 +158,7 @@ async fn a_solve_that_exceeds_the_grace_time_is_killed_without_using_an_attempt(
 async fn a_job_that_waits_for_disk_space_states_the_reason() {
     let folder = tempfile::tempdir().expect("a folder can be made");
     let server = Server::start_with(folder.path(), &["--least-free-disk-mb", "1000000000"]);
-    let id = submitted(&server, &study(30)).await;
+    let id = submitted(&server, &spec(30)).await;
     let states_the_reason = |job: &Value| {
         let reason = job["status_reason"].as_str().unwrap_or_default();
         reason.starts_with("waiting for disk space: ")
@@ -175,7 +175,7 @@ async fn a_running_job_ends_at_its_deadline_and_retains_its_results() {
         .client
         .post(format!("{}/v1/jobs?deadline_s=2", server.base))
         .header("content-type", "application/json")
-        .body(study(1_000_000).to_string());
+        .body(spec(1_000_000).to_string());
     let job: Value = request
         .send()
         .await
@@ -204,15 +204,15 @@ async fn a_disk_that_is_full_while_fields_are_written_uses_no_attempt() {
         return;
     }
     let cycles: Vec<u64> = (1..=30).collect();
-    let study = json!({
+    let spec = json!({
         "system": {"kind": "fuzz_button"},
         "cycles": 30,
         "accuracy": {"preset": "draft", "overrides": {"cycle_jump": 1}},
         "output": {"snapshots_at_cycles": cycles, "fields": true}
     });
-    let expected = undisturbed(&study).await;
+    let expected = uninterrupted(&spec).await;
     let server = Server::start_with(disk.path(), &["--least-free-disk-mb", "0"]);
-    let id = submitted(&server, &study).await;
+    let id = submitted(&server, &spec).await;
     computing(&server, &id, 2).await;
     disk.fill(Duration::from_secs(2)).await;
     let job = ended(&server, &id).await;
