@@ -38,23 +38,23 @@ pub fn run_from(
     policy: &CheckpointPolicy,
     on: &mut dyn FnMut(Line) -> ControlFlow<()>,
 ) -> Result<Summary, Failure> {
-    let Some(Checkpoint { cost, run }) = from else {
-        return run_from_start(scene, Recorder::new(on, policy, Cost::default()));
+    let (cost, run) = from.map(|from| (from.cost, from.run)).unzip();
+    let mut recorder = Recorder {
+        on,
+        policy,
+        watch: Stopwatch::start(cost.unwrap_or_default()),
+        is_stopped: false,
     };
-    let mut recorder = Recorder::new(on, policy, cost);
-    match solver::run::resume(scene, run, &mut recorder) {
-        Err(SolveError::Checkpoint(misfit)) => {
-            let mut recorder = Recorder::new(on, policy, Cost::default());
-            recorder.emit(Line::Restarted(misfit.to_string()));
-            run_from_start(scene, recorder)
-        }
-        ended => Ok(history::summary(&ended?, recorder.watch.cost())),
+    let mut ended = match run {
+        Some(run) => solver::run::resume(scene, run, &mut recorder),
+        None => solver::run::solve(scene, &mut recorder),
+    };
+    if let Err(SolveError::Checkpoint(misfit)) = ended {
+        recorder.watch = Stopwatch::start(Cost::default());
+        recorder.emit(Line::Restarted(misfit.to_string()));
+        ended = solver::run::solve(scene, &mut recorder);
     }
-}
-
-fn run_from_start(scene: &Scene, mut recorder: Recorder<'_>) -> Result<Summary, Failure> {
-    let summary = solver::run::solve(scene, &mut recorder)?;
-    Ok(history::summary(&summary, recorder.watch.cost()))
+    Ok(history::summary(&ended?, recorder.watch.cost()))
 }
 
 struct Recorder<'a> {
@@ -65,20 +65,7 @@ struct Recorder<'a> {
     is_stopped: bool,
 }
 
-impl<'a> Recorder<'a> {
-    fn new(
-        on: &'a mut dyn FnMut(Line) -> ControlFlow<()>,
-        policy: &'a CheckpointPolicy,
-        earlier: Cost,
-    ) -> Self {
-        Self {
-            on,
-            policy,
-            watch: Stopwatch::start(earlier),
-            is_stopped: false,
-        }
-    }
-
+impl Recorder<'_> {
     /// Emits a line that is not an event at which the engine can be stopped.
     fn emit(&mut self, line: Line) {
         self.is_stopped |= (self.on)(line).is_break();

@@ -51,10 +51,8 @@ impl Kind {
             Self::Sweep => &["cancel", "outcomes"],
             Self::AccuracyStudy => &["cancel", "picture", "table"],
         };
-        let mut links: BTreeMap<_, _> = relations
-            .iter()
-            .map(|relation| ((*relation).to_owned(), format!("{own}/{relation}")))
-            .collect();
+        let link = |relation: &&str| ((*relation).to_owned(), format!("{own}/{relation}"));
+        let mut links: BTreeMap<_, _> = relations.iter().map(link).collect();
         links.insert("jobs".to_owned(), format!("/v1/jobs?sweep={id}"));
         links.insert("self".to_owned(), own);
         links

@@ -6,7 +6,8 @@ use std::process::{ExitStatus, Stdio};
 use std::time::Duration;
 
 use futures_util::StreamExt;
-use nix::sys::signal::{Signal, kill};
+use nix::sys::signal::Signal::{self, SIGABRT, SIGBUS, SIGFPE, SIGILL, SIGSEGV};
+use nix::sys::signal::kill;
 use nix::unistd::Pid;
 use tokio::io::AsyncWriteExt;
 use tokio::process::{Child, ChildStderr, ChildStdin, ChildStdout, Command};
@@ -30,6 +31,9 @@ const STDERR_TIMEOUT: Duration = Duration::from_secs(1);
 
 /// Beginning of the Rust runtime's message about a failed allocation.
 const FAILED_ALLOCATION: &str = "memory allocation of ";
+
+/// Signals that a process causes itself.
+const CRASHES: [Signal; 5] = [SIGABRT, SIGBUS, SIGFPE, SIGILL, SIGSEGV];
 
 /// How a solving process is started.
 #[derive(Debug)]
@@ -226,16 +230,9 @@ async fn log_stderr(stderr: ChildStderr) -> Option<String> {
 
 impl From<ExitStatus> for ExitCause {
     fn from(status: ExitStatus) -> Self {
-        let crashes = [
-            Signal::SIGABRT,
-            Signal::SIGBUS,
-            Signal::SIGFPE,
-            Signal::SIGILL,
-            Signal::SIGSEGV,
-        ];
         match (status.code(), status.signal()) {
             (Some(code), _) => Self::Code(code),
-            (None, Some(signal)) if crashes.iter().any(|crash| *crash as i32 == signal) => {
+            (None, Some(signal)) if CRASHES.iter().any(|crash| *crash as i32 == signal) => {
                 Self::Crashed(signal)
             }
             (None, _) => Self::Killed,

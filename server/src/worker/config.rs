@@ -85,12 +85,8 @@ impl WorkerConfig {
 /// Returns the free disk space of a folder; `None` if the system does not report it.
 fn free_disk_mb(folder: &Path) -> Option<u64> {
     let found = statvfs(folder).ok()?;
-    Some(
-        found
-            .blocks_available()
-            .saturating_mul(found.fragment_size())
-            >> 20,
-    )
+    let (blocks, size) = (found.blocks_available(), found.fragment_size());
+    Some(blocks.saturating_mul(size) >> 20)
 }
 
 /// Returns the default memory of all solving processes together.

@@ -37,7 +37,6 @@ pub(super) struct UpdateBuffer {
     newest: Option<CycleReport>,
     started: Instant,
     last_event: Option<(Instant, f64)>,
-    dirty: bool,
 }
 
 impl UpdateBuffer {
@@ -58,7 +57,6 @@ impl UpdateBuffer {
             newest: None,
             started: Instant::now(),
             last_event: None,
-            dirty: false,
         }
     }
 
@@ -69,7 +67,6 @@ impl UpdateBuffer {
 
     /// Adds a line that is not the last one.
     pub(super) fn push(&mut self, line: Line, bytes: usize) {
-        self.dirty = true;
         self.bytes = self.bytes.saturating_add(bytes);
         self.progress.updated_at = Some(Timestamp::now().to_string());
         match line {
@@ -96,7 +93,7 @@ impl UpdateBuffer {
 
     /// Whether there is something to write.
     pub(super) fn is_dirty(&self) -> bool {
-        self.dirty
+        self.bytes > 0
     }
 
     /// Whether a limit is reached, so that the update should be written at once.
@@ -106,7 +103,6 @@ impl UpdateBuffer {
 
     /// Takes the update; with events if they are due, or if it is the last update.
     pub(super) fn take(&mut self, is_last: bool) -> JobUpdate {
-        self.dirty = false;
         self.taken_bytes = std::mem::take(&mut self.bytes);
         self.progress.eta_s = self.eta_s();
         let mut update = std::mem::take(&mut self.update);
@@ -126,10 +122,8 @@ impl UpdateBuffer {
         self.update.files.extend(newer.files);
         self.update.events.extend(newer.events);
         self.update.checkpoint = newer.checkpoint.or(self.update.checkpoint.take());
-        self.bytes = self
-            .bytes
-            .saturating_add(std::mem::take(&mut self.taken_bytes));
-        self.dirty = true;
+        let taken_bytes = std::mem::take(&mut self.taken_bytes);
+        self.bytes = self.bytes.saturating_add(taken_bytes);
     }
 
     fn events(&mut self) -> Vec<(&'static str, String)> {

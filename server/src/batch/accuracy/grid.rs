@@ -1,5 +1,6 @@
 //! The grid: three levels, a factor of two apart, of contact element, increments per cycle and cycle jump.
 
+use std::cmp::Reverse;
 use std::fmt;
 
 use api::results::AccuracyReached;
@@ -200,16 +201,13 @@ impl Grid {
 
     /// All distinct settings, the cheapest first.
     pub(crate) fn coarsest_first(&self) -> Vec<Settings> {
-        let mut runs: Vec<Settings> = Vec::new();
-        for total in (0..=3 * (LEVELS - 1)).rev() {
-            for element in 0..LEVELS {
-                for increments in 0..LEVELS {
-                    let jump = total.wrapping_sub(element + increments);
-                    let settings = self.levels([element, increments, jump.min(LEVELS - 1)]);
-                    if jump < LEVELS && !runs.contains(&settings) {
-                        runs.push(settings);
-                    }
-                }
+        let levels = |index| [2, 1, 0].map(|place| index / LEVELS.pow(place) % LEVELS);
+        let mut all: Vec<[usize; 3]> = (0..LEVELS.pow(3)).map(levels).collect();
+        all.sort_by_key(|levels| Reverse(levels.iter().sum::<usize>()));
+        let mut runs = Vec::new();
+        for settings in all.into_iter().map(|levels| self.levels(levels)) {
+            if !runs.contains(&settings) {
+                runs.push(settings);
             }
         }
         runs

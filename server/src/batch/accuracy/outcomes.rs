@@ -18,9 +18,8 @@ use crate::store::{BatchJob, StoredBatch};
 /// [`EvaluateError`] if something stored cannot be read.
 pub(in crate::batch) fn document(batch: StoredBatch) -> Result<StudyDocument, EvaluateError> {
     let study = match study(&batch) {
-        Ok(study) => Some(study),
         Err(EvaluateError::Empty(_)) => None,
-        Err(error) => return Err(error),
+        study => Some(study?),
     };
     let overview = batch.overview;
     Ok(StudyDocument {

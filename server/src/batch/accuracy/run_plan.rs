@@ -108,12 +108,7 @@ impl RunPlan {
             let accuracy = RunAccuracy::Fixed(settings);
             chosen.add(accuracy, planned(accuracy), most_s);
         }
-        let Chosen { runs, left_out, .. } = chosen.unless_empty(budget_s)?;
-        Ok(Self {
-            grid,
-            runs,
-            left_out,
-        })
+        chosen.into_plan(grid, budget_s)
     }
 }
 
@@ -136,26 +131,27 @@ impl Chosen {
                 self.spent_s += run.expected_s;
                 self.runs.push(run);
             }
-            Ok(run) => {
+            Ok(PlannedRun { expected_s, .. }) => {
                 let least_s = self.least_s.unwrap_or(f64::INFINITY);
-                self.least_s = Some(least_s.min(run.expected_s));
-                let line = format!("{accuracy}: about {:.0} s", run.expected_s);
+                self.least_s = Some(least_s.min(expected_s));
+                let line = format!("{accuracy}: about {expected_s:.0} s");
                 self.left_out.push(line);
             }
             Err(refused) => {
-                self.left_out
-                    .push(format!("{accuracy}: {}", reason(&refused)));
+                let line = format!("{accuracy}: {}", reason(&refused));
+                self.left_out.push(line);
                 self.refused.get_or_insert(refused);
             }
         }
     }
 
     /// Refuses an empty study: the cheapest run is too expensive, or all are refused.
-    fn unless_empty(self, budget_s: f64) -> Result<Self, RunPlanError> {
+    fn into_plan(self, grid: Grid, budget_s: f64) -> Result<RunPlan, RunPlanError> {
         match (self.least_s, self.refused) {
-            _ if !self.runs.is_empty() => Ok(Self {
-                refused: None,
-                ..self
+            _ if !self.runs.is_empty() => Ok(RunPlan {
+                grid,
+                runs: self.runs,
+                left_out: self.left_out,
             }),
             (Some(least_s), _) => Err(RunPlanError::TooExpensive { budget_s, least_s }),
             (None, refused) => Err(refused.unwrap_or(Refused::Faults(Vec::new())).into()),

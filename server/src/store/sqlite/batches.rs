@@ -59,7 +59,13 @@ impl Store {
         id: Uuid,
         detail: BatchDetail,
     ) -> Result<Option<StoredBatch>, StoreError> {
-        let Some(row) = self.batch_row(id).await? else {
+        let batch = sqlx::query(
+            "SELECT id, name, created_at, plan FROM sweeps LEFT JOIN studies ON sweep_id = id WHERE id = ?",
+        )
+        .bind(id.to_string())
+        .fetch_optional(&self.readers)
+        .await?;
+        let Some(batch) = batch else {
             return Ok(None);
         };
         let rows = sqlx::query(
@@ -81,8 +87,8 @@ impl Store {
             jobs.push(job);
         }
         Ok(Some(StoredBatch {
-            overview: overview(&row, counts)?,
-            plan: row.try_get("plan")?,
+            overview: overview(&batch, counts)?,
+            plan: batch.try_get("plan")?,
             jobs,
         }))
     }
@@ -116,11 +122,14 @@ impl Store {
     /// # Errors
     /// [`StoreError`] if the database fails.
     pub async fn has_batch(&self, id: Uuid, with_plan: bool) -> Result<bool, StoreError> {
-        let plan: Option<Option<String>> = match self.batch_row(id).await? {
-            Some(row) => Some(row.try_get("plan")?),
-            None => None,
-        };
-        Ok(plan.is_some_and(|plan| !with_plan || plan.is_some()))
+        let found = sqlx::query_scalar(
+            "SELECT EXISTS (SELECT 1 FROM sweeps LEFT JOIN studies ON sweep_id = id \
+             WHERE id = ? AND (NOT ? OR plan IS NOT NULL))",
+        )
+        .bind(id.to_string())
+        .bind(with_plan)
+        .fetch_one(&self.readers);
+        Ok(found.await?)
     }
 
     /// Cancels all jobs of a batch: waiting ones end at once, running ones are ended by their workers.
@@ -177,15 +186,6 @@ impl Store {
             0 => Deleted::Missing,
             _ => Deleted::Done,
         })
-    }
-
-    async fn batch_row(&self, id: Uuid) -> Result<Option<SqliteRow>, StoreError> {
-        Ok(sqlx::query(
-            "SELECT id, name, created_at, plan FROM sweeps LEFT JOIN studies ON sweep_id = id WHERE id = ?",
-        )
-        .bind(id.to_string())
-        .fetch_optional(&self.readers)
-        .await?)
     }
 
     async fn batch_counts(&self, id: Uuid) -> Result<BTreeMap<String, u64>, StoreError> {

@@ -5,6 +5,7 @@ use std::time::{Duration, Instant};
 use api::job::Status;
 
 use crate::metrics::Gauges;
+use crate::store::sqlite::queries::integer;
 use crate::store::{Store, StoreError};
 
 /// Shortest time between two write probes.
@@ -39,7 +40,7 @@ impl Store {
             jobs,
             oldest_checkpoint_s: oldest.map_or(0, |written| seconds(now, written)),
             // The file does not exist before the first write.
-            wal_bytes: wal.map_or(0, |file| i64::try_from(file.len()).unwrap_or(i64::MAX)),
+            wal_bytes: wal.map_or(0, |file| integer(file.len())),
         })
     }
 

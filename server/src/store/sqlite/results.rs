@@ -1,7 +1,7 @@
 //! Wear history and snapshots, readable while the job is running.
 
 use api::results::Snapshot;
-use futures_util::TryStreamExt;
+use futures_util::{StreamExt, TryStreamExt};
 use solver::record::CycleReport;
 use sqlx::AssertSqlSafe;
 use uuid::Uuid;
@@ -19,12 +19,9 @@ impl Store {
         let text = sqlx::query_scalar::<_, String>(
             "SELECT data FROM history_rows WHERE job_id = ? ORDER BY cycle",
         );
-        let mut texts = text.bind(id.to_string()).fetch(&self.readers);
-        let mut rows = Vec::new();
-        while let Some(text) = texts.try_next().await? {
-            rows.push(parsed(id, "history row", &text)?);
-        }
-        Ok(rows)
+        let texts = text.bind(id.to_string()).fetch(&self.readers);
+        let rows = texts.map(|text| parsed(id, "history row", &text?));
+        rows.try_collect().await
     }
 
     /// Returns a document (JSON) of the snapshot nearest to a cycle; of the last snapshot if no cycle is given.
