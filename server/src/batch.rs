@@ -46,10 +46,10 @@ impl Kind {
     /// Reads a request.
     ///
     /// # Errors
-    /// [`Refused`] if it cannot be read, or is too large to be expanded.
+    /// [`Refused`] if it cannot be read.
     pub fn read(self, bytes: &[u8]) -> Result<Request, Refused> {
         match self {
-            Self::Sweep => sweep::read(bytes).map(Request::Sweep),
+            Self::Sweep => variation::read(bytes).map(Request::Sweep),
             Self::AccuracyStudy => variation::read(bytes).map(Request::AccuracyStudy),
         }
     }

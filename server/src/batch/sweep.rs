@@ -25,20 +25,10 @@ const EXPANDED_LIMIT: usize = 32 << 20;
 /// Largest number of reported faults.
 const FAULT_LIMIT: usize = 100;
 
-/// Reads a sweep and checks how large it would become.
-///
-/// # Errors
-/// [`Refused`] for a body that cannot be read and for sizes beyond the limits.
-pub(super) fn read(bytes: &[u8]) -> Result<SweepRequest, Refused> {
-    let request = variation::read(bytes)?;
-    check_size(&request).map_err(Refused::Faults)?;
-    Ok(request)
-}
-
 /// Returns the jobs of a sweep, in order.
 ///
 /// # Errors
-/// [`Refused`] with the faults of the sweep, or of the jobs it would make.
+/// [`Refused`] for sizes beyond the limits, and with the faults of the sweep, or of the jobs it would make.
 pub(super) fn expand(
     request: &SweepRequest,
     accept: &Accept<'_>,
@@ -122,24 +112,18 @@ fn check_size(request: &SweepRequest) -> Result<(), Vec<Fault>> {
         }
     };
     if !(1..=JOB_LIMIT).contains(&jobs) {
-        fault(
-            pointer,
-            format!("{jobs} jobs; a sweep has 1 to {JOB_LIMIT}"),
-        );
+        let detail = format!("{jobs} jobs; a sweep has 1 to {JOB_LIMIT}");
+        fault(pointer, detail);
     }
     if changes > CHANGE_LIMIT {
-        fault(
-            pointer,
-            format!("{changes} pointers a job, at most {CHANGE_LIMIT}"),
-        );
+        let detail = format!("{changes} pointers a job, at most {CHANGE_LIMIT}");
+        fault(pointer, detail);
     }
     let size = serde_json::to_string(&request.base).map_or(0, |base| base.len());
     let expanded = size.saturating_mul(jobs);
     if expanded > EXPANDED_LIMIT {
-        fault(
-            "/base",
-            format!("{expanded} bytes in all jobs together, at most {EXPANDED_LIMIT}"),
-        );
+        let detail = format!("{expanded} bytes in all jobs together, at most {EXPANDED_LIMIT}");
+        fault("/base", detail);
     }
     faults.is_empty().then_some(()).ok_or(faults)
 }
@@ -203,7 +187,7 @@ mod tests {
     use super::*;
 
     fn expanded(text: &Value) -> Result<Vec<Variation>, Vec<Fault>> {
-        let request = read(text.to_string().as_bytes());
+        let request = variation::read(text.to_string().as_bytes());
         let variations = request.and_then(|request| expand(&request, &|_| Ok(())));
         variations.map_err(|refused| match refused {
             Refused::Faults(faults) => faults,

@@ -3,16 +3,15 @@
 //! A backup is a folder with `fretwear.db` and `fretwear.db.results`, which can be served as it is.
 
 use std::io::ErrorKind;
-use std::path::{Path, PathBuf};
-use std::str::FromStr;
+use std::path::Path;
 
 use sqlx::sqlite::SqliteConnectOptions;
 use sqlx::{ConnectOptions, Connection};
 
 use crate::export::files::{create_folder, parent, sha256};
 use crate::store::sqlite::folder::{Folder, beside};
-use crate::store::sqlite::open::lock;
-use crate::store::{BackupError, CopySummary, StoreError};
+use crate::store::sqlite::open::{lock, options};
+use crate::store::{BackupError, CopySummary};
 
 /// File name of the database in a backup.
 const NAME: &str = "fretwear.db";
@@ -22,7 +21,7 @@ const NAME: &str = "fretwear.db";
 /// # Errors
 /// [`BackupError`]; the incomplete copy is not removed.
 pub async fn backup(url: &str, into: &Path) -> Result<CopySummary, BackupError> {
-    let source = path_of(url)?;
+    let source = options(url)?.get_filename().to_owned();
     let target = into.join(NAME);
     absent(&target)?;
     create_folder(into).map_err(|cause| file(into, cause))?;
@@ -103,7 +102,8 @@ async fn delete_missing(copy: &Path, missing: &[String]) -> Result<i64, BackupEr
 /// # Errors
 /// [`BackupError`]; the database is created only if the whole backup is valid.
 pub async fn restore(from: &Path, url: &str) -> Result<CopySummary, BackupError> {
-    let (source, target) = (from.join(NAME), path_of(url)?);
+    let source = from.join(NAME);
+    let target = options(url)?.get_filename().to_owned();
     absent(&target)?;
     // No process may serve it before it is complete.
     let _lock = lock(&target)?;
@@ -186,13 +186,6 @@ fn copy_file(source: &Path, target: &Path, named: &str) -> Result<Option<u64>, B
 /// Options to connect to a database file.
 fn at(path: &Path) -> SqliteConnectOptions {
     SqliteConnectOptions::new().filename(path)
-}
-
-fn path_of(url: &str) -> Result<PathBuf, BackupError> {
-    let options = SqliteConnectOptions::from_str(url).map_err(|_| StoreError::Address {
-        url: url.to_owned(),
-    })?;
-    Ok(options.get_filename().to_owned())
 }
 
 fn absent(path: &Path) -> Result<(), BackupError> {

@@ -13,7 +13,7 @@ macro_rules! file {
     };
 }
 
-/// All of them; a name is the version and what it is about.
+/// All files of the folder; a name is the version and what it is about.
 const FILES: [(&str, &str); 11] = [
     file!("0001_jobs.sql"),
     file!("0002_labels.sql"),

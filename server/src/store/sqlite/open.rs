@@ -36,24 +36,13 @@ impl Store {
     /// # Errors
     /// [`StoreError`], among others if another process serves the database.
     pub async fn open_with(url: &str, attempt_limit: u32) -> Result<Self, StoreError> {
-        let invalid = || StoreError::Address {
-            url: url.to_owned(),
-        };
-        let options = SqliteConnectOptions::from_str(url)
-            .map_err(|_| invalid())?
+        let options = options(url)?
             .create_if_missing(true)
             .journal_mode(SqliteJournalMode::Wal)
             .synchronous(SqliteSynchronous::Full)
             .foreign_keys(true)
             .busy_timeout(BUSY_TIMEOUT);
         let path = options.get_filename().to_owned();
-        // A database in memory would lose every job, and has no folder for a lock file.
-        let in_memory = path.to_string_lossy().starts_with("file:sqlx-in-memory");
-        // Parameters could select a database in memory or a read-only one.
-        let is_plain = url.starts_with("sqlite:") && !url.contains('?');
-        if !is_plain || in_memory || path.as_os_str().is_empty() {
-            return Err(invalid());
-        }
         let lock = lock(&path)?;
         let writer = SqlitePoolOptions::new()
             .max_connections(1)
@@ -100,6 +89,23 @@ impl Store {
         self.readers.close().await;
         self.writer.close().await;
     }
+}
+
+/// Returns the options to connect to the file at `url`.
+pub(super) fn options(url: &str) -> Result<SqliteConnectOptions, StoreError> {
+    // A database in memory would lose every job, and has no folder for a lock file.
+    let is_file = |options: &SqliteConnectOptions| {
+        let path = options.get_filename().to_string_lossy();
+        !path.is_empty() && !path.starts_with("file:sqlx-in-memory")
+    };
+    // Parameters could select a database in memory or a read-only one.
+    let is_plain = url.starts_with("sqlite:") && !url.contains('?');
+    let options = SqliteConnectOptions::from_str(url).ok();
+    options
+        .filter(|options| is_plain && is_file(options))
+        .ok_or_else(|| StoreError::Address {
+            url: url.to_owned(),
+        })
 }
 
 /// Locks the file beside the database; the operating system releases it when the process ends, however it ends.
