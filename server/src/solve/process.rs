@@ -60,7 +60,7 @@ pub(crate) struct SolveProcess {
     child: Child,
     _stdin: AbortOnDropHandle<()>,
     lines: FramedRead<ChildStdout, LinesCodec>,
-    stderr: JoinHandle<Option<String>>,
+    stderr: JoinHandle<String>,
 }
 
 /// A line of a solving process.
@@ -99,23 +99,22 @@ pub(crate) enum ExitCause {
 pub(crate) struct Exit {
     /// Why it ended.
     pub(crate) cause: ExitCause,
-    /// The last line of its standard error, or the one about a failed allocation.
-    pub(crate) stderr: Option<String>,
+    /// The last line of its standard error, or the one about a failed allocation; empty if there was none.
+    pub(crate) stderr: String,
 }
 
 impl Exit {
     /// Whether the process reported a failed allocation.
     pub(crate) fn is_out_of_memory(&self) -> bool {
-        self.stderr
-            .as_deref()
-            .is_some_and(|line| line.starts_with(FAILED_ALLOCATION))
+        self.stderr.starts_with(FAILED_ALLOCATION)
     }
 
     /// The standard error as the end of a sentence.
     pub(crate) fn details(&self) -> String {
-        self.stderr
-            .as_ref()
-            .map_or_else(String::new, |line| format!(": {line}"))
+        match self.stderr.as_str() {
+            "" => String::new(),
+            line => format!(": {line}"),
+        }
     }
 }
 
@@ -177,10 +176,8 @@ impl SolveProcess {
             ExitCause::Killed
         };
         let stderr = tokio::time::timeout(STDERR_TIMEOUT, &mut self.stderr).await;
-        Exit {
-            cause,
-            stderr: stderr.ok().and_then(Result::ok).flatten(),
-        }
+        let stderr = stderr.ok().and_then(Result::ok).unwrap_or_default();
+        Exit { cause, stderr }
     }
 
     /// Asks the process for a last checkpoint and its exit.
@@ -210,16 +207,16 @@ async fn send_input(mut stdin: ChildStdin, input: String) {
 }
 
 /// Logs the standard error of a process; returns its last line, or the one about a failed allocation.
-async fn log_stderr(stderr: ChildStderr) -> Option<String> {
+async fn log_stderr(stderr: ChildStderr) -> String {
     let mut lines = FramedRead::new(stderr, LinesCodec::new_with_max_length(STDERR_LINE_LIMIT));
-    let mut last: Option<String> = None;
+    let mut last = String::new();
     while let Some(line) = lines.next().await {
         match line {
             Ok(line) if !line.trim().is_empty() => {
                 tracing::warn!("solving process: {line}");
-                last = last
-                    .filter(|earlier| earlier.starts_with(FAILED_ALLOCATION))
-                    .or(Some(line));
+                if !last.starts_with(FAILED_ALLOCATION) {
+                    last = line;
+                }
             }
             Ok(_) | Err(LinesCodecError::MaxLineLengthExceeded) => {}
             Err(LinesCodecError::Io(_)) => break,

@@ -90,7 +90,7 @@ mod tests {
         for (last, cause, transition, outcome) in cases {
             let exit = Exit {
                 cause,
-                stderr: None,
+                stderr: String::new(),
             };
             let found = end_by_exit(last, &exit);
             assert_eq!(
@@ -105,7 +105,7 @@ mod tests {
     fn a_failed_allocation_is_distinguished_from_other_crashes() {
         let exit = Exit {
             cause: ExitCause::Crashed(6),
-            stderr: Some("memory allocation of 8192 bytes failed".to_owned()),
+            stderr: "memory allocation of 8192 bytes failed".to_owned(),
         };
         let found = end_by_exit(None, &exit);
         assert_eq!(found.outcome, Some(Outcome::OutOfMemory));
