@@ -138,20 +138,16 @@ impl Request {
 
 fn job(
     position: usize,
-    Variation {
-        overrides,
-        resolved,
-        estimate,
-    }: Variation,
+    variation: Variation,
     machine: Option<&MachineFigures>,
 ) -> (NewJob, Changes) {
     let job = NewJob {
-        plan: estimate.plan(&resolved, machine),
-        spec: resolved.spec,
+        plan: variation.estimate.plan(&variation.resolved, machine),
+        spec: variation.resolved.spec,
         options: SubmitOptions {
             priority: queue::batch_priority(position),
             deadline_s: None,
         },
     };
-    (job, overrides)
+    (job, variation.overrides)
 }

@@ -71,10 +71,7 @@ impl Converged {
     fn best_tolerance(runs: &[Run]) -> Result<Self, StudyError> {
         let solved = runs.iter().filter_map(|run| {
             let found = run.found.as_ref().ok()?;
-            let RunAccuracy::Tolerance(tolerance) = run.accuracy else {
-                return None;
-            };
-            Some((tolerance, &found.solution))
+            Some((run.accuracy.parts().0?, &found.solution))
         });
         let Some((tolerance, best)) = solved.min_by(|a, b| a.0.total_cmp(&b.0)) else {
             return Err(StudyError::NothingSolved("no tolerance".to_owned()));

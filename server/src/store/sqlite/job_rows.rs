@@ -11,7 +11,7 @@ use crate::queue::Transition;
 use crate::store::sqlite::document::timestamp;
 use crate::store::sqlite::queries::{insert_event, status};
 use crate::store::sqlite::transitions::{EndingJob, end_job};
-use crate::store::{Cancelled, End, NewJob, StoreError, SubmitOptions};
+use crate::store::{Cancelled, End, NewJob, StoreError};
 
 /// Returns the status of a job; `None` if there is no such job.
 pub(super) async fn status_of(
@@ -58,10 +58,7 @@ pub(super) async fn insert(
     now: i64,
 ) -> Result<Uuid, StoreError> {
     let id = Uuid::now_v7();
-    let SubmitOptions {
-        priority,
-        deadline_s,
-    } = job.options;
+    let options = job.options;
     let system = job.spec.system.kind.known().map_or("", SystemKind::as_str);
     let progress = Progress {
         cycles: crate::spec::cycles(&job.spec),
@@ -80,9 +77,9 @@ pub(super) async fn insert(
     .bind(queue::WAITING_FOR_WORKER)
     .bind(now)
     .bind(&progress)
-    .bind(priority)
-    .bind(queue::sort_key(now, priority))
-    .bind(deadline_s.map(|s| now.saturating_add(1_000 * i64::from(s))))
+    .bind(options.priority)
+    .bind(queue::sort_key(now, options.priority))
+    .bind(options.deadline_s.map(|s| now.saturating_add(1_000 * i64::from(s))))
     .bind(memory_mb(&job.plan))
     .execute(&mut **transaction)
     .await?;
