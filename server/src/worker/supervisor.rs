@@ -116,10 +116,13 @@ impl Supervision<'_> {
         tick.set_missed_tick_behavior(MissedTickBehavior::Delay);
         let (mut last, mut store_failed) = (None, false);
         loop {
+            // While the store fails, lines stay in the pipe, so that memory stays bounded.
+            let may_read = !(store_failed && self.buffer.is_full());
             let write = tokio::select! {
-                // While the store fails, lines stay in the pipe, so that memory stays bounded.
-                received = self.process.next_line(), if !(store_failed && self.buffer.is_full()) => match received {
-                    Ok(Some(ReceivedLine { line: Line::Restarted(cause), .. })) => Write::Restart(cause),
+                received = self.process.next_line(), if may_read => match received {
+                    Ok(Some(ReceivedLine { line: Line::Restarted(cause), .. })) => {
+                        Write::Restart(cause)
+                    }
                     Ok(Some(ReceivedLine { line, .. })) if line.is_last() => {
                         last = Some(line);
                         continue;
