@@ -7,6 +7,7 @@
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
+use crate::enum_value::string_enum;
 use crate::job::{Outcome, Status};
 use crate::results::Summary;
 
@@ -47,18 +48,18 @@ pub struct StreamEvent {
     pub data: String,
 }
 
-/// Names of events.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum EventName {
-    /// The current job document.
-    Snapshot,
-    /// A worker has started.
-    Attempt,
-    /// Progress of the solve.
-    Progress,
-    /// A computed cycle.
-    Cycle,
-    /// The job has ended.
-    Done,
+string_enum! {
+    /// Names of events.
+    EventName {
+        /// The current job document.
+        Snapshot = "snapshot",
+        /// A worker has started.
+        Attempt = "attempt",
+        /// Progress of the solve.
+        Progress = "progress",
+        /// A computed cycle.
+        Cycle = "cycle",
+        /// The job has ended.
+        Done = "done",
+    }
 }

@@ -6,53 +6,29 @@ use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 use uuid::Uuid;
 
+use crate::enum_value::string_enum;
 pub use crate::outcome::{Outcome, Phase};
 use crate::plan::Plan;
 use crate::results::Summary;
 use crate::spec::Spec;
 
-/// Status of a job.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize, ToSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum Status {
-    /// Waiting for a worker.
-    Queued,
-    /// Being solved by a worker.
-    Running,
-    /// Solved; the summary is available.
-    Succeeded,
-    /// Ended without the requested result; `outcome` and `status_reason` give the reason.
-    Failed,
-    /// Cancelled on request; results computed so far remain available.
-    Cancelled,
+string_enum! {
+    /// Status of a job.
+    Status {
+        /// Waiting for a worker.
+        Queued = "queued",
+        /// Being solved by a worker.
+        Running = "running",
+        /// Solved; the summary is available.
+        Succeeded = "succeeded",
+        /// Ended without the requested result; `outcome` and `status_reason` give the reason.
+        Failed = "failed",
+        /// Cancelled on request; results computed so far remain available.
+        Cancelled = "cancelled",
+    }
 }
 
 impl Status {
-    /// Every status.
-    pub const ALL: [Self; 5] = [
-        Self::Queued,
-        Self::Running,
-        Self::Succeeded,
-        Self::Failed,
-        Self::Cancelled,
-    ];
-
-    /// Name of the status in JSON.
-    pub fn as_str(self) -> &'static str {
-        match self {
-            Self::Queued => "queued",
-            Self::Running => "running",
-            Self::Succeeded => "succeeded",
-            Self::Failed => "failed",
-            Self::Cancelled => "cancelled",
-        }
-    }
-
-    /// Returns the status of that name.
-    pub fn from_name(name: &str) -> Option<Self> {
-        Self::ALL.into_iter().find(|status| status.as_str() == name)
-    }
-
     /// Whether the status is final.
     pub fn is_terminal(self) -> bool {
         matches!(self, Self::Succeeded | Self::Failed | Self::Cancelled)

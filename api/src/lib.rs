@@ -2,6 +2,7 @@
 #![forbid(unsafe_code)]
 
 pub mod batch;
+mod enum_value;
 pub mod event;
 pub mod job;
 pub mod outcome;

@@ -3,7 +3,6 @@
 //! Only `system.kind` is required; everything else has a default from the system's preset. Variants are selected by
 //! `kind` or `law` within one flat object, so that every fault has its JSON pointer.
 
-mod enum_value;
 mod interface;
 mod load;
 mod materials;
@@ -18,7 +17,8 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
-pub use enum_value::{EnumValue, StringEnum};
+use crate::enum_value::string_enum;
+pub use crate::enum_value::{EnumValue, StringEnum};
 pub use interface::{Friction, FrictionLaw, Interface, Sides, WearLaw, WearLawName};
 pub use load::{Load, LoadKind};
 pub use materials::{Material, MaterialProperties, Materials};
@@ -27,18 +27,18 @@ pub use read::{ParseError, pointer_token};
 pub use settings::{Accuracy, CycleJump, Output, Overrides, Preset, Stop, Switch};
 pub use system::{System, SystemKind};
 
-/// Provenance of a value of a resolved specification.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum Provenance {
-    /// Given by the user.
-    Given,
-    /// Stated by the source of the preset.
-    Source,
-    /// Typical of such parts or materials, from the literature.
-    Typical,
-    /// Assumed; replace it by a measured value if it matters.
-    Assumed,
+string_enum! {
+    /// Provenance of a value of a resolved specification.
+    Provenance {
+        /// Given by the user.
+        Given = "given",
+        /// Stated by the source of the preset.
+        Source = "source",
+        /// Typical of such parts or materials, from the literature.
+        Typical = "typical",
+        /// Assumed; replace it by a measured value if it matters.
+        Assumed = "assumed",
+    }
 }
 
 /// The specification of a job.

@@ -3,6 +3,8 @@
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
+use crate::enum_value::string_enum;
+
 /// Worn depth along one surface.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct SideProfile {
@@ -23,16 +25,16 @@ pub struct Profile {
     pub slider: SideProfile,
 }
 
-/// Named positions of a cycle.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum SlidePosition {
-    /// Slider at x = 0 on its way to +x (the end of the cycle).
-    Neutral,
-    /// Slider at its rightmost position.
-    Rightmost,
-    /// Slider at its leftmost position.
-    Leftmost,
+string_enum! {
+    /// Named positions of a cycle.
+    SlidePosition {
+        /// Slider at x = 0 on its way to +x (the end of the cycle).
+        Neutral = "neutral",
+        /// Slider at its rightmost position.
+        Rightmost = "rightmost",
+        /// Slider at its leftmost position.
+        Leftmost = "leftmost",
+    }
 }
 
 /// Contact tractions at one position of the slider.

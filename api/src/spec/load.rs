@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
-use super::enum_value::{EnumValue, string_enum};
+use crate::enum_value::{EnumValue, string_enum};
 
 string_enum! {
     /// Kinds of load.

@@ -4,7 +4,7 @@ use serde::de::{Unexpected, Visitor};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use utoipa::ToSchema;
 
-use super::enum_value::{EnumValue, string_enum};
+use crate::enum_value::{EnumValue, string_enum};
 
 string_enum! {
     /// Whether an effect is simulated.

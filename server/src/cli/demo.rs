@@ -13,7 +13,6 @@ use uuid::Uuid;
 
 use crate::cli::runtime::{runtime, workers};
 use crate::cli::serve::until_signal;
-use crate::cli::solve::phase_name;
 use crate::cli::table;
 use crate::cli::terminal::{bar, failed, write_err, write_out};
 use crate::http::Access;
@@ -140,7 +139,7 @@ async fn follow(client: &reqwest::Client, own: &str, cycles: u64) -> Result<Done
                 let progress: Progress = serde_json::from_str(&event.data)?;
                 bar.set_position(progress.cycle);
                 if let Some(phase) = progress.phase {
-                    bar.set_message(phase_name(phase));
+                    bar.set_message(phase.as_str());
                 }
             }
             "done" => {

@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 use std::path::Path;
 use std::process::ExitCode;
 
-use api::job::{Outcome, Phase};
+use api::job::Outcome;
 use api::results::{Snapshot, Summary};
 use indicatif::ProgressBar;
 use solver::record::CycleReport;
@@ -63,7 +63,7 @@ fn solve(resolved: &Resolved, recorded: &mut Recorded) -> Result<Summary, Failur
 
 fn record(line: Line, recorded: &mut Recorded, bar: &ProgressBar) {
     match line {
-        Line::Phase(phase) => bar.set_message(phase_name(phase)),
+        Line::Phase(phase) => bar.set_message(phase.as_str()),
         Line::Cycle(row) => {
             bar.set_position(row.cycle);
             recorded.rows.push(row);
@@ -76,15 +76,6 @@ fn record(line: Line, recorded: &mut Recorded, bar: &ProgressBar) {
         | Line::Summary(_)
         | Line::Failed(_)
         | Line::Stopped => {}
-    }
-}
-
-pub(super) fn phase_name(phase: Phase) -> &'static str {
-    match phase {
-        Phase::Mesh => "mesh",
-        Phase::Condense => "condense",
-        Phase::Cycles => "cycles",
-        Phase::Relocate => "relocate",
     }
 }
 

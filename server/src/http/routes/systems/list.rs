@@ -16,12 +16,10 @@ use crate::http::routes::systems::show::document;
     tag = "systems",
     responses((status = 200, description = "The systems", body = SystemList))
 )]
-pub(in crate::http) async fn systems(
-    State(app): State<App>,
-) -> Result<Json<SystemList>, ProblemResponse> {
+pub(crate) async fn systems(State(app): State<App>) -> Result<Json<SystemList>, ProblemResponse> {
     let systems = SystemKind::ALL
-        .iter()
-        .map(|kind| document(*kind, app.document))
+        .into_iter()
+        .map(|kind| document(kind, app.document))
         .collect::<Result<_, _>>()?;
     Ok(Json(SystemList { systems }))
 }

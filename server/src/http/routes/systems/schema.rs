@@ -12,7 +12,7 @@ const COMPONENTS: &str = "#/components/schemas/";
 const DEFINITIONS: &str = "#/$defs/";
 
 /// Returns the JSON Schema of a specification with this contact system, from the OpenAPI document.
-pub(in crate::http) fn of(kind: SystemKind, document: &Value) -> Value {
+pub(crate) fn of(kind: SystemKind, document: &Value) -> Value {
     let components = &document["components"]["schemas"];
     let mut definitions = Map::new();
     let mut names = BTreeSet::new();
@@ -87,7 +87,7 @@ mod tests {
     #[test]
     fn references_are_defined_and_only_own_dimensions_are_listed() {
         for kind in SystemKind::ALL {
-            let schema = of(*kind, document());
+            let schema = of(kind, document());
             let text = schema.to_string();
             assert!(!text.contains(COMPONENTS));
             for reference in text.split(DEFINITIONS).skip(1) {

@@ -1,23 +1,23 @@
 //! `GET /v1/systems/{kind}`: a contact system and its preset.
 
 use api::problem::Problem;
-use api::spec::{Spec, System, SystemKind};
+use api::spec::{Spec, StringEnum, System, SystemKind};
 use api::system::SystemDocument;
 use axum::Json;
 use axum::extract::State;
 use serde_json::Value;
 
 use crate::http::app::App;
-use crate::http::extract::SystemName;
+use crate::http::extract::Name;
 use crate::http::problem::{ProblemResponse, ProblemType, RouteError};
 use crate::http::routes::systems::schema;
 use crate::spec;
 
 /// Error of a contact system.
 #[derive(Debug, thiserror::Error)]
-pub(in crate::http) enum SystemError {
+pub(crate) enum SystemError {
     /// No contact system has this name.
-    #[error("there is no system of that kind; kinds are {}", kinds())]
+    #[error("there is no system of that kind; kinds are {}", SystemKind::NAMES.join(", "))]
     Missing,
     /// The preset cannot be resolved, which is a bug.
     #[error("the preset of {0} has faults")]
@@ -27,18 +27,10 @@ pub(in crate::http) enum SystemError {
 impl RouteError for SystemError {
     fn problem_type(&self) -> ProblemType {
         match self {
-            Self::Missing => ProblemType::NoSuchSystem,
-            Self::Preset(_) => ProblemType::Internal,
+            Self::Missing => ProblemType::NO_SUCH_SYSTEM,
+            Self::Preset(_) => ProblemType::INTERNAL,
         }
     }
-}
-
-fn kinds() -> String {
-    SystemKind::ALL
-        .iter()
-        .map(|kind| kind.as_str())
-        .collect::<Vec<_>>()
-        .join(", ")
 }
 
 /// A contact system with its preset.
@@ -52,22 +44,16 @@ fn kinds() -> String {
         (status = 404, description = "No such system", body = Problem),
     )
 )]
-pub(in crate::http) async fn system(
+pub(crate) async fn system(
     State(app): State<App>,
-    SystemName(name): SystemName,
+    Name(name): Name,
 ) -> Result<Json<SystemDocument>, ProblemResponse> {
-    let kind = SystemKind::ALL
-        .iter()
-        .find(|kind| kind.as_str() == name)
-        .ok_or(SystemError::Missing)?;
-    Ok(Json(document(*kind, app.document)?))
+    let kind = SystemKind::from_name(&name).ok_or(SystemError::Missing)?;
+    Ok(Json(document(kind, app.document)?))
 }
 
 /// Returns the document of a contact system, with its schema from the OpenAPI document.
-pub(in crate::http) fn document(
-    kind: SystemKind,
-    openapi: &Value,
-) -> Result<SystemDocument, SystemError> {
+pub(crate) fn document(kind: SystemKind, openapi: &Value) -> Result<SystemDocument, SystemError> {
     let spec = Spec {
         system: System::of_kind(kind),
         ..Spec::default()

@@ -1,4 +1,5 @@
-//! String enums that also accept an unknown name, which is then reported with all other faults.
+//! String enums, and their form in specifications: there they also accept an unknown name, which is then reported with
+//! all other faults.
 
 use serde::de::value::{Error as ValueError, StrDeserializer};
 use serde::de::{DeserializeOwned, IntoDeserializer};
@@ -59,12 +60,14 @@ impl<'de, T: DeserializeOwned> Deserialize<'de> for EnumValue<T> {
 macro_rules! string_enum {
     ($(#[doc = $doc:literal])* $name:ident { $($(#[$inner:meta])* $member:ident = $text:literal),+ $(,)? }) => {
         $(#[doc = $doc])*
-        #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+        #[derive(
+            Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, serde::Serialize, serde::Deserialize,
+        )]
         pub enum $name {
             $($(#[$inner])* #[serde(rename = $text)] $member),+
         }
 
-        impl crate::spec::StringEnum for $name {
+        impl crate::enum_value::StringEnum for $name {
             const NAMES: &'static [&'static str] = &[$($text),+];
         }
 
@@ -87,13 +90,18 @@ macro_rules! string_enum {
 
         impl $name {
             /// All members.
-            pub const ALL: &'static [Self] = &[$(Self::$member),+];
+            pub const ALL: [Self; [$($text),+].len()] = [$(Self::$member),+];
 
             /// Name of the member in JSON.
             pub fn as_str(self) -> &'static str {
                 match self {
                     $(Self::$member => $text),+
                 }
+            }
+
+            /// Returns the member of that name.
+            pub fn from_name(name: &str) -> Option<Self> {
+                Self::ALL.into_iter().find(|member| member.as_str() == name)
             }
         }
     };
