@@ -5,7 +5,7 @@ use std::ops::RangeInclusive;
 use api::spec::{Material, MaterialProperties, Materials, Provenance};
 use solver::scene::Elastic;
 
-use crate::reference::materials::{LibraryMaterial, MATERIALS};
+use crate::reference::materials::LibraryMaterial;
 use crate::spec::diagnostics::NAME_LIMIT;
 use crate::spec::diagnostics::{Diagnostics, shortened};
 use crate::spec::sourced::Sourced;
@@ -85,18 +85,17 @@ fn from_library(
     diagnostics: &mut Diagnostics,
 ) -> MaterialProperties {
     let Some(material) = LibraryMaterial::named(name) else {
-        let names: Vec<_> = MATERIALS.iter().map(|material| material.name).collect();
         diagnostics.fault(
             pointer,
             format!(
                 "`{}` is not in the material library ({}); write an object with its properties instead",
                 shortened(name),
-                names.join(", ")
+                LibraryMaterial::names().join(", ")
             ),
         );
         return MaterialProperties::default();
     };
-    let properties = material.properties();
+    let properties = material.properties.clone();
     diagnostics.provenance(format!("{pointer}/name"), provenance);
     for (field, value) in numbers(&properties) {
         if value.is_some() {

@@ -98,7 +98,10 @@ pub(super) fn from_preset(
             let given = |hardness| (hardness, Provenance::Given);
             properties.hardness_mpa.map(given)
         }
-        _ => library.map(|material| (material.hardness_mpa, material.hardness_provenance)),
+        _ => library.and_then(|material| {
+            let hardness = material.properties.hardness_mpa?;
+            Some((hardness, material.hardness_provenance))
+        }),
     };
     let (hardness, hardness_provenance) = own_hardness.unwrap_or((preset.hardness_mpa, provenance));
     diagnostics.provenance(side.field("k"), k_provenance);
