@@ -8,7 +8,7 @@ use prometheus_client::metrics::counter::Counter;
 use prometheus_client::metrics::family::Family;
 use prometheus_client::metrics::gauge::Gauge;
 use prometheus_client::metrics::histogram::Histogram;
-use prometheus_client::registry::{Registry, Unit};
+use prometheus_client::registry::{Metric, Registry, Unit};
 
 /// Histogram bounds of the wait for a worker, s: from an idle worker to a queue of a day.
 const WAIT_BOUNDS_S: [f64; 9] = [0.01, 0.1, 0.5, 1.0, 10.0, 60.0, 600.0, 3_600.0, 86_400.0];
@@ -95,83 +95,70 @@ impl Metrics {
 
 impl Default for Metrics {
     fn default() -> Self {
-        let metrics = Self {
-            registry: Registry::with_prefix("fretwear"),
-            jobs: ByStatus::default(),
-            oldest: ByStatus::default(),
-            ended: Family::default(),
-            oldest_checkpoint: Gauge::default(),
-            wal: Gauge::default(),
-            claim_latency: Histogram::new(WAIT_BOUNDS_S),
-            solve_duration: Histogram::new(SOLVE_BOUNDS_S),
-            attempts: Counter::default(),
-            reclaimed: Counter::default(),
-            stale_writes: Counter::default(),
-            checkpoints: Counter::default(),
-            streams_open: Gauge::default(),
-        };
-        metrics.registered()
+        let mut registry = Registry::with_prefix("fretwear");
+        let r = &mut registry;
+        let age_by_status = "Age of the oldest job by status";
+        let checkpoint_age = "Age of the oldest checkpoint of a running job";
+        let (wait, solve) = (
+            Histogram::new(WAIT_BOUNDS_S),
+            Histogram::new(SOLVE_BOUNDS_S),
+        );
+        let to_claim = "From submission to the first claim";
+        let to_end = "From a claim to the end of its job";
+        let stale = "Writes discarded because their lease was lost";
+        Self {
+            jobs: add(r, "jobs", "Jobs by status"),
+            oldest: add_in(
+                r,
+                "oldest_job_age",
+                Unit::Seconds,
+                age_by_status,
+                <_>::default(),
+            ),
+            ended: add(r, "jobs_ended", "Ended jobs"),
+            claim_latency: add_in(r, "claim_latency", Unit::Seconds, to_claim, wait),
+            solve_duration: add_in(r, "solve_duration", Unit::Seconds, to_end, solve),
+            attempts: add(r, "attempts", "Claims by workers"),
+            reclaimed: add(r, "rescues", "Jobs reclaimed from lost workers"),
+            stale_writes: add(r, "stale_writes_refused", stale),
+            checkpoints: add(r, "checkpoints", "Checkpoints stored"),
+            oldest_checkpoint: add_in(
+                r,
+                "oldest_checkpoint_age",
+                Unit::Seconds,
+                checkpoint_age,
+                <_>::default(),
+            ),
+            wal: add_in(
+                r,
+                "wal_size",
+                Unit::Bytes,
+                "Size of the write-ahead log",
+                <_>::default(),
+            ),
+            streams_open: add(r, "streams_open", "Open event streams"),
+            registry,
+        }
     }
 }
 
-impl Metrics {
-    fn registered(mut self) -> Self {
-        let r = &mut self.registry;
-        r.register("jobs", "Jobs by status", self.jobs.clone());
-        r.register_with_unit(
-            "oldest_job_age",
-            "Age of the oldest job by status",
-            Unit::Seconds,
-            self.oldest.clone(),
-        );
-        r.register("jobs_ended", "Ended jobs", self.ended.clone());
-        r.register_with_unit(
-            "claim_latency",
-            "From submission to the first claim",
-            Unit::Seconds,
-            self.claim_latency.clone(),
-        );
-        r.register_with_unit(
-            "solve_duration",
-            "From a claim to the end of its job",
-            Unit::Seconds,
-            self.solve_duration.clone(),
-        );
-        r.register("attempts", "Claims by workers", self.attempts.clone());
-        r.register(
-            "rescues",
-            "Jobs reclaimed from lost workers",
-            self.reclaimed.clone(),
-        );
-        r.register(
-            "stale_writes_refused",
-            "Writes discarded because their lease was lost",
-            self.stale_writes.clone(),
-        );
-        r.register(
-            "checkpoints",
-            "Checkpoints stored",
-            self.checkpoints.clone(),
-        );
-        r.register_with_unit(
-            "oldest_checkpoint_age",
-            "Age of the oldest checkpoint of a running job",
-            Unit::Seconds,
-            self.oldest_checkpoint.clone(),
-        );
-        r.register_with_unit(
-            "wal_size",
-            "Size of the write-ahead log",
-            Unit::Bytes,
-            self.wal.clone(),
-        );
-        r.register(
-            "streams_open",
-            "Open event streams",
-            self.streams_open.clone(),
-        );
-        self
-    }
+/// Creates and registers a metric.
+fn add<M: Metric + Clone + Default>(registry: &mut Registry, name: &str, help: &str) -> M {
+    let metric = M::default();
+    registry.register(name, help, metric.clone());
+    metric
+}
+
+/// Registers a metric with a unit.
+fn add_in<M: Metric + Clone>(
+    registry: &mut Registry,
+    name: &str,
+    unit: Unit,
+    help: &str,
+    metric: M,
+) -> M {
+    registry.register_with_unit(name, help, unit, metric.clone());
+    metric
 }
 
 impl fmt::Debug for Metrics {
