@@ -1,7 +1,7 @@
 //! Result documents as CSV: one header line with the units in the names, then numbers only.
 
 use ::csv::Writer;
-use api::results::{Loop, Pressure, Profile, SlidePosition};
+use api::results::{Loop, Pressure, Profile};
 use api::study::{Errors, Study, StudyRun};
 use solver::record::Record;
 
@@ -19,29 +19,22 @@ impl From<::csv::Error> for CsvError {
     }
 }
 
-type Table = Vec<(String, Vec<String>)>;
-
-fn write(table: &Table) -> Result<Vec<u8>, CsvError> {
+/// Writes a header and rows of as many cells.
+fn write<R>(
+    header: impl IntoIterator<Item = impl AsRef<[u8]>>,
+    rows: impl Iterator<Item = R>,
+) -> Result<Vec<u8>, CsvError>
+where
+    R: IntoIterator<Item = String>,
+{
     let mut writer = Writer::from_writer(Vec::new());
-    writer.write_record(table.iter().map(|(header, _)| header))?;
-    let rows = table
-        .iter()
-        .map(|(_, column)| column.len())
-        .min()
-        .unwrap_or(0);
-    for row in 0..rows {
-        writer.write_record(table.iter().map(|(_, column)| &column[row]))?;
+    writer.write_record(header)?;
+    for row in rows {
+        writer.write_record(row)?;
     }
     writer
         .into_inner()
         .map_err(|error| CsvError(error.to_string()))
-}
-
-fn numbers<T: ToString>(header: impl Into<String>, values: &[T]) -> (String, Vec<String>) {
-    (
-        header.into(),
-        values.iter().map(ToString::to_string).collect(),
-    )
 }
 
 /// The wear history, one line per computed cycle.
@@ -49,14 +42,14 @@ fn numbers<T: ToString>(header: impl Into<String>, values: &[T]) -> (String, Vec
 /// # Errors
 /// [`CsvError`] if the writer fails.
 pub fn wear_history(record: &Record) -> Result<Vec<u8>, CsvError> {
-    let table = columns::of(record)
-        .into_iter()
-        .map(|(header, values)| match values {
-            Values::Counts(counts) => numbers(header, counts),
-            Values::Numbers(values) => numbers(header, values),
+    let (header, columns): (Vec<_>, Vec<_>) = columns::of(record).into_iter().unzip();
+    let cells = |row: usize| {
+        columns.iter().map(move |values| match values {
+            Values::Counts(counts) => counts[row].to_string(),
+            Values::Numbers(numbers) => numbers[row].to_string(),
         })
-        .collect();
-    write(&table)
+    };
+    write(header, (0..record.cycle.len()).map(cells))
 }
 
 /// A profile: side, position, worn depth.
@@ -64,22 +57,15 @@ pub fn wear_history(record: &Record) -> Result<Vec<u8>, CsvError> {
 /// # Errors
 /// [`CsvError`] if the writer fails.
 pub fn profile(profile: &Profile) -> Result<Vec<u8>, CsvError> {
-    let (mut sides, mut x_mm, mut depth_mm) = (Vec::new(), Vec::new(), Vec::new());
-    for (side, surface) in [
+    let sides = [
         ("receptacle", &profile.receptacle),
         ("slider", &profile.slider),
-    ] {
-        for (x, depth) in surface.x_mm.iter().zip(&surface.depth_mm) {
-            sides.push(side);
-            x_mm.push(*x);
-            depth_mm.push(*depth);
-        }
-    }
-    write(&vec![
-        numbers("side", &sides),
-        numbers("x_mm", &x_mm),
-        numbers("depth_mm", &depth_mm),
-    ])
+    ];
+    let rows = sides.into_iter().flat_map(|(side, surface)| {
+        let points = surface.x_mm.iter().zip(&surface.depth_mm);
+        points.map(move |(x, depth)| [side.to_owned(), x.to_string(), depth.to_string()])
+    });
+    write(["side", "x_mm", "depth_mm"], rows)
 }
 
 /// Tractions: phase, displacement of the slider, position on the receptacle, pressure, shear.
@@ -87,29 +73,16 @@ pub fn profile(profile: &Profile) -> Result<Vec<u8>, CsvError> {
 /// # Errors
 /// [`CsvError`] if the writer fails.
 pub fn pressure(pressure: &Pressure) -> Result<Vec<u8>, CsvError> {
-    let mut table: Table = ["phase", "slider_x_mm", "x_mm", "pressure_mpa", "shear_mpa"]
-        .map(|header| (header.to_owned(), Vec::new()))
-        .to_vec();
-    for position in &pressure.positions {
-        for ((x, p), q) in position
-            .x_mm
-            .iter()
-            .zip(&position.pressure_mpa)
-            .zip(&position.shear_mpa)
-        {
-            let cells = [
-                phase_name(position.phase).to_owned(),
-                position.slider_x_mm.to_string(),
-                x.to_string(),
-                p.to_string(),
-                q.to_string(),
-            ];
-            for ((_, column), cell) in table.iter_mut().zip(cells) {
-                column.push(cell);
-            }
-        }
-    }
-    write(&table)
+    let rows = pressure.positions.iter().flat_map(|at| {
+        let tractions = at.pressure_mpa.iter().zip(&at.shear_mpa);
+        at.x_mm.iter().zip(tractions).map(|(x, (p, q))| {
+            let phase = at.phase.as_str().to_owned();
+            let [slider_x, x, p, q] = [at.slider_x_mm, *x, *p, *q].map(|value| value.to_string());
+            [phase, slider_x, x, p, q]
+        })
+    });
+    let header = ["phase", "slider_x_mm", "x_mm", "pressure_mpa", "shear_mpa"];
+    write(header, rows)
 }
 
 /// A friction loop: displacement, force.
@@ -117,13 +90,10 @@ pub fn pressure(pressure: &Pressure) -> Result<Vec<u8>, CsvError> {
 /// # Errors
 /// [`CsvError`] if the writer fails.
 pub fn friction_loop(friction_loop: &Loop) -> Result<Vec<u8>, CsvError> {
-    write(&vec![
-        numbers("displacement_mm", &friction_loop.displacement_mm),
-        numbers(
-            "tangential_force_n_per_mm",
-            &friction_loop.tangential_force_n_per_mm,
-        ),
-    ])
+    let forces = &friction_loop.tangential_force_n_per_mm;
+    let points = friction_loop.displacement_mm.iter().zip(forces);
+    let rows = points.map(|(x, force)| [x.to_string(), force.to_string()]);
+    write(["displacement_mm", "tangential_force_n_per_mm"], rows)
 }
 
 /// A study, one line per run; values that a run does not have are empty cells.
@@ -132,15 +102,14 @@ pub fn friction_loop(friction_loop: &Loop) -> Result<Vec<u8>, CsvError> {
 /// [`CsvError`] if the writer fails.
 pub fn study(study: &Study) -> Result<Vec<u8>, CsvError> {
     type Cell = fn(&StudyRun) -> String;
+    fn number(value: Option<f64>) -> String {
+        value.map_or_else(String::new, |value| value.to_string())
+    }
     fn error(run: &StudyRun, of: fn(&Errors) -> f64) -> String {
-        let error = run.errors.as_ref().map(of);
-        error.map_or_else(String::new, |error| error.to_string())
+        number(run.errors.as_ref().map(of))
     }
     let columns: [(&str, Cell); 14] = [
-        ("tolerance", |run| {
-            let tolerance = run.tolerance;
-            tolerance.map_or_else(String::new, |tolerance| tolerance.to_string())
-        }),
+        ("tolerance", |run| number(run.tolerance)),
         ("contact_element_mm", |run| {
             run.contact_element_mm.to_string()
         }),
@@ -161,15 +130,9 @@ pub fn study(study: &Study) -> Result<Vec<u8>, CsvError> {
         ("on_front", |run| run.on_front.to_string()),
         ("failure", |run| run.failure.clone().unwrap_or_default()),
     ];
-    let column =
-        |(header, cell): (&str, Cell)| (header.to_owned(), study.runs.iter().map(cell).collect());
-    write(&columns.into_iter().map(column).collect())
-}
-
-fn phase_name(phase: SlidePosition) -> &'static str {
-    match phase {
-        SlidePosition::Neutral => "neutral",
-        SlidePosition::Rightmost => "rightmost",
-        SlidePosition::Leftmost => "leftmost",
-    }
+    let rows = study
+        .runs
+        .iter()
+        .map(|run| columns.map(|(_, cell)| cell(run)));
+    write(columns.map(|(header, _)| header), rows)
 }

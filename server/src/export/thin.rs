@@ -9,7 +9,7 @@
 use std::cmp::Ordering;
 use std::collections::{BTreeSet, BinaryHeap};
 
-use api::results::{Loop, Pressure, Profile, SideProfile};
+use api::results::{Loop, Pressure, Profile};
 use solver::record::{CycleReport, Record};
 
 use crate::export::columns;
@@ -41,54 +41,40 @@ pub fn rows(rows: Vec<CycleReport>, points: usize) -> Vec<CycleReport> {
 }
 
 /// Thins a profile, each side separately.
-pub fn profile(profile: Profile, points: usize) -> Profile {
-    let side = |side: SideProfile| {
-        let selected = select(&side.x_mm, &[&side.depth_mm], points);
-        SideProfile {
-            x_mm: at_indices(&side.x_mm, &selected),
-            depth_mm: at_indices(&side.depth_mm, &selected),
-        }
-    };
-    Profile {
-        cycle: profile.cycle,
-        receptacle: side(profile.receptacle),
-        slider: side(profile.slider),
+pub fn profile(mut profile: Profile, points: usize) -> Profile {
+    for side in [&mut profile.receptacle, &mut profile.slider] {
+        curves(&mut side.x_mm, [&mut side.depth_mm], points);
     }
+    profile
 }
 
 /// Thins tractions, each position separately.
 pub fn pressure(mut pressure: Pressure, points: usize) -> Pressure {
-    for position in &mut pressure.positions {
-        let series = [&position.pressure_mpa[..], &position.shear_mpa[..]];
-        let selected = select(&position.x_mm, &series, points);
-        position.x_mm = at_indices(&position.x_mm, &selected);
-        position.pressure_mpa = at_indices(&position.pressure_mpa, &selected);
-        position.shear_mpa = at_indices(&position.shear_mpa, &selected);
+    for at in &mut pressure.positions {
+        let series = [&mut at.pressure_mpa, &mut at.shear_mpa];
+        curves(&mut at.x_mm, series, points);
     }
     pressure
 }
 
 /// Thins a friction loop, as a curve over its increments.
-pub fn friction_loop(friction_loop: Loop, points: usize) -> Loop {
+pub fn friction_loop(mut friction_loop: Loop, points: usize) -> Loop {
     let (x, force) = (
-        friction_loop.displacement_mm,
-        friction_loop.tangential_force_n_per_mm,
+        &mut friction_loop.displacement_mm,
+        &mut friction_loop.tangential_force_n_per_mm,
     );
-    let increments: Vec<f64> = (0..u32::MAX).take(x.len()).map(f64::from).collect();
-    let selected = select(&increments, &[&x, &force], points);
-    Loop {
-        cycle: friction_loop.cycle,
-        displacement_mm: at_indices(&x, &selected),
-        tangential_force_n_per_mm: at_indices(&force, &selected),
-    }
+    let mut increments = (0..u32::MAX).take(x.len()).map(f64::from).collect();
+    curves(&mut increments, [x, force], points);
+    friction_loop
 }
 
-fn at_indices(values: &[f64], selected: &BTreeSet<usize>) -> Vec<f64> {
-    selected
-        .iter()
-        .filter_map(|index| values.get(*index))
-        .copied()
-        .collect()
+/// Thins curves over the ascending `at`.
+fn curves<const N: usize>(at: &mut Vec<f64>, series: [&mut Vec<f64>; N], points: usize) {
+    let selected = select(at, &series.each_ref().map(|values| &values[..]), points);
+    for values in series.into_iter().chain([at]) {
+        let chosen = selected.iter().filter_map(|index| values.get(*index));
+        *values = chosen.copied().collect();
+    }
 }
 
 #[expect(clippy::cast_precision_loss, reason = "cycles stay below 1e9")]
