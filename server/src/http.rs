@@ -54,13 +54,13 @@ pub fn router(app: App) -> Router {
 }
 
 async fn no_such_path(uri: Uri) -> Response {
-    ProblemType::NoSuchPath
+    ProblemType::NO_SUCH_PATH
         .with_detail(format!("there is no route {}", uri.path()))
         .into_response()
 }
 
 async fn wrong_method(method: Method, uri: Uri) -> Response {
-    ProblemType::WrongMethod
+    ProblemType::WRONG_METHOD
         .with_detail(format!("{} does not support {method}", uri.path()))
         .into_response()
 }

@@ -20,19 +20,10 @@ use crate::http::problem::ProblemType;
 const MIN_TOKEN_LENGTH: usize = 16;
 /// Maximum length of a token, characters; it must fit into a header.
 const MAX_TOKEN_LENGTH: usize = 512;
-/// Paths that need no token: health checks, and pages and scripts, which contain no data.
-const PUBLIC_PATHS: [&str; 10] = [
-    "/",
-    "/docs",
-    "/healthz",
-    "/readyz",
-    "/assets/dashboard.js",
-    "/assets/job.js",
-    "/assets/chart.js",
-    "/assets/docs.js",
-    "/assets/page.js",
-    "/assets/page.css",
-];
+/// Paths that need no token, besides the assets of the pages: health checks, and pages, which contain no data.
+const PUBLIC_PATHS: [&str; 4] = ["/", "/docs", "/healthz", "/readyz"];
+/// The assets are the scripts and style sheets of the pages, without data too.
+const PUBLIC_FOLDER: &str = "/assets/";
 
 /// Error of a configured token.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
@@ -77,13 +68,18 @@ impl Access {
     /// Returns the response to a request that has no access.
     fn rejection(&self, path: &str, headers: &HeaderMap) -> Option<Response> {
         if let Some(detail) = self.foreign_host(headers) {
-            return Some(ProblemType::ForeignHost.with_detail(detail).into_response());
+            return Some(
+                ProblemType::FOREIGN_HOST
+                    .with_detail(detail)
+                    .into_response(),
+            );
         }
         let digest = self.token_sha256.as_ref()?;
-        if PUBLIC_PATHS.contains(&path) || has_token(headers, digest) {
+        let public = PUBLIC_PATHS.contains(&path) || path.starts_with(PUBLIC_FOLDER);
+        if public || has_token(headers, digest) {
             return None;
         }
-        let mut response = ProblemType::TokenRequired
+        let mut response = ProblemType::TOKEN_REQUIRED
             .with_detail("send `Authorization: Bearer TOKEN` with this service's token")
             .into_response();
         let challenge = HeaderValue::from_static("Bearer realm=\"fretwear\"");

@@ -1,5 +1,6 @@
 //! Extractors, with problem documents as rejections.
 
+use std::fmt;
 use std::time::Duration;
 
 use axum::body::{Body, Bytes};
@@ -10,6 +11,7 @@ use futures_util::StreamExt;
 use serde::de::DeserializeOwned;
 use uuid::Uuid;
 
+use crate::batch::Kind;
 use crate::http::problem::{ProblemResponse, ProblemType};
 
 /// Maximum size of a body, bytes.
@@ -28,58 +30,48 @@ impl<S: Send + Sync> FromRequestParts<S> for JobId {
     type Rejection = ProblemResponse;
 
     async fn from_request_parts(parts: &mut Parts, state: &S) -> Result<Self, ProblemResponse> {
-        let id = path_id(parts, state, "job", ProblemType::NoSuchJob).await?;
+        let id = path_id(parts, state, "job", ProblemType::NO_SUCH_JOB).await?;
         Ok(Self(id))
     }
 }
 
-/// Id of a sweep, from the path.
+/// A batch, from the path: its kind is that of the collection.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct SweepId(pub(super) Uuid);
+pub(super) struct BatchId {
+    pub(super) kind: Kind,
+    pub(super) id: Uuid,
+}
 
-impl<S: Send + Sync> FromRequestParts<S> for SweepId {
-    type Rejection = ProblemResponse;
-
-    async fn from_request_parts(parts: &mut Parts, state: &S) -> Result<Self, ProblemResponse> {
-        let id = path_id(parts, state, "sweep", ProblemType::NoSuchSweep).await?;
-        Ok(Self(id))
+impl fmt::Display for BatchId {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} {}", self.kind, self.id)
     }
 }
 
-/// Id of an accuracy study, from the path.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct StudyId(pub(super) Uuid);
-
-impl<S: Send + Sync> FromRequestParts<S> for StudyId {
+impl<S: Send + Sync> FromRequestParts<S> for BatchId {
     type Rejection = ProblemResponse;
 
     async fn from_request_parts(parts: &mut Parts, state: &S) -> Result<Self, ProblemResponse> {
-        let id = path_id(parts, state, "study", ProblemType::NoSuchStudy).await?;
-        Ok(Self(id))
+        let (kind, missing) = if parts.uri.path().starts_with("/v1/studies/") {
+            (Kind::AccuracyStudy, ProblemType::NO_SUCH_STUDY)
+        } else {
+            (Kind::Sweep, ProblemType::NO_SUCH_SWEEP)
+        };
+        let id = path_id(parts, state, &kind.to_string(), missing).await?;
+        Ok(Self { kind, id })
     }
 }
 
-/// Name of a file, from the path. It is compared with names in the database and never used as a path.
+/// Name of a file or of a kind, from the path. It is compared with known names and never used as a path.
 #[derive(Debug, Clone)]
-pub(super) struct FileName(pub(super) String);
+pub(super) struct Name(pub(super) String);
 
-impl<S: Send + Sync> FromRequestParts<S> for FileName {
+impl<S: Send + Sync> FromRequestParts<S> for Name {
     type Rejection = ProblemResponse;
 
     async fn from_request_parts(parts: &mut Parts, state: &S) -> Result<Self, ProblemResponse> {
-        Ok(Self(path_parameter(parts, state, "name").await))
-    }
-}
-
-/// Name of a contact system, from the path.
-#[derive(Debug, Clone)]
-pub(super) struct SystemName(pub(super) String);
-
-impl<S: Send + Sync> FromRequestParts<S> for SystemName {
-    type Rejection = ProblemResponse;
-
-    async fn from_request_parts(parts: &mut Parts, state: &S) -> Result<Self, ProblemResponse> {
-        Ok(Self(path_parameter(parts, state, "kind").await))
+        let name = path_parameter(parts, state, &["name", "kind"]).await;
+        Ok(Self(name))
     }
 }
 
@@ -88,23 +80,22 @@ async fn path_id<S: Send + Sync>(
     parts: &mut Parts,
     state: &S,
     noun: &str,
-    problem: ProblemType,
+    missing: ProblemType,
 ) -> Result<Uuid, ProblemResponse> {
-    let text = path_parameter(parts, state, "id").await;
+    let text = path_parameter(parts, state, &["id"]).await;
     Uuid::parse_str(&text)
-        .map_err(|_| problem.with_detail(format!("the id in the path is not the id of a {noun}")))
+        .map_err(|_| missing.with_detail(format!("the id in the path is not the id of a {noun}")))
 }
 
-/// A parameter of the path; empty, which matches no name, if it is not valid UTF-8.
-async fn path_parameter<S: Send + Sync>(parts: &mut Parts, state: &S, name: &str) -> String {
+/// A parameter of the path by any of these names; empty, which matches no name, if it is not valid UTF-8.
+async fn path_parameter<S: Send + Sync>(parts: &mut Parts, state: &S, names: &[&str]) -> String {
     let Ok(parameters) = RawPathParams::from_request_parts(parts, state).await else {
         return String::new();
     };
-    parameters
-        .iter()
-        .find(|(found, _)| *found == name)
-        .map(|(_, value)| value.to_owned())
-        .unwrap_or_default()
+    let mut named = parameters.iter().filter(|(name, _)| names.contains(name));
+    named
+        .next()
+        .map_or_else(String::new, |(_, value)| value.to_owned())
 }
 
 /// Query parameters.
@@ -121,7 +112,7 @@ impl<T: DeserializeOwned, S: Send + Sync> FromRequestParts<S> for Params<T> {
             .map_err(|rejection| {
                 let text = rejection.body_text();
                 let detail = text.strip_prefix("Failed to deserialize query string: ");
-                ProblemType::InvalidQuery.with_detail(detail.unwrap_or(&text))
+                ProblemType::INVALID_QUERY.with_detail(detail.unwrap_or(&text))
             })
     }
 }
@@ -135,7 +126,7 @@ impl<S: Send + Sync> FromRequest<S> for JsonBody {
 
     async fn from_request(request: Request, _: &S) -> Result<Self, ProblemResponse> {
         if !declared_as_json(request.headers()) {
-            return Err(ProblemType::MediaType
+            return Err(ProblemType::MEDIA_TYPE
                 .with_detail("send the specification with `content-type: application/json`"));
         }
         let body = receive_within(BODY_TIMEOUT, request.into_body()).await?;
@@ -148,14 +139,9 @@ fn declared_as_json(headers: &HeaderMap) -> bool {
     let Some(value) = headers.get(header::CONTENT_TYPE) else {
         return true;
     };
-    let essence = value
-        .to_str()
-        .unwrap_or_default()
-        .split(';')
-        .next()
-        .unwrap_or_default()
-        .trim()
-        .to_ascii_lowercase();
+    let text = value.to_str().unwrap_or_default();
+    let (essence, _) = text.split_once(';').unwrap_or((text, ""));
+    let essence = essence.trim().to_ascii_lowercase();
     essence == "application/json"
         || (essence.starts_with("application/") && essence.ends_with("+json"))
 }
@@ -166,7 +152,7 @@ async fn receive_within(timeout: Duration, body: Body) -> Result<Bytes, ProblemR
         .unwrap_or_else(|_| {
             let limit_s = timeout.as_secs();
             let detail = format!("the body did not arrive within {limit_s} s");
-            Err(ProblemType::RequestTimeout.with_detail(detail))
+            Err(ProblemType::REQUEST_TIMEOUT.with_detail(detail))
         })
 }
 
@@ -176,7 +162,7 @@ async fn receive(body: Body) -> Result<Bytes, ProblemResponse> {
     let mut chunks = body.into_data_stream();
     let (mut bytes, mut length) = (Vec::new(), 0_usize);
     while let Some(chunk) = chunks.next().await {
-        let failed = |_| ProblemType::UnreadableBody.with_detail("the body could not be received");
+        let failed = |_| ProblemType::UNREADABLE_BODY.with_detail("the body could not be received");
         let chunk = chunk.map_err(failed)?;
         length = length.saturating_add(chunk.len());
         if length <= MAX_BODY_BYTES {
@@ -190,7 +176,7 @@ async fn receive(body: Body) -> Result<Bytes, ProblemResponse> {
     }
     if length > MAX_BODY_BYTES {
         let detail = format!("the body has more than {MAX_BODY_BYTES} bytes");
-        return Err(ProblemType::BodyTooLarge.with_detail(detail));
+        return Err(ProblemType::BODY_TOO_LARGE.with_detail(detail));
     }
     Ok(bytes.into())
 }

@@ -28,8 +28,8 @@ pub(super) enum KeyError {
 impl RouteError for KeyError {
     fn problem_type(&self) -> ProblemType {
         match self {
-            Self::Length(_) | Self::Text => ProblemType::InvalidKey,
-            Self::Reused => ProblemType::KeyReused,
+            Self::Length(_) | Self::Text => ProblemType::INVALID_KEY,
+            Self::Reused => ProblemType::KEY_REUSED,
         }
     }
 }

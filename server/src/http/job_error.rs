@@ -23,8 +23,8 @@ pub(super) enum JobError {
 impl RouteError for JobError {
     fn problem_type(&self) -> ProblemType {
         match self {
-            Self::Missing(_) | Self::Deleted(_) => ProblemType::NoSuchJob,
-            Self::Active(_) => ProblemType::JobActive,
+            Self::Missing(_) | Self::Deleted(_) => ProblemType::NO_SUCH_JOB,
+            Self::Active(_) => ProblemType::JOB_ACTIVE,
         }
     }
 }

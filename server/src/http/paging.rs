@@ -26,9 +26,7 @@ pub(super) enum PageError {
 }
 
 impl RouteError for PageError {
-    fn problem_type(&self) -> ProblemType {
-        ProblemType::InvalidQuery
-    }
+    const TYPE: ProblemType = ProblemType::INVALID_QUERY;
 }
 
 /// Length and start of a page of a list.

@@ -16,115 +16,79 @@ const MEDIA_TYPE: &str = "application/problem+json";
 /// `Retry-After` of a request that the service cannot take at present, s.
 const RETRY_AFTER_S: &str = "5";
 
-/// Type of a problem.
+/// Type of a problem: a row of the table below.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum ProblemType {
-    /// The body is not JSON, or a value in it has the wrong type.
-    UnreadableBody,
-    /// The specification has faults.
-    InvalidSpecification,
-    /// The `Idempotency-Key` was used with another body.
-    KeyReused,
-    /// The `Idempotency-Key` is not valid.
-    InvalidKey,
-    /// A query parameter is not valid.
-    InvalidQuery,
-    /// The range lies outside the file.
-    Range,
-    /// The body is too large.
-    BodyTooLarge,
-    /// The body is not declared as JSON.
-    MediaType,
-    /// No route has this path.
-    NoSuchPath,
-    /// The path does not support this method.
-    WrongMethod,
-    /// No job has this id.
-    NoSuchJob,
-    /// No sweep has this id.
-    NoSuchSweep,
-    /// No accuracy study has this id.
-    NoSuchStudy,
-    /// The study was stored in a format that this version cannot compare.
-    StudyOutdated,
-    /// The job has no such result (yet).
-    NoSuchResult,
-    /// No contact system has this name.
-    NoSuchSystem,
-    /// The job has not ended.
-    JobActive,
-    /// A job of the sweep has not ended.
-    SweepActive,
-    /// A job of the study has not ended.
-    StudyActive,
-    /// The request was sent for another host or from another origin.
-    ForeignHost,
-    /// The access token is missing or wrong.
-    TokenRequired,
-    /// The request did not arrive in time.
-    RequestTimeout,
-    /// The service cannot take the request at present.
-    Busy,
-    /// Internal error.
-    Internal,
+pub(super) struct ProblemType {
+    status: u16,
+    name: &'static str,
+    /// Title, the same for every problem of the type.
+    title: &'static str,
+}
+
+const fn row(status: u16, name: &'static str, title: &'static str) -> ProblemType {
+    ProblemType {
+        status,
+        name,
+        title,
+    }
 }
 
 impl ProblemType {
-    /// Status, name and title.
-    fn row(self) -> (u16, &'static str, &'static str) {
-        match self {
-            Self::UnreadableBody => (400, "unreadable-body", "the body cannot be read"),
-            Self::InvalidSpecification => {
-                (422, "invalid-specification", "the specification has faults")
-            }
-            Self::KeyReused => (
-                422,
-                "idempotency-key-reused",
-                "the key was used with another body",
-            ),
-            Self::InvalidKey => (400, "invalid-idempotency-key", "the key is not valid"),
-            Self::InvalidQuery => (400, "invalid-query", "a query parameter is not valid"),
-            Self::Range => (416, "range", "the range lies outside the file"),
-            Self::BodyTooLarge => (413, "body-too-large", "the body is too large"),
-            Self::MediaType => (415, "media-type", "the body is not declared as JSON"),
-            Self::NoSuchPath => (404, "no-such-path", "there is no such path"),
-            Self::WrongMethod => (405, "wrong-method", "the path does not support this method"),
-            Self::NoSuchJob => (404, "no-such-job", "there is no such job"),
-            Self::NoSuchSweep => (404, "no-such-sweep", "there is no such sweep"),
-            Self::NoSuchStudy => (404, "no-such-study", "there is no such study"),
-            Self::StudyOutdated => (
-                410,
-                "study-outdated",
-                "the study cannot be compared any more",
-            ),
-            Self::NoSuchResult => (404, "no-such-result", "the job has no such result"),
-            Self::NoSuchSystem => (404, "no-such-system", "there is no such system"),
-            Self::JobActive => (409, "job-active", "the job has not ended"),
-            Self::SweepActive => (
-                409,
-                "sweep-active",
-                "the sweep has jobs that have not ended",
-            ),
-            Self::StudyActive => (
-                409,
-                "study-active",
-                "the study has jobs that have not ended",
-            ),
-            Self::ForeignHost => (403, "foreign-host", "the request is for another host"),
-            Self::TokenRequired => (
-                401,
-                "token-required",
-                "the access token is missing or wrong",
-            ),
-            Self::RequestTimeout => (408, "request-timeout", "the request did not arrive in time"),
-            Self::Busy => (
-                503,
-                "busy",
-                "the service cannot take the request at present",
-            ),
-            Self::Internal => (500, "internal", "internal error"),
-        }
-    }
+    pub(super) const UNREADABLE_BODY: Self = row(400, "unreadable-body", "the body cannot be read");
+    pub(super) const INVALID_SPECIFICATION: Self =
+        row(422, "invalid-specification", "the specification has faults");
+    pub(super) const KEY_REUSED: Self = row(
+        422,
+        "idempotency-key-reused",
+        "the key was used with another body",
+    );
+    pub(super) const INVALID_KEY: Self =
+        row(400, "invalid-idempotency-key", "the key is not valid");
+    pub(super) const INVALID_QUERY: Self =
+        row(400, "invalid-query", "a query parameter is not valid");
+    pub(super) const RANGE: Self = row(416, "range", "the range lies outside the file");
+    pub(super) const BODY_TOO_LARGE: Self = row(413, "body-too-large", "the body is too large");
+    pub(super) const MEDIA_TYPE: Self = row(415, "media-type", "the body is not declared as JSON");
+    pub(super) const NO_SUCH_PATH: Self = row(404, "no-such-path", "there is no such path");
+    pub(super) const WRONG_METHOD: Self =
+        row(405, "wrong-method", "the path does not support this method");
+    pub(super) const NO_SUCH_JOB: Self = row(404, "no-such-job", "there is no such job");
+    pub(super) const NO_SUCH_SWEEP: Self = row(404, "no-such-sweep", "there is no such sweep");
+    pub(super) const NO_SUCH_STUDY: Self = row(404, "no-such-study", "there is no such study");
+    pub(super) const STUDY_OUTDATED: Self = row(
+        410,
+        "study-outdated",
+        "the study cannot be compared any more",
+    );
+    pub(super) const NO_SUCH_RESULT: Self =
+        row(404, "no-such-result", "the job has no such result");
+    pub(super) const NO_SUCH_SYSTEM: Self = row(404, "no-such-system", "there is no such system");
+    pub(super) const JOB_ACTIVE: Self = row(409, "job-active", "the job has not ended");
+    pub(super) const SWEEP_ACTIVE: Self = row(
+        409,
+        "sweep-active",
+        "the sweep has jobs that have not ended",
+    );
+    pub(super) const STUDY_ACTIVE: Self = row(
+        409,
+        "study-active",
+        "the study has jobs that have not ended",
+    );
+    pub(super) const FOREIGN_HOST: Self =
+        row(403, "foreign-host", "the request is for another host");
+    pub(super) const TOKEN_REQUIRED: Self = row(
+        401,
+        "token-required",
+        "the access token is missing or wrong",
+    );
+    pub(super) const REQUEST_TIMEOUT: Self =
+        row(408, "request-timeout", "the request did not arrive in time");
+    pub(super) const BUSY: Self = row(
+        503,
+        "busy",
+        "the service cannot take the request at present",
+    );
+    pub(super) const INTERNAL: Self = row(500, "internal", "internal error");
 
     /// A problem of this type with its explanation.
     pub(super) fn with_detail(self, detail: impl Into<String>) -> ProblemResponse {
@@ -155,7 +119,7 @@ impl ProblemResponse {
     pub(super) fn internal(cause: &dyn std::error::Error) -> Self {
         tracing::error!(%cause, "a request failed");
         Self {
-            problem_type: ProblemType::Internal,
+            problem_type: ProblemType::INTERNAL,
             detail: None,
             faults: Vec::new(),
         }
@@ -164,9 +128,12 @@ impl ProblemResponse {
 
 /// An error of a route. `?` in a handler turns it into the response, with the error's text as detail.
 pub(super) trait RouteError: std::error::Error {
+    /// Type of the problem, if all variants of the error have the same.
+    const TYPE: ProblemType = ProblemType::INTERNAL;
+
     /// Type of the problem.
     fn problem_type(&self) -> ProblemType {
-        ProblemType::Internal
+        Self::TYPE
     }
 }
 
@@ -180,7 +147,7 @@ impl RouteError for DocumentError {}
 impl<E: RouteError> From<E> for ProblemResponse {
     fn from(error: E) -> Self {
         match error.problem_type() {
-            ProblemType::Internal => Self::internal(&error),
+            ProblemType::INTERNAL => Self::internal(&error),
             problem_type => problem_type.with_detail(error.to_string()),
         }
     }
@@ -194,7 +161,7 @@ impl From<StoreError> for ProblemResponse {
             error => return Self::internal(error),
         };
         tracing::warn!(%error, "a request was rejected for now");
-        ProblemType::Busy.with_detail(detail)
+        ProblemType::BUSY.with_detail(detail)
     }
 }
 
@@ -204,11 +171,11 @@ impl From<Refused> for ProblemResponse {
             Refused::Parse(error) => {
                 let detail = error.to_string();
                 let fault = Fault::new(error.pointer, error.detail);
-                ProblemType::UnreadableBody
+                ProblemType::UNREADABLE_BODY
                     .with_detail(detail)
                     .with_faults(vec![fault])
             }
-            Refused::Faults(faults) => ProblemType::InvalidSpecification
+            Refused::Faults(faults) => ProblemType::INVALID_SPECIFICATION
                 .with_detail(format!("{} fault(s) in the specification", faults.len()))
                 .with_faults(faults),
         }
@@ -217,7 +184,11 @@ impl From<Refused> for ProblemResponse {
 
 impl IntoResponse for ProblemResponse {
     fn into_response(self) -> Response {
-        let (status, name, title) = self.problem_type.row();
+        let ProblemType {
+            status,
+            name,
+            title,
+        } = self.problem_type;
         let problem = Problem {
             kind: format!("/problems/{name}"),
             title: title.to_owned(),
@@ -229,7 +200,7 @@ impl IntoResponse for ProblemResponse {
         let mut response = (status, axum::Json(problem)).into_response();
         let headers = response.headers_mut();
         headers.insert(header::CONTENT_TYPE, HeaderValue::from_static(MEDIA_TYPE));
-        if self.problem_type == ProblemType::Busy {
+        if self.problem_type == ProblemType::BUSY {
             headers.insert(header::RETRY_AFTER, HeaderValue::from_static(RETRY_AFTER_S));
         }
         response

@@ -191,7 +191,7 @@ async fn problems_of_access_and_of_the_service_match_the_snapshot() {
         cause: std::io::ErrorKind::StorageFull.into(),
     };
     for response in [
-        ProblemType::RequestTimeout.with_detail("the body did not arrive within 30 s"),
+        ProblemType::REQUEST_TIMEOUT.with_detail("the body did not arrive within 30 s"),
         ProblemResponse::from(full),
         ProblemResponse::internal(&hidden),
     ] {

@@ -2,11 +2,11 @@
 //!
 //! Every batch is a sweep to these routes: `/v1/sweeps` lists, shows, cancels and deletes studies too.
 
-pub(in crate::http) mod cancel;
-pub(in crate::http) mod delete;
+pub(crate) mod cancel;
+pub(crate) mod delete;
 mod error;
-pub(in crate::http) mod list;
-pub(in crate::http) mod outcomes;
-pub(in crate::http) mod picture;
-pub(in crate::http) mod show;
-pub(in crate::http) mod submit;
+pub(crate) mod list;
+pub(crate) mod outcomes;
+pub(crate) mod picture;
+pub(crate) mod show;
+pub(crate) mod submit;

@@ -1,9 +1,9 @@
 //! Jobs: plan, submit, list, show, cancel, delete, stream.
 
-pub(in crate::http) mod cancel;
-pub(in crate::http) mod delete;
-pub(in crate::http) mod list;
-pub(in crate::http) mod plan;
-pub(in crate::http) mod show;
-pub(in crate::http) mod stream;
-pub(in crate::http) mod submit;
+pub(crate) mod cancel;
+pub(crate) mod delete;
+pub(crate) mod list;
+pub(crate) mod plan;
+pub(crate) mod show;
+pub(crate) mod stream;
+pub(crate) mod submit;

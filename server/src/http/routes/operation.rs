@@ -1,6 +1,6 @@
 //! Operation of the service: health checks, metrics, pages, OpenAPI document.
 
-pub(in crate::http) mod check_health;
-pub(in crate::http) mod serve_pages;
-pub(in crate::http) mod show_metrics;
-pub(in crate::http) mod show_openapi;
+pub(crate) mod check_health;
+pub(crate) mod serve_pages;
+pub(crate) mod show_metrics;
+pub(crate) mod show_openapi;

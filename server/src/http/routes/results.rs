@@ -1,8 +1,8 @@
 //! Results of a job.
 
-pub(in crate::http) mod download_archive;
-pub(in crate::http) mod download_file;
-pub(in crate::http) mod list;
-pub(in crate::http) mod max_points;
-pub(in crate::http) mod read_history;
-pub(in crate::http) mod read_snapshot;
+pub(crate) mod download_archive;
+pub(crate) mod download_file;
+pub(crate) mod list;
+pub(crate) mod max_points;
+pub(crate) mod read_history;
+pub(crate) mod read_snapshot;

@@ -1,5 +1,5 @@
 //! Contact systems: presets, and JSON Schemas of their specifications.
 
-pub(in crate::http) mod list;
-pub(in crate::http) mod schema;
-pub(in crate::http) mod show;
+pub(crate) mod list;
+pub(crate) mod schema;
+pub(crate) mod show;

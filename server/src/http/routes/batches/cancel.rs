@@ -6,14 +6,16 @@ use api::sweep::Sweep;
 use axum::Json;
 use axum::extract::State;
 use axum::http::StatusCode;
-use uuid::Uuid;
 
-use crate::batch::{Document, Kind};
+use crate::batch::Document;
 use crate::clock::now_ms;
 use crate::http::app::App;
-use crate::http::extract::{StudyId, SweepId};
+use crate::http::extract::BatchId;
 use crate::http::problem::ProblemResponse;
 use crate::http::routes::batches::show::document;
+
+/// The batch as it stands.
+type Cancelled = Result<(StatusCode, Json<Document>), ProblemResponse>;
 
 /// Cancels all jobs of a sweep.
 #[utoipa::path(
@@ -26,11 +28,8 @@ use crate::http::routes::batches::show::document;
         (status = 404, description = "No such sweep", body = Problem),
     )
 )]
-pub(in crate::http) async fn cancel_sweep(
-    State(app): State<App>,
-    SweepId(id): SweepId,
-) -> Result<(StatusCode, Json<Document>), ProblemResponse> {
-    cancel(&app, Kind::Sweep, id).await
+pub(crate) async fn cancel_sweep(app: State<App>, batch: BatchId) -> Cancelled {
+    cancel(&app, batch).await
 }
 
 /// Cancels all jobs of a study.
@@ -45,21 +44,14 @@ pub(in crate::http) async fn cancel_sweep(
         (status = 410, description = "Accepted, but queued by a version whose studies cannot be compared any more", body = Problem),
     )
 )]
-pub(in crate::http) async fn cancel_study(
-    State(app): State<App>,
-    StudyId(id): StudyId,
-) -> Result<(StatusCode, Json<Document>), ProblemResponse> {
-    cancel(&app, Kind::AccuracyStudy, id).await
+pub(crate) async fn cancel_study(app: State<App>, batch: BatchId) -> Cancelled {
+    cancel(&app, batch).await
 }
 
-async fn cancel(
-    app: &App,
-    kind: Kind,
-    id: Uuid,
-) -> Result<(StatusCode, Json<Document>), ProblemResponse> {
-    app.require_batch(kind, id).await?;
-    app.store.cancel_batch(id, now_ms()).await?;
-    Ok((StatusCode::ACCEPTED, document(app, kind, id).await?))
+async fn cancel(app: &App, batch: BatchId) -> Cancelled {
+    app.require_batch(batch).await?;
+    app.store.cancel_batch(batch.id, now_ms()).await?;
+    Ok((StatusCode::ACCEPTED, document(app, batch).await?))
 }
 
 #[cfg(test)]

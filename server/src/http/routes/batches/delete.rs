@@ -3,11 +3,9 @@
 use api::problem::Problem;
 use axum::extract::State;
 use axum::http::StatusCode;
-use uuid::Uuid;
 
-use crate::batch::Kind;
 use crate::http::app::App;
-use crate::http::extract::{StudyId, SweepId};
+use crate::http::extract::BatchId;
 use crate::http::problem::ProblemResponse;
 use crate::http::routes::batches::error::BatchError;
 use crate::store::Deleted;
@@ -24,11 +22,11 @@ use crate::store::Deleted;
         (status = 409, description = "A job of it has not ended", body = Problem),
     )
 )]
-pub(in crate::http) async fn remove_sweep(
-    State(app): State<App>,
-    SweepId(id): SweepId,
+pub(crate) async fn remove_sweep(
+    app: State<App>,
+    batch: BatchId,
 ) -> Result<StatusCode, ProblemResponse> {
-    remove(&app, Kind::Sweep, id).await
+    remove(&app, batch).await
 }
 
 /// Deletes a study whose jobs have all ended, with the jobs, their events and results.
@@ -43,19 +41,19 @@ pub(in crate::http) async fn remove_sweep(
         (status = 409, description = "A job of it has not ended", body = Problem),
     )
 )]
-pub(in crate::http) async fn remove_study(
-    State(app): State<App>,
-    StudyId(id): StudyId,
+pub(crate) async fn remove_study(
+    app: State<App>,
+    batch: BatchId,
 ) -> Result<StatusCode, ProblemResponse> {
-    remove(&app, Kind::AccuracyStudy, id).await
+    remove(&app, batch).await
 }
 
-async fn remove(app: &App, kind: Kind, id: Uuid) -> Result<StatusCode, ProblemResponse> {
-    app.require_batch(kind, id).await?;
-    match app.store.delete_batch(id).await? {
+async fn remove(app: &App, batch: BatchId) -> Result<StatusCode, ProblemResponse> {
+    app.require_batch(batch).await?;
+    match app.store.delete_batch(batch.id).await? {
         Deleted::Done => Ok(StatusCode::NO_CONTENT),
-        Deleted::Active => Err(BatchError::Active(kind, id).into()),
-        Deleted::Missing => Err(BatchError::Missing(kind, id).into()),
+        Deleted::Active => Err(BatchError::Active(batch).into()),
+        Deleted::Missing => Err(BatchError::Missing(batch).into()),
     }
 }
 

@@ -1,30 +1,29 @@
 //! Lookup of a batch, and the errors of its routes.
 
-use uuid::Uuid;
-
 use crate::batch::{EvaluateError, ExpandError, Kind};
 use crate::http::app::App;
+use crate::http::extract::BatchId;
 use crate::http::problem::{ProblemResponse, ProblemType, RouteError};
 use crate::store::{BatchDetail, StoredBatch};
 
 /// Error of a route about one batch.
 #[derive(Debug, thiserror::Error)]
-pub(in crate::http) enum BatchError {
+pub(crate) enum BatchError {
     /// No batch of this kind has this id.
-    #[error("there is no {0} {1}")]
-    Missing(Kind, Uuid),
+    #[error("there is no {0}")]
+    Missing(BatchId),
     /// A job of the batch has not ended.
-    #[error("{0} {1} has jobs that have not ended; cancel it first")]
-    Active(Kind, Uuid),
+    #[error("{0} has jobs that have not ended; cancel it first")]
+    Active(BatchId),
 }
 
 impl RouteError for BatchError {
     fn problem_type(&self) -> ProblemType {
         match self {
-            Self::Missing(Kind::Sweep, _) => ProblemType::NoSuchSweep,
-            Self::Missing(Kind::AccuracyStudy, _) => ProblemType::NoSuchStudy,
-            Self::Active(Kind::Sweep, _) => ProblemType::SweepActive,
-            Self::Active(Kind::AccuracyStudy, _) => ProblemType::StudyActive,
+            Self::Missing(batch) if batch.kind == Kind::Sweep => ProblemType::NO_SUCH_SWEEP,
+            Self::Missing(_) => ProblemType::NO_SUCH_STUDY,
+            Self::Active(batch) if batch.kind == Kind::Sweep => ProblemType::SWEEP_ACTIVE,
+            Self::Active(_) => ProblemType::STUDY_ACTIVE,
         }
     }
 }
@@ -32,9 +31,9 @@ impl RouteError for BatchError {
 impl RouteError for EvaluateError {
     fn problem_type(&self) -> ProblemType {
         match self {
-            Self::Empty(_) => ProblemType::NoSuchResult,
-            Self::Format { .. } => ProblemType::StudyOutdated,
-            Self::Corrupt { .. } | Self::Write(_) => ProblemType::Internal,
+            Self::Empty(_) => ProblemType::NO_SUCH_RESULT,
+            Self::Format { .. } => ProblemType::STUDY_OUTDATED,
+            Self::Corrupt { .. } | Self::Write(_) => ProblemType::INTERNAL,
         }
     }
 }
@@ -50,33 +49,32 @@ impl From<ExpandError> for ProblemResponse {
 
 impl App {
     /// Checks that a batch of this kind exists.
-    pub(super) async fn require_batch(&self, kind: Kind, id: Uuid) -> Result<(), ProblemResponse> {
-        if self.store.has_batch(id, kind.has_plan()).await? {
-            Ok(())
-        } else {
-            Err(BatchError::Missing(kind, id).into())
-        }
+    pub(super) async fn require_batch(&self, batch: BatchId) -> Result<(), ProblemResponse> {
+        let exists = self
+            .store
+            .has_batch(batch.id, batch.kind.has_plan())
+            .await?;
+        Ok(exists.then_some(()).ok_or(BatchError::Missing(batch))?)
     }
 
     /// Reads a batch and evaluates it on a thread of its own: dozens of profiles may be read and compared.
     pub(super) async fn evaluate_batch<T: Send + 'static>(
         &self,
-        kind: Kind,
-        id: Uuid,
+        batch: BatchId,
         detail: BatchDetail,
         evaluate: impl FnOnce(StoredBatch) -> Result<T, EvaluateError> + Send + 'static,
     ) -> Result<T, ProblemResponse> {
-        let missing = || BatchError::Missing(kind, id);
-        let read = |batch: Option<StoredBatch>| {
-            let batch = batch.filter(|batch| kind.includes(batch));
-            batch.ok_or_else(missing)
+        let BatchId { kind, id } = batch;
+        let read = |stored: Option<StoredBatch>| {
+            let stored = stored.filter(|stored| kind.includes(stored));
+            stored.ok_or(BatchError::Missing(batch))
         };
         // The plan first: beside one of another format, results need not be readable.
         if kind.has_plan() {
             let statuses = read(self.store.batch(id, BatchDetail::Statuses).await?)?;
             kind.check_plan(&statuses)?;
         }
-        let batch = read(self.store.batch(id, detail).await?)?;
-        Ok(tokio::task::spawn_blocking(move || evaluate(batch)).await??)
+        let stored = read(self.store.batch(id, detail).await?)?;
+        Ok(tokio::task::spawn_blocking(move || evaluate(stored)).await??)
     }
 }

@@ -20,7 +20,7 @@ use crate::store::BatchFilter;
 #[derive(Debug, Deserialize, IntoParams)]
 #[into_params(parameter_in = Query)]
 #[serde(deny_unknown_fields)]
-pub(in crate::http) struct ListBatchesQuery {
+pub(crate) struct ListBatchesQuery {
     /// Entries of a page, 1 to 500.
     #[param(value_type = Option<u32>, minimum = 1, maximum = 500)]
     limit: Option<String>,
@@ -39,7 +39,7 @@ pub(in crate::http) struct ListBatchesQuery {
         (status = 400, description = "A query parameter is not valid", body = Problem),
     )
 )]
-pub(in crate::http) async fn list_sweeps(
+pub(crate) async fn list_sweeps(
     State(app): State<App>,
     Params(query): Params<ListBatchesQuery>,
 ) -> Result<Json<SweepList>, ProblemResponse> {
@@ -61,7 +61,7 @@ pub(in crate::http) async fn list_sweeps(
         (status = 400, description = "A query parameter is not valid", body = Problem),
     )
 )]
-pub(in crate::http) async fn list_studies(
+pub(crate) async fn list_studies(
     State(app): State<App>,
     Params(query): Params<ListBatchesQuery>,
 ) -> Result<Json<StudyList>, ProblemResponse> {

@@ -4,12 +4,10 @@ use api::problem::Problem;
 use axum::extract::State;
 use axum::http::header;
 use axum::response::{IntoResponse, Response};
-use uuid::Uuid;
 
-use crate::batch::Kind;
 use crate::export::documents::CSV;
 use crate::http::app::App;
-use crate::http::extract::{StudyId, SweepId};
+use crate::http::extract::BatchId;
 use crate::http::problem::ProblemResponse;
 use crate::http::routes::results::download_file::attachment;
 
@@ -24,11 +22,11 @@ use crate::http::routes::results::download_file::attachment;
         (status = 404, description = "No such sweep", body = Problem),
     )
 )]
-pub(in crate::http) async fn sweep_outcomes(
-    State(app): State<App>,
-    SweepId(id): SweepId,
+pub(crate) async fn sweep_outcomes(
+    app: State<App>,
+    batch: BatchId,
 ) -> Result<Response, ProblemResponse> {
-    table(&app, Kind::Sweep, id).await
+    table(&app, batch).await
 }
 
 /// The runs of a study so far as CSV: settings, errors, cost.
@@ -43,17 +41,19 @@ pub(in crate::http) async fn sweep_outcomes(
         (status = 410, description = "Queued by a version whose studies cannot be compared any more", body = Problem),
     )
 )]
-pub(in crate::http) async fn study_table(
-    State(app): State<App>,
-    StudyId(id): StudyId,
+pub(crate) async fn study_table(
+    app: State<App>,
+    batch: BatchId,
 ) -> Result<Response, ProblemResponse> {
-    table(&app, Kind::AccuracyStudy, id).await
+    table(&app, batch).await
 }
 
-async fn table(app: &App, kind: Kind, id: Uuid) -> Result<Response, ProblemResponse> {
-    let detail = kind.table_detail();
-    let evaluate = move |batch| kind.table(&batch);
-    let table = app.evaluate_batch(kind, id, detail, evaluate).await?;
+async fn table(app: &App, batch: BatchId) -> Result<Response, ProblemResponse> {
+    let BatchId { kind, id } = batch;
+    let evaluate = move |stored| kind.table(&stored);
+    let table = app
+        .evaluate_batch(batch, kind.table_detail(), evaluate)
+        .await?;
     let name = attachment(&format!("{kind}-{id}.csv"));
     let headers = [
         (header::CONTENT_TYPE, CSV.to_owned()),

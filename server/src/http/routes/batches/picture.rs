@@ -7,17 +7,16 @@ use axum::response::{IntoResponse, Response};
 use serde::Deserialize;
 use utoipa::{IntoParams, ToSchema};
 
-use crate::batch::Kind;
 use crate::batch::accuracy::{self, report};
 use crate::export::documents::{PNG, SVG};
 use crate::http::app::App;
-use crate::http::extract::{Params, StudyId};
+use crate::http::extract::{BatchId, Params};
 use crate::http::problem::ProblemResponse;
 
 /// Format of a picture.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize, ToSchema)]
 #[serde(rename_all = "snake_case")]
-pub(in crate::http) enum PictureFormat {
+pub(crate) enum PictureFormat {
     /// SVG.
     #[default]
     Svg,
@@ -29,7 +28,7 @@ pub(in crate::http) enum PictureFormat {
 #[derive(Debug, Clone, Copy, Deserialize, IntoParams)]
 #[into_params(parameter_in = Query)]
 #[serde(deny_unknown_fields)]
-pub(in crate::http) struct PictureQuery {
+pub(crate) struct PictureQuery {
     /// `svg` or `png`.
     #[serde(default)]
     format: PictureFormat,
@@ -51,21 +50,20 @@ pub(in crate::http) struct PictureQuery {
         (status = 410, description = "Queued by a version whose studies cannot be compared any more", body = Problem),
     )
 )]
-pub(in crate::http) async fn study_picture(
+pub(crate) async fn study_picture(
     State(app): State<App>,
-    StudyId(id): StudyId,
+    batch: BatchId,
     Params(query): Params<PictureQuery>,
 ) -> Result<Response, ProblemResponse> {
-    let (kind, format) = (Kind::AccuracyStudy, query.format);
-    let draw = move |batch| {
-        let study = accuracy::study(&batch)?;
-        Ok(match format {
+    let draw = move |stored| {
+        let study = accuracy::study(&stored)?;
+        Ok(match query.format {
             PictureFormat::Svg => (SVG, report::svg(&study)?.into_bytes()),
             PictureFormat::Png => (PNG, report::png(&study)?),
         })
     };
-    let detail = kind.document_detail();
-    let (media_type, bytes) = app.evaluate_batch(kind, id, detail, draw).await?;
+    let detail = batch.kind.document_detail();
+    let (media_type, bytes) = app.evaluate_batch(batch, detail, draw).await?;
     Ok(([(header::CONTENT_TYPE, media_type)], bytes).into_response())
 }
 

@@ -5,12 +5,14 @@ use api::study::StudyDocument;
 use api::sweep::Sweep;
 use axum::Json;
 use axum::extract::State;
-use uuid::Uuid;
 
-use crate::batch::{Document, Kind};
+use crate::batch::Document;
 use crate::http::app::App;
-use crate::http::extract::{StudyId, SweepId};
+use crate::http::extract::BatchId;
 use crate::http::problem::ProblemResponse;
+
+/// A batch with its jobs.
+type Shown = Result<Json<Document>, ProblemResponse>;
 
 /// A sweep.
 #[utoipa::path(
@@ -23,11 +25,8 @@ use crate::http::problem::ProblemResponse;
         (status = 404, description = "No such sweep", body = Problem),
     )
 )]
-pub(in crate::http) async fn show_sweep(
-    State(app): State<App>,
-    SweepId(id): SweepId,
-) -> Result<Json<Document>, ProblemResponse> {
-    document(&app, Kind::Sweep, id).await
+pub(crate) async fn show_sweep(app: State<App>, batch: BatchId) -> Shown {
+    document(&app, batch).await
 }
 
 /// A study of accuracy: its jobs, and their results so far with errors, Pareto front and observed orders.
@@ -42,22 +41,17 @@ pub(in crate::http) async fn show_sweep(
         (status = 410, description = "Queued by a version whose studies cannot be compared any more", body = Problem),
     )
 )]
-pub(in crate::http) async fn show_study(
-    State(app): State<App>,
-    StudyId(id): StudyId,
-) -> Result<Json<Document>, ProblemResponse> {
-    document(&app, Kind::AccuracyStudy, id).await
+pub(crate) async fn show_study(app: State<App>, batch: BatchId) -> Shown {
+    document(&app, batch).await
 }
 
 /// Returns a batch with its jobs.
-pub(super) async fn document(
-    app: &App,
-    kind: Kind,
-    id: Uuid,
-) -> Result<Json<Document>, ProblemResponse> {
-    let detail = kind.document_detail();
-    let evaluate = move |batch| kind.document(batch);
-    let document = app.evaluate_batch(kind, id, detail, evaluate).await?;
+pub(super) async fn document(app: &App, batch: BatchId) -> Shown {
+    let kind = batch.kind;
+    let evaluate = move |stored| kind.document(stored);
+    let document = app
+        .evaluate_batch(batch, kind.document_detail(), evaluate)
+        .await?;
     Ok(Json(document))
 }
 

@@ -13,7 +13,7 @@ use crate::batch::Kind;
 use crate::clock::now_ms;
 use crate::http::app::App;
 use crate::http::body_problems::BodyProblems;
-use crate::http::extract::JsonBody;
+use crate::http::extract::{BatchId, JsonBody};
 use crate::http::idempotency_key::{KeyError, idempotency_key};
 use crate::http::limits;
 use crate::http::problem::ProblemResponse;
@@ -32,7 +32,7 @@ use crate::store::Submitted;
         BodyProblems,
     )
 )]
-pub(in crate::http) async fn submit_sweep(
+pub(crate) async fn submit_sweep(
     State(app): State<App>,
     headers: HeaderMap,
     JsonBody(body): JsonBody,
@@ -53,7 +53,7 @@ pub(in crate::http) async fn submit_sweep(
         BodyProblems,
     )
 )]
-pub(in crate::http) async fn submit_study(
+pub(crate) async fn submit_study(
     State(app): State<App>,
     headers: HeaderMap,
     JsonBody(body): JsonBody,
@@ -96,7 +96,7 @@ async fn submit(
     let Submitted::Job(id) = submitted else {
         return Err(KeyError::Reused.into());
     };
-    let document = document(app, kind, id).await?;
+    let document = document(app, BatchId { kind, id }).await?;
     let path = format!("/v1/{}/{id}", kind.collection());
     Ok((StatusCode::ACCEPTED, [(header::LOCATION, path)], document).into_response())
 }

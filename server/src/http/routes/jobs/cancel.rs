@@ -24,7 +24,7 @@ use crate::http::problem::ProblemResponse;
         (status = 404, description = "No such job", body = Problem),
     )
 )]
-pub(in crate::http) async fn cancel(
+pub(crate) async fn cancel(
     State(app): State<App>,
     JobId(id): JobId,
 ) -> Result<Response, ProblemResponse> {

@@ -22,7 +22,7 @@ use crate::store::Deleted;
         (status = 409, description = "The job has not ended", body = Problem),
     )
 )]
-pub(in crate::http) async fn remove(
+pub(crate) async fn remove(
     State(app): State<App>,
     JobId(id): JobId,
 ) -> Result<StatusCode, ProblemResponse> {

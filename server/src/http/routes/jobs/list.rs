@@ -20,7 +20,7 @@ const MAX_LABELS: usize = 16;
 
 /// Error of a query parameter.
 #[derive(Debug, thiserror::Error)]
-pub(in crate::http) enum ListError {
+pub(crate) enum ListError {
     /// Not a status.
     #[error("`{0}` is not a status")]
     Status(String),
@@ -45,9 +45,7 @@ pub(in crate::http) enum ListError {
 }
 
 impl RouteError for ListError {
-    fn problem_type(&self) -> ProblemType {
-        ProblemType::InvalidQuery
-    }
+    const TYPE: ProblemType = ProblemType::INVALID_QUERY;
 }
 
 /// Names of the parameters below.
@@ -61,7 +59,7 @@ const PARAMETERS: &str =
     dead_code,
     reason = "only describes the parameters, which are parsed one by one because labels repeat"
 )]
-pub(in crate::http) struct ListQuery {
+pub(crate) struct ListQuery {
     /// Any of these statuses, separated by commas.
     status: Option<String>,
     /// This kind of system.
@@ -92,7 +90,7 @@ pub(in crate::http) struct ListQuery {
         (status = 400, description = "A query parameter is not valid", body = Problem),
     )
 )]
-pub(in crate::http) async fn list(
+pub(crate) async fn list(
     State(app): State<App>,
     Params(pairs): Params<Vec<(String, String)>>,
 ) -> Result<Json<JobList>, ProblemResponse> {

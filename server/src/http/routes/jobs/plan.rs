@@ -23,7 +23,7 @@ use crate::http::routes::jobs::submit::resolve;
         BodyProblems,
     )
 )]
-pub(in crate::http) async fn make_plan(
+pub(crate) async fn make_plan(
     State(app): State<App>,
     JsonBody(body): JsonBody,
 ) -> Result<Json<PlanDocument>, ProblemResponse> {

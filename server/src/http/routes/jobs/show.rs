@@ -29,16 +29,14 @@ const POLL_INTERVAL: Duration = Duration::from_secs(1);
 struct WaitError(String);
 
 impl RouteError for WaitError {
-    fn problem_type(&self) -> ProblemType {
-        ProblemType::InvalidQuery
-    }
+    const TYPE: ProblemType = ProblemType::INVALID_QUERY;
 }
 
 /// Query of a long poll.
 #[derive(Debug, Deserialize, IntoParams)]
 #[into_params(parameter_in = Query)]
 #[serde(deny_unknown_fields)]
-pub(in crate::http) struct ShowQuery {
+pub(crate) struct ShowQuery {
     /// Long poll: responds when the job has changed (with `If-None-Match`) or ended (without), or after this duration, for
     /// instance `25s`.
     wait: Option<String>,
@@ -60,7 +58,7 @@ pub(in crate::http) struct ShowQuery {
         (status = 404, description = "No such job", body = Problem),
     )
 )]
-pub(in crate::http) async fn show(
+pub(crate) async fn show(
     State(app): State<App>,
     JobId(id): JobId,
     Params(query): Params<ShowQuery>,
@@ -105,7 +103,7 @@ pub(in crate::http) async fn show(
 }
 
 /// Recommended pause before the next poll of a job that has not ended, s: a tenth of the remaining time, within bounds.
-pub(in crate::http) fn retry_after_s(job: &Job) -> u64 {
+pub(crate) fn retry_after_s(job: &Job) -> u64 {
     const MAX_S: f64 = 30.0;
     let left_s = job.progress.eta_s.unwrap_or(10.0);
     let pause = Duration::try_from_secs_f64((0.1 * left_s).clamp(1.0, MAX_S));

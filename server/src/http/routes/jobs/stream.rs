@@ -44,8 +44,8 @@ enum StreamError {
 impl RouteError for StreamError {
     fn problem_type(&self) -> ProblemType {
         match self {
-            Self::TooMany => ProblemType::Busy,
-            Self::LastEventId => ProblemType::InvalidQuery,
+            Self::TooMany => ProblemType::BUSY,
+            Self::LastEventId => ProblemType::INVALID_QUERY,
         }
     }
 }
@@ -67,7 +67,7 @@ impl RouteError for StreamError {
         (status = 503, description = "Too many streams are open", body = Problem),
     )
 )]
-pub(in crate::http) async fn events(
+pub(crate) async fn events(
     State(app): State<App>,
     JobId(id): JobId,
     headers: HeaderMap,

@@ -32,16 +32,14 @@ use crate::store::{NewJob, SubmitOptions, Submitted};
 struct PriorityError(i32);
 
 impl RouteError for PriorityError {
-    fn problem_type(&self) -> ProblemType {
-        ProblemType::InvalidQuery
-    }
+    const TYPE: ProblemType = ProblemType::INVALID_QUERY;
 }
 
 /// Options of a submission.
 #[derive(Debug, Clone, Copy, Deserialize, IntoParams)]
 #[into_params(parameter_in = Query)]
 #[serde(deny_unknown_fields)]
-pub(in crate::http) struct SubmitQuery {
+pub(crate) struct SubmitQuery {
     /// Validates the specification and returns its plan; queues nothing.
     #[serde(default)]
     #[param(required = false)]
@@ -86,7 +84,7 @@ impl SubmitQuery {
         BodyProblems,
     )
 )]
-pub(in crate::http) async fn submit(
+pub(crate) async fn submit(
     State(app): State<App>,
     Params(query): Params<SubmitQuery>,
     headers: HeaderMap,
@@ -128,7 +126,7 @@ pub(in crate::http) async fn submit(
 }
 
 /// Resolves a specification and estimates its solve, on a thread for blocking work.
-pub(in crate::http) async fn resolve(body: Bytes) -> Result<(Resolved, Estimate), ProblemResponse> {
+pub(crate) async fn resolve(body: Bytes) -> Result<(Resolved, Estimate), ProblemResponse> {
     let resolve = move || {
         let resolved = spec::read(&body)?;
         let estimate = Estimate::of(&resolved);

@@ -11,7 +11,7 @@ use crate::http::problem::ProblemResponse;
 
 /// Liveness check: the process responds.
 #[utoipa::path(get, path = "/healthz", tag = "operation", responses((status = 200, description = "The process responds")))]
-pub(in crate::http) async fn healthz() -> Json<Value> {
+pub(crate) async fn healthz() -> Json<Value> {
     Json(json!({ "status": "ok" }))
 }
 
@@ -26,9 +26,7 @@ pub(in crate::http) async fn healthz() -> Json<Value> {
         (status = 503, description = "The service is not ready at present", body = Problem),
     )
 )]
-pub(in crate::http) async fn readyz(
-    State(app): State<App>,
-) -> Result<Json<Value>, ProblemResponse> {
+pub(crate) async fn readyz(State(app): State<App>) -> Result<Json<Value>, ProblemResponse> {
     app.store.ready(now_ms()).await?;
     Ok(Json(json!({ "status": "ready" })))
 }

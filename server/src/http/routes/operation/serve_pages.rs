@@ -5,7 +5,7 @@ use api::problem::Problem;
 use axum::http::{HeaderName, header};
 use axum::response::{IntoResponse, Response};
 
-use crate::http::extract::FileName;
+use crate::http::extract::Name;
 use crate::http::problem::{ProblemResponse, ProblemType, RouteError};
 
 const HTML: &str = "text/html; charset=utf-8";
@@ -16,38 +16,21 @@ const CONTENT_POLICY: &str = "default-src 'none'; script-src 'self'; style-src '
                       img-src 'self' blob:; \
                       base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
 
+/// A file of the dashboard's folder.
+macro_rules! dashboard {
+    ($name:literal) => {
+        include_str!(concat!("../../../../dashboard/", $name))
+    };
+}
+
 /// Name, media type and content of each asset.
 const ASSETS: [(&str, &str, &str); 6] = [
-    (
-        "page.css",
-        STYLE,
-        include_str!("../../../../dashboard/page.css"),
-    ),
-    (
-        "page.js",
-        SCRIPT,
-        include_str!("../../../../dashboard/page.js"),
-    ),
-    (
-        "job.js",
-        SCRIPT,
-        include_str!("../../../../dashboard/job.js"),
-    ),
-    (
-        "chart.js",
-        SCRIPT,
-        include_str!("../../../../dashboard/chart.js"),
-    ),
-    (
-        "docs.js",
-        SCRIPT,
-        include_str!("../../../../dashboard/docs.js"),
-    ),
-    (
-        "dashboard.js",
-        SCRIPT,
-        include_str!("../../../../dashboard/dashboard.js"),
-    ),
+    ("page.css", STYLE, dashboard!("page.css")),
+    ("page.js", SCRIPT, dashboard!("page.js")),
+    ("job.js", SCRIPT, dashboard!("job.js")),
+    ("chart.js", SCRIPT, dashboard!("chart.js")),
+    ("docs.js", SCRIPT, dashboard!("docs.js")),
+    ("dashboard.js", SCRIPT, dashboard!("dashboard.js")),
 ];
 
 /// Error of an unknown asset.
@@ -56,9 +39,7 @@ const ASSETS: [(&str, &str, &str); 6] = [
 struct NoAssetError;
 
 impl RouteError for NoAssetError {
-    fn problem_type(&self) -> ProblemType {
-        ProblemType::NoSuchPath
-    }
+    const TYPE: ProblemType = ProblemType::NO_SUCH_PATH;
 }
 
 fn page(
@@ -81,8 +62,8 @@ fn page(
     tag = "pages",
     responses((status = 200, description = "The page", content_type = "text/html", body = String))
 )]
-pub(in crate::http) async fn dashboard() -> impl IntoResponse {
-    page(HTML, include_str!("../../../../dashboard/dashboard.html"))
+pub(crate) async fn dashboard() -> impl IntoResponse {
+    page(HTML, dashboard!("dashboard.html"))
 }
 
 /// Documentation of this interface.
@@ -92,8 +73,8 @@ pub(in crate::http) async fn dashboard() -> impl IntoResponse {
     tag = "pages",
     responses((status = 200, description = "The page", content_type = "text/html", body = String))
 )]
-pub(in crate::http) async fn docs() -> impl IntoResponse {
-    page(HTML, include_str!("../../../../dashboard/docs.html"))
+pub(crate) async fn docs() -> impl IntoResponse {
+    page(HTML, dashboard!("docs.html"))
 }
 
 /// A script or style sheet of the pages.
@@ -110,7 +91,7 @@ pub(in crate::http) async fn docs() -> impl IntoResponse {
         (status = 404, description = "No such asset", body = Problem),
     )
 )]
-pub(in crate::http) async fn asset(FileName(name): FileName) -> Result<Response, ProblemResponse> {
+pub(crate) async fn asset(Name(name): Name) -> Result<Response, ProblemResponse> {
     let found = ASSETS.iter().find(|(known, _, _)| *known == name);
     let (_, media_type, content) = found.ok_or(NoAssetError)?;
     Ok(page(media_type, content).into_response())

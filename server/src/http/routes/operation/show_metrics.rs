@@ -22,7 +22,7 @@ const MEDIA_TYPE: &str = "application/openmetrics-text; version=1.0.0; charset=u
         (status = 500, description = "The service failed", body = Problem),
     )
 )]
-pub(in crate::http) async fn metrics(State(app): State<App>) -> Result<Response, ProblemResponse> {
+pub(crate) async fn metrics(State(app): State<App>) -> Result<Response, ProblemResponse> {
     let gauges = app.store.gauges(now_ms()).await?;
     let text = app.store.metrics().text(&gauges)?;
     Ok(([(header::CONTENT_TYPE, MEDIA_TYPE)], text).into_response())

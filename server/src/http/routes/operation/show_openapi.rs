@@ -15,7 +15,7 @@ use crate::http::app::App;
     tag = "operation",
     responses((status = 200, description = "The document", content_type = "application/json"))
 )]
-pub(in crate::http) async fn openapi(State(app): State<App>) -> impl IntoResponse {
+pub(crate) async fn openapi(State(app): State<App>) -> impl IntoResponse {
     static TEXT: OnceLock<String> = OnceLock::new();
     let text = TEXT.get_or_init(|| format!("{:#}\n", app.document));
     ([(header::CONTENT_TYPE, "application/json")], text.as_str())

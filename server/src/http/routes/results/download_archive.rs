@@ -38,9 +38,7 @@ const CHUNK_TIMEOUT: Duration = Duration::from_mins(1);
 struct TooManyArchivesError;
 
 impl RouteError for TooManyArchivesError {
-    fn problem_type(&self) -> ProblemType {
-        ProblemType::Busy
-    }
+    const TYPE: ProblemType = ProblemType::BUSY;
 }
 
 /// All files of an ended job, as a zip.
@@ -55,7 +53,7 @@ impl RouteError for TooManyArchivesError {
         (status = 409, description = "The job has not ended", body = Problem),
     )
 )]
-pub(in crate::http) async fn archive(
+pub(crate) async fn archive(
     State(app): State<App>,
     JobId(id): JobId,
 ) -> Result<Response, ProblemResponse> {

@@ -19,7 +19,7 @@ use tokio_util::io::ReaderStream;
 use uuid::Uuid;
 
 use crate::http::app::App;
-use crate::http::extract::{FileName, JobId};
+use crate::http::extract::{JobId, Name};
 use crate::http::problem::{ProblemResponse, ProblemType, RouteError};
 use crate::store::Content;
 
@@ -45,8 +45,8 @@ enum FileError {
 impl RouteError for FileError {
     fn problem_type(&self) -> ProblemType {
         match self {
-            Self::Missing(_) => ProblemType::NoSuchResult,
-            Self::Read { .. } => ProblemType::Internal,
+            Self::Missing(_) => ProblemType::NO_SUCH_RESULT,
+            Self::Read { .. } => ProblemType::INTERNAL,
         }
     }
 }
@@ -70,10 +70,10 @@ impl RouteError for FileError {
         (status = 416, description = "The range lies outside the file", body = Problem),
     )
 )]
-pub(in crate::http) async fn file(
+pub(crate) async fn file(
     State(app): State<App>,
     JobId(id): JobId,
-    FileName(name): FileName,
+    Name(name): Name,
     headers: HeaderMap,
 ) -> Result<Response, ProblemResponse> {
     let Some((file, content)) = app.store.result_file(id, &name).await? else {
@@ -105,7 +105,7 @@ pub(in crate::http) async fn file(
 }
 
 /// `Content-Disposition` of a download; characters of the name other than letters, digits, `.`, `-` and `_` are replaced.
-pub(in crate::http) fn attachment(name: &str) -> String {
+pub(crate) fn attachment(name: &str) -> String {
     let safe = |c: char| c.is_ascii_alphanumeric() || matches!(c, '.' | '-' | '_');
     let name: String = name
         .chars()
@@ -125,7 +125,7 @@ fn text(headers: &HeaderMap, name: header::HeaderName) -> &str {
 fn range_not_satisfiable(bytes: u64) -> Response {
     let detail = format!("the file has {bytes} bytes, and the range begins after them");
     let content_range = [(header::CONTENT_RANGE, format!("bytes */{bytes}"))];
-    (content_range, ProblemType::Range.with_detail(detail)).into_response()
+    (content_range, ProblemType::RANGE.with_detail(detail)).into_response()
 }
 
 /// Returns the requested byte range; `None` for the whole file. An invalid range, several ranges and a range of another

@@ -22,7 +22,7 @@ use crate::http::problem::ProblemResponse;
         (status = 404, description = "No such job", body = Problem),
     )
 )]
-pub(in crate::http) async fn manifest(
+pub(crate) async fn manifest(
     State(app): State<App>,
     JobId(id): JobId,
 ) -> Result<Json<Manifest>, ProblemResponse> {

@@ -9,16 +9,14 @@ const MAX: usize = 100_000;
 /// Error of a `max_points` that is out of range.
 #[derive(Debug, thiserror::Error)]
 #[error("max_points is {0}; it can be {FEWEST_POINTS} to {MAX}")]
-pub(in crate::http) struct MaxPointsError(usize);
+pub(crate) struct MaxPointsError(usize);
 
 impl RouteError for MaxPointsError {
-    fn problem_type(&self) -> ProblemType {
-        ProblemType::InvalidQuery
-    }
+    const TYPE: ProblemType = ProblemType::INVALID_QUERY;
 }
 
 /// Checks the range of `max_points`.
-pub(in crate::http) fn check(max_points: Option<usize>) -> Result<(), MaxPointsError> {
+pub(crate) fn check(max_points: Option<usize>) -> Result<(), MaxPointsError> {
     match max_points {
         Some(points) if !(FEWEST_POINTS..=MAX).contains(&points) => Err(MaxPointsError(points)),
         _ => Ok(()),

@@ -21,7 +21,7 @@ use crate::http::routes::results::max_points;
 #[derive(Debug, Clone, Copy, Deserialize, IntoParams)]
 #[into_params(parameter_in = Query)]
 #[serde(deny_unknown_fields)]
-pub(in crate::http) struct HistoryQuery {
+pub(crate) struct HistoryQuery {
     /// `json`, `csv` or `parquet`.
     #[serde(default)]
     format: HistoryFormat,
@@ -33,7 +33,7 @@ pub(in crate::http) struct HistoryQuery {
 /// Format of a history.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize, ToSchema)]
 #[serde(rename_all = "snake_case")]
-pub(in crate::http) enum HistoryFormat {
+pub(crate) enum HistoryFormat {
     /// JSON.
     #[default]
     Json,
@@ -59,7 +59,7 @@ pub(in crate::http) enum HistoryFormat {
         (status = 404, description = "No such job", body = Problem),
     )
 )]
-pub(in crate::http) async fn wear_history(
+pub(crate) async fn wear_history(
     State(app): State<App>,
     JobId(id): JobId,
     Params(query): Params<HistoryQuery>,

@@ -26,15 +26,13 @@ use crate::store::SnapshotPart;
 struct NoSnapshotError(Uuid);
 
 impl RouteError for NoSnapshotError {
-    fn problem_type(&self) -> ProblemType {
-        ProblemType::NoSuchResult
-    }
+    const TYPE: ProblemType = ProblemType::NO_SUCH_RESULT;
 }
 
 /// Format of a snapshot.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize, ToSchema)]
 #[serde(rename_all = "snake_case")]
-pub(in crate::http) enum Format {
+pub(crate) enum Format {
     /// JSON.
     #[default]
     Json,
@@ -46,7 +44,7 @@ pub(in crate::http) enum Format {
 #[derive(Debug, Clone, Copy, Deserialize, IntoParams)]
 #[into_params(parameter_in = Query)]
 #[serde(deny_unknown_fields)]
-pub(in crate::http) struct SnapshotQuery {
+pub(crate) struct SnapshotQuery {
     /// Cycle; the nearest stored one is returned. Default: the last one.
     cycle: Option<u64>,
     /// `json` or `csv`.
@@ -69,16 +67,13 @@ pub(in crate::http) struct SnapshotQuery {
         (status = 404, description = "No such job, or no snapshot stored so far", body = Problem),
     )
 )]
-pub(in crate::http) async fn profile(
+pub(crate) async fn profile(
     State(app): State<App>,
     JobId(id): JobId,
     Params(query): Params<SnapshotQuery>,
 ) -> Result<Response, ProblemResponse> {
-    let format = PartFormat {
-        csv: csv::profile,
-        thin: thin::profile,
-    };
-    read_part(&app, id, query, SnapshotPart::Profile, format).await
+    let part = SnapshotPart::Profile;
+    read_part(&app, id, query, part, csv::profile, thin::profile).await
 }
 
 /// Contact pressure and shear stress, at the stored cycle nearest to the requested one.
@@ -93,16 +88,13 @@ pub(in crate::http) async fn profile(
         (status = 404, description = "No such job, or no snapshot stored so far", body = Problem),
     )
 )]
-pub(in crate::http) async fn pressure(
+pub(crate) async fn pressure(
     State(app): State<App>,
     JobId(id): JobId,
     Params(query): Params<SnapshotQuery>,
 ) -> Result<Response, ProblemResponse> {
-    let format = PartFormat {
-        csv: csv::pressure,
-        thin: thin::pressure,
-    };
-    read_part(&app, id, query, SnapshotPart::Pressure, format).await
+    let part = SnapshotPart::Pressure;
+    read_part(&app, id, query, part, csv::pressure, thin::pressure).await
 }
 
 /// Friction loop: tangential force over displacement, at the stored cycle nearest to the requested one.
@@ -117,32 +109,32 @@ pub(in crate::http) async fn pressure(
         (status = 404, description = "No such job, or no snapshot stored so far", body = Problem),
     )
 )]
-pub(in crate::http) async fn friction_loop(
+pub(crate) async fn friction_loop(
     State(app): State<App>,
     JobId(id): JobId,
     Params(query): Params<SnapshotQuery>,
 ) -> Result<Response, ProblemResponse> {
-    let format = PartFormat {
-        csv: csv::friction_loop,
-        thin: thin::friction_loop,
-    };
-    read_part(&app, id, query, SnapshotPart::Loop, format).await
+    let part = SnapshotPart::Loop;
+    read_part(
+        &app,
+        id,
+        query,
+        part,
+        csv::friction_loop,
+        thin::friction_loop,
+    )
+    .await
 }
 
-/// Functions that write a part of a snapshot.
-struct PartFormat<T> {
-    csv: fn(&T) -> Result<Vec<u8>, CsvError>,
-    /// Reduces the number of points.
-    thin: fn(T, usize) -> T,
-}
-
-/// Returns a part of the stored snapshot nearest to the requested cycle.
+/// Returns a part of the stored snapshot nearest to the requested cycle. `write` writes it as CSV, `thin` reduces its
+/// number of points.
 async fn read_part<T: DeserializeOwned + Serialize>(
     app: &App,
     id: Uuid,
     query: SnapshotQuery,
     part: SnapshotPart,
-    format: PartFormat<T>,
+    write: fn(&T) -> Result<Vec<u8>, CsvError>,
+    thin: fn(T, usize) -> T,
 ) -> Result<Response, ProblemResponse> {
     max_points::check(query.max_points)?;
     let Some(json) = app.store.snapshot(id, part, query.cycle).await? else {
@@ -154,12 +146,12 @@ async fn read_part<T: DeserializeOwned + Serialize>(
     }
     let mut document: T = serde_json::from_str(&json)?;
     if let Some(points) = query.max_points {
-        document = (format.thin)(document, points);
+        document = thin(document, points);
     }
     Ok(match query.format {
         Format::Json => Json(document).into_response(),
         Format::Csv => {
-            let table = (format.csv)(&document)?;
+            let table = write(&document)?;
             ([(header::CONTENT_TYPE, CSV)], table).into_response()
         }
     })
