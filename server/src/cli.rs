@@ -125,53 +125,42 @@ enum DeckFormat {
 
 /// Runs the command of the arguments.
 pub fn main() -> ExitCode {
-    let arguments = Arguments::parse();
-    match arguments.command {
-        Command::Serve(serve) => {
-            log("info", serve.log);
-            serve::run(serve)
-        }
-        Command::Solve { spec, out } => {
-            log("warn", LogFormat::Text);
-            solve::run(&spec, out.as_deref())
-        }
-        Command::Plan { spec } => {
-            log("warn", LogFormat::Text);
-            plan::run(&spec)
-        }
+    let command = Arguments::parse().command;
+    match &command {
+        Command::Serve(serve) => log("info", serve.log),
+        Command::Probe { .. }
+        | Command::Backup { .. }
+        | Command::Restore { .. }
+        | Command::SolveChild(_)
+        | Command::Openapi => {}
+        _ => log("warn", LogFormat::Text),
+    }
+    let ended = match command {
+        Command::Serve(serve) => serve::run(serve),
+        Command::Solve { spec, out } => solve::run(&spec, out.as_deref()),
+        Command::Plan { spec } => plan::run(&spec),
         Command::Study {
             spec,
             out,
             budget_s,
-        } => {
-            log("warn", LogFormat::Text);
-            study::run(&spec, out.as_deref(), budget_s)
-        }
+        } => study::run(&spec, out.as_deref(), budget_s),
         Command::Export {
             spec,
             format: DeckFormat::Inp,
             cycle,
-        } => {
-            log("warn", LogFormat::Text);
-            export::run(&spec, cycle)
-        }
-        Command::Bench(arguments) => {
-            log("warn", LogFormat::Text);
-            bench::run(&arguments)
-        }
-        Command::Demo { exit, listen } => {
-            log("warn", LogFormat::Text);
-            demo::run(listen, exit)
-        }
+        } => export::run(&spec, cycle),
+        Command::Bench(arguments) => bench::run(&arguments),
+        Command::Demo { exit, listen } => demo::run(listen, exit),
         Command::Probe { listen } => probe::run(listen),
         Command::Backup { into, database } => backup::run(&database, &into),
         Command::Restore { from, database } => backup::run_restore(&from, &database),
         Command::SolveChild(arguments) => child::run(&arguments),
         Command::Openapi => {
             terminal::write_out(crate::http::openapi::text().trim_end());
-            ExitCode::SUCCESS
+            Ok(())
         }
-    }
+    };
+    ended.err().unwrap_or(ExitCode::SUCCESS)
 }
 
 /// Starts logging to standard error; `RUST_LOG` overrides the level.

@@ -41,12 +41,11 @@ impl AccessOptions {
     pub(super) fn access(&self) -> Result<Access, AccessError> {
         let token = match &self.token_file {
             Some(path) => {
-                Some(
-                    std::fs::read_to_string(path).map_err(|cause| AccessError::File {
-                        path: path.clone(),
-                        cause,
-                    })?,
-                )
+                let error = |cause| AccessError::File {
+                    path: path.clone(),
+                    cause,
+                };
+                Some(std::fs::read_to_string(path).map_err(error)?)
             }
             None => std::env::var("FRETWEAR_TOKEN").ok(),
         };

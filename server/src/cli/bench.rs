@@ -1,7 +1,5 @@
 //! `fretwear bench`: processor time of the engine on this machine.
 
-use std::process::ExitCode;
-
 use comfy_table::Table;
 
 use crate::bench;
@@ -12,50 +10,28 @@ use crate::bench::predictions::{Pair, Prediction};
 use crate::bench::{BenchError, Row};
 use crate::cli::arguments::BenchArguments;
 use crate::cli::markdown;
-use crate::cli::terminal::{failed, write_err, write_out};
+use crate::cli::terminal::{Ended, failed, write_err, write_out};
 use crate::estimate::machine;
 
-pub(super) fn run(arguments: &BenchArguments) -> ExitCode {
+pub(super) fn run(arguments: &BenchArguments) -> Ended {
     if arguments.predictions {
-        return match compare(&arguments.tolerances) {
-            Ok(table) => {
-                write_out(table);
-                ExitCode::SUCCESS
-            }
-            Err(error) => failed(error),
-        };
+        write_out(compare(&arguments.tolerances).map_err(failed)?);
+        return Ok(());
     }
     if arguments.against.is_some() {
         return against_ccx(&arguments.elements_um);
     }
-    let mut rows = Vec::new();
+    let mut table = markdown::table(["case", "size", "CPU"], 2);
     for (name, case) in bench::all() {
         write_err(format_args!("fretwear: {name}"));
-        match case() {
-            Ok(measured) => {
-                for row in &measured {
-                    write_err(format_args!(
-                        "  {}, {}: {}",
-                        row.what,
-                        row.size,
-                        time(row.cpu_s)
-                    ));
-                }
-                rows.extend(measured);
-            }
-            Err(error) => return failed(format_args!("{name}: {error}")),
+        let measured = case().map_err(|error| failed(format_args!("{name}: {error}")))?;
+        for Row { what, size, cpu_s } in measured {
+            write_err(format_args!("  {what}, {size}: {}", time(cpu_s)));
+            table.add_row([what, size, time(cpu_s)]);
         }
     }
-    write_out(table(&rows));
-    ExitCode::SUCCESS
-}
-
-fn table(rows: &[Row]) -> Table {
-    let mut table = markdown::table(["case", "size", "CPU"], 2);
-    for row in rows {
-        table.add_row([row.what.clone(), row.size.clone(), time(row.cpu_s)]);
-    }
-    table
+    write_out(table);
+    Ok(())
 }
 
 fn time(seconds: f64) -> String {
@@ -67,10 +43,10 @@ fn time(seconds: f64) -> String {
 }
 
 /// Compares with CalculiX; prints that the comparison is skipped where it is not installed.
-fn against_ccx(elements_um: &[f64]) -> ExitCode {
+fn against_ccx(elements_um: &[f64]) -> Ended {
     if !against::is_installed() {
         write_out("skipped: ccx (CalculiX) is not installed here");
-        return ExitCode::SUCCESS;
+        return Ok(());
     }
     let header = [
         "element, um",
@@ -83,19 +59,15 @@ fn against_ccx(elements_um: &[f64]) -> ExitCode {
     let mut table = markdown::table(header, 0);
     for element in elements_um {
         write_err(format_args!("fretwear: elements of {element} um"));
-        let compared = match against::ccx(*element) {
-            Ok(compared) => compared,
-            Err(error) => return failed(error),
-        };
-        table.add_row(row(&compared));
+        table.add_row(row(&against::ccx(*element).map_err(failed)?));
     }
     write_out(table);
     let [ours, theirs] = against::TOLERANCES;
-    write_out(format_args!(
-        "Processor seconds, one thread each, one after the other on this machine. Tolerances:"
-    ));
+    write_out(
+        "Processor seconds, one thread each, one after the other on this machine. Tolerances:",
+    );
     write_out(format_args!("fretwear: {ours}; ccx: {theirs}."));
-    ExitCode::SUCCESS
+    Ok(())
 }
 
 /// Compares estimates of plans with measurements, with a calibration of its own.
@@ -121,12 +93,9 @@ fn compare(tolerances: &[f64]) -> Result<Table, BenchError> {
 }
 
 fn header(prediction: &Prediction) -> Vec<String> {
-    let names = prediction.pairs.iter().map(|pair| pair.what.to_owned());
-    ["scene", "tolerance"]
-        .map(str::to_owned)
-        .into_iter()
-        .chain(names)
-        .collect()
+    let names = prediction.pairs.iter().map(|pair| pair.what);
+    let all = ["scene", "tolerance"].into_iter().chain(names);
+    all.map(str::to_owned).collect()
 }
 
 /// Cells of a prediction: expected / measured = ratio.

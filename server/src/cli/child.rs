@@ -13,7 +13,7 @@ use nix::sys::resource::{Resource, setrlimit};
 use signal_hook::consts::SIGTERM;
 
 use crate::cli::arguments::ChildArguments;
-use crate::cli::terminal::{failed, refused, write_err};
+use crate::cli::terminal::{Ended, failed, refused, write_err};
 use crate::export::documents::VTU;
 use crate::export::files;
 use crate::export::files::FilesError;
@@ -26,52 +26,46 @@ use crate::spec;
 /// Pause before a full disk is tried again.
 const DISK_PAUSE: Duration = Duration::from_millis(200);
 
-pub(super) fn run(arguments: &ChildArguments) -> ExitCode {
+pub(super) fn run(arguments: &ChildArguments) -> Ended {
     let stop = Arc::new(AtomicBool::new(false));
-    if let Err(cause) = prepare(arguments, &stop) {
-        return failed(cause);
-    }
-    let input = match Input::read(std::io::stdin().lock()) {
-        Ok(input) => input,
-        Err(cause) => return failed(cause),
-    };
+    prepare(arguments, &stop).map_err(failed)?;
+    let input = Input::read(std::io::stdin().lock()).map_err(failed)?;
     let resolved = match spec::read(input.spec.as_bytes()) {
         Ok(resolved) => resolved,
         Err(error) => {
-            let failed = Line::Failed(Failure {
+            report(&Line::Failed(Failure {
                 outcome: Outcome::NotConverged,
                 reason: error.to_string(),
-            });
-            return match write(&failed) {
-                ControlFlow::Continue(()) => refused(&error),
-                ControlFlow::Break(()) => ExitCode::FAILURE,
-            };
+            }))?;
+            return Err(refused(&error));
         }
     };
     std::thread::spawn(end_with_supervisor);
     let from = match input.checkpoint() {
         Ok(from) => from,
         Err(cause) => {
-            if write(&Line::Restarted(cause)).is_break() {
-                return ExitCode::FAILURE;
-            }
+            report(&Line::Restarted(cause))?;
             None
         }
     };
     let every = Duration::from_millis(arguments.checkpoint_every_ms);
     let policy = CheckpointPolicy::new(every, Arc::clone(&stop));
     let solved = solve::run_from(&resolved.scene, from, &policy, &mut |line| match line {
-        Line::Fields(fields) => keep(&arguments.folder, &fields, &stop),
+        Line::Fields(fields) => store(&arguments.folder, &fields, &stop),
         line => write(&line),
     });
-    let last = match solved {
+    report(&match solved {
         Ok(summary) if summary.outcome == Outcome::Stopped => Line::Stopped,
         Ok(summary) => Line::Summary(Box::new(summary)),
         Err(failure) => Line::Failed(failure),
-    };
-    match write(&last) {
-        ControlFlow::Continue(()) => ExitCode::SUCCESS,
-        ControlFlow::Break(()) => ExitCode::FAILURE,
+    })
+}
+
+/// Writes a line outside of the run; without a supervisor that reads it, the process fails.
+fn report(line: &Line) -> Ended {
+    match write(line) {
+        ControlFlow::Continue(()) => Ok(()),
+        ControlFlow::Break(()) => Err(ExitCode::FAILURE),
     }
 }
 
@@ -94,16 +88,16 @@ fn end_with_supervisor() {
     std::process::exit(EXIT_ORPHANED);
 }
 
-/// Writes fields into the attempt's folder and tells of the file. A disk that takes no more is no fault of the study: a
-/// full one is waited for, unless the process is asked to end; for another reason it ends without a verdict, and another
-/// attempt is made.
-fn keep(folder: &Path, fields: &FieldsFile, stop: &AtomicBool) -> ControlFlow<()> {
+/// Writes fields into the attempt's folder and reports the file. A failed write is not the job's fault: while the disk is
+/// full, the write is retried until the process is asked to stop; after any other error the process exits without an
+/// outcome, and the job is attempted again.
+fn store(folder: &Path, fields: &FieldsFile, stop: &AtomicBool) -> ControlFlow<()> {
     let FieldsFile { name, cycle, bytes } = fields;
-    let mut told = false;
+    let mut logged = false;
     while let Err(error) = files::write_atomically(folder, name, bytes) {
-        if !told {
+        if !logged {
             write_err(&error);
-            told = true;
+            logged = true;
         }
         match error {
             FilesError::Write { cause, .. } if files::is_full(&cause) => {}

@@ -2,7 +2,6 @@
 
 use std::net::SocketAddr;
 use std::path::PathBuf;
-use std::process::ExitCode;
 
 use api::event::Done;
 use api::job::{Job, Progress, Status};
@@ -11,10 +10,10 @@ use eventsource_stream::Eventsource;
 use futures_util::StreamExt;
 use uuid::Uuid;
 
-use crate::cli::runtime::{runtime, workers};
+use crate::cli::runtime::{block_on, workers};
 use crate::cli::serve::until_signal;
 use crate::cli::table;
-use crate::cli::terminal::{bar, failed, write_err, write_out};
+use crate::cli::terminal::{Ended, bar, failed, write_err, write_out};
 use crate::http::Access;
 use crate::queue::ATTEMPT_LIMIT;
 use crate::service::{Config, Service, ServiceError};
@@ -40,15 +39,8 @@ enum DemoError {
     Ended(Box<Done>),
 }
 
-pub(super) fn run(listen: SocketAddr, exit: bool) -> ExitCode {
-    let runtime = match runtime() {
-        Ok(runtime) => runtime,
-        Err(cause) => return failed(cause),
-    };
-    match runtime.block_on(demonstrate(listen, exit)) {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(error) => failed(error),
-    }
+pub(super) fn run(listen: SocketAddr, exit: bool) -> Ended {
+    block_on(demonstrate(listen, exit))?.map_err(failed)
 }
 
 async fn demonstrate(listen: SocketAddr, exit: bool) -> Result<(), DemoError> {
@@ -93,44 +85,31 @@ async fn show_job(base: &str) -> Result<(), DemoError> {
         .post(format!("{base}/v1/jobs"))
         .header("content-type", "application/json")
         .body(SPEC);
-    let job: Job = request.send().await?.error_for_status()?.json().await?;
+    let job: Job = received(request).await?.json().await?;
     let own = format!("{base}/v1/jobs/{}", job.id);
     let done = follow(&client, &own, job.progress.cycles).await?;
     if done.status != Status::Succeeded {
         return Err(DemoError::Ended(Box::new(done)));
     }
-    let job: Job = client
-        .get(&own)
-        .send()
-        .await?
-        .error_for_status()?
-        .json()
-        .await?;
-    let url = format!("{own}/results/wear-history");
-    let history: WearHistory = client
-        .get(url)
-        .send()
-        .await?
-        .error_for_status()?
-        .json()
-        .await?;
-    for line in table::report(&job, &history) {
-        write_out(line);
-    }
-    for line in next_steps(base, &own) {
+    let job: Job = received(client.get(&own)).await?.json().await?;
+    let history = client.get(format!("{own}/results/wear-history"));
+    let history: WearHistory = received(history).await?.json().await?;
+    let report = table::report(&job, &history);
+    for line in report.into_iter().chain(next_steps(base, &own)) {
         write_out(line);
     }
     Ok(())
 }
 
+/// Sends a request; an error status is an error.
+async fn received(request: reqwest::RequestBuilder) -> reqwest::Result<reqwest::Response> {
+    request.send().await?.error_for_status()
+}
+
 /// Updates a progress bar from the event stream until `done`.
 async fn follow(client: &reqwest::Client, own: &str, cycles: u64) -> Result<Done, DemoError> {
     let bar = bar(cycles);
-    let response = client
-        .get(format!("{own}/events"))
-        .send()
-        .await?
-        .error_for_status()?;
+    let response = received(client.get(format!("{own}/events"))).await?;
     let mut events = response.bytes_stream().eventsource();
     while let Some(event) = events.next().await {
         let event = event.map_err(|error| DemoError::Stream(error.to_string()))?;

@@ -2,7 +2,6 @@
 
 use std::ops::ControlFlow;
 use std::path::Path;
-use std::process::ExitCode;
 
 use solver::model::{self, Model};
 use solver::observer::{Event, Observer};
@@ -11,28 +10,20 @@ use solver::scene::Scene;
 use solver::sides::Sides;
 use solver::{SolveError, ale};
 
-use crate::cli::terminal::{failed, specification, write_out};
+use crate::cli::terminal::{Ended, failed, specification, write_out};
 use crate::export::deck;
 
-pub(super) fn run(spec: &Path, cycle: u64) -> ExitCode {
-    let resolved = match specification(spec) {
-        Ok(resolved) => resolved,
-        Err(code) => return code,
-    };
-    let scene = resolved.scene;
+pub(super) fn run(spec: &Path, cycle: u64) -> Ended {
+    let scene = specification(spec)?.scene;
     if cycle > scene.cycles {
-        return failed(format_args!(
+        return Err(failed(format_args!(
             "cycle {cycle} exceeds the number of cycles, {}",
             scene.cycles
-        ));
+        )));
     }
-    match worn(&scene, cycle) {
-        Ok(model) => {
-            write_out(deck::inp(&scene, &model).trim_end());
-            ExitCode::SUCCESS
-        }
-        Err(error) => failed(error),
-    }
+    let model = worn(&scene, cycle).map_err(failed)?;
+    write_out(deck::inp(&scene, &model).trim_end());
+    Ok(())
 }
 
 /// Returns the model at a cycle; the unworn one needs no solve.
@@ -49,16 +40,14 @@ fn worn(scene: &Scene, cycle: u64) -> Result<Model, SolveError> {
     short.output.fields = false;
     let mut last = Last::default();
     solver::run::solve(&short, &mut last)?;
-    match last.0 {
-        Some(snapshot) => {
-            let depth = Sides {
-                slider: snapshot.slider.depth_mm,
-                receptacle: snapshot.receptacle.depth_mm,
-            };
-            Ok(ale::relocate(&model, &depth)?)
-        }
-        None => Ok(model),
-    }
+    let Some(snapshot) = last.0 else {
+        return Ok(model);
+    };
+    let depth = Sides {
+        slider: snapshot.slider.depth_mm,
+        receptacle: snapshot.receptacle.depth_mm,
+    };
+    Ok(ale::relocate(&model, &depth)?)
 }
 
 /// Stores the last snapshot.

@@ -5,6 +5,7 @@ use std::time::Duration;
 
 use clap::Args;
 
+use crate::export::files;
 use crate::queue::ATTEMPT_LIMIT;
 use crate::worker::WorkerConfig;
 
@@ -63,15 +64,10 @@ impl WorkOptions {
 
 /// Returns the folder of a database.
 pub(super) fn folder(database: &str) -> PathBuf {
-    let path = Path::new(
-        database
-            .trim_start_matches("sqlite:")
-            .trim_start_matches("//"),
-    );
-    match path.parent() {
-        Some(folder) if !folder.as_os_str().is_empty() => folder.to_owned(),
-        _ => PathBuf::from("."),
-    }
+    let path = database
+        .trim_start_matches("sqlite:")
+        .trim_start_matches("//");
+    files::parent(Path::new(path)).to_owned()
 }
 
 fn seconds(text: &str) -> Result<Duration, String> {

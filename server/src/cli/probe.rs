@@ -1,29 +1,22 @@
 //! `fretwear probe`: checks whether a service on this machine is ready, for health checks without another HTTP client.
 
 use std::net::{IpAddr, Ipv4Addr, Ipv6Addr, SocketAddr};
-use std::process::ExitCode;
 use std::time::Duration;
 
-use crate::cli::runtime::runtime;
-use crate::cli::terminal::{failed, write_out};
+use crate::cli::runtime::block_on;
+use crate::cli::terminal::{Ended, failed, write_out};
 
 /// Time limit of the request.
 const TIMEOUT: Duration = Duration::from_secs(4);
 
-pub(super) fn run(listen: SocketAddr) -> ExitCode {
-    let runtime = match runtime() {
-        Ok(runtime) => runtime,
-        Err(cause) => return failed(cause),
-    };
+pub(super) fn run(listen: SocketAddr) -> Ended {
     let url = format!("http://{}/readyz", local(listen));
-    match runtime.block_on(request(&url)) {
-        Ok(status) if status.is_success() => {
-            write_out("ready");
-            ExitCode::SUCCESS
-        }
-        Ok(status) => failed(format_args!("{url}: {status}")),
-        Err(error) => failed(error),
+    let status = block_on(request(&url))?.map_err(failed)?;
+    if !status.is_success() {
+        return Err(failed(format_args!("{url}: {status}")));
     }
+    write_out("ready");
+    Ok(())
 }
 
 async fn request(url: &str) -> reqwest::Result<reqwest::StatusCode> {

@@ -1,5 +1,9 @@
 //! Runtime and parallelism of the commands.
 
+use std::process::ExitCode;
+
+use crate::cli::terminal::failed;
+
 /// Number of jobs solved at once; one per processor unless given.
 pub(super) fn workers(given: Option<u16>) -> usize {
     given.map_or_else(
@@ -8,9 +12,11 @@ pub(super) fn workers(given: Option<u16>) -> usize {
     )
 }
 
-/// A multi-threaded runtime.
-pub(super) fn runtime() -> std::io::Result<tokio::runtime::Runtime> {
-    tokio::runtime::Builder::new_multi_thread()
+/// Runs a future on a multi-threaded runtime.
+pub(super) fn block_on<F: Future>(future: F) -> Result<F::Output, ExitCode> {
+    let runtime = tokio::runtime::Builder::new_multi_thread()
         .enable_all()
         .build()
+        .map_err(failed)?;
+    Ok(runtime.block_on(future))
 }

@@ -1,53 +1,35 @@
 //! `fretwear serve`: the service.
 
-use std::process::ExitCode;
-
 use tokio::signal::unix::{SignalKind, signal};
 
 use crate::cli::arguments::ServeArguments;
-use crate::cli::runtime::runtime;
-use crate::cli::terminal::{failed, write_err};
+use crate::cli::runtime::block_on;
+use crate::cli::terminal::{Ended, failed, write_err};
 use crate::service::{Config, Service};
 
-pub(super) fn run(arguments: ServeArguments) -> ExitCode {
-    let runtime = match runtime() {
-        Ok(runtime) => runtime,
-        Err(cause) => return failed(cause),
+pub(super) fn run(arguments: ServeArguments) -> Ended {
+    let program = std::env::current_exe().map_err(failed)?;
+    let access = arguments.access.access().map_err(failed)?;
+    let work = &arguments.work;
+    let config = Config {
+        listen: arguments.listen,
+        access,
+        workers: work.workers(),
+        attempts: work.attempts,
+        keep_days: work.keep_days,
+        worker: work.config(program, &arguments.database),
+        database: arguments.database,
     };
-    let program = match std::env::current_exe() {
-        Ok(program) => program,
-        Err(cause) => return failed(cause),
-    };
-    runtime.block_on(async {
-        let work = &arguments.work;
-        let access = match arguments.access.access() {
-            Ok(access) => access,
-            Err(error) => return failed(error),
-        };
-        let config = Config {
-            listen: arguments.listen,
-            access,
-            workers: work.workers(),
-            attempts: work.attempts,
-            keep_days: work.keep_days,
-            worker: work.config(program, &arguments.database),
-            database: arguments.database,
-        };
-        let service = match Service::start(config).await {
-            Ok(service) => service,
-            Err(error) => return failed(error),
-        };
+    block_on(async {
+        let service = Service::start(config).await.map_err(failed)?;
         write_err(format_args!(
             "fretwear serves on http://{}",
             service.address
         ));
         let ended = until_signal().await;
         service.stop().await;
-        match ended {
-            Ok(()) => ExitCode::SUCCESS,
-            Err(cause) => failed(cause),
-        }
-    })
+        ended.map_err(failed)
+    })?
 }
 
 /// Returns at SIGINT (Ctrl-C) or SIGTERM.

@@ -9,18 +9,15 @@ use api::results::{Snapshot, Summary};
 use indicatif::ProgressBar;
 use solver::record::CycleReport;
 
-use crate::cli::terminal::{bar, failed, specification_for, write_err, write_out};
+use crate::cli::terminal::{Ended, bar, failed, specification_for, write_err, write_json};
 use crate::export::documents::Results;
 use crate::export::files;
 use crate::solve;
 use crate::solve::{Failure, FieldsFile, Line};
 use crate::spec::Resolved;
 
-pub(super) fn run(spec: &Path, out: Option<&Path>) -> ExitCode {
-    let resolved = match specification_for(spec, out) {
-        Ok(resolved) => resolved,
-        Err(code) => return code,
-    };
+pub(super) fn run(spec: &Path, out: Option<&Path>) -> Ended {
+    let resolved = specification_for(spec, out)?;
     let mut recorded = Recorded::default();
     let solved = solve(&resolved, &mut recorded);
     if let Some(folder) = out {
@@ -33,15 +30,13 @@ pub(super) fn run(spec: &Path, out: Option<&Path>) -> ExitCode {
         };
         if let Err(error) = files::write(folder, &results, &recorded.fields) {
             if let Ok(summary) = &solved {
-                report(summary);
+                // The command fails in any case.
+                let _ = report(summary);
             }
-            return failed(error);
+            return Err(failed(error));
         }
     }
-    match solved {
-        Ok(summary) => report(&summary),
-        Err(failure) => failed(failure),
-    }
+    report(&solved.map_err(failed)?)
 }
 
 #[derive(Default)]
@@ -79,14 +74,11 @@ fn record(line: Line, recorded: &mut Recorded, bar: &ProgressBar) {
     }
 }
 
-fn report(summary: &Summary) -> ExitCode {
-    match serde_json::to_string_pretty(summary) {
-        Ok(text) => write_out(text),
-        Err(cause) => return failed(cause),
-    }
+fn report(summary: &Summary) -> Ended {
+    write_json(summary)?;
     if summary.outcome == Outcome::Stopped {
         write_err("fretwear: the run was stopped");
-        return ExitCode::FAILURE;
+        return Err(ExitCode::FAILURE);
     }
-    ExitCode::SUCCESS
+    Ok(())
 }

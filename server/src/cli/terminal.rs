@@ -8,9 +8,13 @@ use std::time::Duration;
 
 use api::problem::Fault;
 use indicatif::{ProgressBar, ProgressStyle};
+use serde::Serialize;
 
 use crate::spec;
 use crate::spec::{Refused, Resolved};
+
+/// End of a command: the exit code of one that failed, which has been reported.
+pub(super) type Ended = Result<(), ExitCode>;
 
 /// Exit code of a refused specification.
 const REFUSED: u8 = 2;
@@ -18,6 +22,12 @@ const REFUSED: u8 = 2;
 /// Writes a line on standard output. A closed pipe (`| head`) is not an error.
 pub(super) fn write_out(line: impl Display) {
     let _ = writeln!(std::io::stdout().lock(), "{line}");
+}
+
+/// Writes a document as JSON on standard output.
+pub(super) fn write_json(document: &impl Serialize) -> Ended {
+    write_out(serde_json::to_string_pretty(document).map_err(failed)?);
+    Ok(())
 }
 
 /// Writes a line on standard error.
@@ -29,6 +39,11 @@ pub(super) fn write_err(line: impl Display) {
 pub(super) fn failed(cause: impl Display) -> ExitCode {
     write_err(format_args!("fretwear: {cause}"));
     ExitCode::FAILURE
+}
+
+/// Reports that a file or folder cannot be read or written.
+pub(super) fn failed_at(path: &Path, cause: &std::io::Error) -> ExitCode {
+    failed(format_args!("{}: {cause}", path.display()))
 }
 
 /// Reports a refused specification with all its faults; returns its exit code.
@@ -44,8 +59,7 @@ pub(super) fn refused(refused: &Refused) -> ExitCode {
 
 /// Reads and resolves the specification in a file; reports a failure and returns its exit code.
 pub(super) fn specification(path: &Path) -> Result<Resolved, ExitCode> {
-    let bytes =
-        std::fs::read(path).map_err(|cause| failed(format_args!("{}: {cause}", path.display())))?;
+    let bytes = std::fs::read(path).map_err(|cause| failed_at(path, &cause))?;
     spec::read(&bytes).map_err(|error| refused(&error))
 }
 
@@ -54,16 +68,26 @@ pub(super) fn specification(path: &Path) -> Result<Resolved, ExitCode> {
 pub(super) fn specification_for(path: &Path, out: Option<&Path>) -> Result<Resolved, ExitCode> {
     let resolved = specification(path)?;
     if let Some(folder) = out {
-        std::fs::create_dir_all(folder)
-            .map_err(|cause| failed(format_args!("{}: {cause}", folder.display())))?;
+        std::fs::create_dir_all(folder).map_err(|cause| failed_at(folder, &cause))?;
     }
     Ok(resolved)
 }
 
 /// Returns a progress bar of cycles on standard error; silent where standard error is no terminal.
 pub(super) fn bar(cycles: u64) -> ProgressBar {
-    let bar = ProgressBar::new(cycles);
     let template = "{msg:>9} [{bar:40}] {pos}/{len} cycles, {elapsed} elapsed, {eta} left";
+    styled(ProgressBar::new(cycles), template)
+}
+
+/// Returns a spinner for the present run on standard error; silent where that is no terminal.
+pub(super) fn spinner() -> ProgressBar {
+    styled(
+        ProgressBar::new_spinner(),
+        "{spinner} {msg}, {elapsed} elapsed",
+    )
+}
+
+fn styled(bar: ProgressBar, template: &str) -> ProgressBar {
     // The template is a constant; if it is invalid, the default template is used.
     if let Ok(style) = ProgressStyle::with_template(template) {
         bar.set_style(style.progress_chars("=> "));
