@@ -19,6 +19,19 @@ const PENALTY: f64 = 50.0;
 const STICK_SLOPE: f64 = 0.1;
 /// Node numbers per line of a set.
 const LINE: usize = 8;
+/// Output and end of a step.
+const OUTPUT: &str = "\
+*NODE PRINT, NSET=RECEPTACLE_NEAR, FREQUENCY=1000
+U
+*NODE PRINT, NSET=SLIDER_FAR, FREQUENCY=1000
+U
+*NODE FILE, FREQUENCY=1000
+U
+*EL FILE, FREQUENCY=1000
+S
+*CONTACT FILE, FREQUENCY=1000
+CDIS, CSTR
+*END STEP";
 
 /// The deck; without the second step if the motion has no amplitude.
 pub fn inp(scene: &Scene, model: &Model) -> String {
@@ -41,9 +54,8 @@ fn first_gap(slider: &BodyModel, receptacle: &BodyModel) -> f64 {
     gaps.fold(f64::INFINITY, f64::min)
 }
 
-/// Node numbers of a body in the deck.
+/// Node numbers of the far side of a body in the deck.
 struct Part {
-    first_node: usize,
     control_node: usize,
     far: Vec<usize>,
 }
@@ -63,19 +75,14 @@ impl Deck {
 
     /// Bodies, contact and supports; returns the slider.
     fn bodies_and_contact(&mut self, scene: &Scene, model: &Model, penalty: f64) -> Part {
-        self.line("*HEADING");
-        self.line("fretwear: mm, N, MPa; plane strain, one mm of depth");
-        let lowered = -first_gap(&model.bodies.slider, &model.bodies.receptacle);
-        let slider = self.body(
-            "SLIDER",
-            &model.bodies.slider,
-            scene.slider.elastic,
-            lowered,
-        );
+        self.line("*HEADING\nfretwear: mm, N, MPa; plane strain, one mm of depth");
+        let bodies = &model.bodies;
+        let lowered = -first_gap(&bodies.slider, &bodies.receptacle);
+        let slider = self.body("SLIDER", &bodies.slider, scene.slider.elastic, lowered);
         let elastic = scene.receptacle.elastic;
-        let receptacle = self.body("RECEPTACLE", &model.bodies.receptacle, elastic, 0.0);
+        self.body("RECEPTACLE", &bodies.receptacle, elastic, 0.0);
         self.contact(scene, model, penalty);
-        self.boundary(&model.bodies.slider, &slider, &receptacle);
+        self.boundary(&slider);
         slider
     }
 
@@ -94,14 +101,11 @@ impl Deck {
         let first_element = self.elements + 1;
         let cells = model.mesh.cells();
         self.cells(name, &cells, first_node);
-        self.line(format!("*MATERIAL, NAME={name}"));
-        self.line("*ELASTIC");
+        let (modulus, ratio) = (elastic.youngs_modulus_mpa, elastic.poisson_ratio);
         self.line(format!(
-            "{:e}, {}",
-            elastic.youngs_modulus_mpa, elastic.poisson_ratio
+            "*MATERIAL, NAME={name}\n*ELASTIC\n{modulus:e}, {ratio}"
         ));
-        self.line(format!("*SOLID SECTION, ELSET={name}, MATERIAL={name}"));
-        self.line("1.");
+        self.line(format!("*SOLID SECTION, ELSET={name}, MATERIAL={name}\n1."));
         self.surface(name, model, &cells, first_element);
         let spines = model.mesh.spines();
         let far: Vec<usize> = (0..spines)
@@ -114,7 +118,6 @@ impl Deck {
         self.set(&format!("{name}_FAR"), &far);
         self.set(&format!("{name}_NEAR"), &near);
         Part {
-            first_node,
             control_node: far[spines / 2],
             far,
         }
@@ -128,10 +131,7 @@ impl Deck {
             }
             // Elements are numbered in the order of the mesh, not by kind.
             for (element, cell) in cells.iter().enumerate().filter(|(_, cell)| of_kind(cell)) {
-                let ids = nodes_of(cell)
-                    .iter()
-                    .map(|node| (first_node + node).to_string());
-                let ids = ids.collect::<Vec<_>>().join(", ");
+                let ids = listed(nodes_of(cell).iter().map(|node| first_node + node));
                 self.line(format!("{}, {ids}", self.elements + element + 1));
             }
         }
@@ -156,30 +156,22 @@ impl Deck {
     fn set(&mut self, name: &str, nodes: &[usize]) {
         self.line(format!("*NSET, NSET={name}"));
         for chunk in nodes.chunks(LINE) {
-            let ids = chunk
-                .iter()
-                .map(ToString::to_string)
-                .collect::<Vec<_>>()
-                .join(", ");
-            self.line(format!("{ids},"));
+            self.line(format!("{},", listed(chunk.iter().copied())));
         }
     }
 
     fn contact(&mut self, scene: &Scene, model: &Model, penalty: f64) {
-        let stiffest = scene
-            .slider
-            .elastic
-            .youngs_modulus_mpa
-            .max(scene.receptacle.elastic.youngs_modulus_mpa);
+        let elastic = [scene.slider.elastic, scene.receptacle.elastic];
+        let [slider, receptacle] = elastic.map(|elastic| elastic.youngs_modulus_mpa);
+        let stiffest = slider.max(receptacle);
         let penalty = penalty * stiffest / model.sizes.contact_element;
         self.line("*SURFACE INTERACTION, NAME=TOUCH");
         self.line("*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR");
         self.line(format!("{penalty:e}"));
-        if model.interface.friction > 0.0 {
-            self.line("*FRICTION");
+        let friction = model.interface.friction;
+        if friction > 0.0 {
             self.line(format!(
-                "{}, {:e}",
-                model.interface.friction,
+                "*FRICTION\n{friction}, {:e}",
                 STICK_SLOPE * penalty
             ));
         }
@@ -187,67 +179,32 @@ impl Deck {
         self.line("RECEPTACLE_FACE, SLIDER_FACE");
     }
 
-    fn boundary(&mut self, model: &BodyModel, slider: &Part, receptacle: &Part) {
-        debug_assert!(
-            slider.first_node < receptacle.first_node,
-            "the slider comes first"
-        );
-        for node in slider
-            .far
-            .iter()
-            .filter(|node| **node != slider.control_node)
-        {
-            self.line("*EQUATION");
-            self.line("2");
-            self.line(format!("{node}, 2, 1., {}, 2, -1.", slider.control_node));
+    fn boundary(&mut self, slider: &Part) {
+        let control = slider.control_node;
+        for node in slider.far.iter().filter(|node| **node != control) {
+            self.line(format!("*EQUATION\n2\n{node}, 2, 1., {control}, 2, -1."));
         }
-        debug_assert!(
-            model.mesh.spines() == slider.far.len(),
-            "one far node a spine"
-        );
-        self.line("*BOUNDARY");
-        self.line("RECEPTACLE_FAR, 1, 2");
-        self.line("SLIDER_FAR, 1, 1");
+        self.line("*BOUNDARY\nRECEPTACLE_FAR, 1, 2\nSLIDER_FAR, 1, 1");
     }
 
     fn load_step(&mut self, scene: &Scene, slider: &Part) {
-        self.line("*STEP, INC=1000");
-        self.line("*STATIC");
-        self.line("0.05, 1., 1e-6, 0.25");
-        self.line("*CLOAD");
-        self.line(format!(
-            "{}, 2, {:e}",
-            slider.control_node, -scene.load_n_per_mm
-        ));
-        self.output();
+        self.line("*STEP, INC=1000\n*STATIC\n0.05, 1., 1e-6, 0.25\n*CLOAD");
+        let (node, load) = (slider.control_node, -scene.load_n_per_mm);
+        self.line(format!("{node}, 2, {load:e}"));
+        self.line(OUTPUT);
     }
 
     fn motion_step(&mut self, amplitude: f64) {
-        self.line("*STEP, INC=10000");
-        self.line("*STATIC");
-        self.line("0.05, 1., 1e-6, 0.05");
-        self.line("*BOUNDARY");
+        self.line("*STEP, INC=10000\n*STATIC\n0.05, 1., 1e-6, 0.05\n*BOUNDARY");
         self.line(format!("SLIDER_FAR, 1, 1, {amplitude:e}"));
-        self.output();
+        self.line(OUTPUT);
     }
+}
 
-    fn output(&mut self) {
-        for line in [
-            "*NODE PRINT, NSET=RECEPTACLE_NEAR, FREQUENCY=1000",
-            "U",
-            "*NODE PRINT, NSET=SLIDER_FAR, FREQUENCY=1000",
-            "U",
-            "*NODE FILE, FREQUENCY=1000",
-            "U",
-            "*EL FILE, FREQUENCY=1000",
-            "S",
-            "*CONTACT FILE, FREQUENCY=1000",
-            "CDIS, CSTR",
-            "*END STEP",
-        ] {
-            self.line(line);
-        }
-    }
+/// Numbers with commas between them.
+fn listed(numbers: impl Iterator<Item = usize>) -> String {
+    let texts: Vec<String> = numbers.map(|number| number.to_string()).collect();
+    texts.join(", ")
 }
 
 fn nodes_of(cell: &Cell) -> &[usize] {

@@ -109,12 +109,8 @@ pub fn all(results: &Results<'_>) -> Result<Vec<Document>, DocumentError> {
     for (picture, drawn) in pictures::run::pictures(name, &record, results.snapshots) {
         let drawing = pictures::svg(&drawn)?;
         if results.pixels {
-            add(
-                format!("{picture}.png"),
-                None,
-                PNG,
-                pictures::png(&drawing)?,
-            );
+            let pixels = pictures::png(&drawing)?;
+            add(format!("{picture}.png"), None, PNG, pixels);
         }
         add(format!("{picture}.svg"), None, SVG, drawing.into_bytes());
     }

@@ -11,6 +11,8 @@ mod ticks;
 
 pub mod run;
 
+use plotters::drawing::DrawingAreaErrorKind;
+
 pub use axis::{Axis, AxisRange, Scale};
 pub use canvas::svg;
 pub use colour::{COLOURS, Colour, ramp};
@@ -67,7 +69,7 @@ pub enum Mark {
 pub enum PlotError {
     /// SVG could not be written.
     #[error("drawing a picture: {0}")]
-    Drawing(String),
+    Drawing(#[from] DrawingAreaErrorKind<std::io::Error>),
     /// The SVG could not be rasterised.
     #[error("rasterising a picture: {0}")]
     Raster(String),

@@ -27,22 +27,17 @@ pub fn friction_cycle(scene: &Scene, model: &Model, lowered_mm: f64, quarter: u3
     let load = scene.load_n_per_mm;
     let amplitude = scene.motion.amplitude_mm();
     let mut step = |increments: f64, constraints: &[String], load: Option<f64>| {
-        deck.line("*STEP, INC=1000");
-        deck.line("*STATIC");
+        deck.line("*STEP, INC=1000\n*STATIC");
         let length = 1.0 / increments;
         deck.line(format!("{length}, 1., {SMALLEST_INCREMENT}, {length}"));
-        deck.line("*BOUNDARY, OP=NEW");
-        deck.line("RECEPTACLE_FAR, 1, 2");
+        deck.line("*BOUNDARY, OP=NEW\nRECEPTACLE_FAR, 1, 2");
         for constraint in constraints {
             deck.line(constraint);
         }
         if let Some(load) = load {
-            deck.line("*CLOAD, OP=NEW");
-            deck.line(format!("{control_node}, 2, {:e}", -load));
+            deck.line(format!("*CLOAD, OP=NEW\n{control_node}, 2, {:e}", -load));
         }
-        deck.line("*NODE PRINT, NSET=RECEPTACLE_FAR, TOTALS=ONLY");
-        deck.line("RF");
-        deck.line("*END STEP");
+        deck.line("*NODE PRINT, NSET=RECEPTACLE_FAR, TOTALS=ONLY\nRF\n*END STEP");
     };
     // CalculiX reads 20 characters per field.
     let lowered = format!("{control_node}, 2, 2, {:.9e}", -lowered_mm);

@@ -65,9 +65,8 @@ pub fn svg(picture: &Picture) -> Result<String, PlotError> {
     let mut text = String::new();
     {
         let root = SVGBackend::with_string(&mut text, size).into_drawing_area();
-        draw(picture, &root, size).map_err(PlotError::Drawing)?;
-        root.present()
-            .map_err(|error| PlotError::Drawing(reason(error)))?;
+        draw(picture, &root, size)?;
+        root.present()?;
     }
     Ok(sized_in_pixels(&text, size))
 }
@@ -82,11 +81,11 @@ fn sized_in_pixels(text: &str, (width, height): (u32, u32)) -> String {
     )
 }
 
-fn draw(picture: &Picture, root: &Area<'_>, size: (u32, u32)) -> Result<(), String> {
-    root.fill(&WHITE).map_err(reason)?;
+fn draw(picture: &Picture, root: &Area<'_>, size: (u32, u32)) -> Result<(), PlotError> {
+    root.fill(&WHITE)?;
     let (head, body) = root.split_vertically(TITLE_HEIGHT);
     let title = Text::new(picture.title.clone(), (px(14), px(14)), font(TITLE));
-    head.draw(&title).map_err(reason)?;
+    head.draw(&title)?;
     let (panels, side) = body.split_horizontally(size.0 - LEGEND_WIDTH);
     let areas = panels.split_evenly((picture.panels.len(), 1));
     for (panel, area) in picture.panels.iter().zip(&areas) {
@@ -95,7 +94,7 @@ fn draw(picture: &Picture, root: &Area<'_>, size: (u32, u32)) -> Result<(), Stri
     legend(picture, &side)
 }
 
-fn draw_panel(panel: &Panel, area: &Area<'_>) -> Result<(), String> {
+fn draw_panel(panel: &Panel, area: &Area<'_>) -> Result<(), PlotError> {
     let along = |axis: usize| {
         panel
             .series
@@ -108,8 +107,7 @@ fn draw_panel(panel: &Panel, area: &Area<'_>) -> Result<(), String> {
         .margin(MARGIN)
         .x_label_area_size(X_TITLE)
         .y_label_area_size(Y_TITLE)
-        .build_cartesian_2d(x.clone(), y.clone())
-        .map_err(reason)?;
+        .build_cartesian_2d(x.clone(), y.clone())?;
     chart
         .configure_mesh()
         .x_desc(panel.x.title.clone())
@@ -122,15 +120,14 @@ fn draw_panel(panel: &Panel, area: &Area<'_>) -> Result<(), String> {
         .light_line_style(FAINT.stroke_width(THIN_STROKE))
         .axis_style(INK.stroke_width(THIN_STROKE))
         .set_all_tick_mark_size(TICK)
-        .draw()
-        .map_err(reason)?;
+        .draw()?;
     for series in &panel.series {
         draw_series(panel, series, &mut chart)?;
     }
     Ok(())
 }
 
-fn draw_series(panel: &Panel, series: &Series, chart: &mut Chart<'_, '_>) -> Result<(), String> {
+fn draw_series(panel: &Panel, series: &Series, chart: &mut Chart<'_, '_>) -> Result<(), PlotError> {
     let coordinates = |point: &[f64; 2]| {
         Some((
             panel.x.scale.coordinate(point[0])?,
@@ -153,11 +150,10 @@ fn draw_series(panel: &Panel, series: &Series, chart: &mut Chart<'_, '_>) -> Res
             ))
             .map(drop),
         Mark::Dots | Mark::Circles => Ok(()),
-    }
-    .map_err(reason)?;
+    }?;
     if let Some(style) = marker(series.mark, colour) {
         let circles = points.into_iter().map(|at| Circle::new(at, DOT, style));
-        chart.draw_series(circles).map_err(reason)?;
+        chart.draw_series(circles)?;
     }
     Ok(())
 }
@@ -171,7 +167,7 @@ fn marker(mark: Mark, colour: RGBColor) -> Option<ShapeStyle> {
 }
 
 /// Draws every label once, in order of appearance, beside the panels.
-fn legend(picture: &Picture, side: &Area<'_>) -> Result<(), String> {
+fn legend(picture: &Picture, side: &Area<'_>) -> Result<(), PlotError> {
     let mut shown: Vec<&Series> = Vec::new();
     for series in picture.panels.iter().flat_map(|panel| &panel.series) {
         if !series.label.is_empty() && shown.iter().all(|other| other.label != series.label) {
@@ -189,18 +185,17 @@ fn legend(picture: &Picture, side: &Area<'_>) -> Result<(), String> {
         };
         for [from, to] in dashes {
             let line = PathElement::new(vec![(*from, y), (*to, y)], stroke);
-            side.draw(&line).map_err(reason)?;
+            side.draw(&line)?;
         }
         if let Some(style) = marker(series.mark, colour) {
-            side.draw(&Circle::new((LEGEND_MARK / 2, y), DOT, style))
-                .map_err(reason)?;
+            side.draw(&Circle::new((LEGEND_MARK / 2, y), DOT, style))?;
         }
         let label = Text::new(
             series.label.clone(),
             (LEGEND_LABEL, y - LEGEND_RISE),
             font(LABEL),
         );
-        side.draw(&label).map_err(reason)?;
+        side.draw(&label)?;
         y += LEGEND_LINE;
     }
     Ok(())
@@ -217,8 +212,4 @@ fn rgb([red, green, blue]: Colour) -> RGBColor {
 /// Pixels in drawing units.
 const fn px(pixels: i32) -> i32 {
     pixels * UNIT.cast_signed()
-}
-
-fn reason(error: impl std::error::Error) -> String {
-    error.to_string()
 }

@@ -10,6 +10,13 @@ use crate::export::pictures::{
 /// Most snapshots in one picture; of more, every n-th is drawn, the last one included.
 const MOST_SNAPSHOTS: usize = 12;
 
+/// A snapshot with the label and the colour of its curves.
+struct Shown<'a> {
+    label: String,
+    colour: Colour,
+    snapshot: &'a Snapshot,
+}
+
 /// The pictures of a run with their file names. `name` is the name of the specification.
 pub fn pictures(
     name: &str,
@@ -17,23 +24,36 @@ pub fn pictures(
     snapshots: &[Snapshot],
 ) -> Vec<(&'static str, Picture)> {
     let shown = every_nth(snapshots);
-    let mut pictures = Vec::new();
-    if record.cycle.len() > 1 {
-        pictures.push(("wear-history", wear_history(name, record)));
-    }
-    if !shown.is_empty() {
-        pictures.extend(profiles(name, &shown).map(|picture| ("profiles", picture)));
-        pictures.push(("pressure", tractions(name, &shown)));
-        pictures.extend(loops(name, &shown).map(|picture| ("loops", picture)));
-    }
-    pictures
+    let pictures = [
+        ("wear-history", "Wear history", wear_history(record)),
+        ("profiles", "Worn profiles", profiles(&shown)),
+        (
+            "pressure",
+            "Contact at the neutral position",
+            tractions(&shown),
+        ),
+        ("loops", "Friction loops", loops(&shown)),
+    ];
+    let drawn = pictures
+        .into_iter()
+        .filter(|(_, _, panels)| !panels.is_empty());
+    let titled = |(file, what, panels)| {
+        let title = titled(what, name);
+        (file, Picture { title, panels })
+    };
+    drawn.map(titled).collect()
 }
 
-fn every_nth(snapshots: &[Snapshot]) -> Vec<&Snapshot> {
+fn every_nth(snapshots: &[Snapshot]) -> Vec<Shown<'_>> {
     let every = snapshots.len().div_ceil(MOST_SNAPSHOTS).max(1);
-    let mut shown: Vec<_> = snapshots.iter().rev().step_by(every).collect();
-    shown.reverse();
-    shown
+    let shown = snapshots.iter().rev().step_by(every);
+    let count = shown.len();
+    let shown = shown.rev().enumerate().map(|(index, snapshot)| Shown {
+        label: format!("cycle {}", snapshot.profile.cycle),
+        colour: ramp(index, count),
+        snapshot,
+    });
+    shown.collect()
 }
 
 /// The unit for lengths up to `largest_mm`: its name and the factor from mm.
@@ -45,8 +65,9 @@ fn unit(largest_mm: f64) -> (&'static str, f64) {
     }
 }
 
-fn largest<'a>(values: impl Iterator<Item = &'a f64>) -> f64 {
-    values.fold(0.0, |largest: f64, value| largest.max(value.abs()))
+fn largest<'a>(values: impl IntoIterator<Item = &'a f64>) -> f64 {
+    let sizes = values.into_iter().map(|value| value.abs());
+    sizes.fold(0.0, f64::max)
 }
 
 fn line(label: impl Into<String>, colour: Colour, x: &[f64], y: &[f64]) -> Series {
@@ -62,20 +83,28 @@ fn scaled(values: &[f64], factor: f64) -> Vec<f64> {
     values.iter().map(|value| factor * value).collect()
 }
 
+fn place_axis(what: &str, unit: &str) -> Axis {
+    Axis::new(format!("{what} ({unit})"), Scale::Linear)
+}
+
+fn depth_axis(unit: &str) -> Axis {
+    let axis = Axis::new(format!("worn depth ({unit})"), Scale::Downward);
+    axis.with_range(AxisRange::DataAndZero)
+}
+
 /// Depth over cycles: the stations, and the channels that have a curve, of each side that wears.
-fn wear_history(name: &str, record: &Record) -> Picture {
-    let drawn = record
-        .columns
-        .iter()
-        .filter(|column| !column.curve.is_empty());
-    let drawn: Vec<(&Column, Colour)> = drawn
+fn wear_history(record: &Record) -> Vec<Panel> {
+    if record.cycle.len() < 2 {
+        return Vec::new();
+    }
+    let columns = record.columns.iter();
+    let named = columns.filter(|column| !column.curve.is_empty());
+    let drawn: Vec<(&Column, Colour)> = named
         .zip(COLOURS.into_iter().cycle())
-        .filter(|(column, _)| largest(column.values.iter()) > 0.0)
+        .filter(|(column, _)| largest(&column.values) > 0.0)
         .collect();
-    let deepest = drawn
-        .iter()
-        .map(|(column, _)| largest(column.values.iter()));
-    let (depth_unit, depth) = unit(deepest.fold(0.0, f64::max));
+    let depths = drawn.iter().flat_map(|(column, _)| &column.values);
+    let (depth_unit, depth) = unit(largest(depths));
     let cycles: Vec<f64> = record.cycle.iter().map(|cycle| count(*cycle)).collect();
     let curve = |label: String, colour, column: &Column| {
         line(label, colour, &cycles, &scaled(&column.values, depth))
@@ -98,68 +127,57 @@ fn wear_history(name: &str, record: &Record) -> Picture {
         let side = column.side.map_or("contact", Side::name);
         series.push(curve(format!("{side}, {}", column.curve), colour, column));
     }
-    Picture {
-        title: titled("Wear history", name),
-        panels: vec![Panel {
-            x: Axis::new("cycle", Scale::Linear),
-            y: Axis::new(format!("worn depth ({depth_unit})"), Scale::Downward)
-                .with_range(AxisRange::DataAndZero),
-            series,
-        }],
-    }
+    vec![Panel {
+        x: Axis::new("cycle", Scale::Linear),
+        y: depth_axis(depth_unit),
+        series,
+    }]
 }
 
-/// Worn depth along each side that wears; `None` if neither does.
-fn profiles(name: &str, snapshots: &[&Snapshot]) -> Option<Picture> {
-    type Side = fn(&Snapshot) -> &SideProfile;
-    let sides: [(&str, Side); 2] = [
-        ("receptacle", |snapshot| &snapshot.profile.receptacle),
-        ("slider", |snapshot| &snapshot.profile.slider),
+/// Worn depth along each side that wears.
+fn profiles(shown: &[Shown<'_>]) -> Vec<Panel> {
+    let panels = [
+        profile_panel("receptacle", shown, |snapshot| &snapshot.profile.receptacle),
+        profile_panel("slider", shown, |snapshot| &snapshot.profile.slider),
     ];
-    let panels = sides.into_iter().filter_map(|(side, of)| {
-        let depths = snapshots.iter().flat_map(|snapshot| &of(snapshot).depth_mm);
-        let deepest = largest(depths);
-        if deepest <= 0.0 {
-            return None;
-        }
-        let (depth_unit, depth) = unit(deepest);
-        let extent = snapshots.iter().fold(0.0_f64, |extent, snapshot| {
-            extent.max(scar_extent(of(snapshot)))
-        });
-        let (place_unit, place) = unit(extent);
-        let curve = |(index, snapshot): (usize, &&Snapshot)| {
-            let (label, colour) = (cycle_label(snapshot), ramp(index, snapshots.len()));
-            let profile = of(snapshot);
-            let (x, y) = (
-                scaled(&profile.x_mm, place),
-                scaled(&profile.depth_mm, depth),
-            );
-            let mut curve = line(label, colour, &x, &y);
-            curve
-                .points
-                .retain(|point| point[0].abs() <= 1.15 * place * extent);
-            curve
-        };
-        Some(Panel {
-            x: Axis::new(
-                format!("place along the {side} ({place_unit})"),
-                Scale::Linear,
-            ),
-            y: Axis::new(format!("worn depth ({depth_unit})"), Scale::Downward)
-                .with_range(AxisRange::DataAndZero),
-            series: snapshots.iter().enumerate().map(curve).collect(),
-        })
-    });
-    let panels: Vec<_> = panels.collect();
-    (!panels.is_empty()).then(|| Picture {
-        title: titled("Worn profiles", name),
-        panels,
+    panels.into_iter().flatten().collect()
+}
+
+/// Worn depth along a side, around its scar; `None` if it does not wear.
+fn profile_panel(
+    side: &str,
+    shown: &[Shown<'_>],
+    of: fn(&Snapshot) -> &SideProfile,
+) -> Option<Panel> {
+    let profiles = || shown.iter().map(|shown| of(shown.snapshot));
+    let deepest = largest(profiles().flat_map(|profile| &profile.depth_mm));
+    if deepest <= 0.0 {
+        return None;
+    }
+    let (depth_unit, depth) = unit(deepest);
+    let extent = profiles().map(scar_extent).fold(0.0, f64::max);
+    let (place_unit, place) = unit(extent);
+    let curve = |shown: &Shown<'_>| {
+        let profile = of(shown.snapshot);
+        let (x, y) = (
+            scaled(&profile.x_mm, place),
+            scaled(&profile.depth_mm, depth),
+        );
+        let mut curve = line(&*shown.label, shown.colour, &x, &y);
+        let shown_extent = 1.15 * place * extent;
+        curve.points.retain(|point| point[0].abs() <= shown_extent);
+        curve
+    };
+    Some(Panel {
+        x: place_axis(&format!("place along the {side}"), place_unit),
+        y: depth_axis(depth_unit),
+        series: shown.iter().map(curve).collect(),
     })
 }
 
 /// Largest distance of the scar from x = 0, mm, to the first node beyond it.
 fn scar_extent(profile: &SideProfile) -> f64 {
-    let limit = 1e-3 * largest(profile.depth_mm.iter());
+    let limit = 1e-3 * largest(&profile.depth_mm);
     let worn = |depth: &f64| *depth > limit;
     let first = profile.depth_mm.iter().position(worn);
     let last = profile.depth_mm.iter().rposition(worn);
@@ -175,77 +193,62 @@ fn scar_extent(profile: &SideProfile) -> f64 {
 }
 
 /// Pressure and shear at the neutral position.
-fn tractions(name: &str, snapshots: &[&Snapshot]) -> Picture {
-    let neutral = |snapshot: &Snapshot| -> Option<PressurePosition> {
+fn tractions(shown: &[Shown<'_>]) -> Vec<Panel> {
+    let neutral = |shown| {
+        let Shown {
+            label,
+            colour,
+            snapshot,
+        }: &Shown<'_> = shown;
         let mut positions = snapshot.pressure.positions.iter();
-        positions
-            .find(|at| at.phase == SlidePosition::Neutral)
-            .cloned()
+        let at = positions.find(|at| at.phase == SlidePosition::Neutral)?;
+        Some((label, *colour, at))
     };
-    let fields: Vec<_> = snapshots
-        .iter()
-        .enumerate()
-        .filter_map(|(index, snapshot)| {
-            let colour = ramp(index, snapshots.len());
-            Some((cycle_label(snapshot), colour, neutral(snapshot)?))
-        })
-        .collect();
-    let (place_unit, place) = unit(largest(fields.iter().flat_map(|(_, _, at)| &at.x_mm)));
+    let fields: Vec<_> = shown.iter().filter_map(neutral).collect();
+    let (place_unit, place) = unit(largest(fields.iter().flat_map(|(.., at)| &at.x_mm)));
     let panel = |title: &str, of: fn(&PressurePosition) -> &Vec<f64>| Panel {
-        x: Axis::new(
-            format!("place along the receptacle ({place_unit})"),
-            Scale::Linear,
-        ),
+        x: place_axis("place along the receptacle", place_unit),
         y: Axis::new(title, Scale::Linear).with_range(AxisRange::DataAndZero),
         series: fields
             .iter()
-            .map(|(label, colour, at)| line(label, *colour, &scaled(&at.x_mm, place), of(at)))
+            .map(|(label, colour, at)| line(*label, *colour, &scaled(&at.x_mm, place), of(at)))
             .collect(),
     };
-    let mut panels = vec![panel("pressure (MPa)", |at| &at.pressure_mpa)];
-    if largest(fields.iter().flat_map(|(_, _, at)| &at.shear_mpa)) > 0.0 {
+    let mut panels = Vec::new();
+    if !shown.is_empty() {
+        panels.push(panel("pressure (MPa)", |at| &at.pressure_mpa));
+    }
+    if largest(fields.iter().flat_map(|(.., at)| &at.shear_mpa)) > 0.0 {
         panels.push(panel("shear on the receptacle (MPa)", |at| &at.shear_mpa));
     }
-    Picture {
-        title: titled("Contact at the neutral position", name),
-        panels,
-    }
+    panels
 }
 
-/// Friction force over the imposed displacement; `None` before the first cycle.
-fn loops(name: &str, snapshots: &[&Snapshot]) -> Option<Picture> {
-    let drawn: Vec<_> = snapshots
-        .iter()
-        .enumerate()
-        .filter(|(_, snapshot)| snapshot.friction_loop.displacement_mm.len() > 1)
-        .collect();
+/// Friction force over the imposed displacement, from the first cycle.
+fn loops(shown: &[Shown<'_>]) -> Vec<Panel> {
+    let closed = |shown: &&Shown<'_>| shown.snapshot.friction_loop.displacement_mm.len() > 1;
+    let drawn: Vec<_> = shown.iter().filter(closed).collect();
+    if drawn.is_empty() {
+        return Vec::new();
+    }
     let displacements = drawn
         .iter()
-        .flat_map(|(_, snapshot)| &snapshot.friction_loop.displacement_mm);
+        .flat_map(|shown| &shown.snapshot.friction_loop.displacement_mm);
     let (place_unit, place) = unit(largest(displacements));
-    let curve = |(index, snapshot): &(usize, &&Snapshot)| {
-        let friction_loop = &snapshot.friction_loop;
-        let mut curve = line(
-            cycle_label(snapshot),
-            ramp(*index, snapshots.len()),
-            &scaled(&friction_loop.displacement_mm, place),
-            &friction_loop.tangential_force_n_per_mm,
-        );
+    let curve = |shown: &&Shown<'_>| {
+        let friction_loop = &shown.snapshot.friction_loop;
+        let x = scaled(&friction_loop.displacement_mm, place);
+        let force = &friction_loop.tangential_force_n_per_mm;
+        let mut curve = line(&*shown.label, shown.colour, &x, force);
         // Closes the loop.
         curve.points.extend(curve.points.first().copied());
         curve
     };
-    (!drawn.is_empty()).then(|| Picture {
-        title: titled("Friction loops", name),
-        panels: vec![Panel {
-            x: Axis::new(
-                format!("imposed displacement ({place_unit})"),
-                Scale::Linear,
-            ),
-            y: Axis::new("friction force (N per mm of depth)", Scale::Linear),
-            series: drawn.iter().map(curve).collect(),
-        }],
-    })
+    vec![Panel {
+        x: place_axis("imposed displacement", place_unit),
+        y: Axis::new("friction force (N per mm of depth)", Scale::Linear),
+        series: drawn.iter().map(curve).collect(),
+    }]
 }
 
 fn titled(what: &str, name: &str) -> String {
@@ -254,10 +257,6 @@ fn titled(what: &str, name: &str) -> String {
     } else {
         format!("{what}: {name}")
     }
-}
-
-fn cycle_label(snapshot: &Snapshot) -> String {
-    format!("cycle {}", snapshot.profile.cycle)
 }
 
 fn trimmed(value: f64) -> String {

@@ -128,5 +128,8 @@ fn of_many_snapshots_every_nth_is_drawn_and_the_last_one() {
     let snapshots: Vec<_> = (1..=40).map(|cycle| snapshot(cycle, 1e-3)).collect();
     let shown = every_nth(&snapshots);
     assert!(shown.len() <= MOST_SNAPSHOTS);
-    assert_eq!(shown.last().map(|last| last.profile.cycle), Some(40));
+    assert_eq!(
+        shown.last().map(|last| last.snapshot.profile.cycle),
+        Some(40)
+    );
 }
