@@ -7,6 +7,8 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 /// An enum whose members have names.
 pub trait StringEnum: Sized + Copy + 'static {
+    /// The first member.
+    const FIRST: Self;
     /// Names of all members.
     const NAMES: &'static [&'static str];
 }
@@ -27,6 +29,13 @@ impl<T: Copy> EnumValue<T> {
             Self::Known(member) => Some(*member),
             Self::Unknown(_) => None,
         }
+    }
+}
+
+/// The first member: a start for objects whose fields are then filled in.
+impl<T: StringEnum> Default for EnumValue<T> {
+    fn default() -> Self {
+        Self::Known(T::FIRST)
     }
 }
 
@@ -68,6 +77,7 @@ macro_rules! string_enum {
         }
 
         impl crate::enum_value::StringEnum for $name {
+            const FIRST: Self = Self::ALL[0];
             const NAMES: &'static [&'static str] = &[$($text),+];
         }
 

@@ -110,7 +110,7 @@ fn fill(spec: &Spec, kind: SystemKind, diagnostics: &mut Diagnostics) -> (Spec, 
     let motion = motion::resolve(spec.motion.as_ref(), &preset, diagnostics);
     let continuous = motion.distance_mm().is_some();
     let cycles = motion::cycles(spec.cycles, &motion, &preset, diagnostics);
-    if continuous && laws.slider.is_some() {
+    if continuous && laws.wear.slider.is_some() {
         diagnostics.fault(
             "/interface/wear/slider",
             "a slider whose surface runs past continuously cannot wear yet; write null",
@@ -136,12 +136,12 @@ fn fill(spec: &Spec, kind: SystemKind, diagnostics: &mut Diagnostics) -> (Spec, 
         slider: Body {
             shape: shapes.slider,
             elastic: elastic.slider,
-            wear: laws.slider,
+            wear: laws.wear.slider,
         },
         receptacle: Body {
             shape: shapes.block,
             elastic: elastic.receptacle,
-            wear: laws.receptacle,
+            wear: laws.wear.receptacle,
         },
         friction: laws.friction,
         load_n_per_mm: line_load.n_per_mm,

@@ -18,7 +18,7 @@ string_enum! {
 }
 
 /// The normal load. Which fields belong to it depends on its kind.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct Load {
     /// Its kind.
     #[schema(value_type = LoadKind)]

@@ -39,7 +39,7 @@ string_enum! {
 }
 
 /// The imposed motion. Which fields belong to it depends on its kind.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct Motion {
     /// Its kind.
     #[schema(value_type = MotionKind)]

@@ -83,9 +83,3 @@ impl System {
         }
     }
 }
-
-impl Default for EnumValue<SystemKind> {
-    fn default() -> Self {
-        SystemKind::FuzzButton.into()
-    }
-}

@@ -6,11 +6,13 @@ mod frictionless;
 mod wearing_side;
 
 use api::spec::{
-    Friction, FrictionLaw, Interface, Material, Materials, Provenance, Sides, WearLaw, WearLawName,
+    Friction, FrictionLaw, Interface, Material, Materials, Provenance, WearLaw, WearLawName,
 };
 use solver::scene;
+use solver::sides::{Side, Sides};
 
 use crate::spec::diagnostics::Diagnostics;
+use crate::spec::materials::by_side;
 use crate::spec::sourced::Sourced;
 use crate::spec::system::{ArchardPreset, Preset};
 use wearing_side::WearingSide;
@@ -21,8 +23,7 @@ const FRICTION: &str = "/interface/friction";
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Laws {
     pub(crate) friction: scene::Friction,
-    pub(crate) slider: Option<scene::WearLaw>,
-    pub(crate) receptacle: Option<scene::WearLaw>,
+    pub(crate) wear: Sides<Option<scene::WearLaw>>,
 }
 
 /// Resolves friction and wear. `materials` as given, `resolved` with their properties.
@@ -33,59 +34,53 @@ pub(crate) fn resolve(
     preset: &Preset,
     diagnostics: &mut Diagnostics,
 ) -> (Interface, Laws) {
+    let (materials, resolved) = (by_side(materials), by_side(resolved));
     let (friction, friction_law) = friction(given, materials, preset, diagnostics);
-    let slider = WearingSide {
-        pointer: "/interface/wear/slider",
-        given: materials.slider.as_ref(),
-        resolved: resolved.slider.as_ref(),
-    };
-    let receptacle = WearingSide {
-        pointer: "/interface/wear/receptacle",
-        given: materials.receptacle.as_ref(),
-        resolved: resolved.receptacle.as_ref(),
-    };
-    let wear = &given.wear;
-    let (slider, slider_law) = self::wear(
-        &slider,
-        wear.slider.as_ref(),
-        preset.slider_wear,
-        diagnostics,
-    );
-    let (receptacle, receptacle_law) = self::wear(
-        &receptacle,
-        wear.receptacle.as_ref(),
-        preset.receptacle_wear,
-        diagnostics,
-    );
+    let wear = Sides::from_fn(|at| {
+        let law = match at {
+            Side::Slider => given.wear.slider.as_ref(),
+            Side::Receptacle => given.wear.receptacle.as_ref(),
+        };
+        let side = WearingSide {
+            pointer: format!("/interface/wear/{}", at.name()),
+            given: *materials.of(at),
+            resolved: *resolved.of(at),
+        };
+        wear(&side, law, *preset.wear.of(at), diagnostics)
+    });
+    let (slider, slider_law) = wear.slider;
+    let (receptacle, receptacle_law) = wear.receptacle;
     let interface = Interface {
         friction: Some(friction),
-        wear: Sides {
+        wear: api::spec::Sides {
             slider: Some(slider),
             receptacle: Some(receptacle),
         },
     };
     let laws = Laws {
         friction: friction_law,
-        slider: slider_law,
-        receptacle: receptacle_law,
+        wear: Sides {
+            slider: slider_law,
+            receptacle: receptacle_law,
+        },
     };
     (interface, laws)
 }
 
 fn friction(
     given: &Interface,
-    materials: &Materials,
+    materials: Sides<Option<&Material>>,
     preset: &Preset,
     diagnostics: &mut Diagnostics,
 ) -> (Friction, scene::Friction) {
     let Some(given) = &given.friction else {
-        let is_preset = |given: Option<&Material>, name: &str| {
+        let is_preset = |side| {
+            let name = preset.materials.of(side).value;
+            let given = materials.of(side);
             given.is_none_or(|given| matches!(given, Material::Named(given) if given == name))
         };
         // The preset's coefficient belongs to the preset's pair of materials.
-        let preset_pair = is_preset(materials.slider.as_ref(), preset.slider.value)
-            && is_preset(materials.receptacle.as_ref(), preset.receptacle.value);
-        let provenance = if preset_pair {
+        let provenance = if Side::BOTH.into_iter().all(is_preset) {
             preset.friction.provenance
         } else {
             Provenance::Assumed
@@ -127,6 +122,6 @@ fn wear(
         (Some(None), _) => Provenance::Given,
         (None, None) => preset.provenance,
     };
-    diagnostics.provenance(side.pointer, unworn);
+    diagnostics.provenance(&side.pointer, unworn);
     (None, None)
 }

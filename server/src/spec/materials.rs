@@ -4,10 +4,10 @@ use std::ops::RangeInclusive;
 
 use api::spec::{Material, MaterialProperties, Materials, Provenance};
 use solver::scene::Elastic;
+use solver::sides::Sides;
 
 use crate::reference::materials::LibraryMaterial;
-use crate::spec::diagnostics::NAME_LIMIT;
-use crate::spec::diagnostics::{Diagnostics, shortened};
+use crate::spec::diagnostics::{Diagnostics, NAME_LIMIT, shortened};
 use crate::spec::sourced::Sourced;
 use crate::spec::system::Preset;
 
@@ -22,11 +22,12 @@ const THERMAL_EXPANSION_PER_K: RangeInclusive<f64> = -1e-3..=1e-3;
 /// Any positive property that no effect uses yet.
 const POSITIVE: RangeInclusive<f64> = 1e-15..=1e15;
 
-/// The elastic constants of both bodies.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct ElasticPair {
-    pub(crate) slider: Elastic,
-    pub(crate) receptacle: Elastic,
+/// The materials of a specification by side.
+pub(crate) fn by_side(materials: &Materials) -> Sides<Option<&Material>> {
+    Sides {
+        slider: materials.slider.as_ref(),
+        receptacle: materials.receptacle.as_ref(),
+    }
 }
 
 /// Resolves both materials.
@@ -34,30 +35,27 @@ pub(crate) fn resolve(
     given: &Materials,
     preset: &Preset,
     diagnostics: &mut Diagnostics,
-) -> (Materials, ElasticPair) {
-    let (slider, slider_elastic) = side(
-        "/materials/slider",
-        given.slider.as_ref(),
-        preset.slider,
-        diagnostics,
-    );
-    let (receptacle, receptacle_elastic) = side(
-        "/materials/receptacle",
-        given.receptacle.as_ref(),
-        preset.receptacle,
-        diagnostics,
-    );
+) -> (Materials, Sides<Elastic>) {
+    let given = by_side(given);
+    let properties = Sides::from_fn(|at| {
+        let pointer = format!("/materials/{}", at.name());
+        side(
+            &pointer,
+            *given.of(at),
+            *preset.materials.of(at),
+            diagnostics,
+        )
+    });
+    let elastic = properties.as_ref().map(|properties| Elastic {
+        youngs_modulus_mpa: properties.youngs_modulus_mpa.unwrap_or_default(),
+        poisson_ratio: properties.poisson_ratio.unwrap_or_default(),
+    });
+    let filled = properties.map(|properties| Some(Material::Given(Box::new(properties))));
     let materials = Materials {
-        slider: Some(Material::Given(Box::new(slider))),
-        receptacle: Some(Material::Given(Box::new(receptacle))),
+        slider: filled.slider,
+        receptacle: filled.receptacle,
     };
-    (
-        materials,
-        ElasticPair {
-            slider: slider_elastic,
-            receptacle: receptacle_elastic,
-        },
-    )
+    (materials, elastic)
 }
 
 fn side(
@@ -65,17 +63,12 @@ fn side(
     given: Option<&Material>,
     preset: Sourced<&'static str>,
     diagnostics: &mut Diagnostics,
-) -> (MaterialProperties, Elastic) {
-    let properties = match given {
+) -> MaterialProperties {
+    match given {
         None => from_library(pointer, preset.value, preset.provenance, diagnostics),
         Some(Material::Named(name)) => from_library(pointer, name, Provenance::Given, diagnostics),
         Some(Material::Given(properties)) => from_properties(pointer, properties, diagnostics),
-    };
-    let elastic = Elastic {
-        youngs_modulus_mpa: properties.youngs_modulus_mpa.unwrap_or_default(),
-        poisson_ratio: properties.poisson_ratio.unwrap_or_default(),
-    };
-    (properties, elastic)
+    }
 }
 
 fn from_library(
@@ -85,24 +78,20 @@ fn from_library(
     diagnostics: &mut Diagnostics,
 ) -> MaterialProperties {
     let Some(material) = LibraryMaterial::named(name) else {
-        diagnostics.fault(
-            pointer,
-            format!(
-                "`{}` is not in the material library ({}); write an object with its properties instead",
-                shortened(name),
-                LibraryMaterial::names().join(", ")
-            ),
+        let (name, known) = (shortened(name), LibraryMaterial::names().join(", "));
+        let detail = format!(
+            "`{name}` is not in the material library ({known}); write an object with its properties instead"
         );
+        diagnostics.fault(pointer, detail);
         return MaterialProperties::default();
     };
     let properties = material.properties.clone();
     diagnostics.provenance(format!("{pointer}/name"), provenance);
     for (field, value) in numbers(&properties) {
         if value.is_some() {
-            let provenance = if field == "hardness_mpa" {
-                material.hardness_provenance
-            } else {
-                Provenance::Typical
+            let provenance = match field {
+                "hardness_mpa" => material.hardness_provenance,
+                _ => Provenance::Typical,
             };
             diagnostics.provenance(format!("{pointer}/{field}"), provenance);
         }

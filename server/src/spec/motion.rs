@@ -2,7 +2,7 @@
 
 use std::ops::RangeInclusive;
 
-use api::spec::{Drive, EnumValue, Motion, MotionKind, Provenance};
+use api::spec::{Drive, Motion, MotionKind, Provenance};
 use solver::scene;
 
 use crate::spec::diagnostics::Diagnostics;
@@ -41,17 +41,6 @@ impl ImposedMotion {
     }
 }
 
-const EMPTY: Motion = Motion {
-    kind: EnumValue::Known(MotionKind::Reciprocating),
-    waveform: None,
-    amplitude_mm: None,
-    frequency_hz: None,
-    period_s: None,
-    drive: None,
-    speed_mm_s: None,
-    distance_mm: None,
-};
-
 /// Resolves the motion.
 pub(crate) fn resolve(
     given: Option<&Motion>,
@@ -63,7 +52,7 @@ pub(crate) fn resolve(
         None => preset.amplitude_mm.provenance,
     };
     diagnostics.provenance("/motion/kind", provenance);
-    let given = given.unwrap_or(&EMPTY);
+    let given = &given.cloned().unwrap_or_default();
     match diagnostics.enum_member("/motion/kind", &given.kind) {
         Some(MotionKind::Continuous) => continuous(given, diagnostics),
         Some(MotionKind::Reciprocating) => {
@@ -122,7 +111,7 @@ fn continuous(given: &Motion, diagnostics: &mut Diagnostics) -> ImposedMotion {
             kind: MotionKind::Continuous.into(),
             speed_mm_s: Some(speed),
             distance_mm: Some(distance_mm),
-            ..EMPTY
+            ..Motion::default()
         },
         drive: scene::Drive::Handle,
         scene: scene::Motion::Continuous { step_mm },
@@ -148,7 +137,7 @@ fn reciprocating(given: &Motion, preset: &Preset, diagnostics: &mut Diagnostics)
         waveform: Some(waveform.into()),
         drive: Some(drive.into()),
         amplitude_mm: Some(amplitude_mm),
-        ..EMPTY
+        ..Motion::default()
     };
     let period_s = period(given, preset, &mut spec, diagnostics);
     ImposedMotion {

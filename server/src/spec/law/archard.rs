@@ -24,7 +24,7 @@ pub(super) fn resolve(
     given: &WearLaw,
     diagnostics: &mut Diagnostics,
 ) -> (WearLaw, Option<scene::WearLaw>) {
-    diagnostics.check_fields(side.pointer, given, &FIELDS, "archard");
+    diagnostics.check_fields(&side.pointer, given, &FIELDS, "archard");
     let mut filled = given.clone();
     let k_over_h = match (given.k, given.k_over_h_per_mpa) {
         (Some(_), Some(_)) => {
@@ -38,7 +38,7 @@ pub(super) fn resolve(
         }
         (None, Some(ratio)) => {
             if given.hardness_mpa.is_some() {
-                diagnostics.foreign_field(side.pointer, "hardness_mpa", "k_over_h_per_mpa");
+                diagnostics.foreign_field(&side.pointer, "hardness_mpa", "k_over_h_per_mpa");
             }
             let pointer = side.field("k_over_h_per_mpa");
             diagnostics.provenance(&pointer, Provenance::Given);
@@ -93,17 +93,15 @@ pub(super) fn from_preset(
         Some(listed) => (listed, Provenance::Source),
         None => (preset.k, provenance),
     };
-    let own_hardness = match side.given {
-        Some(Material::Given(properties)) => {
-            let given = |hardness| (hardness, Provenance::Given);
-            properties.hardness_mpa.map(given)
-        }
-        _ => library.and_then(|material| {
-            let hardness = material.properties.hardness_mpa?;
-            Some((hardness, material.hardness_provenance))
-        }),
+    let (own_hardness, own_provenance) = match (side.given, library) {
+        (Some(Material::Given(properties)), _) => (properties.hardness_mpa, Provenance::Given),
+        (_, Some(listed)) => (listed.properties.hardness_mpa, listed.hardness_provenance),
+        (_, None) => (None, provenance),
     };
-    let (hardness, hardness_provenance) = own_hardness.unwrap_or((preset.hardness_mpa, provenance));
+    let (hardness, hardness_provenance) = match own_hardness {
+        Some(hardness) => (hardness, own_provenance),
+        None => (preset.hardness_mpa, provenance),
+    };
     diagnostics.provenance(side.field("k"), k_provenance);
     diagnostics.provenance(side.field("hardness_mpa"), hardness_provenance);
     let filled = WearLaw {

@@ -6,7 +6,7 @@ use crate::reference::materials::LibraryMaterial;
 
 /// A side with its material as given and as resolved.
 pub(super) struct WearingSide<'a> {
-    pub(super) pointer: &'static str,
+    pub(super) pointer: String,
     pub(super) given: Option<&'a Material>,
     pub(super) resolved: Option<&'a Material>,
 }

@@ -6,7 +6,7 @@ use solver::scene::{BlockShape, SliderShape};
 use crate::spec::diagnostics::Diagnostics;
 use crate::spec::sourced::{assumed, typical};
 use crate::spec::system::definition::{SystemDefinition, dimension};
-use crate::spec::system::preset::{Preset, archard, load};
+use crate::spec::system::preset::{Preset, archard, sides};
 use crate::spec::system::shapes::{Shapes, check_crown, flat, length, sagitta};
 
 pub(super) const DEFINITION: SystemDefinition = SystemDefinition {
@@ -71,14 +71,13 @@ fn check_slider(slider: &SliderShape, diagnostics: &mut Diagnostics) {
 
 fn preset() -> Preset {
     Preset {
-        slider: assumed("steel"),
-        receptacle: assumed("steel"),
+        materials: sides(assumed("steel"), assumed("steel")),
         friction: typical(0.78),
-        slider_wear: assumed(None),
-        receptacle_wear: assumed(Some(archard(1.0e-4, 6865.0))),
+        wear: sides(assumed(None), assumed(Some(archard(1.0e-4, 6865.0)))),
         load: assumed(Load {
+            kind: LoadKind::LineForce.into(),
             n_per_mm: Some(18.5),
-            ..load(LoadKind::LineForce)
+            ..Load::default()
         }),
         waveform: assumed(Waveform::Triangle),
         amplitude_mm: assumed(0.025),

@@ -11,7 +11,7 @@ use api::spec::{Drive, Load, LoadKind, System, Waveform};
 
 use crate::spec::sourced::{assumed, source};
 use crate::spec::system::definition::{SystemDefinition, dimension};
-use crate::spec::system::preset::{Preset, archard, load};
+use crate::spec::system::preset::{Preset, archard, sides};
 use crate::spec::system::shapes::{Shapes, flat, half_round, length};
 
 pub(super) const DEFINITION: SystemDefinition = SystemDefinition {
@@ -35,14 +35,13 @@ fn shapes(system: &System) -> Shapes {
 
 fn preset() -> Preset {
     Preset {
-        slider: source("copper"),
-        receptacle: source("copper"),
+        materials: sides(source("copper"), source("copper")),
         friction: source(1.21),
-        slider_wear: source(None),
-        receptacle_wear: source(Some(archard(0.011, 427.0))),
+        wear: sides(source(None), source(Some(archard(0.011, 427.0)))),
         load: source(Load {
+            kind: LoadKind::Pressure.into(),
             mpa: Some(10.0),
-            ..load(LoadKind::Pressure)
+            ..Load::default()
         }),
         waveform: source(Waveform::Sine),
         amplitude_mm: source(0.033_868),

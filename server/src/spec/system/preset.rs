@@ -4,6 +4,7 @@
 //! "Source" is the thesis named in [`crate::reference::materials`]; no assumed value is declared as sourced.
 
 use api::spec::{Drive, Load, LoadKind, Waveform};
+use solver::sides::Sides;
 
 use crate::spec::sourced::{Sourced, assumed, typical};
 
@@ -19,11 +20,9 @@ pub(crate) struct ArchardPreset {
 /// Values for what a specification leaves out, except for dimensions.
 #[derive(Debug, Clone)]
 pub(crate) struct Preset {
-    pub(crate) slider: Sourced<&'static str>,
-    pub(crate) receptacle: Sourced<&'static str>,
+    pub(crate) materials: Sides<Sourced<&'static str>>,
     pub(crate) friction: Sourced<f64>,
-    pub(crate) slider_wear: Sourced<Option<ArchardPreset>>,
-    pub(crate) receptacle_wear: Sourced<Option<ArchardPreset>>,
+    pub(crate) wear: Sides<Sourced<Option<ArchardPreset>>>,
     pub(crate) load: Sourced<Load>,
     pub(crate) waveform: Sourced<Waveform>,
     pub(crate) amplitude_mm: Sourced<f64>,
@@ -37,16 +36,9 @@ pub(super) const fn archard(k: f64, hardness_mpa: f64) -> ArchardPreset {
     ArchardPreset { k, hardness_mpa }
 }
 
-/// A load without values.
-pub(super) fn load(kind: LoadKind) -> Load {
-    Load {
-        kind: kind.into(),
-        mpa: None,
-        n_per_mm: None,
-        n: None,
-        width_mm: None,
-        spring_n_per_mm: None,
-    }
+/// The values of both sides.
+pub(super) const fn sides<T>(slider: T, receptacle: T) -> Sides<T> {
+    Sides { slider, receptacle }
 }
 
 /// A sprung contact on a pad, both plated with hard gold over copper alloys: the plating determines friction, wear
@@ -57,16 +49,15 @@ pub(super) fn load(kind: LoadKind) -> Load {
 /// the way in and not the normal force of one at rest; that one is assumed.
 pub(super) fn plated(spring: &'static str, force_n: f64, width_mm: f64) -> Preset {
     let load = Load {
+        kind: LoadKind::Force.into(),
         n: Some(force_n),
         width_mm: Some(width_mm),
-        ..load(LoadKind::Force)
+        ..Load::default()
     };
     Preset {
-        slider: typical(spring),
-        receptacle: typical("copper"),
+        materials: sides(typical(spring), typical("copper")),
         friction: typical(0.3),
-        slider_wear: assumed(None),
-        receptacle_wear: assumed(Some(archard(0.004, 1700.0))),
+        wear: sides(assumed(None), assumed(Some(archard(0.004, 1700.0)))),
         load: assumed(load),
         waveform: assumed(Waveform::Sine),
         amplitude_mm: assumed(0.02),
