@@ -6,8 +6,6 @@
 //! with several matrices of its surface at once. The output coefficients are rough: `fretwear plan`
 //! estimates 1.55 MB for `fuzz_button.json` and 0.31 MB for `mccoll.json`, `fretwear solve` writes 1.28 and 0.67 MB.
 
-use std::collections::BTreeMap;
-
 use solver::model::Layout;
 use solver::scene::Scene;
 
@@ -66,13 +64,13 @@ impl Footprint {
     }
 
     /// Estimates of a plan, by name.
-    pub(super) fn estimates(self) -> BTreeMap<String, f64> {
-        BTreeMap::from([
-            ("contact_element_mm".to_owned(), self.contact_element_mm),
-            ("dofs".to_owned(), self.dofs),
-            ("memory_mb".to_owned(), self.memory_mb),
-            ("output_mb".to_owned(), self.output_mb),
-        ])
+    pub(super) fn estimates(self) -> [(&'static str, f64); 4] {
+        [
+            ("contact_element_mm", self.contact_element_mm),
+            ("dofs", self.dofs),
+            ("memory_mb", self.memory_mb),
+            ("output_mb", self.output_mb),
+        ]
     }
 }
 

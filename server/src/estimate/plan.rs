@@ -19,11 +19,14 @@ impl Estimate {
         estimates.extend(self.workload.estimates());
         if let Some(machine) = machine {
             let seconds = machine::cpu_s(machine, &self.workload);
-            estimates.insert("cpu_s".to_owned(), seconds);
+            estimates.push(("cpu_s", seconds));
         }
         Plan {
             effects: effects(&resolved.scene),
-            estimates,
+            estimates: estimates
+                .into_iter()
+                .map(|(name, value)| (name.to_owned(), value))
+                .collect(),
             notes: notes::notes(resolved),
         }
     }
@@ -45,33 +48,24 @@ fn effects(scene: &Scene) -> BTreeMap<String, PlannedEffect> {
 
 /// Hertz line contact (K. L. Johnson, *Contact Mechanics*, eq. 4.43 to 4.45): the engine's a,
 /// p0 = 2 P / (pi a); and the depth worn by one full pass after Archard's law: (k/H) P per crossed point.
-fn unworn_contact(scene: &Scene) -> BTreeMap<String, f64> {
+fn unworn_contact(scene: &Scene) -> Vec<(&'static str, f64)> {
     let load = scene.load_n_per_mm;
     let half_width = resolution::choose(scene).hertz_half_width;
     let distance = scene.motion.distance_per_cycle_mm();
-    let mut estimates = BTreeMap::from([
-        ("line_load_n_per_mm".to_owned(), load),
-        ("hertz_half_width_mm".to_owned(), half_width),
-        (
-            "hertz_peak_pressure_mpa".to_owned(),
-            2.0 * load / (PI * half_width),
-        ),
-        ("sliding_distance_per_cycle_mm".to_owned(), distance),
-    ]);
-    for (side, law) in [
-        ("slider", scene.slider.wear),
-        ("receptacle", scene.receptacle.wear),
-    ] {
-        if let Some(WearLaw::Archard { k_over_h_per_mpa }) = law {
-            let area = k_over_h_per_mpa * load * distance;
-            estimates.insert(format!("{side}_ideal_area_per_cycle_mm2"), area);
-            if side == "receptacle" {
-                estimates.insert(
-                    "receptacle_full_pass_depth_mm".to_owned(),
-                    k_over_h_per_mpa * load,
-                );
-            }
-        }
+    let mut estimates = vec![
+        ("line_load_n_per_mm", load),
+        ("hertz_half_width_mm", half_width),
+        ("hertz_peak_pressure_mpa", 2.0 * load / (PI * half_width)),
+        ("sliding_distance_per_cycle_mm", distance),
+    ];
+    if let Some(WearLaw::Archard { k_over_h_per_mpa }) = scene.slider.wear {
+        let area = k_over_h_per_mpa * load * distance;
+        estimates.push(("slider_ideal_area_per_cycle_mm2", area));
+    }
+    if let Some(WearLaw::Archard { k_over_h_per_mpa }) = scene.receptacle.wear {
+        let depth = k_over_h_per_mpa * load;
+        estimates.push(("receptacle_ideal_area_per_cycle_mm2", depth * distance));
+        estimates.push(("receptacle_full_pass_depth_mm", depth));
     }
     estimates
 }

@@ -58,20 +58,17 @@ impl Workload {
 
     /// Contact increments of the whole run.
     pub fn increments(&self) -> f64 {
-        self.increments
-            .iter()
-            .map(|(_, increments)| increments)
-            .sum()
+        self.increments.iter().map(|(_, count)| count).sum()
     }
 
     /// Estimates of a plan, by name.
-    pub(super) fn estimates(&self) -> BTreeMap<String, f64> {
+    pub(super) fn estimates(&self) -> [(&'static str, f64); 3] {
         let condensations = self.condensations.iter().map(|body| body.count);
-        BTreeMap::from([
-            ("computed_cycles".to_owned(), self.computed_cycles.round()),
-            ("condensations".to_owned(), condensations.sum()),
-            ("increments".to_owned(), self.increments().round()),
-        ])
+        [
+            ("computed_cycles", self.computed_cycles.round()),
+            ("condensations", condensations.sum()),
+            ("increments", self.increments().round()),
+        ]
     }
 }
 

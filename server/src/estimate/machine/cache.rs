@@ -44,10 +44,8 @@ impl CalibrationCache {
     /// A cache of given figures, without a file.
     pub fn of(figures: MachineFigures) -> Self {
         Self {
-            file: None,
             cached: Arc::new(OnceLock::from(figures)),
-            measuring: Arc::default(),
-            measure,
+            ..Self::open(None)
         }
     }
 

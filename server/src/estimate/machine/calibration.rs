@@ -9,7 +9,7 @@ use solver::observer::{Event, Observer, Phase};
 
 use crate::estimate::Estimate;
 use crate::estimate::machine::coefficients::{MachineError, NODES, checked, condensation_terms};
-use crate::estimate::workload::Workload;
+use crate::estimate::workload::{Workload, count};
 use crate::solve::thread_cpu_s;
 use crate::spec;
 
@@ -28,25 +28,15 @@ struct Sample {
 /// Measures this machine.
 ///
 /// # Errors
-/// [`MachineError`] if a solve fails.
-pub fn measure() -> Result<MachineFigures, MachineError> {
-    calibrate(program())
-}
-
-/// Measures this machine; `program` identifies the measured build.
-///
-/// # Errors
 /// [`MachineError`] if a solve fails or a coefficient is impossible.
-fn calibrate(program: String) -> Result<MachineFigures, MachineError> {
-    let samples: Result<Vec<Sample>, MachineError> = specifications()?
-        .iter()
-        .map(|specification| solve(specification))
-        .collect();
+pub fn measure() -> Result<MachineFigures, MachineError> {
+    let specifications = specifications()?;
+    let samples: Result<Vec<Sample>, _> = specifications.iter().map(|text| solve(text)).collect();
     let samples = samples?;
     let (increment_s, increment_power) = power_law(&samples);
     let [condensation_dof_s, condensation_surface_s] = two_terms(&samples);
     checked(MachineFigures {
-        program,
+        program: program(),
         increment_s,
         increment_power,
         condensation_dof_s,
@@ -128,9 +118,8 @@ fn power_law(samples: &[Sample]) -> (f64, f64) {
             [(candidates / NODES).ln(), sample.increment_s.ln()]
         })
         .collect();
-    let average =
-        |k: usize| points.iter().map(|point| point[k]).sum::<f64>() / f64::from(count(&points));
-    let mean = [average(0), average(1)];
+    let mean =
+        [0, 1].map(|k| points.iter().map(|point| point[k]).sum::<f64>() / count(points.len()));
     let (mut product, mut square) = (0.0, 0.0);
     for point in &points {
         product += (point[0] - mean[0]) * (point[1] - mean[1]);
@@ -168,10 +157,6 @@ fn two_terms(samples: &[Sample]) -> [f64; 2] {
     } else {
         solved
     }
-}
-
-fn count<T>(items: &[T]) -> u32 {
-    u32::try_from(items.len()).unwrap_or(u32::MAX)
 }
 
 /// Identifies this build of the program: version and build time.
