@@ -19,32 +19,20 @@ const MAX_INCREMENTS: f64 = 2e8;
 /// # Errors
 /// [`Refused`] with a fault for each limit that is exceeded.
 pub(super) fn check(estimate: &Estimate) -> Result<(), Refused> {
-    let footprint = &estimate.footprint;
+    let size = &estimate.footprint;
     let increments = estimate.workload.increments();
     let limits = [
-        ("/accuracy", "unknowns", footprint.dofs, MAX_DOFS),
-        (
-            "/accuracy",
-            "MB of memory",
-            footprint.memory_mb,
-            MAX_MEMORY_MB,
-        ),
+        ("/accuracy", "unknowns", size.dofs, MAX_DOFS),
+        ("/accuracy", "MB of memory", size.memory_mb, MAX_MEMORY_MB),
         ("/accuracy", "increments", increments, MAX_INCREMENTS),
-        (
-            "/output",
-            "MB of output",
-            footprint.output_mb,
-            MAX_OUTPUT_MB,
-        ),
+        ("/output", "MB of output", size.output_mb, MAX_OUTPUT_MB),
     ];
     let faults: Vec<Fault> = limits
         .into_iter()
         .filter(|(_, _, estimate, limit)| estimate > limit)
         .map(|(pointer, unit, estimate, limit)| {
-            Fault::new(
-                pointer,
-                format!("an estimated {estimate:.0} {unit}; the limit is {limit:.0}"),
-            )
+            let detail = format!("an estimated {estimate:.0} {unit}; the limit is {limit:.0}");
+            Fault::new(pointer, detail)
         })
         .collect();
     if faults.is_empty() {

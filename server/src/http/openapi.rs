@@ -31,7 +31,8 @@ pub fn text() -> String {
     text
 }
 
-/// Adds what all operations share: the access token, and the problems of requests that do not reach their route.
+/// Adds what operations share: the access token, the id in their path with the problem of an unknown one, and the problems
+/// of requests that do not reach their route.
 fn complete(document: &mut Value) {
     document["components"]["securitySchemes"]["token"] = json!({
         "type": "http",
@@ -48,18 +49,34 @@ fn complete(document: &mut Value) {
             "content": {"application/problem+json": {"schema": {"$ref": "#/components/schemas/Problem"}}}
         })
     };
-    let paths = document["paths"].as_object_mut();
-    let operations = paths
-        .into_iter()
-        .flat_map(|paths| paths.values_mut())
-        .filter_map(Value::as_object_mut)
-        .flat_map(|methods| methods.values_mut());
-    for operation in operations {
+    let paths = document["paths"].as_object_mut().into_iter().flatten();
+    let operations = paths.flat_map(|(path, methods)| {
+        let methods = methods.as_object_mut().into_iter().flatten();
+        methods.map(move |(_, operation)| (path, operation))
+    });
+    for (path, operation) in operations {
+        let noun = identified(path);
+        if let Some(noun) = noun {
+            let id = json!({
+                "name": "id",
+                "in": "path",
+                "required": true,
+                "description": format!("The {noun}"),
+                "schema": {"type": "string", "format": "uuid"}
+            });
+            let others = operation["parameters"].as_array().cloned();
+            let parameters = [id].into_iter().chain(others.unwrap_or_default());
+            operation["parameters"] = parameters.collect();
+        }
         let Some(responses) = operation["responses"].as_object_mut() else {
             continue;
         };
         for response in responses.values_mut() {
             set_problem_media_type(response);
+        }
+        if let Some(noun) = noun {
+            let add = || problem(&format!("No such {noun}"));
+            responses.entry("404").or_insert_with(add);
         }
         for (status, description) in [
             ("401", "The access token is missing or wrong"),
@@ -76,6 +93,15 @@ fn complete(document: &mut Value) {
             responses.entry(status).or_insert_with(add);
         }
     }
+}
+
+/// What the id in a path identifies, if it has one.
+fn identified(path: &str) -> Option<&'static str> {
+    let nouns = [("jobs", "job"), ("sweeps", "sweep"), ("studies", "study")];
+    let is_in = |collection| path.starts_with(&format!("/v1/{collection}/{{id}}"));
+    nouns
+        .into_iter()
+        .find_map(|(collection, noun)| is_in(collection).then_some(noun))
 }
 
 /// Adds the channels of a report of the engine, which `api` does not know, to the schema of their columns.

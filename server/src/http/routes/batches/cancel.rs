@@ -22,10 +22,8 @@ type Cancelled = Result<(StatusCode, Json<Document>), ProblemResponse>;
     post,
     path = "/v1/sweeps/{id}/cancel",
     tag = "sweeps",
-    params(("id" = Uuid, Path, description = "The sweep")),
     responses(
         (status = 202, description = "Accepted; the sweep as it stands", body = Sweep),
-        (status = 404, description = "No such sweep", body = Problem),
     )
 )]
 pub(crate) async fn cancel_sweep(app: State<App>, batch: BatchId) -> Cancelled {
@@ -37,10 +35,8 @@ pub(crate) async fn cancel_sweep(app: State<App>, batch: BatchId) -> Cancelled {
     post,
     path = "/v1/studies/{id}/cancel",
     tag = "studies",
-    params(("id" = Uuid, Path, description = "The study")),
     responses(
         (status = 202, description = "Accepted; the study as it stands", body = StudyDocument),
-        (status = 404, description = "No such study", body = Problem),
         (status = 410, description = "Accepted, but queued by a version whose studies cannot be compared any more", body = Problem),
     )
 )]

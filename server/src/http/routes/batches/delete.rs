@@ -15,10 +15,8 @@ use crate::store::Deleted;
     delete,
     path = "/v1/sweeps/{id}",
     tag = "sweeps",
-    params(("id" = Uuid, Path, description = "The sweep")),
     responses(
         (status = 204, description = "Deleted"),
-        (status = 404, description = "No such sweep", body = Problem),
         (status = 409, description = "A job of it has not ended", body = Problem),
     )
 )]
@@ -34,10 +32,8 @@ pub(crate) async fn remove_sweep(
     delete,
     path = "/v1/studies/{id}",
     tag = "studies",
-    params(("id" = Uuid, Path, description = "The study")),
     responses(
         (status = 204, description = "Deleted"),
-        (status = 404, description = "No such study", body = Problem),
         (status = 409, description = "A job of it has not ended", body = Problem),
     )
 )]

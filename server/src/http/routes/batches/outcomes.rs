@@ -16,10 +16,8 @@ use crate::http::routes::results::download_file::attachment;
     get,
     path = "/v1/sweeps/{id}/outcomes",
     tag = "sweeps",
-    params(("id" = Uuid, Path, description = "The sweep")),
     responses(
         (status = 200, description = "The table", content_type = "text/csv", body = String),
-        (status = 404, description = "No such sweep", body = Problem),
     )
 )]
 pub(crate) async fn sweep_outcomes(
@@ -34,7 +32,6 @@ pub(crate) async fn sweep_outcomes(
     get,
     path = "/v1/studies/{id}/table",
     tag = "studies",
-    params(("id" = Uuid, Path, description = "The study")),
     responses(
         (status = 200, description = "The table", content_type = "text/csv", body = String),
         (status = 404, description = "No such study, or no results so far", body = Problem),

@@ -39,7 +39,7 @@ pub(crate) struct PictureQuery {
     get,
     path = "/v1/studies/{id}/picture",
     tag = "studies",
-    params(("id" = Uuid, Path, description = "The study"), PictureQuery),
+    params(PictureQuery),
     responses(
         (status = 200, description = "The picture", content(
             (Vec<u8> = "image/svg+xml"),

@@ -19,10 +19,8 @@ type Shown = Result<Json<Document>, ProblemResponse>;
     get,
     path = "/v1/sweeps/{id}",
     tag = "sweeps",
-    params(("id" = Uuid, Path, description = "The sweep")),
     responses(
         (status = 200, description = "The sweep", body = Sweep),
-        (status = 404, description = "No such sweep", body = Problem),
     )
 )]
 pub(crate) async fn show_sweep(app: State<App>, batch: BatchId) -> Shown {
@@ -34,10 +32,8 @@ pub(crate) async fn show_sweep(app: State<App>, batch: BatchId) -> Shown {
     get,
     path = "/v1/studies/{id}",
     tag = "studies",
-    params(("id" = Uuid, Path, description = "The study")),
     responses(
         (status = 200, description = "The study", body = StudyDocument),
-        (status = 404, description = "No such study", body = Problem),
         (status = 410, description = "Queued by a version whose studies cannot be compared any more", body = Problem),
     )
 )]

@@ -1,7 +1,6 @@
 //! `POST /v1/jobs/{id}/cancel`: requests the cancellation of a job; always accepted.
 
 use api::job::Job;
-use api::problem::Problem;
 use axum::Json;
 use axum::extract::State;
 use axum::http::StatusCode;
@@ -18,10 +17,8 @@ use crate::http::problem::ProblemResponse;
     post,
     path = "/v1/jobs/{id}/cancel",
     tag = "jobs",
-    params(("id" = Uuid, Path, description = "The job")),
     responses(
         (status = 202, description = "Accepted; the job in its current state", body = Job),
-        (status = 404, description = "No such job", body = Problem),
     )
 )]
 pub(crate) async fn cancel(

@@ -15,10 +15,8 @@ use crate::store::Deleted;
     delete,
     path = "/v1/jobs/{id}",
     tag = "jobs",
-    params(("id" = Uuid, Path, description = "The job")),
     responses(
         (status = 204, description = "Deleted"),
-        (status = 404, description = "No such job", body = Problem),
         (status = 409, description = "The job has not ended", body = Problem),
     )
 )]

@@ -47,7 +47,7 @@ pub(crate) struct ShowQuery {
     get,
     path = "/v1/jobs/{id}",
     tag = "jobs",
-    params(("id" = Uuid, Path, description = "The job"), ShowQuery),
+    params(ShowQuery),
     responses(
         (status = 200, description = "The job", body = Job, headers(
             ("ETag" = String, description = "Its version"),
@@ -55,7 +55,6 @@ pub(crate) struct ShowQuery {
         )),
         (status = 304, description = "Not changed since the version in `If-None-Match`"),
         (status = 400, description = "A query parameter is not valid", body = Problem),
-        (status = 404, description = "No such job", body = Problem),
     )
 )]
 pub(crate) async fn show(

@@ -56,14 +56,12 @@ impl RouteError for StreamError {
     path = "/v1/jobs/{id}/events",
     tag = "jobs",
     params(
-        ("id" = Uuid, Path, description = "The job"),
         ("Last-Event-ID" = Option<u64>, Header, description = "Resume after this event"),
     ),
     responses(
         (status = 200, description = "The events", content_type = "text/event-stream", body = StreamEvent),
         (status = 204, description = "The job has ended, and no event follows the one in `Last-Event-ID`"),
         (status = 400, description = "The `Last-Event-ID` is not valid", body = Problem),
-        (status = 404, description = "No such job", body = Problem),
         (status = 503, description = "Too many streams are open", body = Problem),
     )
 )]

@@ -46,10 +46,8 @@ impl RouteError for TooManyArchivesError {
     get,
     path = "/v1/jobs/{id}/results/archive",
     tag = "results",
-    params(("id" = Uuid, Path, description = "The job")),
     responses(
         (status = 200, description = "The archive", content_type = "application/zip", body = Vec<u8>),
-        (status = 404, description = "No such job", body = Problem),
         (status = 409, description = "The job has not ended", body = Problem),
     )
 )]

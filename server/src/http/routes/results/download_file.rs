@@ -57,7 +57,6 @@ impl RouteError for FileError {
     path = "/v1/jobs/{id}/results/files/{name}",
     tag = "results",
     params(
-        ("id" = Uuid, Path, description = "The job"),
         ("name" = String, Path, description = "Name of the file in the manifest"),
         ("Range" = Option<String>, Header, description = "One byte range, for instance `bytes=0-99`"),
     ),

@@ -2,7 +2,6 @@
 
 use std::collections::BTreeMap;
 
-use api::problem::Problem;
 use api::results::Manifest;
 use axum::Json;
 use axum::extract::State;
@@ -16,10 +15,8 @@ use crate::http::problem::ProblemResponse;
     get,
     path = "/v1/jobs/{id}/results",
     tag = "results",
-    params(("id" = Uuid, Path, description = "The job")),
     responses(
         (status = 200, description = "The manifest", body = Manifest),
-        (status = 404, description = "No such job", body = Problem),
     )
 )]
 pub(crate) async fn manifest(

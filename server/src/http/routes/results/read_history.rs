@@ -48,7 +48,7 @@ pub(crate) enum HistoryFormat {
     get,
     path = "/v1/jobs/{id}/results/wear-history",
     tag = "results",
-    params(("id" = Uuid, Path, description = "The job"), HistoryQuery),
+    params(HistoryQuery),
     responses(
         (status = 200, description = "The history", content(
             (WearHistory = "application/json"),
@@ -56,7 +56,6 @@ pub(crate) enum HistoryFormat {
             (Vec<u8> = "application/vnd.apache.parquet"),
         )),
         (status = 400, description = "A query parameter is not valid", body = Problem),
-        (status = 404, description = "No such job", body = Problem),
     )
 )]
 pub(crate) async fn wear_history(

@@ -60,7 +60,7 @@ pub(crate) struct SnapshotQuery {
     get,
     path = "/v1/jobs/{id}/results/profile",
     tag = "results",
-    params(("id" = Uuid, Path, description = "The job"), SnapshotQuery),
+    params(SnapshotQuery),
     responses(
         (status = 200, description = "The document", content((Profile = "application/json"), (String = "text/csv"))),
         (status = 400, description = "A query parameter is not valid", body = Problem),
@@ -81,7 +81,7 @@ pub(crate) async fn profile(
     get,
     path = "/v1/jobs/{id}/results/pressure",
     tag = "results",
-    params(("id" = Uuid, Path, description = "The job"), SnapshotQuery),
+    params(SnapshotQuery),
     responses(
         (status = 200, description = "The document", content((Pressure = "application/json"), (String = "text/csv"))),
         (status = 400, description = "A query parameter is not valid", body = Problem),
@@ -102,7 +102,7 @@ pub(crate) async fn pressure(
     get,
     path = "/v1/jobs/{id}/results/loop",
     tag = "results",
-    params(("id" = Uuid, Path, description = "The job"), SnapshotQuery),
+    params(SnapshotQuery),
     responses(
         (status = 200, description = "The document", content((Loop = "application/json"), (String = "text/csv"))),
         (status = 400, description = "A query parameter is not valid", body = Problem),
