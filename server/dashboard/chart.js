@@ -22,11 +22,11 @@ export function chart(x_title, y_title, series) {
   const y_max = maximum(series.flatMap(({ y }) => y));
   const x_at = (x) => left + ((width - left - right) * x) / x_max;
   const y_at = (y) => height - bottom - ((height - top - bottom) * y) / y_max;
-  for (const part of [0, 0.5, 1]) {
-    const [x, y] = [x_at(part * x_max), y_at(part * y_max)];
+  for (const fraction of [0, 0.5, 1]) {
+    const [x, y] = [x_at(fraction * x_max), y_at(fraction * y_max)];
     svg.append(svg_element("line", { x1: left, x2: width - right, y1: y, y2: y, class: "grid" }),
-      svg_element("text", { x: left - 8, y: y + 4, "text-anchor": "end" }, format_tick(part * y_max)),
-      svg_element("text", { x, y: height - bottom + 16, "text-anchor": "middle" }, format_tick(part * x_max)));
+      svg_element("text", { x: left - 8, y: y + 4, "text-anchor": "end" }, format_tick(fraction * y_max)),
+      svg_element("text", { x, y: height - bottom + 16, "text-anchor": "middle" }, format_tick(fraction * x_max)));
   }
   svg.append(svg_element("text", { x: (left + width) / 2, y: height - 6, "text-anchor": "middle" }, x_title),
     svg_element("text", { x: 14, y: height / 2, "text-anchor": "middle", transform: `rotate(-90 14 ${height / 2})` }, y_title));

@@ -9,13 +9,13 @@ const POLL_MS = 3000;
 const MAX_STREAMS = 3;
 const ENDED = ["succeeded", "failed", "cancelled"];
 
-/** Table rows by job. */
+/** Cells of the table rows, by job. */
 const rows = new Map();
 /** Abort controllers of the open event streams, by job. */
 const streams = new Map();
 
 function create_row(job) {
-  const parts = {
+  const cells = {
     name: element("td"),
     status: element("td"),
     bar: element("div"),
@@ -24,44 +24,44 @@ function create_row(job) {
     depth: element("td", { class: "number" }),
     actions: element("td", { class: "actions" }),
   };
-  parts.name.append(element("a", { href: `#${job.id}`, class: "mono" }, job.spec.name ?? job.id.slice(-12)));
-  parts.row = element("tr", { id: `row-${job.id}`, title: job.id }, parts.name,
-    element("td", {}, job.spec.system.kind), parts.status,
-    element("td", {}, element("div", { class: "bar" }, parts.bar)), parts.cycle, parts.remaining, parts.depth, parts.actions);
-  return parts;
+  cells.name.append(element("a", { href: `#${job.id}`, class: "mono" }, job.spec.name ?? job.id.slice(-12)));
+  cells.row = element("tr", { id: `row-${job.id}`, title: job.id }, cells.name,
+    element("td", {}, job.spec.system.kind), cells.status,
+    element("td", {}, element("div", { class: "bar" }, cells.bar)), cells.cycle, cells.remaining, cells.depth, cells.actions);
+  return cells;
 }
 
-function update_progress(parts, { cycle, cycles, fraction, eta_s }) {
-  parts.bar.style.width = `${100 * fraction}%`;
-  parts.bar.parentElement.title = `${(100 * fraction).toFixed(1)} %`;
-  parts.cycle.textContent = `${cycle} / ${cycles}`;
-  parts.shown_cycle = cycle;
-  parts.remaining.textContent = eta_s == null ? "" : format_duration(eta_s);
+function update_progress(cells, { cycle, cycles, fraction, eta_s }) {
+  cells.bar.style.width = `${100 * fraction}%`;
+  cells.bar.parentElement.title = `${(100 * fraction).toFixed(1)} %`;
+  cells.cycle.textContent = `${cycle} / ${cycles}`;
+  cells.shown_cycle = cycle;
+  cells.remaining.textContent = eta_s == null ? "" : format_duration(eta_s);
 }
 
-function update_depth(parts, sides) {
-  if (sides) parts.depth.textContent = format_number(Math.max(sides.receptacle.max_depth_mm, sides.slider.max_depth_mm), 1000);
+function update_depth(cells, sides) {
+  if (sides) cells.depth.textContent = format_number(Math.max(sides.receptacle.max_depth_mm, sides.slider.max_depth_mm), 1000);
 }
 
-function update_row(parts, job) {
+function update_row(cells, job) {
   const ended = ENDED.includes(job.status);
   const reason = job.status === "succeeded" ? null : job.status_reason;
   const status = element("span", { class: job.status }, job.outcome ? `${job.status} (${job.outcome})` : job.status);
-  parts.status.replaceChildren(status, ...(reason ? [element("div", { class: "soft reason", title: reason }, reason)] : []));
-  update_progress(parts, ended ? { ...job.progress, eta_s: null } : job.progress);
-  update_depth(parts, job.summary);
+  cells.status.replaceChildren(status, ...(reason ? [element("div", { class: "muted reason", title: reason }, reason)] : []));
+  update_progress(cells, ended ? { ...job.progress, eta_s: null } : job.progress);
+  update_depth(cells, job.summary);
   const action = ended
     ? download_link(`${job.links.results}/archive`, `fretwear-${job.id}.zip`, "all results")
     : element("button", { type: "button" }, "cancel");
   if (!ended) action.addEventListener("click", () => cancel(job));
-  parts.actions.replaceChildren(action);
+  cells.actions.replaceChildren(action);
 }
 
 async function cancel(job) {
   try {
     await fetch_json(job.links.cancel, { method: "POST" });
   } catch (error) {
-    document.getElementById("trouble").textContent = error.message;
+    document.getElementById("error").textContent = error.message;
   }
   await refresh();
 }
@@ -88,11 +88,11 @@ async function follow_events(job) {
   try {
     const response = await send_request(job.links.events, { signal: abort.signal });
     for await (const { name, data } of parse_events(response, abort.signal)) {
-      const parts = rows.get(job.id);
-      if (!parts) break;
+      const cells = rows.get(job.id);
+      if (!cells) break;
       // A stream starts with past events; those older than the displayed cycle are ignored.
-      if (name === "progress" && data.cycle >= parts.shown_cycle) update_progress(parts, data);
-      if (name === "cycle" && data.cycle >= parts.shown_cycle) update_depth(parts, data);
+      if (name === "progress" && data.cycle >= cells.shown_cycle) update_progress(cells, data);
+      if (name === "cycle" && data.cycle >= cells.shown_cycle) update_depth(cells, data);
       if (name === "done") refresh();
     }
   } catch {
@@ -104,7 +104,7 @@ async function follow_events(job) {
 }
 
 async function refresh() {
-  const message = document.getElementById("trouble");
+  const message = document.getElementById("error");
   try {
     const page = await fetch_json("/v1/jobs?limit=50");
     const listed = new Set(page.jobs.map((job) => job.id));

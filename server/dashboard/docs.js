@@ -26,7 +26,7 @@ function summarize(schema) {
 
 function render_bodies(content) {
   return Object.entries(content ?? {}).map(([media, { schema }]) =>
-    element("div", { class: "soft" }, `${media}: `, ...summarize(schema)));
+    element("div", { class: "muted" }, `${media}: `, ...summarize(schema)));
 }
 
 function render_table(entries) {
@@ -34,33 +34,33 @@ function render_table(entries) {
     element("tr", {}, ...cells.map((cell) => element("td", {}, ...[cell].flat()))))));
 }
 
-function render_operation(path, method, described) {
+function render_operation(path, method, operation) {
   const parts = [];
-  if (described.description) parts.push(element("p", {}, described.description));
-  if (described.parameters?.length)
-    parts.push(render_table(described.parameters.map((parameter) => [
+  if (operation.description) parts.push(element("p", {}, operation.description));
+  if (operation.parameters?.length)
+    parts.push(render_table(operation.parameters.map((parameter) => [
       element("code", {}, parameter.name),
       `${parameter.in}${parameter.required ? ", required" : ""}`,
       summarize(parameter.schema),
       parameter.description ?? "",
     ])));
-  if (described.requestBody) parts.push(element("p", {}, "Body"), ...render_bodies(described.requestBody.content));
-  parts.push(render_table(Object.entries(described.responses).map(([status, response]) => [
+  if (operation.requestBody) parts.push(element("p", {}, "Body"), ...render_bodies(operation.requestBody.content));
+  parts.push(render_table(Object.entries(operation.responses).map(([status, response]) => [
     element("code", {}, status), [response.description, ...render_bodies(response.content)],
   ])));
   const head = element("summary", {}, element("span", { class: "method mono" }, method.toUpperCase()),
-    element("code", {}, path), element("span", { class: "soft" }, `  ${described.summary ?? ""}`));
+    element("code", {}, path), element("span", { class: "muted" }, `  ${operation.summary ?? ""}`));
   return element("details", {}, head, element("div", {}, ...parts));
 }
 
-function render_schema(name, described) {
-  const required = new Set(described.required ?? []);
-  const fields = Object.entries(described.properties ?? {}).map(([field, value]) => [
+function render_schema(name, schema) {
+  const required = new Set(schema.required ?? []);
+  const fields = Object.entries(schema.properties ?? {}).map(([field, value]) => [
     element("code", {}, field), summarize(value), required.has(field) ? "always" : "", value.description ?? "",
   ]);
   return element("details", { id: `schema-${name}` }, element("summary", {}, element("code", {}, name)),
-    element("div", {}, element("p", {}, described.description ?? ""),
-      fields.length ? render_table(fields) : element("p", {}, ...summarize(described))));
+    element("div", {}, element("p", {}, schema.description ?? ""),
+      fields.length ? render_table(fields) : element("p", {}, ...summarize(schema))));
 }
 
 /** Opens the schema in the URL. */
@@ -83,10 +83,10 @@ try {
   const rank = (tag) => (TAGS.indexOf(tag) + TAGS.length + 1) % (TAGS.length + 1);
   for (const [tag, operations] of [...by_tag].sort(([one], [other]) => rank(one) - rank(other)))
     document.getElementById("paths").append(element("h2", {}, tag), ...operations);
-  for (const [name, described] of Object.entries(api.components.schemas))
-    document.getElementById("schemas").append(render_schema(name, described));
+  for (const [name, schema] of Object.entries(api.components.schemas))
+    document.getElementById("schemas").append(render_schema(name, schema));
   addEventListener("hashchange", open_target);
   open_target();
 } catch (error) {
-  document.getElementById("trouble").textContent = error.message;
+  document.getElementById("error").textContent = error.message;
 }

@@ -7,8 +7,8 @@ const MAX_POINTS = 200;
 
 /** Id and status of the rendered job; details are rendered again only when they change. */
 let rendered = "";
-/** Number of started calls of `show`, and the rendered one: responses may arrive out of order. */
-let started = 0;
+/** Number of calls of `show` so far, and of the one whose job is rendered: responses may arrive out of order. */
+let calls = 0;
 let rendered_call = 0;
 
 /** Job id in the URL. */
@@ -65,13 +65,13 @@ async function picture(path, name) {
   const url = URL.createObjectURL(new Blob([await response.arrayBuffer()], { type: "image/svg+xml" }));
   const image = element("img", { src: url, alt: name });
   image.addEventListener("load", () => URL.revokeObjectURL(url));
-  return element("figure", {}, image, element("figcaption", { class: "soft" }, name));
+  return element("figure", {}, image, element("figcaption", { class: "muted" }, name));
 }
 
 async function render_files(job) {
   const { files, links } = await fetch_json(job.links.results);
   const list = files.map(({ name, bytes }) => element("li", {}, download_link(links[name], name, name),
-    element("span", { class: "soft" }, ` ${Math.ceil(bytes / 1000)} kB`)));
+    element("span", { class: "muted" }, ` ${Math.ceil(bytes / 1000)} kB`)));
   const pictures = files.filter(({ name }) => name.endsWith(".svg"));
   return [
     element("div", { class: "pictures" }, ...(await Promise.all(pictures.map(({ name }) => picture(links[name], name))))),
@@ -82,7 +82,7 @@ async function render_files(job) {
 /** Renders the details of a job; clears them for null. */
 export async function show(job) {
   const section = document.getElementById("job");
-  const call = ++started;
+  const call = ++calls;
   if (!job) {
     [rendered, rendered_call] = ["", call];
     return section.replaceChildren();
@@ -97,7 +97,7 @@ export async function show(job) {
   }
   // After an error, the next poll renders it again.
   const children = [
-    element("h2", {}, job.spec.name ?? job.spec.system.kind), element("p", { class: "mono soft" }, job.id),
+    element("h2", {}, job.spec.name ?? job.spec.system.kind), element("p", { class: "mono muted" }, job.id),
     element("div", { id: "status" }, render_status(job)), ...(job.summary ? [render_summary(job.summary)] : []),
     element("div", { id: "wear" }, await wear_chart(job)), ...(job.finished_at ? await render_files(job) : []),
     element("details", {}, element("summary", {}, "resolved specification and plan"),

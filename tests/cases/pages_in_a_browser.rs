@@ -86,7 +86,7 @@ async fn a_browser_shows_jobs_and_their_results() {
     for shown in ["long job", "running", " / 1000000", ">cancel</button>"] {
         assert!(row.contains(shown), "{shown} in {row}");
     }
-    assert_eq!(part(&page, "<p id=\"trouble\" role=\"alert\">", "</p>"), "");
+    assert_eq!(part(&page, "<p id=\"error\" role=\"alert\">", "</p>"), "");
 
     let page = seen(&server, folder.path(), &format!("/#{done}"));
     let job = part(&page, "<section id=\"job\">", "</section>");
@@ -104,8 +104,8 @@ async fn a_browser_shows_jobs_and_their_results() {
     let (page, complaints) = seen_with_complaints(&server, folder.path(), nobody);
     let only_missing = |line: &String| line.contains("the server responded with a status of 404");
     assert!(complaints.iter().all(only_missing), "{complaints:#?}");
-    let trouble = part(&page, "<p id=\"trouble\" role=\"alert\">", "</p>");
-    assert!(trouble.contains("there is no job"), "{trouble}");
+    let error = part(&page, "<p id=\"error\" role=\"alert\">", "</p>");
+    assert!(error.contains("there is no job"), "{error}");
 
     let page = seen(&server, folder.path(), "/docs");
     for shown in [
