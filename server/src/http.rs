@@ -3,6 +3,7 @@
 mod access;
 mod app;
 mod body_problems;
+mod disk_space;
 mod extract;
 mod idempotency_key;
 mod job_error;
@@ -35,10 +36,12 @@ const DEFAULT_CONTENT_POLICY: &str = "default-src 'none'; frame-ancestors 'none'
 /// Router of all routes.
 pub fn router(app: App) -> Router {
     let access = middleware::from_fn_with_state(app.access.clone(), access::check);
+    let disk_space = middleware::map_response_with_state(app.clone(), disk_space::explain);
     table::routes_and_document()
         .0
         .fallback(no_such_path)
         .method_not_allowed_fallback(wrong_method)
+        .layer(disk_space)
         .layer(access)
         .layer(GlobalConcurrencyLimitLayer::new(MAX_REQUESTS))
         .layer(SetResponseHeaderLayer::if_not_present(

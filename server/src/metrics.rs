@@ -97,45 +97,31 @@ impl Default for Metrics {
     fn default() -> Self {
         let mut registry = Registry::with_prefix("fretwear");
         let r = &mut registry;
-        let age_by_status = "Age of the oldest job by status";
-        let checkpoint_age = "Age of the oldest checkpoint of a running job";
-        let (wait, solve) = (
+        let to_claim = ("claim_latency", "From submission to the first claim");
+        let to_end = ("solve_duration", "From a claim to the end of its job");
+        let oldest = ("oldest_job_age", "Age of the oldest job by status");
+        let checkpoint = (
+            "oldest_checkpoint_age",
+            "Age of the oldest checkpoint of a running job",
+        );
+        let wal = ("wal_size", "Size of the write-ahead log");
+        let stale = "Writes discarded because their lease was lost";
+        let (wait_s, solve_s) = (
             Histogram::new(WAIT_BOUNDS_S),
             Histogram::new(SOLVE_BOUNDS_S),
         );
-        let to_claim = "From submission to the first claim";
-        let to_end = "From a claim to the end of its job";
-        let stale = "Writes discarded because their lease was lost";
         Self {
             jobs: add(r, "jobs", "Jobs by status"),
-            oldest: add_in(
-                r,
-                "oldest_job_age",
-                Unit::Seconds,
-                age_by_status,
-                <_>::default(),
-            ),
+            oldest: add_in(r, Unit::Seconds, oldest, <_>::default()),
             ended: add(r, "jobs_ended", "Ended jobs"),
-            claim_latency: add_in(r, "claim_latency", Unit::Seconds, to_claim, wait),
-            solve_duration: add_in(r, "solve_duration", Unit::Seconds, to_end, solve),
+            claim_latency: add_in(r, Unit::Seconds, to_claim, wait_s),
+            solve_duration: add_in(r, Unit::Seconds, to_end, solve_s),
             attempts: add(r, "attempts", "Claims by workers"),
             reclaimed: add(r, "rescues", "Jobs reclaimed from lost workers"),
             stale_writes: add(r, "stale_writes_refused", stale),
             checkpoints: add(r, "checkpoints", "Checkpoints stored"),
-            oldest_checkpoint: add_in(
-                r,
-                "oldest_checkpoint_age",
-                Unit::Seconds,
-                checkpoint_age,
-                <_>::default(),
-            ),
-            wal: add_in(
-                r,
-                "wal_size",
-                Unit::Bytes,
-                "Size of the write-ahead log",
-                <_>::default(),
-            ),
+            oldest_checkpoint: add_in(r, Unit::Seconds, checkpoint, <_>::default()),
+            wal: add_in(r, Unit::Bytes, wal, <_>::default()),
             streams_open: add(r, "streams_open", "Open event streams"),
             registry,
         }
@@ -152,9 +138,8 @@ fn add<M: Metric + Clone + Default>(registry: &mut Registry, name: &str, help: &
 /// Registers a metric with a unit.
 fn add_in<M: Metric + Clone>(
     registry: &mut Registry,
-    name: &str,
     unit: Unit,
-    help: &str,
+    (name, help): (&str, &str),
     metric: M,
 ) -> M {
     registry.register_with_unit(name, help, unit, metric.clone());

@@ -6,6 +6,7 @@ use std::io::{ErrorKind, Write as _};
 use std::path::{Path, PathBuf};
 
 use api::results::ResultFile;
+use nix::sys::statvfs::statvfs;
 use sha2::{Digest, Sha256};
 
 use crate::export::documents;
@@ -108,6 +109,12 @@ pub fn is_full(cause: &std::io::Error) -> bool {
         cause.kind(),
         ErrorKind::StorageFull | ErrorKind::QuotaExceeded
     )
+}
+
+/// Free space on the disk of a folder, MB; `None` if the system does not report it.
+pub fn free_mb(folder: &Path) -> Option<u64> {
+    let disk = statvfs(folder).ok()?;
+    Some(disk.blocks_available().saturating_mul(disk.fragment_size()) >> 20)
 }
 
 /// The manifest entry of a file.

@@ -16,6 +16,13 @@ const MEDIA_TYPE: &str = "application/problem+json";
 /// `Retry-After` of a request that the service cannot take at present, s.
 const RETRY_AFTER_S: &str = "5";
 
+/// Detail of a request that was not written because the disk is full.
+pub(super) const DISK_FULL: &str = "no space left on the data disk";
+
+/// Marks the response with that problem; [`crate::http::disk_space`] adds the free space to it.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct DiskFull;
+
 /// Type of a problem: a row of the table below.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct ProblemType {
@@ -25,71 +32,50 @@ pub(super) struct ProblemType {
     title: &'static str,
 }
 
-const fn row(status: u16, name: &'static str, title: &'static str) -> ProblemType {
-    ProblemType {
-        status,
-        name,
-        title,
-    }
+/// Declares the types: constant, status, name, title.
+macro_rules! problem_types {
+    ($($constant:ident, $status:literal, $name:literal, $title:literal;)+) => {
+        impl ProblemType {
+            $(
+                #[doc = concat!("Problem: ", $title, ".")]
+                pub(super) const $constant: Self = Self {
+                    status: $status,
+                    name: $name,
+                    title: $title,
+                };
+            )+
+        }
+    };
+}
+
+problem_types! {
+    UNREADABLE_BODY, 400, "unreadable-body", "the body cannot be read";
+    INVALID_SPECIFICATION, 422, "invalid-specification", "the specification has faults";
+    KEY_REUSED, 422, "idempotency-key-reused", "the key was used with another body";
+    INVALID_KEY, 400, "invalid-idempotency-key", "the key is not valid";
+    INVALID_QUERY, 400, "invalid-query", "a query parameter is not valid";
+    RANGE, 416, "range", "the range lies outside the file";
+    BODY_TOO_LARGE, 413, "body-too-large", "the body is too large";
+    MEDIA_TYPE, 415, "media-type", "the body is not declared as JSON";
+    NO_SUCH_PATH, 404, "no-such-path", "there is no such path";
+    WRONG_METHOD, 405, "wrong-method", "the path does not support this method";
+    NO_SUCH_JOB, 404, "no-such-job", "there is no such job";
+    NO_SUCH_SWEEP, 404, "no-such-sweep", "there is no such sweep";
+    NO_SUCH_STUDY, 404, "no-such-study", "there is no such study";
+    STUDY_OUTDATED, 410, "study-outdated", "the study cannot be compared any more";
+    NO_SUCH_RESULT, 404, "no-such-result", "the job has no such result";
+    NO_SUCH_SYSTEM, 404, "no-such-system", "there is no such system";
+    JOB_ACTIVE, 409, "job-active", "the job has not ended";
+    SWEEP_ACTIVE, 409, "sweep-active", "the sweep has jobs that have not ended";
+    STUDY_ACTIVE, 409, "study-active", "the study has jobs that have not ended";
+    FOREIGN_HOST, 403, "foreign-host", "the request is for another host";
+    TOKEN_REQUIRED, 401, "token-required", "the access token is missing or wrong";
+    REQUEST_TIMEOUT, 408, "request-timeout", "the request did not arrive in time";
+    BUSY, 503, "busy", "the service cannot take the request at present";
+    INTERNAL, 500, "internal", "internal error";
 }
 
 impl ProblemType {
-    pub(super) const UNREADABLE_BODY: Self = row(400, "unreadable-body", "the body cannot be read");
-    pub(super) const INVALID_SPECIFICATION: Self =
-        row(422, "invalid-specification", "the specification has faults");
-    pub(super) const KEY_REUSED: Self = row(
-        422,
-        "idempotency-key-reused",
-        "the key was used with another body",
-    );
-    pub(super) const INVALID_KEY: Self =
-        row(400, "invalid-idempotency-key", "the key is not valid");
-    pub(super) const INVALID_QUERY: Self =
-        row(400, "invalid-query", "a query parameter is not valid");
-    pub(super) const RANGE: Self = row(416, "range", "the range lies outside the file");
-    pub(super) const BODY_TOO_LARGE: Self = row(413, "body-too-large", "the body is too large");
-    pub(super) const MEDIA_TYPE: Self = row(415, "media-type", "the body is not declared as JSON");
-    pub(super) const NO_SUCH_PATH: Self = row(404, "no-such-path", "there is no such path");
-    pub(super) const WRONG_METHOD: Self =
-        row(405, "wrong-method", "the path does not support this method");
-    pub(super) const NO_SUCH_JOB: Self = row(404, "no-such-job", "there is no such job");
-    pub(super) const NO_SUCH_SWEEP: Self = row(404, "no-such-sweep", "there is no such sweep");
-    pub(super) const NO_SUCH_STUDY: Self = row(404, "no-such-study", "there is no such study");
-    pub(super) const STUDY_OUTDATED: Self = row(
-        410,
-        "study-outdated",
-        "the study cannot be compared any more",
-    );
-    pub(super) const NO_SUCH_RESULT: Self =
-        row(404, "no-such-result", "the job has no such result");
-    pub(super) const NO_SUCH_SYSTEM: Self = row(404, "no-such-system", "there is no such system");
-    pub(super) const JOB_ACTIVE: Self = row(409, "job-active", "the job has not ended");
-    pub(super) const SWEEP_ACTIVE: Self = row(
-        409,
-        "sweep-active",
-        "the sweep has jobs that have not ended",
-    );
-    pub(super) const STUDY_ACTIVE: Self = row(
-        409,
-        "study-active",
-        "the study has jobs that have not ended",
-    );
-    pub(super) const FOREIGN_HOST: Self =
-        row(403, "foreign-host", "the request is for another host");
-    pub(super) const TOKEN_REQUIRED: Self = row(
-        401,
-        "token-required",
-        "the access token is missing or wrong",
-    );
-    pub(super) const REQUEST_TIMEOUT: Self =
-        row(408, "request-timeout", "the request did not arrive in time");
-    pub(super) const BUSY: Self = row(
-        503,
-        "busy",
-        "the service cannot take the request at present",
-    );
-    pub(super) const INTERNAL: Self = row(500, "internal", "internal error");
-
     /// A problem of this type with its explanation.
     pub(super) fn with_detail(self, detail: impl Into<String>) -> ProblemResponse {
         ProblemResponse {
@@ -156,7 +142,7 @@ impl<E: RouteError> From<E> for ProblemResponse {
 impl From<StoreError> for ProblemResponse {
     fn from(error: StoreError) -> Self {
         let detail = match &error {
-            error if error.is_disk_full() => "no space left on the data disk",
+            error if error.is_disk_full() => DISK_FULL,
             error if error.is_transient() => "the database is busy; send the request again",
             error => return Self::internal(error),
         };
@@ -189,6 +175,7 @@ impl IntoResponse for ProblemResponse {
             name,
             title,
         } = self.problem_type;
+        let disk_full = self.detail.as_deref() == Some(DISK_FULL);
         let problem = Problem {
             kind: format!("/problems/{name}"),
             title: title.to_owned(),
@@ -202,6 +189,9 @@ impl IntoResponse for ProblemResponse {
         headers.insert(header::CONTENT_TYPE, HeaderValue::from_static(MEDIA_TYPE));
         if self.problem_type == ProblemType::BUSY {
             headers.insert(header::RETRY_AFTER, HeaderValue::from_static(RETRY_AFTER_S));
+        }
+        if disk_full {
+            response.extensions_mut().insert(DiskFull);
         }
         response
     }
