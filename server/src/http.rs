@@ -2,7 +2,6 @@
 
 mod access;
 mod app;
-mod body_problems;
 mod disk_space;
 mod extract;
 mod idempotency_key;

@@ -2,6 +2,7 @@
 
 use serde::Deserialize;
 use serde_ignored::Path as IgnoredPath;
+use serde_json::Value;
 use serde_path_to_error::{Path as TrackedPath, Segment, Track};
 
 use super::Spec;
@@ -65,21 +66,13 @@ const OBJECTS: [&str; 14] = [
 ];
 
 fn arrays_for_objects(bytes: &[u8]) -> Vec<Fault> {
-    let Ok(document) = serde_json::from_slice::<serde_json::Value>(bytes) else {
+    let Ok(document) = serde_json::from_slice::<Value>(bytes) else {
         return Vec::new();
     };
-    let is_array = |pointer: &&str| {
-        document
-            .pointer(pointer)
-            .is_some_and(serde_json::Value::is_array)
-    };
-    let fault = |pointer: &str| Fault::new(pointer, "an array instead of an object");
-    OBJECTS
-        .iter()
-        .copied()
-        .filter(is_array)
-        .map(fault)
-        .collect()
+    let is_array = |pointer: &&str| document.pointer(pointer).is_some_and(Value::is_array);
+    let arrays = OBJECTS.into_iter().filter(is_array);
+    let fault = |pointer| Fault::new(pointer, "an array instead of an object");
+    arrays.map(fault).collect()
 }
 
 /// A key as a token of a JSON pointer (RFC 6901).

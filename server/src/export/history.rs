@@ -96,7 +96,8 @@ fn outcome(outcome: record::Outcome) -> Outcome {
     }
 }
 
-fn count(count: usize) -> u64 {
+/// A count as documents and files have it.
+pub(crate) fn count(count: usize) -> u64 {
     u64::try_from(count).unwrap_or(u64::MAX)
 }
 

@@ -3,13 +3,15 @@
 //! One file holds both bodies at one position: the nodes of the undeformed, worn bodies (mm), the displacement as a
 //! vector to warp them by, stresses in MPa.
 
-use solver::fields::BodyFields;
+use solver::fields::{BodyFields, Stress};
 use solver::mesh::columns::Cell;
 use solver::record::{PlacedFields, Position};
 use vtkio::model::{
     Attribute, Attributes, ByteOrder, CellType, Cells, DataArray, DataSet, UnstructuredGridPiece,
     Version, VertexNumbers, Vtk,
 };
+
+use crate::export::history::count;
 
 /// The fields could not be written as VTU.
 #[derive(Debug, thiserror::Error)]
@@ -27,7 +29,7 @@ pub fn bytes(fields: &PlacedFields) -> Result<Vec<u8>, VtuError> {
             body.nodes.iter().flat_map(|n| [n[0], n[1], 0.0])
         })
         .into(),
-        cells: cells(bodies)?,
+        cells: cells(bodies),
         data: Attributes {
             point: point_data(bodies),
             cell: cell_data(bodies),
@@ -62,7 +64,7 @@ fn collect<'a, I: Iterator<Item = f64>>(
     bodies.into_iter().flat_map(values).collect()
 }
 
-fn cells(bodies: [&BodyFields; 2]) -> Result<Cells, VtuError> {
+fn cells(bodies: [&BodyFields; 2]) -> Cells {
     let (mut connectivity, mut offsets, mut types) = (Vec::new(), Vec::new(), Vec::new());
     let mut first = 0;
     for body in bodies {
@@ -71,10 +73,8 @@ fn cells(bodies: [&BodyFields; 2]) -> Result<Cells, VtuError> {
                 Cell::Quad(nodes) => (nodes, CellType::Quad),
                 Cell::Tri(nodes) => (nodes, CellType::Triangle),
             };
-            for node in nodes {
-                connectivity.push(to_u64(first + node)?);
-            }
-            offsets.push(to_u64(connectivity.len())?);
+            connectivity.extend(nodes.iter().map(|node| count(first + node)));
+            offsets.push(count(connectivity.len()));
             types.push(kind);
         }
         first += body.nodes.len();
@@ -83,15 +83,11 @@ fn cells(bodies: [&BodyFields; 2]) -> Result<Cells, VtuError> {
         connectivity,
         offsets,
     };
-    Ok(Cells { cell_verts, types })
-}
-
-fn to_u64(count: usize) -> Result<u64, VtuError> {
-    u64::try_from(count).map_err(|cause| VtuError(cause.to_string()))
+    Cells { cell_verts, types }
 }
 
 fn point_data(bodies: [&BodyFields; 2]) -> Vec<Attribute> {
-    let scalars = |name: &str, value: fn(&solver::fields::Stress) -> f64| {
+    let scalars = |name: &str, value: fn(&Stress) -> f64| {
         let values = collect(bodies, |body| body.stress.iter().map(value));
         Attribute::DataArray(DataArray::scalars(name, 1).with_vec(values))
     };
@@ -104,8 +100,8 @@ fn point_data(bodies: [&BodyFields; 2]) -> Vec<Attribute> {
         scalars("stress_yy_mpa", |s| s.yy),
         scalars("stress_zz_mpa", |s| s.zz),
         scalars("stress_xy_mpa", |s| s.xy),
-        scalars("von_mises_mpa", solver::fields::Stress::von_mises),
-        scalars("largest_shear_mpa", solver::fields::Stress::largest_shear),
+        scalars("von_mises_mpa", Stress::von_mises),
+        scalars("largest_shear_mpa", Stress::largest_shear),
     ]
 }
 

@@ -37,13 +37,13 @@ mod tests {
 
     #[tokio::test]
     async fn the_problem_of_a_full_disk_states_free_and_needed_space() {
-        let app = Service::new().await.app;
+        let service = Service::new().await;
         let full = StoreError::Prepare {
             path: "fretwear.db".into(),
             cause: std::io::ErrorKind::StorageFull.into(),
         };
         let response = ProblemResponse::from(full).into_response();
-        let response = explain(State(app), response).await;
+        let response = explain(State(service.app.clone()), response).await;
         assert_eq!(response.status(), 503);
         assert_eq!(response.headers()["retry-after"], "5");
         let body = response.into_body().collect().await.expect("a body");

@@ -12,6 +12,35 @@ use std::sync::OnceLock;
 use serde_json::{Value, json};
 use solver::record::{Channels, CycleReport, SideReport};
 
+/// Status and description of the problems of operations with a body, which is always a specification or contains one.
+const BODY_PROBLEMS: [(&str, &str); 5] = [
+    (
+        "400",
+        "The body, the `Idempotency-Key` or a query parameter is not valid.",
+    ),
+    ("408", "The body did not arrive in time."),
+    ("413", "The body is too large."),
+    ("415", "The body is not declared as JSON."),
+    (
+        "422",
+        "The specification has faults, or the `Idempotency-Key` was used with another body.",
+    ),
+];
+/// Problems of operations with a query.
+const QUERY_PROBLEMS: [(&str, &str); 1] = [("400", "A query parameter is not valid")];
+/// Problems of requests that do not reach their route.
+const COMMON_PROBLEMS: [(&str, &str); 3] = [
+    ("401", "The access token is missing or wrong"),
+    (
+        "403",
+        "The request was sent for another host or from another origin",
+    ),
+    (
+        "503",
+        "The service cannot take the request at present; `Retry-After` says when to send it again",
+    ),
+];
+
 /// The document, built once.
 pub fn document() -> &'static Value {
     static DOCUMENT: OnceLock<Value> = OnceLock::new();
@@ -31,8 +60,7 @@ pub fn text() -> String {
     text
 }
 
-/// Adds what operations share: the access token, the id in their path with the problem of an unknown one, and the problems
-/// of requests that do not reach their route.
+/// Adds what operations share: the access token, the id in their path, and problems.
 fn complete(document: &mut Value) {
     document["components"]["securitySchemes"]["token"] = json!({
         "type": "http",
@@ -43,55 +71,60 @@ fn complete(document: &mut Value) {
     let schemas = &mut document["components"]["schemas"];
     describe_channels::<CycleReport>(&mut schemas["WearHistory"]);
     describe_channels::<SideReport>(&mut schemas["SideSeries"]);
-    let problem = |description: &str| {
-        json!({
-            "description": description,
-            "content": {"application/problem+json": {"schema": {"$ref": "#/components/schemas/Problem"}}}
-        })
-    };
     let paths = document["paths"].as_object_mut().into_iter().flatten();
-    let operations = paths.flat_map(|(path, methods)| {
-        let methods = methods.as_object_mut().into_iter().flatten();
-        methods.map(move |(_, operation)| (path, operation))
-    });
-    for (path, operation) in operations {
-        let noun = identified(path);
-        if let Some(noun) = noun {
-            let id = json!({
-                "name": "id",
-                "in": "path",
-                "required": true,
-                "description": format!("The {noun}"),
-                "schema": {"type": "string", "format": "uuid"}
-            });
-            let others = operation["parameters"].as_array().cloned();
-            let parameters = [id].into_iter().chain(others.unwrap_or_default());
-            operation["parameters"] = parameters.collect();
+    for (path, methods) in paths {
+        for operation in methods
+            .as_object_mut()
+            .into_iter()
+            .flat_map(|methods| methods.values_mut())
+        {
+            complete_operation(identified(path), operation);
         }
-        let Some(responses) = operation["responses"].as_object_mut() else {
-            continue;
-        };
-        for response in responses.values_mut() {
-            set_problem_media_type(response);
-        }
-        if let Some(noun) = noun {
-            let add = || problem(&format!("No such {noun}"));
-            responses.entry("404").or_insert_with(add);
-        }
-        for (status, description) in [
-            ("401", "The access token is missing or wrong"),
-            (
-                "403",
-                "The request was sent for another host or from another origin",
-            ),
-            (
-                "503",
-                "The service cannot take the request at present; `Retry-After` says when to send it again",
-            ),
-        ] {
-            let add = || problem(description);
-            responses.entry(status).or_insert_with(add);
-        }
+    }
+}
+
+/// Adds the parameter `id` of an operation whose path identifies a `noun`, and the problems that follow from its parameters
+/// and body.
+fn complete_operation(noun: Option<&str>, operation: &mut Value) {
+    let mut parameters = operation["parameters"]
+        .as_array()
+        .cloned()
+        .unwrap_or_default();
+    let has_query = parameters
+        .iter()
+        .any(|parameter| parameter["in"] == "query");
+    let has_body = operation["requestBody"].is_object();
+    if let Some(noun) = noun {
+        let id = json!({
+            "name": "id",
+            "in": "path",
+            "required": true,
+            "description": format!("The {noun}"),
+            "schema": {"type": "string", "format": "uuid"}
+        });
+        parameters.insert(0, id);
+        operation["parameters"] = parameters.into();
+    }
+    let Some(responses) = operation["responses"].as_object_mut() else {
+        return;
+    };
+    responses.values_mut().for_each(set_problem_media_type);
+    let unknown_id = noun.map(|noun| ("404", format!("No such {noun}")));
+    let listed = [
+        (has_body, &BODY_PROBLEMS[..]),
+        (has_query, &QUERY_PROBLEMS),
+        (true, &COMMON_PROBLEMS),
+    ];
+    let listed = listed.into_iter().filter(|(applies, _)| *applies);
+    let listed = listed.flat_map(|(_, problems)| problems);
+    let listed = listed.map(|(status, description)| (*status, (*description).to_owned()));
+    for (status, description) in unknown_id.into_iter().chain(listed) {
+        responses.entry(status).or_insert_with(|| {
+            json!({
+                "description": description,
+                "content": {"application/problem+json": {"schema": {"$ref": "#/components/schemas/Problem"}}}
+            })
+        });
     }
 }
 

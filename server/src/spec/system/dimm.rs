@@ -1,7 +1,5 @@
 //! DIMM: a semicircular socket contact on a memory module's flat pad.
 
-use api::spec::System;
-
 use crate::spec::system::definition::{SystemDefinition, dimension};
 use crate::spec::system::preset::plated;
 use crate::spec::system::shapes::{Shapes, flat, half_round, length};
@@ -13,14 +11,10 @@ pub(super) const DEFINITION: SystemDefinition = SystemDefinition {
         dimension!(pad_length_mm, |_| 2.5, Typical),
         dimension!(pad_height_mm, |_| 0.6, Assumed),
     ],
-    shapes,
+    shapes: |system| Shapes {
+        slider: half_round(length(system.contact_radius_mm)),
+        block: flat(system.pad_length_mm, system.pad_height_mm),
+    },
     check: |_, _| {},
     preset: || plated("phosphor_bronze", 0.6, 0.6),
 };
-
-fn shapes(system: &System) -> Shapes {
-    Shapes {
-        slider: half_round(length(system.contact_radius_mm)),
-        block: flat(system.pad_length_mm, system.pad_height_mm),
-    }
-}

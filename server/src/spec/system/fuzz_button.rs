@@ -7,7 +7,7 @@
 //!  |   pcb     |
 //! ```
 
-use api::spec::{Drive, Load, LoadKind, System, Waveform};
+use api::spec::{Drive, Load, LoadKind, Waveform};
 
 use crate::spec::sourced::{assumed, source};
 use crate::spec::system::definition::{SystemDefinition, dimension};
@@ -21,17 +21,13 @@ pub(super) const DEFINITION: SystemDefinition = SystemDefinition {
         dimension!(pcb_length_mm, |_| 0.084_67, Source),
         dimension!(pcb_height_mm, |_| 0.0635, Assumed),
     ],
-    shapes,
+    shapes: |system| Shapes {
+        slider: half_round(0.5 * length(system.wire_diameter_mm)),
+        block: flat(system.pcb_length_mm, system.pcb_height_mm),
+    },
     check: |_, _| {},
     preset,
 };
-
-fn shapes(system: &System) -> Shapes {
-    Shapes {
-        slider: half_round(0.5 * length(system.wire_diameter_mm)),
-        block: flat(system.pcb_length_mm, system.pcb_height_mm),
-    }
-}
 
 fn preset() -> Preset {
     Preset {

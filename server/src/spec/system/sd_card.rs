@@ -8,8 +8,6 @@
 //!  |    pad    |
 //! ```
 
-use api::spec::System;
-
 use crate::spec::system::definition::{SystemDefinition, dimension};
 use crate::spec::system::preset::plated;
 use crate::spec::system::shapes::{Shapes, flat, length, tip};
@@ -21,14 +19,10 @@ pub(super) const DEFINITION: SystemDefinition = SystemDefinition {
         dimension!(pad_length_mm, |_| 2.0, Assumed),
         dimension!(pad_height_mm, |_| 0.3, Assumed),
     ],
-    shapes,
+    shapes: |system| Shapes {
+        slider: tip(length(system.contact_radius_mm)),
+        block: flat(system.pad_length_mm, system.pad_height_mm),
+    },
     check: |_, _| {},
     preset: || plated("becu", 0.5, 0.8),
 };
-
-fn shapes(system: &System) -> Shapes {
-    Shapes {
-        slider: tip(length(system.contact_radius_mm)),
-        block: flat(system.pad_length_mm, system.pad_height_mm),
-    }
-}

@@ -7,7 +7,6 @@
 //!  |  flat pin |            | round pin |
 //! ```
 
-use api::spec::System;
 use solver::scene::BlockShape;
 
 use crate::spec::system::definition::{SystemDefinition, dimension};
@@ -22,17 +21,13 @@ pub(super) const DEFINITION: SystemDefinition = SystemDefinition {
         dimension!(pin_thickness_mm, |_| 0.46, Typical),
         dimension!(pin_radius_mm),
     ],
-    shapes,
-    check: |shapes, diagnostics| check_crown("/system/pin_radius_mm", shapes, diagnostics),
-    preset: || plated("phosphor_bronze", 0.5, 0.46),
-};
-
-fn shapes(system: &System) -> Shapes {
-    Shapes {
+    shapes: |system| Shapes {
         slider: tip(length(system.contact_radius_mm)),
         block: BlockShape {
             crown_radius_mm: system.pin_radius_mm,
             ..flat(system.pin_length_mm, system.pin_thickness_mm)
         },
-    }
-}
+    },
+    check: |shapes, diagnostics| check_crown("/system/pin_radius_mm", shapes, diagnostics),
+    preset: || plated("phosphor_bronze", 0.5, 0.46),
+};

@@ -1,7 +1,6 @@
 //! `GET /v1/sweeps` and `GET /v1/studies`: batches, newest first.
 
 use api::batch::BatchOverview;
-use api::problem::Problem;
 use api::study::StudyList;
 use api::sweep::SweepList;
 use axum::Json;
@@ -36,7 +35,6 @@ pub(crate) struct ListBatchesQuery {
     params(ListBatchesQuery),
     responses(
         (status = 200, description = "A page of sweeps", body = SweepList),
-        (status = 400, description = "A query parameter is not valid", body = Problem),
     )
 )]
 pub(crate) async fn list_sweeps(
@@ -58,7 +56,6 @@ pub(crate) async fn list_sweeps(
     params(ListBatchesQuery),
     responses(
         (status = 200, description = "A page of studies", body = StudyList),
-        (status = 400, description = "A query parameter is not valid", body = Problem),
     )
 )]
 pub(crate) async fn list_studies(

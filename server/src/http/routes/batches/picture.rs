@@ -45,7 +45,6 @@ pub(crate) struct PictureQuery {
             (Vec<u8> = "image/svg+xml"),
             (Vec<u8> = "image/png"),
         )),
-        (status = 400, description = "A query parameter is not valid", body = Problem),
         (status = 404, description = "No such study, or no results so far", body = Problem),
         (status = 410, description = "Queued by a version whose studies cannot be compared any more", body = Problem),
     )

@@ -12,7 +12,6 @@ use axum::response::{IntoResponse, Response};
 use crate::batch::Kind;
 use crate::clock::now_ms;
 use crate::http::app::App;
-use crate::http::body_problems::BodyProblems;
 use crate::http::extract::{BatchId, JsonBody};
 use crate::http::idempotency_key::{KeyError, idempotency_key};
 use crate::http::limits;
@@ -29,7 +28,6 @@ use crate::store::Submitted;
     params(("Idempotency-Key" = Option<String>, Header, description = "Sent twice with the same body, one sweep")),
     responses(
         (status = 202, description = "Queued", body = Sweep, headers(("Location" = String, description = "The sweep"))),
-        BodyProblems,
     )
 )]
 pub(crate) async fn submit_sweep(
@@ -50,7 +48,6 @@ pub(crate) async fn submit_sweep(
     params(("Idempotency-Key" = Option<String>, Header, description = "Sent twice with the same body, one study")),
     responses(
         (status = 202, description = "Queued", body = StudyDocument, headers(("Location" = String, description = "The study"))),
-        BodyProblems,
     )
 )]
 pub(crate) async fn submit_study(

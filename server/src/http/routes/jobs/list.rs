@@ -1,7 +1,6 @@
 //! `GET /v1/jobs`: jobs, newest first.
 
 use api::job::{JobList, Status};
-use api::problem::Problem;
 use axum::Json;
 use axum::extract::State;
 use jiff::Timestamp;
@@ -87,7 +86,6 @@ pub(crate) struct ListQuery {
     params(ListQuery),
     responses(
         (status = 200, description = "A page of jobs", body = JobList),
-        (status = 400, description = "A query parameter is not valid", body = Problem),
     )
 )]
 pub(crate) async fn list(

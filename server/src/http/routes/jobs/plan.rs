@@ -6,7 +6,6 @@ use axum::Json;
 use axum::extract::State;
 
 use crate::http::app::App;
-use crate::http::body_problems::BodyProblems;
 use crate::http::extract::JsonBody;
 use crate::http::problem::ProblemResponse;
 use crate::http::routes::jobs::submit::resolve;
@@ -20,7 +19,6 @@ use crate::http::routes::jobs::submit::resolve;
     request_body = Spec,
     responses(
         (status = 200, description = "The resolved specification and its plan", body = PlanDocument),
-        BodyProblems,
     )
 )]
 pub(crate) async fn make_plan(

@@ -3,7 +3,6 @@
 use std::time::Duration;
 
 use api::job::Job;
-use api::problem::Problem;
 use axum::Json;
 use axum::extract::State;
 use axum::http::{HeaderMap, StatusCode, header};
@@ -54,7 +53,6 @@ pub(crate) struct ShowQuery {
             ("Retry-After" = u64, description = "Recommended pause before the next poll, s; absent once the job has ended"),
         )),
         (status = 304, description = "Not changed since the version in `If-None-Match`"),
-        (status = 400, description = "A query parameter is not valid", body = Problem),
     )
 )]
 pub(crate) async fn show(

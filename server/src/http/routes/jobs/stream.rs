@@ -111,16 +111,9 @@ fn last_event_id(headers: &HeaderMap) -> Result<Option<i64>, StreamError> {
     let Some(value) = headers.get(LAST_EVENT_ID) else {
         return Ok(None);
     };
-    let number: i64 = value
-        .to_str()
-        .ok()
-        .and_then(|text| text.trim().parse().ok())
-        .ok_or(StreamError::LastEventId)?;
-    if number < 0 {
-        Err(StreamError::LastEventId)
-    } else {
-        Ok(Some(number))
-    }
+    let text = value.to_str().unwrap_or_default().trim();
+    let number = text.parse().ok().filter(|number: &i64| *number >= 0);
+    number.map(Some).ok_or(StreamError::LastEventId)
 }
 
 /// Remaining events of a job.

@@ -14,7 +14,6 @@ use utoipa::IntoParams;
 use crate::clock::now_ms;
 use crate::estimate::Estimate;
 use crate::http::app::App;
-use crate::http::body_problems::BodyProblems;
 use crate::http::extract::{JsonBody, Params};
 use crate::http::idempotency_key::{KeyError, idempotency_key};
 use crate::http::job_error::JobError;
@@ -81,7 +80,6 @@ impl SubmitQuery {
             ("Location" = String, description = "The job"),
             ("Retry-After" = u64, description = "Recommended pause before the first poll, s"),
         )),
-        BodyProblems,
     )
 )]
 pub(crate) async fn submit(

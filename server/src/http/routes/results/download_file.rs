@@ -10,7 +10,7 @@ use api::problem::Problem;
 use api::results::ResultFile;
 use axum::body::{Body, Bytes};
 use axum::extract::State;
-use axum::http::{HeaderMap, HeaderValue, StatusCode, header};
+use axum::http::{HeaderMap, StatusCode, header};
 use axum::response::{IntoResponse, Response};
 use http_range_header::RangeUnsatisfiableError;
 use tokio::fs::File;
@@ -80,7 +80,7 @@ pub(crate) async fn file(
         return Err(FileError::Missing(id).into());
     };
     let etag = format!("\"{}\"", file.sha256);
-    let mut response = if text(&headers, header::IF_NONE_MATCH).contains(&etag) {
+    let response = if text(&headers, header::IF_NONE_MATCH).contains(&etag) {
         StatusCode::NOT_MODIFIED.into_response()
     } else {
         let Ok(range) = requested_range(&headers, &file, &etag) else {
@@ -88,19 +88,14 @@ pub(crate) async fn file(
         };
         respond(id, &file, content, range).await?
     };
-    let response_headers = response.headers_mut();
-    for (name, value) in [
+    let own = [
         (header::ETAG, etag),
         (header::ACCEPT_RANGES, "bytes".to_owned()),
         // A stored file never changes; the client revalidates with its digest.
         (header::CACHE_CONTROL, "private, no-cache".to_owned()),
         (header::CONTENT_DISPOSITION, attachment(&file.name)),
-    ] {
-        if let Ok(value) = HeaderValue::from_str(&value) {
-            response_headers.insert(name, value);
-        }
-    }
-    Ok(response)
+    ];
+    Ok((own, response).into_response())
 }
 
 /// `Content-Disposition` of a download; characters of the name other than letters, digits, `.`, `-` and `_` are replaced.
@@ -167,20 +162,16 @@ async fn respond(
         Content::Inline(bytes) => slice(bytes, from, length),
         Content::File(path) => stream(&path, from, length).await.map_err(read_error)?,
     };
-    let mut response = Response::new(body);
-    let headers = response.headers_mut();
-    if let Ok(kind) = HeaderValue::from_str(&file.media_type) {
-        headers.insert(header::CONTENT_TYPE, kind);
-    }
-    headers.insert(header::CONTENT_LENGTH, length.into());
-    if let Some(range) = range {
-        let range = format!("bytes {}-{}/{}", range.start(), range.end(), file.bytes);
-        if let Ok(range) = HeaderValue::from_str(&range) {
-            headers.insert(header::CONTENT_RANGE, range);
-        }
-        *response.status_mut() = StatusCode::PARTIAL_CONTENT;
-    }
-    Ok(response)
+    let headers = [
+        (header::CONTENT_TYPE, file.media_type.clone()),
+        (header::CONTENT_LENGTH, length.to_string()),
+    ];
+    let Some(range) = range else {
+        return Ok((headers, body).into_response());
+    };
+    let range = format!("bytes {}-{}/{}", range.start(), range.end(), file.bytes);
+    let range = [(header::CONTENT_RANGE, range)];
+    Ok((StatusCode::PARTIAL_CONTENT, headers, range, body).into_response())
 }
 
 fn slice(bytes: Vec<u8>, from: u64, length: u64) -> Body {

@@ -1,6 +1,5 @@
 //! `GET /v1/jobs/{id}/results/wear-history`: wear over the cycles, also while the job runs.
 
-use api::problem::Problem;
 use api::results::WearHistory;
 use axum::Json;
 use axum::extract::State;
@@ -55,7 +54,6 @@ pub(crate) enum HistoryFormat {
             (String = "text/csv"),
             (Vec<u8> = "application/vnd.apache.parquet"),
         )),
-        (status = 400, description = "A query parameter is not valid", body = Problem),
     )
 )]
 pub(crate) async fn wear_history(

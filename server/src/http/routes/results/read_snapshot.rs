@@ -63,7 +63,6 @@ pub(crate) struct SnapshotQuery {
     params(SnapshotQuery),
     responses(
         (status = 200, description = "The document", content((Profile = "application/json"), (String = "text/csv"))),
-        (status = 400, description = "A query parameter is not valid", body = Problem),
         (status = 404, description = "No such job, or no snapshot stored so far", body = Problem),
     )
 )]
@@ -84,7 +83,6 @@ pub(crate) async fn profile(
     params(SnapshotQuery),
     responses(
         (status = 200, description = "The document", content((Pressure = "application/json"), (String = "text/csv"))),
-        (status = 400, description = "A query parameter is not valid", body = Problem),
         (status = 404, description = "No such job, or no snapshot stored so far", body = Problem),
     )
 )]
@@ -105,7 +103,6 @@ pub(crate) async fn pressure(
     params(SnapshotQuery),
     responses(
         (status = 200, description = "The document", content((Loop = "application/json"), (String = "text/csv"))),
-        (status = 400, description = "A query parameter is not valid", body = Problem),
         (status = 404, description = "No such job, or no snapshot stored so far", body = Problem),
     )
 )]
