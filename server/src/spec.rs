@@ -24,6 +24,7 @@ use solver::scene::{Body, Scene};
 
 use diagnostics::Diagnostics;
 pub(crate) use diagnostics::NAME_LIMIT;
+pub(crate) use system::definition as system_definition;
 
 /// Most labels of a job.
 const LABEL_LIMIT: usize = 64;
@@ -108,7 +109,7 @@ fn fill(spec: &Spec, kind: SystemKind, diagnostics: &mut Diagnostics) -> (Spec, 
     );
     let (load, line_load) = load::resolve(spec.load.as_ref(), &preset, &shapes, diagnostics);
     let motion = motion::resolve(spec.motion.as_ref(), &preset, diagnostics);
-    let continuous = motion.distance_mm().is_some();
+    let continuous = motion.spec.distance_mm.is_some();
     let cycles = motion::cycles(spec.cycles, &motion, &preset, diagnostics);
     if continuous && laws.wear.slider.is_some() {
         diagnostics.fault(
@@ -154,16 +155,6 @@ fn fill(spec: &Spec, kind: SystemKind, diagnostics: &mut Diagnostics) -> (Spec, 
         stop,
     };
     (filled, scene)
-}
-
-/// Description of a kind of system.
-pub(crate) fn system_description(kind: SystemKind) -> &'static str {
-    system::definition(kind).description
-}
-
-/// Names of the dimensions of a kind of system.
-pub(crate) fn dimension_names(kind: SystemKind) -> impl Iterator<Item = &'static str> {
-    system::definition(kind).dimension_names()
 }
 
 /// Cycles in the histories of a resolved specification.

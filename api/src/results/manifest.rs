@@ -28,7 +28,7 @@ pub struct ResultFile {
 pub struct Manifest {
     /// The job.
     pub job: Uuid,
-    /// Where it stands.
+    /// Status of the job.
     pub status: Status,
     /// True once the job has ended: no file will be added.
     pub complete: bool,

@@ -12,10 +12,13 @@ const NM: f64 = 1e6;
 
 /// Returns a wear history and its checks as lines of text.
 pub(super) fn report(job: &Job, history: &WearHistory) -> Vec<String> {
-    let mut lines = vec![String::new(), job.spec.name.clone().unwrap_or_default()];
-    lines.push("Worn depth of the receptacle, um, by cycle and position x:".to_owned());
     let rows = snapshot_rows(job, history);
-    lines.push(depths(history, &rows).to_string());
+    let mut lines = vec![
+        String::new(),
+        job.spec.name.clone().unwrap_or_default(),
+        "Worn depth of the receptacle, um, by cycle and position x:".to_owned(),
+        depths(history, &rows).to_string(),
+    ];
     lines.extend(growth(job, history, &rows));
     lines.extend(area(job));
     lines
@@ -23,28 +26,24 @@ pub(super) fn report(job: &Job, history: &WearHistory) -> Vec<String> {
 
 /// Returns the rows nearest to the cycles of the snapshots.
 fn snapshot_rows(job: &Job, history: &WearHistory) -> Vec<usize> {
-    let cycles = job
-        .spec
-        .output
-        .snapshots_at_cycles
-        .clone()
-        .unwrap_or_default();
-    let nearest = |cycle: u64| {
-        let distance = |index: &usize| history.cycle[*index].abs_diff(cycle);
+    let cycles = job.spec.output.snapshots_at_cycles.as_deref();
+    let nearest = |cycle: &u64| {
+        let distance = |index: &usize| history.cycle[*index].abs_diff(*cycle);
         (0..history.cycle.len()).min_by_key(distance)
     };
-    let mut rows: Vec<_> = cycles.into_iter().filter_map(nearest).collect();
+    let cycles = cycles.unwrap_or_default().iter();
+    let mut rows: Vec<_> = cycles.filter_map(nearest).collect();
     rows.sort_unstable();
     rows.dedup();
     rows
 }
 
 fn depths(history: &WearHistory, rows: &[usize]) -> Table {
+    let stations = history.stations.iter();
     let mut header = vec!["cycle".to_owned()];
     header.extend(
-        history
-            .stations
-            .iter()
+        stations
+            .clone()
             .map(|station| format!("{} mm", station.x_mm)),
     );
     header.extend(["deepest".to_owned(), "middle, nm a cycle".to_owned()]);
@@ -52,12 +51,8 @@ fn depths(history: &WearHistory, rows: &[usize]) -> Table {
     let deepest = history.receptacle.columns.get("max_depth_mm");
     for (index, &row) in rows.iter().enumerate() {
         let mut cells = vec![history.cycle[row].to_string()];
-        cells.extend(
-            history
-                .stations
-                .iter()
-                .map(|station| format!("{:.3}", UM * station.depth_mm[row])),
-        );
+        let depths = stations.clone().map(|station| UM * station.depth_mm[row]);
+        cells.extend(depths.map(|depth| format!("{depth:.3}")));
         cells.push(deepest.map_or_else(String::new, |depth| format!("{:.3}", UM * depth[row])));
         // The first row of a history is the unworn state.
         let before = index.checked_sub(1).map_or(0, |index| rows[index]);

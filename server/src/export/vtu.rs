@@ -16,7 +16,7 @@ use crate::export::history::count;
 /// The fields could not be written as VTU.
 #[derive(Debug, thiserror::Error)]
 #[error("the fields cannot be written as VTU: {0}")]
-pub struct VtuError(String);
+pub struct VtuError(#[from] vtkio::Error);
 
 /// Content of the file of the fields at one position.
 ///
@@ -43,8 +43,7 @@ pub fn bytes(fields: &PlacedFields) -> Result<Vec<u8>, VtuError> {
         file_path: None,
     };
     let mut bytes = Vec::new();
-    vtk.write_xml(&mut bytes)
-        .map_err(|cause| VtuError(cause.to_string()))?;
+    vtk.write_xml(&mut bytes)?;
     Ok(bytes)
 }
 

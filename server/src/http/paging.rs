@@ -1,8 +1,8 @@
 //! Pagination of lists. A page token holds the last entry of its page, and a digest of the list's filters.
 
-use sha2::{Digest, Sha256};
 use uuid::Uuid;
 
+use crate::export::files;
 use crate::http::problem::{ProblemType, RouteError};
 use crate::text::shortened;
 
@@ -50,9 +50,7 @@ impl Page {
         if !(1..=MAX_LIMIT).contains(&limit) {
             return Err(PageError::Limit(limit));
         }
-        let digest = Sha256::digest(list);
-        let digest = u32::from_be_bytes([digest[0], digest[1], digest[2], digest[3]]);
-        let digest = format!("{digest:08x}");
+        let digest = files::sha256(list.as_bytes())[..8].to_owned();
         let before = token.map(|token| parse_token(token, &digest)).transpose()?;
         Ok(Self {
             digest,

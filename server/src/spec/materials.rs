@@ -135,21 +135,15 @@ fn range(field: &str) -> RangeInclusive<f64> {
     }
 }
 
-fn numbers(properties: &MaterialProperties) -> [(&'static str, Option<f64>); 8] {
+fn numbers(of: &MaterialProperties) -> [(&'static str, Option<f64>); 8] {
     [
-        ("youngs_modulus_mpa", properties.youngs_modulus_mpa),
-        ("poisson_ratio", properties.poisson_ratio),
-        ("hardness_mpa", properties.hardness_mpa),
-        ("density_kg_m3", properties.density_kg_m3),
-        (
-            "thermal_conductivity_w_mk",
-            properties.thermal_conductivity_w_mk,
-        ),
-        ("specific_heat_j_kgk", properties.specific_heat_j_kgk),
-        ("resistivity_ohm_m", properties.resistivity_ohm_m),
-        (
-            "thermal_expansion_per_k",
-            properties.thermal_expansion_per_k,
-        ),
+        ("youngs_modulus_mpa", of.youngs_modulus_mpa),
+        ("poisson_ratio", of.poisson_ratio),
+        ("hardness_mpa", of.hardness_mpa),
+        ("density_kg_m3", of.density_kg_m3),
+        ("thermal_conductivity_w_mk", of.thermal_conductivity_w_mk),
+        ("specific_heat_j_kgk", of.specific_heat_j_kgk),
+        ("resistivity_ohm_m", of.resistivity_ohm_m),
+        ("thermal_expansion_per_k", of.thermal_expansion_per_k),
     ]
 }

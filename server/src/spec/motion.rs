@@ -34,13 +34,6 @@ pub(crate) struct ImposedMotion {
     pub(crate) scene: scene::Motion,
 }
 
-impl ImposedMotion {
-    /// Distance of a continuous motion, mm.
-    pub(crate) fn distance_mm(&self) -> Option<f64> {
-        self.spec.distance_mm
-    }
-}
-
 /// Resolves the motion.
 pub(crate) fn resolve(
     given: Option<&Motion>,
@@ -78,7 +71,7 @@ pub(crate) fn cycles(
     preset: &Preset,
     diagnostics: &mut Diagnostics,
 ) -> u64 {
-    if motion.distance_mm().is_some() {
+    if motion.spec.distance_mm.is_some() {
         if given.is_some() {
             diagnostics.foreign_field("", "cycles", "continuous");
         }

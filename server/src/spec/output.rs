@@ -36,7 +36,7 @@ pub(crate) fn resolve(
         fields: Some(fields),
         ..Output::default()
     };
-    let mut snapshots = match motion.distance_mm() {
+    let mut snapshots = match motion.spec.distance_mm {
         None => {
             let at = at_cycles(given, cycles, diagnostics);
             filled.snapshots_at_cycles = Some(at.clone());

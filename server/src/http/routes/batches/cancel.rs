@@ -14,7 +14,7 @@ use crate::http::extract::BatchId;
 use crate::http::problem::ProblemResponse;
 use crate::http::routes::batches::show::document;
 
-/// The batch as it stands.
+/// The batch in its current state.
 type Cancelled = Result<(StatusCode, Json<Document>), ProblemResponse>;
 
 /// Cancels all jobs of a sweep.
@@ -23,7 +23,7 @@ type Cancelled = Result<(StatusCode, Json<Document>), ProblemResponse>;
     path = "/v1/sweeps/{id}/cancel",
     tag = "sweeps",
     responses(
-        (status = 202, description = "Accepted; the sweep as it stands", body = Sweep),
+        (status = 202, description = "Accepted; the sweep in its current state", body = Sweep),
     )
 )]
 pub(crate) async fn cancel_sweep(app: State<App>, batch: BatchId) -> Cancelled {
@@ -36,7 +36,7 @@ pub(crate) async fn cancel_sweep(app: State<App>, batch: BatchId) -> Cancelled {
     path = "/v1/studies/{id}/cancel",
     tag = "studies",
     responses(
-        (status = 202, description = "Accepted; the study as it stands", body = StudyDocument),
+        (status = 202, description = "Accepted; the study in its current state", body = StudyDocument),
         (status = 410, description = "Accepted, but queued by a version whose studies cannot be compared any more", body = Problem),
     )
 )]

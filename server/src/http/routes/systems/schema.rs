@@ -67,7 +67,7 @@ fn make_local(schema: &mut Value, names: &mut BTreeSet<String>) {
 fn system(kind: SystemKind, all: &Value) -> Value {
     let mut properties = Map::new();
     properties.insert("kind".to_owned(), json!({"const": kind.as_str()}));
-    for name in spec::dimension_names(kind) {
+    for name in spec::system_definition(kind).dimension_names() {
         properties.insert(name.to_owned(), all["properties"][name].clone());
     }
     json!({

@@ -61,7 +61,7 @@ pub(crate) fn document(kind: SystemKind, openapi: &Value) -> Result<SystemDocume
     let resolved = spec::resolve(&spec).map_err(|_| SystemError::Preset(kind.as_str()))?;
     Ok(SystemDocument {
         kind,
-        description: spec::system_description(kind).to_owned(),
+        description: spec::system_definition(kind).description.to_owned(),
         preset: resolved.spec,
         schema: schema::of(kind, openapi),
     })
