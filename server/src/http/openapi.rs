@@ -73,11 +73,7 @@ fn complete(document: &mut Value) {
     describe_channels::<SideReport>(&mut schemas["SideSeries"]);
     let paths = document["paths"].as_object_mut().into_iter().flatten();
     for (path, methods) in paths {
-        for operation in methods
-            .as_object_mut()
-            .into_iter()
-            .flat_map(|methods| methods.values_mut())
-        {
+        for (_, operation) in methods.as_object_mut().into_iter().flatten() {
             complete_operation(identified(path), operation);
         }
     }
@@ -109,22 +105,25 @@ fn complete_operation(noun: Option<&str>, operation: &mut Value) {
         return;
     };
     responses.values_mut().for_each(set_problem_media_type);
-    let unknown_id = noun.map(|noun| ("404", format!("No such {noun}")));
-    let listed = [
-        (has_body, &BODY_PROBLEMS[..]),
-        (has_query, &QUERY_PROBLEMS),
-        (true, &COMMON_PROBLEMS),
-    ];
-    let listed = listed.into_iter().filter(|(applies, _)| *applies);
-    let listed = listed.flat_map(|(_, problems)| problems);
-    let listed = listed.map(|(status, description)| (*status, (*description).to_owned()));
-    for (status, description) in unknown_id.into_iter().chain(listed) {
+    let mut add = |status: &str, description: &str| {
         responses.entry(status).or_insert_with(|| {
             json!({
                 "description": description,
                 "content": {"application/problem+json": {"schema": {"$ref": "#/components/schemas/Problem"}}}
             })
         });
+    };
+    if let Some(noun) = noun {
+        add("404", &format!("No such {noun}"));
+    }
+    let groups = [
+        (has_body, &BODY_PROBLEMS[..]),
+        (has_query, &QUERY_PROBLEMS),
+        (true, &COMMON_PROBLEMS),
+    ];
+    let groups = groups.into_iter().filter(|(applies, _)| *applies);
+    for (status, description) in groups.flat_map(|(_, problems)| problems) {
+        add(status, description);
     }
 }
 

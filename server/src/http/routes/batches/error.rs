@@ -20,10 +20,14 @@ pub(crate) enum BatchError {
 impl RouteError for BatchError {
     fn problem_type(&self) -> ProblemType {
         match self {
-            Self::Missing(batch) if batch.kind == Kind::Sweep => ProblemType::NO_SUCH_SWEEP,
-            Self::Missing(_) => ProblemType::NO_SUCH_STUDY,
-            Self::Active(batch) if batch.kind == Kind::Sweep => ProblemType::SWEEP_ACTIVE,
-            Self::Active(_) => ProblemType::STUDY_ACTIVE,
+            Self::Missing(batch) => match batch.kind {
+                Kind::Sweep => ProblemType::NO_SUCH_SWEEP,
+                Kind::AccuracyStudy => ProblemType::NO_SUCH_STUDY,
+            },
+            Self::Active(batch) => match batch.kind {
+                Kind::Sweep => ProblemType::SWEEP_ACTIVE,
+                Kind::AccuracyStudy => ProblemType::STUDY_ACTIVE,
+            },
         }
     }
 }
