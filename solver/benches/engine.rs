@@ -41,7 +41,7 @@ fn cycle_of_40_increments(bencher: Bencher<'_, '_>, element_um: u32) {
     let model = model::build(&scene, &solver::effects::plan(&scene)).expect("it can be meshed");
     let condensed = condense(&model).expect("it can be condensed");
     let operators = &condensed.operators;
-    let mut loaded = CycleState::start(operators);
+    let mut loaded = CycleState::start(operators, model.interface.slave);
     let mut integrator = Integrator::new(&scene, &model, operators);
     integrator.apply_load(&mut loaded).expect("it settles");
     integrator

@@ -10,7 +10,7 @@ use crate::ale;
 use crate::cycle::CycleState;
 use crate::mesh::MeshError;
 use crate::model::Model;
-use crate::sides::Sides;
+use crate::sides::{Side, Sides};
 
 /// A run between two computed cycles. It survives serialisation bit for bit in any format that preserves `f64`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -83,31 +83,33 @@ impl Checkpoint {
             });
         }
         let contact = &self.state.contact;
-        let n = unworn.bodies.receptacle.contact_x().len();
-        let m = unworn.bodies.slider.contact_x().len();
-        let at_receptacle = [
+        let nodes = |side| unworn.bodies.of(side).contact_x().len();
+        let slave = unworn.interface.slave;
+        for found in [
             contact.status.len(),
             contact.pressure.len(),
             contact.shear.len(),
-            contact.force.receptacle.len() / 2,
-            self.state.depth.receptacle.len(),
-            self.built
-                .as_ref()
-                .map_or(n, |depth| depth.receptacle.len()),
-        ];
-        let at_slider = [
-            contact.force.slider.len() / 2,
-            self.state.depth.slider.len(),
-            self.built.as_ref().map_or(m, |depth| depth.slider.len()),
-        ];
-        all_are("receptacle", &at_receptacle, n)?;
-        all_are("slider", &at_slider, m)
+        ] {
+            check_nodes(slave, found, nodes(slave))?;
+        }
+        for side in Side::BOTH {
+            let built = self.built.as_ref();
+            for found in [
+                contact.force.of(side).len() / 2,
+                self.state.depth.of(side).len(),
+                built.map_or(nodes(side), |depth| depth.of(side).len()),
+            ] {
+                check_nodes(side, found, nodes(side))?;
+            }
+        }
+        Ok(())
     }
 }
 
-fn all_are(body: &'static str, lengths: &[usize], nodes: usize) -> Result<(), Misfit> {
-    match lengths.iter().find(|length| **length != nodes) {
-        None => Ok(()),
-        Some(&found) => Err(Misfit::Nodes { body, found, nodes }),
+fn check_nodes(side: Side, found: usize, nodes: usize) -> Result<(), Misfit> {
+    if found == nodes {
+        return Ok(());
     }
+    let body = side.name();
+    Err(Misfit::Nodes { body, found, nodes })
 }

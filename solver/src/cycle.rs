@@ -51,7 +51,7 @@ impl<'a> Integrator<'a> {
             operators,
             interface: model.interface,
         };
-        let next = ContactState::untouched(operators);
+        let next = ContactState::untouched(operators, model.interface.slave);
         Self {
             scene,
             pair,
@@ -83,7 +83,7 @@ impl<'a> Integrator<'a> {
             halvings: 0,
             source,
         })?;
-        let x = &self.pair.operators.receptacle.x;
+        let x = &self.pair.slave().x;
         state.contact.reference_height = Some(state.contact.height);
         state.mean_half_width = state.contact.half_width(x);
         state.neutral = Neutral::of(&state.contact, &self.pair);
@@ -139,9 +139,9 @@ impl<'a> Integrator<'a> {
         loop {
             let error = match self.integrate(state, &steps, jump, stroke.gross) {
                 Ok(record) => {
-                    let widths = &self.pair.operators.receptacle.widths;
                     let done = state.cycle - before.cycle;
-                    let (old, new) = (&before.depth.receptacle, &state.depth.receptacle);
+                    let widths = self.pair.operators.as_ref().map(|body| &body.widths[..]);
+                    let (old, new) = (&before.depth, &state.depth);
                     state.jump.update(widths, old, new, done);
                     return Ok(record);
                 }
@@ -183,7 +183,7 @@ impl<'a> Integrator<'a> {
             });
             self.step(state, step, real_cycles(jump), increment)?;
             if state.contact.active_range().is_some() {
-                half_widths += state.contact.half_width(&self.pair.operators.receptacle.x);
+                half_widths += state.contact.half_width(&self.pair.slave().x);
                 touching += 1;
             }
             self.record(&mut record, state, step.at, &mut replays);
@@ -251,10 +251,7 @@ impl<'a> Integrator<'a> {
         std::mem::swap(&mut state.contact, &mut self.next);
         let friction = self.pair.interface.friction;
         if friction > 0.0 {
-            let used = state
-                .contact
-                .friction_use(&self.pair.operators.receptacle.widths)
-                / friction;
+            let used = state.contact.friction_use(&self.pair.slave().widths) / friction;
             state.checks.friction_use = state.checks.friction_use.max(used);
         }
         Ok(())

@@ -41,9 +41,9 @@ pub struct Segment {
     pub steps: usize,
     /// Mean half-width of the contact, mm.
     pub half_width_mm: f64,
-    /// Nodes of the receptacle in contact.
+    /// Nodes in contact, of the body that carries the constraints.
     pub nodes: usize,
-    /// Candidate nodes of the receptacle.
+    /// Candidate nodes of the same body.
     pub candidates: usize,
 }
 
@@ -75,6 +75,7 @@ pub fn forecast(scene: &Scene, layout: &Layout) -> Forecast {
         },
         ..Forecast::default()
     };
+    let x = layout.bodies.of(layout.sizes.slave).contact_x();
     let mut jump = JumpControl::default();
     let mut cycle = 0;
     while stops::end(scene, scar.progress(cycle, &jump)).is_none() {
@@ -98,7 +99,7 @@ pub fn forecast(scene: &Scene, layout: &Layout) -> Forecast {
         let before = scar.depth.clone();
         scar.wear(step, together);
         let done = step * together;
-        jump.update(&scar.widths, &before, &scar.depth, done);
+        jump.update(scar.widths(), &before, &scar.depth, done);
         cycle += done;
         run.computed_cycles += real_cycles(together);
         run.segments.push(Segment {
@@ -106,8 +107,8 @@ pub fn forecast(scene: &Scene, layout: &Layout) -> Forecast {
             increments: real_cycles(together) * real(steps + replays),
             steps,
             half_width_mm: scar.half_width,
-            nodes: nodes_within(layout, scar.half_width),
-            candidates: nodes_within(layout, scar.candidate_half_width()),
+            nodes: nodes_within(x, scar.half_width),
+            candidates: nodes_within(x, scar.candidate_half_width()),
         });
         scar.rebuild(scene, &mut run.condensations);
     }
@@ -144,9 +145,8 @@ impl Forecast {
     }
 }
 
-/// Nodes of the receptacle that a contact of a half-width covers.
-fn nodes_within(layout: &Layout, half_width: f64) -> usize {
-    let x = layout.bodies.receptacle.contact_x();
+/// Nodes of a body that a contact of a half-width in its middle covers.
+fn nodes_within(x: &[f64], half_width: f64) -> usize {
     let within = x.partition_point(|&x| x <= half_width) - x.partition_point(|&x| x < -half_width);
     within.max(1)
 }

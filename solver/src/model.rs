@@ -12,7 +12,7 @@ use crate::law::wear::WearLaw;
 use crate::mesh::{ColumnMesh, MeshError};
 use crate::number::real;
 use crate::scene::{Drive, Elastic, Scene};
-use crate::sides::Sides;
+use crate::sides::{Side, Sides};
 
 pub use layout::{BodyLayout, Layout};
 pub use profile::Profile;
@@ -63,6 +63,8 @@ pub enum Support {
 pub struct Interface {
     /// Coefficient of friction, -.
     pub friction: f64,
+    /// The body whose nodes carry the contact constraints, pressure and shear.
+    pub slave: Side,
     /// Wear laws; none where nothing wears.
     pub wear: Sides<Option<WearLaw>>,
     /// Normal load on the unworn contact, N/mm.
@@ -84,6 +86,7 @@ pub fn build(scene: &Scene, plan: &EffectsPlan) -> Result<Model, MeshError> {
     };
     let wear = |effect, law: Option<WearLaw>| law.filter(|_| plan.simulates(effect));
     let interface = Interface {
+        slave: layout.sizes.slave,
         friction: if plan.simulates(Effect::Friction) {
             friction::coefficient(scene.friction)
         } else {

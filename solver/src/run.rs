@@ -80,7 +80,7 @@ fn load(
     condensed: &Condensed,
     observer: &mut dyn Observer,
 ) -> Result<(Checkpoint, ControlFlow<()>), SolveError> {
-    let mut state = CycleState::start(&condensed.operators);
+    let mut state = CycleState::start(&condensed.operators, model.interface.slave);
     let mut integrator = Integrator::new(scene, model, &condensed.operators);
     let record = integrator.apply_load(&mut state)?;
     let report = record::report(scene, model, &state);

@@ -15,6 +15,15 @@ impl Side {
     /// Both sides, the slider first.
     pub const BOTH: [Self; 2] = [Self::Slider, Self::Receptacle];
 
+    /// The other side.
+    #[must_use]
+    pub fn other(self) -> Self {
+        match self {
+            Self::Slider => Self::Receptacle,
+            Self::Receptacle => Self::Slider,
+        }
+    }
+
     /// Stable name.
     pub fn name(self) -> &'static str {
         match self {

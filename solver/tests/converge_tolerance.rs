@@ -14,33 +14,48 @@ use solver::scene::Scene;
 const TOLERANCES: [f64; 3] = [0.1, 0.02, 0.005];
 const REFERENCE: f64 = 0.0025;
 
-fn worn(scene: &Scene, tolerance: f64) -> (SideReport, DepthProfile) {
+/// Wear of each side that wears.
+fn worn(scene: &Scene, tolerance: f64) -> Vec<(&'static str, SideReport, DepthProfile)> {
     let mut scene = scene.clone();
     scene.accuracy.tolerance = tolerance;
     let (summary, recorder) = solve(&scene).expect("the scene can be solved");
-    (summary.last.receptacle, recorder.last_profile().clone())
+    let last = &recorder.snapshots[recorder.snapshots.len() - 1];
+    [
+        (
+            "receptacle",
+            summary.last.receptacle,
+            last.receptacle.clone(),
+        ),
+        ("slider", summary.last.slider, last.slider.clone()),
+    ]
+    .into_iter()
+    .filter(|(_, report, _)| report.max_depth_mm > 0.0)
+    .collect()
 }
 
-/// Asserts that depth, width and a distance of the profiles lie within the tolerances.
+/// Asserts that depth, width and a distance of the profiles of each side lie within the tolerances.
 fn assert_tolerances_hold(
     name: &str,
     scene: &Scene,
     distance: fn(&DepthProfile, &DepthProfile) -> f64,
 ) {
-    let (reference, converged) = worn(scene, REFERENCE);
+    let references = worn(scene, REFERENCE);
     let mut all_met = true;
     for tolerance in TOLERANCES {
-        let (found, profile) = worn(scene, tolerance);
-        let depth = found.max_depth_mm / reference.max_depth_mm - 1.0;
-        let width = found.scar_half_width_mm / reference.scar_half_width_mm - 1.0;
-        let largest = largest_distance(&profile, &converged);
-        let area = area_between(&profile, &converged);
-        println!(
-            "{name} at {tolerance}: depth off by {depth:+.1e}, scar width by {width:+.1e}, profile by {largest:.1e} \
-             at most, {area:.1e} in area"
-        );
-        let errors = [depth.abs(), width.abs(), distance(&profile, &converged)];
-        all_met &= errors.iter().all(|error| *error < tolerance);
+        for ((side, found, profile), (_, exact, converged)) in
+            worn(scene, tolerance).iter().zip(&references)
+        {
+            let depth = found.max_depth_mm / exact.max_depth_mm - 1.0;
+            let width = found.scar_half_width_mm / exact.scar_half_width_mm - 1.0;
+            let largest = largest_distance(profile, converged);
+            let area = area_between(profile, converged);
+            println!(
+                "{name} at {tolerance}, {side}: depth off by {depth:+.1e}, scar width by {width:+.1e}, profile by \
+                 {largest:.1e} at most, {area:.1e} in area"
+            );
+            let errors = [depth.abs(), width.abs(), distance(profile, converged)];
+            all_met &= errors.iter().all(|error| *error < tolerance);
+        }
     }
     assert!(all_met, "{name}");
 }

@@ -23,3 +23,4 @@ mod verify_resume;
 mod verify_short_stroke_scar;
 mod verify_spring_load;
 mod verify_symmetry;
+mod verify_worn_slider;

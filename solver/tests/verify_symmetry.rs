@@ -42,7 +42,7 @@ fn mirrored_motion_gives_mirrored_tractions() {
     };
     let run = |side: f64| {
         let mut solver = Solver::default();
-        let mut states = vec![ContactState::untouched(operators)];
+        let mut states = vec![ContactState::untouched(operators, model.interface.slave)];
         for place in [0.0, 5e-4, 1e-3, 6e-4, -2e-3, -0.02, 0.01, 0.013] {
             let mut next = states[states.len() - 1].clone();
             let to = Displacement {

@@ -31,7 +31,7 @@ fn ours() -> Ours {
         solver::model::build(&scene, &solver::effects::plan(&scene)).expect("it can be meshed");
     let condensed = condense(&model).expect("it can be condensed");
     let operators = &condensed.operators;
-    let mut state = CycleState::start(operators);
+    let mut state = CycleState::start(operators, model.interface.slave);
     Integrator::new(&scene, &model, operators)
         .apply_load(&mut state)
         .expect("it settles");

@@ -69,7 +69,7 @@ fn compare(folder: &Path, element_um: f64) -> Result<Comparison, BenchError> {
     let (setup_s, (model, condensed)) = set_up(&scene)?;
     let operators = &condensed.operators;
     let (cycle_s, (lowered_mm, forces)) = measured(3, || {
-        let mut state = CycleState::start(operators);
+        let mut state = CycleState::start(operators, model.interface.slave);
         let mut integrator = Integrator::new(&scene, &model, operators);
         integrator.apply_load(&mut state)?;
         let lowered_mm = -state.contact.height;

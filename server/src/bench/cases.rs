@@ -155,7 +155,7 @@ fn time_cycle(scene: &Scene) -> Result<(f64, f64, f64), SolveError> {
     let mut increments = 0;
     let mut best = f64::INFINITY;
     for _ in 0..3 {
-        let mut state = CycleState::start(operators);
+        let mut state = CycleState::start(operators, model.interface.slave);
         let mut integrator = Integrator::new(scene, &model, operators);
         integrator.apply_load(&mut state)?;
         integrator.initial_quarter(&mut state)?;

@@ -18,7 +18,7 @@ pub struct Neutral {
 
 impl Neutral {
     pub(super) fn of(contact: &ContactState, pair: &Pair<'_>) -> Self {
-        let x = &pair.operators.receptacle.x;
+        let x = &pair.slave().x;
         Self {
             load: contact.load(&pair.interface),
             peak_pressure: contact.peak_pressure(),

@@ -8,7 +8,7 @@ use crate::contact::{ContactError, ContactState};
 use crate::scene::Tuning;
 use crate::schedule::increments;
 use crate::schedule::jump::JumpControl;
-use crate::sides::Sides;
+use crate::sides::{Side, Sides};
 
 /// Failure of a cycle.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
@@ -62,10 +62,10 @@ pub struct CycleState {
 
 impl CycleState {
     /// The unworn, unloaded state.
-    pub fn start(operators: &Operators) -> Self {
+    pub fn start(operators: &Operators, slave: Side) -> Self {
         Self {
             cycle: 0,
-            contact: ContactState::untouched(operators),
+            contact: ContactState::untouched(operators, slave),
             depth: operators.as_ref().map(|body| vec![0.0; body.x.len()]),
             sliding_distance: 0.0,
             worn_area: Sides::default(),

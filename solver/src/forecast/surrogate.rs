@@ -1,4 +1,7 @@
 //! Surrogate for the worn surfaces: a scar of closed form that grows with the worn area.
+//!
+//! In gross sliding a worn slider carries a flat of half-width b_s = (3 R W_s / 2)^(1/3), its worn area W_s cut off its arc,
+//! and the contact is at least as wide; in a shorter stroke both sides share one scar.
 
 use crate::ale;
 use crate::contact::line::CANDIDATE_GAP;
@@ -49,10 +52,10 @@ pub(super) struct Scar {
     heights: Sides<f64>,
     pub(super) area: f64,
     x: Vec<f64>,
-    pub(super) widths: Vec<f64>,
-    /// Depth of the receptacle, and the largest one of both bodies together, mm.
-    pub(super) depth: Vec<f64>,
-    deepest: f64,
+    widths: Vec<f64>,
+    /// Depth of each body in its own frame, and the largest of each, mm.
+    pub(super) depth: Sides<Vec<f64>>,
+    deepest: Sides<f64>,
     /// Half-width of the contact and of the scar beyond the stroke, mm.
     pub(super) half_width: f64,
     reach: f64,
@@ -98,8 +101,8 @@ impl Scar {
             area: 0.0,
             x: (0..PLACES).map(|i| width * (real(i) + 0.5)).collect(),
             widths: vec![width; PLACES],
-            depth: vec![0.0; PLACES],
-            deepest: 0.0,
+            depth: Sides::from_fn(|_| vec![0.0; PLACES]),
+            deepest: Sides::default(),
             half_width: hertz,
             reach: tuning.surrogate_half_width * hertz,
         }
@@ -122,7 +125,7 @@ impl Scar {
         let drawn = (self.amplitude - self.flat).max(0.0);
         // The rest of the stroke moves the contact over the scar, which smears its growing edges.
         let smearing = self.amplitude.min(self.flat);
-        for (depth, x) in self.depth.iter_mut().zip(&self.x) {
+        for (depth, x) in self.depth.receptacle.iter_mut().zip(&self.x) {
             let places = PASSES.map(|pass| (x + pass * smearing).abs());
             let sum: f64 = places
                 .iter()
@@ -130,8 +133,27 @@ impl Scar {
                 .sum();
             *depth = self.shares.receptacle * sum / (2.0 * self.radius * real(PASSES.len()));
         }
-        self.deepest = self.depth_at(0.0, drawn);
+        self.deepest.receptacle = self.shares.receptacle * self.depth_at(0.0, drawn);
+        self.wear_slider();
         self.half_width = self.contact(jump);
+    }
+
+    /// Half-width of the slider's flat in gross sliding, mm.
+    fn slider_flat(&self) -> f64 {
+        (1.5 * self.radius * self.shares.slider * self.area).cbrt()
+    }
+
+    fn wear_slider(&mut self) {
+        let (half_width, share) = if self.amplitude > self.flat {
+            (self.slider_flat(), 1.0)
+        } else {
+            (self.reach, self.shares.slider)
+        };
+        let factor = share / (2.0 * self.radius);
+        for (depth, x) in self.depth.slider.iter_mut().zip(&self.x) {
+            *depth = factor * shape(*x, 0.0, 0.0, half_width);
+        }
+        self.deepest.slider = factor * half_width.powi(2);
     }
 
     /// Depth of both bodies together, not smeared.
@@ -162,6 +184,7 @@ impl Scar {
     pub(super) fn contact(&self, jump: u64) -> f64 {
         let step = 2.0 * self.radius * self.pass * real_cycles(jump);
         let gross = self.hertz.hypot((self.tuning.step_share * step).sqrt());
+        let gross = gross.max(self.slider_flat());
         let share = (self.amplitude / gross - 1.0).clamp(0.0, 1.0);
         gross.powf(share)
             * (self.reach / self.tuning.surrogate_half_width)
@@ -175,9 +198,14 @@ impl Scar {
         let flat = if self.is_gross() {
             self.half_width
         } else {
-            self.reach
+            self.reach.max(self.slider_flat())
         };
         flat.hypot((2.0 * self.radius * gap).sqrt())
+    }
+
+    /// Widths of the points, of both bodies alike.
+    pub(super) fn widths(&self) -> Sides<&[f64]> {
+        Sides::from_fn(|_| &self.widths[..])
     }
 
     pub(super) fn is_gross(&self) -> bool {
@@ -191,7 +219,7 @@ impl Scar {
         let shares = left.zip(self.heights).map(share);
         Progress {
             cycle,
-            deepest: self.shares.slider.max(self.shares.receptacle) * self.deepest,
+            deepest: self.deepest.slider.max(self.deepest.receptacle),
             least_left: left.slider.min(left.receptacle),
             fastest_rate: jump.fastest_rate(),
             worn_through: shares.slider.min(shares.receptacle) < ale::WORN_THROUGH_SHARE,
@@ -200,9 +228,8 @@ impl Scar {
 
     /// Remaining heights of the bodies at the deepest point, mm.
     fn remaining(&self) -> Sides<f64> {
-        let deepest = self.deepest;
-        let left = |(height, share): (f64, f64)| height - share * deepest;
-        self.heights.zip(self.shares).map(left)
+        let left = |(height, deepest): (f64, f64)| height - deepest;
+        self.heights.zip(self.deepest).map(left)
     }
 
     /// Counts a condensation of the bodies that have changed where one has drifted.

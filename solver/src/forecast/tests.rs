@@ -11,8 +11,9 @@ fn the_surrogate_has_the_worn_area() {
         scar.wear(jump, 1);
         let held: f64 = scar
             .depth
+            .receptacle
             .iter()
-            .zip(&scar.widths)
+            .zip(scar.widths().receptacle)
             .map(|(h, w)| h * w)
             .sum();
         // One half of the scar is stored.

@@ -5,6 +5,7 @@ use crate::cycle::{CycleRecord, CycleState, FrictionLoop};
 use crate::fields::PlacedFields;
 use crate::model::Model;
 use crate::schedule::increments::Position;
+use crate::sides::Side;
 
 /// Profiles, pressures and the friction loop at one cycle.
 #[derive(Debug, Clone, PartialEq)]
@@ -59,7 +60,11 @@ pub fn snapshot(
         depth_mm: depth.to_vec(),
     };
     let x = model.bodies.receptacle.contact_x();
-    let at = |(position, contact): &(Position, ContactState)| tractions(*position, x, contact);
+    let slave = model.interface.slave;
+    let nodes = model.bodies.of(slave).contact_x();
+    let at = |(position, contact): &(Position, ContactState)| {
+        tractions(*position, slave, nodes, contact)
+    };
     Snapshot {
         cycle: state.cycle,
         receptacle: profile(x, &state.depth.receptacle),
@@ -71,13 +76,17 @@ pub fn snapshot(
 }
 
 /// Tractions of the present contact, with one unloaded node at either end.
-fn tractions(position: Position, x: &[f64], contact: &ContactState) -> TractionField {
+fn tractions(position: Position, slave: Side, x: &[f64], contact: &ContactState) -> TractionField {
+    let shift = match slave {
+        Side::Slider => contact.slider_x,
+        Side::Receptacle => 0.0,
+    };
     let (first, end) = contact.active_range().unwrap_or((0, 0));
     let span = first.saturating_sub(1)..(end + 1).min(x.len());
     TractionField {
         position,
         slider_x_mm: contact.slider_x,
-        x_mm: x[span.clone()].to_vec(),
+        x_mm: x[span.clone()].iter().map(|x| x + shift).collect(),
         pressure_mpa: contact.pressure[span.clone()].to_vec(),
         shear_mpa: contact.shear[span].to_vec(),
     }

@@ -1,14 +1,15 @@
 //! Cycle jump: the number of physical cycles that the next computed one represents.
 //!
 //! A computed cycle multiplies its wear by the jump dN, an Euler step in cycles. Its error is half the change of
-//! the wear-rate profile over the jump: with r = (worn depth of the cycle)/dN,
-//!   e = 1/2 * integral |r_new - r_old| dx / integral r_new dx,
+//! the wear-rate profiles over the jump: with r = (worn depth of the cycle)/dN,
+//!   e = 1/2 * integral |r_new - r_old| dx / integral r_new dx  over both surfaces,
 //! relative to the wear of the step. The next jump scales with the tolerance over e.
 
 use serde::{Deserialize, Serialize};
 
 use crate::number::{real, real_cycles};
 use crate::scene::{Accuracy, Tuning};
+use crate::sides::{Side, Sides};
 
 /// A computed cycle wears `jump` passes at once, so that scar and pressure are skewed toward the last pass, the pressure
 /// by about a third of k jump s E*/b (b: half-width, s: stroke), which stays below this.
@@ -75,8 +76,8 @@ pub(crate) fn is_gross(tuning: &Tuning, amplitude: f64, half_width: f64) -> bool
 /// State of the jump control.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct JumpControl {
-    /// Wear per physical cycle in the last computed one, mm.
-    rate: Vec<f64>,
+    /// Wear per physical cycle in the last computed one at the nodes of both surfaces, mm.
+    rate: Sides<Vec<f64>>,
     /// The last jump as the base of the next; 0 before the first cycle.
     base: f64,
     /// The last jump.
@@ -122,17 +123,27 @@ impl JumpControl {
         even_share(target, remaining)
     }
 
-    /// Updates the control with the wear of a computed cycle.
-    pub(crate) fn update(&mut self, widths: &[f64], before: &[f64], after: &[f64], jump: u64) {
+    /// Updates the control with the wear of a computed cycle on both surfaces, whose nodes have these widths.
+    pub(crate) fn update(
+        &mut self,
+        widths: Sides<&[f64]>,
+        before: &Sides<Vec<f64>>,
+        after: &Sides<Vec<f64>>,
+        jump: u64,
+    ) {
         let dn = real_cycles(jump);
-        let known = self.rate.len() == widths.len();
-        self.rate.resize(widths.len(), 0.0);
-        let (mut change, mut total) = (0.0, 0.0);
-        for (i, width) in widths.iter().enumerate() {
-            let rate = (after[i] - before[i]) / dn;
-            change += width * (rate - self.rate[i]).abs();
-            total += width * rate;
-            self.rate[i] = rate;
+        let (mut change, mut total, mut known) = (0.0, 0.0, true);
+        for side in Side::BOTH {
+            let (widths, rates) = (*widths.of(side), self.rate.of_mut(side));
+            known &= rates.len() == widths.len();
+            rates.resize(widths.len(), 0.0);
+            let worn = before.of(side).iter().zip(after.of(side));
+            for ((old, (before, after)), width) in rates.iter_mut().zip(worn).zip(widths) {
+                let rate = (after - before) / dn;
+                change += width * (rate - *old).abs();
+                total += width * rate;
+                *old = rate;
+            }
         }
         self.error = match (known, total > 0.0) {
             (false, _) => 0.0,
@@ -147,9 +158,9 @@ impl JumpControl {
         self.most = self.most.saturating_mul(2);
     }
 
-    /// Largest wear of a place per physical cycle in the last computed one, mm.
+    /// Largest wear of a point of either surface per physical cycle in the last computed one, mm.
     pub fn fastest_rate(&self) -> f64 {
-        self.rate.iter().fold(0.0, |m: f64, r| m.max(*r))
+        self.rate.largest()
     }
 
     /// Estimated relative error of the worn depth so far.
@@ -183,6 +194,19 @@ mod tests {
         tuning: Tuning::FITTED,
     };
 
+    /// Wears the only node of the receptacle.
+    fn wear(control: &mut JumpControl, before: f64, after: f64, jump: u64) {
+        let depth = |receptacle: f64| Sides {
+            slider: vec![0.0],
+            receptacle: vec![receptacle],
+        };
+        let widths = Sides {
+            slider: &[1.0][..],
+            receptacle: &[1.0][..],
+        };
+        control.update(widths, &depth(before), &depth(after), jump);
+    }
+
     const STROKE: Stroke = Stroke {
         gross: false,
         skew: 0.0,
@@ -193,11 +217,42 @@ mod tests {
     fn a_steady_rate_lets_jumps_grow_and_a_changing_one_shrinks_them() {
         let mut control = JumpControl::default();
         assert_eq!(control.next(&ACCURACY, STROKE, 1000), 1);
-        control.update(&[1.0], &[0.0], &[8.0], 8);
-        control.update(&[1.0], &[8.0], &[16.0], 8);
+        wear(&mut control, 0.0, 8.0, 8);
+        wear(&mut control, 8.0, 16.0, 8);
         assert_eq!(control.next(&ACCURACY, STROKE, 64), 16);
-        control.update(&[1.0], &[16.0], &[40.0], 8);
+        wear(&mut control, 16.0, 40.0, 8);
         assert!(control.next(&ACCURACY, STROKE, 1000) < 8);
+    }
+
+    #[test]
+    fn either_surface_controls_the_jump() {
+        let swap = |depth: &Sides<Vec<f64>>| Sides {
+            slider: depth.receptacle.clone(),
+            receptacle: depth.slider.clone(),
+        };
+        let depth = |receptacle: [f64; 2]| Sides {
+            slider: vec![0.0; 3],
+            receptacle: receptacle.to_vec(),
+        };
+        let (of_two, of_three) = ([1.0, 2.0], [1.0; 3]);
+        let states = [[0.0, 0.0], [1.0, 2.0], [3.0, 3.0], [7.0, 4.0]].map(depth);
+        let (mut one, mut other) = (JumpControl::default(), JumpControl::default());
+        for step in states.windows(2) {
+            let widths = Sides {
+                slider: &of_three[..],
+                receptacle: &of_two[..],
+            };
+            one.update(widths, &step[0], &step[1], 5);
+            let widths = Sides {
+                slider: &of_two[..],
+                receptacle: &of_three[..],
+            };
+            other.update(widths, &swap(&step[0]), &swap(&step[1]), 5);
+        }
+        assert!((one.error - other.error).abs() < 1e-15 && one.error > 0.1);
+        assert!((one.fastest_rate() - 0.8).abs() < 1e-15);
+        assert!((other.fastest_rate() - 0.8).abs() < 1e-15);
+        assert!((one.mean_error() - other.mean_error()).abs() < 1e-15);
     }
 
     const GROSS: Stroke = Stroke {
@@ -208,8 +263,8 @@ mod tests {
     #[test]
     fn gross_sliding_jumps_a_small_part_of_the_cycles_done() {
         let mut control = JumpControl::default();
-        control.update(&[1.0], &[0.0], &[100.0], 100);
-        control.update(&[1.0], &[100.0], &[200.0], 100);
+        wear(&mut control, 0.0, 100.0, 100);
+        wear(&mut control, 100.0, 200.0, 100);
         assert_eq!(control.next(&ACCURACY, STROKE, 10_000), 200);
         assert_eq!(control.next(&ACCURACY, GROSS, 10_000), 8);
     }
@@ -217,8 +272,8 @@ mod tests {
     #[test]
     fn a_jump_that_would_skew_the_pressure_is_reduced() {
         let mut control = JumpControl::default();
-        control.update(&[1.0], &[0.0], &[100.0], 100);
-        control.update(&[1.0], &[100.0], &[200.0], 100);
+        wear(&mut control, 0.0, 100.0, 100);
+        wear(&mut control, 100.0, 200.0, 100);
         let skewed = |skew| Stroke { skew, ..STROKE };
         assert_eq!(control.next(&ACCURACY, skewed(0.003), 8_000), 80);
         assert_eq!(control.next(&ACCURACY, skewed(1.0), 8_000), 8);

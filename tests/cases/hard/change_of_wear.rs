@@ -22,7 +22,7 @@ fn wear_coefficient_can_change_a_hundredfold_between_two_cycles() {
     let condensed = condense(&model).expect("it can be condensed");
     let operators = &condensed.operators;
     let widths = model.bodies.receptacle.contact_widths();
-    let mut state = CycleState::start(operators);
+    let mut state = CycleState::start(operators, model.interface.slave);
     let mut energy = 0.0;
     let mut expected = 0.0;
     for (round, k) in [1e-8, 1e-6, 1e-8].into_iter().enumerate() {

@@ -98,11 +98,9 @@ fn taken_back(pair: &[CycleReport]) -> Option<String> {
     })
 }
 
-/// Checks whether the engine chose the increments, and the wear is on the receptacle, whose nodes carry the pressure.
-/// Prescribed increments may be longer than the contact and leave ripples; and where the slider wears on a coarser
-/// mesh than the receptacle's, its linear depths let the pressure alternate from node to node.
+/// Checks whether the engine chose the increments. Prescribed ones may be longer than the contact and leave ripples.
 fn resolved(run: &Run) -> bool {
-    run.scene.accuracy.increments_per_cycle.is_none() && run.scene.slider.wear.is_none()
+    run.scene.accuracy.increments_per_cycle.is_none()
 }
 
 fn zigzags(snapshot: &Snapshot) -> Option<String> {

@@ -33,8 +33,8 @@ pub(crate) fn explicit_wear(
     let slider_depth = vec![0.0; operators.slider.x.len()];
     let slider_slope = slopes(&operators.slider, &slider_depth, Side::Slider);
     let (mut last, mut next) = (
-        ContactState::untouched(&operators),
-        ContactState::untouched(&operators),
+        ContactState::untouched(&operators, Side::Receptacle),
+        ContactState::untouched(&operators, Side::Receptacle),
     );
     let quarter: Vec<f64> = (0..=steps_per_quarter)
         .map(|i| f64::from(i) / f64::from(steps_per_quarter) * scene.motion.amplitude_mm())

@@ -1,4 +1,4 @@
-//! Active window: the candidate nodes of the receptacle, those that may touch in an increment.
+//! Active window: the candidate nodes of the slave, those that may touch in an increment.
 
 use super::pair::{Pair, Surfaces};
 use super::state::ContactState;
@@ -9,7 +9,7 @@ pub(crate) const CANDIDATE_GAP: f64 = 0.3;
 /// Additional candidate nodes at either end.
 const MARGIN_NODES: usize = 2;
 
-/// The first window: the last contact shifted with the slider, and the candidates at the last height.
+/// The first window: the last contact shifted with the slider (on the slider it stays in place), and the candidates at the last height.
 pub(super) fn initial_window(
     pair: &Pair<'_>,
     last: &ContactState,
@@ -17,7 +17,7 @@ pub(super) fn initial_window(
     covered: (usize, usize),
     undeformed: &[f64],
 ) -> (usize, usize) {
-    let x = &pair.operators.receptacle.x;
+    let x = &pair.slave().x;
     let Some((first, end)) = last.active_range() else {
         let gaps = undeformed.iter().enumerate();
         let lowest = gaps.fold(
@@ -27,7 +27,7 @@ pub(super) fn initial_window(
         let node = covered.0 + lowest.0;
         return widened((node, node + 1), covered);
     };
-    let step = slider_x - last.slider_x;
+    let step = pair.travel(last, slider_x);
     let begin = x.partition_point(|&at| at < x[first] + step);
     let stop = x.partition_point(|&at| at <= x[end - 1] + step);
     let candidates_before = candidates(undeformed, covered.0, last.indentation, last.height);
@@ -51,19 +51,21 @@ pub(super) fn undeformed_gaps(
     covered: (usize, usize),
     gaps: &mut Vec<f64>,
 ) {
-    let (slave, master) = (&pair.operators.receptacle, &pair.operators.slider);
+    let (slave, master) = (pair.slave(), pair.master());
+    let side = pair.interface.slave;
+    let (own, other) = (surfaces.depth.of(side), surfaces.depth.of(side.other()));
+    let offset = pair.offset(slider_x);
     let last = master.x.len() - 1;
     gaps.clear();
     let mut m = 1;
     for i in covered.0..covered.1 {
-        let local = slave.x[i] - slider_x;
+        let local = slave.x[i] - offset;
         while m < last && master.x[m] < local {
             m += 1;
         }
         let t = (local - master.x[m - 1]) / (master.x[m] - master.x[m - 1]);
-        let worn = (1.0 - t) * surfaces.depth.slider[m - 1] + t * surfaces.depth.slider[m];
-        let shape = master.profile.height(local) - slave.profile.height(slave.x[i]);
-        gaps.push(shape + worn + surfaces.depth.receptacle[i]);
+        let worn = (1.0 - t) * other[m - 1] + t * other[m];
+        gaps.push(pair.unworn_gap(slave.x[i], offset) + worn + own[i]);
     }
 }
 

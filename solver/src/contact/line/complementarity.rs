@@ -136,7 +136,7 @@ impl Complementarity {
             return end;
         }
         for node in 0..it.status.len() {
-            response.compute(problem.operators, problem.coupling, node);
+            response.compute(problem.pair, problem.coupling, node);
         }
         self.reset(problem, it);
         for _ in 0..MOST_LINEARISATIONS {
@@ -177,7 +177,10 @@ impl Complementarity {
     ) -> Linearised {
         let layout = Layout::of(problem, response, it);
         let solution = self.pressure.iter().zip(&self.slip);
-        wear.linearise(solution.map(|(&pressure, &slip)| LocalState { pressure, slip }));
+        wear.linearise(
+            problem.pair.interface.slave,
+            solution.map(|(&pressure, &slip)| LocalState { pressure, slip }),
+        );
         self.assemble(problem, response, wear, layout);
         let Some(z) = self.lemke.solve(&self.matrix, &self.constant) else {
             return Linearised::Ray;

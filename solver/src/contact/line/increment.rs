@@ -12,7 +12,7 @@ use super::response::Response;
 use super::state::ContactState;
 use super::status::Status;
 use super::wear_coupling::WearCoupling;
-use crate::sides::Sides;
+use crate::sides::{Side, Sides};
 
 /// Most extensions of the active window within one increment.
 const MOST_EXTENSIONS: usize = 60;
@@ -30,6 +30,7 @@ pub struct Solver {
     undeformed: Vec<f64>,
     gap: Vec<f64>,
     sag: Vec<f64>,
+    slope: Vec<f64>,
     fixed_slip: Vec<f64>,
     recession: Sides<Vec<f64>>,
 }
@@ -37,9 +38,9 @@ pub struct Solver {
 /// Result of an increment; arrays begin at the first coupled node of their side.
 #[derive(Debug, Clone, Copy)]
 pub struct Increment<'a> {
-    /// First coupled node.
+    /// First coupled node of each side.
     pub first: Sides<usize>,
-    /// Path p |sigma| of the receptacle's nodes from there on, MPa mm.
+    /// Path p |sigma| of the slave's nodes from there on, MPa mm.
     pub path: &'a [f64],
     /// Vertical recession at the nodes from there on, mm; empty where nothing wears.
     pub recession: Sides<&'a [f64]>,
@@ -73,7 +74,7 @@ impl Solver {
         if is_at_rest(last, to) {
             return Ok(self.unchanged(last, next));
         }
-        let covered = mortar::covered(pair.operators, slider_x);
+        let covered = mortar::covered(pair, slider_x);
         if covered.0 == covered.1 || pair.interface.load <= 0.0 {
             return Ok(self.open(last, slider_x, next));
         }
@@ -141,14 +142,12 @@ impl Solver {
         (first, end): (usize, usize),
     ) -> Result<(), ContactError> {
         let (slider_x, cycles) = (to.slider_x, to.cycles);
-        self.coupling
-            .integrate(pair.operators, slider_x, first, end);
+        self.coupling.integrate(pair, slider_x, first, end);
         self.response.reset(pair, &self.coupling, surfaces, last);
+        self.slope.clone_from(&self.response.slope);
         let interface = &pair.interface;
         let laws = interface.wear.map(|law| law.filter(|_| cycles > 0.0));
-        let slider_widths = &pair.operators.slider.widths;
-        self.wear
-            .assemble(&self.coupling, slider_widths, laws, cycles);
+        self.wear.assemble(&self.coupling, pair, laws, cycles);
         // Before the first load the spring has no reference height.
         let (spring, reference) = last
             .reference_height
@@ -158,20 +157,21 @@ impl Solver {
         let step = slider_x - last.slider_x + to.surface_slip;
         self.assemble_fixed_slip(step, last.height);
         let problem = Problem {
-            operators: pair.operators,
+            pair,
             coupling: &self.coupling,
             gap: &self.gap,
-            width: &pair.operators.receptacle.widths[first..end],
-            slope: &surfaces.slope.receptacle[first..end],
+            width: &pair.slave().widths[first..end],
+            slope: &self.slope,
             friction: interface.friction,
             load,
             spring,
             sag: &self.sag,
             fixed_slip: &self.fixed_slip,
             wears: laws.slider.is_some() || laws.receptacle.is_some(),
-            travel: slider_x - last.slider_x,
+            travel: pair.travel(last, slider_x),
             step,
         };
+        let wall = mean_slope_ahead(last, &problem);
         predict(&mut self.iterate, pair, last, &problem);
         let (newton, it) = (&mut self.newton, &mut self.iterate);
         let (response, wear) = (&mut self.response, &mut self.wear);
@@ -181,12 +181,11 @@ impl Solver {
                 .complementarity
                 .solve(newton, &problem, response, wear, it, end);
         }
-        let wall = || mean_slope_ahead(last, surfaces, &pair.operators.receptacle.widths, step);
         match end {
             Convergence::Converged => Ok(()),
-            _ if wall() * interface.friction > 1.0 => Err(ContactError::Jammed {
+            _ if wall * interface.friction > 1.0 => Err(ContactError::Jammed {
                 slider_x_mm: slider_x,
-                slope: wall(),
+                slope: wall,
                 limit: interface.friction.recip(),
             }),
             Convergence::Singular { active } => Err(ContactError::NoEquilibrium {
@@ -206,19 +205,25 @@ impl Solver {
     /// Gap of the worn bodies at height 0 under the far-face load there, and its change per height by that load's growth.
     fn assemble_gap(&mut self, pair: &Pair<'_>, surfaces: &Surfaces<'_>, load: f64, spring: f64) {
         let coupling = &self.coupling;
+        let slave = pair.interface.slave;
+        let (own, other) = (surfaces.depth.of(slave), surfaces.depth.of(slave.other()));
         let response = &pair.operators.slider.load_response;
         self.gap.clear();
         self.sag.clear();
-        for i in coupling.first..coupling.end {
+        for (i, slope) in (coupling.first..coupling.end).zip(&self.response.master_slope) {
             let (from, weights) = coupling.dual_row(i);
+            let moved_by = |j: usize| response[2 * j + 1] - slope * response[2 * j];
             let (mut worn, mut moved) = (0.0, 0.0);
-            for (offset, weight) in weights.iter().enumerate() {
-                let j = from + offset;
-                worn += weight * surfaces.depth.slider[j];
-                moved +=
-                    weight * (response[2 * j + 1] - surfaces.slope.receptacle[i] * response[2 * j]);
+            for (j, weight) in (from..).zip(weights) {
+                worn += weight * other[j];
+                if slave == Side::Receptacle {
+                    moved += weight * moved_by(j);
+                }
             }
-            let shape = coupling.gap[i - coupling.first] + surfaces.depth.receptacle[i];
+            if slave == Side::Slider {
+                moved = moved_by(i);
+            }
+            let shape = coupling.gap[i - coupling.first] + own[i];
             self.gap.push(shape + worn + load * moved);
             self.sag.push(spring * moved);
         }
@@ -243,6 +248,7 @@ impl Solver {
         next: &mut ContactState,
     ) {
         let (coupling, it) = (&self.coupling, &self.iterate);
+        let slave = pair.interface.slave;
         next.reset_open(last, slider_x);
         next.height = it.height;
         next.indentation = it.indentation;
@@ -251,14 +257,15 @@ impl Solver {
         next.pressure[span.clone()].copy_from_slice(&it.pressure);
         next.shear[span.clone()].copy_from_slice(&it.shear);
         for i in span {
-            let width = pair.operators.receptacle.widths[i];
+            let width = pair.slave().widths[i];
             let (p, q, s) = (next.pressure[i], next.shear[i], self.slope_at(i));
             let force = [width * (-p * s - q), width * (p - q * s)];
-            next.force.receptacle[2 * i..2 * i + 2].copy_from_slice(&force);
+            next.force.of_mut(slave)[2 * i..2 * i + 2].copy_from_slice(&force);
+            let other = next.force.of_mut(slave.other());
             let (from, weights) = coupling.dual_row(i);
             for (offset, weight) in weights.iter().enumerate() {
-                next.force.slider[2 * (from + offset)] += weight * force[0];
-                next.force.slider[2 * (from + offset) + 1] += weight * force[1];
+                other[2 * (from + offset)] += weight * force[0];
+                other[2 * (from + offset) + 1] += weight * force[1];
             }
         }
     }
@@ -269,15 +276,10 @@ impl Solver {
 
     fn report(&mut self, pair: &Pair<'_>, next: &ContactState) -> Increment<'_> {
         let (coupling, it) = (&self.coupling, &self.iterate);
-        let widths = &pair.operators.receptacle.widths[coupling.first..coupling.end];
-        let all_widths = Sides {
-            slider: &pair.operators.slider.widths[..],
-            receptacle: widths,
-        };
+        let slave = pair.interface.slave;
+        let widths = &pair.slave().widths[coupling.first..coupling.end];
         let recession = &mut self.recession;
-        let worn_area = self
-            .wear
-            .recession(coupling, all_widths, &it.path, recession);
+        let worn_area = self.wear.recession(coupling, pair, &it.path, recession);
         let energy = widths
             .iter()
             .zip(it.shear.iter().zip(&it.slip))
@@ -285,7 +287,7 @@ impl Solver {
             .filter(|(_, status)| status.direction() != 0.0)
             .map(|((d, (q, slip)), _)| d * (q * slip).abs())
             .sum();
-        let vertical: f64 = next.force.receptacle.iter().skip(1).step_by(2).sum();
+        let vertical: f64 = next.force.of(slave).iter().skip(1).step_by(2).sum();
         let load = next.equilibrium_load(&pair.interface);
         let peak = next.peak_pressure().max(f64::MIN_POSITIVE);
         // Round-off of longer lengths where these exceed the indentation.
@@ -301,10 +303,13 @@ impl Solver {
             cone = cone.max(it.shear[i].abs() - pair.interface.friction * it.pressure[i]);
         }
         Increment {
-            first: Sides {
-                slider: coupling.slider_range.0,
-                receptacle: coupling.first,
-            },
+            first: Sides::from_fn(|side| {
+                if side == slave {
+                    coupling.first
+                } else {
+                    coupling.master_range.0
+                }
+            }),
             path: &it.path,
             recession: self.recession.as_slices(),
             worn_area,
@@ -322,25 +327,16 @@ fn is_at_rest(last: &ContactState, to: Displacement) -> bool {
     last.reference_height.is_some() && distance <= 0.0
 }
 
-/// Mean slope under the load, positive where the slider climbs it.
-fn mean_slope_ahead(
-    contact: &ContactState,
-    surfaces: &Surfaces<'_>,
-    widths: &[f64],
-    step: f64,
-) -> f64 {
+/// Mean slope under the last load, positive where the slider climbs it.
+fn mean_slope_ahead(last: &ContactState, problem: &Problem<'_>) -> f64 {
     let (mut load, mut moment) = (0.0, 0.0);
-    let places = contact
-        .pressure
-        .iter()
-        .zip(widths)
-        .zip(surfaces.slope.receptacle);
-    for ((p, width), slope) in places {
+    let pressures = &last.pressure[problem.coupling.first..problem.coupling.end];
+    for ((p, width), slope) in pressures.iter().zip(problem.width).zip(problem.slope) {
         load += width * p;
         moment += width * p * slope;
     }
     if load > 0.0 {
-        step.signum() * moment / load
+        problem.step.signum() * moment / load
     } else {
         0.0
     }

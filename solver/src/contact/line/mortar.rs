@@ -5,7 +5,7 @@
 //! Mhat_ij = (1/d_i) integral psi_i phi_j reproduce constants and, on covered elements, linear functions, so the
 //! patch test holds at any position.
 
-use crate::condensation::{BodyOperators, Operators};
+use super::pair::Pair;
 
 /// Three-point Gauss rule on [0, 1]: exact for the products, accurate for curved profiles.
 const GAUSS: [(f64, f64); 3] = [
@@ -14,20 +14,20 @@ const GAUSS: [(f64, f64); 3] = [
     (0.887_298_334_620_741_7, 5.0 / 18.0),
 ];
 
-/// A slave node is covered if the slider ends at most this part of its length before it: the last slider element is
+/// A slave node is covered if the master ends at most this part of its length before it: the last master element is
 /// then continued, which moves nothing by more than round-off.
 const ROUND_OFF: f64 = 1e-10;
 
-/// Coupling of the slave nodes `first..end` with the slider at one position.
+/// Coupling of the slave nodes `first..end` with the master at one position.
 #[derive(Debug, Default)]
 pub(super) struct Coupling {
     /// First slave node.
     pub(super) first: usize,
     /// One past the last slave node.
     pub(super) end: usize,
-    /// First slider node that any row touches, and one past the last.
-    pub(super) slider_range: (usize, usize),
-    /// For each slave node: first slider node of its row, and where its weights begin.
+    /// First master node that any row touches, and one past the last.
+    pub(super) master_range: (usize, usize),
+    /// For each slave node: first master node of its row, and where its weights begin.
     rows: Vec<(usize, usize)>,
     /// Mhat_ij.
     dual: Vec<f64>,
@@ -37,12 +37,13 @@ pub(super) struct Coupling {
     pub(super) gap: Vec<f64>,
 }
 
-/// Slave nodes whose whole support lies under the slider: first and one past the last.
-pub(super) fn covered(operators: &Operators, slider_x: f64) -> (usize, usize) {
-    let (slave, master) = (&operators.receptacle.x, &operators.slider.x);
+/// Slave nodes whose whole support faces the master: first and one past the last.
+pub(super) fn covered(pair: &Pair<'_>, slider_x: f64) -> (usize, usize) {
+    let (slave, master) = (&pair.slave().x, &pair.master().x);
+    let offset = pair.offset(slider_x);
     let round_off = ROUND_OFF * (master[master.len() - 1] - master[0]);
-    let left = master[0] + slider_x - round_off;
-    let right = master[master.len() - 1] + slider_x + round_off;
+    let left = master[0] + offset - round_off;
+    let right = master[master.len() - 1] + offset + round_off;
     let begin = slave.partition_point(|&x| x < left);
     let end = slave.partition_point(|&x| x <= right);
     let first = if begin == 0 { 0 } else { begin + 1 };
@@ -56,18 +57,13 @@ pub(super) fn covered(operators: &Operators, slider_x: f64) -> (usize, usize) {
 
 impl Coupling {
     /// Integrates the coupling of the slave nodes `first..end`, which must be covered.
-    pub(super) fn integrate(
-        &mut self,
-        operators: &Operators,
-        slider_x: f64,
-        first: usize,
-        end: usize,
-    ) {
-        let (slave, master) = (&operators.receptacle, &operators.slider);
+    pub(super) fn integrate(&mut self, pair: &Pair<'_>, slider_x: f64, first: usize, end: usize) {
+        let slave = pair.slave();
+        let offset = pair.offset(slider_x);
         (self.first, self.end) = (first, end);
-        self.lay_out(&slave.x, &master.x, slider_x);
+        self.lay_out(&slave.x, &pair.master().x, offset);
         for element in first.saturating_sub(1)..end.min(slave.x.len() - 1) {
-            self.integrate_element(slave, master, slider_x, element);
+            self.integrate_element(pair, offset, element);
         }
         for i in first..end {
             let width = slave.widths[i];
@@ -77,15 +73,15 @@ impl Coupling {
         }
     }
 
-    fn lay_out(&mut self, slave: &[f64], master: &[f64], slider_x: f64) {
+    fn lay_out(&mut self, slave: &[f64], master: &[f64], offset: f64) {
         self.rows.clear();
         self.gap.clear();
         self.gap.resize(self.end - self.first, 0.0);
         let (mut begin, mut total) = (usize::MAX, 0);
         let mut last = 0;
         for i in self.first..self.end {
-            let left = slave[i.saturating_sub(1)] - slider_x;
-            let right = slave[(i + 1).min(slave.len() - 1)] - slider_x;
+            let left = slave[i.saturating_sub(1)] - offset;
+            let right = slave[(i + 1).min(slave.len() - 1)] - offset;
             let from = master.partition_point(|&x| x <= left).saturating_sub(1);
             let to = master.partition_point(|&x| x < right).min(master.len() - 1);
             self.rows.push((from, total));
@@ -94,35 +90,26 @@ impl Coupling {
             last = last.max(to + 1);
         }
         self.rows.push((0, total));
-        self.slider_range = (begin.min(last), last);
+        self.master_range = (begin.min(last), last);
         self.dual.clear();
         self.dual.resize(total, 0.0);
         self.standard.clear();
         self.standard.resize(total, 0.0);
     }
 
-    fn integrate_element(
-        &mut self,
-        slave: &BodyOperators,
-        master: &BodyOperators,
-        slider_x: f64,
-        element: usize,
-    ) {
+    fn integrate_element(&mut self, pair: &Pair<'_>, offset: f64, element: usize) {
+        let (slave, master) = (pair.slave(), pair.master());
         let (a, b) = (slave.x[element], slave.x[element + 1]);
         let mut j = master
             .x
-            .partition_point(|&x| x <= a - slider_x)
+            .partition_point(|&x| x <= a - offset)
             .clamp(1, master.x.len() - 1);
         let mut left = a;
         while left < b {
             let last = j == master.x.len() - 1;
-            let right = if last {
-                b
-            } else {
-                b.min(master.x[j] + slider_x)
-            };
+            let right = if last { b } else { b.min(master.x[j] + offset) };
             if right > left {
-                self.integrate_segment(slave, master, slider_x, (element, j - 1), (left, right));
+                self.integrate_segment(pair, offset, (element, j - 1), (left, right));
             }
             left = right;
             j = (j + 1).min(master.x.len() - 1);
@@ -131,18 +118,18 @@ impl Coupling {
 
     fn integrate_segment(
         &mut self,
-        slave: &BodyOperators,
-        master: &BodyOperators,
-        slider_x: f64,
+        pair: &Pair<'_>,
+        offset: f64,
         (e, m): (usize, usize),
         (left, right): (f64, f64),
     ) {
+        let (slave, master) = (pair.slave(), pair.master());
         for (at, weight) in GAUSS {
             let x = left + at * (right - left);
             let dx = weight * (right - left);
             let t = (x - slave.x[e]) / (slave.x[e + 1] - slave.x[e]);
-            let u = (x - slider_x - master.x[m]) / (master.x[m + 1] - master.x[m]);
-            let gap = master.profile.height(x - slider_x) - slave.profile.height(x);
+            let u = (x - offset - master.x[m]) / (master.x[m + 1] - master.x[m]);
+            let gap = pair.unworn_gap(x, offset);
             let standard = [1.0 - t, t];
             let dual = [2.0 - 3.0 * t, 3.0 * t - 1.0];
             for side in 0..2 {
@@ -170,12 +157,12 @@ impl Coupling {
         self.end - self.first
     }
 
-    /// Averaging row of slave node `i`: its first slider node and the weights Mhat_ij.
+    /// Averaging row of slave node `i`: its first master node and the weights Mhat_ij.
     pub(super) fn dual_row(&self, i: usize) -> (usize, &[f64]) {
         (self.rows[i - self.first].0, &self.dual[self.row_span(i)])
     }
 
-    /// Transfer row of slave node `i`: its first slider node and the integrals of phi_i phi_j, mm.
+    /// Transfer row of slave node `i`: its first master node and the integrals of phi_i phi_j, mm.
     pub(super) fn standard_row(&self, i: usize) -> (usize, &[f64]) {
         (
             self.rows[i - self.first].0,
@@ -187,8 +174,9 @@ impl Coupling {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::condensation::Compliance;
-    use crate::model::Profile;
+    use crate::condensation::{BodyOperators, Compliance, Operators};
+    use crate::model::{Interface, Profile};
+    use crate::sides::{Side, Sides};
 
     fn body(x: Vec<f64>, profile: Profile) -> BodyOperators {
         let widths = (0..x.len())
@@ -203,7 +191,7 @@ mod tests {
         }
     }
 
-    fn pair() -> Operators {
+    fn bodies() -> Operators {
         Operators {
             slider: body(
                 vec![-4.0, -1.3, 0.2, 0.9, 5.0],
@@ -213,31 +201,47 @@ mod tests {
         }
     }
 
+    fn pair(operators: &Operators, slave: Side) -> Pair<'_> {
+        Pair {
+            operators,
+            interface: Interface {
+                slave,
+                friction: 0.0,
+                wear: Sides::default(),
+                load: 1.0,
+                spring: 0.0,
+            },
+        }
+    }
+
     #[test]
     fn averages_reproduce_linear_functions_at_any_position() {
-        let operators = pair();
-        for slider_x in [-2.5, -0.37, 0.0, 0.41, 1.9] {
-            let mut coupling = Coupling::default();
-            let (first, end) = covered(&operators, slider_x);
-            coupling.integrate(&operators, slider_x, first, end);
-            for i in first..end {
-                let (from, row) = coupling.dual_row(i);
-                let linear: f64 = row
-                    .iter()
-                    .zip(&operators.slider.x[from..])
-                    .map(|(m, x)| m * (3.0 + 0.5 * (x + slider_x)))
-                    .sum();
-                let expected = 3.0 + 0.5 * operators.receptacle.x[i];
-                assert!((linear - expected).abs() < 1e-13, "{slider_x} {i}");
+        let operators = bodies();
+        for slave in Side::BOTH {
+            let pair = pair(&operators, slave);
+            for slider_x in [-2.5, -0.37, 0.0, 0.41, 1.9] {
+                let mut coupling = Coupling::default();
+                let (first, end) = covered(&pair, slider_x);
+                coupling.integrate(&pair, slider_x, first, end);
+                for i in first..end {
+                    let (from, row) = coupling.dual_row(i);
+                    let linear: f64 = row
+                        .iter()
+                        .zip(&pair.master().x[from..])
+                        .map(|(m, x)| m * (3.0 + 0.5 * (x + pair.offset(slider_x))))
+                        .sum();
+                    let expected = 3.0 + 0.5 * pair.slave().x[i];
+                    assert!((linear - expected).abs() < 1e-13, "{slider_x} {i}");
+                }
             }
         }
     }
 
     #[test]
     fn transfers_keep_the_area() {
-        let operators = pair();
+        let operators = bodies();
         let mut coupling = Coupling::default();
-        coupling.integrate(&operators, 0.3, 0, 6);
+        coupling.integrate(&pair(&operators, Side::Receptacle), 0.3, 0, 6);
         for i in 0..6 {
             let sum: f64 = coupling.standard_row(i).1.iter().sum();
             assert!((sum - operators.receptacle.widths[i]).abs() < 1e-14);
@@ -245,11 +249,12 @@ mod tests {
     }
 
     #[test]
-    fn nodes_that_the_slider_does_not_cover_are_left_out() {
-        let operators = pair();
-        assert_eq!(covered(&operators, 0.0), (0, 6));
-        assert_eq!(covered(&operators, 2.5), (2, 6));
-        let (first, end) = covered(&operators, 100.0);
+    fn nodes_that_the_master_does_not_cover_are_left_out() {
+        let operators = bodies();
+        let pair = pair(&operators, Side::Receptacle);
+        assert_eq!(covered(&pair, 0.0), (0, 6));
+        assert_eq!(covered(&pair, 2.5), (2, 6));
+        let (first, end) = covered(&pair, 100.0);
         assert_eq!(first, end);
     }
 }

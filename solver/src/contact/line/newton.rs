@@ -77,7 +77,7 @@ impl Newton {
             let last = (residual / it.tolerance, changes);
             self.assign_dofs(it);
             for a in (0..it.status.len()).filter(|a| it.status[*a] != Status::Open) {
-                response.compute(problem.operators, problem.coupling, a);
+                response.compute(problem.pair, problem.coupling, a);
             }
             self.assemble(problem, response, wear, it);
             if !self.lu.solve(&mut self.jacobian, &mut self.rhs) {
@@ -131,7 +131,10 @@ impl Newton {
         self.slip.resize(it.status.len(), 0.0);
         if problem.wears {
             let per_slip = |l: usize| it.status[l].direction() * it.pressure[l];
-            wear.linearise((0..it.status.len()).map(|l| it.local_state(l)));
+            wear.linearise(
+                problem.pair.interface.slave,
+                (0..it.status.len()).map(|l| it.local_state(l)),
+            );
             wear.per_slip()
                 .combine(per_slip, |_| 0.0, &mut self.opening);
         }
@@ -291,7 +294,10 @@ impl Newton {
         }
         // The wear alone first: it is part of the scale of gaps.
         if problem.wears {
-            wear.linearise((0..n).map(|l| it.local_state(l)));
+            wear.linearise(
+                problem.pair.interface.slave,
+                (0..n).map(|l| it.local_state(l)),
+            );
             wear.opening().add_product(&(0..n), &it.path, &mut it.gap);
         }
         let (mut residual, mut largest) = (0.0_f64, 0.0_f64);

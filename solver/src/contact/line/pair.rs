@@ -1,5 +1,6 @@
 //! The pair of bodies in contact, their worn surfaces, and the displacement of an increment.
 
+use super::state::ContactState;
 use crate::condensation::{BodyOperators, Operators};
 use crate::model::Interface;
 use crate::sides::{Side, Sides};
@@ -11,6 +12,40 @@ pub struct Pair<'a> {
     pub operators: &'a Operators,
     /// Friction, wear, load.
     pub interface: Interface,
+}
+
+impl<'a> Pair<'a> {
+    /// The body whose nodes carry the contact constraints.
+    pub fn slave(&self) -> &'a BodyOperators {
+        self.operators.of(self.interface.slave)
+    }
+
+    /// The other body.
+    pub(super) fn master(&self) -> &'a BodyOperators {
+        self.operators.of(self.interface.slave.other())
+    }
+
+    /// Displacement of the master's frame in the slave's, mm.
+    pub(super) fn offset(&self, slider_x: f64) -> f64 {
+        match self.interface.slave {
+            Side::Receptacle => slider_x,
+            Side::Slider => -slider_x,
+        }
+    }
+
+    /// Displacement of a contact that moves with the slider over the slave, mm.
+    pub(super) fn travel(&self, last: &ContactState, slider_x: f64) -> f64 {
+        match self.interface.slave {
+            Side::Receptacle => slider_x - last.slider_x,
+            Side::Slider => 0.0,
+        }
+    }
+
+    /// Unworn, undeformed gap at height 0 at a place of the slave, with the master's frame displaced by `offset`, mm.
+    pub(super) fn unworn_gap(&self, x: f64, offset: f64) -> f64 {
+        let (slave, master) = (&self.slave().profile, &self.master().profile);
+        -self.interface.slave.recession() * (master.height(x - offset) - slave.height(x))
+    }
 }
 
 /// Imposed displacement of one increment.

@@ -13,7 +13,7 @@ pub(super) fn predict(
     problem: &Problem<'_>,
 ) {
     let (first, end) = (problem.coupling.first, problem.coupling.end);
-    let x = &pair.operators.receptacle.x;
+    let x = &pair.slave().x;
     let n = end - first;
     // Every field is set: the result must depend on the state only, not on the last solve.
     it.indentation = last.indentation;

@@ -1,8 +1,8 @@
 //! One increment as a nonlinear problem, and an iterate of its solution.
 
 use super::mortar::Coupling;
+use super::pair::Pair;
 use super::status::Status;
-use crate::condensation::Operators;
 use crate::law::wear::LocalState;
 
 /// Most Newton iterations of one increment before it is halved, or solved as a complementarity problem.
@@ -14,7 +14,7 @@ pub const GAP_TOLERANCE: f64 = 1e-11;
 
 /// Data of one increment over the coupled nodes.
 pub(super) struct Problem<'a> {
-    pub(super) operators: &'a Operators,
+    pub(super) pair: &'a Pair<'a>,
     pub(super) coupling: &'a Coupling,
     /// Gap of the worn, undeformed bodies at height 0, mm.
     pub(super) gap: &'a [f64],
@@ -31,7 +31,7 @@ pub(super) struct Problem<'a> {
     pub(super) fixed_slip: &'a [f64],
     /// Whether anything wears in this increment.
     pub(super) wears: bool,
-    /// Displacement of the slider over the receptacle in this increment, mm.
+    /// Displacement of the contact over the slave in this increment, mm.
     pub(super) travel: f64,
     /// Imposed slip: the displacement and the additional slip of the slider's surface, mm.
     pub(super) step: f64,

@@ -1,11 +1,13 @@
-//! The response of both bodies at the coupled nodes, in the local frame of the receptacle's surface.
+//! The response of both bodies at the coupled nodes, in the local frame of the receptacle's surface. It gives the normals
+//! also where the slider carries the constraints: the corner of a worn slider has none.
 //!
 //! A column of G = Mhat C_s Mhat^T + C_r is computed when its node first touches: most candidates never do.
 
 use super::mortar::Coupling;
 use super::pair::{Pair, Surfaces};
 use super::state::ContactState;
-use crate::condensation::{Block, Compliance, Operators};
+use crate::condensation::{Block, Compliance};
+use crate::sides::Side;
 
 /// Change of the gap and of the tangential jump of each coupled node, per force along N and T at coupled nodes.
 #[derive(Debug, Default)]
@@ -17,11 +19,11 @@ pub(super) struct Response {
     computed: Vec<bool>,
     /// Tangential jump that the forces of the last increment would make at the new position, mm.
     pub(super) last_jump: Vec<f64>,
-    /// Slope at each coupled node.
+    /// Slope of the receptacle's surface at each coupled node.
     pub(super) slope: Vec<f64>,
-    /// Slope of the slider's surface over each coupled node.
-    slider_slope: Vec<f64>,
-    slider: Vec<Block>,
+    /// Slope of the master's surface at each coupled node.
+    pub(super) master_slope: Vec<f64>,
+    master: Vec<Block>,
     displacement: Vec<[f64; 2]>,
 }
 
@@ -42,16 +44,21 @@ impl Response {
         self.columns.resize(4 * n * n, 0.0);
         self.computed.clear();
         self.computed.resize(n, false);
-        self.slope.clear();
-        self.slope
-            .extend_from_slice(&surfaces.slope.receptacle[coupling.first..coupling.end]);
-        self.slider_slope.clear();
+        let slave = pair.interface.slave;
+        let far = *surfaces.slope.of(slave.other());
+        self.master_slope.clear();
         for i in coupling.first..coupling.end {
             let (from, weights) = coupling.dual_row(i);
-            let slopes = weights.iter().zip(&surfaces.slope.slider[from..]);
-            self.slider_slope
-                .push(slopes.map(|(weight, slope)| weight * slope).sum());
+            let slopes = weights.iter().zip(&far[from..]);
+            let slope = slopes.map(|(weight, slope)| weight * slope).sum();
+            self.master_slope.push(slope);
         }
+        let own = &surfaces.slope.of(slave)[coupling.first..coupling.end];
+        self.slope.clear();
+        self.slope.extend_from_slice(match slave {
+            Side::Receptacle => own,
+            Side::Slider => &self.master_slope,
+        });
         self.compute_last_jump(pair, coupling, last);
     }
 
@@ -72,23 +79,23 @@ impl Response {
     }
 
     /// Computes both columns of a node once.
-    pub(super) fn compute(&mut self, operators: &Operators, coupling: &Coupling, node: usize) {
+    pub(super) fn compute(&mut self, pair: &Pair<'_>, coupling: &Coupling, node: usize) {
         if std::mem::replace(&mut self.computed[node], true) {
             return;
         }
         let n = self.nodes;
         let k = coupling.first + node;
-        let (begin, end) = coupling.slider_range;
-        self.slider.clear();
-        self.slider.resize(end - begin, [0.0; 4]);
+        let (begin, end) = coupling.master_range;
+        self.master.clear();
+        self.master.resize(end - begin, [0.0; 4]);
         let (from, weights) = coupling.dual_row(k);
         for (offset, weight) in weights.iter().enumerate() {
-            let response = operators.slider.compliance.to_force_at(from + offset);
-            for (sum, c) in self.slider.iter_mut().zip(&response[begin..end]) {
+            let response = pair.master().compliance.to_force_at(from + offset);
+            for (sum, c) in self.master.iter_mut().zip(&response[begin..end]) {
                 add(sum, *weight, c);
             }
         }
-        let own = &operators.receptacle.compliance.to_force_at(k)[coupling.first..coupling.end];
+        let own = &pair.slave().compliance.to_force_at(k)[coupling.first..coupling.end];
         let (normal, tangent) = self.columns[4 * node * n..4 * (node + 1) * n].split_at_mut(2 * n);
         let (normal_gap, normal_jump) = normal.split_at_mut(n);
         let (tangent_gap, tangent_jump) = tangent.split_at_mut(n);
@@ -96,10 +103,10 @@ impl Response {
         for i in 0..n {
             let (from, weights) = coupling.dual_row(coupling.first + i);
             let mut u = own[i];
-            for (weight, c) in weights.iter().zip(&self.slider[from - begin..]) {
+            for (weight, c) in weights.iter().zip(&self.master[from - begin..]) {
                 add(&mut u, *weight, c);
             }
-            let gap = |x: f64, y: f64| y - self.slider_slope[i] * x;
+            let gap = |x: f64, y: f64| y - self.master_slope[i] * x;
             let jump = |x: f64, y: f64| x + self.slope[i] * y;
             let (gap_x, gap_y) = (gap(u[0], u[1]), gap(u[2], u[3]));
             let (jump_x, jump_y) = (jump(u[0], u[1]), jump(u[2], u[3]));
@@ -111,24 +118,26 @@ impl Response {
     }
 
     fn compute_last_jump(&mut self, pair: &Pair<'_>, coupling: &Coupling, last: &ContactState) {
-        let (begin, end) = coupling.slider_range;
+        let (begin, end) = coupling.master_range;
         let n = coupling.len();
-        let Operators { slider, receptacle } = pair.operators;
+        let slave = pair.interface.slave;
+        let force = &last.force;
         self.displacement.clear();
         self.displacement.resize(end - begin + n, [0.0; 2]);
-        let (above, below) = self.displacement.split_at_mut(end - begin);
-        accumulate(above, &slider.compliance, &last.force.slider, begin);
+        let (master, own) = self.displacement.split_at_mut(end - begin);
+        let far = force.of(slave.other());
+        accumulate(master, &pair.master().compliance, far, begin);
         accumulate(
-            below,
-            &receptacle.compliance,
-            &last.force.receptacle,
+            own,
+            &pair.slave().compliance,
+            force.of(slave),
             coupling.first,
         );
         self.last_jump.clear();
         for (i, s) in self.slope.iter().enumerate() {
             let (from, weights) = coupling.dual_row(coupling.first + i);
-            let [mut x, mut y] = below[i];
-            for (weight, u) in weights.iter().zip(&above[from - begin..]) {
+            let [mut x, mut y] = own[i];
+            for (weight, u) in weights.iter().zip(&master[from - begin..]) {
                 x += weight * u[0];
                 y += weight * u[1];
             }

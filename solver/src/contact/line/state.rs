@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::status::Status;
 use crate::condensation::Operators;
 use crate::model::Interface;
-use crate::sides::Sides;
+use crate::sides::{Side, Sides};
 
 /// Position of the bodies and the tractions between them.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -14,11 +14,11 @@ pub struct ContactState {
     pub slider_x: f64,
     /// Rigid height of the slider over its place at first touch of the unworn bodies, mm.
     pub height: f64,
-    /// Status of each node of the receptacle.
+    /// Status of each node of the slave.
     pub status: Vec<Status>,
-    /// Pressure p at each node of the receptacle, MPa.
+    /// Pressure p at each node of the slave, MPa.
     pub pressure: Vec<f64>,
-    /// Shear traction q on the receptacle, MPa.
+    /// Shear traction q on the receptacle at each node of the slave, MPa.
     pub shear: Vec<f64>,
     /// Forces that act on the slider (x, y), at the nodes of each side, N/mm; the receptacle carries the reaction.
     pub force: Sides<Vec<f64>>,
@@ -30,18 +30,15 @@ pub struct ContactState {
 
 impl ContactState {
     /// Bodies that touch without load at the neutral position.
-    pub fn untouched(operators: &Operators) -> Self {
-        let (n, m) = (operators.receptacle.x.len(), operators.slider.x.len());
+    pub fn untouched(operators: &Operators, slave: Side) -> Self {
+        let n = operators.of(slave).x.len();
         Self {
             slider_x: 0.0,
             height: 0.0,
             status: vec![Status::Open; n],
             pressure: vec![0.0; n],
             shear: vec![0.0; n],
-            force: Sides {
-                slider: vec![0.0; 2 * m],
-                receptacle: vec![0.0; 2 * n],
-            },
+            force: operators.as_ref().map(|body| vec![0.0; 2 * body.x.len()]),
             indentation: 0.0,
             reference_height: None,
         }

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-/// Contact status of a node of the receptacle.
+/// Contact status of a node of the slave.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Status {
     /// No contact.

@@ -45,8 +45,8 @@ fn wear(laws: Sides<Option<WearLaw>>, cycles: f64) -> (Operators, Worn) {
     };
     let mut solver = Solver::default();
     let (mut state, mut next) = (
-        ContactState::untouched(&operators),
-        ContactState::untouched(&operators),
+        ContactState::untouched(&operators, Side::Receptacle),
+        ContactState::untouched(&operators, Side::Receptacle),
     );
     for (slider_x, cycles) in [(0.0, 0.0), (STEP, 0.0), (2.0 * STEP, cycles)] {
         let to = Displacement {

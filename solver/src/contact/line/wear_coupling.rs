@@ -1,13 +1,15 @@
 //! Wear in the contact solve: the gap that the wear of both surfaces opens.
 //!
-//! With e = p |sigma| and the specific wear rates k_r, k_s at the coupled nodes, an increment of n cycles opens the gaps
-//!   F = W e,  W = n (diag k_r + S diag k_s),  S = Mhat D^-1 M^T,
-//! where S transfers the slider's recession to its nodes and averages it back. A rate that varies with p and |sigma| adds
+//! With e = p |sigma| and the specific wear rates k_s of the slave and k_m of the master at the coupled nodes, an increment
+//! of n cycles opens the gaps
+//!   F = W e,  W = n (diag k_s + S diag k_m),  S = Mhat D^-1 M^T,
+//! where S transfers the master's recession to its nodes and averages it back. A rate that varies with p and |sigma| adds
 //! its derivatives: dF/dp = W_p |sigma| with k + p dk/dp in place of k, dF/d|sigma| = W_s p with
 //! k + |sigma| dk/d|sigma|. Uniform rates are assembled once an increment.
 
 use super::band::Band;
 use super::mortar::Coupling;
+use super::pair::Pair;
 use crate::law::wear::{LocalState, Rate, WearLaw};
 use crate::sides::{Side, Sides};
 
@@ -16,7 +18,7 @@ use crate::sides::{Side, Sides};
 pub(super) struct WearCoupling {
     laws: Sides<Option<WearLaw>>,
     cycles: f64,
-    /// S; zero where the slider does not wear.
+    /// S; zero where the master does not wear.
     transfer: Band,
     /// States of the coupled nodes with their rates, where these vary.
     local: Vec<(LocalState, Sides<Rate>)>,
@@ -31,24 +33,25 @@ impl WearCoupling {
     pub(super) fn assemble(
         &mut self,
         coupling: &Coupling,
-        slider_width: &[f64],
+        pair: &Pair<'_>,
         laws: Sides<Option<WearLaw>>,
         cycles: f64,
     ) {
         self.laws = laws;
         self.cycles = cycles;
         self.transfer.reset(coupling.len(), 0);
-        if laws.slider.is_some() {
-            self.assemble_transfer(coupling, slider_width);
+        let (slave, master) = (pair.interface.slave, pair.interface.slave.other());
+        if laws.of(master).is_some() {
+            self.assemble_transfer(coupling, &pair.master().widths);
         }
         if !self.varies() {
-            let Sides { slider, receptacle } = laws.map(|law| uniform(law) * cycles);
-            self.transfer
-                .combine(|_| slider, |_| receptacle, &mut self.opening);
+            let rates = laws.map(|law| uniform(law) * cycles);
+            let (own, far) = (*rates.of(slave), *rates.of(master));
+            self.transfer.combine(|_| far, |_| own, &mut self.opening);
         }
     }
 
-    fn assemble_transfer(&mut self, coupling: &Coupling, slider_width: &[f64]) {
+    fn assemble_transfer(&mut self, coupling: &Coupling, master_width: &[f64]) {
         let (n, b) = (coupling.len(), half_bandwidth(coupling));
         self.transfer.reset(n, b);
         for i in 0..n {
@@ -59,7 +62,7 @@ impl WearCoupling {
                 let end = (to + averages.len()).min(from + shares.len());
                 let mut sum = 0.0;
                 for j in begin..end {
-                    sum += averages[j - to] * shares[j - from] / slider_width[j];
+                    sum += averages[j - to] * shares[j - from] / master_width[j];
                 }
                 *self.transfer.at(i, l) = sum;
             }
@@ -73,7 +76,7 @@ impl WearCoupling {
     }
 
     /// Linearises rates that vary about the pressures and slips of the coupled nodes.
-    pub(super) fn linearise(&mut self, states: impl Iterator<Item = LocalState>) {
+    pub(super) fn linearise(&mut self, slave: Side, states: impl Iterator<Item = LocalState>) {
         if !self.varies() {
             return;
         }
@@ -82,11 +85,12 @@ impl WearCoupling {
         self.local.clear();
         self.local.extend(states.map(|at| (at, rate(at))));
         let (transfer, local, cycles) = (&self.transfer, &self.local, self.cycles);
+        let master = slave.other();
         let combine = |factor: fn(LocalState, Rate) -> f64, combined: &mut Band| {
             let factor = |at, rate| cycles * factor(at, rate);
             transfer.combine(
-                |l| factor(local[l].0, local[l].1.slider),
-                |l| factor(local[l].0, local[l].1.receptacle),
+                |l| factor(local[l].0, *local[l].1.of(master)),
+                |l| factor(local[l].0, *local[l].1.of(slave)),
                 combined,
             );
         };
@@ -121,12 +125,12 @@ impl WearCoupling {
         }
     }
 
-    /// Writes the recession of both surfaces, mm, the receptacle's at the coupled nodes and the slider's at its nodes in the
+    /// Writes the recession of both surfaces, mm, the slave's at the coupled nodes and the master's at its nodes in the
     /// coupled range; returns the worn areas as the integrals of the rates over the coupled nodes, mm^2.
     pub(super) fn recession(
         &self,
         coupling: &Coupling,
-        widths: Sides<&[f64]>,
+        pair: &Pair<'_>,
         path: &[f64],
         recession: &mut Sides<Vec<f64>>,
     ) -> Sides<f64> {
@@ -143,11 +147,13 @@ impl WearCoupling {
                 None => self.local[l].1.of(side).value * e,
             };
             let shares = path.iter().enumerate().map(share);
-            let area = widths.receptacle.iter().zip(shares.clone());
+            let widths = &pair.slave().widths[coupling.first..];
+            let area = widths.iter().zip(shares.clone());
             let area = factor * area.map(|(width, e)| width * e).sum::<f64>();
-            match side {
-                Side::Receptacle => recession.extend(shares),
-                Side::Slider => transfer_path(coupling, widths.slider, shares, recession),
+            if side == pair.interface.slave {
+                recession.extend(shares);
+            } else {
+                transfer_path(coupling, &pair.master().widths, shares, recession);
             }
             for depth in recession.iter_mut() {
                 *depth *= factor;
@@ -162,7 +168,7 @@ fn uniform(law: Option<WearLaw>) -> f64 {
     law.and_then(WearLaw::uniform).unwrap_or(0.0)
 }
 
-/// Largest distance of two rows of the coupling that share a slider node.
+/// Largest distance of two rows of the coupling that share a master node.
 fn half_bandwidth(coupling: &Coupling) -> usize {
     let mut bandwidth = 0;
     for i in coupling.first..coupling.end {
@@ -174,14 +180,14 @@ fn half_bandwidth(coupling: &Coupling) -> usize {
     bandwidth
 }
 
-/// Transfers a path p |sigma| from the coupled nodes to the slider's nodes in the coupled range, MPa mm.
+/// Transfers a path p |sigma| from the coupled nodes to the master's nodes in the coupled range, MPa mm.
 fn transfer_path(
     coupling: &Coupling,
-    slider_width: &[f64],
+    master_width: &[f64],
     path: impl Iterator<Item = f64>,
     transferred: &mut Vec<f64>,
 ) {
-    let (begin, end) = coupling.slider_range;
+    let (begin, end) = coupling.master_range;
     transferred.resize(end - begin, 0.0);
     for (l, e) in path.enumerate().filter(|(_, e)| *e != 0.0) {
         let (from, weights) = coupling.standard_row(coupling.first + l);
@@ -189,7 +195,7 @@ fn transfer_path(
             *r += weight * e;
         }
     }
-    for (r, width) in transferred.iter_mut().zip(&slider_width[begin..end]) {
+    for (r, width) in transferred.iter_mut().zip(&master_width[begin..end]) {
         *r /= width;
     }
 }
