@@ -137,7 +137,8 @@ impl<'a> Integrator<'a> {
         self.update_slopes(state);
         let before = state.clone();
         loop {
-            let error = match self.integrate(state, &steps, jump, stroke.gross) {
+            let detailed = before.cycle + jump == until;
+            let error = match self.integrate(state, &steps, jump, (stroke.gross, detailed)) {
                 Ok(record) => {
                     let done = state.cycle - before.cycle;
                     let widths = self.pair.operators.as_ref().map(|body| &body.widths[..]);
@@ -156,13 +157,13 @@ impl<'a> Integrator<'a> {
         }
     }
 
-    /// Integrates one computed cycle up to its end, or until a body is worn through.
+    /// Integrates one computed cycle up to its end, or until a body is worn through; in detail where its friction loop is kept.
     fn integrate(
         &mut self,
         state: &mut CycleState,
         steps: &[Step],
         jump: u64,
-        gross: bool,
+        (gross, detailed): (bool, bool),
     ) -> Result<CycleRecord, CycleError> {
         let mut record = CycleRecord::default();
         let mut replays = if gross && jump > 1 {
@@ -176,26 +177,31 @@ impl<'a> Integrator<'a> {
         } else {
             Replays::default()
         };
-        let (mut half_widths, mut touching, mut done) = (0.0, 0, 0);
+        let (mut half_widths, mut touching, mut done, mut neutral) = (0.0, 0, 0, 0);
         for (increment, step) in steps.iter().enumerate() {
             replays.run(state, steps, increment, |state, step, parts| {
                 self.replay_step(state, step, parts)
             });
+            if detailed && increments::begins_a_stroke(steps, increment) {
+                let points = self.reversal(state, step);
+                record.friction_loop.extend(&points);
+            }
             self.step(state, step, real_cycles(jump), increment)?;
             if state.contact.active_range().is_some() {
                 half_widths += state.contact.half_width(&self.pair.slave().x);
                 touching += 1;
             }
             self.record(&mut record, state, step.at, &mut replays);
+            if step.at == Some(Position::Neutral) {
+                neutral = record.friction_loop.displacement_mm.len();
+            }
             done += 1;
             if self.spines.are_worn_through(&state.depth) {
                 break;
             }
         }
         let cycles = if done == steps.len() {
-            record
-                .friction_loop
-                .begin_at(steps.len() - increments::initial_quarter(steps).len());
+            record.friction_loop.begin_at(neutral);
             jump
         } else {
             cycles_at_least(real_cycles(jump) * real(done) / real(steps.len())).min(jump)
@@ -265,11 +271,8 @@ impl<'a> Integrator<'a> {
         replays: &mut Replays,
     ) {
         let contact = &state.contact;
-        record.friction_loop.displacement_mm.push(contact.slider_x);
-        record
-            .friction_loop
-            .tangential_force_n_per_mm
-            .push(contact.tangential_force());
+        let point = (contact.slider_x, contact.tangential_force());
+        record.friction_loop.extend(&[point]);
         let Some(position) = at else { return };
         let contact = replays
             .take(position)

@@ -37,10 +37,18 @@ pub struct FrictionLoop {
 }
 
 impl FrictionLoop {
-    /// Rotates the closed loop to begin after its first `steps` increments.
-    pub(super) fn begin_at(&mut self, steps: usize) {
-        self.displacement_mm.rotate_left(steps);
-        self.tangential_force_n_per_mm.rotate_left(steps);
+    /// Appends points of displacement and force.
+    pub(super) fn extend(&mut self, points: &[(f64, f64)]) {
+        for (displacement, force) in points {
+            self.displacement_mm.push(*displacement);
+            self.tangential_force_n_per_mm.push(*force);
+        }
+    }
+
+    /// Rotates the closed loop to begin after its first `points`.
+    pub(super) fn begin_at(&mut self, points: usize) {
+        self.displacement_mm.rotate_left(points);
+        self.tangential_force_n_per_mm.rotate_left(points);
     }
 }
 

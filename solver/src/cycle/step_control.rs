@@ -25,6 +25,11 @@ const REPLAY_RETRY: RetryPolicy = RetryPolicy {
     ..RETRY
 };
 
+/// Parts of the first step after a turning point at which the friction loop has points. The force reverses over twice the
+/// displacement of gross slip, often far less than a step; without them the loop encloses 7 to 10 % less than the
+/// dissipated energy with 20 steps a cycle.
+const REVERSAL: [f64; 5] = [0.03125, 0.0625, 0.125, 0.25, 0.5];
+
 impl Integrator<'_> {
     pub(super) fn step(
         &mut self,
@@ -60,6 +65,27 @@ impl Integrator<'_> {
             self.halve_and_retry(state, displacement(&part(k), 1.0), 0, REPLAY_RETRY)
                 .is_ok()
         })
+    }
+
+    /// Displacements and forces within the first step after a turning point, in which the force reverses: on a copy of the
+    /// state, so that nothing else depends on them.
+    pub(super) fn reversal(&mut self, state: &mut CycleState, step: &Step) -> Vec<(f64, f64)> {
+        let mut copy = state.clone();
+        let from = copy.contact.slider_x;
+        let mut points = Vec::new();
+        for part in REVERSAL {
+            let to = Step {
+                slider_x: from + part * (step.slider_x - from),
+                surface_slip: 0.0,
+                at: None,
+            };
+            if !self.replay_step(&mut copy, &to, 1) {
+                break;
+            }
+            points.push((copy.contact.slider_x, copy.contact.tangential_force()));
+        }
+        state.increments = copy.increments;
+        points
     }
 
     /// Solves an increment, in halves if it fails as a whole.

@@ -88,6 +88,14 @@ pub(crate) fn steps(motion: Motion, accuracy: &Accuracy, half_width: f64) -> Vec
     }
 }
 
+/// Whether a step is the first one after a turning point.
+pub(crate) fn begins_a_stroke(steps: &[Step], step: usize) -> bool {
+    match step.checked_sub(1) {
+        Some(before) => steps[before].at == Some(Position::Leftmost),
+        None => steps.len() > 1,
+    }
+}
+
 /// The steps of the initial quarter, from the neutral position to the turning point where cycles begin.
 pub(crate) fn initial_quarter(steps: &[Step]) -> &[Step] {
     let neutral = steps
