@@ -7,8 +7,8 @@
 
 use crate::recorder::solve;
 use crate::scenes::sprung_contact;
-use solver::record::{Position, TractionField};
-use solver::scene::{Body, Motion, Scene, SliderShape, WearLaw};
+use solver::record::{CycleReport, Outcome, Position, TractionField};
+use solver::scene::{Body, Motion, Scene, SliderShape, StopCondition, WearLaw};
 
 const WEAR: WearLaw = WearLaw::Archard {
     k_over_h_per_mpa: 0.004 / 1700.0,
@@ -66,6 +66,40 @@ fn the_flat_of_a_worn_slider_carries_one_pressure() {
         // The elastic deformation of the edges is what the rigid flat leaves out.
         assert!(found.abs() < tolerance.max(0.02), "{found}");
         assert!(least > 1.0 - 5.0 * tolerance.max(0.02) && most < 1.0 + 5.0 * tolerance.max(0.02));
+    }
+}
+
+/// A run ends at the first cycle beyond the limit, whichever side wears. Jumps looked at the receptacle only and went up to
+/// 43 % too deep.
+#[test]
+fn a_stop_condition_on_either_side_is_not_overshot() {
+    let limit = 4e-4;
+    let slow = Some(WearLaw::Archard {
+        k_over_h_per_mpa: 1e-7,
+    });
+    for (slider, receptacle) in [(slow, None), (slow, slow), (None, slow)] {
+        let mut scene = scene(slider, receptacle);
+        scene.cycles = 100_000;
+        scene.accuracy.tolerance = 0.1;
+        scene.stop = vec![StopCondition::WornDepth(limit)];
+        let (summary, run) = solve(&scene).expect("the scene can be solved");
+        let deepest = |report: &CycleReport| {
+            report
+                .slider
+                .max_depth_mm
+                .max(report.receptacle.max_depth_mm)
+        };
+        let (before, last) = (&run.reports[run.reports.len() - 2], &summary.last);
+        let error = summary.resolution.estimated_relative_error;
+        println!(
+            "stop at {limit}: {:.4e} after {} cycles, error {error:.4}",
+            deepest(last),
+            last.cycle
+        );
+        assert_eq!(summary.outcome, Outcome::StopCondition);
+        assert!(deepest(before) < limit && deepest(last) >= limit);
+        assert!(deepest(last) < 1.02 * limit, "{}", deepest(last));
+        assert!(error > 0.0);
     }
 }
 
