@@ -11,6 +11,7 @@ mod recorder;
 mod scenes;
 mod verify_block_on_ring;
 mod verify_cattaneo_mindlin;
+mod verify_constraint_side;
 mod verify_contact_patch;
 mod verify_fuzz_button_groove;
 mod verify_gross_slip;
