@@ -157,7 +157,8 @@ impl<'a> Integrator<'a> {
         }
     }
 
-    /// Integrates one computed cycle up to its end, or until a body is worn through; in detail where its friction loop is kept.
+    /// Integrates one computed cycle up to its end, or until a body is worn through; with additional points of the
+    /// friction loop where `detailed`.
     fn integrate(
         &mut self,
         state: &mut CycleState,

@@ -70,11 +70,12 @@ fn half_the_coefficient_over_twice_the_distance_wears_the_same_scar() {
 /// increments that a tolerance chooses. Backward Euler takes the force at the end of an increment.
 #[test]
 fn dissipated_energy_is_the_area_of_the_friction_loop() {
-    for (name, scene, increments) in [
-        ("gross slip", mccoll(), Some(160)),
-        ("gross slip", mccoll(), None),
-        ("partial slip", partial_slip(), None),
-        ("groove", groove(), None),
+    // In partial slip the loop is curved everywhere, and its 20 chords cut off more.
+    for (name, scene, increments, limit) in [
+        ("gross slip", mccoll(), Some(160), 0.01),
+        ("gross slip", mccoll(), None, 0.01),
+        ("partial slip", partial_slip(), None, 0.02),
+        ("groove", groove(), None, 0.01),
     ] {
         let mut scene = Scene { cycles: 3, ..scene };
         scene.accuracy.increments_per_cycle = increments;
@@ -93,7 +94,7 @@ fn dissipated_energy_is_the_area_of_the_friction_loop() {
             .sum();
         println!("{name}, {n} points: dissipated {dissipated:.4e} mJ/mm, loop {area:.4e} mJ/mm");
         assert!(
-            (dissipated / area - 1.0).abs() < 0.02,
+            (dissipated / area - 1.0).abs() < limit,
             "{name}: {dissipated} {area}"
         );
     }

@@ -8,7 +8,7 @@
 use crate::recorder::solve;
 use crate::scenes::sprung_contact;
 use solver::record::{CycleReport, Outcome, Position, TractionField};
-use solver::scene::{Body, Motion, Scene, SliderShape, StopCondition, WearLaw};
+use solver::scene::{Body, Motion, Scene, SliderShape, StopCondition, Tuning, WearLaw};
 
 const WEAR: WearLaw = WearLaw::Archard {
     k_over_h_per_mpa: 0.004 / 1700.0,
@@ -65,6 +65,8 @@ fn the_flat_of_a_worn_slider_carries_one_pressure() {
         );
         // The elastic deformation of the edges is what the rigid flat leaves out.
         assert!(found.abs() < tolerance.max(0.02), "{found}");
+        // P/(2 b) is that of rigid bodies: the elastic edges of the flat widen the contact by some per cent. The error of
+        // pressures is not bound by the tolerance; five times it tells a comb, whose least pressure is 0.
         assert!(least > 1.0 - 5.0 * tolerance.max(0.02) && most < 1.0 + 5.0 * tolerance.max(0.02));
     }
 }
@@ -110,17 +112,22 @@ fn both_sides_worn_leave_no_comb_in_the_pressure() {
         let slider = WearLaw::Archard {
             k_over_h_per_mpa: ratio * k_over_h_per_mpa,
         };
-        let mut scene = scene(Some(slider), Some(WEAR));
-        scene.accuracy.tolerance = 0.02;
-        let (summary, run) = solve(&scene).expect("the scene can be solved");
-        let fields = &run.snapshots[run.snapshots.len() - 1].positions;
-        let bend = fields.iter().map(bend).fold(0.0, f64::max);
+        let worst = |slider_from: f64| {
+            let mut scene = scene(Some(slider), Some(WEAR));
+            scene.accuracy.tuning.slider_constraints_gross = slider_from;
+            let (_, run) = solve(&scene).expect("the scene can be solved");
+            let fields = &run.snapshots[run.snapshots.len() - 1].positions;
+            fields.iter().map(bend).fold(0.0, f64::max)
+        };
+        let chosen = worst(Tuning::FITTED.slider_constraints_gross);
         println!(
-            "slider wearing {ratio} times as fast: bend {bend:.3} of the peak, {:.1} MPa",
-            summary.last.peak_pressure_mpa
+            "slider wearing {ratio} times as fast: bend {chosen:.3} of the peak; with the constraints on the receptacle \
+             {:.3}, on the slider {:.3}",
+            worst(f64::INFINITY),
+            worst(0.0)
         );
         // A comb has 0.3 and more; a few per cent belong to the corner of the slider's flat in the groove.
-        assert!(bend < 0.2, "{ratio}: {bend}");
+        assert!(chosen < 0.2, "{ratio}: {chosen}");
     }
 }
 

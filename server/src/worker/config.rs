@@ -1,12 +1,12 @@
 //! Configuration of workers: leases, checkpoints, memory.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::time::Duration;
 
-use nix::sys::statvfs::statvfs;
 use nix::sys::sysinfo::sysinfo;
 
 use crate::clock::monotonic_ms;
+use crate::export::files;
 use crate::queue::WAITING_FOR_DISK;
 
 /// Memory limit of a solving process over its estimate: the estimate controls admission, the limit only protects the
@@ -72,7 +72,7 @@ impl WorkerConfig {
 
     /// Returns the status reason of waiting jobs if there is not enough disk space.
     pub(super) fn disk_shortage(&self) -> Option<String> {
-        let free_mb = free_disk_mb(&self.folder)?;
+        let free_mb = files::free_mb(&self.folder)?;
         (free_mb < self.least_free_disk_mb).then(|| {
             format!(
                 "{WAITING_FOR_DISK}{free_mb} MB are free, {} MB are needed",
@@ -80,13 +80,6 @@ impl WorkerConfig {
             )
         })
     }
-}
-
-/// Returns the free disk space of a folder; `None` if the system does not report it.
-fn free_disk_mb(folder: &Path) -> Option<u64> {
-    let found = statvfs(folder).ok()?;
-    let (blocks, size) = (found.blocks_available(), found.fragment_size());
-    Some(blocks.saturating_mul(size) >> 20)
 }
 
 /// Returns the default memory of all solving processes together.

@@ -1,7 +1,7 @@
 //! Plane contact along a line: large sliding with friction between two condensed bodies, wear inside the solve.
 //!
 //! Both surfaces are graphs over x. The nodes of one of them, the slave, carry the constraints and the tractions: the
-//! receptacle, or the slider where it wears (`model::resolution`). With the slope s of the receptacle's surface there, the
+//! receptacle, or a slider that wears (`model::resolution` chooses). With the slope s of the receptacle's surface there, the
 //! vectors N = (-s, 1) and T = (1, s) are normal and tangent of an element of *projected* length dx, so that integrals over
 //! the surface are integrals over x and nodal widths never change:
 //!
@@ -22,6 +22,7 @@ mod band;
 mod complementarity;
 mod error;
 mod increment;
+mod local_slopes;
 mod mortar;
 mod newton;
 mod pair;

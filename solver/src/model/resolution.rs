@@ -74,30 +74,16 @@ pub(crate) fn wear_rates(scene: &Scene, half_width: f64) -> Sides<f64> {
     wear::coefficients(laws, LocalState::mean(scene.load_n_per_mm, half_width))
 }
 
-/// In gross sliding the slider carries the constraints if it wears at least so many times as fast as the receptacle: its flat
-/// widens over ever coarser elements, and constraints on the receptacle's finer nodes make its pressure a comb. The largest
-/// bend of the pressure over its peak is 0.15 and 0.24 with the constraints on the receptacle and on the slider at a ratio
-/// of 0.05, 0.20 and 0.16 at 0.1, 0.45 and 0.10 at 0.5, 0.66 and 0.02 at 5 (`solver/tests/verify_worn_slider.rs`).
-const SLIDER_FROM_GROSS: f64 = 0.1;
-/// The same in shorter strokes, where both surfaces have like elements: the one that wears faster.
-const SLIDER_FROM: f64 = 1.0;
-
-/// Modulus of the receptacle over the slider's below which the slider is nearly rigid: a pressure that alternates from element
-/// to element then deforms only the receptacle, and lasts on the slider's nodes until its wear in an increment is of the
-/// size of that deformation. With 1/80 the slider's nodes give a smooth pressure from the first cycle on; of the random
-/// specifications (`FRETWEAR_SEED=1`, 2 and 34) five below 1/800 alternate on them.
-const RIGID: f64 = 0.005;
-
 /// The body whose nodes carry the contact constraints, for elements of a size and increments of a slip, mm.
 fn slave(scene: &Scene, rates: Sides<f64>, gross: bool, (element, slip): (f64, f64)) -> Side {
-    let softness =
-        scene.receptacle.elastic.youngs_modulus_mpa / scene.slider.elastic.youngs_modulus_mpa;
-    let deformation = element / scene.receptacle.elastic.youngs_modulus_mpa;
-    let rigid = softness < RIGID && rates.slider * slip < deformation;
+    let tuning = &scene.accuracy.tuning;
+    let modulus = scene.receptacle.elastic.youngs_modulus_mpa;
+    let softness = modulus / scene.slider.elastic.youngs_modulus_mpa;
+    let rigid = softness < tuning.rigid_slider && rates.slider * slip < element / modulus;
     let wears = if gross {
-        rates.slider >= SLIDER_FROM_GROSS * rates.receptacle
+        rates.slider >= tuning.slider_constraints_gross * rates.receptacle
     } else {
-        rates.slider > SLIDER_FROM * rates.receptacle
+        rates.slider > tuning.slider_constraints * rates.receptacle
     };
     if wears && rates.slider > 0.0 && !rigid {
         Side::Slider
@@ -153,7 +139,8 @@ pub fn choose(scene: &Scene) -> Sizes {
         Some(element) => element.min(FEWEST_GIVEN_SHARE * narrower),
         None => (narrowest / elements).min(tuning.largest_element * narrower),
     };
-    let slip = (tuning.step.at(*tolerance) * hertz)
+    let slip = tuning
+        .largest_step(*tolerance, hertz)
         .min(amplitude / tuning.steps_per_quarter.at(*tolerance));
     let zone = tuning.scar_margin * last + element;
     let core = if given.is_some() {

@@ -57,6 +57,20 @@ pub struct Tuning {
     /// or heavily loaded bodies have some elements. Not enough for them: a contact half as wide as the bodies, at a hundredth
     /// of its width of stroke, is 7.6 % off in depth at 2 %; 0.05 leaves 0.3 %.
     pub largest_element: f64,
+    /// In gross sliding the slider carries the contact constraints if it wears at least so many times as fast as the
+    /// receptacle: its flat widens over ever coarser elements, and constraints on the receptacle's finer nodes make its
+    /// pressure a comb. `solver/tests/verify_worn_slider.rs` prints both: with the constraints on the receptacle and on the
+    /// slider the pressure bends by 0.15 and 0.24 of its peak at a ratio of 0.05, by 0.20 and 0.16 at 0.1, by 0.45 and 0.10
+    /// at 0.5, by 0.66 and 0.02 at 5.
+    pub slider_constraints_gross: f64,
+    /// The same in shorter strokes, where both surfaces have like elements: the slider if it wears more than so many times as
+    /// fast.
+    pub slider_constraints: f64,
+    /// Modulus of the receptacle over the slider's below which the slider is nearly rigid: a pressure that alternates from
+    /// element to element then deforms only the receptacle, and lasts on the slider's nodes until its wear in an increment is
+    /// of the size of that deformation. With 1/80 the slider's nodes give a smooth pressure from the first cycle on; of the
+    /// random specifications (`FRETWEAR_SEED=1`, 2 and 34) five below 1/800 alternate on them.
+    pub rigid_slider: f64,
     /// Largest displacement of an increment over the contact's half-width. In the groove 0.25, 0.5 and 1 leave the peak
     /// pressure 0.4, 0.6 and 8.6 % off at 2 %, the profile 0.3, 0.5 and 1.3 %.
     pub step: Power,
@@ -118,6 +132,16 @@ pub struct Tuning {
 }
 
 impl Tuning {
+    /// Largest displacement of an increment for a contact of a half-width, mm.
+    pub(crate) fn largest_step(&self, tolerance: f64, half_width: f64) -> f64 {
+        let step = if tolerance > 0.02 {
+            self.loose_step
+        } else {
+            self.step
+        };
+        step.at(tolerance) * half_width
+    }
+
     /// The fitted values.
     pub const FITTED: Self = Self {
         elements: power(8.0, 0.4),
@@ -130,6 +154,9 @@ impl Tuning {
         outer_growth: 0.25,
         outer_element: 0.1,
         largest_element: 0.1,
+        slider_constraints_gross: 0.1,
+        slider_constraints: 1.0,
+        rigid_slider: 0.005,
         step: power(0.5, -0.4),
         loose_step: power(0.5, -0.55),
         steps_per_quarter: power(5.0, 0.36),

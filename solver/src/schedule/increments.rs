@@ -20,19 +20,6 @@ pub enum Position {
     Leftmost,
 }
 
-/// Largest step for a contact of a half-width, mm.
-pub(crate) fn largest_step(accuracy: &Accuracy, half_width: f64) -> f64 {
-    let Accuracy {
-        tolerance, tuning, ..
-    } = accuracy;
-    let step = if *tolerance > 0.02 {
-        tuning.loose_step
-    } else {
-        tuning.step
-    };
-    step.at(*tolerance) * half_width
-}
-
 /// Half-width that the increments are chosen for, mm, from that of the present contact and of a single cycle.
 pub(crate) fn followed(tuning: &Tuning, half_width: f64, single: f64) -> f64 {
     if single > 0.0 {
@@ -108,13 +95,16 @@ pub(crate) fn initial_quarter(steps: &[Step]) -> &[Step] {
 }
 
 fn steps_per_quarter(accuracy: &Accuracy, amplitude: f64, half_width: f64) -> usize {
-    let fewest = accuracy.tuning.steps_per_quarter.at(accuracy.tolerance);
+    let Accuracy {
+        tolerance, tuning, ..
+    } = accuracy;
+    let fewest = tuning.steps_per_quarter.at(*tolerance);
     let fewest = count_at_least(fewest.round());
     match accuracy.increments_per_cycle {
         Some(n) => usize::try_from(n).unwrap_or(MOST_STEPS).div_ceil(4),
         // Without a contact there is nothing to resolve.
         None if half_width <= 0.0 => fewest,
-        None => count_at_least(amplitude / largest_step(accuracy, half_width)).max(fewest),
+        None => count_at_least(amplitude / tuning.largest_step(*tolerance, half_width)).max(fewest),
     }
     .clamp(1, MOST_STEPS)
 }

@@ -13,6 +13,8 @@
 //! slopes: the wear adds products of p and gamma, which are not negative. The wear is relinearised about that solution
 //! (Josephy 1979), and the result is the warm start of Newton's method, with the right signs.
 
+mod layout;
+
 use super::band::Band;
 use super::newton::{Convergence, Newton};
 use super::problem::{Iterate, Problem};
@@ -22,13 +24,11 @@ use super::wear_coupling::WearCoupling;
 use crate::law::wear::LocalState;
 use crate::linear::{Lemke, SquareMatrix};
 use crate::number::real;
+use layout::Layout;
 
 /// Slack of each friction cone, over the pressures: it breaks ties of the pivoting. Arbitrary: 1e-8 and 1e-12 solve the
 /// same of the hard cases (`cargo test --release -p tests hard`).
 const CONE_SLACK: f64 = 1e-10;
-/// The bound of the height lies this many indentations below any possible height. Arbitrary: 4 solves the same of the hard
-/// cases; 256 fails one of them by cancellation.
-const HEIGHT_MARGIN: f64 = 16.0;
 
 /// Most nodes of a complementarity problem: the work grows with their cube. Arbitrary, like the bounds below: Newton's
 /// method alone decides beyond it.
@@ -64,62 +64,6 @@ enum Linearised {
     Ray,
 }
 
-/// Rows and columns of the unknowns of `n` nodes, and the scales of pressure and length.
-#[derive(Debug, Clone, Copy)]
-struct Layout {
-    n: usize,
-    sheared: bool,
-    pressure: f64,
-    length: f64,
-    lowest: f64,
-}
-
-impl Layout {
-    fn of(problem: &Problem<'_>, response: &Response, it: &Iterate) -> Self {
-        let n = it.status.len();
-        let range = problem
-            .gap
-            .iter()
-            .fold((f64::INFINITY, f64::NEG_INFINITY), |m, g| {
-                (m.0.min(*g), m.1.max(*g))
-            });
-        // Invalid if the last linear solve failed.
-        let indentation = if it.indentation.is_finite() {
-            it.indentation
-        } else {
-            0.0
-        };
-        let length = indentation.max(range.1 - range.0).max(f64::MIN_POSITIVE);
-        let stiffest = (0..n)
-            .map(|i| problem.width[i] * response.along_normal(i).0[i])
-            .fold(f64::MIN_POSITIVE, f64::max);
-        Self {
-            n,
-            sheared: problem.friction > 0.0,
-            pressure: length / stiffest,
-            length,
-            lowest: -range.1 - HEIGHT_MARGIN * length,
-        }
-    }
-
-    fn order(self) -> usize {
-        if self.sheared {
-            4 * self.n + 1
-        } else {
-            self.n + 1
-        }
-    }
-
-    fn height(self) -> usize {
-        self.order() - 1
-    }
-
-    /// Row of a, of b and of gamma of a node.
-    fn shear(self, i: usize) -> [usize; 3] {
-        [self.n + i, 2 * self.n + i, 3 * self.n + i]
-    }
-}
-
 impl Complementarity {
     /// Solves for the contact state by Lemke's method and Newton's method from its solution; returns `end` if there is
     /// none.
@@ -136,7 +80,7 @@ impl Complementarity {
             return end;
         }
         for node in 0..it.status.len() {
-            response.compute(problem.pair, problem.coupling, node);
+            response.compute(problem, node);
         }
         self.reset(problem, it);
         for _ in 0..MOST_LINEARISATIONS {

@@ -3,6 +3,7 @@
 use super::active_window::{candidates, initial_window, undeformed_gaps, widened};
 use super::complementarity::Complementarity;
 use super::error::ContactError;
+use super::local_slopes::LocalSlopes;
 use super::mortar::{self, Coupling};
 use super::newton::{Convergence, Newton};
 use super::pair::{Displacement, Pair, Surfaces};
@@ -30,7 +31,7 @@ pub struct Solver {
     undeformed: Vec<f64>,
     gap: Vec<f64>,
     sag: Vec<f64>,
-    slope: Vec<f64>,
+    slopes: LocalSlopes,
     fixed_slip: Vec<f64>,
     recession: Sides<Vec<f64>>,
 }
@@ -143,8 +144,9 @@ impl Solver {
     ) -> Result<(), ContactError> {
         let (slider_x, cycles) = (to.slider_x, to.cycles);
         self.coupling.integrate(pair, slider_x, first, end);
-        self.response.reset(pair, &self.coupling, surfaces, last);
-        self.slope.clone_from(&self.response.slope);
+        self.slopes.assemble(pair, &self.coupling, surfaces);
+        self.response
+            .reset(pair, &self.coupling, &self.slopes, last);
         let interface = &pair.interface;
         let laws = interface.wear.map(|law| law.filter(|_| cycles > 0.0));
         self.wear.assemble(&self.coupling, pair, laws, cycles);
@@ -161,7 +163,8 @@ impl Solver {
             coupling: &self.coupling,
             gap: &self.gap,
             width: &pair.slave().widths[first..end],
-            slope: &self.slope,
+            slope: &self.slopes.receptacle,
+            master_slope: &self.slopes.master,
             friction: interface.friction,
             load,
             spring,
@@ -210,7 +213,7 @@ impl Solver {
         let response = &pair.operators.slider.load_response;
         self.gap.clear();
         self.sag.clear();
-        for (i, slope) in (coupling.first..coupling.end).zip(&self.response.master_slope) {
+        for (i, slope) in (coupling.first..coupling.end).zip(&self.slopes.master) {
             let (from, weights) = coupling.dual_row(i);
             let moved_by = |j: usize| response[2 * j + 1] - slope * response[2 * j];
             let (mut worn, mut moved) = (0.0, 0.0);
@@ -231,10 +234,7 @@ impl Solver {
 
     /// Slip of each node before the new forces and the new height are known, mm.
     fn assemble_fixed_slip(&mut self, step: f64, last_height: f64) {
-        let Response {
-            slope, last_jump, ..
-        } = &self.response;
-        let places = slope.iter().zip(last_jump);
+        let places = self.slopes.receptacle.iter().zip(&self.response.last_jump);
         self.fixed_slip.clear();
         self.fixed_slip
             .extend(places.map(|(s, jump)| step - s * last_height - jump));
@@ -271,7 +271,7 @@ impl Solver {
     }
 
     fn slope_at(&self, i: usize) -> f64 {
-        self.response.slope[i - self.coupling.first]
+        self.slopes.receptacle[i - self.coupling.first]
     }
 
     fn report(&mut self, pair: &Pair<'_>, next: &ContactState) -> Increment<'_> {

@@ -77,7 +77,7 @@ impl Newton {
             let last = (residual / it.tolerance, changes);
             self.assign_dofs(it);
             for a in (0..it.status.len()).filter(|a| it.status[*a] != Status::Open) {
-                response.compute(problem.pair, problem.coupling, a);
+                response.compute(problem, a);
             }
             self.assemble(problem, response, wear, it);
             if !self.lu.solve(&mut self.jacobian, &mut self.rhs) {

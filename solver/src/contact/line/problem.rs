@@ -20,7 +20,9 @@ pub(super) struct Problem<'a> {
     pub(super) gap: &'a [f64],
     /// Projected widths of the coupled nodes, mm.
     pub(super) width: &'a [f64],
+    /// Slopes of the receptacle's and of the master's surface.
     pub(super) slope: &'a [f64],
+    pub(super) master_slope: &'a [f64],
     pub(super) friction: f64,
     /// Vertical load at height 0, N/mm, and its increase per mm of height.
     pub(super) load: f64,

@@ -1,13 +1,13 @@
-//! The response of both bodies at the coupled nodes, in the local frame of the receptacle's surface. It gives the normals
-//! also where the slider carries the constraints: the corner of a worn slider has none.
+//! The response of both bodies at the coupled nodes, in the local frame of the receptacle's surface.
 //!
-//! A column of G = Mhat C_s Mhat^T + C_r is computed when its node first touches: most candidates never do.
+//! A column of G = Mhat C_m Mhat^T + C_s is computed when its node first touches: most candidates never do.
 
+use super::local_slopes::LocalSlopes;
 use super::mortar::Coupling;
-use super::pair::{Pair, Surfaces};
+use super::pair::Pair;
+use super::problem::Problem;
 use super::state::ContactState;
 use crate::condensation::{Block, Compliance};
-use crate::sides::Side;
 
 /// Change of the gap and of the tangential jump of each coupled node, per force along N and T at coupled nodes.
 #[derive(Debug, Default)]
@@ -19,10 +19,6 @@ pub(super) struct Response {
     computed: Vec<bool>,
     /// Tangential jump that the forces of the last increment would make at the new position, mm.
     pub(super) last_jump: Vec<f64>,
-    /// Slope of the receptacle's surface at each coupled node.
-    pub(super) slope: Vec<f64>,
-    /// Slope of the master's surface at each coupled node.
-    pub(super) master_slope: Vec<f64>,
     master: Vec<Block>,
     displacement: Vec<[f64; 2]>,
 }
@@ -36,7 +32,7 @@ impl Response {
         &mut self,
         pair: &Pair<'_>,
         coupling: &Coupling,
-        surfaces: &Surfaces<'_>,
+        slopes: &LocalSlopes,
         last: &ContactState,
     ) {
         let n = coupling.len();
@@ -44,22 +40,7 @@ impl Response {
         self.columns.resize(4 * n * n, 0.0);
         self.computed.clear();
         self.computed.resize(n, false);
-        let slave = pair.interface.slave;
-        let far = *surfaces.slope.of(slave.other());
-        self.master_slope.clear();
-        for i in coupling.first..coupling.end {
-            let (from, weights) = coupling.dual_row(i);
-            let slopes = weights.iter().zip(&far[from..]);
-            let slope = slopes.map(|(weight, slope)| weight * slope).sum();
-            self.master_slope.push(slope);
-        }
-        let own = &surfaces.slope.of(slave)[coupling.first..coupling.end];
-        self.slope.clear();
-        self.slope.extend_from_slice(match slave {
-            Side::Receptacle => own,
-            Side::Slider => &self.master_slope,
-        });
-        self.compute_last_jump(pair, coupling, last);
+        self.compute_last_jump(pair, coupling, &slopes.receptacle, last);
     }
 
     /// Per force along N = (-s, 1) at a node; requires its column.
@@ -79,10 +60,17 @@ impl Response {
     }
 
     /// Computes both columns of a node once.
-    pub(super) fn compute(&mut self, pair: &Pair<'_>, coupling: &Coupling, node: usize) {
+    pub(super) fn compute(&mut self, problem: &Problem<'_>, node: usize) {
         if std::mem::replace(&mut self.computed[node], true) {
             return;
         }
+        let Problem {
+            pair,
+            coupling,
+            slope,
+            master_slope,
+            ..
+        } = *problem;
         let n = self.nodes;
         let k = coupling.first + node;
         let (begin, end) = coupling.master_range;
@@ -99,15 +87,15 @@ impl Response {
         let (normal, tangent) = self.columns[4 * node * n..4 * (node + 1) * n].split_at_mut(2 * n);
         let (normal_gap, normal_jump) = normal.split_at_mut(n);
         let (tangent_gap, tangent_jump) = tangent.split_at_mut(n);
-        let s = self.slope[node];
+        let s = slope[node];
         for i in 0..n {
             let (from, weights) = coupling.dual_row(coupling.first + i);
             let mut u = own[i];
             for (weight, c) in weights.iter().zip(&self.master[from - begin..]) {
                 add(&mut u, *weight, c);
             }
-            let gap = |x: f64, y: f64| y - self.master_slope[i] * x;
-            let jump = |x: f64, y: f64| x + self.slope[i] * y;
+            let gap = |x: f64, y: f64| y - master_slope[i] * x;
+            let jump = |x: f64, y: f64| x + slope[i] * y;
             let (gap_x, gap_y) = (gap(u[0], u[1]), gap(u[2], u[3]));
             let (jump_x, jump_y) = (jump(u[0], u[1]), jump(u[2], u[3]));
             normal_gap[i] = gap_y - s * gap_x;
@@ -117,7 +105,13 @@ impl Response {
         }
     }
 
-    fn compute_last_jump(&mut self, pair: &Pair<'_>, coupling: &Coupling, last: &ContactState) {
+    fn compute_last_jump(
+        &mut self,
+        pair: &Pair<'_>,
+        coupling: &Coupling,
+        slope: &[f64],
+        last: &ContactState,
+    ) {
         let (begin, end) = coupling.master_range;
         let n = coupling.len();
         let slave = pair.interface.slave;
@@ -134,7 +128,7 @@ impl Response {
             coupling.first,
         );
         self.last_jump.clear();
-        for (i, s) in self.slope.iter().enumerate() {
+        for (i, s) in slope.iter().enumerate() {
             let (from, weights) = coupling.dual_row(coupling.first + i);
             let [mut x, mut y] = own[i];
             for (weight, u) in weights.iter().zip(&master[from - begin..]) {

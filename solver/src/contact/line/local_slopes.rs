@@ -1,0 +1,41 @@
+//! Slopes of both surfaces at the coupled nodes: they span the local frames and shift the gap with the jump.
+
+use super::mortar::Coupling;
+use super::pair::{Pair, Surfaces};
+use crate::sides::Side;
+
+/// Slopes at the coupled nodes, -.
+#[derive(Debug, Default)]
+pub(super) struct LocalSlopes {
+    /// The receptacle's surface: N = (-s, 1), T = (1, s). Also where the slider carries the constraints, because the
+    /// corner of a worn slider has no normal.
+    pub(super) receptacle: Vec<f64>,
+    /// The master's surface.
+    pub(super) master: Vec<f64>,
+}
+
+impl LocalSlopes {
+    /// Reads the slave's slopes at its nodes and averages the master's over them.
+    pub(super) fn assemble(
+        &mut self,
+        pair: &Pair<'_>,
+        coupling: &Coupling,
+        surfaces: &Surfaces<'_>,
+    ) {
+        let slave = pair.interface.slave;
+        let far = *surfaces.slope.of(slave.other());
+        self.master.clear();
+        for i in coupling.first..coupling.end {
+            let (from, weights) = coupling.dual_row(i);
+            let slopes = weights.iter().zip(&far[from..]);
+            let slope = slopes.map(|(weight, slope)| weight * slope).sum();
+            self.master.push(slope);
+        }
+        let own = &surfaces.slope.of(slave)[coupling.first..coupling.end];
+        self.receptacle.clear();
+        self.receptacle.extend_from_slice(match slave {
+            Side::Receptacle => own,
+            Side::Slider => &self.master,
+        });
+    }
+}
