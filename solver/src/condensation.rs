@@ -6,6 +6,7 @@
 
 mod assembly;
 mod compliance;
+mod near_field;
 
 use crate::linear::{CholeskyFactor, CholeskyPattern, FactorError};
 use crate::model::{BodyModel, Model, Profile, Support};
@@ -142,7 +143,10 @@ fn condense_body(
         ),
     };
     let factor = pattern.factor(&matrix.values).map_err(factor_error)?;
-    let compliance = numbering.expand(&factor.retained_inverse());
+    let mut compliance = numbering.expand(&factor.retained_inverse());
+    if model.support == Support::FarFaceHeld {
+        near_field::equalise(&mut compliance, &model.contact_widths());
+    }
     let far_load = match model.support {
         Support::FarFaceHeld => vec![0.0; numbering.order()],
         Support::GuidedUnderPressure => assembly::far_face_load(model, &numbering),

@@ -23,5 +23,6 @@ mod verify_repeatability;
 mod verify_resume;
 mod verify_short_stroke_scar;
 mod verify_spring_load;
+mod verify_stick_zone;
 mod verify_symmetry;
 mod verify_worn_slider;

@@ -66,30 +66,56 @@ fn a_guided_slider_moves_only_vertically() {
     }
 }
 
-/// The recovered interior agrees with the compliance on the surface, and satisfies the clamp.
+/// The recovered interior agrees with the compliance on the surface, beside the near field of a tangential force, and
+/// satisfies the clamp.
 #[test]
 fn interior_and_surface_agree() {
     let model = model::build(&fuzz_button(), &crate::effects::plan(&fuzz_button()))
         .expect("the preset can be meshed");
     let condensed = condense(&model).expect("the preset can be condensed");
     let body = &condensed.operators.receptacle;
-    let middle = body.x.len() / 2;
-    let mut force = vec![0.0; 2 * body.x.len()];
-    force[2 * middle] = 0.3;
-    force[2 * middle + 1] = -0.5;
-    let u = condensed.interior.receptacle.displacements(&force, 0.0);
     let mesh = &model.bodies.receptacle.mesh;
-    for i in (0..body.x.len()).step_by(13) {
-        let at = u[mesh.surface_node(i)];
-        for (d, u) in at.iter().enumerate() {
-            let column = |e: usize| body.compliance.get(2 * i + d, 2 * middle + e);
-            let expected = 0.3 * column(0) - 0.5 * column(1);
-            assert!((u - expected).abs() < 1e-12 * body.compliance.get(2 * middle, 2 * middle));
+    let middle = body.x.len() / 2;
+    for (direction, near) in [(0, near_field::REACH), (1, 0)] {
+        let mut force = vec![0.0; 2 * body.x.len()];
+        force[2 * middle + direction] = 0.3;
+        let u = condensed.interior.receptacle.displacements(&force, 0.0);
+        for i in (0..body.x.len()).filter(|i| i.abs_diff(middle) >= near) {
+            for (d, u) in u[mesh.surface_node(i)].iter().enumerate() {
+                let expected = 0.3 * body.compliance.get(2 * i + d, 2 * middle + direction);
+                let largest = body.compliance.get(2 * middle, 2 * middle);
+                assert!((u - expected).abs() < 1e-12 * largest, "{direction} {i}");
+            }
+            let far = u[mesh.far_node(i)];
+            assert!(far.iter().all(|u| u.abs() < f64::MIN_POSITIVE));
         }
-        assert!(
-            u[mesh.far_node(i)]
-                .iter()
-                .all(|u| u.abs() < f64::MIN_POSITIVE)
-        );
+    }
+}
+
+/// Near a force the surface moves as much along a tangential force as along a normal one, but for what the far bodies add;
+/// a uniform shear moves it as before.
+#[test]
+fn near_fields_are_equal_in_both_directions() {
+    let model = model::build(&fuzz_button(), &crate::effects::plan(&fuzz_button()))
+        .expect("the preset can be meshed");
+    let condensed = condense(&model).expect("the preset can be condensed");
+    let body = &condensed.operators.receptacle;
+    let middle = body.x.len() / 2;
+    let local = |d: usize, i: usize| {
+        let at = |i: usize| body.compliance.get(2 * i + d, 2 * middle + d);
+        at(middle) - at(i)
+    };
+    for i in middle + 1..middle + near_field::REACH {
+        let ratio = local(0, i) / local(1, i);
+        // The rest is the change that keeps a uniform shear, on the diagonal.
+        assert!((ratio - 1.0).abs() < 0.07, "{ratio}");
+    }
+    let shear: Vec<f64> = body.widths.iter().flat_map(|w| [*w, 0.0]).collect();
+    let u = condensed.interior.receptacle.displacements(&shear, 0.0);
+    for i in (0..body.x.len()).step_by(13) {
+        let sum = |(j, width): (usize, &f64)| body.compliance.get(2 * i, 2 * j) * width;
+        let found: f64 = body.widths.iter().enumerate().map(sum).sum();
+        let expected = u[model.bodies.receptacle.mesh.surface_node(i)][0];
+        assert!((found / expected - 1.0).abs() < 1e-12, "{found} {expected}");
     }
 }

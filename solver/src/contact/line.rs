@@ -26,6 +26,7 @@ mod local_slopes;
 mod mortar;
 mod newton;
 mod pair;
+mod pairing;
 mod predictor;
 mod problem;
 mod response;

@@ -78,7 +78,7 @@ pub fn snapshot(
 /// Tractions of the present contact, with one unloaded node at either end.
 fn tractions(position: Position, slave: Side, x: &[f64], contact: &ContactState) -> TractionField {
     let shift = match slave {
-        Side::Slider => contact.slider_x,
+        Side::Slider => contact.pairing_x,
         Side::Receptacle => 0.0,
     };
     let (first, end) = contact.active_range().unwrap_or((0, 0));

@@ -13,7 +13,7 @@ const MARGIN_NODES: usize = 2;
 pub(super) fn initial_window(
     pair: &Pair<'_>,
     last: &ContactState,
-    slider_x: f64,
+    pairing_x: f64,
     covered: (usize, usize),
     undeformed: &[f64],
 ) -> (usize, usize) {
@@ -27,7 +27,7 @@ pub(super) fn initial_window(
         let node = covered.0 + lowest.0;
         return widened((node, node + 1), covered);
     };
-    let step = pair.travel(last, slider_x);
+    let step = pair.travel(last, pairing_x);
     let begin = x.partition_point(|&at| at < x[first] + step);
     let stop = x.partition_point(|&at| at <= x[end - 1] + step);
     let candidates_before = candidates(undeformed, covered.0, last.indentation, last.height);
@@ -47,14 +47,14 @@ pub(super) fn initial_window(
 pub(super) fn undeformed_gaps(
     pair: &Pair<'_>,
     surfaces: &Surfaces<'_>,
-    slider_x: f64,
+    pairing_x: f64,
     covered: (usize, usize),
     gaps: &mut Vec<f64>,
 ) {
     let (slave, master) = (pair.slave(), pair.master());
     let side = pair.interface.slave;
     let (own, other) = (surfaces.depth.of(side), surfaces.depth.of(side.other()));
-    let offset = pair.offset(slider_x);
+    let offset = pair.offset(pairing_x);
     let last = master.x.len() - 1;
     gaps.clear();
     let mut m = 1;

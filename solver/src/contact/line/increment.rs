@@ -7,6 +7,7 @@ use super::local_slopes::LocalSlopes;
 use super::mortar::{self, Coupling};
 use super::newton::{Convergence, Newton};
 use super::pair::{Displacement, Pair, Surfaces};
+use super::pairing;
 use super::predictor::predict;
 use super::problem::{GAP_TOLERANCE, Iterate, MOST_ITERATIONS, Problem};
 use super::response::Response;
@@ -75,19 +76,20 @@ impl Solver {
         if is_at_rest(last, to) {
             return Ok(self.unchanged(last, next));
         }
-        let covered = mortar::covered(pair, slider_x);
+        let pairing_x = pairing::position(pair, last, slider_x);
+        let covered = mortar::covered(pair, pairing_x);
         if covered.0 == covered.1 || pair.interface.load <= 0.0 {
             return Ok(self.open(last, slider_x, next));
         }
-        undeformed_gaps(pair, surfaces, slider_x, covered, &mut self.undeformed);
-        let mut window = initial_window(pair, last, slider_x, covered, &self.undeformed);
+        undeformed_gaps(pair, surfaces, pairing_x, covered, &mut self.undeformed);
+        let mut window = initial_window(pair, last, pairing_x, covered, &self.undeformed);
         for _ in 0..MOST_EXTENSIONS {
-            self.solve_window(pair, surfaces, last, to, window)?;
+            self.solve_window(pair, surfaces, last, (to, pairing_x), window)?;
             let (indentation, height) = (self.iterate.indentation, self.iterate.height);
             let needed = candidates(&self.undeformed, covered.0, indentation, height);
             let extended = (needed.0.min(window.0), needed.1.max(window.1));
             if extended == window {
-                self.write(pair, last, slider_x, next);
+                self.write(pair, last, (slider_x, pairing_x), next);
                 return Ok(self.report(pair, next));
             }
             window = widened(extended, covered);
@@ -109,7 +111,7 @@ impl Solver {
         slider_x: f64,
         next: &mut ContactState,
     ) -> Increment<'_> {
-        next.reset_open(last, slider_x);
+        next.reset_open(last, (slider_x, slider_x));
         self.no_increment()
     }
 
@@ -139,11 +141,11 @@ impl Solver {
         pair: &Pair<'_>,
         surfaces: &Surfaces<'_>,
         last: &ContactState,
-        to: Displacement,
+        (to, pairing_x): (Displacement, f64),
         (first, end): (usize, usize),
     ) -> Result<(), ContactError> {
         let (slider_x, cycles) = (to.slider_x, to.cycles);
-        self.coupling.integrate(pair, slider_x, first, end);
+        self.coupling.integrate(pair, pairing_x, first, end);
         self.slopes.assemble(pair, &self.coupling, surfaces);
         self.response
             .reset(pair, &self.coupling, &self.slopes, last);
@@ -156,6 +158,7 @@ impl Solver {
             .map_or((0.0, 0.0), |height| (interface.spring, height));
         let load = interface.load - spring * reference;
         self.assemble_gap(pair, surfaces, load, spring);
+        self.add_lag(slider_x - pairing_x);
         let step = slider_x - last.slider_x + to.surface_slip;
         self.assemble_fixed_slip(step, last.height);
         let problem = Problem {
@@ -171,7 +174,7 @@ impl Solver {
             sag: &self.sag,
             fixed_slip: &self.fixed_slip,
             wears: laws.slider.is_some() || laws.receptacle.is_some(),
-            travel: pair.travel(last, slider_x),
+            travel: pair.travel(last, pairing_x),
             step,
         };
         let wall = mean_slope_ahead(last, &problem);
@@ -232,6 +235,13 @@ impl Solver {
         }
     }
 
+    /// Adds the gap that the master opens by its displacement beyond the pairing.
+    fn add_lag(&mut self, lag: f64) {
+        for (gap, slope) in self.gap.iter_mut().zip(&self.slopes.master) {
+            *gap -= slope * lag;
+        }
+    }
+
     /// Slip of each node before the new forces and the new height are known, mm.
     fn assemble_fixed_slip(&mut self, step: f64, last_height: f64) {
         let places = self.slopes.receptacle.iter().zip(&self.response.last_jump);
@@ -244,12 +254,12 @@ impl Solver {
         &mut self,
         pair: &Pair<'_>,
         last: &ContactState,
-        slider_x: f64,
+        position: (f64, f64),
         next: &mut ContactState,
     ) {
         let (coupling, it) = (&self.coupling, &self.iterate);
         let slave = pair.interface.slave;
-        next.reset_open(last, slider_x);
+        next.reset_open(last, position);
         next.height = it.height;
         next.indentation = it.indentation;
         let span = coupling.first..coupling.end;

@@ -38,9 +38,9 @@ pub(super) struct Coupling {
 }
 
 /// Slave nodes whose whole support faces the master: first and one past the last.
-pub(super) fn covered(pair: &Pair<'_>, slider_x: f64) -> (usize, usize) {
+pub(super) fn covered(pair: &Pair<'_>, pairing_x: f64) -> (usize, usize) {
     let (slave, master) = (&pair.slave().x, &pair.master().x);
-    let offset = pair.offset(slider_x);
+    let offset = pair.offset(pairing_x);
     let round_off = ROUND_OFF * (master[master.len() - 1] - master[0]);
     let left = master[0] + offset - round_off;
     let right = master[master.len() - 1] + offset + round_off;
@@ -57,9 +57,9 @@ pub(super) fn covered(pair: &Pair<'_>, slider_x: f64) -> (usize, usize) {
 
 impl Coupling {
     /// Integrates the coupling of the slave nodes `first..end`, which must be covered.
-    pub(super) fn integrate(&mut self, pair: &Pair<'_>, slider_x: f64, first: usize, end: usize) {
+    pub(super) fn integrate(&mut self, pair: &Pair<'_>, pairing_x: f64, first: usize, end: usize) {
         let slave = pair.slave();
-        let offset = pair.offset(slider_x);
+        let offset = pair.offset(pairing_x);
         (self.first, self.end) = (first, end);
         self.lay_out(&slave.x, &pair.master().x, offset);
         for element in first.saturating_sub(1)..end.min(slave.x.len() - 1) {

@@ -26,17 +26,17 @@ impl<'a> Pair<'a> {
     }
 
     /// Displacement of the master's frame in the slave's, mm.
-    pub(super) fn offset(&self, slider_x: f64) -> f64 {
+    pub(super) fn offset(&self, pairing_x: f64) -> f64 {
         match self.interface.slave {
-            Side::Receptacle => slider_x,
-            Side::Slider => -slider_x,
+            Side::Receptacle => pairing_x,
+            Side::Slider => -pairing_x,
         }
     }
 
     /// Displacement of a contact that moves with the slider over the slave, mm.
-    pub(super) fn travel(&self, last: &ContactState, slider_x: f64) -> f64 {
+    pub(super) fn travel(&self, last: &ContactState, pairing_x: f64) -> f64 {
         match self.interface.slave {
-            Side::Receptacle => slider_x - last.slider_x,
+            Side::Receptacle => pairing_x - last.pairing_x,
             Side::Slider => 0.0,
         }
     }

@@ -12,6 +12,8 @@ use crate::sides::{Side, Sides};
 pub struct ContactState {
     /// Imposed displacement of the slider relative to the receptacle, mm.
     pub slider_x: f64,
+    /// Displacement at which the surfaces are paired: without the part that is elastic deformation, mm.
+    pub pairing_x: f64,
     /// Rigid height of the slider over its place at first touch of the unworn bodies, mm.
     pub height: f64,
     /// Status of each node of the slave.
@@ -34,6 +36,7 @@ impl ContactState {
         let n = operators.of(slave).x.len();
         Self {
             slider_x: 0.0,
+            pairing_x: 0.0,
             height: 0.0,
             status: vec![Status::Open; n],
             pressure: vec![0.0; n],
@@ -45,8 +48,9 @@ impl ContactState {
     }
 
     /// Resets to an open contact with the slider at a position.
-    pub(super) fn reset_open(&mut self, last: &Self, slider_x: f64) {
+    pub(super) fn reset_open(&mut self, last: &Self, (slider_x, pairing_x): (f64, f64)) {
         self.slider_x = slider_x;
+        self.pairing_x = pairing_x;
         self.height = last.height;
         self.indentation = last.indentation;
         self.reference_height = last.reference_height;
