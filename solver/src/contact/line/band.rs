@@ -49,6 +49,22 @@ impl Band {
 
     /// Adds the product with the values at the nodes of a span.
     pub(super) fn add_product(&self, span: &Range<usize>, values: &[f64], sum: &mut [f64]) {
+        self.for_each_term(span, values, sum, |sum, term| *sum += term);
+    }
+
+    /// Subtracts the product with the values at the nodes of a span.
+    pub(super) fn subtract_product(&self, span: &Range<usize>, values: &[f64], sum: &mut [f64]) {
+        self.for_each_term(span, values, sum, |sum, term| *sum -= term);
+    }
+
+    /// Applies each term of the product with the values at the nodes of a span to the result at its row.
+    fn for_each_term(
+        &self,
+        span: &Range<usize>,
+        values: &[f64],
+        result: &mut [f64],
+        apply: impl Fn(&mut f64, f64),
+    ) {
         for d in 0..=2 * self.bandwidth {
             let rows = self.rows(d, span);
             if rows.is_empty() {
@@ -56,8 +72,9 @@ impl Band {
             }
             let values = &values[rows.start + d - self.bandwidth..rows.end + d - self.bandwidth];
             let entries = &self.diagonals[d * self.nodes..][rows.clone()];
-            for (sum, (entry, value)) in sum[rows].iter_mut().zip(entries.iter().zip(values)) {
-                *sum += entry * value;
+            for (result, (entry, value)) in result[rows].iter_mut().zip(entries.iter().zip(values))
+            {
+                apply(result, entry * value);
             }
         }
     }

@@ -264,9 +264,8 @@ impl Complementarity {
         if wear.varies() {
             wear.per_slip()
                 .add_product(&(0..n), &self.path, &mut self.opened);
-            self.path.iter_mut().for_each(|e| *e = -*e);
             wear.opening()
-                .add_product(&(0..n), &self.path, &mut self.opened);
+                .subtract_product(&(0..n), &self.path, &mut self.opened);
         }
     }
 

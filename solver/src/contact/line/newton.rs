@@ -241,9 +241,8 @@ impl Newton {
         self.path.clear();
         self.path.extend((0..it.status.len()).map(path));
         wear.opening().add_product(span, &self.path, &mut self.gap);
-        self.path.iter_mut().for_each(|e| *e = -*e);
         wear.per_pressure()
-            .add_product(span, &self.path, &mut self.gap);
+            .subtract_product(span, &self.path, &mut self.gap);
     }
 
     fn scatter(&self, problem: &Problem<'_>, it: &mut Iterate) {
