@@ -7,10 +7,6 @@ use crate::export::files;
 use crate::http::app::App;
 use crate::http::problem::{DISK_FULL, DiskFull, ProblemType};
 
-/// Free space with which every request can be written, MB: the largest batch of jobs, of 32 MB, in the log and in the
-/// database.
-const NEEDED_MB: u64 = 64;
-
 /// Middleware that adds the free space to the problem of a full disk, if the system reports it.
 pub(super) async fn explain(State(app): State<App>, response: Response) -> Response {
     if response.extensions().get::<DiskFull>().is_none() {
@@ -18,9 +14,7 @@ pub(super) async fn explain(State(app): State<App>, response: Response) -> Respo
     }
     match files::free_mb(files::parent(&app.store.machine_file())) {
         Some(free_mb) => ProblemType::BUSY
-            .with_detail(format!(
-                "{DISK_FULL} ({free_mb} MB free, {NEEDED_MB} MB needed)"
-            ))
+            .with_detail(format!("{DISK_FULL} ({free_mb} MB free)"))
             .into_response(),
         None => response,
     }
@@ -28,31 +22,31 @@ pub(super) async fn explain(State(app): State<App>, response: Response) -> Respo
 
 #[cfg(test)]
 mod tests {
-    use http_body_util::BodyExt;
-
-    use super::*;
-    use crate::http::problem::ProblemResponse;
     use crate::http::tests::Service;
-    use crate::store::StoreError;
+    use crate::store::tests::fill_disk;
+
+    const SPEC: &str = r#"{"system":{"kind":"dimm"}}"#;
+    /// More jobs than the pages that a new database has left can hold.
+    const JOBS: usize = 100;
 
     #[tokio::test]
-    async fn the_problem_of_a_full_disk_states_free_and_needed_space() {
+    async fn a_job_that_the_disk_has_no_space_for_is_refused_with_the_free_space() {
         let service = Service::new().await;
-        let full = StoreError::Prepare {
-            path: "fretwear.db".into(),
-            cause: std::io::ErrorKind::StorageFull.into(),
-        };
-        let response = ProblemResponse::from(full).into_response();
-        let response = explain(State(service.app.clone()), response).await;
-        assert_eq!(response.status(), 503);
-        assert_eq!(response.headers()["retry-after"], "5");
-        let body = response.into_body().collect().await.expect("a body");
-        let text = String::from_utf8(body.to_bytes().to_vec()).expect("text");
-        let numbers = text.split_once("no space left on the data disk (");
-        let (free, rest) = numbers
-            .and_then(|(_, rest)| rest.split_once(" MB free, "))
-            .expect(&text);
-        assert!(free.parse::<u64>().is_ok(), "{text}");
-        assert!(rest.starts_with("64 MB needed)"), "{text}");
+        fill_disk(&service.app.store).await;
+        let mut answer = service.post("/v1/jobs", SPEC).await;
+        for _ in 1..JOBS {
+            if answer.0 != 202 {
+                break;
+            }
+            answer = service.post("/v1/jobs", SPEC).await;
+        }
+        let (status, headers, problem) = answer;
+        assert_eq!(status, 503, "{problem}");
+        assert_eq!(headers["retry-after"], "5");
+        let detail = problem["detail"].as_str().expect("a detail");
+        let free = detail.strip_prefix("no space left on the data disk (");
+        let free = free.and_then(|rest| rest.strip_suffix(" MB free)"));
+        let free = free.and_then(|free| free.parse::<u64>().ok());
+        assert!(free.is_some(), "{detail}");
     }
 }

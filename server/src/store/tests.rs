@@ -19,7 +19,7 @@ use crate::queue::{ATTEMPT_LIMIT, Transition};
 use crate::solve::checkpoint::EncodedCheckpoint;
 use crate::spec;
 
-pub(crate) use super::sqlite::tests::hold_write_lock;
+pub(crate) use super::sqlite::tests::{fill_disk, hold_write_lock};
 
 /// Operations with defaults that only tests use.
 impl Store {
