@@ -7,7 +7,6 @@ mod bench;
 mod child;
 mod demo;
 mod export;
-mod markdown;
 mod options;
 mod plan;
 mod probe;

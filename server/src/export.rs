@@ -6,6 +6,7 @@ pub mod deck;
 pub mod documents;
 pub mod files;
 pub mod history;
+pub(crate) mod markdown;
 pub mod parquet;
 pub mod pictures;
 pub mod thin;

@@ -9,9 +9,9 @@ use crate::bench::predictions;
 use crate::bench::predictions::{Pair, Prediction};
 use crate::bench::{BenchError, Row};
 use crate::cli::arguments::BenchArguments;
-use crate::cli::markdown;
 use crate::cli::terminal::{Ended, failed, write_err, write_out};
 use crate::estimate::machine;
+use crate::export::markdown;
 
 pub(super) fn run(arguments: &BenchArguments) -> Ended {
     if arguments.predictions {

@@ -88,8 +88,8 @@ fn end_with_supervisor() {
     std::process::exit(EXIT_ORPHANED);
 }
 
-/// Writes fields into the attempt's folder and reports the file. A failed write is not the job's fault: while the disk is
-/// full, the write is retried until the process is asked to stop; after any other error the process exits without an
+/// Writes fields into the attempt's folder and reports the file. A failed write is not the job's fault: while the disk
+/// is full, the write is retried until the process is asked to stop; after any other error the process exits without an
 /// outcome, and the job is attempted again.
 fn store(folder: &Path, fields: &FieldsFile, stop: &AtomicBool) -> ControlFlow<()> {
     let FieldsFile { name, cycle, bytes } = fields;

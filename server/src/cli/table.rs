@@ -4,7 +4,8 @@ use api::job::Job;
 use api::results::{Station, WearHistory};
 use comfy_table::Table;
 
-use crate::cli::markdown;
+use crate::export::markdown;
+use crate::number::real;
 
 /// mm to um and to nm.
 const UM: f64 = 1e3;
@@ -71,19 +72,18 @@ fn middle(history: &WearHistory) -> Option<&Station> {
 }
 
 /// Returns the growth of the worn depth in the middle between two rows, nm per cycle.
-#[expect(clippy::cast_precision_loss, reason = "cycles stay below 1e9")]
 fn slope(history: &WearHistory, from: usize, to: usize) -> Option<f64> {
     let cycles = history.cycle[to]
         .checked_sub(history.cycle[from])
         .filter(|cycles| *cycles > 0)?;
     let depth = &middle(history)?.depth_mm;
-    Some(NM * (depth[to] - depth[from]) / cycles as f64)
+    Some(NM * (depth[to] - depth[from]) / real(cycles))
 }
 
-/// Compares the growth between the first two rows shown with theory: each cycle the contact passes the middle twice, and
-/// each pass wears (k/H) P' as long as the floor of the scar is flat. Over a concave floor the contact moves faster than
-/// the slider and wears less; worn area is conserved, so once the whole block wears, its depth grows by worn area over
-/// length.
+/// Compares the growth between the first two rows shown with theory: each cycle the contact passes the middle twice,
+/// and each pass wears (k/H) P' as long as the floor of the scar is flat. Over a concave floor the contact moves faster
+/// than the slider and wears less; worn area is conserved, so once the whole block wears, its depth grows by worn area
+/// over length.
 fn growth(job: &Job, history: &WearHistory, rows: &[usize]) -> Option<String> {
     let plan = job.plan.as_ref()?;
     let expected = 2.0 * NM * plan.estimates.get("receptacle_full_pass_depth_mm")?;

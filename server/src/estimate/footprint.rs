@@ -9,7 +9,8 @@
 use solver::model::Layout;
 use solver::scene::Scene;
 
-use crate::estimate::workload::{Workload, count};
+use crate::estimate::workload::Workload;
+use crate::number::real;
 
 /// Memory of the process without a model, MB.
 const MEMORY_BASE_MB: f64 = 9.5;
@@ -41,11 +42,11 @@ pub struct Footprint {
 impl Footprint {
     /// Estimates the footprint of a scene from its mesh lines and its workload.
     pub(crate) fn of(scene: &Scene, layout: &Layout, workload: &Workload) -> Self {
-        let dofs = count(layout.bodies.slider.dofs() + layout.bodies.receptacle.dofs());
-        let elements = count(layout.bodies.receptacle.contact_x().len());
-        let surface = elements.max(count(layout.bodies.slider.contact_x().len()));
-        let snapshots = count(scene.output.snapshots_at_cycles.len());
-        let stations = count(scene.output.stations_mm.len());
+        let dofs = real(layout.bodies.slider.dofs() + layout.bodies.receptacle.dofs());
+        let elements = real(layout.bodies.receptacle.contact_x().len());
+        let surface = elements.max(real(layout.bodies.slider.contact_x().len()));
+        let snapshots = real(scene.output.snapshots_at_cycles.len());
+        let stations = real(scene.output.stations_mm.len());
         // Three positions per snapshot, and the neutral position of the unworn state.
         let fields = if scene.output.fields {
             3.0 * snapshots + 1.0

@@ -8,6 +8,8 @@ use solver::model::{BodyLayout, Layout};
 use solver::scene::Scene;
 use solver::sides::Sides;
 
+use crate::number::real;
+
 /// Estimated work of a solve.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Workload {
@@ -47,7 +49,7 @@ impl Workload {
             computed_cycles: forecast.computed_cycles,
             most_increments: u32::try_from(steps.unwrap_or(1)).unwrap_or(u32::MAX),
             increments: increments
-                .map(|(nodes, increments)| (count(nodes), increments))
+                .map(|(nodes, increments)| (real(nodes), increments))
                 .collect(),
             condensations: [
                 condensations(slider, &layout.bodies.slider),
@@ -75,14 +77,9 @@ impl Workload {
 fn condensations(times: u32, body: &BodyLayout) -> Condensations {
     Condensations {
         count: f64::from(times),
-        dofs: count(body.dofs()),
-        surface_nodes: count(body.contact_x().len()),
+        dofs: real(body.dofs()),
+        surface_nodes: real(body.contact_x().len()),
     }
-}
-
-/// A count as a real number; meshes have far less than 2^32 nodes.
-pub(crate) fn count(count: usize) -> f64 {
-    f64::from(u32::try_from(count).unwrap_or(u32::MAX))
 }
 
 #[cfg(test)]

@@ -1,8 +1,8 @@
 //! Line simplification for clients that draw curves: Douglas-Peucker with a number of points instead of a tolerance.
 //!
 //! The ends and the extremes of every series are selected first. Then the segment with the largest distance between the
-//! curve and its chord is split at the farthest point, until the number of points is reached. Distances are vertical and
-//! relative to the range of each series, so that the choice of units does not matter.
+//! curve and its chord is split at the farthest point, until the number of points is reached. Distances are vertical
+//! and relative to the range of each series, so that the choice of units does not matter.
 //!
 //! Source: D. H. Douglas and T. K. Peucker, *Cartographica* 10 (1973) 112-122, with a priority queue of the segments.
 
@@ -13,6 +13,7 @@ use api::results::{Loop, Pressure, Profile};
 use solver::record::{CycleReport, Record};
 
 use crate::export::columns;
+use crate::number::real;
 
 /// Fewest points that a client may request: enough for the ends and the extremes of a few series.
 pub const FEWEST_POINTS: usize = 16;
@@ -75,11 +76,6 @@ fn curves<const N: usize>(at: &mut Vec<f64>, series: [&mut Vec<f64>; N], points:
         let chosen = selected.iter().filter_map(|index| values.get(*index));
         *values = chosen.copied().collect();
     }
-}
-
-#[expect(clippy::cast_precision_loss, reason = "cycles stay below 1e9")]
-fn real(cycle: u64) -> f64 {
-    cycle as f64
 }
 
 /// A segment between two selected points with a point between them.

@@ -5,6 +5,7 @@ use std::ops::RangeInclusive;
 use api::spec::{Drive, Motion, MotionKind, Provenance};
 use solver::scene;
 
+use crate::number::real;
 use crate::spec::diagnostics::Diagnostics;
 use crate::spec::sourced::assumed;
 use crate::spec::system::Preset;
@@ -94,11 +95,7 @@ fn continuous(given: &Motion, diagnostics: &mut Diagnostics) -> ImposedMotion {
     let default = assumed(DEFAULT_SPEED_MM_S);
     let speed = diagnostics.or_default("/motion/speed_mm_s", given.speed_mm_s, default);
     diagnostics.check_range("/motion/speed_mm_s", speed, &SPEED_MM_S);
-    #[expect(
-        clippy::cast_precision_loss,
-        reason = "a hundred thousand parts are exact"
-    )]
-    let step_mm = distance_mm / CONTINUOUS_PARTS as f64;
+    let step_mm = distance_mm / real(CONTINUOUS_PARTS);
     ImposedMotion {
         spec: Motion {
             kind: MotionKind::Continuous.into(),

@@ -5,6 +5,7 @@ use std::ops::RangeInclusive;
 use api::spec::{Output, Stop};
 use solver::scene;
 
+use crate::number::real;
 use crate::spec::diagnostics::Diagnostics;
 use crate::spec::motion::ImposedMotion;
 use crate::spec::sourced::assumed;
@@ -133,13 +134,12 @@ fn check_list(
 
 /// The part of the distance that is nearest to a share of it; at least the first one.
 #[expect(
-    clippy::cast_precision_loss,
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,
     reason = "a share of a hundred thousand parts, clamped"
 )]
 fn part(share: f64, parts: u64) -> u64 {
-    ((share * parts as f64).round().max(1.0) as u64).min(parts)
+    ((share * real(parts)).round().max(1.0) as u64).min(parts)
 }
 
 /// The neutral position and half the amplitude to each side, within the block.

@@ -3,12 +3,11 @@
 mod picture;
 
 use api::study::{Errors, Orders, Study};
-use comfy_table::presets::ASCII_MARKDOWN;
-use comfy_table::{CellAlignment, Row, Table};
+use comfy_table::Table;
 
 use crate::export::csv;
 use crate::export::documents::{CSV, Document, DocumentError, JSON, PNG, SVG};
-use crate::export::pictures;
+use crate::export::{markdown, pictures};
 
 /// mm to um.
 const UM: f64 = 1e3;
@@ -92,7 +91,7 @@ pub fn text(study: &Study) -> String {
 
 fn runs(study: &Study) -> Table {
     let uncertainty = &study.reference.uncertainty;
-    let mut table = table([
+    let header = [
         "",
         "tolerance",
         "element, um",
@@ -105,7 +104,8 @@ fn runs(study: &Study) -> Table {
         "area, %",
         "CPU, s",
         "MiB",
-    ]);
+    ];
+    let mut table = markdown::table(header, 1);
     for run in &study.runs {
         // An error below the uncertainty of the reference is given as that bound.
         let percent = |of: fn(&Errors) -> f64| {
@@ -141,7 +141,8 @@ fn runs(study: &Study) -> Table {
 }
 
 fn orders(orders: &[Orders]) -> Table {
-    let mut table = table(["setting", "levels", "depth", "width", "peak p", "area"]);
+    let header = ["setting", "levels", "depth", "width", "peak p", "area"];
+    let mut table = markdown::table(header, 1);
     for row in orders {
         let order =
             |order: Option<f64>| order.map_or_else(|| "-".to_owned(), |p| format!("{p:.2}"));
@@ -161,17 +162,6 @@ fn orders(orders: &[Orders]) -> Table {
             order(row.peak_pressure),
             order(row.area),
         ]);
-    }
-    table
-}
-
-/// Returns a table without rows in Markdown; the columns after the first one are right-aligned.
-fn table(header: impl Into<Row>) -> Table {
-    let mut table = Table::new();
-    table.load_style(ASCII_MARKDOWN);
-    table.set_header(header);
-    for column in table.column_iter_mut().skip(1) {
-        column.set_cell_alignment(CellAlignment::Right);
     }
     table
 }

@@ -1,6 +1,6 @@
 //! The measurement: small solves in gross reciprocating sliding, in a contact that stays in its scar, and in one that
-//! climbs the ends of its groove, on coarse and fine meshes. A power law is fitted to the times of their increments, and
-//! the coefficients of two terms to the times of their condensations.
+//! climbs the ends of its groove, on coarse and fine meshes. A power law is fitted to the times of their increments,
+//! and the coefficients of two terms to the times of their condensations.
 
 use std::ops::ControlFlow;
 
@@ -9,7 +9,8 @@ use solver::observer::{Event, Observer, Phase};
 
 use crate::estimate::Estimate;
 use crate::estimate::machine::coefficients::{MachineError, NODES, checked, condensation_terms};
-use crate::estimate::workload::{Workload, count};
+use crate::estimate::workload::Workload;
+use crate::number::real;
 use crate::solve::thread_cpu_s;
 use crate::spec;
 
@@ -119,7 +120,7 @@ fn power_law(samples: &[Sample]) -> (f64, f64) {
         })
         .collect();
     let mean =
-        [0, 1].map(|k| points.iter().map(|point| point[k]).sum::<f64>() / count(points.len()));
+        [0, 1].map(|k| points.iter().map(|point| point[k]).sum::<f64>() / real(points.len()));
     let (mut product, mut square) = (0.0, 0.0);
     for point in &points {
         product += (point[0] - mean[0]) * (point[1] - mean[1]);

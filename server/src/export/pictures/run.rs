@@ -6,6 +6,7 @@ use solver::record::{Column, Record, Side};
 use crate::export::pictures::{
     Axis, AxisRange, COLOURS, Colour, Mark, Panel, Picture, Scale, Series, ramp,
 };
+use crate::number::real;
 
 /// Most snapshots in one picture; of more, every n-th is drawn, the last one included.
 const MOST_SNAPSHOTS: usize = 12;
@@ -105,7 +106,7 @@ fn wear_history(record: &Record) -> Vec<Panel> {
         .collect();
     let depths = drawn.iter().flat_map(|(column, _)| &column.values);
     let (depth_unit, depth) = unit(largest(depths));
-    let cycles: Vec<f64> = record.cycle.iter().map(|cycle| count(*cycle)).collect();
+    let cycles: Vec<f64> = record.cycle.iter().map(|cycle| real(*cycle)).collect();
     let curve = |label: String, colour, column: &Column| {
         line(label, colour, &cycles, &scaled(&column.values, depth))
     };
@@ -262,11 +263,6 @@ fn titled(what: &str, name: &str) -> String {
 fn trimmed(value: f64) -> String {
     let text = format!("{value:.3}");
     text.trim_end_matches('0').trim_end_matches('.').to_owned()
-}
-
-#[expect(clippy::cast_precision_loss, reason = "cycles stay below 1e9")]
-fn count(cycles: u64) -> f64 {
-    cycles as f64
 }
 
 #[cfg(test)]
