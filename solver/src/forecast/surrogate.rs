@@ -1,7 +1,7 @@
 //! Surrogate for the worn surfaces: a scar of closed form that grows with the worn area.
 //!
-//! In gross sliding a worn slider carries a flat of half-width b_s = (3 R W_s / 2)^(1/3), its worn area W_s cut off its arc,
-//! and the contact is at least as wide; in a shorter stroke both sides share one scar.
+//! In gross sliding a worn slider carries a flat of half-width b_s = (3 R W_s / 2)^(1/3), its worn area W_s cut off its
+//! arc, and the contact is at least as wide; in a shorter stroke both sides share one scar.
 
 use crate::ale;
 use crate::contact::line::CANDIDATE_GAP;
@@ -10,7 +10,7 @@ use crate::law::friction;
 use crate::model::{Layout, resolution};
 use crate::number::{real, real_cycles};
 use crate::scene::{Scene, Tuning};
-use crate::schedule::jump::{self, JumpControl, Stroke};
+use crate::schedule::jump::{JumpControl, Stroke};
 use crate::schedule::stops::Progress;
 use crate::sides::{Side, Sides};
 
@@ -209,7 +209,7 @@ impl Scar {
     }
 
     pub(super) fn is_gross(&self) -> bool {
-        jump::is_gross(&self.tuning, self.amplitude, self.half_width)
+        self.tuning.is_gross(self.amplitude, self.half_width)
     }
 
     /// Progress of the forecast run for its stops.

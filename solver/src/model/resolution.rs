@@ -16,7 +16,8 @@ use crate::scene::{Accuracy, Motion, Scene};
 use crate::sides::{Side, Sides};
 use std::f64::consts::PI;
 
-/// Largest element given by the user, over the narrower body's half-length: each half of a body has at least two. Arbitrary.
+/// Largest element given by the user, over the narrower body's half-length: each half of a body has at least two.
+/// Arbitrary.
 const FEWEST_GIVEN_SHARE: f64 = 0.5;
 
 /// Characteristic lengths of the contact and the mesh, mm.
@@ -36,9 +37,9 @@ pub struct Sizes {
     pub spacing: Sides<Spacing>,
 }
 
-/// Approach of the bodies under the load, mm:  P / (pi E*) (2 ln(4 H/a) - 1)  with the lower body height H (Johnson 1985,
-/// section 5.6, for a strip under a line load). Tangential compliance is like the normal one, so that mu times as much is
-/// the displacement at which all of the contact slips.
+/// Approach of the bodies under the load, mm:  P / (pi E*) (2 ln(4 H/a) - 1)  with the lower body height H (Johnson
+/// 1985, section 5.6, for a strip under a line load). Tangential compliance is like the normal one, so that mu times as
+/// much is the displacement at which all of the contact slips.
 pub(crate) fn approach(scene: &Scene, half_width: f64, modulus: f64) -> f64 {
     let height = scene
         .slider
@@ -49,8 +50,8 @@ pub(crate) fn approach(scene: &Scene, half_width: f64, modulus: f64) -> f64 {
     scene.load_n_per_mm / (PI * modulus) * factor
 }
 
-/// Whether part of the contact may stick through the whole stroke: the amplitude is below twice the displacement of gross
-/// slip.
+/// Whether part of the contact may stick through the whole stroke: the amplitude is below twice the displacement of
+/// gross slip.
 fn sticks(scene: &Scene, half_width: f64, modulus: f64) -> bool {
     let Motion::Reciprocating { amplitude_mm, .. } = scene.motion else {
         return false;
@@ -107,9 +108,9 @@ pub fn choose(scene: &Scene) -> Sizes {
     let worn = wear * load * sliding;
     let edge_step = (2.0 * radius * wear * load).sqrt();
     let narrowest = hertz.max(edge_step);
-    // Gross reciprocating sliding wears a groove, at whose ends the contact climbs the walls; a shorter stroke wears a scar
-    // around the contact.
-    let gross = amplitude > 2.0 * narrowest;
+    // Gross reciprocating sliding wears a groove, at whose ends the contact climbs the walls; a shorter stroke wears a
+    // scar around the contact.
+    let gross = scene.accuracy.tuning.is_gross(amplitude, narrowest);
     let last = if gross {
         (radius * worn / amplitude).sqrt().min(radius)
     } else {

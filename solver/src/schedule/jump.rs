@@ -11,19 +11,19 @@ use crate::number::{real, real_cycles};
 use crate::scene::{Accuracy, Tuning};
 use crate::sides::{Side, Sides};
 
-/// A computed cycle wears `jump` passes at once, so that scar and pressure are skewed toward the last pass, the pressure
-/// by about a third of k jump s E*/b (b: half-width, s: stroke), which stays below this.
+/// A computed cycle wears `jump` passes at once, so that scar and pressure are skewed toward the last pass, the
+/// pressure by about a third of k jump s E*/b (b: half-width, s: stroke), which stays below this.
 fn largest_skew(accuracy: &Accuracy) -> f64 {
     let tuning = &accuracy.tuning;
     (tuning.skew * accuracy.tolerance).max(tuning.least_skew)
 }
 
-/// A jump without a solution is divided by this; jumps may double again afterwards. Arbitrary: no result depends on it as
-/// long as one of the jumps has a solution.
+/// A jump without a solution is divided by this; jumps may double again afterwards. Arbitrary: no result depends on it
+/// as long as one of the jumps has a solution.
 const CUT: u64 = 4;
 
-/// Floor of the error estimate: where nothing changes, or nothing wears, jumps grow as fast as they may. Any value far below
-/// the smallest tolerance does the same.
+/// Floor of the error estimate: where nothing changes, or nothing wears, jumps grow as fast as they may. Any value far
+/// below the smallest tolerance does the same.
 const SMALLEST_ERROR: f64 = 1e-6;
 
 /// Limits of a jump besides its error.
@@ -47,7 +47,7 @@ impl Stroke {
         cycles: u64,
     ) -> Self {
         Self {
-            gross: is_gross(tuning, amplitude, half_width),
+            gross: tuning.is_gross(amplitude, half_width),
             skew: wear * 2.0 * amplitude * modulus / half_width,
             cycles,
         }
@@ -66,11 +66,6 @@ impl Stroke {
         let unskewed = largest_skew(accuracy) / self.skew.max(f64::MIN_POSITIVE);
         (tuning.jump_of_done * done).min(unskewed.max(sufficient))
     }
-}
-
-/// Whether a stroke is gross reciprocating sliding.
-pub(crate) fn is_gross(tuning: &Tuning, amplitude: f64, half_width: f64) -> bool {
-    amplitude > tuning.gross_from * half_width
 }
 
 /// State of the jump control.
