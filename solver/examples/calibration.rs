@@ -2,9 +2,10 @@
 //! concerns, against a solution at a tolerance of 0.25 %.
 //!
 //! `cargo run --release -p solver --example calibration [NAME]` prints all of them, or those whose name contains NAME.
-//! Columns: value of the constant; errors of worn depth, scar width, profile (at its worst place, and in area) and peak
-//! pressure in per cent; surface elements, computed cycles and increments as the work. The forecast's constants:
-//! computed cycles and increments of the forecast over those of the run.
+//! Columns: value of the constant; errors of worn depth, scar width and profile (at its worst place, and in area) in per
+//! cent, each that of the worse wearing side (s: slider, r: receptacle); error of the peak pressure in per cent; surface
+//! elements, computed cycles and increments as the work. The forecast's constants: computed cycles and increments of the
+//! forecast over those of the run.
 
 #![expect(clippy::print_stdout, reason = "it prints a table")]
 
@@ -19,8 +20,9 @@ use std::collections::BTreeMap;
 use recorder::{Recorder, area_between, largest_distance, solve};
 use scenes::{fuzz_button, groove, mccoll, partial_slip, scar, sprung_contact};
 use solver::SolveError;
-use solver::record::Summary;
+use solver::record::{DepthProfile, SideReport, Summary};
 use solver::scene::{Elastic, Friction, Scene, Tuning};
+use solver::sides::Side;
 
 const REFERENCE: f64 = 0.0025;
 
@@ -122,7 +124,7 @@ fn main() -> Result<(), SolveError> {
             variation.name, variation.tolerance
         );
         println!(
-            "{:>20} {:>7} {:>7} {:>7} {:>7} {:>7} {:>7} {:>8} {:>8} {:>10}",
+            "{:>20} {:>7} {:>8} {:>8} {:>8} {:>8} {:>7} {:>8} {:>8} {:>10}",
             "scene",
             "value",
             "depth",
@@ -173,29 +175,60 @@ fn varied(variation: &Variation, name: &str, value: f64) -> Scene {
     scene
 }
 
-fn print_errors(
-    name: &str,
-    value: f64,
-    (found, run): &(Summary, Recorder),
-    (reference, fine): &(Summary, Recorder),
-) {
-    let percent = |a: f64, b: f64| 100.0 * (a / b - 1.0);
-    let (side, exact) = (&found.last.receptacle, &reference.last.receptacle);
-    let (profile, converged) = (run.last_profile(), fine.last_profile());
+fn print_errors(name: &str, value: f64, found: &(Summary, Recorder), exact: &(Summary, Recorder)) {
+    let wears = |side: &Side| worn(exact, *side).0.max_depth_mm > 0.0;
+    let wearing = Side::BOTH.into_iter().filter(wears);
+    let errors: Vec<_> = wearing
+        .map(|side| (side, errors(worn(found, side), worn(exact, side))))
+        .collect();
+    let worse = |which: usize| {
+        let of_sides = errors.iter().map(|(side, errors)| (side, errors[which]));
+        let worse = of_sides.max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()));
+        worse.map_or_else(String::new, |(side, error)| {
+            format!("{error:+.2} {}", &side.name()[..1])
+        })
+    };
+    let resolution = &found.0.resolution;
     println!(
-        "{name:>20} {value:>7} {:>+7.2} {:>+7.2} {:>7.2} {:>7.2} {:>+7.2} {:>8} {:>8} {:>10}",
-        percent(side.max_depth_mm, exact.max_depth_mm),
-        percent(side.scar_half_width_mm, exact.scar_half_width_mm),
+        "{name:>20} {value:>7} {:>8} {:>8} {:>8} {:>8} {:>+7.2} {:>8} {:>8} {:>10}",
+        worse(0),
+        worse(1),
+        worse(2),
+        worse(3),
+        percent(
+            found.0.last.peak_pressure_mpa,
+            exact.0.last.peak_pressure_mpa
+        ),
+        resolution.contact_elements,
+        resolution.computed_cycles,
+        resolution.increments,
+    );
+}
+
+/// Wear of a side after the last cycle.
+fn worn((summary, run): &(Summary, Recorder), side: Side) -> (&SideReport, &DepthProfile) {
+    let (report, snapshot) = (&summary.last, &run.snapshots[run.snapshots.len() - 1]);
+    match side {
+        Side::Slider => (&report.slider, &snapshot.slider),
+        Side::Receptacle => (&report.receptacle, &snapshot.receptacle),
+    }
+}
+
+/// Errors of depth, scar width, profile at its worst place and profile in area, per cent.
+fn errors(
+    (found, profile): (&SideReport, &DepthProfile),
+    (exact, converged): (&SideReport, &DepthProfile),
+) -> [f64; 4] {
+    [
+        percent(found.max_depth_mm, exact.max_depth_mm),
+        percent(found.scar_half_width_mm, exact.scar_half_width_mm),
         100.0 * largest_distance(profile, converged),
         100.0 * area_between(profile, converged),
-        percent(
-            found.last.peak_pressure_mpa,
-            reference.last.peak_pressure_mpa
-        ),
-        found.resolution.contact_elements,
-        found.resolution.computed_cycles,
-        found.resolution.increments,
-    );
+    ]
+}
+
+fn percent(found: f64, exact: f64) -> f64 {
+    100.0 * (found / exact - 1.0)
 }
 
 fn print_forecasts(variation: &Variation, name: &str) -> Result<(), SolveError> {
