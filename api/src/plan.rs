@@ -21,9 +21,9 @@ pub struct PlannedEffect {
 pub struct Plan {
     /// Effects by name.
     pub effects: BTreeMap<String, PlannedEffect>,
-    /// Values by name with unit: closed-form results for the unworn contact, and estimates of the solve: unknowns, memory,
-    /// output, computed cycles, increments, and processor seconds (`cpu_s`), which are absent until the machine is
-    /// calibrated and if that fails.
+    /// Values by name with unit: closed-form results for the unworn contact, and estimates of the solve: unknowns,
+    /// memory, output, computed cycles, increments, and processor seconds (`cpu_s`), which are absent until the machine
+    /// is calibrated and if that fails.
     pub estimates: BTreeMap<String, f64>,
     /// Contradictions in the source of the presets that concern this specification.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]

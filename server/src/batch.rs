@@ -1,8 +1,8 @@
 //! Batches: many jobs of one question.
 //!
-//! A batch is expanded (a request into the specifications of its jobs), run (as ordinary jobs of the queue) and evaluated
-//! (the stored jobs into a document and a table). Parameter sweeps and accuracy studies are its two kinds. Does not know
-//! HTTP, SQL or the terminal.
+//! A batch is expanded (a request into the specifications of its jobs), run (as ordinary jobs of the queue) and
+//! evaluated (the stored jobs into a document and a table). Parameter sweeps and accuracy studies are its two kinds.
+//! Does not know HTTP, SQL or the terminal.
 
 pub mod accuracy;
 mod error;

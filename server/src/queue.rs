@@ -1,7 +1,7 @@
 //! The queue's rules, as pure functions.
 //!
-//! Transitions: `queued -> running -> succeeded | failed | cancelled`; a running job returns to the queue when its worker
-//! was lost (a bounded number of times) or released it (which costs no attempt).
+//! Transitions: `queued -> running -> succeeded | failed | cancelled`; a running job returns to the queue when its
+//! worker was lost (a bounded number of times) or released it (which costs no attempt).
 
 mod admission;
 mod order;

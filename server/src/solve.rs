@@ -27,8 +27,8 @@ pub fn run(scene: &Scene, on: &mut dyn FnMut(Line) -> ControlFlow<()>) -> Result
     run_from(scene, None, &CheckpointPolicy::default(), on)
 }
 
-/// Solves a scene from a checkpoint, if there is one, and emits checkpoints. If the checkpoint does not fit the scene, the
-/// run emits [`Line::Restarted`] and starts at cycle 0.
+/// Solves a scene from a checkpoint, if there is one, and emits checkpoints. If the checkpoint does not fit the scene,
+/// the run emits [`Line::Restarted`] and starts at cycle 0.
 ///
 /// # Errors
 /// [`Failure`] with the engine's numbers.

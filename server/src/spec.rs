@@ -1,8 +1,8 @@
 //! Resolution: from a specification as users write it to the scene that the engine solves.
 //!
 //! A specification is refused with *all* its faults, each with its JSON pointer; an accepted one comes back with every
-//! default filled in and the provenance of each value. Mesh lines are placed, which shows whether a scene can be meshed;
-//! nothing is meshed or estimated.
+//! default filled in and the provenance of each value. Mesh lines are placed, which shows whether a scene can be
+//! meshed; nothing is meshed or estimated.
 
 mod accuracy;
 mod diagnostics;

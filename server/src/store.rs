@@ -8,28 +8,28 @@
 //!
 //! Every operation is one transaction and durable when it returns `Ok`, unless the table says otherwise. A *fenced*
 //! operation names a [`Claim`] and has an effect only while the job is `running` under the lease number of that claim;
-//! every claim and every reclaim of a lost job raises the number. If the lease was lost, nothing is written, the write is
-//! counted in `fretwear_stale_writes_refused_total`, and the answer says so.
+//! every claim and every reclaim of a lost job raises the number. If the lease was lost, nothing is written, the write
+//! is counted in `fretwear_stale_writes_refused_total`, and the answer says so.
 //!
 //! | operation | atomic | fenced; answer if the lease was lost |
 //! | --- | --- | --- |
 //! | `submit` | job, labels, first event, request key; several submissions may share a transaction | no |
 //! | `submit_batch` | all jobs of the batch, or none | no |
-//! | `claim_within` | status, lease, attempt, `attempt` event, rows after the checkpoint deleted; reasons of jobs that do not fit | no; two claims never return the same lease |
+//! | `claim_within` | status, lease, attempt and its event; later rows deleted; reasons | no; each lease is new |
 //! | `record` | progress, rows, snapshots, files, checkpoint, events, renewed lease | yes; [`LeaseState::Lost`] |
 //! | `renew` | end of the lease | yes; [`LeaseState::Lost`], not counted |
 //! | `lease_state` | reads only | yes; [`LeaseState::Lost`], not counted |
 //! | `restart` | rows, snapshots, files and checkpoint deleted, `attempt` event | yes; [`LeaseState::Lost`] |
 //! | `end` | rows, files, status, summary, `done` event, checkpoint deleted | yes; `None` |
 //! | `reclaim_expired`, `reclaim_all` | all lost jobs: into the queue, or under a new lease | no; they end leases |
-//! | `cancel`, `cancel_batch` | a queued job ends with its `done` event; a running one is marked, and its worker ends it | no |
+//! | `cancel`, `cancel_batch` | a queued job ends with its `done` event; a running one is marked for its worker | no |
 //! | `expire` | all queued jobs whose deadline has passed end with their `done` events | no |
-//! | `delete`, `delete_batch` | jobs with all rows; files are removed afterwards, or at the next start | no; only ended jobs |
+//! | `delete`, `delete_batch` | jobs with all rows; files afterwards, or at the next start | no; only ended jobs |
 //! | `delete_ended_before` | each job; a limited number a call | no; only ended jobs |
 //!
-//! Event numbers of a job count from 1 without gaps, in the order of the transactions; `done` is the last one. Reads see
-//! committed transactions only. A file counts once a manifest names it; [`Store::attempt_folder`] gives every lease a
-//! folder of its own, so that a worker that lost its lease cannot touch the files of the next attempt.
+//! Event numbers of a job count from 1 without gaps, in the order of the transactions; `done` is the last one. Reads
+//! see committed transactions only. A file counts once a manifest names it; [`Store::attempt_folder`] gives every lease
+//! a folder of its own, so that a worker that lost its lease cannot touch the files of the next attempt.
 //!
 //! Times are milliseconds since 1970 and come from the caller; those of leases come from a monotonic clock.
 

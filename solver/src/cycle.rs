@@ -1,12 +1,12 @@
 //! The cycle integrator: contact increments in which one computed cycle stands for many physical ones.
 //!
 //! The motion begins at the neutral position toward +x. Its initial quarter only brings the contact into gross slip;
-//! cycles are then computed from turning point to turning point, and the last quarter of the last cycle replaces the wear
-//! of the initial one. After N cycles every point has been passed 2 N times.
+//! cycles are then computed from turning point to turning point, and the last quarter of the last cycle replaces the
+//! wear of the initial one. After N cycles every point has been passed 2 N times.
 //!
 //! Normals are those of the worn surface at the beginning of a computed cycle. The leading-edge step that a single pass
-//! wears belongs to the wear law, not to the geometry of the scar: with a jump it would be `jump` times too high, and its
-//! slope would load the contact like a wall.
+//! wears belongs to the wear law, not to the geometry of the scar: with a jump it would be `jump` times too high, and
+//! its slope would load the contact like a wall.
 
 mod checks;
 mod cycle_record;

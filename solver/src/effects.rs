@@ -65,8 +65,8 @@ impl Effect {
     }
 }
 
-/// Decides which effects a scene calls for. Where relocation is planned, each computed cycle checks whether the geometry
-/// has drifted enough for it.
+/// Decides which effects a scene calls for. Where relocation is planned, each computed cycle checks whether the
+/// geometry has drifted enough for it.
 pub fn plan(scene: &Scene) -> EffectsPlan {
     let sizes = resolution::choose(scene);
     let modulus = contact_modulus(scene.slider.elastic, scene.receptacle.elastic);

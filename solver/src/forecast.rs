@@ -1,14 +1,14 @@
 //! Cost model of a run, before anything is solved: the run's own schedule on a scar of closed form.
 //!
-//! The number of computed cycles depends on the growth of the scar, so the schedule of the run is applied to a surrogate
-//! for the solved scar. With the worn area W = (k_s + k_r) P s of both bodies, the contact leaves a
+//! The number of computed cycles depends on the growth of the scar, so the schedule of the run is applied to a
+//! surrogate for the solved scar. With the worn area W = (k_s + k_r) P s of both bodies, the contact leaves a
 //! segment of the slider's arc, extended by the part c of the stroke that exceeds the contact:
 //!
 //!   h(x) = (B^2 - max(a, |x| - c)^2) / (2 R),   c = max(0, A - a),
 //!
-//! R the radius of the relative curvature, a a little more than the Hertz half-width, B from the integral of h over the receptacle = W. Far
-//! from the first cycles this is b = (3 R W / 2)^(1/3) for a short stroke and a groove W/(2 A) deep for a long one.
-//! Stick takes from the stroke what the bodies shear before they slip.
+//! R the radius of the relative curvature, a a little more than the Hertz half-width, B from the integral of h over the
+//! receptacle = W. Far from the first cycles this is b = (3 R W / 2)^(1/3) for a short stroke and a groove W/(2 A) deep
+//! for a long one. Stick takes from the stroke what the bodies shear before they slip.
 //!
 //! The contact of a short stroke is nearly as wide as the segment; that of a long one rests on the leading-edge step of
 //! one pass, sqrt(2 R k P jump) deep into the floor, to which its half-width adds by a share (`scene::Tuning`).

@@ -23,8 +23,8 @@ pub struct Scene {
     pub friction: Friction,
     /// Normal load on the unworn contact, N per mm of depth.
     pub load_n_per_mm: f64,
-    /// Stiffness of the spring that applies the load, which decreases as the slider sinks, N/mm per mm of depth; 0 for a
-    /// dead load.
+    /// Stiffness of the spring that applies the load, which decreases as the slider sinks, N/mm per mm of depth; 0 for
+    /// a dead load.
     pub spring_n_per_mm2: f64,
     /// Boundary conditions of the slider.
     pub drive: Drive,
@@ -76,8 +76,8 @@ pub struct BlockShape {
 /// Boundary conditions of the slider: load and motion.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Drive {
-    /// The top face is rigid: it does not rotate, the load acts on it, and it moves relative to the block. Which of the two
-    /// is fixed makes no difference to the quasi-static contact.
+    /// The top face is rigid: it does not rotate, the load acts on it, and it moves relative to the block. Which of the
+    /// two is fixed makes no difference to the quasi-static contact.
     Handle,
     /// The thesis' drive: `u_x` of every slider node prescribed, `u_y` free, pressure on the top face.
     WholeBody,
@@ -86,16 +86,16 @@ pub enum Drive {
 /// Imposed relative motion.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Motion {
-    /// Reciprocating around the neutral position, toward +x first. Quasi-static contact does not depend on time: waveform
-    /// and period do not change the result.
+    /// Reciprocating around the neutral position, toward +x first. Quasi-static contact does not depend on time:
+    /// waveform and period do not change the result.
     Reciprocating {
         /// Amplitude, mm.
         amplitude_mm: f64,
         /// Duration of a cycle, s.
         period_s: f64,
     },
-    /// The slider's surface slides through a contact that stays at one position of the receptacle, as for a ring rotating
-    /// on a block. A cycle of the run is the distance `step_mm`; the slider must not wear.
+    /// The slider's surface slides through a contact that stays at one position of the receptacle, as for a ring
+    /// rotating on a block. A cycle of the run is the distance `step_mm`; the slider must not wear.
     Continuous {
         /// Distance of one cycle, mm.
         step_mm: f64,

@@ -10,8 +10,8 @@ string_enum! {
     MotionKind {
         /// Reciprocating around the neutral position, starting to +x.
         Reciprocating = "reciprocating",
-        /// The slider's surface slides past a contact that stays at one position of the receptacle, as a ring turning on a
-        /// block.
+        /// The slider's surface slides past a contact that stays at one position of the receptacle, as a ring turning
+        /// on a block.
         Continuous = "continuous",
     }
 }

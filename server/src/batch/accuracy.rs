@@ -1,8 +1,8 @@
 //! Accuracy studies: the same scene over tolerances and over a grid of contact element, increments per cycle and cycle
 //! jump, compared with the Richardson extrapolation of the finest runs.
 //!
-//! `RunPlan` chooses the runs, `evaluate` compares their results; both are pure. Between them the runs are solved either by
-//! processes, one after the other (`make`), or as jobs of the service.
+//! `RunPlan` chooses the runs, `evaluate` compares their results; both are pure. Between them the runs are solved
+//! either by processes, one after the other (`make`), or as jobs of the service.
 
 mod budget;
 mod error;
@@ -46,8 +46,8 @@ pub struct Request<'a> {
     pub budget_s: f64,
 }
 
-/// Makes a study with one process per run, so that processor time and memory are measured per run. Calls `on_run` at the
-/// beginning of each run.
+/// Makes a study with one process per run, so that processor time and memory are measured per run. Calls `on_run` at
+/// the beginning of each run.
 ///
 /// # Errors
 /// [`StudyError`] if processes cannot be run or no run succeeds.

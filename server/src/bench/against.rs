@@ -1,5 +1,5 @@
-//! Comparison with CalculiX on the same problem: one cycle of frictional sliding without wear, on the same meshes and with
-//! the same number of increments, one code after the other on this machine.
+//! Comparison with CalculiX on the same problem: one cycle of frictional sliding without wear, on the same meshes and
+//! with the same number of increments, one code after the other on this machine.
 
 use std::path::Path;
 use std::process::{Command, Stdio};

@@ -1,5 +1,5 @@
-//! Calibration of this machine: the speed of the engine, measured once by a few small solves and cached in a file, which
-//! converts a workload to processor seconds.
+//! Calibration of this machine: the speed of the engine, measured once by a few small solves and cached in a file,
+//! which converts a workload to processor seconds.
 //!
 //! Knows the engine and workloads; does not know HTTP, SQL or the terminal.
 

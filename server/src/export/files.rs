@@ -55,8 +55,8 @@ pub fn write(
     Ok(())
 }
 
-/// Writes a file atomically, also with respect to a crash: to a temporary name, synced, then renamed. The temporary file
-/// is removed if this fails.
+/// Writes a file atomically, also with respect to a crash: to a temporary name, synced, then renamed. The temporary
+/// file is removed if this fails.
 ///
 /// # Errors
 /// [`FilesError`] naming the file.

@@ -1,8 +1,8 @@
-//! Access control: the `Host` of a request must be allowed, a browser's `Origin` must be the same host, and if a token is
-//! configured, the request must have it.
+//! Access control: the `Host` of a request must be allowed, a browser's `Origin` must be the same host, and if a token
+//! is configured, the request must have it.
 //!
-//! On loopback the host must be a loopback name or address, which protects from DNS rebinding. Listening elsewhere needs
-//! a token; then the host may also be any IP address, which cannot be rebound, or a configured name.
+//! On loopback the host must be a loopback name or address, which protects from DNS rebinding. Listening elsewhere
+//! needs a token; then the host may also be any IP address, which cannot be rebound, or a configured name.
 
 use std::net::IpAddr;
 use std::sync::Arc;

@@ -79,8 +79,8 @@ fn complete(document: &mut Value) {
     }
 }
 
-/// Adds the parameter `id` of an operation whose path identifies a `noun`, and the problems that follow from its parameters
-/// and body.
+/// Adds the parameter `id` of an operation whose path identifies a `noun`, and the problems that follow from its
+/// parameters and body.
 fn complete_operation(noun: Option<&str>, operation: &mut Value) {
     let mut parameters = operation["parameters"]
         .as_array()

@@ -1,5 +1,5 @@
-//! Routes: one file a route, always in the order error, handler, tests. Ids in paths and the problems that all routes share
-//! are described in `http/openapi.rs`.
+//! Routes: one file a route, always in the order error, handler, tests. Ids in paths and the problems that all routes
+//! share are described in `http/openapi.rs`.
 
 pub(in crate::http) mod batches;
 pub(in crate::http) mod jobs;

@@ -1,7 +1,7 @@
 //! Admission: the first waiting job in order that fits into the free memory is claimed next.
 //!
-//! Smaller jobs may overtake a large one that does not fit, for a limited time; then no job overtakes it, so that enough
-//! memory becomes free. A job that would run alone is always admitted, whatever its estimate.
+//! Smaller jobs may overtake a large one that does not fit, for a limited time; then no job overtakes it, so that
+//! enough memory becomes free. A job that would run alone is always admitted, whatever its estimate.
 
 /// Time during which other jobs may overtake one that does not fit, ms.
 const OVERTAKING_LIMIT_MS: i64 = 600_000;

@@ -1,7 +1,7 @@
 //! The order of waiting jobs: age, shifted by priority.
 //!
-//! A job of priority p counts as p minutes older than it is: it precedes jobs of the same age, and no job starves. One of
-//! the lowest priority precedes every job submitted more than 200 minutes after it.
+//! A job of priority p counts as p minutes older than it is: it precedes jobs of the same age, and no job starves. One
+//! of the lowest priority precedes every job submitted more than 200 minutes after it.
 
 /// The largest priority; its negative is the smallest.
 pub const MAX_PRIORITY: i32 = 100;

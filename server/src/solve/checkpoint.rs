@@ -10,8 +10,8 @@ use base64::Engine as _;
 use base64::prelude::BASE64_STANDARD;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
-/// Format number, raised whenever the fields of a checkpoint or the results computed from them change: runs do not resume
-/// from an older format.
+/// Format number, raised whenever the fields of a checkpoint or the results computed from them change: runs do not
+/// resume from an older format.
 const FORMAT: u32 = 7;
 
 /// The state of a run between two cycles.

@@ -20,7 +20,8 @@ use crate::solve::Line;
 use crate::solve::checkpoint::EncodedCheckpoint;
 use crate::solve::protocol::Input;
 
-/// Longest line of a solving process, bytes: several times a snapshot with the largest allowed number of surface elements.
+/// Longest line of a solving process, bytes: several times a snapshot with the largest allowed number of surface
+/// elements.
 const LINE_LIMIT: usize = 256 << 20;
 /// Longest line on its standard error, bytes; longer ones are dropped.
 const STDERR_LINE_LIMIT: usize = 64 << 10;

@@ -1,9 +1,9 @@
 //! The protocol between a solving process (`fretwear solve-child`) and its supervisor.
 //!
-//! Standard input: two lines of JSON, the resolved specification and the checkpoint to resume from (`null` for none). It
-//! stays open as long as the supervisor lives; the process ends when it closes. Standard output: one [`Line`] (JSON) a
-//! line. Files are written into the attempt's folder, and the lines only name them. SIGTERM asks for a checkpoint after the
-//! current cycle and the end of the process.
+//! Standard input: two lines of JSON, the resolved specification and the checkpoint to resume from (`null` for none).
+//! It stays open as long as the supervisor lives; the process ends when it closes. Standard output: one [`Line`] (JSON)
+//! a line. Files are written into the attempt's folder, and the lines only name them. SIGTERM asks for a checkpoint
+//! after the current cycle and the end of the process.
 
 use std::io::BufRead;
 

@@ -22,7 +22,8 @@ pub(super) struct Attempt<'a> {
 }
 
 impl Attempt<'_> {
-    /// Awaits a task while the lease is renewed, independently of the solver. A lost lease is detected by the next write.
+    /// Awaits a task while the lease is renewed, independently of the solver. A lost lease is detected by the next
+    /// write.
     pub(super) async fn with_heartbeat<T>(&self, task: impl Future<Output = T>) -> T {
         let mut timer = tokio::time::interval(self.config.lease / HEARTBEATS);
         timer.set_missed_tick_behavior(MissedTickBehavior::Delay);

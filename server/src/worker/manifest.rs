@@ -10,8 +10,8 @@ use crate::export::files;
 use crate::export::files::FilesError;
 use crate::store::{Claim, NewFile, Store, StoreError};
 
-/// Largest document that is stored in the database instead of a file, bytes. Below some 100 kB a row is read faster than
-/// a file (sqlite.org/intern-v-extern-blob.html).
+/// Largest document that is stored in the database instead of a file, bytes. Below some 100 kB a row is read faster
+/// than a file (sqlite.org/intern-v-extern-blob.html).
 const INLINE_LIMIT: usize = 64 << 10;
 
 /// Makes all documents of a job; the large ones are written into the attempt's folder.

@@ -1,5 +1,5 @@
-//! Supervision of one job: reads the lines of its solving process, stores them under the lease, reacts to a cancel request
-//! and to the stop of the service, ends the attempt.
+//! Supervision of one job: reads the lines of its solving process, stores them under the lease, reacts to a cancel
+//! request and to the stop of the service, ends the attempt.
 
 use std::time::Duration;
 
@@ -163,8 +163,8 @@ impl Supervision<'_> {
         }
     }
 
-    /// Returns the meaning of a line error. A malformed line at the end of the output was truncated when the process was
-    /// killed; followed by more output it is a failure of the solver.
+    /// Returns the meaning of a line error. A malformed line at the end of the output was truncated when the process
+    /// was killed; followed by more output it is a failure of the solver.
     async fn stop_by(&mut self, error: LineError, last: Option<Line>) -> Stop {
         if matches!(error, LineError::Malformed(_)) {
             let next = tokio::time::timeout(MALFORMED_TIMEOUT, self.process.next_line()).await;
@@ -200,8 +200,8 @@ impl Supervision<'_> {
         }
     }
 
-    /// Waits for the exit of the process or kills it. Returns the end of the attempt; `None` if another worker holds the
-    /// job.
+    /// Waits for the exit of the process or kills it. Returns the end of the attempt; `None` if another worker holds
+    /// the job.
     async fn end_process(&mut self, stop: Stop) -> Option<End> {
         let end = match stop {
             Stop::Output(last) => return Some(end_by_exit(last, &self.process.wait().await)),
@@ -232,7 +232,8 @@ impl Supervision<'_> {
             while let Ok(Some(ReceivedLine { line, bytes })) = self.process.next_line().await {
                 match line {
                     line if line.is_last() => last = Some(line),
-                    // The results of earlier attempts would have to be deleted first; instead the next attempt restarts.
+                    // The results of earlier attempts would have to be deleted first; instead the next attempt
+                    // restarts.
                     Line::Restarted(_) => break,
                     line => self.buffer.push(line, bytes),
                 }

@@ -1,20 +1,21 @@
 //! Plane contact along a line: large sliding with friction between two condensed bodies, wear inside the solve.
 //!
 //! Both surfaces are graphs over x. The nodes of one of them, the slave, carry the constraints and the tractions: the
-//! receptacle, or a slider that wears (`model::resolution` chooses). With the slope s of the receptacle's surface there, the
-//! vectors N = (-s, 1) and T = (1, s) are normal and tangent of an element of *projected* length dx, so that integrals over
-//! the surface are integrals over x and nodal widths never change:
+//! receptacle, or a slider that wears (`model::resolution` chooses). With the slope s of the receptacle's surface
+//! there, the vectors N = (-s, 1) and T = (1, s) are normal and tangent of an element of *projected* length dx, so that
+//! integrals over the surface are integrals over x and nodal widths never change:
 //!
 //! * traction on the slider per dx: p N - q T, with the true pressure p and the true shear q;
 //! * vertical gap g and tangential slip sigma = T . (relative displacement since the last increment);
 //! * Archard per dx: vertical recession = k p |sigma|, energy = |q sigma|.
 //!
-//! A jump u of the surfaces, slider over receptacle, changes the gap at a point of the slave by (-s', 1) . u with the slope s'
-//! of the *master*, which the jump shifts: a sticking contact stays at its position on the slave although the imposed
-//! displacement has increased.
+//! A jump u of the surfaces, slider over receptacle, changes the gap at a point of the slave by (-s', 1) . u with the
+//! slope s' of the *master*, which the jump shifts: a sticking contact stays at its position on the slave although the
+//! imposed displacement has increased.
 //!
-//! The dual mortar method couples nodal averages over the slave, e.g. jump_i = sum_j Mhat_ij u_j(slider) - u_i(receptacle), and
-//! the response to nodal forces F is jump = (Mhat C_m Mhat^T + C_s) F with the condensed compliances of master and slave.
+//! The dual mortar method couples nodal averages over the slave, e.g.
+//! jump_i = sum_j Mhat_ij u_j(slider) - u_i(receptacle), and the response to nodal forces F is
+//! jump = (Mhat C_m Mhat^T + C_s) F with the condensed compliances of master and slave.
 
 mod active_set;
 mod active_window;

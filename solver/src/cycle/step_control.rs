@@ -25,8 +25,8 @@ const REPLAY_RETRY: RetryPolicy = RetryPolicy {
     ..RETRY
 };
 
-/// Parts of the first step after a turning point at which the friction loop has points. The force reverses over twice the
-/// displacement of gross slip, often far less than a step; without them the loop encloses 7 to 10 % less than the
+/// Parts of the first step after a turning point at which the friction loop has points. The force reverses over twice
+/// the displacement of gross slip, often far less than a step; without them the loop encloses 7 to 10 % less than the
 /// dissipated energy with 20 steps a cycle.
 const REVERSAL: [f64; 5] = [0.03125, 0.0625, 0.125, 0.25, 0.5];
 
@@ -67,8 +67,8 @@ impl Integrator<'_> {
         })
     }
 
-    /// Displacements and forces within the first step after a turning point, in which the force reverses: on a copy of the
-    /// state, so that nothing else depends on them.
+    /// Displacements and forces within the first step after a turning point, in which the force reverses: on a copy of
+    /// the state, so that nothing else depends on them.
     pub(super) fn reversal(&mut self, state: &mut CycleState, step: &Step) -> Vec<(f64, f64)> {
         let mut copy = state.clone();
         let from = copy.contact.slider_x;

@@ -32,7 +32,8 @@ impl From<Elastic> for Lame {
     }
 }
 
-/// Contact modulus of two bodies, MPa: 1/E* = (1 - nu1^2)/E1 + (1 - nu2^2)/E2 (Johnson, Contact Mechanics, 1985, eq. 4.20).
+/// Contact modulus of two bodies, MPa: 1/E* = (1 - nu1^2)/E1 + (1 - nu2^2)/E2 (Johnson, Contact Mechanics, 1985, eq.
+/// 4.20).
 pub fn contact_modulus(a: Elastic, b: Elastic) -> f64 {
     let compliance = |m: Elastic| (1.0 - m.poisson_ratio * m.poisson_ratio) / m.youngs_modulus_mpa;
     1.0 / (compliance(a) + compliance(b))

@@ -28,8 +28,8 @@ pub struct Lemke {
 }
 
 impl Lemke {
-    /// Returns z, or `None` if the method terminates on a ray. Ties and round-off can end it shortly before the solution:
-    /// the result is a starting point for a method that checks the residual.
+    /// Returns z, or `None` if the method terminates on a ray. Ties and round-off can end it shortly before the
+    /// solution: the result is a starting point for a method that checks the residual.
     pub fn solve(&mut self, matrix: &SquareMatrix, q: &[f64]) -> Option<&[f64]> {
         let n = matrix.order();
         debug_assert!(q.len() == n, "one constant a row");

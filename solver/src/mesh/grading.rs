@@ -21,8 +21,8 @@ pub struct Spacing {
 
 /// Symmetric node positions on [-half, half] with one node in the middle and one at each end, ascending.
 ///
-/// The core is divided evenly. Beyond it the spacing grows by a fixed ratio per element, more slowly in the zone that the
-/// contact may reach later; the rest is scaled so that a node lies on the end.
+/// The core is divided evenly. Beyond it the spacing grows by a fixed ratio per element, more slowly in the zone that
+/// the contact may reach later; the rest is scaled so that a node lies on the end.
 pub fn symmetric(half: f64, spacing: &Spacing) -> Vec<f64> {
     let core_half = spacing.core_half.min(half);
     let n_core = count_at_least(core_half / spacing.core - 1e-9);

@@ -5,8 +5,8 @@ const SCAR_EDGE: f64 = 0.02;
 
 /// Half the distance between the edges of the scar, mm.
 ///
-/// The depth goes to zero at an angle, but for a foot of an element or two that the mesh makes. The line through the last
-/// two nodes above the foot gives the edge to about a tenth of an element; interpolating to the first unworn
+/// The depth goes to zero at an angle, but for a foot of an element or two that the mesh makes. The line through the
+/// last two nodes above the foot gives the edge to about a tenth of an element; interpolating to the first unworn
 /// node would put it up to an element too far out.
 pub(super) fn half_width(x: &[f64], depth: &[f64]) -> f64 {
     let limit = SCAR_EDGE * depth.iter().fold(0.0, |m: f64, d| m.max(*d));

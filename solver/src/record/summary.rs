@@ -42,7 +42,8 @@ pub struct Resolution {
     pub estimated_relative_error: f64,
 }
 
-/// |worn area of the profile - accumulated integral of the wear rate| over the latter, of the worse side; 0 without wear.
+/// |worn area of the profile - accumulated integral of the wear rate| over the latter, of the worse side; 0 without
+/// wear.
 pub(crate) fn worn_area_residual(state: &CycleState, report: &CycleReport) -> f64 {
     let relative = |area: f64, expected: f64| {
         if expected > 0.0 {

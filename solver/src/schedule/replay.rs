@@ -2,9 +2,9 @@
 //!
 //! In gross reciprocating sliding the contact rests on the leading-edge step that its pass wears. With a jump that step
 //! is as many passes high, the contact is wider and its pressure lower: 39 % at the groove's cycle 240
-//! (`fuzz_button.json`, tolerance 2 %). The contact reported at a position is therefore that of a copy of the state whose
-//! last increments before the position, the lead-in, wear as a single cycle: within 1 % of a run without jumps in the
-//! middle of the groove, 19 % below it at the ends, whose shape the jumps have changed.
+//! (`fuzz_button.json`, tolerance 2 %). The contact reported at a position is therefore that of a copy of the state
+//! whose last increments before the position, the lead-in, wear as a single cycle: within 1 % of a run without jumps in
+//! the middle of the groove, 19 % below it at the ends, whose shape the jumps have changed.
 
 use crate::number::count_at_least;
 use crate::scene::Accuracy;
@@ -25,8 +25,8 @@ pub(crate) struct ReplayPlan {
 }
 
 impl ReplayPlan {
-    /// Plans replays that end at the named positions of a cycle of so many steps of a length, for the half-widths of the
-    /// present contact and of that of a single cycle.
+    /// Plans replays that end at the named positions of a cycle of so many steps of a length, for the half-widths of
+    /// the present contact and of that of a single cycle.
     pub(crate) fn new(
         (steps, length): (usize, f64),
         accuracy: &Accuracy,

@@ -59,8 +59,8 @@ fn row(run: &Run, cycles: u64, converged: &Converged) -> StudyRun {
     }
 }
 
-/// Marks the Pareto front of runs that are sorted by cost: those with a smaller error than every cheaper run. Errors below
-/// the uncertainty of the reference cannot be distinguished and count as equal.
+/// Marks the Pareto front of runs that are sorted by cost: those with a smaller error than every cheaper run. Errors
+/// below the uncertainty of the reference cannot be distinguished and count as equal.
 fn mark_front(runs: &mut [StudyRun], uncertainty: &Errors) {
     let mut best = f64::INFINITY;
     for run in runs {

@@ -13,8 +13,8 @@ use crate::solve::{Line, children_cpu_s};
 /// Time between two checkpoints: longer than any run, because a run of a study is never resumed.
 const NO_CHECKPOINTS: Duration = Duration::from_secs(1_000_000);
 
-/// Solves a specification with the program's `solve-child`; blocks until the process has exited. Returns its solution, or
-/// why there is none, and its processor seconds.
+/// Solves a specification with the program's `solve-child`; blocks until the process has exited. Returns its solution,
+/// or why there is none, and its processor seconds.
 pub(crate) fn solve(
     program: &Path,
     spec: &Spec,

@@ -150,7 +150,8 @@ impl Line<'_> {
         }
     }
 
-    /// Share of the extrapolation to zero that leads from the finest level to the limit: the limit of a jump is 1, not 0.
+    /// Share of the extrapolation to zero that leads from the finest level to the limit: the limit of a jump is 1, not
+    /// 0.
     fn share(&self) -> f64 {
         if self.setting == "cycle_jump" {
             1.0 - 1.0 / self.levels[0]

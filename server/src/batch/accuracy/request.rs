@@ -13,8 +13,8 @@ use crate::spec::{Refused, Resolved};
 /// Range of a study's budget, processor seconds.
 const BUDGET_RANGE_S: (f64, f64) = (1.0, 86_400.0);
 
-/// Returns the jobs of a study in order, and its evaluation plan as JSON. Up to some forty scenes are resolved, which takes
-/// seconds.
+/// Returns the jobs of a study in order, and its evaluation plan as JSON. Up to some forty scenes are resolved, which
+/// takes seconds.
 ///
 /// # Errors
 /// [`ExpandError`] with the faults of the study and of its base.

@@ -54,8 +54,8 @@ impl CalibrationCache {
         self.cached.get()
     }
 
-    /// The figures; measures the machine if necessary, which blocks for a second or two. A failure is logged and returns
-    /// nothing.
+    /// The figures; measures the machine if necessary, which blocks for a second or two. A failure is logged and
+    /// returns nothing.
     pub fn get_or_measure(&self) -> Option<&MachineFigures> {
         if self.cached.get().is_none() {
             match (self.measure)() {

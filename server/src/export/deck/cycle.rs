@@ -1,9 +1,9 @@
 //! One cycle of sliding without wear, to compare the cost of the same problem in another code.
 //!
 //! Under a load alone CalculiX does not find the first contact (its surface-to-surface penalty diverges at the first
-//! increment, whatever its size). The slider's top is therefore lowered by a prescribed displacement, in ten increments,
-//! and then released under the load, which is in equilibrium but for the compliance of the penalty. The top then moves to
-//! +A, to -A and back, in equal increments.
+//! increment, whatever its size). The slider's top is therefore lowered by a prescribed displacement, in ten
+//! increments, and then released under the load, which is in equilibrium but for the compliance of the penalty. The top
+//! then moves to +A, to -A and back, in equal increments.
 
 use solver::model::Model;
 use solver::scene::Scene;

@@ -72,8 +72,8 @@ async fn check_deleted(database: &Path, missing: &[String]) -> Result<(), Backup
     Ok(connection.close().await?)
 }
 
-/// Deletes the owners of missing files from a copy: ended jobs were deleted from the source, other jobs restart at cycle 0.
-/// Returns the number of jobs in the copy.
+/// Deletes the owners of missing files from a copy: ended jobs were deleted from the source, other jobs restart at
+/// cycle 0. Returns the number of jobs in the copy.
 async fn delete_missing(copy: &Path, missing: &[String]) -> Result<i64, BackupError> {
     let mut database = at(copy).foreign_keys(true).connect().await?;
     let mut transaction = database.begin().await?;

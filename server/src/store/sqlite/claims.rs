@@ -15,8 +15,8 @@ use crate::store::{Claim, Store, StoreError};
 const CANDIDATE_LIMIT: i64 = 64;
 
 impl Store {
-    /// Claims the first job in the order of the queue that fits into the part of this memory (MB) that running jobs leave,
-    /// under a new lease that ends at `expires_at`. Jobs before it that do not fit get a status reason.
+    /// Claims the first job in the order of the queue that fits into the part of this memory (MB) that running jobs
+    /// leave, under a new lease that ends at `expires_at`. Jobs before it that do not fit get a status reason.
     ///
     /// # Errors
     /// [`StoreError`] if the database fails.

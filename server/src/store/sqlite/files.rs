@@ -61,9 +61,9 @@ impl Store {
         Ok(Some((entry(&row)?, content)))
     }
 
-    /// Removes files that no manifest names: of the attempts at a job up to this one, or of all jobs at start-up. A later
-    /// attempt may write files that the manifest does not name yet. Files that cannot be removed are logged and remain
-    /// until the next start.
+    /// Removes files that no manifest names: of the attempts at a job up to this one, or of all jobs at start-up. A
+    /// later attempt may write files that the manifest does not name yet. Files that cannot be removed are logged and
+    /// remain until the next start.
     ///
     /// # Errors
     /// [`StoreError`] if the database fails.

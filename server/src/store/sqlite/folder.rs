@@ -54,8 +54,8 @@ impl Folder {
         }
     }
 
-    /// Removes all files that are not named, and folders without files: of the attempts at a job up to one of them, or of
-    /// all jobs. Returns the number of removed files.
+    /// Removes all files that are not named, and folders without files: of the attempts at a job up to one of them, or
+    /// of all jobs. Returns the number of removed files.
     pub(super) fn remove_unnamed(
         &self,
         attempt: Option<(Uuid, i64)>,

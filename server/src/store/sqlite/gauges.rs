@@ -44,8 +44,8 @@ impl Store {
         })
     }
 
-    /// Checks that the database can be written, by a write; at most once a second, so that frequent requests do not block
-    /// the workers' writes.
+    /// Checks that the database can be written, by a write; at most once a second, so that frequent requests do not
+    /// block the workers' writes.
     ///
     /// # Errors
     /// [`StoreError`] if the database cannot be written.

@@ -26,8 +26,8 @@ impl Store {
         }))
     }
 
-    /// Requests the end of a job: a queued one ends at once, a running one is ended by its worker. `None` if there is no
-    /// such job.
+    /// Requests the end of a job: a queued one ends at once, a running one is ended by its worker. `None` if there is
+    /// no such job.
     ///
     /// # Errors
     /// [`StoreError`] if the database fails.

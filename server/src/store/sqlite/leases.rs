@@ -1,7 +1,7 @@
 //! Fenced operations: writes of workers and ends of jobs.
 //!
-//! Every write of a worker says `WHERE id = ? AND lease = ? AND status = 'running'` and has no effect if no row matches:
-//! the lease number, raised by each claim, is the fence.
+//! Every write of a worker says `WHERE id = ? AND lease = ? AND status = 'running'` and has no effect if no row
+//! matches: the lease number, raised by each claim, is the fence.
 
 use api::job::Status;
 use sqlx::{Sqlite, Transaction};

@@ -38,8 +38,8 @@ impl Store {
         Ok(late.len())
     }
 
-    /// Deletes jobs that ended before a time, the oldest first and a limited number, and batches without remaining jobs.
-    /// Returns the number of jobs.
+    /// Deletes jobs that ended before a time, the oldest first and a limited number, and batches without remaining
+    /// jobs. Returns the number of jobs.
     ///
     /// # Errors
     /// [`StoreError`] if the database fails.

@@ -19,8 +19,8 @@ use crate::store::{Store, StoreError};
 /// Oldest accepted version: older ones can corrupt the write-ahead log when it is reset.
 const OLDEST_SQLITE: (u32, u32, u32) = (3, 51, 3);
 const OLDEST_SQLITE_TEXT: &str = "3.51.3";
-/// Longest wait for a lock. In WAL mode readers wait for nothing, the writer for a checkpoint at most. Much shorter than a
-/// lease, so that a worker can retry a write while it still holds its job.
+/// Longest wait for a lock. In WAL mode readers wait for nothing, the writer for a checkpoint at most. Much shorter
+/// than a lease, so that a worker can retry a write while it still holds its job.
 const BUSY_TIMEOUT: Duration = Duration::from_secs(2);
 /// Longest wait for a reading connection; shorter than a lease, because workers read too.
 const READER_TIMEOUT: Duration = Duration::from_secs(2);

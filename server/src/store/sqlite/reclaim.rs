@@ -11,8 +11,8 @@ use crate::store::sqlite::transitions::{EndingJob, end_job};
 use crate::store::{End, Reclaimed, Store, StoreError};
 
 impl Store {
-    /// Reclaims running jobs whose lease has ended by this time. Those without another attempt are held under new leases
-    /// until `expires_at`.
+    /// Reclaims running jobs whose lease has ended by this time. Those without another attempt are held under new
+    /// leases until `expires_at`.
     ///
     /// # Errors
     /// [`StoreError`] if the database fails.

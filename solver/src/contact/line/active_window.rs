@@ -9,7 +9,8 @@ pub(crate) const CANDIDATE_GAP: f64 = 0.3;
 /// Additional candidate nodes at either end.
 const MARGIN_NODES: usize = 2;
 
-/// The first window: the last contact, shifted with the slider over the receptacle, and the candidates at the last height.
+/// The first window: the last contact, shifted with the slider over the receptacle, and the candidates at the last
+/// height.
 pub(super) fn initial_window(
     pair: &Pair<'_>,
     last: &ContactState,

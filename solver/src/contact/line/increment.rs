@@ -103,8 +103,8 @@ impl Solver {
         })
     }
 
-    /// An open contact: without a load, or where the stroke has taken the slider off the receptacle and a stop holds its
-    /// height until it returns.
+    /// An open contact: without a load, or where the stroke has taken the slider off the receptacle and a stop holds
+    /// its height until it returns.
     fn open(
         &mut self,
         last: &ContactState,
@@ -208,7 +208,8 @@ impl Solver {
         }
     }
 
-    /// Gap of the worn bodies at height 0 under the far-face load there, and its change per height by that load's growth.
+    /// Gap of the worn bodies at height 0 under the far-face load there, and its change per height by that load's
+    /// growth.
     fn assemble_gap(&mut self, pair: &Pair<'_>, surfaces: &Surfaces<'_>, load: f64, spring: f64) {
         let coupling = &self.coupling;
         let slave = pair.interface.slave;

@@ -1,10 +1,10 @@
 //! Wear in the contact solve: the gap that the wear of both surfaces opens.
 //!
-//! With e = p |sigma| and the specific wear rates k_s of the slave and k_m of the master at the coupled nodes, an increment
-//! of n cycles opens the gaps
+//! With e = p |sigma| and the specific wear rates k_s of the slave and k_m of the master at the coupled nodes, an
+//! increment of n cycles opens the gaps
 //!   F = W e,  W = n (diag k_s + S diag k_m),  S = Mhat D^-1 M^T,
-//! where S transfers the master's recession to its nodes and averages it back. A rate that varies with p and |sigma| adds
-//! its derivatives: dF/dp = W_p |sigma| with k + p dk/dp in place of k, dF/d|sigma| = W_s p with
+//! where S transfers the master's recession to its nodes and averages it back. A rate that varies with p and |sigma|
+//! adds its derivatives: dF/dp = W_p |sigma| with k + p dk/dp in place of k, dF/d|sigma| = W_s p with
 //! k + |sigma| dk/d|sigma|. Uniform rates are assembled once an increment.
 
 use super::band::Band;

@@ -10,8 +10,8 @@ pub struct LocalState {
 }
 
 impl LocalState {
-    /// Representative state for estimates: the mean pressure P/(2 b) under a load in N/mm and a half-width in mm, and a slip
-    /// of b/2, about an increment at a tolerance of 2 %.
+    /// Representative state for estimates: the mean pressure P/(2 b) under a load in N/mm and a half-width in mm, and a
+    /// slip of b/2, about an increment at a tolerance of 2 %.
     pub fn mean(load: f64, half_width: f64) -> Self {
         Self {
             pressure: load / (2.0 * half_width),

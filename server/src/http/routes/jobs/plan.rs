@@ -10,8 +10,8 @@ use crate::http::extract::JsonBody;
 use crate::http::problem::ProblemResponse;
 use crate::http::routes::jobs::submit::resolve;
 
-/// Plan of a specification; nothing is queued. The first request measures the speed of the machine, which takes a second
-/// or two.
+/// Plan of a specification; nothing is queued. The first request measures the speed of the machine, which takes a
+/// second or two.
 #[utoipa::path(
     post,
     path = "/v1/plans",

@@ -36,8 +36,8 @@ impl RouteError for WaitError {
 #[into_params(parameter_in = Query)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct ShowQuery {
-    /// Long poll: responds when the job has changed (with `If-None-Match`) or ended (without), or after this duration, for
-    /// instance `25s`.
+    /// Long poll: responds when the job has changed (with `If-None-Match`) or ended (without), or after this duration,
+    /// for instance `25s`.
     wait: Option<String>,
 }
 

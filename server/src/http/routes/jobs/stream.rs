@@ -1,8 +1,8 @@
 //! `GET /v1/jobs/{id}/events`: streams the events of a job (Server-Sent Events).
 //!
-//! Events are stored rows with sequence numbers as ids. A new connection starts with `snapshot`, the current state of the
-//! job, without an id; all events follow, from the first. A connection with `Last-Event-ID` receives exactly the events
-//! after that one. The stream ends after `done`, and when the service stops.
+//! Events are stored rows with sequence numbers as ids. A new connection starts with `snapshot`, the current state of
+//! the job, without an id; all events follow, from the first. A connection with `Last-Event-ID` receives exactly the
+//! events after that one. The stream ends after `done`, and when the service stops.
 
 use std::collections::VecDeque;
 use std::convert::Infallible;

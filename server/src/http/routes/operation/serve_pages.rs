@@ -1,5 +1,5 @@
-//! `GET /`, `GET /docs` and `GET /assets/{name}`: the pages of the service. They are part of the binary, contain no data
-//! and load nothing from other hosts.
+//! `GET /`, `GET /docs` and `GET /assets/{name}`: the pages of the service. They are part of the binary, contain no
+//! data and load nothing from other hosts.
 
 use api::problem::Problem;
 use axum::http::{HeaderName, header};

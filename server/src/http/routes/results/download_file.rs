@@ -98,7 +98,8 @@ pub(crate) async fn file(
     Ok((own, response).into_response())
 }
 
-/// `Content-Disposition` of a download; characters of the name other than letters, digits, `.`, `-` and `_` are replaced.
+/// `Content-Disposition` of a download; characters of the name other than letters, digits, `.`, `-` and `_` are
+/// replaced.
 pub(crate) fn attachment(name: &str) -> String {
     let safe = |c: char| c.is_ascii_alphanumeric() || matches!(c, '.' | '-' | '_');
     let name: String = name

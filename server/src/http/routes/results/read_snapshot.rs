@@ -1,4 +1,5 @@
-//! `GET /v1/jobs/{id}/results/{profile,pressure,loop}`: parts of the stored snapshot nearest to a cycle, as JSON or CSV.
+//! `GET /v1/jobs/{id}/results/{profile,pressure,loop}`: parts of the stored snapshot nearest to a cycle, as JSON or
+//! CSV.
 
 use api::problem::Problem;
 use api::results::{Loop, Pressure, Profile};

@@ -1,5 +1,5 @@
-//! JSON Schema of a specification with one contact system: the schema of all specifications, restricted to the dimensions
-//! of this system.
+//! JSON Schema of a specification with one contact system: the schema of all specifications, restricted to the
+//! dimensions of this system.
 
 use std::collections::BTreeSet;
 
@@ -30,8 +30,8 @@ pub(crate) fn of(kind: SystemKind, document: &Value) -> Value {
     schema
 }
 
-/// A component of the OpenAPI document with local references; adds the names that it refers to. Objects have no additional
-/// properties, because unknown fields are rejected.
+/// A component of the OpenAPI document with local references; adds the names that it refers to. Objects have no
+/// additional properties, because unknown fields are rejected.
 fn component(components: &Value, name: &str, names: &mut BTreeSet<String>) -> Value {
     let mut schema = components[name].clone();
     make_local(&mut schema, names);

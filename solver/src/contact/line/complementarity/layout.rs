@@ -3,8 +3,8 @@
 use super::super::problem::{Iterate, Problem};
 use super::super::response::Response;
 
-/// The bound of the height lies this many indentations below any possible height. Arbitrary: 4 solves the same of the hard
-/// cases; 256 fails one of them by cancellation.
+/// The bound of the height lies this many indentations below any possible height. Arbitrary: 4 solves the same of the
+/// hard cases; 256 fails one of them by cancellation.
 const HEIGHT_MARGIN: f64 = 16.0;
 
 /// Rows and columns of the unknowns of `n` nodes, and the scales of pressure and length.
