@@ -34,7 +34,8 @@ pub struct Tuning {
     pub zone_growth: Power,
     /// The same below 2 % where a short stroke wears a scar: its worst place is the edge, far out in the zone, where
     /// the error is of first order. On `mccoll.json` at 1, 0.5 and 0.3 % the power -0.35 left 1.5, 1.3 and 1.0 % there,
-    /// -1.5 1.0, 0.4 and 0.4 %; the slider's scar needs -2.2 (at 0.5 % it is 0.64 % off with -1.5, 0.45 % with -2.2).
+    /// -1.5 1.0, 0.4 and 0.4 %. At 0.5 % the worse side of the scar, the slider, is 0.59, 0.45 and 0.38 % off with
+    /// -0.35, -1.5 and -2.2.
     pub scar_zone_growth: Power,
     /// Growth of the layers away from the surface, less 1. Arbitrary: 0.12 to 0.5, and powers of 0 to -0.6, change no
     /// error of the scar and the groove by more than 0.05 % of the depth.
