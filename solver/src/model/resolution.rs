@@ -66,6 +66,13 @@ pub(crate) fn radius(scene: &Scene) -> f64 {
     1.0 / (1.0 / scene.slider.shape.radius_mm + crown.map_or(0.0, |crown| 1.0 / crown))
 }
 
+/// Travel of the contact over the slider per displacement of the slider, R / (R + R_crown): the gap of two parabolas a
+/// displacement d apart, (x - d)^2 / (2 R) + x^2 / (2 R_crown), is least at x = d R_crown / (R + R_crown). On a flat
+/// receptacle the contact moves with the slider; wear flattens a crown, so that the receptacle is meshed for all of d.
+fn travel_over_slider(slider: f64, crown: Option<f64>) -> f64 {
+    crown.map_or(0.0, |crown| slider / (slider + crown))
+}
+
 /// Specific wear rates in a contact of a half-width, 1/MPa.
 pub(crate) fn wear_rates(scene: &Scene, half_width: f64) -> Sides<f64> {
     let laws = Sides {
@@ -112,11 +119,13 @@ pub fn choose(scene: &Scene) -> Sizes {
     // scar around the contact.
     let gross = scene.accuracy.tuning.is_gross(amplitude, narrowest);
     let last = if gross {
-        (radius * worn / amplitude).sqrt().min(radius)
+        let ends = (radius * worn / amplitude).sqrt().min(radius);
+        ends.max(edge_step)
     } else {
         (1.5 * radius * worn).cbrt().min(radius)
     }
-    .max(narrowest);
+    .max(hertz);
+    // A stroke shorter than the leading-edge step does not develop it.
     let narrowest = if gross { narrowest } else { hertz };
 
     let Accuracy {
@@ -160,6 +169,7 @@ pub fn choose(scene: &Scene) -> Sizes {
     let arc = |radius: f64, half: f64| radius * (half / radius).min(1.0).asin();
     let half_arc = arc(slider_radius, scene.slider.shape.half_width_mm);
     let half_top = crown.map_or(half_block, |crown| arc(crown, half_block));
+    let slider_travel = amplitude * travel_over_slider(slider_radius, crown);
     Sizes {
         hertz_half_width: hertz,
         final_half_width: last,
@@ -167,7 +177,7 @@ pub fn choose(scene: &Scene) -> Sizes {
         contact_element: element,
         layer_growth: 1.0 + tuning.layer_growth.at(*tolerance),
         spacing: Sides {
-            slider: spacing(0.0, half_arc),
+            slider: spacing(slider_travel, half_arc),
             receptacle: spacing(amplitude, half_top),
         },
     }
