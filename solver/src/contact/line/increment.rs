@@ -175,6 +175,7 @@ impl Solver {
             fixed_slip: &self.fixed_slip,
             wears: laws.slider.is_some() || laws.receptacle.is_some(),
             travel: pair.travel(last, pairing_x),
+            first_load: last.reference_height.is_none(),
             step,
         };
         let wall = mean_slope_ahead(last, &problem);

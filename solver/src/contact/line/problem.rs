@@ -35,6 +35,8 @@ pub(super) struct Problem<'a> {
     pub(super) wears: bool,
     /// Displacement of the contact over the slave in this increment, mm.
     pub(super) travel: f64,
+    /// Whether nothing was loaded before.
+    pub(super) first_load: bool,
     /// Imposed slip: the displacement and the additional slip of the slider's surface, mm.
     pub(super) step: f64,
 }
