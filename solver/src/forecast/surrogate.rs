@@ -6,7 +6,6 @@
 use crate::ale;
 use crate::contact::line::CANDIDATE_GAP;
 use crate::law::elastic::contact_modulus;
-use crate::law::friction;
 use crate::model::{Layout, resolution};
 use crate::number::{real, real_cycles};
 use crate::scene::{Scene, Tuning};
@@ -71,8 +70,7 @@ impl Scar {
         let approach = resolution::approach(scene, hertz, modulus);
         let amplitude = scene.motion.amplitude_mm();
         let sliding = if amplitude > 0.0 {
-            let sheared = friction::coefficient(scene.friction) * approach;
-            4.0 * (amplitude - sheared).max(0.0)
+            4.0 * (amplitude - resolution::gross_slip(scene, hertz)).max(0.0)
         } else {
             scene.motion.distance_per_cycle_mm()
         };

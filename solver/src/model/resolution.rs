@@ -12,7 +12,7 @@ use crate::law::friction;
 use crate::law::wear::{self, LocalState};
 use crate::mesh::grading::Spacing;
 use crate::number::real_cycles;
-use crate::scene::{Accuracy, Motion, Scene};
+use crate::scene::{Accuracy, Drive, Elastic, Motion, Scene, SliderShape};
 use crate::sides::{Side, Sides};
 use std::f64::consts::PI;
 
@@ -37,27 +37,62 @@ pub struct Sizes {
     pub spacing: Sides<Spacing>,
 }
 
-/// Approach of the bodies under the load, mm:  P / (pi E*) (2 ln(4 H/a) - 1)  with the lower body height H (Johnson
-/// 1985, section 5.6, for a strip under a line load). Tangential compliance is like the normal one, so that mu times as
-/// much is the displacement at which all of the contact slips.
+/// Approach of the bodies under the load, mm:  P / (pi E*) (2 ln(4 H/a) - 1)  with the lower body height H (Johnson 1985,
+/// section 5.6, for a strip under a line load).
 pub(crate) fn approach(scene: &Scene, half_width: f64, modulus: f64) -> f64 {
     let height = scene
         .slider
         .shape
         .height_mm
         .min(scene.receptacle.shape.height_mm);
-    let factor = (2.0 * (4.0 * height / half_width).ln() - 1.0).max(0.0);
-    scene.load_n_per_mm / (PI * modulus) * factor
+    scene.load_n_per_mm / (PI * modulus) * strip(height, half_width)
 }
 
-/// Whether part of the contact may stick through the whole stroke: the amplitude is below twice the displacement of
-/// gross slip.
-fn sticks(scene: &Scene, half_width: f64, modulus: f64) -> bool {
+/// 2 ln(4 H/a) - 1, or 0 where the strip is no higher than the contact is wide.
+fn strip(height: f64, half_width: f64) -> f64 {
+    (2.0 * (4.0 * height / half_width).ln() - 1.0).max(0.0)
+}
+
+/// Imposed displacement at which all of the contact slips, mm: mu P times the compliance of both bodies to a tangential force
+/// on their surfaces. Near the contact it is the normal one, of a strip; a body of height H and half-width w besides shears
+/// and bends like a beam that is held at its far face (Timoshenko), with G = E/(2 (1 + nu)) and E' = E/(1 - nu^2):
+///   E' delta / Q = (2 ln(4 min(H, w)/a) - 1) / pi + H^3 / (2 w^3) + 1.2 H / (w (1 - nu)).
+/// A slider whose nodes are all displaced does not deform along x.
+pub(crate) fn gross_slip(scene: &Scene, half_width: f64) -> f64 {
+    let compliance = |elastic: Elastic, height: f64, half: f64| {
+        let Elastic {
+            youngs_modulus_mpa,
+            poisson_ratio,
+        } = elastic;
+        let slender = height / half;
+        let beam = 0.5 * slender.powi(3) + 1.2 * slender / (1.0 - poisson_ratio);
+        (1.0 - poisson_ratio * poisson_ratio) / youngs_modulus_mpa
+            * (strip(height.min(half), half_width) / PI + beam)
+    };
+    let (slider, block) = (&scene.slider, &scene.receptacle);
+    let upper = match scene.drive {
+        Drive::Handle => {
+            let SliderShape {
+                half_width_mm,
+                height_mm,
+                ..
+            } = slider.shape;
+            compliance(slider.elastic, height_mm, half_width_mm)
+        }
+        Drive::WholeBody => 0.0,
+    };
+    let half_block = 0.5 * block.shape.length_mm;
+    let lower = compliance(block.elastic, block.shape.height_mm, half_block);
+    friction::coefficient(scene.friction) * scene.load_n_per_mm * (upper + lower)
+}
+
+/// Whether part of the contact may stick through the whole stroke: the amplitude is below twice the displacement of gross
+/// slip.
+fn sticks(scene: &Scene, half_width: f64) -> bool {
     let Motion::Reciprocating { amplitude_mm, .. } = scene.motion else {
         return false;
     };
-    let slips_from = friction::coefficient(scene.friction) * approach(scene, half_width, modulus);
-    amplitude_mm < 2.0 * slips_from
+    amplitude_mm < 2.0 * gross_slip(scene, half_width)
 }
 
 /// Radius R of the relative curvature of both bodies, mm.
@@ -132,7 +167,7 @@ pub fn choose(scene: &Scene) -> Sizes {
         tolerance, tuning, ..
     } = &scene.accuracy;
     let elements = tuning.elements.at(*tolerance);
-    let elements = if sticks(scene, hertz, modulus) {
+    let elements = if sticks(scene, hertz) {
         tuning.sticking_refinement * elements
     } else {
         elements
