@@ -7,6 +7,8 @@
 
 mod converge_scars;
 mod converge_tolerance;
+mod metamorphic;
+mod random_scenes;
 mod recorder;
 mod scenes;
 mod verify_block_on_ring;

@@ -1,0 +1,81 @@
+//! Metamorphic relations over random scenes: two scenes whose answers must be related, whatever the answers are.
+//!
+//! No closed solution covers both sides worn, springs, crowns and unequal bodies at once; a relation needs none. Each file
+//! holds one relation, with what it allows and why. The tests draw a dozen scenes each; more by
+//! `FRETWEAR_DRAWS=200 cargo test --release -p solver metamorphic -- --nocapture`, others by `FRETWEAR_SEED`, later ones by
+//! `FRETWEAR_FIRST`. A violation names its scene by seed and number (`random_scenes::draw`), which prints nothing but its
+//! figures: `FRETWEAR_SEED=1 FRETWEAR_FIRST=17 FRETWEAR_DRAWS=1` runs that one alone.
+
+mod comparison;
+mod halved_wear_rate;
+mod longer_block;
+mod mirrored_motion;
+mod moved_wear;
+mod refined_tolerance;
+mod scaled_units;
+mod split_run;
+mod swapped_bodies;
+
+use std::str::FromStr;
+
+use comparison::Deviation;
+use solver::SolveError;
+
+use crate::random_scenes::{Drawn, Regime, draw};
+
+/// The accuracy that most specifications ask for.
+const TOLERANCE: f64 = 0.02;
+/// Most estimated processor seconds of a scene: the suite takes under a minute of one core.
+const MOST_S: f64 = 0.15;
+const DRAWS: u64 = 12;
+
+const ALL: [Regime; 3] = [Regime::PartialSlip, Regime::ShortStroke, Regime::LongGroove];
+const SLIDING: [Regime; 2] = [Regime::ShortStroke, Regime::LongGroove];
+const STICKING: [Regime; 1] = [Regime::PartialSlip];
+
+/// A relation: the deviations of a scene's answer from that of its relative; `None` if the scene has no relative.
+type Relation = fn(&Drawn) -> Result<Option<Vec<Deviation>>, SolveError>;
+
+/// A setting of the environment.
+fn setting<T: FromStr>(name: &str, default: T) -> T {
+    let text = std::env::var(name).ok();
+    text.and_then(|text| text.parse().ok()).unwrap_or(default)
+}
+
+/// Asserts that a relation holds in every drawn scene of some regimes.
+fn holds(name: &str, regimes: &[Regime], relation: Relation) {
+    let (seed, first) = (setting("FRETWEAR_SEED", 1), setting("FRETWEAR_FIRST", 0));
+    let (mut compared, mut faults, mut worst) = (0, Vec::new(), Vec::new());
+    for number in first..first + setting("FRETWEAR_DRAWS", DRAWS) {
+        let drawn = draw(seed, number, TOLERANCE, MOST_S);
+        if !regimes.contains(&drawn.regime) {
+            continue;
+        }
+        match relation(&drawn) {
+            Ok(None) => {}
+            Ok(Some(deviations)) => {
+                compared += 1;
+                let beyond: Vec<String> = deviations
+                    .iter()
+                    .filter(|deviation| !deviation.is_allowed())
+                    .map(ToString::to_string)
+                    .collect();
+                if !beyond.is_empty() {
+                    faults.push(format!("{}: {}", drawn.name(), beyond.join("; ")));
+                }
+                comparison::keep_worst(&mut worst, deviations);
+            }
+            Err(error) => faults.push(format!("{}: {error}", drawn.name())),
+        }
+    }
+    println!("{name}, {compared} scenes, the largest deviations:");
+    for deviation in &worst {
+        println!("  {deviation}");
+    }
+    assert!(
+        faults.is_empty(),
+        "{name}: {} of {compared} scenes\n{}",
+        faults.len(),
+        faults.join("\n")
+    );
+}

@@ -1,0 +1,98 @@
+//! Half the wear rate over twice the cycles.
+//!
+//! Archard's law knows only the product of rate and distance. Two forms:
+//!
+//! * A computed cycle of 2 J physical ones at half the rate removes what one of J removes, in every increment: with jumps and
+//!   increments given, the bits of all depths are the same. Allowed: nothing. Left out are scenes whose meshes differ: the
+//!   step that a single pass wears may be wider than the contact.
+//! * With jumps that the tolerance chooses the scar is the same within both tolerances. What remains is physical: a single
+//!   pass wears half as much, and the contact leans on that step while it slides. It falls with the number of cycles, so the
+//!   drawn cycles are taken eight times as many at an eighth of the rate; the peak pressure of a groove, which belongs to the
+//!   step, is left out. In partial slip both bodies have one material: unlike ones slip while they are loaded, and where the
+//!   stroke hardly slips, the wear of the few cycles in which that slip shakes down is most of it, whose number is not doubled.
+
+use solver::SolveError;
+use solver::law::elastic::contact_modulus;
+use solver::model::Layout;
+use solver::scene::{Elastic, Scene};
+
+use super::comparison::{Allowed, Deviation, compare};
+use super::{ALL, SLIDING, STICKING, TOLERANCE, holds};
+use crate::random_scenes::{Drawn, Regime, scaled};
+use crate::recorder::solve;
+
+/// So many times the cycles at a rate that wears the same area.
+fn slower(scene: &Scene, times: u32) -> Scene {
+    let mut scene = scene.clone();
+    let factor = f64::from(times).recip();
+    scene.cycles *= u64::from(times);
+    scene.slider.wear = scene.slider.wear.map(|law| scaled(law, factor));
+    scene.receptacle.wear = scene.receptacle.wear.map(|law| scaled(law, factor));
+    scene
+}
+
+/// Both bodies of one material with the same contact modulus.
+fn of_one_material(scene: &Scene) -> Scene {
+    let mut scene = scene.clone();
+    let poisson_ratio = 0.3;
+    let modulus = contact_modulus(scene.slider.elastic, scene.receptacle.elastic);
+    let elastic = Elastic {
+        youngs_modulus_mpa: 2.0 * (1.0 - poisson_ratio * poisson_ratio) * modulus,
+        poisson_ratio,
+    };
+    (scene.slider.elastic, scene.receptacle.elastic) = (elastic, elastic);
+    scene
+}
+
+fn the_same_bits_with_twice_the_jump(drawn: &Drawn) -> Result<Option<Vec<Deviation>>, SolveError> {
+    let mut fast = Scene {
+        cycles: 8,
+        ..drawn.scene.clone()
+    };
+    fast.accuracy.increments_per_cycle = Some(20);
+    let mut slow = slower(&fast, 2);
+    fast.accuracy.cycle_jump = Some(2);
+    slow.accuracy.cycle_jump = Some(4);
+    if Layout::of(&fast)? != Layout::of(&slow)? {
+        return Ok(None);
+    }
+    let (fast, slow) = (solve(&fast)?.0, solve(&slow)?.0);
+    let allowed = Allowed {
+        // A replayed contact is that of a single cycle, which wears half as much.
+        peak: f64::INFINITY,
+        ..Allowed::within(0.0)
+    };
+    Ok(Some(compare(&fast, &slow, allowed)))
+}
+
+fn the_same_scar_at_half_the_rate(drawn: &Drawn) -> Result<Option<Vec<Deviation>>, SolveError> {
+    let scene = match drawn.regime {
+        Regime::PartialSlip => of_one_material(&drawn.scene),
+        Regime::ShortStroke | Regime::LongGroove => drawn.scene.clone(),
+    };
+    let (fast, slow) = (solve(&slower(&scene, 8))?.0, solve(&slower(&scene, 16))?.0);
+    let mut allowed = Allowed::within(2.0 * TOLERANCE);
+    if drawn.regime == Regime::LongGroove {
+        allowed.peak = f64::INFINITY;
+    }
+    Ok(Some(compare(&fast, &slow, allowed)))
+}
+
+#[test]
+fn half_the_rate_with_twice_the_jump_changes_no_bit() {
+    holds(
+        "half the rate, twice the jump",
+        &ALL,
+        the_same_bits_with_twice_the_jump,
+    );
+}
+
+#[test]
+fn half_the_rate_wears_the_same_scar_in_gross_slip() {
+    holds("half the rate", &SLIDING, the_same_scar_at_half_the_rate);
+}
+
+#[test]
+fn half_the_rate_wears_the_same_scar_in_partial_slip() {
+    holds("half the rate", &STICKING, the_same_scar_at_half_the_rate);
+}

@@ -1,0 +1,87 @@
+//! The pair turned upside down: slider and receptacle exchange shapes, materials and wear laws.
+//!
+//! ```text
+//!   ( R1 )  <->            turned by 180 degrees:   ( R2 )  <->
+//!   .-----.                                         .-----.
+//!  /  R2   \   block, crowned                      /  R1   \
+//! ```
+//! A turn by 180 degrees leaves the direction of the relative displacement as it is, and quasi-static contact does not know
+//! which body is held, so the two scenes are one. The shapes must be of one kind: every block gets a crown, and the slider
+//! is driven by its top face, which holds it as the block's bottom is held.
+//!
+//! Only the discretisation differs: which surface is meshed for the travel, which one carries the constraints. Allowed: the
+//! sum of both tolerances; three times as much for the peak pressure.
+
+use solver::SolveError;
+use solver::scene::{BlockShape, Body, Drive, Scene, SliderShape};
+
+use super::comparison::{Allowed, Deviation, compare};
+use super::{SLIDING, STICKING, TOLERANCE, holds};
+use crate::random_scenes::Drawn;
+use crate::recorder::solve;
+
+/// The scene with a crown, at which the block's sides are at least half as high as its middle, and driven by its top face.
+fn crowned(scene: &Scene) -> (Scene, f64) {
+    let mut scene = Scene {
+        drive: Drive::Handle,
+        ..scene.clone()
+    };
+    let block = &mut scene.receptacle.shape;
+    let radius = *block
+        .crown_radius_mm
+        .get_or_insert((3.0 * scene.slider.shape.radius_mm).max(block.length_mm));
+    let half = 0.5 * block.length_mm;
+    let sagitta = radius - (radius * radius - half * half).sqrt();
+    block.height_mm = block.height_mm.max(2.0 * sagitta);
+    (scene, radius)
+}
+
+fn turned(scene: &Scene, crown: f64) -> Scene {
+    let Scene {
+        slider, receptacle, ..
+    } = scene;
+    Scene {
+        slider: Body {
+            shape: SliderShape {
+                radius_mm: crown,
+                half_width_mm: 0.5 * receptacle.shape.length_mm,
+                height_mm: receptacle.shape.height_mm,
+            },
+            elastic: receptacle.elastic,
+            wear: receptacle.wear,
+        },
+        receptacle: Body {
+            shape: BlockShape {
+                length_mm: 2.0 * slider.shape.half_width_mm,
+                height_mm: slider.shape.height_mm,
+                crown_radius_mm: Some(slider.shape.radius_mm),
+            },
+            elastic: slider.elastic,
+            wear: slider.wear,
+        },
+        ..scene.clone()
+    }
+}
+
+fn the_same_upside_down(drawn: &Drawn) -> Result<Option<Vec<Deviation>>, SolveError> {
+    let (here, crown) = crowned(&drawn.scene);
+    let there = turned(&here, crown);
+    let (here, mut there) = (solve(&here)?.0, solve(&there)?.0);
+    let last = &mut there.last;
+    std::mem::swap(&mut last.slider, &mut last.receptacle);
+    Ok(Some(compare(
+        &here,
+        &there,
+        Allowed::within(2.0 * TOLERANCE),
+    )))
+}
+
+#[test]
+fn swapped_bodies_agree_in_gross_slip() {
+    holds("swapped bodies", &SLIDING, the_same_upside_down);
+}
+
+#[test]
+fn swapped_bodies_agree_in_partial_slip() {
+    holds("swapped bodies", &STICKING, the_same_upside_down);
+}
