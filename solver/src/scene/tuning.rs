@@ -37,8 +37,10 @@ pub struct Tuning {
     /// -1.5 1.0, 0.4 and 0.4 %. At 0.5 % the worse side of the scar, the slider, is 0.59, 0.45 and 0.38 % off with
     /// -0.35, -1.5 and -2.2.
     pub scar_zone_growth: Power,
-    /// Growth of the layers away from the surface, less 1. Arbitrary: 0.12 to 0.5, and powers of 0 to -0.6, change no
-    /// error of the scar and the groove by more than 0.05 % of the depth.
+    /// Growth of the layers away from the surface, less 1. Arbitrary: 0.12 to 0.5, and powers of 0 to -0.6, change no error
+    /// of the scar and the groove by more than 0.05 % of the depth. Not so in partial slip, where the tangential compliance of the
+    /// bodies counts, whose error is of first order in it: 0.25, 0.125 and 0.06 leave the worn area of a random scene 13, 7 and
+    /// 3 % too large.
     pub layer_growth: Power,
     /// Factor on the number of elements in partial slip: wear is confined to a slip zone that is narrower than the contact,
     /// with steep walls beside the stick zone. At 2 % the profile of the worse side is off by 2.0 % of the worn area with 5,
