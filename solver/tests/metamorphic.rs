@@ -4,7 +4,8 @@
 //! holds one relation, with what it allows and why. The tests draw a dozen scenes each; more by
 //! `FRETWEAR_DRAWS=200 cargo test --release -p solver metamorphic -- --nocapture`, others by `FRETWEAR_SEED`, later ones by
 //! `FRETWEAR_FIRST`. A violation names its scene by seed and number (`random_scenes::draw`), which prints nothing but its
-//! figures: `FRETWEAR_SEED=1 FRETWEAR_FIRST=17 FRETWEAR_DRAWS=1` runs that one alone.
+//! figures: `FRETWEAR_SEED=1 FRETWEAR_FIRST=17 FRETWEAR_DRAWS=1` runs that one alone. Of the first 204 scenes of seed 1 those
+//! that violate a relation are tests that are ignored, with the reason.
 
 mod comparison;
 mod halved_wear_rate;
@@ -45,12 +46,26 @@ fn setting<T: FromStr>(name: &str, default: T) -> T {
 /// Asserts that a relation holds in every drawn scene of some regimes.
 fn holds(name: &str, regimes: &[Regime], relation: Relation) {
     let (seed, first) = (setting("FRETWEAR_SEED", 1), setting("FRETWEAR_FIRST", 0));
+    let numbers = first..first + setting("FRETWEAR_DRAWS", DRAWS);
+    let drawn = numbers.map(|number| draw(seed, number, TOLERANCE, MOST_S));
+    holds_in(
+        name,
+        drawn.filter(|drawn| regimes.contains(&drawn.regime)),
+        relation,
+    );
+}
+
+/// Asserts that a relation holds in the scenes of seed 1 with these numbers.
+fn holds_in_found(name: &str, numbers: &[u64], relation: Relation) {
+    let drawn = numbers
+        .iter()
+        .map(|number| draw(1, *number, TOLERANCE, MOST_S));
+    holds_in(name, drawn, relation);
+}
+
+fn holds_in(name: &str, scenes: impl Iterator<Item = Drawn>, relation: Relation) {
     let (mut compared, mut faults, mut worst) = (0, Vec::new(), Vec::new());
-    for number in first..first + setting("FRETWEAR_DRAWS", DRAWS) {
-        let drawn = draw(seed, number, TOLERANCE, MOST_S);
-        if !regimes.contains(&drawn.regime) {
-            continue;
-        }
+    for drawn in scenes {
         match relation(&drawn) {
             Ok(None) => {}
             Ok(Some(deviations)) => {

@@ -13,7 +13,7 @@ use solver::SolveError;
 use solver::scene::{Motion, Scene, WearLaw};
 
 use super::comparison::Deviation;
-use super::{SLIDING, STICKING, TOLERANCE, holds};
+use super::{SLIDING, STICKING, TOLERANCE, holds, holds_in_found};
 use crate::random_scenes::{Drawn, Regime, scaled};
 use crate::recorder::solve;
 
@@ -97,4 +97,16 @@ fn wear_on_either_side_opens_the_same_gap_in_gross_slip() {
 #[test]
 fn wear_on_either_side_opens_the_same_gap_in_partial_slip() {
     holds("moved wear", &STICKING, the_same_on_either_side);
+}
+
+#[test]
+#[ignore = "worn area off by 4 to 66 %: energy depends on the side with the constraints between unlike bodies"]
+fn wear_moves_in_the_scenes_found() {
+    holds_in_found(
+        "moved wear, found",
+        &[
+            14, 15, 30, 48, 51, 54, 60, 62, 63, 72, 108, 121, 135, 147, 170, 180, 181, 183,
+        ],
+        the_same_on_either_side,
+    );
 }

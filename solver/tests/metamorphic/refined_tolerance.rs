@@ -6,7 +6,7 @@
 use solver::SolveError;
 
 use super::comparison::{Allowed, Deviation, compare};
-use super::{SLIDING, STICKING, TOLERANCE, holds};
+use super::{SLIDING, STICKING, TOLERANCE, holds, holds_in_found};
 use crate::random_scenes::Drawn;
 use crate::recorder::solve;
 
@@ -29,4 +29,24 @@ fn refined_tolerances_agree_in_gross_slip() {
 #[test]
 fn refined_tolerances_agree_in_partial_slip() {
     holds("refined tolerance", &STICKING, the_same_when_refined);
+}
+
+#[test]
+#[ignore = "peak pressures off by up to 15 %: coarse elements at the edge of the slider's flat"]
+fn refined_tolerances_agree_in_the_scenes_found_in_gross_slip() {
+    holds_in_found(
+        "refined tolerance, found in gross slip",
+        &[20, 44, 70, 95, 100, 128],
+        the_same_when_refined,
+    );
+}
+
+#[test]
+#[ignore = "depth off by up to 11 %, worn area by 15 %: the coarse layers make the bodies too stiff along x"]
+fn refined_tolerances_agree_in_the_scenes_found_in_partial_slip() {
+    holds_in_found(
+        "refined tolerance, found in partial slip",
+        &[13, 14, 15, 51, 60, 63, 156, 170, 171, 180],
+        the_same_when_refined,
+    );
 }

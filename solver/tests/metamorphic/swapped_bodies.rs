@@ -16,7 +16,7 @@ use solver::SolveError;
 use solver::scene::{BlockShape, Body, Drive, Scene, SliderShape};
 
 use super::comparison::{Allowed, Deviation, compare};
-use super::{SLIDING, STICKING, TOLERANCE, holds};
+use super::{SLIDING, STICKING, TOLERANCE, holds, holds_in_found};
 use crate::random_scenes::Drawn;
 use crate::recorder::solve;
 
@@ -84,4 +84,24 @@ fn swapped_bodies_agree_in_gross_slip() {
 #[test]
 fn swapped_bodies_agree_in_partial_slip() {
     holds("swapped bodies", &STICKING, the_same_upside_down);
+}
+
+#[test]
+#[ignore = "widths off by up to 4.6 %, peak pressures by up to 20 %: coarse elements at the edge of the scar"]
+fn bodies_swap_in_the_scenes_found_in_gross_slip() {
+    holds_in_found(
+        "swapped bodies, found in gross slip",
+        &[79, 100, 113, 126],
+        the_same_upside_down,
+    );
+}
+
+#[test]
+#[ignore = "worn area off by 4 to 15 %: energy depends on the side with the constraints between unlike bodies"]
+fn bodies_swap_in_the_scenes_found_in_partial_slip() {
+    holds_in_found(
+        "swapped bodies, found in partial slip",
+        &[15, 48, 61, 96, 122, 144, 181],
+        the_same_upside_down,
+    );
 }
