@@ -47,7 +47,7 @@ macro_rules! variations {
     };
 }
 
-const ERRORS: [Variation; 31] = variations! {
+const ERRORS: [Variation; 32] = variations! {
     elements.value = [4.0, 8.0, 16.0], 0.02, ["scar", "groove", "sprung contact", "partial slip"];
     elements.exponent = [0.2, 0.4, 0.6], 0.005, ["scar", "groove", "sprung contact"];
     zone_growth.value = [0.03, 0.06, 0.12], 0.02, ["groove"];
@@ -55,6 +55,7 @@ const ERRORS: [Variation; 31] = variations! {
     scar_zone_growth.value = [0.03, 0.06, 0.12], 0.02, ["scar", "sprung contact"];
     scar_zone_growth.exponent = [-0.35, -1.5, -2.2], 0.005, ["scar", "sprung contact"];
     layer_growth.value = [0.12, 0.25, 0.5], 0.02, ["scar", "groove"];
+    sticking_layer_growth.value = [0.06, 0.12, 0.25], 0.02, ["partial slip"];
     layer_growth.exponent = [0.0, -0.3, -0.6], 0.005, ["scar"];
     sticking_refinement = [2.5, 3.5, 5.0], 0.02, ["partial slip"];
     scar_margin = [1.0, 1.3, 2.0], 0.02, ["scar", "groove", "sprung contact", "partial slip"];

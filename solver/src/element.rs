@@ -1,11 +1,13 @@
 //! Finite elements of linear elasticity: an element is its data plus one function.
 
+pub mod incompatible;
 pub mod quad4;
 pub mod tri3;
 
 use crate::law::elastic::Lame;
 use nalgebra::Matrix2;
 
+pub use incompatible::quad_stiffness;
 pub use quad4::Quad4;
 pub use tri3::Tri3;
 

@@ -6,7 +6,7 @@
 use crate::ale;
 use crate::condensation::{Condensed, Interior};
 use crate::contact::ContactState;
-use crate::element::{Element, Quad4, Tri3, physical_gradient};
+use crate::element::{Element, Quad4, Tri3, incompatible, physical_gradient};
 use crate::law::elastic::Lame;
 use crate::mesh::columns::Cell;
 use crate::mesh::{ColumnMesh, MeshError};
@@ -143,8 +143,19 @@ pub fn recover(
     let mut sums = vec![(Stress::default(), 0.0); nodes.len()];
     for cell in &cells {
         match cell {
-            Cell::Quad(n) => add::<Quad4, 4>(&mut sums, n, &nodes, &displacement_mm, model.lame),
-            Cell::Tri(n) => add::<Tri3, 3>(&mut sums, n, &nodes, &displacement_mm, model.lame),
+            Cell::Quad(n) => {
+                let places = n.map(|n| nodes[n]);
+                let u = n.map(|n| displacement_mm[n]);
+                let modes = incompatible::amplitudes(&places, model.lame, model.b_bar, &u);
+                let modes = modes.unwrap_or_default();
+                add::<Quad4, 4>(&mut sums, n, (&places, &u), model.lame, |corner, det| {
+                    Some((modes, incompatible::mode_gradients(&places, corner, det)?))
+                });
+            }
+            Cell::Tri(n) => {
+                let (places, u) = (n.map(|n| nodes[n]), n.map(|n| displacement_mm[n]));
+                add::<Tri3, 3>(&mut sums, n, (&places, &u), model.lame, |_, _| None);
+            }
         }
     }
     let stress = sums
@@ -165,23 +176,26 @@ pub fn recover(
     }
 }
 
+/// Amplitudes of incompatible modes and their gradients at a corner.
+type Modes = ([[f64; 2]; 2], [[f64; 2]; 2]);
+
 /// Adds an element's corner stresses to the sums of its nodes, weighted by the Jacobian there.
 fn add<E: Element<N>, const N: usize>(
     sums: &mut [(Stress, f64)],
     cell: &[usize; N],
-    nodes: &[[f64; 2]],
-    displacement: &[[f64; 2]],
+    (places, u): (&[[f64; 2]; N], &[[f64; 2]; N]),
     lame: Lame,
+    modes: impl Fn([f64; 2], f64) -> Option<Modes>,
 ) {
-    let places = cell.map(|n| nodes[n]);
-    let u = cell.map(|n| displacement[n]);
     for (corner, node) in E::CORNERS.iter().zip(cell) {
         // A corner of a quadrilateral that has become a triangle has no gradient; its neighbours speak for it.
-        let Some((g, det)) = physical_gradient(&places, &E::gradient(*corner)) else {
+        let Some((g, det)) = physical_gradient(places, &E::gradient(*corner)) else {
             continue;
         };
         let mut strain = [[0.0; 2]; 2];
-        for (u, g) in u.iter().zip(&g) {
+        let (amplitudes, gradients) = modes(*corner, det).unwrap_or_default();
+        let terms = u.iter().zip(&g).chain(amplitudes.iter().zip(&gradients));
+        for (u, g) in terms {
             for i in 0..2 {
                 for j in 0..2 {
                     strain[i][j] += 0.5 * (u[i] * g[j] + u[j] * g[i]);

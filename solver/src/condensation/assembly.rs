@@ -1,7 +1,7 @@
 //! Numbering of unknowns and assembly of a body's stiffness, lower triangle by columns.
 
 use super::Compliance;
-use crate::element::{Quad4, Tri3, stiffness};
+use crate::element::{Tri3, quad_stiffness, stiffness};
 use crate::linear::SquareMatrix;
 use crate::mesh::columns::Cell;
 use crate::model::{BodyModel, Support};
@@ -133,7 +133,7 @@ pub(super) fn assemble(model: &BodyModel, numbering: &Numbering) -> Result<Lower
         let inverted = || element;
         match cell {
             Cell::Quad(n) => {
-                let k = stiffness::<Quad4, 4>(&n.map(|n| nodes[n]), model.lame, model.b_bar);
+                let k = quad_stiffness(&n.map(|n| nodes[n]), model.lame, model.b_bar);
                 scatter(&mut entries, numbering, n, &k.ok_or_else(inverted)?);
             }
             Cell::Tri(n) => {

@@ -167,10 +167,13 @@ pub fn choose(scene: &Scene) -> Sizes {
         tolerance, tuning, ..
     } = &scene.accuracy;
     let elements = tuning.elements.at(*tolerance);
-    let elements = if sticks(scene, hertz) {
-        tuning.sticking_refinement * elements
+    let (elements, layer_growth) = if sticks(scene, hertz) {
+        (
+            tuning.sticking_refinement * elements,
+            tuning.sticking_layer_growth,
+        )
     } else {
-        elements
+        (elements, tuning.layer_growth)
     };
     let zone_growth = if gross || *tolerance > 0.02 {
         tuning.zone_growth
@@ -210,7 +213,7 @@ pub fn choose(scene: &Scene) -> Sizes {
         final_half_width: last,
         slave: slave(scene, rates, gross, (element, slip)),
         contact_element: element,
-        layer_growth: 1.0 + tuning.layer_growth.at(*tolerance),
+        layer_growth: 1.0 + layer_growth.at(*tolerance),
         spacing: Sides {
             slider: spacing(slider_travel, half_arc),
             receptacle: spacing(amplitude, half_top),

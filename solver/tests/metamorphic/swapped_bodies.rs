@@ -87,17 +87,17 @@ fn swapped_bodies_agree_in_partial_slip() {
 }
 
 #[test]
-#[ignore = "widths off by up to 4.6 %, peak pressures by up to 20 %: coarse elements at the edge of the scar"]
+#[ignore = "peak pressures off by up to 17 %: coarse elements at the edge of the scar"]
 fn bodies_swap_in_the_scenes_found_in_gross_slip() {
     holds_in_found(
         "swapped bodies, found in gross slip",
-        &[79, 100, 113, 126],
+        &[100, 113],
         the_same_upside_down,
     );
 }
 
 #[test]
-#[ignore = "worn area off by 4 to 15 %: energy depends on the side with the constraints between unlike bodies"]
+#[ignore = "worn area off by 4 to 12 %: the shear of the first load depends on the normals, which are the receptacle's"]
 fn bodies_swap_in_the_scenes_found_in_partial_slip() {
     holds_in_found(
         "swapped bodies, found in partial slip",
