@@ -65,6 +65,8 @@ pub struct Interface {
     pub friction: f64,
     /// The body whose nodes carry the contact constraints, pressure and shear.
     pub slave: Side,
+    /// Whether part of the contact may stick through the whole stroke.
+    pub sticks: bool,
     /// Wear laws; none where nothing wears.
     pub wear: Sides<Option<WearLaw>>,
     /// Normal load on the unworn contact, N/mm.
@@ -87,6 +89,7 @@ pub fn build(scene: &Scene, plan: &EffectsPlan) -> Result<Model, MeshError> {
     let wear = |effect, law: Option<WearLaw>| law.filter(|_| plan.simulates(effect));
     let interface = Interface {
         slave: layout.sizes.slave,
+        sticks: layout.sizes.sticks,
         friction: if plan.simulates(Effect::Friction) {
             friction::coefficient(scene.friction)
         } else {

@@ -55,6 +55,7 @@ fn uniform_pressure_passes_through_non_matching_meshes_at_any_position() {
             },
             interface: Interface {
                 slave,
+                sticks: true,
                 friction,
                 wear: Sides::default(),
                 load: pressure * 1.0,

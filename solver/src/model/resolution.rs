@@ -27,6 +27,8 @@ pub struct Sizes {
     pub hertz_half_width: f64,
     /// Estimated half-width of the contact at the end.
     pub final_half_width: f64,
+    /// Whether part of the contact may stick through the whole stroke.
+    pub sticks: bool,
     /// The body whose nodes carry the contact constraints.
     pub slave: Side,
     /// Surface element size under the contact.
@@ -167,7 +169,8 @@ pub fn choose(scene: &Scene) -> Sizes {
         tolerance, tuning, ..
     } = &scene.accuracy;
     let elements = tuning.elements.at(*tolerance);
-    let (elements, layer_growth) = if sticks(scene, hertz) {
+    let sticks = sticks(scene, hertz);
+    let (elements, layer_growth) = if sticks {
         (
             tuning.sticking_refinement * elements,
             tuning.sticking_layer_growth,
@@ -211,6 +214,7 @@ pub fn choose(scene: &Scene) -> Sizes {
     Sizes {
         hertz_half_width: hertz,
         final_half_width: last,
+        sticks,
         slave: slave(scene, rates, gross, (element, slip)),
         contact_element: element,
         layer_growth: 1.0 + layer_growth.at(*tolerance),

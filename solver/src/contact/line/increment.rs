@@ -303,7 +303,7 @@ impl Solver {
         let load = next.equilibrium_load(&pair.interface);
         let peak = next.peak_pressure().max(f64::MIN_POSITIVE);
         // Round-off of longer lengths where these exceed the indentation.
-        let scale = (it.indentation * it.tolerance / GAP_TOLERANCE).max(f64::MIN_POSITIVE);
+        let scale = it.indentation.max(f64::MIN_POSITIVE) * it.tolerance / GAP_TOLERANCE;
         let (mut complementarity, mut cone) = (0.0_f64, 0.0_f64);
         for (i, status) in it.status.iter().enumerate() {
             let violation = if *status == Status::Open {

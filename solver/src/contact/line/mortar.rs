@@ -206,6 +206,7 @@ mod tests {
             operators,
             interface: Interface {
                 slave,
+                sticks: false,
                 friction: 0.0,
                 wear: Sides::default(),
                 load: 1.0,

@@ -6,8 +6,7 @@
 //! stick zone is exactly mu p in the fully worn state, such errors let the edge slip, wear and never come back.
 //!
 //! The lag is that of the last increment with the new displacement added, up to that of gross slip. The gap corrects a wrong
-//! lag to first order, so that it need not be exact. An increment longer than the whole elastic range slips at every node:
-//! it is paired by the imposed displacement.
+//! lag to first order, so that it need not be exact: where all of the contact slips in each stroke, it is left out.
 
 use super::pair::Pair;
 use super::state::ContactState;
@@ -17,6 +16,9 @@ use crate::sides::Side;
 /// Displacement of the slider at which the surfaces are paired, mm, for its imposed displacement. Stored forces act on the
 /// slider, so that the jump of slider over receptacle is the sum of what they do to both bodies.
 pub(super) fn position(pair: &Pair<'_>, last: &ContactState, slider_x: f64) -> f64 {
+    if !pair.interface.sticks {
+        return slider_x;
+    }
     let (mut lag, mut largest) = (0.0, 0.0);
     for side in Side::BOTH {
         let compliance = &pair.operators.of(side).compliance;
@@ -25,9 +27,7 @@ pub(super) fn position(pair: &Pair<'_>, last: &ContactState, slider_x: f64) -> f
         largest += pair.interface.friction * slipping;
     }
     let step = slider_x - last.slider_x;
-    let lag = if step.abs() >= 2.0 * largest {
-        0.0
-    } else if step > 0.0 {
+    let lag = if step > 0.0 {
         (lag + step).min(lag.max(largest))
     } else {
         (lag + step).max(lag.min(-largest))
