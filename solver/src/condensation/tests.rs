@@ -92,8 +92,8 @@ fn interior_and_surface_agree() {
     }
 }
 
-/// Near a force the surface moves as much along a tangential force as along a normal one, but for what the far bodies add;
-/// a uniform shear moves it as before.
+/// Near a force the surface moves as much along a tangential force as along a normal one, but for what the far bodies
+/// add; a uniform shear moves it as before.
 #[test]
 fn near_fields_are_equal_in_both_directions() {
     let model = model::build(&fuzz_button(), &crate::effects::plan(&fuzz_button()))

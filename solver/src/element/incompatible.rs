@@ -1,8 +1,8 @@
 //! Quadrilateral with incompatible modes: it bends without the parasitic shear of the bilinear element.
 //!
-//! Inside the element, u + (1 - xi^2) a_1 + (1 - eta^2) a_2. The gradients of the modes are taken with the Jacobian J_0 at the
-//! centre and scaled by det J_0 / det J, so that their mean vanishes and the patch test holds on any quadrilateral (Taylor,
-//! Beresford and Wilson 1976). The modes are eliminated in the element: K - K_ua K_aa^-1 K_au.
+//! Inside the element, u + (1 - xi^2) a_1 + (1 - eta^2) a_2. The gradients of the modes are taken with the Jacobian J_0
+//! at the centre and scaled by det J_0 / det J, so that their mean vanishes and the patch test holds on any
+//! quadrilateral (Taylor, Beresford and Wilson 1976). The modes are eliminated in the element: K - K_ua K_aa^-1 K_au.
 
 use nalgebra::{Matrix2, SMatrix, SVector};
 
@@ -73,7 +73,8 @@ fn integrate(
     Some((modes, coupling))
 }
 
-/// Gradients of both modes at a reference point, for the determinant of the Jacobian there; `None` if the element is inverted.
+/// Gradients of both modes at a reference point, for the determinant of the Jacobian there; `None` if the element is
+/// inverted.
 pub fn mode_gradients(nodes: &[[f64; 2]; 4], xi: [f64; 2], det: f64) -> Option<[[f64; 2]; 2]> {
     // The gradients of xi and eta at the centre, from those of the shape functions.
     let reference = Quad4::gradient([0.0; 2]);

@@ -39,8 +39,8 @@ pub struct Sizes {
     pub spacing: Sides<Spacing>,
 }
 
-/// Approach of the bodies under the load, mm:  P / (pi E*) (2 ln(4 H/a) - 1)  with the lower body height H (Johnson 1985,
-/// section 5.6, for a strip under a line load).
+/// Approach of the bodies under the load, mm:  P / (pi E*) (2 ln(4 H/a) - 1)  with the lower body height H (Johnson
+/// 1985, section 5.6, for a strip under a line load).
 pub(crate) fn approach(scene: &Scene, half_width: f64, modulus: f64) -> f64 {
     let height = scene
         .slider
@@ -55,9 +55,10 @@ fn strip(height: f64, half_width: f64) -> f64 {
     (2.0 * (4.0 * height / half_width).ln() - 1.0).max(0.0)
 }
 
-/// Imposed displacement at which all of the contact slips, mm: mu P times the compliance of both bodies to a tangential force
-/// on their surfaces. Near the contact it is the normal one, of a strip; a body of height H and half-width w besides shears
-/// and bends like a beam that is held at its far face (Timoshenko), with G = E/(2 (1 + nu)) and E' = E/(1 - nu^2):
+/// Imposed displacement at which all of the contact slips, mm: mu P times the compliance of both bodies to a tangential
+/// force on their surfaces. Near the contact it is the normal one, of a strip; a body of height H and half-width w
+/// besides shears and bends like a beam that is held at its far face (Timoshenko), with G = E/(2 (1 + nu)) and E' =
+/// E/(1 - nu^2):
 ///   E' delta / Q = (2 ln(4 min(H, w)/a) - 1) / pi + H^3 / (2 w^3) + 1.2 H / (w (1 - nu)).
 /// A slider whose nodes are all displaced does not deform along x.
 pub(crate) fn gross_slip(scene: &Scene, half_width: f64) -> f64 {
@@ -88,8 +89,8 @@ pub(crate) fn gross_slip(scene: &Scene, half_width: f64) -> f64 {
     friction::coefficient(scene.friction) * scene.load_n_per_mm * (upper + lower)
 }
 
-/// Whether part of the contact may stick through the whole stroke: the amplitude is below twice the displacement of gross
-/// slip.
+/// Whether part of the contact may stick through the whole stroke: the amplitude is below twice the displacement of
+/// gross slip.
 fn sticks(scene: &Scene, half_width: f64) -> bool {
     let Motion::Reciprocating { amplitude_mm, .. } = scene.motion else {
         return false;

@@ -40,13 +40,13 @@ pub struct Tuning {
     /// Growth of the layers away from the surface, less 1. Arbitrary: 0.12 to 0.5, and powers of 0 to -0.6, change no
     /// error of the scar and the groove by more than 0.05 % of the depth.
     pub layer_growth: Power,
-    /// The same in partial slip, where the slip depends on the tangential compliance of the bodies, whose error is of first
-    /// order in it. Of ten random scenes five differ from twice the accuracy by up to 13 % of the worn area with 0.25, three
-    /// by up to 4 % with 0.12 (`solver/tests/metamorphic/refined_tolerance.rs`).
+    /// The same in partial slip, where the slip depends on the tangential compliance of the bodies, whose error is of
+    /// first order in it. Of ten random scenes five differ from twice the accuracy by up to 13 % of the worn area with
+    /// 0.25, three by up to 4 % with 0.12 (`solver/tests/metamorphic/refined_tolerance.rs`).
     pub sticking_layer_growth: Power,
-    /// Factor on the number of elements in partial slip: wear is confined to a slip zone that is narrower than the contact,
-    /// with steep walls beside the stick zone. At 2 % the profile of the worse side is off by 2.0 % of the worn area with 5,
-    /// by 1.8 % with 5.5 and 1.7 % with 6.
+    /// Factor on the number of elements in partial slip: wear is confined to a slip zone that is narrower than the
+    /// contact, with steep walls beside the stick zone. At 2 % the profile of the worse side is off by 2.0 % of the
+    /// worn area with 5, by 1.8 % with 5.5 and 1.7 % with 6.
     pub sticking_refinement: f64,
     /// Width of the finely meshed zone over that of the expected scar. Arbitrary: with 1 and with 2 no scene's errors
     /// are larger than its tolerance.

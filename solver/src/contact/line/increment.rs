@@ -178,7 +178,7 @@ impl Solver {
             first_load: last.reference_height.is_none(),
             step,
         };
-        let wall = mean_slope_ahead(last, &problem);
+        let wall = problem.mean_slope_ahead(last);
         predict(&mut self.iterate, pair, last, &problem);
         let (newton, it) = (&mut self.newton, &mut self.iterate);
         let (response, wear) = (&mut self.response, &mut self.wear);
@@ -337,19 +337,4 @@ impl Solver {
 fn is_at_rest(last: &ContactState, to: Displacement) -> bool {
     let distance = (to.slider_x - last.slider_x).abs() + to.surface_slip.abs();
     last.reference_height.is_some() && distance <= 0.0
-}
-
-/// Mean slope under the last load, positive where the slider climbs it.
-fn mean_slope_ahead(last: &ContactState, problem: &Problem<'_>) -> f64 {
-    let (mut load, mut moment) = (0.0, 0.0);
-    let pressures = &last.pressure[problem.coupling.first..problem.coupling.end];
-    for ((p, width), slope) in pressures.iter().zip(problem.width).zip(problem.slope) {
-        load += width * p;
-        moment += width * p * slope;
-    }
-    if load > 0.0 {
-        problem.step.signum() * moment / load
-    } else {
-        0.0
-    }
 }

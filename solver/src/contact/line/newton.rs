@@ -4,8 +4,8 @@
 //! equations are, for each closed node, the vanishing gap
 //!   g_i = g0_i + v + N_i . (G F)_i + kappa_r e_i + (wear of the slider carried by the mortar)_i = 0,
 //! for each sticking node sigma_i = 0, for each slipping one q = mu p sign(sigma), and the vertical balance
-//! sum d_i (p_i - q_i s_i) = P + k_spring (v - v_0). All terms are linear but e, which is linearised in p and sigma. Choosing the
-//! status from the signs of the last iterate is the primal-dual form of the semi-smooth Newton method
+//! sum d_i (p_i - q_i s_i) = P + k_spring (v - v_0). All terms are linear but e, which is linearised in p and sigma.
+//! Choosing the status from the signs of the last iterate is the primal-dual form of the semi-smooth Newton method
 //! (Alart and Curnier 1991; Hueeber and Wohlmuth 2005); it needs no parameter.
 
 use std::ops::Range;
@@ -319,8 +319,8 @@ impl Newton {
     }
 }
 
-/// Whether the iteration has stalled at round-off: no change of status, and a residual, over its tolerance, that was not
-/// halved.
+/// Whether the iteration has stalled at round-off: no change of status, and a residual, over its tolerance, that was
+/// not halved.
 fn has_stalled((last, changes): (f64, usize), residual: f64) -> bool {
     changes == 0 && residual <= STALLED_WITHIN && 2.0 * residual > last
 }

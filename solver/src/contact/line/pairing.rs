@@ -1,20 +1,22 @@
 //! Pairing: which points of the two surfaces lie opposite each other.
 //!
 //! Surfaces that stick move together although the slider's far side is displaced: the bodies deform. They are therefore
-//! paired at the imposed displacement less its elastic part, the lag. Pairing a sticking contact by the imposed displacement
-//! would interpolate its tractions over other nodes in each increment; in partial slip, where the shear at the edge of the
-//! stick zone is exactly mu p in the fully worn state, such errors let the edge slip, wear and never come back.
+//! paired at the imposed displacement less its elastic part, the lag. Pairing a sticking contact by the imposed
+//! displacement would interpolate its tractions over other nodes in each increment; in partial slip, where the shear at
+//! the edge of the stick zone is exactly mu p in the fully worn state, such errors let the edge slip, wear and never
+//! come back.
 //!
-//! The lag is that of the last increment with the new displacement added, up to that of gross slip. The gap corrects a wrong
-//! lag to first order, so that it need not be exact: where all of the contact slips in each stroke, it is left out.
+//! The lag is that of the last increment with the new displacement added, up to that of gross slip. The gap corrects a
+//! wrong lag to first order, so that it need not be exact: where all of the contact slips in each stroke, it is left
+//! out.
 
 use super::pair::Pair;
 use super::state::ContactState;
 use crate::condensation::Compliance;
 use crate::sides::Side;
 
-/// Displacement of the slider at which the surfaces are paired, mm, for its imposed displacement. Stored forces act on the
-/// slider, so that the jump of slider over receptacle is the sum of what they do to both bodies.
+/// Displacement of the slider at which the surfaces are paired, mm, for its imposed displacement. Stored forces act on
+/// the slider, so that the jump of slider over receptacle is the sum of what they do to both bodies.
 pub(super) fn position(pair: &Pair<'_>, last: &ContactState, slider_x: f64) -> f64 {
     if !pair.interface.sticks {
         return slider_x;
@@ -35,8 +37,8 @@ pub(super) fn position(pair: &Pair<'_>, last: &ContactState, slider_x: f64) -> f
     slider_x - lag
 }
 
-/// Mean of u_x over the contact, weighted by its vertical forces, under nodal forces, and the size of the same under their
-/// vertical part turned into the tangential direction, mm.
+/// Mean of u_x over the contact, weighted by its vertical forces, under nodal forces, and the size of the same under
+/// their vertical part turned into the tangential direction, mm.
 fn mean_displacements(compliance: &Compliance, force: &[f64]) -> (f64, f64) {
     let forces = force.chunks_exact(2).enumerate();
     let loaded = forces.filter(|(_, f)| f[1] != 0.0);

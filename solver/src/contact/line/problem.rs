@@ -2,6 +2,7 @@
 
 use super::mortar::Coupling;
 use super::pair::Pair;
+use super::state::ContactState;
 use super::status::Status;
 use crate::law::wear::LocalState;
 
@@ -39,6 +40,23 @@ pub(super) struct Problem<'a> {
     pub(super) first_load: bool,
     /// Imposed slip: the displacement and the additional slip of the slider's surface, mm.
     pub(super) step: f64,
+}
+
+impl Problem<'_> {
+    /// Mean slope under the last load, positive where the slider climbs it.
+    pub(super) fn mean_slope_ahead(&self, last: &ContactState) -> f64 {
+        let (mut load, mut moment) = (0.0, 0.0);
+        let pressures = &last.pressure[self.coupling.first..self.coupling.end];
+        for ((p, width), slope) in pressures.iter().zip(self.width).zip(self.slope) {
+            load += width * p;
+            moment += width * p * slope;
+        }
+        if load > 0.0 {
+            self.step.signum() * moment / load
+        } else {
+            0.0
+        }
+    }
 }
 
 /// Iterate of the Newton method over the coupled nodes.
