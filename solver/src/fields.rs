@@ -131,6 +131,7 @@ pub fn placed(
 }
 
 /// Recovers the fields of a body under forces on its contact nodes (x, y for each, N/mm) and its far-face load (N/mm).
+/// They are those of the elements, without the near field that the contact is given.
 pub fn recover(
     model: &BodyModel,
     interior: &Interior,

@@ -106,8 +106,8 @@ fn assert_stands(snapshot: &Snapshot, worn: Side) {
         );
         // The edge of a discrete stick zone lies between two nodes.
         assert!((edge - closed).abs() < element, "{edge} {closed}");
-        // Nearer to the edge the singular pressure is that of the elements: an edge half an element further in changes it by
-        // 6 % at nine tenths of c.
+        // The scene's tolerance. Nearer to the edge the singular pressure is that of the elements: an edge half an
+        // element further in changes it by 6 % at nine tenths of c.
         assert!(error < 0.02, "{error}");
     }
 }

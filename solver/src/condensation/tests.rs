@@ -92,8 +92,8 @@ fn interior_and_surface_agree() {
     }
 }
 
-/// Near a force the surface moves as much along a tangential force as along a normal one, but for what the far bodies
-/// add; a uniform shear moves it as before.
+/// Near a force the surface follows a tangential force as it follows a normal one; a uniform shear moves it as the elements
+/// alone do.
 #[test]
 fn near_fields_are_equal_in_both_directions() {
     let model = model::build(&fuzz_button(), &crate::effects::plan(&fuzz_button()))
@@ -107,8 +107,8 @@ fn near_fields_are_equal_in_both_directions() {
     };
     for i in middle + 1..middle + near_field::REACH {
         let ratio = local(0, i) / local(1, i);
-        // The rest is the change that keeps a uniform shear, on the diagonal.
-        assert!((ratio - 1.0).abs() < 0.07, "{ratio}");
+        // 0.96 to 0.98: the rest is the change on the diagonal that keeps a uniform shear.
+        assert!((ratio - 1.0).abs() < 0.05, "{ratio}");
     }
     let shear: Vec<f64> = body.widths.iter().flat_map(|w| [*w, 0.0]).collect();
     let u = condensed.interior.receptacle.displacements(&shear, 0.0);

@@ -10,6 +10,7 @@ use super::invariants::hold;
 use super::run::solve;
 use super::specs::fuzz_button;
 
+/// The stiffness is rebuilt once half of the height is gone, which is reached after 613 cycles.
 #[test]
 fn a_block_loses_more_than_half_of_its_height() {
     let run = solve(&fuzz_button(
