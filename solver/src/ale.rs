@@ -38,8 +38,7 @@ pub fn relocate(model: &Model, depth: &Sides<Vec<f64>>) -> Result<Model, MeshErr
         (Side::Slider, &mut moved.bodies.slider),
     ] {
         let surface = worn(body, depth.of(side), side);
-        body.mesh = body.mesh.with_surface(surface);
-        body.mesh.quality()?;
+        *body = body.with_surface(surface)?;
     }
     Ok(moved)
 }
@@ -47,12 +46,12 @@ pub fn relocate(model: &Model, depth: &Sides<Vec<f64>>) -> Result<Model, MeshErr
 /// Heights of all surface nodes when the contact nodes have receded by `depth`.
 fn worn(body: &BodyModel, depth: &[f64], side: Side) -> Vec<f64> {
     let mut surface: Vec<f64> = body
-        .mesh
-        .x()
+        .layout
+        .x
         .iter()
-        .map(|&x| body.profile.height(x))
+        .map(|&x| body.layout.profile.height(x))
         .collect();
-    for (y, depth) in surface[body.contact.0..body.contact.1]
+    for (y, depth) in surface[body.layout.contact.0..body.layout.contact.1]
         .iter_mut()
         .zip(depth)
     {
@@ -64,8 +63,8 @@ fn worn(body: &BodyModel, depth: &[f64], side: Side) -> Vec<f64> {
 /// Largest change of a contact spine since the mesh was built, over its length then.
 fn drift(body: &BodyModel, depth: &[f64], side: Side) -> f64 {
     let worn = worn(body, depth, side);
-    let built = body.mesh.surface_y();
-    (body.contact.0..body.contact.1)
-        .map(|i| (worn[i] - built[i]).abs() / (body.mesh.far_y() - built[i]).abs())
+    let built = body.surface_y();
+    (body.layout.contact.0..body.layout.contact.1)
+        .map(|i| (worn[i] - built[i]).abs() / (body.layout.far_y - built[i]).abs())
         .fold(0.0, f64::max)
 }

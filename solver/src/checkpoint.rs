@@ -20,6 +20,8 @@ pub struct Checkpoint {
     /// Worn depths at which the operators were last rebuilt, mm.
     pub(crate) built: Option<Sides<Vec<f64>>>,
     pub(crate) relocations: u64,
+    /// Factor by which zones of fine elements are wider than the scene's.
+    pub(crate) widened: f64,
 }
 
 /// The unworn, loaded state.
@@ -60,12 +62,18 @@ impl Checkpoint {
         self.state.cycle
     }
 
-    /// The model at this checkpoint, from the unworn one.
-    pub(crate) fn model(&self, unworn: Model) -> Result<Model, MeshError> {
-        match &self.built {
-            None => Ok(unworn),
-            Some(depth) => ale::relocate(&unworn, depth),
-        }
+    /// The model at this checkpoint, from an earlier one.
+    pub(crate) fn model(&self, earlier: &Model) -> Result<Model, MeshError> {
+        let model = match &self.built {
+            None => earlier.clone(),
+            Some(depth) => ale::relocate(earlier, depth)?,
+        };
+        model.with_zones_widened(self.widened)
+    }
+
+    /// Records that zones must be wider.
+    pub(crate) fn widen(&mut self) {
+        self.widened *= 2.0;
     }
 
     /// Records that the operators are rebuilt at the present depths.

@@ -2,19 +2,23 @@
 //!
 //! The stiffness is assembled with the contact unknowns last and factored once; the trailing block of the factor
 //! gives the compliance of the contact surface, C = S^-1 with S = K_cc - K_ci K_ii^-1 K_ic.
-//! A body keeps its operator in its own frame, so large sliding changes only the coupling of both surfaces.
+//! A body keeps its operator in its own frame, so large sliding changes only the coupling of both surfaces. A surface
+//! of several zones has an operator for each.
 
 mod assembly;
 mod compliance;
 mod near_field;
+mod zone_operators;
 
 use crate::linear::{CholeskyFactor, CholeskyPattern, FactorError};
-use crate::model::{BodyModel, Model, Profile, Support};
+use crate::model::{BodyModel, Model, Profile, Support, ZoneModel};
 use crate::sides::{Side, Sides};
 use assembly::Numbering;
+use std::ops::Range;
 use std::sync::Arc;
 
 pub use compliance::{Block, Compliance};
+pub use zone_operators::ZoneOperators;
 
 /// Why operators cannot be built.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
@@ -49,11 +53,26 @@ pub struct BodyOperators {
     pub widths: Vec<f64>,
     /// The unworn surface.
     pub profile: Profile,
-    /// Displacements of the contact nodes per force at them.
-    pub compliance: Compliance,
-    /// Displacement of the surface unknowns per unit of normal load on the far face, mm per N/mm; zero where the
-    /// far face is held.
-    pub load_response: Vec<f64>,
+    /// Responses of the surface, zone by zone.
+    pub zones: Vec<ZoneOperators>,
+}
+
+impl BodyOperators {
+    /// The zone in whose interior a range of contact nodes lies farthest; none if it is wider than each.
+    pub fn zone(&self, range: &Range<usize>) -> Option<&ZoneOperators> {
+        self.zone_number(range).map(|zone| &self.zones[zone])
+    }
+
+    /// Number of the same zone.
+    pub fn zone_number(&self, range: &Range<usize>) -> Option<usize> {
+        let clearances = self.zones.iter().enumerate().filter_map(|(number, zone)| {
+            let clearance = zone.clearance(range, self.x.len())?;
+            Some((clearance, number))
+        });
+        // Of equals the first.
+        let best = clearances.reduce(|best, next| if next.0 > best.0 { next } else { best });
+        best.map(|(_, number)| number)
+    }
 }
 
 /// Condensed operators, and the factors behind them.
@@ -61,11 +80,11 @@ pub struct BodyOperators {
 pub struct Condensed {
     /// Operators of the contact surfaces.
     pub operators: Operators,
-    /// Factored interiors.
-    pub interior: Sides<Interior>,
+    /// Factored interior of a body that is one mesh; those of several zones are not stored.
+    interior: Sides<Option<Interior>>,
 }
 
-/// The factored stiffness of a body: gives interior displacements back.
+/// The factored stiffness of a mesh: gives interior displacements back.
 #[derive(Debug)]
 pub struct Interior {
     numbering: Numbering,
@@ -82,8 +101,8 @@ pub fn condense(model: &Model) -> Result<Condensed, OperatorError> {
     Ok(Condensed::of(bodies.transpose()?))
 }
 
-/// Condenses again what has changed from a model of the same topology to the next: a body whose mesh is the same
-/// keeps its operators, the other one its pattern.
+/// Condenses again what has changed from a model to the next: a body whose meshes are the same keeps its operators, one of
+/// the same mesh lines its pattern.
 ///
 /// # Errors
 /// [`OperatorError`] if an element is inverted or a body is not held.
@@ -92,14 +111,15 @@ pub fn renew(
     before: &Model,
     earlier: Condensed,
 ) -> Result<Condensed, OperatorError> {
-    let renew_body = |side: Side, (operators, interior): (BodyOperators, Interior)| {
-        let body = model.bodies.of(side);
-        if body.mesh == before.bodies.of(side).mesh {
+    let renew_body = |side: Side, (operators, interior): (BodyOperators, Option<Interior>)| {
+        let (body, earlier) = (model.bodies.of(side), before.bodies.of(side));
+        if body.zones == earlier.zones {
             return Ok((operators, interior));
         }
-        let pattern = Some(interior.factor.pattern().clone());
-        // The old factor is freed before the new one is computed.
-        drop(interior);
+        let pattern = interior.as_ref().map(|i| i.factor.pattern().clone());
+        let pattern = pattern.filter(|_| body.layout == earlier.layout);
+        // The old operators and factor are freed before the new ones are computed.
+        drop((operators, interior));
         condense_body(body, side, pattern)
     };
     let Sides { slider, receptacle } = earlier.operators.zip(earlier.interior);
@@ -110,7 +130,7 @@ pub fn renew(
 }
 
 impl Condensed {
-    fn of(bodies: Sides<(BodyOperators, Interior)>) -> Self {
+    fn of(bodies: Sides<(BodyOperators, Option<Interior>)>) -> Self {
         let Sides { slider, receptacle } = bodies;
         Self {
             operators: Sides {
@@ -123,16 +143,71 @@ impl Condensed {
             },
         }
     }
+
+    /// Displacements of all nodes of the mesh of one zone, mm, under nodal forces on the contact surface (x, y for each
+    /// contact node, N/mm), which must lie in the zone, and a normal load on the far face where that carries one (N/mm).
+    ///
+    /// # Errors
+    /// [`OperatorError`] if the mesh must be factored again and cannot be.
+    pub fn displacements(
+        &self,
+        model: &Model,
+        (side, zone): (Side, usize),
+        contact_force: &[f64],
+        load: f64,
+    ) -> Result<Vec<[f64; 2]>, OperatorError> {
+        let body = model.bodies.of(side);
+        let first = body.first_node(&body.zones[zone]);
+        let force = &contact_force[2 * first..2 * (first + body.zones[zone].zone.nodes())];
+        if let Some(interior) = self.interior.of(side) {
+            return Ok(interior.displacements(force, load));
+        }
+        let interior = factor(&body.zones[zone], side, None)?;
+        Ok(interior.displacements(force, load))
+    }
 }
 
 fn condense_body(
-    model: &BodyModel,
+    body: &BodyModel,
     side: Side,
     pattern: Option<Arc<CholeskyPattern>>,
-) -> Result<(BodyOperators, Interior), OperatorError> {
+) -> Result<(BodyOperators, Option<Interior>), OperatorError> {
+    let widths = body.contact_widths();
+    let condense_zone = |zone: &ZoneModel, pattern: Option<Arc<CholeskyPattern>>| {
+        let interior = factor(zone, side, pattern)?;
+        let first = body.first_node(zone);
+        let widths = &widths[first..first + zone.zone.nodes()];
+        let operators = interior.condensed(zone.support, first, widths);
+        Ok((operators, interior))
+    };
+    let (zones, interior) = match &body.zones[..] {
+        [whole] => {
+            let (operators, interior) = condense_zone(whole, pattern)?;
+            (vec![operators], Some(interior))
+        }
+        several => {
+            let condensed = several.iter().map(|zone| Ok(condense_zone(zone, None)?.0));
+            (condensed.collect::<Result<_, _>>()?, None)
+        }
+    };
+    let operators = BodyOperators {
+        x: body.contact_x().to_vec(),
+        widths,
+        profile: body.layout.profile,
+        zones,
+    };
+    Ok((operators, interior))
+}
+
+/// Factors the stiffness of a mesh.
+fn factor(
+    zone: &ZoneModel,
+    side: Side,
+    pattern: Option<Arc<CholeskyPattern>>,
+) -> Result<Interior, OperatorError> {
     let body = side.name();
-    let numbering = Numbering::new(model);
-    let matrix = assembly::assemble(model, &numbering)
+    let numbering = Numbering::new(zone);
+    let matrix = assembly::assemble(zone, &numbering)
         .map_err(|element| OperatorError::Inverted { body, element })?;
     let factor_error = |source| OperatorError::Factor { body, source };
     let pattern = match pattern {
@@ -143,37 +218,33 @@ fn condense_body(
         ),
     };
     let factor = pattern.factor(&matrix.values).map_err(factor_error)?;
-    let mut compliance = numbering.expand(&factor.retained_inverse());
-    if model.support == Support::FarFaceHeld {
-        near_field::equalise(&mut compliance, &model.contact_widths());
-    }
-    let far_load = match model.support {
+    let far_load = match zone.support {
         Support::FarFaceHeld => vec![0.0; numbering.order()],
-        Support::GuidedUnderPressure => assembly::far_face_load(model, &numbering),
+        Support::GuidedUnderPressure => assembly::far_face_load(zone, &numbering),
     };
-    let mut response = far_load.clone();
-    factor.solve(&mut response);
-    let operators = BodyOperators {
-        x: model.contact_x().to_vec(),
-        widths: model.contact_widths(),
-        profile: model.profile,
-        compliance,
-        load_response: numbering.expand_vector(&response),
-    };
-    Ok((
-        operators,
-        Interior {
-            numbering,
-            factor,
-            far_load,
-        },
-    ))
+    Ok(Interior {
+        numbering,
+        factor,
+        far_load,
+    })
 }
 
 impl Interior {
-    /// Displacements of all nodes, mm, under nodal forces on the contact surface (x, y for each contact node, N/mm)
-    /// and a normal load on the far face where that carries one (N/mm).
-    pub fn displacements(&self, contact_force: &[f64], load: f64) -> Vec<[f64; 2]> {
+    /// Condenses onto the retained nodes, of which `first` is the first among the contact nodes and which have these
+    /// widths.
+    fn condensed(&self, support: Support, first: usize, widths: &[f64]) -> ZoneOperators {
+        let mut compliance = self.numbering.expand(&self.factor.retained_inverse());
+        if support == Support::FarFaceHeld {
+            near_field::equalise(&mut compliance, widths);
+        }
+        let mut response = self.far_load.clone();
+        self.factor.solve(&mut response);
+        ZoneOperators::new(first, compliance, self.numbering.expand_vector(&response))
+    }
+
+    /// Displacements of all nodes, mm, under nodal forces on the retained nodes (x, y for each, N/mm) and a normal load
+    /// on the far face where that carries one (N/mm).
+    fn displacements(&self, contact_force: &[f64], load: f64) -> Vec<[f64; 2]> {
         let mut u: Vec<f64> = self.far_load.iter().map(|f| load * f).collect();
         self.numbering.add_contact_force(contact_force, &mut u);
         self.factor.solve(&mut u);

@@ -120,7 +120,8 @@ impl<'a> Integrator<'a> {
     /// Computes one cycle, which represents as many physical ones as the jump control and `until` allow.
     ///
     /// # Errors
-    /// [`CycleError`] if an increment fails however small it is.
+    /// [`CycleError`] if an increment fails however small it is; the state is then that before the cycle if wider zones
+    /// would help.
     pub fn compute_cycle(
         &mut self,
         state: &mut CycleState,
@@ -148,6 +149,10 @@ impl<'a> Integrator<'a> {
                 }
                 Err(error) => error,
             };
+            if error.needs_wider_zones() {
+                *state = before;
+                return Err(error);
+            }
             let cut = state.jump.cut(jump);
             *state = CycleState {
                 jump: state.jump.clone(),

@@ -3,16 +3,17 @@
 //! Stress is evaluated at the corners of every element and averaged over the elements of a node, by area. In plane
 //! strain sigma_zz = lambda (eps_xx + eps_yy).
 
+use crate::SolveError;
 use crate::ale;
-use crate::condensation::{Condensed, Interior};
+use crate::condensation::{Condensed, OperatorError};
 use crate::contact::ContactState;
 use crate::element::{Element, Quad4, Tri3, incompatible, physical_gradient};
 use crate::law::elastic::Lame;
+use crate::mesh::MeshError;
 use crate::mesh::columns::Cell;
-use crate::mesh::{ColumnMesh, MeshError};
-use crate::model::{BodyModel, Model};
+use crate::model::{Model, ZoneModel};
 use crate::schedule::increments::Position;
-use crate::sides::Sides;
+use crate::sides::{Side, Sides};
 
 /// Fields of both bodies at one position of the slider.
 #[derive(Debug, Clone, PartialEq)]
@@ -74,73 +75,66 @@ impl Stress {
 /// Fields of both bodies in the states of contact that a cycle recorded, the meshes at the present worn surfaces.
 ///
 /// # Errors
-/// [`MeshError::Inverted`] if the present surfaces would invert an element.
+/// [`SolveError`] if the present surfaces would invert an element, or a mesh cannot be factored again.
 pub fn placed(
     model: &Model,
     condensed: &Condensed,
     depth: &Sides<Vec<f64>>,
     contacts: &[(Position, ContactState)],
-) -> Result<Vec<PlacedFields>, MeshError> {
+) -> Result<Vec<PlacedFields>, SolveError> {
     let worn = ale::relocate(model, depth)?;
-    let quality = [
-        worn.bodies.slider.mesh.scaled_jacobians()?,
-        worn.bodies.receptacle.mesh.scaled_jacobians()?,
-    ];
-    let place = |fields: &mut BodyFields, mesh: &ColumnMesh, quality: &[f64], by: [f64; 2]| {
-        fields.nodes = mesh
-            .coordinates()
-            .iter()
-            .map(|node| [node[0] + by[0], node[1] + by[1]])
-            .collect();
-        fields.quality = quality.to_vec();
-    };
     let at = |(position, contact): &(Position, ContactState)| {
-        let load = contact.load(&model.interface);
-        let reaction: Vec<f64> = contact.force.receptacle.iter().map(|f| -f).collect();
-        let mut slider = recover(
-            &model.bodies.slider,
-            &condensed.interior.slider,
-            &contact.force.slider,
-            load,
-        );
-        let mut receptacle = recover(
-            &model.bodies.receptacle,
-            &condensed.interior.receptacle,
-            &reaction,
-            0.0,
-        );
-        place(
-            &mut slider,
-            &worn.bodies.slider.mesh,
-            &quality[0],
-            [contact.slider_x, contact.height],
-        );
-        place(
-            &mut receptacle,
-            &worn.bodies.receptacle.mesh,
-            &quality[1],
-            [0.0; 2],
-        );
-        PlacedFields {
+        let body = |side: Side| -> Result<BodyFields, SolveError> {
+            let operators = condensed.operators.of(side);
+            let zone = operators.zone_number(&contact.loaded(side)).unwrap_or(0);
+            let (sign, load, place) = match side {
+                Side::Slider => {
+                    let load = contact.load(&model.interface);
+                    (1.0, load, [contact.slider_x, contact.height])
+                }
+                Side::Receptacle => (-1.0, 0.0, [0.0; 2]),
+            };
+            let force: Vec<f64> = contact.force.of(side).iter().map(|f| sign * f).collect();
+            let fields = recover(model, condensed, (side, zone), &force, load)?;
+            Ok(fields.placed(&worn.bodies.of(side).zones[zone], place)?)
+        };
+        Ok(PlacedFields {
             position: *position,
-            slider,
-            receptacle,
-        }
+            slider: body(Side::Slider)?,
+            receptacle: body(Side::Receptacle)?,
+        })
     };
-    Ok(contacts.iter().map(at).collect())
+    contacts.iter().map(at).collect()
 }
 
-/// Recovers the fields of a body under forces on its contact nodes (x, y for each, N/mm) and its far-face load (N/mm).
-/// They are those of the elements, without the near field that the contact is given.
+impl BodyFields {
+    /// The same with its nodes on a worn mesh that is displaced, mm.
+    fn placed(self, worn: &ZoneModel, by: [f64; 2]) -> Result<Self, MeshError> {
+        let nodes = worn.mesh.coordinates();
+        Ok(Self {
+            nodes: nodes.iter().map(|n| [n[0] + by[0], n[1] + by[1]]).collect(),
+            quality: worn.mesh.scaled_jacobians()?,
+            ..self
+        })
+    }
+}
+
+/// Recovers the fields in the mesh of one zone of a body under forces on its contact nodes (x, y for each, N/mm) and its
+/// far-face load (N/mm). They are those of the elements, without the near field that the contact is given.
+///
+/// # Errors
+/// [`OperatorError`] if the mesh must be factored again and cannot be.
 pub fn recover(
-    model: &BodyModel,
-    interior: &Interior,
+    model: &Model,
+    condensed: &Condensed,
+    (side, zone): (Side, usize),
     contact_force: &[f64],
     load: f64,
-) -> BodyFields {
+) -> Result<BodyFields, OperatorError> {
+    let displacement_mm = condensed.displacements(model, (side, zone), contact_force, load)?;
+    let model = &model.bodies.of(side).zones[zone];
     let nodes = model.mesh.coordinates();
     let cells = model.mesh.cells();
-    let displacement_mm = interior.displacements(contact_force, load);
     let mut sums = vec![(Stress::default(), 0.0); nodes.len()];
     for cell in &cells {
         match cell {
@@ -168,13 +162,13 @@ pub fn recover(
             xy: s.xy / w,
         })
         .collect();
-    BodyFields {
+    Ok(BodyFields {
         nodes,
         cells,
         displacement_mm,
         stress,
         quality: Vec::new(),
-    }
+    })
 }
 
 /// Amplitudes of incompatible modes and their gradients at a corner.
@@ -254,13 +248,9 @@ mod tests {
             .iter()
             .flat_map(|w| [0.0, -7.0 * w])
             .collect();
-        let fields = recover(
-            &model.bodies.receptacle,
-            &condensed.interior.receptacle,
-            &force,
-            0.0,
-        );
-        let mesh = &model.bodies.receptacle.mesh;
+        let fields = recover(&model, &condensed, (Side::Receptacle, 0), &force, 0.0)
+            .expect("the block is factored");
+        let mesh = &model.bodies.receptacle.zones[0].mesh;
         let middle = mesh.surface_node(mesh.spines() / 2);
         let s = fields.stress[middle + 2];
         assert!((s.yy + 7.0).abs() < 1e-5 && s.xy.abs() < 1e-5, "{s:?}");

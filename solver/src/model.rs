@@ -3,6 +3,7 @@
 pub mod layout;
 pub mod profile;
 pub mod resolution;
+mod zones;
 
 use crate::effects::{Effect, EffectsPlan};
 use crate::element;
@@ -10,13 +11,13 @@ use crate::law::elastic::Lame;
 use crate::law::friction;
 use crate::law::wear::WearLaw;
 use crate::mesh::{ColumnMesh, MeshError};
-use crate::number::real;
 use crate::scene::{Drive, Elastic, Scene};
 use crate::sides::{Side, Sides};
 
 pub use layout::{BodyLayout, Layout};
 pub use profile::Profile;
 pub use resolution::Sizes;
+pub use zones::{Zone, ZoneSizes};
 
 /// Two bodies ready to be condensed.
 #[derive(Debug, Clone, PartialEq)]
@@ -31,21 +32,32 @@ pub struct Model {
     pub sizes: Sizes,
 }
 
-/// One meshed body.
+/// One body: its contact surface, and the meshes that respond to forces on it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BodyModel {
+    /// Its mesh lines.
+    pub layout: BodyLayout,
+    /// Heights of the surface nodes of all spines at the geometry of the operators, mm.
+    surface_y: Vec<f64>,
+    elastic: Elastic,
+    support: Support,
+    /// Meshes, one for each zone of the surface; never empty.
+    pub zones: Vec<ZoneModel>,
+}
+
+/// A body meshed finely along a zone of its contact surface.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ZoneModel {
+    /// Its spines among those of the body.
+    pub zone: Zone,
     /// Mesh at the geometry of the operators.
     pub mesh: ColumnMesh,
-    /// Unworn surface.
-    pub profile: Profile,
     /// Elastic constants.
     pub lame: Lame,
     /// Whether the elements use the mean volumetric strain (B-bar).
     pub b_bar: bool,
     /// Support.
     pub support: Support,
-    /// Spines whose surface nodes may touch the other body: first and one past the last.
-    pub contact: (usize, usize),
 }
 
 /// Support of a body.
@@ -105,8 +117,8 @@ pub fn build(scene: &Scene, plan: &EffectsPlan) -> Result<Model, MeshError> {
     let Sides { slider, receptacle } = layout.bodies;
     Ok(Model {
         bodies: Sides {
-            slider: body(slider, scene.slider.elastic, slider_support)?,
-            receptacle: body(receptacle, scene.receptacle.elastic, Support::FarFaceHeld)?,
+            slider: BodyModel::new(slider, scene.slider.elastic, slider_support)?,
+            receptacle: BodyModel::new(receptacle, scene.receptacle.elastic, Support::FarFaceHeld)?,
         },
         interface,
         relocates: plan.simulates(Effect::Relocation),
@@ -114,36 +126,110 @@ pub fn build(scene: &Scene, plan: &EffectsPlan) -> Result<Model, MeshError> {
     })
 }
 
-fn body(layout: BodyLayout, elastic: Elastic, support: Support) -> Result<BodyModel, MeshError> {
-    let surface = layout.heights();
-    let BodyLayout {
-        x,
-        profile,
-        far_y,
-        fractions,
-        contact,
-    } = layout;
-    let mesh = ColumnMesh::new(x, surface, far_y, fractions);
-    mesh.quality()?;
-    Ok(BodyModel {
-        mesh,
-        profile,
-        lame: elastic.into(),
-        b_bar: elastic.poisson_ratio > element::B_BAR_FROM_POISSON_RATIO,
-        support,
-        contact,
-    })
-}
-
 impl BodyModel {
-    /// Places of the contact nodes in the body's frame, mm, ascending.
-    pub fn contact_x(&self) -> &[f64] {
-        &self.mesh.x()[self.contact.0..self.contact.1]
+    /// Meshes a body on its mesh lines.
+    ///
+    /// # Errors
+    /// [`MeshError::Inverted`] if an element is inverted.
+    pub fn new(layout: BodyLayout, elastic: Elastic, support: Support) -> Result<Self, MeshError> {
+        let body = Self {
+            surface_y: layout.heights(),
+            layout,
+            elastic,
+            support,
+            zones: Vec::new(),
+        };
+        body.meshed()
     }
 
-    /// Displacement unknowns of the whole body before condensation.
+    /// The body with a mesh for each zone of its layout.
+    fn meshed(self) -> Result<Self, MeshError> {
+        let BodyLayout {
+            x,
+            far_y,
+            fractions,
+            zones,
+            ..
+        } = &self.layout;
+        let meshed = |zone: &Zone| {
+            let at = |values: &[f64]| zone.spines.iter().map(|&i| values[i]).collect();
+            let mesh = ColumnMesh::new(at(x), at(&self.surface_y), *far_y, fractions.clone());
+            mesh.quality()?;
+            Ok(ZoneModel {
+                zone: zone.clone(),
+                mesh,
+                lame: self.elastic.into(),
+                b_bar: self.elastic.poisson_ratio > element::B_BAR_FROM_POISSON_RATIO,
+                support: self.support,
+            })
+        };
+        let zones = zones.iter().map(meshed).collect::<Result<_, _>>()?;
+        Ok(Self { zones, ..self })
+    }
+
+    /// The body with zones of another width, over the layout's.
+    fn with_zones_widened(self, factor: f64) -> Result<Self, MeshError> {
+        let layout = self.layout.with_zones_widened(factor)?;
+        if layout == self.layout {
+            return Ok(self);
+        }
+        Self { layout, ..self }.meshed()
+    }
+
+    /// The body with its surface nodes at other heights, mm.
+    ///
+    /// # Errors
+    /// [`MeshError::Inverted`] if an element would be inverted.
+    pub fn with_surface(&self, surface_y: Vec<f64>) -> Result<Self, MeshError> {
+        let moved = |zone: &ZoneModel| {
+            let at = zone.zone.spines.iter().map(|&i| surface_y[i]).collect();
+            let mesh = zone.mesh.with_surface(at);
+            mesh.quality()?;
+            Ok(ZoneModel {
+                mesh,
+                ..zone.clone()
+            })
+        };
+        Ok(Self {
+            zones: self.zones.iter().map(moved).collect::<Result<_, _>>()?,
+            surface_y,
+            ..self.clone()
+        })
+    }
+
+    /// Places of the contact nodes in the body's frame, mm, ascending.
+    pub fn contact_x(&self) -> &[f64] {
+        self.layout.contact_x()
+    }
+
+    /// Heights of the surface nodes of all spines at the geometry of the operators, mm.
+    pub fn surface_y(&self) -> &[f64] {
+        &self.surface_y
+    }
+
+    /// Displacement unknowns of its largest mesh before condensation.
     pub fn dofs(&self) -> usize {
-        2 * self.mesh.nodes()
+        let nodes = self.zones.iter().map(|zone| zone.mesh.nodes());
+        2 * nodes.max().unwrap_or(0)
+    }
+
+    /// Number of the zone in whose middle a place lies, mm, as nearly as possible.
+    pub fn zone_at(&self, place: f64) -> usize {
+        let x = &self.layout.x;
+        let distance = |zone: &ZoneModel| {
+            let (first, nodes) = (zone.zone.first(), zone.zone.nodes());
+            (0.5 * (x[first] + x[first + nodes - 1]) - place).abs()
+        };
+        let distances = self.zones.iter().map(distance).enumerate();
+        let nearest = distances.fold((0, f64::INFINITY), |best, next| {
+            if next.1 < best.1 { next } else { best }
+        });
+        nearest.0
+    }
+
+    /// Number of the first retained node of a zone among the contact nodes.
+    pub fn first_node(&self, zone: &ZoneModel) -> usize {
+        zone.zone.first() - self.layout.contact.0
     }
 
     /// Length of surface that belongs to each contact node, projected on x, mm.
@@ -153,11 +239,19 @@ impl BodyModel {
             .map(|i| 0.5 * (x[(i + 1).min(x.len() - 1)] - x[i.saturating_sub(1)]))
             .collect()
     }
+}
 
-    /// Mean spacing of the surface nodes, mm.
-    pub fn mean_spacing(&self) -> f64 {
-        let x = self.mesh.x();
-        (x[x.len() - 1] - x[0]) / real(x.len() - 1)
+impl Model {
+    /// The model with zones of another width, over that of the layout.
+    ///
+    /// # Errors
+    /// [`MeshError`] if a zone would be too large.
+    pub(crate) fn with_zones_widened(self, factor: f64) -> Result<Self, MeshError> {
+        let bodies = self.bodies.map(|body| body.with_zones_widened(factor));
+        Ok(Self {
+            bodies: bodies.transpose()?,
+            ..self
+        })
     }
 }
 

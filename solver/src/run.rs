@@ -1,4 +1,4 @@
-//! The run: integrate until the geometry has drifted, relocate, condense again.
+//! The run: integrate until the geometry has drifted or the contact has outgrown its mesh, relocate, condense again.
 
 use std::ops::ControlFlow;
 
@@ -44,7 +44,7 @@ pub fn resume(
     observer.on_phase(Phase::Mesh);
     let unworn = model::build(scene, &effects::plan(scene))?;
     run.check(&unworn, scene.cycles)?;
-    let model = run.model(unworn)?;
+    let model = run.model(&unworn)?;
     observer.on_phase(Phase::Condense);
     let condensed = condensation::condense(&model)?;
     advance(scene, model, condensed, run, observer)
@@ -65,8 +65,8 @@ fn advance(
             return Ok(summary(scene, &model, &run, outcome));
         }
         observer.on_phase(Phase::Relocate);
-        let moved = ale::relocate(&model, &run.state.depth)?;
         run.relocated();
+        let moved = run.model(&model)?;
         observer.on_phase(Phase::Condense);
         condensed = condensation::renew(&moved, &model, condensed)?;
         model = moved;
@@ -101,11 +101,13 @@ fn load(
         initial,
         built: None,
         relocations: 0,
+        widened: 1.0,
     };
     Ok((run, flow))
 }
 
-/// Computes cycles until the run ends (`Break`) or the geometry has drifted (`Continue`).
+/// Computes cycles until the run ends (`Break`), or the geometry has drifted or the contact outgrown its zones
+/// (`Continue`).
 fn integrate(
     scene: &Scene,
     model: &Model,
@@ -122,7 +124,13 @@ fn integrate(
         }
         let state = &mut run.state;
         let until = stops::next(scene, progress(&spines, state));
-        let record = integrator.compute_cycle(state, until)?;
+        let record = match integrator.compute_cycle(state, until) {
+            Err(error) if error.needs_wider_zones() => {
+                run.widen();
+                return Ok(ControlFlow::Continue(()));
+            }
+            computed => computed?,
+        };
         let report = record::report(scene, model, state);
         if observer.on(Event::Cycle(&report)).is_break() {
             return Ok(STOPPED);

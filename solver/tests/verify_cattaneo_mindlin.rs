@@ -117,9 +117,11 @@ impl Bench {
     /// sigma_xx at the receptacle's surface nodes: places, mm, and MPa.
     fn surface_stress(&self, state: &ContactState) -> Vec<(f64, f64)> {
         let force: Vec<f64> = state.force.receptacle.iter().map(|f| -f).collect();
-        let body = &self.model.bodies.receptacle;
-        let fields = fields::recover(body, &self.condensed.interior.receptacle, &force, 0.0);
-        let surface = (0..body.mesh.spines()).map(|i| body.mesh.surface_node(i));
+        let whole = (Side::Receptacle, 0);
+        let fields = fields::recover(&self.model, &self.condensed, whole, &force, 0.0)
+            .expect("the factor is stored");
+        let mesh = &self.model.bodies.receptacle.zones[0].mesh;
+        let surface = (0..mesh.spines()).map(|i| mesh.surface_node(i));
         surface
             .map(|node| (fields.nodes[node][0], fields.stress[node].xx))
             .collect()

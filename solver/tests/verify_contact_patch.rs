@@ -10,28 +10,36 @@
 
 use solver::condensation::condense;
 use solver::contact::{ContactState, Displacement, Pair, Solver, Surfaces};
-use solver::law::elastic::Lame;
-use solver::mesh::ColumnMesh;
-use solver::model::{BodyModel, Interface, Model, Profile, Support};
+use solver::model::{BodyLayout, BodyModel, Interface, Model, Profile, Support, Zone, ZoneSizes};
 use solver::scene::Elastic;
 use solver::sides::{Side, Sides};
 
 use crate::scenes::mccoll;
 
 fn body(x: Vec<f64>, far_y: f64, support: Support) -> BodyModel {
-    let spines = x.len();
-    let fractions = vec![0.0, 0.2, 0.5, 1.0];
-    BodyModel {
-        mesh: ColumnMesh::new(x, vec![0.0; spines], far_y, fractions),
+    let contact = (0, x.len());
+    let zones = vec![Zone {
+        spines: (0..x.len()).collect(),
+        contact,
+    }];
+    let layout = BodyLayout {
+        x,
         profile: Profile::Flat,
-        lame: Lame::from(Elastic {
-            youngs_modulus_mpa: 100e3,
-            poisson_ratio: 0.0,
-        }),
-        b_bar: false,
-        support,
-        contact: (0, spines),
-    }
+        far_y,
+        fractions: vec![0.0, 0.2, 0.5, 1.0],
+        contact,
+        zones,
+        zone_sizes: ZoneSizes {
+            half_width: 0.5,
+            width: 2.0,
+            largest: 0.5,
+        },
+    };
+    let elastic = Elastic {
+        youngs_modulus_mpa: 100e3,
+        poisson_ratio: 0.0,
+    };
+    BodyModel::new(layout, elastic, support).expect("it can be meshed")
 }
 
 #[test]

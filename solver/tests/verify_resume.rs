@@ -4,12 +4,14 @@ use std::ops::ControlFlow;
 
 use crate::recorder::Recorder;
 use crate::scenes::{accuracy, fuzz_button, mccoll};
+use crate::verify_long_wipe::{RATE, wipe};
 use solver::SolveError;
 use solver::checkpoint::{Checkpoint, Misfit};
 use solver::observer::{Event, Observer};
 use solver::record::{CycleReport, Outcome, Snapshot, Summary};
 use solver::run;
 use solver::scene::{Motion, Scene};
+use solver::sides::Sides;
 
 /// An observer that records everything, checkpoints included.
 #[derive(Default)]
@@ -109,6 +111,20 @@ fn a_sprung_run_resumes_to_the_same_bits() {
     };
     scene.output.snapshots_at_cycles = vec![60];
     resumes_to_the_same_bits("spring", &scene, 4);
+}
+
+/// The zones were widened in cycle 5 and later, which the checkpoint records.
+#[test]
+fn a_run_in_zones_resumes_to_the_same_bits() {
+    let mut scene = wipe(Sides {
+        slider: RATE,
+        receptacle: 0.0,
+    });
+    scene.accuracy.tuning.zone_width = 0.3;
+    scene.output.snapshots_at_cycles = vec![4, 40];
+    scene.output.fields = true;
+    let (summary, _) = resumes_to_the_same_bits("wipe", &scene, 9);
+    assert!(summary.resolution.relocations >= 2, "{summary:?}");
 }
 
 #[test]

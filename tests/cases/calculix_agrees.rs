@@ -6,6 +6,7 @@
 
 use solver::condensation::condense;
 use solver::cycle::{CycleState, Integrator};
+use solver::sides::Side;
 use tests::calculix;
 
 const SPEC: &str = r#"{
@@ -36,14 +37,13 @@ fn ours() -> Ours {
         .apply_load(&mut state)
         .expect("it settles");
     let reaction: Vec<f64> = state.contact.force.receptacle.iter().map(|f| -f).collect();
-    let all = condensed.interior.receptacle.displacements(&reaction, 0.0);
-    let surface = (0..operators.receptacle.x.len()).map(|i| {
-        all[model
-            .bodies
-            .receptacle
-            .mesh
-            .surface_node(model.bodies.receptacle.contact.0 + i)]
-    });
+    let all = condensed
+        .displacements(&model, (Side::Receptacle, 0), &reaction, 0.0)
+        .expect("the factor is stored");
+    let body = &model.bodies.receptacle;
+    let mesh = &body.zones[0].mesh;
+    let nodes = 0..operators.receptacle.x.len();
+    let surface = nodes.map(|i| all[mesh.surface_node(body.layout.contact.0 + i)]);
     Ours {
         x: operators.receptacle.x.clone(),
         pressure: state.contact.pressure.clone(),

@@ -115,7 +115,6 @@ async fn a_job_beyond_its_memory_limit_ends_alone_with_the_reason() {
     let server = Server::start_with(folder.path(), &["--job-memory-mb", "64"]);
     let large = json!({
         "system": {"kind": "fuzz_button"},
-        "cycles": 1,
         "accuracy": {"preset": "fine", "overrides": {"contact_element_mm": 0.00005}}
     });
     let id = submitted(&server, &large).await;

@@ -13,6 +13,7 @@ mod friction_beyond_one;
 mod invariants;
 mod jumps;
 mod leaving_the_block;
+mod long_wipes;
 mod million_cycles;
 mod naive;
 mod no_slip;

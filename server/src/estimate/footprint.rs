@@ -6,7 +6,7 @@
 //! with several matrices of its surface at once. The output coefficients are rough: `fretwear plan`
 //! estimates 1.55 MB for `fuzz_button.json` and 0.31 MB for `mccoll.json`, `fretwear solve` writes 1.28 and 0.67 MB.
 
-use solver::model::Layout;
+use solver::model::{BodyLayout, Layout};
 use solver::scene::Scene;
 
 use crate::estimate::workload::Workload;
@@ -18,6 +18,8 @@ const MEMORY_BASE_MB: f64 = 9.5;
 const MEMORY_DOF_MB: f64 = 1.0e-3;
 /// Memory per pair of nodes on the larger surface, MB.
 const MEMORY_PAIR_MB: f64 = 2.4e-4;
+/// Memory per pair of nodes of one of several zones: a block of its compliance, MB.
+const STORED_PAIR_MB: f64 = 32e-6;
 /// Fields at one position: bytes per unknown.
 const FIELDS_DOF_BYTES: f64 = 101.0;
 /// A snapshot: bytes per surface element, as rows and as documents.
@@ -44,7 +46,10 @@ impl Footprint {
     pub(crate) fn of(scene: &Scene, layout: &Layout, workload: &Workload) -> Self {
         let dofs = real(layout.bodies.slider.dofs() + layout.bodies.receptacle.dofs());
         let elements = real(layout.bodies.receptacle.contact_x().len());
-        let surface = elements.max(real(layout.bodies.slider.contact_x().len()));
+        let largest = layout.bodies.as_ref().map(BodyLayout::largest_zone);
+        let surface = real(largest.slider.max(largest.receptacle));
+        let stored = layout.bodies.as_ref().map(BodyLayout::further_pairs);
+        let stored = real(stored.slider + stored.receptacle);
         let snapshots = real(scene.output.snapshots_at_cycles.len());
         let stations = real(scene.output.stations_mm.len());
         // Three positions per snapshot, and the neutral position of the unworn state.
@@ -59,7 +64,10 @@ impl Footprint {
         Self {
             contact_element_mm: layout.sizes.contact_element,
             dofs,
-            memory_mb: MEMORY_BASE_MB + MEMORY_DOF_MB * dofs + MEMORY_PAIR_MB * surface * surface,
+            memory_mb: MEMORY_BASE_MB
+                + MEMORY_DOF_MB * dofs
+                + MEMORY_PAIR_MB * surface * surface
+                + STORED_PAIR_MB * stored,
             output_mb: 1e-6 * bytes,
         }
     }

@@ -10,8 +10,9 @@ pub mod cycle;
 use solver::interpolation;
 use solver::law::elastic::Lame;
 use solver::mesh::columns::Cell;
-use solver::model::{BodyModel, Model};
+use solver::model::{BodyModel, Model, ZoneModel};
 use solver::scene::{Elastic, Scene};
+use solver::sides::Sides;
 
 /// Penalty stiffness over E / (size of a contact element): high enough for an overlap of 1 % of an indentation.
 const PENALTY: f64 = 50.0;
@@ -47,8 +48,8 @@ pub fn inp(scene: &Scene, model: &Model) -> String {
 
 /// Smallest vertical gap at the receptacle's contact nodes, mm, by which worn bodies are brought into contact.
 fn first_gap(slider: &BodyModel, receptacle: &BodyModel) -> f64 {
-    let (x, y) = (slider.mesh.x(), slider.mesh.surface_y());
-    let places = receptacle.mesh.x().iter().zip(receptacle.mesh.surface_y());
+    let (x, y) = (&slider.layout.x, slider.surface_y());
+    let places = receptacle.layout.x.iter().zip(receptacle.surface_y());
     let under = places.filter(|(at, _)| **at >= x[0] && **at <= x[x.len() - 1]);
     let gaps = under.map(|(&at, below)| interpolation::linear(x, y, at) - below);
     gaps.fold(f64::INFINITY, f64::min)
@@ -78,15 +79,22 @@ impl Deck {
         self.line("*HEADING\nfretwear: mm, N, MPa; plane strain, one mm of depth");
         let bodies = &model.bodies;
         let lowered = -first_gap(&bodies.slider, &bodies.receptacle);
-        let slider = self.body("SLIDER", &bodies.slider, scene.slider.elastic, lowered);
+        let at_neutral = |body: &BodyModel| {
+            if body.zones.len() > 1 {
+                self.line("** elements are small near the neutral position only");
+            }
+            body.zones[body.zone_at(0.0)].clone()
+        };
+        let Sides { slider, receptacle } = bodies.as_ref().map(at_neutral);
+        let slider = self.body("SLIDER", &slider, scene.slider.elastic, lowered);
         let elastic = scene.receptacle.elastic;
-        self.body("RECEPTACLE", &bodies.receptacle, elastic, 0.0);
+        self.body("RECEPTACLE", &receptacle, elastic, 0.0);
         self.contact(scene, model, penalty);
         self.boundary(&slider);
         slider
     }
 
-    fn body(&mut self, name: &str, model: &BodyModel, elastic: Elastic, by: f64) -> Part {
+    fn body(&mut self, name: &str, model: &ZoneModel, elastic: Elastic, by: f64) -> Part {
         debug_assert!(
             model.lame == Lame::from(elastic),
             "the model was built from the scene"
@@ -111,7 +119,7 @@ impl Deck {
         let far: Vec<usize> = (0..spines)
             .map(|i| first_node + model.mesh.far_node(i))
             .collect();
-        let contact = model.contact.0..model.contact.1;
+        let contact = model.zone.contact.0..model.zone.contact.1;
         let near: Vec<usize> = contact
             .map(|i| first_node + model.mesh.surface_node(i))
             .collect();
@@ -139,7 +147,7 @@ impl Deck {
     }
 
     /// The faces of the contact surface.
-    fn surface(&mut self, name: &str, model: &BodyModel, cells: &[Cell], first_element: usize) {
+    fn surface(&mut self, name: &str, model: &ZoneModel, cells: &[Cell], first_element: usize) {
         self.line(format!("*SURFACE, NAME={name}_FACE, TYPE=ELEMENT"));
         let mesh = &model.mesh;
         let near: Vec<usize> = (0..mesh.spines()).map(|i| mesh.surface_node(i)).collect();

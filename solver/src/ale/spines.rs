@@ -14,7 +14,7 @@ impl Spines {
     /// Those of a model.
     pub fn of(model: &Model) -> Self {
         let lengths = |body: &BodyModel| {
-            let length = |x: &f64| (body.mesh.far_y() - body.profile.height(*x)).abs();
+            let length = |x: &f64| (body.layout.far_y - body.layout.profile.height(*x)).abs();
             body.contact_x().iter().map(length).collect()
         };
         Self(model.bodies.as_ref().map(lengths))

@@ -4,7 +4,7 @@ use super::Compliance;
 use crate::element::{Tri3, quad_stiffness, stiffness};
 use crate::linear::SquareMatrix;
 use crate::mesh::columns::Cell;
-use crate::model::{BodyModel, Support};
+use crate::model::{Support, ZoneModel};
 use nalgebra::Matrix2;
 
 /// Marks a constrained displacement, which is zero.
@@ -24,10 +24,10 @@ pub(super) struct Numbering {
 }
 
 impl Numbering {
-    pub(super) fn new(model: &BodyModel) -> Self {
-        let mesh = &model.mesh;
+    pub(super) fn new(zone: &ZoneModel) -> Self {
+        let mesh = &zone.mesh;
         let mut unknown = vec![[0; 2]; mesh.nodes()];
-        match model.support {
+        match zone.support {
             Support::FarFaceHeld => {
                 for i in 0..mesh.spines() {
                     unknown[mesh.far_node(i)] = [HELD; 2];
@@ -40,9 +40,8 @@ impl Numbering {
                 unknown[mesh.far_node(mesh.spines() / 2)][1] = HELD;
             }
         }
-        let contact: Vec<usize> = (model.contact.0..model.contact.1)
-            .map(|i| mesh.surface_node(i))
-            .collect();
+        let (first, end) = zone.zone.contact;
+        let contact: Vec<usize> = (first..end).map(|i| mesh.surface_node(i)).collect();
         let mut is_contact = vec![false; mesh.nodes()];
         for &node in &contact {
             is_contact[node] = true;
@@ -126,18 +125,18 @@ pub(super) struct LowerTriangle {
 }
 
 /// Assembles the stiffness; the error is the number of an inverted element.
-pub(super) fn assemble(model: &BodyModel, numbering: &Numbering) -> Result<LowerTriangle, usize> {
-    let nodes = model.mesh.coordinates();
+pub(super) fn assemble(zone: &ZoneModel, numbering: &Numbering) -> Result<LowerTriangle, usize> {
+    let nodes = zone.mesh.coordinates();
     let mut entries: Vec<(usize, usize, f64)> = Vec::new();
-    for (element, cell) in model.mesh.cells().iter().enumerate() {
+    for (element, cell) in zone.mesh.cells().iter().enumerate() {
         let inverted = || element;
         match cell {
             Cell::Quad(n) => {
-                let k = quad_stiffness(&n.map(|n| nodes[n]), model.lame, model.b_bar);
+                let k = quad_stiffness(&n.map(|n| nodes[n]), zone.lame, zone.b_bar);
                 scatter(&mut entries, numbering, n, &k.ok_or_else(inverted)?);
             }
             Cell::Tri(n) => {
-                let k = stiffness::<Tri3, 3>(&n.map(|n| nodes[n]), model.lame, false);
+                let k = stiffness::<Tri3, 3>(&n.map(|n| nodes[n]), zone.lame, false);
                 scatter(&mut entries, numbering, n, &k.ok_or_else(inverted)?);
             }
         }
@@ -205,13 +204,13 @@ fn compress(entries: Vec<(usize, usize, f64)>, order: usize) -> LowerTriangle {
 }
 
 /// Nodal forces of an even pressure on the far face whose resultant is one downward unit of force.
-pub(super) fn far_face_load(model: &BodyModel, numbering: &Numbering) -> Vec<f64> {
-    let x = model.mesh.x();
+pub(super) fn far_face_load(zone: &ZoneModel, numbering: &Numbering) -> Vec<f64> {
+    let x = zone.mesh.x();
     let length = x[x.len() - 1] - x[0];
     let mut force = vec![0.0; numbering.order];
     for i in 0..x.len() {
         let width = 0.5 * (x[(i + 1).min(x.len() - 1)] - x[i.saturating_sub(1)]);
-        let slot = numbering.unknown[model.mesh.far_node(i)][1];
+        let slot = numbering.unknown[zone.mesh.far_node(i)][1];
         if slot != HELD {
             force[slot] -= width / length;
         }

@@ -29,6 +29,14 @@ pub enum CycleError {
     },
 }
 
+impl CycleError {
+    /// Whether the cycle can be computed again with wider zones of fine elements.
+    pub(crate) fn needs_wider_zones(self) -> bool {
+        let Self::Increment { source, .. } = self;
+        source.needs_wider_zones()
+    }
+}
+
 /// Everything that the next cycle depends on.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct CycleState {

@@ -103,7 +103,7 @@ impl Integrator<'_> {
         let Err(error) = self.increment(state, to) else {
             return Ok(());
         };
-        if halvings == policy.halvings {
+        if halvings == policy.halvings || error.needs_wider_zones() {
             return Err((halvings, error));
         }
         let slider_x = 0.5 * (state.contact.slider_x + to.slider_x);

@@ -5,17 +5,20 @@
 
 use super::profile::Profile;
 use super::resolution::{self, Sizes};
+use super::zones::{self, Zone, ZoneSizes};
 use crate::mesh::columns::is_tip;
 use crate::mesh::{MeshError, grading};
 use crate::number::count_at_least;
 use crate::scene::Scene;
-use crate::sides::Sides;
+use crate::sides::{Side, Sides};
 
 /// The contact surface ends where its arc is steeper than this; beyond it the surface is no graph.
 const STEEPEST_ANGLE_DEG: f64 = 80.0;
-/// More surface nodes than this on one body are refused: its dense compliance takes (2 n)^2 x 8 bytes, 288 MB, and
+/// More surface nodes than this in one zone are refused: its dense compliance takes (2 n)^2 x 8 bytes, 288 MB, and
 /// condensation holds four such matrices for a moment.
-pub(super) const MOST_SURFACE_NODES: usize = 3_000;
+pub(super) const MOST_ZONE_NODES: usize = 3_000;
+/// More surface nodes than this on one body are refused: each increment passes over all of them.
+pub(super) const MOST_SURFACE_NODES: usize = 50_000;
 
 /// Mesh lines of both bodies.
 #[derive(Debug, Clone, PartialEq)]
@@ -39,6 +42,10 @@ pub struct BodyLayout {
     pub fractions: Vec<f64>,
     /// Spines whose surface nodes may touch the other body: first and one past the last.
     pub contact: (usize, usize),
+    /// Meshes of the body: one, or one for each part of a long travel.
+    pub zones: Vec<Zone>,
+    /// What they were sized by.
+    pub zone_sizes: ZoneSizes,
 }
 
 impl Layout {
@@ -50,7 +57,8 @@ impl Layout {
     pub fn of(scene: &Scene) -> Result<Self, MeshError> {
         let sizes = resolution::choose(scene);
         for spacing in [&sizes.spacing.receptacle, &sizes.spacing.slider] {
-            within_limit(count_at_least(2.0 * spacing.core_half / spacing.core))?;
+            let nodes = count_at_least(2.0 * spacing.core_half / spacing.core);
+            within_limit(nodes, MOST_SURFACE_NODES)?;
         }
         let receptacle = receptacle(scene, &sizes)?;
         let slider = slider(scene, &sizes)?;
@@ -67,8 +75,9 @@ impl BodyLayout {
         profile: Profile,
         far_y: f64,
         fractions: Vec<f64>,
+        zone_sizes: ZoneSizes,
     ) -> Result<Self, MeshError> {
-        within_limit(x.len())?;
+        within_limit(x.len(), MOST_SURFACE_NODES)?;
         let half = match profile {
             Profile::Flat => f64::INFINITY,
             Profile::Arc { radius } | Profile::Crown { radius } => {
@@ -85,9 +94,28 @@ impl BodyLayout {
             far_y,
             fractions,
             contact,
+            zones: Vec::new(),
+            zone_sizes,
         };
         layout.check_sides()?;
-        Ok(layout)
+        layout.with_zones_widened(1.0)
+    }
+
+    /// The layout with zones whose width is so many times that of its sizes.
+    pub(super) fn with_zones_widened(&self, factor: f64) -> Result<Self, MeshError> {
+        let width = factor * self.zone_sizes.width;
+        let sizes = ZoneSizes {
+            width,
+            ..self.zone_sizes
+        };
+        let zones = zones::divide(&self.x, self.contact, sizes);
+        for zone in &zones {
+            within_limit(zone.nodes(), MOST_ZONE_NODES)?;
+        }
+        Ok(Self {
+            zones,
+            ..self.clone()
+        })
     }
 
     /// Checks that the whole surface lies on one side of the far face.
@@ -120,29 +148,37 @@ impl BodyLayout {
         &self.x[self.contact.0..self.contact.1]
     }
 
-    /// Number of nodes of the whole body: a spine without length is one node.
-    pub fn nodes(&self) -> usize {
+    /// Number of nodes of the mesh of each zone: a spine without length is one node.
+    pub fn nodes(&self) -> impl Iterator<Item = usize> {
         let longest = self.longest();
-        let tips = self
-            .heights()
-            .into_iter()
-            .filter(|y| is_tip(self.far_y - y, longest));
-        let tips = tips.count();
-        (self.x.len() - tips) * self.fractions.len() + tips
+        let heights = self.heights();
+        self.zones.iter().map(move |zone| {
+            let is_tip = |&&spine: &&usize| is_tip(self.far_y - heights[spine], longest);
+            let tips = zone.spines.iter().filter(is_tip).count();
+            (zone.spines.len() - tips) * self.fractions.len() + tips
+        })
     }
 
-    /// Displacement unknowns of the whole body before condensation.
+    /// Number of contact nodes of the largest zone.
+    pub fn largest_zone(&self) -> usize {
+        self.zones.iter().map(Zone::nodes).max().unwrap_or(0)
+    }
+
+    /// Pairs of contact nodes within each zone but one, whose compliance is stored besides that of the one.
+    pub fn further_pairs(&self) -> usize {
+        let pairs = |zone: &Zone| zone.nodes() * zone.nodes();
+        self.zones.iter().skip(1).map(pairs).sum()
+    }
+
+    /// Displacement unknowns of the largest mesh of the body before condensation.
     pub fn dofs(&self) -> usize {
-        2 * self.nodes()
+        2 * self.nodes().max().unwrap_or(0)
     }
 }
 
-fn within_limit(nodes: usize) -> Result<(), MeshError> {
-    if nodes > MOST_SURFACE_NODES {
-        return Err(MeshError::TooLarge {
-            nodes,
-            limit: MOST_SURFACE_NODES,
-        });
+fn within_limit(nodes: usize, limit: usize) -> Result<(), MeshError> {
+    if nodes > limit {
+        return Err(MeshError::TooLarge { nodes, limit });
     }
     Ok(())
 }
@@ -161,7 +197,14 @@ fn receptacle(scene: &Scene, sizes: &Sizes) -> Result<BodyLayout, MeshError> {
         ),
     };
     let fractions = grading::layers(sizes.contact_element / shape.height_mm, sizes.layer_growth);
-    BodyLayout::new(x, profile, -shape.height_mm, fractions)
+    let far_y = -shape.height_mm;
+    BodyLayout::new(
+        x,
+        profile,
+        far_y,
+        fractions,
+        zone_sizes(scene, sizes, Side::Receptacle),
+    )
 }
 
 fn slider(scene: &Scene, sizes: &Sizes) -> Result<BodyLayout, MeshError> {
@@ -171,7 +214,22 @@ fn slider(scene: &Scene, sizes: &Sizes) -> Result<BodyLayout, MeshError> {
     };
     let x = on_arc(shape.radius_mm, shape.half_width_mm, &sizes.spacing.slider);
     let fractions = grading::layers(sizes.contact_element / shape.height_mm, sizes.layer_growth);
-    BodyLayout::new(x, profile, shape.height_mm, fractions)
+    let far_y = shape.height_mm;
+    BodyLayout::new(
+        x,
+        profile,
+        far_y,
+        fractions,
+        zone_sizes(scene, sizes, Side::Slider),
+    )
+}
+
+fn zone_sizes(scene: &Scene, sizes: &Sizes, side: Side) -> ZoneSizes {
+    ZoneSizes {
+        half_width: sizes.final_half_width,
+        width: scene.accuracy.tuning.zone_width,
+        largest: sizes.spacing.of(side).largest,
+    }
 }
 
 /// Positions on an arc, spaced along its length, on [-half, half] or to its rim.
@@ -204,7 +262,8 @@ mod tests {
                 (&layout.bodies.slider, &model.bodies.slider),
                 (&layout.bodies.receptacle, &model.bodies.receptacle),
             ] {
-                assert_eq!(layout.nodes(), model.mesh.nodes());
+                let nodes = model.zones.iter().map(|zone| zone.mesh.nodes());
+                assert!(layout.nodes().eq(nodes));
                 assert_eq!(layout.contact_x(), model.contact_x());
             }
         }

@@ -5,6 +5,7 @@
 //!   b^2 / (2 R), so b = sqrt(2 R k P);
 //! * scar of a short stroke: the circular segment that was worn off, b = (3 R W / 2)^(1/3) with the worn area
 //!   W = (k_s + k_r) P s (parabola of height b^2/(2R) over 2 b);
+//! * flat of a slider in a long stroke: the circular segment that it has lost, by the same formula with W = k_s P s;
 //! * ends of the groove of a long stroke 2 A, W/(2 A) deep: the slider's arc reaches b = sqrt(R W / A) up them.
 
 use crate::law::elastic::contact_modulus;
@@ -153,14 +154,16 @@ pub fn choose(scene: &Scene) -> Sizes {
     let worn = wear * load * sliding;
     let edge_step = (2.0 * radius * wear * load).sqrt();
     let narrowest = hertz.max(edge_step);
+    let segment = |worn: f64| (1.5 * radius * worn).cbrt().min(radius);
     // Gross reciprocating sliding wears a groove, at whose ends the contact climbs the walls; a shorter stroke wears a
-    // scar around the contact.
+    // scar around the contact. A slider that wears has a flat, as wide as the segment that it has lost.
     let gross = scene.accuracy.tuning.is_gross(amplitude, narrowest);
     let last = if gross {
         let ends = (radius * worn / amplitude).sqrt().min(radius);
-        ends.max(edge_step)
+        let flat = segment(rates.slider / wear.max(f64::MIN_POSITIVE) * worn);
+        ends.max(edge_step).max(flat)
     } else {
-        (1.5 * radius * worn).cbrt().min(radius)
+        segment(worn)
     }
     .max(hertz);
     // A stroke shorter than the leading-edge step does not develop it.

@@ -59,13 +59,13 @@ pub(crate) fn fuzz_button() -> Scene {
 fn a_half_round_slider_ends_in_tips_on_its_top_face() {
     let model = build(&fuzz_button(), &crate::effects::plan(&fuzz_button()))
         .expect("the preset can be meshed");
-    let x = model.bodies.slider.mesh.x();
+    let x = model.bodies.slider.layout.x.clone();
     assert!((x[0] + 0.0254).abs() < 1e-15);
     assert_eq!(
-        model.bodies.slider.mesh.surface_node(0),
-        model.bodies.slider.mesh.far_node(0)
+        model.bodies.slider.zones[0].mesh.surface_node(0),
+        model.bodies.slider.zones[0].mesh.far_node(0)
     );
-    assert!(model.bodies.slider.contact.0 > 0);
+    assert!(model.bodies.slider.layout.contact.0 > 0);
 }
 
 #[test]

@@ -60,6 +60,11 @@ pub struct Tuning {
     /// Largest element outside the zone, over half of the surface. Arbitrary: 0.05 and 0.2 give the same errors within
     /// 0.1 %.
     pub outer_element: f64,
+    /// Contact nodes of a finely meshed zone over those of the widest expected contact, where a travel is so long that
+    /// the surface is divided into zones. The work of all of them is proportional to m^3/(m - 1), least at 1.5; the
+    /// rest is for a contact that is wider than expected. `solver/tests/verify_long_wipe.rs` prints how far zones and a
+    /// single mesh differ.
+    pub zone_width: f64,
     /// Largest element under the contact that is chosen from the tolerance, over the narrower body's half-length: also
     /// soft or heavily loaded bodies have some elements. Not enough for them: a contact half as wide as the bodies, at
     /// a hundredth of its width of stroke, is 7.6 % off in depth at 2 %; 0.05 leaves 0.3 %.
@@ -167,6 +172,7 @@ impl Tuning {
         core: 2.0,
         outer_growth: 0.25,
         outer_element: 0.1,
+        zone_width: 2.0,
         largest_element: 0.1,
         slider_constraints_gross: 0.1,
         slider_constraints: 1.0,

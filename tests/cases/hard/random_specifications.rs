@@ -35,7 +35,7 @@ fn setting<T: FromStr>(name: &str, default: T) -> T {
 fn is_cheap(scene: &Scene) -> bool {
     let model = solver::model::build(scene, &solver::effects::plan(scene))
         .expect("what is accepted can be meshed");
-    let spines = model.bodies.receptacle.mesh.spines() + model.bodies.slider.mesh.spines();
+    let spines = model.bodies.receptacle.layout.x.len() + model.bodies.slider.layout.x.len();
     let dofs = model.bodies.receptacle.dofs() + model.bodies.slider.dofs();
     let way = scene.motion.amplitude_mm() / model.sizes.hertz_half_width;
     spines <= 400

@@ -20,7 +20,7 @@ fn slender_elements_far_below_the_contact_do_not_change_hertz_pressure() {
     hold(&run);
     let model = solver::model::build(&run.scene, &solver::effects::plan(&run.scene))
         .expect("it can be meshed");
-    let mesh = &model.bodies.receptacle.mesh;
+    let mesh = &model.bodies.receptacle.zones[0].mesh;
     let (nodes, middle) = (mesh.coordinates(), mesh.spines() / 2);
     let width = mesh.x()[middle + 1] - mesh.x()[middle];
     let far = mesh.far_node(middle);

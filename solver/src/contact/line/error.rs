@@ -39,6 +39,20 @@ pub enum ContactError {
         /// 1 / mu: beyond it only wear or yielding lets a contact climb.
         limit: f64,
     },
+    /// The contact does not lie within any zone in which the mesh is fine.
+    #[error(
+        "the contact at x = {slider_x_mm:.6} mm needs {nodes} nodes of the {body} in one of its finely meshed zones of {zone}"
+    )]
+    WiderThanZone {
+        /// Imposed displacement, mm.
+        slider_x_mm: f64,
+        /// Nodes that the contact needs.
+        nodes: usize,
+        /// Which body.
+        body: &'static str,
+        /// Nodes of its largest zone.
+        zone: usize,
+    },
     /// An increment removes more than implicit wear can integrate.
     #[error(
         "the step to x = {slider_x_mm:.6} mm wears off {share:.2} of what is left of a body (at most {limit})"
@@ -51,4 +65,11 @@ pub enum ContactError {
         /// Largest accepted value.
         limit: f64,
     },
+}
+
+impl ContactError {
+    /// Whether wider zones of fine elements would help.
+    pub(crate) fn needs_wider_zones(self) -> bool {
+        matches!(self, Self::WiderThanZone { .. })
+    }
 }

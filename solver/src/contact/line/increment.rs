@@ -6,7 +6,7 @@ use super::error::ContactError;
 use super::local_slopes::LocalSlopes;
 use super::mortar::{self, Coupling};
 use super::newton::{Convergence, Newton};
-use super::pair::{Displacement, Pair, Surfaces};
+use super::pair::{Displacement, Pair, Surfaces, Zones};
 use super::pairing;
 use super::predictor::predict;
 use super::problem::{GAP_TOLERANCE, Iterate, MOST_ITERATIONS, Problem};
@@ -147,9 +147,11 @@ impl Solver {
         let (slider_x, cycles) = (to.slider_x, to.cycles);
         self.coupling.integrate(pair, pairing_x, first, end);
         self.slopes.assemble(pair, &self.coupling, surfaces);
-        self.response
-            .reset(pair, &self.coupling, &self.slopes, last);
+        let (begin, stop) = self.coupling.master_range;
+        let zones = pair.zones(last, first..end, begin..stop)?;
         let interface = &pair.interface;
+        self.response
+            .reset(zones, interface.slave, &self.coupling, &self.slopes, last);
         let laws = interface.wear.map(|law| law.filter(|_| cycles > 0.0));
         self.wear.assemble(&self.coupling, pair, laws, cycles);
         // Before the first load the spring has no reference height.
@@ -157,12 +159,13 @@ impl Solver {
             .reference_height
             .map_or((0.0, 0.0), |height| (interface.spring, height));
         let load = interface.load - spring * reference;
-        self.assemble_gap(pair, surfaces, load, spring);
+        self.assemble_gap((pair, zones), surfaces, load, spring);
         self.add_lag(slider_x - pairing_x);
         let step = slider_x - last.slider_x + to.surface_slip;
         self.assemble_fixed_slip(step, last.height);
         let problem = Problem {
             pair,
+            zones,
             coupling: &self.coupling,
             gap: &self.gap,
             width: &pair.slave().widths[first..end],
@@ -211,16 +214,28 @@ impl Solver {
 
     /// Gap of the worn bodies at height 0 under the far-face load there, and its change per height by that load's
     /// growth.
-    fn assemble_gap(&mut self, pair: &Pair<'_>, surfaces: &Surfaces<'_>, load: f64, spring: f64) {
+    fn assemble_gap(
+        &mut self,
+        (pair, zones): (&Pair<'_>, Zones<'_>),
+        surfaces: &Surfaces<'_>,
+        load: f64,
+        spring: f64,
+    ) {
         let coupling = &self.coupling;
         let slave = pair.interface.slave;
         let (own, other) = (surfaces.depth.of(slave), surfaces.depth.of(slave.other()));
-        let response = &pair.operators.slider.load_response;
+        let slider = match slave {
+            Side::Slider => zones.slave,
+            Side::Receptacle => zones.master,
+        };
         self.gap.clear();
         self.sag.clear();
         for (i, slope) in (coupling.first..coupling.end).zip(&self.slopes.master) {
             let (from, weights) = coupling.dual_row(i);
-            let moved_by = |j: usize| response[2 * j + 1] - slope * response[2 * j];
+            let moved_by = |j: usize| {
+                let [x, y] = slider.under_load(j);
+                y - slope * x
+            };
             let (mut worn, mut moved) = (0.0, 0.0);
             for (j, weight) in (from..).zip(weights) {
                 worn += weight * other[j];

@@ -174,7 +174,7 @@ impl Coupling {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::condensation::{BodyOperators, Compliance, Operators};
+    use crate::condensation::{BodyOperators, Operators};
     use crate::model::{Interface, Profile};
     use crate::sides::{Side, Sides};
 
@@ -186,8 +186,7 @@ mod tests {
             x,
             widths,
             profile,
-            compliance: Compliance::default(),
-            load_response: Vec::new(),
+            zones: Vec::new(),
         }
     }
 

@@ -1,9 +1,11 @@
 //! The pair of bodies in contact, their worn surfaces, and the displacement of an increment.
 
+use super::error::ContactError;
 use super::state::ContactState;
-use crate::condensation::{BodyOperators, Operators};
+use crate::condensation::{BodyOperators, Operators, ZoneOperators};
 use crate::model::Interface;
 use crate::sides::{Side, Sides};
+use std::ops::Range;
 
 /// The interface between two bodies: operators and laws.
 #[derive(Debug, Clone, Copy)]
@@ -12,6 +14,13 @@ pub struct Pair<'a> {
     pub operators: &'a Operators,
     /// Friction, wear, load.
     pub interface: Interface,
+}
+
+/// The zones of both surfaces in which a contact lies.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Zones<'a> {
+    pub(super) slave: &'a ZoneOperators,
+    pub(super) master: &'a ZoneOperators,
 }
 
 impl<'a> Pair<'a> {
@@ -23,6 +32,44 @@ impl<'a> Pair<'a> {
     /// The other body.
     pub(super) fn master(&self) -> &'a BodyOperators {
         self.operators.of(self.interface.slave.other())
+    }
+
+    /// The zones that hold these ranges of nodes and all nodes that the last contact loads.
+    ///
+    /// # Errors
+    /// [`ContactError::WiderThanZone`] if a body has no such zone.
+    pub(super) fn zones(
+        &self,
+        last: &ContactState,
+        slave: Range<usize>,
+        master: Range<usize>,
+    ) -> Result<Zones<'a>, ContactError> {
+        let zone = |side: Side, range: Range<usize>| {
+            let body = self.operators.of(side);
+            let loaded = last.loaded(side);
+            let range = if loaded.is_empty() {
+                range
+            } else {
+                range.start.min(loaded.start)..range.end.max(loaded.end)
+            };
+            body.zone(&range)
+                .ok_or_else(|| ContactError::WiderThanZone {
+                    slider_x_mm: last.slider_x,
+                    nodes: range.len(),
+                    body: side.name(),
+                    zone: body
+                        .zones
+                        .iter()
+                        .map(|zone| zone.nodes().len())
+                        .max()
+                        .unwrap_or(0),
+                })
+        };
+        let side = self.interface.slave;
+        Ok(Zones {
+            slave: zone(side, slave)?,
+            master: zone(side.other(), master)?,
+        })
     }
 
     /// Displacement of the master's frame in the slave's, mm.

@@ -12,7 +12,7 @@
 
 use super::pair::Pair;
 use super::state::ContactState;
-use crate::condensation::Compliance;
+use crate::condensation::ZoneOperators;
 use crate::sides::Side;
 
 /// Displacement of the slider at which the surfaces are paired, mm, for its imposed displacement. Stored forces act on
@@ -23,8 +23,10 @@ pub(super) fn position(pair: &Pair<'_>, last: &ContactState, slider_x: f64) -> f
     }
     let (mut lag, mut largest) = (0.0, 0.0);
     for side in Side::BOTH {
-        let compliance = &pair.operators.of(side).compliance;
-        let (elastic, slipping) = mean_displacements(compliance, last.force.of(side));
+        let Some(zone) = pair.operators.of(side).zone(&last.loaded(side)) else {
+            return slider_x;
+        };
+        let (elastic, slipping) = mean_displacements(zone, last.force.of(side));
         lag -= elastic;
         largest += pair.interface.friction * slipping;
     }
@@ -39,14 +41,14 @@ pub(super) fn position(pair: &Pair<'_>, last: &ContactState, slider_x: f64) -> f
 
 /// Mean of u_x over the contact, weighted by its vertical forces, under nodal forces, and the size of the same under
 /// their vertical part turned into the tangential direction, mm.
-fn mean_displacements(compliance: &Compliance, force: &[f64]) -> (f64, f64) {
+fn mean_displacements(zone: &ZoneOperators, force: &[f64]) -> (f64, f64) {
     let forces = force.chunks_exact(2).enumerate();
     let loaded = forces.filter(|(_, f)| f[1] != 0.0);
     let (mut under_force, mut turned, mut total) = (0.0, 0.0, 0.0);
     for (j, f) in loaded.clone() {
-        let response = compliance.to_force_at(j);
+        let response = zone.to_force_at(j, zone.nodes());
         for (i, weight) in loaded.clone() {
-            let [x_per_x, _, x_per_y, _] = response[i];
+            let [x_per_x, _, x_per_y, _] = response[i - zone.nodes().start];
             under_force += weight[1] * (f[0] * x_per_x + f[1] * x_per_y);
             turned += weight[1] * f[1] * x_per_x;
         }

@@ -1,7 +1,7 @@
 //! One increment as a nonlinear problem, and an iterate of its solution.
 
 use super::mortar::Coupling;
-use super::pair::Pair;
+use super::pair::{Pair, Zones};
 use super::state::ContactState;
 use super::status::Status;
 use crate::law::wear::LocalState;
@@ -16,6 +16,7 @@ pub const GAP_TOLERANCE: f64 = 1e-11;
 /// Data of one increment over the coupled nodes.
 pub(super) struct Problem<'a> {
     pub(super) pair: &'a Pair<'a>,
+    pub(super) zones: Zones<'a>,
     pub(super) coupling: &'a Coupling,
     /// Gap of the worn, undeformed bodies at height 0, mm.
     pub(super) gap: &'a [f64],

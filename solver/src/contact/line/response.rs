@@ -4,10 +4,11 @@
 
 use super::local_slopes::LocalSlopes;
 use super::mortar::Coupling;
-use super::pair::Pair;
+use super::pair::Zones;
 use super::problem::Problem;
 use super::state::ContactState;
-use crate::condensation::{Block, Compliance};
+use crate::condensation::{Block, ZoneOperators};
+use crate::sides::Side;
 
 /// Change of the gap and of the tangential jump of each coupled node, per force along N and T at coupled nodes.
 #[derive(Debug, Default)]
@@ -30,7 +31,8 @@ impl Response {
     /// Resets to another set of coupled nodes; no column is computed yet.
     pub(super) fn reset(
         &mut self,
-        pair: &Pair<'_>,
+        zones: Zones<'_>,
+        slave: Side,
         coupling: &Coupling,
         slopes: &LocalSlopes,
         last: &ContactState,
@@ -40,7 +42,7 @@ impl Response {
         self.columns.resize(4 * n * n, 0.0);
         self.computed.clear();
         self.computed.resize(n, false);
-        self.compute_last_jump(pair, coupling, &slopes.receptacle, last);
+        self.compute_last_jump(zones, slave, coupling, &slopes.receptacle, last);
     }
 
     /// Per force along N = (-s, 1) at a node; requires its column.
@@ -65,7 +67,7 @@ impl Response {
             return;
         }
         let Problem {
-            pair,
+            zones,
             coupling,
             slope,
             master_slope,
@@ -78,12 +80,12 @@ impl Response {
         self.master.resize(end - begin, [0.0; 4]);
         let (from, weights) = coupling.dual_row(k);
         for (offset, weight) in weights.iter().enumerate() {
-            let response = pair.master().compliance.to_force_at(from + offset);
-            for (sum, c) in self.master.iter_mut().zip(&response[begin..end]) {
+            let response = zones.master.to_force_at(from + offset, begin..end);
+            for (sum, c) in self.master.iter_mut().zip(response) {
                 add(sum, *weight, c);
             }
         }
-        let own = &pair.slave().compliance.to_force_at(k)[coupling.first..coupling.end];
+        let own = zones.slave.to_force_at(k, coupling.first..coupling.end);
         let (normal, tangent) = self.columns[4 * node * n..4 * (node + 1) * n].split_at_mut(2 * n);
         let (normal_gap, normal_jump) = normal.split_at_mut(n);
         let (tangent_gap, tangent_jump) = tangent.split_at_mut(n);
@@ -107,26 +109,19 @@ impl Response {
 
     fn compute_last_jump(
         &mut self,
-        pair: &Pair<'_>,
+        zones: Zones<'_>,
+        slave: Side,
         coupling: &Coupling,
         slope: &[f64],
         last: &ContactState,
     ) {
         let (begin, end) = coupling.master_range;
         let n = coupling.len();
-        let slave = pair.interface.slave;
-        let force = &last.force;
         self.displacement.clear();
         self.displacement.resize(end - begin + n, [0.0; 2]);
         let (master, own) = self.displacement.split_at_mut(end - begin);
-        let far = force.of(slave.other());
-        accumulate(master, &pair.master().compliance, far, begin);
-        accumulate(
-            own,
-            &pair.slave().compliance,
-            force.of(slave),
-            coupling.first,
-        );
+        accumulate(master, zones.master, last, slave.other(), begin);
+        accumulate(own, zones.slave, last, slave, coupling.first);
         self.last_jump.clear();
         for (i, s) in slope.iter().enumerate() {
             let (from, weights) = coupling.dual_row(coupling.first + i);
@@ -146,13 +141,21 @@ fn add(sum: &mut Block, weight: f64, c: &Block) {
     }
 }
 
-/// target += compliance of the nodes from `first` on, times the nodal forces that are not zero.
-fn accumulate(target: &mut [[f64; 2]], compliance: &Compliance, force: &[f64], first: usize) {
-    for (node, f) in force.chunks_exact(2).enumerate() {
+/// target += compliance of the nodes from `first` on, times the last nodal forces on a side.
+fn accumulate(
+    target: &mut [[f64; 2]],
+    zone: &ZoneOperators,
+    last: &ContactState,
+    side: Side,
+    first: usize,
+) {
+    let force = last.force.of(side);
+    for node in last.loaded(side) {
+        let f = &force[2 * node..2 * node + 2];
         if f[0] == 0.0 && f[1] == 0.0 {
             continue;
         }
-        let response = &compliance.to_force_at(node)[first..first + target.len()];
+        let response = zone.to_force_at(node, first..first + target.len());
         for (u, c) in target.iter_mut().zip(response) {
             u[0] += f[0] * c[0] + f[1] * c[2];
             u[1] += f[0] * c[1] + f[1] * c[3];

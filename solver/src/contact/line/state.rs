@@ -6,6 +6,7 @@ use super::status::Status;
 use crate::condensation::Operators;
 use crate::model::Interface;
 use crate::sides::{Side, Sides};
+use std::ops::Range;
 
 /// Position of the bodies and the tractions between them.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -70,6 +71,17 @@ impl ContactState {
         let first = self.status.iter().position(|s| *s != Status::Open)?;
         let last = self.status.iter().rposition(|s| *s != Status::Open)?;
         Some((first, last + 1))
+    }
+
+    /// Contact nodes of a side between the first loaded one and the last.
+    pub fn loaded(&self, side: Side) -> Range<usize> {
+        let mut forces = self.force.of(side).chunks_exact(2);
+        let is_loaded = |f: &[f64]| f[0] != 0.0 || f[1] != 0.0;
+        let first = forces.clone().position(is_loaded);
+        let last = forces.rposition(is_loaded);
+        first
+            .zip(last)
+            .map_or(0..0, |(first, last)| first..last + 1)
     }
 
     /// Force of the slider on the receptacle along x, N/mm.

@@ -1,0 +1,66 @@
+//! Response of one zone of a contact surface. Nodes are numbered along the whole surface of the body.
+
+use std::ops::Range;
+
+use super::compliance::{Block, Compliance};
+
+/// The response of a mesh that is fine along some of the contact nodes.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ZoneOperators {
+    /// First contact node of the zone.
+    first: usize,
+    /// Displacements of its nodes per force at them.
+    compliance: Compliance,
+    /// Displacement of its surface unknowns per unit of normal load on the far face, mm per N/mm; zero where the far
+    /// face is held.
+    load_response: Vec<f64>,
+}
+
+impl ZoneOperators {
+    /// Operators of a zone whose first contact node is `first`.
+    pub(super) fn new(first: usize, compliance: Compliance, load_response: Vec<f64>) -> Self {
+        Self {
+            first,
+            compliance,
+            load_response,
+        }
+    }
+
+    /// Its contact nodes.
+    pub fn nodes(&self) -> Range<usize> {
+        self.first..self.first + self.compliance.nodes()
+    }
+
+    /// The response of a range of its nodes to a force at one of them.
+    pub fn to_force_at(&self, node: usize, of: Range<usize>) -> &[Block] {
+        let response = self.compliance.to_force_at(node - self.first);
+        &response[of.start - self.first..of.end - self.first]
+    }
+
+    /// Displacement of surface unknown `row` = 2 i + d per force at unknown `column` = 2 j + e, mm per N/mm.
+    pub fn compliance(&self, row: usize, column: usize) -> f64 {
+        let first = 2 * self.first;
+        self.compliance.get(row - first, column - first)
+    }
+
+    /// Displacement of one of its nodes per unit of normal load on the far face, mm per N/mm.
+    pub fn under_load(&self, node: usize) -> [f64; 2] {
+        let at = 2 * (node - self.first);
+        [self.load_response[at], self.load_response[at + 1]]
+    }
+
+    /// Nodes between a range and the nearer end of the zone; none if it is not within the zone.
+    pub(super) fn clearance(&self, range: &Range<usize>, surface: usize) -> Option<usize> {
+        let nodes = self.nodes();
+        let left = range.start.checked_sub(nodes.start)?;
+        let right = nodes.end.checked_sub(range.end)?;
+        // Beyond the end of the surface nothing is missing.
+        let left = if nodes.start == 0 { usize::MAX } else { left };
+        let right = if nodes.end == surface {
+            usize::MAX
+        } else {
+            right
+        };
+        Some(left.min(right))
+    }
+}

@@ -1,0 +1,140 @@
+//! A contact that wipes over a hundred times its width: the surface is divided into zones, each with a mesh that is fine
+//! along a part of the travel.
+//!
+//! * Zones and a single mesh give the same depths and pressures, whichever body wears.
+//! * Where all of the contact slides over a flat floor, each pass wears k P (as in `verify_moving_line_contact`).
+
+use crate::recorder::{Recorder, largest_distance, solve};
+use crate::scenes::{accuracy, sprung_contact};
+use solver::model::Layout;
+use solver::record::Summary;
+use solver::scene::{Motion, Scene, WearLaw};
+use solver::sides::Sides;
+
+pub(crate) const RATE: f64 = 0.004 / 1700.0;
+
+/// The sprung contact's bodies and a wipe over 0.4 mm, ninety times the contact's width, at a tolerance of 10 %.
+pub(crate) fn wipe(rates: Sides<f64>) -> Scene {
+    let law = |k: f64| {
+        Some(WearLaw::Archard {
+            k_over_h_per_mpa: k,
+        })
+        .filter(|_| k > 0.0)
+    };
+    let mut scene = sprung_contact();
+    scene.motion = Motion::Reciprocating {
+        amplitude_mm: 0.2,
+        period_s: 1.0,
+    };
+    scene.accuracy = accuracy(0.1);
+    scene.cycles = 40;
+    scene.receptacle.wear = law(rates.receptacle);
+    scene.slider.wear = law(rates.slider);
+    scene
+}
+
+/// A scene in zones and on a single mesh.
+fn both(scene: &Scene) -> [(Summary, Recorder); 2] {
+    let mut single = scene.clone();
+    single.accuracy.tuning.zone_width = f64::INFINITY;
+    let zones = |scene: &Scene| {
+        let layout = Layout::of(scene).expect("it can be meshed");
+        layout.bodies.map(|body| body.zones.len())
+    };
+    println!("zones: {:?}", zones(scene));
+    assert!(zones(scene).receptacle > 2);
+    assert_eq!(
+        zones(&single),
+        Sides {
+            slider: 1,
+            receptacle: 1
+        }
+    );
+    [scene, &single].map(|scene| solve(scene).expect("the wipe is solved"))
+}
+
+#[test]
+fn zones_agree_with_a_single_mesh() {
+    let rates = |slider, receptacle| Sides { slider, receptacle };
+    let crowned = {
+        let mut scene = wipe(rates(0.0, RATE));
+        scene.receptacle.shape.crown_radius_mm = Some(8.0);
+        scene
+    };
+    let scenes = [
+        ("receptacle", wipe(rates(0.0, RATE))),
+        ("slider", wipe(rates(RATE, 0.0))),
+        ("both", wipe(rates(RATE, RATE))),
+        ("crown", crowned),
+    ];
+    for (name, scene) in scenes {
+        let [(zoned, of_zones), (single, of_one)] = both(&scene);
+        let last = |run: &Recorder| run.snapshots[run.snapshots.len() - 1].clone();
+        let (a, b) = (last(&of_zones), last(&of_one));
+        let mut profiles = 0.0_f64;
+        for (rate, a, b) in [
+            (scene.receptacle.wear, &a.receptacle, &b.receptacle),
+            (scene.slider.wear, &a.slider, &b.slider),
+        ] {
+            if rate.is_some() {
+                profiles = profiles.max(largest_distance(a, b));
+            }
+        }
+        let (mut apart, mut peak) = (0.0_f64, 0.0_f64);
+        for (a, b) in a.positions.iter().zip(&b.positions) {
+            let at = |field: &solver::record::TractionField, x: f64| {
+                solver::interpolation::linear(&field.x_mm, &field.pressure_mpa, x)
+            };
+            for x in &b.x_mm {
+                apart = apart.max((at(a, *x) - at(b, *x)).abs());
+                peak = peak.max(at(b, *x));
+            }
+        }
+        let energy =
+            zoned.last.dissipated_energy_mj_per_mm / single.last.dissipated_energy_mj_per_mm - 1.0;
+        println!(
+            "wipe, {name} worn: zones and a single mesh differ by {profiles:.1e} of the depth, {:.1e} of the peak pressure, {energy:+.1e} of the energy",
+            apart / peak
+        );
+        assert!(profiles < 1e-3 && apart < 1e-2 * peak && energy.abs() < 1e-4);
+    }
+}
+
+#[test]
+fn a_floor_under_a_long_wipe_wears_by_each_pass() {
+    let scene = wipe(Sides {
+        slider: 0.0,
+        receptacle: RATE,
+    });
+    let (summary, run) = solve(&scene).expect("the wipe is solved");
+    let expected = 2.0 * 40.0 * RATE * scene.load_n_per_mm;
+    let profile = run.last_profile();
+    let mut worst = 0.0_f64;
+    for (x, depth) in profile.x_mm.iter().zip(&profile.depth_mm) {
+        if x.abs() < 0.17 {
+            worst = worst.max((depth / expected - 1.0).abs());
+        }
+    }
+    println!("floor of a long wipe: off k P a pass by {worst:.1e} at its worst place");
+    assert!(worst < 0.03);
+    assert!(summary.checks.worn_area < 1e-12);
+}
+
+/// The estimate of the contact's width may be wrong; zones then become wider, and the run goes on from the same cycle.
+#[test]
+fn a_contact_that_outgrows_its_zones_gets_wider_ones() {
+    let mut scene = wipe(Sides {
+        slider: RATE,
+        receptacle: 0.0,
+    });
+    let (expected, _) = solve(&scene).expect("the wipe is solved");
+    scene.accuracy.tuning.zone_width = 0.3;
+    let (found, _) = solve(&scene).expect("the wipe is solved");
+    println!(
+        "zones of 0.3 times the contact: {} relocations",
+        found.resolution.relocations
+    );
+    assert!(found.resolution.relocations > expected.resolution.relocations);
+    let depth = |run: &Summary| run.last.slider.max_depth_mm;
+    assert!((depth(&found) / depth(&expected) - 1.0).abs() < 1e-4);
+}
