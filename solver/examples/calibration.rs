@@ -18,10 +18,10 @@ mod scenes;
 use std::collections::BTreeMap;
 
 use recorder::{Recorder, area_between, largest_distance, solve};
-use scenes::{fuzz_button, groove, mccoll, partial_slip, scar, sprung_contact};
+use scenes::{fuzz_button, groove, mccoll, partial_slip, pin, scar, sprung_contact};
 use solver::SolveError;
 use solver::record::{DepthProfile, SideReport, Summary};
-use solver::scene::{Elastic, Friction, Scene, Tuning};
+use solver::scene::{Elastic, Friction, Motion, Scene, Tuning};
 use solver::sides::Side;
 
 const REFERENCE: f64 = 0.0025;
@@ -47,33 +47,38 @@ macro_rules! variations {
     };
 }
 
-const ERRORS: [Variation; 32] = variations! {
-    elements.value = [4.0, 8.0, 16.0], 0.02, ["scar", "groove", "sprung contact", "partial slip"];
-    elements.exponent = [0.2, 0.4, 0.6], 0.005, ["scar", "groove", "sprung contact"];
-    zone_growth.value = [0.03, 0.06, 0.12], 0.02, ["groove"];
-    zone_growth.exponent = [0.0, -0.35, -0.7], 0.1, ["scar", "groove"];
+const ERRORS: [Variation; 37] = variations! {
+    elements.value = [4.0, 8.0, 16.0], 0.02, ["scar", "partial slip"];
+    elements.exponent = [0.2, 0.4, 0.6], 0.005, ["scar"];
+    scar_elements.value = [8.0, 16.0, 32.0], 0.02, ["light scar"];
+    gross_elements.value = [2.0, 4.0, 8.0], 0.02, ["groove", "sprung contact", "pin"];
+    gross_elements.exponent = [0.2, 0.4, 0.6], 0.005, ["groove", "sprung contact"];
+    zone_growth.value = [0.015, 0.03, 0.06], 0.02, ["groove", "both worn"];
+    zone_growth.exponent = [0.0, -0.35, -0.7], 0.005, ["groove"];
     scar_zone_growth.value = [0.03, 0.06, 0.12], 0.02, ["scar", "sprung contact"];
     scar_zone_growth.exponent = [-0.35, -1.5, -2.2], 0.005, ["scar", "sprung contact"];
     layer_growth.value = [0.12, 0.25, 0.5], 0.02, ["scar", "groove"];
-    sticking_layer_growth.value = [0.06, 0.12, 0.25], 0.02, ["partial slip"];
+    sticking_layer_growth.value = [0.03, 0.06, 0.12], 0.02, ["partial slip"];
     layer_growth.exponent = [0.0, -0.3, -0.6], 0.005, ["scar"];
-    sticking_refinement = [3.5, 5.0, 6.0], 0.02, ["partial slip"];
+    sticking_refinement.value = [2.0, 4.0, 6.0], 0.02, ["partial slip"];
     scar_margin = [1.0, 1.3, 2.0], 0.02, ["scar", "groove", "sprung contact", "partial slip"];
     core = [1.0, 2.0, 4.0], 0.02, ["scar", "sprung contact"];
     outer_growth = [0.12, 0.25, 0.5], 0.02, ["scar", "groove"];
     outer_element = [0.05, 0.1, 0.2], 0.02, ["scar", "groove"];
     largest_element = [0.05, 0.1, 0.2], 0.02, ["wide contact"];
-    step.value = [0.25, 0.5, 1.0], 0.02, ["scar", "groove", "sprung contact"];
+    step.value = [0.12, 0.25, 0.5], 0.02, ["scar", "groove", "sprung contact", "pin"];
     step.exponent = [0.2, 0.4, 0.6], 0.005, ["groove", "sprung contact"];
     loose_step.exponent = [-0.3, -0.55, -0.8], 0.1, ["groove", "sprung contact"];
-    steps_per_quarter.value = [2.0, 5.0, 10.0], 0.02, ["scar", "partial slip"];
+    short_step = [0.15, 0.3, 1.0], 0.02, ["light scar"];
+    steps_per_quarter.value = [2.0, 5.0, 10.0], 0.02, ["scar"];
+    sticking_steps_per_quarter.value = [5.0, 12.0, 24.0], 0.02, ["partial slip"];
     steps_per_quarter.exponent = [0.0, 0.36, 0.7], 0.005, ["scar"];
-    widest = [1.5, 1.75, 2.0, 10.0], 0.02, ["long groove"];
     drift = [2.5, 10.0, 25.0], 0.02, ["long groove"];
     jump_change.0 = [0.25, 0.5, 0.8], 0.02, ["scar", "long sprung contact"];
     jump_change.1 = [1.2, 2.0, 4.0], 0.02, ["scar", "long sprung contact"];
     jump_of_done = [0.25, 0.5, 1.0], 0.02, ["scar", "long sprung contact"];
-    gross_jump_of_done = [1.0, 2.0, 4.0, 8.0], 0.02, ["long groove"];
+    gross_jump_of_done = [1.0, 2.0, 4.0, 8.0], 0.02, ["long groove", "pin"];
+    gross_jump_of_both = [0.5, 1.0, 2.0], 0.02, ["both worn"];
     gross_from = [1.0, 2.0, 4.0], 0.02, ["long sprung contact"];
     skew = [3.0, 12.0, 48.0], 0.02, ["long scar"];
     least_skew = [0.05, 0.15, 0.45], 0.005, ["long scar"];
@@ -101,6 +106,22 @@ fn scene(name: &str) -> Scene {
         "sprung contact" => sprung_contact(),
         "long sprung contact" => of_cycles(sprung_contact(), 2_000),
         "partial slip" => partial_slip(),
+        // Hardly wider than the unworn contact.
+        "light scar" => {
+            let mut scene = of_cycles(mccoll(), 20);
+            scene.friction = Friction::Coulomb { coefficient: 0.3 };
+            scene
+        }
+        "pin" => pin(),
+        "both worn" => {
+            let mut scene = of_cycles(sprung_contact(), 300);
+            scene.slider.wear = scene.receptacle.wear;
+            scene.motion = Motion::Reciprocating {
+                amplitude_mm: 0.05,
+                period_s: 1.0,
+            };
+            scene
+        }
         // Half as wide as the bodies, without friction, so that it slides.
         "wide contact" => {
             let mut scene = scar();

@@ -23,7 +23,7 @@ use crate::law::wear::{self, LocalState};
 use crate::model::Model;
 use crate::number::{cycles_at_least, real, real_cycles};
 use crate::scene::Scene;
-use crate::schedule::increments::{self, Position, Step};
+use crate::schedule::increments::{self, Followed, Position, Step};
 use crate::schedule::jump::Stroke;
 use crate::schedule::replay::ReplayPlan;
 use crate::sides::{Side, Sides};
@@ -106,11 +106,7 @@ impl<'a> Integrator<'a> {
     /// [`CycleError`] if an increment fails however small it is.
     pub fn initial_quarter(&mut self, state: &mut CycleState) -> Result<(), CycleError> {
         let (motion, accuracy) = (self.scene.motion, &self.scene.accuracy);
-        let steps = increments::steps(
-            motion,
-            accuracy,
-            state.followed_half_width(&accuracy.tuning),
-        );
+        let steps = increments::steps(motion, accuracy, self.followed(state));
         for (increment, step) in increments::initial_quarter(&steps).iter().enumerate() {
             self.step(state, step, 0.0, increment)?;
         }
@@ -130,11 +126,7 @@ impl<'a> Integrator<'a> {
         let (motion, accuracy) = (self.scene.motion, &self.scene.accuracy);
         let stroke = self.stroke(state);
         let mut jump = state.jump.next(accuracy, stroke, until - state.cycle);
-        let steps = increments::steps(
-            motion,
-            accuracy,
-            state.followed_half_width(&accuracy.tuning),
-        );
+        let steps = increments::steps(motion, accuracy, self.followed(state));
         self.update_slopes(state);
         let before = state.clone();
         loop {
@@ -222,6 +214,11 @@ impl<'a> Integrator<'a> {
         Ok(record)
     }
 
+    fn followed(&self, state: &CycleState) -> Followed {
+        let single = state.neutral.half_width;
+        Followed::new(state.mean_half_width, single, self.pair.interface.sticks)
+    }
+
     fn stroke(&self, state: &CycleState) -> Stroke {
         let (scene, interface) = (self.scene, &self.pair.interface);
         let amplitude = scene.motion.amplitude_mm();
@@ -230,7 +227,7 @@ impl<'a> Integrator<'a> {
         let wear = wear::coefficients(interface.wear, at);
         Stroke::new(
             &scene.accuracy.tuning,
-            wear.receptacle + wear.slider,
+            wear,
             modulus,
             (amplitude, state.mean_half_width),
             scene.cycles,

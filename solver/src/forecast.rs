@@ -18,9 +18,10 @@ mod surrogate;
 use crate::model::Layout;
 use crate::number::{cycles_at_least, real, real_cycles};
 use crate::scene::Scene;
+use crate::schedule::increments::{self, Followed};
 use crate::schedule::jump::JumpControl;
 use crate::schedule::replay::ReplayPlan;
-use crate::schedule::{increments, stops};
+use crate::schedule::stops;
 use crate::sides::Sides;
 
 use surrogate::Scar;
@@ -85,8 +86,7 @@ pub fn forecast(scene: &Scene, layout: &Layout) -> Forecast {
         }
         let until = stops::next(scene, scar.progress(cycle, &jump));
         let step = jump.next(&scene.accuracy, scar.stroke(scene), until - cycle);
-        let followed =
-            increments::followed(&scene.accuracy.tuning, scar.half_width, scar.contact(1));
+        let followed = Followed::new(scar.half_width, scar.contact(1), layout.sizes.sticks);
         let steps = increments::count(scene.motion, &scene.accuracy, followed);
         let replays = if scar.is_gross() && step > 1 {
             let length = 4.0 * scar.amplitude / real(steps);

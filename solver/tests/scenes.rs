@@ -153,6 +153,21 @@ pub(crate) fn sprung_contact() -> Scene {
     scene
 }
 
+/// The preset `zif` for 500 cycles: a groove some hundred times as deep as the contact's indentation.
+pub(crate) fn pin() -> Scene {
+    let mut scene = sprung_contact();
+    scene.cycles = 500;
+    scene.slider.shape = SliderShape {
+        radius_mm: 0.25,
+        half_width_mm: 0.2,
+        height_mm: 0.25,
+    };
+    scene.receptacle.shape.length_mm = 1.5;
+    scene.receptacle.shape.height_mm = 0.46;
+    scene.load_n_per_mm = 1.0;
+    scene
+}
+
 /// Partial slip: McColl's cylinder at 120 N/mm and +-3 um, where two thirds of the contact stick.
 pub(crate) fn partial_slip() -> Scene {
     let mut scene = short(mccoll(), 3_000);

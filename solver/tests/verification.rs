@@ -23,6 +23,7 @@ mod verify_invariance;
 mod verify_long_wipe;
 mod verify_mccoll;
 mod verify_moving_line_contact;
+mod verify_pressure_history;
 mod verify_repeatability;
 mod verify_resume;
 mod verify_short_stroke_scar;

@@ -32,6 +32,7 @@ fn body(x: Vec<f64>, far_y: f64, support: Support) -> BodyModel {
         zone_sizes: ZoneSizes {
             half_width: 0.5,
             width: 2.0,
+            fewest: 240.0,
             largest: 0.5,
         },
     };

@@ -12,8 +12,9 @@ use solver::scene::{Motion, Scene, WearLaw};
 use solver::sides::Sides;
 
 pub(crate) const RATE: f64 = 0.004 / 1700.0;
+const CYCLES: u32 = 20;
 
-/// The sprung contact's bodies and a wipe over 0.4 mm, ninety times the contact's width, at a tolerance of 10 %.
+/// The sprung contact's bodies and a wipe over 0.8 mm, 180 times the contact's width, at a tolerance of 10 %.
 pub(crate) fn wipe(rates: Sides<f64>) -> Scene {
     let law = |k: f64| {
         Some(WearLaw::Archard {
@@ -23,11 +24,11 @@ pub(crate) fn wipe(rates: Sides<f64>) -> Scene {
     };
     let mut scene = sprung_contact();
     scene.motion = Motion::Reciprocating {
-        amplitude_mm: 0.2,
+        amplitude_mm: 0.4,
         period_s: 1.0,
     };
     scene.accuracy = accuracy(0.1);
-    scene.cycles = 40;
+    scene.cycles = u64::from(CYCLES);
     scene.receptacle.wear = law(rates.receptacle);
     scene.slider.wear = law(rates.slider);
     scene
@@ -107,11 +108,11 @@ fn a_floor_under_a_long_wipe_wears_by_each_pass() {
         receptacle: RATE,
     });
     let (summary, run) = solve(&scene).expect("the wipe is solved");
-    let expected = 2.0 * 40.0 * RATE * scene.load_n_per_mm;
+    let expected = 2.0 * f64::from(CYCLES) * RATE * scene.load_n_per_mm;
     let profile = run.last_profile();
     let mut worst = 0.0_f64;
     for (x, depth) in profile.x_mm.iter().zip(&profile.depth_mm) {
-        if x.abs() < 0.17 {
+        if x.abs() < 0.37 {
             worst = worst.max((depth / expected - 1.0).abs());
         }
     }
@@ -128,10 +129,11 @@ fn a_contact_that_outgrows_its_zones_gets_wider_ones() {
         receptacle: 0.0,
     });
     let (expected, _) = solve(&scene).expect("the wipe is solved");
-    scene.accuracy.tuning.zone_width = 0.3;
+    scene.accuracy.tuning.zone_width = 0.5;
+    scene.accuracy.tuning.fewest_zone_nodes = 20.0;
     let (found, _) = solve(&scene).expect("the wipe is solved");
     println!(
-        "zones of 0.3 times the contact: {} relocations",
+        "zones of half the contact: {} relocations",
         found.resolution.relocations
     );
     assert!(found.resolution.relocations > expected.resolution.relocations);

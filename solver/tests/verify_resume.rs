@@ -120,8 +120,9 @@ fn a_run_in_zones_resumes_to_the_same_bits() {
         slider: RATE,
         receptacle: 0.0,
     });
-    scene.accuracy.tuning.zone_width = 0.3;
-    scene.output.snapshots_at_cycles = vec![4, 40];
+    scene.accuracy.tuning.zone_width = 0.5;
+    scene.accuracy.tuning.fewest_zone_nodes = 20.0;
+    scene.output.snapshots_at_cycles = vec![4, 20];
     scene.output.fields = true;
     let (summary, _) = resumes_to_the_same_bits("wipe", &scene, 9);
     assert!(summary.resolution.relocations >= 2, "{summary:?}");

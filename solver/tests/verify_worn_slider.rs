@@ -108,7 +108,8 @@ fn a_stop_condition_on_either_side_is_not_overshot() {
 #[test]
 fn both_sides_worn_leave_no_comb_in_the_pressure() {
     let WearLaw::Archard { k_over_h_per_mpa } = WEAR;
-    for ratio in [0.05, 0.1, 0.2, 0.5, 1.0, 5.0] {
+    let mut largest = 0.0_f64;
+    for ratio in [0.001, 0.004, 0.01, 0.05, 0.1, 1.0, 5.0] {
         let slider = WearLaw::Archard {
             k_over_h_per_mpa: ratio * k_over_h_per_mpa,
         };
@@ -126,9 +127,10 @@ fn both_sides_worn_leave_no_comb_in_the_pressure() {
             worst(f64::INFINITY),
             worst(0.0)
         );
-        // A comb has 0.3 and more; a few per cent belong to the corner of the slider's flat in the groove.
-        assert!(chosen < 0.2, "{ratio}: {chosen}");
+        largest = largest.max(chosen);
     }
+    // A comb has 0.3 and more; a few per cent belong to the corner of the slider's flat in the groove.
+    assert!(largest < 0.1, "{largest}");
 }
 
 /// Largest difference of a pressure from the mean of its neighbours, beside the edges of the contact, over the peak.

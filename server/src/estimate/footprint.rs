@@ -4,7 +4,7 @@
 //! 135 000 unknowns, 70 to 1 540 surface nodes; `fretwear bench --predictions` prints them), which they match within a
 //! fifth: a sparse factor grows almost linearly with the unknowns, and the body with the larger surface is condensed
 //! with several matrices of its surface at once. The output coefficients are rough: `fretwear plan`
-//! estimates 1.55 MB for `fuzz_button.json` and 0.31 MB for `mccoll.json`, `fretwear solve` writes 1.28 and 0.67 MB.
+//! estimates 0.91 MB for `fuzz_button.json` and 0.31 MB for `mccoll.json`, `fretwear solve` writes 1.44 and 0.66 MB.
 
 use solver::model::{BodyLayout, Layout};
 use solver::scene::Scene;
@@ -97,10 +97,10 @@ mod tests {
     fn estimates_match_measured_runs() {
         // Unknowns and peak memory of whole runs, as `fretwear solve` reported them.
         for (kind, preset, dofs, memory_mb) in [
-            ("fuzz_button", "fine", 150_094.0, 726.0),
-            ("fuzz_button", "standard", 41_628.0, 206.0),
-            ("zif", "fine", 79_810.0, 176.0),
-            ("cylinder_on_flat", "draft", 5_256.0, 16.0),
+            ("fuzz_button", "fine", 75_660.0, 262.0),
+            ("fuzz_button", "standard", 21_488.0, 66.0),
+            ("zif", "fine", 56_144.0, 107.0),
+            ("cylinder_on_flat", "draft", 5_760.0, 16.0),
         ] {
             let text =
                 format!(r#"{{"system":{{"kind":"{kind}"}},"accuracy":{{"preset":"{preset}"}}}}"#);
@@ -123,9 +123,9 @@ mod tests {
         let fields = footprint(
             r#"{"system":{"kind":"fuzz_button"},"output":{"snapshots_at_cycles":[2],"fields":true}}"#,
         );
-        // Four files of 3.85 MB.
+        // Four files of 2.15 MB.
         assert!(
-            (fields.output_mb - plain.output_mb - 15.4).abs() < 3.0,
+            (fields.output_mb - plain.output_mb - 8.6).abs() < 1.0,
             "{fields:?}"
         );
         let every = footprint(

@@ -5,8 +5,6 @@ use serde::{Deserialize, Serialize};
 use super::{Checks, Neutral};
 use crate::condensation::Operators;
 use crate::contact::{ContactError, ContactState};
-use crate::scene::Tuning;
-use crate::schedule::increments;
 use crate::schedule::jump::JumpControl;
 use crate::sides::{Side, Sides};
 
@@ -86,10 +84,5 @@ impl CycleState {
             most_increments: 0,
             checks: Checks::default(),
         }
-    }
-
-    /// Half-width that the increments are chosen for, mm.
-    pub(super) fn followed_half_width(&self, tuning: &Tuning) -> f64 {
-        increments::followed(tuning, self.mean_half_width, self.neutral.half_width)
     }
 }

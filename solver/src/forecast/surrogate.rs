@@ -109,7 +109,7 @@ impl Scar {
     pub(super) fn stroke(&self, scene: &Scene) -> Stroke {
         Stroke::new(
             &self.tuning,
-            self.wear,
+            self.shares.map(|share| share * self.wear),
             self.modulus,
             (self.amplitude, self.half_width),
             scene.cycles,

@@ -228,6 +228,7 @@ fn zone_sizes(scene: &Scene, sizes: &Sizes, side: Side) -> ZoneSizes {
     ZoneSizes {
         half_width: sizes.final_half_width,
         width: scene.accuracy.tuning.zone_width,
+        fewest: scene.accuracy.tuning.fewest_zone_nodes,
         largest: sizes.spacing.of(side).largest,
     }
 }

@@ -21,6 +21,10 @@ use std::f64::consts::PI;
 /// Arbitrary.
 const FEWEST_GIVEN_SHARE: f64 = 0.5;
 
+/// Tolerance beyond which the elements of gross sliding, and their growth, are those of this one: on steep walls and in the
+/// corners of worn flats coarser ones let the pressure alternate (`cargo test --release -p tests hard`).
+const COARSEST: f64 = 0.02;
+
 /// Characteristic lengths of the contact and the mesh, mm.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Sizes {
@@ -122,17 +126,32 @@ pub(crate) fn wear_rates(scene: &Scene, half_width: f64) -> Sides<f64> {
 }
 
 /// The body whose nodes carry the contact constraints, for elements of a size and increments of a slip, mm.
+///
+/// It is not one that is nearly rigid: only the other one would deform under a pressure that alternates from node to
+/// node, and between its own nodes not even that. Wear levels such a pressure as soon as it removes as much in an
+/// increment as the other body deforms; a receptacle that wears at all is worn by many cycles in each increment.
 fn slave(scene: &Scene, rates: Sides<f64>, gross: bool, (element, slip): (f64, f64)) -> Side {
     let tuning = &scene.accuracy.tuning;
-    let modulus = scene.receptacle.elastic.youngs_modulus_mpa;
-    let softness = modulus / scene.slider.elastic.youngs_modulus_mpa;
-    let rigid = softness < tuning.rigid_slider && rates.slider * slip < element / modulus;
+    let moduli = Sides {
+        slider: scene.slider.elastic.youngs_modulus_mpa,
+        receptacle: scene.receptacle.elastic.youngs_modulus_mpa,
+    };
+    let is_rigid = |side: Side| {
+        let softer = *moduli.of(side.other());
+        softer < tuning.rigid_body * moduli.of(side) && rates.of(side) * slip < element / softer
+    };
     let wears = if gross {
         rates.slider >= tuning.slider_constraints_gross * rates.receptacle
     } else {
         rates.slider > tuning.slider_constraints * rates.receptacle
     };
-    if wears && rates.slider > 0.0 && !rigid {
+    if wears && rates.slider > 0.0 {
+        if is_rigid(Side::Slider) {
+            Side::Receptacle
+        } else {
+            Side::Slider
+        }
+    } else if is_rigid(Side::Receptacle) && rates.receptacle <= 0.0 {
         Side::Slider
     } else {
         Side::Receptacle
@@ -172,11 +191,15 @@ pub fn choose(scene: &Scene) -> Sizes {
     let Accuracy {
         tolerance, tuning, ..
     } = &scene.accuracy;
-    let elements = tuning.elements.at(*tolerance);
+    let elements = if gross {
+        tuning.gross_elements.at(tolerance.min(COARSEST))
+    } else {
+        tuning.elements.at(*tolerance)
+    };
     let sticks = sticks(scene, hertz);
     let (elements, layer_growth) = if sticks {
         (
-            tuning.sticking_refinement * elements,
+            tuning.sticking_refinement.at(tolerance.min(COARSEST)) * elements,
             tuning.sticking_layer_growth,
         )
     } else {
@@ -190,9 +213,16 @@ pub fn choose(scene: &Scene) -> Sizes {
     let given = scene.accuracy.contact_element_mm;
     let half_block = 0.5 * scene.receptacle.shape.length_mm;
     let narrower = half_block.min(scene.slider.shape.half_width_mm);
+    // The edge of a short stroke's scar lies where the contact ends.
+    let at_edge = if gross || sticks {
+        f64::INFINITY
+    } else {
+        last / tuning.scar_elements.at(*tolerance)
+    };
+    let largest = tuning.largest_element * narrower;
     let element = match given {
         Some(element) => element.min(FEWEST_GIVEN_SHARE * narrower),
-        None => (narrowest / elements).min(tuning.largest_element * narrower),
+        None => (narrowest / elements).min(at_edge).min(largest),
     };
     let slip = tuning
         .largest_step(*tolerance, hertz)
@@ -206,7 +236,7 @@ pub fn choose(scene: &Scene) -> Sizes {
     let spacing = |travel: f64, half: f64| Spacing {
         core: element,
         core_half: (core + travel).min(half),
-        zone_growth: zone_growth.at(*tolerance),
+        zone_growth: zone_growth.at(tolerance.min(COARSEST)),
         zone_half: zone + travel,
         outer_growth: tuning.outer_growth,
         largest: (tuning.outer_element * half).max(element),

@@ -16,8 +16,6 @@ use crate::number::{count_at_least, real};
 /// Most contact nodes that one mesh takes. Arbitrary: the condensation of 700 nodes costs as much as a few hundred
 /// increments.
 const MOST_NODES: usize = 700;
-/// Fewest contact nodes of a zone among several: with fewer, most spines of its mesh are coarse ones outside of it.
-const FEWEST_NODES: usize = 240;
 /// Nodes beside a contact: candidates, and those of the neighbours' meshes. Arbitrary: a contact that needs more has wider
 /// zones.
 const MARGIN_NODES: usize = 16;
@@ -60,6 +58,8 @@ pub struct ZoneSizes {
     pub half_width: f64,
     /// Nodes of a zone over those of that contact.
     pub width: f64,
+    /// Fewest nodes of a zone.
+    pub fewest: f64,
     /// Largest element away from a zone, mm.
     pub largest: f64,
 }
@@ -71,11 +71,12 @@ pub(super) fn divide(x: &[f64], contact: (usize, usize), sizes: ZoneSizes) -> Ve
         return vec![Zone::whole(x.len(), contact)];
     }
     let widest = MARGIN_NODES + widest_contact(&x[contact.0..contact.1], sizes.half_width);
-    let size = count_at_least(sizes.width * real(widest)).max(FEWEST_NODES);
+    let size = count_at_least((sizes.width * real(widest)).max(sizes.fewest));
     if 2 * size > nodes {
         return vec![Zone::whole(x.len(), contact)];
     }
-    let count = (nodes - size).div_ceil(size - widest) + 1;
+    let overlap = widest.min(size / 2);
+    let count = (nodes - size).div_ceil(size - overlap) + 1;
     let last = contact.1 - size;
     let begin = |zone: usize| contact.0 + (last - contact.0) * zone / (count - 1);
     (0..count)
@@ -144,6 +145,7 @@ mod tests {
         ZoneSizes {
             half_width,
             width: 2.0,
+            fewest: 240.0,
             largest: 100.0,
         }
     }

@@ -7,7 +7,7 @@
 //! must stay a fraction of the contact's half-width, or its wear would leave ripples.
 
 use crate::number::{count_at_least, real};
-use crate::scene::{Accuracy, Motion, Tuning};
+use crate::scene::{Accuracy, Motion};
 
 /// Named positions of a cycle.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -20,12 +20,24 @@ pub enum Position {
     Leftmost,
 }
 
-/// Half-width that the increments are chosen for, mm, from that of the present contact and of a single cycle.
-pub(crate) fn followed(tuning: &Tuning, half_width: f64, single: f64) -> f64 {
-    if single > 0.0 {
-        half_width.min(tuning.widest * single)
-    } else {
-        half_width
+/// Contact that the increments are chosen for.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Followed {
+    /// Its half-width, mm.
+    pub(crate) half_width: f64,
+    /// Whether part of it may stick through the whole stroke.
+    pub(crate) sticks: bool,
+}
+
+impl Followed {
+    /// The narrower of the present contact and that of a single cycle.
+    pub(crate) fn new(half_width: f64, single: f64, sticks: bool) -> Self {
+        let half_width = if single > 0.0 {
+            half_width.min(single)
+        } else {
+            half_width
+        };
+        Self { half_width, sticks }
     }
 }
 
@@ -44,11 +56,11 @@ pub(crate) struct Step {
 }
 
 /// Number of increments of one cycle.
-pub(crate) fn count(motion: Motion, accuracy: &Accuracy, half_width: f64) -> usize {
+pub(crate) fn count(motion: Motion, accuracy: &Accuracy, contact: Followed) -> usize {
     match motion {
         Motion::Continuous { .. } => 1,
         Motion::Reciprocating { amplitude_mm, .. } => {
-            4 * steps_per_quarter(accuracy, amplitude_mm, half_width)
+            4 * steps_per_quarter(accuracy, amplitude_mm, contact)
         }
     }
 }
@@ -59,7 +71,7 @@ pub(crate) fn named(count: usize) -> [usize; 3] {
 }
 
 /// The increments of one cycle.
-pub(crate) fn steps(motion: Motion, accuracy: &Accuracy, half_width: f64) -> Vec<Step> {
+pub(crate) fn steps(motion: Motion, accuracy: &Accuracy, contact: Followed) -> Vec<Step> {
     match motion {
         Motion::Continuous { step_mm } => {
             vec![Step {
@@ -70,7 +82,7 @@ pub(crate) fn steps(motion: Motion, accuracy: &Accuracy, half_width: f64) -> Vec
         }
         Motion::Reciprocating { amplitude_mm, .. } => there_and_back(
             amplitude_mm,
-            steps_per_quarter(accuracy, amplitude_mm, half_width),
+            steps_per_quarter(accuracy, amplitude_mm, contact),
         ),
     }
 }
@@ -94,17 +106,27 @@ pub(crate) fn initial_quarter(steps: &[Step]) -> &[Step] {
     }
 }
 
-fn steps_per_quarter(accuracy: &Accuracy, amplitude: f64, half_width: f64) -> usize {
+fn steps_per_quarter(accuracy: &Accuracy, amplitude: f64, contact: Followed) -> usize {
     let Accuracy {
         tolerance, tuning, ..
     } = accuracy;
-    let fewest = tuning.steps_per_quarter.at(*tolerance);
-    let fewest = count_at_least(fewest.round());
+    let fewest = if contact.sticks {
+        tuning.sticking_steps_per_quarter
+    } else {
+        tuning.steps_per_quarter
+    };
+    let fewest = fewest.at(*tolerance);
+    let half_width = contact.half_width;
     match accuracy.increments_per_cycle {
         Some(n) => usize::try_from(n).unwrap_or(MOST_STEPS).div_ceil(4),
         // Without a contact there is nothing to resolve.
-        None if half_width <= 0.0 => fewest,
-        None => count_at_least(amplitude / tuning.largest_step(*tolerance, half_width)).max(fewest),
+        None if half_width <= 0.0 => count_at_least(fewest.round()),
+        None => {
+            let long = amplitude / tuning.largest_step(*tolerance, half_width);
+            let short = amplitude / tuning.short_step(*tolerance, half_width);
+            let short = if contact.sticks { 0.0 } else { short };
+            count_at_least(long.max(short.min(2.0 * fewest))).max(count_at_least(fewest.round()))
+        }
     }
     .clamp(1, MOST_STEPS)
 }
@@ -128,6 +150,7 @@ fn there_and_back(amplitude: f64, quarter: usize) -> Vec<Step> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::scene::Tuning;
 
     const ACCURACY: Accuracy = Accuracy {
         tolerance: 0.02,
@@ -135,6 +158,11 @@ mod tests {
         increments_per_cycle: Some(8),
         cycle_jump: None,
         tuning: Tuning::FITTED,
+    };
+
+    const CONTACT: Followed = Followed {
+        half_width: 0.1,
+        sticks: false,
     };
 
     fn places(steps: &[Step]) -> Vec<f64> {
@@ -147,7 +175,7 @@ mod tests {
             amplitude_mm: 2.0,
             period_s: 1.0,
         };
-        let steps = steps(motion, &ACCURACY, 0.1);
+        let steps = steps(motion, &ACCURACY, CONTACT);
         assert_eq!(
             places(&steps),
             vec![1.0, 0.0, -1.0, -2.0, -1.0, 0.0, 1.0, 2.0]
@@ -167,7 +195,7 @@ mod tests {
             amplitude_mm: 2.0,
             period_s: 1.0,
         };
-        let places = places(&steps(motion, &accuracy, 0.1));
+        let places = places(&steps(motion, &accuracy, CONTACT));
         assert!(
             places
                 .windows(2)
@@ -178,7 +206,7 @@ mod tests {
 
     #[test]
     fn a_continuous_motion_stays_where_it_is() {
-        let steps = steps(Motion::Continuous { step_mm: 0.3 }, &ACCURACY, 0.1);
+        let steps = steps(Motion::Continuous { step_mm: 0.3 }, &ACCURACY, CONTACT);
         assert_eq!((steps.len(), places(&steps)), (1, vec![0.0]));
         assert_eq!(initial_quarter(&steps), steps);
     }

@@ -31,6 +31,8 @@ const SMALLEST_ERROR: f64 = 1e-6;
 pub(crate) struct Stroke {
     /// Whether it is gross reciprocating sliding: the contact leaves its own width.
     pub(crate) gross: bool,
+    /// Whether both bodies wear.
+    both: bool,
     /// Pressure skew of a single cycle, k s E*/b.
     skew: f64,
     /// Cycles of the whole run.
@@ -38,16 +40,18 @@ pub(crate) struct Stroke {
 }
 
 impl Stroke {
-    /// The stroke of an amplitude under a contact of a half-width, mm, for k_s + k_r in 1/MPa and E* in MPa.
+    /// The stroke of an amplitude under a contact of a half-width, mm, for the wear rates k_s, k_r in 1/MPa and E* in MPa.
     pub(crate) fn new(
         tuning: &Tuning,
-        wear: f64,
+        rates: Sides<f64>,
         modulus: f64,
         (amplitude, half_width): (f64, f64),
         cycles: u64,
     ) -> Self {
+        let wear = rates.slider + rates.receptacle;
         Self {
             gross: tuning.is_gross(amplitude, half_width),
+            both: rates.slider > 0.0 && rates.receptacle > 0.0,
             skew: wear * 2.0 * amplitude * modulus / half_width,
             cycles,
         }
@@ -60,7 +64,12 @@ impl Stroke {
         } = accuracy;
         let done = real_cycles(done);
         if self.gross {
-            return tuning.gross_jump_of_done * tolerance * done;
+            let share = if self.both {
+                tuning.gross_jump_of_both
+            } else {
+                tuning.gross_jump_of_done
+            };
+            return share * tolerance * done;
         }
         let sufficient = real_cycles(self.cycles) * tolerance / tuning.sufficient_cycles;
         let unskewed = largest_skew(accuracy) / self.skew.max(f64::MIN_POSITIVE);
@@ -204,6 +213,7 @@ mod tests {
 
     const STROKE: Stroke = Stroke {
         gross: false,
+        both: false,
         skew: 0.0,
         cycles: 1_000,
     };

@@ -31,22 +31,32 @@ fn refined_tolerances_agree_in_partial_slip() {
     holds("refined tolerance", &STICKING, the_same_when_refined);
 }
 
+/// They differed by up to 9 % of the worn area with coarser layers, fewer increments and more elements.
 #[test]
-#[ignore = "peak pressures off by up to 15 %: coarse elements at the edge of the slider's flat"]
-fn refined_tolerances_agree_in_the_scenes_found_in_gross_slip() {
+fn refined_tolerances_agree_in_scenes_that_differed() {
     holds_in_found(
-        "refined tolerance, found in gross slip",
-        &[20, 44, 70, 95, 100],
+        "refined tolerance, differed before",
+        &[13, 20, 51, 171],
         the_same_when_refined,
     );
 }
 
 #[test]
-#[ignore = "worn area off by up to 4 %: the coarse layers make the bodies too stiff along x; width by 17 % in 180"]
+#[ignore = "peak pressures off by up to 16 %: the corner of the slider's flat in the groove"]
+fn refined_tolerances_agree_in_the_scenes_found_in_gross_slip() {
+    holds_in_found(
+        "refined tolerance, found in gross slip",
+        &[44, 70, 95, 100],
+        the_same_when_refined,
+    );
+}
+
+#[test]
+#[ignore = "the width of a scar with a shallow outer part depends on the 2 % of its depth that count as its edge"]
 fn refined_tolerances_agree_in_the_scenes_found_in_partial_slip() {
     holds_in_found(
         "refined tolerance, found in partial slip",
-        &[13, 51, 171, 180],
+        &[180],
         the_same_when_refined,
     );
 }

@@ -86,22 +86,32 @@ fn swapped_bodies_agree_in_partial_slip() {
     holds("swapped bodies", &STICKING, the_same_upside_down);
 }
 
+/// They differed by up to 12 % of the worn area, 17 % of the peak pressure, with coarser layers and fewer increments.
 #[test]
-#[ignore = "peak pressures off by up to 17 %: coarse elements at the edge of the scar"]
-fn bodies_swap_in_the_scenes_found_in_gross_slip() {
+fn bodies_swap_in_scenes_that_differed() {
     holds_in_found(
-        "swapped bodies, found in gross slip",
-        &[100, 113],
+        "swapped bodies, differed before",
+        &[61, 96, 113],
         the_same_upside_down,
     );
 }
 
 #[test]
-#[ignore = "worn area off by 4 to 12 %: the shear of the first load depends on the normals, which are the receptacle's"]
+#[ignore = "the peak pressure is off by 13 %: the corner of the slider's flat in the groove"]
+fn bodies_swap_in_the_scenes_found_in_gross_slip() {
+    holds_in_found(
+        "swapped bodies, found in gross slip",
+        &[100],
+        the_same_upside_down,
+    );
+}
+
+#[test]
+#[ignore = "worn area off by 4 to 9 %: the shear of the first load depends on the normals, which are the receptacle's"]
 fn bodies_swap_in_the_scenes_found_in_partial_slip() {
     holds_in_found(
         "swapped bodies, found in partial slip",
-        &[15, 48, 61, 96, 122, 144, 181],
+        &[15, 48, 122, 144, 181],
         the_same_upside_down,
     );
 }

@@ -33,10 +33,6 @@ const CONE_SLACK: f64 = 1e-10;
 /// Most nodes of a complementarity problem: the work grows with their cube. Arbitrary, like the bounds below: Newton's
 /// method alone decides beyond it.
 const MOST_NODES: usize = 200;
-/// The same of the first load, once a run and not to be halved. From no contact to all of it with the status of nearly
-/// every node unknown, Newton's active set cycles between unlike bodies, whose stick zone may be narrower than an
-/// element. Four loads of 300 to 570 nodes take half a minute together.
-const MOST_NODES_OF_FIRST_LOAD: usize = 600;
 /// Most linearisations of the wear.
 const MOST_LINEARISATIONS: usize = 20;
 /// Newton iterations after a linearisation that changed no status.
@@ -80,12 +76,7 @@ impl Complementarity {
         it: &mut Iterate,
         mut end: Convergence,
     ) -> Convergence {
-        let most_nodes = if problem.first_load {
-            MOST_NODES_OF_FIRST_LOAD
-        } else {
-            MOST_NODES
-        };
-        if it.status.len() > most_nodes {
+        if it.status.len() > MOST_NODES {
             return end;
         }
         for node in 0..it.status.len() {

@@ -185,7 +185,14 @@ impl Solver {
         predict(&mut self.iterate, pair, last, &problem);
         let (newton, it) = (&mut self.newton, &mut self.iterate);
         let (response, wear) = (&mut self.response, &mut self.wear);
-        let mut end = newton.solve(&problem, response, wear, it, MOST_ITERATIONS);
+        // From no contact to all of it, one node at a time if need be.
+        let single_changes = if problem.first_load {
+            it.status.len()
+        } else {
+            0
+        };
+        let most = MOST_ITERATIONS + single_changes;
+        let mut end = newton.solve(&problem, response, wear, it, most);
         if to.lemke && !matches!(end, Convergence::Converged) {
             end = self
                 .complementarity
@@ -204,7 +211,7 @@ impl Solver {
             }),
             Convergence::NotConverged { residual, changes } => Err(ContactError::NotConverged {
                 slider_x_mm: slider_x,
-                iterations: MOST_ITERATIONS,
+                iterations: most,
                 residual,
                 tolerance: self.iterate.tolerance,
                 changes,
