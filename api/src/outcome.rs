@@ -7,6 +7,9 @@ string_enum! {
     Outcome {
         /// All cycles were computed.
         Completed = "completed",
+        /// All cycles were computed, but the estimated error of worn depth, scar width or worn area exceeds the
+        /// tolerance.
+        OutsideTolerance = "outside_tolerance",
         /// A stop condition was met.
         StopCondition = "stop_condition",
         /// A body was worn through almost completely.
@@ -35,5 +38,7 @@ string_enum! {
         Cycles = "cycles",
         /// Relocation of the mesh to the worn surface.
         Relocate = "relocate",
+        /// Coarse companions of the run, which its error is estimated by.
+        Companions = "companions",
     }
 }

@@ -10,4 +10,6 @@ pub use manifest::{Manifest, ResultFile};
 pub use snapshot::{
     Loop, Pressure, PressurePosition, Profile, SideProfile, SlidePosition, Snapshot,
 };
-pub use summary::{AccuracyReached, Checks, Cost, Initial, SideSummary, Summary};
+pub use summary::{
+    AccuracyReached, Checks, Cost, EstimatedError, EstimatedErrors, Initial, SideSummary, Summary,
+};

@@ -40,7 +40,15 @@ function render_status(job) {
   ]);
 }
 
-function render_summary({ receptacle, slider, peak_pressure_mpa, initial, accuracy, cost, cycles_done }) {
+/** Estimated errors in words, e.g. `depth 0.5 %, width 1.2 %, area 0.1 %, peak pressure 2 %`. */
+function format_errors({ errors, estimated_relative_error }) {
+  const percent = (error) => `${format_number(error, 100)} %`;
+  if (errors == null) return estimated_relative_error == null ? null : percent(estimated_relative_error);
+  const names = [["depth", "worn_depth"], ["width", "scar_half_width"], ["area", "worn_area"], ["peak pressure", "peak_pressure"]];
+  return names.map(([name, field]) => `${name} ${percent(errors[field].relative)}`).join(", ");
+}
+
+function render_summary({ receptacle, slider, peak_pressure_mpa, initial, accuracy, cost, cycles_done, warnings }) {
   const sides = (field, scale, unit) => `${format_number(receptacle[field], scale)} / ${format_number(slider[field], scale)} ${unit}`;
   return definition_list([
     ["cycles", `${cycles_done}, ${accuracy.computed_cycles} of them computed`],
@@ -48,7 +56,8 @@ function render_summary({ receptacle, slider, peak_pressure_mpa, initial, accura
     ["scar half-width", sides("scar_half_width_mm", 1000, "µm")],
     ["worn area", sides("worn_area_mm2", 1e6, "µm²")],
     ["peak pressure, unworn / worn", `${format_number(initial.peak_pressure_mpa)} / ${format_number(peak_pressure_mpa)} MPa`],
-    ["estimated error", accuracy.estimated_relative_error == null ? null : `${format_number(accuracy.estimated_relative_error, 100)} %`],
+    ["estimated error", format_errors(accuracy)],
+    ["warnings", (warnings ?? []).join("; ")],
     ["computing time", format_duration(cost.wall_s)],
   ]);
 }

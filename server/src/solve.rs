@@ -9,6 +9,7 @@ use std::ops::ControlFlow;
 
 use api::results::{Cost, Summary};
 use solver::SolveError;
+use solver::error_control;
 use solver::observer::{self, Event, Observer};
 use solver::record::PlacedFields;
 use solver::scene::Scene;
@@ -27,8 +28,8 @@ pub fn run(scene: &Scene, on: &mut dyn FnMut(Line) -> ControlFlow<()>) -> Result
     run_from(scene, None, &CheckpointPolicy::default(), on)
 }
 
-/// Solves a scene from a checkpoint, if there is one, and emits checkpoints. If the checkpoint does not fit the scene,
-/// the run emits [`Line::Restarted`] and starts at cycle 0.
+/// Solves a scene from a checkpoint, if there is one, and emits checkpoints. If the checkpoint does not fit the scene, or
+/// the estimated error exceeds the tolerance, the run emits [`Line::Restarted`] and starts at cycle 0.
 ///
 /// # Errors
 /// [`Failure`] with the engine's numbers.
@@ -46,13 +47,13 @@ pub fn run_from(
         is_stopped: false,
     };
     let mut ended = match run {
-        Some(run) => solver::run::resume(scene, run, &mut recorder),
-        None => solver::run::solve(scene, &mut recorder),
+        Some(run) => error_control::resume(scene, run, &mut recorder),
+        None => error_control::solve(scene, &mut recorder),
     };
     if let Err(SolveError::Checkpoint(misfit)) = ended {
         recorder.watch = Stopwatch::start(Cost::default());
         recorder.emit(Line::Restarted(misfit.to_string()));
-        ended = solver::run::solve(scene, &mut recorder);
+        ended = error_control::solve(scene, &mut recorder);
     }
     Ok(history::summary(&ended?, recorder.watch.cost()))
 }
@@ -123,6 +124,7 @@ impl Observer for Recorder<'_> {
                 Line::Snapshot(Box::new(history::snapshot(snapshot)))
             }
             Event::Checkpoint(run) => return self.checkpoint(run),
+            Event::Restart(reason) => Line::Restarted(reason.to_owned()),
         };
         (self.on)(line)
     }

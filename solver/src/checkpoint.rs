@@ -10,6 +10,7 @@ use crate::ale;
 use crate::cycle::CycleState;
 use crate::mesh::MeshError;
 use crate::model::Model;
+use crate::record::{Compared, Initial, Summary};
 use crate::sides::{Side, Sides};
 
 /// A run between two computed cycles. It survives serialisation bit for bit in any format that preserves `f64`.
@@ -22,15 +23,47 @@ pub struct Checkpoint {
     pub(crate) relocations: u64,
     /// Factor by which zones of fine elements are wider than the scene's.
     pub(crate) widened: f64,
+    /// Histories that the run's error is estimated by.
+    pub(crate) compared: Compared,
+    /// What error control knows from the runs of this scene before this one.
+    pub(crate) earlier: Earlier,
 }
 
-/// The unworn, loaded state.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct Initial {
-    /// Highest pressure, MPa.
-    pub peak_pressure_mpa: f64,
-    /// Half-width of the contact, mm.
-    pub contact_half_width_mm: f64,
+/// Runs of a scene before the present one.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub struct Earlier {
+    /// Histories that the error is estimated by; `None` for a run without a solution.
+    pub(crate) runs: Vec<Option<Compared>>,
+    /// The delivered run, while its companions are solved.
+    pub(crate) finished: Option<Box<Finished>>,
+}
+
+/// A run that has ended.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Finished {
+    summary: Summary,
+    /// Those of its last report, which are not stored with it.
+    ideal_area_mm2: Sides<Option<f64>>,
+}
+
+impl Finished {
+    pub(crate) fn new(summary: Summary) -> Self {
+        let last = &summary.last;
+        Self {
+            ideal_area_mm2: Sides {
+                slider: last.slider.ideal_area_mm2,
+                receptacle: last.receptacle.ideal_area_mm2,
+            },
+            summary,
+        }
+    }
+
+    pub(crate) fn into_summary(self) -> Summary {
+        let mut summary = self.summary;
+        summary.last.slider.ideal_area_mm2 = self.ideal_area_mm2.slider;
+        summary.last.receptacle.ideal_area_mm2 = self.ideal_area_mm2.receptacle;
+        summary
+    }
 }
 
 /// Mismatch between a checkpoint and a scene.
@@ -57,9 +90,12 @@ pub enum Misfit {
 }
 
 impl Checkpoint {
-    /// Physical cycles done.
+    /// Physical cycles whose results were delivered.
     pub fn cycle(&self) -> u64 {
-        self.state.cycle
+        match &self.earlier.finished {
+            Some(finished) => finished.summary.last.cycle,
+            None => self.state.cycle,
+        }
     }
 
     /// The model at this checkpoint, from an earlier one.

@@ -33,6 +33,14 @@ pub use cycle_record::{CycleRecord, FrictionLoop, Neutral};
 use replay::Replays;
 pub use state::{CycleError, CycleState};
 
+/// The load at the neutral position, without sliding.
+const FIRST_LOAD: Displacement = Displacement {
+    slider_x: 0.0,
+    surface_slip: 0.0,
+    cycles: 0.0,
+    lemke: true,
+};
+
 /// Integrates cycles of one scene on one set of operators.
 pub struct Integrator<'a> {
     scene: &'a Scene,
@@ -68,21 +76,13 @@ impl<'a> Integrator<'a> {
     /// [`CycleError`] if there is no equilibrium.
     pub fn apply_load(&mut self, state: &mut CycleState) -> Result<CycleRecord, CycleError> {
         self.update_slopes(state);
-        self.increment(
-            state,
-            Displacement {
-                slider_x: 0.0,
-                surface_slip: 0.0,
-                cycles: 0.0,
-                lemke: true,
-            },
-        )
-        .map_err(|source| CycleError::Increment {
-            cycle: 0,
-            increment: 0,
-            halvings: 0,
-            source,
-        })?;
+        self.increase_load(state)
+            .map_err(|source| CycleError::Increment {
+                cycle: 0,
+                increment: 0,
+                halvings: 0,
+                source,
+            })?;
         let x = &self.pair.slave().x;
         state.contact.reference_height = Some(state.contact.height);
         state.mean_half_width = state.contact.half_width(x);
@@ -92,6 +92,29 @@ impl<'a> Integrator<'a> {
             friction_loop: FrictionLoop::default(),
             contacts,
         })
+    }
+
+    /// Increases the load from nothing, in steps that widen a parabolic contact evenly: between unlike bodies the shear
+    /// that is locked in depends on the path of the load, because a node that slipped at the edge sticks once the edge
+    /// has moved on (Spence 1975).
+    fn increase_load(&mut self, state: &mut CycleState) -> Result<(), ContactError> {
+        let full = self.pair.interface.load;
+        // Gross slip erases the locked-in shear.
+        let steps = if self.pair.interface.sticks {
+            self.scene.accuracy.load_steps()
+        } else {
+            1
+        };
+        let mut loaded = Ok(());
+        for step in 1..=steps {
+            self.pair.interface.load = full * (real(step) / real(steps)).powi(2);
+            loaded = self.increment(state, FIRST_LOAD);
+            if loaded.is_err() {
+                break;
+            }
+        }
+        self.pair.interface.load = full;
+        loaded
     }
 
     fn update_slopes(&mut self, state: &CycleState) {

@@ -8,6 +8,7 @@ pub mod cycle;
 pub mod effects;
 pub mod element;
 mod error;
+pub mod error_control;
 pub mod fields;
 pub mod forecast;
 pub mod interpolation;

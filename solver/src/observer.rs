@@ -24,6 +24,8 @@ pub enum Event<'a> {
     Snapshot(&'a Snapshot),
     /// A state that the run can be resumed from; every event up to its cycle was delivered before.
     Checkpoint(&'a Checkpoint),
+    /// The run begins anew at cycle 0 with finer settings, for this reason: what was delivered before is void.
+    Restart(&'a str),
 }
 
 /// Phases of a run, for progress and cost.
@@ -37,4 +39,6 @@ pub enum Phase {
     Cycles,
     /// Moving the mesh after the worn surface.
     Relocate,
+    /// Coarse companions of the run, which its error is estimated by.
+    Companions,
 }

@@ -5,21 +5,24 @@
 //! scalar is one line of the tables in `record/report.rs` and nothing else.
 
 mod channel;
+mod compared;
+mod errors;
 mod history;
 mod report;
 mod scar;
 mod snapshot;
 mod summary;
 
-pub use crate::checkpoint::Initial;
 pub use crate::cycle::{Checks, FrictionLoop};
 pub use crate::fields::PlacedFields;
 pub use crate::schedule::increments::Position;
 pub use crate::schedule::stops::Outcome;
 pub use crate::sides::Side;
 pub use channel::{Channel, Channels};
+pub use compared::{Compared, Quantity};
+pub use errors::{ErrorParts, Errors, PRESSURE_TOLERANCES};
 pub use history::{Column, Record};
 pub use report::{CycleReport, SideReport, report};
 pub use snapshot::{DepthProfile, Snapshot, TractionField, snapshot};
 pub(crate) use summary::worn_area_residual;
-pub use summary::{Resolution, Summary};
+pub use summary::{Initial, Resolution, Summary};

@@ -4,14 +4,14 @@ use std::ops::ControlFlow;
 
 use crate::SolveError;
 use crate::ale::{self, Spines};
-use crate::checkpoint::Checkpoint;
+use crate::checkpoint::{Checkpoint, Earlier};
 use crate::condensation::{self, Condensed};
 use crate::cycle::{CycleRecord, CycleState, Integrator};
 use crate::effects;
 use crate::fields;
 use crate::model::{self, Model};
 use crate::observer::{Event, Observer, Phase};
-use crate::record::{self, Initial, Outcome, Resolution, Snapshot, Summary};
+use crate::record::{self, Compared, Initial, Outcome, Resolution, Snapshot, Summary};
 use crate::scene::Scene;
 use crate::schedule::stops::{self, Progress};
 
@@ -20,11 +20,21 @@ use crate::schedule::stops::{self, Progress};
 /// # Errors
 /// [`SolveError`]; events delivered before it stay valid.
 pub fn solve(scene: &Scene, observer: &mut dyn Observer) -> Result<Summary, SolveError> {
+    begin(scene, Earlier::default(), observer)
+}
+
+/// Solves a scene after earlier runs of it.
+pub(crate) fn begin(
+    scene: &Scene,
+    earlier: Earlier,
+    observer: &mut dyn Observer,
+) -> Result<Summary, SolveError> {
     observer.on_phase(Phase::Mesh);
     let model = model::build(scene, &effects::plan(scene))?;
     observer.on_phase(Phase::Condense);
     let condensed = condensation::condense(&model)?;
-    let (run, flow) = load(scene, &model, &condensed, observer)?;
+    let (mut run, flow) = load(scene, &model, &condensed, observer)?;
+    run.earlier = earlier;
     match flow {
         ControlFlow::Continue(()) => advance(scene, model, condensed, run, observer),
         ControlFlow::Break(()) => Ok(summary(scene, &model, &run, Outcome::Stopped)),
@@ -84,6 +94,8 @@ fn load(
     let mut integrator = Integrator::new(scene, model, &condensed.operators);
     let record = integrator.apply_load(&mut state)?;
     let report = record::report(scene, model, &state);
+    let mut compared = Compared::default();
+    compared.push(&report);
     let mut flow = observer.on(Event::Cycle(&report));
     if flow.is_continue() {
         let snapshot = snapshot(scene, model, condensed, &state, record)?;
@@ -102,6 +114,8 @@ fn load(
         built: None,
         relocations: 0,
         widened: 1.0,
+        compared,
+        earlier: Earlier::default(),
     };
     Ok((run, flow))
 }
@@ -132,6 +146,7 @@ fn integrate(
             computed => computed?,
         };
         let report = record::report(scene, model, state);
+        run.compared.push(&report);
         if observer.on(Event::Cycle(&report)).is_break() {
             return Ok(STOPPED);
         }
@@ -198,5 +213,8 @@ fn summary(scene: &Scene, model: &Model, run: &Checkpoint, outcome: Outcome) -> 
         },
         last,
         checks,
+        errors: None,
+        warnings: Vec::new(),
+        compared: run.compared.clone(),
     }
 }

@@ -8,6 +8,8 @@ mod tuning;
 
 pub use tuning::{Power, Tuning};
 
+use crate::number::count_at_least;
+
 pub use crate::law::elastic::Elastic;
 pub use crate::law::friction::Friction;
 pub use crate::law::wear::WearLaw;
@@ -133,6 +135,51 @@ pub struct Accuracy {
     pub cycle_jump: Option<u64>,
     /// Constants by which the tolerance chooses these.
     pub tuning: Tuning,
+    /// Factors on what is given or chosen.
+    pub refinement: Refinement,
+    /// Whether companions estimate the error and choose the refinement (`error_control`).
+    pub estimate_errors: bool,
+}
+
+/// Factors by which mesh, increments and jumps are finer than the tolerance chooses them or the user gives them.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Refinement {
+    /// Factor on the number of elements everywhere: every size, and every growth from one element to the next, is
+    /// divided by it.
+    pub mesh: f64,
+    /// Factor on the number of increments a cycle.
+    pub increments: f64,
+    /// Factor on the number of computed cycles: jumps, and what bounds them, are divided by it.
+    pub cycles: f64,
+}
+
+impl Refinement {
+    /// As chosen or given.
+    pub const NONE: Self = Self {
+        mesh: 1.0,
+        increments: 1.0,
+        cycles: 1.0,
+    };
+}
+
+impl Accuracy {
+    /// Largest displacement of an increment for a contact of a half-width, mm.
+    pub(crate) fn largest_step(&self, half_width: f64) -> f64 {
+        let Tuning {
+            step, loose_step, ..
+        } = &self.tuning;
+        let step = if self.tolerance > 0.02 {
+            loose_step
+        } else {
+            step
+        };
+        step.at(self.tolerance) * half_width / self.refinement.increments
+    }
+
+    /// Number of increments in which the load is applied.
+    pub(crate) fn load_steps(&self) -> usize {
+        count_at_least(self.tuning.load_steps.at(self.tolerance) * self.refinement.increments)
+    }
 }
 
 /// Recorded output.

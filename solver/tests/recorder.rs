@@ -2,6 +2,7 @@
 
 use std::ops::ControlFlow;
 
+use solver::error_control;
 use solver::observer::{Event, Observer};
 use solver::record::{CycleReport, DepthProfile, Snapshot, Summary};
 use solver::scene::Scene;
@@ -18,6 +19,7 @@ impl Observer for Recorder {
     fn on(&mut self, event: Event<'_>) -> ControlFlow<()> {
         match event {
             Event::Checkpoint(_) => {}
+            Event::Restart(_) => *self = Self::default(),
             Event::Cycle(report) => self.reports.push(report.clone()),
             Event::Snapshot(snapshot) => self.snapshots.push(snapshot.clone()),
         }
@@ -50,7 +52,7 @@ pub(crate) fn depth_at(profile: &DepthProfile, x: f64) -> f64 {
 /// Solves a scene; returns its summary with all reports and snapshots.
 pub(crate) fn solve(scene: &Scene) -> Result<(Summary, Recorder), SolveError> {
     let mut recorder = Recorder::default();
-    let summary = solver::run::solve(scene, &mut recorder)?;
+    let summary = error_control::solve(scene, &mut recorder)?;
     Ok((summary, recorder))
 }
 

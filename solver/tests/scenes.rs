@@ -1,8 +1,8 @@
 //! The scenes of the suite.
 
 use solver::scene::{
-    Accuracy, BlockShape, Body, Drive, Elastic, Friction, Motion, Output, Scene, SliderShape,
-    Tuning, WearLaw,
+    Accuracy, BlockShape, Body, Drive, Elastic, Friction, Motion, Output, Refinement, Scene,
+    SliderShape, Tuning, WearLaw,
 };
 
 const STEEL: Elastic = Elastic {
@@ -25,6 +25,8 @@ pub(crate) fn accuracy(tolerance: f64) -> Accuracy {
         increments_per_cycle: None,
         cycle_jump: None,
         tuning: Tuning::FITTED,
+        refinement: Refinement::NONE,
+        estimate_errors: false,
     }
 }
 

@@ -29,11 +29,41 @@ pub struct Initial {
     pub contact_half_width_mm: f64,
 }
 
-/// Resolution that the accuracy settings led to.
+/// Estimated relative error of a quantity, and the parts that cause it.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct EstimatedError {
+    /// The whole error.
+    pub relative: f64,
+    /// The part of the mesh.
+    pub mesh: f64,
+    /// The part of the increments.
+    pub increments: f64,
+    /// The part of the cycle jumps.
+    pub jump: f64,
+}
+
+/// Estimated errors at the end, each that of the worse side.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct EstimatedErrors {
+    /// Of the largest worn depth.
+    pub worn_depth: EstimatedError,
+    /// Of half the width of the scar.
+    pub scar_half_width: EstimatedError,
+    /// Of the worn area.
+    pub worn_area: EstimatedError,
+    /// Of the highest contact pressure.
+    pub peak_pressure: EstimatedError,
+}
+
+/// Accuracy that was reached, and the resolution that the settings led to.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct AccuracyReached {
-    /// Accumulated estimate of the relative error of worn depth made by cycle jumps.
+    /// Estimated relative error of worn depth or scar width, whichever is larger; without `errors` that of worn depth
+    /// made by cycle jumps.
     pub estimated_relative_error: f64,
+    /// Estimated errors; null where they were not asked for, or a coarse companion has no solution.
+    #[serde(default)]
+    pub errors: Option<EstimatedErrors>,
     /// Elements along the receptacle's contact surface.
     pub contact_elements: u64,
     /// Surface element size under the contact, mm.
@@ -105,4 +135,7 @@ pub struct Summary {
     pub cost: Cost,
     /// Worst residuals of the run.
     pub checks: Checks,
+    /// What the result is to be read with, in words: errors beyond the tolerance.
+    #[serde(default)]
+    pub warnings: Vec<String>,
 }

@@ -65,8 +65,11 @@ fn record(line: Line, recorded: &mut Recorded, bar: &ProgressBar) {
         }
         Line::Snapshot(snapshot) => recorded.snapshots.push(*snapshot),
         Line::Fields(file) => recorded.fields.push(file),
+        Line::Restarted(cause) => {
+            bar.println(format!("starts anew with finer settings: {cause}"));
+            *recorded = Recorded::default();
+        }
         Line::File(_)
-        | Line::Restarted(_)
         | Line::Checkpoint(_)
         | Line::Summary(_)
         | Line::Failed(_)
@@ -76,6 +79,9 @@ fn record(line: Line, recorded: &mut Recorded, bar: &ProgressBar) {
 
 fn report(summary: &Summary) -> Ended {
     write_json(summary)?;
+    for warning in &summary.warnings {
+        write_err(format_args!("fretwear: warning: {warning}"));
+    }
     if summary.outcome == Outcome::Stopped {
         write_err("fretwear: the run was stopped");
         return Err(ExitCode::FAILURE);

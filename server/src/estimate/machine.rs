@@ -28,7 +28,9 @@ pub fn cpu_s(machine: &MachineFigures, workload: &Workload) -> f64 {
         let [dofs, surface] = condensation_terms(body);
         machine.condensation_dof_s * dofs + machine.condensation_surface_s * surface
     });
-    BASE_S + increments.sum::<f64>() + condensations.sum::<f64>()
+    let companions = workload.companions.iter();
+    let companions = companions.map(|companion| cpu_s(machine, companion) - BASE_S);
+    BASE_S + increments.sum::<f64>() + condensations.sum::<f64>() + companions.sum::<f64>()
 }
 
 #[cfg(test)]
@@ -84,6 +86,7 @@ mod tests {
             most_increments: 1,
             increments: vec![(30.0, 100.0), (60.0, 50.0)],
             condensations: [body, Condensations { count: 0.0, ..body }],
+            companions: Vec::new(),
         };
         // 0.1 s and 0.2 s of increments, 2 x (0.1 + 1) s of condensations.
         let seconds = cpu_s(&machine, &workload);

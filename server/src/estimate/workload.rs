@@ -3,6 +3,7 @@
 
 use std::collections::BTreeMap;
 
+use solver::error_control::companion_scenes;
 use solver::forecast::forecast;
 use solver::model::{BodyLayout, Layout};
 use solver::scene::Scene;
@@ -21,6 +22,8 @@ pub struct Workload {
     pub increments: Vec<(f64, f64)>,
     /// Condensations of the slider and of the receptacle.
     pub condensations: [Condensations; 2],
+    /// Work of the coarse companions that the run's error is estimated by.
+    pub companions: Vec<Workload>,
 }
 
 /// Condensations of one body.
@@ -55,6 +58,7 @@ impl Workload {
                 condensations(slider, &layout.bodies.slider),
                 condensations(receptacle, &layout.bodies.receptacle),
             ],
+            companions: companions(scene),
         }
     }
 
@@ -72,6 +76,17 @@ impl Workload {
             ("increments", self.increments().round()),
         ]
     }
+}
+
+/// A companion that cannot be meshed is not solved.
+fn companions(scene: &Scene) -> Vec<Workload> {
+    let scenes = companion_scenes(scene).into_iter();
+    scenes
+        .filter_map(|companion| {
+            let layout = Layout::of(&companion).ok()?;
+            Some(Workload::of(&companion, &layout))
+        })
+        .collect()
 }
 
 fn condensations(times: u32, body: &BodyLayout) -> Condensations {

@@ -2,8 +2,9 @@
 
 use api::job::{Outcome, Phase};
 use api::results::{
-    AccuracyReached, Checks, Cost, Initial, Loop, Pressure, PressurePosition, Profile, SideProfile,
-    SideSummary, SlidePosition, Snapshot, Station, Summary, WearHistory,
+    AccuracyReached, Checks, Cost, EstimatedError, EstimatedErrors, Initial, Loop, Pressure,
+    PressurePosition, Profile, SideProfile, SideSummary, SlidePosition, Snapshot, Station, Summary,
+    WearHistory,
 };
 use solver::observer;
 use solver::record::{self, Record, Side, SideReport};
@@ -11,6 +12,7 @@ use solver::record::{self, Record, Side, SideReport};
 /// The phase of a job.
 pub fn phase(phase: observer::Phase) -> Phase {
     match phase {
+        observer::Phase::Companions => Phase::Companions,
         observer::Phase::Mesh => Phase::Mesh,
         observer::Phase::Condense => Phase::Condense,
         observer::Phase::Cycles => Phase::Cycles,
@@ -72,11 +74,13 @@ pub fn summary(summary: &record::Summary, cost: Cost) -> Summary {
         outcome: outcome(summary.outcome);
         receptacle: side(&last.receptacle);
         slider: side(&last.slider);
+        warnings: summary.warnings.clone();
         initial: document!(Initial of summary.initial; peak_pressure_mpa, contact_half_width_mm);
         accuracy: document!(
             AccuracyReached of resolution;
-            estimated_relative_error, contact_element_mm, increments_per_cycle, computed_cycles,
-            increments, relocations;
+            contact_element_mm, increments_per_cycle, computed_cycles, increments, relocations;
+            estimated_relative_error: estimated_error(summary);
+            errors: summary.errors.map(|errors| estimated_errors(&errors));
             contact_elements: count(resolution.contact_elements)
         );
         cost: Cost { dofs: count(resolution.dofs), ..cost };
@@ -87,9 +91,31 @@ pub fn summary(summary: &record::Summary, cost: Cost) -> Summary {
     )
 }
 
+/// The larger one of worn depth and scar width, to which the tolerance applies; that of the jumps alone without companions.
+fn estimated_error(summary: &record::Summary) -> f64 {
+    let jumps = summary.resolution.estimated_relative_error;
+    summary.errors.map_or(jumps, |errors| {
+        errors
+            .worn_depth
+            .relative
+            .max(errors.scar_half_width.relative)
+    })
+}
+
+fn estimated_errors(errors: &record::Errors) -> EstimatedErrors {
+    let parts = |parts: record::ErrorParts| document!(EstimatedError of parts; relative, mesh, increments, jump);
+    EstimatedErrors {
+        worn_depth: parts(errors.worn_depth),
+        scar_half_width: parts(errors.scar_half_width),
+        worn_area: parts(errors.worn_area),
+        peak_pressure: parts(errors.peak_pressure),
+    }
+}
+
 fn outcome(outcome: record::Outcome) -> Outcome {
     match outcome {
         record::Outcome::Completed => Outcome::Completed,
+        record::Outcome::OutsideTolerance => Outcome::OutsideTolerance,
         record::Outcome::StopCondition => Outcome::StopCondition,
         record::Outcome::WornThrough => Outcome::WornThrough,
         record::Outcome::Stopped => Outcome::Stopped,

@@ -44,6 +44,12 @@ pub(crate) fn resolve(
         filled.preset = Some(preset.into());
         preset_tolerance(preset)
     };
+    let estimate_errors = diagnostics.or_default(
+        "/accuracy/estimate_errors",
+        given.estimate_errors,
+        assumed(true),
+    );
+    filled.estimate_errors = Some(estimate_errors);
     let empty = Overrides::default();
     let overrides = given.overrides.as_ref().unwrap_or(&empty);
     let elements = source_elements(preset);
@@ -55,6 +61,8 @@ pub(crate) fn resolve(
         increments_per_cycle: increments(overrides, diagnostics).or(source_increments),
         cycle_jump: cycle_jump(overrides, cycles, diagnostics),
         tuning: scene::Tuning::FITTED,
+        refinement: scene::Refinement::NONE,
+        estimate_errors,
     };
     (filled, numerical)
 }

@@ -43,7 +43,7 @@ enum Stop {
 /// A write that is due.
 enum Write {
     Update,
-    /// The process cannot resume from the checkpoint, with the cause.
+    /// The run starts anew, with the cause.
     Restart(String),
 }
 
@@ -180,10 +180,7 @@ impl Supervision<'_> {
         let Attempt { store, claim, .. } = self.attempt;
         match write {
             Write::Restart(cause) => {
-                tracing::error!(
-                    cause,
-                    "the run cannot resume from its checkpoint and restarts at cycle 0"
-                );
+                tracing::warn!(cause, "the run restarts at cycle 0");
                 self.buffer.restart();
                 retry(|| store.restart(claim)).await
             }

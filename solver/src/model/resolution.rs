@@ -13,7 +13,7 @@ use crate::law::friction;
 use crate::law::wear::{self, LocalState};
 use crate::mesh::grading::Spacing;
 use crate::number::real_cycles;
-use crate::scene::{Accuracy, Drive, Elastic, Motion, Scene, SliderShape};
+use crate::scene::{Accuracy, Drive, Elastic, Motion, Refinement, Scene, SliderShape};
 use crate::sides::{Side, Sides};
 use std::f64::consts::PI;
 
@@ -189,7 +189,10 @@ pub fn choose(scene: &Scene) -> Sizes {
     let narrowest = if gross { narrowest } else { hertz };
 
     let Accuracy {
-        tolerance, tuning, ..
+        tolerance,
+        tuning,
+        refinement: Refinement { mesh: finer, .. },
+        ..
     } = &scene.accuracy;
     let elements = if gross {
         tuning.gross_elements.at(tolerance.min(COARSEST))
@@ -223,9 +226,10 @@ pub fn choose(scene: &Scene) -> Sizes {
     let element = match given {
         Some(element) => element.min(FEWEST_GIVEN_SHARE * narrower),
         None => (narrowest / elements).min(at_edge).min(largest),
-    };
-    let slip = tuning
-        .largest_step(*tolerance, hertz)
+    } / finer;
+    let slip = scene
+        .accuracy
+        .largest_step(hertz)
         .min(amplitude / tuning.steps_per_quarter.at(*tolerance));
     let zone = tuning.scar_margin * last + element;
     let core = if given.is_some() {
@@ -236,10 +240,10 @@ pub fn choose(scene: &Scene) -> Sizes {
     let spacing = |travel: f64, half: f64| Spacing {
         core: element,
         core_half: (core + travel).min(half),
-        zone_growth: zone_growth.at(tolerance.min(COARSEST)),
+        zone_growth: zone_growth.at(tolerance.min(COARSEST)) / finer,
         zone_half: zone + travel,
-        outer_growth: tuning.outer_growth,
-        largest: (tuning.outer_element * half).max(element),
+        outer_growth: tuning.outer_growth / finer,
+        largest: (tuning.outer_element / finer * half).max(element),
     };
     let arc = |radius: f64, half: f64| radius * (half / radius).min(1.0).asin();
     let half_arc = arc(slider_radius, scene.slider.shape.half_width_mm);
@@ -251,7 +255,7 @@ pub fn choose(scene: &Scene) -> Sizes {
         sticks,
         slave: slave(scene, rates, gross, (element, slip)),
         contact_element: element,
-        layer_growth: 1.0 + layer_growth.at(*tolerance),
+        layer_growth: 1.0 + layer_growth.at(*tolerance) / finer,
         spacing: Sides {
             slider: spacing(slider_travel, half_arc),
             receptacle: spacing(amplitude, half_top),

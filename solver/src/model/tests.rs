@@ -1,7 +1,7 @@
 use super::*;
 use crate::scene::{
-    Accuracy, BlockShape, Body, Friction, Motion, Output, SliderShape, StopCondition, Tuning,
-    WearLaw,
+    Accuracy, BlockShape, Body, Friction, Motion, Output, Refinement, SliderShape, StopCondition,
+    Tuning, WearLaw,
 };
 
 pub(crate) fn fuzz_button() -> Scene {
@@ -45,6 +45,8 @@ pub(crate) fn fuzz_button() -> Scene {
             increments_per_cycle: None,
             cycle_jump: None,
             tuning: Tuning::FITTED,
+            refinement: Refinement::NONE,
+            estimate_errors: false,
         },
         output: Output {
             stations_mm: vec![0.0],

@@ -1,13 +1,23 @@
 //! The summary of a run.
 
-use crate::checkpoint::Initial;
+use serde::{Deserialize, Serialize};
+
 use crate::cycle::{Checks, CycleState};
-use crate::record::CycleReport;
+use crate::record::{Compared, CycleReport, Errors};
 use crate::schedule::stops::Outcome;
 use crate::sides::Sides;
 
+/// The unworn, loaded state.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Initial {
+    /// Highest pressure, MPa.
+    pub peak_pressure_mpa: f64,
+    /// Half-width of the contact, mm.
+    pub contact_half_width_mm: f64,
+}
+
 /// Result of a finished run.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Summary {
     /// Why it ended.
     pub outcome: Outcome,
@@ -19,10 +29,16 @@ pub struct Summary {
     pub resolution: Resolution,
     /// Worst residuals of the run.
     pub checks: Checks,
+    /// Estimated errors; `None` without companions.
+    pub errors: Option<Errors>,
+    /// Which errors exceed what the tolerance allows, in words.
+    pub warnings: Vec<String>,
+    /// Histories that errors are estimated by.
+    pub compared: Compared,
 }
 
 /// Resolution that the accuracy settings led to.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Resolution {
     /// Surface element size under the contact, mm.
     pub contact_element_mm: f64,

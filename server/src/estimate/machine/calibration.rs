@@ -193,6 +193,7 @@ mod tests {
                 most_increments: 1,
                 increments: vec![(candidates, 7.0)],
                 condensations: [body, Condensations { count: 0.0, ..body }],
+                companions: Vec::new(),
             },
             increment_s,
             condensation_s: 3e-7 * small + 5e-10 * large,

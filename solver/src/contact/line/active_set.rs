@@ -70,7 +70,13 @@ fn required_status(
         return (new, -it.gap[i] / gap_scale);
     }
     if p < 0.0 {
-        return (Status::Open, -p / pressure_scale);
+        // The edge of a first load slips: where sticking would tear a node open, that is tried before it opens.
+        let new = if slack > 1.0 && old == Status::Stick && problem.friction > 0.0 {
+            Status::slip(q)
+        } else {
+            Status::Open
+        };
+        return (new, -p / pressure_scale);
     }
     if problem.friction <= 0.0 {
         let turned = old != Status::slip(slip) && slip.abs() > tolerance * slip_scale;

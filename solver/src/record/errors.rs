@@ -1,0 +1,73 @@
+//! Estimated errors of a run.
+
+use serde::{Deserialize, Serialize};
+
+use crate::record::Quantity;
+
+/// Estimated relative error of a quantity and the parts of it that mesh, increments and cycle jumps cause.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+pub struct ErrorParts {
+    /// The whole error.
+    pub relative: f64,
+    /// The part of the mesh.
+    pub mesh: f64,
+    /// The part of the increments.
+    pub increments: f64,
+    /// The part of the cycle jumps.
+    pub jump: f64,
+}
+
+/// Estimated errors of a run, each that of the worse side.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+pub struct Errors {
+    /// Of the largest worn depth.
+    pub worn_depth: ErrorParts,
+    /// Of half the width of the scar.
+    pub scar_half_width: ErrorParts,
+    /// Of the worn area.
+    pub worn_area: ErrorParts,
+    /// Of the highest contact pressure.
+    pub peak_pressure: ErrorParts,
+}
+
+/// Tolerance of pressures over that of depth, width and area.
+pub const PRESSURE_TOLERANCES: f64 = 3.0;
+
+impl Errors {
+    /// The errors of each quantity.
+    pub(crate) fn of(parts: impl Fn(Quantity) -> ErrorParts) -> Self {
+        Self {
+            worn_depth: parts(Quantity::WornDepth),
+            scar_half_width: parts(Quantity::ScarHalfWidth),
+            worn_area: parts(Quantity::WornArea),
+            peak_pressure: parts(Quantity::PeakPressure),
+        }
+    }
+
+    /// The error of a quantity.
+    pub fn parts(&self, quantity: Quantity) -> ErrorParts {
+        match quantity {
+            Quantity::WornDepth => self.worn_depth,
+            Quantity::ScarHalfWidth => self.scar_half_width,
+            Quantity::WornArea => self.worn_area,
+            Quantity::PeakPressure => self.peak_pressure,
+        }
+    }
+
+    /// The quantities whose error exceeds what a tolerance allows them.
+    pub fn outside(&self, tolerance: f64) -> impl Iterator<Item = Quantity> {
+        Quantity::ALL
+            .into_iter()
+            .filter(move |q| self.parts(*q).relative > q.allowed(tolerance))
+    }
+}
+
+impl Quantity {
+    /// The error that a tolerance allows it.
+    pub fn allowed(self, tolerance: f64) -> f64 {
+        match self {
+            Self::PeakPressure => PRESSURE_TOLERANCES * tolerance,
+            Self::WornDepth | Self::ScarHalfWidth | Self::WornArea => tolerance,
+        }
+    }
+}
