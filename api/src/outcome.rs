@@ -7,8 +7,7 @@ string_enum! {
     Outcome {
         /// All cycles were computed.
         Completed = "completed",
-        /// All cycles were computed, but the estimated error of worn depth, scar width or worn area exceeds the
-        /// tolerance.
+        /// All cycles were computed, but the estimated error of worn depth or worn area exceeds the tolerance.
         OutsideTolerance = "outside_tolerance",
         /// A stop condition was met.
         StopCondition = "stop_condition",

@@ -5,7 +5,8 @@
 //! cycle jumps, and three of which each is coarser in one more of them. The run's difference from the first gives its
 //! error, the differences between the companions the shares of mesh, increments and jumps in it. A run whose estimated
 //! error exceeds the tolerance begins anew once, with the settings refined that cause it; one that is still outside, or
-//! whose settings the user has given, says so in its outcome and warnings.
+//! whose settings the user has given, says so in its warnings, and in its outcome where it has done all cycles. Where the
+//! finer run has no solution, the first one is solved again.
 //!
 //! What the companions are compared by is part of the checkpoint, so that a resumed run makes the same choices.
 
@@ -59,13 +60,18 @@ fn control(
         if done.outcome == Outcome::Stopped {
             return Ok(done);
         }
-        earlier.runs.push(Some(done.compared.clone()));
+        let mut done = done;
+        earlier.runs.push(Some(std::mem::take(&mut done.compared)));
         earlier.finished = Some(Box::new(Finished::new(done)));
     }
     if earlier.finished.is_some() {
         observer.on_phase(Phase::Companions);
     }
     while let Some(refinement) = companions::refinement(earlier.runs.len() - 1) {
+        // Nothing can be compared with the first.
+        if earlier.runs.get(1) == Some(&None) {
+            break;
+        }
         let companion = companions::scene(scene, refinement);
         let quiet = &mut companions::Quiet { observer };
         match one_run(&companion, from.take(), earlier.clone(), quiet) {
@@ -76,8 +82,8 @@ fn control(
         }
     }
     let run = earlier.runs.first().and_then(Option::as_ref);
-    let companions = &earlier.runs[1..];
-    let errors = run.and_then(|run| estimate::errors(scene, companions, run, Refinement::NONE));
+    let errors =
+        run.and_then(|run| estimate::errors(scene, &earlier.runs[1..], run, Refinement::NONE));
     if let Some(finished) = earlier.finished.take() {
         let mut done = finished.into_summary();
         state_errors(&mut done, errors, scene.accuracy.tolerance);
@@ -94,11 +100,31 @@ fn control(
         }
     }
     let refinement = errors.map_or(Refinement::NONE, |errors| balance::finer(scene, &errors));
-    let refined = companions::refined(scene, refinement);
-    let mut done = one_run(&refined, from.take(), earlier.clone(), observer)?;
+    let is_finer_possible = earlier.runs.len() == 1 + companions::COUNT;
+    if is_finer_possible {
+        let refined = companions::refined(scene, refinement);
+        match one_run(&refined, from.take(), earlier.clone(), observer) {
+            Ok(done) if done.outcome == Outcome::Stopped => return Ok(done),
+            Ok(mut done) => {
+                let (companions, run) = (&earlier.runs[1..], &done.compared);
+                let errors = estimate::errors(scene, companions, run, refinement);
+                state_errors(&mut done, errors, scene.accuracy.tolerance);
+                return Ok(done);
+            }
+            Err(SolveError::Checkpoint(misfit)) => return Err(misfit.into()),
+            Err(error) => {
+                let reason = format!("the finer run has no solution: {error}");
+                if observer.on(Event::Restart(&reason)).is_break() {
+                    return Err(error);
+                }
+            }
+        }
+        earlier.runs.push(None);
+    }
+    let mut done = one_run(scene, from.take(), earlier, observer)?;
     if done.outcome != Outcome::Stopped {
-        let errors = estimate::errors(scene, &earlier.runs[1..], &done.compared, refinement);
         state_errors(&mut done, errors, scene.accuracy.tolerance);
+        done.warnings.push("a finer run has no solution".to_owned());
     }
     Ok(done)
 }

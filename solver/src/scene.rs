@@ -162,6 +162,9 @@ impl Refinement {
     };
 }
 
+/// Most increments in which the load is applied: the error is far below any tolerance. Arbitrary.
+const MOST_LOAD_STEPS: f64 = 200.0;
+
 impl Accuracy {
     /// Largest displacement of an increment for a contact of a half-width, mm.
     pub(crate) fn largest_step(&self, half_width: f64) -> f64 {
@@ -178,7 +181,12 @@ impl Accuracy {
 
     /// Number of increments in which the load is applied.
     pub(crate) fn load_steps(&self) -> usize {
-        count_at_least(self.tuning.load_steps.at(self.tolerance) * self.refinement.increments)
+        let steps = self
+            .tuning
+            .load_steps
+            .at(self.tolerance)
+            .min(MOST_LOAD_STEPS);
+        count_at_least(steps * self.refinement.increments)
     }
 }
 

@@ -47,8 +47,8 @@ pub struct Accuracy {
     /// Fixed settings, which are otherwise chosen from the tolerance.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub overrides: Option<Overrides>,
-    /// Whether coarse companions of the run estimate its errors and choose its settings within the tolerance, for about
-    /// a quarter of its time (default true).
+    /// Whether coarse companions estimate the run's errors, for about a fifth of its time, and a run whose depth or area is
+    /// outside of the tolerance begins anew, finer, for up to about four times its time (default true).
     #[serde(skip_serializing_if = "Option::is_none")]
     pub estimate_errors: Option<bool>,
 }

@@ -72,6 +72,7 @@ pub(super) const CYLINDER: &str = r#"{
 /// Returns a scene with changed settings.
 pub(super) fn scene(spec: &str, change: impl FnOnce(&mut Scene)) -> Result<Scene, BenchError> {
     let mut scene = spec::read(spec.as_bytes())?.scene;
+    scene.accuracy.estimate_errors = false;
     change(&mut scene);
     Ok(scene)
 }

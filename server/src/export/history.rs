@@ -91,7 +91,7 @@ pub fn summary(summary: &record::Summary, cost: Cost) -> Summary {
     )
 }
 
-/// The larger one of worn depth and scar width, to which the tolerance applies; that of the jumps alone without companions.
+/// The larger one of worn depth and scar width; that of the jumps alone without companions.
 fn estimated_error(summary: &record::Summary) -> f64 {
     let jumps = summary.resolution.estimated_relative_error;
     summary.errors.map_or(jumps, |errors| {

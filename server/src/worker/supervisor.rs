@@ -229,8 +229,8 @@ impl Supervision<'_> {
             while let Ok(Some(ReceivedLine { line, bytes })) = self.process.next_line().await {
                 match line {
                     line if line.is_last() => last = Some(line),
-                    // The results of earlier attempts would have to be deleted first; instead the next attempt
-                    // restarts.
+                    // The results before would have to be deleted first; instead the next attempt restarts from the last
+                    // checkpoint.
                     Line::Restarted(_) => break,
                     line => self.buffer.push(line, bytes),
                 }

@@ -63,7 +63,11 @@ pub(super) fn errors(
     Some(Errors::of(|quantity| {
         let parts = parts(companions, quantity);
         let whole: f64 = parts.iter().sum();
-        let left = [mesh, increments, cycles].map(|f| (COARSE / f).powf(order(quantity)));
+        let mut left = [mesh, increments, cycles].map(|f| (COARSE / f).powf(order(quantity)));
+        // Single cycles are exact.
+        if scene.accuracy.cycle_jump == Some(1) {
+            left[2] = 0.0;
+        }
         let share = |k: usize| {
             if whole > 0.0 {
                 parts[k] / whole

@@ -17,9 +17,9 @@ use crate::scene::{Accuracy, Drive, Elastic, Motion, Refinement, Scene, SliderSh
 use crate::sides::{Side, Sides};
 use std::f64::consts::PI;
 
-/// Largest element given by the user, over the narrower body's half-length: each half of a body has at least two.
-/// Arbitrary.
-const FEWEST_GIVEN_SHARE: f64 = 0.5;
+/// Largest element given by the user or chosen for a coarse companion, over the narrower body's half-length: each half of a
+/// body has at least two. Arbitrary.
+const FEWEST_SHARE: f64 = 0.5;
 
 /// Tolerance beyond which the elements of gross sliding, and their growth, are those of this one: on steep walls and in the
 /// corners of worn flats coarser ones let the pressure alternate (`cargo test --release -p tests hard`).
@@ -224,9 +224,10 @@ pub fn choose(scene: &Scene) -> Sizes {
     };
     let largest = tuning.largest_element * narrower;
     let element = match given {
-        Some(element) => element.min(FEWEST_GIVEN_SHARE * narrower),
+        Some(element) => element,
         None => (narrowest / elements).min(at_edge).min(largest),
-    } / finer;
+    };
+    let element = (element / finer).min(FEWEST_SHARE * narrower);
     let slip = scene
         .accuracy
         .largest_step(hertz)

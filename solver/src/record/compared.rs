@@ -46,6 +46,12 @@ impl Quantity {
 /// its sign would be underestimated.
 const COMPARED_AT: [f64; 6] = [1.0, 0.9, 0.8, 0.7, 0.6, 0.5];
 
+/// Most points of a history: it is part of every checkpoint.
+const MOST_POINTS: usize = 1_024;
+
+/// Largest difference; any number far beyond every tolerance does the same.
+const LARGEST: f64 = 1e6;
+
 /// Histories of the quantities over the cycles of a run.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct Compared {
@@ -55,8 +61,12 @@ pub struct Compared {
 }
 
 impl Compared {
-    /// Appends the values of a report.
+    /// Appends the values of a report; a long history is thinned.
     pub(crate) fn push(&mut self, report: &CycleReport) {
+        if self.cycles.len() >= MOST_POINTS {
+            let columns = self.values.iter_mut().chain([&mut self.cycles]);
+            columns.for_each(|column| *column = column.iter().copied().step_by(2).collect());
+        }
         self.cycles.push(real_cycles(report.cycle));
         for (columns, quantity) in self.values.chunks_mut(2).zip(Quantity::ALL) {
             for (column, value) in columns.iter_mut().zip(quantity.values(report)) {
@@ -77,8 +87,8 @@ impl Compared {
             .map(|(column, at)| {
                 let here = interpolation::linear(&self.cycles, &self.values[column], at);
                 let there = interpolation::linear(&other.cycles, &other.values[column], at);
-                if here > 0.0 {
-                    (there / here - 1.0).abs()
+                if here > f64::MIN_POSITIVE {
+                    (there / here - 1.0).abs().min(LARGEST)
                 } else {
                     0.0
                 }
@@ -120,6 +130,14 @@ mod tests {
         let difference = one.difference(&other, Quantity::WornDepth);
         assert!((difference - 0.1).abs() < 1e-12, "{difference}");
         assert!(one.difference(&other, Quantity::WornArea).abs() < 1e-15);
+    }
+
+    #[test]
+    fn long_histories_are_thinned() {
+        let long = run(|cycle| cycle, 1, 5_000);
+        assert!(long.cycles.len() <= MOST_POINTS && long.cycles.last() == Some(&5_000.0));
+        let short = run(|cycle| cycle, 100, 5_000);
+        assert!(long.difference(&short, Quantity::WornDepth) < 1e-12);
     }
 
     #[test]

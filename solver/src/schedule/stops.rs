@@ -10,7 +10,7 @@ use crate::scene::{Scene, StopCondition};
 pub enum Outcome {
     /// All cycles were done.
     Completed,
-    /// All cycles were done, but the estimated error of depth, width or area exceeds the tolerance.
+    /// All cycles were done, but the estimated error of depth or area exceeds the tolerance.
     OutsideTolerance,
     /// A stop condition was met.
     StopCondition,

@@ -33,11 +33,12 @@ impl RunAccuracy {
         }
     }
 
-    /// The setting as part of a specification.
+    /// The setting as part of a specification. Errors are not estimated: the study itself shows them.
     pub fn as_spec(self) -> Accuracy {
         match self {
             Self::Tolerance(tolerance) => Accuracy {
                 tolerance: Some(tolerance),
+                estimate_errors: Some(false),
                 ..Accuracy::default()
             },
             Self::Fixed(settings) => Accuracy {
@@ -48,7 +49,6 @@ impl RunAccuracy {
                     increments_per_cycle: Some(settings.increments_per_cycle),
                     cycle_jump: Some(CycleJump::Fixed(settings.jump())),
                 }),
-                // The grid itself shows the error.
                 estimate_errors: Some(false),
             },
         }

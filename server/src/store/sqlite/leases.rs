@@ -85,8 +85,7 @@ impl Store {
         Ok(lease_state(cancel_requested))
     }
 
-    /// Deletes the results and the checkpoint of earlier attempts, because the run cannot resume from it: the attempt
-    /// starts at cycle 0.
+    /// Deletes results and checkpoint, because the run starts anew at cycle 0.
     ///
     /// # Errors
     /// [`StoreError`] if the database fails.

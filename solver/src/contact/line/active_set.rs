@@ -71,7 +71,8 @@ fn required_status(
     }
     if p < 0.0 {
         // The edge of a first load slips: where sticking would tear a node open, that is tried before it opens.
-        let new = if slack > 1.0 && old == Status::Stick && problem.friction > 0.0 {
+        let slips = problem.first_load && slack > 1.0 && problem.friction > 0.0;
+        let new = if slips && old == Status::Stick {
             Status::slip(q)
         } else {
             Status::Open

@@ -176,7 +176,7 @@ mod tests {
         assert_eq!(with("tolerance") + with("contact_element_mm"), jobs.len());
         let first = jobs[0]["id"].as_str().expect("an id");
         let (_, _, job) = service.get(&format!("/v1/jobs/{first}")).await;
-        let accuracy = json!({"tolerance": 0.1, "estimate_errors": true});
+        let accuracy = json!({"tolerance": 0.1, "estimate_errors": false});
         assert_eq!(job["spec"]["accuracy"], accuracy);
         assert!(job["plan"]["estimates"]["cpu_s"].as_f64() > Some(0.0));
     }
