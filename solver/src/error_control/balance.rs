@@ -23,9 +23,9 @@ const MOST_COST: f64 = 4.0;
 /// Least change of a setting, as a factor, for which a run begins anew.
 const LEAST_CHANGE: f64 = 1.1;
 
-/// Unknowns up to which a mesh may be refined in any case, and the factor up to which a larger one may: the memory of a
-/// solve is limited to four times that of the settings of the tolerance, or 1 GB (`server`).
-const SMALL_MESH: f64 = 50_000.0;
+/// Unknowns up to which a mesh may be refined in any case, some 400 MB, and the factor up to which a larger one may: the
+/// memory of a solve is limited to four times that of the settings of the tolerance, or 1 GB (`server`).
+const SMALL_MESH: f64 = 120_000.0;
 const MORE_UNKNOWNS: f64 = 2.0;
 
 /// The refinement of a run that begins anew because of the errors of one with the settings of the tolerance. Settings that
