@@ -47,7 +47,7 @@ pub struct Accuracy {
     /// Fixed settings, which are otherwise chosen from the tolerance.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub overrides: Option<Overrides>,
-    /// Whether coarse companions estimate the run's errors, for about a fifth of its time, and a run whose depth or area is
+    /// Whether coarse companions estimate the run's errors, for about a quarter of its time, and a run whose depth or area is
     /// outside of the tolerance begins anew, finer, for up to about four times its time (default true).
     #[serde(skip_serializing_if = "Option::is_none")]
     pub estimate_errors: Option<bool>,

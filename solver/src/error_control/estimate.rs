@@ -17,15 +17,16 @@ const SAFETY: f64 = 1.25;
 /// by less than finer ones.
 fn order(quantity: Quantity) -> f64 {
     match quantity {
+        Quantity::WornArea => 1.5,
         Quantity::WornDepth => 1.25,
-        Quantity::ScarHalfWidth | Quantity::WornArea => 1.1,
+        Quantity::ScarHalfWidth => 1.1,
         Quantity::PeakPressure => 1.0,
     }
 }
 
 /// Least estimated error over the tolerance: runs that agree better do so by chance, the histories are compared between
 /// reports. A peak pressure changes by more from increment to increment.
-const LEAST: f64 = 0.02;
+const LEAST: f64 = 0.01;
 const LEAST_OF_PRESSURE: f64 = 0.2;
 
 /// The parts of a quantity's error in the first companion, in proportion: the differences of successive companions, and
