@@ -19,9 +19,10 @@ pub use companions::companion_scenes;
 use crate::SolveError;
 use crate::checkpoint::{Checkpoint, Earlier, Finished};
 use crate::observer::{Event, Observer, Phase};
-use crate::record::{Errors, Outcome, Quantity, Summary};
+use crate::record::{Compared, Errors, Outcome, Quantity, Summary};
 use crate::run;
 use crate::scene::{Refinement, Scene};
+use std::ops::ControlFlow;
 
 /// Solves a scene from the unworn bodies to its end, with an estimate of the error.
 ///
@@ -46,99 +47,174 @@ pub fn resume(
 
 fn control(
     scene: &Scene,
-    mut from: Option<Checkpoint>,
+    from: Option<Checkpoint>,
     observer: &mut dyn Observer,
 ) -> Result<Summary, SolveError> {
+    let mut runs = Runs {
+        scene,
+        earlier: from
+            .as_ref()
+            .map_or_else(Earlier::default, |from| from.earlier.clone()),
+        from,
+        observer,
+    };
     if !scene.accuracy.estimate_errors {
-        return one_run(scene, from, Earlier::default(), observer);
+        return runs.solve(scene);
     }
-    let mut earlier = from
-        .as_ref()
-        .map_or_else(Earlier::default, |from| from.earlier.clone());
-    if earlier.runs.is_empty() {
-        let done = one_run(scene, from.take(), earlier.clone(), observer)?;
+    let stages: [fn(&mut Runs<'_>) -> Stage; 4] = [
+        |runs| runs.first(),
+        |runs| runs.companions(),
+        |runs| runs.end_within(),
+        |runs| runs.finer(),
+    ];
+    for stage in stages {
+        if let ControlFlow::Break(done) = stage(&mut runs)? {
+            return Ok(done);
+        }
+    }
+    runs.first_again()
+}
+
+/// The end of all runs, or what the next stage is for. A stage that is behind the checkpoint does nothing.
+type Stage = Result<ControlFlow<Summary>, SolveError>;
+
+const NEXT: Stage = Ok(ControlFlow::Continue(()));
+
+/// The runs of a scene.
+struct Runs<'a> {
+    scene: &'a Scene,
+    /// The checkpoint that the next run resumes from.
+    from: Option<Checkpoint>,
+    /// The run with the settings of the tolerance, its companions, and `None` for a finer run without a solution.
+    earlier: Earlier,
+    observer: &'a mut dyn Observer,
+}
+
+impl Runs<'_> {
+    /// The run with the settings of the tolerance.
+    fn first(&mut self) -> Stage {
+        if !self.earlier.runs.is_empty() {
+            return NEXT;
+        }
+        let mut done = self.solve(self.scene)?;
         if done.outcome == Outcome::Stopped {
-            return Ok(done);
+            return Ok(ControlFlow::Break(done));
         }
-        let mut done = done;
-        earlier.runs.push(Some(std::mem::take(&mut done.compared)));
-        earlier.finished = Some(Box::new(Finished::new(done)));
+        let compared = std::mem::take(&mut done.compared);
+        self.earlier.runs.push(Some(compared));
+        self.earlier.finished = Some(Box::new(Finished::new(done)));
+        NEXT
     }
-    if earlier.finished.is_some() {
-        observer.on_phase(Phase::Companions);
-    }
-    while let Some(refinement) = companions::refinement(earlier.runs.len() - 1) {
-        // Nothing can be compared with the first.
-        if earlier.runs.get(1) == Some(&None) {
-            break;
+
+    /// The companions, of which one may have no solution; without the first nothing can be compared.
+    fn companions(&mut self) -> Stage {
+        if self.earlier.finished.is_some() {
+            self.observer.on_phase(Phase::Companions);
         }
-        let companion = companions::scene(scene, refinement);
-        let quiet = &mut companions::Quiet { observer };
-        match one_run(&companion, from.take(), earlier.clone(), quiet) {
-            Ok(done) if done.outcome == Outcome::Stopped => return Ok(done),
-            Ok(done) => earlier.runs.push(Some(done.compared)),
-            Err(SolveError::Checkpoint(misfit)) => return Err(misfit.into()),
-            Err(_) => earlier.runs.push(None),
+        while let Some(refinement) = companions::refinement(self.earlier.runs.len() - 1) {
+            if self.earlier.runs.get(1) == Some(&None) {
+                break;
+            }
+            let companion = companions::scene(self.scene, refinement);
+            let observer = &mut companions::Quiet {
+                observer: self.observer,
+            };
+            let done = one_run(&companion, self.from.take(), &self.earlier, observer);
+            let compared = match done {
+                Ok(done) if done.outcome == Outcome::Stopped => {
+                    return Ok(ControlFlow::Break(done));
+                }
+                Ok(done) => Some(done.compared),
+                Err(SolveError::Checkpoint(misfit)) => return Err(misfit.into()),
+                Err(_) => None,
+            };
+            self.earlier.runs.push(compared);
         }
+        NEXT
     }
-    let run = earlier.runs.first().and_then(Option::as_ref);
-    let errors =
-        run.and_then(|run| estimate::errors(scene, &earlier.runs[1..], run, Refinement::NONE));
-    if let Some(finished) = earlier.finished.take() {
+
+    /// Ends with the first run, unless a finer one is worth it.
+    fn end_within(&mut self) -> Stage {
+        let errors = self.first_errors();
+        let Some(finished) = self.earlier.finished.take() else {
+            return NEXT;
+        };
         let mut done = finished.into_summary();
-        state_errors(&mut done, errors, scene.accuracy.tolerance);
-        let worth = errors.is_some_and(|errors| balance::is_worth_a_restart(scene, &errors));
-        if !worth {
-            return Ok(done);
+        state_errors(&mut done, errors, self.scene.accuracy.tolerance);
+        if !errors.is_some_and(|errors| balance::is_worth_a_restart(self.scene, &errors)) {
+            return Ok(ControlFlow::Break(done));
         }
-        if observer
-            .on(Event::Restart(&done.warnings.join("; ")))
-            .is_break()
-        {
+        let restart = Event::Restart(&done.warnings.join("; "));
+        if self.observer.on(restart).is_break() {
             done.outcome = Outcome::Stopped;
-            return Ok(done);
+            return Ok(ControlFlow::Break(done));
         }
+        NEXT
     }
-    let refinement = errors.map_or(Refinement::NONE, |errors| balance::finer(scene, &errors));
-    let is_finer_possible = earlier.runs.len() == 1 + companions::COUNT;
-    if is_finer_possible {
-        let refined = companions::refined(scene, refinement);
-        match one_run(&refined, from.take(), earlier.clone(), observer) {
-            Ok(done) if done.outcome == Outcome::Stopped => return Ok(done),
+
+    /// The finer run, which may have no solution.
+    fn finer(&mut self) -> Stage {
+        if self.earlier.runs.len() > 1 + companions::COUNT {
+            return NEXT;
+        }
+        let refinement = self.first_errors().map_or(Refinement::NONE, |errors| {
+            balance::finer(self.scene, &errors)
+        });
+        match self.solve(&companions::refined(self.scene, refinement)) {
             Ok(mut done) => {
-                let (companions, run) = (&earlier.runs[1..], &done.compared);
-                let errors = estimate::errors(scene, companions, run, refinement);
-                state_errors(&mut done, errors, scene.accuracy.tolerance);
-                return Ok(done);
+                if done.outcome != Outcome::Stopped {
+                    let errors = self.errors(&done.compared, refinement);
+                    state_errors(&mut done, errors, self.scene.accuracy.tolerance);
+                }
+                return Ok(ControlFlow::Break(done));
             }
             Err(SolveError::Checkpoint(misfit)) => return Err(misfit.into()),
             Err(error) => {
                 let reason = format!("the finer run has no solution: {error}");
-                if observer.on(Event::Restart(&reason)).is_break() {
+                if self.observer.on(Event::Restart(&reason)).is_break() {
                     return Err(error);
                 }
             }
         }
-        earlier.runs.push(None);
+        self.earlier.runs.push(None);
+        NEXT
     }
-    let mut done = one_run(scene, from.take(), earlier, observer)?;
-    if done.outcome != Outcome::Stopped {
-        state_errors(&mut done, errors, scene.accuracy.tolerance);
-        done.warnings.push("a finer run has no solution".to_owned());
+
+    /// The first run again, whose results were discarded for the finer one's.
+    fn first_again(&mut self) -> Result<Summary, SolveError> {
+        let errors = self.first_errors();
+        let mut done = self.solve(self.scene)?;
+        if done.outcome != Outcome::Stopped {
+            state_errors(&mut done, errors, self.scene.accuracy.tolerance);
+            done.warnings.push("a finer run has no solution".to_owned());
+        }
+        Ok(done)
     }
-    Ok(done)
+
+    fn solve(&mut self, scene: &Scene) -> Result<Summary, SolveError> {
+        one_run(scene, self.from.take(), &self.earlier, self.observer)
+    }
+
+    fn first_errors(&self) -> Option<Errors> {
+        let first = self.earlier.runs.first()?.as_ref()?;
+        self.errors(first, Refinement::NONE)
+    }
+
+    fn errors(&self, run: &Compared, refinement: Refinement) -> Option<Errors> {
+        estimate::errors(self.scene, &self.earlier.runs[1..], run, refinement)
+    }
 }
 
 /// One of the runs of a scene, from its checkpoint if there is one.
 fn one_run(
     scene: &Scene,
     from: Option<Checkpoint>,
-    earlier: Earlier,
+    earlier: &Earlier,
     observer: &mut dyn Observer,
 ) -> Result<Summary, SolveError> {
     match from {
         Some(from) => run::resume(scene, from, observer),
-        None => run::begin(scene, earlier, observer),
+        None => run::begin(scene, earlier.clone(), observer),
     }
 }
 
