@@ -5,7 +5,7 @@
 
 use std::time::{Duration, Instant};
 
-use api::job::Progress;
+use api::job::{Phase, Progress};
 use jiff::Timestamp;
 use solver::record::CycleReport;
 
@@ -37,6 +37,8 @@ pub(super) struct UpdateBuffer {
     newest: Option<CycleReport>,
     started: Instant,
     last_event: Option<(Instant, f64)>,
+    /// Whether the last event was in the phase of the companions, which has no cycles and so no progress.
+    in_companions: bool,
 }
 
 impl UpdateBuffer {
@@ -57,6 +59,7 @@ impl UpdateBuffer {
             newest: None,
             started: Instant::now(),
             last_event: None,
+            in_companions: false,
         }
     }
 
@@ -109,6 +112,7 @@ impl UpdateBuffer {
         update.progress = self.progress.clone();
         if is_last || self.event_due() {
             self.last_event = Some((Instant::now(), self.progress.fraction));
+            self.in_companions = self.runs_companions();
             update.events.extend(self.events());
         }
         update
@@ -142,10 +146,19 @@ impl UpdateBuffer {
         };
         let waited = at.elapsed();
         waited >= EVENT_WAIT
+            || (self.runs_companions() && !self.in_companions)
             || (waited >= EVENT_PAUSE && self.progress.fraction >= fraction + EVENT_FRACTION)
     }
 
+    fn runs_companions(&self) -> bool {
+        self.progress.phase == Some(Phase::Companions)
+    }
+
+    /// Unknown while companions run: whether a finer run follows depends on them.
     fn eta_s(&self) -> Option<f64> {
+        if self.runs_companions() {
+            return None;
+        }
         let done = self.progress.fraction;
         let done_here = done - fraction(self.from_cycle, self.progress.cycles);
         (done_here > 0.0).then(|| self.started.elapsed().as_secs_f64() * (1.0 - done) / done_here)
@@ -254,6 +267,20 @@ mod tests {
         buffer.push(checkpoint(6), 100);
         buffer.put_back(failed);
         assert_eq!(buffer.take(false).checkpoint.map(|c| c.cycle), Some(6));
+    }
+
+    #[test]
+    fn the_phase_of_the_companions_is_announced_without_an_end() {
+        let mut buffer = UpdateBuffer::new(10, 0);
+        buffer.push(row(5), 100);
+        let first = buffer.take(false);
+        assert!(first.progress.eta_s.is_some());
+        buffer.push(Line::Phase(Phase::Companions), 10);
+        let update = buffer.take(false);
+        assert_eq!(update.progress.eta_s, None);
+        assert_eq!(update.events.len(), 1);
+        buffer.push(Line::Phase(Phase::Companions), 10);
+        assert!(buffer.take(false).events.is_empty());
     }
 
     #[test]
