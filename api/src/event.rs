@@ -1,7 +1,8 @@
 //! Documents of the event stream (`GET /v1/jobs/{id}/events`).
 //!
 //! Event names: `snapshot` (a [`crate::job::Job`], first on a fresh connection, without an id), `attempt` ([`Attempt`]:
-//! a worker has started; earlier events about cycles after `from_cycle` are void), `progress`
+//! a worker has started, or its run has restarted at cycle 0; earlier events about cycles after `from_cycle` are void),
+//! `progress`
 //! ([`crate::job::Progress`]), `cycle` (a row of the wear history: the scalars of one computed cycle by the names of
 //! its columns) and `done` ([`Done`]).
 

@@ -1,10 +1,10 @@
 //! Error control: the difference of a run from coarse companions estimates its error, and a run outside its tolerance
-//! begins anew, finer.
+//! restarts, finer.
 //!
 //! After the run four companions solve the scene: one that is coarser than the tolerance's settings in mesh, increments and
 //! cycle jumps, and three of which each is coarser in one more of them. The run's difference from the first gives its
 //! error, the differences between the companions the shares of mesh, increments and jumps in it. A run whose estimated
-//! error exceeds the tolerance begins anew once, with the settings refined that cause it; one that is still outside, or
+//! error exceeds the tolerance restarts once, with the settings refined that cause it; one that is still outside, or
 //! whose settings the user has given, says so in its warnings, and in its outcome where it has done all cycles. Where the
 //! finer run has no solution, the first one is solved again.
 //!

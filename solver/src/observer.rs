@@ -24,7 +24,7 @@ pub enum Event<'a> {
     Snapshot(&'a Snapshot),
     /// A state that the run can be resumed from; every event up to its cycle was delivered before.
     Checkpoint(&'a Checkpoint),
-    /// The run begins anew at cycle 0 with finer settings, for this reason: what was delivered before is void.
+    /// The run restarts at cycle 0, for this reason; what was delivered before is to be discarded.
     Restart(&'a str),
 }
 

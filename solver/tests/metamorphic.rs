@@ -38,7 +38,7 @@ const STICKING: [Regime; 1] = [Regime::PartialSlip];
 type Relation = fn(&Drawn) -> Result<Option<Vec<Deviation>>, SolveError>;
 
 /// A setting of the environment.
-fn setting<T: FromStr>(name: &str, default: T) -> T {
+pub(crate) fn setting<T: FromStr>(name: &str, default: T) -> T {
     let text = std::env::var(name).ok();
     text.and_then(|text| text.parse().ok()).unwrap_or(default)
 }

@@ -6,7 +6,6 @@
 //! partial slip, whose references take longest.
 
 use std::ops::ControlFlow;
-use std::str::FromStr;
 
 use solver::checkpoint::Checkpoint;
 use solver::error_control;
@@ -15,6 +14,7 @@ use solver::record::{Outcome, Quantity, Summary};
 use solver::scene::Scene;
 use solver::sides::Side;
 
+use crate::metamorphic::setting;
 use crate::random_scenes::{Drawn, draw};
 use crate::recorder::{Recorder, solve};
 use crate::scenes::sprung_contact;
@@ -25,11 +25,6 @@ const REFERENCE: f64 = 0.1;
 
 /// Numbers of the scenes without `FRETWEAR_DRAWS`.
 const NUMBERS: [u64; 12] = [3, 4, 5, 6, 7, 8, 9, 10, 11, 16, 17, 18];
-
-fn setting<T: FromStr>(name: &str, default: T) -> T {
-    let text = std::env::var(name).ok();
-    text.and_then(|text| text.parse().ok()).unwrap_or(default)
-}
 
 /// The values of a quantity: that of each wearing side.
 fn values(summary: &Summary, quantity: Quantity) -> Vec<f64> {
@@ -129,7 +124,7 @@ fn outside_at_first() -> Scene {
 }
 
 #[test]
-fn a_run_outside_its_tolerance_begins_anew_and_ends_within() {
+fn a_run_outside_its_tolerance_restarts_and_ends_within() {
     let scene = outside_at_first();
     let mut delivered = Delivered::default();
     let summary = error_control::solve(&scene, &mut delivered).expect("it has a solution");
@@ -147,7 +142,10 @@ fn a_run_outside_its_tolerance_begins_anew_and_ends_within() {
         (cycles.first(), cycles.last()),
         (Some(&0), Some(&scene.cycles))
     );
-    assert!(cycles.is_sorted(), "the void reports are gone: {cycles:?}");
+    assert!(
+        cycles.is_sorted(),
+        "the discarded reports are gone: {cycles:?}"
+    );
 }
 
 #[test]

@@ -7,11 +7,8 @@
 use crate::recorder::solve;
 use crate::scenes::{pin, sprung_contact};
 use solver::interpolation;
-use solver::record::CycleReport;
+use solver::record::{CycleReport, PRESSURE_TOLERANCES};
 use solver::scene::{Motion, Scene};
-
-/// Pressures are accurate to so many tolerances.
-const PRESSURES: f64 = 3.0;
 
 fn peaks(reports: &[CycleReport]) -> (Vec<f64>, Vec<f64>) {
     let cycles = reports.iter().map(|report| {
@@ -68,6 +65,9 @@ fn peak_pressures_do_not_depend_on_jumps_and_increments() {
             "peak pressure of {name} at {}: off by {worst:.3} at most, {mean:+.4} in the mean",
             scene.accuracy.tolerance
         );
-        assert!(worst < PRESSURES * scene.accuracy.tolerance, "{name}");
+        assert!(
+            worst < PRESSURE_TOLERANCES * scene.accuracy.tolerance,
+            "{name}"
+        );
     }
 }

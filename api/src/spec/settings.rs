@@ -48,7 +48,7 @@ pub struct Accuracy {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub overrides: Option<Overrides>,
     /// Whether coarse companions estimate the run's errors, for about a quarter of its time, and a run whose depth or area is
-    /// outside of the tolerance begins anew, finer, for up to about four times its time (default true).
+    /// outside of the tolerance restarts, finer, for up to about four times its time (default true).
     #[serde(skip_serializing_if = "Option::is_none")]
     pub estimate_errors: Option<bool>,
 }

@@ -66,7 +66,7 @@ fn record(line: Line, recorded: &mut Recorded, bar: &ProgressBar) {
         Line::Snapshot(snapshot) => recorded.snapshots.push(*snapshot),
         Line::Fields(file) => recorded.fields.push(file),
         Line::Restarted(cause) => {
-            bar.println(format!("starts anew with finer settings: {cause}"));
+            bar.println(format!("the run restarts at cycle 0: {cause}"));
             *recorded = Recorded::default();
         }
         Line::File(_)

@@ -35,8 +35,8 @@ pub enum Line {
     Fields(FieldsFile),
     /// A file in the attempt's folder.
     File(ResultFile),
-    /// The run starts anew at cycle 0, with the cause: it cannot resume from its checkpoint, or its estimated error
-    /// exceeds the tolerance. Earlier lines are void.
+    /// The run restarts at cycle 0, with the cause: it cannot resume from its checkpoint, or its estimated error
+    /// exceeds the tolerance. Earlier lines are discarded.
     Restarted(String),
     /// A checkpoint, sent after all lines up to its cycle.
     Checkpoint(EncodedCheckpoint),

@@ -43,7 +43,7 @@ enum Stop {
 /// A write that is due.
 enum Write {
     Update,
-    /// The run starts anew, with the cause.
+    /// The run restarts, with the cause.
     Restart(String),
 }
 

@@ -2,7 +2,7 @@
 
 use std::ops::ControlFlow;
 
-use crate::observer::{Event, Observer, Phase};
+use crate::observer::{Event, Observer};
 use crate::scene::{Accuracy, Refinement, Scene};
 
 /// Settings of the first companion over those of the tolerance, and those of the coarser ones. Finer companions cost
@@ -69,6 +69,4 @@ impl Observer for Quiet<'_> {
             Event::Cycle(_) | Event::Snapshot(_) | Event::Restart(_) => ControlFlow::Continue(()),
         }
     }
-
-    fn on_phase(&mut self, _phase: Phase) {}
 }

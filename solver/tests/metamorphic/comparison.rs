@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use solver::record::Summary;
+use solver::record::{PRESSURE_TOLERANCES, Summary};
 use solver::sides::Side;
 
 /// Relative difference of a quantity in two answers, and the largest one that the relation allows.
@@ -72,7 +72,7 @@ impl Allowed {
             depth: tolerances,
             width: tolerances,
             area: tolerances,
-            peak: 3.0 * tolerances,
+            peak: PRESSURE_TOLERANCES * tolerances,
         }
     }
 }

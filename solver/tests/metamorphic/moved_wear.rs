@@ -10,6 +10,7 @@
 //! Allowed: both tolerances and A/b, squared in depth; three times the tolerances and A/b for the peak pressure.
 
 use solver::SolveError;
+use solver::record::PRESSURE_TOLERANCES;
 use solver::scene::{Motion, Scene, WearLaw};
 
 use super::comparison::Deviation;
@@ -84,7 +85,7 @@ fn the_same_on_either_side(drawn: &Drawn) -> Result<Option<Vec<Deviation>>, Solv
         Deviation::of(
             "peak pressure",
             (below.peak_pressure_mpa, above.peak_pressure_mpa),
-            3.0 * tolerances + smear,
+            PRESSURE_TOLERANCES * tolerances + smear,
         ),
     ]))
 }

@@ -85,7 +85,7 @@ impl Store {
         Ok(lease_state(cancel_requested))
     }
 
-    /// Deletes results and checkpoint, because the run starts anew at cycle 0.
+    /// Deletes results and checkpoint, because the run restarts at cycle 0.
     ///
     /// # Errors
     /// [`StoreError`] if the database fails.
