@@ -17,7 +17,7 @@ use assembly::Numbering;
 use std::ops::Range;
 use std::sync::Arc;
 
-pub use compliance::{Block, Compliance};
+pub use compliance::{Compliance, Response};
 pub use zone_operators::ZoneOperators;
 
 /// Why operators cannot be built.

@@ -208,8 +208,9 @@ impl<'a> Integrator<'a> {
                 record.friction_loop.extend(&points);
             }
             self.step(state, step, real_cycles(jump), increment)?;
-            if state.contact.active_range().is_some() {
-                half_widths += state.contact.half_width(&self.pair.slave().x);
+            let half_width = state.contact.half_width(&self.pair.slave().x);
+            if half_width > 0.0 {
+                half_widths += half_width;
                 touching += 1;
             }
             self.record(&mut record, state, step.at, &mut replays);

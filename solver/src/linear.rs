@@ -2,9 +2,12 @@
 //! names the library behind it.
 
 pub mod cholesky;
+pub mod condensed;
 pub mod dense;
 pub mod lemke;
+pub mod vector;
 
 pub use cholesky::{CholeskyFactor, CholeskyPattern, FactorError};
+pub use condensed::CondensedSystem;
 pub use dense::{DenseLu, SquareMatrix};
 pub use lemke::Lemke;

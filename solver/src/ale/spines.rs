@@ -1,7 +1,7 @@
 //! Remaining height of the bodies under the contact.
 
 use crate::model::{BodyModel, Model};
-use crate::sides::Sides;
+use crate::sides::{Side, Sides};
 
 /// A body is worn through when a spine has less than this part of its unworn length left.
 pub(crate) const WORN_THROUGH_SHARE: f64 = 0.03;
@@ -27,8 +27,13 @@ impl Spines {
 
     /// Whether a body is nearly consumed somewhere at these worn depths, mm.
     pub fn are_worn_through(&self, depth: &Sides<Vec<f64>>) -> bool {
-        self.with_depths(depth)
-            .any(|(length, depth)| length - depth < WORN_THROUGH_SHARE * length)
+        Side::BOTH.into_iter().any(|side| {
+            let spines = self.0.of(side).iter().zip(depth.of(side));
+            // Counted, since a loop that may end early is not vectorised.
+            let consumed = spines
+                .map(|(length, depth)| u64::from(length - depth < WORN_THROUGH_SHARE * length));
+            consumed.sum::<u64>() > 0
+        })
     }
 
     /// Smallest remaining length in either body at these worn depths, mm.

@@ -1,21 +1,23 @@
 //! The condensed response of a contact surface.
 
-/// Displacements of contact nodes per force at contact nodes, mm per N/mm, in blocks of a pair of nodes.
+use std::ops::Range;
+
+/// Displacements of contact nodes per force at contact nodes, mm per N/mm: by columns, u_x and u_y of each node.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Compliance {
     nodes: usize,
-    blocks: Vec<Block>,
+    columns: Vec<f64>,
 }
 
-/// Response of a node to a force at a node: u_x and u_y per force along x, then per force along y.
-pub type Block = [f64; 4];
+/// u_x and u_y of neighbouring nodes, for a force along x and for one along y at a node, mm per N/mm.
+pub type Response<'a> = [&'a [f64]; 2];
 
 impl Compliance {
     /// A compliance of zeros.
     pub(super) fn zeros(nodes: usize) -> Self {
         Self {
             nodes,
-            blocks: vec![[0.0; 4]; nodes * nodes],
+            columns: vec![0.0; 4 * nodes * nodes],
         }
     }
 
@@ -24,18 +26,21 @@ impl Compliance {
         self.nodes
     }
 
-    /// The response of all nodes to a force at a node.
-    pub fn to_force_at(&self, node: usize) -> &[Block] {
-        &self.blocks[node * self.nodes..(node + 1) * self.nodes]
+    /// The response of a range of nodes to a force at a node.
+    pub fn to_force_at(&self, node: usize, of: &Range<usize>) -> Response<'_> {
+        [2 * node, 2 * node + 1].map(|column| {
+            let begin = 2 * column * self.nodes;
+            &self.columns[begin + 2 * of.start..begin + 2 * of.end]
+        })
     }
 
     /// Displacement of surface unknown `row` = 2 i + d per force at unknown `column` = 2 j + e.
     pub fn get(&self, row: usize, column: usize) -> f64 {
-        self.blocks[(column / 2) * self.nodes + row / 2][2 * (column % 2) + row % 2]
+        self.columns[2 * column * self.nodes + row]
     }
 
     /// Mutable access to the same entry.
     pub(super) fn at(&mut self, row: usize, column: usize) -> &mut f64 {
-        &mut self.blocks[(column / 2) * self.nodes + row / 2][2 * (column % 2) + row % 2]
+        &mut self.columns[2 * column * self.nodes + row]
     }
 }

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::compliance::{Block, Compliance};
+use super::compliance::{Compliance, Response};
 
 /// The response of a mesh that is fine along some of the contact nodes.
 #[derive(Debug, Clone, PartialEq)]
@@ -32,9 +32,9 @@ impl ZoneOperators {
     }
 
     /// The response of a range of its nodes to a force at one of them.
-    pub fn to_force_at(&self, node: usize, of: Range<usize>) -> &[Block] {
-        let response = self.compliance.to_force_at(node - self.first);
-        &response[of.start - self.first..of.end - self.first]
+    pub fn to_force_at(&self, node: usize, of: &Range<usize>) -> Response<'_> {
+        let of = of.start - self.first..of.end - self.first;
+        self.compliance.to_force_at(node - self.first, &of)
     }
 
     /// Displacement of surface unknown `row` = 2 i + d per force at unknown `column` = 2 j + e, mm per N/mm.

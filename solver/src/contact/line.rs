@@ -33,6 +33,7 @@ mod problem;
 mod response;
 mod state;
 mod status;
+mod unknown;
 mod wear_coupling;
 
 pub(crate) use active_window::CANDIDATE_GAP;

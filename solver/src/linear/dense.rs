@@ -1,9 +1,6 @@
 //! Dense matrices and their LU factorisation, with buffers that are reused from call to call.
 
-use faer::dyn_stack::{MemBuffer, MemStack};
-use faer::linalg::lu::partial_pivoting::{factor, solve};
-use faer::prelude::{Reborrow, ReborrowMut};
-use faer::{Conj, MatMut, Par};
+use super::vector::{add_scaled, vectorized};
 
 /// A square matrix, stored by columns.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -70,49 +67,98 @@ impl SquareMatrix {
     }
 }
 
-/// Solves small dense systems by LU with partial pivoting, without allocating once its buffers have grown.
-#[derive(Default)]
+/// LU factorisation with partial pivoting of small dense systems, without allocating once its buffers have grown.
+#[derive(Debug, Default)]
 pub struct DenseLu {
-    forward: Vec<usize>,
-    backward: Vec<usize>,
-    memory: Option<(usize, MemBuffer)>,
+    factors: SquareMatrix,
+    /// Row of the matrix that became each row of the factors.
+    permutation: Vec<usize>,
+    permuted: Vec<f64>,
 }
 
 impl DenseLu {
-    /// Overwrites `matrix` with its factors and `rhs` with the solution; `false` if the solution is not finite.
-    pub fn solve(&mut self, matrix: &mut SquareMatrix, rhs: &mut [f64]) -> bool {
-        let n = matrix.order;
-        debug_assert!(rhs.len() == n, "one right-hand side of the matrix' order");
-        self.forward.resize(n, 0);
-        self.backward.resize(n, 0);
-        let memory = match &mut self.memory {
-            Some((order, memory)) if *order >= n => memory,
-            slot => {
-                let factor = factor::lu_in_place_scratch::<usize, f64>(
-                    n,
-                    n,
-                    Par::Seq,
-                    faer::Spec::default(),
-                );
-                let solve = solve::solve_in_place_scratch::<usize, f64>(n, 1, Par::Seq);
-                &mut slot.insert((n, MemBuffer::new(factor.or(solve)))).1
-            }
-        };
-        let mut lu = MatMut::from_column_major_slice_mut(&mut matrix.values, n, n);
-        let stack = MemStack::new(memory);
-        let (_, perm) = factor::lu_in_place(
-            lu.rb_mut(),
-            &mut self.forward,
-            &mut self.backward,
-            Par::Seq,
-            stack,
-            faer::Spec::default(),
+    /// The matrix to be factored, of an order, with unspecified entries.
+    pub fn matrix(&mut self, order: usize) -> &mut SquareMatrix {
+        self.factors.reshape(order);
+        &mut self.factors
+    }
+
+    /// Factors the matrix by Gaussian elimination (Golub and Van Loan 2013, algorithm 3.4.1). Where it is singular, solutions
+    /// are not finite.
+    pub fn factor(&mut self) {
+        let n = self.factors.order;
+        self.permutation.clear();
+        self.permutation.extend(0..n);
+        let (values, permutation) = (&mut self.factors.values[..], &mut self.permutation[..]);
+        vectorized(
+            #[inline(always)]
+            || {
+                for k in 0..n {
+                    let column = &values[k * n + k..(k + 1) * n];
+                    let mut pivot = 0;
+                    for (i, value) in column.iter().enumerate() {
+                        if value.abs() > column[pivot].abs() {
+                            pivot = i;
+                        }
+                    }
+                    if pivot > 0 {
+                        permutation.swap(k, k + pivot);
+                        for column in values.chunks_exact_mut(n) {
+                            column.swap(k, k + pivot);
+                        }
+                    }
+                    let (done, rest) = values.split_at_mut((k + 1) * n);
+                    let multipliers = &mut done[k * n + k..];
+                    let (diagonal, multipliers) = multipliers.split_at_mut(1);
+                    let reciprocal = 1.0 / diagonal[0];
+                    for multiplier in multipliers.iter_mut() {
+                        *multiplier *= reciprocal;
+                    }
+                    for column in rest.chunks_exact_mut(n) {
+                        let (top, below) = column.split_at_mut(k + 1);
+                        add_scaled(below, -top[k], multipliers);
+                    }
+                }
+            },
         );
-        let lu = lu.rb();
-        let target = MatMut::from_column_major_slice_mut(&mut *rhs, n, 1);
-        solve::solve_in_place_with_conj(lu, lu, perm, Conj::No, target, Par::Seq, stack);
+    }
+
+    /// Overwrites a right-hand side with the solution; `false` if it is not finite.
+    pub fn solve(&mut self, rhs: &mut [f64]) -> bool {
+        let n = self.factors.order;
+        debug_assert!(rhs.len() == n, "one right-hand side of the matrix' order");
+        substitute(&self.factors, &self.permutation, rhs, &mut self.permuted);
         rhs.iter().all(|x| x.is_finite())
     }
+}
+
+/// Overwrites a right-hand side with the solution of the system whose leading block holds its factors, L with a unit diagonal
+/// and U, of the permuted rows.
+pub(super) fn substitute(
+    factors: &SquareMatrix,
+    permutation: &[usize],
+    rhs: &mut [f64],
+    permuted: &mut Vec<f64>,
+) {
+    permuted.clear();
+    permuted.extend(permutation.iter().map(|row| rhs[*row]));
+    let (n, x) = (permutation.len(), &mut permuted[..]);
+    vectorized(
+        #[inline(always)]
+        || {
+            for k in 0..n {
+                let (above, below) = x.split_at_mut(k + 1);
+                add_scaled(below, -above[k], &factors.column(k)[k + 1..n]);
+            }
+            for k in (0..n).rev() {
+                let (above, below) = x.split_at_mut(k);
+                let column = factors.column(k);
+                below[0] /= column[k];
+                add_scaled(above, -below[0], &column[..k]);
+            }
+        },
+    );
+    rhs.copy_from_slice(permuted);
 }
 
 #[cfg(test)]
@@ -123,7 +169,8 @@ mod tests {
     fn a_system_that_needs_pivots_is_solved() {
         let mut lu = DenseLu::default();
         for n in [3, 2, 5] {
-            let mut a = SquareMatrix::zeros(n);
+            let a = lu.matrix(n);
+            a.reset(n);
             for i in 0..n {
                 *a.at(i, (i + 1) % n) = 2.0;
                 *a.at(i, (i + 2) % n) += 1.0;
@@ -132,7 +179,8 @@ mod tests {
             let mut b: Vec<f64> = (0..n)
                 .map(|i| (0..n).map(|j| a.get(i, j) * x[j]).sum())
                 .collect();
-            let regular = lu.solve(&mut a, &mut b);
+            lu.factor();
+            let regular = lu.solve(&mut b);
             assert!(
                 regular && b.iter().zip(&x).all(|(b, x)| (b - x).abs() < 1e-12),
                 "order {n}"
@@ -142,7 +190,9 @@ mod tests {
 
     #[test]
     fn a_singular_system_is_told() {
-        let mut a = SquareMatrix::zeros(2);
-        assert!(!DenseLu::default().solve(&mut a, &mut [1.0, 1.0]));
+        let mut lu = DenseLu::default();
+        lu.matrix(2).reset(2);
+        lu.factor();
+        assert!(!lu.solve(&mut [1.0, 1.0]));
     }
 }

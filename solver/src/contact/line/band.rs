@@ -47,6 +47,19 @@ impl Band {
         }
     }
 
+    /// Replaces this matrix by the diagonal one of its row sums.
+    pub(super) fn lump(&mut self) {
+        let (n, bandwidth) = (self.nodes, self.bandwidth);
+        for d in (0..=2 * bandwidth).filter(|d| *d != bandwidth) {
+            for i in self.rows(d, &(0..n)) {
+                self.diagonals[bandwidth * n + i] += self.diagonals[d * n + i];
+            }
+        }
+        self.diagonals.drain(..bandwidth * n);
+        self.diagonals.truncate(n);
+        self.bandwidth = 0;
+    }
+
     /// Adds the product with the values at the nodes of a span.
     pub(super) fn add_product(&self, span: &Range<usize>, values: &[f64], sum: &mut [f64]) {
         self.for_each_term(span, values, sum, |sum, term| *sum += term);

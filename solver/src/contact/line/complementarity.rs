@@ -20,6 +20,7 @@ use super::newton::{Convergence, Newton};
 use super::problem::{Iterate, Problem};
 use super::response::Response;
 use super::status::Status;
+use super::unknown::Unknown;
 use super::wear_coupling::WearCoupling;
 use crate::law::wear::LocalState;
 use crate::linear::{Lemke, SquareMatrix};
@@ -80,7 +81,7 @@ impl Complementarity {
             return end;
         }
         for node in 0..it.status.len() {
-            response.compute(problem, node);
+            response.compute_both(problem, node);
         }
         self.reset(problem, it);
         for _ in 0..MOST_LINEARISATIONS {
@@ -197,20 +198,21 @@ impl Complementarity {
         a: usize,
     ) {
         self.open_column(wear.per_pressure(), a, self.slip[a]);
-        let force = problem.width[a];
         let scale = layout.pressure / layout.length;
-        let (gaps, jumps) = response.along_normal(a);
+        let pressure = Unknown::Pressure(a, Status::Stick);
+        let (gaps, jumps) = response.column(pressure);
         for (i, (gap, jump)) in gaps.iter().zip(jumps).enumerate() {
-            *self.matrix.at(i, a) = (force * gap + self.opened[i]) * scale;
+            *self.matrix.at(i, a) = (gap + self.opened[i]) * scale;
             if layout.sheared {
                 let [right, left, _] = layout.shear(i);
-                *self.matrix.at(right, a) = -force * jump * scale;
-                *self.matrix.at(left, a) = force * jump * scale;
+                *self.matrix.at(right, a) = -jump * scale;
+                *self.matrix.at(left, a) = jump * scale;
             }
         }
         if layout.sheared {
             *self.matrix.at(layout.shear(a)[2], a) = problem.friction;
         }
+        let [_, force] = pressure.force(problem);
         *self.matrix.at(layout.height(), a) = -force / mean_width(problem);
     }
 
@@ -222,17 +224,18 @@ impl Complementarity {
         layout: Layout,
         k: usize,
     ) {
-        let force = -problem.width[k];
         let scale = layout.pressure / layout.length;
-        let (gaps, jumps) = response.along_tangent(k);
+        let shear = Unknown::Shear(k);
+        let (gaps, jumps) = response.column(shear);
         let [a, b, gamma] = layout.shear(k);
-        let lean = problem.width[k] * problem.slope[k] / mean_width(problem);
+        let [_, force] = shear.force(problem);
+        let lean = -force / mean_width(problem);
         for (sign, place) in [(1.0, a), (-1.0, b)] {
             for (i, (gap, jump)) in gaps.iter().zip(jumps).enumerate() {
                 let [right, left, _] = layout.shear(i);
-                *self.matrix.at(i, place) = sign * force * gap * scale;
-                *self.matrix.at(right, place) = -sign * force * jump * scale;
-                *self.matrix.at(left, place) = sign * force * jump * scale;
+                *self.matrix.at(i, place) = sign * gap * scale;
+                *self.matrix.at(right, place) = -sign * jump * scale;
+                *self.matrix.at(left, place) = sign * jump * scale;
             }
             *self.matrix.at(gamma, place) = -1.0;
             *self.matrix.at(place, gamma) = 1.0;

@@ -321,7 +321,8 @@ impl Solver {
             .filter(|(_, status)| status.direction() != 0.0)
             .map(|((d, (q, slip)), _)| d * (q * slip).abs())
             .sum();
-        let vertical: f64 = next.force.of(slave).iter().skip(1).step_by(2).sum();
+        let forces = &next.force.of(slave)[2 * coupling.first..2 * coupling.end];
+        let vertical: f64 = forces.iter().skip(1).step_by(2).sum();
         let load = next.equilibrium_load(&pair.interface);
         let peak = next.peak_pressure().max(f64::MIN_POSITIVE);
         // Round-off of longer lengths where these exceed the indentation.

@@ -7,7 +7,7 @@
 
 use super::pair::Pair;
 
-/// Three-point Gauss rule on [0, 1]: exact for the products, accurate for curved profiles.
+/// Three-point Gauss rule on [0, 1], accurate for the gap of curved profiles.
 const GAUSS: [(f64, f64); 3] = [
     (0.112_701_665_379_258_3, 5.0 / 18.0),
     (0.5, 8.0 / 18.0),
@@ -123,27 +123,34 @@ impl Coupling {
         (e, m): (usize, usize),
         (left, right): (f64, f64),
     ) {
-        let (slave, master) = (pair.slave(), pair.master());
-        for (at, weight) in GAUSS {
-            let x = left + at * (right - left);
-            let dx = weight * (right - left);
-            let t = (x - slave.x[e]) / (slave.x[e + 1] - slave.x[e]);
-            let u = (x - offset - master.x[m]) / (master.x[m + 1] - master.x[m]);
-            let gap = pair.unworn_gap(x, offset);
-            let standard = [1.0 - t, t];
-            let dual = [2.0 - 3.0 * t, 3.0 * t - 1.0];
-            for side in 0..2 {
-                let i = e + side;
-                if i < self.first || i >= self.end {
-                    continue;
-                }
-                let (from, offset) = self.rows[i - self.first];
-                let place = offset + m - from;
-                self.gap[i - self.first] += dual[side] * gap * dx;
-                self.dual[place] += dual[side] * (1.0 - u) * dx;
-                self.dual[place + 1] += dual[side] * u * dx;
-                self.standard[place] += standard[side] * (1.0 - u) * dx;
-                self.standard[place + 1] += standard[side] * u * dx;
+        let (slave, master) = (&pair.slave().x, &pair.master().x);
+        let dx = right - left;
+        // Shape functions at both ends; they are linear.
+        let slave_at = |x: f64| (x - slave[e]) / (slave[e + 1] - slave[e]);
+        let master_at = |x: f64| (x - offset - master[m]) / (master[m + 1] - master[m]);
+        let t = [slave_at(left), slave_at(right)];
+        let u = [master_at(left), master_at(right)];
+        let gaps = GAUSS.map(|(at, weight)| {
+            let own = t[0] + at * (t[1] - t[0]);
+            (own, weight * dx * pair.unworn_gap(left + at * dx, offset))
+        });
+        let far = [u.map(|u| 1.0 - u), u];
+        let standard = [t.map(|t| 1.0 - t), t];
+        let dual = [t.map(|t| 2.0 - 3.0 * t), t.map(|t| 3.0 * t - 1.0)];
+        for side in 0..2 {
+            let i = e + side;
+            if i < self.first || i >= self.end {
+                continue;
+            }
+            let (from, offset) = self.rows[i - self.first];
+            let place = offset + m - from;
+            for (t, gap) in gaps {
+                let psi = [2.0 - 3.0 * t, 3.0 * t - 1.0][side];
+                self.gap[i - self.first] += psi * gap;
+            }
+            for (j, far) in far.iter().enumerate() {
+                self.dual[place + j] += dx * product(&dual[side], far);
+                self.standard[place + j] += dx * product(&standard[side], far);
             }
         }
     }
@@ -162,6 +169,13 @@ impl Coupling {
         (self.rows[i - self.first].0, &self.dual[self.row_span(i)])
     }
 
+    /// The averaging rows of all coupled slave nodes.
+    pub(super) fn dual_rows(&self) -> impl Iterator<Item = (usize, &[f64])> {
+        self.rows
+            .windows(2)
+            .map(|rows| (rows[0].0, &self.dual[rows[0].1..rows[1].1]))
+    }
+
     /// Transfer row of slave node `i`: its first master node and the integrals of phi_i phi_j, mm.
     pub(super) fn standard_row(&self, i: usize) -> (usize, &[f64]) {
         (
@@ -169,6 +183,11 @@ impl Coupling {
             &self.standard[self.row_span(i)],
         )
     }
+}
+
+/// Mean product of two linear functions with these values at both ends.
+fn product(a: &[f64; 2], b: &[f64; 2]) -> f64 {
+    (2.0 * (a[0] * b[0] + a[1] * b[1]) + a[0] * b[1] + a[1] * b[0]) / 6.0
 }
 
 #[cfg(test)]

@@ -46,9 +46,10 @@ fn mean_displacements(zone: &ZoneOperators, force: &[f64]) -> (f64, f64) {
     let loaded = forces.filter(|(_, f)| f[1] != 0.0);
     let (mut under_force, mut turned, mut total) = (0.0, 0.0, 0.0);
     for (j, f) in loaded.clone() {
-        let response = zone.to_force_at(j, zone.nodes());
+        let nodes = zone.nodes();
+        let response = zone.to_force_at(j, &nodes);
         for (i, weight) in loaded.clone() {
-            let [x_per_x, _, x_per_y, _] = response[i - zone.nodes().start];
+            let [x_per_x, x_per_y] = response.map(|column| column[2 * (i - nodes.start)]);
             under_force += weight[1] * (f[0] * x_per_x + f[1] * x_per_y);
             turned += weight[1] * f[1] * x_per_x;
         }

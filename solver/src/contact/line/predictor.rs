@@ -40,8 +40,11 @@ pub(super) fn predict(
             Status::Stick
         };
         it.status.push(status);
-        it.pressure
-            .push(if travelled { last.pressure[near] } else { 0.0 });
+        it.pressure.push(if travelled {
+            interpolated(x, &last.pressure, near, from)
+        } else {
+            0.0
+        });
         it.slip.push(problem.step);
     }
     if it.status.iter().all(|s| *s == Status::Open) {
@@ -51,4 +54,13 @@ pub(super) fn predict(
             Status::slip(problem.step)
         });
     }
+}
+
+/// Value at a place that lies between the node before `next` and that one.
+fn interpolated(x: &[f64], values: &[f64], next: usize, at: f64) -> f64 {
+    let Some(before) = next.checked_sub(1) else {
+        return values[next];
+    };
+    let t = ((at - x[before]) / (x[next] - x[before])).clamp(0.0, 1.0);
+    values[before] + t * (values[next] - values[before])
 }

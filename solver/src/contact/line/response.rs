@@ -1,27 +1,33 @@
 //! The response of both bodies at the coupled nodes, in the local frame of the receptacle's surface.
 //!
-//! A column of G = Mhat C_m Mhat^T + C_s is computed when its node first touches: most candidates never do.
+//! A column of G = Mhat C_m Mhat^T + C_s times the force of an unknown is computed when that is first solved for: most
+//! candidates never touch, and a node that slips has one unknown, its pressure with the friction.
 
 use super::local_slopes::LocalSlopes;
 use super::mortar::Coupling;
 use super::pair::Zones;
 use super::problem::Problem;
 use super::state::ContactState;
-use crate::condensation::{Block, ZoneOperators};
+use super::status::Status;
+use super::unknown::Unknown;
+use crate::condensation::ZoneOperators;
+use crate::linear::vector::vectorized;
 use crate::sides::Side;
 
-/// Change of the gap and of the tangential jump of each coupled node, per force along N and T at coupled nodes.
+/// Changes of the gap and of the tangential jump of each coupled node, per unit of tractions at coupled nodes.
 #[derive(Debug, Default)]
 pub(super) struct Response {
     /// Number of coupled nodes.
     nodes: usize,
-    /// For each node: gaps, then jumps for a force along N; gaps, then jumps for one along T, mm per N/mm.
+    /// For each node: gaps, then jumps per unit of its pressure; gaps, then jumps per unit of its shear, mm/MPa.
     columns: Vec<f64>,
-    computed: Vec<bool>,
+    /// Unknowns whose columns are computed, pressure and shear of each node.
+    computed: Vec<[Option<Unknown>; 2]>,
     /// Tangential jump that the forces of the last increment would make at the new position, mm.
     pub(super) last_jump: Vec<f64>,
-    master: Vec<Block>,
-    displacement: Vec<[f64; 2]>,
+    /// Displacements of the master's and of the slave's nodes, u_x and u_y of each, mm.
+    master: Vec<f64>,
+    slave: Vec<f64>,
 }
 
 /// Gaps and tangential jumps of all coupled nodes.
@@ -41,70 +47,64 @@ impl Response {
         self.nodes = n;
         self.columns.resize(4 * n * n, 0.0);
         self.computed.clear();
-        self.computed.resize(n, false);
+        self.computed.resize(n, [None; 2]);
         self.compute_last_jump(zones, slave, coupling, &slopes.receptacle, last);
     }
 
-    /// Per force along N = (-s, 1) at a node; requires its column.
-    pub(super) fn along_normal(&self, node: usize) -> Column<'_> {
-        self.column(2 * node)
-    }
-
-    /// Per force along T = (1, s) at a node; requires its column.
-    pub(super) fn along_tangent(&self, node: usize) -> Column<'_> {
-        self.column(2 * node + 1)
-    }
-
-    fn column(&self, column: usize) -> Column<'_> {
-        debug_assert!(self.computed[column / 2], "a column is computed before use");
-        let begin = 2 * column * self.nodes;
+    /// Per unit of an unknown; requires its column.
+    #[inline]
+    pub(super) fn column(&self, unknown: Unknown) -> Column<'_> {
+        let place = place(unknown);
+        debug_assert!(
+            self.computed[place / 2][place % 2] == Some(unknown),
+            "a column is computed before use"
+        );
+        let begin = 2 * place * self.nodes;
         self.columns[begin..begin + 2 * self.nodes].split_at(self.nodes)
     }
 
-    /// Computes both columns of a node once.
-    pub(super) fn compute(&mut self, problem: &Problem<'_>, node: usize) {
-        if std::mem::replace(&mut self.computed[node], true) {
+    /// Computes the columns of the pressure without friction and of the shear of a node.
+    pub(super) fn compute_both(&mut self, problem: &Problem<'_>, node: usize) {
+        self.compute(problem, Unknown::Pressure(node, Status::Stick));
+        self.compute(problem, Unknown::Shear(node));
+    }
+
+    /// Computes the column of an unknown once.
+    pub(super) fn compute(&mut self, problem: &Problem<'_>, unknown: Unknown) {
+        let place = place(unknown);
+        let computed = &mut self.computed[place / 2][place % 2];
+        if computed.replace(unknown) == Some(unknown) {
             return;
         }
-        let Problem {
-            zones,
-            coupling,
-            slope,
-            master_slope,
-            ..
-        } = *problem;
+        self.displace(problem, unknown);
         let n = self.nodes;
-        let k = coupling.first + node;
+        let (gap, jump) = self.columns[2 * place * n..2 * (place + 1) * n].split_at_mut(n);
+        let displacements = averaged(problem.coupling, &self.master, &self.slave);
+        let slopes = problem.slope.iter().zip(problem.master_slope);
+        let rows = gap.iter_mut().zip(jump).zip(slopes);
+        for (((gap, jump), (slope, master_slope)), [x, y]) in rows.zip(displacements) {
+            *gap = y - master_slope * x;
+            *jump = x + slope * y;
+        }
+    }
+
+    /// Displaces the nodes of both bodies by the force of an unknown.
+    fn displace(&mut self, problem: &Problem<'_>, unknown: Unknown) {
+        let Problem {
+            coupling, zones, ..
+        } = *problem;
         let (begin, end) = coupling.master_range;
-        self.master.clear();
-        self.master.resize(end - begin, [0.0; 4]);
-        let (from, weights) = coupling.dual_row(k);
-        for (offset, weight) in weights.iter().enumerate() {
-            let response = zones.master.to_force_at(from + offset, begin..end);
-            for (sum, c) in self.master.iter_mut().zip(response) {
-                add(sum, *weight, c);
-            }
+        clear(&mut self.master, end - begin);
+        clear(&mut self.slave, coupling.len());
+        let [x, y] = unknown.force(problem);
+        let node = coupling.first + unknown.node();
+        let (from, weights) = coupling.dual_row(node);
+        for (to, weight) in (from..).zip(weights) {
+            let force = [weight * x, weight * y];
+            add_force(&mut self.master, zones.master, to, force, begin);
         }
-        let own = zones.slave.to_force_at(k, coupling.first..coupling.end);
-        let (normal, tangent) = self.columns[4 * node * n..4 * (node + 1) * n].split_at_mut(2 * n);
-        let (normal_gap, normal_jump) = normal.split_at_mut(n);
-        let (tangent_gap, tangent_jump) = tangent.split_at_mut(n);
-        let s = slope[node];
-        for i in 0..n {
-            let (from, weights) = coupling.dual_row(coupling.first + i);
-            let mut u = own[i];
-            for (weight, c) in weights.iter().zip(&self.master[from - begin..]) {
-                add(&mut u, *weight, c);
-            }
-            let gap = |x: f64, y: f64| y - master_slope[i] * x;
-            let jump = |x: f64, y: f64| x + slope[i] * y;
-            let (gap_x, gap_y) = (gap(u[0], u[1]), gap(u[2], u[3]));
-            let (jump_x, jump_y) = (jump(u[0], u[1]), jump(u[2], u[3]));
-            normal_gap[i] = gap_y - s * gap_x;
-            normal_jump[i] = jump_y - s * jump_x;
-            tangent_gap[i] = gap_x + s * gap_y;
-            tangent_jump[i] = jump_x + s * jump_y;
-        }
+        let first = coupling.first;
+        add_force(&mut self.slave, zones.slave, node, [x, y], first);
     }
 
     fn compute_last_jump(
@@ -116,34 +116,75 @@ impl Response {
         last: &ContactState,
     ) {
         let (begin, end) = coupling.master_range;
-        let n = coupling.len();
-        self.displacement.clear();
-        self.displacement.resize(end - begin + n, [0.0; 2]);
-        let (master, own) = self.displacement.split_at_mut(end - begin);
-        accumulate(master, zones.master, last, slave.other(), begin);
-        accumulate(own, zones.slave, last, slave, coupling.first);
+        clear(&mut self.master, end - begin);
+        clear(&mut self.slave, coupling.len());
+        add_forces(&mut self.master, zones.master, last, slave.other(), begin);
+        add_forces(&mut self.slave, zones.slave, last, slave, coupling.first);
+        let displacements = averaged(coupling, &self.master, &self.slave);
         self.last_jump.clear();
-        for (i, s) in slope.iter().enumerate() {
-            let (from, weights) = coupling.dual_row(coupling.first + i);
-            let [mut x, mut y] = own[i];
+        self.last_jump
+            .extend(displacements.zip(slope).map(|([x, y], s)| x + s * y));
+    }
+}
+
+/// Number of an unknown's column: the pressure and the shear of each node.
+fn place(unknown: Unknown) -> usize {
+    match unknown {
+        Unknown::Pressure(node, _) => 2 * node,
+        Unknown::Shear(node) => 2 * node + 1,
+    }
+}
+
+fn clear(displacement: &mut Vec<f64>, nodes: usize) {
+    displacement.clear();
+    displacement.resize(2 * nodes, 0.0);
+}
+
+/// Relative displacements of both bodies at the coupled nodes: the master's, averaged, and the slave's.
+fn averaged<'a>(
+    coupling: &'a Coupling,
+    master: &'a [f64],
+    slave: &'a [f64],
+) -> impl Iterator<Item = [f64; 2]> + 'a {
+    let (master, _) = master.as_chunks::<2>();
+    let (slave, _) = slave.as_chunks::<2>();
+    let begin = coupling.master_range.0;
+    coupling
+        .dual_rows()
+        .zip(slave)
+        .map(move |((from, weights), own)| {
+            let mut sum = *own;
             for (weight, u) in weights.iter().zip(&master[from - begin..]) {
-                x += weight * u[0];
-                y += weight * u[1];
+                sum[0] += weight * u[0];
+                sum[1] += weight * u[1];
             }
-            self.last_jump.push(x + s * y);
-        }
-    }
+            sum
+        })
 }
 
-fn add(sum: &mut Block, weight: f64, c: &Block) {
-    for (sum, c) in sum.iter_mut().zip(c) {
-        *sum += weight * c;
-    }
+/// Displaces the nodes of a body from `first` on by a force at a node.
+fn add_force(
+    displacement: &mut [f64],
+    zone: &ZoneOperators,
+    node: usize,
+    force: [f64; 2],
+    first: usize,
+) {
+    let nodes = first..first + displacement.len() / 2;
+    let [per_x, per_y] = zone.to_force_at(node, &nodes);
+    vectorized(
+        #[inline(always)]
+        || {
+            for (u, (per_x, per_y)) in displacement.iter_mut().zip(per_x.iter().zip(per_y)) {
+                *u += force[0] * per_x + force[1] * per_y;
+            }
+        },
+    );
 }
 
-/// target += compliance of the nodes from `first` on, times the last nodal forces on a side.
-fn accumulate(
-    target: &mut [[f64; 2]],
+/// Displaces the nodes of a body from `first` on by the last forces.
+fn add_forces(
+    displacement: &mut [f64],
     zone: &ZoneOperators,
     last: &ContactState,
     side: Side,
@@ -151,14 +192,9 @@ fn accumulate(
 ) {
     let force = last.force.of(side);
     for node in last.loaded(side) {
-        let f = &force[2 * node..2 * node + 2];
-        if f[0] == 0.0 && f[1] == 0.0 {
-            continue;
-        }
-        let response = zone.to_force_at(node, first..first + target.len());
-        for (u, c) in target.iter_mut().zip(response) {
-            u[0] += f[0] * c[0] + f[1] * c[2];
-            u[1] += f[0] * c[1] + f[1] * c[3];
+        let force = [force[2 * node], force[2 * node + 1]];
+        if force[0] != 0.0 || force[1] != 0.0 {
+            add_force(displacement, zone, node, force, first);
         }
     }
 }

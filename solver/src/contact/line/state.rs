@@ -75,8 +75,9 @@ impl ContactState {
 
     /// Contact nodes of a side between the first loaded one and the last.
     pub fn loaded(&self, side: Side) -> Range<usize> {
-        let mut forces = self.force.of(side).chunks_exact(2);
-        let is_loaded = |f: &[f64]| f[0] != 0.0 || f[1] != 0.0;
+        let (forces, _) = self.force.of(side).as_chunks::<2>();
+        let mut forces = forces.iter();
+        let is_loaded = |f: &[f64; 2]| f[0] != 0.0 || f[1] != 0.0;
         let first = forces.clone().position(is_loaded);
         let last = forces.rposition(is_loaded);
         first
@@ -92,7 +93,12 @@ impl ContactState {
     /// |sum of shear forces| over the sum of normal ones, in the frame of the surface; at most mu.
     pub fn friction_use(&self, widths: &[f64]) -> f64 {
         let (mut normal, mut shear) = (0.0, 0.0);
-        for (width, (p, q)) in widths.iter().zip(self.pressure.iter().zip(&self.shear)) {
+        let (first, end) = self.active_range().unwrap_or_default();
+        for ((width, p), q) in widths[first..end]
+            .iter()
+            .zip(&self.pressure[first..end])
+            .zip(&self.shear[first..end])
+        {
             normal += width * p;
             shear += width * q;
         }
@@ -119,7 +125,9 @@ impl ContactState {
 
     /// Highest pressure, MPa.
     pub fn peak_pressure(&self) -> f64 {
-        self.pressure.iter().fold(0.0, |m: f64, p| m.max(*p))
+        let (first, end) = self.active_range().unwrap_or_default();
+        let pressures = self.pressure[first..end].iter();
+        pressures.fold(0.0, |m: f64, p| m.max(*p))
     }
 
     /// Half the distance between the edges of the contact, mm.

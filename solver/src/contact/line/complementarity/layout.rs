@@ -2,6 +2,8 @@
 
 use super::super::problem::{Iterate, Problem};
 use super::super::response::Response;
+use super::super::status::Status;
+use super::super::unknown::Unknown;
 
 /// The bound of the height lies this many indentations below any possible height. Arbitrary: 4 solves the same of the
 /// hard cases; 256 fails one of them by cancellation.
@@ -34,7 +36,7 @@ impl Layout {
         };
         let length = indentation.max(range.1 - range.0).max(f64::MIN_POSITIVE);
         let stiffest = (0..n)
-            .map(|i| problem.width[i] * response.along_normal(i).0[i])
+            .map(|i| response.column(Unknown::Pressure(i, Status::Stick)).0[i])
             .fold(f64::MIN_POSITIVE, f64::max);
         Self {
             n,

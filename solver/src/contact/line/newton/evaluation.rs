@@ -1,0 +1,88 @@
+//! Evaluation of an iterate: gaps, slips and paths under its tractions.
+
+use super::super::problem::{GAP_TOLERANCE, Iterate, Problem};
+use super::super::response::Response;
+use super::super::status::Status;
+use super::super::unknown::Unknown;
+use super::super::wear_coupling::WearCoupling;
+use crate::linear::vector::{add_scaled, vectorized};
+
+/// Round-off of a gap over the largest length in its sum: some units in the last place.
+const ROUND_OFF: f64 = 16.0 * f64::EPSILON;
+
+/// Buffers of the evaluation.
+#[derive(Debug, Default)]
+pub(super) struct Evaluation {
+    /// Gaps and slips by deformation.
+    gap: Vec<f64>,
+    slip: Vec<f64>,
+}
+
+impl Evaluation {
+    /// Slips, paths and gaps of the iterate; returns the largest gap of a closed node over the indentation.
+    pub(super) fn evaluate(
+        &mut self,
+        problem: &Problem<'_>,
+        unknowns: &[Unknown],
+        response: &Response,
+        wear: &mut WearCoupling,
+        it: &mut Iterate,
+    ) -> f64 {
+        let n = it.status.len();
+        self.deform(unknowns, response, it);
+        let mut indentation = 0.0_f64;
+        for (i, jump) in self.slip.iter().enumerate() {
+            it.slip[i] = problem.fixed_slip[i] + problem.slope[i] * it.height + jump;
+            let slips = it.status[i].direction() * it.slip[i];
+            it.path[i] = (it.pressure[i] * slips).max(0.0);
+            if it.status[i] != Status::Open {
+                indentation = indentation.max(self.gap[i].abs());
+            }
+        }
+        // The wear alone first: it is part of the scale of gaps.
+        it.gap.clear();
+        it.gap.resize(n, 0.0);
+        if problem.wears {
+            let slave = problem.pair.interface.slave;
+            wear.linearise(slave, (0..n).map(|l| it.local_state(l)));
+            wear.opening().add_product(&(0..n), &it.path, &mut it.gap);
+        }
+        let (mut residual, mut largest) = (0.0_f64, 0.0_f64);
+        for (i, jump) in self.gap.iter().enumerate() {
+            let raised = (1.0 + problem.sag[i]) * it.height;
+            let worn = it.gap[i];
+            it.gap[i] = problem.gap[i] + raised + jump + worn;
+            if it.status[i] != Status::Open {
+                indentation = indentation.max(worn);
+                residual = residual.max(it.gap[i].abs());
+                // A closed gap is the difference of the undeformed gap and the height, each at most this large unless
+                // the system was nearly singular.
+                largest = largest.max(2.0 * problem.gap[i].abs());
+            }
+        }
+        it.indentation = indentation;
+        let scale = indentation.max(f64::MIN_POSITIVE);
+        it.tolerance = GAP_TOLERANCE.max(ROUND_OFF * largest / scale);
+        residual / scale
+    }
+
+    fn deform(&mut self, unknowns: &[Unknown], response: &Response, it: &Iterate) {
+        for values in [&mut self.gap, &mut self.slip] {
+            values.clear();
+            values.resize(it.status.len(), 0.0);
+        }
+        vectorized(
+            #[inline(always)]
+            || {
+                for unknown in unknowns {
+                    let value = unknown.value(it);
+                    if value != 0.0 {
+                        let (gap, slip) = response.column(*unknown);
+                        add_scaled(&mut self.gap, value, gap);
+                        add_scaled(&mut self.slip, value, slip);
+                    }
+                }
+            },
+        );
+    }
+}

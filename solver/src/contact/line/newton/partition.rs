@@ -1,0 +1,107 @@
+//! Partition of the coupled nodes: which tractions are solved for, and which of them may change their status without another
+//! factorisation.
+//!
+//! From one iteration to the next statuses change at the edges of the contact and of its stick zones. The nodes there are the
+//! border of the condensed system, all others its core.
+
+use super::super::problem::Iterate;
+use super::super::status::Status;
+use super::super::unknown::Unknown;
+
+/// Nodes on either side of an edge of the contact that belong to the border.
+const EDGE: usize = 3;
+/// The same at an edge of a stick zone.
+const STICK_EDGE: usize = 2;
+
+/// What the unknowns of a node allow it to be.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Form {
+    /// Open.
+    Outside,
+    /// This status.
+    Core(Status),
+    /// Open, or slipping in this direction.
+    Edge(Status),
+    /// Anything.
+    Any,
+}
+
+/// The unknowns of an increment.
+#[derive(Debug, Default)]
+pub(super) struct Partition {
+    /// Those of the core, then those of the border.
+    pub(super) unknowns: Vec<Unknown>,
+    /// Number of unknowns of the core.
+    pub(super) core: usize,
+    forms: Vec<Form>,
+}
+
+impl Partition {
+    /// Chooses the unknowns for the statuses of an iterate.
+    pub(super) fn choose(&mut self, it: &Iterate) {
+        self.forms.clear();
+        self.forms.extend((0..it.status.len()).map(|i| form(it, i)));
+        self.unknowns.clear();
+        for (node, form) in self.forms.iter().enumerate() {
+            if let Form::Core(status) = *form {
+                self.unknowns.push(Unknown::Pressure(node, status));
+                if status == Status::Stick {
+                    self.unknowns.push(Unknown::Shear(node));
+                }
+            }
+        }
+        self.core = self.unknowns.len();
+        for (node, form) in self.forms.iter().enumerate() {
+            match *form {
+                Form::Edge(status) => self.unknowns.push(Unknown::Pressure(node, status)),
+                Form::Any => {
+                    self.unknowns.push(Unknown::Pressure(node, Status::Stick));
+                    self.unknowns.push(Unknown::Shear(node));
+                }
+                Form::Outside | Form::Core(_) => {}
+            }
+        }
+    }
+
+    /// Whether the unknowns allow the statuses of an iterate.
+    pub(super) fn admits(&self, it: &Iterate) -> bool {
+        let admits = |(form, status): (&Form, &Status)| match *form {
+            Form::Outside => *status == Status::Open,
+            Form::Core(own) => *status == own,
+            Form::Edge(own) => *status == own || *status == Status::Open,
+            Form::Any => true,
+        };
+        self.forms.iter().zip(&it.status).all(admits)
+    }
+
+    /// The status that a node's part of the wear is linearised in.
+    pub(super) fn status(&self, it: &Iterate, node: usize) -> Status {
+        match self.forms[node] {
+            Form::Core(status) | Form::Edge(status) => status,
+            Form::Outside | Form::Any => it.status[node],
+        }
+    }
+}
+
+fn form(it: &Iterate, node: usize) -> Form {
+    let near = |reach: usize| {
+        let end = (node + reach + 1).min(it.status.len());
+        it.status[node.saturating_sub(reach)..end].iter()
+    };
+    let closed = |status: &&Status| **status != Status::Open;
+    let Some(&status) = near(EDGE).find(closed) else {
+        return Form::Outside;
+    };
+    let differs = |reach: usize| {
+        let mut closed = near(reach).filter(closed);
+        let first = closed.next();
+        closed.any(|status| Some(status) != first)
+    };
+    let is_edge = near(EDGE).any(|status| *status == Status::Open);
+    match it.status[node] {
+        _ if differs(STICK_EDGE) => Form::Any,
+        own if !is_edge => Form::Core(own),
+        _ if status == Status::Stick || differs(EDGE) => Form::Any,
+        _ => Form::Edge(status),
+    }
+}
