@@ -44,6 +44,11 @@ fn broken(field: &TractionField) -> f64 {
     count(inside.iter().filter(|p| !pressed(p)).count()) / count(inside.len())
 }
 
+/// Number of nodes with pressure.
+fn loaded(field: &TractionField) -> usize {
+    field.pressure_mpa.iter().filter(|p| **p > 0.0).count()
+}
+
 #[test]
 fn explicit_wear_concentrates_pressure_on_single_nodes() {
     for jump in [10, 100] {
@@ -51,10 +56,12 @@ fn explicit_wear_concentrates_pressure_on_single_nodes() {
         let last = run.snapshots.last().expect("the end is kept");
         let implicit = last.positions.iter().map(broken).fold(0.0, f64::max);
         assert!(implicit == 0.0, "jump {jump}: {implicit}");
-        // Either most of the contact is carried by single nodes, or no contact state is found.
+        // Either single nodes carry the load (2 to 7 instead of 28 and more, others with each window of the solve), or no
+        // contact state is found.
         if let Ok(field) = explicit_wear(&scene(&fine(4, 1)), 4, real(jump), 20) {
-            let explicit = broken(&field);
-            assert!(explicit > 0.5, "jump {jump}: {explicit}");
+            let fewest = last.positions.iter().map(loaded).min();
+            let explicit = loaded(&field);
+            assert!(Some(3 * explicit) < fewest, "jump {jump}: {explicit}");
         }
     }
 }

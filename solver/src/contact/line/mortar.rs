@@ -62,8 +62,11 @@ impl Coupling {
         let offset = pair.offset(pairing_x);
         (self.first, self.end) = (first, end);
         self.lay_out(&slave.x, &pair.master().x, offset);
-        for element in first.saturating_sub(1)..end.min(slave.x.len() - 1) {
-            self.integrate_element(pair, offset, element);
+        let elements = first.saturating_sub(1)..end.min(slave.x.len() - 1);
+        let start = slave.x[elements.start] - offset;
+        let mut next = pair.master().x.partition_point(|&x| x <= start);
+        for element in elements {
+            next = self.integrate_element(pair, offset, element, next);
         }
         for i in first..end {
             let width = slave.widths[i];
@@ -79,11 +82,23 @@ impl Coupling {
         self.gap.resize(self.end - self.first, 0.0);
         let (mut begin, mut total) = (usize::MAX, 0);
         let mut last = 0;
+        let left_of = |i: usize| slave[i.saturating_sub(1)] - offset;
+        // Both bounds of a support advance from one node to the next.
+        let start = left_of(self.first);
+        let mut beyond_left = master.partition_point(|&x| x <= start);
+        let mut beyond_right = beyond_left;
         for i in self.first..self.end {
-            let left = slave[i.saturating_sub(1)] - offset;
+            let left = left_of(i);
             let right = slave[(i + 1).min(slave.len() - 1)] - offset;
-            let from = master.partition_point(|&x| x <= left).saturating_sub(1);
-            let to = master.partition_point(|&x| x < right).min(master.len() - 1);
+            let within = |next: usize, x: f64| next < master.len() && master[next] < x;
+            while beyond_left < master.len() && master[beyond_left] <= left {
+                beyond_left += 1;
+            }
+            while within(beyond_right, right) {
+                beyond_right += 1;
+            }
+            let from = beyond_left.saturating_sub(1);
+            let to = beyond_right.min(master.len() - 1);
             self.rows.push((from, total));
             total += to + 1 - from;
             begin = begin.min(from);
@@ -97,13 +112,20 @@ impl Coupling {
         self.standard.resize(total, 0.0);
     }
 
-    fn integrate_element(&mut self, pair: &Pair<'_>, offset: f64, element: usize) {
+    /// Integrates one slave element that begins before master node `next`, the first beyond; returns the one for the next element.
+    fn integrate_element(
+        &mut self,
+        pair: &Pair<'_>,
+        offset: f64,
+        element: usize,
+        mut next: usize,
+    ) -> usize {
         let (slave, master) = (pair.slave(), pair.master());
         let (a, b) = (slave.x[element], slave.x[element + 1]);
-        let mut j = master
-            .x
-            .partition_point(|&x| x <= a - offset)
-            .clamp(1, master.x.len() - 1);
+        while next < master.x.len() && master.x[next] <= a - offset {
+            next += 1;
+        }
+        let mut j = next.clamp(1, master.x.len() - 1);
         let mut left = a;
         while left < b {
             let last = j == master.x.len() - 1;
@@ -114,6 +136,7 @@ impl Coupling {
             left = right;
             j = (j + 1).min(master.x.len() - 1);
         }
+        next
     }
 
     fn integrate_segment(

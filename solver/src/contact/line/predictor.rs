@@ -27,10 +27,14 @@ pub(super) fn predict(
         values.resize(n, 0.0);
     }
     let active = last.active_range();
+    let mut next = x.partition_point(|&at| at < x[first] - problem.travel);
     for i in first..end {
         let from = x[i] - problem.travel;
         let travelled = active.is_none_or(|(a, b)| from >= x[a] && from <= x[b - 1]);
-        let near = x.partition_point(|&at| at < from).min(x.len() - 1);
+        while next < x.len() && x[next] < from {
+            next += 1;
+        }
+        let near = next.min(x.len() - 1);
         let was = last.status[near].direction();
         let status = if !travelled {
             Status::Open

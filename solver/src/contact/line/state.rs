@@ -25,6 +25,8 @@ pub struct ContactState {
     pub shear: Vec<f64>,
     /// Forces that act on the slider (x, y), at the nodes of each side, N/mm; the receptacle carries the reaction.
     pub force: Sides<Vec<f64>>,
+    /// Nodes of each side from the first loaded one to the last.
+    loaded: Sides<Range<usize>>,
     /// Largest indentation of the last increment, mm: the scale of gaps.
     pub indentation: f64,
     /// Height of the loaded, unworn contact, the reference of a spring in the load; `None` before the first load.
@@ -43,6 +45,7 @@ impl ContactState {
             pressure: vec![0.0; n],
             shear: vec![0.0; n],
             force: operators.as_ref().map(|body| vec![0.0; 2 * body.x.len()]),
+            loaded: Sides::default(),
             indentation: 0.0,
             reference_height: None,
         }
@@ -56,14 +59,25 @@ impl ContactState {
         self.indentation = last.indentation;
         self.reference_height = last.reference_height;
         self.status.fill(Status::Open);
-        for values in [
-            &mut self.pressure,
-            &mut self.shear,
-            &mut self.force.receptacle,
-            &mut self.force.slider,
-        ] {
+        for values in [&mut self.pressure, &mut self.shear] {
             values.fill(0.0);
         }
+        for side in Side::BOTH {
+            let loaded = std::mem::take(self.loaded.of_mut(side));
+            self.force.of_mut(side)[2 * loaded.start..2 * loaded.end].fill(0.0);
+        }
+    }
+
+    /// Determines which of these nodes of a side are loaded; no others are.
+    pub(super) fn set_loaded(&mut self, side: Side, nodes: Range<usize>) {
+        let (forces, _) = self.force.of(side)[2 * nodes.start..2 * nodes.end].as_chunks::<2>();
+        let mut forces = forces.iter();
+        let is_loaded = |f: &[f64; 2]| f[0] != 0.0 || f[1] != 0.0;
+        let first = forces.clone().position(is_loaded);
+        let last = forces.rposition(is_loaded);
+        *self.loaded.of_mut(side) = first.zip(last).map_or(0..0, |(first, last)| {
+            nodes.start + first..nodes.start + last + 1
+        });
     }
 
     /// First node in contact and one past the last.
@@ -75,14 +89,7 @@ impl ContactState {
 
     /// Contact nodes of a side between the first loaded one and the last.
     pub fn loaded(&self, side: Side) -> Range<usize> {
-        let (forces, _) = self.force.of(side).as_chunks::<2>();
-        let mut forces = forces.iter();
-        let is_loaded = |f: &[f64; 2]| f[0] != 0.0 || f[1] != 0.0;
-        let first = forces.clone().position(is_loaded);
-        let last = forces.rposition(is_loaded);
-        first
-            .zip(last)
-            .map_or(0..0, |(first, last)| first..last + 1)
+        self.loaded.of(side).clone()
     }
 
     /// Force of the slider on the receptacle along x, N/mm.

@@ -1,0 +1,111 @@
+//! Both surfaces opposite each other at one position, over a range of the slave's nodes.
+
+use std::ops::Range;
+
+use super::local_slopes::LocalSlopes;
+use super::mortar::Coupling;
+use super::pair::{Pair, Surfaces, Zones};
+use super::state::ContactState;
+use crate::model::Interface;
+use crate::sides::Side;
+
+/// Position of the slider, and the load at height 0 with its increase per mm of height.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Setting {
+    /// Imposed displacement, mm.
+    pub(super) slider_x: f64,
+    /// Displacement at which the surfaces are paired, mm.
+    pub(super) pairing_x: f64,
+    /// Load at height 0, N/mm.
+    pub(super) load: f64,
+    /// Its increase per mm of height.
+    pub(super) spring: f64,
+}
+
+impl Setting {
+    /// At a position (imposed, of the pairing), after a contact.
+    pub(super) fn new(
+        interface: &Interface,
+        last: &ContactState,
+        (slider_x, pairing_x): (f64, f64),
+    ) -> Self {
+        // Before the first load the spring has no reference height.
+        let (spring, reference) = last
+            .reference_height
+            .map_or((0.0, 0.0), |height| (interface.spring, height));
+        Self {
+            slider_x,
+            pairing_x,
+            load: interface.load - spring * reference,
+            spring,
+        }
+    }
+}
+
+/// Coupling, slopes and gaps of a range of nodes. Buffers are reused.
+#[derive(Debug, Default)]
+pub(super) struct Geometry {
+    pub(super) coupling: Coupling,
+    pub(super) slopes: LocalSlopes,
+    /// Gap of the worn bodies at height 0 under the far-face load there, mm.
+    pub(super) gap: Vec<f64>,
+    /// Its change per height by that load's growth.
+    pub(super) sag: Vec<f64>,
+}
+
+impl Geometry {
+    /// Couples a range of the slave's nodes, which must be covered, to the master.
+    pub(super) fn place(
+        &mut self,
+        pair: &Pair<'_>,
+        surfaces: &Surfaces<'_>,
+        setting: Setting,
+        nodes: Range<usize>,
+    ) {
+        let pairing_x = setting.pairing_x;
+        self.coupling
+            .integrate(pair, pairing_x, nodes.start, nodes.end);
+        self.slopes.assemble(pair, &self.coupling, surfaces);
+    }
+
+    /// Measures the gaps of the coupled nodes.
+    pub(super) fn measure(
+        &mut self,
+        (pair, zones): (&Pair<'_>, Zones<'_>),
+        surfaces: &Surfaces<'_>,
+        setting: Setting,
+    ) {
+        let coupling = &self.coupling;
+        let slave = pair.interface.slave;
+        let (own, other) = (surfaces.depth.of(slave), surfaces.depth.of(slave.other()));
+        let slider = match slave {
+            Side::Slider => zones.slave,
+            Side::Receptacle => zones.master,
+        };
+        // The gap that the master opens by its displacement beyond the pairing.
+        let lag = setting.slider_x - setting.pairing_x;
+        self.gap.clear();
+        self.sag.clear();
+        for (i, slope) in (coupling.first..coupling.end).zip(&self.slopes.master) {
+            let (from, weights) = coupling.dual_row(i);
+            let moved_by = |j: usize| {
+                let [x, y] = slider.under_load(j);
+                y - slope * x
+            };
+            let (mut worn, mut moved) = (0.0, 0.0);
+            for (j, weight) in (from..).zip(weights) {
+                worn += weight * other[j];
+                if slave == Side::Receptacle {
+                    moved += weight * moved_by(j);
+                }
+            }
+            if slave == Side::Slider {
+                moved = moved_by(i);
+            }
+            let shape = coupling.gap[i - coupling.first] + own[i];
+            self.gap
+                .push(shape + worn + setting.load * moved - slope * lag);
+            self.sag.push(setting.spring * moved);
+        }
+    }
+}

@@ -1,0 +1,144 @@
+//! What an increment leaves: the new contact, wear, energy and residuals.
+
+use super::geometry::{Geometry, Setting};
+use super::pair::Pair;
+use super::problem::{GAP_TOLERANCE, Iterate};
+use super::state::ContactState;
+use super::status::Status;
+use super::wear_coupling::WearCoupling;
+use crate::sides::Sides;
+
+/// Result of an increment; arrays begin at the first coupled node of their side.
+#[derive(Debug, Clone, Copy)]
+pub struct Increment<'a> {
+    /// First coupled node of each side.
+    pub first: Sides<usize>,
+    /// Path p |sigma| of the slave's nodes from there on, MPa mm.
+    pub path: &'a [f64],
+    /// Vertical recession at the nodes from there on, mm; empty where nothing wears.
+    pub recession: Sides<&'a [f64]>,
+    /// Integral of the wear rate over the contact, mm^2.
+    pub worn_area: Sides<f64>,
+    /// Energy dissipated by friction, N/mm mm.
+    pub energy: f64,
+    /// |sum of vertical forces - load| over the load on the unworn contact.
+    pub force_balance: f64,
+    /// Largest gap of a closed node or penetration of an open one, over the indentation (or the round-off of longer
+    /// lengths).
+    pub complementarity: f64,
+    /// Largest |q| - mu p over the peak pressure.
+    pub friction_cone: f64,
+}
+
+impl<'a> Increment<'a> {
+    /// No wear, no energy, no residuals.
+    pub(super) const NONE: Self = Self {
+        first: Sides {
+            slider: 0,
+            receptacle: 0,
+        },
+        path: &[],
+        recession: Sides {
+            slider: &[],
+            receptacle: &[],
+        },
+        worn_area: Sides {
+            slider: 0.0,
+            receptacle: 0.0,
+        },
+        energy: 0.0,
+        force_balance: 0.0,
+        complementarity: 0.0,
+        friction_cone: 0.0,
+    };
+
+    /// Of a solution that is written to `next`; `recession` is a buffer.
+    pub(super) fn of(
+        pair: &Pair<'_>,
+        geometry: &Geometry,
+        it: &'a Iterate,
+        wear: &WearCoupling,
+        recession: &'a mut Sides<Vec<f64>>,
+        next: &ContactState,
+    ) -> Self {
+        let coupling = &geometry.coupling;
+        let slave = pair.interface.slave;
+        let widths = &pair.slave().widths[coupling.first..coupling.end];
+        let worn_area = wear.recession(coupling, pair, &it.path, recession);
+        let energy = widths
+            .iter()
+            .zip(it.shear.iter().zip(&it.slip))
+            .zip(&it.status)
+            .filter(|(_, status)| status.direction() != 0.0)
+            .map(|((d, (q, slip)), _)| d * (q * slip).abs())
+            .sum();
+        let forces = &next.force.of(slave)[2 * coupling.first..2 * coupling.end];
+        let vertical: f64 = forces.iter().skip(1).step_by(2).sum();
+        let load = next.equilibrium_load(&pair.interface);
+        let peak = next.peak_pressure().max(f64::MIN_POSITIVE);
+        // Round-off of longer lengths where these exceed the indentation.
+        let scale = it.indentation.max(f64::MIN_POSITIVE) * it.tolerance / GAP_TOLERANCE;
+        let (mut complementarity, mut cone) = (0.0_f64, 0.0_f64);
+        for (i, status) in it.status.iter().enumerate() {
+            let violation = if *status == Status::Open {
+                -it.gap[i]
+            } else {
+                it.gap[i].abs()
+            };
+            complementarity = complementarity.max(violation);
+            cone = cone.max(it.shear[i].abs() - pair.interface.friction * it.pressure[i]);
+        }
+        Self {
+            first: Sides::from_fn(|side| {
+                if side == slave {
+                    coupling.first
+                } else {
+                    coupling.master_range.0
+                }
+            }),
+            path: &it.path,
+            recession: recession.as_slices(),
+            worn_area,
+            energy,
+            force_balance: (vertical - load).abs() / pair.interface.load,
+            complementarity: complementarity / scale,
+            friction_cone: cone / peak,
+        }
+    }
+}
+
+/// Writes a solution to `next`.
+pub(super) fn write(
+    pair: &Pair<'_>,
+    geometry: &Geometry,
+    it: &Iterate,
+    last: &ContactState,
+    setting: Setting,
+    next: &mut ContactState,
+) {
+    let coupling = &geometry.coupling;
+    let slave = pair.interface.slave;
+    next.reset_open(last, (setting.slider_x, setting.pairing_x));
+    next.height = it.height;
+    next.indentation = it.indentation;
+    let span = coupling.first..coupling.end;
+    next.status[span.clone()].copy_from_slice(&it.status);
+    next.pressure[span.clone()].copy_from_slice(&it.pressure);
+    next.shear[span.clone()].copy_from_slice(&it.shear);
+    for i in span {
+        let width = pair.slave().widths[i];
+        let (p, q) = (next.pressure[i], next.shear[i]);
+        let s = geometry.slopes.receptacle[i - coupling.first];
+        let force = [width * (-p * s - q), width * (p - q * s)];
+        next.force.of_mut(slave)[2 * i..2 * i + 2].copy_from_slice(&force);
+        let other = next.force.of_mut(slave.other());
+        let (from, weights) = coupling.dual_row(i);
+        for (offset, weight) in weights.iter().enumerate() {
+            other[2 * (from + offset)] += weight * force[0];
+            other[2 * (from + offset) + 1] += weight * force[1];
+        }
+    }
+    let (begin, stop) = coupling.master_range;
+    next.set_loaded(slave, coupling.first..coupling.end);
+    next.set_loaded(slave.other(), begin..stop);
+}
