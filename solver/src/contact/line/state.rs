@@ -58,9 +58,11 @@ impl ContactState {
         self.height = last.height;
         self.indentation = last.indentation;
         self.reference_height = last.reference_height;
-        self.status.fill(Status::Open);
+        // Open nodes have no tractions.
+        let (first, end) = self.active_range().unwrap_or_default();
+        self.status[first..end].fill(Status::Open);
         for values in [&mut self.pressure, &mut self.shear] {
-            values.fill(0.0);
+            values[first..end].fill(0.0);
         }
         for side in Side::BOTH {
             let loaded = std::mem::take(self.loaded.of_mut(side));
