@@ -99,3 +99,54 @@ fn form(it: &Iterate, node: usize) -> Form {
         Form::Core(status)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use Status::{Open, SlipRight, Stick};
+
+    fn iterate(status: &[Status]) -> Iterate {
+        Iterate {
+            status: status.to_vec(),
+            ..Iterate::default()
+        }
+    }
+
+    #[test]
+    fn nodes_at_edges_form_the_border_and_may_change() {
+        let mut statuses = [SlipRight; 12];
+        statuses[..4].fill(Open);
+        let mut partition = Partition::default();
+        let mut it = iterate(&statuses);
+        partition.choose(&it);
+        // Nodes 2 to 5 are the edge; the last ones end with the coupled nodes, not with the contact.
+        assert_eq!((partition.core, partition.unknowns.len()), (6, 10));
+        for (node, status, admitted) in [
+            (3, SlipRight, true),
+            (4, Open, true),
+            (4, Stick, false),
+            (7, Open, false),
+            (1, SlipRight, false),
+        ] {
+            it.status = statuses.to_vec();
+            it.status[node] = status;
+            assert_eq!(partition.admits(&it), admitted, "{node} {status:?}");
+        }
+    }
+
+    #[test]
+    fn nodes_at_the_edge_of_a_stick_zone_have_both_tractions() {
+        let mut statuses = [SlipRight; 12];
+        statuses[6..].fill(Stick);
+        let mut partition = Partition::default();
+        let mut it = iterate(&statuses);
+        partition.choose(&it);
+        // Four nodes at the edge with two unknowns each; four slipping and four sticking nodes besides.
+        assert_eq!((partition.core, partition.unknowns.len()), (12, 20));
+        it.status[6] = SlipRight;
+        it.status[5] = Open;
+        assert!(partition.admits(&it));
+        it.status[9] = SlipRight;
+        assert!(!partition.admits(&it));
+    }
+}

@@ -53,3 +53,28 @@ fn product(a: &[f64], b: &[f64]) -> f64 {
     let pairs = a[..tractions].iter().zip(&b[..tractions]);
     pairs.map(|(a, b)| a * b).sum()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// One wrong direction of the Jacobian takes two corrections: one that shows it and one that removes it.
+    #[test]
+    fn one_wrong_direction_is_corrected_at_once() {
+        let residual = |x: &[f64; 3]| [1.4 * x[0] + 0.2 * x[1] - 1.0, x[1] - 2.0, x[2] - 3.0];
+        let mut secant = Secant::default();
+        for start in [0.0, 5.0] {
+            secant.restart();
+            let mut x = [start, 0.0, 0.0];
+            let mut sizes = Vec::new();
+            for _ in 0..5 {
+                let mut step = residual(&x).map(|r| -r);
+                secant.accelerate(&mut step);
+                x = [x[0] + step[0], x[1] + step[1], x[2] + step[2]];
+                sizes.push(residual(&x).iter().fold(0.0, |m: f64, r| m.max(r.abs())));
+            }
+            // A chord step alone leaves 0.4 of the residual.
+            assert!(sizes[0] > 0.1 && sizes[4] < 1e-12, "{sizes:?}");
+        }
+    }
+}
