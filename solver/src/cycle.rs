@@ -9,6 +9,7 @@
 //! its slope would load the contact like a wall.
 
 mod checks;
+mod course;
 mod cycle_record;
 mod replay;
 mod state;
@@ -29,16 +30,18 @@ use crate::schedule::replay::ReplayPlan;
 use crate::sides::{Side, Sides};
 
 pub use checks::Checks;
+pub use course::Course;
 pub use cycle_record::{CycleRecord, FrictionLoop, Neutral};
 use replay::Replays;
 pub use state::{CycleError, CycleState};
 
 /// The load at the neutral position, without sliding.
-const FIRST_LOAD: Displacement = Displacement {
+const FIRST_LOAD: Displacement<'_> = Displacement {
     slider_x: 0.0,
     surface_slip: 0.0,
     cycles: 0.0,
     lemke: true,
+    start: None,
 };
 
 /// Integrates cycles of one scene on one set of operators.
@@ -131,7 +134,7 @@ impl<'a> Integrator<'a> {
         let (motion, accuracy) = (self.scene.motion, &self.scene.accuracy);
         let steps = increments::steps(motion, accuracy, self.followed(state));
         for (increment, step) in increments::initial_quarter(&steps).iter().enumerate() {
-            self.step(state, step, 0.0, increment)?;
+            self.step(state, step, 0.0, (increment, None))?;
         }
         Ok(())
     }
@@ -198,6 +201,8 @@ impl<'a> Integrator<'a> {
         } else {
             Replays::default()
         };
+        let last_course = std::mem::take(&mut state.course);
+        let mut course = Course::default();
         let (mut half_widths, mut touching, mut done, mut neutral) = (0.0, 0, 0, 0);
         for (increment, step) in steps.iter().enumerate() {
             replays.run(state, steps, increment, |state, step, parts| {
@@ -207,7 +212,9 @@ impl<'a> Integrator<'a> {
                 let points = self.reversal(state, step);
                 record.friction_loop.extend(&points);
             }
-            self.step(state, step, real_cycles(jump), increment)?;
+            let start = last_course.start(increment, steps.len());
+            self.step(state, step, real_cycles(jump), (increment, start))?;
+            course.push(&state.contact);
             let half_width = state.contact.half_width(&self.pair.slave().x);
             if half_width > 0.0 {
                 half_widths += half_width;
@@ -234,6 +241,7 @@ impl<'a> Integrator<'a> {
             state.mean_half_width = half_widths / real(touching);
         }
         state.computed_cycles += 1;
+        state.course = course;
         state.most_increments = state.most_increments.max(steps.len());
         Ok(record)
     }
@@ -258,7 +266,11 @@ impl<'a> Integrator<'a> {
         )
     }
 
-    fn increment(&mut self, state: &mut CycleState, to: Displacement) -> Result<(), ContactError> {
+    fn increment(
+        &mut self,
+        state: &mut CycleState,
+        to: Displacement<'_>,
+    ) -> Result<(), ContactError> {
         let surfaces = Surfaces {
             depth: state.depth.as_slices(),
             slope: self.slope.as_slices(),

@@ -83,6 +83,7 @@ impl Bench {
             surface_slip: 0.0,
             cycles: 0.0,
             lemke: true,
+            start: None,
         };
         self.solver
             .advance(&pair, &surfaces, last, place, &mut next)

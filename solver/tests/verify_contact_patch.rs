@@ -98,6 +98,7 @@ fn uniform_pressure_passes_through_non_matching_meshes_at_any_position() {
                     surface_slip: 0.0,
                     cycles: 0.0,
                     lemke: true,
+                    start: None,
                 },
                 &mut next,
             )

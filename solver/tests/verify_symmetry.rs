@@ -50,6 +50,7 @@ fn mirrored_motion_gives_mirrored_tractions() {
                 surface_slip: 0.0,
                 cycles: 0.0,
                 lemke: true,
+                start: None,
             };
             solver
                 .advance(&pair, &surfaces, &states[states.len() - 1], to, &mut next)

@@ -43,7 +43,7 @@ pub(crate) use active_window::CANDIDATE_GAP;
 pub use error::ContactError;
 pub use increment::Solver;
 pub use outcome::Increment;
-pub use pair::{Displacement, Pair, Surfaces, slopes};
+pub use pair::{Displacement, Pair, Surfaces, WarmStart, slopes};
 pub use problem::{GAP_TOLERANCE, MOST_ITERATIONS};
 pub use state::ContactState;
 pub use status::Status;

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{Checks, Neutral};
+use super::{Checks, Course, Neutral};
 use crate::condensation::Operators;
 use crate::contact::{ContactError, ContactState};
 use crate::schedule::jump::JumpControl;
@@ -52,6 +52,8 @@ pub struct CycleState {
     pub energy: f64,
     /// Jump control.
     pub jump: JumpControl,
+    /// Contacts of the last computed cycle.
+    pub course: Course,
     /// Contact at the last passage of the neutral position.
     pub neutral: Neutral,
     /// Mean half-width of the contact over the last computed cycle, mm.
@@ -77,6 +79,7 @@ impl CycleState {
             worn_area: Sides::default(),
             energy: 0.0,
             jump: JumpControl::default(),
+            course: Course::default(),
             neutral: Neutral::default(),
             mean_half_width: 0.0,
             computed_cycles: 0,

@@ -1,7 +1,7 @@
 //! Step control: an increment that fails is halved and retried.
 
 use super::{CycleError, CycleState, Integrator};
-use crate::contact::{ContactError, Displacement};
+use crate::contact::{ContactError, Displacement, WarmStart};
 use crate::number::real;
 use crate::schedule::increments::Step;
 
@@ -36,10 +36,14 @@ impl Integrator<'_> {
         state: &mut CycleState,
         step: &Step,
         cycles: f64,
-        increment: usize,
+        (increment, start): (usize, Option<WarmStart<'_>>),
     ) -> Result<(), CycleError> {
         let cycle = state.cycle;
-        self.halve_and_retry(state, displacement(step, cycles), 0, RETRY)
+        let to = Displacement {
+            start,
+            ..displacement(step, cycles)
+        };
+        self.halve_and_retry(state, to, 0, RETRY)
             .map_err(|(halvings, source)| CycleError::Increment {
                 cycle,
                 increment,
@@ -92,7 +96,7 @@ impl Integrator<'_> {
     fn halve_and_retry(
         &mut self,
         state: &mut CycleState,
-        to: Displacement,
+        to: Displacement<'_>,
         halvings: u32,
         policy: RetryPolicy,
     ) -> Result<(), (u32, ContactError)> {
@@ -111,19 +115,24 @@ impl Integrator<'_> {
         let first = Displacement {
             slider_x,
             surface_slip,
+            start: None,
             ..to
         };
         self.halve_and_retry(state, first, halvings + 1, policy)?;
-        let second = Displacement { surface_slip, ..to };
+        let second = Displacement {
+            slider_x: to.slider_x,
+            ..first
+        };
         self.halve_and_retry(state, second, halvings + 1, policy)
     }
 }
 
-fn displacement(step: &Step, cycles: f64) -> Displacement {
+fn displacement(step: &Step, cycles: f64) -> Displacement<'static> {
     Displacement {
         slider_x: step.slider_x,
         surface_slip: step.surface_slip,
         cycles,
         lemke: false,
+        start: None,
     }
 }

@@ -66,6 +66,7 @@ pub(crate) fn explicit_wear(
                 surface_slip: 0.0,
                 cycles: 0.0,
                 lemke: true,
+                start: None,
             };
             let done = solver.advance(&pair, &surfaces, &last, to, &mut next)?;
             for (depth, path) in depth[done.first.receptacle..].iter_mut().zip(done.path) {

@@ -10,7 +10,7 @@ use super::newton::{Convergence, Newton};
 use super::outcome::{self, Increment};
 use super::pair::{Displacement, Pair, Surfaces, Zones};
 use super::pairing;
-use super::predictor::predict;
+use super::predictor::{predict, start_from};
 use super::problem::{GAP_TOLERANCE, Iterate, MOST_ITERATIONS, Problem};
 use super::response::Response;
 use super::state::ContactState;
@@ -48,7 +48,7 @@ impl Solver {
         pair: &Pair<'_>,
         surfaces: &Surfaces<'_>,
         last: &ContactState,
-        to: Displacement,
+        to: Displacement<'_>,
         next: &mut ContactState,
     ) -> Result<Increment<'_>, ContactError> {
         let slider_x = to.slider_x;
@@ -133,7 +133,7 @@ impl Solver {
         pair: &Pair<'_>,
         surfaces: &Surfaces<'_>,
         last: &ContactState,
-        (to, setting): (Displacement, Setting),
+        (to, setting): (Displacement<'_>, Setting),
         (first, end): (usize, usize),
     ) -> Result<(), ContactError> {
         let (slider_x, cycles) = (to.slider_x, to.cycles);
@@ -169,6 +169,9 @@ impl Solver {
         };
         let wall = problem.mean_slope_ahead(last);
         predict(&mut self.iterate, pair, last, &problem);
+        if let Some(start) = to.start {
+            start_from(&mut self.iterate, first, start);
+        }
         let (newton, it) = (&mut self.newton, &mut self.iterate);
         let (response, wear) = (&mut self.response, &mut self.wear);
         // From no contact to all of it, one node at a time if need be.
@@ -226,7 +229,7 @@ impl Solver {
 }
 
 /// Whether a loaded contact does not move: another solve would only change its round-off.
-fn is_at_rest(last: &ContactState, to: Displacement) -> bool {
+fn is_at_rest(last: &ContactState, to: Displacement<'_>) -> bool {
     let distance = (to.slider_x - last.slider_x).abs() + to.surface_slip.abs();
     last.reference_height.is_some() && distance <= 0.0
 }

@@ -2,6 +2,7 @@
 
 use super::error::ContactError;
 use super::state::ContactState;
+use super::status::Status;
 use crate::condensation::{BodyOperators, Operators, ZoneOperators};
 use crate::model::Interface;
 use crate::sides::{Side, Sides};
@@ -95,9 +96,20 @@ impl<'a> Pair<'a> {
     }
 }
 
+/// Contact that the iteration of an increment starts from.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct WarmStart<'a> {
+    /// First node of the slave; nodes outside are open.
+    pub first: usize,
+    /// Statuses from there on.
+    pub status: &'a [Status],
+    /// Pressures from there on, MPa.
+    pub pressure: &'a [f64],
+}
+
 /// Imposed displacement of one increment.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Displacement {
+pub struct Displacement<'a> {
     /// Displacement of the slider at the end of the increment, mm.
     pub slider_x: f64,
     /// Additional slip of the slider's surface that does not move the contact, mm.
@@ -107,6 +119,8 @@ pub struct Displacement {
     /// Whether Lemke's method is tried where Newton's method does not converge: reliable, but far more expensive than
     /// two half increments.
     pub lemke: bool,
+    /// Where the iteration starts; the last contact, moved with the slider, if it is absent.
+    pub start: Option<WarmStart<'a>>,
 }
 
 /// Worn surfaces, at the contact nodes.

@@ -1,6 +1,6 @@
 //! Predictor: the initial iterate of an increment.
 
-use super::pair::Pair;
+use super::pair::{Pair, WarmStart};
 use super::problem::{GAP_TOLERANCE, Iterate, Problem};
 use super::state::ContactState;
 use super::status::Status;
@@ -58,6 +58,25 @@ pub(super) fn predict(
             Status::slip(problem.step)
         });
     }
+}
+
+/// Replaces statuses and pressures by those of a start, from node `first` on, unless it lies beside these nodes.
+pub(super) fn start_from(it: &mut Iterate, first: usize, start: WarmStart<'_>) {
+    let nodes = first..first + it.status.len();
+    let closed = start.first..start.first + start.status.len();
+    let begin = closed.start.max(nodes.start);
+    let end = closed.end.min(nodes.end);
+    if begin >= end {
+        return;
+    }
+    it.status.fill(Status::Open);
+    it.pressure.fill(0.0);
+    let (to, from) = (
+        begin - nodes.start..end - nodes.start,
+        begin - closed.start..end - closed.start,
+    );
+    it.status[to.clone()].copy_from_slice(&start.status[from.clone()]);
+    it.pressure[to].copy_from_slice(&start.pressure[from]);
 }
 
 /// Value at a place that lies between the node before `next` and that one.

@@ -54,6 +54,7 @@ fn wear(laws: Sides<Option<WearLaw>>, cycles: f64) -> (Operators, Worn) {
             surface_slip: 0.0,
             cycles,
             lemke: false,
+            start: None,
         };
         let done = solver
             .advance(&pair, &surfaces, &state, to, &mut next)
