@@ -39,3 +39,41 @@ impl Course {
         })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::condensation::{BodyOperators, Operators};
+    use crate::model::Profile;
+    use crate::sides::Side;
+
+    fn operators() -> Operators {
+        let body = || BodyOperators {
+            x: vec![0.0, 1.0, 2.0, 3.0],
+            widths: vec![1.0; 4],
+            profile: Profile::Flat,
+            zones: Vec::new(),
+        };
+        Operators {
+            slider: body(),
+            receptacle: body(),
+        }
+    }
+
+    #[test]
+    fn each_increment_starts_from_the_same_one_of_the_last_cycle() {
+        let mut contact = ContactState::untouched(&operators(), Side::Receptacle);
+        let mut course = Course::default();
+        course.push(&contact);
+        contact.status[1..3].fill(Status::Stick);
+        contact.pressure[1..3].copy_from_slice(&[5.0, 7.0]);
+        course.push(&contact);
+        let start = course.start(0, 2).expect("as many increments");
+        assert!(start.status.is_empty());
+        let start = course.start(1, 2).expect("as many increments");
+        assert_eq!(start.first, 1);
+        assert_eq!(start.status, [Status::Stick; 2]);
+        assert_eq!(start.pressure, [5.0, 7.0]);
+        assert_eq!(course.start(1, 3), None);
+    }
+}
