@@ -92,7 +92,7 @@ impl Integrator<'_> {
         points
     }
 
-    /// Solves an increment, in halves if it fails as a whole.
+    /// Solves an increment, from the last contact if it fails from another start, and in halves if it fails as a whole.
     fn halve_and_retry(
         &mut self,
         state: &mut CycleState,
@@ -107,6 +107,10 @@ impl Integrator<'_> {
         let Err(error) = self.increment(state, to) else {
             return Ok(());
         };
+        if to.start.is_some() {
+            let cold = Displacement { start: None, ..to };
+            return self.halve_and_retry(state, cold, halvings, policy);
+        }
         if halvings == policy.halvings || error.needs_wider_zones() {
             return Err((halvings, error));
         }
@@ -115,7 +119,6 @@ impl Integrator<'_> {
         let first = Displacement {
             slider_x,
             surface_slip,
-            start: None,
             ..to
         };
         self.halve_and_retry(state, first, halvings + 1, policy)?;
