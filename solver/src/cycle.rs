@@ -9,11 +9,11 @@
 //! its slope would load the contact like a wall.
 
 mod checks;
-mod course;
 mod cycle_record;
 mod replay;
 mod state;
 mod step_control;
+mod warm_starts;
 mod wear_limit;
 
 use crate::ale::Spines;
@@ -30,10 +30,10 @@ use crate::schedule::replay::ReplayPlan;
 use crate::sides::{Side, Sides};
 
 pub use checks::Checks;
-pub use course::Course;
 pub use cycle_record::{CycleRecord, FrictionLoop, Neutral};
 use replay::Replays;
 pub use state::{CycleError, CycleState};
+pub use warm_starts::WarmStarts;
 
 /// The load at the neutral position, without sliding.
 const FIRST_LOAD: Displacement<'_> = Displacement {
@@ -201,8 +201,8 @@ impl<'a> Integrator<'a> {
         } else {
             Replays::default()
         };
-        let last_course = std::mem::take(&mut state.course);
-        let mut course = Course::default();
+        let warm_starts = std::mem::take(&mut state.warm_starts);
+        let mut next_starts = WarmStarts::default();
         let (mut half_widths, mut touching, mut done, mut neutral) = (0.0, 0, 0, 0);
         for (increment, step) in steps.iter().enumerate() {
             replays.run(state, steps, increment, |state, step, parts| {
@@ -212,9 +212,9 @@ impl<'a> Integrator<'a> {
                 let points = self.reversal(state, step);
                 record.friction_loop.extend(&points);
             }
-            let start = last_course.start(increment, steps.len());
+            let start = warm_starts.of(increment, steps.len());
             self.step(state, step, real_cycles(jump), (increment, start))?;
-            course.push(&state.contact);
+            next_starts.push(&state.contact);
             let half_width = state.contact.half_width(&self.pair.slave().x);
             if half_width > 0.0 {
                 half_widths += half_width;
@@ -241,7 +241,7 @@ impl<'a> Integrator<'a> {
             state.mean_half_width = half_widths / real(touching);
         }
         state.computed_cycles += 1;
-        state.course = course;
+        state.warm_starts = next_starts;
         state.most_increments = state.most_increments.max(steps.len());
         Ok(record)
     }

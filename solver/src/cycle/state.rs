@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{Checks, Course, Neutral};
+use super::{Checks, Neutral, WarmStarts};
 use crate::condensation::Operators;
 use crate::contact::{ContactError, ContactState};
 use crate::schedule::jump::JumpControl;
@@ -52,8 +52,8 @@ pub struct CycleState {
     pub energy: f64,
     /// Jump control.
     pub jump: JumpControl,
-    /// Contacts of the last computed cycle.
-    pub course: Course,
+    /// Those that the last computed cycle leaves for the next.
+    pub warm_starts: WarmStarts,
     /// Contact at the last passage of the neutral position.
     pub neutral: Neutral,
     /// Mean half-width of the contact over the last computed cycle, mm.
@@ -79,7 +79,7 @@ impl CycleState {
             worn_area: Sides::default(),
             energy: 0.0,
             jump: JumpControl::default(),
-            course: Course::default(),
+            warm_starts: WarmStarts::default(),
             neutral: Neutral::default(),
             mean_half_width: 0.0,
             computed_cycles: 0,

@@ -1,6 +1,8 @@
 //! Requirement: a scar whose wall is steeper than atan(1/mu) is solved: without wear in the same
 //! solve the slider would jam there.
 //! Source: the base scene on a longer block with mu = 1.5, whose walls pass 33.7 degrees; engine.md 2.8.
+//! The pressure must be smooth at the neutral position. At the turning points its leading edge stands in the corner of wall
+//! and floor and alternates there by 0 to 0.5 of its peak, from one coefficient between 1.497 and 1.51 to the next.
 //! Naive: without wear in the contact solve P/(cos t - mu sin t) has no solution beyond that slope, and the run ends in
 //! a singular matrix.
 

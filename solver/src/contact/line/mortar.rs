@@ -90,13 +90,8 @@ impl Coupling {
         for i in self.first..self.end {
             let left = left_of(i);
             let right = slave[(i + 1).min(slave.len() - 1)] - offset;
-            let within = |next: usize, x: f64| next < master.len() && master[next] < x;
-            while beyond_left < master.len() && master[beyond_left] <= left {
-                beyond_left += 1;
-            }
-            while within(beyond_right, right) {
-                beyond_right += 1;
-            }
+            beyond_left = advance(master, beyond_left, |x| x <= left);
+            beyond_right = advance(master, beyond_right, |x| x < right);
             let from = beyond_left.saturating_sub(1);
             let to = beyond_right.min(master.len() - 1);
             self.rows.push((from, total));
@@ -112,19 +107,17 @@ impl Coupling {
         self.standard.resize(total, 0.0);
     }
 
-    /// Integrates one slave element that begins before master node `next`, the first beyond; returns the one for the next element.
+    /// Integrates one slave element. The first master node beyond its beginning is `next` or follows it; returns that node.
     fn integrate_element(
         &mut self,
         pair: &Pair<'_>,
         offset: f64,
         element: usize,
-        mut next: usize,
+        next: usize,
     ) -> usize {
         let (slave, master) = (pair.slave(), pair.master());
         let (a, b) = (slave.x[element], slave.x[element + 1]);
-        while next < master.x.len() && master.x[next] <= a - offset {
-            next += 1;
-        }
+        let next = advance(&master.x, next, |x| x <= a - offset);
         let mut j = next.clamp(1, master.x.len() - 1);
         let mut left = a;
         while left < b {
@@ -159,7 +152,7 @@ impl Coupling {
         });
         let far = [u.map(|u| 1.0 - u), u];
         let standard = [t.map(|t| 1.0 - t), t];
-        let dual = [t.map(|t| 2.0 - 3.0 * t), t.map(|t| 3.0 * t - 1.0)];
+        let dual = [0, 1].map(|side| t.map(|t| dual_shapes(t)[side]));
         for side in 0..2 {
             let i = e + side;
             if i < self.first || i >= self.end {
@@ -168,8 +161,7 @@ impl Coupling {
             let (from, offset) = self.rows[i - self.first];
             let place = offset + m - from;
             for (t, gap) in gaps {
-                let psi = [2.0 - 3.0 * t, 3.0 * t - 1.0][side];
-                self.gap[i - self.first] += psi * gap;
+                self.gap[i - self.first] += dual_shapes(t)[side] * gap;
             }
             for (j, far) in far.iter().enumerate() {
                 self.dual[place + j] += dx * product(&dual[side], far);
@@ -206,6 +198,17 @@ impl Coupling {
             &self.standard[self.row_span(i)],
         )
     }
+}
+
+/// The dual shape functions of an element.
+fn dual_shapes(t: f64) -> [f64; 2] {
+    [2.0 - 3.0 * t, 3.0 * t - 1.0]
+}
+
+/// The first node from `next` on that does not lie before.
+fn advance(nodes: &[f64], next: usize, is_before: impl Fn(f64) -> bool) -> usize {
+    let passed = nodes[next..].iter().take_while(|x| is_before(**x));
+    next + passed.count()
 }
 
 /// Mean product of two linear functions with these values at both ends.

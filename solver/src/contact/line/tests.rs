@@ -29,6 +29,15 @@ struct Worn {
 
 /// Loads the unworn bodies, slides one increment without wear, and then one that stands for so many cycles.
 fn wear(laws: Sides<Option<WearLaw>>, cycles: f64) -> (Operators, Worn) {
+    wear_from(laws, cycles, None)
+}
+
+/// The same, the last increment from a start.
+fn wear_from(
+    laws: Sides<Option<WearLaw>>,
+    cycles: f64,
+    start: Option<WarmStart<'_>>,
+) -> (Operators, Worn) {
     let scene = fuzz_button();
     let mut model = build(&scene, &crate::effects::plan(&scene)).expect("the scene can be meshed");
     model.interface.wear = laws;
@@ -54,7 +63,7 @@ fn wear(laws: Sides<Option<WearLaw>>, cycles: f64) -> (Operators, Worn) {
             surface_slip: 0.0,
             cycles,
             lemke: false,
-            start: None,
+            start: start.filter(|_| cycles > 0.0),
         };
         let done = solver
             .advance(&pair, &surfaces, &state, to, &mut next)
@@ -167,4 +176,33 @@ fn sides_wear_by_their_own_laws() {
     assert!((area(&operators, &worn, Side::Slider) / expected - 1.0).abs() < 1e-12);
     let receptacle = worn.area.receptacle / area(&operators, &worn, Side::Receptacle);
     assert!((receptacle - 1.0).abs() < 1e-12);
+}
+
+#[test]
+fn any_start_leads_to_the_same_contact() {
+    let laws = Sides {
+        slider: Some(power(1.0)),
+        receptacle: Some(power(1.0)),
+    };
+    let (_, worn) = wear(laws, 4.0);
+    let (first, end) = worn.state.active_range().expect("the bodies touch");
+    let peak = worn.state.peak_pressure();
+    // All of a wide contact sticks under a hundredfold pressure, slips backward, or a single node touches.
+    for (first, nodes, status, pressure) in [
+        (first.saturating_sub(20), 60, Status::Stick, 100.0 * peak),
+        (first, end - first, Status::SlipLeft, peak),
+        (first, 1, Status::SlipRight, peak),
+    ] {
+        let start = WarmStart {
+            first,
+            status: &vec![status; nodes],
+            pressure: &vec![pressure; nodes],
+        };
+        let (_, other) = wear_from(laws, 4.0, Some(start));
+        let pressures = worn.state.pressure.iter().zip(&other.state.pressure);
+        let off = pressures.fold(0.0, |m: f64, (a, b)| m.max((a - b).abs()));
+        // The gaps converge to 1e-11 of the indentation, pressures to some hundred times that.
+        assert!(off < 1e-8 * peak, "{status:?}: {}", off / peak);
+        assert_eq!(worn.state.status, other.state.status);
+    }
 }

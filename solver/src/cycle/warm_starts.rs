@@ -1,19 +1,19 @@
-//! The contacts of a computed cycle: the next one passes the same places with almost the same tractions.
+//! Starts for the increments of the next cycle: it passes the same places with almost the same tractions.
 
 use serde::{Deserialize, Serialize};
 
 use crate::contact::{ContactState, Status, WarmStart};
 
-/// Statuses and pressures of the closed nodes at the end of each increment of a cycle.
+/// Statuses and pressures from the first closed node to the last, at the end of each increment of a computed cycle.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
-pub struct Course {
+pub struct WarmStarts {
     /// First node of each increment, and where its values end.
     increments: Vec<(usize, usize)>,
     status: Vec<Status>,
     pressure: Vec<f64>,
 }
 
-impl Course {
+impl WarmStarts {
     /// Appends the contact at the end of the next increment.
     pub(super) fn push(&mut self, contact: &ContactState) {
         let (first, end) = contact.active_range().unwrap_or_default();
@@ -24,7 +24,7 @@ impl Course {
     }
 
     /// Start of an increment of the next cycle, if that has as many.
-    pub(super) fn start(&self, increment: usize, increments: usize) -> Option<WarmStart<'_>> {
+    pub(super) fn of(&self, increment: usize, increments: usize) -> Option<WarmStart<'_>> {
         if increments != self.increments.len() {
             return None;
         }
@@ -63,17 +63,17 @@ mod tests {
     #[test]
     fn each_increment_starts_from_the_same_one_of_the_last_cycle() {
         let mut contact = ContactState::untouched(&operators(), Side::Receptacle);
-        let mut course = Course::default();
-        course.push(&contact);
+        let mut starts = WarmStarts::default();
+        starts.push(&contact);
         contact.status[1..3].fill(Status::Stick);
         contact.pressure[1..3].copy_from_slice(&[5.0, 7.0]);
-        course.push(&contact);
-        let start = course.start(0, 2).expect("as many increments");
+        starts.push(&contact);
+        let start = starts.of(0, 2).expect("as many increments");
         assert!(start.status.is_empty());
-        let start = course.start(1, 2).expect("as many increments");
+        let start = starts.of(1, 2).expect("as many increments");
         assert_eq!(start.first, 1);
         assert_eq!(start.status, [Status::Stick; 2]);
         assert_eq!(start.pressure, [5.0, 7.0]);
-        assert_eq!(course.start(1, 3), None);
+        assert_eq!(starts.of(1, 3), None);
     }
 }
