@@ -132,7 +132,7 @@ impl<'a> Integrator<'a> {
     /// [`CycleError`] if an increment fails however small it is.
     pub fn initial_quarter(&mut self, state: &mut CycleState) -> Result<(), CycleError> {
         let (motion, accuracy) = (self.scene.motion, &self.scene.accuracy);
-        let steps = increments::steps(motion, accuracy, self.followed(state));
+        let steps = increments::steps(motion, accuracy, self.followed(state, false));
         for (increment, step) in increments::initial_quarter(&steps).iter().enumerate() {
             self.step(state, step, 0.0, (increment, None))?;
         }
@@ -152,11 +152,13 @@ impl<'a> Integrator<'a> {
         let (motion, accuracy) = (self.scene.motion, &self.scene.accuracy);
         let stroke = self.stroke(state);
         let mut jump = state.jump.next(accuracy, stroke, until - state.cycle);
-        let steps = increments::steps(motion, accuracy, self.followed(state));
         self.update_slopes(state);
         let before = state.clone();
         loop {
-            let detailed = before.cycle + jump == until;
+            let replayed = stroke.gross && jump > 1;
+            let steps = increments::steps(motion, accuracy, self.followed(state, replayed));
+            // A run may end after this cycle.
+            let detailed = before.cycle + jump == until || !self.scene.stop.is_empty();
             let error = match self.integrate(state, &steps, jump, (stroke.gross, detailed)) {
                 Ok(record) => {
                     let done = state.cycle - before.cycle;
@@ -181,7 +183,7 @@ impl<'a> Integrator<'a> {
     }
 
     /// Integrates one computed cycle up to its end, or until a body is worn through; with additional points of the
-    /// friction loop where `detailed`.
+    /// friction loop and replays at the turning points where `detailed`.
     fn integrate(
         &mut self,
         state: &mut CycleState,
@@ -195,8 +197,8 @@ impl<'a> Integrator<'a> {
             Replays::new(ReplayPlan::new(
                 (steps.len(), length),
                 &self.scene.accuracy,
-                state.mean_half_width,
-                state.neutral.half_width,
+                (state.mean_half_width, state.neutral.half_width),
+                detailed,
             ))
         } else {
             Replays::default()
@@ -205,8 +207,8 @@ impl<'a> Integrator<'a> {
         let mut next_starts = WarmStarts::default();
         let (mut half_widths, mut touching, mut done, mut neutral) = (0.0, 0, 0, 0);
         for (increment, step) in steps.iter().enumerate() {
-            replays.run(state, steps, increment, |state, step, parts| {
-                self.replay_step(state, step, parts)
+            replays.run(state, steps, increment, |state, to, parts| {
+                self.replay_to(state, to, parts)
             });
             if detailed && increments::begins_a_stroke(steps, increment) {
                 let points = self.reversal(state, step);
@@ -246,9 +248,12 @@ impl<'a> Integrator<'a> {
         Ok(record)
     }
 
-    fn followed(&self, state: &CycleState) -> Followed {
-        let single = state.neutral.half_width;
-        Followed::new(state.mean_half_width, single, self.pair.interface.sticks)
+    fn followed(&self, state: &CycleState, replayed: bool) -> Followed {
+        Followed::new(
+            &self.scene.accuracy.tuning,
+            (state.mean_half_width, state.neutral.half_width),
+            (self.pair.interface.sticks, replayed),
+        )
     }
 
     fn stroke(&self, state: &CycleState) -> Stroke {

@@ -86,12 +86,15 @@ pub fn forecast(scene: &Scene, layout: &Layout) -> Forecast {
         }
         let until = stops::next(scene, scar.progress(cycle, &jump));
         let step = jump.next(&scene.accuracy, scar.stroke(scene), until - cycle);
-        let followed = Followed::new(scar.half_width, scar.contact(1), layout.sizes.sticks);
-        let steps = increments::count(scene.motion, &scene.accuracy, followed);
-        let replays = if scar.is_gross() && step > 1 {
+        let replayed = scar.is_gross() && step > 1;
+        let (accuracy, half_widths) = (&scene.accuracy, (scar.half_width, scar.contact(1)));
+        let sticks = layout.sizes.sticks;
+        let followed = Followed::new(&accuracy.tuning, half_widths, (sticks, replayed));
+        let steps = increments::count(scene.motion, accuracy, followed);
+        let replays = if replayed {
             let length = 4.0 * scar.amplitude / real(steps);
-            let (accuracy, single) = (&scene.accuracy, scar.contact(1));
-            ReplayPlan::new((steps, length), accuracy, scar.half_width, single).increments()
+            let detailed = !scene.stop.is_empty();
+            ReplayPlan::new((steps, length), accuracy, half_widths, detailed).increments()
         } else {
             0
         };

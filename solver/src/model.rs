@@ -7,7 +7,7 @@ mod zones;
 
 use crate::effects::{Effect, EffectsPlan};
 use crate::element;
-use crate::law::elastic::Lame;
+use crate::law::elastic::{Lame, contact_modulus, plane_strain_compliance};
 use crate::law::friction;
 use crate::law::wear::WearLaw;
 use crate::mesh::{ColumnMesh, MeshError};
@@ -79,6 +79,8 @@ pub struct Interface {
     pub slave: Side,
     /// Whether part of the contact may stick through the whole stroke.
     pub sticks: bool,
+    /// Weights of both surfaces' slopes in that of the interface, which the contact's normals belong to, -.
+    pub slope_weights: Sides<f64>,
     /// Wear laws; none where nothing wears.
     pub wear: Sides<Option<WearLaw>>,
     /// Normal load on the unworn contact, N/mm.
@@ -102,6 +104,7 @@ pub fn build(scene: &Scene, plan: &EffectsPlan) -> Result<Model, MeshError> {
     let interface = Interface {
         slave: layout.sizes.slave,
         sticks: layout.sizes.sticks,
+        slope_weights: slope_weights(scene, layout.sizes.sticks),
         friction: if plan.simulates(Effect::Friction) {
             friction::coefficient(scene.friction)
         } else {
@@ -124,6 +127,26 @@ pub fn build(scene: &Scene, plan: &EffectsPlan) -> Result<Model, MeshError> {
         relocates: plan.simulates(Effect::Relocation),
         sizes: layout.sizes,
     })
+}
+
+/// Weights of both surfaces' slopes in that of the interface. Two elastic bodies press the surfaces together, the more
+/// compliant one deforms more: in the middle of Hertz' contact the interface has the curvature of each body in proportion to
+/// the stiffness E/(1 - nu^2) of that body (Johnson 1985, section 4.2). So the answer does not depend on which of the bodies is
+/// called the slider. In gross sliding the slider rests on the leading-edge step that a whole jump wears, and its slopes there
+/// are an artefact of the jump: only the receptacle's count.
+fn slope_weights(scene: &Scene, sticks: bool) -> Sides<f64> {
+    if !sticks {
+        return Sides {
+            slider: 0.0,
+            receptacle: 1.0,
+        };
+    }
+    let bodies = Sides {
+        slider: scene.slider.elastic,
+        receptacle: scene.receptacle.elastic,
+    };
+    let both = contact_modulus(bodies.slider, bodies.receptacle);
+    bodies.map(|body| 1.0 - both * plane_strain_compliance(body))
 }
 
 impl BodyModel {

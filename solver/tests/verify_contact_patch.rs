@@ -65,6 +65,10 @@ fn uniform_pressure_passes_through_non_matching_meshes_at_any_position() {
             interface: Interface {
                 slave,
                 sticks: true,
+                slope_weights: Sides {
+                    slider: 0.5,
+                    receptacle: 0.5,
+                },
                 friction,
                 wear: Sides::default(),
                 load: pressure * 1.0,

@@ -86,14 +86,16 @@ fn pressure_in_gross_reciprocating_sliding_is_that_of_single_cycles() {
             ..fuzz_button()
         };
         scene.accuracy.cycle_jump = cycle_jump;
-        let (summary, _) = solve(&scene).expect("the scene can be solved");
-        (summary.last.peak_pressure_mpa, summary.last.jump)
+        let (summary, recorder) = solve(&scene).expect("the scene can be solved");
+        let jumps = recorder.reports.iter().map(|report| report.jump);
+        (summary.last.peak_pressure_mpa, jumps.max())
     };
     let ((chosen, jump), (single, _)) = (peak(None), peak(Some(1)));
+    let jump = jump.expect("cycles are reported");
     println!(
-        "peak pressure at cycle 240: {chosen:.1} MPa with jumps of {jump}, {single:.1} MPa without"
+        "peak pressure at cycle 240: {chosen:.1} MPa with jumps of up to {jump}, {single:.1} MPa without"
     );
-    assert!(jump > 3);
+    assert!(jump > 10);
     // Reached: 0.2 %. On the jump's leading-edge step it would be 39 % low.
     assert!((chosen / single - 1.0).abs() < 0.03);
 }

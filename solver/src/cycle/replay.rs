@@ -21,22 +21,25 @@ impl Replays {
         }
     }
 
-    /// Runs the replays that begin before step `next`; `solve` solves a step in so many parts and returns whether it
-    /// succeeded. A failed replay is skipped; the contact of the computed cycle is reported instead.
+    /// Runs the replays that begin before step `next`; `solve` displaces the slider to a place in so many parts and returns
+    /// whether it succeeded. A failed replay is skipped; the contact of the computed cycle is reported instead.
     pub(super) fn run(
         &mut self,
         state: &mut CycleState,
         steps: &[Step],
         next: usize,
-        mut solve: impl FnMut(&mut CycleState, &Step, usize) -> bool,
+        mut solve: impl FnMut(&mut CycleState, f64, usize) -> bool,
     ) {
         for &(_, end) in self.plan.spans.iter().filter(|span| span.0 == next) {
             let mut single = state.clone();
             let mut lead_in = steps[next..=end].iter().enumerate();
+            let place = steps[end].slider_x;
+            let direction = (place - steps[end.saturating_sub(1)].slider_x).signum();
+            let mut smoothing = self.plan.smoothing(place, direction).into_iter();
             let succeeded = lead_in.all(|(i, step)| {
                 let parts = self.plan.parts(next + i, end);
-                solve(&mut single, step, parts)
-            });
+                solve(&mut single, step.slider_x, parts)
+            }) && smoothing.all(|(to, parts)| solve(&mut single, to, parts));
             state.increments = single.increments;
             if let (true, Some(position)) = (succeeded, steps[end].at) {
                 state.checks = single.checks;

@@ -52,17 +52,17 @@ impl Integrator<'_> {
             })
     }
 
-    /// Solves a step with the wear of a single cycle, in equal parts; returns whether it succeeded.
-    pub(super) fn replay_step(
+    /// Displaces the slider to a place with the wear of a single cycle, in equal parts; returns whether it succeeded.
+    pub(super) fn replay_to(
         &mut self,
         state: &mut CycleState,
-        step: &Step,
+        slider_x: f64,
         parts: usize,
     ) -> bool {
         let from = state.contact.slider_x;
         let part = |k: usize| Step {
-            slider_x: from + (step.slider_x - from) * real(k) / real(parts),
-            surface_slip: step.surface_slip / real(parts),
+            slider_x: from + (slider_x - from) * real(k) / real(parts),
+            surface_slip: 0.0,
             at: None,
         };
         (1..=parts).all(|k| {
@@ -78,12 +78,8 @@ impl Integrator<'_> {
         let from = copy.contact.slider_x;
         let mut points = Vec::new();
         for part in REVERSAL {
-            let to = Step {
-                slider_x: from + part * (step.slider_x - from),
-                surface_slip: 0.0,
-                at: None,
-            };
-            if !self.replay_step(&mut copy, &to, 1) {
+            let to = from + part * (step.slider_x - from);
+            if !self.replay_to(&mut copy, to, 1) {
                 break;
             }
             points.push((copy.contact.slider_x, copy.contact.tangential_force()));

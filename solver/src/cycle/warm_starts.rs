@@ -65,7 +65,7 @@ mod tests {
         let mut contact = ContactState::untouched(&operators(), Side::Receptacle);
         let mut starts = WarmStarts::default();
         starts.push(&contact);
-        contact.status[1..3].fill(Status::Stick);
+        contact.set_statuses(1, &[Status::Stick; 2]);
         contact.pressure[1..3].copy_from_slice(&[5.0, 7.0]);
         starts.push(&contact);
         let start = starts.of(0, 2).expect("as many increments");

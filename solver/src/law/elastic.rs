@@ -32,11 +32,15 @@ impl From<Elastic> for Lame {
     }
 }
 
+/// Compliance of a body in plane strain, 1/MPa: (1 - nu^2)/E.
+pub fn plane_strain_compliance(m: Elastic) -> f64 {
+    (1.0 - m.poisson_ratio * m.poisson_ratio) / m.youngs_modulus_mpa
+}
+
 /// Contact modulus of two bodies, MPa: 1/E* = (1 - nu1^2)/E1 + (1 - nu2^2)/E2 (Johnson, Contact Mechanics, 1985, eq.
 /// 4.20).
 pub fn contact_modulus(a: Elastic, b: Elastic) -> f64 {
-    let compliance = |m: Elastic| (1.0 - m.poisson_ratio * m.poisson_ratio) / m.youngs_modulus_mpa;
-    1.0 / (compliance(a) + compliance(b))
+    1.0 / (plane_strain_compliance(a) + plane_strain_compliance(b))
 }
 
 #[cfg(test)]

@@ -7,7 +7,7 @@
 //! must stay a fraction of the contact's half-width, or its wear would leave ripples.
 
 use crate::number::{count_at_least, real};
-use crate::scene::{Accuracy, Motion};
+use crate::scene::{Accuracy, Motion, Tuning};
 
 /// Named positions of a cycle.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -30,10 +30,21 @@ pub(crate) struct Followed {
 }
 
 impl Followed {
-    /// The narrower of the present contact and that of a single cycle.
-    pub(crate) fn new(half_width: f64, single: f64, sticks: bool) -> Self {
+    /// The narrower of the present contact and that of a single cycle. Where replays resolve that of a single cycle and the
+    /// contact on the step of a whole jump is much wider: the present one, within a limit.
+    pub(crate) fn new(
+        tuning: &Tuning,
+        (half_width, single): (f64, f64),
+        (sticks, replayed): (bool, bool),
+    ) -> Self {
+        let wide = replayed && half_width >= tuning.jump_contact_from * single;
+        let widest = if wide {
+            tuning.widest_jump_contact
+        } else {
+            1.0
+        };
         let half_width = if single > 0.0 {
-            half_width.min(single)
+            half_width.min(widest * single)
         } else {
             half_width
         };
@@ -153,7 +164,7 @@ fn there_and_back(amplitude: f64, quarter: usize) -> Vec<Step> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::{Refinement, Tuning};
+    use crate::scene::Refinement;
 
     const ACCURACY: Accuracy = Accuracy {
         tolerance: 0.02,
@@ -229,6 +240,21 @@ mod tests {
         };
         assert_eq!((count(Some(8), 1.0), count(Some(8), 2.0)), (8, 16));
         assert_eq!((count(None, 1.0), count(None, 0.25)), (400, 100));
+    }
+
+    #[test]
+    fn the_wide_contact_of_a_jump_is_followed_where_replays_resolve_the_other() {
+        let followed = |half_width, replayed| {
+            Followed::new(&Tuning::FITTED, (half_width, 1.0), (false, replayed)).half_width
+        };
+        assert_eq!((followed(2.0, true), followed(9.0, true)), (2.0, 3.0));
+        // Hardly wider, narrower, without replays.
+        let others = (
+            followed(1.4, true),
+            followed(0.5, true),
+            followed(9.0, false),
+        );
+        assert_eq!(others, (1.0, 0.5, 1.0));
     }
 
     #[test]

@@ -127,9 +127,17 @@ impl JumpControl {
         let finer = accuracy.refinement.cycles;
         // A geometric sequence of jumps has `finer` times the members with this growth.
         let most = most.powf(1.0 / finer);
-        let factor = (accuracy.tolerance / (finer * self.error)).clamp(least, most);
+        let allowed = accuracy.largest_jump_error() / finer;
+        let factor = (allowed / self.error).clamp(least, most);
         let most = stroke.most(accuracy, self.done);
         let target = (self.base * factor).min(most).max(1.0);
+        // The last jumps before a cycle that is reported are halved.
+        let tapered = (0.5 * real_cycles(remaining)).max(most / accuracy.tuning.gross_taper);
+        let target = if stroke.gross {
+            target.min(tapered).max(1.0)
+        } else {
+            target
+        };
         even_share(target, remaining)
     }
 
@@ -280,7 +288,18 @@ mod tests {
         wear(&mut control, 0.0, 100.0, 100);
         wear(&mut control, 100.0, 200.0, 100);
         assert_eq!(control.next(&ACCURACY, STROKE, 10_000), 200);
-        assert_eq!(control.next(&ACCURACY, GROSS, 10_000), 8);
+        assert_eq!(control.next(&ACCURACY, GROSS, 10_000), 24);
+    }
+
+    #[test]
+    fn the_last_jumps_of_gross_sliding_are_halved() {
+        let mut control = JumpControl::default();
+        wear(&mut control, 0.0, 100.0, 100);
+        wear(&mut control, 100.0, 200.0, 100);
+        let next = |remaining| control.next(&ACCURACY, GROSS, remaining);
+        assert_eq!([40, 20, 10, 5, 3].map(next), [20, 10, 5, 3, 3]);
+        // Not those of a scar.
+        assert_eq!(control.next(&ACCURACY, STROKE, 40), 40);
     }
 
     #[test]

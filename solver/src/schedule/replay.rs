@@ -5,8 +5,11 @@
 //! (`fuzz_button.json`, tolerance 2 %). The contact reported at a position is therefore that of a copy of the state
 //! whose last increments before the position, the lead-in, wear as a single cycle: within 1 % of a run without jumps in
 //! the middle of the groove, 19 % below it at the ends, whose shape the jumps have changed.
+//!
+//! Where the increments of the computed cycle are longer than the contact of a single cycle needs, they leave waves in the
+//! floor. The lead-in is then followed by a smoothing pass: there and back on either side of the position.
 
-use crate::number::count_at_least;
+use crate::number::{count_at_least, real};
 use crate::scene::Accuracy;
 use crate::schedule::increments;
 
@@ -22,29 +25,65 @@ pub(crate) struct ReplayPlan {
     fine: usize,
     /// Parts of a divided step.
     parts: usize,
+    /// Length of the smoothing pass on either side of the place, mm; 0 where steps are not divided.
+    smoothing: f64,
+    /// Longest step of the smoothing pass, mm.
+    largest_step: f64,
+    amplitude: f64,
 }
 
 impl ReplayPlan {
-    /// Plans replays that end at the named positions of a cycle of so many steps of a length, for the half-widths of
-    /// the present contact and of that of a single cycle.
+    /// Plans replays that end at the neutral position, or at all named ones, of a cycle of so many steps of a length, for
+    /// the half-widths of the present contact and of that of a single cycle.
     pub(crate) fn new(
         (steps, length): (usize, f64),
         accuracy: &Accuracy,
-        half_width: f64,
-        single: f64,
+        (half_width, single): (f64, f64),
+        all: bool,
     ) -> Self {
         if single <= 0.0 {
             return Self::default();
         }
         let tuning = &accuracy.tuning;
         let count = count_at_least(tuning.lead_in * half_width / length);
-        let ends = increments::named(steps).into_iter();
+        let [leftmost, neutral, rightmost] = increments::named(steps);
+        let ends = if all {
+            vec![leftmost, neutral, rightmost]
+        } else {
+            vec![neutral]
+        };
+        let spans = ends.into_iter();
         let largest_step = accuracy.largest_step(single);
+        let parts = count_at_least(length / largest_step).min(MOST_PARTS);
         Self {
-            spans: ends.map(|end| (end.saturating_sub(count), end)).collect(),
+            spans: spans.map(|end| (end.saturating_sub(count), end)).collect(),
             fine: count_at_least(tuning.fine_lead_in * single / length),
-            parts: count_at_least(length / largest_step).min(MOST_PARTS),
+            parts,
+            smoothing: if parts > 1 {
+                tuning.smoothing_pass * single
+            } else {
+                0.0
+            },
+            largest_step,
+            amplitude: 0.25 * length * real(steps),
         }
+    }
+
+    /// Where the smoothing pass about a place turns and ends, within the stroke, and in how many parts each way is solved. It
+    /// begins in a direction (its sign).
+    pub(crate) fn smoothing(&self, place: f64, direction: f64) -> Vec<(f64, usize)> {
+        let side = self.smoothing * direction;
+        let turns = [place + side, place - side, place];
+        let mut last = place;
+        let mut ways = Vec::new();
+        for end in turns.map(|x| x.clamp(-self.amplitude, self.amplitude)) {
+            let distance = (end - last).abs();
+            if distance > 0.0 {
+                ways.push((end, count_at_least(distance / self.largest_step)));
+            }
+            last = end;
+        }
+        ways
     }
 
     /// Number of increments of all replays.
@@ -53,7 +92,12 @@ impl ReplayPlan {
             let steps = end + 1 - begin;
             steps + self.fine.min(steps) * (self.parts - 1)
         };
-        self.spans.iter().map(increments).sum()
+        let smoothing = self.smoothing(0.0, 1.0);
+        let smoothing: usize = smoothing.iter().map(|(_, parts)| parts).sum();
+        self.spans
+            .iter()
+            .map(|span| increments(span) + smoothing)
+            .sum()
     }
 
     /// Number of parts of a step of a replay that ends at step `end`.
@@ -63,5 +107,49 @@ impl ReplayPlan {
         } else {
             1
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::{Refinement, Tuning};
+
+    const ACCURACY: Accuracy = Accuracy {
+        tolerance: 0.02,
+        contact_element_mm: None,
+        increments_per_cycle: None,
+        cycle_jump: None,
+        tuning: Tuning::FITTED,
+        refinement: Refinement::NONE,
+        estimate_errors: false,
+    };
+
+    /// Steps of 0.5 over a stroke from -10 to 10 under a contact of half-width 2.
+    fn plan(single: f64, all: bool) -> ReplayPlan {
+        ReplayPlan::new((80, 0.5), &ACCURACY, (2.0, single), all)
+    }
+
+    #[test]
+    fn replays_end_at_the_neutral_position_or_at_all() {
+        assert_eq!(plan(2.0, false).spans, [(43, 59)]);
+        assert_eq!(plan(2.0, true).spans, [(23, 39), (43, 59), (63, 79)]);
+        assert_eq!(plan(0.0, true).spans, []);
+    }
+
+    #[test]
+    fn long_steps_are_followed_by_a_smoothing_pass_within_the_stroke() {
+        // Steps of a contact of half-width 1 are 0.2 long.
+        let narrow = plan(1.0, false);
+        let ways = [(5.0, 25), (-5.0, 50), (0.0, 25)];
+        assert_eq!(narrow.smoothing(0.0, 1.0), ways);
+        // From a turning point only back.
+        assert_eq!(narrow.smoothing(10.0, 1.0), [(5.0, 25), (10.0, 25)]);
+        assert_eq!(narrow.smoothing(-10.0, -1.0), [(-5.0, 25), (-10.0, 25)]);
+        // 17 steps, the last 8 of them in 3 parts, and the pass.
+        assert_eq!(narrow.increments(), 17 + 8 * 2 + 100);
+        let wide = plan(2.5, false);
+        assert_eq!(wide.smoothing(0.0, 1.0), []);
+        assert_eq!(wide.increments(), 17);
     }
 }

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use solver::record::{PRESSURE_TOLERANCES, Summary};
+use solver::record::{ErrorParts, Errors, PRESSURE_TOLERANCES, Summary};
 use solver::sides::Side;
 
 /// Relative difference of a quantity in two answers, and the largest one that the relation allows.
@@ -66,6 +66,27 @@ pub(super) struct Allowed {
 }
 
 impl Allowed {
+    /// Both answers within the errors that they state themselves, or within their tolerance where they state less. A run whose
+    /// error exceeds its tolerance says so in its outcome.
+    pub(super) fn stated(answers: [&Summary; 2], tolerance: f64) -> Self {
+        let sum = |part: fn(&Errors) -> ErrorParts, least: f64| {
+            let stated = answers.map(|answer| {
+                let errors = answer.errors.as_ref().expect("errors are estimated");
+                part(errors).relative.max(least)
+            });
+            stated[0] + stated[1]
+        };
+        Self {
+            depth: sum(|errors| errors.worn_depth, tolerance),
+            width: sum(|errors| errors.scar_half_width, tolerance),
+            area: sum(|errors| errors.worn_area, tolerance),
+            peak: sum(
+                |errors| errors.peak_pressure,
+                PRESSURE_TOLERANCES * tolerance,
+            ),
+        }
+    }
+
     /// Both answers within their tolerances, pressures within three times these.
     pub(super) fn within(tolerances: f64) -> Self {
         Self {

@@ -4,21 +4,32 @@
 //! the peak pressure.
 
 use solver::SolveError;
+use solver::record::Summary;
+use solver::scene::Scene;
 
 use super::comparison::{Allowed, Deviation, compare};
 use super::{SLIDING, STICKING, TOLERANCE, holds, holds_in_found};
 use crate::random_scenes::Drawn;
 use crate::recorder::solve;
 
-fn the_same_when_refined(drawn: &Drawn) -> Result<Option<Vec<Deviation>>, SolveError> {
-    let mut refined = drawn.scene.clone();
+fn answers(scene: &Scene) -> Result<[Summary; 2], SolveError> {
+    let mut refined = scene.clone();
     refined.accuracy.tolerance = 0.5 * TOLERANCE;
-    let (coarse, fine) = (solve(&drawn.scene)?.0, solve(&refined)?.0);
-    Ok(Some(compare(
-        &coarse,
-        &fine,
-        Allowed::within(1.5 * TOLERANCE),
-    )))
+    Ok([solve(scene)?.0, solve(&refined)?.0])
+}
+
+fn the_same_when_refined(drawn: &Drawn) -> Result<Option<Vec<Deviation>>, SolveError> {
+    let [coarse, fine] = answers(&drawn.scene)?;
+    let allowed = Allowed::within(1.5 * TOLERANCE);
+    Ok(Some(compare(&coarse, &fine, allowed)))
+}
+
+fn the_same_within_stated_errors(drawn: &Drawn) -> Result<Option<Vec<Deviation>>, SolveError> {
+    let mut scene = drawn.scene.clone();
+    scene.accuracy.estimate_errors = true;
+    let [coarse, fine] = answers(&scene)?;
+    let allowed = Allowed::stated([&coarse, &fine], 0.75 * TOLERANCE);
+    Ok(Some(compare(&coarse, &fine, allowed)))
 }
 
 #[test]
@@ -41,22 +52,14 @@ fn refined_tolerances_agree_in_scenes_that_differed() {
     );
 }
 
+/// Scenes whose error exceeds the tolerance: peak pressures at the corner of the slider's flat in the groove (44, 70, 95,
+/// 100), the width of a scar whose outer part is about as shallow as the 2 % of its depth that count as its edge (180). The
+/// runs state it.
 #[test]
-#[ignore = "peak pressures off by up to 16 %: the corner of the slider's flat in the groove"]
-fn refined_tolerances_agree_in_the_scenes_found_in_gross_slip() {
+fn refined_tolerances_agree_within_stated_errors() {
     holds_in_found(
-        "refined tolerance, found in gross slip",
-        &[44, 70, 95, 100],
-        the_same_when_refined,
-    );
-}
-
-#[test]
-#[ignore = "the width of a scar with a shallow outer part depends on the 2 % of its depth that count as its edge"]
-fn refined_tolerances_agree_in_the_scenes_found_in_partial_slip() {
-    holds_in_found(
-        "refined tolerance, found in partial slip",
-        &[180],
-        the_same_when_refined,
+        "refined tolerance, stated errors",
+        &[44, 70, 95, 100, 180],
+        the_same_within_stated_errors,
     );
 }

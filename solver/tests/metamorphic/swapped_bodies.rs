@@ -13,6 +13,7 @@
 //! sum of both tolerances; three times as much for the peak pressure.
 
 use solver::SolveError;
+use solver::record::Summary;
 use solver::scene::{BlockShape, Body, Drive, Scene, SliderShape};
 
 use super::comparison::{Allowed, Deviation, compare};
@@ -63,17 +64,28 @@ fn turned(scene: &Scene, crown: f64) -> Scene {
     }
 }
 
-fn the_same_upside_down(drawn: &Drawn) -> Result<Option<Vec<Deviation>>, SolveError> {
-    let (here, crown) = crowned(&drawn.scene);
+/// Answers of the scene and of the same upside down, the bodies named as in the first.
+fn answers(scene: &Scene) -> Result<[Summary; 2], SolveError> {
+    let (here, crown) = crowned(scene);
     let there = turned(&here, crown);
     let (here, mut there) = (solve(&here)?.0, solve(&there)?.0);
     let last = &mut there.last;
     std::mem::swap(&mut last.slider, &mut last.receptacle);
-    Ok(Some(compare(
-        &here,
-        &there,
-        Allowed::within(2.0 * TOLERANCE),
-    )))
+    Ok([here, there])
+}
+
+fn the_same_upside_down(drawn: &Drawn) -> Result<Option<Vec<Deviation>>, SolveError> {
+    let [here, there] = answers(&drawn.scene)?;
+    let allowed = Allowed::within(2.0 * TOLERANCE);
+    Ok(Some(compare(&here, &there, allowed)))
+}
+
+fn the_same_within_stated_errors(drawn: &Drawn) -> Result<Option<Vec<Deviation>>, SolveError> {
+    let mut scene = drawn.scene.clone();
+    scene.accuracy.estimate_errors = true;
+    let [here, there] = answers(&scene)?;
+    let allowed = Allowed::stated([&here, &there], TOLERANCE);
+    Ok(Some(compare(&here, &there, allowed)))
 }
 
 #[test]
@@ -96,22 +108,23 @@ fn bodies_swap_in_scenes_that_differed() {
     );
 }
 
+/// They differed by 4 to 9 % of the worn area while normals were those of the receptacle.
 #[test]
-#[ignore = "the peak pressure is off by 13 %: the corner of the slider's flat in the groove"]
-fn bodies_swap_in_the_scenes_found_in_gross_slip() {
+fn bodies_swap_in_the_scenes_found_in_partial_slip() {
     holds_in_found(
-        "swapped bodies, found in gross slip",
-        &[100],
+        "swapped bodies, found in partial slip",
+        &[15, 48, 122, 181],
         the_same_upside_down,
     );
 }
 
+/// Scenes whose error exceeds the tolerance: the corner of the slider's flat in the groove (100), and an amplitude at which
+/// hardly anything slips (96). Both runs state it.
 #[test]
-#[ignore = "worn area off by 4 to 9 %: the first load approaches along the receptacle's normals, which are inclined by a/R"]
-fn bodies_swap_in_the_scenes_found_in_partial_slip() {
+fn bodies_swap_within_stated_errors() {
     holds_in_found(
-        "swapped bodies, found in partial slip",
-        &[15, 48, 96, 122, 181],
-        the_same_upside_down,
+        "swapped bodies, stated errors",
+        &[96, 100],
+        the_same_within_stated_errors,
     );
 }

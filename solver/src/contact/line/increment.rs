@@ -155,7 +155,7 @@ impl Solver {
             coupling: &geometry.coupling,
             gap: &geometry.gap,
             width: &pair.slave().widths[first..end],
-            slope: &geometry.slopes.receptacle,
+            slope: &geometry.slopes.interface,
             master_slope: &geometry.slopes.master,
             friction: interface.friction,
             load: setting.load,
@@ -221,7 +221,7 @@ impl Solver {
         } = &self.geometry;
         let slave = pair.interface.slave;
         self.deformation.under_contact(zones, slave, coupling, last);
-        let jumps = self.deformation.averaged(coupling).zip(&slopes.receptacle);
+        let jumps = self.deformation.averaged(coupling).zip(&slopes.interface);
         self.fixed_slip.clear();
         self.fixed_slip
             .extend(jumps.map(|([x, y], s)| step - s * last.height - (x + s * y)));

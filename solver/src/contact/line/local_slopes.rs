@@ -2,14 +2,12 @@
 
 use super::mortar::Coupling;
 use super::pair::{Pair, Surfaces};
-use crate::sides::Side;
 
 /// Slopes at the coupled nodes, -.
 #[derive(Debug, Default)]
 pub(super) struct LocalSlopes {
-    /// The receptacle's surface: N = (-s, 1), T = (1, s). Also where the slider carries the constraints, because the
-    /// corner of a worn slider has no normal.
-    pub(super) receptacle: Vec<f64>,
+    /// The interface, between both surfaces: N = (-s, 1), T = (1, s).
+    pub(super) interface: Vec<f64>,
     /// The master's surface.
     pub(super) master: Vec<f64>,
 }
@@ -32,10 +30,11 @@ impl LocalSlopes {
             self.master.push(slope);
         }
         let own = &surfaces.slope.of(slave)[coupling.first..coupling.end];
-        self.receptacle.clear();
-        self.receptacle.extend_from_slice(match slave {
-            Side::Receptacle => own,
-            Side::Slider => &self.master,
-        });
+        self.interface.clear();
+        let weight = pair.interface.slope_weights;
+        for (own, far) in own.iter().zip(&self.master) {
+            self.interface
+                .push(weight.of(slave) * own + weight.of(slave.other()) * far);
+        }
     }
 }

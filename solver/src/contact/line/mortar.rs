@@ -251,6 +251,10 @@ mod tests {
             interface: Interface {
                 slave,
                 sticks: false,
+                slope_weights: Sides {
+                    slider: 0.0,
+                    receptacle: 1.0,
+                },
                 friction: 0.0,
                 wear: Sides::default(),
                 load: 1.0,

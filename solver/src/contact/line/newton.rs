@@ -54,10 +54,12 @@ pub(super) struct Newton {
 /// round-off of an ill-conditioned system.
 const STALLED_WITHIN: f64 = 10.0;
 
-/// Factors are renewed where an iteration without a change of status leaves more than this part of the residual.
+/// Factors are renewed where an iteration without a change of status leaves more than this part of the residual. Arbitrary:
+/// 0.03 and 0.3 take as long, to 2 %.
 const SLOW: f64 = 0.1;
 
-/// From this iteration on factors are renewed in each.
+/// From this iteration on factors are renewed in each, for systems that chord steps do not solve. Arbitrary: 6 and 20 take as
+/// long, to 1 %.
 const EXACT_FROM: usize = 12;
 
 impl Newton {

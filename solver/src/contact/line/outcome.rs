@@ -122,13 +122,13 @@ pub(super) fn write(
     next.height = it.height;
     next.indentation = it.indentation;
     let span = coupling.first..coupling.end;
-    next.status[span.clone()].copy_from_slice(&it.status);
+    next.set_statuses(coupling.first, &it.status);
     next.pressure[span.clone()].copy_from_slice(&it.pressure);
     next.shear[span.clone()].copy_from_slice(&it.shear);
     for i in span {
         let width = pair.slave().widths[i];
         let (p, q) = (next.pressure[i], next.shear[i]);
-        let s = geometry.slopes.receptacle[i - coupling.first];
+        let s = geometry.slopes.interface[i - coupling.first];
         let force = [width * (-p * s - q), width * (p - q * s)];
         next.force.of_mut(slave)[2 * i..2 * i + 2].copy_from_slice(&force);
         let other = next.force.of_mut(slave.other());

@@ -128,7 +128,7 @@ pub struct Displacement<'a> {
 pub struct Surfaces<'a> {
     /// Vertical worn depth, mm.
     pub depth: Sides<&'a [f64]>,
-    /// Slope dy/dx; normals are those of the receptacle's surface.
+    /// Slope dy/dx.
     pub slope: Sides<&'a [f64]>,
 }
 

@@ -22,7 +22,7 @@ pub(super) struct Problem<'a> {
     pub(super) gap: &'a [f64],
     /// Projected widths of the coupled nodes, mm.
     pub(super) width: &'a [f64],
-    /// Slopes of the receptacle's and of the master's surface.
+    /// Slopes of the interface and of the master's surface.
     pub(super) slope: &'a [f64],
     pub(super) master_slope: &'a [f64],
     pub(super) friction: f64,

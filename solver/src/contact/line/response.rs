@@ -1,4 +1,4 @@
-//! The response of both bodies at the coupled nodes, in the local frame of the receptacle's surface.
+//! The response of both bodies at the coupled nodes, in the local frame of the interface.
 //!
 //! A column of G = Mhat C_m Mhat^T + C_s times the force of an unknown is computed when that is first solved for: most
 //! candidates never touch, and a node that slips has one unknown, its pressure with the friction.

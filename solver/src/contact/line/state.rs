@@ -25,6 +25,8 @@ pub struct ContactState {
     pub shear: Vec<f64>,
     /// Forces that act on the slider (x, y), at the nodes of each side, N/mm; the receptacle carries the reaction.
     pub force: Sides<Vec<f64>>,
+    /// Nodes of the slave from the first one in contact to the last.
+    active: Range<usize>,
     /// Nodes of each side from the first loaded one to the last.
     loaded: Sides<Range<usize>>,
     /// Largest indentation of the last increment, mm: the scale of gaps.
@@ -45,6 +47,7 @@ impl ContactState {
             pressure: vec![0.0; n],
             shear: vec![0.0; n],
             force: operators.as_ref().map(|body| vec![0.0; 2 * body.x.len()]),
+            active: 0..0,
             loaded: Sides::default(),
             indentation: 0.0,
             reference_height: None,
@@ -59,15 +62,26 @@ impl ContactState {
         self.indentation = last.indentation;
         self.reference_height = last.reference_height;
         // Open nodes have no tractions.
-        let (first, end) = self.active_range().unwrap_or_default();
-        self.status[first..end].fill(Status::Open);
+        let active = std::mem::take(&mut self.active);
+        self.status[active.clone()].fill(Status::Open);
         for values in [&mut self.pressure, &mut self.shear] {
-            values[first..end].fill(0.0);
+            values[active.clone()].fill(0.0);
         }
         for side in Side::BOTH {
             let loaded = std::mem::take(self.loaded.of_mut(side));
             self.force.of_mut(side)[2 * loaded.start..2 * loaded.end].fill(0.0);
         }
+    }
+
+    /// Writes the statuses of nodes from `first` on; all others are open.
+    pub(crate) fn set_statuses(&mut self, first: usize, status: &[Status]) {
+        self.status[first..first + status.len()].copy_from_slice(status);
+        let is_closed = |status: &Status| *status != Status::Open;
+        let begin = status.iter().position(is_closed);
+        let last = status.iter().rposition(is_closed);
+        self.active = begin
+            .zip(last)
+            .map_or(0..0, |(begin, last)| first + begin..first + last + 1);
     }
 
     /// Determines which of these nodes of a side are loaded; no others are.
@@ -84,9 +98,7 @@ impl ContactState {
 
     /// First node in contact and one past the last.
     pub fn active_range(&self) -> Option<(usize, usize)> {
-        let first = self.status.iter().position(|s| *s != Status::Open)?;
-        let last = self.status.iter().rposition(|s| *s != Status::Open)?;
-        Some((first, last + 1))
+        (!self.active.is_empty()).then_some((self.active.start, self.active.end))
     }
 
     /// Contact nodes of a side between the first loaded one and the last.
@@ -96,7 +108,9 @@ impl ContactState {
 
     /// Force of the slider on the receptacle along x, N/mm.
     pub fn tangential_force(&self) -> f64 {
-        -self.force.receptacle.iter().step_by(2).sum::<f64>()
+        let loaded = self.loaded(Side::Receptacle);
+        let forces = &self.force.receptacle[2 * loaded.start..2 * loaded.end];
+        -forces.iter().step_by(2).sum::<f64>()
     }
 
     /// |sum of shear forces| over the sum of normal ones, in the frame of the surface; at most mu.
