@@ -47,9 +47,9 @@ pub struct PlanDocument {
 pub struct MachineFigures {
     /// The measured program: version and build time.
     pub program: String,
-    /// Processor seconds of a contact increment with 30 candidate nodes.
+    /// Processor seconds of a contact increment with 30 solved nodes.
     pub increment_s: f64,
-    /// Power of the number of candidate nodes in the time of an increment.
+    /// Power of the number of solved nodes in the time of an increment.
     pub increment_power: f64,
     /// Processor seconds of a condensation per (number of unknowns)^1.2.
     pub condensation_dof_s: f64,

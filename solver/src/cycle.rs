@@ -121,9 +121,13 @@ impl<'a> Integrator<'a> {
     }
 
     fn update_slopes(&mut self, state: &CycleState) {
+        self.slope = self.slopes(state);
+    }
+
+    /// Slopes of both surfaces as worn in a state.
+    fn slopes(&self, state: &CycleState) -> Sides<Vec<f64>> {
         let operators = self.pair.operators;
-        self.slope =
-            Sides::from_fn(|side| contact::slopes(operators.of(side), state.depth.of(side), side));
+        Sides::from_fn(|side| contact::slopes(operators.of(side), state.depth.of(side), side))
     }
 
     /// Displaces the slider to the turning point where cycles begin, without wear.
@@ -307,8 +311,19 @@ impl<'a> Integrator<'a> {
         Ok(())
     }
 
+    /// The balance of forces with the normals of the surfaces as worn now.
+    fn force_balance_with_present_normals(&mut self, state: &CycleState) -> f64 {
+        let slope = self.slopes(state);
+        let surfaces = Surfaces {
+            depth: state.depth.as_slices(),
+            slope: slope.as_slices(),
+        };
+        self.solver
+            .force_balance_on(&self.pair, &surfaces, &state.contact)
+    }
+
     fn record(
-        &self,
+        &mut self,
         record: &mut CycleRecord,
         state: &mut CycleState,
         at: Option<Position>,
@@ -318,9 +333,14 @@ impl<'a> Integrator<'a> {
         let point = (contact.slider_x, contact.tangential_force());
         record.friction_loop.extend(&[point]);
         let Some(position) = at else { return };
-        let contact = replays
-            .take(position)
-            .unwrap_or_else(|| state.contact.clone());
+        let replayed = replays.take(position);
+        if replayed.is_some() || !replays.are_planned() {
+            let end = replayed.as_ref().unwrap_or(state);
+            let balance = self.force_balance_with_present_normals(end);
+            let worst = &mut state.checks.force_balance_present_normals;
+            *worst = worst.max(balance);
+        }
+        let contact = replayed.map_or_else(|| state.contact.clone(), |end| end.contact);
         if position == Position::Neutral {
             state.neutral = Neutral::of(&contact, &self.pair);
         }

@@ -21,8 +21,8 @@ const BASE_S: f64 = 0.01;
 
 /// Processor seconds of a workload on a machine.
 pub fn cpu_s(machine: &MachineFigures, workload: &Workload) -> f64 {
-    let increments = workload.increments.iter().map(|(candidates, count)| {
-        count * machine.increment_s * (candidates / NODES).powf(machine.increment_power)
+    let increments = workload.increments.iter().map(|(nodes, count)| {
+        count * machine.increment_s * (nodes / NODES).powf(machine.increment_power)
     });
     let condensations = workload.condensations.iter().map(|body| {
         let [dofs, surface] = condensation_terms(body);

@@ -1,4 +1,4 @@
-//! Estimated work of a solve: contact increments by their number of candidate nodes, and condensations by the size of
+//! Estimated work of a solve: contact increments by the number of nodes that they are solved for, and condensations by the size of
 //! the body. [`crate::estimate::machine`] converts it to processor seconds.
 
 use std::collections::BTreeMap;
@@ -18,7 +18,7 @@ pub struct Workload {
     pub computed_cycles: f64,
     /// Largest number of increments in one cycle.
     pub most_increments: u32,
-    /// Candidate nodes of a contact increment, with the number of such increments.
+    /// Nodes that a contact increment is solved for, with the number of such increments.
     pub increments: Vec<(f64, f64)>,
     /// Condensations of the slider and of the receptacle.
     pub condensations: [Condensations; 2],
@@ -43,7 +43,7 @@ impl Workload {
         let forecast = forecast(scene, layout);
         let mut increments = BTreeMap::new();
         for segment in &forecast.segments {
-            *increments.entry(segment.candidates).or_insert(0.0) += segment.increments;
+            *increments.entry(segment.solved).or_insert(0.0) += segment.increments;
         }
         let increments = increments.into_iter();
         let steps = forecast.segments.iter().map(|segment| segment.steps).max();

@@ -1,7 +1,6 @@
-//! Runs the single-cycle replays of a computed cycle and holds their contacts.
+//! Runs the single-cycle replays of a computed cycle and holds the states that they reach.
 
 use super::CycleState;
-use crate::contact::ContactState;
 use crate::schedule::increments::{Position, Step};
 use crate::schedule::replay::ReplayPlan;
 
@@ -9,7 +8,7 @@ use crate::schedule::replay::ReplayPlan;
 #[derive(Debug, Default)]
 pub(super) struct Replays {
     plan: ReplayPlan,
-    contacts: Vec<(Position, ContactState)>,
+    states: Vec<(Position, CycleState)>,
 }
 
 impl Replays {
@@ -17,7 +16,7 @@ impl Replays {
     pub(super) fn new(plan: ReplayPlan) -> Self {
         Self {
             plan,
-            contacts: Vec::new(),
+            states: Vec::new(),
         }
     }
 
@@ -43,14 +42,19 @@ impl Replays {
             state.increments = single.increments;
             if let (true, Some(position)) = (succeeded, steps[end].at) {
                 state.checks = single.checks;
-                self.contacts.push((position, single.contact));
+                self.states.push((position, single));
             }
         }
     }
 
-    /// Takes the contact of the replay that ended at a position.
-    pub(super) fn take(&mut self, at: Position) -> Option<ContactState> {
-        let place = self.contacts.iter().position(|contact| contact.0 == at)?;
-        Some(self.contacts.swap_remove(place).1)
+    /// Whether contacts of the computed cycle stand on the step of a jump.
+    pub(super) fn are_planned(&self) -> bool {
+        !self.plan.spans.is_empty()
+    }
+
+    /// Takes the state at the end of the replay that ended at a position.
+    pub(super) fn take(&mut self, at: Position) -> Option<CycleState> {
+        let place = self.states.iter().position(|state| state.0 == at)?;
+        Some(self.states.swap_remove(place).1)
     }
 }

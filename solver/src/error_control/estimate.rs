@@ -27,7 +27,7 @@ fn order(quantity: Quantity) -> f64 {
 /// Least estimated error over the tolerance: runs that agree better do so by chance, the histories are compared between
 /// reports. A peak pressure changes by more from increment to increment.
 const LEAST: f64 = 0.01;
-const LEAST_OF_PRESSURE: f64 = 0.2;
+const LEAST_OF_PRESSURE: f64 = 0.3;
 
 /// The parts of a quantity's error in the first companion, in proportion: the differences of successive companions, and
 /// that of the next where one has no solution.

@@ -194,19 +194,12 @@ pub fn choose(scene: &Scene) -> Sizes {
         refinement: Refinement { mesh: finer, .. },
         ..
     } = &scene.accuracy;
-    let elements = if gross {
-        tuning.gross_elements.at(tolerance.min(COARSEST))
-    } else {
-        tuning.elements.at(*tolerance)
-    };
     let sticks = sticks(scene, hertz);
-    let (elements, layer_growth) = if sticks {
-        (
-            tuning.sticking_refinement.at(tolerance.min(COARSEST)) * elements,
-            tuning.sticking_layer_growth,
-        )
+    let elements = elements(&scene.accuracy, gross, sticks, rates.slider > 0.0);
+    let layer_growth = if sticks {
+        tuning.sticking_layer_growth
     } else {
-        (elements, tuning.layer_growth)
+        tuning.layer_growth
     };
     let zone_growth = if gross || *tolerance > 0.02 {
         tuning.zone_growth
@@ -262,4 +255,21 @@ pub fn choose(scene: &Scene) -> Sizes {
             receptacle: spacing(amplitude, half_top),
         },
     }
+}
+
+/// Elements across the narrowest half-width of the contact.
+fn elements(accuracy: &Accuracy, gross: bool, sticks: bool, slider_wears: bool) -> f64 {
+    let (tolerance, tuning) = (accuracy.tolerance, &accuracy.tuning);
+    let coarsest = tolerance.min(COARSEST);
+    let elements = if gross {
+        tuning.gross_elements.at(coarsest)
+    } else {
+        tuning.elements.at(tolerance)
+    };
+    let finer = match (sticks, gross && slider_wears) {
+        (true, _) => tuning.sticking_refinement.at(coarsest),
+        (false, true) => tuning.gross_slider_refinement,
+        (false, false) => 1.0,
+    };
+    finer * elements
 }

@@ -16,7 +16,7 @@ use crate::spec;
 
 const MCCOLL: &str = include_str!("../../../examples/mccoll.json");
 
-/// Plausible powers of the number of candidate nodes: from a column per node to the factorization of a dense matrix.
+/// Plausible powers of the number of solved nodes: from a column per node to the factorization of a dense matrix.
 const POWERS: (f64, f64) = (1.0, 3.0);
 
 /// Measurement of one small solve.
@@ -108,15 +108,15 @@ impl Observer for PhaseClock {
     }
 }
 
-/// Time of an increment with `NODES` candidate nodes, and its power: least squares of the logarithms.
+/// Time of an increment with `NODES` solved nodes, and its power: least squares of the logarithms.
 fn power_law(samples: &[Sample]) -> (f64, f64) {
     let points: Vec<[f64; 2]> = samples
         .iter()
         .map(|sample| {
             let squares = sample.workload.increments.iter();
             let squares: f64 = squares.map(|(nodes, count)| count * nodes.powi(2)).sum();
-            let candidates = (squares / sample.workload.increments()).sqrt();
-            [(candidates / NODES).ln(), sample.increment_s.ln()]
+            let nodes = (squares / sample.workload.increments()).sqrt();
+            [(nodes / NODES).ln(), sample.increment_s.ln()]
         })
         .collect();
     let mean =
@@ -180,7 +180,7 @@ mod tests {
     use super::*;
     use crate::estimate::workload::Condensations;
 
-    fn sample(candidates: f64, increment_s: f64, dofs: f64, surface_nodes: f64) -> Sample {
+    fn sample(nodes: f64, increment_s: f64, dofs: f64, surface_nodes: f64) -> Sample {
         let body = Condensations {
             count: 1.0,
             dofs,
@@ -191,7 +191,7 @@ mod tests {
             workload: Workload {
                 computed_cycles: 1.0,
                 most_increments: 1,
-                increments: vec![(candidates, 7.0)],
+                increments: vec![(nodes, 7.0)],
                 condensations: [body, Condensations { count: 0.0, ..body }],
                 companions: Vec::new(),
             },
@@ -202,7 +202,7 @@ mod tests {
 
     #[test]
     fn fits_recover_the_laws_of_exact_samples() {
-        let at = |candidates: f64| 2e-4 * (candidates / NODES).powf(1.7);
+        let at = |nodes: f64| 2e-4 * (nodes / NODES).powf(1.7);
         let samples = [
             sample(20.0, at(20.0), 1e4, 100.0),
             sample(50.0, at(50.0), 3e4, 900.0),

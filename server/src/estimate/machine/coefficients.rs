@@ -4,7 +4,7 @@ use api::plan::MachineFigures;
 
 use crate::estimate::workload::Condensations;
 
-/// Candidate nodes of the increment whose time is part of the calibration.
+/// Solved nodes of the increment whose time is part of the calibration.
 pub(super) const NODES: f64 = 30.0;
 /// A sparse factorisation of a plane mesh takes between n log n and n^1.5 (George 1973). Measured from 2 500 to 57 000
 /// unknowns.

@@ -91,6 +91,30 @@ impl Solver {
         })
     }
 
+    /// |sum of vertical forces - load| over the load on the unworn contact, with the normals of other surfaces than the
+    /// contact was solved with.
+    pub fn force_balance_on(
+        &mut self,
+        pair: &Pair<'_>,
+        surfaces: &Surfaces<'_>,
+        contact: &ContactState,
+    ) -> f64 {
+        let Some((first, end)) = contact.active_range() else {
+            return 0.0;
+        };
+        let at = (contact.slider_x, contact.pairing_x);
+        let setting = Setting::new(&pair.interface, contact, at);
+        self.flank.place(pair, surfaces, setting, first..end);
+        let slopes = &self.flank.slopes.interface;
+        let vertical: f64 = (first..end)
+            .zip(slopes)
+            .map(|(i, slope)| {
+                pair.slave().widths[i] * (contact.pressure[i] - contact.shear[i] * slope)
+            })
+            .sum();
+        (vertical - contact.equilibrium_load(&pair.interface)).abs() / pair.interface.load
+    }
+
     /// The window with the candidates beside it that the bodies' deformation lets touch.
     fn touching_beside(
         &mut self,
