@@ -4,8 +4,10 @@
 //! holds one relation, with what it allows and why. The tests draw a dozen scenes each; more by
 //! `FRETWEAR_DRAWS=200 cargo test --release -p solver metamorphic -- --nocapture`, others by `FRETWEAR_SEED`, later ones by
 //! `FRETWEAR_FIRST`. A violation names its scene by seed and number (`random_scenes::draw`), which prints nothing but its
-//! figures: `FRETWEAR_SEED=1 FRETWEAR_FIRST=17 FRETWEAR_DRAWS=1` runs that one alone. Of the first 204 scenes of seed 1 those
-//! that violate a relation are tests that are ignored, with the reason.
+//! figures: `FRETWEAR_SEED=1 FRETWEAR_FIRST=17 FRETWEAR_DRAWS=1` runs that one alone.
+//!
+//! The runs estimate no errors, for speed. Where two of them differ by more than a relation allows, they are solved with error
+//! control: then they must agree, or differ by no more than the errors that they state.
 
 mod comparison;
 mod halved_wear_rate;
@@ -63,10 +65,21 @@ fn holds_in_found(name: &str, numbers: &[u64], relation: Relation) {
     holds_in(name, drawn, relation);
 }
 
+fn is_violated(deviations: &Result<Option<Vec<Deviation>>, SolveError>) -> bool {
+    let mut found = deviations.iter().flatten().flatten();
+    found.any(|deviation| !deviation.is_allowed())
+}
+
 fn holds_in(name: &str, scenes: impl Iterator<Item = Drawn>, relation: Relation) {
     let (mut compared, mut faults, mut worst) = (0, Vec::new(), Vec::new());
-    for drawn in scenes {
-        match relation(&drawn) {
+    for mut drawn in scenes {
+        let mut deviations = relation(&drawn);
+        if is_violated(&deviations) {
+            println!("{}: solved with error control", drawn.name());
+            drawn.scene.accuracy.estimate_errors = true;
+            deviations = relation(&drawn);
+        }
+        match deviations {
             Ok(None) => {}
             Ok(Some(deviations)) => {
                 compared += 1;

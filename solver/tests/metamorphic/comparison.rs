@@ -66,24 +66,20 @@ pub(super) struct Allowed {
 }
 
 impl Allowed {
-    /// Both answers within the errors that they state themselves, or within their tolerance where they state less. A run whose
-    /// error exceeds its tolerance says so in its outcome.
-    pub(super) fn stated(answers: [&Summary; 2], tolerance: f64) -> Self {
-        let sum = |part: fn(&Errors) -> ErrorParts, least: f64| {
-            let stated = answers.map(|answer| {
-                let errors = answer.errors.as_ref().expect("errors are estimated");
-                part(errors).relative.max(least)
-            });
-            stated[0] + stated[1]
+    /// Or both answers within the errors that they state themselves, if they do.
+    pub(super) fn or_stated(self, answers: [&Summary; 2]) -> Self {
+        let sum = |part: fn(&Errors) -> ErrorParts| {
+            let stated = answers.map(|answer| answer.errors.as_ref().map(part));
+            match stated {
+                [Some(one), Some(other)] => one.relative + other.relative,
+                _ => 0.0,
+            }
         };
         Self {
-            depth: sum(|errors| errors.worn_depth, tolerance),
-            width: sum(|errors| errors.scar_half_width, tolerance),
-            area: sum(|errors| errors.worn_area, tolerance),
-            peak: sum(
-                |errors| errors.peak_pressure,
-                PRESSURE_TOLERANCES * tolerance,
-            ),
+            depth: self.depth.max(sum(|errors| errors.worn_depth)),
+            width: self.width.max(sum(|errors| errors.scar_half_width)),
+            area: self.area.max(sum(|errors| errors.worn_area)),
+            peak: self.peak.max(sum(|errors| errors.peak_pressure)),
         }
     }
 

@@ -10,10 +10,9 @@
 //! Allowed: both tolerances and A/b, squared in depth; three times the tolerances and A/b for the peak pressure.
 
 use solver::SolveError;
-use solver::record::PRESSURE_TOLERANCES;
 use solver::scene::{Motion, Scene, WearLaw};
 
-use super::comparison::Deviation;
+use super::comparison::{Allowed, Deviation};
 use super::{SLIDING, STICKING, TOLERANCE, holds, holds_in_found};
 use crate::random_scenes::{Drawn, Regime, scaled};
 use crate::recorder::solve;
@@ -54,25 +53,26 @@ fn the_same_on_either_side(drawn: &Drawn) -> Result<Option<Vec<Deviation>>, Solv
     let (mut below, mut above) = (scene.clone(), scene);
     (below.receptacle.wear, below.slider.wear) = (rate, None);
     (above.receptacle.wear, above.slider.wear) = (None, rate);
-    let (below, above) = (solve(&below)?.0.last, solve(&above)?.0.last);
+    let (below, above) = (solve(&below)?.0, solve(&above)?.0);
+    let allowed = Allowed::within(2.0 * TOLERANCE).or_stated([&below, &above]);
+    let (below, above) = (below.last, above.last);
     let (one, other) = (&below.receptacle, &above.slider);
     let smear = amplitude / other.scar_half_width_mm;
-    let tolerances = 2.0 * TOLERANCE;
     Ok(Some(vec![
         Deviation::of(
             "depth",
             (one.max_depth_mm, other.max_depth_mm),
-            tolerances + smear * smear,
+            allowed.depth + smear * smear,
         ),
         Deviation::of(
             "scar width",
             (one.scar_half_width_mm, other.scar_half_width_mm),
-            tolerances + smear,
+            allowed.width + smear,
         ),
         Deviation::of(
             "worn area",
             (one.worn_area_mm2, other.worn_area_mm2),
-            tolerances,
+            allowed.area,
         ),
         Deviation::of(
             "energy",
@@ -80,12 +80,12 @@ fn the_same_on_either_side(drawn: &Drawn) -> Result<Option<Vec<Deviation>>, Solv
                 below.dissipated_energy_mj_per_mm,
                 above.dissipated_energy_mj_per_mm,
             ),
-            tolerances,
+            allowed.area,
         ),
         Deviation::of(
             "peak pressure",
             (below.peak_pressure_mpa, above.peak_pressure_mpa),
-            PRESSURE_TOLERANCES * tolerances + smear,
+            allowed.peak + smear,
         ),
     ]))
 }
@@ -106,8 +106,14 @@ fn wear_moves_in_the_scenes_found() {
     holds_in_found(
         "moved wear, found",
         &[
-            14, 15, 30, 48, 51, 54, 60, 62, 63, 72, 108, 121, 135, 147, 170, 180, 181, 183,
+            14, 15, 30, 48, 51, 54, 60, 61, 62, 63, 72, 108, 121, 135, 147, 170, 180, 181, 183,
         ],
         the_same_on_either_side,
     );
+}
+
+#[test]
+#[ignore = "depth off by 7 % at 2 %, by 1.1 % at 1 %: the estimated errors of both answers miss it"]
+fn wear_moves_where_the_estimates_miss() {
+    holds_in_found("moved wear, missed", &[168], the_same_on_either_side);
 }

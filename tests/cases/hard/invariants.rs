@@ -18,19 +18,33 @@ const LARGEST_ZIGZAG: f64 = 0.2;
 /// # Panics
 /// With all faults of the run at once.
 pub(crate) fn hold(run: &Run) {
-    assert_none(run, |_| true);
+    assert_none(run, &|_, _| true);
 }
 
-/// Asserts the invariants of a run whose walls are steeper than the friction angle: the pressure is smooth at the neutral
-/// position. At the turning points its leading edge stands in a corner of few elements and alternates there.
+/// Asserts the invariants of a run whose walls become steeper than the friction angle: from then on the pressure is smooth at
+/// the neutral position. At the turning points its leading edge stands in a corner of few elements and alternates there,
+/// where without wear nothing would hold the slider.
 ///
 /// # Panics
 /// With all faults of the run at once.
-pub(crate) fn hold_on_steep_walls(run: &Run) {
-    assert_none(run, |field| field.position == Position::Neutral);
+pub(crate) fn hold_on_steep_walls(run: &Run, friction: f64) {
+    assert_none(run, &|snapshot, field| {
+        let is_held = friction * steepest_wall(snapshot) < 1.0;
+        is_held || field.position == Position::Neutral
+    });
 }
 
-fn assert_none(run: &Run, examined: fn(&TractionField) -> bool) {
+/// Steepest slope of the receptacle's worn depth, -.
+pub(crate) fn steepest_wall(snapshot: &Snapshot) -> f64 {
+    let (x, depth) = (&snapshot.receptacle.x_mm, &snapshot.receptacle.depth_mm);
+    let slope = |i: usize| ((depth[i] - depth[i - 1]) / (x[i] - x[i - 1])).abs();
+    (1..x.len()).map(slope).fold(0.0, f64::max)
+}
+
+/// Which pressures are examined for alternation.
+type Examined<'a> = &'a dyn Fn(&Snapshot, &TractionField) -> bool;
+
+fn assert_none(run: &Run, examined: Examined<'_>) {
     if let Err(error) = &run.end {
         panic!("the run failed: {error}");
     }
@@ -41,11 +55,11 @@ fn assert_none(run: &Run, examined: fn(&TractionField) -> bool) {
 /// All faults of a run, as sentences; empty if the invariants hold. A failed run satisfies them if its error contains
 /// numbers and its earlier reports satisfy them.
 pub(crate) fn faults(run: &Run) -> Vec<String> {
-    faults_of(run, |_| true)
+    faults_of(run, &|_, _| true)
 }
 
 /// All faults of a run, with alternating pressures where they are examined.
-fn faults_of(run: &Run, examined: fn(&TractionField) -> bool) -> Vec<String> {
+fn faults_of(run: &Run, examined: Examined<'_>) -> Vec<String> {
     let mut faults = Vec::new();
     faults.extend(run.reports.iter().find_map(not_finite));
     faults.extend(run.snapshots.iter().find_map(unsound_tractions));
@@ -134,17 +148,16 @@ fn resolved(run: &Run) -> bool {
 /// rests on a few nodes, on what rounding and meshes leave of two worn surfaces.
 const FADED: f64 = 0.01;
 
-fn zigzags(
-    snapshot: &Snapshot,
-    unworn_mpa: f64,
-    examined: fn(&TractionField) -> bool,
-) -> Option<String> {
+fn zigzags(snapshot: &Snapshot, unworn_mpa: f64, examined: Examined<'_>) -> Option<String> {
     let peaks = snapshot
         .positions
         .iter()
         .flat_map(|field| &field.pressure_mpa);
     let peak = peaks.fold(f64::MIN_POSITIVE, |m, p| m.max(*p));
-    let fields = snapshot.positions.iter().filter(|field| examined(field));
+    let fields = snapshot
+        .positions
+        .iter()
+        .filter(|field| examined(snapshot, field));
     let zigzag = fields.map(zigzag).fold(0.0, f64::max) * (peak / (FADED * unworn_mpa)).min(1.0);
     (zigzag > LARGEST_ZIGZAG).then(|| {
         format!(
