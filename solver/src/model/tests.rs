@@ -1,7 +1,6 @@
 use super::*;
 use crate::scene::{
-    Accuracy, BlockShape, Body, Friction, Motion, Output, Refinement, SliderShape, StopCondition,
-    Tuning, WearLaw,
+    Accuracy, BlockShape, Body, Friction, Motion, Output, SliderShape, StopCondition, WearLaw,
 };
 
 pub(crate) fn fuzz_button() -> Scene {
@@ -39,15 +38,7 @@ pub(crate) fn fuzz_button() -> Scene {
             period_s: 16.0,
         },
         cycles: 2000,
-        accuracy: Accuracy {
-            tolerance: 0.02,
-            contact_element_mm: None,
-            increments_per_cycle: None,
-            cycle_jump: None,
-            tuning: Tuning::FITTED,
-            refinement: Refinement::NONE,
-            estimate_errors: false,
-        },
+        accuracy: Accuracy::STANDARD,
         output: Output {
             stations_mm: vec![0.0],
             snapshots_at_cycles: vec![],

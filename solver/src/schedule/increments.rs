@@ -167,13 +167,8 @@ mod tests {
     use crate::scene::Refinement;
 
     const ACCURACY: Accuracy = Accuracy {
-        tolerance: 0.02,
-        contact_element_mm: None,
         increments_per_cycle: Some(8),
-        cycle_jump: None,
-        tuning: Tuning::FITTED,
-        refinement: Refinement::NONE,
-        estimate_errors: false,
+        ..Accuracy::STANDARD
     };
 
     const CONTACT: Followed = Followed {

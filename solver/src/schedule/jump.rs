@@ -205,15 +205,7 @@ mod tests {
     use super::*;
     use crate::scene::Refinement;
 
-    const ACCURACY: Accuracy = Accuracy {
-        tolerance: 0.02,
-        contact_element_mm: None,
-        increments_per_cycle: None,
-        cycle_jump: None,
-        tuning: Tuning::FITTED,
-        refinement: Refinement::NONE,
-        estimate_errors: false,
-    };
+    const ACCURACY: Accuracy = Accuracy::STANDARD;
 
     /// Wears the only node of the receptacle.
     fn wear(control: &mut JumpControl, before: f64, after: f64, jump: u64) {

@@ -113,17 +113,8 @@ impl ReplayPlan {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::{Refinement, Tuning};
 
-    const ACCURACY: Accuracy = Accuracy {
-        tolerance: 0.02,
-        contact_element_mm: None,
-        increments_per_cycle: None,
-        cycle_jump: None,
-        tuning: Tuning::FITTED,
-        refinement: Refinement::NONE,
-        estimate_errors: false,
-    };
+    const ACCURACY: Accuracy = Accuracy::STANDARD;
 
     /// Steps of 0.5 over a stroke from -10 to 10 under a contact of half-width 2.
     fn plan(single: f64, all: bool) -> ReplayPlan {
