@@ -54,6 +54,10 @@ pub(super) struct Newton {
 /// round-off of an ill-conditioned system.
 const STALLED_WITHIN: f64 = 10.0;
 
+/// Largest imbalance of the vertical forces over the load on the unworn contact. The balance is linear, so that only a height
+/// that a singular system had made astronomic violates it, by round-off.
+const BALANCE_TOLERANCE: f64 = 1e-9;
+
 /// Factors are renewed where an iteration without a change of status leaves more than this part of the residual. Arbitrary:
 /// 0.03 and 0.3 take as long, to 2 %.
 const SLOW: f64 = 0.1;
@@ -91,7 +95,8 @@ impl Newton {
             residual = self.evaluate(problem, response, wear, it);
             changes = active_set::update(problem, it, iteration);
             let stalled = has_stalled((last.0 / tolerance, last.1), residual / it.tolerance);
-            if changes == 0 && (residual <= it.tolerance || stalled) {
+            let is_balanced = || self.partition.imbalance(problem, it) <= BALANCE_TOLERANCE;
+            if changes == 0 && (residual <= it.tolerance || stalled) && is_balanced() {
                 return Convergence::Converged;
             }
             // Without a contact only a spring that has lost its force is in equilibrium.

@@ -72,15 +72,12 @@ impl Correction {
 
     fn write_residuals(&mut self, problem: &Problem<'_>, partition: &Partition, it: &Iterate) {
         self.change.clear();
-        let mut balance = problem.load + problem.spring * it.height;
-        for unknown in &partition.unknowns {
-            balance -= unknown.force(problem)[1] * unknown.value(it);
-            self.change.push(match *unknown {
-                Unknown::Pressure(i, _) => -it.gap[i],
-                Unknown::Shear(i) => -it.slip[i],
-            });
-        }
-        self.change.push(balance);
+        let residuals = partition.unknowns.iter().map(|unknown| match *unknown {
+            Unknown::Pressure(i, _) => -it.gap[i],
+            Unknown::Shear(i) => -it.slip[i],
+        });
+        self.change.extend(residuals);
+        self.change.push(partition.balance(problem, it));
     }
 
     fn set_conditions(&mut self, problem: &Problem<'_>, partition: &Partition, it: &Iterate) {

@@ -4,7 +4,7 @@
 //! From one iteration to the next statuses change at the edges of the contact and of its stick zones. The nodes there are the
 //! border of the condensed system, all others its core.
 
-use super::super::problem::Iterate;
+use super::super::problem::{Iterate, Problem};
 use super::super::status::Status;
 use super::super::unknown::Unknown;
 
@@ -71,6 +71,20 @@ impl Partition {
             Form::Any => true,
         };
         self.forms.iter().zip(&it.status).all(admits)
+    }
+
+    /// The load less the vertical forces of the unknowns, N/mm.
+    pub(super) fn balance(&self, problem: &Problem<'_>, it: &Iterate) -> f64 {
+        let load = problem.load + problem.spring * it.height;
+        let forces = self.unknowns.iter();
+        forces.fold(load, |balance, unknown| {
+            balance - unknown.force(problem)[1] * unknown.value(it)
+        })
+    }
+
+    /// The size of the balance over the load on the unworn contact.
+    pub(super) fn imbalance(&self, problem: &Problem<'_>, it: &Iterate) -> f64 {
+        self.balance(problem, it).abs() / problem.pair.interface.load
     }
 
     /// The status that a node's part of the wear is linearised in.
