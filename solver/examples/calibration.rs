@@ -47,12 +47,13 @@ macro_rules! variations {
     };
 }
 
-const ERRORS: [Variation; 37] = variations! {
+const ERRORS: [Variation; 43] = variations! {
     elements.value = [4.0, 8.0, 16.0], 0.02, ["scar", "partial slip"];
     elements.exponent = [0.2, 0.4, 0.6], 0.005, ["scar"];
     scar_elements.value = [8.0, 16.0, 32.0], 0.02, ["light scar"];
     gross_elements.value = [2.0, 4.0, 8.0], 0.02, ["groove", "sprung contact", "pin"];
     gross_elements.exponent = [0.2, 0.4, 0.6], 0.005, ["groove", "sprung contact"];
+    gross_slider_refinement = [1.0, 1.5, 2.0], 0.02, ["worn slider", "both worn"];
     zone_growth.value = [0.015, 0.03, 0.06], 0.02, ["groove", "both worn"];
     zone_growth.exponent = [0.0, -0.35, -0.7], 0.005, ["groove"];
     scar_zone_growth.value = [0.03, 0.06, 0.12], 0.02, ["scar", "sprung contact"];
@@ -76,8 +77,13 @@ const ERRORS: [Variation; 37] = variations! {
     drift = [2.5, 10.0, 25.0], 0.02, ["long groove"];
     jump_change.0 = [0.25, 0.5, 0.8], 0.02, ["scar", "long sprung contact"];
     jump_change.1 = [1.2, 2.0, 4.0], 0.02, ["scar", "long sprung contact"];
+    jump_error.exponent = [0.0, 0.5, 1.0], 0.005, ["long scar"];
     jump_of_done = [0.25, 0.5, 1.0], 0.02, ["scar", "long sprung contact"];
-    gross_jump_of_done = [1.0, 2.0, 4.0, 8.0], 0.02, ["long groove", "pin"];
+    gross_jump_of_done = [2.0, 4.0, 6.0, 8.0], 0.02, ["long groove", "pin"];
+    gross_taper = [1.0, 4.0, 8.0, 64.0], 0.02, ["long groove", "pin"];
+    jump_contact_from = [1.0, 1.5, 3.0], 0.02, ["long groove", "pin"];
+    widest_jump_contact = [1.0, 3.0, 6.0], 0.02, ["long groove", "longer groove"];
+    smoothing_pass = [1.5, 3.0, 5.0, 12.0], 0.02, ["long groove", "longer groove"];
     gross_jump_of_both = [0.5, 1.0, 2.0], 0.02, ["both worn"];
     gross_from = [1.0, 2.0, 4.0], 0.02, ["long sprung contact"];
     skew = [3.0, 12.0, 48.0], 0.02, ["long scar"];
@@ -103,6 +109,7 @@ fn scene(name: &str) -> Scene {
         "long scar" => of_cycles(mccoll(), 18_000),
         "groove" => groove(),
         "long groove" => of_cycles(fuzz_button(), 240),
+        "longer groove" => of_cycles(fuzz_button(), 500),
         "sprung contact" => sprung_contact(),
         "long sprung contact" => of_cycles(sprung_contact(), 2_000),
         "partial slip" => partial_slip(),
@@ -113,6 +120,11 @@ fn scene(name: &str) -> Scene {
             scene
         }
         "pin" => pin(),
+        "worn slider" => {
+            let mut scene = of_cycles(pin(), 200);
+            scene.slider.wear = scene.receptacle.wear.take();
+            scene
+        }
         "both worn" => {
             let mut scene = of_cycles(sprung_contact(), 300);
             scene.slider.wear = scene.receptacle.wear;

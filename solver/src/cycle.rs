@@ -159,11 +159,11 @@ impl<'a> Integrator<'a> {
         self.update_slopes(state);
         let before = state.clone();
         loop {
-            let replayed = stroke.gross && jump > 1;
+            let replayed = stroke.is_replayed(jump);
             let steps = increments::steps(motion, accuracy, self.followed(state, replayed));
             // A run may end after this cycle.
             let detailed = before.cycle + jump == until || !self.scene.stop.is_empty();
-            let error = match self.integrate(state, &steps, jump, (stroke.gross, detailed)) {
+            let error = match self.integrate(state, &steps, jump, (replayed, detailed)) {
                 Ok(record) => {
                     let done = state.cycle - before.cycle;
                     let widths = self.pair.operators.as_ref().map(|body| &body.widths[..]);
@@ -193,10 +193,10 @@ impl<'a> Integrator<'a> {
         state: &mut CycleState,
         steps: &[Step],
         jump: u64,
-        (gross, detailed): (bool, bool),
+        (replayed, detailed): (bool, bool),
     ) -> Result<CycleRecord, CycleError> {
         let mut record = CycleRecord::default();
-        let mut replays = if gross && jump > 1 {
+        let mut replays = if replayed {
             let length = 4.0 * self.scene.motion.amplitude_mm() / real(steps.len());
             Replays::new(ReplayPlan::new(
                 (steps.len(), length),

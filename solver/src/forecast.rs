@@ -85,9 +85,10 @@ pub fn forecast(scene: &Scene, layout: &Layout) -> Forecast {
             break;
         }
         let until = stops::next(scene, scar.progress(cycle, &jump));
-        let step = jump.next(&scene.accuracy, scar.stroke(scene), until - cycle);
-        let replayed = scar.is_gross() && step > 1;
-        let (accuracy, half_widths) = (&scene.accuracy, (scar.half_width, scar.contact(1)));
+        let (accuracy, stroke) = (&scene.accuracy, scar.stroke(scene));
+        let step = jump.next(accuracy, stroke, until - cycle);
+        let replayed = stroke.is_replayed(step);
+        let half_widths = (scar.half_width, scar.contact(1));
         let sticks = layout.sizes.sticks;
         let followed = Followed::new(&accuracy.tuning, half_widths, (sticks, replayed));
         let steps = increments::count(scene.motion, accuracy, followed);

@@ -165,21 +165,20 @@ impl Refinement {
 /// Most increments in which the load is applied: the error is far below any tolerance. Arbitrary.
 const MOST_LOAD_STEPS: f64 = 200.0;
 
-#[cfg(test)]
 impl Accuracy {
-    /// 2 %, without an estimate of errors.
-    pub(crate) const STANDARD: Self = Self {
-        tolerance: 0.02,
-        contact_element_mm: None,
-        increments_per_cycle: None,
-        cycle_jump: None,
-        tuning: Tuning::FITTED,
-        refinement: Refinement::NONE,
-        estimate_errors: false,
-    };
-}
+    /// Everything chosen from a tolerance, without an estimate of errors.
+    pub const fn from_tolerance(tolerance: f64) -> Self {
+        Self {
+            tolerance,
+            contact_element_mm: None,
+            increments_per_cycle: None,
+            cycle_jump: None,
+            tuning: Tuning::FITTED,
+            refinement: Refinement::NONE,
+            estimate_errors: false,
+        }
+    }
 
-impl Accuracy {
     /// Largest estimated error of a jump.
     pub(crate) fn largest_jump_error(&self) -> f64 {
         self.tolerance * self.tuning.jump_error.at(self.tolerance).max(1.0)

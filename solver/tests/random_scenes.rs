@@ -13,10 +13,9 @@ use std::f64::consts::PI;
 
 use fastrand::Rng;
 use solver::model::Layout;
-use solver::scene::{Body, Drive, Friction, Motion, Output, Scene, WearLaw};
+use solver::scene::{Accuracy, Body, Drive, Friction, Motion, Output, Scene, WearLaw};
 use solver::sides::Sides;
 
-use crate::scenes::accuracy;
 use contact::{Numbers, gross_slip, shapes};
 
 /// Any odd number much larger than the number of scenes.
@@ -84,7 +83,7 @@ pub(crate) fn draw(seed: u64, number: u64, tolerance: f64, most_s: f64) -> Drawn
     let regimes = [Regime::PartialSlip, Regime::ShortStroke, Regime::LongGroove];
     let regime = regimes[index(number / 4, 3)];
     let mut scene = scene(&mut u, regime, worn);
-    scene.accuracy = accuracy(tolerance);
+    scene.accuracy = Accuracy::from_tolerance(tolerance);
     while estimated_s(&scene) > most_s && scene.cycles > FEWEST_CYCLES {
         scene = over_fewer_cycles(scene);
     }
@@ -226,7 +225,7 @@ fn scene(u: &mut Numbers, regime: Regime, worn: Worn) -> Scene {
             period_s: 1.0,
         },
         cycles,
-        accuracy: accuracy(0.02),
+        accuracy: Accuracy::from_tolerance(0.02),
         output: Output {
             stations_mm: Vec::new(),
             snapshots_at_cycles: Vec::new(),

@@ -1,8 +1,8 @@
 //! The scenes of the suite.
 
 use solver::scene::{
-    Accuracy, BlockShape, Body, Drive, Elastic, Friction, Motion, Output, Refinement, Scene,
-    SliderShape, Tuning, WearLaw,
+    Accuracy, BlockShape, Body, Drive, Elastic, Friction, Motion, Output, Scene, SliderShape,
+    WearLaw,
 };
 
 const STEEL: Elastic = Elastic {
@@ -16,19 +16,6 @@ const COPPER: Elastic = Elastic {
 
 /// k/H of copper on copper as the thesis uses it, 1/MPa (its table 5 and section 5.3).
 pub(crate) const COPPER_WEAR: f64 = 0.011 / 427.0;
-
-/// Everything chosen from the tolerance.
-pub(crate) fn accuracy(tolerance: f64) -> Accuracy {
-    Accuracy {
-        tolerance,
-        contact_element_mm: None,
-        increments_per_cycle: None,
-        cycle_jump: None,
-        tuning: Tuning::FITTED,
-        refinement: Refinement::NONE,
-        estimate_errors: false,
-    }
-}
 
 /// Cylinder of 6 mm on a flat, 18.5 N/mm, +-25 um, both sides wear (McColl, Ding and Leen 2004).
 pub(crate) fn mccoll() -> Scene {
@@ -61,7 +48,7 @@ pub(crate) fn mccoll() -> Scene {
             period_s: 0.05,
         },
         cycles: 18_000,
-        accuracy: accuracy(0.02),
+        accuracy: Accuracy::from_tolerance(0.02),
         output: Output {
             stations_mm: vec![0.0, 0.05, 0.1, 0.2],
             snapshots_at_cycles: vec![1_000, 5_000, 10_000, 18_000],
@@ -103,7 +90,7 @@ pub(crate) fn fuzz_button() -> Scene {
             period_s: 16.0,
         },
         cycles: 2_000,
-        accuracy: accuracy(0.02),
+        accuracy: Accuracy::from_tolerance(0.02),
         output: Output {
             stations_mm: vec![-0.04, -0.02, -0.008, 0.0, 0.008, 0.02, 0.04],
             snapshots_at_cycles: vec![1, 150, 240, 360, 480, 585, 800, 1_600, 2_000],

@@ -52,10 +52,9 @@ fn the_groove_is_symmetric_within_the_tolerance() {
     let depth = &recorder.at(240).station_depth_mm;
     let deepest = recorder.at(240).receptacle.max_depth_mm;
     for i in 0..3 {
-        assert!(
-            (depth[i] - depth[6 - i]).abs() < 0.02 * deepest,
-            "{depth:?}"
-        );
+        let difference = (depth[i] - depth[6 - i]).abs() / deepest;
+        println!("groove, stations {i} and {}: {difference:.1e}", 6 - i);
+        assert!(difference < 0.02, "{depth:?}");
     }
 }
 
@@ -103,7 +102,8 @@ fn pressure_in_gross_reciprocating_sliding_is_that_of_single_cycles() {
 }
 
 /// Normals exclude the leading-edge step of the pass. With it the normal force would be larger by mu k times the mean pressure
-/// (weighted by itself, 8/(3 pi) of the peak for Hertz): 1.6 % under 600 MPa, and the slopes of the walls besides.
+/// (weighted by itself, 8/(3 pi) of the peak for Hertz): 1.6 % under 600 MPa. Reached: 1.3 times that, because the pressure on
+/// the step is higher in front than Hertz'; allowed: 0.8 to 1.6 times.
 #[test]
 fn the_balance_with_present_normals_shows_the_step_of_a_pass() {
     let scene = groove();

@@ -5,10 +5,10 @@
 //! * Where all of the contact slides over a flat floor, each pass wears k P (as in `verify_moving_line_contact`).
 
 use crate::recorder::{Recorder, largest_distance, solve};
-use crate::scenes::{accuracy, sprung_contact};
+use crate::scenes::sprung_contact;
 use solver::model::Layout;
 use solver::record::Summary;
-use solver::scene::{Motion, Scene, WearLaw};
+use solver::scene::{Accuracy, Motion, Scene, WearLaw};
 use solver::sides::Sides;
 
 pub(crate) const RATE: f64 = 0.004 / 1700.0;
@@ -27,7 +27,7 @@ pub(crate) fn wipe(rates: Sides<f64>) -> Scene {
         amplitude_mm: 0.4,
         period_s: 1.0,
     };
-    scene.accuracy = accuracy(0.1);
+    scene.accuracy = Accuracy::from_tolerance(0.1);
     scene.cycles = u64::from(CYCLES);
     scene.receptacle.wear = law(rates.receptacle);
     scene.slider.wear = law(rates.slider);

@@ -3,14 +3,14 @@
 use std::ops::ControlFlow;
 
 use crate::recorder::Recorder;
-use crate::scenes::{accuracy, fuzz_button, mccoll};
+use crate::scenes::{fuzz_button, mccoll};
 use crate::verify_long_wipe::{RATE, wipe};
 use solver::SolveError;
 use solver::checkpoint::{Checkpoint, Misfit};
 use solver::observer::{Event, Observer};
 use solver::record::{CycleReport, Outcome, Snapshot, Summary};
 use solver::run;
-use solver::scene::{Motion, Scene};
+use solver::scene::{Accuracy, Motion, Scene};
 use solver::sides::Sides;
 
 /// An observer that records everything, checkpoints included.
@@ -92,7 +92,7 @@ fn a_fretting_run_resumes_to_the_same_bits() {
 fn a_run_that_has_relocated_resumes_to_the_same_bits() {
     let mut scene = Scene {
         cycles: 2_000,
-        accuracy: accuracy(0.1),
+        accuracy: Accuracy::from_tolerance(0.1),
         ..fuzz_button()
     };
     scene.output.snapshots_at_cycles = vec![1, 400, 2_000];
@@ -105,7 +105,7 @@ fn a_run_that_has_relocated_resumes_to_the_same_bits() {
 fn a_sprung_run_resumes_to_the_same_bits() {
     let mut scene = Scene {
         cycles: 60,
-        accuracy: accuracy(0.1),
+        accuracy: Accuracy::from_tolerance(0.1),
         spring_n_per_mm2: 50.0,
         ..fuzz_button()
     };

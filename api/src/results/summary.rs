@@ -98,10 +98,10 @@ pub struct Cost {
 pub struct Checks {
     /// |sum of vertical forces - load| / load.
     pub force_balance: f64,
-    /// The same with the normals of the surfaces as worn at that moment, at the reported positions: the solve takes those of the
-    /// beginning of the cycle, without the step that a pass wears. Absent in results of earlier versions.
+    /// The same with the normals of the surfaces as worn at that moment, at the reported positions: the solve takes those
+    /// of the beginning of the cycle, without the step that a pass wears. Null in results of earlier versions.
     #[serde(default)]
-    pub force_balance_present_normals: f64,
+    pub force_balance_present_normals: Option<f64>,
     /// |worn area of the profile - k times the integral of p |slip|| / worn area.
     pub worn_area: f64,
     /// Largest violation of gap >= 0, p >= 0, p gap = 0, over its scale.

@@ -1,5 +1,5 @@
-//! Estimated work of a solve: contact increments by the number of nodes that they are solved for, and condensations by the size of
-//! the body. [`crate::estimate::machine`] converts it to processor seconds.
+//! Estimated work of a solve: contact increments by the number of nodes that they are solved for, and condensations by
+//! the size of the body. [`crate::estimate::machine`] converts it to processor seconds.
 
 use std::collections::BTreeMap;
 

@@ -86,7 +86,8 @@ pub fn summary(summary: &record::Summary, cost: Cost) -> Summary {
         cost: Cost { dofs: count(resolution.dofs), ..cost };
         checks: document!(
             Checks of summary.checks;
-            force_balance, force_balance_present_normals, worn_area, complementarity, friction_cone, friction_use
+            force_balance, worn_area, complementarity, friction_cone, friction_use;
+            force_balance_present_normals: Some(summary.checks.force_balance_present_normals)
         )
     )
 }

@@ -56,13 +56,11 @@ pub(crate) fn resolve(
     let source_element = elements.map(|count| shapes.block.length_mm / count);
     let source_increments = elements.map(|_| SOURCE_INCREMENTS);
     let numerical = scene::Accuracy {
-        tolerance,
         contact_element_mm: contact_element(overrides, shapes, diagnostics).or(source_element),
         increments_per_cycle: increments(overrides, diagnostics).or(source_increments),
         cycle_jump: cycle_jump(overrides, cycles, diagnostics),
-        tuning: scene::Tuning::FITTED,
-        refinement: scene::Refinement::NONE,
         estimate_errors,
+        ..scene::Accuracy::from_tolerance(tolerance)
     };
     (filled, numerical)
 }

@@ -7,9 +7,8 @@ use serde::{Deserialize, Serialize};
 pub struct Checks {
     /// |sum of vertical forces - load| over the load on the unworn contact.
     pub force_balance: f64,
-    /// The same with the normals of the surfaces as worn at that moment, at the positions whose contacts are reported: those of the
-    /// solve are of the beginning of the computed cycle.
-    #[serde(default)]
+    /// The same with the normals of the surfaces as worn at that moment, at the positions whose contacts are reported: those
+    /// of the solve are of the beginning of the computed cycle.
     pub force_balance_present_normals: f64,
     /// |worn area of the profile - accumulated integral of the wear rate| over the latter.
     pub worn_area: f64,

@@ -12,7 +12,7 @@ use crate::scene::{Refinement, Scene};
 /// Safety factor (Roache's for three grids).
 const SAFETY: f64 = 1.25;
 
-/// Order p. Of 100 random scenes (`tolerance_table`) nine of ten are within these estimates, which are three to four times
+/// Order p. Of 100 random scenes (`tolerance_table`) nine of ten are within these estimates, which are three to five times
 /// their errors in the median. Orders of single scenes are not determined from their companions: coarse ones may differ
 /// by less than finer ones.
 fn order(quantity: Quantity) -> f64 {
@@ -25,7 +25,8 @@ fn order(quantity: Quantity) -> f64 {
 }
 
 /// Least estimated error over the tolerance: runs that agree better do so by chance, the histories are compared between
-/// reports. A peak pressure changes by more from increment to increment.
+/// reports. A peak pressure changes by more from increment to increment: a tenth of what is allowed. Of the 100 scenes, 88
+/// peaks are within their estimates with 0.2, 92 with 0.3.
 const LEAST: f64 = 0.01;
 const LEAST_OF_PRESSURE: f64 = 0.3;
 

@@ -12,10 +12,10 @@ const FOOT: f64 = 0.1;
 
 /// Half the distance between the edges of the scar, mm.
 ///
-/// Mostly the depth goes to zero at an angle. The line through the last two nodes above the foot then gives the edge to about a
-/// tenth of an element; interpolating to the first unworn node would put it up to an element too far out. Where the scar runs
-/// out flat, as at the ends of a groove, that line would depend on where the mesh has nodes, and depths are taken instead that
-/// every mesh has.
+/// Mostly the depth goes to zero at an angle. The line through the last two nodes above the foot then gives the edge to
+/// about a tenth of an element; interpolating to the first unworn node would put it up to an element too far out. Where the
+/// scar runs out flat, as at the ends of a groove, that line would depend on where the mesh has nodes, and depths are taken
+/// instead that every mesh has.
 pub(super) fn half_width(x: &[f64], depth: &[f64]) -> f64 {
     let largest = depth.iter().fold(0.0, |m: f64, d| m.max(*d));
     let deep = |d: &f64| *d > SCAR_EDGE * largest;
@@ -23,36 +23,40 @@ pub(super) fn half_width(x: &[f64], depth: &[f64]) -> f64 {
     else {
         return 0.0;
     };
-    let outward = |nodes: &mut dyn Iterator<Item = usize>| -> Vec<(f64, f64)> {
-        nodes.map(|i| (x[i], depth[i])).collect()
-    };
-    let right = edge(&outward(&mut (first..x.len())), last - first, largest);
-    let left = edge(&outward(&mut (0..=last).rev()), last - first, largest);
+    let mut scar: Vec<(f64, f64)> = x.iter().copied().zip(depth.iter().copied()).collect();
+    let right = edge(&scar[first..], last - first, largest);
+    scar.truncate(last + 1);
+    scar.reverse();
+    let left = edge(&scar, last - first, largest);
     0.5 * (right - left)
 }
 
-/// Edge of a scar from its places and depths in outward order, of which `last` is the last deep one.
+/// Edge of a scar from its places and depths in outward order, of which `last` is the last deep one: not beyond the first
+/// unworn node or the end of the body.
 fn edge(scar: &[(f64, f64)], last: usize, largest: f64) -> f64 {
-    let (x, depth) = scar[last];
-    let Some(&(outer, foot)) = scar.get(last + 1) else {
+    let (x, _) = scar[last];
+    let beyond = &scar[last + 1..];
+    let unworn = beyond.iter().find(|(_, depth)| *depth <= 0.0);
+    let Some((bound, _)) = unworn.or(beyond.last()) else {
         return x;
     };
+    let Some(out) = extended(scar, last, largest).filter(|out| out.is_finite()) else {
+        return x;
+    };
+    out.clamp(x.min(*bound), x.max(*bound))
+}
+
+/// Where the depth would vanish; `None` for a scar of one deep node that ends at an angle.
+fn extended(scar: &[(f64, f64)], last: usize, largest: f64) -> Option<f64> {
+    let (x, depth) = scar[last];
+    let (_, foot) = scar[last + 1];
     if foot > FOOT * depth {
         let at = |part: f64| place(&scar[..=last + 1], part * largest);
         let (end, within) = (at(SCAR_EDGE), at(SLOPE_FROM));
-        return end + (end - within) * SCAR_EDGE / (SLOPE_FROM - SCAR_EDGE);
+        return Some(end + (end - within) * SCAR_EDGE / (SLOPE_FROM - SCAR_EDGE));
     }
-    let Some(inner) = last.checked_sub(1).map(|inner| scar[inner]) else {
-        return x;
-    };
-    let out = x - depth * (inner.0 - x) / (inner.1 - depth);
-    if !out.is_finite() {
-        return x;
-    }
-    // Not beyond the first unworn node.
-    let unworn = scar[last..].iter().find(|(_, depth)| *depth <= 0.0);
-    let bound = unworn.or(scar.last()).map_or(outer, |(x, _)| *x);
-    out.clamp(x.min(bound), x.max(bound))
+    let (inner, deeper) = scar[last.checked_sub(1)?];
+    Some(x - depth * (inner - x) / (deeper - depth))
 }
 
 /// Outermost place that is deeper than `depth`, interpolated; the innermost place if none is.
@@ -102,6 +106,9 @@ mod tests {
     #[test]
     fn a_groove_over_the_whole_block_ends_with_it() {
         assert!((half_width(&[-1.0, 0.0, 1.0], &[0.5, 1.0, 0.4]) - 1.0).abs() < 1e-15);
+        // The line through 10 and 2 % reaches beyond the last nodes.
+        let [x, depth] = [[-2.0, -1.0, 0.0, 1.0, 2.0], [0.015, 0.1, 1.0, 0.1, 0.015]];
+        assert!((half_width(&x, &depth) - 2.0).abs() < 1e-15);
         assert!(half_width(&[-1.0, 0.0, 1.0], &[0.0; 3]).abs() < 1e-15);
         assert!(half_width(&[-1.0, 0.0, 1.0], &[0.0, 1.0, 0.0]).abs() < 1e-15);
     }

@@ -168,7 +168,7 @@ mod tests {
 
     const ACCURACY: Accuracy = Accuracy {
         increments_per_cycle: Some(8),
-        ..Accuracy::STANDARD
+        ..Accuracy::from_tolerance(0.02)
     };
 
     const CONTACT: Followed = Followed {

@@ -29,6 +29,7 @@ pub(crate) struct ReplayPlan {
     smoothing: f64,
     /// Longest step of the smoothing pass, mm.
     largest_step: f64,
+    /// Amplitude of the stroke, mm.
     amplitude: f64,
 }
 
@@ -46,17 +47,13 @@ impl ReplayPlan {
         }
         let tuning = &accuracy.tuning;
         let count = count_at_least(tuning.lead_in * half_width / length);
-        let [leftmost, neutral, rightmost] = increments::named(steps);
-        let ends = if all {
-            vec![leftmost, neutral, rightmost]
-        } else {
-            vec![neutral]
-        };
-        let spans = ends.into_iter();
+        let named = increments::named(steps);
+        let ends = if all { &named[..] } else { &named[1..2] };
+        let spans = ends.iter().map(|end| (end.saturating_sub(count), *end));
         let largest_step = accuracy.largest_step(single);
         let parts = count_at_least(length / largest_step).min(MOST_PARTS);
         Self {
-            spans: spans.map(|end| (end.saturating_sub(count), end)).collect(),
+            spans: spans.collect(),
             fine: count_at_least(tuning.fine_lead_in * single / length),
             parts,
             smoothing: if parts > 1 {
@@ -69,7 +66,7 @@ impl ReplayPlan {
         }
     }
 
-    /// Where the smoothing pass about a place turns and ends, within the stroke, and in how many parts each way is solved. It
+    /// Where the smoothing pass about a place turns and ends, within the stroke, and the number of increments to there. It
     /// begins in a direction (its sign).
     pub(crate) fn smoothing(&self, place: f64, direction: f64) -> Vec<(f64, usize)> {
         let side = self.smoothing * direction;
@@ -114,7 +111,7 @@ impl ReplayPlan {
 mod tests {
     use super::*;
 
-    const ACCURACY: Accuracy = Accuracy::STANDARD;
+    const ACCURACY: Accuracy = Accuracy::from_tolerance(0.02);
 
     /// Steps of 0.5 over a stroke from -10 to 10 under a contact of half-width 2.
     fn plan(single: f64, all: bool) -> ReplayPlan {

@@ -54,8 +54,8 @@ pub(super) struct Newton {
 /// round-off of an ill-conditioned system.
 const STALLED_WITHIN: f64 = 10.0;
 
-/// Largest imbalance of the vertical forces over the load on the unworn contact. The balance is linear, so that only a height
-/// that a singular system had made astronomic violates it, by round-off.
+/// Largest imbalance of the vertical forces over the load on the unworn contact. The balance is linear: a correction leaves
+/// some 1e-15 of it, unless it starts from the height of 1e20 mm that a singular system gave.
 const BALANCE_TOLERANCE: f64 = 1e-9;
 
 /// Factors are renewed where an iteration without a change of status leaves more than this part of the residual. Arbitrary:
@@ -95,7 +95,8 @@ impl Newton {
             residual = self.evaluate(problem, response, wear, it);
             changes = active_set::update(problem, it, iteration);
             let stalled = has_stalled((last.0 / tolerance, last.1), residual / it.tolerance);
-            let is_balanced = || self.partition.imbalance(problem, it) <= BALANCE_TOLERANCE;
+            let unbalanced = BALANCE_TOLERANCE * problem.pair.interface.load;
+            let is_balanced = || self.partition.balance(problem, it).abs() <= unbalanced;
             if changes == 0 && (residual <= it.tolerance || stalled) && is_balanced() {
                 return Convergence::Converged;
             }

@@ -82,11 +82,6 @@ impl Partition {
         })
     }
 
-    /// The size of the balance over the load on the unworn contact.
-    pub(super) fn imbalance(&self, problem: &Problem<'_>, it: &Iterate) -> f64 {
-        self.balance(problem, it).abs() / problem.pair.interface.load
-    }
-
     /// The status that a node's part of the wear is linearised in.
     pub(super) fn status(&self, it: &Iterate, node: usize) -> Status {
         match self.forms[node] {
