@@ -47,7 +47,7 @@ macro_rules! variations {
     };
 }
 
-const ERRORS: [Variation; 43] = variations! {
+const ERRORS: [Variation; 47] = variations! {
     elements.value = [4.0, 8.0, 16.0], 0.02, ["scar", "partial slip"];
     elements.exponent = [0.2, 0.4, 0.6], 0.005, ["scar"];
     scar_elements.value = [8.0, 16.0, 32.0], 0.02, ["light scar"];
@@ -74,23 +74,27 @@ const ERRORS: [Variation; 43] = variations! {
     steps_per_quarter.value = [2.0, 5.0, 10.0], 0.02, ["scar"];
     sticking_steps_per_quarter.value = [5.0, 12.0, 24.0], 0.02, ["partial slip"];
     steps_per_quarter.exponent = [0.0, 0.36, 0.7], 0.005, ["scar"];
-    drift = [2.5, 10.0, 25.0], 0.02, ["long groove"];
+    drift.value = [0.05, 0.1, 0.2, 0.5], 0.02, ["whole groove"];
+    drift.exponent = [0.0, -0.5, -1.0], 0.005, ["whole groove"];
     jump_change.0 = [0.25, 0.5, 0.8], 0.02, ["scar", "long sprung contact"];
     jump_change.1 = [1.2, 2.0, 4.0], 0.02, ["scar", "long sprung contact"];
     jump_error.exponent = [0.0, 0.5, 1.0], 0.005, ["long scar"];
     jump_of_done = [0.25, 0.5, 1.0], 0.02, ["scar", "long sprung contact"];
     gross_jump_of_done = [2.0, 4.0, 6.0, 8.0], 0.02, ["long groove", "pin"];
-    gross_taper = [1.0, 4.0, 8.0, 64.0], 0.02, ["long groove", "pin"];
-    jump_contact_from = [1.0, 1.5, 3.0], 0.02, ["long groove", "pin"];
-    widest_jump_contact = [1.0, 3.0, 6.0], 0.02, ["long groove", "longer groove"];
-    smoothing_pass = [1.5, 3.0, 5.0, 12.0], 0.02, ["long groove", "longer groove"];
+    gross_taper = [1.0, 4.0, 8.0, 64.0], 0.02, ["long groove", "longer groove", "pin"];
+    widest_followed = [1.0, 3.0, 6.0, 10.0], 0.02, ["long groove", "longer groove"];
+    smoothed_step.value = [0.0, 0.25, 0.5, 1.0], 0.02, ["long groove", "longer groove"];
+    smoothed_step.exponent = [0.0, -0.25, -0.5], 0.005, ["groove", "long groove"];
+    smoothed_early = [1.0, 2.0, 4.0], 0.02, ["short groove", "long groove"];
+    smoothing_pass.value = [3.0, 5.0, 8.0, 16.0], 0.02, ["long groove", "longer groove"];
+    smoothing_pass.exponent = [0.0, 0.25, 0.5], 0.005, ["groove", "long groove"];
     gross_jump_of_both = [0.5, 1.0, 2.0], 0.02, ["both worn"];
     gross_from = [1.0, 2.0, 4.0], 0.02, ["long sprung contact"];
     skew = [3.0, 12.0, 48.0], 0.02, ["long scar"];
     least_skew = [0.05, 0.15, 0.45], 0.005, ["long scar"];
     sufficient_cycles = [1.0, 2.5, 10.0], 0.02, ["long sprung contact"];
     lead_in = [2.0, 4.0, 8.0], 0.02, ["long groove"];
-    fine_lead_in = [1.0, 4.0, 8.0], 0.02, ["long groove"];
+    fine_pass = [1.0, 2.0, 4.0, 8.0], 0.02, ["long groove", "longer groove", "pin"];
 };
 
 const FORECASTS: [Variation; 2] = variations! {
@@ -108,8 +112,10 @@ fn scene(name: &str) -> Scene {
         "scar" => scar(),
         "long scar" => of_cycles(mccoll(), 18_000),
         "groove" => groove(),
+        "short groove" => of_cycles(fuzz_button(), 3),
         "long groove" => of_cycles(fuzz_button(), 240),
         "longer groove" => of_cycles(fuzz_button(), 500),
+        "whole groove" => of_cycles(fuzz_button(), 2_000),
         "sprung contact" => sprung_contact(),
         "long sprung contact" => of_cycles(sprung_contact(), 2_000),
         "partial slip" => partial_slip(),

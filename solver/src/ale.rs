@@ -17,7 +17,7 @@ pub(crate) use spines::WORN_THROUGH_SHARE;
 /// The stiffness is rebuilt when a spine has lost this part of its length since it was last built.
 pub(crate) fn drift_share(accuracy: &Accuracy) -> f64 {
     let (least, most) = accuracy.tuning.drift_bounds;
-    (accuracy.tuning.drift * accuracy.tolerance / accuracy.refinement.mesh).clamp(least, most)
+    (accuracy.tuning.drift.at(accuracy.tolerance) / accuracy.refinement.mesh).clamp(least, most)
 }
 
 /// Whether the geometry has changed enough since the operators were built to rebuild them; worn depths in mm.

@@ -24,9 +24,9 @@ use crate::law::wear::{self, LocalState};
 use crate::model::Model;
 use crate::number::{cycles_at_least, real, real_cycles};
 use crate::scene::Scene;
-use crate::schedule::increments::{self, Followed, Position, Step};
+use crate::schedule::increments::{self, Position};
 use crate::schedule::jump::Stroke;
-use crate::schedule::replay::ReplayPlan;
+use crate::schedule::plan::{CyclePlan, Cycles, Followed};
 use crate::sides::{Side, Sides};
 
 pub use checks::Checks;
@@ -136,7 +136,8 @@ impl<'a> Integrator<'a> {
     /// [`CycleError`] if an increment fails however small it is.
     pub fn initial_quarter(&mut self, state: &mut CycleState) -> Result<(), CycleError> {
         let (motion, accuracy) = (self.scene.motion, &self.scene.accuracy);
-        let steps = increments::steps(motion, accuracy, self.followed(state, false));
+        let contact = (state.mean_half_width, self.pair.interface.sticks);
+        let steps = increments::steps(motion, increments::count(motion, accuracy, contact));
         for (increment, step) in increments::initial_quarter(&steps).iter().enumerate() {
             self.step(state, step, 0.0, (increment, None))?;
         }
@@ -159,11 +160,16 @@ impl<'a> Integrator<'a> {
         self.update_slopes(state);
         let before = state.clone();
         loop {
-            let replayed = stroke.is_replayed(jump);
-            let steps = increments::steps(motion, accuracy, self.followed(state, replayed));
             // A run may end after this cycle.
             let detailed = before.cycle + jump == until || !self.scene.stop.is_empty();
-            let error = match self.integrate(state, &steps, jump, (replayed, detailed)) {
+            let cycles = Cycles {
+                done: state.cycle,
+                last: state.jump.last,
+                jump,
+            };
+            let (run, stroke) = ((motion, accuracy), (stroke, cycles));
+            let plan = CyclePlan::new(run, self.followed(state), stroke, detailed);
+            let error = match self.integrate(state, plan, jump, detailed) {
                 Ok(record) => {
                     let done = state.cycle - before.cycle;
                     let widths = self.pair.operators.as_ref().map(|body| &body.widths[..]);
@@ -191,22 +197,13 @@ impl<'a> Integrator<'a> {
     fn integrate(
         &mut self,
         state: &mut CycleState,
-        steps: &[Step],
+        plan: CyclePlan,
         jump: u64,
-        (replayed, detailed): (bool, bool),
+        detailed: bool,
     ) -> Result<CycleRecord, CycleError> {
+        let steps = &increments::steps(self.scene.motion, plan.steps)[..];
+        let mut replays = Replays::new(plan.replays);
         let mut record = CycleRecord::default();
-        let mut replays = if replayed {
-            let length = 4.0 * self.scene.motion.amplitude_mm() / real(steps.len());
-            Replays::new(ReplayPlan::new(
-                (steps.len(), length),
-                &self.scene.accuracy,
-                (state.mean_half_width, state.neutral.half_width),
-                detailed,
-            ))
-        } else {
-            Replays::default()
-        };
         let warm_starts = std::mem::take(&mut state.warm_starts);
         let mut next_starts = WarmStarts::default();
         let (mut half_widths, mut touching, mut done, mut neutral) = (0.0, 0, 0, 0);
@@ -252,12 +249,12 @@ impl<'a> Integrator<'a> {
         Ok(record)
     }
 
-    fn followed(&self, state: &CycleState, replayed: bool) -> Followed {
-        Followed::new(
-            &self.scene.accuracy.tuning,
-            (state.mean_half_width, state.neutral.half_width),
-            (self.pair.interface.sticks, replayed),
-        )
+    fn followed(&self, state: &CycleState) -> Followed {
+        Followed {
+            half_width: state.mean_half_width,
+            single: state.neutral.half_width,
+            sticks: self.pair.interface.sticks,
+        }
     }
 
     fn stroke(&self, state: &CycleState) -> Stroke {

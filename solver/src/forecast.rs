@@ -18,9 +18,8 @@ mod surrogate;
 use crate::model::Layout;
 use crate::number::{cycles_at_least, real, real_cycles};
 use crate::scene::Scene;
-use crate::schedule::increments::{self, Followed};
 use crate::schedule::jump::JumpControl;
-use crate::schedule::replay::ReplayPlan;
+use crate::schedule::plan::{CyclePlan, Cycles, Followed};
 use crate::schedule::stops;
 use crate::sides::Sides;
 
@@ -87,18 +86,18 @@ pub fn forecast(scene: &Scene, layout: &Layout) -> Forecast {
         let until = stops::next(scene, scar.progress(cycle, &jump));
         let (accuracy, stroke) = (&scene.accuracy, scar.stroke(scene));
         let step = jump.next(accuracy, stroke, until - cycle);
-        let replayed = stroke.is_replayed(step);
-        let half_widths = (scar.half_width, scar.contact(1));
-        let sticks = layout.sizes.sticks;
-        let followed = Followed::new(&accuracy.tuning, half_widths, (sticks, replayed));
-        let steps = increments::count(scene.motion, accuracy, followed);
-        let replays = if replayed {
-            let length = 4.0 * scar.amplitude / real(steps);
-            let detailed = !scene.stop.is_empty();
-            ReplayPlan::new((steps, length), accuracy, half_widths, detailed).increments()
-        } else {
-            0
+        let followed = Followed {
+            half_width: scar.half_width,
+            single: scar.contact(1),
+            sticks: layout.sizes.sticks,
         };
+        let (motion, detailed) = (scene.motion, !scene.stop.is_empty());
+        let cycles = Cycles {
+            done: cycle,
+            last: jump.last,
+            jump: step,
+        };
+        let plan = CyclePlan::new((motion, accuracy), followed, (stroke, cycles), detailed);
         let together = batch_size(scene, run.computed_cycles, (until - cycle) / step);
         let before = scar.depth.clone();
         scar.wear(step, together);
@@ -108,8 +107,8 @@ pub fn forecast(scene: &Scene, layout: &Layout) -> Forecast {
         run.computed_cycles += real_cycles(together);
         run.segments.push(Segment {
             cycle,
-            increments: real_cycles(together) * real(steps + replays),
-            steps,
+            increments: real_cycles(together) * real(plan.increments()),
+            steps: plan.steps,
             half_width_mm: scar.half_width,
             nodes: nodes_within(x, scar.half_width),
             solved: solved(x, &scar, layout.sizes.sticks),

@@ -186,6 +186,11 @@ impl Accuracy {
 
     /// Largest displacement of an increment for a contact of a half-width, mm.
     pub(crate) fn largest_step(&self, half_width: f64) -> f64 {
+        self.step_over_half_width() * half_width / self.refinement.increments
+    }
+
+    /// Displacement of an increment over the half-width of the contact that it is chosen for, before any refinement.
+    pub(crate) fn step_over_half_width(&self) -> f64 {
         let Tuning {
             step, loose_step, ..
         } = &self.tuning;
@@ -194,7 +199,7 @@ impl Accuracy {
         } else {
             step
         };
-        step.at(self.tolerance) * half_width / self.refinement.increments
+        step.at(self.tolerance)
     }
 
     /// Number of increments in which the load is applied.

@@ -3,5 +3,6 @@
 
 pub mod increments;
 pub mod jump;
+pub mod plan;
 pub mod replay;
 pub mod stops;

@@ -97,13 +97,14 @@ fn pressure_in_gross_reciprocating_sliding_is_that_of_single_cycles() {
         "peak pressure at cycle 240: {chosen:.1} MPa with jumps of up to {jump}, {single:.1} MPa without"
     );
     assert!(jump > 10);
-    // Reached: 0.2 %. On the jump's leading-edge step it would be 39 % low.
-    assert!((chosen / single - 1.0).abs() < 0.03);
+    // Reached: 0.1 %. On the jump's leading-edge step it would be 39 % low.
+    assert!((chosen / single - 1.0).abs() < 0.02);
 }
 
 /// Normals exclude the leading-edge step of the pass. With it the normal force would be larger by mu k times the mean pressure
-/// (weighted by itself, 8/(3 pi) of the peak for Hertz): 1.6 % under 600 MPa. Reached: 1.3 times that, because the pressure on
-/// the step is higher in front than Hertz'; allowed: 0.8 to 1.6 times.
+/// (weighted by itself, 8/(3 pi) of the peak for Hertz): 1.6 % under 600 MPa. Reached: 0.9 times that in the middle of the
+/// stroke; 1.8 times at the turning points, where the replay's smoothing passes wear the wall twice more under the normals of
+/// the beginning of the cycle. Allowed: 0.8 to 2 times.
 #[test]
 fn the_balance_with_present_normals_shows_the_step_of_a_pass() {
     let scene = groove();
@@ -115,7 +116,7 @@ fn the_balance_with_present_normals_shows_the_step_of_a_pass() {
     let mean = 8.0 / (3.0 * PI) * summary.last.peak_pressure_mpa;
     let expected = coefficient * COPPER_WEAR * mean;
     println!("balance with present normals {balance:.4}, mu k p {expected:.4}");
-    assert!(balance > 0.8 * expected && balance < 1.6 * expected);
+    assert!(balance > 0.8 * expected && balance < 2.0 * expected);
 }
 
 /// The same for a stroke of some four half-widths, where the single-cycle replay of a position starts before the
@@ -138,6 +139,6 @@ fn pressure_of_a_stroke_of_four_half_widths_is_that_of_single_cycles() {
     };
     let (ten, single) = (peak(10), peak(1));
     println!("peak pressure at cycle 100: {ten:.1} MPa with jumps of 10, {single:.1} MPa without");
-    // Reached: 10 %. On the jump's leading-edge step it would be 54 % low.
-    assert!((ten / single - 1.0).abs() < 0.2);
+    // Reached: 0.2 %. On the jump's leading-edge step it would be 54 % low.
+    assert!((ten / single - 1.0).abs() < 0.03);
 }

@@ -31,14 +31,12 @@ impl Replays {
     ) {
         for &(_, end) in self.plan.spans.iter().filter(|span| span.0 == next) {
             let mut single = state.clone();
-            let mut lead_in = steps[next..=end].iter().enumerate();
+            let mut lead_in = steps[next..=end].iter();
             let place = steps[end].slider_x;
             let direction = (place - steps[end.saturating_sub(1)].slider_x).signum();
             let mut smoothing = self.plan.smoothing(place, direction).into_iter();
-            let succeeded = lead_in.all(|(i, step)| {
-                let parts = self.plan.parts(next + i, end);
-                solve(&mut single, step.slider_x, parts)
-            }) && smoothing.all(|(to, parts)| solve(&mut single, to, parts));
+            let succeeded = lead_in.all(|step| solve(&mut single, step.slider_x, 1))
+                && smoothing.all(|(to, parts)| solve(&mut single, to, parts));
             state.increments = single.increments;
             if let (true, Some(position)) = (succeeded, steps[end].at) {
                 state.checks = single.checks;

@@ -7,7 +7,7 @@
 //! must stay a fraction of the contact's half-width, or its wear would leave ripples.
 
 use crate::number::{count_at_least, real};
-use crate::scene::{Accuracy, Motion, Tuning};
+use crate::scene::{Accuracy, Motion};
 
 /// Named positions of a cycle.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -18,38 +18,6 @@ pub enum Position {
     Rightmost,
     /// Slider at its leftmost position.
     Leftmost,
-}
-
-/// Contact that the increments are chosen for.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Followed {
-    /// Its half-width, mm.
-    pub(crate) half_width: f64,
-    /// Whether part of it may stick through the whole stroke.
-    pub(crate) sticks: bool,
-}
-
-impl Followed {
-    /// The narrower of the present contact and that of a single cycle. Where replays resolve that of a single cycle and the
-    /// contact on the step of a whole jump is much wider: the present one, within a limit.
-    pub(crate) fn new(
-        tuning: &Tuning,
-        (half_width, single): (f64, f64),
-        (sticks, replayed): (bool, bool),
-    ) -> Self {
-        let wide = replayed && half_width >= tuning.jump_contact_from * single;
-        let widest = if wide {
-            tuning.widest_jump_contact
-        } else {
-            1.0
-        };
-        let half_width = if single > 0.0 {
-            half_width.min(widest * single)
-        } else {
-            half_width
-        };
-        Self { half_width, sticks }
-    }
 }
 
 /// Most steps a quarter of a cycle: an arbitrary bound on the length of a computed cycle.
@@ -66,8 +34,8 @@ pub(crate) struct Step {
     pub(crate) at: Option<Position>,
 }
 
-/// Number of increments of one cycle.
-pub(crate) fn count(motion: Motion, accuracy: &Accuracy, contact: Followed) -> usize {
+/// Number of increments of one cycle for a contact of a half-width, mm, part of which may stick through the whole stroke.
+pub(crate) fn count(motion: Motion, accuracy: &Accuracy, contact: (f64, bool)) -> usize {
     match motion {
         Motion::Continuous { .. } => 1,
         Motion::Reciprocating { amplitude_mm, .. } => {
@@ -81,8 +49,8 @@ pub(crate) fn named(count: usize) -> [usize; 3] {
     [2, 3, 4].map(|quarters| (quarters * (count / 4)).saturating_sub(1))
 }
 
-/// The increments of one cycle.
-pub(crate) fn steps(motion: Motion, accuracy: &Accuracy, contact: Followed) -> Vec<Step> {
+/// The increments of one cycle, so many if the motion reciprocates.
+pub(crate) fn steps(motion: Motion, count: usize) -> Vec<Step> {
     match motion {
         Motion::Continuous { step_mm } => {
             vec![Step {
@@ -91,10 +59,7 @@ pub(crate) fn steps(motion: Motion, accuracy: &Accuracy, contact: Followed) -> V
                 at: Some(Position::Neutral),
             }]
         }
-        Motion::Reciprocating { amplitude_mm, .. } => there_and_back(
-            amplitude_mm,
-            steps_per_quarter(accuracy, amplitude_mm, contact),
-        ),
+        Motion::Reciprocating { amplitude_mm, .. } => there_and_back(amplitude_mm, count / 4),
     }
 }
 
@@ -117,20 +82,23 @@ pub(crate) fn initial_quarter(steps: &[Step]) -> &[Step] {
     }
 }
 
-fn steps_per_quarter(accuracy: &Accuracy, amplitude: f64, contact: Followed) -> usize {
+fn steps_per_quarter(
+    accuracy: &Accuracy,
+    amplitude: f64,
+    (half_width, sticks): (f64, bool),
+) -> usize {
     let Accuracy {
         tolerance,
         tuning,
         refinement,
         ..
     } = accuracy;
-    let fewest = if contact.sticks {
+    let fewest = if sticks {
         tuning.sticking_steps_per_quarter
     } else {
         tuning.steps_per_quarter
     };
     let fewest = fewest.at(*tolerance) * refinement.increments;
-    let half_width = contact.half_width;
     match accuracy.increments_per_cycle {
         Some(given) => count_at_least(0.25 * refinement.increments * f64::from(given)),
         // Without a contact there is nothing to resolve.
@@ -138,7 +106,7 @@ fn steps_per_quarter(accuracy: &Accuracy, amplitude: f64, contact: Followed) -> 
         None => {
             let long = amplitude / accuracy.largest_step(half_width);
             let short = long / tuning.short_step;
-            let short = if contact.sticks { 0.0 } else { short };
+            let short = if sticks { 0.0 } else { short };
             count_at_least(long.max(short.min(2.0 * fewest))).max(count_at_least(fewest.round()))
         }
     }
@@ -171,10 +139,7 @@ mod tests {
         ..Accuracy::from_tolerance(0.02)
     };
 
-    const CONTACT: Followed = Followed {
-        half_width: 0.1,
-        sticks: false,
-    };
+    const CONTACT: (f64, bool) = (0.1, false);
 
     fn places(steps: &[Step]) -> Vec<f64> {
         steps.iter().map(|step| step.slider_x).collect()
@@ -186,7 +151,7 @@ mod tests {
             amplitude_mm: 2.0,
             period_s: 1.0,
         };
-        let steps = steps(motion, &ACCURACY, CONTACT);
+        let steps = steps(motion, count(motion, &ACCURACY, CONTACT));
         assert_eq!(
             places(&steps),
             vec![1.0, 0.0, -1.0, -2.0, -1.0, 0.0, 1.0, 2.0]
@@ -206,7 +171,7 @@ mod tests {
             amplitude_mm: 2.0,
             period_s: 1.0,
         };
-        let places = places(&steps(motion, &accuracy, CONTACT));
+        let places = places(&steps(motion, count(motion, &accuracy, CONTACT)));
         assert!(
             places
                 .windows(2)
@@ -238,23 +203,8 @@ mod tests {
     }
 
     #[test]
-    fn the_wide_contact_of_a_jump_is_followed_where_replays_resolve_the_other() {
-        let followed = |half_width, replayed| {
-            Followed::new(&Tuning::FITTED, (half_width, 1.0), (false, replayed)).half_width
-        };
-        assert_eq!((followed(2.0, true), followed(9.0, true)), (2.0, 3.0));
-        // Hardly wider, narrower, without replays.
-        let others = (
-            followed(1.4, true),
-            followed(0.5, true),
-            followed(9.0, false),
-        );
-        assert_eq!(others, (1.0, 0.5, 1.0));
-    }
-
-    #[test]
     fn a_continuous_motion_stays_where_it_is() {
-        let steps = steps(Motion::Continuous { step_mm: 0.3 }, &ACCURACY, CONTACT);
+        let steps = steps(Motion::Continuous { step_mm: 0.3 }, 1);
         assert_eq!((steps.len(), places(&steps)), (1, vec![0.0]));
         assert_eq!(initial_quarter(&steps), steps);
     }

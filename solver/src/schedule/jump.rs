@@ -30,7 +30,9 @@ const SMALLEST_ERROR: f64 = 1e-6;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Stroke {
     /// Whether it is gross reciprocating sliding: the contact leaves its own width.
-    gross: bool,
+    pub(crate) gross: bool,
+    /// k E*, by which a pass wears off the waves that earlier increments have left; 0 where the slider wears too.
+    pub(crate) smoothing: f64,
     /// Whether both bodies wear.
     both: bool,
     /// Pressure skew of a single cycle, k s E*/b.
@@ -49,17 +51,18 @@ impl Stroke {
         cycles: u64,
     ) -> Self {
         let wear = rates.slider + rates.receptacle;
+        let smoothing = if rates.slider > 0.0 {
+            0.0
+        } else {
+            wear * modulus
+        };
         Self {
             gross: tuning.is_gross(amplitude, half_width),
+            smoothing,
             both: rates.slider > 0.0 && rates.receptacle > 0.0,
             skew: wear * 2.0 * amplitude * modulus / half_width,
             cycles,
         }
-    }
-
-    /// Whether the pressures of a computed cycle of so many are those of single-cycle replays.
-    pub(crate) fn is_replayed(self, jump: u64) -> bool {
-        self.gross && jump > 1
     }
 
     /// The largest jump after `done` cycles.
@@ -89,10 +92,12 @@ impl Stroke {
 pub struct JumpControl {
     /// Wear per physical cycle in the last computed one at the nodes of both surfaces, mm.
     rate: Sides<Vec<f64>>,
-    /// The last jump as the base of the next; 0 before the first cycle.
-    base: f64,
-    /// The last jump.
+    /// The last jump; 0 before the first cycle.
     pub last: u64,
+    /// The jump before the last.
+    before: u64,
+    /// The last jump before it was shortened to hit a cycle exactly.
+    unshortened: f64,
     /// Estimated relative error of the last jump.
     pub error: f64,
     /// Sum of error times wear, and of wear: their ratio is the error of the run so far.
@@ -105,8 +110,15 @@ pub struct JumpControl {
 
 impl JumpControl {
     /// The next jump: fixed by the scene or chosen, and never beyond `remaining`.
-    pub(crate) fn next(&self, accuracy: &Accuracy, stroke: Stroke, remaining: u64) -> u64 {
-        let jump = self.chosen(accuracy, stroke, remaining);
+    pub(crate) fn next(&mut self, accuracy: &Accuracy, stroke: Stroke, remaining: u64) -> u64 {
+        let jump = match accuracy.cycle_jump {
+            Some(fixed) => {
+                let jump =
+                    cycles_at_least((real_cycles(fixed) / accuracy.refinement.cycles).round());
+                jump.clamp(1, remaining.max(1))
+            }
+            None => self.chosen(accuracy, stroke, remaining),
+        };
         if self.most == 0 {
             jump
         } else {
@@ -120,12 +132,9 @@ impl JumpControl {
         (failed > 1).then_some(self.most)
     }
 
-    fn chosen(&self, accuracy: &Accuracy, stroke: Stroke, remaining: u64) -> u64 {
-        if let Some(fixed) = accuracy.cycle_jump {
-            let jump = cycles_at_least((real_cycles(fixed) / accuracy.refinement.cycles).round());
-            return jump.clamp(1, remaining.max(1));
-        }
-        if self.base <= 0.0 || self.error <= 0.0 {
+    /// The jump that the error allows, shortened to hit the end of what remains.
+    fn chosen(&mut self, accuracy: &Accuracy, stroke: Stroke, remaining: u64) -> u64 {
+        if self.last == 0 || self.error <= 0.0 {
             return 1;
         }
         let (least, most) = accuracy.tuning.jump_change;
@@ -133,17 +142,24 @@ impl JumpControl {
         // A geometric sequence of jumps has `finer` times the members with this growth.
         let most = most.powf(1.0 / finer);
         let allowed = accuracy.largest_jump_error() / finer;
-        let factor = (allowed / self.error).clamp(least, most);
+        let last = real_cycles(self.last);
+        // The error is that of the distance between the last two; a jump that was shortened does not slow down the growth.
+        let distance = last.max(0.5 * (last + real_cycles(self.before)));
+        let longest = most * last.max(self.unshortened);
+        let target = (distance * allowed / self.error).clamp(least * last, longest);
         let most = stroke.most(accuracy, self.done);
-        let target = (self.base * factor).min(most).max(1.0);
-        // The last jumps before a cycle that is reported are halved.
-        let tapered = (0.5 * real_cycles(remaining)).max(most / accuracy.tuning.gross_taper);
-        let target = if stroke.gross {
-            target.min(tapered).max(1.0)
+        let target = target.min(most).max(1.0);
+        self.unshortened = target;
+        let short = if stroke.gross {
+            cycles_at_least(most / accuracy.tuning.gross_taper)
         } else {
-            target
+            0
         };
-        even_share(target, remaining)
+        // The last one before a cycle that is reported is a short one.
+        match remaining.saturating_sub(short) {
+            0 => remaining.max(1),
+            before => even_share(target, before),
+        }
     }
 
     /// Updates the control with the wear of a computed cycle on both surfaces, whose nodes have these widths.
@@ -175,7 +191,7 @@ impl JumpControl {
         };
         self.weighted_error += self.error * total * dn;
         self.worn += total * dn;
-        self.base = dn;
+        self.before = self.last;
         self.last = jump;
         self.done += jump;
         self.most = self.most.saturating_mul(2);
@@ -227,6 +243,7 @@ mod tests {
 
     const STROKE: Stroke = Stroke {
         gross: false,
+        smoothing: 0.0,
         both: false,
         skew: 0.0,
         cycles: 1_000,
@@ -289,13 +306,24 @@ mod tests {
     }
 
     #[test]
-    fn the_last_jumps_of_gross_sliding_are_halved() {
+    fn a_jump_that_hits_a_cycle_does_not_slow_down_the_growth() {
         let mut control = JumpControl::default();
         wear(&mut control, 0.0, 100.0, 100);
         wear(&mut control, 100.0, 200.0, 100);
-        let next = |remaining| control.next(&ACCURACY, GROSS, remaining);
-        assert_eq!([40, 20, 10, 5, 3].map(next), [20, 10, 5, 3, 3]);
-        // Not those of a scar.
+        // 200 are allowed, 10 remain before a report.
+        assert_eq!(control.next(&ACCURACY, STROKE, 10), 10);
+        wear(&mut control, 200.0, 210.0, 10);
+        assert_eq!(control.next(&ACCURACY, STROKE, 10_000), 209);
+    }
+
+    #[test]
+    fn the_last_jump_of_gross_sliding_before_a_report_is_a_short_one() {
+        let mut control = JumpControl::default();
+        wear(&mut control, 0.0, 100.0, 100);
+        wear(&mut control, 100.0, 200.0, 100);
+        let next = |remaining| control.clone().next(&ACCURACY, GROSS, remaining);
+        assert_eq!([40, 20, 10, 5, 3].map(next), [19, 17, 7, 2, 3]);
+        // Not that of a scar.
         assert_eq!(control.next(&ACCURACY, STROKE, 40), 40);
     }
 

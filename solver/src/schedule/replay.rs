@@ -13,22 +13,18 @@ use crate::number::{count_at_least, real};
 use crate::scene::Accuracy;
 use crate::schedule::increments;
 
-/// Most parts of a step: a contact this much wider does not relax to the narrow one within the lead-in.
-const MOST_PARTS: usize = 64;
-
 /// Plan of the replays of one computed cycle.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(crate) struct ReplayPlan {
     /// First and last step of each replay.
     pub(crate) spans: Vec<(usize, usize)>,
-    /// Number of steps before the end of a replay that are divided.
-    fine: usize,
-    /// Parts of a divided step.
-    parts: usize,
-    /// Length of the smoothing pass on either side of the place, mm; 0 where steps are not divided.
+    /// Length of the smoothing pass on either side of the place, mm; 0 where there is none.
     smoothing: f64,
-    /// Longest step of the smoothing pass, mm.
-    largest_step: f64,
+    /// Part of it next to the place with short steps, mm.
+    fine: f64,
+    /// Steps of the cycle, and longest ones next to the place, mm.
+    long_step: f64,
+    short_step: f64,
     /// Amplitude of the stroke, mm.
     amplitude: f64,
 }
@@ -50,60 +46,52 @@ impl ReplayPlan {
         let named = increments::named(steps);
         let ends = if all { &named[..] } else { &named[1..2] };
         let spans = ends.iter().map(|end| (end.saturating_sub(count), *end));
-        let largest_step = accuracy.largest_step(single);
-        let parts = count_at_least(length / largest_step).min(MOST_PARTS);
+        let short_step = accuracy.largest_step(single);
+        // Steps divide the stroke evenly.
+        let smoothing = if length > (1.0 + 1e-9) * short_step {
+            tuning.smoothing_pass.at(accuracy.tolerance) * single
+        } else {
+            0.0
+        };
         Self {
             spans: spans.collect(),
-            fine: count_at_least(tuning.fine_lead_in * single / length),
-            parts,
-            smoothing: if parts > 1 {
-                tuning.smoothing_pass * single
-            } else {
-                0.0
-            },
-            largest_step,
+            smoothing,
+            fine: smoothing.min(tuning.fine_pass * single),
+            long_step: length,
+            short_step,
             amplitude: 0.25 * length * real(steps),
         }
     }
 
-    /// Where the smoothing pass about a place turns and ends, within the stroke, and the number of increments to there. It
+    /// Parts of the smoothing pass about a place, within the stroke: where each ends, and the number of its increments. It
     /// begins in a direction (its sign).
     pub(crate) fn smoothing(&self, place: f64, direction: f64) -> Vec<(f64, usize)> {
-        let side = self.smoothing * direction;
-        let turns = [place + side, place - side, place];
+        let (far, near) = (self.smoothing * direction, self.fine * direction);
+        let (long, short) = (self.long_step, self.short_step);
+        let there = [(far, long), (near, long)];
+        let back = [(-near, short), (-far, long), (-near, long), (0.0, short)];
         let mut last = place;
-        let mut ways = Vec::new();
-        for end in turns.map(|x| x.clamp(-self.amplitude, self.amplitude)) {
+        let mut parts = Vec::new();
+        for (offset, step) in there.into_iter().chain(back) {
+            let end = (place + offset).clamp(-self.amplitude, self.amplitude);
             let distance = (end - last).abs();
             if distance > 0.0 {
-                ways.push((end, count_at_least(distance / self.largest_step)));
+                parts.push((end, count_at_least(distance / step)));
             }
             last = end;
         }
-        ways
+        parts
     }
 
     /// Number of increments of all replays.
     pub(crate) fn increments(&self) -> usize {
-        let increments = |(begin, end): &(usize, usize)| {
-            let steps = end + 1 - begin;
-            steps + self.fine.min(steps) * (self.parts - 1)
-        };
+        let increments = |(begin, end): &(usize, usize)| end + 1 - begin;
         let smoothing = self.smoothing(0.0, 1.0);
         let smoothing: usize = smoothing.iter().map(|(_, parts)| parts).sum();
         self.spans
             .iter()
             .map(|span| increments(span) + smoothing)
             .sum()
-    }
-
-    /// Number of parts of a step of a replay that ends at step `end`.
-    pub(crate) fn parts(&self, step: usize, end: usize) -> usize {
-        if step + self.fine > end {
-            self.parts
-        } else {
-            1
-        }
     }
 }
 
@@ -129,13 +117,17 @@ mod tests {
     fn long_steps_are_followed_by_a_smoothing_pass_within_the_stroke() {
         // Steps of a contact of half-width 1 are 0.2 long.
         let narrow = plan(1.0, false);
-        let ways = [(5.0, 25), (-5.0, 50), (0.0, 25)];
-        assert_eq!(narrow.smoothing(0.0, 1.0), ways);
+        let (there, back) = (
+            [(8.0, 16), (4.0, 8)],
+            [(-4.0, 40), (-8.0, 8), (-4.0, 8), (0.0, 20)],
+        );
+        assert_eq!(narrow.smoothing(0.0, 1.0), [&there[..], &back].concat());
         // From a turning point only back.
-        assert_eq!(narrow.smoothing(10.0, 1.0), [(5.0, 25), (10.0, 25)]);
-        assert_eq!(narrow.smoothing(-10.0, -1.0), [(-5.0, 25), (-10.0, 25)]);
-        // 17 steps, the last 8 of them in 3 parts, and the pass.
-        assert_eq!(narrow.increments(), 17 + 8 * 2 + 100);
+        let back = [(6.0, 20), (2.0, 8), (6.0, 8), (10.0, 20)];
+        assert_eq!(narrow.smoothing(10.0, 1.0), back);
+        let mirrored = back.map(|(place, increments)| (-place, increments));
+        assert_eq!(narrow.smoothing(-10.0, -1.0), mirrored);
+        assert_eq!(narrow.increments(), 17 + 100);
         let wide = plan(2.5, false);
         assert_eq!(wide.smoothing(0.0, 1.0), []);
         assert_eq!(wide.increments(), 17);

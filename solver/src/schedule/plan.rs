@@ -1,0 +1,206 @@
+//! Increments and replays of a computed cycle.
+//!
+//! Increments must be short against the contact, or their wear leaves waves in the floor that the next contacts stand on.
+//! In gross reciprocating sliding the contact of a computed cycle rests on the step of its whole jump and is several times as
+//! wide as that of a single cycle; and where k E* is large, a single pass wears off the waves of longer increments. Increments
+//! can then be chosen for a wider contact if replays resolve that of a single cycle where it is reported: of both plans the
+//! one of fewer increments is taken.
+
+use super::increments;
+use super::jump::Stroke;
+use super::replay::ReplayPlan;
+use crate::number::{real, real_cycles};
+use crate::scene::{Accuracy, Motion};
+
+/// Longest step over the half-width of the contact of a single cycle: that is as wide, and no pass of it wears off the waves of
+/// longer ones. The coarse companions of `fuzz_button.json` would take steps of 4.8, and their peak pressure would be half.
+const LONGEST_STEP: f64 = 2.0;
+
+/// Contact that the increments are chosen for.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Followed {
+    /// Half-widths of the present contact and of that of a single cycle, mm.
+    pub(crate) half_width: f64,
+    pub(crate) single: f64,
+    /// Whether part of it may stick through the whole stroke.
+    pub(crate) sticks: bool,
+}
+
+/// Physical cycles.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Cycles {
+    /// Done before the computed cycle.
+    pub(crate) done: u64,
+    /// That the last computed cycle represents, on whose step the present contact stands.
+    pub(crate) last: u64,
+    /// That the computed cycle represents.
+    pub(crate) jump: u64,
+}
+
+impl Followed {
+    /// The narrower half-width, mm.
+    fn narrower(&self) -> f64 {
+        if self.single > 0.0 {
+            self.half_width.min(self.single)
+        } else {
+            self.half_width
+        }
+    }
+
+    /// Half-width on the step of a jump that is not larger than the last, mm: its square grows by the height of the step.
+    fn on_step(&self, cycles: Cycles) -> f64 {
+        let part = (real_cycles(cycles.jump) / real_cycles(cycles.last.max(1))).min(1.0);
+        let single = self.single.powi(2);
+        (single + part * (self.half_width.powi(2) - single)).sqrt()
+    }
+
+    /// The wider half-width within a limit, mm: that on the step of the jump, or one for whose increments a pass wears off
+    /// the waves.
+    fn wider(&self, accuracy: &Accuracy, stroke: Stroke, cycles: Cycles) -> f64 {
+        let tuning = &accuracy.tuning;
+        let longest = tuning.smoothed_step.at(accuracy.tolerance) * stroke.smoothing;
+        let early = tuning.smoothed_early * real_cycles(cycles.done + cycles.jump).sqrt();
+        let smoothed = early.min(longest / accuracy.step_over_half_width());
+        let limit = (LONGEST_STEP / accuracy.largest_step(1.0)).min(tuning.widest_followed);
+        self.on_step(cycles)
+            .max(smoothed * self.single)
+            .min(limit * self.single)
+    }
+}
+
+/// Increments and replays of a computed cycle.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct CyclePlan {
+    /// Number of increments.
+    pub(crate) steps: usize,
+    pub(crate) replays: ReplayPlan,
+}
+
+impl CyclePlan {
+    /// Plans a computed cycle of a stroke; with replays at all named positions where `detailed`.
+    pub(crate) fn new(
+        (motion, accuracy): (Motion, &Accuracy),
+        contact: Followed,
+        (stroke, cycles): (Stroke, Cycles),
+        detailed: bool,
+    ) -> Self {
+        let plan = |half_width, replayed| {
+            let steps = increments::count(motion, accuracy, (half_width, contact.sticks));
+            let length = 4.0 * motion.amplitude_mm() / real(steps);
+            let half_widths = (contact.half_width, contact.single);
+            let replays = if replayed {
+                ReplayPlan::new((steps, length), accuracy, half_widths, detailed)
+            } else {
+                ReplayPlan::default()
+            };
+            Self { steps, replays }
+        };
+        let narrow = plan(contact.narrower(), stroke.gross && cycles.jump > 1);
+        // A run of single cycles is a reference.
+        let is_reference = accuracy.cycle_jump == Some(1);
+        if !stroke.gross || is_reference || contact.single <= 0.0 {
+            return narrow;
+        }
+        let wide = plan(contact.wider(accuracy, stroke, cycles), true);
+        if wide.increments() < narrow.increments() {
+            wide
+        } else {
+            narrow
+        }
+    }
+
+    /// Number of increments of the cycle and of its replays.
+    pub(crate) fn increments(&self) -> usize {
+        self.steps + self.replays.increments()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Tuning;
+    use crate::sides::Sides;
+
+    const ACCURACY: Accuracy = Accuracy::from_tolerance(0.02);
+
+    const MOTION: Motion = Motion::Reciprocating {
+        amplitude_mm: 50.0,
+        period_s: 1.0,
+    };
+
+    /// A stroke of 50 half-widths under a wear rate k, 1/MPa, of the receptacle, and of the slider, with E* = 1 MPa.
+    fn stroke(receptacle: f64, slider: f64) -> Stroke {
+        let rates = Sides { slider, receptacle };
+        Stroke::new(&Tuning::FITTED, rates, 1.0, (50.0, 1.0), 1_000)
+    }
+
+    fn contact(half_width: f64) -> Followed {
+        Followed {
+            half_width,
+            single: 1.0,
+            sticks: false,
+        }
+    }
+
+    fn cycles(done: u64, jump: u64) -> Cycles {
+        Cycles {
+            done,
+            last: 9,
+            jump,
+        }
+    }
+
+    fn plan(half_width: f64, stroke: Stroke, cycles: Cycles) -> CyclePlan {
+        CyclePlan::new(
+            (MOTION, &ACCURACY),
+            contact(half_width),
+            (stroke, cycles),
+            false,
+        )
+    }
+
+    #[test]
+    fn the_wide_contact_of_a_jump_is_followed_where_that_saves_increments() {
+        // Steps of a fifth of a half-width over 200 half-widths.
+        let steps =
+            |half_width, jump| plan(half_width, stroke(0.01, 0.01), cycles(100, jump)).steps;
+        assert_eq!((steps(1.0, 1), steps(1.2, 1)), (1_000, 1_000));
+        assert_eq!((steps(2.0, 9), steps(2.0, 3)), (500, 708));
+        assert_eq!((steps(9.0, 9), steps(1.1, 9)), (168, 1_000));
+        // Narrower than that of a single cycle.
+        assert_eq!(steps(0.5, 9), 2_000);
+    }
+
+    #[test]
+    fn single_cycles_are_replayed_where_a_pass_wears_off_the_waves() {
+        let of = |receptacle, slider, done| {
+            let plan = plan(1.0, stroke(receptacle, slider), cycles(done, 1));
+            (plan.steps, plan.replays.spans.len())
+        };
+        assert_eq!(of(1.2, 0.0, 99), (336, 1));
+        assert_eq!(of(0.1, 0.0, 99), (1_000, 0));
+        assert_eq!(of(1.2, 0.01, 99), (1_000, 0));
+        // In the first cycles waves are not yet small against the depth.
+        assert_eq!(of(1.2, 0.0, 0), (500, 1));
+    }
+
+    #[test]
+    fn runs_of_single_cycles_and_short_strokes_follow_the_narrower_contact() {
+        let single = Accuracy {
+            cycle_jump: Some(1),
+            ..ACCURACY
+        };
+        let plan = |accuracy, stroke| {
+            let (run, stroke) = ((MOTION, accuracy), (stroke, cycles(99, 1)));
+            CyclePlan::new(run, contact(1.0), stroke, false).steps
+        };
+        assert_eq!(plan(&single, stroke(1.2, 0.0)), 1_000);
+        // An amplitude of half a half-width.
+        let rates = Sides {
+            slider: 0.0,
+            receptacle: 1.2,
+        };
+        let short = Stroke::new(&Tuning::FITTED, rates, 1.0, (0.5, 1.0), 1_000);
+        assert_eq!(plan(&ACCURACY, short), 1_000);
+    }
+}
