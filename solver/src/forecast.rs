@@ -91,7 +91,8 @@ pub fn forecast(scene: &Scene, layout: &Layout) -> Forecast {
             single: scar.contact(1),
             sticks: layout.sizes.sticks,
         };
-        let (motion, detailed) = (scene.motion, !scene.stop.is_empty());
+        let motion = scene.motion;
+        let detailed = cycle + step == until || !scene.stop.is_empty();
         let cycles = Cycles {
             done: cycle,
             last: jump.last,
