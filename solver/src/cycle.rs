@@ -22,6 +22,7 @@ use crate::contact::{self, ContactError, ContactState, Displacement, Pair, Solve
 use crate::law::elastic::contact_modulus;
 use crate::law::wear::{self, LocalState};
 use crate::model::Model;
+use crate::model::resolution::radius;
 use crate::number::{cycles_at_least, real, real_cycles};
 use crate::scene::Scene;
 use crate::schedule::increments::{self, Position};
@@ -268,6 +269,7 @@ impl<'a> Integrator<'a> {
             wear,
             modulus,
             (amplitude, state.mean_half_width),
+            (interface.load, radius(scene)),
             scene.cycles,
         )
     }

@@ -21,6 +21,7 @@ mod verify_fuzz_button_groove;
 mod verify_gross_slip;
 mod verify_hertz_line_contact;
 mod verify_invariance;
+mod verify_jumps_in_a_deep_groove;
 mod verify_long_wipe;
 mod verify_mccoll;
 mod verify_moving_line_contact;

@@ -112,6 +112,7 @@ impl Scar {
             self.shares.map(|share| share * self.wear),
             self.modulus,
             (self.amplitude, self.half_width),
+            (scene.load_n_per_mm, self.radius),
             scene.cycles,
         )
     }

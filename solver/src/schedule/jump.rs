@@ -33,6 +33,8 @@ pub(crate) struct Stroke {
     pub(crate) gross: bool,
     /// k E*, by which a pass wears off the waves that earlier increments have left; 0 where the slider wears too.
     pub(crate) smoothing: f64,
+    /// By how much the leading-edge step of a jump widens the contact: square of a half-width over the jump, mm^2.
+    pub(crate) step: f64,
     /// Whether both bodies wear.
     both: bool,
     /// Pressure skew of a single cycle, k s E*/b.
@@ -42,12 +44,14 @@ pub(crate) struct Stroke {
 }
 
 impl Stroke {
-    /// The stroke of an amplitude under a contact of a half-width, mm, for the wear rates k_s, k_r in 1/MPa and E* in MPa.
+    /// The stroke of an amplitude under a contact of a half-width, mm, for the wear rates k_s, k_r in 1/MPa and E* in MPa,
+    /// under a load, N/mm, between bodies of a relative radius, mm.
     pub(crate) fn new(
         tuning: &Tuning,
         rates: Sides<f64>,
         modulus: f64,
         (amplitude, half_width): (f64, f64),
+        (load, radius): (f64, f64),
         cycles: u64,
     ) -> Self {
         let wear = rates.slider + rates.receptacle;
@@ -59,6 +63,7 @@ impl Stroke {
         Self {
             gross: tuning.is_gross(amplitude, half_width),
             smoothing,
+            step: tuning.step_share * 2.0 * radius * wear * load,
             both: rates.slider > 0.0 && rates.receptacle > 0.0,
             skew: wear * 2.0 * amplitude * modulus / half_width,
             cycles,
@@ -250,6 +255,7 @@ mod tests {
     const STROKE: Stroke = Stroke {
         gross: false,
         smoothing: 0.0,
+        step: 0.0,
         both: false,
         skew: 0.0,
         cycles: 1_000,

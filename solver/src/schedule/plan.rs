@@ -54,6 +54,15 @@ impl Followed {
         (single + part * (self.half_width.powi(2) - single)).sqrt()
     }
 
+    /// Half-width on the step of the coming jump, mm. After a shorter jump the present contact is narrower.
+    fn on_coming_step(&self, stroke: Stroke, cycles: Cycles) -> f64 {
+        if cycles.last == 0 || cycles.jump <= cycles.last {
+            return self.half_width;
+        }
+        let step = stroke.step * real_cycles(cycles.jump);
+        self.single.hypot(step.sqrt())
+    }
+
     /// The wider half-width within a limit, mm: that on the step of the jump, or one for whose increments a pass wears off
     /// the waves.
     fn wider(&self, accuracy: &Accuracy, stroke: Stroke, cycles: Cycles) -> f64 {
@@ -84,10 +93,13 @@ impl CyclePlan {
         (stroke, cycles): (Stroke, Cycles),
         detailed: bool,
     ) -> Self {
+        // The lead-in to the neutral position need not begin before the turning point.
+        let widest = motion.amplitude_mm() / accuracy.tuning.lead_in;
+        let coming = contact.on_coming_step(stroke, cycles).min(widest);
+        let half_widths = (contact.half_width.max(coming), contact.single);
         let plan = |half_width, replayed| {
             let steps = increments::count(motion, accuracy, (half_width, contact.sticks));
             let length = 4.0 * motion.amplitude_mm() / real(steps);
-            let half_widths = (contact.half_width, contact.single);
             let replays = if replayed {
                 ReplayPlan::new((steps, length), accuracy, half_widths, detailed)
             } else {
@@ -131,7 +143,7 @@ mod tests {
     /// A stroke of 50 half-widths under a wear rate k, 1/MPa, of the receptacle, and of the slider, with E* = 1 MPa.
     fn stroke(receptacle: f64, slider: f64) -> Stroke {
         let rates = Sides { slider, receptacle };
-        Stroke::new(&Tuning::FITTED, rates, 1.0, (50.0, 1.0), 1_000)
+        Stroke::new(&Tuning::FITTED, rates, 1.0, (50.0, 1.0), (0.0, 1.0), 1_000)
     }
 
     fn contact(half_width: f64) -> Followed {
@@ -172,6 +184,26 @@ mod tests {
     }
 
     #[test]
+    fn the_lead_in_of_a_replay_begins_before_the_coming_step() {
+        let rates = Sides {
+            slider: 0.01,
+            receptacle: 0.01,
+        };
+        let loaded = Stroke::new(
+            &Tuning::FITTED,
+            rates,
+            1.0,
+            (50.0, 1.0),
+            (10.0, 10.0),
+            1_000,
+        );
+        let half_width = |jump| contact(2.0).on_coming_step(loaded, cycles(100, jump));
+        assert_eq!([half_width(1), half_width(9)], [2.0, 2.0]);
+        // 2 R k P jump is 72 mm^2 after 18 cycles, 0.42 of it widens the contact.
+        assert!((half_width(18) - 31.24_f64.sqrt()).abs() < 1e-12);
+    }
+
+    #[test]
     fn single_cycles_are_replayed_where_a_pass_wears_off_the_waves() {
         let of = |receptacle, slider, done| {
             let plan = plan(1.0, stroke(receptacle, slider), cycles(done, 1));
@@ -200,7 +232,7 @@ mod tests {
             slider: 0.0,
             receptacle: 1.2,
         };
-        let short = Stroke::new(&Tuning::FITTED, rates, 1.0, (0.5, 1.0), 1_000);
+        let short = Stroke::new(&Tuning::FITTED, rates, 1.0, (0.5, 1.0), (0.0, 1.0), 1_000);
         assert_eq!(plan(&ACCURACY, short), 1_000);
     }
 }

@@ -31,7 +31,7 @@ pub(crate) struct ReplayPlan {
 
 impl ReplayPlan {
     /// Plans replays that end at the neutral position, or at all named ones, of a cycle of so many steps of a length, for
-    /// the half-widths of the present contact and of that of a single cycle.
+    /// the half-widths of the contact on the step of the jump and of that of a single cycle.
     pub(crate) fn new(
         (steps, length): (usize, f64),
         accuracy: &Accuracy,
