@@ -198,7 +198,7 @@ mod tests {
             1_000,
         );
         let half_width = |jump| contact(2.0).on_coming_step(loaded, cycles(100, jump));
-        assert_eq!([half_width(1), half_width(9)], [2.0, 2.0]);
+        assert!((half_width(9) - 2.0).abs() < 1e-12);
         // 2 R k P jump is 72 mm^2 after 18 cycles, 0.42 of it widens the contact.
         assert!((half_width(18) - 31.24_f64.sqrt()).abs() < 1e-12);
     }
