@@ -2,14 +2,18 @@
 //!
 //! The motion begins at the neutral position toward +x. Its initial quarter only brings the contact into gross slip;
 //! cycles are then computed from turning point to turning point, and the last quarter of the last cycle replaces the
-//! wear of the initial one. After N cycles every point has been passed 2 N times.
+//! wear of the initial one. After N cycles every point has been passed 2 N times. In a groove only the last cycle of a jump is
+//! computed, as a single one, and the others are extrapolated.
 //!
 //! Normals are those of the worn surface at the beginning of a computed cycle. The leading-edge step that a single pass
 //! wears belongs to the wear law, not to the geometry of the scar: with a jump it would be `jump` times too high, and
 //! its slope would load the contact like a wall.
 
 mod checks;
+mod computed_cycle;
 mod cycle_record;
+mod extrapolation;
+mod groove;
 mod replay;
 mod state;
 mod step_control;
@@ -19,15 +23,11 @@ mod wear_limit;
 use crate::ale::Spines;
 use crate::condensation::Operators;
 use crate::contact::{self, ContactError, ContactState, Displacement, Pair, Solver, Surfaces};
-use crate::law::elastic::contact_modulus;
-use crate::law::wear::{self, LocalState};
 use crate::model::Model;
-use crate::model::resolution::radius;
 use crate::number::{cycles_at_least, real, real_cycles};
 use crate::scene::Scene;
 use crate::schedule::increments::{self, Position};
-use crate::schedule::jump::Stroke;
-use crate::schedule::plan::{CyclePlan, Cycles, Followed};
+use crate::schedule::plan::CyclePlan;
 use crate::sides::{Side, Sides};
 
 pub use checks::Checks;
@@ -145,54 +145,6 @@ impl<'a> Integrator<'a> {
         Ok(())
     }
 
-    /// Computes one cycle, which represents as many physical ones as the jump control and `until` allow.
-    ///
-    /// # Errors
-    /// [`CycleError`] if an increment fails however small it is; the state is then that before the cycle if wider zones
-    /// would help.
-    pub fn compute_cycle(
-        &mut self,
-        state: &mut CycleState,
-        until: u64,
-    ) -> Result<CycleRecord, CycleError> {
-        let (motion, accuracy) = (self.scene.motion, &self.scene.accuracy);
-        let stroke = self.stroke(state);
-        let mut jump = state.jump.next(accuracy, stroke, until - state.cycle);
-        self.update_slopes(state);
-        let before = state.clone();
-        loop {
-            // A run may end after this cycle.
-            let detailed = before.cycle + jump == until || !self.scene.stop.is_empty();
-            let cycles = Cycles {
-                done: state.cycle,
-                last: state.jump.last,
-                jump,
-            };
-            let (run, stroke) = ((motion, accuracy), (stroke, cycles));
-            let plan = CyclePlan::new(run, self.followed(state), stroke, detailed);
-            let error = match self.integrate(state, plan, jump, detailed) {
-                Ok(record) => {
-                    let done = state.cycle - before.cycle;
-                    let widths = self.pair.operators.as_ref().map(|body| &body.widths[..]);
-                    let (old, new) = (&before.depth, &state.depth);
-                    state.jump.update(widths, old, new, done);
-                    return Ok(record);
-                }
-                Err(error) => error,
-            };
-            if error.needs_wider_zones() {
-                *state = before;
-                return Err(error);
-            }
-            let cut = state.jump.cut(jump);
-            *state = CycleState {
-                jump: state.jump.clone(),
-                ..before.clone()
-            };
-            jump = cut.ok_or(error)?;
-        }
-    }
-
     /// Integrates one computed cycle up to its end, or until a body is worn through; with additional points of the
     /// friction loop and replays at the turning points where `detailed`.
     fn integrate(
@@ -203,6 +155,7 @@ impl<'a> Integrator<'a> {
         detailed: bool,
     ) -> Result<CycleRecord, CycleError> {
         let steps = &increments::steps(self.scene.motion, plan.steps)[..];
+        let (before, energy) = (state.depth.receptacle.clone(), state.energy);
         let mut replays = Replays::new(plan.replays);
         let mut record = CycleRecord::default();
         let warm_starts = std::mem::take(&mut state.warm_starts);
@@ -239,8 +192,12 @@ impl<'a> Integrator<'a> {
         } else {
             cycles_at_least(real_cycles(jump) * real(done) / real(steps.len())).min(jump)
         };
-        state.cycle += cycles;
-        state.sliding_distance += self.scene.motion.distance_per_cycle_mm() * real_cycles(cycles);
+        self.count(state, cycles);
+        let worn = state.depth.receptacle.iter().zip(&before);
+        state.wear_per_cycle = worn
+            .map(|(after, before)| (after - before) / real_cycles(cycles))
+            .collect();
+        state.energy_per_cycle = (state.energy - energy) / real_cycles(cycles);
         if touching > 0 {
             state.mean_half_width = half_widths / real(touching);
         }
@@ -250,28 +207,10 @@ impl<'a> Integrator<'a> {
         Ok(record)
     }
 
-    fn followed(&self, state: &CycleState) -> Followed {
-        Followed {
-            half_width: state.mean_half_width,
-            single: state.neutral.half_width,
-            sticks: self.pair.interface.sticks,
-        }
-    }
-
-    fn stroke(&self, state: &CycleState) -> Stroke {
-        let (scene, interface) = (self.scene, &self.pair.interface);
-        let amplitude = scene.motion.amplitude_mm();
-        let modulus = contact_modulus(scene.slider.elastic, scene.receptacle.elastic);
-        let at = LocalState::mean(interface.load, state.mean_half_width);
-        let wear = wear::coefficients(interface.wear, at);
-        Stroke::new(
-            &scene.accuracy.tuning,
-            wear,
-            modulus,
-            (amplitude, state.mean_half_width),
-            (interface.load, radius(scene)),
-            scene.cycles,
-        )
+    /// Counts cycles done.
+    fn count(&self, state: &mut CycleState, cycles: u64) {
+        state.cycle += cycles;
+        state.sliding_distance += self.scene.motion.distance_per_cycle_mm() * real_cycles(cycles);
     }
 
     fn increment(

@@ -88,20 +88,19 @@ pub fn forecast(scene: &Scene, layout: &Layout) -> Forecast {
         let step = jump.next(accuracy, stroke, until - cycle);
         let followed = Followed {
             half_width: scar.half_width,
-            single: scar.contact(1),
+            single: scar.half_width,
             sticks: layout.sizes.sticks,
         };
         let motion = scene.motion;
         let detailed = cycle + step == until || !scene.stop.is_empty();
         let cycles = Cycles {
             done: cycle,
-            last: jump.last,
-            jump: step,
+            jump: if stroke.is_groove { 1 } else { step },
         };
         let plan = CyclePlan::new((motion, accuracy), followed, (stroke, cycles), detailed);
         let together = batch_size(scene, run.computed_cycles, (until - cycle) / step);
         let before = scar.depth.clone();
-        scar.wear(step, together);
+        scar.wear(step * together);
         let done = step * together;
         jump.update(scar.widths(), &before, &scar.depth, done);
         cycle += done;

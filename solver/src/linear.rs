@@ -5,6 +5,7 @@ pub mod cholesky;
 pub mod condensed;
 pub mod dense;
 pub mod lemke;
+pub mod tridiagonal;
 pub mod vector;
 
 pub use cholesky::{CholeskyFactor, CholeskyPattern, FactorError};

@@ -132,8 +132,8 @@ pub fn build(scene: &Scene, plan: &EffectsPlan) -> Result<Model, MeshError> {
 /// Weights of both surfaces' slopes in that of the interface. Two elastic bodies press the surfaces together, the more
 /// compliant one deforms more: in the middle of Hertz' contact the interface has the curvature of each body in proportion to
 /// the stiffness E/(1 - nu^2) of that body (Johnson 1985, section 4.2). So the answer does not depend on which of the bodies is
-/// called the slider. In gross sliding the slider rests on the leading-edge step that a whole jump wears, and its slopes there
-/// are an artefact of the jump: only the receptacle's count.
+/// called the slider. In gross sliding the slider rests on the leading-edge step, whose slope belongs to the wear law and not to
+/// the scar: only the receptacle's count.
 fn slope_weights(scene: &Scene, sticks: bool) -> Sides<f64> {
     if !sticks {
         return Sides {

@@ -1,10 +1,12 @@
 //! Cycle jumps in a groove deeper than the slider's radius, against single cycles on the same mesh.
 //!
-//! The contact of a computed cycle rests on the leading-edge step of its whole jump: it is sqrt(jump) times as wide as that of
-//! a single cycle, and at the turning points it extends farther up the walls. They wear faster and further out, and on their
-//! slopes the normal force, and with it the worn area, is larger. The error grows with the excess of the contact's
-//! width, not in proportion to the jump, so the coarse companions of a run, whose jumps are three and four times as long, differ
-//! by less than the run is off: its estimate of the worn area is far too low.
+//! A contact that wore a whole jump at once would rest on a step of many passes and extend up the walls at the turning points:
+//! they would wear faster and further out, and on their slopes the normal force, and with it the worn area, is larger. With jumps
+//! of 20 cycles the area was 0.5 % off and the edge of the block 1.3 %, with 240 0.9 and 2.7 %, and no coarser run showed it. The
+//! cycles of a jump are therefore extrapolated from single ones.
+//!
+//! Allowed: the tolerance anywhere in the profile, a tenth of it in depth and area, which the mesh and the increments have for
+//! themselves; found are a twentieth at most.
 //!
 //! `FRETWEAR_TOLERANCE=0.02 cargo test --release -p solver deep_groove -- --nocapture` prints it for another tolerance.
 
@@ -34,6 +36,5 @@ fn jumps_in_a_deep_groove_are_within_the_tolerance_of_single_cycles() {
         "deep groove at {tolerance}: depth off by {depth:+.2e}, area by {area:+.2e}, profile by {largest:.2e} at most, \
          {between:.2e} in area"
     );
-    let errors = [depth.abs(), area.abs(), largest];
-    assert!(errors.iter().all(|error| *error < tolerance), "{errors:?}");
+    assert!(depth.abs().max(area.abs()) < 0.1 * tolerance && largest < tolerance);
 }

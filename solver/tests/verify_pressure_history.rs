@@ -53,10 +53,10 @@ fn peak_pressures_do_not_depend_on_jumps_and_increments() {
     let mut slider = pin();
     slider.slider.wear = slider.receptacle.wear.take();
     slider.cycles = 200;
-    // Its increments are chosen for the contact on the step of a jump.
+    // A pass wears off the waves of its increments, which are longer than the contact of a single cycle.
     let mut fuzz = fuzz_button();
     fuzz.cycles = 150;
-    // Jumps before a report are short ones.
+    // Jumps before a report are shortened.
     fuzz.output.snapshots_at_cycles = vec![60, 100, 150];
     let scenes = [
         ("pin", pin()),

@@ -124,7 +124,7 @@ fn a_run_in_zones_resumes_to_the_same_bits() {
     scene.accuracy.tuning.fewest_zone_nodes = 20.0;
     scene.output.snapshots_at_cycles = vec![4, 20];
     scene.output.fields = true;
-    let (summary, _) = resumes_to_the_same_bits("wipe", &scene, 9);
+    let (summary, _) = resumes_to_the_same_bits("wipe", &scene, 7);
     assert!(summary.resolution.relocations >= 2, "{summary:?}");
 }
 

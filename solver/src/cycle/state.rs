@@ -64,6 +64,12 @@ pub struct CycleState {
     pub increments: u64,
     /// Most increments in one cycle.
     pub most_increments: usize,
+    /// Wear of the receptacle per cycle in the last computed one at its contact nodes, mm; none before the first.
+    pub(crate) wear_per_cycle: Vec<f64>,
+    /// Energy dissipated per cycle in the same, mJ/mm.
+    pub(crate) energy_per_cycle: f64,
+    /// Relative loss of the load per cycle since the one before.
+    pub(crate) loss_of_load: f64,
     /// Worst residuals so far.
     pub checks: Checks,
 }
@@ -85,6 +91,9 @@ impl CycleState {
             computed_cycles: 0,
             increments: 0,
             most_increments: 0,
+            wear_per_cycle: Vec::new(),
+            energy_per_cycle: 0.0,
+            loss_of_load: 0.0,
             checks: Checks::default(),
         }
     }

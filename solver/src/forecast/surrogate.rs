@@ -112,14 +112,14 @@ impl Scar {
             self.shares.map(|share| share * self.wear),
             self.modulus,
             (self.amplitude, self.half_width),
-            (scene.load_n_per_mm, self.radius),
+            self.radius / scene.slider.shape.radius_mm,
             scene.cycles,
         )
     }
 
-    /// Wears `jump` cycles more, so many times.
-    pub(super) fn wear(&mut self, jump: u64, times: u64) {
-        self.area += self.area_per_cycle * real_cycles(jump * times);
+    /// Wears so many cycles more.
+    pub(super) fn wear(&mut self, cycles: u64) {
+        self.area += self.area_per_cycle * real_cycles(cycles);
         self.grow();
         let drawn = (self.amplitude - self.flat).max(0.0);
         // The rest of the stroke moves the contact over the scar, which smears its growing edges.
@@ -134,7 +134,7 @@ impl Scar {
         }
         self.deepest.receptacle = self.shares.receptacle * self.depth_at(0.0, drawn);
         self.wear_slider();
-        self.half_width = self.contact(jump);
+        self.half_width = self.contact();
     }
 
     /// Half-width of the slider's flat in gross sliding, mm.
@@ -179,9 +179,9 @@ impl Scar {
         }
     }
 
-    /// Half-width of the contact after a jump: between that in gross sliding and the whole segment.
-    pub(super) fn contact(&self, jump: u64) -> f64 {
-        let step = 2.0 * self.radius * self.pass * real_cycles(jump);
+    /// Half-width of the contact of a single cycle: between that in gross sliding and the whole segment.
+    fn contact(&self) -> f64 {
+        let step = 2.0 * self.radius * self.pass;
         let gross = self.hertz.hypot((self.tuning.step_share * step).sqrt());
         let gross = gross.max(self.slider_flat());
         let share = (self.amplitude / gross - 1.0).clamp(0.0, 1.0);

@@ -8,7 +8,7 @@ fn the_surrogate_has_the_worn_area() {
     let layout = Layout::of(&scene).expect("it can be meshed");
     let mut scar = Scar::new(&scene, &layout);
     for jump in [1, 10, 100] {
-        scar.wear(jump, 1);
+        scar.wear(jump);
         let held: f64 = scar
             .depth
             .receptacle

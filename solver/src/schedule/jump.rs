@@ -33,8 +33,8 @@ pub(crate) struct Stroke {
     pub(crate) gross: bool,
     /// k E*, by which a pass wears off the waves that earlier increments have left; 0 where the slider wears too.
     pub(crate) smoothing: f64,
-    /// By how much the leading-edge step of a jump widens the contact: square of a half-width over the jump, mm^2.
-    pub(crate) step: f64,
+    /// Whether only the receptacle wears, in a groove that is longer than the contact: jumps extrapolate single cycles.
+    pub(crate) is_groove: bool,
     /// Whether both bodies wear.
     both: bool,
     /// Pressure skew of a single cycle, k s E*/b.
@@ -45,25 +45,21 @@ pub(crate) struct Stroke {
 
 impl Stroke {
     /// The stroke of an amplitude under a contact of a half-width, mm, for the wear rates k_s, k_r in 1/MPa and E* in MPa,
-    /// under a load, N/mm, between bodies of a relative radius, mm.
+    /// for a contact that travels over the receptacle by a part of its displacement.
     pub(crate) fn new(
         tuning: &Tuning,
         rates: Sides<f64>,
         modulus: f64,
         (amplitude, half_width): (f64, f64),
-        (load, radius): (f64, f64),
+        travel: f64,
         cycles: u64,
     ) -> Self {
         let wear = rates.slider + rates.receptacle;
-        let smoothing = if rates.slider > 0.0 {
-            0.0
-        } else {
-            wear * modulus
-        };
+        let only_receptacle = rates.slider <= 0.0 && rates.receptacle > 0.0;
         Self {
             gross: tuning.is_gross(amplitude, half_width),
-            smoothing,
-            step: tuning.step_share * 2.0 * radius * wear * load,
+            smoothing: if only_receptacle { wear * modulus } else { 0.0 },
+            is_groove: only_receptacle && tuning.is_gross(amplitude * travel, half_width),
             both: rates.slider > 0.0 && rates.receptacle > 0.0,
             skew: wear * 2.0 * amplitude * modulus / half_width,
             cycles,
@@ -79,6 +75,8 @@ impl Stroke {
         let most = if self.gross {
             let share = if self.both {
                 tuning.gross_jump_of_both
+            } else if self.is_groove {
+                tuning.groove_jump_of_done
             } else {
                 tuning.gross_jump_of_done
             };
@@ -158,7 +156,7 @@ impl JumpControl {
         let most = stroke.most(accuracy, self.done);
         let target = target.min(most).max(1.0);
         self.unshortened = target;
-        let short = if stroke.gross {
+        let short = if stroke.gross && !stroke.is_groove {
             cycles_at_least(most / accuracy.tuning.gross_taper)
         } else {
             0
@@ -255,7 +253,7 @@ mod tests {
     const STROKE: Stroke = Stroke {
         gross: false,
         smoothing: 0.0,
-        step: 0.0,
+        is_groove: false,
         both: false,
         skew: 0.0,
         cycles: 1_000,
@@ -335,8 +333,13 @@ mod tests {
         wear(&mut control, 100.0, 200.0, 100);
         let next = |remaining| control.clone().next(&ACCURACY, GROSS, remaining);
         assert_eq!([40, 20, 10, 5, 3].map(next), [19, 17, 7, 2, 3]);
-        // Not that of a scar.
-        assert_eq!(control.next(&ACCURACY, STROKE, 40), 40);
+        // Not that of a scar, nor of a groove.
+        assert_eq!(control.clone().next(&ACCURACY, STROKE, 40), 40);
+        let groove = Stroke {
+            is_groove: true,
+            ..GROSS
+        };
+        assert_eq!(control.next(&ACCURACY, groove, 40), 40);
     }
 
     #[test]

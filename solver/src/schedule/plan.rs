@@ -1,10 +1,9 @@
 //! Increments and replays of a computed cycle.
 //!
 //! Increments must be short against the contact, or their wear leaves waves in the floor that the next contacts stand on.
-//! In gross reciprocating sliding the contact of a computed cycle rests on the step of its whole jump and is several times as
-//! wide as that of a single cycle; and where k E* is large, a single pass wears off the waves of longer increments. Increments
-//! can then be chosen for a wider contact if replays resolve that of a single cycle where it is reported: of both plans the
-//! one of fewer increments is taken.
+//! In gross reciprocating sliding a single pass wears off the waves of longer increments where k E* is large. They can then be
+//! chosen for a wider contact if replays resolve the present one where it is reported: of both plans the one of fewer
+//! increments is taken.
 
 use super::increments;
 use super::jump::Stroke;
@@ -31,15 +30,13 @@ pub(crate) struct Followed {
 pub(crate) struct Cycles {
     /// Done before the computed cycle.
     pub(crate) done: u64,
-    /// That the last computed cycle represents, on whose step the present contact stands.
-    pub(crate) last: u64,
     /// That the computed cycle represents.
     pub(crate) jump: u64,
 }
 
 impl Followed {
     /// The narrower half-width, mm.
-    fn narrower(&self) -> f64 {
+    pub(crate) fn narrower(&self) -> f64 {
         if self.single > 0.0 {
             self.half_width.min(self.single)
         } else {
@@ -47,33 +44,14 @@ impl Followed {
         }
     }
 
-    /// Half-width on the step of a jump that is not larger than the last, mm: its square grows by the height of the step.
-    fn on_step(&self, cycles: Cycles) -> f64 {
-        let part = (real_cycles(cycles.jump) / real_cycles(cycles.last.max(1))).min(1.0);
-        let single = self.single.powi(2);
-        (single + part * (self.half_width.powi(2) - single)).sqrt()
-    }
-
-    /// Half-width on the step of the coming jump, mm. After a shorter jump the present contact is narrower.
-    fn on_coming_step(&self, stroke: Stroke, cycles: Cycles) -> f64 {
-        if cycles.last == 0 || cycles.jump <= cycles.last {
-            return self.half_width;
-        }
-        let step = stroke.step * real_cycles(cycles.jump);
-        self.single.hypot(step.sqrt())
-    }
-
-    /// The wider half-width within a limit, mm: that on the step of the jump, or one for whose increments a pass wears off
-    /// the waves.
+    /// The wider half-width within a limit, mm: one for whose increments a pass wears off the waves.
     fn wider(&self, accuracy: &Accuracy, stroke: Stroke, cycles: Cycles) -> f64 {
         let tuning = &accuracy.tuning;
         let longest = tuning.smoothed_step.at(accuracy.tolerance) * stroke.smoothing;
         let early = tuning.smoothed_early * real_cycles(cycles.done + cycles.jump).sqrt();
         let smoothed = early.min(longest / accuracy.step_over_half_width());
         let limit = (LONGEST_STEP / accuracy.largest_step(1.0)).min(tuning.widest_followed);
-        self.on_step(cycles)
-            .max(smoothed * self.single)
-            .min(limit * self.single)
+        self.narrower().max(smoothed.min(limit) * self.single)
     }
 }
 
@@ -93,15 +71,23 @@ impl CyclePlan {
         (stroke, cycles): (Stroke, Cycles),
         detailed: bool,
     ) -> Self {
-        // The lead-in to the neutral position need not begin before the turning point.
-        let widest = motion.amplitude_mm() / accuracy.tuning.lead_in;
-        let coming = contact.on_coming_step(stroke, cycles).min(widest);
-        let half_widths = (contact.half_width.max(coming), contact.single);
+        // A single cycle needs none, and that to the neutral position need not begin before the turning point.
+        let amplitude = motion.amplitude_mm().abs();
+        let lead_in = if cycles.jump > 1 {
+            (accuracy.tuning.lead_in * contact.half_width).min(amplitude)
+        } else {
+            0.0
+        };
         let plan = |half_width, replayed| {
             let steps = increments::count(motion, accuracy, (half_width, contact.sticks));
-            let length = 4.0 * motion.amplitude_mm() / real(steps);
+            let length = 4.0 * amplitude / real(steps);
             let replays = if replayed {
-                ReplayPlan::new((steps, length), accuracy, half_widths, detailed)
+                ReplayPlan::new(
+                    (steps, length),
+                    accuracy,
+                    (lead_in, contact.single),
+                    detailed,
+                )
             } else {
                 ReplayPlan::default()
             };
@@ -110,7 +96,7 @@ impl CyclePlan {
         let narrow = plan(contact.narrower(), stroke.gross && cycles.jump > 1);
         // A run of single cycles is a reference.
         let is_reference = accuracy.cycle_jump == Some(1);
-        if !stroke.gross || is_reference || contact.single <= 0.0 {
+        if !stroke.gross || is_reference || stroke.smoothing <= 0.0 || contact.single <= 0.0 {
             return narrow;
         }
         let wide = plan(contact.wider(accuracy, stroke, cycles), true);
@@ -143,7 +129,7 @@ mod tests {
     /// A stroke of 50 half-widths under a wear rate k, 1/MPa, of the receptacle, and of the slider, with E* = 1 MPa.
     fn stroke(receptacle: f64, slider: f64) -> Stroke {
         let rates = Sides { slider, receptacle };
-        Stroke::new(&Tuning::FITTED, rates, 1.0, (50.0, 1.0), (0.0, 1.0), 1_000)
+        Stroke::new(&Tuning::FITTED, rates, 1.0, (50.0, 1.0), 1.0, 1_000)
     }
 
     fn contact(half_width: f64) -> Followed {
@@ -155,11 +141,7 @@ mod tests {
     }
 
     fn cycles(done: u64, jump: u64) -> Cycles {
-        Cycles {
-            done,
-            last: 9,
-            jump,
-        }
+        Cycles { done, jump }
     }
 
     fn plan(half_width: f64, stroke: Stroke, cycles: Cycles) -> CyclePlan {
@@ -172,35 +154,10 @@ mod tests {
     }
 
     #[test]
-    fn the_wide_contact_of_a_jump_is_followed_where_that_saves_increments() {
+    fn increments_follow_the_narrower_contact_where_no_pass_wears_off_the_waves() {
         // Steps of a fifth of a half-width over 200 half-widths.
-        let steps =
-            |half_width, jump| plan(half_width, stroke(0.01, 0.01), cycles(100, jump)).steps;
-        assert_eq!((steps(1.0, 1), steps(1.2, 1)), (1_000, 1_000));
-        assert_eq!((steps(2.0, 9), steps(2.0, 3)), (500, 708));
-        assert_eq!((steps(9.0, 9), steps(1.1, 9)), (168, 1_000));
-        // Narrower than that of a single cycle.
-        assert_eq!(steps(0.5, 9), 2_000);
-    }
-
-    #[test]
-    fn the_lead_in_of_a_replay_begins_before_the_coming_step() {
-        let rates = Sides {
-            slider: 0.01,
-            receptacle: 0.01,
-        };
-        let loaded = Stroke::new(
-            &Tuning::FITTED,
-            rates,
-            1.0,
-            (50.0, 1.0),
-            (10.0, 10.0),
-            1_000,
-        );
-        let half_width = |jump| contact(2.0).on_coming_step(loaded, cycles(100, jump));
-        assert!((half_width(9) - 2.0).abs() < 1e-12);
-        // 2 R k P jump is 72 mm^2 after 18 cycles, 0.42 of it widens the contact.
-        assert!((half_width(18) - 31.24_f64.sqrt()).abs() < 1e-12);
+        let steps = |half_width| plan(half_width, stroke(0.01, 0.0), cycles(100, 1)).steps;
+        assert_eq!((steps(1.0), steps(2.0), steps(0.5)), (1_000, 1_000, 2_000));
     }
 
     #[test]
@@ -232,7 +189,7 @@ mod tests {
             slider: 0.0,
             receptacle: 1.2,
         };
-        let short = Stroke::new(&Tuning::FITTED, rates, 1.0, (0.5, 1.0), (0.0, 1.0), 1_000);
+        let short = Stroke::new(&Tuning::FITTED, rates, 1.0, (0.5, 1.0), 1.0, 1_000);
         assert_eq!(plan(&ACCURACY, short), 1_000);
     }
 }

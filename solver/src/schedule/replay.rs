@@ -1,13 +1,12 @@
 //! Single-cycle replay: the reported contact where a computed cycle represents many.
 //!
-//! In gross reciprocating sliding the contact rests on the leading-edge step that its pass wears. With a jump that step
-//! is as many passes high, the contact is wider and its pressure lower: 39 % at the groove's cycle 240
-//! (`fuzz_button.json`, tolerance 2 %). The contact reported at a position is therefore that of a copy of the state
-//! whose last increments before the position, the lead-in, wear as a single cycle: within 1 % of a run without jumps in
-//! the middle of the groove, 19 % below it at the ends, whose shape the jumps have changed.
+//! In gross reciprocating sliding the contact rests on the leading-edge step that its pass wears. Where the slider wears too, the
+//! computed cycle wears as its whole jump; that step is then as many passes high, the contact wider and its pressure lower.
+//! The contact reported at a position is therefore that of a copy of the state whose last increments before the position,
+//! the lead-in, wear as a single cycle.
 //!
 //! Where the increments of the computed cycle are longer than the contact of a single cycle needs, they leave waves in the
-//! floor. The lead-in is then followed by a smoothing pass: there and back on either side of the position.
+//! floor. The position is then followed by a smoothing pass: there and back on either side of it.
 
 use crate::number::{count_at_least, real};
 use crate::scene::Accuracy;
@@ -31,18 +30,22 @@ pub(crate) struct ReplayPlan {
 
 impl ReplayPlan {
     /// Plans replays that end at the neutral position, or at all named ones, of a cycle of so many steps of a length, for
-    /// the half-widths of the contact on the step of the jump and of that of a single cycle.
+    /// a lead-in of a length, mm, and the half-width of the contact of a single cycle, mm.
     pub(crate) fn new(
         (steps, length): (usize, f64),
         accuracy: &Accuracy,
-        (half_width, single): (f64, f64),
+        (lead_in, single): (f64, f64),
         all: bool,
     ) -> Self {
         if single <= 0.0 {
             return Self::default();
         }
         let tuning = &accuracy.tuning;
-        let count = count_at_least(tuning.lead_in * half_width / length);
+        let count = if lead_in > 0.0 {
+            count_at_least(lead_in / length)
+        } else {
+            0
+        };
         let named = increments::named(steps);
         let ends = if all { &named[..] } else { &named[1..2] };
         let spans = ends.iter().map(|end| (end.saturating_sub(count), *end));
@@ -103,7 +106,7 @@ mod tests {
 
     /// Steps of 0.5 over a stroke from -10 to 10 under a contact of half-width 2.
     fn plan(single: f64, all: bool) -> ReplayPlan {
-        ReplayPlan::new((80, 0.5), &ACCURACY, (2.0, single), all)
+        ReplayPlan::new((80, 0.5), &ACCURACY, (8.0, single), all)
     }
 
     #[test]

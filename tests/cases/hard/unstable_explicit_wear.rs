@@ -44,9 +44,8 @@ fn broken(field: &TractionField) -> f64 {
     count(inside.iter().filter(|p| !pressed(p)).count()) / count(inside.len())
 }
 
-/// Number of nodes with pressure.
-fn loaded(field: &TractionField) -> usize {
-    field.pressure_mpa.iter().filter(|p| **p > 0.0).count()
+fn peak(field: &TractionField) -> f64 {
+    field.pressure_mpa.iter().fold(0.0, |m, p| m.max(*p))
 }
 
 #[test]
@@ -56,12 +55,12 @@ fn explicit_wear_concentrates_pressure_on_single_nodes() {
         let last = run.snapshots.last().expect("the end is kept");
         let implicit = last.positions.iter().map(broken).fold(0.0, f64::max);
         assert!(implicit == 0.0, "jump {jump}: {implicit}");
-        // Either single nodes carry the load (2 to 7 instead of 28 and more, others with each window of the solve), or no
+        // Either single nodes carry the load (0.53 and 0.8 of those between them nothing, at 3 and 130 times the peak), or no
         // contact state is found.
         if let Ok(field) = explicit_wear(&scene(&fine(4, 1)), 4, real(jump), 20) {
-            let fewest = last.positions.iter().map(loaded).min();
-            let explicit = loaded(&field);
-            assert!(Some(3 * explicit) < fewest, "jump {jump}: {explicit}");
+            let implicit = last.positions.iter().map(peak).fold(0.0, f64::max);
+            let (broken, times) = (broken(&field), peak(&field) / implicit);
+            assert!(broken > 0.3 && times > 2.0, "jump {jump}: {broken} {times}");
         }
     }
 }

@@ -1,0 +1,292 @@
+//! Wear of a groove in the cycles of a jump, from that of one cycle.
+//!
+//! In gross reciprocating sliding each pass of the contact wears the depth k P off every point that it crosses, whatever the
+//! shape of the pressure. A rigid arc of radius R touches a receptacle of slope t where the arc has that slope, at the
+//! displacement
+//!   s = x - R t/sqrt(1 + t^2),
+//! so that a cycle wears the depth h ds/dx, h = 2 k P, where s is within the stroke. With s limited to -A..A and averaged over
+//! the width 2 b of the contact this is a surrogate for the wear rate of a groove of any depth d,
+//!   r(d) = h d/dx S(x, d'),  d' = dd/dx:
+//! a diffusion, of diffusivity h R where the groove is flat and none beyond its ends, which move as the slope there grows. The
+//! flux h S is that at the ends of the body too: a contact on its edge wears the edge.
+//!
+//! The wear of a computed cycle, times n, would amplify each of its waves. With the change of the surrogate's rate by all of
+//! the wear w of n cycles (implicit Euler; the computed cycle is the explicit part, as in the IMEX methods of Ascher, Ruuth and
+//! Wetton 1995)
+//!   w - n [r(d + w) - r(d)] = n w_1
+//! waves fade, the worn area is n times that of the computed cycle, and where the computed wear changes as the surrogate's
+//! does, w is exact to the first order in n for contacts of any shape. S increases with d', so this is the gradient of a convex
+//! function, whose minimum Newton's method with a line search finds.
+
+use crate::linear::tridiagonal::solve_tridiagonal;
+use crate::model::Profile;
+
+/// Change of a Newton step over the largest wear at which the iteration ends: far below any tolerance.
+const PRECISION: f64 = 1e-7;
+/// Most Newton steps; 4 to 25 are needed.
+const MOST_STEPS: usize = 60;
+/// Most halvings of a Newton step.
+const MOST_HALVINGS: usize = 12;
+/// A step is halved until the slope along it has decreased to this part. Arbitrary.
+const SLOPE_LEFT: f64 = 0.5;
+
+/// The receptacle of a scene, and the slider's stroke over it. Lengths in mm.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Groove<'a> {
+    /// Places of the contact nodes, and the widths that belong to them.
+    pub(super) x: &'a [f64],
+    pub(super) widths: &'a [f64],
+    /// The unworn surface.
+    pub(super) profile: Profile,
+    /// Radius R of the slider.
+    pub(super) radius: f64,
+    /// Amplitude A of the stroke.
+    pub(super) amplitude: f64,
+    /// Half-width b of the contact.
+    pub(super) half_width: f64,
+}
+
+impl Groove<'_> {
+    /// Further wear of a groove of this depth in so many cycles, if one cycle has worn `single` there; `None` if Newton's
+    /// method does not converge.
+    pub(super) fn wear(&self, depth: &[f64], single: &[f64], cycles: f64) -> Option<Vec<f64>> {
+        let area = single.iter().zip(self.widths).map(|(d, width)| d * width);
+        let flux = cycles * area.sum::<f64>() / (2.0 * self.amplitude);
+        let explicit: Vec<f64> = single.iter().map(|wear| cycles * wear).collect();
+        let mut equation = Equation {
+            groove: self,
+            depth,
+            flux,
+            before: Vec::new(),
+            explicit: &explicit,
+        };
+        equation.before = equation.places(&vec![0.0; depth.len()]);
+        equation.solve()
+    }
+
+    /// Mean displacement S at which the slider touches the surface with this slope of the depth, and its derivative by that,
+    /// mm.
+    fn displacement(&self, x: f64, depth_slope: f64) -> (f64, f64) {
+        let slope = self.profile.slope(x) - depth_slope;
+        let secant = (1.0 + slope * slope).sqrt();
+        let s = x - self.radius * slope / secant;
+        let (first, last) = (s - self.half_width, s + self.half_width);
+        let width = last - first;
+        // The integral of the limited displacement.
+        let limited = |s: f64| s.clamp(-self.amplitude, self.amplitude);
+        let integral = |s: f64| limited(s) * (s - 0.5 * limited(s));
+        let mean = (integral(last) - integral(first)) / width;
+        let share = (limited(last) - limited(first)) / width;
+        (mean, share * self.radius / secant.powi(3))
+    }
+}
+
+/// The equation for the wear w of the cycles of a jump.
+struct Equation<'a> {
+    groove: &'a Groove<'a>,
+    depth: &'a [f64],
+    /// n h, mm.
+    flux: f64,
+    /// S between the nodes before, mm.
+    before: Vec<(f64, f64)>,
+    /// n times the wear of the computed cycle, mm.
+    explicit: &'a [f64],
+}
+
+impl Equation<'_> {
+    fn solve(&self) -> Option<Vec<f64>> {
+        let mut wear = self.explicit.to_vec();
+        let largest = wear.iter().fold(0.0, |most: f64, wear| most.max(*wear));
+        let mut places = self.places(&wear);
+        for _ in 0..MOST_STEPS {
+            let step = self.newton_step(&wear, &places);
+            let slope = |places: &[(f64, f64)], wear: &[f64]| -> f64 {
+                let residual = self.residual(wear, places);
+                residual
+                    .zip(&step)
+                    .map(|(residual, step)| residual * step)
+                    .sum()
+            };
+            let start = slope(&places, &wear).abs();
+            let mut part = 1.0;
+            for _ in 0..MOST_HALVINGS {
+                let tried: Vec<f64> = wear.iter().zip(&step).map(|(w, s)| w + part * s).collect();
+                let there = self.places(&tried);
+                let left = slope(&there, &tried);
+                if left <= SLOPE_LEFT * start {
+                    (wear, places) = (tried, there);
+                    break;
+                }
+                part *= 0.5;
+            }
+            let change = step
+                .iter()
+                .fold(0.0, |most: f64, step| most.max(step.abs()));
+            if change <= PRECISION * largest {
+                return Some(wear);
+            }
+        }
+        None
+    }
+
+    /// S between the nodes with this wear, and its derivative by the slope there, mm.
+    fn places(&self, wear: &[f64]) -> Vec<(f64, f64)> {
+        let Self { groove, depth, .. } = self;
+        let x = groove.x;
+        let between = |i: usize| {
+            let difference = depth[i + 1] + wear[i + 1] - depth[i] - wear[i];
+            groove.displacement(0.5 * (x[i] + x[i + 1]), difference / (x[i + 1] - x[i]))
+        };
+        (0..x.len() - 1).map(between).collect()
+    }
+
+    /// w - n w_1 - n [r(d + w) - r(d)] times the width of each node, mm^2.
+    fn residual<'b>(
+        &'b self,
+        wear: &'b [f64],
+        places: &'b [(f64, f64)],
+    ) -> impl Iterator<Item = f64> + 'b {
+        let flux = |i: usize| self.flux * (places[i].0 - self.before[i].0);
+        (0..wear.len()).map(move |i| {
+            let from_left = if i > 0 { flux(i - 1) } else { 0.0 };
+            let to_right = if i + 1 < wear.len() { flux(i) } else { 0.0 };
+            self.groove.widths[i] * (wear[i] - self.explicit[i]) + from_left - to_right
+        })
+    }
+
+    fn newton_step(&self, wear: &[f64], places: &[(f64, f64)]) -> Vec<f64> {
+        let x = self.groove.x;
+        let beside = places.iter().zip(x.windows(2));
+        let beside: Vec<f64> = beside
+            .map(|((_, by_slope), x)| -self.flux * by_slope / (x[1] - x[0]))
+            .collect();
+        let mut diagonal = self.groove.widths.to_vec();
+        for (i, beside) in beside.iter().enumerate() {
+            diagonal[i] -= beside;
+            diagonal[i + 1] -= beside;
+        }
+        let mut step: Vec<f64> = self.residual(wear, places).map(|r| -r).collect();
+        solve_tridiagonal(&mut diagonal, &beside, &mut step);
+        step
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::number::real;
+
+    const NODES: usize = 401;
+    /// Depth of a cycle in a flat floor, mm.
+    const FLOOR: f64 = 1e-5;
+
+    /// Nodes from -2 to 2 mm, half of the width of the middle ones at the ends.
+    fn surface() -> (Vec<f64>, Vec<f64>) {
+        let x: Vec<f64> = (0..NODES).map(|i| real(i) / 100.0 - 2.0).collect();
+        let mut widths = vec![0.01; NODES];
+        (widths[0], widths[NODES - 1]) = (0.005, 0.005);
+        (x, widths)
+    }
+
+    /// A slider of 1 mm that moves by 1 mm to both sides.
+    fn groove<'a>(x: &'a [f64], widths: &'a [f64]) -> Groove<'a> {
+        Groove {
+            x,
+            widths,
+            profile: Profile::Flat,
+            radius: 1.0,
+            amplitude: 1.0,
+            half_width: 0.02,
+        }
+    }
+
+    /// Wear of one cycle by the surrogate's own rate.
+    fn rate(groove: &Groove<'_>, depth: &[f64]) -> Vec<f64> {
+        let between = |i: usize| {
+            let x = (groove.x[i], groove.x[i + 1]);
+            let slope = (depth[i + 1] - depth[i]) / (x.1 - x.0);
+            groove.displacement(0.5 * (x.0 + x.1), slope).0
+        };
+        let at = |i: usize| {
+            let left = if i > 0 { between(i - 1) } else { -1.0 };
+            let right = if i + 1 < depth.len() { between(i) } else { 1.0 };
+            FLOOR * (right - left) / groove.widths[i]
+        };
+        (0..depth.len()).map(at).collect()
+    }
+
+    fn area(values: &[f64], widths: &[f64]) -> f64 {
+        values.iter().zip(widths).map(|(d, width)| d * width).sum()
+    }
+
+    /// Depth after 4 096 cycles in jumps of a length.
+    fn worn(jump: usize) -> Vec<f64> {
+        let (x, widths) = surface();
+        let groove = groove(&x, &widths);
+        let mut depth = vec![0.0; NODES];
+        for _ in 0..4_096 / jump {
+            let single = rate(&groove, &depth);
+            let wear = groove.wear(&depth, &single, real(jump)).expect("converges");
+            for (depth, wear) in depth.iter_mut().zip(wear) {
+                *depth += wear;
+            }
+        }
+        depth
+    }
+
+    #[test]
+    fn jumps_converge_with_the_first_order_and_keep_the_worn_area() {
+        let (_, widths) = surface();
+        let [fine, middle, coarse] = [16, 128, 256].map(worn);
+        let deepest = fine[NODES / 2];
+        let apart = |other: &[f64]| {
+            let apart = other.iter().zip(&fine).map(|(a, b)| (a - b).abs());
+            apart.fold(0.0, f64::max) / deepest
+        };
+        let ratio = apart(&coarse) / apart(&middle);
+        assert!(apart(&coarse) < 0.02, "{}", apart(&coarse));
+        assert!((1.6..2.8).contains(&ratio), "{ratio}");
+        let ideal = 4_096.0 * FLOOR * 2.0;
+        for depth in [&fine, &coarse] {
+            assert!((area(depth, &widths) / ideal - 1.0).abs() < 1e-12);
+        }
+        // Mirrored.
+        let mirrored = coarse.iter().rev().zip(&coarse);
+        assert!(mirrored.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max) < 1e-9 * deepest);
+    }
+
+    #[test]
+    fn waves_of_the_computed_cycle_fade_and_its_area_stays() {
+        let (x, widths) = surface();
+        let groove = groove(&x, &widths);
+        let depth = vec![0.0; NODES];
+        // Every other node of the floor wears twice as much as on average, or not at all.
+        let wave = |(i, x): (usize, &f64)| {
+            let inside = f64::from(u8::from(x.abs() < 0.995));
+            FLOOR * inside * 2.0 * f64::from(u8::from(i % 2 == 0))
+        };
+        let single: Vec<f64> = x.iter().enumerate().map(wave).collect();
+        let cycles = 1_000.0;
+        let wear = groove.wear(&depth, &single, cycles).expect("converges");
+        let middle = &wear[NODES / 2 - 10..NODES / 2 + 10];
+        let jumps = middle.windows(2).map(|pair| (pair[1] - pair[0]).abs());
+        // With the diffusivity h R it fades to 1/(1 + 4 n h R/dx^2) = 1/401 of 2 n h.
+        let largest = jumps.fold(0.0, f64::max) / (2.0 * cycles * FLOOR);
+        assert!(largest < 1.1 / 401.0, "{largest}");
+        let ratio = area(&wear, &widths) / (cycles * area(&single, &widths));
+        assert!((ratio - 1.0).abs() < 1e-12, "{ratio}");
+    }
+
+    #[test]
+    fn the_displacement_at_which_an_arc_touches_is_limited_by_the_stroke() {
+        let (x, widths) = surface();
+        let groove = groove(&x, &widths);
+        // On a slope of 3/4 the arc touches 3/5 of its radius beside its lowest point.
+        let (s, by_slope) = groove.displacement(0.2, -0.75);
+        assert!((s + 0.4).abs() < 1e-12 && (by_slope - 0.512).abs() < 1e-12);
+        assert_eq!(groove.displacement(1.5, 0.0), (1.0, 0.0));
+        // The contact stands on the end of the stroke by half.
+        let (s, by_slope) = groove.displacement(1.0, 0.0);
+        assert!((s - 0.995).abs() < 1e-12 && (by_slope - 0.5).abs() < 1e-12);
+    }
+}
