@@ -82,7 +82,7 @@ const ERRORS: [Variation; 47] = variations! {
     jump_of_done = [0.25, 0.5, 1.0], 0.02, ["scar", "long sprung contact"];
     gross_jump_of_done = [2.0, 4.0, 6.0, 12.0], 0.02, ["pin", "worn slider"];
     groove_jump_of_done = [3.0, 6.0, 12.0, 24.0, 48.0], 0.02, ["long groove", "whole groove", "sprung contact", "pin"];
-    widest_followed = [1.0, 3.0, 6.0, 10.0], 0.02, ["long groove", "longer groove"];
+    widest_followed = [1.0, 3.0, 6.0], 0.02, ["long groove", "longer groove"];
     smoothed_step.value = [0.0, 0.25, 0.5, 1.0], 0.02, ["long groove", "longer groove"];
     smoothed_step.exponent = [0.0, -0.25, -0.5], 0.005, ["groove", "long groove"];
     smoothed_early = [1.0, 2.0, 4.0], 0.02, ["short groove", "long groove"];
@@ -93,8 +93,8 @@ const ERRORS: [Variation; 47] = variations! {
     skew = [3.0, 12.0, 48.0], 0.02, ["long scar"];
     least_skew = [0.05, 0.15, 0.45], 0.005, ["long scar"];
     sufficient_cycles = [1.0, 2.5, 10.0], 0.02, ["long sprung contact"];
-    lead_in = [2.0, 4.0, 8.0], 0.02, ["long groove"];
-    fine_pass = [1.0, 2.0, 4.0, 8.0], 0.02, ["long groove", "longer groove", "pin"];
+    lead_in = [2.0, 4.0, 8.0], 0.02, ["both worn", "worn slider"];
+    fine_pass = [1.0, 2.0, 4.0, 8.0], 0.02, ["long groove", "longer groove"];
 };
 
 const FORECASTS: [Variation; 2] = variations! {

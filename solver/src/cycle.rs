@@ -146,22 +146,27 @@ impl<'a> Integrator<'a> {
     }
 
     /// Integrates one computed cycle up to its end, or until a body is worn through; with additional points of the
-    /// friction loop and replays at the turning points where `detailed`.
+    /// friction loop and replays at the turning points where `detailed`. So many cycles are extrapolated between its strokes.
     fn integrate(
         &mut self,
         state: &mut CycleState,
         plan: CyclePlan,
-        jump: u64,
+        (jump, extrapolated): (u64, u64),
         detailed: bool,
     ) -> Result<CycleRecord, CycleError> {
         let steps = &increments::steps(self.scene.motion, plan.steps)[..];
-        let (before, energy) = (state.depth.receptacle.clone(), state.energy);
+        let (mut before, mut energy) = (state.depth.receptacle.clone(), state.energy);
         let mut replays = Replays::new(plan.replays);
         let mut record = CycleRecord::default();
         let warm_starts = std::mem::take(&mut state.warm_starts);
         let mut next_starts = WarmStarts::default();
         let (mut half_widths, mut touching, mut done, mut neutral) = (0.0, 0, 0, 0);
         for (increment, step) in steps.iter().enumerate() {
+            if increment > 0 && increments::begins_a_stroke(steps, increment) {
+                state.wear_of_strokes[0] = wear_per_cycle(state, &before, jump);
+                energy += self.extrapolate(state, extrapolated);
+                before.clone_from(&state.depth.receptacle);
+            }
             replays.run(state, steps, increment, |state, to, parts| {
                 self.replay_to(state, to, parts)
             });
@@ -193,10 +198,7 @@ impl<'a> Integrator<'a> {
             cycles_at_least(real_cycles(jump) * real(done) / real(steps.len())).min(jump)
         };
         self.count(state, cycles);
-        let worn = state.depth.receptacle.iter().zip(&before);
-        state.wear_per_cycle = worn
-            .map(|(after, before)| (after - before) / real_cycles(cycles))
-            .collect();
+        state.wear_of_strokes[1] = wear_per_cycle(state, &before, cycles);
         state.energy_per_cycle = (state.energy - energy) / real_cycles(cycles);
         if touching > 0 {
             state.mean_half_width = half_widths / real(touching);
@@ -284,4 +286,11 @@ impl<'a> Integrator<'a> {
         }
         record.contacts.push((position, contact));
     }
+}
+
+/// Wear of the receptacle since these depths, mm, over a number of cycles.
+fn wear_per_cycle(state: &CycleState, before: &[f64], cycles: u64) -> Vec<f64> {
+    let worn = state.depth.receptacle.iter().zip(before);
+    worn.map(|(after, before)| (after - before) / real_cycles(cycles))
+        .collect()
 }

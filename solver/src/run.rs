@@ -172,7 +172,7 @@ fn progress(spines: &Spines, state: &CycleState) -> Progress {
     Progress {
         cycle: state.cycle,
         deepest: state.depth.largest(),
-        least_left: spines.least_left_mm(&state.depth),
+        cycles_left: spines.cycles_left(&state.depth, state.jump.rates()),
         fastest_rate: state.jump.fastest_rate(),
         worn_through: spines.are_worn_through(&state.depth),
     }

@@ -36,19 +36,15 @@ impl Spines {
         })
     }
 
-    /// Smallest remaining length in either body at these worn depths, mm.
-    pub fn least_left_mm(&self, depth: &Sides<Vec<f64>>) -> f64 {
-        self.with_depths(depth)
-            .map(|(length, depth)| length - depth)
-            .fold(f64::INFINITY, f64::min)
-    }
-
-    fn with_depths<'a>(
-        &'a self,
-        depth: &'a Sides<Vec<f64>>,
-    ) -> impl Iterator<Item = (f64, f64)> + 'a {
-        let lengths = self.0.receptacle.iter().chain(&self.0.slider);
-        let depths = depth.receptacle.iter().chain(&depth.slider);
-        lengths.copied().zip(depths.copied())
+    /// Cycles in which a spine of either body would be consumed at these worn depths, mm, and rates, mm a cycle.
+    pub(crate) fn cycles_left(&self, depth: &Sides<Vec<f64>>, rates: Sides<&[f64]>) -> f64 {
+        let of_side = |side: Side| {
+            let left = self.0.of(side).iter().zip(depth.of(side));
+            left.zip(*rates.of(side))
+                .filter(|(_, rate)| **rate > 0.0)
+                .map(|((length, depth), rate)| (length - depth) / rate)
+                .fold(f64::INFINITY, f64::min)
+        };
+        of_side(Side::Slider).min(of_side(Side::Receptacle))
     }
 }

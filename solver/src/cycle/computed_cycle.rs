@@ -9,6 +9,11 @@ use crate::number::real_cycles;
 use crate::schedule::jump::Stroke;
 use crate::schedule::plan::{CyclePlan, Cycles, Followed};
 
+/// Load at a turning point over that at the neutral position from which on a groove is not extrapolated: where a spring has
+/// faded on the floor, all wear is that of the walls, which the rate of a groove under an even load does not describe. Arbitrary:
+/// without a spring the ratio is 1, and once the floor carries nothing it has no bound.
+const UNEVEN: f64 = 2.0;
+
 impl Integrator<'_> {
     /// Computes one cycle, which represents as many physical ones as the jump control and `until` allow.
     ///
@@ -25,22 +30,22 @@ impl Integrator<'_> {
         let mut jump = state.jump.next(accuracy, stroke, until - state.cycle);
         let before = state.clone();
         loop {
-            let computed = if stroke.is_groove {
-                self.extrapolate(state, jump - 1);
-                1
+            // A run may end after this cycle.
+            let detailed = before.cycle + jump == until || !self.scene.stop.is_empty();
+            let (computed, extrapolated) = if stroke.is_groove {
+                (1, extrapolated(jump - 1, detailed))
             } else {
-                jump
+                (jump, [0; 2])
             };
             self.update_slopes(state);
-            // A run may end after this cycle.
-            let detailed = state.cycle + computed == until || !self.scene.stop.is_empty();
+            self.extrapolate(state, extrapolated[0]);
             let cycles = Cycles {
                 done: state.cycle,
                 jump: computed,
             };
             let (run, stroke) = ((motion, accuracy), (stroke, cycles));
             let plan = CyclePlan::new(run, self.followed(state), stroke, detailed);
-            let error = match self.integrate(state, plan, computed, detailed) {
+            let error = match self.integrate(state, plan, (computed, extrapolated[1]), detailed) {
                 Ok(record) => {
                     self.measure_jump(state, &before);
                     return Ok(record);
@@ -83,13 +88,38 @@ impl Integrator<'_> {
         let modulus = contact_modulus(scene.slider.elastic, scene.receptacle.elastic);
         let at = LocalState::mean(interface.load, state.mean_half_width);
         let wear = wear::coefficients(interface.wear, at);
-        Stroke::new(
+        let mut stroke = Stroke::new(
             &scene.accuracy.tuning,
             wear,
             modulus,
             (amplitude, state.mean_half_width),
             radius(scene) / scene.slider.shape.radius_mm,
             scene.cycles,
-        )
+        );
+        let is_even = state.contact.load(interface) <= UNEVEN * state.neutral.load;
+        stroke.is_groove &= is_even;
+        stroke
+    }
+}
+
+/// Cycles that are extrapolated before a computed cycle, and between its strokes: half of them at either turning point,
+/// because what is extrapolated where a stroke ends and the next one begins has worn last there; all of them before a cycle whose
+/// contacts at both turning points may be reported.
+fn extrapolated(cycles: u64, detailed: bool) -> [u64; 2] {
+    let later = if detailed { 0 } else { cycles / 2 };
+    [cycles - later, later]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn both_turning_points_share_the_extrapolated_cycles_except_before_a_report() {
+        assert_eq!(
+            [0, 1, 6, 7].map(|cycles| extrapolated(cycles, false)),
+            [[0, 0], [1, 0], [3, 3], [4, 3]]
+        );
+        assert_eq!(extrapolated(7, true), [7, 0]);
     }
 }

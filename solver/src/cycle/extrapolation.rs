@@ -11,13 +11,14 @@ use super::{CycleState, Integrator};
 use crate::number::real_cycles;
 
 impl Integrator<'_> {
-    /// Wears the receptacle by so many cycles; by fewer where it would be worn through.
-    pub(super) fn extrapolate(&self, state: &mut CycleState, most: u64) {
+    /// Wears the receptacle by so many cycles, by fewer where it would be worn through; returns the dissipated energy, mJ/mm.
+    pub(super) fn extrapolate(&mut self, state: &mut CycleState, most: u64) -> f64 {
         let body = &self.pair.operators.receptacle;
-        let single = &state.wear_per_cycle;
-        if single.len() != body.x.len() {
-            return;
+        let [one, other] = &state.wear_of_strokes;
+        if one.len() != body.x.len() || other.len() != body.x.len() {
+            return 0.0;
         }
+        let single: Vec<f64> = one.iter().zip(other).map(|(a, b)| a + b).collect();
         let groove = Groove {
             x: &body.x,
             widths: &body.widths,
@@ -29,7 +30,7 @@ impl Integrator<'_> {
         let mut cycles = most;
         while cycles > 0 {
             let equal = at_the_first_load(real_cycles(cycles), state.loss_of_load);
-            if let Some(wear) = groove.wear(&state.depth.receptacle, single, equal) {
+            if let Some(wear) = groove.wear(&state.depth.receptacle, &single, equal) {
                 let mut worn = state.depth.clone();
                 for (depth, wear) in worn.receptacle.iter_mut().zip(&wear) {
                     *depth += wear;
@@ -40,14 +41,17 @@ impl Integrator<'_> {
                         .zip(&body.widths)
                         .map(|(wear, width)| wear * width);
                     state.worn_area.receptacle += area.sum::<f64>();
-                    state.energy += equal * state.energy_per_cycle;
+                    let energy = equal * state.energy_per_cycle;
+                    state.energy += energy;
                     state.depth = worn;
                     self.count(state, cycles);
-                    break;
+                    self.update_slopes(state);
+                    return energy;
                 }
             }
             cycles /= 2;
         }
+        0.0
     }
 }
 

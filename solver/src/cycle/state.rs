@@ -64,8 +64,9 @@ pub struct CycleState {
     pub increments: u64,
     /// Most increments in one cycle.
     pub most_increments: usize,
-    /// Wear of the receptacle per cycle in the last computed one at its contact nodes, mm; none before the first.
-    pub(crate) wear_per_cycle: Vec<f64>,
+    /// Wear of the receptacle per cycle in both strokes of the last computed one at its contact nodes, mm; none before the
+    /// first.
+    pub(crate) wear_of_strokes: [Vec<f64>; 2],
     /// Energy dissipated per cycle in the same, mJ/mm.
     pub(crate) energy_per_cycle: f64,
     /// Relative loss of the load per cycle since the one before.
@@ -91,7 +92,7 @@ impl CycleState {
             computed_cycles: 0,
             increments: 0,
             most_increments: 0,
-            wear_per_cycle: Vec::new(),
+            wear_of_strokes: Default::default(),
             energy_per_cycle: 0.0,
             loss_of_load: 0.0,
             checks: Checks::default(),

@@ -24,8 +24,9 @@ fn order(quantity: Quantity) -> f64 {
     }
 }
 
-/// That of jumps, which are Euler steps.
-const ORDER_OF_JUMPS: f64 = 1.0;
+/// That of jumps, which are Euler steps whose length grows with the cycles done: on `fuzz_button.json` the errors of area and depth
+/// fall with orders of 0.6 from 10 to 2 % and 0.9 from 2 to 0.5 %.
+const ORDER_OF_JUMPS: f64 = 0.75;
 
 /// Least estimated error over the tolerance: runs that agree better do so by chance, the histories are compared between
 /// reports. A peak pressure changes by more from increment to increment: a tenth of what is allowed. Of the 100 scenes, 88

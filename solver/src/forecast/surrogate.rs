@@ -216,10 +216,16 @@ impl Scar {
         let left = self.remaining();
         let share = |(left, height): (f64, f64)| left / height;
         let shares = left.zip(self.heights).map(share);
+        let fastest = jump
+            .rates()
+            .map(|rates| rates.iter().fold(0.0, |m: f64, rate| m.max(*rate)));
+        let cycles = left
+            .zip(fastest)
+            .map(|(left, rate)| left / rate.max(f64::MIN_POSITIVE));
         Progress {
             cycle,
             deepest: self.deepest.slider.max(self.deepest.receptacle),
-            least_left: left.slider.min(left.receptacle),
+            cycles_left: cycles.slider.min(cycles.receptacle),
             fastest_rate: jump.fastest_rate(),
             worn_through: shares.slider.min(shares.receptacle) < ale::WORN_THROUGH_SHARE,
         }

@@ -33,7 +33,7 @@ fn a_forecast_ends_at_the_last_cycle_and_counts_rebuilt_bodies() {
     // The block loses three quarters of its height; the slider does not wear.
     assert_eq!(run.condensations.slider, 1);
     assert_eq!(run.condensations.receptacle, 2);
-    // Jumps widen the contact, so that later cycles have fewer increments.
+    // Later cycles have longer increments, whose waves the next pass wears off.
     assert!(last.steps < run.segments[0].steps);
 }
 
@@ -47,7 +47,7 @@ fn a_tighter_tolerance_costs_more_cycles_of_more_increments() {
     };
     let (loose, tight) = (work(0.1), work(0.01));
     assert!(
-        tight.0 > 3.0 * loose.0 && tight.1 > 2.0 * loose.1,
+        tight.0 > 2.0 * loose.0 && tight.1 > 2.0 * loose.1,
         "{loose:?} {tight:?}"
     );
     assert!(tight.0 < real_cycles(fuzz_button().cycles));

@@ -80,7 +80,7 @@ impl Stroke {
             } else {
                 tuning.gross_jump_of_done
             };
-            share * tolerance * done
+            (share * tolerance).min(tuning.most_gross_jump) * done
         } else {
             let sufficient = real_cycles(self.cycles) * tolerance / tuning.sufficient_cycles;
             let unskewed = largest_skew(accuracy) / self.skew.max(f64::MIN_POSITIVE);
@@ -204,6 +204,11 @@ impl JumpControl {
         self.weighted_error += self.error * total * dn;
         self.worn += total * dn;
         self.base = dn;
+    }
+
+    /// Wear of each point of both surfaces per physical cycle in the last computed one, mm.
+    pub(crate) fn rates(&self) -> Sides<&[f64]> {
+        self.rate.as_slices()
     }
 
     /// Largest wear of a point of either surface per physical cycle in the last computed one, mm.

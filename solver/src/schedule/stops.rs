@@ -27,8 +27,8 @@ pub(crate) struct Progress {
     pub(crate) cycle: u64,
     /// Largest worn depth of either side, mm.
     pub(crate) deepest: f64,
-    /// Smallest remaining height of either body under the contact, mm.
-    pub(crate) least_left: f64,
+    /// Cycles in which a body would be worn through somewhere at the present rates.
+    pub(crate) cycles_left: f64,
     /// Largest wear of a point per physical cycle, mm.
     pub(crate) fastest_rate: f64,
     /// Whether a body is nearly consumed somewhere.
@@ -44,8 +44,8 @@ pub(crate) fn next(scene: &Scene, now: Progress) -> u64 {
         .stop
         .iter()
         .map(|StopCondition::WornDepth(limit)| limit - now.deepest);
-    let left = limits.fold(now.least_left, f64::min);
-    let cycles = left / now.fastest_rate.max(f64::MIN_POSITIVE);
+    let left = limits.fold(f64::INFINITY, f64::min);
+    let cycles = (left / now.fastest_rate.max(f64::MIN_POSITIVE)).min(now.cycles_left);
     snapshot
         .unwrap_or(scene.cycles)
         .min(scene.cycles)
@@ -72,7 +72,7 @@ mod tests {
     const UNWORN: Progress = Progress {
         cycle: 0,
         deepest: 0.0,
-        least_left: 0.5,
+        cycles_left: f64::INFINITY,
         fastest_rate: 0.0,
         worn_through: false,
     };
@@ -93,7 +93,7 @@ mod tests {
         scene.stop.clear();
         assert_eq!(next(&scene, wearing), 400);
         let thin = Progress {
-            least_left: 1.0 / 64.0,
+            cycles_left: 16.5,
             ..wearing
         };
         assert_eq!(next(&scene, thin), 116);

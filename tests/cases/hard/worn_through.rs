@@ -14,7 +14,7 @@ use super::specs::fuzz_button;
 #[test]
 fn a_block_loses_more_than_half_of_its_height() {
     let run = solve(&fuzz_button(
-        json!({"system": {"pcb_height_mm": 0.03}, "cycles": 800}),
+        json!({"system": {"pcb_height_mm": 0.03}, "cycles": 800, "accuracy": {"preset": "standard"}}),
     ));
     hold(&run);
     assert_eq!(run.summary().outcome, Outcome::Completed);
