@@ -149,8 +149,6 @@ pub struct Tuning {
     /// and 48: the area off by 0.05, 0.11, 0.20, 0.34, 0.43 %, the wall by 0.1, 0.3, 0.5, 0.8, 1.0 % of the depth, with 93, 54,
     /// 32, 22, 19 computed cycles.
     pub groove_jump_of_done: f64,
-    /// Bound of the same at any tolerance, so that the stiffness is rebuilt as the body loses its height.
-    pub most_gross_jump: f64,
     /// The same where both bodies wear: the slider's edge wears on the leading-edge step of the whole jump. With 2, 1 and
     /// 0.5 the receptacle's depth is off by 3.0, 1.1 and 0.2 %, the peak pressure by up to 32, 13 and 6 % after 300 cycles
     /// at 2 %.
@@ -244,7 +242,6 @@ impl Tuning {
         gross_jump_of_done: 6.0,
         gross_taper: 8.0,
         groove_jump_of_done: 12.0,
-        most_gross_jump: 0.5,
         gross_jump_of_both: 0.5,
         gross_from: 2.0,
         skew: 12.0,

@@ -80,7 +80,7 @@ impl Stroke {
             } else {
                 tuning.gross_jump_of_done
             };
-            (share * tolerance).min(tuning.most_gross_jump) * done
+            (share * tolerance).min(tuning.jump_of_done) * done
         } else {
             let sufficient = real_cycles(self.cycles) * tolerance / tuning.sufficient_cycles;
             let unskewed = largest_skew(accuracy) / self.skew.max(f64::MIN_POSITIVE);
