@@ -48,3 +48,30 @@ impl Spines {
         of_side(Side::Slider).min(of_side(Side::Receptacle))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_spines_that_wear_limit_the_cycles_left() {
+        let spines = Spines(Sides {
+            slider: vec![0.005, 0.025],
+            receptacle: vec![0.06, 0.06],
+        });
+        let depth = Sides {
+            slider: vec![0.0; 2],
+            receptacle: vec![0.02, 0.04],
+        };
+        let cycles = |slider: [f64; 2], receptacle: [f64; 2]| {
+            let rates = Sides {
+                slider: &slider[..],
+                receptacle: &receptacle[..],
+            };
+            spines.cycles_left(&depth, rates)
+        };
+        assert!((cycles([0.0; 2], [1e-5, 2e-5]) - 1_000.0).abs() < 1e-9);
+        assert!((cycles([0.0, 1e-4], [1e-5, 2e-5]) - 250.0).abs() < 1e-9);
+        assert!(cycles([0.0; 2], [0.0; 2]).is_infinite());
+    }
+}
