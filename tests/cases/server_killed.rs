@@ -1,14 +1,13 @@
 //! Requirement: killing the server with SIGKILL during a job and restarting it completes the job.
 
 use nix::sys::signal::Signal;
-use tests::{Server, spec};
+use tests::{Server, fuzz_button_with_jump};
 
 #[tokio::test]
 async fn a_job_is_completed_after_its_server_was_killed_and_restarted() {
     let folder = tempfile::tempdir().expect("a folder can be made");
     let server = Server::start(folder.path());
-    let body = std::fs::read(spec("fuzz_button.json")).expect("the specification is there");
-    let (_, job) = server.submit(body).await;
+    let (_, job) = server.submit(fuzz_button_with_jump(8)).await;
     let id = job["id"].as_str().expect("a job has an id").to_owned();
     let under_way = |job: &serde_json::Value| job["progress"]["cycle"].as_u64() > Some(20);
     let before = server.job_when(&id, under_way).await;
@@ -43,8 +42,7 @@ async fn a_job_is_completed_after_its_server_was_killed_and_restarted() {
 async fn a_server_that_is_terminated_releases_its_job_without_using_an_attempt() {
     let folder = tempfile::tempdir().expect("a folder can be made");
     let server = Server::start(folder.path());
-    let body = std::fs::read(spec("fuzz_button.json")).expect("the specification is there");
-    let (_, job) = server.submit(body).await;
+    let (_, job) = server.submit(fuzz_button_with_jump(1)).await;
     let id = job["id"].as_str().expect("a job has an id").to_owned();
     server.job_when(&id, |job| job["status"] == "running").await;
     server.signal(Signal::SIGTERM);

@@ -18,7 +18,7 @@ async fn a_service_that_continues_after_another_finished_its_job_writes_nothing(
     let stopped = Server::start_with(folder.path(), &options);
     let spec = json!({
         "system": {"kind": "fuzz_button"},
-        "cycles": 60,
+        "cycles": 600,
         "accuracy": {"preset": "draft", "overrides": {"cycle_jump": 1}}
     });
     let (_, job) = stopped.submit(spec.to_string()).await;
@@ -73,7 +73,7 @@ async fn a_service_that_was_paused_beyond_its_leases_continues_its_jobs() {
     let server = Server::start_with(folder.path(), &["--lease-s", "1"]);
     let spec = json!({
         "system": {"kind": "fuzz_button"},
-        "cycles": 200,
+        "cycles": 1000,
         "accuracy": {"preset": "draft", "overrides": {"cycle_jump": 1}}
     });
     let (_, job) = server.submit(spec.to_string()).await;

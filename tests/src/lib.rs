@@ -8,5 +8,5 @@ pub mod program;
 pub mod server;
 
 pub use disk::Disk;
-pub use program::{Ran, binary, fretwear, spec};
+pub use program::{Ran, binary, fretwear, fuzz_button_with_jump, spec};
 pub use server::Server;

@@ -61,3 +61,14 @@ pub fn spec(name: &str) -> PathBuf {
     assert!(path.exists(), "{} is missing", path.display());
     path
 }
+
+/// `fuzz_button.json` with a given jump, so that a job of it takes a while: 70 s with single cycles.
+///
+/// # Panics
+/// If there is no such specification.
+pub fn fuzz_button_with_jump(cycles: u64) -> String {
+    let bytes = std::fs::read(spec("fuzz_button.json")).expect("the specification is there");
+    let mut spec: serde_json::Value = serde_json::from_slice(&bytes).expect("JSON");
+    spec["accuracy"] = serde_json::json!({"overrides": {"cycle_jump": cycles}});
+    spec.to_string()
+}
