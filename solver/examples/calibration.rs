@@ -47,7 +47,7 @@ macro_rules! variations {
     };
 }
 
-const ERRORS: [Variation; 47] = variations! {
+const ERRORS: [Variation; 49] = variations! {
     elements.value = [4.0, 8.0, 16.0], 0.02, ["scar", "partial slip"];
     elements.exponent = [0.2, 0.4, 0.6], 0.005, ["scar"];
     scar_elements.value = [8.0, 16.0, 32.0], 0.02, ["light scar"];
@@ -90,8 +90,10 @@ const ERRORS: [Variation; 47] = variations! {
     smoothing_pass.exponent = [0.0, 0.25, 0.5], 0.005, ["groove", "long groove"];
     gross_jump_of_both = [0.5, 1.0, 2.0], 0.02, ["both worn"];
     gross_from = [1.0, 2.0, 4.0], 0.02, ["long sprung contact"];
-    skew = [3.0, 12.0, 48.0], 0.02, ["long scar"];
-    least_skew = [0.05, 0.15, 0.45], 0.005, ["long scar"];
+    skew.value = [0.2, 0.4, 0.8], 0.02, ["scar", "long scar"];
+    skew.exponent = [-0.25, -0.5, -1.0], 0.1, ["scar", "long scar"];
+    least_skew = [0.1, 0.2, 0.4, 0.8], 0.005, ["long scar"];
+    scar_jump_error = [1.0, 1.5, 2.0, 3.0], 0.02, ["scar", "long scar"];
     sufficient_cycles = [1.0, 2.5, 10.0], 0.02, ["long sprung contact"];
     lead_in = [2.0, 4.0, 8.0], 0.02, ["both worn", "worn slider"];
     fine_pass = [1.0, 2.0, 4.0, 8.0], 0.02, ["long groove", "longer groove"];

@@ -15,8 +15,10 @@ mod cycle_record;
 mod extrapolation;
 mod groove;
 mod replay;
+mod skew;
 mod state;
 mod step_control;
+mod unskewed;
 mod warm_starts;
 mod wear_limit;
 
@@ -33,6 +35,8 @@ use crate::sides::{Side, Sides};
 pub use checks::Checks;
 pub use cycle_record::{CycleRecord, FrictionLoop, Neutral};
 use replay::Replays;
+use skew::Passes;
+pub(crate) use skew::Skew;
 pub use state::{CycleError, CycleState};
 pub use warm_starts::WarmStarts;
 
@@ -158,6 +162,8 @@ impl<'a> Integrator<'a> {
         let (mut before, mut energy) = (state.depth.receptacle.clone(), state.energy);
         let mut replays = Replays::new(plan.replays);
         let mut record = CycleRecord::default();
+        let is_unskewed = plan.unskewed > 0 && state.skew.remains_after(jump);
+        let mut passes = Passes::begin(&state.depth);
         let warm_starts = std::mem::take(&mut state.warm_starts);
         let mut next_starts = WarmStarts::default();
         let (mut half_widths, mut touching, mut done, mut neutral) = (0.0, 0, 0, 0);
@@ -182,7 +188,11 @@ impl<'a> Integrator<'a> {
                 half_widths += half_width;
                 touching += 1;
             }
-            self.record(&mut record, state, step.at, &mut replays);
+            let is_reported = !is_unskewed && !replays.are_planned();
+            self.record(&mut record, state, step.at, (&mut replays, is_reported));
+            if step.at == Some(Position::Leftmost) {
+                passes.between = Some(state.depth.clone());
+            }
             if step.at == Some(Position::Neutral) {
                 neutral = record.friction_loop.displacement_mm.len();
             }
@@ -190,6 +200,11 @@ impl<'a> Integrator<'a> {
             if self.spines.are_worn_through(&state.depth) {
                 break;
             }
+        }
+        if is_unskewed && done == steps.len() {
+            state.skew.update(&passes, &state.depth, jump);
+            let step = self.scene.motion.amplitude_mm().abs() * 4.0 / real(steps.len());
+            self.remove_skew(state, &mut record, (step, detailed));
         }
         let cycles = if done == steps.len() {
             record.friction_loop.begin_at(neutral);
@@ -267,14 +282,14 @@ impl<'a> Integrator<'a> {
         record: &mut CycleRecord,
         state: &mut CycleState,
         at: Option<Position>,
-        replays: &mut Replays,
+        (replays, is_reported): (&mut Replays, bool),
     ) {
         let contact = &state.contact;
         let point = (contact.slider_x, contact.tangential_force());
         record.friction_loop.extend(&[point]);
         let Some(position) = at else { return };
         let replayed = replays.take(position);
-        if replayed.is_some() || !replays.are_planned() {
+        if replayed.is_some() || is_reported {
             let end = replayed.as_ref().unwrap_or(state);
             let balance = self.force_balance_with_present_normals(end);
             let worst = &mut state.checks.force_balance_present_normals;

@@ -179,11 +179,6 @@ impl Accuracy {
         }
     }
 
-    /// Largest estimated error of a jump.
-    pub(crate) fn largest_jump_error(&self) -> f64 {
-        self.tolerance * self.tuning.jump_error.at(self.tolerance).max(1.0)
-    }
-
     /// Largest displacement of an increment for a contact of a half-width, mm.
     pub(crate) fn largest_step(&self, half_width: f64) -> f64 {
         self.step_over_half_width() * half_width / self.refinement.increments

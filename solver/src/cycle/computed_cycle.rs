@@ -93,7 +93,10 @@ impl Integrator<'_> {
             wear,
             modulus,
             (amplitude, state.mean_half_width),
-            radius(scene) / scene.slider.shape.radius_mm,
+            (
+                radius(scene) / scene.slider.shape.radius_mm,
+                interface.sticks,
+            ),
             scene.cycles,
         );
         let is_even = state.contact.load(interface) <= UNEVEN * state.neutral.load;

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{Checks, Neutral, WarmStarts};
+use super::{Checks, Neutral, Skew, WarmStarts};
 use crate::condensation::Operators;
 use crate::contact::{ContactError, ContactState};
 use crate::schedule::jump::JumpControl;
@@ -71,6 +71,8 @@ pub struct CycleState {
     pub(crate) energy_per_cycle: f64,
     /// Relative loss of the load per cycle since the one before.
     pub(crate) loss_of_load: f64,
+    /// Skew of the surfaces toward the last pass.
+    pub(crate) skew: Skew,
     /// Worst residuals so far.
     pub checks: Checks,
 }
@@ -95,6 +97,7 @@ impl CycleState {
             wear_of_strokes: Default::default(),
             energy_per_cycle: 0.0,
             loss_of_load: 0.0,
+            skew: Skew::default(),
             checks: Checks::default(),
         }
     }

@@ -29,6 +29,8 @@ fn shape(x: f64, drawn: f64, flat: f64, reach: f64) -> f64 {
 /// Surrogate for the worn surfaces, one half of the symmetric scar.
 pub(super) struct Scar {
     tuning: Tuning,
+    /// Whether part of the contact may stick through the whole stroke.
+    sticks: bool,
     /// Radius of the relative curvature, Hertz half-width, amplitude, mm.
     radius: f64,
     hertz: f64,
@@ -83,6 +85,7 @@ impl Scar {
             receptacle: scene.receptacle.shape.height_mm,
         };
         Self {
+            sticks: layout.sizes.sticks,
             radius: resolution::radius(scene),
             hertz,
             flat: tuning.surrogate_half_width * hertz,
@@ -112,7 +115,7 @@ impl Scar {
             self.shares.map(|share| share * self.wear),
             self.modulus,
             (self.amplitude, self.half_width),
-            self.radius / scene.slider.shape.radius_mm,
+            (self.radius / scene.slider.shape.radius_mm, self.sticks),
             scene.cycles,
         )
     }

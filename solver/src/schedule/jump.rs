@@ -15,7 +15,7 @@ use crate::sides::{Side, Sides};
 /// pressure by about a third of k jump s E*/b (b: half-width, s: stroke), which stays below this.
 fn largest_skew(accuracy: &Accuracy) -> f64 {
     let tuning = &accuracy.tuning;
-    (tuning.skew * accuracy.tolerance).max(tuning.least_skew)
+    tuning.skew.at(accuracy.tolerance).max(tuning.least_skew)
 }
 
 /// A jump without a solution is divided by this; jumps may double again afterwards. Arbitrary: no result depends on it
@@ -37,33 +37,49 @@ pub(crate) struct Stroke {
     pub(crate) is_groove: bool,
     /// Whether both bodies wear.
     both: bool,
+    /// Factor on the allowed error of a jump.
+    error_factor: f64,
     /// Pressure skew of a single cycle, k s E*/b.
-    skew: f64,
+    pub(crate) skew: f64,
     /// Cycles of the whole run.
     cycles: u64,
 }
 
 impl Stroke {
     /// The stroke of an amplitude under a contact of a half-width, mm, for the wear rates k_s, k_r in 1/MPa and E* in MPa,
-    /// for a contact that travels over the receptacle by a part of its displacement.
+    /// for a contact that travels over the receptacle by a part of its displacement, and of which a part may stick.
     pub(crate) fn new(
         tuning: &Tuning,
         rates: Sides<f64>,
         modulus: f64,
         (amplitude, half_width): (f64, f64),
-        travel: f64,
+        (travel, sticks): (f64, bool),
         cycles: u64,
     ) -> Self {
         let wear = rates.slider + rates.receptacle;
         let only_receptacle = rates.slider <= 0.0 && rates.receptacle > 0.0;
+        let gross = tuning.is_gross(amplitude, half_width);
         Self {
-            gross: tuning.is_gross(amplitude, half_width),
+            gross,
             smoothing: if only_receptacle { wear * modulus } else { 0.0 },
             is_groove: only_receptacle && tuning.is_gross(amplitude * travel, half_width),
             both: rates.slider > 0.0 && rates.receptacle > 0.0,
+            error_factor: if gross || sticks || amplitude <= 0.0 {
+                1.0
+            } else {
+                tuning.scar_jump_error
+            },
             skew: wear * 2.0 * amplitude * modulus / half_width,
             cycles,
         }
+    }
+
+    /// Largest estimated error of a jump.
+    fn largest_error(self, accuracy: &Accuracy) -> f64 {
+        let Accuracy {
+            tolerance, tuning, ..
+        } = accuracy;
+        tolerance * self.error_factor * tuning.jump_error.at(*tolerance).max(1.0)
     }
 
     /// The largest jump after `done` cycles.
@@ -149,7 +165,7 @@ impl JumpControl {
         let finer = accuracy.refinement.cycles;
         // A geometric sequence of jumps has `finer` times the members with this growth.
         let most = most.powf(1.0 / finer);
-        let allowed = accuracy.largest_jump_error() / finer;
+        let allowed = stroke.largest_error(accuracy) / finer;
         // A jump that was shortened does not slow down the growth.
         let longest = most * self.base.max(self.unshortened);
         let target = (self.base * allowed / self.error).clamp(least * self.base, longest);
@@ -260,6 +276,7 @@ mod tests {
         smoothing: 0.0,
         is_groove: false,
         both: false,
+        error_factor: 1.0,
         skew: 0.0,
         cycles: 1_000,
     };
@@ -353,7 +370,7 @@ mod tests {
         wear(&mut control, 0.0, 100.0, 100);
         wear(&mut control, 100.0, 200.0, 100);
         let skewed = |skew| Stroke { skew, ..STROKE };
-        assert_eq!(control.next(&ACCURACY, skewed(0.003), 8_000), 80);
+        assert_eq!(control.next(&ACCURACY, skewed(0.005), 8_000), 80);
         assert_eq!(control.next(&ACCURACY, skewed(1.0), 8_000), 8);
     }
 

@@ -61,6 +61,9 @@ pub(crate) struct CyclePlan {
     /// Number of increments.
     pub(crate) steps: usize,
     pub(crate) replays: ReplayPlan,
+    /// Number of increments to the contacts on the surfaces without the skew of the jump: two to the neutral position, one to
+    /// each turning point.
+    pub(crate) unskewed: usize,
 }
 
 impl CyclePlan {
@@ -78,9 +81,11 @@ impl CyclePlan {
         } else {
             0.0
         };
+        let is_evenly_worn = stroke.skew <= accuracy.tuning.unskewed_to;
         let plan = |half_width, replayed| {
             let steps = increments::count(motion, accuracy, (half_width, contact.sticks));
             let length = 4.0 * amplitude / real(steps);
+            let is_skewed = is_evenly_worn && !stroke.gross && steps > 1;
             let replays = if replayed {
                 ReplayPlan::new(
                     (steps, length),
@@ -91,7 +96,15 @@ impl CyclePlan {
             } else {
                 ReplayPlan::default()
             };
-            Self { steps, replays }
+            Self {
+                steps,
+                replays,
+                unskewed: match (is_skewed, detailed) {
+                    (false, _) => 0,
+                    (true, false) => 2,
+                    (true, true) => 4,
+                },
+            }
         };
         let narrow = plan(contact.narrower(), stroke.gross && cycles.jump > 1);
         // A run of single cycles is a reference.
@@ -107,9 +120,9 @@ impl CyclePlan {
         }
     }
 
-    /// Number of increments of the cycle and of its replays.
+    /// Number of increments of the cycle, of its replays and of its unskewed contacts.
     pub(crate) fn increments(&self) -> usize {
-        self.steps + self.replays.increments()
+        self.steps + self.replays.increments() + self.unskewed
     }
 }
 
@@ -129,7 +142,14 @@ mod tests {
     /// A stroke of 50 half-widths under a wear rate k, 1/MPa, of the receptacle, and of the slider, with E* = 1 MPa.
     fn stroke(receptacle: f64, slider: f64) -> Stroke {
         let rates = Sides { slider, receptacle };
-        Stroke::new(&Tuning::FITTED, rates, 1.0, (50.0, 1.0), 1.0, 1_000)
+        Stroke::new(
+            &Tuning::FITTED,
+            rates,
+            1.0,
+            (50.0, 1.0),
+            (1.0, false),
+            1_000,
+        )
     }
 
     fn contact(half_width: f64) -> Followed {
@@ -189,7 +209,7 @@ mod tests {
             slider: 0.0,
             receptacle: 1.2,
         };
-        let short = Stroke::new(&Tuning::FITTED, rates, 1.0, (0.5, 1.0), 1.0, 1_000);
+        let short = Stroke::new(&Tuning::FITTED, rates, 1.0, (0.5, 1.0), (1.0, false), 1_000);
         assert_eq!(plan(&ACCURACY, short), 1_000);
     }
 }
