@@ -7,6 +7,7 @@ mod bench;
 mod child;
 mod demo;
 mod export;
+mod log;
 mod options;
 mod plan;
 mod probe;
@@ -17,14 +18,12 @@ mod study;
 mod table;
 mod terminal;
 
-use std::io::IsTerminal;
 use std::net::SocketAddr;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
 use arguments::{BenchArguments, ChildArguments, DATABASE, LISTEN, LogFormat, ServeArguments};
 use clap::{Parser, Subcommand};
-use tracing_subscriber::EnvFilter;
 
 /// First line of `--help`.
 const ABOUT: &str = "Wear of electrical contacts under vibration, by finite elements: on the command line and over HTTP";
@@ -125,15 +124,15 @@ enum DeckFormat {
 /// Runs the command of the arguments.
 pub fn main() -> ExitCode {
     let command = Arguments::parse().command;
-    match &command {
-        Command::Serve(serve) => log("info", serve.log),
+    let _log = match &command {
+        Command::Serve(serve) => Some(log::start("info", serve.log)),
         Command::Probe { .. }
         | Command::Backup { .. }
         | Command::Restore { .. }
         | Command::SolveChild(_)
-        | Command::Openapi => {}
-        _ => log("warn", LogFormat::Text),
-    }
+        | Command::Openapi => None,
+        _ => Some(log::start("warn", LogFormat::Text)),
+    };
     let ended = match command {
         Command::Serve(serve) => serve::run(serve),
         Command::Solve { spec, out } => solve::run(&spec, out.as_deref()),
@@ -160,19 +159,6 @@ pub fn main() -> ExitCode {
         }
     };
     ended.err().unwrap_or(ExitCode::SUCCESS)
-}
-
-/// Starts logging to standard error; `RUST_LOG` overrides the level.
-fn log(level: &str, format: LogFormat) {
-    let filter = EnvFilter::try_from_default_env().unwrap_or_else(|_| EnvFilter::new(level));
-    let builder = tracing_subscriber::fmt()
-        .with_env_filter(filter)
-        .with_ansi(std::io::stderr().is_terminal())
-        .with_writer(std::io::stderr);
-    match format {
-        LogFormat::Text => builder.init(),
-        LogFormat::Json => builder.json().init(),
-    }
 }
 
 #[cfg(test)]

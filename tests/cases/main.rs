@@ -16,6 +16,7 @@ mod chaos;
 mod command_line;
 mod docker_files;
 mod every_system_from_its_kind_alone;
+mod failing_log;
 mod fault_injection;
 mod fields_open_in_vtk;
 mod golden_results;

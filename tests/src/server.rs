@@ -1,6 +1,6 @@
 //! A real `fretwear serve` on a free loopback port, killed when it goes out of scope.
 
-use std::io::{BufRead, BufReader};
+use std::io::{BufRead, BufReader, Lines};
 use std::path::Path;
 use std::process::{Child, Command, Stdio};
 use std::time::Duration;
@@ -38,6 +38,22 @@ impl Server {
     /// # Panics
     /// If it does not start.
     pub fn start_with(folder: &Path, options: &[&str]) -> Self {
+        let (server, lines) = Self::start_with_log(folder, options, "info");
+        // Its further output is read and discarded, so that it never blocks on a full pipe.
+        std::thread::spawn(move || lines.for_each(drop));
+        server
+    }
+
+    /// The same with a level of the log; returns the lines of its standard error after the one that names its address. It is
+    /// closed when they are dropped, and fills where they are not read.
+    ///
+    /// # Panics
+    /// If it does not start.
+    pub fn start_with_log(
+        folder: &Path,
+        options: &[&str],
+        level: &str,
+    ) -> (Self, Lines<impl BufRead + use<>>) {
         let database = format!("sqlite://{}", folder.join("fretwear.db").display());
         let arguments = ["serve", "--listen", "127.0.0.1:0", "--database", &database];
         let workers: &[&str] = if options.contains(&"--workers") {
@@ -49,6 +65,7 @@ impl Server {
             .args(arguments)
             .args(workers)
             .args(options)
+            .env("RUST_LOG", level)
             .stderr(Stdio::piped())
             .spawn()
             .expect("the service can be started");
@@ -60,13 +77,12 @@ impl Server {
                 break line[at..].trim().to_owned();
             }
         };
-        // Its further output is read and discarded, so that it never blocks on a full pipe.
-        std::thread::spawn(move || lines.for_each(drop));
-        Self {
+        let server = Self {
             child,
             base,
             client: reqwest::Client::new(),
-        }
+        };
+        (server, lines)
     }
 
     /// Sends a signal to the service alone, not to its children.
