@@ -15,5 +15,6 @@ pub mod service;
 pub mod solve;
 pub mod spec;
 pub mod store;
+pub mod supervision;
 mod text;
 pub mod worker;

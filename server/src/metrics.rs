@@ -48,6 +48,7 @@ pub struct Metrics {
     pub stale_writes: Counter,
     /// Stored checkpoints.
     pub checkpoints: Counter,
+    task_failures: Family<[(&'static str, &'static str); 1], Counter>,
     streams_open: Gauge,
 }
 
@@ -73,6 +74,11 @@ impl Metrics {
         self.ended
             .get_or_create(&[("status", status.as_str())])
             .inc();
+    }
+
+    /// Counts the failure of a long-lived task of a kind.
+    pub fn task_failed(&self, kind: &'static str) {
+        self.task_failures.get_or_create(&[("task", kind)]).inc();
     }
 
     /// Returns the exposition, with these gauges.
@@ -122,6 +128,11 @@ impl Default for Metrics {
             checkpoints: add(r, "checkpoints", "Checkpoints stored"),
             oldest_checkpoint: add_in(r, Unit::Seconds, checkpoint, <_>::default()),
             wal: add_in(r, Unit::Bytes, wal, <_>::default()),
+            task_failures: add(
+                r,
+                "task_failures",
+                "Tasks of the service that ended before it stopped",
+            ),
             streams_open: add(r, "streams_open", "Open event streams"),
             registry,
         }

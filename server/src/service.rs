@@ -6,6 +6,7 @@ use std::net::SocketAddr;
 use std::sync::Arc;
 use std::time::Duration;
 
+use axum::Router;
 use tokio::net::TcpListener;
 use tokio::task::JoinSet;
 use tokio_util::sync::CancellationToken;
@@ -13,6 +14,7 @@ use tokio_util::sync::CancellationToken;
 use crate::http;
 use crate::http::{Access, App};
 use crate::store::{Store, StoreError};
+use crate::supervision::{Supervisor, TaskName};
 use crate::worker;
 use crate::worker::WorkerConfig;
 
@@ -66,8 +68,33 @@ pub struct Service {
     pub address: SocketAddr,
     store: Arc<Store>,
     stopping: CancellationToken,
+    /// The long-lived tasks.
+    pub supervisor: Arc<Supervisor>,
     tasks: JoinSet<()>,
     grace: Duration,
+}
+
+/// Tasks that are being started.
+struct Tasks {
+    running: JoinSet<()>,
+    supervisor: Arc<Supervisor>,
+    store: Arc<Store>,
+    stopping: CancellationToken,
+}
+
+impl Tasks {
+    fn start<F>(&mut self, name: TaskName, start: impl FnMut() -> F + Send + 'static)
+    where
+        F: Future<Output = ()> + Send + 'static,
+    {
+        let (supervisor, metrics) = (
+            Arc::clone(&self.supervisor),
+            Arc::clone(self.store.metrics()),
+        );
+        let stopping = self.stopping.clone();
+        self.running
+            .spawn(supervisor.run(name, metrics, stopping, start));
+    }
 }
 
 impl Service {
@@ -90,34 +117,43 @@ impl Service {
         let reclaimed = store.reclaim_all(worker.lease_end()).await?;
         let (queued, ending) = (reclaimed.queued, reclaimed.ending.len());
         tracing::info!(%address, database = config.database, workers = config.workers, queued, ending, "service started");
-        let stopping = CancellationToken::new();
-        let mut tasks = JoinSet::new();
-        for _ in 0..config.workers {
-            tasks.spawn(worker::work(
-                Arc::clone(&store),
-                Arc::clone(&worker),
-                stopping.clone(),
-            ));
+        let (stopping, supervisor) = (CancellationToken::new(), Arc::new(Supervisor::default()));
+        let mut tasks = Tasks {
+            running: JoinSet::new(),
+            supervisor: Arc::clone(&supervisor),
+            store: Arc::clone(&store),
+            stopping: stopping.clone(),
+        };
+        for number in 0..config.workers {
+            let (store, worker, stopping) =
+                (Arc::clone(&store), Arc::clone(&worker), stopping.clone());
+            tasks.start(("worker", number), move || {
+                worker::work(Arc::clone(&store), Arc::clone(&worker), stopping.clone())
+            });
         }
-        tasks.spawn(maintenance::maintain(
-            Arc::clone(&store),
-            Arc::clone(&worker),
-            config.keep_days,
-            reclaimed,
-            stopping.clone(),
-        ));
+        let mut reclaimed = Some(reclaimed);
+        let maintained = (Arc::clone(&store), Arc::clone(&worker), stopping.clone());
+        tasks.start(("maintenance", 0), move || {
+            let (store, worker, stopping) = maintained.clone();
+            let reclaimed = reclaimed.take().unwrap_or_default();
+            maintenance::maintain(store, worker, config.keep_days, reclaimed, stopping)
+        });
         let router = http::router(App::new(
             Arc::clone(&store),
             config.access,
-            stopping.clone(),
+            (stopping.clone(), Arc::clone(&supervisor)),
             http::openapi::document(),
         ));
-        tasks.spawn(http::serve(listener, router, stopping.clone()));
+        let (mut listener, served) = (Some(listener), stopping.clone());
+        tasks.start(("listener", 0), move || {
+            serve(listener.take(), address, router.clone(), served.clone())
+        });
         Ok(Self {
             address,
             store,
             stopping,
-            tasks,
+            supervisor,
+            tasks: tasks.running,
             grace: worker.grace + GRACE,
         })
     }
@@ -135,3 +171,23 @@ impl Service {
         tracing::info!("service stopped");
     }
 }
+
+/// Serves on the listener of the start, or on a new one at the same address.
+async fn serve(
+    listener: Option<TcpListener>,
+    address: SocketAddr,
+    router: Router,
+    stopping: CancellationToken,
+) {
+    let bound = match listener {
+        Some(listener) => Ok(listener),
+        None => TcpListener::bind(address).await,
+    };
+    match bound {
+        Ok(listener) => http::serve(listener, router, stopping).await,
+        Err(error) => tracing::error!(%error, %address, "cannot listen again"),
+    }
+}
+
+#[cfg(test)]
+mod tests;

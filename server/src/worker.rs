@@ -7,11 +7,9 @@ mod manifest;
 mod supervisor;
 mod update_buffer;
 
-use std::panic::AssertUnwindSafe;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use futures_util::FutureExt;
 use tokio_util::sync::CancellationToken;
 use tracing::Instrument;
 
@@ -28,27 +26,24 @@ pub use config::WorkerConfig;
 /// Interval at which an idle worker polls the queue, in case it missed a notification.
 const POLL_INTERVAL: Duration = Duration::from_secs(1);
 
-/// Claims and supervises jobs until the service stops.
+/// Claims and supervises jobs until the service stops. A panic ends it; its job is then reclaimed when the lease ends.
 pub async fn work(store: Arc<Store>, config: Arc<WorkerConfig>, stopping: CancellationToken) {
     // Jobs may still have the reason from before the service was started.
     let mut disk_short = true;
     while !stopping.is_cancelled() {
-        let job = AssertUnwindSafe(next(&store, &config, &mut disk_short, &stopping));
-        match job.catch_unwind().await {
-            Ok(Ok(true)) => {}
-            Ok(Ok(false)) => {
+        match next(&store, &config, &mut disk_short, &stopping).await {
+            Ok(true) => {}
+            Ok(false) => {
                 tokio::select! {
                     () = store.job_waiting() => {}
                     () = tokio::time::sleep(POLL_INTERVAL) => {}
                     () = stopping.cancelled() => {}
                 }
             }
-            Ok(Err(error)) => {
+            Err(error) => {
                 tracing::error!(%error, "a worker could not use the store");
                 tokio::time::sleep(RETRY_PAUSE).await;
             }
-            // The panic hook has logged it. The job is reclaimed when its lease ends, and the worker continues.
-            Err(_) => tokio::time::sleep(RETRY_PAUSE).await,
         }
     }
 }

@@ -9,6 +9,7 @@ use tokio_util::sync::CancellationToken;
 use crate::estimate::machine::CalibrationCache;
 use crate::http::access::Access;
 use crate::store::Store;
+use crate::supervision::Supervisor;
 
 /// Maximum number of waiting long polls; another one is answered at once, as if it had timed out.
 pub(super) const MAX_LONG_POLLS: usize = 768;
@@ -26,6 +27,8 @@ pub struct App {
     pub store: Arc<Store>,
     /// Cancelled at shutdown; ends streams and long polls.
     pub stopping: CancellationToken,
+    /// The long-lived tasks of the service.
+    pub(super) supervisor: Arc<Supervisor>,
     pub(super) access: Access,
     /// OpenAPI document of the interface.
     pub(super) document: &'static Value,
@@ -39,17 +42,18 @@ pub struct App {
 }
 
 impl App {
-    /// State over a store, with the OpenAPI document of the interface.
+    /// State over a store and the tasks of a service, with the OpenAPI document of the interface.
     pub fn new(
         store: Arc<Store>,
         access: Access,
-        stopping: CancellationToken,
+        (stopping, supervisor): (CancellationToken, Arc<Supervisor>),
         document: &'static Value,
     ) -> Self {
         Self {
             machine: CalibrationCache::open(Some(store.machine_file())),
             store,
             stopping,
+            supervisor,
             access,
             document,
             archive_permits: Arc::new(Semaphore::new(MAX_ARCHIVES)),

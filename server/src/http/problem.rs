@@ -72,6 +72,7 @@ problem_types! {
     TOKEN_REQUIRED, 401, "token-required", "the access token is missing or wrong";
     REQUEST_TIMEOUT, 408, "request-timeout", "the request did not arrive in time";
     BUSY, 503, "busy", "the service cannot take the request at present";
+    TASK_FAILING, 503, "task-failing", "a task of the service fails repeatedly";
     INTERNAL, 500, "internal", "internal error";
 }
 

@@ -38,7 +38,7 @@ impl Service {
         let mut app = App::new(
             store,
             Access::default(),
-            CancellationToken::new(),
+            (CancellationToken::new(), Arc::default()),
             openapi::document(),
         );
         // Fixed figures: a measurement takes a second or two.

@@ -180,9 +180,12 @@ async fn problems_of_access_and_of_the_service_match_the_snapshot() {
     drop(held);
     let access = Access::new(Some("0123456789abcdef"), &[]).expect("access");
     let App {
-        store, stopping, ..
+        store,
+        stopping,
+        supervisor,
+        ..
     } = service.app.clone();
-    service.app = App::new(store, access, stopping, service.app.document);
+    service.app = App::new(store, access, (stopping, supervisor), service.app.document);
     let closed = vec![("GET", "/v1/jobs".to_owned(), vec![], String::new())];
     text += &problems(&service, "no id", closed).await;
     let hidden = std::io::Error::other("a secret path");

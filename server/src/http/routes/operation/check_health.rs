@@ -7,7 +7,7 @@ use serde_json::{Value, json};
 
 use crate::clock::now_ms;
 use crate::http::app::App;
-use crate::http::problem::ProblemResponse;
+use crate::http::problem::{ProblemResponse, ProblemType};
 
 /// Liveness check: the process responds.
 #[utoipa::path(get, path = "/healthz", tag = "operation", responses((status = 200, description = "The process responds")))]
@@ -15,7 +15,7 @@ pub(crate) async fn healthz() -> Json<Value> {
     Json(json!({ "status": "ok" }))
 }
 
-/// Readiness check: the database accepts a write.
+/// Readiness check: the tasks of the service run and the database accepts a write.
 #[utoipa::path(
     get,
     path = "/readyz",
@@ -27,6 +27,11 @@ pub(crate) async fn healthz() -> Json<Value> {
     )
 )]
 pub(crate) async fn readyz(State(app): State<App>) -> Result<Json<Value>, ProblemResponse> {
+    let failing = app.supervisor.failing();
+    if !failing.is_empty() {
+        let detail = format!("restarted repeatedly: {}", failing.join(", "));
+        return Err(ProblemType::TASK_FAILING.with_detail(detail));
+    }
     app.store.ready(now_ms()).await?;
     Ok(Json(json!({ "status": "ready" })))
 }
