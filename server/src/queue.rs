@@ -16,7 +16,7 @@ pub const WAITING_FOR_WORKER: &str = "waiting for a worker";
 /// Prefix of the status reason of jobs that wait for disk space.
 pub const WAITING_FOR_DISK: &str = "waiting for disk space: ";
 
-/// Default number of attempts after which a job whose workers were lost fails.
+/// Default number of attempts without a new checkpoint after which a job whose workers were lost fails.
 pub const ATTEMPT_LIMIT: u32 = 3;
 
 /// A transition of a job.
@@ -38,12 +38,13 @@ pub enum Transition {
     Expire,
 }
 
-/// Attempts at a job, and their limit.
+/// Attempts at a job, and their limit. Those that left a new checkpoint do not count: a job that makes progress survives any
+/// number of lost workers, and one that loses them at the same place does not.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Attempts {
-    /// Claims so far, without the released ones.
-    pub made: u32,
-    /// Largest number of attempts.
+    /// Claims since the last new checkpoint, without the released ones.
+    pub fruitless: u32,
+    /// Largest number of them.
     pub limit: u32,
 }
 
@@ -62,7 +63,7 @@ pub fn next_status(
             Some(Status::Cancelled)
         }
         (Status::Running, Transition::Release) => Some(Status::Queued),
-        (Status::Running, Transition::WorkerLost) if attempts.made < attempts.limit => {
+        (Status::Running, Transition::WorkerLost) if attempts.fruitless < attempts.limit => {
             Some(Status::Queued)
         }
         (Status::Running, Transition::WorkerLost | Transition::Fail)
@@ -95,7 +96,7 @@ mod tests {
     fn every_transition_from_every_status_matches_the_table() {
         for status in Status::ALL {
             for transition in TRANSITIONS {
-                for made in 0..=ATTEMPT_LIMIT + 1 {
+                for fruitless in 0..=ATTEMPT_LIMIT + 1 {
                     for cancel_requested in [false, true] {
                         let expected = match (status.as_str(), transition) {
                             ("queued", Transition::Claim) => Some("running"),
@@ -108,7 +109,7 @@ mod tests {
                             {
                                 Some("cancelled")
                             }
-                            ("running", Transition::WorkerLost) if made >= ATTEMPT_LIMIT => {
+                            ("running", Transition::WorkerLost) if fruitless >= ATTEMPT_LIMIT => {
                                 Some("failed")
                             }
                             ("running", Transition::Release | Transition::WorkerLost) => {
@@ -117,14 +118,14 @@ mod tests {
                             _ => None,
                         };
                         let attempts = Attempts {
-                            made,
+                            fruitless,
                             limit: ATTEMPT_LIMIT,
                         };
                         let found = next_status(status, transition, attempts, cancel_requested)
                             .map(Status::as_str);
                         assert_eq!(
                             found, expected,
-                            "{status:?} {transition:?} {made} {cancel_requested}"
+                            "{status:?} {transition:?} {fruitless} {cancel_requested}"
                         );
                     }
                 }
@@ -134,7 +135,10 @@ mod tests {
 
     #[test]
     fn nothing_follows_a_terminal_status() {
-        let attempts = Attempts { made: 1, limit: 3 };
+        let attempts = Attempts {
+            fruitless: 1,
+            limit: 3,
+        };
         for status in Status::ALL
             .into_iter()
             .filter(|status| status.is_terminal())

@@ -32,7 +32,7 @@ pub struct Config {
     pub database: String,
     /// Number of jobs solved at the same time.
     pub workers: usize,
-    /// Largest number of attempts at a job whose workers are lost.
+    /// Largest number of attempts in a row without a new checkpoint at a job whose workers are lost.
     pub attempts: u32,
     /// Days after which ended jobs are deleted.
     pub keep_days: Option<u32>,

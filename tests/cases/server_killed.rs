@@ -52,3 +52,26 @@ async fn a_server_that_is_terminated_releases_its_job_without_using_an_attempt()
     let job = server.job_when(&id, |job| job["status"] == "running").await;
     assert_eq!(job["attempts"], 1, "{job}");
 }
+
+#[tokio::test]
+async fn a_job_that_makes_progress_survives_more_kills_than_it_has_attempts() {
+    const KILLS: u64 = 5;
+    let folder = tempfile::tempdir().expect("a folder can be made");
+    let options = ["--checkpoint-every-s", "0", "--attempts", "1"];
+    let mut server = Server::start_with(folder.path(), &options);
+    let (_, job) = server.submit(fuzz_button_with_jump(8)).await;
+    let id = job["id"].as_str().expect("a job has an id").to_owned();
+    for kill in 1..=KILLS {
+        // Each attempt makes some progress.
+        let beyond = |job: &serde_json::Value| job["progress"]["cycle"].as_u64() > Some(200 * kill);
+        server.job_when(&id, beyond).await;
+        server.signal(Signal::SIGKILL);
+        assert_eq!(server.wait(), None);
+        server = Server::start_with(folder.path(), &options);
+    }
+    let job = server
+        .job_when(&id, |job| job["finished_at"].is_string())
+        .await;
+    assert_eq!(job["status"], "succeeded", "{job}");
+    assert_eq!(job["attempts"], KILLS + 1, "{job}");
+}

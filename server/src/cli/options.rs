@@ -15,7 +15,7 @@ pub(super) struct WorkOptions {
     /// Number of jobs solved at once; one per processor unless given.
     #[arg(long, env = "FRETWEAR_WORKERS", value_parser = clap::value_parser!(u16).range(1..=256))]
     workers: Option<u16>,
-    /// Largest number of attempts of a job whose workers are lost.
+    /// Largest number of attempts in a row without a new checkpoint at a job whose workers are lost.
     #[arg(long, env = "FRETWEAR_ATTEMPTS", default_value_t = ATTEMPT_LIMIT, value_parser = clap::value_parser!(u32).range(1..))]
     pub(super) attempts: u32,
     /// Time after the last heartbeat of a worker at which its job is reclaimed.

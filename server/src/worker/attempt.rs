@@ -61,7 +61,8 @@ impl Attempt<'_> {
         cancel_requested: bool,
     ) -> Result<(), StoreError> {
         let Self { store, claim, .. } = *self;
-        let files = if store.is_final(claim, end.transition, cancel_requested) {
+        let is_final = retry(|| store.is_final(claim, end.transition, cancel_requested)).await?;
+        let files = if is_final {
             retry(|| build_manifest(store, claim, end.summary.as_ref())).await?
         } else {
             Vec::new()

@@ -15,6 +15,8 @@ pub(crate) struct ModelJob {
     pub(crate) sort_key: i64,
     pub(crate) deadline_at: Option<i64>,
     pub(crate) attempts: u32,
+    /// Attempts since the last new checkpoint.
+    pub(crate) fruitless: u32,
     pub(crate) lease: i64,
     pub(crate) expires_at: i64,
     pub(crate) cancel_requested: bool,
@@ -29,7 +31,7 @@ impl ModelJob {
     /// Applies a transition; `false` if it is not allowed.
     pub(crate) fn apply(&mut self, transition: Transition) -> bool {
         let attempts = Attempts {
-            made: self.attempts,
+            fruitless: self.fruitless,
             limit: ATTEMPT_LIMIT,
         };
         let Some(status) = next_status(self.status, transition, attempts, self.cancel_requested)

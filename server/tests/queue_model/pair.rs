@@ -89,6 +89,7 @@ impl Pair {
             sort_key: sort_key(self.now, priority),
             deadline_at: deadline_s.map(|s| self.now + 1_000 * i64::from(s)),
             attempts: 0,
+            fruitless: 0,
             lease: 0,
             expires_at: 0,
             cancel_requested: false,
@@ -116,6 +117,7 @@ impl Pair {
         };
         job.apply(Transition::Claim);
         job.attempts += 1;
+        job.fruitless += 1;
         job.lease += 1;
         job.events += 1;
         job.expires_at = expires_at;
@@ -150,7 +152,9 @@ impl Pair {
             job.rows = cycle;
             job.events += 1;
             job.expires_at = expires_at;
-            job.checkpoint = if checkpoint { cycle } else { job.checkpoint };
+            if checkpoint {
+                (job.checkpoint, job.fruitless) = (cycle, 0);
+            }
         }
         prop_assert_eq!(
             answer.expect("the store"),
@@ -211,6 +215,7 @@ impl Pair {
         let moved = held && job.apply(transition);
         if moved && transition == Transition::Release && job.status == Status::Queued {
             job.attempts -= 1;
+            job.fruitless = job.fruitless.saturating_sub(1);
         }
         prop_assert_eq!(answer.expect("the store"), moved.then_some(job.status));
         Ok(())

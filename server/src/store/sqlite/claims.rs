@@ -142,7 +142,7 @@ async fn claim(
 ) -> Result<Claim, StoreError> {
     let row = sqlx::query(
         "UPDATE jobs SET status = 'running', lease = lease + 1, lease_expires_at = ?, attempts = attempts + 1, \
-         started_at = COALESCE(started_at, ?), status_reason = NULL, last_event = last_event + 1, version = version + 1 \
+         fruitless = fruitless + 1, started_at = COALESCE(started_at, ?), status_reason = NULL, last_event = last_event + 1, version = version + 1 \
          WHERE id = ? AND status = 'queued' \
          RETURNING lease, spec, last_event, attempts, created_at, deadline_at, memory_mb",
     )

@@ -27,12 +27,14 @@ impl Store {
         let mut transaction = self.writer.begin_with(BEGIN).await?;
         let events = integer(update.events.len());
         let held: Option<(i64, bool)> = sqlx::query_as(
-            "UPDATE jobs SET progress = ?, lease_expires_at = ?, last_event = last_event + ?, version = version + 1 \
+            "UPDATE jobs SET progress = ?, lease_expires_at = ?, last_event = last_event + ?, version = version + 1, \
+             fruitless = iif(?, 0, fruitless) \
              WHERE id = ? AND lease = ? AND status = 'running' RETURNING last_event, cancel_requested",
         )
         .bind(serde_json::to_string(&update.progress)?)
         .bind(expires_at)
         .bind(events)
+        .bind(update.checkpoint.is_some())
         .bind(claim.id.to_string())
         .bind(claim.lease)
         .fetch_optional(&mut *transaction)
@@ -123,18 +125,18 @@ impl Store {
     ) -> Result<Option<Status>, StoreError> {
         let mut transaction = self.writer.begin_with(BEGIN).await?;
         let held = sqlx::query_as(
-            "SELECT attempts, cancel_requested FROM jobs WHERE id = ? AND lease = ? AND status = 'running'",
+            "SELECT fruitless, cancel_requested FROM jobs WHERE id = ? AND lease = ? AND status = 'running'",
         )
         .bind(claim.id.to_string())
         .bind(claim.lease)
         .fetch_optional(&mut *transaction)
         .await?;
-        let Some((attempts, cancel_requested)) = held else {
+        let Some((fruitless, cancel_requested)) = held else {
             self.stale_write();
             return Ok(None);
         };
         write_results(&mut transaction, claim, update).await?;
-        let job = EndingJob::running(claim.id, attempts, self.attempt_limit, cancel_requested);
+        let job = EndingJob::running(claim.id, fruitless, self.attempt_limit, cancel_requested);
         let progress = serde_json::to_string(&update.progress)?;
         let status = end_job(&mut transaction, &job, end, Some(&progress), now).await?;
         transaction.commit().await?;
@@ -143,15 +145,22 @@ impl Store {
     }
 
     /// Whether a transition ends a claimed job instead of returning it to the queue.
-    pub fn is_final(&self, claim: &Claim, transition: Transition, cancel_requested: bool) -> bool {
-        EndingJob::running(
-            claim.id,
-            claim.attempt,
-            self.attempt_limit,
-            cancel_requested,
-        )
-        .after(transition)
-        .is_some_and(Status::is_terminal)
+    ///
+    /// # Errors
+    /// [`StoreError`] if the database fails.
+    pub async fn is_final(
+        &self,
+        claim: &Claim,
+        transition: Transition,
+        cancel_requested: bool,
+    ) -> Result<bool, StoreError> {
+        let fruitless: Option<u32> = sqlx::query_scalar("SELECT fruitless FROM jobs WHERE id = ?")
+            .bind(claim.id.to_string())
+            .fetch_optional(&self.readers)
+            .await?;
+        let fruitless = fruitless.unwrap_or_default();
+        let job = EndingJob::running(claim.id, fruitless, self.attempt_limit, cancel_requested);
+        Ok(job.after(transition).is_some_and(Status::is_terminal))
     }
 }
 

@@ -14,7 +14,7 @@ macro_rules! file {
 }
 
 /// All files of the folder; a name is the version and what it is about.
-const FILES: [(&str, &str); 11] = [
+const FILES: [(&str, &str); 12] = [
     file!("0001_jobs.sql"),
     file!("0002_labels.sql"),
     file!("0003_events.sql"),
@@ -26,6 +26,7 @@ const FILES: [(&str, &str); 11] = [
     file!("0020_result_files.sql"),
     file!("0021_sweeps.sql"),
     file!("0040_studies.sql"),
+    file!("0050_fruitless_attempts.sql"),
 ];
 
 /// Applies the migrations that a database does not have; refuses a database with others.

@@ -37,16 +37,16 @@ impl Store {
     ) -> Result<Reclaimed, StoreError> {
         let mut transaction = self.writer.begin_with(BEGIN).await?;
         let lost: Vec<(Hyphenated, u32, bool)> = sqlx::query_as(
-            "SELECT id, attempts, cancel_requested FROM jobs WHERE status = 'running' AND lease_expires_at <= ?",
+            "SELECT id, fruitless, cancel_requested FROM jobs WHERE status = 'running' AND lease_expires_at <= ?",
         )
         .bind(by)
         .fetch_all(&mut *transaction)
         .await?;
         let end = End::without_result(Transition::WorkerLost, reason);
         let (mut queued, mut ending) = (Vec::new(), Vec::new());
-        for (id, made, cancel_requested) in lost {
+        for (id, fruitless, cancel_requested) in lost {
             let id = Uuid::from(id);
-            let job = EndingJob::running(id, made, self.attempt_limit, cancel_requested);
+            let job = EndingJob::running(id, fruitless, self.attempt_limit, cancel_requested);
             if job.after(end.transition).is_some_and(Status::is_terminal) {
                 // Nothing is solved under the new lease.
                 let row = sqlx::query(

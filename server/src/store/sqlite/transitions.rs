@@ -19,11 +19,11 @@ pub(super) struct EndingJob {
 
 impl EndingJob {
     /// A running job.
-    pub(super) fn running(id: Uuid, made: u32, limit: u32, cancel_requested: bool) -> Self {
+    pub(super) fn running(id: Uuid, fruitless: u32, limit: u32, cancel_requested: bool) -> Self {
         Self {
             id,
             status: Status::Running,
-            attempts: Attempts { made, limit },
+            attempts: Attempts { fruitless, limit },
             cancel_requested,
         }
     }
@@ -59,10 +59,11 @@ pub(super) async fn end_job(
         return Ok(None);
     };
     let (status_reason, outcome) = reason_and_outcome(status, job.attempts, end);
+    let is_released = status == Status::Queued && end.transition == Transition::Release;
     let seq: i64 = sqlx::query_scalar(
         "UPDATE jobs SET status = ?, status_reason = ?, outcome = ?, summary = ?, cancel_requested = ?, \
          lease_expires_at = NULL, finished_at = ?, progress = COALESCE(?, progress), attempts = attempts - ?, \
-         last_event = last_event + ?, version = version + 1 \
+         fruitless = max(fruitless - ?, 0), last_event = last_event + ?, version = version + 1 \
          WHERE id = ? AND status = ? RETURNING last_event",
     )
     .bind(status.as_str())
@@ -72,7 +73,8 @@ pub(super) async fn end_job(
     .bind(job.cancel_requested)
     .bind(status.is_terminal().then_some(now))
     .bind(progress)
-    .bind(status == Status::Queued && end.transition == Transition::Release)
+    .bind(is_released)
+    .bind(is_released)
     .bind(status.is_terminal())
     .bind(job.id.to_string())
     .bind(job.status.as_str())
@@ -98,17 +100,25 @@ pub(super) async fn end_job(
 /// Status reason and outcome for the user.
 fn reason_and_outcome(
     status: Status,
-    Attempts { made, limit }: Attempts,
+    Attempts { fruitless, limit }: Attempts,
     end: &End,
 ) -> (Option<String>, Option<Outcome>) {
     let cause = end.reason.as_deref().unwrap_or("its worker was lost");
     let (reason, outcome) = match (end.transition, status) {
+        (Transition::WorkerLost, Status::Queued) if fruitless == 0 => (
+            format!("{cause}; it continues from its last checkpoint; waiting for a worker"),
+            None,
+        ),
         (Transition::WorkerLost, Status::Queued) => (
-            format!("attempt {made} of {limit}: {cause}; waiting for a worker"),
+            format!(
+                "attempt {fruitless} of {limit} without a new checkpoint: {cause}; waiting for a worker"
+            ),
             None,
         ),
         (Transition::WorkerLost, Status::Failed) => (
-            format!("worker_lost: {made} attempts; the last: {cause}"),
+            format!(
+                "worker_lost: {fruitless} attempts without a new checkpoint; the last: {cause}"
+            ),
             Some(Outcome::WorkerLost),
         ),
         (Transition::Release, Status::Queued) => (format!("{cause}; waiting for a worker"), None),

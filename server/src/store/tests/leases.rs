@@ -66,10 +66,46 @@ async fn a_job_whose_workers_are_lost_fails_after_its_last_attempt() {
     assert!(
         job.status_reason
             .expect("a reason")
-            .starts_with("worker_lost: 3 attempts")
+            .starts_with("worker_lost: 3 attempts without a new checkpoint")
     );
     let events = fixture.store.events(id, 0).await.expect("the store");
     assert_eq!(events.last().expect("an event").name, "done");
+}
+
+#[tokio::test]
+async fn an_attempt_that_left_a_checkpoint_does_not_count() {
+    let fixture = Fixture::new().await;
+    let id = fixture.queued().await;
+    let checkpoint = |cycle| JobUpdate {
+        checkpoint: Some(EncodedCheckpoint {
+            cycle,
+            state: vec![7],
+        }),
+        ..update(cycle)
+    };
+    for attempt in 1..=2 * ATTEMPT_LIMIT {
+        let claim = fixture.claimed(10).await;
+        fixture
+            .recorded(&claim, &checkpoint(u64::from(attempt)), 10)
+            .await;
+        assert_eq!(fixture.reclaimed(10).await, 1);
+        let job = fixture.job(id).await;
+        assert_eq!((job.status, job.attempts), (Status::Queued, attempt));
+        let reason = job.status_reason.expect("a reason");
+        assert!(
+            reason.contains("continues from its last checkpoint"),
+            "{reason}"
+        );
+    }
+    for _ in 0..ATTEMPT_LIMIT {
+        fixture.claimed(10).await;
+        fixture.reclaimed(10).await;
+    }
+    let job = fixture.job(id).await;
+    assert_eq!(
+        (job.status, job.attempts),
+        (Status::Failed, 3 * ATTEMPT_LIMIT)
+    );
 }
 
 #[tokio::test]
