@@ -1,7 +1,8 @@
 //! The queue's rules, as pure functions.
 //!
 //! Transitions: `queued -> running -> succeeded | failed | cancelled`; a running job returns to the queue when its
-//! worker was lost (a bounded number of times) or released it (which costs no attempt).
+//! worker was lost (a bounded number of times) or released it (which costs no attempt). A failed or cancelled job returns to
+//! the queue if its user asks for another try.
 
 mod admission;
 mod order;
@@ -36,6 +37,8 @@ pub enum Transition {
     WorkerLost,
     /// Its deadline has passed.
     Expire,
+    /// Its user asks for another try.
+    Retry,
 }
 
 /// Attempts at a job, and their limit. Those that left a new checkpoint do not count: a job that makes progress survives any
@@ -57,6 +60,7 @@ pub fn next_status(
 ) -> Option<Status> {
     match (status, transition) {
         (Status::Queued, Transition::Claim) => Some(Status::Running),
+        (Status::Failed | Status::Cancelled, Transition::Retry) => Some(Status::Queued),
         (Status::Queued | Status::Running, Transition::Cancel) => Some(Status::Cancelled),
         (Status::Running, Transition::Succeed) => Some(Status::Succeeded),
         (Status::Running, Transition::Release | Transition::WorkerLost) if cancel_requested => {
@@ -72,6 +76,7 @@ pub fn next_status(
             Status::Queued,
             Transition::Succeed | Transition::Fail | Transition::Release | Transition::WorkerLost,
         )
+        | (Status::Queued | Status::Running, Transition::Retry)
         | (Status::Running, Transition::Claim)
         | (Status::Succeeded | Status::Failed | Status::Cancelled, _) => None,
     }
@@ -81,7 +86,7 @@ pub fn next_status(
 mod tests {
     use super::*;
 
-    const TRANSITIONS: [Transition; 7] = [
+    const TRANSITIONS: [Transition; 8] = [
         Transition::Claim,
         Transition::Succeed,
         Transition::Fail,
@@ -89,6 +94,7 @@ mod tests {
         Transition::Release,
         Transition::WorkerLost,
         Transition::Expire,
+        Transition::Retry,
     ];
 
     /// Every status, transition, number of attempts around the limit and cancel request against the module's table.
@@ -100,6 +106,7 @@ mod tests {
                     for cancel_requested in [false, true] {
                         let expected = match (status.as_str(), transition) {
                             ("queued", Transition::Claim) => Some("running"),
+                            ("failed" | "cancelled", Transition::Retry) => Some("queued"),
                             ("queued" | "running", Transition::Cancel) => Some("cancelled"),
                             ("running", Transition::Succeed) => Some("succeeded"),
                             ("queued" | "running", Transition::Expire)
@@ -134,7 +141,7 @@ mod tests {
     }
 
     #[test]
-    fn nothing_follows_a_terminal_status() {
+    fn only_another_try_follows_a_terminal_status() {
         let attempts = Attempts {
             fruitless: 1,
             limit: 3,
@@ -146,6 +153,7 @@ mod tests {
             assert!(
                 TRANSITIONS
                     .into_iter()
+                    .filter(|transition| *transition != Transition::Retry)
                     .all(|transition| next_status(status, transition, attempts, false).is_none())
             );
         }

@@ -47,7 +47,7 @@ pub use batches::{BatchDetail, BatchFilter, BatchJob, BatchOverview, NewBatch, S
 pub use changes::Changes;
 pub use error::StoreError;
 pub use jobs::{
-    Cancelled, Deleted, Filter, NewJob, RequestKey, StoredJob, SubmitOptions, Submitted,
+    Cancelled, Deleted, Filter, NewJob, RequestKey, Retried, StoredJob, SubmitOptions, Submitted,
 };
 pub use leases::{Claim, End, JobUpdate, LeaseState, Reclaimed};
 pub use results::{Content, NewFile, SnapshotPart, StoredEvent};

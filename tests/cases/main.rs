@@ -30,6 +30,7 @@ mod readme_commands;
 mod refused_specifications;
 mod replayed_events;
 mod result_files;
+mod retry;
 mod server_killed;
 mod small_strains_cost_what_the_plan_says;
 mod stale_server;

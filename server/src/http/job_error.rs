@@ -15,6 +15,9 @@ pub(super) enum JobError {
     /// The job has not ended.
     #[error("job {0} has not ended; cancel it first, or wait")]
     Active(Uuid),
+    /// The job has succeeded.
+    #[error("job {0} has succeeded; there is nothing to try again")]
+    Succeeded(Uuid),
     /// The job was deleted between its submission and the response.
     #[error("job {0} was deleted right after its submission")]
     Deleted(Uuid),
@@ -25,6 +28,7 @@ impl RouteError for JobError {
         match self {
             Self::Missing(_) | Self::Deleted(_) => ProblemType::NO_SUCH_JOB,
             Self::Active(_) => ProblemType::JOB_ACTIVE,
+            Self::Succeeded(_) => ProblemType::JOB_SUCCEEDED,
         }
     }
 }

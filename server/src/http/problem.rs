@@ -66,6 +66,7 @@ problem_types! {
     NO_SUCH_RESULT, 404, "no-such-result", "the job has no such result";
     NO_SUCH_SYSTEM, 404, "no-such-system", "there is no such system";
     JOB_ACTIVE, 409, "job-active", "the job has not ended";
+    JOB_SUCCEEDED, 409, "job-succeeded", "the job has succeeded";
     SWEEP_ACTIVE, 409, "sweep-active", "the sweep has jobs that have not ended";
     STUDY_ACTIVE, 409, "study-active", "the study has jobs that have not ended";
     FOREIGN_HOST, 403, "foreign-host", "the request is for another host";

@@ -30,6 +30,7 @@ pub(super) fn routes_and_document() -> (Router<App>, Document) {
         .routes(routes!(jobs::submit::submit, jobs::list::list))
         .routes(routes!(jobs::show::show, jobs::delete::remove))
         .routes(routes!(jobs::cancel::cancel))
+        .routes(routes!(jobs::retry::retry))
         .routes(routes!(jobs::stream::events))
         .routes(routes!(results::list::manifest))
         .routes(routes!(results::download_file::file))

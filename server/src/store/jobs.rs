@@ -68,6 +68,17 @@ pub enum Cancelled {
     Already,
 }
 
+/// Effect of a request for another try.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Retried {
+    /// The job is queued again.
+    Queued,
+    /// The job is queued or running already.
+    Already,
+    /// The job has succeeded.
+    Succeeded,
+}
+
 /// Effect of a delete request.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Deleted {

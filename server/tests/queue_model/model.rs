@@ -13,6 +13,7 @@ pub(crate) struct ModelJob {
     pub(crate) id: Uuid,
     pub(crate) status: Status,
     pub(crate) sort_key: i64,
+    pub(crate) queued_at: i64,
     pub(crate) deadline_at: Option<i64>,
     pub(crate) attempts: u32,
     /// Attempts since the last new checkpoint.
@@ -39,8 +40,10 @@ impl ModelJob {
             return false;
         };
         self.status = status;
-        if status.is_terminal() {
+        if status.is_terminal() || transition == Transition::Retry {
             self.events += 1;
+        }
+        if status == Status::Succeeded {
             self.checkpoint = 0;
         }
         true

@@ -31,6 +31,9 @@ pub(crate) enum Step {
     Cancel {
         job: usize,
     },
+    Retry {
+        job: usize,
+    },
     Reclaim,
     Expire,
     Delete {
@@ -60,6 +63,7 @@ pub(crate) fn step() -> impl Strategy<Value = Step> {
         1 => any::<usize>().prop_map(|claim| Step::Restart { claim }),
         3 => (any::<usize>(), 0..ENDS.len()).prop_map(|(claim, transition)| Step::End { claim, transition }),
         1 => any::<usize>().prop_map(|job| Step::Cancel { job }),
+        1 => any::<usize>().prop_map(|job| Step::Retry { job }),
         2 => Just(Step::Reclaim),
         1 => Just(Step::Expire),
         1 => any::<usize>().prop_map(|job| Step::Delete { job }),

@@ -1,9 +1,10 @@
-//! Jobs: plan, submit, list, show, cancel, delete, stream.
+//! Jobs: plan, submit, list, show, cancel, retry, delete, stream.
 
 pub(crate) mod cancel;
 pub(crate) mod delete;
 pub(crate) mod list;
 pub(crate) mod plan;
+pub(crate) mod retry;
 pub(crate) mod show;
 pub(crate) mod stream;
 pub(crate) mod submit;

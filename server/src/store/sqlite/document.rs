@@ -50,6 +50,7 @@ fn links(id: Uuid) -> BTreeMap<String, String> {
         ("self", ""),
         ("events", "/events"),
         ("cancel", "/cancel"),
+        ("retry", "/retry"),
         ("results", "/results"),
         ("wear_history", "/results/wear-history"),
         ("profile", "/results/profile"),

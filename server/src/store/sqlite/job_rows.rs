@@ -7,11 +7,11 @@ use sqlx::{Sqlite, SqliteConnection, Transaction};
 use uuid::Uuid;
 
 use crate::queue;
-use crate::queue::Transition;
+use crate::queue::{Attempts, Transition, next_status};
 use crate::store::sqlite::document::timestamp;
 use crate::store::sqlite::queries::{insert_event, status};
 use crate::store::sqlite::transitions::{EndingJob, end_job};
-use crate::store::{Cancelled, End, NewJob, StoreError};
+use crate::store::{Cancelled, End, NewJob, Retried, StoreError};
 
 /// Returns the status of a job; `None` if there is no such job.
 pub(super) async fn status_of(
@@ -51,6 +51,43 @@ pub(super) async fn cancel(
     })
 }
 
+/// Queues a failed or cancelled job again, within a transaction.
+pub(super) async fn retry(
+    connection: &mut SqliteConnection,
+    id: Uuid,
+    now: i64,
+) -> Result<Option<Retried>, StoreError> {
+    let Some(status) = status_of(connection, id).await? else {
+        return Ok(None);
+    };
+    let attempts = Attempts {
+        fruitless: 0,
+        limit: 0,
+    };
+    let Some(queued) = next_status(status, Transition::Retry, attempts, false) else {
+        let is_terminal = status.is_terminal();
+        let effect = if is_terminal {
+            Retried::Succeeded
+        } else {
+            Retried::Already
+        };
+        return Ok(Some(effect));
+    };
+    let (seq, progress): (i64, String) = sqlx::query_as(
+        "UPDATE jobs SET status = ?1, status_reason = ?2, outcome = NULL, summary = NULL, finished_at = NULL, \
+         cancel_requested = 0, fruitless = 0, deadline_at = deadline_at - queued_at + ?3, queued_at = ?3, \
+         last_event = last_event + 1, version = version + 1 WHERE id = ?4 RETURNING last_event, progress",
+    )
+    .bind(queued.as_str())
+    .bind(queue::WAITING_FOR_WORKER)
+    .bind(now)
+    .bind(id.to_string())
+    .fetch_one(&mut *connection)
+    .await?;
+    insert_event(connection, id, seq, "progress", &progress).await?;
+    Ok(Some(Retried::Queued))
+}
+
 /// Adds a job to the queue, with its first event.
 pub(super) async fn insert(
     transaction: &mut Transaction<'_, Sqlite>,
@@ -68,7 +105,7 @@ pub(super) async fn insert(
     let progress = serde_json::to_string(&progress)?;
     sqlx::query(
         "INSERT INTO jobs (id, system, spec, plan, status, status_reason, created_at, progress, last_event, priority, \
-         place, deadline_at, memory_mb) VALUES (?, ?, ?, ?, 'queued', ?, ?, ?, 1, ?, ?, ?, ?)",
+         place, deadline_at, memory_mb, queued_at) VALUES (?, ?, ?, ?, 'queued', ?, ?, ?, 1, ?, ?, ?, ?, ?)",
     )
     .bind(id.to_string())
     .bind(system)
@@ -81,6 +118,7 @@ pub(super) async fn insert(
     .bind(queue::sort_key(now, options.priority))
     .bind(options.deadline_s.map(|s| now.saturating_add(1_000 * i64::from(s))))
     .bind(memory_mb(&job.plan))
+    .bind(now)
     .execute(&mut **transaction)
     .await?;
     for (key, value) in &job.spec.labels {

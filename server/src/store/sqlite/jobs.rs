@@ -1,12 +1,13 @@
 //! Reading, cancelling, deleting and inserting jobs.
 
+use api::job::Status;
 use sqlx::Row;
 use uuid::Uuid;
 
 use crate::store::sqlite::document::{document, select};
-use crate::store::sqlite::job_rows::{cancel, status_of};
+use crate::store::sqlite::job_rows::{cancel, retry, status_of};
 use crate::store::sqlite::queries::BEGIN;
-use crate::store::{Cancelled, Deleted, Store, StoreError, StoredJob};
+use crate::store::{Cancelled, Deleted, Retried, Store, StoreError, StoredJob};
 
 impl Store {
     /// Returns a job.
@@ -36,6 +37,21 @@ impl Store {
         let effect = cancel(&mut transaction, id, now).await?;
         transaction.commit().await?;
         self.cancelled(id, effect);
+        Ok(effect)
+    }
+
+    /// Queues a failed or cancelled job again: it continues from its last checkpoint, with all its attempts, and with a
+    /// deadline as far away as it was at its submission. `None` if there is no such job.
+    ///
+    /// # Errors
+    /// [`StoreError`] if the database fails.
+    pub async fn retry(&self, id: Uuid, now: i64) -> Result<Option<Retried>, StoreError> {
+        let mut transaction = self.writer.begin_with(BEGIN).await?;
+        let effect = retry(&mut transaction, id, now).await?;
+        transaction.commit().await?;
+        if effect == Some(Retried::Queued) {
+            self.concluded(id, Some(Status::Queued));
+        }
         Ok(effect)
     }
 

@@ -89,6 +89,9 @@ pub(super) async fn end_job(
         };
         let data = serde_json::to_string(&done)?;
         insert_event(connection, job.id, seq, "done", &data).await?;
+    }
+    if status == Status::Succeeded {
+        // Other ends may be followed by another try.
         sqlx::query("DELETE FROM checkpoints WHERE job_id = ?")
             .bind(job.id.to_string())
             .execute(connection)

@@ -2,7 +2,8 @@
 //!
 //! Events are stored rows with sequence numbers as ids. A new connection starts with `snapshot`, the current state of
 //! the job, without an id; all events follow, from the first. A connection with `Last-Event-ID` receives exactly the
-//! events after that one. The stream ends after `done`, and when the service stops.
+//! events after that one. The stream ends after `done`, unless the job was queued again since, and when the
+//! service stops.
 
 use std::collections::VecDeque;
 use std::convert::Infallible;
@@ -154,14 +155,16 @@ impl EventTail {
     async fn fetch(&mut self) -> Result<bool, StoreError> {
         let events = self.app.store.events(self.id, self.after).await?;
         let found = !events.is_empty();
+        let mut may_have_ended = !found;
         for StoredEvent { seq, name, data } in events {
             self.after = seq;
-            self.ended |= name == "done";
+            may_have_ended = name == "done";
             self.pending
                 .push_back(Event::default().id(seq.to_string()).event(name).data(data));
         }
-        if !found {
-            // The stream ends if the job was deleted, or has ended at or before the event in `Last-Event-ID`.
+        if may_have_ended {
+            // The stream ends if the job was deleted, or has ended at or before this event or the one in `Last-Event-ID`, and
+            // was not queued again.
             let job = self.app.store.job(self.id).await?;
             self.ended = job.is_none_or(|job| {
                 job.document.status.is_terminal() && self.after >= job.last_event
