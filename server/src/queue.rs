@@ -60,13 +60,13 @@ pub fn next_status(
 ) -> Option<Status> {
     match (status, transition) {
         (Status::Queued, Transition::Claim) => Some(Status::Running),
-        (Status::Failed | Status::Cancelled, Transition::Retry) => Some(Status::Queued),
         (Status::Queued | Status::Running, Transition::Cancel) => Some(Status::Cancelled),
         (Status::Running, Transition::Succeed) => Some(Status::Succeeded),
         (Status::Running, Transition::Release | Transition::WorkerLost) if cancel_requested => {
             Some(Status::Cancelled)
         }
-        (Status::Running, Transition::Release) => Some(Status::Queued),
+        (Status::Running, Transition::Release)
+        | (Status::Failed | Status::Cancelled, Transition::Retry) => Some(Status::Queued),
         (Status::Running, Transition::WorkerLost) if attempts.fruitless < attempts.limit => {
             Some(Status::Queued)
         }
