@@ -3,7 +3,7 @@
 use std::io::{BufRead, BufReader, Lines};
 use std::path::Path;
 use std::process::{Child, Command, Stdio};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use nix::sys::signal::{Signal, kill};
 use nix::unistd::Pid;
@@ -175,18 +175,15 @@ impl Server {
     /// If it does not in four minutes.
     pub async fn job_when(&self, id: &str, condition: impl Fn(&Value) -> bool) -> Value {
         let path = format!("/v1/jobs/{id}");
-        let asked = async {
-            loop {
-                let (_, job) = self.get(&path).await;
-                if condition(&job) {
-                    return job;
-                }
-                tokio::time::sleep(Duration::from_millis(20)).await;
+        let start = Instant::now();
+        loop {
+            let (_, job) = self.get(&path).await;
+            if condition(&job) {
+                return job;
             }
-        };
-        tokio::time::timeout(PATIENCE, asked)
-            .await
-            .expect("the job gets there")
+            assert!(start.elapsed() < PATIENCE, "the job gets there: {job}");
+            tokio::time::sleep(Duration::from_millis(20)).await;
+        }
     }
 }
 
