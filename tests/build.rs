@@ -1,5 +1,6 @@
 //! Detects the optional programs that some cases need; cases whose program is absent are ignored, visibly.
 
+use std::path::Path;
 use std::process::Command;
 
 fn main() {
@@ -7,7 +8,7 @@ fn main() {
     println!("cargo::rerun-if-env-changed=FRETWEAR_PYTHON");
     println!("cargo::rerun-if-env-changed=PATH");
     println!(
-        "cargo::rustc-check-cfg=cfg(has_vtk, has_ccx, has_chromium, has_curl, has_fma, has_schemathesis)"
+        "cargo::rustc-check-cfg=cfg(has_vtk, has_ccx, has_chromium, has_curl, has_fma, has_mount, has_schemathesis)"
     );
     let python = std::env::var("FRETWEAR_PYTHON").unwrap_or_else(|_| "python3".to_owned());
     println!("cargo::rustc-env=FRETWEAR_PYTHON={python}");
@@ -25,12 +26,30 @@ fn main() {
     if has_fma() {
         println!("cargo::rustc-cfg=has_fma");
     }
+    if can_mount() {
+        println!("cargo::rustc-cfg=has_mount");
+    }
     if runs(Command::new("chromium").arg("--version")) {
         println!("cargo::rustc-cfg=has_chromium");
     }
     if runs(Command::new("ccx").arg("-v")) {
         println!("cargo::rustc-cfg=has_ccx");
     }
+}
+
+/// Checks whether a file system in memory can be mounted, as root can.
+fn can_mount() -> bool {
+    let Some(folder) = std::env::var_os("OUT_DIR").map(|out| Path::new(&out).join("mounted"))
+    else {
+        return false;
+    };
+    let mounted = std::fs::create_dir_all(&folder).is_ok()
+        && runs(
+            Command::new("mount")
+                .args(["-t", "tmpfs", "tmpfs"])
+                .arg(&folder),
+        );
+    mounted && runs(Command::new("umount").arg(&folder))
 }
 
 /// Checks whether the processor has the vector instructions that the golden results were computed with.

@@ -14,8 +14,6 @@ pub use order::{MAX_PRIORITY, batch_priority, sort_key};
 
 /// Status reason of a job that waits for a free worker only.
 pub const WAITING_FOR_WORKER: &str = "waiting for a worker";
-/// Prefix of the status reason of jobs that wait for disk space.
-pub const WAITING_FOR_DISK: &str = "waiting for disk space: ";
 
 /// Default number of attempts without a new checkpoint after which a job whose workers were lost fails.
 pub const ATTEMPT_LIMIT: u32 = 3;

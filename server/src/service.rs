@@ -13,7 +13,7 @@ use tokio_util::sync::CancellationToken;
 
 use crate::http;
 use crate::http::{Access, App};
-use crate::store::{Store, StoreError};
+use crate::store::{Limits, Store, StoreError};
 use crate::supervision::{Supervisor, TaskName};
 use crate::worker;
 use crate::worker::WorkerConfig;
@@ -32,8 +32,8 @@ pub struct Config {
     pub database: String,
     /// Number of jobs solved at the same time.
     pub workers: usize,
-    /// Largest number of attempts in a row without a new checkpoint at a job whose workers are lost.
-    pub attempts: u32,
+    /// Limits of the store.
+    pub limits: Limits,
     /// Days after which ended jobs are deleted.
     pub keep_days: Option<u32>,
     /// Configuration of the workers.
@@ -112,7 +112,7 @@ impl Service {
         };
         let listener = TcpListener::bind(config.listen).await.map_err(listen)?;
         let address = listener.local_addr().map_err(listen)?;
-        let store = Arc::new(Store::open_with(&config.database, config.attempts).await?);
+        let store = Arc::new(Store::open_with(&config.database, config.limits).await?);
         let worker = Arc::new(config.worker);
         let reclaimed = store.reclaim_all(worker.lease_end()).await?;
         let (queued, ending) = (reclaimed.queued, reclaimed.ending.len());

@@ -36,20 +36,24 @@
 mod backup;
 mod batches;
 mod changes;
+mod disk;
 mod error;
 mod jobs;
 mod leases;
+mod limits;
 mod results;
 mod sqlite;
 
 pub use backup::{BackupError, CopySummary};
 pub use batches::{BatchDetail, BatchFilter, BatchJob, BatchOverview, NewBatch, StoredBatch};
 pub use changes::Changes;
+pub use disk::DataDisk;
 pub use error::StoreError;
 pub use jobs::{
     Cancelled, Deleted, Filter, NewJob, RequestKey, Retried, StoredJob, SubmitOptions, Submitted,
 };
 pub use leases::{Claim, End, JobUpdate, LeaseState, Reclaimed};
+pub use limits::Limits;
 pub use results::{Content, NewFile, SnapshotPart, StoredEvent};
 pub use sqlite::Store;
 pub use sqlite::backup::{backup, restore};

@@ -28,10 +28,8 @@ const POLL_INTERVAL: Duration = Duration::from_secs(1);
 
 /// Claims and supervises jobs until the service stops. A panic ends it; its job is then reclaimed when the lease ends.
 pub async fn work(store: Arc<Store>, config: Arc<WorkerConfig>, stopping: CancellationToken) {
-    // Jobs may still have the reason from before the service was started.
-    let mut disk_short = true;
     while !stopping.is_cancelled() {
-        match next(&store, &config, &mut disk_short, &stopping).await {
+        match next(&store, &config, &stopping).await {
             Ok(true) => {}
             Ok(false) => {
                 tokio::select! {
@@ -41,6 +39,8 @@ pub async fn work(store: Arc<Store>, config: Arc<WorkerConfig>, stopping: Cancel
                 }
             }
             Err(error) => {
+                // Jobs that wait say so, and the next write has to be a small one.
+                store.disk().release_after(&error);
                 tracing::error!(%error, "a worker could not use the store");
                 tokio::time::sleep(RETRY_PAUSE).await;
             }
@@ -52,17 +52,10 @@ pub async fn work(store: Arc<Store>, config: Arc<WorkerConfig>, stopping: Cancel
 async fn next(
     store: &Store,
     config: &WorkerConfig,
-    disk_short: &mut bool,
     stopping: &CancellationToken,
 ) -> Result<bool, StoreError> {
-    if let Some(reason) = config.disk_shortage() {
-        *disk_short = true;
-        store.set_waiting_reason(&reason).await?;
+    if store.disk().shortage().is_some() {
         return Ok(false);
-    }
-    if *disk_short {
-        store.reset_disk_reason().await?;
-        *disk_short = false;
     }
     let claimed = store
         .claim_within(config.memory_mb, now_ms(), config.lease_end())

@@ -169,7 +169,7 @@ impl Trial {
                 return;
             }
             Fault::StallStore => database::stall(&self.folder, moment * 3).await,
-            Fault::FillDisk => self.disk.fill(moment).await,
+            Fault::FillDisk => self.disk.fill_for(moment).await,
         }
         tokio::time::sleep(moment).await;
     }

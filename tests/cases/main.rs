@@ -19,6 +19,7 @@ mod every_system_from_its_kind_alone;
 mod failing_log;
 mod fault_injection;
 mod fields_open_in_vtk;
+mod full_disk;
 mod golden_results;
 mod hard;
 mod hostile_inputs;

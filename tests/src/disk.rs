@@ -1,7 +1,8 @@
 //! A small mounted disk that a test can fill.
 
+use std::fs::File;
 use std::io::Write;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::time::Duration;
 
@@ -39,20 +40,42 @@ impl Disk {
         self.mounted
     }
 
-    /// Fills all free space for a while.
+    /// Fills all free space, down to the last byte; also the space that was freed since the last call.
     ///
     /// # Panics
-    /// If the space cannot be filled or freed.
-    pub async fn fill(&self, time: Duration) {
-        let path = self.folder.path().join("filler");
-        let mut file = std::fs::File::create(&path).expect("a file can be made");
-        // Down to the last byte.
+    /// If there is no file to fill it with.
+    pub fn fill(&self) {
+        let file = File::options()
+            .create(true)
+            .append(true)
+            .open(self.filler());
+        let mut file = file.expect("a file can be made");
         for size in [1 << 20, 1 << 12, 1] {
             let block = vec![0_u8; size];
             while file.write_all(&block).is_ok() {}
         }
+    }
+
+    /// Frees the space that was filled.
+    ///
+    /// # Panics
+    /// If it cannot be freed.
+    pub fn free(&self) {
+        std::fs::remove_file(self.filler()).expect("the file can be removed");
+    }
+
+    /// Fills all free space for a while.
+    ///
+    /// # Panics
+    /// If the space cannot be filled or freed.
+    pub async fn fill_for(&self, time: Duration) {
+        self.fill();
         tokio::time::sleep(time).await;
-        std::fs::remove_file(path).expect("the file can be removed");
+        self.free();
+    }
+
+    fn filler(&self) -> PathBuf {
+        self.folder.path().join("filler")
     }
 }
 

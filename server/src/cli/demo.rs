@@ -15,8 +15,8 @@ use crate::cli::serve::until_signal;
 use crate::cli::table;
 use crate::cli::terminal::{Ended, bar, failed, write_err, write_out};
 use crate::http::Access;
-use crate::queue::ATTEMPT_LIMIT;
 use crate::service::{Config, Service, ServiceError};
+use crate::store::Limits;
 use crate::worker::WorkerConfig;
 
 /// The specification: the published fuzz button.
@@ -53,9 +53,9 @@ async fn demonstrate(listen: SocketAddr, exit: bool) -> Result<(), DemoError> {
         access: Access::default(),
         database,
         workers: workers(None),
-        attempts: ATTEMPT_LIMIT,
+        limits: Limits::default(),
         keep_days: None,
-        worker: WorkerConfig::new(program, folder.clone()),
+        worker: WorkerConfig::new(program),
     })
     .await?;
     let base = format!("http://{}", service.address);

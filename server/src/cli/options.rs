@@ -1,12 +1,12 @@
 //! Options of `serve` for queue and workers; each can also be given as an environment variable.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::time::Duration;
 
 use clap::Args;
 
-use crate::export::files;
 use crate::queue::ATTEMPT_LIMIT;
+use crate::store::Limits;
 use crate::worker::WorkerConfig;
 
 /// Options for queue and workers.
@@ -17,7 +17,7 @@ pub(super) struct WorkOptions {
     workers: Option<u16>,
     /// Largest number of attempts in a row without a new checkpoint at a job whose workers are lost.
     #[arg(long, env = "FRETWEAR_ATTEMPTS", default_value_t = ATTEMPT_LIMIT, value_parser = clap::value_parser!(u32).range(1..))]
-    pub(super) attempts: u32,
+    attempts: u32,
     /// Time after the last heartbeat of a worker at which its job is reclaimed.
     #[arg(long, env = "FRETWEAR_LEASE_S", default_value = "10", value_parser = seconds)]
     lease_s: Duration,
@@ -47,27 +47,26 @@ impl WorkOptions {
         crate::cli::runtime::workers(self.workers)
     }
 
-    /// Configuration of the workers for a program and a database.
-    pub(super) fn config(&self, program: PathBuf, database: &str) -> WorkerConfig {
-        let config = WorkerConfig::new(program, folder(database));
+    /// Limits of the store.
+    pub(super) fn limits(&self) -> Limits {
+        Limits {
+            attempts: self.attempts,
+            least_free_disk_mb: self.least_free_disk_mb,
+        }
+    }
+
+    /// Configuration of the workers for a program.
+    pub(super) fn config(&self, program: PathBuf) -> WorkerConfig {
+        let config = WorkerConfig::new(program);
         WorkerConfig {
             lease: self.lease_s.max(Duration::from_millis(100)),
             checkpoint_every: self.checkpoint_every_s,
             grace: self.grace_s,
             memory_mb: self.memory_mb.unwrap_or(config.memory_mb),
             job_memory_mb: self.job_memory_mb,
-            least_free_disk_mb: self.least_free_disk_mb,
             ..config
         }
     }
-}
-
-/// Returns the folder of a database.
-pub(super) fn folder(database: &str) -> PathBuf {
-    let path = database
-        .trim_start_matches("sqlite:")
-        .trim_start_matches("//");
-    files::parent(Path::new(path)).to_owned()
 }
 
 fn seconds(text: &str) -> Result<Duration, String> {
@@ -88,12 +87,5 @@ mod tests {
         for text in ["-1", "soon", "NaN", "1e400"] {
             assert!(seconds(text).is_err(), "{text}");
         }
-    }
-
-    #[test]
-    fn the_folder_of_a_database_follows_from_its_address() {
-        assert_eq!(folder("sqlite://fretwear.db"), Path::new("."));
-        assert_eq!(folder("sqlite:///data/fretwear.db"), Path::new("/data"));
-        assert_eq!(folder("sqlite:a/b.db"), Path::new("a"));
     }
 }

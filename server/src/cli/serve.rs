@@ -15,9 +15,9 @@ pub(super) fn run(arguments: ServeArguments) -> Ended {
         listen: arguments.listen,
         access,
         workers: work.workers(),
-        attempts: work.attempts,
+        limits: work.limits(),
         keep_days: work.keep_days,
-        worker: work.config(program, &arguments.database),
+        worker: work.config(program),
         database: arguments.database,
     };
     block_on(async {

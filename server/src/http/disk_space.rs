@@ -3,18 +3,18 @@
 use axum::extract::State;
 use axum::response::{IntoResponse, Response};
 
-use crate::export::files;
 use crate::http::app::App;
-use crate::http::problem::{DISK_FULL, DiskFull, ProblemType};
+use crate::http::problem::{DiskFull, ProblemType};
+use crate::store::StoreError;
 
 /// Middleware that adds the free space to the problem of a full disk, if the system reports it.
 pub(super) async fn explain(State(app): State<App>, response: Response) -> Response {
     if response.extensions().get::<DiskFull>().is_none() {
         return response;
     }
-    match files::free_mb(files::parent(&app.store.machine_file())) {
-        Some(free_mb) => ProblemType::BUSY
-            .with_detail(format!("{DISK_FULL} ({free_mb} MB free)"))
+    match app.store.disk().free_mb() {
+        Some(free_mb) => ProblemType::DISK_FULL
+            .with_detail(format!("{} ({free_mb} MB free)", StoreError::DiskFull))
             .into_response(),
         None => response,
     }
@@ -43,6 +43,7 @@ mod tests {
         let (status, headers, problem) = answer;
         assert_eq!(status, 503, "{problem}");
         assert_eq!(headers["retry-after"], "5");
+        assert_eq!(problem["type"], "/problems/disk-full");
         let detail = problem["detail"].as_str().expect("a detail");
         let free = detail.strip_prefix("no space left on the data disk (");
         let free = free.and_then(|rest| rest.strip_suffix(" MB free)"));

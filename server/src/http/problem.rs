@@ -16,10 +16,7 @@ const MEDIA_TYPE: &str = "application/problem+json";
 /// `Retry-After` of a request that the service cannot take at present, s.
 const RETRY_AFTER_S: &str = "5";
 
-/// Detail of a request that was not written because the disk is full.
-pub(super) const DISK_FULL: &str = "no space left on the data disk";
-
-/// Marks the response with that problem; [`crate::http::disk_space`] adds the free space to it.
+/// Marks a response with the problem of a full disk; [`crate::http::disk_space`] adds the free space to it.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct DiskFull;
 
@@ -73,6 +70,7 @@ problem_types! {
     TOKEN_REQUIRED, 401, "token-required", "the access token is missing or wrong";
     REQUEST_TIMEOUT, 408, "request-timeout", "the request did not arrive in time";
     BUSY, 503, "busy", "the service cannot take the request at present";
+    DISK_FULL, 503, "disk-full", "the data disk is full";
     TASK_FAILING, 503, "task-failing", "a task of the service fails repeatedly";
     INTERNAL, 500, "internal", "internal error";
 }
@@ -143,13 +141,17 @@ impl<E: RouteError> From<E> for ProblemResponse {
 
 impl From<StoreError> for ProblemResponse {
     fn from(error: StoreError) -> Self {
-        let detail = match &error {
-            error if error.is_disk_full() => DISK_FULL,
-            error if error.is_transient() => "the database is busy; send the request again",
+        let problem = match &error {
+            error if error.is_disk_full() => {
+                ProblemType::DISK_FULL.with_detail(StoreError::DiskFull.to_string())
+            }
+            error if error.is_transient() => {
+                ProblemType::BUSY.with_detail("the database is busy; send the request again")
+            }
             error => return Self::internal(error),
         };
         tracing::warn!(%error, "a request was rejected for now");
-        ProblemType::BUSY.with_detail(detail)
+        problem
     }
 }
 
@@ -177,7 +179,7 @@ impl IntoResponse for ProblemResponse {
             name,
             title,
         } = self.problem_type;
-        let disk_full = self.detail.as_deref() == Some(DISK_FULL);
+        let is_full = self.detail == Some(StoreError::DiskFull.to_string());
         let problem = Problem {
             kind: format!("/problems/{name}"),
             title: title.to_owned(),
@@ -189,10 +191,10 @@ impl IntoResponse for ProblemResponse {
         let mut response = (status, axum::Json(problem)).into_response();
         let headers = response.headers_mut();
         headers.insert(header::CONTENT_TYPE, HeaderValue::from_static(MEDIA_TYPE));
-        if self.problem_type == ProblemType::BUSY {
+        if [ProblemType::BUSY, ProblemType::DISK_FULL].contains(&self.problem_type) {
             headers.insert(header::RETRY_AFTER, HeaderValue::from_static(RETRY_AFTER_S));
         }
-        if disk_full {
+        if is_full {
             response.extensions_mut().insert(DiskFull);
         }
         response

@@ -45,6 +45,7 @@ pub(super) async fn maintain(
             healthy = None;
         }
         while finalizing.try_join_next().is_some() {}
+        reserve_disk(&store).await;
         let reclaims = healthy.is_some_and(|since| since.elapsed() >= lease);
         let started = Instant::now();
         healthy = match round(&store, &config, reclaims, keep_days).await {
@@ -64,6 +65,15 @@ pub(super) async fn maintain(
         {
             tracing::warn!(%error, "the write-ahead log could not be checkpointed");
         }
+    }
+}
+
+/// Reserves disk space again if it was released. Writing it may take a while.
+async fn reserve_disk(store: &Store) {
+    if store.disk().is_full() {
+        let disk = Arc::clone(store.disk());
+        // A task that panics has reserved nothing; the next round tries again.
+        let _ = tokio::task::spawn_blocking(move || disk.reserve_again()).await;
     }
 }
 

@@ -18,18 +18,17 @@ async fn service(folder: &TempDir) -> Service {
     let program = folder.path().join("program");
     std::fs::write(&program, "#!/bin/sh\nexit 3\n").expect("a script");
     std::fs::set_permissions(&program, std::fs::Permissions::from_mode(0o755)).expect("a program");
-    let worker = WorkerConfig {
-        least_free_disk_mb: 0,
-        ..WorkerConfig::new(program, folder.path().to_owned())
-    };
     let config = Config {
         listen: SocketAddr::from(([127, 0, 0, 1], 0)),
         access: Access::default(),
         database: format!("sqlite://{}", folder.path().join("test.db").display()),
         workers: WORKERS,
-        attempts: 1,
+        limits: Limits {
+            attempts: 1,
+            least_free_disk_mb: 0,
+        },
         keep_days: None,
-        worker,
+        worker: WorkerConfig::new(program),
     };
     Service::start(config).await.expect("a service")
 }
@@ -123,7 +122,7 @@ async fn a_service_whose_task_fails_repeatedly_is_not_ready_and_names_it() {
     };
     assert_eq!(problem["type"], "/problems/task-failing", "{problem}");
     assert_eq!(
-        problem["detail"], "restarted repeatedly: worker",
+        problem["detail"], "tasks: restarted repeatedly: worker",
         "{problem}"
     );
     service.stop().await;

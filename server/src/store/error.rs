@@ -54,6 +54,9 @@ pub enum StoreError {
         /// Whether the disk of the database is full.
         is_disk_full: bool,
     },
+    /// The disk was full and still is: the space that was reserved on it is for writes that free some.
+    #[error("no space left on the data disk")]
+    DiskFull,
     /// A stored document cannot be read.
     #[error("job {id}: stored {what} cannot be read: {cause}")]
     Corrupt {
@@ -87,6 +90,7 @@ impl StoreError {
         match self {
             Self::Database { is_disk_full, .. } => *is_disk_full,
             Self::Prepare { cause, .. } => files::is_full(cause),
+            Self::DiskFull => true,
             _ => false,
         }
     }

@@ -30,8 +30,10 @@ pub struct SubmitOptions {
 pub struct StoredJob {
     /// The document.
     pub document: Job,
-    /// Version of the document, raised by every change.
+    /// Version of the stored document, raised by every change.
     pub version: i64,
+    /// Whether its status reason is not the stored one, because it waits for disk space.
+    pub waits_for_disk: bool,
     /// Number of its newest event.
     pub last_event: i64,
 }

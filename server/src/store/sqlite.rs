@@ -37,7 +37,9 @@ use tokio::sync::{Notify, broadcast};
 use uuid::Uuid;
 
 use crate::metrics::Metrics;
-use crate::store::{Cancelled, Changes, LeaseState, NewJob, RequestKey, StoreError, Submitted};
+use crate::store::{
+    Cancelled, Changes, DataDisk, LeaseState, NewJob, RequestKey, StoreError, Submitted,
+};
 
 /// Jobs, batches, events and results, durable.
 #[derive(Debug)]
@@ -52,6 +54,7 @@ pub struct Store {
     attempt_limit: u32,
     metrics: Arc<Metrics>,
     submissions: submissions::Submissions,
+    disk: Arc<DataDisk>,
     /// When the database was last written by [`Store::ready`].
     last_probe: tokio::sync::Mutex<Option<Instant>>,
     /// Held as long as the store is open.
@@ -69,6 +72,7 @@ impl Store {
         key: Option<&RequestKey>,
         now: i64,
     ) -> Result<Submitted, StoreError> {
+        self.disk.check()?;
         let submitted = self.submissions.submit(&self.writer, job, key, now).await?;
         if let Submitted::Job(id) = submitted {
             self.changed(id);
@@ -90,6 +94,11 @@ impl Store {
     /// Path of the machine's calibration cache, beside the database.
     pub fn machine_file(&self) -> PathBuf {
         self.machine.clone()
+    }
+
+    /// The disk of the database.
+    pub fn disk(&self) -> &Arc<DataDisk> {
+        &self.disk
     }
 
     /// Counters and histograms for `/metrics`.

@@ -23,9 +23,9 @@ pub(crate) use super::sqlite::tests::{fill_disk, hold_write_lock};
 
 /// Operations with defaults that only tests use.
 impl Store {
-    /// Opens a database with the default number of attempts.
+    /// Opens a database with default limits.
     pub(crate) async fn open(url: &str) -> Result<Self, StoreError> {
-        Self::open_with(url, ATTEMPT_LIMIT).await
+        Self::open_with(url, Limits::default()).await
     }
 
     /// Queues a job.

@@ -113,7 +113,11 @@ pub(super) async fn retry<T, F: Future<Output = Result<T, StoreError>>>(
 ) -> Result<T, StoreError> {
     loop {
         match operation().await {
-            Err(error @ (StoreError::Database { .. } | StoreError::Prepare { .. })) => {
+            Err(
+                error @ (StoreError::Database { .. }
+                | StoreError::Prepare { .. }
+                | StoreError::DiskFull),
+            ) => {
                 tracing::warn!(%error, "the store failed; retrying");
                 tokio::time::sleep(RETRY_PAUSE).await;
             }

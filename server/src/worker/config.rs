@@ -6,8 +6,6 @@ use std::time::Duration;
 use nix::sys::sysinfo::sysinfo;
 
 use crate::clock::monotonic_ms;
-use crate::export::files;
-use crate::queue::WAITING_FOR_DISK;
 
 /// Memory limit of a solving process over its estimate: the estimate controls admission, the limit only protects the
 /// machine from one job.
@@ -35,10 +33,6 @@ pub struct WorkerConfig {
     pub memory_mb: i64,
     /// Memory limit of a solving process, MB; from its plan if not set.
     pub job_memory_mb: Option<i64>,
-    /// Free disk space below which no job is claimed, MB.
-    pub least_free_disk_mb: u64,
-    /// Folder of the results.
-    pub folder: PathBuf,
 }
 
 impl WorkerConfig {
@@ -47,17 +41,15 @@ impl WorkerConfig {
         monotonic_ms().saturating_add(i64::try_from(self.lease.as_millis()).unwrap_or(i64::MAX))
     }
 
-    /// Default configuration for a program and its folder of results.
-    pub fn new(program: PathBuf, folder: PathBuf) -> Self {
+    /// Default configuration for a program.
+    pub fn new(program: PathBuf) -> Self {
         Self {
             program,
-            folder,
             lease: Duration::from_secs(10),
             checkpoint_every: Duration::from_secs(5),
             grace: Duration::from_secs(5),
             memory_mb: machine_memory_mb(),
             job_memory_mb: None,
-            least_free_disk_mb: 256,
         }
     }
 
@@ -67,17 +59,6 @@ impl WorkerConfig {
             estimated_mb
                 .saturating_mul(MEMORY_MARGIN)
                 .max(MIN_MEMORY_MB)
-        })
-    }
-
-    /// Returns the status reason of waiting jobs if there is not enough disk space.
-    pub(super) fn disk_shortage(&self) -> Option<String> {
-        let free_mb = files::free_mb(&self.folder)?;
-        (free_mb < self.least_free_disk_mb).then(|| {
-            format!(
-                "{WAITING_FOR_DISK}{free_mb} MB are free, {} MB are needed",
-                self.least_free_disk_mb
-            )
         })
     }
 }
@@ -94,7 +75,7 @@ mod tests {
     use super::*;
 
     fn config() -> WorkerConfig {
-        WorkerConfig::new(PathBuf::from("fretwear"), std::env::temp_dir())
+        WorkerConfig::new(PathBuf::from("fretwear"))
     }
 
     #[test]
@@ -107,20 +88,5 @@ mod tests {
             ..config
         };
         assert_eq!(explicit.memory_limit_mb(1_000), 64);
-    }
-
-    #[test]
-    fn a_disk_with_too_little_free_space_is_a_reason_to_wait() {
-        let config = WorkerConfig {
-            least_free_disk_mb: u64::MAX,
-            ..config()
-        };
-        let reason = config.disk_shortage().expect("a reason");
-        assert!(reason.starts_with("waiting for disk space: "), "{reason}");
-        let config = WorkerConfig {
-            least_free_disk_mb: 0,
-            ..config
-        };
-        assert_eq!(config.disk_shortage(), None);
     }
 }

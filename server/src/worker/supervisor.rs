@@ -153,14 +153,28 @@ impl Supervision<'_> {
                 }) => return Ok(Stop::Cancelled),
                 Ok(LeaseState::Lost) => return Ok(Stop::LeaseLost),
                 // The solve continues and the update is written again; the fence discards writes that come too late.
-                Err(error @ StoreError::Database { .. }) => {
+                Err(error @ (StoreError::Database { .. } | StoreError::DiskFull)) => {
                     tracing::warn!(%error, "the store failed; retrying");
+                    if self.is_cancelled_on_full_disk(&error).await {
+                        return Ok(Stop::Cancelled);
+                    }
                     store_failed = true;
                     tick.reset_after(RETRY_PAUSE);
                 }
                 Err(error) => return Err(error),
             }
         }
+    }
+
+    /// Whether the user cancelled the job while nothing could be stored because the disk is full. The state of the lease
+    /// can be read all the same; after another error the next write returns it.
+    async fn is_cancelled_on_full_disk(&self, error: &StoreError) -> bool {
+        let Attempt { store, claim, .. } = self.attempt;
+        store.disk().release_after(error);
+        let cancelled = LeaseState::Held {
+            cancel_requested: true,
+        };
+        error.is_disk_full() && store.lease_state(claim).await.ok() == Some(cancelled)
     }
 
     /// Returns the meaning of a line error. A malformed line at the end of the output was truncated when the process

@@ -15,7 +15,7 @@ use uuid::Uuid;
 use crate::http::tests::row;
 use crate::solve::Line;
 use crate::spec;
-use crate::store::{JobUpdate, NewJob, Store, SubmitOptions};
+use crate::store::{JobUpdate, Limits, NewJob, Store, SubmitOptions};
 use crate::worker::{WorkerConfig, work};
 
 /// A worker whose solving process is a shell script, with one job and one attempt.
@@ -26,6 +26,12 @@ struct Scripted {
     worker: JoinHandle<()>,
     folder: TempDir,
 }
+
+/// One attempt, on any disk.
+const LIMITS: Limits = Limits {
+    attempts: 1,
+    least_free_disk_mb: 0,
+};
 
 impl Scripted {
     async fn new(script: &str) -> Self {
@@ -39,7 +45,7 @@ impl Scripted {
         std::fs::set_permissions(&program, std::fs::Permissions::from_mode(0o755))
             .expect("a program");
         let url = format!("sqlite://{}", folder.path().join("test.db").display());
-        let store = Arc::new(Store::open_with(&url, 1).await.expect("a store"));
+        let store = Arc::new(Store::open_with(&url, LIMITS).await.expect("a store"));
         let resolved = spec::read(br#"{"system":{"kind":"fuzz_button"}}"#).expect("accepted");
         let spec = Spec {
             name,
@@ -52,8 +58,7 @@ impl Scripted {
         };
         let id = store.queue(&job, 0).await;
         let config = WorkerConfig {
-            least_free_disk_mb: 0,
-            ..WorkerConfig::new(program, folder.path().to_owned())
+            ..WorkerConfig::new(program)
         };
         let stopping = CancellationToken::new();
         let worker = tokio::spawn(work(Arc::clone(&store), Arc::new(config), stopping.clone()));
@@ -211,7 +216,7 @@ async fn a_job_with_a_cancel_request_whose_worker_is_lost_has_documents_of_its_r
         .reclaim_expired(10, i64::MAX)
         .await
         .expect("the store");
-    let config = WorkerConfig::new(PathBuf::from("none"), folder.path().to_owned());
+    let config = WorkerConfig::new(PathBuf::from("none"));
     let ended =
         super::finalize_lost_job(&store, &reclaimed.ending[0], &config, reclaimed.reason).await;
     ended.expect("the store");

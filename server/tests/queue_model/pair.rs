@@ -7,7 +7,9 @@ use server::estimate::Estimate;
 use server::queue::{Transition, sort_key};
 use server::solve::checkpoint::EncodedCheckpoint;
 use server::spec;
-use server::store::{Claim, End, JobUpdate, LeaseState, NewJob, Store, SubmitOptions, Submitted};
+use server::store::{
+    Claim, End, JobUpdate, LeaseState, Limits, NewJob, Store, SubmitOptions, Submitted,
+};
 use solver::record::CycleReport;
 use tempfile::TempDir;
 
@@ -23,12 +25,16 @@ pub(crate) struct Pair {
     claims: Vec<Claim>,
 }
 
+/// Limits of the model.
+const LIMITS: Limits = Limits {
+    attempts: ATTEMPT_LIMIT,
+    least_free_disk_mb: 0,
+};
+
 impl Pair {
     pub(crate) async fn new(folder: &TempDir) -> Self {
         let url = format!("sqlite://{}", folder.path().join("test.db").display());
-        let store = Store::open_with(&url, ATTEMPT_LIMIT)
-            .await
-            .expect("a store");
+        let store = Store::open_with(&url, LIMITS).await.expect("a store");
         let resolved = spec::read(br#"{"system":{"kind":"fuzz_button"}}"#).expect("accepted");
         let plan = Estimate::of(&resolved).plan(&resolved, None);
         let job = NewJob {

@@ -11,10 +11,11 @@ use uuid::fmt::Hyphenated;
 use crate::store::batches::{
     BatchDetail, BatchFilter, BatchJob, BatchOverview, NewBatch, StoredBatch,
 };
+use crate::store::sqlite::document::status_and_reason;
 use crate::store::sqlite::document::timestamp;
 use crate::store::sqlite::job_rows::{cancel, insert};
-use crate::store::sqlite::queries::{BEGIN, id, outcome, parsed, status, summary};
-use crate::store::{Deleted, RequestKey, SnapshotPart, Store, StoreError, Submitted};
+use crate::store::sqlite::queries::{BEGIN, id, outcome, parsed, summary};
+use crate::store::{DataDisk, Deleted, RequestKey, SnapshotPart, Store, StoreError, Submitted};
 
 impl Store {
     /// Queues all jobs of a batch or none; returns the earlier batch if a request with the same key and body has queued
@@ -28,6 +29,7 @@ impl Store {
         key: Option<&RequestKey>,
         now: i64,
     ) -> Result<Submitted, StoreError> {
+        self.disk.check()?;
         let mut transaction = self.writer.begin_with(BEGIN).await?;
         if let Some(key) = key
             && let Some(earlier) = submitted(&mut *transaction, key).await?
@@ -79,7 +81,7 @@ impl Store {
         let mut counts = no_jobs();
         let mut jobs = Vec::with_capacity(rows.len());
         for row in rows {
-            let mut job = job(&row)?;
+            let mut job = job(&self.disk, &row)?;
             *counts.entry(job.status.as_str().to_owned()).or_default() += 1;
             if detail >= BatchDetail::Profiles && job.summary.is_some() {
                 job.profile = self.snapshot(job.id, SnapshotPart::Profile, None).await?;
@@ -137,14 +139,17 @@ impl Store {
     /// # Errors
     /// [`StoreError`] if the database fails.
     pub async fn cancel_batch(&self, id: Uuid, now: i64) -> Result<(), StoreError> {
-        let mut transaction = self.writer.begin_with(BEGIN).await?;
-        let jobs = jobs_of(&mut transaction, id).await?;
-        let mut effects = Vec::with_capacity(jobs.len());
-        for job in jobs {
-            effects.push((job, cancel(&mut transaction, job, now).await?));
-        }
-        transaction.commit().await?;
-        for (job, effect) in effects {
+        let write = async || {
+            let mut transaction = self.writer.begin_with(BEGIN).await?;
+            let jobs = jobs_of(&mut transaction, id).await?;
+            let mut effects = Vec::with_capacity(jobs.len());
+            for job in jobs {
+                effects.push((job, cancel(&mut transaction, job, now).await?));
+            }
+            transaction.commit().await?;
+            Ok(effects)
+        };
+        for (job, effect) in self.disk.with_reserve(write).await? {
             self.cancelled(job, effect);
         }
         Ok(())
@@ -276,13 +281,14 @@ fn overview(row: &SqliteRow, counts: BTreeMap<String, u64>) -> Result<BatchOverv
 }
 
 /// Returns a job of a batch, without its profile.
-fn job(row: &SqliteRow) -> Result<BatchJob, StoreError> {
+fn job(disk: &DataDisk, row: &SqliteRow) -> Result<BatchJob, StoreError> {
     let id = id(row, "job_id")?;
+    let (status, status_reason) = status_and_reason(disk, id, row)?;
     Ok(BatchJob {
         id,
         overrides: parsed(id, "overrides", row.try_get("overrides")?)?,
-        status: status(id, row)?,
-        status_reason: row.try_get("status_reason")?,
+        status,
+        status_reason,
         outcome: outcome(row)?,
         summary: summary(id, row)?,
         profile: None,

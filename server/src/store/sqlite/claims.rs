@@ -5,7 +5,7 @@ use sqlx::{Row, Sqlite, Transaction};
 use uuid::Uuid;
 use uuid::fmt::Hyphenated;
 
-use crate::queue::{MemoryBudget, WAITING_FOR_DISK, WAITING_FOR_WORKER, WaitingJob, admit};
+use crate::queue::{MemoryBudget, WaitingJob, admit};
 use crate::solve::checkpoint::EncodedCheckpoint;
 use crate::store::sqlite::checkpoints;
 use crate::store::sqlite::queries::{BEGIN, insert_attempt_event};
@@ -26,6 +26,7 @@ impl Store {
         now: i64,
         expires_at: i64,
     ) -> Result<Option<Claim>, StoreError> {
+        self.disk.check()?;
         let mut transaction = self.writer.begin_with(BEGIN).await?;
         let (ids, waiting) = candidates(&mut transaction).await?;
         if waiting.is_empty() {
@@ -54,37 +55,6 @@ impl Store {
             self.changed(id);
         }
         Ok(claim)
-    }
-
-    /// Sets the status reason of all queued jobs.
-    ///
-    /// # Errors
-    /// [`StoreError`] if the database fails.
-    pub async fn set_waiting_reason(&self, reason: &str) -> Result<(), StoreError> {
-        sqlx::query(
-            "UPDATE jobs SET status_reason = ?1, version = version + 1 \
-             WHERE status = 'queued' AND status_reason IS NOT ?1",
-        )
-        .bind(reason)
-        .execute(&self.writer)
-        .await?;
-        Ok(())
-    }
-
-    /// Resets the status reason of queued jobs that waited for disk space.
-    ///
-    /// # Errors
-    /// [`StoreError`] if the database fails.
-    pub async fn reset_disk_reason(&self) -> Result<(), StoreError> {
-        sqlx::query(
-            "UPDATE jobs SET status_reason = ?, version = version + 1 \
-             WHERE status = 'queued' AND status_reason LIKE ? || '%'",
-        )
-        .bind(WAITING_FOR_WORKER)
-        .bind(WAITING_FOR_DISK)
-        .execute(&self.writer)
-        .await?;
-        Ok(())
     }
 }
 

@@ -2,14 +2,14 @@
 
 use std::collections::BTreeMap;
 
-use api::job::Job;
+use api::job::{Job, Status};
 use jiff::Timestamp;
 use sqlx::sqlite::SqliteRow;
 use sqlx::{QueryBuilder, Row, Sqlite};
 use uuid::Uuid;
 
-use crate::store::StoreError;
 use crate::store::sqlite::queries::{self, outcome, parsed, status, summary};
+use crate::store::{DataDisk, StoreError};
 
 /// Starts a query of job documents.
 pub(super) fn select() -> QueryBuilder<Sqlite> {
@@ -20,15 +20,16 @@ pub(super) fn select() -> QueryBuilder<Sqlite> {
 }
 
 /// Returns the document of a selected row.
-pub(super) fn document(row: &SqliteRow) -> Result<Job, StoreError> {
+pub(super) fn document(disk: &DataDisk, row: &SqliteRow) -> Result<Job, StoreError> {
     let id = queries::id(row, "id")?;
     let time = |column| -> Result<Option<String>, sqlx::Error> {
         Ok(row.try_get::<Option<i64>, _>(column)?.map(timestamp))
     };
+    let (status, reason) = status_and_reason(disk, id, row)?;
     Ok(Job {
         id,
-        status: status(id, row)?,
-        status_reason: row.try_get("status_reason")?,
+        status,
+        status_reason: reason,
         outcome: outcome(row)?,
         priority: row.try_get("priority")?,
         deadline_at: time("deadline_at")?,
@@ -42,6 +43,16 @@ pub(super) fn document(row: &SqliteRow) -> Result<Job, StoreError> {
         summary: summary(id, row)?,
         links: links(id),
     })
+}
+
+/// Returns the status of a selected row and the reason for it: what is stored, unless the job waits for disk space.
+pub(super) fn status_and_reason(
+    disk: &DataDisk,
+    id: Uuid,
+    row: &SqliteRow,
+) -> Result<(Status, Option<String>), StoreError> {
+    let (status, stored) = (status(id, row)?, row.try_get("status_reason")?);
+    Ok((status, disk.status_reason(status).or(stored)))
 }
 
 fn links(id: Uuid) -> BTreeMap<String, String> {

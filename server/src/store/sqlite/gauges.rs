@@ -50,6 +50,7 @@ impl Store {
     /// # Errors
     /// [`StoreError`] if the database cannot be written.
     pub async fn ready(&self, now: i64) -> Result<(), StoreError> {
+        self.disk.check()?;
         let mut last = self.last_probe.lock().await;
         if last.is_some_and(|at| at.elapsed() < PROBE_INTERVAL) {
             return Ok(());

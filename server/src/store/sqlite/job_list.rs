@@ -51,6 +51,6 @@ impl Store {
             .push(" ORDER BY id DESC LIMIT ")
             .push_bind(filter.limit);
         let rows = query.build().fetch_all(&self.readers).await?;
-        rows.iter().map(document).collect()
+        rows.iter().map(|row| document(&self.disk, row)).collect()
     }
 }

@@ -20,8 +20,10 @@ impl Store {
         let Some(row) = query.build().fetch_optional(&self.readers).await? else {
             return Ok(None);
         };
+        let document = document(&self.disk, &row)?;
         Ok(Some(StoredJob {
-            document: document(&row)?,
+            waits_for_disk: self.disk.status_reason(document.status).is_some(),
+            document,
             version: row.try_get("version")?,
             last_event: row.try_get("last_event")?,
         }))
@@ -33,9 +35,13 @@ impl Store {
     /// # Errors
     /// [`StoreError`] if the database fails.
     pub async fn cancel(&self, id: Uuid, now: i64) -> Result<Option<Cancelled>, StoreError> {
-        let mut transaction = self.writer.begin_with(BEGIN).await?;
-        let effect = cancel(&mut transaction, id, now).await?;
-        transaction.commit().await?;
+        let write = async || {
+            let mut transaction = self.writer.begin_with(BEGIN).await?;
+            let effect = cancel(&mut transaction, id, now).await?;
+            transaction.commit().await?;
+            Ok(effect)
+        };
+        let effect = self.disk.with_reserve(write).await?;
         self.cancelled(id, effect);
         Ok(effect)
     }
@@ -46,6 +52,7 @@ impl Store {
     /// # Errors
     /// [`StoreError`] if the database fails.
     pub async fn retry(&self, id: Uuid, now: i64) -> Result<Option<Retried>, StoreError> {
+        self.disk.check()?;
         let mut transaction = self.writer.begin_with(BEGIN).await?;
         let effect = retry(&mut transaction, id, now).await?;
         transaction.commit().await?;
@@ -60,6 +67,15 @@ impl Store {
     /// # Errors
     /// [`StoreError`] if the database fails.
     pub async fn delete(&self, id: Uuid) -> Result<Deleted, StoreError> {
+        let effect = self.disk.with_reserve(|| self.delete_rows(id)).await?;
+        if effect == Deleted::Done {
+            self.remove_files(id).await;
+        }
+        self.changed(id);
+        Ok(effect)
+    }
+
+    async fn delete_rows(&self, id: Uuid) -> Result<Deleted, StoreError> {
         let mut transaction = self.writer.begin_with(BEGIN).await?;
         let effect = match status_of(&mut transaction, id).await? {
             None => Deleted::Missing,
@@ -73,10 +89,6 @@ impl Store {
             }
         };
         transaction.commit().await?;
-        if effect == Deleted::Done {
-            self.remove_files(id).await;
-        }
-        self.changed(id);
         Ok(effect)
     }
 }

@@ -24,6 +24,7 @@ impl Store {
         update: &JobUpdate,
         expires_at: i64,
     ) -> Result<LeaseState, StoreError> {
+        self.disk.check()?;
         let mut transaction = self.writer.begin_with(BEGIN).await?;
         let events = integer(update.events.len());
         let held: Option<(i64, bool)> = sqlx::query_as(
@@ -60,16 +61,19 @@ impl Store {
     /// # Errors
     /// [`StoreError`] if the database fails.
     pub async fn renew(&self, claim: &Claim, expires_at: i64) -> Result<LeaseState, StoreError> {
-        let cancel_requested = sqlx::query_scalar(
-            "UPDATE jobs SET lease_expires_at = ? WHERE id = ? AND lease = ? AND status = 'running' \
-             RETURNING cancel_requested",
-        )
-        .bind(expires_at)
-        .bind(claim.id.to_string())
-        .bind(claim.lease)
-        .fetch_optional(&self.writer)
-        .await?;
-        Ok(lease_state(cancel_requested))
+        let write = async || {
+            let cancel_requested = sqlx::query_scalar(
+                "UPDATE jobs SET lease_expires_at = ? WHERE id = ? AND lease = ? AND status = 'running' \
+                 RETURNING cancel_requested",
+            )
+            .bind(expires_at)
+            .bind(claim.id.to_string())
+            .bind(claim.lease)
+            .fetch_optional(&self.writer)
+            .await?;
+            Ok(lease_state(cancel_requested))
+        };
+        self.disk.with_reserve(write).await
     }
 
     /// Whether the worker holds the job; writes nothing.
@@ -92,6 +96,7 @@ impl Store {
     /// # Errors
     /// [`StoreError`] if the database fails.
     pub async fn restart(&self, claim: &Claim) -> Result<LeaseState, StoreError> {
+        self.disk.check()?;
         let mut transaction = self.writer.begin_with(BEGIN).await?;
         let held: Option<(i64, bool)> = sqlx::query_as(
             "UPDATE jobs SET last_event = last_event + 1, version = version + 1 \

@@ -14,7 +14,7 @@ macro_rules! file {
 }
 
 /// All files of the folder; a name is the version and what it is about.
-const FILES: [(&str, &str); 13] = [
+const FILES: [(&str, &str); 14] = [
     file!("0001_jobs.sql"),
     file!("0002_labels.sql"),
     file!("0003_events.sql"),
@@ -28,6 +28,7 @@ const FILES: [(&str, &str); 13] = [
     file!("0040_studies.sql"),
     file!("0050_fruitless_attempts.sql"),
     file!("0051_retries.sql"),
+    file!("0052_disk_reasons.sql"),
 ];
 
 /// Applies the migrations that a database does not have; refuses a database with others.

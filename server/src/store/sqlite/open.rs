@@ -14,7 +14,7 @@ use crate::export::files::parent;
 use crate::store::sqlite::folder::{Folder, beside};
 use crate::store::sqlite::migrations::migrator;
 use crate::store::sqlite::submissions::Submissions;
-use crate::store::{Store, StoreError};
+use crate::store::{DataDisk, Limits, Store, StoreError};
 
 /// Oldest accepted version: older ones can corrupt the write-ahead log when it is reset.
 const OLDEST_SQLITE: (u32, u32, u32) = (3, 51, 3);
@@ -31,11 +31,10 @@ const CHANGE_CAPACITY: usize = 1024;
 
 impl Store {
     /// Opens the database at `url` (`sqlite://PATH`), creates it if it is missing, and migrates its schema.
-    /// `attempt_limit` is the limit on the attempts at a job.
     ///
     /// # Errors
     /// [`StoreError`], among others if another process serves the database.
-    pub async fn open_with(url: &str, attempt_limit: u32) -> Result<Self, StoreError> {
+    pub async fn open_with(url: &str, limits: Limits) -> Result<Self, StoreError> {
         let options = options(url)?
             .create_if_missing(true)
             .journal_mode(SqliteJournalMode::Wal)
@@ -74,9 +73,13 @@ impl Store {
             folder: Folder::beside(&path),
             wal: beside(&path, "-wal"),
             machine: beside(&path, ".machine.json"),
-            attempt_limit,
+            attempt_limit: limits.attempts,
             metrics: Arc::default(),
             submissions: Submissions::default(),
+            disk: Arc::new(DataDisk::reserve(
+                beside(&path, ".reserve"),
+                limits.least_free_disk_mb,
+            )),
             last_probe: tokio::sync::Mutex::default(),
             _lock: lock,
         };

@@ -116,7 +116,8 @@ fn is_news(job: &StoredJob, known: Option<&str>) -> bool {
 }
 
 fn etag(job: &StoredJob) -> String {
-    format!("\"{}\"", job.version)
+    let waits = if job.waits_for_disk { "-disk" } else { "" };
+    format!("\"{}{waits}\"", job.version)
 }
 
 /// Whether `If-None-Match` lists the version of the job.

@@ -15,7 +15,7 @@ pub(crate) async fn healthz() -> Json<Value> {
     Json(json!({ "status": "ok" }))
 }
 
-/// Readiness check: the tasks of the service run and the database accepts a write.
+/// Readiness check: the tasks of the service run, the data disk has space for more jobs, and the database accepts a write.
 #[utoipa::path(
     get,
     path = "/readyz",
@@ -23,17 +23,38 @@ pub(crate) async fn healthz() -> Json<Value> {
     responses(
         (status = 200, description = "The service is ready"),
         (status = 500, description = "The service is not ready, and needs help", body = Problem),
-        (status = 503, description = "The service is not ready at present", body = Problem),
+        (status = 503, description = "The service is not ready at present; the detail names each part that is not", body = Problem),
     )
 )]
 pub(crate) async fn readyz(State(app): State<App>) -> Result<Json<Value>, ProblemResponse> {
     let failing = app.supervisor.failing();
+    let disk = app.store.disk();
+    let written = match app.store.ready(now_ms()).await {
+        // Then the disk fails, not the database.
+        Err(error) if error.is_disk_full() => {
+            disk.release_after(&error);
+            Ok(())
+        }
+        written => written,
+    };
+    let shortage = disk.shortage();
+    let mut parts = Vec::new();
     if !failing.is_empty() {
-        let detail = format!("restarted repeatedly: {}", failing.join(", "));
-        return Err(ProblemType::TASK_FAILING.with_detail(detail));
+        let detail = format!("tasks: restarted repeatedly: {}", failing.join(", "));
+        parts.push((ProblemType::TASK_FAILING, detail));
     }
-    app.store.ready(now_ms()).await?;
-    Ok(Json(json!({ "status": "ready" })))
+    if let Some(shortage) = shortage {
+        parts.push((ProblemType::DISK_FULL, format!("disk: {shortage}")));
+    }
+    match (written, parts.first()) {
+        (Ok(()), None) => Ok(Json(json!({ "status": "ready" }))),
+        (Err(error), None) => Err(error.into()),
+        (written, Some(&(problem, _))) => {
+            let written = written.err().map(|error| format!("database: {error}"));
+            let details = parts.into_iter().map(|(_, detail)| detail).chain(written);
+            Err(problem.with_detail(details.collect::<Vec<_>>().join("; ")))
+        }
+    }
 }
 
 #[cfg(test)]

@@ -1,0 +1,89 @@
+//! Requirement: while the data disk is full, jobs, readiness and problems say so, and a cancel request is accepted; once
+//! there is space, the service continues by itself.
+
+use serde_json::{Value, json};
+use tests::{Disk, Server, fuzz_button_with_jump};
+
+/// Size of the disk, MB.
+const SIZE_MB: usize = 64;
+const REASON: &str = "waiting for disk space: no space left on the data disk";
+
+/// Fills the disk until the service has noticed it, also what it frees itself.
+async fn fill(disk: &Disk, server: &Server) {
+    loop {
+        disk.fill();
+        let (status, problem) = server.get("/readyz").await;
+        if problem["type"] == "/problems/disk-full" {
+            assert_eq!(status, 503);
+            let detail = problem["detail"].as_str().expect("a detail");
+            assert!(detail.starts_with("disk: no space left"), "{detail}");
+            return;
+        }
+        assert_eq!(status, 200, "{problem}");
+        tokio::time::sleep(std::time::Duration::from_millis(50)).await;
+    }
+}
+
+fn waits(job: &Value) -> bool {
+    let reason = job["status_reason"].as_str().unwrap_or_default();
+    reason.starts_with(REASON)
+}
+
+async fn submitted(server: &Server) -> String {
+    let (status, job) = server.submit(fuzz_button_with_jump(1)).await;
+    assert_eq!(status, 202, "{job}");
+    job["id"].as_str().expect("a job has an id").to_owned()
+}
+
+#[tokio::test]
+#[cfg_attr(not(has_mount), ignore = "needs the right to mount a disk")]
+async fn a_full_disk_is_named_and_does_not_prevent_cancelling() {
+    let disk = Disk::new(SIZE_MB);
+    let options = ["--workers", "1", "--least-free-disk-mb", "0"];
+    let server = Server::start_with(disk.path(), &options);
+    let jobs = [submitted(&server).await, submitted(&server).await];
+    let [running, queued] = &jobs;
+    server
+        .job_when(running, |job| job["progress"]["cycle"].as_u64() > Some(1))
+        .await;
+
+    fill(&disk, &server).await;
+    for id in &jobs {
+        let job = server.job_when(id, waits).await;
+        assert_ne!(job["finished_at"], json!(true), "{job}");
+    }
+    let (status, problem) = server.submit(fuzz_button_with_jump(1)).await;
+    assert_eq!(
+        (status, &problem["type"]),
+        (503, &json!("/problems/disk-full"))
+    );
+
+    let (status, job) = server.post(&format!("/v1/jobs/{queued}/cancel")).await;
+    assert_eq!(
+        (status, &job["status"]),
+        (202, &json!("cancelled")),
+        "{job}"
+    );
+    let (status, job) = server.post(&format!("/v1/jobs/{running}/cancel")).await;
+    assert_eq!(status, 202, "{job}");
+    while !server.solving().is_empty() {
+        tokio::time::sleep(std::time::Duration::from_millis(20)).await;
+    }
+
+    disk.free();
+    let job = server
+        .job_when(running, |job| job["finished_at"].is_string())
+        .await;
+    assert_eq!(job["status"], "cancelled", "{job}");
+    let next = loop {
+        let (status, job) = server.submit(fuzz_button_with_jump(1)).await;
+        if status == 202 {
+            break job["id"].as_str().expect("a job has an id").to_owned();
+        }
+        tokio::time::sleep(std::time::Duration::from_millis(50)).await;
+    };
+    server
+        .job_when(&next, |job| job["status"] == "running")
+        .await;
+    assert_eq!(server.get("/readyz").await.0, 200);
+}
