@@ -2,6 +2,7 @@
 
 mod access;
 mod app;
+mod connections;
 mod disk_space;
 mod extract;
 mod idempotency_key;
@@ -14,10 +15,14 @@ mod problem;
 mod routes;
 mod table;
 
+use std::sync::Arc;
+
+use axum::extract::{Request, State};
 use axum::http::{HeaderValue, Method, Uri, header};
+use axum::middleware::Next;
 use axum::response::{IntoResponse, Response};
 use axum::{Router, middleware};
-use tower::limit::GlobalConcurrencyLimitLayer;
+use tokio::sync::Semaphore;
 use tower_http::set_header::SetResponseHeaderLayer;
 use tower_http::trace::TraceLayer;
 
@@ -27,14 +32,19 @@ pub use access::{Access, TokenError};
 pub use app::App;
 pub use listener::serve;
 
-/// Maximum number of concurrent requests, over all connections; more wait. Event streams count until their response
+/// Maximum number of concurrent requests, over all connections; more wait, except those for the health. Event streams count until their response
 /// starts; long polls have a lower limit of their own.
 const MAX_REQUESTS: usize = 1024;
 /// `Content-Security-Policy` of everything but the pages: a browser loads and runs nothing.
 const DEFAULT_CONTENT_POLICY: &str = "default-src 'none'; frame-ancestors 'none'";
+/// Paths whose requests do not wait for others.
+const HEALTH: [&str; 2] = ["/healthz", "/readyz"];
+
 /// Router of all routes.
 pub fn router(app: App) -> Router {
     let access = middleware::from_fn_with_state(app.access.clone(), access::check);
+    let permits = Arc::new(Semaphore::new(MAX_REQUESTS));
+    let requests = middleware::from_fn_with_state(permits, limit_requests);
     let disk_space = middleware::map_response_with_state(app.clone(), disk_space::explain);
     table::routes_and_document()
         .0
@@ -42,7 +52,7 @@ pub fn router(app: App) -> Router {
         .method_not_allowed_fallback(wrong_method)
         .layer(disk_space)
         .layer(access)
-        .layer(GlobalConcurrencyLimitLayer::new(MAX_REQUESTS))
+        .layer(requests)
         .layer(SetResponseHeaderLayer::if_not_present(
             header::CONTENT_SECURITY_POLICY,
             HeaderValue::from_static(DEFAULT_CONTENT_POLICY),
@@ -53,6 +63,21 @@ pub fn router(app: App) -> Router {
         ))
         .layer(TraceLayer::new_for_http())
         .with_state(app)
+}
+
+/// Middleware that limits the number of concurrent requests.
+async fn limit_requests(
+    State(permits): State<Arc<Semaphore>>,
+    request: Request,
+    next: Next,
+) -> Response {
+    // The semaphore is never closed.
+    let _permit = if HEALTH.contains(&request.uri().path()) {
+        None
+    } else {
+        permits.acquire().await.ok()
+    };
+    next.run(request).await
 }
 
 async fn no_such_path(uri: Uri) -> Response {

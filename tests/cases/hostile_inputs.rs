@@ -6,6 +6,7 @@ use std::io::{ErrorKind, Read, Write};
 use std::net::TcpStream;
 use std::time::Duration;
 
+use nix::sys::resource::{Resource, getrlimit, setrlimit};
 use serde_json::{Value, json};
 use tests::Server;
 
@@ -191,4 +192,25 @@ async fn endless_heads_are_disconnected_while_others_are_answered() {
         b"",
     );
     assert!(healthy.contains(" 200 "), "{healthy}");
+}
+
+#[tokio::test]
+async fn thousands_of_idle_connections_keep_no_request_waiting() {
+    const IDLE: u64 = 5_000;
+    // Other tests of this process need some too.
+    let (_, most) = getrlimit(Resource::RLIMIT_NOFILE).expect("a limit");
+    setrlimit(Resource::RLIMIT_NOFILE, most, most).expect("a higher limit");
+    let folder = tempfile::tempdir().expect("a folder can be made");
+    let server = Server::start(folder.path());
+    let mut idle: Vec<TcpStream> = (0..IDLE.min(most / 2))
+        .map(|_| connection(&server))
+        .collect();
+    let began = std::time::Instant::now();
+    alive_and_empty(&server).await;
+    println!("answered in {:.3} s", began.elapsed().as_secs_f64());
+    // They are not answered because idle connections timed out: those that are not the oldest are still open.
+    let newest = idle.last_mut().expect("a connection");
+    newest.set_nonblocking(true).expect("a mode");
+    let open = newest.read(&mut [0]).map_err(|error| error.kind());
+    assert_eq!(open, Err(ErrorKind::WouldBlock));
 }

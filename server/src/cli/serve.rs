@@ -1,5 +1,6 @@
 //! `fretwear serve`: the service.
 
+use nix::sys::resource::{Resource, getrlimit, setrlimit};
 use tokio::signal::unix::{SignalKind, signal};
 
 use crate::cli::arguments::ServeArguments;
@@ -11,6 +12,7 @@ pub(super) fn run(arguments: ServeArguments) -> Ended {
     let program = std::env::current_exe().map_err(failed)?;
     let access = arguments.access.access().map_err(failed)?;
     let work = &arguments.work;
+    allow_many_files();
     let config = Config {
         listen: arguments.listen,
         access,
@@ -30,6 +32,14 @@ pub(super) fn run(arguments: ServeArguments) -> Ended {
         service.stop().await;
         ended.map_err(failed)
     })?
+}
+
+/// Raises the limit on open files, and so on connections, as far as this process may.
+fn allow_many_files() {
+    if let Ok((_, most)) = getrlimit(Resource::RLIMIT_NOFILE) {
+        // Otherwise the service has fewer connections.
+        let _ = setrlimit(Resource::RLIMIT_NOFILE, most, most);
+    }
 }
 
 /// Returns at SIGINT (Ctrl-C) or SIGTERM.

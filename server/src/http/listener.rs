@@ -1,22 +1,34 @@
-//! Accepts and serves connections, with limits against slow clients: on the number of connections, on the time to read
+//! Accepts and serves connections, with limits against slow clients: on the number of connections (of all clients and of each), on the time to read
 //! the head of a request, and on the time that sent data stays unacknowledged.
 
+use std::net::SocketAddr;
 use std::sync::Arc;
 use std::time::Duration;
 
 use axum::Router;
+use axum::body::Body;
+use axum::http::Request;
+use hyper::body::Incoming;
 use hyper::server::conn::http1;
+use hyper::service::service_fn;
 use hyper_util::rt::{TokioIo, TokioTimer};
 use hyper_util::server::graceful::GracefulShutdown;
-use hyper_util::service::TowerToHyperService;
+use nix::sys::resource::{Resource, getrlimit};
 use nix::sys::socket::setsockopt;
 use nix::sys::socket::sockopt::TcpUserTimeout;
 use tokio::net::{TcpListener, TcpStream};
-use tokio::sync::Semaphore;
 use tokio_util::sync::CancellationToken;
+use tower::ServiceExt;
 
-/// Maximum number of open connections; more wait to be accepted. Each costs a file handle and a few kB.
-const MAX_CONNECTIONS: usize = 4096;
+use crate::http::connections::{Connection, ConnectionLimits, Connections};
+
+/// Maximum numbers of open connections. Each costs a file handle and a few kB.
+const LIMITS: ConnectionLimits = ConnectionLimits {
+    all: 4096,
+    peer: 3072,
+};
+/// File handles of the process that are left to files, the database and solving processes.
+const OTHER_FILES: u64 = 256;
 /// Timeout of the head of a request, from the moment a connection is accepted or its last response was sent; also ends
 /// idle connections.
 const HEAD_TIMEOUT: Duration = Duration::from_secs(30);
@@ -32,59 +44,94 @@ const ACCEPT_PAUSE: Duration = Duration::from_millis(50);
 
 /// Serves until shutdown; returns when the last connection has ended.
 pub async fn serve(listener: TcpListener, router: Router, stopping: CancellationToken) {
-    serve_at_most(MAX_CONNECTIONS, listener, router, stopping).await;
+    serve_at_most(limits(), listener, router, stopping).await;
+}
+
+/// The limits that the file handles of this process allow.
+fn limits() -> ConnectionLimits {
+    let handles = getrlimit(Resource::RLIMIT_NOFILE).map_or(u64::MAX, |(soft, _)| soft);
+    let most = usize::try_from(handles.saturating_sub(OTHER_FILES)).unwrap_or(usize::MAX);
+    ConnectionLimits {
+        all: LIMITS.all.min(most.max(1)),
+        peer: LIMITS.peer.min((most / 4 * 3).max(1)),
+    }
 }
 
 async fn serve_at_most(
-    max_connections: usize,
+    limits: ConnectionLimits,
     listener: TcpListener,
     router: Router,
     stopping: CancellationToken,
 ) {
-    let permits = Arc::new(Semaphore::new(max_connections));
+    let connections = Connections::new(limits);
     let open = GracefulShutdown::new();
-    loop {
+    for number in 0.. {
         let accepted = tokio::select! {
-            accepted = accept(&listener, &permits) => accepted,
+            accepted = accept(&listener, &connections) => accepted,
             () = stopping.cancelled() => break,
         };
-        let Some((stream, permit)) = accepted else {
+        let Some((stream, peer)) = accepted else {
             tokio::time::sleep(ACCEPT_PAUSE).await;
             continue;
         };
-        let mut builder = http1::Builder::new();
-        builder
-            .timer(TokioTimer::new())
-            .header_read_timeout(HEAD_TIMEOUT)
-            .max_buf_size(MAX_HEAD_BYTES)
-            .max_headers(MAX_HEADERS);
-        let service = TowerToHyperService::new(router.clone());
-        let connection = open.watch(builder.serve_connection(TokioIo::new(stream), service));
-        tokio::spawn(async move {
-            // A client that disconnects or times out is not an error of the service.
-            if let Err(error) = connection.await {
-                tracing::debug!(%error, "a connection was aborted");
-            }
-            drop(permit);
-        });
+        if let Some(connection) = connections.add(number, peer.ip()) {
+            tokio::spawn(handle(stream, connection, router.clone(), &open));
+        } else {
+            tracing::debug!(%peer, "a connection of a client with too many requests was closed");
+        }
     }
     drop(listener);
     open.shutdown().await;
 }
 
+/// Serves a connection until its end, or until it is closed for another one.
+fn handle(
+    stream: TcpStream,
+    connection: Connection,
+    router: Router,
+    open: &GracefulShutdown,
+) -> impl Future<Output = ()> + use<> {
+    let (close, connection) = (connection.close.clone(), Arc::new(connection));
+    let service = service_fn(move |request: Request<Incoming>| {
+        let in_progress = connection.request();
+        let response = router.clone().oneshot(request.map(Body::new));
+        async move {
+            response
+                .await
+                .map(|response| in_progress.until_sent(response))
+        }
+    });
+    let mut builder = http1::Builder::new();
+    builder
+        .timer(TokioTimer::new())
+        .header_read_timeout(HEAD_TIMEOUT)
+        .max_buf_size(MAX_HEAD_BYTES)
+        .max_headers(MAX_HEADERS);
+    let served = open.watch(builder.serve_connection(TokioIo::new(stream), service));
+    async move {
+        tokio::select! {
+            // A client that disconnects or times out is not an error of the service.
+            ended = served => if let Err(error) = ended {
+                tracing::debug!(%error, "a connection was aborted");
+            },
+            () = close.cancelled() => tracing::debug!("an idle connection was closed for another one"),
+        }
+    }
+}
+
 async fn accept(
     listener: &TcpListener,
-    permits: &Arc<Semaphore>,
-) -> Option<(TcpStream, tokio::sync::OwnedSemaphorePermit)> {
-    let permit = Arc::clone(permits).acquire_owned().await.ok()?;
+    connections: &Connections,
+) -> Option<(TcpStream, SocketAddr)> {
+    connections.room().await;
     match listener.accept().await {
-        Ok((stream, _)) => {
+        Ok((stream, peer)) => {
             // Small responses must not wait for each other; without the option the connection is only slower.
             let _ = stream.set_nodelay(true);
             if let Err(error) = setsockopt(&stream, TcpUserTimeout, &USER_TIMEOUT_MS) {
                 tracing::debug!(%error, "a connection has no user timeout");
             }
-            Some((stream, permit))
+            Some((stream, peer))
         }
         Err(error) => {
             tracing::warn!(%error, "a connection could not be accepted");
@@ -111,25 +158,50 @@ mod tests {
         stream
     }
 
+    /// Two connections of a peer.
+    const FEW: ConnectionLimits = ConnectionLimits { all: 9, peer: 2 };
+
     #[tokio::test]
-    async fn more_connections_than_the_limit_wait_for_one_to_end() {
+    async fn idle_connections_of_a_client_do_not_keep_another_one_waiting() {
         let listener = TcpListener::bind("127.0.0.1:0").await.expect("a port");
         let address = listener.local_addr().expect("an address");
         let stopping = CancellationToken::new();
         let router = Router::new().route("/", get(|| async { "here" }));
-        let served = tokio::spawn(serve_at_most(1, listener, router, stopping.clone()));
-        let silent = TcpStream::connect(address).await.expect("a connection");
-        let mut waiting = request(address).await;
-        let (mut answer, shortly) = (String::new(), Duration::from_millis(200));
-        let early = tokio::time::timeout(shortly, waiting.read_to_string(&mut answer)).await;
-        assert!(early.is_err(), "{answer}");
-        drop(silent);
-        waiting
-            .read_to_string(&mut answer)
-            .await
-            .expect("an answer");
+        let served = tokio::spawn(serve_at_most(FEW, listener, router, stopping.clone()));
+        let mut idle = Vec::new();
+        for _ in 0..20 {
+            idle.push(TcpStream::connect(address).await.expect("a connection"));
+        }
+        let mut answer = String::new();
+        let mut asking = request(address).await;
+        asking.read_to_string(&mut answer).await.expect("an answer");
         assert!(answer.ends_with("here"), "{answer}");
+        let end = idle[0].read(&mut [0]).await;
+        assert!(matches!(end, Ok(0) | Err(_)), "the first one is closed");
         stopping.cancel();
+        served.await.expect("it ends");
+    }
+
+    #[tokio::test]
+    async fn a_client_whose_connections_all_have_requests_gets_no_more() {
+        let listener = TcpListener::bind("127.0.0.1:0").await.expect("a port");
+        let address = listener.local_addr().expect("an address");
+        let stopping = CancellationToken::new();
+        let (begun, mut begins) = tokio::sync::mpsc::unbounded_channel();
+        let endless = move || {
+            begun.send(()).expect("the test waits");
+            pending::<String>()
+        };
+        let router = Router::new().route("/", get(endless));
+        let served = tokio::spawn(serve_at_most(FEW, listener, router, stopping.clone()));
+        let asking = [request(address).await, request(address).await];
+        for _ in &asking {
+            begins.recv().await.expect("it begins");
+        }
+        let end = request(address).await.read(&mut [0]).await;
+        assert!(matches!(end, Ok(0) | Err(_)), "it is closed");
+        stopping.cancel();
+        drop(asking);
         served.await.expect("it ends");
     }
 
@@ -137,9 +209,9 @@ mod tests {
     async fn connections_have_a_user_timeout() {
         let listener = TcpListener::bind("127.0.0.1:0").await.expect("a port");
         let address = listener.local_addr().expect("an address");
-        let permits = Arc::new(Semaphore::new(1));
+        let connections = Connections::new(FEW);
         let client = TcpStream::connect(address);
-        let (accepted, _client) = tokio::join!(accept(&listener, &permits), client);
+        let (accepted, _client) = tokio::join!(accept(&listener, &connections), client);
         let (stream, _) = accepted.expect("a connection");
         assert_eq!(getsockopt(&stream, TcpUserTimeout), Ok(USER_TIMEOUT_MS));
     }
@@ -150,7 +222,7 @@ mod tests {
         let address = listener.local_addr().expect("an address");
         let stopping = CancellationToken::new();
         let router = Router::new().route("/", get(|| async { pending::<String>().await }));
-        let served = tokio::spawn(serve_at_most(9, listener, router, stopping.clone()));
+        let served = tokio::spawn(serve_at_most(FEW, listener, router, stopping.clone()));
         let stream = request(address).await;
         tokio::time::sleep(Duration::from_millis(50)).await;
         stopping.cancel();

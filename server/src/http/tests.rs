@@ -310,12 +310,21 @@ async fn concurrent_requests_are_limited() {
     for request in &mut open {
         assert!(futures_util::poll!(request).is_pending());
     }
-    let health = Request::get("/healthz").header("host", "127.0.0.1");
-    let health = health.body(Body::empty()).expect("a request");
-    let mut health = Box::pin(router.oneshot(health));
-    assert!(futures_util::poll!(&mut health).is_pending());
+    let get = |path: &str| {
+        let request = Request::get(path).header("host", "127.0.0.1");
+        Box::pin(
+            router
+                .clone()
+                .oneshot(request.body(Body::empty()).expect("a request")),
+        )
+    };
+    let mut list = get("/v1/jobs");
+    assert!(futures_util::poll!(&mut list).is_pending());
+    for path in ["/healthz", "/readyz"] {
+        assert_eq!(get(path).await.expect("an answer").status(), 200);
+    }
     open.pop();
-    assert_eq!(health.await.expect("an answer").status(), 200);
+    assert_eq!(list.await.expect("an answer").status(), 200);
 }
 
 #[tokio::test]
