@@ -99,6 +99,12 @@ enum Command {
         #[arg(long, env = "FRETWEAR_DATABASE", default_value = DATABASE)]
         database: String,
     },
+    /// Read all results of a database, also while it is served, and compare their checksums.
+    Verify {
+        /// The database.
+        #[arg(long, env = "FRETWEAR_DATABASE", default_value = DATABASE)]
+        database: String,
+    },
     /// Verify a backup and copy it to a database that does not exist yet.
     Restore {
         /// The folder of the backup.
@@ -128,6 +134,7 @@ pub fn main() -> ExitCode {
         Command::Serve(serve) => Some(log::start("info", serve.log)),
         Command::Probe { .. }
         | Command::Backup { .. }
+        | Command::Verify { .. }
         | Command::Restore { .. }
         | Command::SolveChild(_)
         | Command::Openapi => None,
@@ -151,6 +158,7 @@ pub fn main() -> ExitCode {
         Command::Demo { exit, listen } => demo::run(listen, exit),
         Command::Probe { listen } => probe::run(listen),
         Command::Backup { into, database } => backup::run(&database, &into),
+        Command::Verify { database } => backup::run_verify(&database),
         Command::Restore { from, database } => backup::run_restore(&from, &database),
         Command::SolveChild(arguments) => child::run(&arguments),
         Command::Openapi => {

@@ -14,6 +14,7 @@ mod paging;
 mod problem;
 mod routes;
 mod table;
+mod verified_file;
 
 use std::sync::Arc;
 

@@ -38,6 +38,7 @@ mod batches;
 mod changes;
 mod disk;
 mod error;
+pub mod integrity;
 mod jobs;
 mod leases;
 mod limits;
@@ -49,6 +50,7 @@ pub use batches::{BatchDetail, BatchFilter, BatchJob, BatchOverview, NewBatch, S
 pub use changes::Changes;
 pub use disk::DataDisk;
 pub use error::StoreError;
+pub use integrity::IntegrityError;
 pub use jobs::{
     Cancelled, Deleted, Filter, NewJob, RequestKey, Retried, StoredJob, SubmitOptions, Submitted,
 };
@@ -57,6 +59,7 @@ pub use limits::Limits;
 pub use results::{Content, NewFile, SnapshotPart, StoredEvent};
 pub use sqlite::Store;
 pub use sqlite::backup::{backup, restore};
+pub use sqlite::verify::verify;
 
 #[cfg(test)]
 pub(crate) mod tests;

@@ -43,6 +43,13 @@ async fn a_backup_restores_every_job_and_file_and_damage_is_detected() {
     let third = tempfile::tempdir().expect("a folder can be made");
     let ran = fretwear(third.path(), &["restore", &copy, "--database", database]);
     assert_eq!(ran.code, Some(1));
-    assert!(ran.stderr.contains("the database names"), "{}", ran.stderr);
+    assert!(ran.stderr.contains("is damaged"), "{}", ran.stderr);
     assert!(!third.path().join("fretwear.db").exists());
+
+    let copy = format!("sqlite://{copy}/fretwear.db");
+    let ran = fretwear(folder.path(), &["verify", "--database", &copy]);
+    assert_eq!(ran.code, Some(1), "{}", ran.stderr);
+    assert!(ran.stdout.starts_with("damaged: "), "{}", ran.stdout);
+    let ran = fretwear(folder.path(), &["verify", "--database", database]);
+    assert_eq!((ran.code, ran.stderr.as_str()), (Some(0), ""));
 }

@@ -21,6 +21,9 @@ pub struct ResultFile {
     pub bytes: u64,
     /// SHA-256 of the content, hexadecimal.
     pub sha256: String,
+    /// How the stored content was found to differ from this entry; absent while no damage was found.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub damaged: Option<String>,
 }
 
 /// Result files of a job.

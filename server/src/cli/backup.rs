@@ -1,27 +1,55 @@
-//! `fretwear backup` and `fretwear restore`.
+//! `fretwear backup`, `fretwear restore` and `fretwear verify`.
 
 use std::path::Path;
 
 use crate::cli::runtime::block_on;
 use crate::cli::terminal::{Ended, failed, write_out};
-use crate::store::{BackupError, CopySummary, backup, restore};
+use crate::store::{BackupError, CopySummary, backup, restore, verify};
 
 pub(super) fn run(database: &str, into: &Path) -> Ended {
-    report(block_on(backup(database, into))?)
+    let copied = block_on(backup(database, into))?;
+    let damaged = report(copied, "copied and verified")?;
+    refuse(damaged, "copied as they are")
 }
 
 pub(super) fn run_restore(from: &Path, database: &str) -> Ended {
-    report(block_on(restore(from, database))?)
+    let copied = block_on(restore(from, database))?;
+    // The backup has said so before.
+    report(copied, "copied and verified").map(|_| ())
 }
 
-fn report(copied: Result<CopySummary, BackupError>) -> Ended {
+pub(super) fn run_verify(database: &str) -> Ended {
+    let verified = block_on(verify(database))?;
+    let damaged = report(verified, "verified")?;
+    refuse(damaged, "marked in their manifests")
+}
+
+/// Writes what was done, and each damaged file; returns their number.
+fn report(
+    done: Result<CopySummary, BackupError>,
+    what: &str,
+) -> Result<usize, std::process::ExitCode> {
     let CopySummary {
         jobs,
         files,
         file_bytes,
-    } = copied.map_err(failed)?;
+        damaged,
+    } = done.map_err(failed)?;
+    for file in &damaged {
+        write_out(format_args!("damaged: {file}"));
+    }
     write_out(format_args!(
-        "{jobs} jobs and {files} files of {file_bytes} bytes copied and verified"
+        "{jobs} jobs and {files} files of {file_bytes} bytes {what}"
     ));
-    Ok(())
+    Ok(damaged.len())
+}
+
+/// Fails if results are damaged.
+fn refuse(damaged: usize, treated: &str) -> Ended {
+    if damaged == 0 {
+        return Ok(());
+    }
+    Err(failed(format_args!(
+        "{damaged} damaged results were found; they are {treated}"
+    )))
 }

@@ -130,12 +130,18 @@ pub fn manifest_entry(
         media_type: media_type.to_owned(),
         bytes: u64::try_from(bytes.len()).unwrap_or(u64::MAX),
         sha256: sha256(bytes),
+        damaged: None,
     }
 }
 
 /// SHA-256 of a file, hexadecimal.
 pub fn sha256(bytes: &[u8]) -> String {
-    Sha256::digest(bytes)
+    hexadecimal(&Sha256::digest(bytes))
+}
+
+/// Bytes in hexadecimal digits.
+pub fn hexadecimal(bytes: &[u8]) -> String {
+    bytes
         .iter()
         .fold(String::with_capacity(64), |mut text, byte| {
             // Writing to a string cannot fail.

@@ -71,6 +71,7 @@ problem_types! {
     REQUEST_TIMEOUT, 408, "request-timeout", "the request did not arrive in time";
     BUSY, 503, "busy", "the service cannot take the request at present";
     DISK_FULL, 503, "disk-full", "the data disk is full";
+    RESULT_DAMAGED, 500, "result-damaged", "a stored result is damaged";
     TASK_FAILING, 503, "task-failing", "a task of the service fails repeatedly";
     INTERNAL, 500, "internal", "internal error";
 }

@@ -127,6 +127,11 @@ impl Service {
 
     /// Adds an ended job with a file beside the database and one in it; returns its id.
     pub(crate) async fn with_files(&self) -> String {
+        self.with_fields(FIELDS.as_bytes()).await
+    }
+
+    /// The same with fields of another content.
+    pub(crate) async fn with_fields(&self, content: &[u8]) -> String {
         let id = self.queued(r#"{"system":{"kind":"dimm"}}"#).await;
         let store = &self.app.store;
         let claim = store
@@ -134,13 +139,9 @@ impl Service {
             .await
             .expect("the store")
             .expect("a job");
-        let fields = files::manifest_entry("fields-20.vtu", Some(20), VTU, FIELDS.as_bytes());
-        files::write_atomically(
-            &store.attempt_folder(&claim),
-            &fields.name,
-            FIELDS.as_bytes(),
-        )
-        .expect("kept");
+        let fields = files::manifest_entry("fields-20.vtu", Some(20), VTU, content);
+        files::write_atomically(&store.attempt_folder(&claim), &fields.name, content)
+            .expect("kept");
         let update = JobUpdate {
             files: vec![
                 NewFile {

@@ -1,10 +1,10 @@
-//! Result of a backup or a restore.
+//! Result of a backup, a restore or a verification.
 
 use std::path::PathBuf;
 
-use crate::store::StoreError;
+use crate::store::{IntegrityError, StoreError};
 
-/// Why there is no backup, or nothing was restored.
+/// Why there is no backup, or nothing was restored or verified.
 #[derive(Debug, thiserror::Error)]
 pub enum BackupError {
     /// The store failed.
@@ -21,6 +21,9 @@ pub enum BackupError {
     /// The target exists.
     #[error("{} exists; nothing is overwritten", .0.display())]
     Exists(PathBuf),
+    /// The folder for a backup has files.
+    #[error("{} is not empty; a backup needs a folder of its own", .0.display())]
+    NotEmpty(PathBuf),
     /// The database is damaged.
     #[error("{} is damaged: {found}", .path.display())]
     Damaged {
@@ -29,18 +32,13 @@ pub enum BackupError {
         /// Result of its integrity check.
         found: String,
     },
-    /// A file named by a manifest does not exist.
-    #[error("the database names {0}, which is not there")]
-    Missing(String),
-    /// The checksum of a file differs from its manifest.
-    #[error("{} has the checksum {found}, the database names {named}", .path.display())]
-    Checksum {
-        /// The file.
-        path: PathBuf,
-        /// Its checksum.
-        found: String,
-        /// The checksum in the manifest.
-        named: String,
+    /// A file of a backup differs from its entry, and did not when the backup was made.
+    #[error("{place} is damaged: {cause}")]
+    Content {
+        /// The file, in the folder of results.
+        place: String,
+        /// How it differs.
+        cause: IntegrityError,
     },
     /// A manifest names a path outside of the folder of results.
     #[error("the database names `{0}`, which is no place for a file")]
@@ -48,7 +46,7 @@ pub enum BackupError {
 }
 
 /// What was copied and verified.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct CopySummary {
     /// Number of jobs in the database.
     pub jobs: i64,
@@ -56,4 +54,6 @@ pub struct CopySummary {
     pub files: usize,
     /// Size of the result files, bytes.
     pub file_bytes: u64,
+    /// The damaged ones among the others, and how.
+    pub damaged: Vec<String>,
 }

@@ -25,6 +25,7 @@ mod reclaim;
 mod results;
 mod submissions;
 mod transitions;
+pub(in crate::store) mod verify;
 
 use std::fs::File;
 use std::path::PathBuf;

@@ -2,29 +2,35 @@
 //!
 //! A backup is a folder with `fretwear.db` and `fretwear.db.results`, which can be served as it is.
 
-use std::io::ErrorKind;
 use std::path::Path;
 
-use sqlx::sqlite::SqliteConnectOptions;
-use sqlx::{ConnectOptions, Connection};
+use api::results::ResultFile;
+use sqlx::sqlite::{SqliteConnectOptions, SqliteConnection};
+use sqlx::{ConnectOptions, Connection, Row};
 
-use crate::export::files::{create_folder, parent, sha256};
+use crate::export::files::{create_folder, parent};
+use crate::store::sqlite::files::entry;
 use crate::store::sqlite::folder::{Folder, beside};
 use crate::store::sqlite::open::{lock, options};
-use crate::store::{BackupError, CopySummary};
+use crate::store::{BackupError, Content, CopySummary, IntegrityError, integrity};
 
 /// File name of the database in a backup.
 const NAME: &str = "fretwear.db";
+/// Suffix of a database that is being copied.
+const PARTIAL: &str = ".partial";
 
-/// Copies the database at `url`, which may be in use, and its files into a new folder.
+/// Copies the database at `url`, which may be in use, and its files into a new or empty folder.
 ///
 /// # Errors
 /// [`BackupError`]; the incomplete copy is not removed.
 pub async fn backup(url: &str, into: &Path) -> Result<CopySummary, BackupError> {
     let source = options(url)?.get_filename().to_owned();
-    let target = into.join(NAME);
-    absent(&target)?;
     create_folder(into).map_err(|cause| file(into, cause))?;
+    let mut entries = std::fs::read_dir(into).map_err(|cause| file(into, cause))?;
+    if entries.next().is_some() {
+        return Err(BackupError::NotEmpty(into.to_owned()));
+    }
+    let target = into.join(NAME);
     copy_database(&source, &target).await?;
     copy_named_files(&source, &target).await
 }
@@ -40,36 +46,60 @@ pub(super) async fn copy_database(source: &Path, target: &Path) -> Result<(), Ba
 }
 
 /// Copies the files that a copied database names; jobs that were deleted from the source meanwhile are deleted from the
-/// copy too.
+/// copy too. Damaged files are copied as they are, and marked as damaged in the copy.
 pub(super) async fn copy_named_files(
     source: &Path,
     target: &Path,
 ) -> Result<CopySummary, BackupError> {
-    let (mut copied, missing) =
+    let (mut copied, damages) =
         copy_files(target, &Folder::beside(source), &Folder::beside(target)).await?;
-    check_deleted(source, &missing).await?;
-    copied.jobs = delete_missing(target, &missing).await?;
+    let (damaged, deleted) = still_named(source, damages).await?;
+    copied.jobs = delete_missing(target, &deleted).await?;
+    copied.damaged = mark(target, damaged).await?;
     sync(target)?;
     sync(parent(target))?;
     Ok(copied)
 }
 
-/// Checks that a database no longer names these missing files.
-async fn check_deleted(database: &Path, missing: &[String]) -> Result<(), BackupError> {
-    if missing.is_empty() {
-        return Ok(());
-    }
+/// Splits damaged files into those that a database still names and the places of the others.
+async fn still_named(
+    database: &Path,
+    damages: Vec<Damage>,
+) -> Result<(Vec<Damage>, Vec<String>), BackupError> {
+    let (mut damaged, mut deleted) = (Vec::new(), Vec::new());
     let mut connection = at(database).read_only(true).connect().await?;
-    for place in missing {
+    for damage in damages {
         let named: i64 = sqlx::query_scalar("SELECT count(*) FROM result_files WHERE place = ?")
-            .bind(place)
+            .bind(&damage.place)
             .fetch_one(&mut connection)
             .await?;
         if named > 0 {
-            return Err(BackupError::Missing(place.clone()));
+            damaged.push(damage);
+        } else {
+            deleted.push(damage.place);
         }
     }
-    Ok(connection.close().await?)
+    connection.close().await?;
+    Ok((damaged, deleted))
+}
+
+/// Marks damaged files in a database; returns what to say of each.
+async fn mark(database: &Path, damaged: Vec<Damage>) -> Result<Vec<String>, BackupError> {
+    let mut connection = at(database).connect().await?;
+    let (has_marks, mut said) = (has_marks(&mut connection).await?, Vec::new());
+    for Damage { place, cause, .. } in damaged {
+        let how = cause.to_string();
+        if has_marks {
+            sqlx::query("UPDATE result_files SET damaged = ? WHERE place = ?")
+                .bind(&how)
+                .bind(&place)
+                .execute(&mut connection)
+                .await?;
+        }
+        said.push(format!("{place}: {how}"));
+    }
+    connection.close().await?;
+    Ok(said)
 }
 
 /// Deletes the owners of missing files from a copy: ended jobs were deleted from the source, other jobs restart at
@@ -97,94 +127,152 @@ async fn delete_missing(copy: &Path, missing: &[String]) -> Result<i64, BackupEr
     Ok(jobs)
 }
 
-/// Copies a backup to the database address `url`; overwrites nothing.
+/// Copies a backup to the database address `url`; overwrites nothing. Files that were damaged when the backup was made are
+/// copied as they are.
 ///
 /// # Errors
-/// [`BackupError`]; the database is created only if the whole backup is valid.
+/// [`BackupError`]; nothing is left of the copy.
 pub async fn restore(from: &Path, url: &str) -> Result<CopySummary, BackupError> {
-    let source = from.join(NAME);
     let target = options(url)?.get_filename().to_owned();
+    let results = beside(&target, ".results");
     absent(&target)?;
+    absent(&results)?;
     // No process may serve it before it is complete.
     let _lock = lock(&target)?;
-    let (copied, missing) =
-        copy_files(&source, &Folder::beside(&source), &Folder::beside(&target)).await?;
-    check_deleted(&source, &missing).await?;
-    let partial = beside(&target, ".partial");
-    std::fs::copy(&source, &partial).map_err(|cause| file(&partial, cause))?;
+    let copied = copy_backup(&from.join(NAME), &target).await;
+    if copied.is_err() {
+        // What cannot be removed is named by no database, and prevents the next restore to this place.
+        let _ = std::fs::remove_file(beside(&target, PARTIAL));
+        let _ = std::fs::remove_dir_all(&results);
+        let _ = std::fs::remove_file(beside(&target, ".lock"));
+    }
+    copied
+}
+
+async fn copy_backup(source: &Path, target: &Path) -> Result<CopySummary, BackupError> {
+    let (mut copied, damages) =
+        copy_files(source, &Folder::beside(source), &Folder::beside(target)).await?;
+    for Damage {
+        place,
+        cause,
+        is_known,
+    } in damages
+    {
+        if !is_known {
+            return Err(BackupError::Content { place, cause });
+        }
+        copied.damaged.push(format!("{place}: {cause}"));
+    }
+    let partial = beside(target, PARTIAL);
+    std::fs::copy(source, &partial).map_err(|cause| file(&partial, cause))?;
     sync(&partial)?;
-    std::fs::rename(&partial, &target).map_err(|cause| file(&target, cause))?;
+    std::fs::rename(&partial, target).map_err(|cause| file(target, cause))?;
     // The rename is durable once the folder is synced.
-    sync(parent(&target))?;
+    sync(parent(target))?;
     Ok(copied)
 }
 
-/// Checks a database and copies the files it names, comparing their checksums. Also returns the paths of missing files.
+/// A file that differs from its entry.
+#[derive(Debug)]
+struct Damage {
+    place: String,
+    cause: IntegrityError,
+    /// Whether its entry says so.
+    is_known: bool,
+}
+
+/// Checks a database and copies the files that it names. Also returns the damaged ones.
 async fn copy_files(
     database: &Path,
     from: &Folder,
     to: &Folder,
-) -> Result<(CopySummary, Vec<String>), BackupError> {
+) -> Result<(CopySummary, Vec<Damage>), BackupError> {
     let mut connection = at(database).read_only(true).connect().await?;
-    let found: String = sqlx::query_scalar("PRAGMA integrity_check(1)")
-        .fetch_one(&mut connection)
-        .await?;
-    if found != "ok" {
-        let path = database.to_owned();
-        return Err(BackupError::Damaged { path, found });
-    }
+    check_integrity(database, &mut connection).await?;
     let jobs = sqlx::query_scalar("SELECT count(*) FROM jobs")
         .fetch_one(&mut connection)
         .await?;
-    let named: Vec<(String, String)> =
-        sqlx::query_as("SELECT place, sha256 FROM result_files WHERE place IS NOT NULL")
-            .fetch_all(&mut connection)
-            .await?;
+    let query = if has_marks(&mut connection).await? {
+        "SELECT name, cycle, media_type, bytes, sha256, damaged, place FROM result_files \
+         WHERE place IS NOT NULL ORDER BY place"
+    } else {
+        "SELECT name, cycle, media_type, bytes, sha256, NULL AS damaged, place FROM result_files \
+         WHERE place IS NOT NULL ORDER BY place"
+    };
+    let rows = sqlx::query(query).fetch_all(&mut connection).await?;
     connection.close().await?;
     let mut copied = CopySummary {
         jobs,
         ..CopySummary::default()
     };
-    let mut missing = Vec::new();
-    for (place, sha256) in named {
+    let mut damages = Vec::new();
+    for row in rows {
+        let (entry, place) = (entry(&row)?, row.try_get::<String, _>("place")?);
         let (Some(source), Some(target)) = (from.path(&place), to.path(&place)) else {
             return Err(BackupError::Place(place));
         };
-        match copy_file(&source, &target, &sha256)? {
-            Some(bytes) => {
+        match copy_file(&source, &target, &entry)? {
+            Ok(()) => {
                 copied.files += 1;
-                copied.file_bytes += bytes;
+                copied.file_bytes += entry.bytes;
             }
-            None => missing.push(place),
+            Err(cause) => damages.push(Damage {
+                place,
+                cause,
+                is_known: entry.damaged.is_some(),
+            }),
         }
     }
-    Ok((copied, missing))
+    Ok((copied, damages))
 }
 
-/// Copies a file; returns its length, or `None` if it does not exist.
-fn copy_file(source: &Path, target: &Path, named: &str) -> Result<Option<u64>, BackupError> {
-    let bytes = match std::fs::read(source) {
-        Err(cause) if cause.kind() == ErrorKind::NotFound => return Ok(None),
-        bytes => bytes.map_err(|cause| file(source, cause))?,
-    };
-    let found = sha256(&bytes);
-    if found != named {
-        return Err(BackupError::Checksum {
-            path: source.to_owned(),
-            found,
-            named: named.to_owned(),
-        });
+/// Copies a file, if it exists, and checks it.
+fn copy_file(
+    source: &Path,
+    target: &Path,
+    entry: &ResultFile,
+) -> Result<Result<(), IntegrityError>, BackupError> {
+    let content = Content::File(source.to_owned());
+    let checked = integrity::check(entry, &content);
+    if let Err(IntegrityError::Missing) = checked {
+        return Ok(checked);
     }
     let folder = parent(target);
     create_folder(folder).map_err(|cause| file(folder, cause))?;
-    std::fs::write(target, &bytes).map_err(|cause| file(target, cause))?;
+    std::fs::copy(source, target).map_err(|cause| file(source, cause))?;
     sync(target)?;
     sync(folder)?;
-    Ok(Some(u64::try_from(bytes.len()).unwrap_or(u64::MAX)))
+    // What was written is what counts.
+    Ok(checked.and_then(|()| integrity::check(entry, &Content::File(target.to_owned()))))
+}
+
+/// Whether a database can mark damaged files: those of earlier versions cannot.
+async fn has_marks(connection: &mut SqliteConnection) -> Result<bool, BackupError> {
+    let columns: i64 = sqlx::query_scalar(
+        "SELECT count(*) FROM pragma_table_info('result_files') WHERE name = 'damaged'",
+    )
+    .fetch_one(connection)
+    .await?;
+    Ok(columns > 0)
+}
+
+/// Checks that a database is not damaged.
+pub(super) async fn check_integrity(
+    path: &Path,
+    connection: &mut SqliteConnection,
+) -> Result<(), BackupError> {
+    let found: String = sqlx::query_scalar("PRAGMA integrity_check(1)")
+        .fetch_one(connection)
+        .await?;
+    if found != "ok" {
+        let path = path.to_owned();
+        return Err(BackupError::Damaged { path, found });
+    }
+    Ok(())
 }
 
 /// Options to connect to a database file.
-fn at(path: &Path) -> SqliteConnectOptions {
+pub(super) fn at(path: &Path) -> SqliteConnectOptions {
     SqliteConnectOptions::new().filename(path)
 }
 

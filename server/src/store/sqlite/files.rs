@@ -24,7 +24,7 @@ impl Store {
     /// [`StoreError`] if the database fails.
     pub async fn manifest(&self, id: Uuid) -> Result<Vec<ResultFile>, StoreError> {
         let rows = sqlx::query(
-            "SELECT name, cycle, media_type, bytes, sha256 FROM result_files WHERE job_id = ? ORDER BY name",
+            "SELECT name, cycle, media_type, bytes, sha256, damaged FROM result_files WHERE job_id = ? ORDER BY name",
         )
         .bind(id.to_string())
         .fetch_all(&self.readers)
@@ -42,7 +42,7 @@ impl Store {
         name: &str,
     ) -> Result<Option<(ResultFile, Content)>, StoreError> {
         let row = sqlx::query(
-            "SELECT name, cycle, media_type, bytes, sha256, content, place FROM result_files WHERE job_id = ? AND name = ?",
+            "SELECT name, cycle, media_type, bytes, sha256, damaged, content, place FROM result_files WHERE job_id = ? AND name = ?",
         )
         .bind(id.to_string())
         .bind(name)
@@ -59,6 +59,27 @@ impl Store {
             Content::File(path.ok_or_else(|| corrupt(id, "path of a file", &place))?)
         };
         Ok(Some((entry(&row)?, content)))
+    }
+
+    /// Marks a file in its manifest as damaged, with how, or no longer.
+    ///
+    /// # Errors
+    /// [`StoreError`] if the database fails.
+    pub async fn mark_damaged(
+        &self,
+        id: Uuid,
+        name: &str,
+        how: Option<&str>,
+    ) -> Result<(), StoreError> {
+        sqlx::query(
+            "UPDATE result_files SET damaged = ?1 WHERE job_id = ?2 AND name = ?3 AND damaged IS NOT ?1",
+        )
+        .bind(how)
+        .bind(id.to_string())
+        .bind(name)
+        .execute(&self.writer)
+        .await?;
+        Ok(())
     }
 
     /// Removes files that no manifest names: of the attempts at a job up to this one, or of all jobs at start-up. A
@@ -103,13 +124,14 @@ impl Store {
 }
 
 /// Returns the entry of a file in the manifest.
-fn entry(row: &SqliteRow) -> Result<ResultFile, StoreError> {
+pub(super) fn entry(row: &SqliteRow) -> Result<ResultFile, StoreError> {
     Ok(ResultFile {
         name: row.try_get("name")?,
         cycle: row.try_get("cycle")?,
         media_type: row.try_get("media_type")?,
         bytes: row.try_get("bytes")?,
         sha256: row.try_get("sha256")?,
+        damaged: row.try_get("damaged")?,
     })
 }
 

@@ -14,7 +14,7 @@ macro_rules! file {
 }
 
 /// All files of the folder; a name is the version and what it is about.
-const FILES: [(&str, &str); 14] = [
+const FILES: [(&str, &str); 15] = [
     file!("0001_jobs.sql"),
     file!("0002_labels.sql"),
     file!("0003_events.sql"),
@@ -29,6 +29,7 @@ const FILES: [(&str, &str); 14] = [
     file!("0050_fruitless_attempts.sql"),
     file!("0051_retries.sql"),
     file!("0052_disk_reasons.sql"),
+    file!("0053_damaged_files.sql"),
 ];
 
 /// Applies the migrations that a database does not have; refuses a database with others.

@@ -1,6 +1,7 @@
 //! `GET /v1/jobs/{id}/results/archive`: all files of a job as a zip, which is written while it is sent.
 
-use std::io::{self, Write};
+use std::io::{self, Read, Write};
+use std::path::Path;
 use std::time::Duration;
 
 use api::problem::Problem;
@@ -22,6 +23,7 @@ use crate::http::job_error::JobError;
 use crate::http::problem::{ProblemResponse, ProblemType, RouteError};
 use crate::http::routes::results::download_file::attachment;
 use crate::store::Content;
+use crate::store::integrity::Checksum;
 
 /// Size of the chunks of the body, bytes.
 const CHUNK_BYTES: usize = 64 << 10;
@@ -48,6 +50,7 @@ impl RouteError for TooManyArchivesError {
     tag = "results",
     responses(
         (status = 200, description = "The archive", content_type = "application/zip", body = Vec<u8>),
+        (status = 500, description = "A stored file is damaged", body = Problem),
         (status = 409, description = "The job has not ended", body = Problem),
     )
 )]
@@ -59,6 +62,10 @@ pub(crate) async fn archive(
         return Err(JobError::Active(id).into());
     }
     let files = app.store.manifest(id).await?;
+    for file in &files {
+        // Whatever can be known to be damaged is a problem instead of an archive that breaks off.
+        app.verified_file(id, &file.name).await?;
+    }
     let permit = app.archive_permits.clone().acquire_owned();
     let permit = tokio::time::timeout(PERMIT_TIMEOUT, permit).await;
     let permit = permit
@@ -115,12 +122,34 @@ fn write_archive(app: &App, id: Uuid, files: &[ResultFile], writer: ChunkWriter)
         archive.start_file(file.name.as_str(), options)?;
         match content {
             Content::Inline(bytes) => archive.write_all(&bytes)?,
-            Content::File(path) => {
-                io::copy(&mut std::fs::File::open(path)?, &mut archive)?;
-            }
+            Content::File(path) => copy(app, (id, file), &path, &mut archive)?,
         }
     }
     archive.finish()?.into_inner().flush()
+}
+
+/// Copies a file into an archive, and checks it meanwhile.
+fn copy(
+    app: &App,
+    (id, entry): (Uuid, &ResultFile),
+    path: &Path,
+    archive: &mut impl Write,
+) -> io::Result<()> {
+    let mut file = std::fs::File::open(path)?;
+    let (mut checksum, mut block) = (Checksum::default(), vec![0; CHUNK_BYTES]);
+    loop {
+        match file.read(&mut block)? {
+            0 => break,
+            length => {
+                checksum.update(&block[..length]);
+                archive.write_all(&block[..length])?;
+            }
+        }
+    }
+    checksum.compare(entry).map_err(|cause| {
+        let damaged = app.damaged(id, &entry.name, cause);
+        io::Error::other(Handle::current().block_on(damaged))
+    })
 }
 
 /// Sends what is written to the client, in chunks.

@@ -12,16 +12,19 @@ use axum::body::{Body, Bytes};
 use axum::extract::State;
 use axum::http::{HeaderMap, StatusCode, header};
 use axum::response::{IntoResponse, Response};
+use futures_util::{TryStreamExt, stream};
 use http_range_header::RangeUnsatisfiableError;
 use tokio::fs::File;
-use tokio::io::{AsyncReadExt, AsyncSeekExt};
+use tokio::io::{AsyncRead, AsyncReadExt, AsyncSeekExt};
 use tokio_util::io::ReaderStream;
 use uuid::Uuid;
 
 use crate::http::app::App;
 use crate::http::extract::{JobId, Name};
 use crate::http::problem::{ProblemResponse, ProblemType, RouteError};
+use crate::http::verified_file::VerifiedFile;
 use crate::store::Content;
+use crate::store::integrity::Checksum;
 
 /// Size of the chunks in which a file is read, bytes.
 const CHUNK_BYTES: usize = 64 << 10;
@@ -66,6 +69,7 @@ impl RouteError for FileError {
         (status = 206, description = "The requested bytes", content_type = "*/*", body = serde_json::Value),
         (status = 304, description = "Not changed: `If-None-Match` has its digest"),
         (status = 404, description = "No such job, or no such file", body = Problem),
+        (status = 500, description = "The stored file is damaged", body = Problem),
         (status = 416, description = "The range lies outside the file", body = Problem),
     )
 )]
@@ -75,10 +79,11 @@ pub(crate) async fn file(
     Name(name): Name,
     headers: HeaderMap,
 ) -> Result<Response, ProblemResponse> {
-    let Some((file, content)) = app.store.result_file(id, &name).await? else {
+    let Some(verified) = app.verified_file(id, &name).await? else {
         app.job(id).await?;
         return Err(FileError::Missing(id).into());
     };
+    let file = verified.entry.clone();
     let etag = format!("\"{}\"", file.sha256);
     let response = if text(&headers, header::IF_NONE_MATCH).contains(&etag) {
         StatusCode::NOT_MODIFIED.into_response()
@@ -86,7 +91,7 @@ pub(crate) async fn file(
         let Ok(range) = requested_range(&headers, &file, &etag) else {
             return Ok(range_not_satisfiable(file.bytes));
         };
-        respond(id, &file, content, range).await?
+        respond(&app, id, verified, range).await?
     };
     let own = [
         (header::ETAG, etag),
@@ -149,28 +154,38 @@ fn requested_range(
 
 /// Responds with the file, or with a range of it.
 async fn respond(
+    app: &App,
     id: Uuid,
-    file: &ResultFile,
-    content: Content,
+    verified: VerifiedFile,
     range: Option<RangeInclusive<u64>>,
 ) -> Result<Response, FileError> {
     let read_error = |cause| FileError::Read { id, cause };
+    let VerifiedFile {
+        entry,
+        content,
+        is_complete,
+    } = verified;
     let (from, length) = match &range {
-        None => (0, file.bytes),
+        None => (0, entry.bytes),
         Some(range) => (*range.start(), range.end() - range.start() + 1),
     };
-    let body = match content {
-        Content::Inline(bytes) => slice(bytes, from, length),
-        Content::File(path) => stream(&path, from, length).await.map_err(read_error)?,
-    };
     let headers = [
-        (header::CONTENT_TYPE, file.media_type.clone()),
+        (header::CONTENT_TYPE, entry.media_type.clone()),
         (header::CONTENT_LENGTH, length.to_string()),
     ];
+    let bytes = entry.bytes;
+    let body = match content {
+        Content::Inline(bytes) => slice(bytes, from, length),
+        Content::File(path) => {
+            let file = open(&path, from).await.map_err(read_error)?.take(length);
+            let whole = !is_complete && range.is_none();
+            checked_stream(file, whole.then(|| Unchecked::new(app, id, entry)))
+        }
+    };
     let Some(range) = range else {
         return Ok((headers, body).into_response());
     };
-    let range = format!("bytes {}-{}/{}", range.start(), range.end(), file.bytes);
+    let range = format!("bytes {}-{}/{bytes}", range.start(), range.end());
     let range = [(header::CONTENT_RANGE, range)];
     Ok((StatusCode::PARTIAL_CONTENT, headers, range, body).into_response())
 }
@@ -181,18 +196,77 @@ fn slice(bytes: Vec<u8>, from: u64, length: u64) -> Body {
     Body::from(Bytes::from(bytes).slice(from..to))
 }
 
-async fn stream(path: &Path, from: u64, length: u64) -> std::io::Result<Body> {
+async fn open(path: &Path, from: u64) -> std::io::Result<File> {
     let mut file = File::open(path).await?;
     file.seek(SeekFrom::Start(from)).await?;
-    Ok(Body::from_stream(ReaderStream::with_capacity(
-        file.take(length),
-        CHUNK_BYTES,
-    )))
+    Ok(file)
+}
+
+/// A file whose checksum is compared while it is sent.
+struct Unchecked {
+    app: App,
+    id: Uuid,
+    entry: ResultFile,
+    checksum: Checksum,
+    left: u64,
+}
+
+impl Unchecked {
+    fn new(app: &App, id: Uuid, entry: ResultFile) -> Self {
+        Self {
+            app: app.clone(),
+            id,
+            left: entry.bytes,
+            entry,
+            checksum: Checksum::default(),
+        }
+    }
+
+    /// Adds a chunk. After the last one the whole is compared, so that the client of a damaged file does not get it.
+    async fn check(&mut self, chunk: &Bytes) -> std::io::Result<()> {
+        self.checksum.update(chunk);
+        let length = u64::try_from(chunk.len()).unwrap_or(u64::MAX);
+        self.left = self.left.saturating_sub(length);
+        if self.left > 0 {
+            return Ok(());
+        }
+        let checksum = std::mem::take(&mut self.checksum);
+        match checksum.compare(&self.entry) {
+            Ok(()) => Ok(()),
+            Err(cause) => {
+                let damaged = self.app.damaged(self.id, &self.entry.name, cause).await;
+                Err(std::io::Error::other(damaged))
+            }
+        }
+    }
+}
+
+/// Streams the rest of a file, checked if it has not been.
+fn checked_stream(file: impl AsyncRead + Send + 'static, unchecked: Option<Unchecked>) -> Body {
+    let chunks = Box::pin(ReaderStream::with_capacity(file, CHUNK_BYTES));
+    Body::from_stream(stream::try_unfold(
+        (chunks, unchecked),
+        |(mut chunks, mut unchecked)| async move {
+            let Some(chunk) = chunks.try_next().await? else {
+                return Ok(None);
+            };
+            if let Some(unchecked) = &mut unchecked {
+                unchecked.check(&chunk).await?;
+            }
+            Ok::<_, std::io::Error>(Some((chunk, (chunks, unchecked))))
+        },
+    ))
 }
 
 #[cfg(test)]
 mod tests {
+    use axum::http::Request;
+    use http_body_util::BodyExt;
+    use serde_json::json;
+    use tower::ServiceExt;
+
     use super::*;
+    use crate::http::router;
     use crate::http::tests::{FIELDS, Service};
 
     /// The large file is stored beside the database, the small one in it.
@@ -267,6 +341,80 @@ mod tests {
         assert_eq!(
             service.get(unknown).await.2["type"],
             "/problems/no-such-job"
+        );
+    }
+
+    #[tokio::test]
+    async fn a_damaged_file_is_a_problem_and_is_marked_until_it_is_restored() {
+        let service = Service::new().await;
+        let id = service.with_files().await;
+        let own = format!("/v1/jobs/{id}/results");
+        let path = format!("{own}/files/fields-20.vtu");
+        let stored = service.results_folder().join(&id).join("1/fields-20.vtu");
+        let overwritten = FIELDS.to_uppercase();
+        for (damage, words) in [
+            (Some(overwritten.as_str()), "it has the SHA-256 "),
+            (Some("<VTK"), "it has 4 bytes, its manifest names 26"),
+            (None, "it does not exist"),
+        ] {
+            match damage {
+                Some(content) => std::fs::write(&stored, content).expect("written"),
+                None => std::fs::remove_file(&stored).expect("removed"),
+            }
+            for (path, headers) in [
+                (&path, vec![]),
+                (&path, vec![("range", "bytes=0-1")]),
+                (&format!("{own}/archive"), vec![]),
+            ] {
+                let (status, _, text) = service.text("GET", path, &headers, "").await;
+                assert_eq!(status, 500, "{path}: {text}");
+                assert!(text.contains("/problems/result-damaged"), "{text}");
+                assert!(
+                    text.contains("fields-20.vtu") && text.contains(words),
+                    "{text}"
+                );
+            }
+            let (_, _, manifest) = service.get(&own).await;
+            let mark = manifest["files"][0]["damaged"].as_str().expect("a mark");
+            assert!(mark.starts_with(words), "{mark}");
+        }
+        std::fs::write(&stored, FIELDS).expect("written");
+        assert_eq!(service.text("GET", &path, &[], "").await.2, FIELDS);
+        let (_, _, manifest) = service.get(&own).await;
+        assert_eq!(manifest["files"][0].get("damaged"), None);
+    }
+
+    #[tokio::test]
+    async fn the_last_chunk_of_a_large_file_is_sent_only_if_all_of_it_is_right() {
+        let service = Service::new().await;
+        let mut content = vec![b'0'; 9 << 20];
+        let id = service.with_fields(&content).await;
+        let own = format!("/v1/jobs/{id}/results");
+        let path = format!("{own}/files/fields-20.vtu");
+        assert!(service.bytes("GET", &path, &[], "").await.2 == content);
+        content[5] = b'1';
+        let stored = service.results_folder().join(&id).join("1/fields-20.vtu");
+        std::fs::write(&stored, &content).expect("written");
+        for path in [&path, &format!("{own}/archive")] {
+            let request = Request::get(path).header("host", "127.0.0.1");
+            let request = request.body(Body::empty()).expect("a request");
+            let response = router(service.app.clone()).oneshot(request).await;
+            let response = response.expect("an answer");
+            if response.status() == 200 {
+                let error = response.into_body().collect().await.expect_err("damage");
+                assert!(error.to_string().contains("fields-20.vtu"), "{error}");
+            } else {
+                // It is known to be damaged by now.
+                assert_eq!(
+                    (path.ends_with("archive"), response.status().as_u16()),
+                    (true, 500)
+                );
+            }
+        }
+        let (status, _, problem) = service.get(&path).await;
+        assert_eq!(
+            (status.as_u16(), &problem["type"]),
+            (500, &json!("/problems/result-damaged"))
         );
     }
 

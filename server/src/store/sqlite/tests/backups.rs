@@ -6,7 +6,7 @@ use crate::export::documents::VTU;
 use crate::export::files;
 use crate::store::sqlite::backup::{copy_database, copy_named_files};
 use crate::store::tests::{Fixture, with_checkpoint};
-use crate::store::{BackupError, Claim, JobUpdate, NewFile, Store};
+use crate::store::{BackupError, Claim, JobUpdate, NewFile, Store, backup, restore, verify};
 
 /// Writes a file of an attempt; returns the update that names it.
 fn with_file(store: &Store, claim: &Claim) -> JobUpdate {
@@ -54,16 +54,69 @@ async fn a_backup_is_consistent_although_jobs_are_deleted_and_restarted_meanwhil
 }
 
 #[tokio::test]
-async fn a_missing_file_that_is_still_named_is_an_error() {
+async fn damaged_files_do_not_prevent_a_backup_and_are_marked_in_it() {
+    let fixture = Fixture::new().await;
+    let store = &fixture.store;
+    let mut jobs = Vec::new();
+    for _ in 0..3 {
+        jobs.push(fixture.queued().await);
+        let claim = fixture.claimed(10).await;
+        fixture.ended_with(&claim, &with_file(store, &claim)).await;
+        let path = store.attempt_folder(&claim).join("a.vtu");
+        match jobs.len() {
+            1 => std::fs::write(path, b"FIELDS").expect("damage"),
+            2 => std::fs::remove_file(path).expect("damage"),
+            _ => {}
+        }
+    }
+    let into = fixture.folder.path().join("backup");
+    let copied = backup(&fixture.url, &into).await.expect("a backup");
+    assert_eq!((copied.jobs, copied.files, copied.damaged.len()), (3, 1, 2));
+
+    let verified = verify(&fixture.url).await.expect("verified");
+    assert_eq!((verified.jobs, verified.files), (3, 3));
+    assert_eq!(verified.damaged.len(), 2, "{verified:?}");
+    let url = format!(
+        "sqlite://{}",
+        fixture.folder.path().join("other.db").display()
+    );
+    let restored = restore(&into, &url).await.expect("restored");
+    assert_eq!((restored.files, &restored.damaged), (1, &copied.damaged));
+    let other = Store::open(&url).await.expect("a store");
+    for (job, how) in jobs.into_iter().zip(["SHA-256", "does not exist", ""]) {
+        for manifest in [store.manifest(job).await, other.manifest(job).await] {
+            let damaged = manifest.expect("the store")[0].damaged.clone();
+            assert_eq!(damaged.is_some(), !how.is_empty(), "{damaged:?}");
+            assert!(damaged.is_none_or(|found| found.contains(how)));
+        }
+    }
+}
+
+#[tokio::test]
+async fn a_backup_that_was_damaged_later_leaves_nothing_when_it_is_restored() {
     let fixture = Fixture::new().await;
     let store = &fixture.store;
     fixture.queued().await;
     let claim = fixture.claimed(10).await;
     fixture.ended_with(&claim, &with_file(store, &claim)).await;
-    let source = Path::new(fixture.url.trim_start_matches("sqlite://"));
-    let target = fixture.folder.path().join("copy.db");
-    copy_database(source, &target).await.expect("a copy");
-    std::fs::remove_dir_all(store.attempt_folder(&claim)).expect("damage");
-    let copied = copy_named_files(source, &target).await;
-    assert!(matches!(copied, Err(BackupError::Missing(_))), "{copied:?}");
+    let into = fixture.folder.path().join("backup");
+    backup(&fixture.url, &into).await.expect("a backup");
+    let again = backup(&fixture.url, &into).await;
+    assert!(matches!(again, Err(BackupError::NotEmpty(_))), "{again:?}");
+    let place = format!("fretwear.db.results/{}/{}/a.vtu", claim.id, claim.lease);
+    std::fs::write(into.join(place), b"FIELDS").expect("damage");
+    let target = fixture.folder.path().join("target");
+    std::fs::create_dir(&target).expect("a folder");
+    let url = format!("sqlite://{}", target.join("other.db").display());
+    let restored = restore(&into, &url).await;
+    assert!(
+        matches!(restored, Err(BackupError::Content { .. })),
+        "{restored:?}"
+    );
+    let left: Vec<_> = std::fs::read_dir(&target)
+        .expect("a folder")
+        .flatten()
+        .collect();
+    let names: Vec<_> = left.iter().map(std::fs::DirEntry::file_name).collect();
+    assert!(names.is_empty(), "{names:?}");
 }

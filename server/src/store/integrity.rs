@@ -1,0 +1,157 @@
+//! Integrity of stored results: whether a content is what its entry in the manifest says.
+
+use std::fs::File;
+use std::io::{ErrorKind, Read};
+use std::path::Path;
+
+use api::results::ResultFile;
+use sha2::{Digest, Sha256};
+
+use crate::export::files::hexadecimal;
+use crate::store::results::Content;
+
+const BLOCK: usize = 64 << 10;
+
+/// Why a content cannot be used.
+#[derive(Debug, thiserror::Error)]
+pub enum IntegrityError {
+    /// The file does not exist.
+    #[error("it does not exist")]
+    Missing,
+    /// Its length differs.
+    #[error("it has {found} bytes, its manifest names {named}")]
+    Length {
+        /// The length, bytes.
+        found: u64,
+        /// The length in the manifest, bytes.
+        named: u64,
+    },
+    /// Its content differs.
+    #[error("it has the SHA-256 {found}, its manifest names {named}")]
+    Checksum {
+        /// SHA-256 of the content, hexadecimal.
+        found: String,
+        /// SHA-256 in the manifest.
+        named: String,
+    },
+    /// It cannot be read.
+    #[error("it cannot be read: {0}")]
+    Read(#[source] std::io::Error),
+}
+
+impl From<std::io::Error> for IntegrityError {
+    fn from(cause: std::io::Error) -> Self {
+        match cause.kind() {
+            ErrorKind::NotFound => Self::Missing,
+            _ => Self::Read(cause),
+        }
+    }
+}
+
+/// The bytes of a content so far, to be compared with its entry once they are complete.
+#[derive(Debug, Clone, Default)]
+pub struct Checksum {
+    sha256: Sha256,
+    bytes: u64,
+}
+
+impl Checksum {
+    /// Adds the next bytes.
+    pub fn update(&mut self, bytes: &[u8]) {
+        self.sha256.update(bytes);
+        self.bytes += u64::try_from(bytes.len()).unwrap_or(u64::MAX);
+    }
+
+    /// Compares all bytes with an entry.
+    ///
+    /// # Errors
+    /// [`IntegrityError`] if they differ.
+    pub fn compare(self, entry: &ResultFile) -> Result<(), IntegrityError> {
+        compare_length(self.bytes, entry)?;
+        let found = hexadecimal(&self.sha256.finalize());
+        if found == entry.sha256 {
+            return Ok(());
+        }
+        let named = entry.sha256.clone();
+        Err(IntegrityError::Checksum { found, named })
+    }
+}
+
+/// Checks that a content exists with the length of its entry.
+///
+/// # Errors
+/// [`IntegrityError`] if not.
+pub fn check_length(entry: &ResultFile, content: &Content) -> Result<(), IntegrityError> {
+    let found = match content {
+        Content::Inline(bytes) => u64::try_from(bytes.len()).unwrap_or(u64::MAX),
+        Content::File(path) => std::fs::metadata(path)?.len(),
+    };
+    compare_length(found, entry)
+}
+
+/// Reads a content and checks it.
+///
+/// # Errors
+/// [`IntegrityError`] if it differs from its entry.
+pub fn check(entry: &ResultFile, content: &Content) -> Result<(), IntegrityError> {
+    let mut checksum = Checksum::default();
+    match content {
+        Content::Inline(bytes) => checksum.update(bytes),
+        Content::File(path) => read(path, &mut checksum)?,
+    }
+    checksum.compare(entry)
+}
+
+fn read(path: &Path, checksum: &mut Checksum) -> std::io::Result<()> {
+    let mut file = File::open(path)?;
+    let mut block = vec![0; BLOCK];
+    loop {
+        match file.read(&mut block)? {
+            0 => return Ok(()),
+            length => checksum.update(&block[..length]),
+        }
+    }
+}
+
+fn compare_length(found: u64, entry: &ResultFile) -> Result<(), IntegrityError> {
+    let named = entry.bytes;
+    if found == named {
+        return Ok(());
+    }
+    Err(IntegrityError::Length { found, named })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::export::documents::VTU;
+    use crate::export::files::manifest_entry;
+
+    #[test]
+    fn every_kind_of_damage_is_distinguished() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("a.vtu");
+        let entry = manifest_entry("a.vtu", None, VTU, b"fields");
+        let content = Content::File(path.clone());
+        let damage = |bytes: Option<&[u8]>| {
+            match bytes {
+                Some(bytes) => std::fs::write(&path, bytes).expect("written"),
+                None => std::fs::remove_file(&path).expect("removed"),
+            }
+            check(&entry, &content)
+        };
+        assert!(damage(Some(b"fields")).is_ok());
+        let checksum = damage(Some(b"FIELDS"));
+        assert!(matches!(checksum, Err(IntegrityError::Checksum { .. })));
+        assert!(check_length(&entry, &content).is_ok());
+        let shorter = damage(Some(b"field"));
+        assert!(matches!(
+            shorter,
+            Err(IntegrityError::Length { found: 5, named: 6 })
+        ));
+        assert!(check_length(&entry, &content).is_err());
+        assert!(matches!(damage(None), Err(IntegrityError::Missing)));
+        assert!(check(&entry, &Content::Inline(b"fields".to_vec())).is_ok());
+        assert!(check(&entry, &Content::Inline(b"other".to_vec())).is_err());
+    }
+}

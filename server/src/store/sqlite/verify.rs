@@ -1,0 +1,102 @@
+//! Verification of a database and of all results that it names.
+
+use sqlx::sqlite::SqliteConnection;
+use sqlx::{ConnectOptions, Connection, Row};
+use uuid::fmt::Hyphenated;
+
+use crate::export::files::{hexadecimal, sha256};
+use crate::store::sqlite::backup::{at, check_integrity};
+use crate::store::sqlite::files::entry;
+use crate::store::sqlite::folder::Folder;
+use crate::store::sqlite::open::options;
+use crate::store::{BackupError, Content, CopySummary, integrity};
+
+/// Reads the database at `url`, which may be in use, and all results, and compares every checksum. Marks in the manifests
+/// which files are damaged, and which no longer are.
+///
+/// # Errors
+/// [`BackupError`] if the database itself is damaged or cannot be read.
+pub async fn verify(url: &str) -> Result<CopySummary, BackupError> {
+    let path = options(url)?.get_filename().to_owned();
+    let folder = Folder::beside(&path);
+    let mut database = at(&path).connect().await?;
+    check_integrity(&path, &mut database).await?;
+    let jobs: Vec<Hyphenated> = sqlx::query_scalar("SELECT id FROM jobs ORDER BY id")
+        .fetch_all(&mut database)
+        .await?;
+    let mut verified = CopySummary::default();
+    for job in jobs {
+        let job = job.to_string();
+        verify_files(&mut database, &folder, &job, &mut verified).await?;
+        verify_checkpoint(&mut database, &job, &mut verified).await?;
+        verified.jobs += 1;
+    }
+    database.close().await?;
+    Ok(verified)
+}
+
+async fn verify_files(
+    database: &mut SqliteConnection,
+    folder: &Folder,
+    job: &str,
+    verified: &mut CopySummary,
+) -> Result<(), BackupError> {
+    let rows = sqlx::query(
+        "SELECT name, cycle, media_type, bytes, sha256, damaged, content, place FROM result_files WHERE job_id = ?",
+    )
+    .bind(job)
+    .fetch_all(&mut *database)
+    .await?;
+    for row in rows {
+        let entry = entry(&row)?;
+        let content = if let Some(content) = row.try_get("content")? {
+            Content::Inline(content)
+        } else {
+            let place: String = row.try_get("place")?;
+            let path = folder.path(&place);
+            Content::File(path.ok_or(BackupError::Place(place))?)
+        };
+        verified.files += 1;
+        verified.file_bytes += entry.bytes;
+        let how = integrity::check(&entry, &content).err();
+        let how = how.map(|cause| cause.to_string());
+        if let Some(how) = &how {
+            verified
+                .damaged
+                .push(format!("{} of job {job}: {how}", entry.name));
+        }
+        if how != entry.damaged {
+            sqlx::query("UPDATE result_files SET damaged = ? WHERE job_id = ? AND name = ?")
+                .bind(how)
+                .bind(job)
+                .bind(&entry.name)
+                .execute(&mut *database)
+                .await?;
+        }
+    }
+    Ok(())
+}
+
+/// A damaged checkpoint is not marked: its job would restart at cycle 0.
+async fn verify_checkpoint(
+    database: &mut SqliteConnection,
+    job: &str,
+    verified: &mut CopySummary,
+) -> Result<(), BackupError> {
+    let checkpoint: Option<(Vec<u8>, Vec<u8>)> =
+        sqlx::query_as("SELECT sha256, state FROM checkpoints WHERE job_id = ?")
+            .bind(job)
+            .fetch_optional(database)
+            .await?;
+    let Some((named, state)) = checkpoint else {
+        return Ok(());
+    };
+    let (found, named) = (sha256(&state), hexadecimal(&named));
+    if found != named {
+        let how = format!("it has the SHA-256 {found}, the database names {named}");
+        verified
+            .damaged
+            .push(format!("checkpoint of job {job}: {how}"));
+    }
+    Ok(())
+}
