@@ -158,6 +158,11 @@ impl Service {
         })
     }
 
+    /// Returns when the service has begun to stop by itself, because another process serves its database.
+    pub async fn ended(&self) {
+        self.stopping.cancelled().await;
+    }
+
     /// Stops everything: streams end, running jobs return to the queue without losing an attempt.
     pub async fn stop(mut self) {
         self.stopping.cancel();

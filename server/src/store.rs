@@ -57,9 +57,9 @@ pub use jobs::{
 pub use leases::{Claim, End, JobUpdate, LeaseState, Reclaimed};
 pub use limits::Limits;
 pub use results::{Content, NewFile, SnapshotPart, StoredEvent};
-pub use sqlite::Store;
 pub use sqlite::backup::{backup, restore};
 pub use sqlite::verify::verify;
+pub use sqlite::{OWNER_HEARTBEAT, Store};
 
 #[cfg(test)]
 pub(crate) mod tests;

@@ -32,6 +32,7 @@ mod refused_specifications;
 mod replayed_events;
 mod result_files;
 mod retry;
+mod second_server;
 mod server_killed;
 mod small_strains_cost_what_the_plan_says;
 mod stale_server;

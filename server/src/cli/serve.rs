@@ -28,9 +28,12 @@ pub(super) fn run(arguments: ServeArguments) -> Ended {
             "fretwear serves on http://{}",
             service.address
         ));
-        let ended = until_signal().await;
+        let ended = tokio::select! {
+            ended = until_signal() => ended.map_err(failed),
+            () = service.ended() => Err(failed("another process serves the database")),
+        };
         service.stop().await;
-        ended.map_err(failed)
+        ended
     })?
 }
 

@@ -8,7 +8,7 @@ use tokio_util::sync::CancellationToken;
 use tracing::Instrument;
 
 use crate::clock::{monotonic_ms, now_ms};
-use crate::store::{Reclaimed, Store, StoreError};
+use crate::store::{OWNER_HEARTBEAT, Reclaimed, Store, StoreError};
 use crate::worker;
 use crate::worker::WorkerConfig;
 
@@ -31,6 +31,7 @@ pub(super) async fn maintain(
     let mut finalizing = JoinSet::new();
     finalize(&store, &config, reclaimed, &mut finalizing);
     let mut rounds = 0_u32;
+    let mut beaten = Instant::now();
     // Since when process and store have run without a stall. After a stall all leases are expired, also those of this
     // process's own supervisors, which first get the time of one lease to renew them.
     let mut healthy = Some(Instant::now());
@@ -46,6 +47,18 @@ pub(super) async fn maintain(
         }
         while finalizing.try_join_next().is_some() {}
         reserve_disk(&store).await;
+        if beaten.elapsed() >= OWNER_HEARTBEAT {
+            beaten = Instant::now();
+            match store.beat().await {
+                Err(error @ StoreError::Served { .. }) => {
+                    tracing::error!(%error, "the service stops");
+                    stopping.cancel();
+                    return;
+                }
+                Err(error) => tracing::warn!(%error, "no heartbeat could be written"),
+                Ok(()) => {}
+            }
+        }
         let reclaims = healthy.is_some_and(|since| since.elapsed() >= lease);
         let started = Instant::now();
         healthy = match round(&store, &config, reclaims, keep_days).await {

@@ -21,6 +21,21 @@ pub enum BackupError {
     /// The target exists.
     #[error("{} exists; nothing is overwritten", .0.display())]
     Exists(PathBuf),
+    /// There is no database.
+    #[error("there is no database {}", .0.display())]
+    NoDatabase(PathBuf),
+    /// The database was written by an earlier version.
+    #[error(
+        "{} was written by an earlier version: its schema is {found}; a service of this version brings it to {known}", .path.display()
+    )]
+    Older {
+        /// The database.
+        path: PathBuf,
+        /// Version of its schema.
+        found: i64,
+        /// Version that this program needs.
+        known: i64,
+    },
     /// The folder for a backup has files.
     #[error("{} is not empty; a backup needs a folder of its own", .0.display())]
     NotEmpty(PathBuf),

@@ -24,7 +24,51 @@ pub enum StoreError {
         /// The system's error.
         cause: std::io::Error,
     },
-    /// Another process serves this database.
+    /// The folder of the database does not exist.
+    #[error("the folder {} does not exist", .path.display())]
+    NoFolder {
+        /// The folder.
+        path: PathBuf,
+    },
+    /// The file of the database has several names.
+    #[error("{} has {names} names (hard links), each of which would have a log of its own", .path.display())]
+    Linked {
+        /// The file.
+        path: PathBuf,
+        /// Number of its names.
+        names: u64,
+    },
+    /// The file belongs to another program.
+    #[error("{} is not a database of fretwear: {found}", .path.display())]
+    Foreign {
+        /// The file.
+        path: PathBuf,
+        /// What it was known by.
+        found: String,
+    },
+    /// The database was written by a later version.
+    #[error(
+        "{} was written by a later version of fretwear: its schema is {found}, this version knows {known}", .path.display()
+    )]
+    Newer {
+        /// The database.
+        path: PathBuf,
+        /// Version of its schema.
+        found: i64,
+        /// Newest version that this program knows.
+        known: i64,
+    },
+    /// Another process serves this database past its lock file.
+    #[error(
+        "another process serves {} (it writes heartbeats into it; {process})", .path.display()
+    )]
+    Served {
+        /// The database.
+        path: PathBuf,
+        /// The process: start of its system, namespace, number and start.
+        process: String,
+    },
+    /// Another process holds the lock file of this database.
     #[error("another process serves this database (it holds {})", .path.display())]
     Locked {
         /// The lock file.

@@ -1,6 +1,6 @@
 //! The embedded store: SQLite in WAL mode through one writing connection and a pool of readers.
 //!
-//! A lock file beside the database makes sure that one process serves it; so at start-up every lease in it belongs to a
+//! A lock file beside the database, and a row in it, make sure that one process serves it; so at start-up every lease in it belongs to a
 //! process that has ended.
 
 pub(in crate::store) mod backup;
@@ -13,6 +13,7 @@ mod events;
 mod files;
 mod folder;
 mod gauges;
+mod identity;
 mod job_list;
 mod job_rows;
 mod jobs;
@@ -20,6 +21,7 @@ mod leases;
 mod maintenance;
 mod migrations;
 mod open;
+mod owner;
 mod queries;
 mod reclaim;
 mod results;
@@ -41,6 +43,7 @@ use crate::metrics::Metrics;
 use crate::store::{
     Cancelled, Changes, DataDisk, LeaseState, NewJob, RequestKey, StoreError, Submitted,
 };
+pub use owner::OWNER_HEARTBEAT;
 
 /// Jobs, batches, events and results, durable.
 #[derive(Debug)]
@@ -50,6 +53,9 @@ pub struct Store {
     changes: broadcast::Sender<Uuid>,
     waiting: Notify,
     folder: folder::Folder,
+    path: PathBuf,
+    /// Id of this process as the owner of the database.
+    owner: Uuid,
     wal: PathBuf,
     machine: PathBuf,
     attempt_limit: u32,

@@ -56,10 +56,7 @@ pub(in crate::store) struct Fixture {
 impl Fixture {
     pub(in crate::store) async fn new() -> Self {
         let folder = TempDir::new().expect("a temporary folder");
-        let url = format!(
-            "sqlite://{}",
-            folder.path().join("deep/er/test.db").display()
-        );
+        let url = format!("sqlite://{}", folder.path().join("test.db").display());
         let store = Arc::new(Store::open(&url).await.expect("a store"));
         Self { store, url, folder }
     }

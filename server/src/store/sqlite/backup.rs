@@ -11,6 +11,7 @@ use sqlx::{ConnectOptions, Connection, Row};
 use crate::export::files::{create_folder, parent};
 use crate::store::sqlite::files::entry;
 use crate::store::sqlite::folder::{Folder, beside};
+use crate::store::sqlite::identity::schema_version;
 use crate::store::sqlite::open::{lock, options};
 use crate::store::{BackupError, Content, CopySummary, IntegrityError, integrity};
 
@@ -25,6 +26,7 @@ const PARTIAL: &str = ".partial";
 /// [`BackupError`]; the incomplete copy is not removed.
 pub async fn backup(url: &str, into: &Path) -> Result<CopySummary, BackupError> {
     let source = options(url)?.get_filename().to_owned();
+    database_at(&source).await?;
     create_folder(into).map_err(|cause| file(into, cause))?;
     let mut entries = std::fs::read_dir(into).map_err(|cause| file(into, cause))?;
     if entries.next().is_some() {
@@ -33,6 +35,12 @@ pub async fn backup(url: &str, into: &Path) -> Result<CopySummary, BackupError> 
     let target = into.join(NAME);
     copy_database(&source, &target).await?;
     copy_named_files(&source, &target).await
+}
+
+/// Checks that a file is a database of this program; returns the version of its schema.
+pub(super) async fn database_at(path: &Path) -> Result<i64, BackupError> {
+    let version = schema_version(path).await?;
+    version.ok_or_else(|| BackupError::NoDatabase(path.to_owned()))
 }
 
 /// Copies a database, which may be in use.
@@ -133,13 +141,15 @@ async fn delete_missing(copy: &Path, missing: &[String]) -> Result<i64, BackupEr
 /// # Errors
 /// [`BackupError`]; nothing is left of the copy.
 pub async fn restore(from: &Path, url: &str) -> Result<CopySummary, BackupError> {
+    let source = from.join(NAME);
+    database_at(&source).await?;
     let target = options(url)?.get_filename().to_owned();
     let results = beside(&target, ".results");
     absent(&target)?;
     absent(&results)?;
     // No process may serve it before it is complete.
     let _lock = lock(&target)?;
-    let copied = copy_backup(&from.join(NAME), &target).await;
+    let copied = copy_backup(&source, &target).await;
     if copied.is_err() {
         // What cannot be removed is named by no database, and prevents the next restore to this place.
         let _ = std::fs::remove_file(beside(&target, PARTIAL));

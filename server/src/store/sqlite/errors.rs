@@ -6,6 +6,7 @@ use crate::store::{BackupError, StoreError};
 /// whose disk is full: BUSY, LOCKED, IOERR, FULL (sqlite.org/rescode.html).
 const TRANSIENT: [u32; 4] = [5, 6, 10, FULL];
 const FULL: u32 = 13;
+const NO_DATABASE: u32 = 26;
 
 impl From<sqlx::Error> for StoreError {
     fn from(error: sqlx::Error) -> Self {
@@ -17,6 +18,11 @@ impl From<sqlx::Error> for StoreError {
             cause: error.into(),
         }
     }
+}
+
+/// Whether a file is no SQLite database.
+pub(super) fn is_no_database(error: &sqlx::Error) -> bool {
+    result_code(error) == Some(NO_DATABASE)
 }
 
 /// SQLite's primary result code; an extended code has it in its last byte.

@@ -14,7 +14,7 @@ macro_rules! file {
 }
 
 /// All files of the folder; a name is the version and what it is about.
-const FILES: [(&str, &str); 15] = [
+const FILES: [(&str, &str); 16] = [
     file!("0001_jobs.sql"),
     file!("0002_labels.sql"),
     file!("0003_events.sql"),
@@ -30,6 +30,7 @@ const FILES: [(&str, &str); 15] = [
     file!("0051_retries.sql"),
     file!("0052_disk_reasons.sql"),
     file!("0053_damaged_files.sql"),
+    file!("0054_owner.sql"),
 ];
 
 /// Applies the migrations that a database does not have; refuses a database with others.
@@ -47,6 +48,16 @@ pub(super) fn migrator() -> Migrator {
         ))
     };
     Migrator::with_migrations(FILES.into_iter().filter_map(migration).collect())
+}
+
+/// Version of the newest migration.
+pub(super) fn newest_version() -> i64 {
+    let versions = migrator();
+    versions
+        .iter()
+        .map(|migration| migration.version)
+        .max()
+        .unwrap_or_default()
 }
 
 #[cfg(test)]

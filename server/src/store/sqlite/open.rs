@@ -14,6 +14,7 @@ use crate::export::files::parent;
 use crate::store::sqlite::folder::{Folder, beside};
 use crate::store::sqlite::migrations::migrator;
 use crate::store::sqlite::submissions::Submissions;
+use crate::store::sqlite::{identity, owner};
 use crate::store::{DataDisk, Limits, Store, StoreError};
 
 /// Oldest accepted version: older ones can corrupt the write-ahead log when it is reset.
@@ -43,6 +44,7 @@ impl Store {
             .busy_timeout(BUSY_TIMEOUT);
         let path = options.get_filename().to_owned();
         let lock = lock(&path)?;
+        identity::schema_version(&path).await?;
         let writer = SqlitePoolOptions::new()
             .max_connections(1)
             // SQLite ends a transaction by itself when the disk is full or fails, and then cannot roll it back; sqlx
@@ -55,6 +57,8 @@ impl Store {
             .await?;
         check_version(&version)?;
         migrator().run(&writer).await?;
+        identity::mark(&writer).await?;
+        let owner = owner::become_owner(&writer, &path).await?;
         // There are no readers yet that it would have to wait for.
         sqlx::query("PRAGMA wal_checkpoint(TRUNCATE)")
             .execute(&writer)
@@ -71,6 +75,7 @@ impl Store {
             changes,
             waiting: Notify::new(),
             folder: Folder::beside(&path),
+            owner,
             wal: beside(&path, "-wal"),
             machine: beside(&path, ".machine.json"),
             attempt_limit: limits.attempts,
@@ -80,6 +85,7 @@ impl Store {
                 beside(&path, ".reserve"),
                 limits.least_free_disk_mb,
             )),
+            path,
             last_probe: tokio::sync::Mutex::default(),
             _lock: lock,
         };
@@ -89,6 +95,7 @@ impl Store {
 
     /// Closes all connections.
     pub async fn close(&self) {
+        self.disown().await;
         self.readers.close().await;
         self.writer.close().await;
     }
@@ -117,7 +124,12 @@ pub(super) fn lock(database: &Path) -> Result<File, StoreError> {
         path: database.to_owned(),
         cause,
     };
-    std::fs::create_dir_all(parent(database)).map_err(prepare)?;
+    let folder = parent(database);
+    if !folder.is_dir() {
+        return Err(StoreError::NoFolder {
+            path: folder.to_owned(),
+        });
+    }
     let path = beside(&real_path(database).map_err(prepare)?, ".lock");
     let file = File::options()
         .create(true)

@@ -5,9 +5,10 @@ use sqlx::{ConnectOptions, Connection, Row};
 use uuid::fmt::Hyphenated;
 
 use crate::export::files::{hexadecimal, sha256};
-use crate::store::sqlite::backup::{at, check_integrity};
+use crate::store::sqlite::backup::{at, check_integrity, database_at};
 use crate::store::sqlite::files::entry;
 use crate::store::sqlite::folder::Folder;
+use crate::store::sqlite::migrations::newest_version;
 use crate::store::sqlite::open::options;
 use crate::store::{BackupError, Content, CopySummary, integrity};
 
@@ -18,6 +19,10 @@ use crate::store::{BackupError, Content, CopySummary, integrity};
 /// [`BackupError`] if the database itself is damaged or cannot be read.
 pub async fn verify(url: &str) -> Result<CopySummary, BackupError> {
     let path = options(url)?.get_filename().to_owned();
+    let (found, known) = (database_at(&path).await?, newest_version());
+    if found < known {
+        return Err(BackupError::Older { path, found, known });
+    }
     let folder = Folder::beside(&path);
     let mut database = at(&path).connect().await?;
     check_integrity(&path, &mut database).await?;

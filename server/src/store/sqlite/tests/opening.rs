@@ -1,9 +1,12 @@
-//! Opening: one process serves a database.
+//! Opening: one process serves a database, and a file of another program or version is refused.
 
 use std::sync::Arc;
 
+use sqlx::sqlite::SqliteConnectOptions;
+use sqlx::{ConnectOptions, Connection};
+
 use crate::store::tests::Fixture;
-use crate::store::{Store, StoreError};
+use crate::store::{Store, StoreError, backup, verify};
 
 #[tokio::test]
 async fn a_database_is_served_by_one_process_and_its_jobs_survive_it() {
@@ -50,4 +53,111 @@ async fn addresses_other_than_files_are_rejected() {
     ] {
         assert!(Store::open(url).await.is_err(), "{url}");
     }
+}
+
+#[tokio::test]
+async fn files_of_other_programs_are_refused_and_not_changed() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("other.db");
+    let url = format!("sqlite://{}", path.display());
+    for (statements, words) in [
+        (
+            &["CREATE TABLE songs (name TEXT)"][..],
+            "it has the tables songs",
+        ),
+        (
+            &["PRAGMA application_id = 252006675"][..],
+            "its application id is 252006675",
+        ),
+        (&[][..], "it is no SQLite database"),
+    ] {
+        let _ = std::fs::remove_file(&path);
+        if statements.is_empty() {
+            std::fs::write(&path, "text of more than one page\n".repeat(1000)).expect("written");
+        }
+        for statement in statements {
+            let options = SqliteConnectOptions::new().filename(&path);
+            let mut other = options
+                .create_if_missing(true)
+                .connect()
+                .await
+                .expect("opened");
+            sqlx::query(*statement)
+                .execute(&mut other)
+                .await
+                .expect("executed");
+            other.close().await.expect("closed");
+        }
+        let before = std::fs::read(&path).expect("a file");
+        let refused = Store::open(&url).await.expect_err("refused");
+        assert!(matches!(refused, StoreError::Foreign { .. }), "{refused}");
+        assert!(refused.to_string().contains(words), "{refused}");
+        assert!(refused.to_string().contains("other.db"), "{refused}");
+        let into = folder.path().join("backup");
+        for refused in [
+            backup(&url, &into).await.expect_err("refused"),
+            verify(&url).await.expect_err("refused"),
+        ] {
+            assert!(refused.to_string().contains(words), "{refused}");
+        }
+        assert!(!into.exists());
+        assert!(std::fs::read(&path).expect("a file") == before);
+    }
+}
+
+#[tokio::test]
+async fn a_database_of_a_later_version_is_refused_in_words() {
+    let Fixture { store, url, folder } = Fixture::new().await;
+    let later = "INSERT INTO _sqlx_migrations (version, description, success, checksum, execution_time) \
+                 VALUES (9999, 'later', 1, x'00', 0)";
+    sqlx::query(later)
+        .execute(&store.writer)
+        .await
+        .expect("executed");
+    store.close().await;
+    drop(store);
+    let path = folder.path().join("test.db");
+    let before = std::fs::read(&path).expect("a file");
+    let refused = Store::open(&url).await.expect_err("refused");
+    let words = "was written by a later version of fretwear: its schema is 9999";
+    assert!(refused.to_string().contains(words), "{refused}");
+    assert!(std::fs::read(&path).expect("a file") == before);
+}
+
+#[tokio::test]
+async fn a_missing_folder_is_refused_and_not_created() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let missing = folder.path().join("data");
+    let url = format!("sqlite://{}/fretwear.db", missing.display());
+    let refused = Store::open(&url).await.expect_err("refused").to_string();
+    assert_eq!(
+        refused,
+        format!("the folder {} does not exist", missing.display())
+    );
+    assert!(verify(&url).await.is_err());
+    assert!(!missing.exists());
+}
+
+#[tokio::test]
+async fn a_database_with_two_names_is_refused() {
+    let Fixture { store, url, folder } = Fixture::new().await;
+    let link = folder.path().join("link.db");
+    std::fs::hard_link(folder.path().join("test.db"), &link).expect("a link");
+    let linked = format!("sqlite://{}", link.display());
+    for url in [&linked, &url] {
+        let refused = Store::open(url).await.expect_err("refused");
+        let is_served = matches!(refused, StoreError::Locked { .. });
+        assert_eq!(is_served, url != &linked, "{refused}");
+    }
+    store.close().await;
+    drop(store);
+    let refused = Store::open(&url).await.expect_err("refused").to_string();
+    assert!(
+        refused.ends_with(
+            "test.db has 2 names (hard links), each of which would have a log of its own"
+        ),
+        "{refused}"
+    );
+    std::fs::remove_file(link).expect("removed");
+    assert!(Store::open(&url).await.is_ok());
 }

@@ -1,0 +1,157 @@
+//! The process that serves a database, as a row in it with heartbeats.
+//!
+//! The lock file beside the database prevents a second process, unless it was deleted or the file system has no locks. Then
+//! the row remains: a process that finds one of another process waits for a heartbeat, and refuses to serve if there is one.
+
+use std::path::Path;
+use std::time::Duration;
+
+use sqlx::sqlite::SqlitePool;
+use uuid::Uuid;
+
+use crate::store::sqlite::queries::BEGIN;
+use crate::store::{Store, StoreError};
+
+/// Interval between two heartbeats; each is a small write.
+pub const OWNER_HEARTBEAT: Duration = Duration::from_secs(5);
+/// Longest wait for one, and the interval between two looks.
+const LONGEST_WAIT: Duration = Duration::from_secs(8);
+const LOOK_AGAIN: Duration = Duration::from_millis(200);
+
+/// The row of an owner.
+#[derive(Debug, Clone, PartialEq, Eq)]
+struct Row {
+    id: String,
+    process: String,
+    beats: i64,
+}
+
+/// Becomes the owner of a database, once no other process can be; returns the id of the owner.
+///
+/// # Errors
+/// [`StoreError::Served`] if another process is the owner.
+pub(super) async fn become_owner(writer: &SqlitePool, path: &Path) -> Result<Uuid, StoreError> {
+    let first = row(writer).await?;
+    if let Some(first) = &first
+        && !has_ended(&first.process)
+    {
+        let mut waited = Duration::ZERO;
+        while waited < LONGEST_WAIT {
+            match row(writer).await? {
+                Some(now) if now == *first => {}
+                Some(_) => {
+                    return Err(StoreError::Served {
+                        path: path.to_owned(),
+                        process: first.process.clone(),
+                    });
+                }
+                None => break,
+            }
+            tokio::time::sleep(LOOK_AGAIN).await;
+            waited += LOOK_AGAIN;
+        }
+    }
+    let id = Uuid::now_v7();
+    let mut transaction = writer.begin_with(BEGIN).await?;
+    sqlx::query("INSERT OR REPLACE INTO owner (one, id, process, beats) VALUES (1, ?, ?, 0)")
+        .bind(id.to_string())
+        .bind(this_process())
+        .execute(&mut *transaction)
+        .await?;
+    transaction.commit().await?;
+    Ok(id)
+}
+
+async fn row(pool: &SqlitePool) -> Result<Option<Row>, StoreError> {
+    let row = sqlx::query_as("SELECT id, process, beats FROM owner").fetch_optional(pool);
+    let row: Option<(String, String, i64)> = row.await?;
+    Ok(row.map(|(id, process, beats)| Row { id, process, beats }))
+}
+
+impl Store {
+    /// Writes a heartbeat of this process.
+    ///
+    /// # Errors
+    /// [`StoreError::Served`] if another process has become the owner.
+    pub async fn beat(&self) -> Result<(), StoreError> {
+        let write = async || {
+            let written = sqlx::query("UPDATE owner SET beats = beats + 1 WHERE id = ?")
+                .bind(self.owner.to_string())
+                .execute(&self.writer)
+                .await?;
+            Ok(written.rows_affected())
+        };
+        if self.disk.with_reserve(write).await? > 0 {
+            return Ok(());
+        }
+        let other = row(&self.readers).await?;
+        Err(StoreError::Served {
+            path: self.path.clone(),
+            process: other.map_or_else(String::new, |other| other.process),
+        })
+    }
+
+    /// Gives the database up.
+    pub(super) async fn disown(&self) {
+        // If it fails, the next process finds that this one has ended, or waits for a heartbeat.
+        let _ = sqlx::query("DELETE FROM owner WHERE id = ?")
+            .bind(self.owner.to_string())
+            .execute(&self.writer)
+            .await;
+    }
+}
+
+/// This process: what its numbers refer to (start of the system, namespace of process ids), its number, and its start. Empty
+/// where the system does not tell.
+fn this_process() -> String {
+    let pid = std::process::id();
+    let parts = || Some(format!("{} pid {pid} {}", namespace()?, started(pid)?));
+    parts().unwrap_or_default()
+}
+
+/// Whether a process has certainly ended, or is this one.
+fn has_ended(process: &str) -> bool {
+    let parsed = || {
+        let (space, rest) = process.split_once(" pid ")?;
+        let (pid, start) = rest.split_once(' ')?;
+        Some((space, pid.parse::<u32>().ok()?, start))
+    };
+    let Some((space, pid, start)) = parsed() else {
+        return false;
+    };
+    let is_visible = namespace().is_some_and(|own| own == space);
+    is_visible && (pid == std::process::id() || started(pid).is_none_or(|found| found != start))
+}
+
+/// What process numbers refer to.
+fn namespace() -> Option<String> {
+    let boot = std::fs::read_to_string("/proc/sys/kernel/random/boot_id").ok()?;
+    let space = std::fs::read_link("/proc/self/ns/pid").ok()?;
+    Some(format!("{} {}", boot.trim(), space.display()))
+}
+
+/// Start of a process in clock ticks since the start of the system: field 22 of `/proc/PID/stat` (proc(5)), where the name in
+/// the second one may have spaces.
+fn started(pid: u32) -> Option<String> {
+    let stat = std::fs::read_to_string(format!("/proc/{pid}/stat")).ok()?;
+    let (_, after_name) = stat.rsplit_once(") ")?;
+    after_name.split(' ').nth(19).map(str::to_owned)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_processes_that_this_one_could_see_are_known_to_have_ended() {
+        let own = this_process();
+        assert!(has_ended(&own), "{own}");
+        let (space, _) = own.split_once(" pid ").expect("Linux");
+        assert!(has_ended(&format!("{space} pid {} 1", i32::MAX)));
+        assert!(has_ended(&format!("{space} pid 1 0")), "another start");
+        let init = started(1).expect("a process");
+        assert!(!has_ended(&format!("{space} pid 1 {init}")));
+        assert!(!has_ended("another system pid 1 0"));
+        assert!(!has_ended(""));
+    }
+}
