@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
+use crate::problem::Fault;
 use crate::spec::Spec;
 
 /// Whether an effect is simulated, with the reason.
@@ -25,6 +26,9 @@ pub struct Plan {
     /// memory, output, computed cycles, increments, and processor seconds (`cpu_s`), which are absent until the machine
     /// is calibrated and if that fails.
     pub estimates: BTreeMap<String, f64>,
+    /// Values that were probably written in another unit than that of their field. They are accepted as they are.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub warnings: Vec<Fault>,
     /// Contradictions in the source of the presets that concern this specification.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub notes: Vec<String>,

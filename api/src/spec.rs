@@ -3,6 +3,7 @@
 //! Only `system.kind` is required; everything else has a default from the system's preset. Variants are selected by
 //! `kind` or `law` within one flat object, so that every fault has its JSON pointer.
 
+mod count;
 mod interface;
 mod load;
 mod materials;
@@ -69,7 +70,11 @@ pub struct Spec {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub motion: Option<Motion>,
     /// Number of cycles of a reciprocating motion.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(
+        default,
+        skip_serializing_if = "Option::is_none",
+        deserialize_with = "count::optional"
+    )]
     pub cycles: Option<u64>,
     /// Physical effects by name.
     #[serde(

@@ -5,6 +5,7 @@
 //! meshed; nothing is meshed or estimated.
 
 mod accuracy;
+mod cause;
 mod diagnostics;
 mod effects;
 mod law;
@@ -12,8 +13,11 @@ mod load;
 mod materials;
 mod motion;
 mod output;
+mod repair;
 mod sourced;
+mod suggestion;
 mod system;
+mod unit;
 
 use std::collections::BTreeMap;
 
@@ -42,6 +46,8 @@ pub struct Resolved {
     pub scene: Scene,
     /// Its mesh lines, which show that it can be meshed.
     pub layout: Layout,
+    /// Values that were probably written in another unit.
+    pub warnings: Vec<Fault>,
 }
 
 /// Reason for which a submitted document is refused.
@@ -60,7 +66,14 @@ pub enum Refused {
 /// # Errors
 /// [`Refused`] with the pointer of every fault.
 pub fn read(bytes: &[u8]) -> Result<Resolved, Refused> {
-    let (spec, unknown) = Spec::read(bytes)?;
+    let (spec, mut unknown) = match Spec::read(bytes) {
+        Ok(read) => read,
+        Err(error) => {
+            let faults = |spec: &Spec| resolve(spec).err().unwrap_or_default();
+            return Err(Refused::Parse(repair::with_others(error, bytes, faults)));
+        }
+    };
+    suggestion::suggest_fields(&mut unknown);
     match resolve(&spec) {
         Ok(resolved) if unknown.is_empty() => Ok(resolved),
         Ok(_) => Err(Refused::Faults(unknown)),
@@ -82,17 +95,39 @@ pub fn resolve(spec: &Spec) -> Result<Resolved, Vec<Fault>> {
     if !diagnostics.is_clean() {
         return Err(diagnostics.into_faults());
     }
-    effects::check(&spec.effects, &scene, &mut diagnostics);
-    let Some(layout) = accuracy::layout(&scene, &mut diagnostics) else {
-        return Err(diagnostics.into_faults());
+    let strains_cause = || {
+        cause::of_fault(spec, kind, "/load", |spec| {
+            scene_of(spec, kind)
+                .is_some_and(|scene| effects::has_small_strains(&spec.effects, &scene))
+        })
     };
+    effects::check(&spec.effects, &scene, strains_cause, &mut diagnostics);
+    let layout = match Layout::of(&scene) {
+        Ok(layout) => layout,
+        Err(error) => {
+            let pointer = cause::of_fault(spec, kind, "/system", |spec| {
+                scene_of(spec, kind).is_some_and(|scene| Layout::of(&scene).is_ok())
+            });
+            diagnostics.fault(&pointer, error.to_string());
+            return Err(diagnostics.into_faults());
+        }
+    };
+    let warnings = diagnostics.warnings().to_vec();
     filled.provenance = diagnostics.finish()?;
     Ok(Resolved {
         spec: filled,
         kind,
         scene,
         layout,
+        warnings,
     })
+}
+
+/// The scene of a specification without faults.
+fn scene_of(spec: &Spec, kind: SystemKind) -> Option<Scene> {
+    let mut diagnostics = Diagnostics::default();
+    let (_, scene) = fill(spec, kind, &mut diagnostics);
+    diagnostics.is_clean().then_some(scene)
 }
 
 /// The specification with every default filled in, and its scene.

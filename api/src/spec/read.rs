@@ -20,6 +20,8 @@ pub struct ParseError {
     pub line: usize,
     /// Column, from 1.
     pub column: usize,
+    /// Other faults of the document.
+    pub others: Vec<Fault>,
 }
 
 impl Spec {
@@ -104,6 +106,7 @@ fn parse_error(error: &serde_json::Error, pointer: &str) -> ParseError {
         detail,
         line: error.line(),
         column: error.column(),
+        others: Vec::new(),
     }
 }
 

@@ -4,6 +4,7 @@ use serde::de::{Unexpected, Visitor};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use utoipa::ToSchema;
 
+use super::count;
 use crate::enum_value::{EnumValue, string_enum};
 
 string_enum! {
@@ -60,7 +61,11 @@ pub struct Overrides {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub contact_element_mm: Option<f64>,
     /// Increments per computed cycle.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(
+        default,
+        skip_serializing_if = "Option::is_none",
+        deserialize_with = "count::optional"
+    )]
     pub increments_per_cycle: Option<u32>,
     /// Physical cycles per computed cycle.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -115,6 +120,12 @@ impl Visitor<'_> for CycleJumpVisitor {
             .map(CycleJump::Fixed)
             .map_err(|_| E::invalid_value(Unexpected::Signed(count), &self))
     }
+
+    fn visit_f64<E: serde::de::Error>(self, count: f64) -> Result<CycleJump, E> {
+        count::integer(count)
+            .map(CycleJump::Fixed)
+            .ok_or_else(|| E::invalid_value(Unexpected::Float(count), &self))
+    }
 }
 
 impl<'de> Deserialize<'de> for CycleJump {
@@ -130,7 +141,11 @@ pub struct Output {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub stations_mm: Option<Vec<f64>>,
     /// Cycles at which profile, pressure and friction loop are recorded.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(
+        default,
+        skip_serializing_if = "Option::is_none",
+        deserialize_with = "count::optional_list"
+    )]
     pub snapshots_at_cycles: Option<Vec<u64>>,
     /// Sliding distances at which they are recorded, mm; for continuous motion.
     #[serde(skip_serializing_if = "Option::is_none")]

@@ -160,7 +160,11 @@ fn vary(base: &Value, preset: &Value, overrides: &Changes) -> Result<Resolved, V
     // A document that was read can be serialized.
     let bytes = serde_json::to_vec(&document).unwrap_or_default();
     crate::spec::read(&bytes).map_err(|refused| match refused {
-        Refused::Parse(error) => vec![Fault::new(error.pointer, error.detail)],
+        Refused::Parse(error) => {
+            let mut faults = vec![Fault::new(error.pointer, error.detail)];
+            faults.extend(error.others);
+            faults
+        }
         Refused::Faults(faults) => faults,
     })
 }

@@ -34,6 +34,7 @@ pub(in crate::batch) fn read<T: DeserializeOwned>(bytes: &[u8]) -> Result<T, Ref
             detail,
             line: error.line(),
             column: error.column(),
+            others: Vec::new(),
         })
     })
 }

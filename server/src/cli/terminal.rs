@@ -49,10 +49,12 @@ pub(super) fn failed_at(path: &Path, cause: &std::io::Error) -> ExitCode {
 /// Reports a refused specification with all its faults; returns its exit code.
 pub(super) fn refused(refused: &Refused) -> ExitCode {
     write_err(format_args!("fretwear: {refused}"));
-    if let Refused::Faults(faults) = refused {
-        for Fault { pointer, detail } in faults {
-            write_err(format_args!("  {pointer}: {detail}"));
-        }
+    let faults = match refused {
+        Refused::Parse(error) => &error.others,
+        Refused::Faults(faults) => faults,
+    };
+    for Fault { pointer, detail } in faults {
+        write_err(format_args!("  {pointer}: {detail}"));
     }
     ExitCode::from(REFUSED)
 }
@@ -60,7 +62,11 @@ pub(super) fn refused(refused: &Refused) -> ExitCode {
 /// Reads and resolves the specification in a file; reports a failure and returns its exit code.
 pub(super) fn specification(path: &Path) -> Result<Resolved, ExitCode> {
     let bytes = std::fs::read(path).map_err(|cause| failed_at(path, &cause))?;
-    spec::read(&bytes).map_err(|error| refused(&error))
+    let resolved = spec::read(&bytes).map_err(|error| refused(&error))?;
+    for Fault { pointer, detail } in &resolved.warnings {
+        write_err(format_args!("fretwear: warning: {pointer}: {detail}"));
+    }
+    Ok(resolved)
 }
 
 /// The same, with a folder for the results. The folder is created before the solve, so that a failure to create it does

@@ -27,6 +27,7 @@ impl Estimate {
                 .into_iter()
                 .map(|(name, value)| (name.to_owned(), value))
                 .collect(),
+            warnings: resolved.warnings.clone(),
             notes: notes::notes(resolved),
         }
     }

@@ -161,10 +161,11 @@ impl From<Refused> for ProblemResponse {
         match refused {
             Refused::Parse(error) => {
                 let detail = error.to_string();
-                let fault = Fault::new(error.pointer, error.detail);
+                let mut faults = vec![Fault::new(error.pointer, error.detail)];
+                faults.extend(error.others);
                 ProblemType::UNREADABLE_BODY
                     .with_detail(detail)
-                    .with_faults(vec![fault])
+                    .with_faults(faults)
             }
             Refused::Faults(faults) => ProblemType::INVALID_SPECIFICATION
                 .with_detail(format!("{} fault(s) in the specification", faults.len()))

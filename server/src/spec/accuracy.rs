@@ -3,9 +3,7 @@
 use std::ops::RangeInclusive;
 
 use api::spec::{Accuracy, CycleJump, Overrides, Preset, Provenance};
-use solver::model::Layout;
 use solver::scene;
-use solver::scene::Scene;
 
 use crate::spec::diagnostics::{Diagnostics, shortened};
 use crate::spec::sourced::assumed;
@@ -63,17 +61,6 @@ pub(crate) fn resolve(
         ..scene::Accuracy::from_tolerance(tolerance)
     };
     (filled, numerical)
-}
-
-/// Places the mesh lines of a scene; adds a fault if there are too many or the bodies cannot be meshed.
-pub(crate) fn layout(scene: &Scene, diagnostics: &mut Diagnostics) -> Option<Layout> {
-    let pointer = match scene.accuracy.contact_element_mm {
-        Some(_) => CONTACT_ELEMENT,
-        None => "/system",
-    };
-    Layout::of(scene)
-        .inspect_err(|error| diagnostics.fault(pointer, error.to_string()))
-        .ok()
 }
 
 fn preset_tolerance(preset: Preset) -> f64 {

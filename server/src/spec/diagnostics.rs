@@ -1,4 +1,4 @@
-//! Diagnostics of a resolution: faults, and the provenance of each value.
+//! Diagnostics of a resolution: faults, warnings, and the provenance of each value.
 
 use std::collections::BTreeMap;
 use std::ops::RangeInclusive;
@@ -9,16 +9,19 @@ use serde::Serialize;
 use serde_json::Value;
 
 use crate::spec::sourced::Sourced;
+use crate::spec::suggestion::did_you_mean;
+use crate::spec::unit::Typical;
 
 pub(crate) use crate::text::shortened;
 
 /// Longest accepted name, characters.
 pub(crate) const NAME_LIMIT: usize = 200;
 
-/// Faults and provenance, by JSON pointer.
+/// Faults, warnings and provenance, by JSON pointer.
 #[derive(Debug, Default)]
 pub(crate) struct Diagnostics {
     faults: Vec<Fault>,
+    warnings: Vec<Fault>,
     provenance: BTreeMap<String, Provenance>,
 }
 
@@ -66,6 +69,18 @@ impl Diagnostics {
             self.fault(pointer, format!("{value} is outside {from} to {to}"));
         }
         value
+    }
+
+    /// Adds a warning if a given value was probably written in another unit than that of its field.
+    pub(crate) fn check_unit(&mut self, pointer: &str, given: Option<f64>, typical: &Typical) {
+        let likely = given.and_then(|value| typical.likely_unit(value));
+        self.warnings
+            .extend(likely.map(|detail| Fault::new(pointer, detail)));
+    }
+
+    /// All warnings.
+    pub(crate) fn warnings(&self) -> &[Fault] {
+        &self.warnings
     }
 
     /// Adds a fault if the value is neither 0 nor in the range; returns the value in any case.
@@ -128,8 +143,9 @@ impl Diagnostics {
             EnumValue::Known(member) => Some(*member),
             EnumValue::Unknown(text) => {
                 let members = T::NAMES.join(", ");
+                let meant = did_you_mean(text, T::NAMES.iter().copied());
                 let text = shortened(text);
-                self.fault(pointer, format!("`{text}` is not one of {members}"));
+                self.fault(pointer, format!("`{text}` is not one of {members}{meant}"));
                 None
             }
         }
@@ -172,9 +188,17 @@ impl Diagnostics {
         self.faults.is_empty()
     }
 
-    /// All faults.
+    /// All faults, and the warnings: a value in another unit may be the cause of a fault elsewhere.
     pub(crate) fn into_faults(self) -> Vec<Fault> {
-        self.faults
+        let Self {
+            mut faults,
+            warnings,
+            ..
+        } = self;
+        let is_new = |warning: &Fault| faults.iter().all(|fault| fault.pointer != warning.pointer);
+        let warnings: Vec<_> = warnings.into_iter().filter(is_new).collect();
+        faults.extend(warnings);
+        faults
     }
 
     /// The provenance of all values, or all faults if there are any.
@@ -182,7 +206,7 @@ impl Diagnostics {
         if self.faults.is_empty() {
             Ok(self.provenance)
         } else {
-            Err(self.faults)
+            Err(self.into_faults())
         }
     }
 }

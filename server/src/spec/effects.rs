@@ -7,6 +7,7 @@ use solver::effects::{Effect, SMALL_STRAIN_LIMIT};
 use solver::scene::Scene;
 
 use crate::spec::diagnostics::{Diagnostics, shortened};
+use crate::spec::suggestion::did_you_mean;
 
 /// Effects that the engine simulates.
 const AVAILABLE: [Effect; 5] = [
@@ -38,9 +39,10 @@ pub(crate) fn resolve(given: &Switches, diagnostics: &mut Diagnostics) {
             let names = AVAILABLE.iter().map(|effect| effect.name());
             let names: Vec<_> = names.chain(PLANNED).collect();
             let detail = format!(
-                "`{}` is no effect; effects are {}",
+                "`{}` is no effect; effects are {}{}",
                 shortened(name),
-                names.join(", ")
+                names.join(", "),
+                did_you_mean(name, names.iter().copied())
             );
             diagnostics.fault(&pointer, detail);
             continue;
@@ -60,10 +62,32 @@ pub(crate) fn resolve(given: &Switches, diagnostics: &mut Diagnostics) {
     }
 }
 
-/// Checks a scene against the switches.
-pub(crate) fn check(given: &Switches, scene: &Scene, diagnostics: &mut Diagnostics) {
+/// Checks a scene against the switches. `cause` is the pointer of the field that causes strains beyond the limit.
+pub(crate) fn check(
+    given: &Switches,
+    scene: &Scene,
+    cause: impl FnOnce() -> String,
+    diagnostics: &mut Diagnostics,
+) {
     check_forced(given, scene, diagnostics);
-    check_small_strains(given, scene, diagnostics);
+    if has_small_strains(given, scene) {
+        return;
+    }
+    let detail = format!(
+        "the contact would be strained so much that small-strain elasticity would miss the peak pressure by {:.1} % (limit \
+         {:.0} %), and finite strains are not available; lower the load or enlarge the radius, or accept it with \
+         `effects.{}`: `off`",
+        100.0 * solver::effects::small_strain_cost(scene),
+        100.0 * SMALL_STRAIN_LIMIT,
+        Effect::GeometricNonlinearity.name()
+    );
+    diagnostics.fault(&cause(), detail);
+}
+
+/// Whether the strains of the contact are within the range of small-strain theory, or accepted by `off`.
+pub(crate) fn has_small_strains(given: &Switches, scene: &Scene) -> bool {
+    let accepted = switch(given, Effect::GeometricNonlinearity) == Some(Switch::Off);
+    accepted || solver::effects::small_strain_cost(scene) <= SMALL_STRAIN_LIMIT
 }
 
 /// Adds a fault for each effect that is switched on and has nothing to simulate in the scene.
@@ -75,22 +99,6 @@ fn check_forced(given: &Switches, scene: &Scene, diagnostics: &mut Diagnostics) 
             let detail = format!("cannot be on: {}", decision.reason);
             diagnostics.fault(&format!("/effects/{name}"), detail);
         }
-    }
-}
-
-/// Adds a fault if the strains of the contact are beyond the range of small-strain theory; `off` accepts them.
-fn check_small_strains(given: &Switches, scene: &Scene, diagnostics: &mut Diagnostics) {
-    let accepted = switch(given, Effect::GeometricNonlinearity) == Some(Switch::Off);
-    let error = solver::effects::small_strain_cost(scene);
-    if error > SMALL_STRAIN_LIMIT && !accepted {
-        let detail = format!(
-            "strains the contact so much that small-strain elasticity would miss the peak pressure by {:.1} % (limit \
-             {:.0} %) and finite strains are not available; lower the load, or accept it with `effects.{}`: `off`",
-            100.0 * error,
-            100.0 * SMALL_STRAIN_LIMIT,
-            Effect::GeometricNonlinearity.name()
-        );
-        diagnostics.fault("/load", detail);
     }
 }
 

@@ -6,6 +6,7 @@ use api::spec::{Load, LoadKind, Provenance};
 
 use crate::spec::diagnostics::Diagnostics;
 use crate::spec::system::{Preset, Shapes};
+use crate::spec::unit;
 
 /// MPa on the top face.
 const PRESSURE_MPA: RangeInclusive<f64> = 1e-9..=1e6;
@@ -15,6 +16,8 @@ const LINE_FORCE_N_PER_MM: RangeInclusive<f64> = 1e-9..=1e6;
 const FORCE_N: RangeInclusive<f64> = 1e-9..=1e7;
 /// mm.
 const WIDTH_MM: RangeInclusive<f64> = 1e-6..=1e4;
+/// Width of a contact that carries a force, mm: that of contact springs.
+const TYPICAL_WIDTH_MM: f64 = 1.0;
 /// N per mm of deflection.
 const SPRING_N_PER_MM: RangeInclusive<f64> = 0.0..=1e9;
 
@@ -43,12 +46,19 @@ pub(crate) fn resolve(
         return (load, LineLoad::default());
     };
     let mut required = |field: &str, value: Option<f64>, range: RangeInclusive<f64>| {
+        let typical = match kind {
+            _ if field == "width_mm" => unit::length_mm(TYPICAL_WIDTH_MM),
+            LoadKind::Pressure => unit::PRESSURE_MPA,
+            LoadKind::LineForce => unit::LINE_FORCE_N_PER_MM,
+            LoadKind::Force => unit::FORCE_N,
+        };
         let pointer = format!("/load/{field}");
         let Some(value) = value else {
             diagnostics.missing(&pointer, &format!("`{}` needs it", kind.as_str()));
             return 0.0;
         };
         diagnostics.provenance(&pointer, provenance);
+        diagnostics.check_unit(&pointer, Some(value), &typical);
         diagnostics.check_range(&pointer, value, &range)
     };
     let (fields, n_per_mm): (&[&str], f64) = match kind {

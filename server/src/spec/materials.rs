@@ -9,7 +9,9 @@ use solver::sides::Sides;
 use crate::reference::materials::LibraryMaterial;
 use crate::spec::diagnostics::{Diagnostics, NAME_LIMIT, shortened};
 use crate::spec::sourced::Sourced;
+use crate::spec::suggestion::did_you_mean;
 use crate::spec::system::Preset;
+use crate::spec::unit::{self, Typical};
 
 /// From soft gels to far beyond diamond (1.1e6 MPa), MPa.
 const YOUNGS_MODULUS_MPA: RangeInclusive<f64> = 1e-3..=1e8;
@@ -78,9 +80,11 @@ fn from_library(
     diagnostics: &mut Diagnostics,
 ) -> MaterialProperties {
     let Some(material) = LibraryMaterial::named(name) else {
-        let (name, known) = (shortened(name), LibraryMaterial::names().join(", "));
+        let known = LibraryMaterial::names().join(", ");
+        let meant = did_you_mean(name, LibraryMaterial::names().iter().copied());
+        let name = shortened(name);
         let detail = format!(
-            "`{name}` is not in the material library ({known}); write an object with its properties instead"
+            "`{name}` is not in the material library ({known}){meant}; write an object with its properties instead"
         );
         diagnostics.fault(pointer, detail);
         return MaterialProperties::default();
@@ -115,6 +119,9 @@ fn from_properties(
             Some(value) => {
                 diagnostics.provenance(&pointer, Provenance::Given);
                 diagnostics.check_range(&pointer, value, &range(field));
+                if let Some(typical) = typical(field) {
+                    diagnostics.check_unit(&pointer, Some(value), &typical);
+                }
             }
             None if required => {
                 diagnostics.missing(&pointer, "a material written as an object states it");
@@ -132,6 +139,14 @@ fn range(field: &str) -> RangeInclusive<f64> {
         "hardness_mpa" => HARDNESS_MPA,
         "thermal_expansion_per_k" => THERMAL_EXPANSION_PER_K,
         _ => POSITIVE,
+    }
+}
+
+fn typical(field: &str) -> Option<Typical> {
+    match field {
+        "youngs_modulus_mpa" => Some(unit::YOUNGS_MODULUS_MPA),
+        "hardness_mpa" => Some(unit::HARDNESS_MPA),
+        _ => None,
     }
 }
 

@@ -9,6 +9,7 @@ use crate::number::real;
 use crate::spec::diagnostics::Diagnostics;
 use crate::spec::sourced::assumed;
 use crate::spec::system::Preset;
+use crate::spec::unit;
 
 /// mm; from below an atom to far beyond any contact. 0 is accepted too: no motion.
 const AMPLITUDE_MM: RangeInclusive<f64> = 1e-9..=1e4;
@@ -123,6 +124,8 @@ fn reciprocating(given: &Motion, preset: &Preset, diagnostics: &mut Diagnostics)
     let amplitude_mm =
         diagnostics.or_default("/motion/amplitude_mm", amplitude, preset.amplitude_mm);
     diagnostics.check_zero_or_range("/motion/amplitude_mm", amplitude_mm, &AMPLITUDE_MM);
+    let typical = unit::amplitude_mm(preset.amplitude_mm.value);
+    diagnostics.check_unit("/motion/amplitude_mm", amplitude, &typical);
     let mut spec = Motion {
         waveform: Some(waveform.into()),
         drive: Some(drive.into()),
@@ -156,6 +159,8 @@ fn period(
             diagnostics.provenance("/motion/frequency_hz", Provenance::Given);
             filled.frequency_hz = Some(frequency_hz);
             diagnostics.check_range("/motion/frequency_hz", frequency_hz, &FREQUENCY_HZ);
+            let typical = &unit::FREQUENCY_HZ;
+            diagnostics.check_unit("/motion/frequency_hz", Some(frequency_hz), typical);
             1.0 / frequency_hz
         }
         (period_s, None) => {

@@ -15,6 +15,7 @@ use std::ops::RangeInclusive;
 use api::spec::{Provenance, System, SystemKind};
 
 use crate::spec::diagnostics::Diagnostics;
+use crate::spec::unit::length_mm;
 
 use definition::SystemDefinition;
 pub(crate) use preset::{ArchardPreset, Preset};
@@ -48,6 +49,9 @@ pub(crate) fn resolve(
         let value = match *(dimension.field)(&mut given) {
             Some(value) => {
                 diagnostics.provenance(&pointer, Provenance::Given);
+                if let Some(default) = (dimension.default)(&System::of_kind(kind)) {
+                    diagnostics.check_unit(&pointer, Some(value), &length_mm(default));
+                }
                 Some(diagnostics.check_range(&pointer, value, &LENGTH_MM))
             }
             // A default computed from a faulty dimension is no fault of its own.

@@ -323,3 +323,120 @@ fn a_continuous_motion_refuses_the_fields_of_a_reciprocating_one() {
     ];
     assert_eq!(pointers, expected);
 }
+
+#[test]
+fn one_wrong_type_does_not_hide_the_other_faults() {
+    let text = r#"{"system":{"kind":"fuzz_button","wire_diameter_mm":"big","pcb_length_mm":-1},
+        "materials":{"slider":"coper"},"motion":{"kind":"reciprocating","amplitude_mm":[],"amplitude_um":3},
+        "cycels":5,"output":{"stations_mm":[0,"a"]},"labels":{"a/b":7}}"#;
+    let Err(Refused::Parse(error)) = read(text.as_bytes()) else {
+        panic!("it has values of wrong types");
+    };
+    assert_eq!(error.pointer, "/system/wire_diameter_mm");
+    let found: Vec<_> = error.others.iter().map(|f| f.pointer.as_str()).collect();
+    let expected = [
+        "/motion/amplitude_mm",
+        "/output/stations_mm/1",
+        "/labels/a~1b",
+        "/motion/amplitude_um",
+        "/cycels",
+        "/system/pcb_length_mm",
+        "/materials/slider",
+    ];
+    for pointer in expected {
+        assert!(found.contains(&pointer), "{pointer}: {found:?}");
+    }
+    assert_eq!(found.len(), expected.len(), "{found:?}");
+}
+
+#[test]
+fn mistyped_names_are_answered_with_a_suggestion() {
+    for (text, words) in [
+        (
+            r#"{"system":{"kind":"fuzzbutton"}}"#,
+            "did you mean `fuzz_button`?",
+        ),
+        (
+            r#"{"system":{"kind":"dimm"},"cycels":5}"#,
+            "unknown field `cycels`; did you mean `cycles`?",
+        ),
+        (
+            r#"{"system":{"kind":"dimm"},"motion":{"kind":"reciprocating","amplitude_um":5}}"#,
+            "did you mean `amplitude_mm`?",
+        ),
+        (
+            r#"{"system":{"kind":"dimm"},"materials":{"slider":"coper"}}"#,
+            "did you mean `copper`?",
+        ),
+        (
+            r#"{"system":{"kind":"dimm"},"effects":{"frictoin":"on"}}"#,
+            "did you mean `friction`?",
+        ),
+    ] {
+        let found = faults(text);
+        assert!(
+            found.iter().any(|fault| fault.detail.contains(words)),
+            "{found:?}"
+        );
+    }
+}
+
+#[test]
+fn a_value_in_another_unit_is_accepted_with_a_warning() {
+    let resolved = accepted(r#"{"system":{"kind":"fuzz_button","wire_diameter_mm":50.8}}"#);
+    let warnings = &resolved.warnings;
+    assert_eq!(warnings.len(), 1, "{warnings:?}");
+    assert_eq!(warnings[0].pointer, "/system/wire_diameter_mm");
+    assert!(warnings[0].detail.contains("in um?"), "{warnings:?}");
+    let plan = Estimate::of(&resolved).plan(&resolved, None);
+    assert_eq!(&plan.warnings, warnings);
+    for kind in SystemKind::ALL {
+        let resolved = accepted(&format!(r#"{{"system":{{"kind":"{}"}}}}"#, kind.as_str()));
+        assert_eq!(resolved.warnings, []);
+        let again = serde_json::to_string(&resolved.spec).expect("writable");
+        assert_eq!(accepted(&again).warnings, []);
+    }
+    assert_eq!(accepted(FUZZ_BUTTON).warnings, []);
+}
+
+#[test]
+fn a_refusal_names_values_in_another_unit_too() {
+    let text = r#"{"system":{"kind":"fuzz_button"},
+        "materials":{"slider":{"youngs_modulus_mpa":117,"poisson_ratio":0.34}}}"#;
+    let found = pointers(text);
+    assert!(
+        found.iter().any(|pointer| pointer == "/materials"),
+        "{found:?}"
+    );
+    let unit = found
+        .iter()
+        .any(|pointer| pointer == "/materials/slider/youngs_modulus_mpa");
+    assert!(unit, "{found:?}");
+}
+
+#[test]
+fn a_fault_of_the_whole_scene_names_the_field_that_causes_it() {
+    for (fields, pointer) in [
+        (
+            r#""system":{"kind":"cylinder_on_flat"},"load":{"kind":"line_force","n_per_mm":1e-7}"#,
+            "/load",
+        ),
+        (
+            r#""system":{"kind":"cylinder_on_flat","radius_mm":0.001}"#,
+            "/system/radius_mm",
+        ),
+        (
+            r#""system":{"kind":"fuzz_button"},"materials":{"slider":{"youngs_modulus_mpa":900,"poisson_ratio":0.3}}"#,
+            "/materials",
+        ),
+        (
+            r#""system":{"kind":"fuzz_button"},"load":{"kind":"pressure","mpa":40}"#,
+            "/load",
+        ),
+    ] {
+        let Err(Refused::Faults(found)) = read(format!("{{{fields}}}").as_bytes()) else {
+            panic!("{pointer}");
+        };
+        assert_eq!(found[0].pointer, pointer, "{found:?}");
+    }
+}

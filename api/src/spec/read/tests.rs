@@ -1,7 +1,7 @@
 //! Pointers of faults in parsing.
 
 use super::*;
-use crate::spec::{Material, SystemKind};
+use crate::spec::{CycleJump, Material, SystemKind};
 
 fn unknown(text: &str) -> Vec<String> {
     let (_, faults) = Spec::read(text.as_bytes()).expect("readable");
@@ -85,6 +85,28 @@ fn wrong_types_name_their_pointer() {
     for (text, pointer) in cases {
         assert_eq!(refused(text).pointer, pointer, "{text}");
     }
+}
+
+#[test]
+fn counts_may_be_written_as_numbers_without_a_fraction() {
+    let text = r#"{"system":{"kind":"dimm"},"cycles":1e9,
+        "accuracy":{"overrides":{"cycle_jump":2.0,"increments_per_cycle":4e1}},
+        "output":{"snapshots_at_cycles":[1, 1e3]}}"#;
+    let (spec, _) = Spec::read(text.as_bytes()).expect("readable");
+    assert_eq!(spec.cycles, Some(1_000_000_000));
+    let overrides = spec.accuracy.overrides.expect("given");
+    assert_eq!(overrides.increments_per_cycle, Some(40));
+    assert_eq!(overrides.cycle_jump, Some(CycleJump::Fixed(2)));
+    assert_eq!(spec.output.snapshots_at_cycles, Some(vec![1, 1000]));
+    for cycles in ["1.5", "-1.0", "1e300", "\"7\"", "true"] {
+        let text = format!(r#"{{"system":{{"kind":"dimm"}},"cycles":{cycles}}}"#);
+        assert_eq!(refused(&text).pointer, "/cycles", "{cycles}");
+    }
+    let text = r#"{"system":{"kind":"dimm"},"output":{"snapshots_at_cycles":[1, 1.5]}}"#;
+    assert_eq!(refused(text).pointer, "/output/snapshots_at_cycles/1");
+    let text =
+        r#"{"system":{"kind":"dimm"},"accuracy":{"overrides":{"increments_per_cycle":1e10}}}"#;
+    assert!(refused(text).detail.contains("a smaller count"));
 }
 
 #[test]

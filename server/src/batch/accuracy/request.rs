@@ -73,6 +73,9 @@ fn of_base(refused: Refused) -> Refused {
     match refused {
         Refused::Parse(mut error) => {
             error.pointer.insert_str(0, "/base");
+            for fault in &mut error.others {
+                fault.pointer.insert_str(0, "/base");
+            }
             Refused::Parse(error)
         }
         Refused::Faults(mut faults) => {

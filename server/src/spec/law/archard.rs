@@ -9,6 +9,7 @@ use crate::spec::diagnostics::Diagnostics;
 use crate::spec::law::wearing_side::WearingSide;
 use crate::spec::materials::HARDNESS_MPA;
 use crate::spec::system::ArchardPreset;
+use crate::spec::unit;
 
 /// The fields of the law.
 const FIELDS: [&str; 4] = ["law", "k", "hardness_mpa", "k_over_h_per_mpa"];
@@ -42,6 +43,7 @@ pub(super) fn resolve(
             }
             let pointer = side.field("k_over_h_per_mpa");
             diagnostics.provenance(&pointer, Provenance::Given);
+            diagnostics.check_unit(&pointer, Some(ratio), &unit::K_OVER_H_PER_MPA);
             Some(diagnostics.check_range(&pointer, ratio, &K_OVER_H_PER_MPA))
         }
         (Some(k), None) => {
@@ -61,6 +63,7 @@ fn hardness(side: &WearingSide<'_>, given: &WearLaw, diagnostics: &mut Diagnosti
     match (given.hardness_mpa, side.hardness_mpa()) {
         (Some(hardness), _) => {
             diagnostics.provenance(&pointer, Provenance::Given);
+            diagnostics.check_unit(&pointer, Some(hardness), &unit::HARDNESS_MPA);
             Some(diagnostics.check_range(&pointer, hardness, &HARDNESS_MPA))
         }
         (None, Some(hardness)) => {
