@@ -161,10 +161,7 @@ pub fn main() -> ExitCode {
         Command::Verify { database } => backup::run_verify(&database),
         Command::Restore { from, database } => backup::run_restore(&from, &database),
         Command::SolveChild(arguments) => child::run(&arguments),
-        Command::Openapi => {
-            terminal::write_out(crate::http::openapi::text().trim_end());
-            Ok(())
-        }
+        Command::Openapi => terminal::write_out(crate::http::openapi::text().trim_end()),
     };
     ended.err().unwrap_or(ExitCode::SUCCESS)
 }

@@ -1,7 +1,9 @@
 //! Requirement: `fretwear solve` runs the published fretting case and writes the files that the contract names.
 
+use std::process::Command;
+
 use serde_json::Value;
-use tests::{fretwear, spec};
+use tests::{binary, fretwear, spec};
 
 /// Cycles and the depths of the flat that two published codes give, um.
 const REFERENCE: [(u64, f64); 4] = [
@@ -93,4 +95,28 @@ fn the_smallest_specification_is_enough() {
             .expect("a depth")
             > 0.0
     );
+}
+
+#[test]
+fn results_that_cannot_be_written_are_a_failure() {
+    let full = std::fs::File::options().write(true).open("/dev/full");
+    let full = full.expect("Linux has it");
+    let folder = tempfile::tempdir().expect("a folder can be made");
+    let spec = folder.path().join("spec.json");
+    let text = r#"{"system":{"kind":"cylinder_on_flat"},"cycles":2,"accuracy":{"preset":"draft"}}"#;
+    std::fs::write(&spec, text).expect("written");
+    for command in ["solve", "plan", "export"] {
+        let ran = Command::new(binary())
+            .arg(command)
+            .arg(&spec)
+            .stdout(full.try_clone().expect("a handle"))
+            .output()
+            .expect("it can be started");
+        assert_eq!(ran.status.code(), Some(1), "{command}");
+        let said = String::from_utf8_lossy(&ran.stderr);
+        assert!(
+            said.contains("fretwear: standard output: "),
+            "{command}: {said}"
+        );
+    }
 }

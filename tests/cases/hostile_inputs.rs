@@ -154,6 +154,12 @@ async fn path_traversal_is_answered_with_404() {
         b"",
     );
     assert!(line.contains(" 403 "), "{line}");
+    for hosts in ["", "host: 127.0.0.1\r\nhost: 127.0.0.1\r\n"] {
+        let line = raw(&server, &format!("GET / HTTP/1.1\r\n{hosts}\r\n"), b"");
+        assert!(line.contains(" 400 "), "{hosts}: {line}");
+    }
+    let line = raw(&server, "GET /healthz HTTP/1.0\r\n\r\n", b"");
+    assert!(line.contains(" 200 "), "{line}");
 }
 
 #[tokio::test]

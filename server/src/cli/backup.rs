@@ -36,11 +36,11 @@ fn report(
         damaged,
     } = done.map_err(failed)?;
     for file in &damaged {
-        write_out(format_args!("damaged: {file}"));
+        write_out(format_args!("damaged: {file}"))?;
     }
     write_out(format_args!(
         "{jobs} jobs and {files} files of {file_bytes} bytes {what}"
-    ));
+    ))?;
     Ok(damaged.len())
 }
 

@@ -15,8 +15,7 @@ use crate::export::markdown;
 
 pub(super) fn run(arguments: &BenchArguments) -> Ended {
     if arguments.predictions {
-        write_out(compare(&arguments.tolerances).map_err(failed)?);
-        return Ok(());
+        return write_out(compare(&arguments.tolerances).map_err(failed)?);
     }
     if arguments.against.is_some() {
         return against_ccx(&arguments.elements_um);
@@ -30,8 +29,7 @@ pub(super) fn run(arguments: &BenchArguments) -> Ended {
             table.add_row([what, size, time(cpu_s)]);
         }
     }
-    write_out(table);
-    Ok(())
+    write_out(table)
 }
 
 fn time(seconds: f64) -> String {
@@ -45,8 +43,7 @@ fn time(seconds: f64) -> String {
 /// Compares with CalculiX; prints that the comparison is skipped where it is not installed.
 fn against_ccx(elements_um: &[f64]) -> Ended {
     if !against::is_installed() {
-        write_out("skipped: ccx (CalculiX) is not installed here");
-        return Ok(());
+        return write_out("skipped: ccx (CalculiX) is not installed here");
     }
     let header = [
         "element, um",
@@ -61,13 +58,12 @@ fn against_ccx(elements_um: &[f64]) -> Ended {
         write_err(format_args!("fretwear: elements of {element} um"));
         table.add_row(row(&against::ccx(*element).map_err(failed)?));
     }
-    write_out(table);
+    write_out(table)?;
     let [ours, theirs] = against::TOLERANCES;
     write_out(
         "Processor seconds, one thread each, one after the other on this machine. Tolerances:",
-    );
-    write_out(format_args!("fretwear: {ours}; ccx: {theirs}."));
-    Ok(())
+    )?;
+    write_out(format_args!("fretwear: {ours}; ccx: {theirs}."))
 }
 
 /// Compares estimates of plans with measurements, with a calibration of its own.

@@ -35,6 +35,8 @@ enum DemoError {
     Stream(String),
     #[error("an event could not be read: {0}")]
     Event(#[from] serde_json::Error),
+    #[error("its results cannot be shown")]
+    Output,
     #[error("the job ended as {}: {}", .0.status.as_str(), .0.status_reason.as_deref().unwrap_or("no reason given"))]
     Ended(Box<Done>),
 }
@@ -96,7 +98,7 @@ async fn show_job(base: &str) -> Result<(), DemoError> {
     let history: WearHistory = received(history).await?.json().await?;
     let report = table::report(&job, &history);
     for line in report.into_iter().chain(next_steps(base, &own)) {
-        write_out(line);
+        write_out(line).map_err(|_| DemoError::Output)?;
     }
     Ok(())
 }

@@ -22,8 +22,7 @@ pub(super) fn run(spec: &Path, cycle: u64) -> Ended {
         )));
     }
     let model = worn(&scene, cycle).map_err(failed)?;
-    write_out(deck::inp(&scene, &model).trim_end());
-    Ok(())
+    write_out(deck::inp(&scene, &model).trim_end())
 }
 
 /// Returns the model at a cycle; the unworn one needs no solve.

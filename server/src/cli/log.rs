@@ -29,7 +29,11 @@ pub(super) fn start(level: &str, format: LogFormat) -> WorkerGuard {
         .with_writer(writer);
     match format {
         LogFormat::Text => builder.init(),
-        LogFormat::Json => builder.json().init(),
+        LogFormat::Json => {
+            builder.json().init();
+            // What a panic says is a line of the log, too.
+            std::panic::set_hook(Box::new(|panic| tracing::error!(%panic, "a task panicked")));
+        }
     }
     guard
 }

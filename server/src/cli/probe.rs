@@ -15,8 +15,7 @@ pub(super) fn run(listen: SocketAddr) -> Ended {
     if !status.is_success() {
         return Err(failed(format_args!("{url}: {status}")));
     }
-    write_out("ready");
-    Ok(())
+    write_out("ready")
 }
 
 async fn request(url: &str) -> reqwest::Result<reqwest::StatusCode> {

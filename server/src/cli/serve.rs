@@ -3,7 +3,7 @@
 use nix::sys::resource::{Resource, getrlimit, setrlimit};
 use tokio::signal::unix::{SignalKind, signal};
 
-use crate::cli::arguments::ServeArguments;
+use crate::cli::arguments::{LogFormat, ServeArguments};
 use crate::cli::runtime::block_on;
 use crate::cli::terminal::{Ended, failed, write_err};
 use crate::service::{Config, Service};
@@ -11,7 +11,7 @@ use crate::service::{Config, Service};
 pub(super) fn run(arguments: ServeArguments) -> Ended {
     let program = std::env::current_exe().map_err(failed)?;
     let access = arguments.access.access().map_err(failed)?;
-    let work = &arguments.work;
+    let (work, log) = (&arguments.work, arguments.log);
     allow_many_files();
     let config = Config {
         listen: arguments.listen,
@@ -24,10 +24,11 @@ pub(super) fn run(arguments: ServeArguments) -> Ended {
     };
     block_on(async {
         let service = Service::start(config).await.map_err(failed)?;
-        write_err(format_args!(
-            "fretwear serves on http://{}",
-            service.address
-        ));
+        // A log that a program reads has the address in its first line.
+        if log == LogFormat::Text {
+            let address = service.address;
+            write_err(format_args!("fretwear serves on http://{address}"));
+        }
         let ended = tokio::select! {
             ended = until_signal() => ended.map_err(failed),
             () = service.ended() => Err(failed("another process serves the database")),

@@ -30,7 +30,7 @@ pub(super) fn run(spec: &Path, out: Option<&Path>, budget_s: f64) -> Ended {
         StudyError::RunPlan(RunPlanError::Refused(error)) => refused(&error),
         error => failed(error),
     })?;
-    write_out(report::text(&study));
+    write_out(report::text(&study))?;
     let Some(folder) = out else {
         return Ok(());
     };

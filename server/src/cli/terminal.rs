@@ -1,7 +1,7 @@
 //! Output of the command line: results on standard output, everything else on standard error.
 
 use std::fmt::Display;
-use std::io::Write;
+use std::io::{ErrorKind, Write};
 use std::path::Path;
 use std::process::ExitCode;
 use std::time::Duration;
@@ -19,15 +19,20 @@ pub(super) type Ended = Result<(), ExitCode>;
 /// Exit code of a refused specification.
 const REFUSED: u8 = 2;
 
-/// Writes a line on standard output. A closed pipe (`| head`) is not an error.
-pub(super) fn write_out(line: impl Display) {
-    let _ = writeln!(std::io::stdout().lock(), "{line}");
+/// Writes a line on standard output; reports a failure and returns its exit code. A closed pipe (`| head`) is none.
+pub(super) fn write_out(line: impl Display) -> Ended {
+    let mut output = std::io::stdout().lock();
+    match writeln!(output, "{line}").and_then(|()| output.flush()) {
+        Err(cause) if cause.kind() != ErrorKind::BrokenPipe => {
+            Err(failed(format_args!("standard output: {cause}")))
+        }
+        _ => Ok(()),
+    }
 }
 
 /// Writes a document as JSON on standard output.
 pub(super) fn write_json(document: &impl Serialize) -> Ended {
-    write_out(serde_json::to_string_pretty(document).map_err(failed)?);
-    Ok(())
+    write_out(serde_json::to_string_pretty(document).map_err(failed)?)
 }
 
 /// Writes a line on standard error.

@@ -8,7 +8,7 @@ use std::net::IpAddr;
 use std::sync::Arc;
 
 use axum::extract::{Request, State};
-use axum::http::{HeaderMap, HeaderValue, header};
+use axum::http::{HeaderMap, HeaderValue, Version, header};
 use axum::middleware::Next;
 use axum::response::{IntoResponse, Response};
 use sha2::{Digest, Sha256};
@@ -66,7 +66,19 @@ impl Access {
     }
 
     /// Returns the response to a request that has no access.
-    fn rejection(&self, path: &str, headers: &HeaderMap) -> Option<Response> {
+    fn rejection(&self, request: &Request) -> Option<Response> {
+        let (path, headers) = (request.uri().path(), request.headers());
+        let version = request.version();
+        let hosts = headers.get_all(header::HOST).iter().count();
+        if hosts > 1 || (hosts == 0 && version == Version::HTTP_11) {
+            let detail =
+                format!("a request has one Host header (RFC 9112, 3.2), this one has {hosts}");
+            return Some(
+                ProblemType::INVALID_HOST
+                    .with_detail(detail)
+                    .into_response(),
+            );
+        }
         if let Some(detail) = self.foreign_host(headers) {
             return Some(
                 ProblemType::FOREIGN_HOST
@@ -143,7 +155,7 @@ fn has_token(headers: &HeaderMap, digest: &[u8; 32]) -> bool {
 
 /// Middleware that rejects requests without access.
 pub(super) async fn check(State(access): State<Access>, request: Request, next: Next) -> Response {
-    match access.rejection(request.uri().path(), request.headers()) {
+    match access.rejection(&request) {
         Some(rejection) => rejection,
         None => next.run(request).await,
     }
@@ -151,6 +163,8 @@ pub(super) async fn check(State(access): State<Access>, request: Request, next: 
 
 #[cfg(test)]
 mod tests {
+    use axum::body::Body;
+
     use super::*;
 
     const TOKEN: &str = "correct-horse-battery";
@@ -217,7 +231,11 @@ mod tests {
     fn only_the_token_gives_access_and_pages_need_none() {
         let access = Access::new(Some(TOKEN), &[]).expect("access");
         let with = |value: &str| headers("127.0.0.1", &[(header::AUTHORIZATION, value)]);
-        let passes = |path: &str, headers: &HeaderMap| access.rejection(path, headers).is_none();
+        let passes = |path: &str, headers: &HeaderMap| {
+            let mut request = Request::get(path).body(Body::empty()).expect("a request");
+            request.headers_mut().clone_from(headers);
+            access.rejection(&request).is_none()
+        };
         for sent in [
             "",
             "Bearer",

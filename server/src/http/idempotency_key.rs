@@ -1,6 +1,12 @@
-//! `Idempotency-Key`: requests with the same key and body create one job, however often they are sent.
+//! `Idempotency-Key`: requests with the same key and meaning create one job, however often they are sent.
+//!
+//! The meaning is the JSON value of the body, whatever its spaces, the order of its fields and the form of its numbers, and
+//! the options of the query.
+
+use std::fmt::Display;
 
 use axum::http::HeaderMap;
+use serde_json::Value;
 use sha2::{Digest, Sha256};
 
 use crate::http::problem::{ProblemType, RouteError};
@@ -20,8 +26,10 @@ pub(super) enum KeyError {
     /// Not printable ASCII.
     #[error("the Idempotency-Key must be printable ASCII characters")]
     Text,
-    /// Used with another body.
-    #[error("the Idempotency-Key was used with another body; use a new key for another body")]
+    /// Used for another request.
+    #[error(
+        "the Idempotency-Key was used with another body or query; use a new key for another request"
+    )]
     Reused,
 }
 
@@ -34,9 +42,10 @@ impl RouteError for KeyError {
     }
 }
 
-/// Returns the key of a request, if it has one.
+/// Returns the key of a request with these options besides its body, if it has one.
 pub(super) fn idempotency_key(
     headers: &HeaderMap,
+    options: impl Display,
     body: &[u8],
 ) -> Result<Option<RequestKey>, KeyError> {
     let Some(value) = headers.get(HEADER) else {
@@ -48,8 +57,50 @@ pub(super) fn idempotency_key(
     }
     Ok(Some(RequestKey {
         key: key.to_owned(),
+        meaning_sha256: meaning(&options.to_string(), body),
         body_sha256: Sha256::digest(body).into(),
     }))
+}
+
+/// Digest of the meaning of a request.
+fn meaning(options: &str, body: &[u8]) -> [u8; 32] {
+    let value = serde_json::from_slice(body).map(canonical);
+    let canonical = value.and_then(|value| serde_json::to_vec(&value));
+    // A body that is no JSON means nothing but itself.
+    let body = canonical.unwrap_or_else(|_| body.to_vec());
+    let digest = Sha256::new_with_prefix("meaning\0").chain_update(options);
+    digest
+        .chain_update("\0")
+        .chain_update(body)
+        .finalize()
+        .into()
+}
+
+/// A value with each number in one form; objects are sorted by their keys anyway.
+fn canonical(value: Value) -> Value {
+    match value {
+        Value::Number(number) => number
+            .as_f64()
+            .filter(|_| number.as_i64().is_none() && number.as_u64().is_none())
+            .and_then(integer)
+            .map_or(Value::Number(number), Value::from),
+        Value::Array(values) => values.into_iter().map(canonical).collect(),
+        Value::Object(fields) => fields
+            .into_iter()
+            .map(|(key, value)| (key, canonical(value)))
+            .collect(),
+        other => other,
+    }
+}
+
+/// A number without a fraction as an integer, where every integer is exact.
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "the number is checked to be an integer in the range"
+)]
+fn integer(number: f64) -> Option<i64> {
+    const LARGEST_EXACT: f64 = 9_007_199_254_740_992.0;
+    (number.abs() <= LARGEST_EXACT && number.fract() == 0.0).then_some(number as i64)
 }
 
 #[cfg(test)]
@@ -69,7 +120,10 @@ mod tests {
         let other = r#"{"system":{"kind":"zif"}}"#;
         let (status, _, problem) = service.send("POST", "/v1/jobs", &keyed, other).await;
         assert_eq!(status, 422);
-        assert_eq!(problem["title"], "the key was used with another body");
+        assert_eq!(problem["title"], "the key was used for another request");
+        let urgent = "/v1/jobs?priority=7";
+        let (status, _, problem) = service.send("POST", urgent, &keyed, body).await;
+        assert_eq!(status, 422, "{problem}");
         let long = "k".repeat(256);
         let (status, _, problem) = service
             .send(
@@ -88,5 +142,26 @@ mod tests {
         assert_eq!(service.send("POST", "/v1/jobs", &empty, body).await.0, 400);
         let (_, _, page) = service.get("/v1/jobs").await;
         assert_eq!(page["jobs"].as_array().map_or(0, Vec::len), 1, "{page}");
+    }
+
+    #[test]
+    fn the_meaning_of_a_body_does_not_depend_on_how_it_is_written() {
+        let written = |text: &str| super::meaning("", text.as_bytes());
+        let one = written(r#"{"cycles":1000,"system":{"kind":"dimm"}}"#);
+        for same in [
+            r#"{ "system" : {"kind": "dimm"}, "cycles": 1e3 }"#,
+            r#"{"cycles":1000.0,"system":{"kind":"d\u0069mm"}}"#,
+        ] {
+            assert_eq!(written(same), one, "{same}");
+        }
+        for other in [
+            r#"{"cycles":1000.5,"system":{"kind":"dimm"}}"#,
+            "[]",
+            "",
+            "{",
+        ] {
+            assert_ne!(written(other), one, "{other}");
+        }
+        assert_ne!(super::meaning("5", b"{}"), super::meaning("", b"{}"));
     }
 }

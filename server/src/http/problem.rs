@@ -48,7 +48,7 @@ macro_rules! problem_types {
 problem_types! {
     UNREADABLE_BODY, 400, "unreadable-body", "the body cannot be read";
     INVALID_SPECIFICATION, 422, "invalid-specification", "the specification has faults";
-    KEY_REUSED, 422, "idempotency-key-reused", "the key was used with another body";
+    KEY_REUSED, 422, "idempotency-key-reused", "the key was used for another request";
     INVALID_KEY, 400, "invalid-idempotency-key", "the key is not valid";
     INVALID_QUERY, 400, "invalid-query", "a query parameter is not valid";
     RANGE, 416, "range", "the range lies outside the file";
@@ -66,6 +66,7 @@ problem_types! {
     JOB_SUCCEEDED, 409, "job-succeeded", "the job has succeeded";
     SWEEP_ACTIVE, 409, "sweep-active", "the sweep has jobs that have not ended";
     STUDY_ACTIVE, 409, "study-active", "the study has jobs that have not ended";
+    INVALID_HOST, 400, "invalid-host", "the Host header is missing or repeated";
     FOREIGN_HOST, 403, "foreign-host", "the request is for another host";
     TOKEN_REQUIRED, 401, "token-required", "the access token is missing or wrong";
     REQUEST_TIMEOUT, 408, "request-timeout", "the request did not arrive in time";

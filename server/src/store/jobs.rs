@@ -92,19 +92,21 @@ pub enum Deleted {
     Missing,
 }
 
-/// Idempotency key of a submission, and the digest of its body.
+/// Idempotency key of a submission, and digests of what it asks for.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct RequestKey {
     /// The key.
     pub key: String,
-    /// SHA-256 of the body.
+    /// SHA-256 of the meaning of the request.
+    pub meaning_sha256: [u8; 32],
+    /// SHA-256 of the body, which earlier versions stored.
     pub body_sha256: [u8; 32],
 }
 
 impl RequestKey {
     /// Returns the answer to a repeated request, from the digest and the id of the first one.
-    pub(in crate::store) fn repeated(&self, body_sha256: &[u8], id: Uuid) -> Submitted {
-        if body_sha256 == self.body_sha256 {
+    pub(in crate::store) fn repeated(&self, sha256: &[u8], id: Uuid) -> Submitted {
+        if sha256 == self.meaning_sha256 || sha256 == self.body_sha256 {
             Submitted::Job(id)
         } else {
             Submitted::KeyTaken
@@ -115,8 +117,8 @@ impl RequestKey {
 /// Effect of a submission.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Submitted {
-    /// A job, queued now or by an earlier request with the same key and body.
+    /// A job, queued now or by an earlier request with the same key and meaning.
     Job(Uuid),
-    /// The key was used with another body.
+    /// The key was used for another request.
     KeyTaken,
 }

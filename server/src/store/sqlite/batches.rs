@@ -220,7 +220,7 @@ async fn insert_batch(
     .bind(&batch.name)
     .bind(now)
     .bind(key.map(|key| &key.key))
-    .bind(key.map(|key| key.body_sha256.as_slice()))
+    .bind(key.map(|key| key.meaning_sha256.as_slice()))
     .execute(&mut **transaction)
     .await?;
     for (position, (job, overrides)) in (0_i64..).zip(&batch.jobs) {

@@ -120,7 +120,7 @@ async fn write_one(
     if let Some(key) = &pending.key {
         sqlx::query("INSERT INTO request_keys (key, body_sha256, job_id) VALUES (?, ?, ?)")
             .bind(&key.key)
-            .bind(key.body_sha256.as_slice())
+            .bind(key.meaning_sha256.as_slice())
             .bind(id.to_string())
             .execute(&mut **transaction)
             .await?;

@@ -64,7 +64,7 @@ async fn submit(
     headers: &HeaderMap,
     body: &Bytes,
 ) -> Result<Response, ProblemResponse> {
-    let key = idempotency_key(headers, body)?;
+    let key = idempotency_key(headers, "", body)?;
     let request = kind.read(body)?;
     let earlier = match &key {
         Some(key) => app.store.submitted_batch(key).await?,

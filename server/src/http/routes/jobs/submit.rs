@@ -72,7 +72,7 @@ impl SubmitQuery {
     request_body = Spec,
     params(
         SubmitQuery,
-        ("Idempotency-Key" = Option<String>, Header, description = "Requests with the same key and body queue one job"),
+        ("Idempotency-Key" = Option<String>, Header, description = "Requests with the same key, body (its JSON value) and query queue one job"),
     ),
     responses(
         (status = 200, description = "The specification is valid; nothing was queued (`validate_only`)", body = PlanDocument),
@@ -89,7 +89,7 @@ pub(crate) async fn submit(
     JsonBody(body): JsonBody,
 ) -> Result<Response, ProblemResponse> {
     let options = query.options()?;
-    let key = idempotency_key(&headers, &body)?;
+    let key = idempotency_key(&headers, format_args!("{options:?}"), &body)?;
     let (resolved, estimate) = resolve(body).await?;
     limits::check(&estimate)?;
     let machine = app.machine.get();
