@@ -28,8 +28,16 @@ use clap::{Parser, Subcommand};
 /// First line of `--help`.
 const ABOUT: &str = "Wear of electrical contacts under vibration, by finite elements: on the command line and over HTTP";
 
+/// Version and commit of the program.
+const VERSION: &str = concat!(
+    env!("CARGO_PKG_VERSION"),
+    " (",
+    env!("FRETWEAR_COMMIT"),
+    ")"
+);
+
 #[derive(Debug, Parser)]
-#[command(name = "fretwear", version, about = ABOUT)]
+#[command(name = "fretwear", version = VERSION, about = ABOUT)]
 struct Arguments {
     #[command(subcommand)]
     command: Command,

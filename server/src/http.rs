@@ -17,8 +17,9 @@ mod table;
 mod verified_file;
 
 use std::sync::Arc;
+use std::time::Instant;
 
-use axum::extract::{Request, State};
+use axum::extract::{MatchedPath, Request, State};
 use axum::http::{HeaderValue, Method, Uri, header};
 use axum::middleware::Next;
 use axum::response::{IntoResponse, Response};
@@ -27,6 +28,7 @@ use tokio::sync::Semaphore;
 use tower_http::set_header::SetResponseHeaderLayer;
 use tower_http::trace::TraceLayer;
 
+use crate::metrics::Metrics;
 use problem::ProblemType;
 
 pub use access::{Access, TokenError};
@@ -47,8 +49,11 @@ pub fn router(app: App) -> Router {
     let permits = Arc::new(Semaphore::new(MAX_REQUESTS));
     let requests = middleware::from_fn_with_state(permits, limit_requests);
     let disk_space = middleware::map_response_with_state(app.clone(), disk_space::explain);
+    let metrics = Arc::clone(app.store.metrics());
+    let observed = middleware::from_fn_with_state(metrics, observe);
     table::routes_and_document()
         .0
+        .route_layer(observed)
         .fallback(no_such_path)
         .method_not_allowed_fallback(wrong_method)
         .layer(disk_space)
@@ -64,6 +69,20 @@ pub fn router(app: App) -> Router {
         ))
         .layer(TraceLayer::new_for_http())
         .with_state(app)
+}
+
+/// Middleware that counts the answers of each route, and their time.
+async fn observe(
+    State(metrics): State<Arc<Metrics>>,
+    route: MatchedPath,
+    request: Request,
+    next: Next,
+) -> Response {
+    let (method, began) = (request.method().clone(), Instant::now());
+    let response = next.run(request).await;
+    let status = response.status().as_u16();
+    metrics.answered(method.as_str(), route.as_str(), status, began.elapsed());
+    response
 }
 
 /// Middleware that limits the number of concurrent requests.

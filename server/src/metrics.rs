@@ -1,6 +1,9 @@
 //! Metrics for `/metrics` (Prometheus).
 
+mod process;
+
 use std::fmt;
+use std::time::Duration;
 
 use api::job::Status;
 use prometheus_client::encoding::text::encode;
@@ -8,12 +11,20 @@ use prometheus_client::metrics::counter::Counter;
 use prometheus_client::metrics::family::Family;
 use prometheus_client::metrics::gauge::Gauge;
 use prometheus_client::metrics::histogram::Histogram;
+use prometheus_client::metrics::info::Info;
 use prometheus_client::registry::{Metric, Registry, Unit};
+
+use process::ProcessMetrics;
 
 /// Histogram bounds of the wait for a worker, s: from an idle worker to a queue of a day.
 const WAIT_BOUNDS_S: [f64; 9] = [0.01, 0.1, 0.5, 1.0, 10.0, 60.0, 600.0, 3_600.0, 86_400.0];
 /// Histogram bounds of a solve, s: from a draft to a run of a day.
 const SOLVE_BOUNDS_S: [f64; 9] = [0.1, 0.5, 1.0, 5.0, 10.0, 60.0, 600.0, 3_600.0, 86_400.0];
+
+/// Histogram bounds of an answer, s: from a poll to a long poll.
+const ANSWER_BOUNDS_S: [f64; 9] = [0.001, 0.003, 0.01, 0.03, 0.1, 0.3, 1.0, 10.0, 60.0];
+
+type ByRoute<M, F> = Family<[(&'static str, String); 2], M, F>;
 
 type ByStatus = Family<[(&'static str, &'static str); 1], Gauge>;
 
@@ -24,8 +35,16 @@ pub struct Gauges {
     pub jobs: Vec<(Status, i64, i64)>,
     /// Age of the oldest checkpoint of a running job, s; 0 if there is none.
     pub oldest_checkpoint_s: i64,
+    /// Age of the oldest progress of a running job, s; 0 if there is none.
+    pub oldest_progress_s: i64,
     /// Size of the write-ahead log, bytes.
     pub wal_bytes: i64,
+    /// Size of the database, bytes.
+    pub database_bytes: i64,
+    /// Free space on its disk, bytes.
+    pub disk_free_bytes: i64,
+    /// Workers that run.
+    pub workers_alive: i64,
 }
 
 /// Counters, histograms and the last read gauges.
@@ -35,7 +54,15 @@ pub struct Metrics {
     oldest: ByStatus,
     ended: Family<[(&'static str, &'static str); 1], Counter>,
     oldest_checkpoint: Gauge,
+    oldest_progress: Gauge,
     wal: Gauge,
+    database: Gauge,
+    disk_free: Gauge,
+    workers_alive: Gauge,
+    workers_busy: Gauge,
+    answers: Family<[(&'static str, String); 3], Counter>,
+    answer_time: ByRoute<Histogram, fn() -> Histogram>,
+    process: ProcessMetrics,
     /// Time from a job's submission to its first claim, s.
     pub claim_latency: Histogram,
     /// Time from a claim to the end of its attempt, s.
@@ -52,11 +79,11 @@ pub struct Metrics {
     streams_open: Gauge,
 }
 
-/// Guard of an open event stream, which is counted as long as the guard lives.
+/// Guard of something that is counted as long as the guard lives: an open event stream, a busy worker.
 #[derive(Debug)]
-pub struct OpenStream(Gauge);
+pub struct Counted(Gauge);
 
-impl Drop for OpenStream {
+impl Drop for Counted {
     fn drop(&mut self) {
         self.0.dec();
     }
@@ -64,9 +91,28 @@ impl Drop for OpenStream {
 
 impl Metrics {
     /// Counts an open event stream.
-    pub fn stream(&self) -> OpenStream {
-        self.streams_open.inc();
-        OpenStream(self.streams_open.clone())
+    pub fn stream(&self) -> Counted {
+        counted(&self.streams_open)
+    }
+
+    /// Counts a worker that has a job.
+    pub fn busy_worker(&self) -> Counted {
+        counted(&self.workers_busy)
+    }
+
+    /// Counts an answer of a route, with its status and the time until its head.
+    pub fn answered(&self, method: &str, route: &str, status: u16, time: Duration) {
+        let of = |status: String| {
+            [
+                ("method", method.to_owned()),
+                ("route", route.to_owned()),
+                ("status", status),
+            ]
+        };
+        let [method, route, _] = of(String::new());
+        self.answers.get_or_create(&of(status.to_string())).inc();
+        let times = self.answer_time.get_or_create(&[method, route]);
+        times.observe(time.as_secs_f64());
     }
 
     /// Counts an ended job.
@@ -92,7 +138,12 @@ impl Metrics {
             self.oldest.get_or_create(&label).set(*oldest_s);
         }
         self.oldest_checkpoint.set(gauges.oldest_checkpoint_s);
+        self.oldest_progress.set(gauges.oldest_progress_s);
         self.wal.set(gauges.wal_bytes);
+        self.database.set(gauges.database_bytes);
+        self.disk_free.set(gauges.disk_free_bytes);
+        self.workers_alive.set(gauges.workers_alive);
+        self.process.read();
         let mut text = String::new();
         encode(&mut text, &self.registry)?;
         Ok(text)
@@ -101,8 +152,14 @@ impl Metrics {
 
 impl Default for Metrics {
     fn default() -> Self {
-        let mut registry = Registry::with_prefix("fretwear");
-        let r = &mut registry;
+        let mut registry = Registry::default();
+        let process = ProcessMetrics::register(&mut registry);
+        let r = registry.sub_registry_with_prefix("fretwear");
+        let build = [
+            ("version", env!("CARGO_PKG_VERSION")),
+            ("commit", env!("FRETWEAR_COMMIT")),
+        ];
+        r.register("build", "The program", Info::new(build));
         let to_claim = ("claim_latency", "From submission to the first claim");
         let to_end = ("solve_duration", "From a claim to the end of its job");
         let oldest = ("oldest_job_age", "Age of the oldest job by status");
@@ -110,6 +167,18 @@ impl Default for Metrics {
             "oldest_checkpoint_age",
             "Age of the oldest checkpoint of a running job",
         );
+        let progress = (
+            "oldest_progress_age",
+            "Age of the oldest progress of a running job",
+        );
+        let answer = (
+            "http_request_duration",
+            "From a request to the head of its answer; long polls wait on purpose",
+        );
+        let answer_time: ByRoute<_, fn() -> Histogram> =
+            Family::new_with_constructor(|| Histogram::new(ANSWER_BOUNDS_S));
+        let database = ("database_size", "Size of the database");
+        let disk_free = ("disk_free", "Free space on the disk of the database");
         let wal = ("wal_size", "Size of the write-ahead log");
         let stale = "Writes discarded because their lease was lost";
         let (wait_s, solve_s) = (
@@ -127,16 +196,30 @@ impl Default for Metrics {
             stale_writes: add(r, "stale_writes_refused", stale),
             checkpoints: add(r, "checkpoints", "Checkpoints stored"),
             oldest_checkpoint: add_in(r, Unit::Seconds, checkpoint, <_>::default()),
+            oldest_progress: add_in(r, Unit::Seconds, progress, <_>::default()),
             wal: add_in(r, Unit::Bytes, wal, <_>::default()),
+            database: add_in(r, Unit::Bytes, database, <_>::default()),
+            disk_free: add_in(r, Unit::Bytes, disk_free, <_>::default()),
+            workers_alive: add(r, "workers_alive", "Workers that run"),
+            workers_busy: add(r, "workers_busy", "Workers that have a job"),
+            answers: add(r, "http_requests", "Answered requests by route and status"),
+            answer_time: add_in(r, Unit::Seconds, answer, answer_time),
             task_failures: add(
                 r,
                 "task_failures",
                 "Tasks of the service that ended before it stopped",
             ),
             streams_open: add(r, "streams_open", "Open event streams"),
+            process,
             registry,
         }
     }
+}
+
+/// Counts something as long as the guard lives.
+fn counted(gauge: &Gauge) -> Counted {
+    gauge.inc();
+    Counted(gauge.clone())
 }
 
 /// Creates and registers a metric.
@@ -177,12 +260,19 @@ mod tests {
         let gauges = Gauges {
             jobs: vec![(Status::Queued, 3, 42)],
             oldest_checkpoint_s: 2,
+            oldest_progress_s: 7,
             wal_bytes: 4096,
+            database_bytes: 8192,
+            disk_free_bytes: 1 << 30,
+            workers_alive: 2,
         };
+        let busy = metrics.busy_worker();
+        let time = Duration::from_millis(2);
+        metrics.answered("GET", "/v1/jobs/{id}", 503, time);
         let open = metrics.stream();
         drop(metrics.stream());
         let text = metrics.text(&gauges).expect("text");
-        drop(open);
+        drop((open, busy));
         for line in [
             "fretwear_jobs{status=\"queued\"} 3",
             "fretwear_oldest_job_age_seconds{status=\"queued\"} 42",
@@ -196,8 +286,28 @@ mod tests {
             "fretwear_oldest_checkpoint_age_seconds 2",
             "fretwear_wal_size_bytes 4096",
             "fretwear_streams_open 1",
+            "fretwear_workers_alive 2",
+            "fretwear_workers_busy 1",
+            "fretwear_oldest_progress_age_seconds 7",
+            "fretwear_database_size_bytes 8192",
+            "fretwear_disk_free_bytes 1073741824",
+            "fretwear_http_requests_total{method=\"GET\",route=\"/v1/jobs/{id}\",status=\"503\"} 1",
+            "fretwear_http_request_duration_seconds_count{method=\"GET\",route=\"/v1/jobs/{id}\"} 1",
         ] {
             assert!(text.lines().any(|found| found == line), "{line} in\n{text}");
+        }
+        for name in [
+            "fretwear_build_info{version=",
+            "process_cpu_seconds_total ",
+            "process_resident_memory_bytes ",
+            "process_open_fds ",
+            "process_start_time_seconds ",
+        ] {
+            let line = text.lines().find(|line| line.starts_with(name));
+            assert!(
+                line.is_some_and(|line| !line.ends_with(" 0")),
+                "{name} in\n{text}"
+            );
         }
     }
 }

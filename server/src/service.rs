@@ -14,7 +14,7 @@ use tokio_util::sync::CancellationToken;
 use crate::http;
 use crate::http::{Access, App};
 use crate::store::{Limits, Store, StoreError};
-use crate::supervision::{Supervisor, TaskName};
+use crate::supervision::{Supervisor, TaskName, WORKER};
 use crate::worker;
 use crate::worker::WorkerConfig;
 
@@ -127,7 +127,7 @@ impl Service {
         for number in 0..config.workers {
             let (store, worker, stopping) =
                 (Arc::clone(&store), Arc::clone(&worker), stopping.clone());
-            tasks.start(("worker", number), move || {
+            tasks.start((WORKER, number), move || {
                 worker::work(Arc::clone(&store), Arc::clone(&worker), stopping.clone())
             });
         }

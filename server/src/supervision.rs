@@ -44,6 +44,9 @@ impl RestartPolicy {
     }
 }
 
+/// Kind of the workers.
+pub const WORKER: &str = "worker";
+
 /// A kind of task, and its number where there are several.
 pub type TaskName = (&'static str, usize);
 
@@ -69,6 +72,13 @@ impl Supervised {
 }
 
 impl Supervisor {
+    /// Names of the tasks that run.
+    pub fn running(&self) -> Vec<TaskName> {
+        let tasks = self.tasks.lock().unwrap_or_else(PoisonError::into_inner);
+        let running = tasks.iter().filter(|(_, task)| task.running.is_some());
+        running.map(|(name, _)| *name).collect()
+    }
+
     /// Runs a task until the service stops, and starts it again whenever it ends before.
     pub async fn run<F>(
         self: Arc<Self>,
@@ -130,13 +140,6 @@ pub(crate) mod tests {
     use super::*;
 
     impl Supervisor {
-        /// Names of the tasks that run.
-        pub(crate) fn running(&self) -> Vec<TaskName> {
-            let tasks = self.tasks.lock().expect("no test panics with it");
-            let running = tasks.iter().filter(|(_, task)| task.running.is_some());
-            running.map(|(name, _)| *name).collect()
-        }
-
         /// Ends a task as a panic would; whether it ran.
         pub(crate) fn kill(&self, name: TaskName) -> bool {
             self.with(name, |task| match task.running.take() {

@@ -64,6 +64,7 @@ async fn next(
         return Ok(false);
     };
     count_claim(store, &claim);
+    let _busy = store.metrics().busy_worker();
     let span =
         tracing::info_span!("job", id = %claim.id, lease = claim.lease, attempt = claim.attempt);
     let started = Instant::now();

@@ -25,6 +25,7 @@ mod hard;
 mod hostile_inputs;
 mod load;
 mod main_job;
+mod many_jobs;
 mod pages_in_a_browser;
 mod predicted_cost;
 mod readme_commands;

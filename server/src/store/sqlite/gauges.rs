@@ -3,6 +3,7 @@
 use std::time::{Duration, Instant};
 
 use api::job::Status;
+use jiff::Timestamp;
 
 use crate::metrics::Gauges;
 use crate::store::sqlite::queries::integer;
@@ -12,7 +13,7 @@ use crate::store::{Store, StoreError};
 const PROBE_INTERVAL: Duration = Duration::from_secs(1);
 
 impl Store {
-    /// Returns jobs by status, the age of the oldest checkpoint and the size of the write-ahead log.
+    /// Returns what the store knows: jobs by status, ages, sizes.
     ///
     /// # Errors
     /// [`StoreError`] if the database fails.
@@ -35,12 +36,26 @@ impl Store {
         )
         .fetch_one(&self.readers)
         .await?;
-        let wal = tokio::fs::metadata(&self.wal).await;
+        // Times in one format, whose order is that of their texts to the second.
+        let progress: Option<String> = sqlx::query_scalar(
+            "SELECT min(progress ->> '$.updated_at') FROM jobs WHERE status = 'running'",
+        )
+        .fetch_one(&self.readers)
+        .await?;
+        let progress = progress.and_then(|time| time.parse::<Timestamp>().ok());
+        let (wal, database) = (
+            tokio::fs::metadata(&self.wal).await,
+            tokio::fs::metadata(&self.path).await,
+        );
         Ok(Gauges {
             jobs,
             oldest_checkpoint_s: oldest.map_or(0, |written| seconds(now, written)),
             // The file does not exist before the first write.
             wal_bytes: wal.map_or(0, |file| integer(file.len())),
+            oldest_progress_s: progress.map_or(0, |at| seconds(now, at.as_millisecond())),
+            database_bytes: database.map_or(0, |file| integer(file.len())),
+            disk_free_bytes: self.disk.free_mb().map_or(0, |mb| integer(mb << 20)),
+            workers_alive: 0,
         })
     }
 

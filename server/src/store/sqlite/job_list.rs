@@ -1,9 +1,14 @@
 //! Lists of jobs.
 
 use api::job::Job;
+use uuid::Uuid;
 
 use crate::store::sqlite::document::{document, select};
 use crate::store::{Filter, Store, StoreError};
+
+/// Longest time between the creation of a job and that of its id, ms: the wait for a commit, with a margin. Far fewer jobs are
+/// submitted in it than are stored.
+const SUBMISSION_MS: i64 = 600_000;
 
 impl Store {
     /// Returns the jobs that pass a filter, newest first.
@@ -34,9 +39,13 @@ impl Store {
         }
         if let Some(from) = filter.created_from {
             query.push(" AND created_at >= ").push_bind(from);
+            let first = first_id(from.saturating_sub(SUBMISSION_MS));
+            query.push(" AND id >= ").push_bind(first);
         }
         if let Some(before) = filter.created_before {
             query.push(" AND created_at < ").push_bind(before);
+            let end = first_id(before.saturating_add(SUBMISSION_MS));
+            query.push(" AND id < ").push_bind(end);
         }
         if let Some(sweep) = filter.sweep {
             query
@@ -52,5 +61,29 @@ impl Store {
             .push_bind(filter.limit);
         let rows = query.build().fetch_all(&self.readers).await?;
         rows.iter().map(|row| document(&self.disk, row)).collect()
+    }
+}
+
+/// The first id that can be created at a time, ms since 1970: ids begin with it (RFC 9562, UUID version 7), so that a time
+/// bounds a range of the primary key.
+fn first_id(time: i64) -> String {
+    let [.., a, b, c, d, e, f] = time.max(0).to_be_bytes();
+    let mut bytes = [0; 16];
+    bytes[..6].copy_from_slice(&[a, b, c, d, e, f]);
+    Uuid::from_bytes(bytes).to_string()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ids_of_later_times_are_larger_and_new_ones_are_within_their_time() {
+        let id = Uuid::now_v7();
+        let (seconds, nanoseconds) = id.get_timestamp().expect("a time").to_unix();
+        let seconds = i64::try_from(seconds).expect("small");
+        let now = 1_000 * seconds + i64::from(nanoseconds / 1_000_000);
+        assert!(first_id(now) <= id.to_string() && id.to_string() < first_id(now + 1));
+        assert!(first_id(0) < first_id(1) && first_id(-5) == first_id(0));
     }
 }

@@ -14,7 +14,7 @@ macro_rules! file {
 }
 
 /// All files of the folder; a name is the version and what it is about.
-const FILES: [(&str, &str); 16] = [
+const FILES: [(&str, &str); 17] = [
     file!("0001_jobs.sql"),
     file!("0002_labels.sql"),
     file!("0003_events.sql"),
@@ -31,6 +31,7 @@ const FILES: [(&str, &str); 16] = [
     file!("0052_disk_reasons.sql"),
     file!("0053_damaged_files.sql"),
     file!("0054_owner.sql"),
+    file!("0055_list_indexes.sql"),
 ];
 
 /// Applies the migrations that a database does not have; refuses a database with others.

@@ -22,7 +22,7 @@ use uuid::Uuid;
 use crate::http::app::{App, MAX_STREAMS};
 use crate::http::extract::JobId;
 use crate::http::problem::{ProblemResponse, ProblemType, RouteError};
-use crate::metrics::OpenStream;
+use crate::metrics::Counted;
 use crate::store::{Changes, StoreError, StoredEvent};
 
 /// Interval of comment lines, which keep the connection open through proxies.
@@ -126,7 +126,7 @@ struct EventTail {
     pending: VecDeque<Event>,
     changes: Changes,
     ended: bool,
-    _counted: OpenStream,
+    _counted: Counted,
     /// Released when the stream closes.
     _permit: OwnedSemaphorePermit,
 }

@@ -8,6 +8,7 @@ use axum::response::{IntoResponse, Response};
 use crate::clock::now_ms;
 use crate::http::app::App;
 use crate::http::problem::ProblemResponse;
+use crate::supervision::WORKER;
 
 /// Media type of the OpenMetrics text format.
 const MEDIA_TYPE: &str = "application/openmetrics-text; version=1.0.0; charset=utf-8";
@@ -23,7 +24,10 @@ const MEDIA_TYPE: &str = "application/openmetrics-text; version=1.0.0; charset=u
     )
 )]
 pub(crate) async fn metrics(State(app): State<App>) -> Result<Response, ProblemResponse> {
-    let gauges = app.store.gauges(now_ms()).await?;
+    let mut gauges = app.store.gauges(now_ms()).await?;
+    let running = app.supervisor.running();
+    let workers = running.iter().filter(|(kind, _)| *kind == WORKER).count();
+    gauges.workers_alive = i64::try_from(workers).unwrap_or(i64::MAX);
     let text = app.store.metrics().text(&gauges)?;
     Ok(([(header::CONTENT_TYPE, MEDIA_TYPE)], text).into_response())
 }
