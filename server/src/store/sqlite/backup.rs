@@ -63,7 +63,7 @@ pub(super) async fn copy_named_files(
         copy_files(target, &Folder::beside(source), &Folder::beside(target)).await?;
     let (damaged, deleted) = still_named(source, damages).await?;
     copied.jobs = delete_missing(target, &deleted).await?;
-    copied.damaged = mark(target, damaged).await?;
+    copied.damaged = complete(target, damaged).await?;
     sync(target)?;
     sync(parent(target))?;
     Ok(copied)
@@ -91,10 +91,16 @@ async fn still_named(
     Ok((damaged, deleted))
 }
 
-/// Marks damaged files in a database; returns what to say of each.
-async fn mark(database: &Path, damaged: Vec<Damage>) -> Result<Vec<String>, BackupError> {
+/// Completes a copy: marks the damaged files, and removes the owner; returns what to say of each file.
+async fn complete(database: &Path, damaged: Vec<Damage>) -> Result<Vec<String>, BackupError> {
     let mut connection = at(database).connect().await?;
     let (has_marks, mut said) = (has_marks(&mut connection).await?, Vec::new());
+    if has_marks {
+        // Nobody serves the copy; a service on it need not wait for a heartbeat of the original's.
+        sqlx::query("DELETE FROM owner")
+            .execute(&mut connection)
+            .await?;
+    }
     for Damage { place, cause, .. } in damaged {
         let how = cause.to_string();
         if has_marks {
