@@ -138,6 +138,11 @@ impl Service {
             let reclaimed = reclaimed.take().unwrap_or_default();
             maintenance::maintain(store, worker, config.keep_days, reclaimed, stopping)
         });
+        let owned = (Arc::clone(&store), stopping.clone());
+        tasks.start(("heartbeat", 0), move || {
+            let (store, stopping) = owned.clone();
+            maintenance::beat(store, stopping)
+        });
         let router = http::router(App::new(
             Arc::clone(&store),
             config.access,

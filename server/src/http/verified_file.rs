@@ -21,7 +21,13 @@ pub(super) struct DamagedFile {
 }
 
 impl RouteError for DamagedFile {
-    const TYPE: ProblemType = ProblemType::RESULT_DAMAGED;
+    fn problem_type(&self) -> ProblemType {
+        if self.cause.is_damage() {
+            ProblemType::RESULT_DAMAGED
+        } else {
+            ProblemType::INTERNAL
+        }
+    }
 }
 
 /// A file that has been checked.
@@ -56,10 +62,15 @@ impl App {
         };
         let (entry, content, checked) = tokio::task::spawn_blocking(check).await?;
         if let Err(cause) = checked {
-            return Err(self.damaged(id, &entry.name, cause).await.into());
+            return match self.store.result_file(id, name).await? {
+                // Deleted meanwhile, or replaced by the next attempt.
+                None => Ok(None),
+                Some((_, now)) if now != content => Box::pin(self.verified_file(id, name)).await,
+                Some(_) => Err(self.damaged(id, &entry.name, cause).await.into()),
+            };
         }
         if entry.damaged.is_some() {
-            self.store.mark_damaged(id, &entry.name, None).await?;
+            self.mark(id, &entry.name, None).await;
         }
         Ok(Some(VerifiedFile {
             entry,
@@ -68,7 +79,7 @@ impl App {
         }))
     }
 
-    /// Marks a file in its manifest as damaged and returns the error that says so.
+    /// Returns the error that says how a file is damaged; marks it in its manifest, unless it only could not be read.
     pub(super) async fn damaged(&self, id: Uuid, name: &str, cause: IntegrityError) -> DamagedFile {
         let error = DamagedFile {
             id,
@@ -76,10 +87,16 @@ impl App {
             cause,
         };
         tracing::error!(%error, "a result cannot be sent");
-        let how = error.cause.to_string();
-        if let Err(error) = self.store.mark_damaged(id, name, Some(&how)).await {
-            tracing::warn!(%error, "a damaged file was not marked");
+        if error.cause.is_damage() {
+            self.mark(id, name, Some(&error.cause.to_string())).await;
         }
         error
+    }
+
+    /// Marks a file in its manifest; the mark may be stale.
+    async fn mark(&self, id: Uuid, name: &str, how: Option<&str>) {
+        if let Err(error) = self.store.mark_damaged(id, name, how).await {
+            tracing::warn!(%error, "a file was not marked in its manifest");
+        }
     }
 }

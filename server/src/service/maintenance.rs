@@ -31,7 +31,6 @@ pub(super) async fn maintain(
     let mut finalizing = JoinSet::new();
     finalize(&store, &config, reclaimed, &mut finalizing);
     let mut rounds = 0_u32;
-    let mut beaten = Instant::now();
     // Since when process and store have run without a stall. After a stall all leases are expired, also those of this
     // process's own supervisors, which first get the time of one lease to renew them.
     let mut healthy = Some(Instant::now());
@@ -47,18 +46,6 @@ pub(super) async fn maintain(
         }
         while finalizing.try_join_next().is_some() {}
         reserve_disk(&store).await;
-        if beaten.elapsed() >= OWNER_HEARTBEAT {
-            beaten = Instant::now();
-            match store.beat().await {
-                Err(error @ StoreError::Served { .. }) => {
-                    tracing::error!(%error, "the service stops");
-                    stopping.cancel();
-                    return;
-                }
-                Err(error) => tracing::warn!(%error, "no heartbeat could be written"),
-                Ok(()) => {}
-            }
-        }
         let reclaims = healthy.is_some_and(|since| since.elapsed() >= lease);
         let started = Instant::now();
         healthy = match round(&store, &config, reclaims, keep_days).await {
@@ -77,6 +64,25 @@ pub(super) async fn maintain(
             && let Err(error) = store.checkpoint_wal().await
         {
             tracing::warn!(%error, "the write-ahead log could not be checkpointed");
+        }
+    }
+}
+
+/// Writes heartbeats as the owner of the database until the service stops; stops it if another process has become the owner.
+pub(super) async fn beat(store: Arc<Store>, stopping: CancellationToken) {
+    loop {
+        tokio::select! {
+            () = stopping.cancelled() => return,
+            () = tokio::time::sleep(OWNER_HEARTBEAT) => {}
+        }
+        match store.beat().await {
+            Err(error @ StoreError::Served { .. }) => {
+                tracing::error!(%error, "the service stops");
+                stopping.cancel();
+                return;
+            }
+            Err(error) => tracing::warn!(%error, "no heartbeat could be written"),
+            Ok(()) => {}
         }
     }
 }

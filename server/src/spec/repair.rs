@@ -6,8 +6,10 @@ use serde_json::Value;
 
 use crate::spec::suggestion;
 
-/// Largest number of values of wrong types that are reported.
-const MOST: usize = 64;
+/// Largest number of values of wrong types that are reported: each costs another reading of the document.
+const MOST: usize = 16;
+/// Largest document that is read again, bytes; specifications have a few thousand.
+const LARGEST: usize = 256 << 10;
 
 /// Adds the other faults of a document to its first error. `resolve` returns those of a specification.
 pub(super) fn with_others(
@@ -15,6 +17,9 @@ pub(super) fn with_others(
     bytes: &[u8],
     resolve: impl Fn(&Spec) -> Vec<Fault>,
 ) -> ParseError {
+    if bytes.len() > LARGEST {
+        return error;
+    }
     let Ok(mut document) = serde_json::from_slice::<Value>(bytes) else {
         return error;
     };

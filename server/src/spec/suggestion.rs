@@ -13,8 +13,17 @@ use utoipa::{PartialSchema, ToSchema};
 /// `cycles` 0.83, `radius` and `length` 0.17.
 const SIMILAR: f64 = 0.6;
 
+/// Longest name that is compared, bytes.
+const LONGEST: usize = 64;
+/// Number of unknown fields that get a suggestion.
+const MOST: usize = 64;
+
 /// Returns the most similar of some names, if one is similar.
 pub(crate) fn closest<'a>(name: &str, names: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+    // No name is nearly as long; comparing takes the product of the lengths.
+    if name.len() > LONGEST {
+        return None;
+    }
     let rated = names
         .into_iter()
         .map(|known| (normalized_damerau_levenshtein(name, known), known));
@@ -36,7 +45,7 @@ pub(super) fn suggest_fields(faults: &mut [Fault]) {
     }
     let schemas = Schemas::new();
     let places = schemas.places();
-    for fault in faults {
+    for fault in faults.iter_mut().take(MOST) {
         let (parent, name) = fault.pointer.rsplit_once('/').unwrap_or_default();
         let parent = without_indices(parent);
         let siblings = places.iter().filter(|(place, _)| *place == parent);

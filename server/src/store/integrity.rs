@@ -39,6 +39,13 @@ pub enum IntegrityError {
     Read(#[source] std::io::Error),
 }
 
+impl IntegrityError {
+    /// Whether the content is damaged, and not only unreadable at present or for this process.
+    pub fn is_damage(&self) -> bool {
+        !matches!(self, Self::Read(_))
+    }
+}
+
 impl From<std::io::Error> for IntegrityError {
     fn from(cause: std::io::Error) -> Self {
         match cause.kind() {

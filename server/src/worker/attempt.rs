@@ -45,12 +45,33 @@ impl Attempt<'_> {
     /// Writes the last update and ends the attempt.
     pub(super) async fn finalize(&self, update: &JobUpdate, end: &End) -> Result<(), StoreError> {
         let Self { store, claim, .. } = *self;
+        if end.transition == Transition::Cancel && store.disk().is_full() {
+            return self.end_without_documents(&update.progress, end).await;
+        }
         // The events of the update precede the end, so they are written first, under the same lease.
         let recorded = retry(|| store.record(claim, update, self.config.lease_end())).await?;
         let LeaseState::Held { cancel_requested } = recorded else {
             return Ok(());
         };
         self.end(&update.progress, end, cancel_requested).await
+    }
+
+    /// Ends a cancelled job while nothing more can be stored, so that it can be deleted and its space be freed. Its rows and
+    /// snapshots are there, the documents of them are not.
+    async fn end_without_documents(
+        &self,
+        progress: &Progress,
+        end: &End,
+    ) -> Result<(), StoreError> {
+        let Self { store, claim, .. } = *self;
+        let last = JobUpdate {
+            progress: progress.clone(),
+            ..JobUpdate::default()
+        };
+        retry(|| store.end(claim, &last, end, now_ms())).await?;
+        store.remove_unnamed_files(Some(claim)).await?;
+        tracing::info!(reason = end.reason, "cancelled on a full disk");
+        Ok(())
     }
 
     /// Ends the job, with documents of all results, or returns it to the queue.

@@ -95,7 +95,10 @@ async fn still_named(
 async fn complete(database: &Path, damaged: Vec<Damage>) -> Result<Vec<String>, BackupError> {
     let mut connection = at(database).connect().await?;
     let (has_marks, mut said) = (has_marks(&mut connection).await?, Vec::new());
-    if has_marks {
+    let owner: i64 = sqlx::query_scalar("SELECT count(*) FROM sqlite_master WHERE name = 'owner'")
+        .fetch_one(&mut connection)
+        .await?;
+    if owner > 0 {
         // Nobody serves the copy; a service on it need not wait for a heartbeat of the original's.
         sqlx::query("DELETE FROM owner")
             .execute(&mut connection)
@@ -208,7 +211,8 @@ async fn copy_files(
     let jobs = sqlx::query_scalar("SELECT count(*) FROM jobs")
         .fetch_one(&mut connection)
         .await?;
-    let query = if has_marks(&mut connection).await? {
+    let has_marks = has_marks(&mut connection).await?;
+    let query = if has_marks {
         "SELECT name, cycle, media_type, bytes, sha256, damaged, place FROM result_files \
          WHERE place IS NOT NULL ORDER BY place"
     } else {
@@ -235,7 +239,8 @@ async fn copy_files(
             Err(cause) => damages.push(Damage {
                 place,
                 cause,
-                is_known: entry.damaged.is_some(),
+                // A backup of an earlier version cannot say so.
+                is_known: entry.damaged.is_some() || !has_marks,
             }),
         }
     }

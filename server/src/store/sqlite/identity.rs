@@ -85,6 +85,7 @@ async fn read_schema(database: &mut SqliteConnection) -> Result<Schema, sqlx::Er
         0 if tables.is_empty() => return Ok(Schema::Empty),
         // Earlier versions set no id.
         0 if has("_sqlx_migrations") && has("jobs") && has("request_keys") => {}
+        APPLICATION_ID if tables.is_empty() => return Ok(Schema::Empty),
         APPLICATION_ID if has("_sqlx_migrations") => {}
         0 => {
             return Ok(Schema::Foreign(format!(
@@ -94,8 +95,11 @@ async fn read_schema(database: &mut SqliteConnection) -> Result<Schema, sqlx::Er
         }
         id => return Ok(Schema::Foreign(format!("its application id is {id}"))),
     }
-    let version = sqlx::query_scalar("SELECT max(version) FROM _sqlx_migrations");
-    Ok(Schema::Version(version.fetch_one(database).await?))
+    // Null before the first migration.
+    let version: Option<i64> = sqlx::query_scalar("SELECT max(version) FROM _sqlx_migrations")
+        .fetch_one(database)
+        .await?;
+    Ok(version.map_or(Schema::Empty, Schema::Version))
 }
 
 /// Marks a database as one of this program.

@@ -128,6 +128,17 @@ impl Store {
         end: &End,
         now: i64,
     ) -> Result<Option<Status>, StoreError> {
+        let write = || self.write_end(claim, update, end, now);
+        self.disk.with_reserve(write).await
+    }
+
+    async fn write_end(
+        &self,
+        claim: &Claim,
+        update: &JobUpdate,
+        end: &End,
+        now: i64,
+    ) -> Result<Option<Status>, StoreError> {
         let mut transaction = self.writer.begin_with(BEGIN).await?;
         let held = sqlx::query_as(
             "SELECT fruitless, cancel_requested FROM jobs WHERE id = ? AND lease = ? AND status = 'running'",

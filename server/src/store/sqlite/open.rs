@@ -44,7 +44,10 @@ impl Store {
             .busy_timeout(BUSY_TIMEOUT);
         let path = options.get_filename().to_owned();
         let lock = lock(&path)?;
-        identity::schema_version(&path).await?;
+        let reserve = beside(&path, ".reserve");
+        // Of a process that was killed: whatever space there is is needed now.
+        let _ = std::fs::remove_file(&reserve);
+        let is_new = identity::schema_version(&path).await?.is_none();
         let writer = SqlitePoolOptions::new()
             .max_connections(1)
             // SQLite ends a transaction by itself when the disk is full or fails, and then cannot roll it back; sqlx
@@ -56,9 +59,14 @@ impl Store {
             .fetch_one(&writer)
             .await?;
         check_version(&version)?;
+        let last = owner::await_end_of_last(&writer, &path).await?;
+        if is_new {
+            // A start that is interrupted between two migrations leaves a database of this program.
+            identity::mark(&writer).await?;
+        }
         migrator().run(&writer).await?;
         identity::mark(&writer).await?;
-        let owner = owner::become_owner(&writer, &path).await?;
+        let owner = owner::become_owner(&writer, &path, last.as_ref()).await?;
         // There are no readers yet that it would have to wait for.
         sqlx::query("PRAGMA wal_checkpoint(TRUNCATE)")
             .execute(&writer)
@@ -81,10 +89,7 @@ impl Store {
             attempt_limit: limits.attempts,
             metrics: Arc::default(),
             submissions: Submissions::default(),
-            disk: Arc::new(DataDisk::reserve(
-                beside(&path, ".reserve"),
-                limits.least_free_disk_mb,
-            )),
+            disk: Arc::new(DataDisk::reserve(reserve, limits.least_free_disk_mb)),
             path,
             last_probe: tokio::sync::Mutex::default(),
             _lock: lock,

@@ -15,44 +15,67 @@ use crate::store::{Store, StoreError};
 /// Interval between two heartbeats; each is a small write.
 pub const OWNER_HEARTBEAT: Duration = Duration::from_secs(5);
 /// Longest wait for one, and the interval between two looks.
-const LONGEST_WAIT: Duration = Duration::from_secs(8);
+const LONGEST_WAIT: Duration = Duration::from_secs(16);
 const LOOK_AGAIN: Duration = Duration::from_millis(200);
 
 /// The row of an owner.
 #[derive(Debug, Clone, PartialEq, Eq)]
-struct Row {
+pub(super) struct Row {
     id: String,
     process: String,
     beats: i64,
 }
 
-/// Becomes the owner of a database, once no other process can be; returns the id of the owner.
+/// Waits until the last owner of a database has ended or writes no heartbeats, and returns its row; none for a database
+/// without owner.
 ///
 /// # Errors
-/// [`StoreError::Served`] if another process is the owner.
-pub(super) async fn become_owner(writer: &SqlitePool, path: &Path) -> Result<Uuid, StoreError> {
-    let first = row(writer).await?;
-    if let Some(first) = &first
-        && !has_ended(&first.process)
-    {
-        let mut waited = Duration::ZERO;
-        while waited < LONGEST_WAIT {
-            match row(writer).await? {
-                Some(now) if now == *first => {}
-                Some(_) => {
-                    return Err(StoreError::Served {
-                        path: path.to_owned(),
-                        process: first.process.clone(),
-                    });
-                }
-                None => break,
-            }
-            tokio::time::sleep(LOOK_AGAIN).await;
-            waited += LOOK_AGAIN;
-        }
+/// [`StoreError::Served`] if it is alive.
+pub(super) async fn await_end_of_last(
+    writer: &SqlitePool,
+    path: &Path,
+) -> Result<Option<Row>, StoreError> {
+    let tables: i64 = sqlx::query_scalar("SELECT count(*) FROM sqlite_master WHERE name = 'owner'")
+        .fetch_one(writer)
+        .await?;
+    if tables == 0 {
+        return Ok(None);
     }
+    let Some(first) = row(writer).await? else {
+        return Ok(None);
+    };
+    let mut waited = Duration::ZERO;
+    while waited < LONGEST_WAIT && !has_ended(&first.process) {
+        match row(writer).await? {
+            Some(now) if now == first => {}
+            Some(now) => return Err(served(path, now)),
+            None => return Ok(None),
+        }
+        tokio::time::sleep(LOOK_AGAIN).await;
+        waited += LOOK_AGAIN;
+    }
+    Ok(Some(first))
+}
+
+/// Becomes the owner of a database after the last one; returns the id of the owner.
+///
+/// # Errors
+/// [`StoreError::Served`] if another process was faster.
+pub(super) async fn become_owner(
+    writer: &SqlitePool,
+    path: &Path,
+    last: Option<&Row>,
+) -> Result<Uuid, StoreError> {
     let id = Uuid::now_v7();
     let mut transaction = writer.begin_with(BEGIN).await?;
+    let now: Option<(String, String, i64)> = sqlx::query_as("SELECT id, process, beats FROM owner")
+        .fetch_optional(&mut *transaction)
+        .await?;
+    if let Some(now) = now.map(Row::from)
+        && Some(&now) != last
+    {
+        return Err(served(path, now));
+    }
     sqlx::query("INSERT OR REPLACE INTO owner (one, id, process, beats) VALUES (1, ?, ?, 0)")
         .bind(id.to_string())
         .bind(this_process())
@@ -62,10 +85,23 @@ pub(super) async fn become_owner(writer: &SqlitePool, path: &Path) -> Result<Uui
     Ok(id)
 }
 
+fn served(path: &Path, owner: Row) -> StoreError {
+    StoreError::Served {
+        path: path.to_owned(),
+        process: owner.process,
+    }
+}
+
+impl From<(String, String, i64)> for Row {
+    fn from((id, process, beats): (String, String, i64)) -> Self {
+        Self { id, process, beats }
+    }
+}
+
 async fn row(pool: &SqlitePool) -> Result<Option<Row>, StoreError> {
     let row = sqlx::query_as("SELECT id, process, beats FROM owner").fetch_optional(pool);
     let row: Option<(String, String, i64)> = row.await?;
-    Ok(row.map(|(id, process, beats)| Row { id, process, beats }))
+    Ok(row.map(Row::from))
 }
 
 impl Store {

@@ -1,6 +1,6 @@
 //! Verification of a database and of all results that it names.
 
-use sqlx::sqlite::SqliteConnection;
+use sqlx::sqlite::{SqliteConnection, SqliteRow};
 use sqlx::{ConnectOptions, Connection, Row};
 use uuid::fmt::Hyphenated;
 
@@ -63,23 +63,54 @@ async fn verify_files(
         };
         verified.files += 1;
         verified.file_bytes += entry.bytes;
-        let how = integrity::check(&entry, &content).err();
-        let how = how.map(|cause| cause.to_string());
+        let how = match integrity::check(&entry, &content) {
+            Err(cause) if !named(database, job, &row).await? => {
+                tracing::debug!(%cause, "deleted or replaced meanwhile");
+                continue;
+            }
+            Err(cause) if !cause.is_damage() => {
+                let place = format!("{} of job {job}", entry.name);
+                return Err(BackupError::Content { place, cause });
+            }
+            checked => checked.err().map(|cause| cause.to_string()),
+        };
         if let Some(how) = &how {
             verified
                 .damaged
                 .push(format!("{} of job {job}: {how}", entry.name));
         }
         if how != entry.damaged {
-            sqlx::query("UPDATE result_files SET damaged = ? WHERE job_id = ? AND name = ?")
-                .bind(how)
-                .bind(job)
-                .bind(&entry.name)
-                .execute(&mut *database)
-                .await?;
+            let place: Option<String> = row.try_get("place")?;
+            sqlx::query(
+                "UPDATE result_files SET damaged = ? WHERE job_id = ? AND name = ? AND place IS ?",
+            )
+            .bind(how)
+            .bind(job)
+            .bind(&entry.name)
+            .bind(place)
+            .execute(&mut *database)
+            .await?;
         }
     }
     Ok(())
+}
+
+/// Whether the database still names a file.
+async fn named(
+    database: &mut SqliteConnection,
+    job: &str,
+    row: &SqliteRow,
+) -> Result<bool, BackupError> {
+    let (name, place): (String, Option<String>) = (row.try_get("name")?, row.try_get("place")?);
+    let rows: i64 = sqlx::query_scalar(
+        "SELECT count(*) FROM result_files WHERE job_id = ? AND name = ? AND place IS ?",
+    )
+    .bind(job)
+    .bind(name)
+    .bind(place)
+    .fetch_one(database)
+    .await?;
+    Ok(rows > 0)
 }
 
 /// A damaged checkpoint is not marked: its job would restart at cycle 0.

@@ -62,16 +62,16 @@ pub(crate) async fn archive(
         return Err(JobError::Active(id).into());
     }
     let files = app.store.manifest(id).await?;
-    for file in &files {
-        // Whatever can be known to be damaged is a problem instead of an archive that breaks off.
-        app.verified_file(id, &file.name).await?;
-    }
     let permit = app.archive_permits.clone().acquire_owned();
     let permit = tokio::time::timeout(PERMIT_TIMEOUT, permit).await;
     let permit = permit
         .ok()
         .and_then(Result::ok)
         .ok_or(TooManyArchivesError)?;
+    for file in &files {
+        // Whatever can be known to be damaged is a problem instead of an archive that breaks off.
+        app.verified_file(id, &file.name).await?;
+    }
     let (chunks, received) = mpsc::channel(BUFFERED_CHUNKS);
     tokio::task::spawn_blocking(move || send(&app, id, &files, &chunks, permit));
     let body = stream::unfold(received, |mut received| async move {

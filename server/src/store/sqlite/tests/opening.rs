@@ -161,3 +161,27 @@ async fn a_database_with_two_names_is_refused() {
     std::fs::remove_file(link).expect("removed");
     assert!(Store::open(&url).await.is_ok());
 }
+
+#[tokio::test]
+async fn a_first_start_that_was_interrupted_is_continued() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("test.db");
+    let url = format!("sqlite://{}", path.display());
+    let options = SqliteConnectOptions::new().filename(&path);
+    let mut begun = options
+        .create_if_missing(true)
+        .connect()
+        .await
+        .expect("opened");
+    sqlx::query("PRAGMA application_id = 0x66727477")
+        .execute(&mut begun)
+        .await
+        .expect("marked");
+    begun.close().await.expect("closed");
+    // Of a process that was killed while it held the reserved space.
+    let reserve = folder.path().join("test.db.reserve");
+    std::fs::write(&reserve, "rest").expect("written");
+    let store = Store::open(&url).await.expect("a store");
+    assert!(!store.disk().is_full());
+    assert!(std::fs::metadata(&reserve).expect("a file").len() > 1 << 20);
+}
