@@ -20,7 +20,7 @@
 //! | `renew` | end of the lease | yes; [`LeaseState::Lost`], not counted |
 //! | `lease_state` | reads only | yes; [`LeaseState::Lost`], not counted |
 //! | `restart` | rows, snapshots, files and checkpoint deleted, `attempt` event | yes; [`LeaseState::Lost`] |
-//! | `end` | rows, files, status, summary, `done` event, checkpoint deleted | yes; `None` |
+//! | `end` | rows, files, block (instead of rows and snapshots), status, summary, `done` event, checkpoint deleted | yes; `None` |
 //! | `reclaim_expired`, `reclaim_all` | all lost jobs: into the queue, or under a new lease | no; they end leases |
 //! | `cancel`, `cancel_batch` | a queued job ends with its `done` event; a running one is marked for its worker | no |
 //! | `expire` | all queued jobs whose deadline has passed end with their `done` events | no |
@@ -35,6 +35,7 @@
 
 mod backup;
 mod batches;
+pub mod block;
 mod changes;
 mod disk;
 mod error;

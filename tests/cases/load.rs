@@ -7,6 +7,7 @@
 //!     FRETWEAR_LOAD=long cargo test --release -p tests load -- --nocapture
 
 use std::io::Write;
+use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
@@ -14,7 +15,8 @@ use std::time::{Duration, Instant};
 use eventsource_stream::Eventsource;
 use futures_util::{StreamExt, future};
 use serde_json::Value;
-use tests::Server;
+use sqlx::Connection;
+use tests::{Server, database};
 
 /// A job of some 10 ms.
 const SPEC: &str = r#"{"system":{"kind":"cylinder_on_flat"},"cycles":2,
@@ -111,10 +113,28 @@ async fn nothing_is_lost_under_many_polls_and_streams() {
         waits.extend(poll.expect("a client that was answered"));
     }
     report(load, submitting, submits, elapsed, waits, &jobs);
+    let bytes = database_bytes(folder.path()).await;
+    tell(format_args!(
+        "database: {:.1} kB a job",
+        bytes / 1e3 / f64::from(u32::try_from(load.jobs).expect("small"))
+    ));
     tell(format_args!(
         "server: peak memory {:.0} MB",
         server.peak_memory_mb()
     ));
+}
+
+/// Bytes of the pages that the database uses.
+async fn database_bytes(folder: &Path) -> f64 {
+    let mut stored = database::open(folder).await;
+    let bytes: i64 = sqlx::query_scalar(
+        "SELECT (page_count - freelist_count) * page_size FROM pragma_page_count, pragma_freelist_count, pragma_page_size",
+    )
+    .fetch_one(&mut stored)
+    .await
+    .expect("its size");
+    stored.close().await.expect("closed");
+    f64::from(u32::try_from(bytes).expect("small"))
 }
 
 async fn submitted(shared: &Arc<Shared>, jobs: usize) -> (Vec<String>, Vec<Duration>) {

@@ -1,12 +1,16 @@
 //! Requirement: a job with requested fields lists them and all its documents with length and SHA-256; each file is
-//! served with exactly these bytes, whole and in ranges; the fields are those of `fretwear solve`, bit for bit; deleting
+//! served with exactly these bytes, whole and in ranges; the archive contains what `fretwear solve --out` writes, bit for bit; deleting
 //! the job deletes its files.
 
+use std::collections::BTreeMap;
+use std::ffi::OsStr;
+use std::io::{Cursor, Read};
 use std::path::Path;
 
 use serde_json::Value;
 use sha2::{Digest, Sha256};
 use tests::{Server, fretwear};
+use zip::ZipArchive;
 
 const SPEC: &str = r#"{
   "system": {"kind": "cylinder_on_flat"},
@@ -61,6 +65,27 @@ async fn every_file_is_served_as_the_manifest_describes_it() {
         }
     }
 
+    let archive = archived(&server, &id).await;
+    let written: BTreeMap<String, Vec<u8>> = std::fs::read_dir(&solved)
+        .expect("a folder")
+        .map(|entry| {
+            let path = entry.expect("an entry").path();
+            let name = path.file_name().and_then(OsStr::to_str).expect("a name");
+            (name.to_owned(), std::fs::read(&path).expect("a file"))
+        })
+        .collect();
+    assert_eq!(
+        archive.keys().collect::<Vec<_>>(),
+        written.keys().collect::<Vec<_>>()
+    );
+    for (name, bytes) in &archive {
+        if name == "summary.json" {
+            assert_eq!(without_cost(bytes), without_cost(&written[name]));
+        } else {
+            assert!(*bytes == written[name], "{name}");
+        }
+    }
+
     let results = folder.path().join("fretwear.db.results");
     assert!(results.join(&id).is_dir());
     let deleted = server
@@ -79,6 +104,29 @@ fn solved(folder: &Path) -> std::path::PathBuf {
     let ran = fretwear(folder, &["solve", "spec.json", "--out", "solved"]);
     assert_eq!(ran.code, Some(0), "{}", ran.stderr);
     folder.join("solved")
+}
+
+/// The files of a job's archive by name.
+async fn archived(server: &Server, id: &str) -> BTreeMap<String, Vec<u8>> {
+    let url = format!("{}/v1/jobs/{id}/results/archive", server.base);
+    let answer = server.client.get(url).send().await.expect("an answer");
+    assert_eq!(answer.status(), 200);
+    let bytes = answer.bytes().await.expect("a body");
+    let mut archive = ZipArchive::new(Cursor::new(bytes)).expect("an archive");
+    let files = (0..archive.len()).map(|index| {
+        let mut file = archive.by_index(index).expect("a file");
+        let mut content = Vec::new();
+        file.read_to_end(&mut content).expect("a content");
+        (file.name().expect("a name").into_owned(), content)
+    });
+    files.collect()
+}
+
+/// A summary without what a run has cost, which differs from run to run.
+fn without_cost(summary: &[u8]) -> Value {
+    let mut summary: Value = serde_json::from_slice(summary).expect("JSON");
+    summary["cost"] = Value::Null;
+    summary
 }
 
 /// Fetches a whole file; compares it with its description and with its second half, fetched by range.

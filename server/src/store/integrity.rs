@@ -96,17 +96,29 @@ pub fn check_length(entry: &ResultFile, content: &Content) -> Result<(), Integri
     compare_length(found, entry)
 }
 
+/// Checks bytes.
+///
+/// # Errors
+/// [`IntegrityError`] if they differ from their entry.
+pub fn check_bytes(entry: &ResultFile, bytes: &[u8]) -> Result<(), IntegrityError> {
+    let mut checksum = Checksum::default();
+    checksum.update(bytes);
+    checksum.compare(entry)
+}
+
 /// Reads a content and checks it.
 ///
 /// # Errors
 /// [`IntegrityError`] if it differs from its entry.
 pub fn check(entry: &ResultFile, content: &Content) -> Result<(), IntegrityError> {
-    let mut checksum = Checksum::default();
     match content {
-        Content::Inline(bytes) => checksum.update(bytes),
-        Content::File(path) => read(path, &mut checksum)?,
+        Content::Inline(bytes) => check_bytes(entry, bytes),
+        Content::File(path) => {
+            let mut checksum = Checksum::default();
+            read(path, &mut checksum)?;
+            checksum.compare(entry)
+        }
     }
-    checksum.compare(entry)
 }
 
 fn read(path: &Path, checksum: &mut Checksum) -> std::io::Result<()> {

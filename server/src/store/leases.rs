@@ -8,6 +8,7 @@ use uuid::Uuid;
 use crate::queue::Transition;
 use crate::solve::checkpoint::EncodedCheckpoint;
 use crate::store::NewFile;
+use crate::store::block::EncodedBlock;
 
 /// A job under a lease.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -41,6 +42,8 @@ pub struct JobUpdate {
     pub snapshots: Vec<Snapshot>,
     /// New files of the manifest; they replace files of the same name.
     pub files: Vec<NewFile>,
+    /// The small results of a job that ends, as a block.
+    pub block: Option<EncodedBlock>,
     /// The newest checkpoint; all rows, snapshots and files up to its cycle are in this update or an earlier one.
     pub checkpoint: Option<EncodedCheckpoint>,
     /// New events: name and JSON document.

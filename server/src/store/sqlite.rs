@@ -5,6 +5,7 @@
 
 pub(in crate::store) mod backup;
 mod batches;
+mod blocks;
 mod checkpoints;
 mod claims;
 mod document;

@@ -83,15 +83,16 @@ impl Attempt<'_> {
     ) -> Result<(), StoreError> {
         let Self { store, claim, .. } = *self;
         let is_final = retry(|| store.is_final(claim, end.transition, cancel_requested)).await?;
-        let files = if is_final {
+        let (files, block) = if is_final {
             retry(|| build_manifest(store, claim, end.summary.as_ref())).await?
         } else {
-            Vec::new()
+            (Vec::new(), None)
         };
         // The end and the manifest are one transaction.
         let last = JobUpdate {
             progress: progress.clone(),
             files,
+            block,
             ..JobUpdate::default()
         };
         let status = retry(|| store.end(claim, &last, end, now_ms())).await?;

@@ -8,18 +8,20 @@ use crate::export::documents;
 use crate::export::documents::{Document, DocumentError, Results};
 use crate::export::files;
 use crate::export::files::FilesError;
+use crate::store::block::{Block, EncodedBlock};
 use crate::store::{Claim, NewFile, Store, StoreError};
 
-/// Largest document that is stored in the database instead of a file, bytes. Below some 100 kB a row is read faster
-/// than a file (sqlite.org/intern-v-extern-blob.html).
+/// Largest document that is stored in the block of the database instead of a file, bytes. Below some 100 kB a row is read
+/// faster than a file (sqlite.org/intern-v-extern-blob.html).
 const INLINE_LIMIT: usize = 64 << 10;
 
-/// Makes all documents of a job; the large ones are written into the attempt's folder.
+/// Makes all documents of a job: the small ones as a block with history and snapshots, the large ones as files in the
+/// attempt's folder.
 pub(super) async fn build_manifest(
     store: &Store,
     claim: &Claim,
     summary: Option<&Summary>,
-) -> Result<Vec<NewFile>, StoreError> {
+) -> Result<(Vec<NewFile>, Option<EncodedBlock>), StoreError> {
     let rows = store.history(claim.id).await?;
     let snapshots = store.snapshots(claim.id).await?;
     let folder = store.attempt_folder(claim);
@@ -34,10 +36,16 @@ pub(super) async fn build_manifest(
             // Users of the service have a browser, which draws SVG.
             pixels: false,
         })?;
-        documents
-            .into_iter()
-            .map(|document| write(&folder, document))
-            .collect::<Result<Vec<_>, FilesError>>()
+        let mut block = Block::default();
+        block
+            .push_history(&rows, &snapshots)
+            .map_err(DocumentError::from)?;
+        let mut files = Vec::new();
+        for document in documents {
+            files.extend(write(&folder, document, &mut block)?);
+        }
+        let block = block.encode().map_err(DocumentError::from)?;
+        Ok((files, Some(block)))
     })
     .await;
     match made {
@@ -53,17 +61,23 @@ pub(super) async fn build_manifest(
             tracing::error!(job = %claim.id, %error, "documents are missing from a manifest");
         }
     }
-    Ok(Vec::new())
+    Ok((Vec::new(), None))
 }
 
-fn write(folder: &Path, document: Document) -> Result<NewFile, FilesError> {
+/// Adds a document to the block, or writes its file.
+fn write(
+    folder: &Path,
+    document: Document,
+    block: &mut Block,
+) -> Result<Option<NewFile>, FilesError> {
     let Document { name, bytes, .. } = document;
     let file = files::manifest_entry(&name, document.cycle, document.media_type, &bytes);
-    let content = if bytes.len() <= INLINE_LIMIT {
-        Some(bytes)
-    } else {
-        files::write_atomically(folder, &name, &bytes)?;
-        None
-    };
-    Ok(NewFile { file, content })
+    if bytes.len() <= INLINE_LIMIT && block.push_document(&file, &bytes) {
+        return Ok(None);
+    }
+    files::write_atomically(folder, &name, &bytes)?;
+    Ok(Some(NewFile {
+        file,
+        content: None,
+    }))
 }

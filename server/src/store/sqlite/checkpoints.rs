@@ -31,7 +31,7 @@ pub(super) async fn restore(
     Ok(valid)
 }
 
-/// Deletes rows, snapshots and files after a cycle; without a cycle all of them, and the checkpoint.
+/// Deletes rows, snapshots and files after a cycle, and the block; without a cycle all of them, and the checkpoint.
 pub(super) async fn delete_results_after(
     connection: &mut SqliteConnection,
     id: Uuid,
@@ -50,6 +50,11 @@ pub(super) async fn delete_results_after(
             .execute(&mut *connection)
             .await?;
     }
+    // Made of them, and made again at the end.
+    sqlx::query("DELETE FROM result_blocks WHERE job_id = ?")
+        .bind(id.to_string())
+        .execute(connection)
+        .await?;
     Ok(())
 }
 

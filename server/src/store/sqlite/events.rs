@@ -14,7 +14,9 @@ impl Store {
     /// [`StoreError`] if the database fails.
     pub async fn events(&self, id: Uuid, after: i64) -> Result<Vec<StoredEvent>, StoreError> {
         let rows: Vec<(i64, String, String)> = sqlx::query_as(
-            "SELECT seq, name, data FROM events WHERE job_id = ? AND seq > ? ORDER BY seq LIMIT ?",
+            "SELECT seq, name, iif(name = 'done' AND data ->> '$.status' = 'succeeded', \
+             json_set(data, '$.summary', json((SELECT summary FROM jobs WHERE id = job_id))), data) \
+             FROM events WHERE job_id = ? AND seq > ? ORDER BY seq LIMIT ?",
         )
         .bind(id.to_string())
         .bind(after)

@@ -8,8 +8,10 @@ use sqlx::sqlite::SqliteRow;
 use sqlx::{Row, Sqlite, Transaction};
 use uuid::Uuid;
 
+use crate::store::block::Block;
+use crate::store::sqlite::blocks::{block, unreadable, update_entries};
 use crate::store::sqlite::folder::Folder;
-use crate::store::sqlite::queries::{corrupt, integer};
+use crate::store::sqlite::queries::{BEGIN, corrupt, integer};
 use crate::store::{Claim, Content, NewFile, Store, StoreError};
 
 impl Store {
@@ -29,7 +31,17 @@ impl Store {
         .bind(id.to_string())
         .fetch_all(&self.readers)
         .await?;
-        rows.iter().map(entry).collect()
+        let mut files: Vec<_> = rows.iter().map(entry).collect::<Result<_, _>>()?;
+        let entries: Option<Vec<u8>> =
+            sqlx::query_scalar("SELECT entries FROM result_blocks WHERE job_id = ?")
+                .bind(id.to_string())
+                .fetch_optional(&self.readers)
+                .await?;
+        if let Some(entries) = entries {
+            files.extend(Block::listed(&entries).map_err(|cause| unreadable(id, &cause))?);
+            files.sort_by(|a, b| a.name.cmp(&b.name));
+        }
+        Ok(files)
     }
 
     /// Returns a file that the manifest names, and its content.
@@ -49,7 +61,9 @@ impl Store {
         .fetch_optional(&self.readers)
         .await?;
         let Some(row) = row else {
-            return Ok(None);
+            let document = |block: &Block| Ok(block.document(name));
+            let document = self.in_block(id, document).await?;
+            return Ok(document.map(|(entry, bytes)| (entry, Content::Inline(bytes))));
         };
         let content = if let Some(content) = row.try_get("content")? {
             Content::Inline(content)
@@ -71,15 +85,21 @@ impl Store {
         name: &str,
         how: Option<&str>,
     ) -> Result<(), StoreError> {
+        let mut transaction = self.writer.begin_with(BEGIN).await?;
         sqlx::query(
             "UPDATE result_files SET damaged = ?1 WHERE job_id = ?2 AND name = ?3 AND damaged IS NOT ?1",
         )
         .bind(how)
         .bind(id.to_string())
         .bind(name)
-        .execute(&self.writer)
+        .execute(&mut *transaction)
         .await?;
-        Ok(())
+        if let Some(mut block) = block(&mut transaction, id).await?
+            && let Some(entries) = block.mark(name, how)?
+        {
+            update_entries(&mut transaction, id, &entries).await?;
+        }
+        Ok(transaction.commit().await?)
     }
 
     /// Removes files that no manifest names: of the attempts at a job up to this one, or of all jobs at start-up. A

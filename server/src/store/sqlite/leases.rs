@@ -7,6 +7,7 @@ use api::job::Status;
 use sqlx::{Sqlite, Transaction};
 
 use crate::queue::Transition;
+use crate::store::sqlite::blocks::insert_block;
 use crate::store::sqlite::checkpoints;
 use crate::store::sqlite::files::insert_files;
 use crate::store::sqlite::queries::{BEGIN, insert_attempt_event, insert_event, integer};
@@ -155,6 +156,10 @@ impl Store {
         let job = EndingJob::running(claim.id, fruitless, self.attempt_limit, cancel_requested);
         let progress = serde_json::to_string(&update.progress)?;
         let status = end_job(&mut transaction, &job, end, Some(&progress), now).await?;
+        if let Some(block) = &update.block {
+            let succeeded = status == Some(Status::Succeeded);
+            insert_block(&mut transaction, claim.id, block, succeeded).await?;
+        }
         transaction.commit().await?;
         self.concluded(claim.id, status);
         Ok(status)

@@ -14,7 +14,7 @@ macro_rules! file {
 }
 
 /// All files of the folder; a name is the version and what it is about.
-const FILES: [(&str, &str); 17] = [
+const FILES: [(&str, &str); 18] = [
     file!("0001_jobs.sql"),
     file!("0002_labels.sql"),
     file!("0003_events.sql"),
@@ -32,6 +32,7 @@ const FILES: [(&str, &str); 17] = [
     file!("0053_damaged_files.sql"),
     file!("0054_owner.sql"),
     file!("0055_list_indexes.sql"),
+    file!("0056_result_blocks.sql"),
 ];
 
 /// Applies the migrations that a database does not have; refuses a database with others.

@@ -6,6 +6,7 @@ use solver::record::CycleReport;
 use sqlx::AssertSqlSafe;
 use uuid::Uuid;
 
+use crate::store::block::Block;
 use crate::store::sqlite::queries::{integer, parsed};
 use crate::store::{SnapshotPart, Store, StoreError};
 
@@ -21,7 +22,12 @@ impl Store {
         );
         let texts = text.bind(id.to_string()).fetch(&self.readers);
         let rows = texts.map(|text| parsed(id, "history row", &text?));
-        rows.try_collect().await
+        let rows: Vec<_> = rows.try_collect().await?;
+        if !rows.is_empty() {
+            return Ok(rows);
+        }
+        let packed = self.in_block(id, Block::history).await?;
+        Ok(packed.unwrap_or_default())
     }
 
     /// Returns a document (JSON) of the snapshot nearest to a cycle; of the last snapshot if no cycle is given.
@@ -42,24 +48,16 @@ impl Store {
         let sql = format!(
             "SELECT {column} FROM snapshots WHERE job_id = ? ORDER BY abs(cycle - ?), cycle LIMIT 1"
         );
-        Ok(sqlx::query_scalar(AssertSqlSafe(sql))
+        let found = sqlx::query_scalar(AssertSqlSafe(sql))
             .bind(id.to_string())
             .bind(cycle.map_or(i64::MAX, integer))
             .fetch_optional(&self.readers)
-            .await?)
-    }
-
-    /// Returns the cycles of the snapshots.
-    ///
-    /// # Errors
-    /// [`StoreError`] if the database fails.
-    pub async fn snapshot_cycles(&self, id: Uuid) -> Result<Vec<i64>, StoreError> {
-        Ok(
-            sqlx::query_scalar("SELECT cycle FROM snapshots WHERE job_id = ? ORDER BY cycle")
-                .bind(id.to_string())
-                .fetch_all(&self.readers)
-                .await?,
-        )
+            .await?;
+        if found.is_some() {
+            return Ok(found);
+        }
+        let nearest = |block: &Block| block.snapshot(part, cycle.unwrap_or(u64::MAX));
+        self.in_block(id, nearest).await
     }
 
     /// Returns all snapshots of a job, by cycle.
@@ -80,6 +78,10 @@ impl Store {
                 friction_loop: parsed(id, "snapshot", friction_loop)?,
             })
         };
-        rows.iter().map(snapshot).collect()
+        if !rows.is_empty() {
+            return rows.iter().map(snapshot).collect();
+        }
+        let packed = self.in_block(id, Block::snapshots).await?;
+        Ok(packed.unwrap_or_default())
     }
 }

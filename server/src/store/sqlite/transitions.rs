@@ -85,7 +85,8 @@ pub(super) async fn end_job(
             status,
             status_reason,
             outcome,
-            summary: end.summary.clone(),
+            // That of a succeeded job stays, and is added where the event is read.
+            summary: (end.summary.clone()).filter(|_| status != Status::Succeeded),
         };
         let data = serde_json::to_string(&done)?;
         insert_event(connection, job.id, seq, "done", &data).await?;

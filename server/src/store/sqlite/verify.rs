@@ -2,15 +2,17 @@
 
 use sqlx::sqlite::{SqliteConnection, SqliteRow};
 use sqlx::{ConnectOptions, Connection, Row};
+use uuid::Uuid;
 use uuid::fmt::Hyphenated;
 
 use crate::export::files::{hexadecimal, sha256};
 use crate::store::sqlite::backup::{at, check_integrity, database_at};
+use crate::store::sqlite::blocks::{block, update_entries};
 use crate::store::sqlite::files::entry;
 use crate::store::sqlite::folder::Folder;
 use crate::store::sqlite::migrations::newest_version;
 use crate::store::sqlite::open::options;
-use crate::store::{BackupError, Content, CopySummary, integrity};
+use crate::store::{BackupError, Content, CopySummary, StoreError, integrity};
 
 /// Reads the database at `url`, which may be in use, and all results, and compares every checksum. Marks in the manifests
 /// which files are damaged, and which no longer are.
@@ -31,6 +33,7 @@ pub async fn verify(url: &str) -> Result<CopySummary, BackupError> {
         .await?;
     let mut verified = CopySummary::default();
     for job in jobs {
+        verify_block(&mut database, job.into(), &mut verified).await?;
         let job = job.to_string();
         verify_files(&mut database, &folder, &job, &mut verified).await?;
         verify_checkpoint(&mut database, &job, &mut verified).await?;
@@ -91,6 +94,39 @@ async fn verify_files(
             .execute(&mut *database)
             .await?;
         }
+    }
+    Ok(())
+}
+
+/// Checks the block of a job; marks its documents.
+async fn verify_block(
+    database: &mut SqliteConnection,
+    job: Uuid,
+    verified: &mut CopySummary,
+) -> Result<(), BackupError> {
+    let block = match block(&mut *database, job).await {
+        Ok(Some(block)) => block,
+        Ok(None) => return Ok(()),
+        Err(error @ StoreError::Corrupt { .. }) => {
+            verified.damaged.push(error.to_string());
+            return Ok(());
+        }
+        Err(error) => return Err(error.into()),
+    };
+    let mut marked = block.clone();
+    for (entry, bytes) in block.all() {
+        verified.files += 1;
+        verified.file_bytes += entry.bytes;
+        let how = integrity::check_bytes(entry, bytes).err();
+        let how = how.map(|cause| cause.to_string());
+        if let Some(entries) = marked
+            .mark(&entry.name, how.as_deref())
+            .map_err(StoreError::from)?
+        {
+            update_entries(database, job, &entries).await?;
+        }
+        let said = how.map(|how| format!("{} of job {job}: {how}", entry.name));
+        verified.damaged.extend(said);
     }
     Ok(())
 }

@@ -1,5 +1,6 @@
 //! `GET /v1/jobs/{id}/results/archive`: all files of a job as a zip, which is written while it is sent.
 
+use std::collections::HashMap;
 use std::io::{self, Read, Write};
 use std::path::Path;
 use std::time::Duration;
@@ -17,13 +18,14 @@ use uuid::Uuid;
 use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, ZipWriter};
 
+use crate::export::pictures;
 use crate::http::app::{App, MAX_ARCHIVES};
 use crate::http::extract::JobId;
 use crate::http::job_error::JobError;
 use crate::http::problem::{ProblemResponse, ProblemType, RouteError};
 use crate::http::routes::results::download_file::attachment;
-use crate::store::Content;
 use crate::store::integrity::Checksum;
+use crate::store::{Content, integrity};
 
 /// Size of the chunks of the body, bytes.
 const CHUNK_BYTES: usize = 64 << 10;
@@ -68,12 +70,22 @@ pub(crate) async fn archive(
         .ok()
         .and_then(Result::ok)
         .ok_or(TooManyArchivesError)?;
+    let documents = app.store.block_documents(id).await?;
     for file in &files {
         // Whatever can be known to be damaged is a problem instead of an archive that breaks off.
-        app.verified_file(id, &file.name).await?;
+        let checked = documents.get(&file.name);
+        match checked.map(|bytes| integrity::check_bytes(file, bytes)) {
+            Some(Ok(())) => {}
+            Some(Err(_)) | None => drop(app.verified_file(id, &file.name).await?),
+        }
     }
+    let content = Archived {
+        id,
+        files,
+        documents,
+    };
     let (chunks, received) = mpsc::channel(BUFFERED_CHUNKS);
-    tokio::task::spawn_blocking(move || send(&app, id, &files, &chunks, permit));
+    tokio::task::spawn_blocking(move || send(&app, &content, &chunks, permit));
     let body = stream::unfold(received, |mut received| async move {
         received.recv().await.map(|chunk| (chunk, received))
     });
@@ -87,11 +99,18 @@ pub(crate) async fn archive(
     Ok((headers, Body::from_stream(body)).into_response())
 }
 
+/// What an archive contains.
+struct Archived {
+    id: Uuid,
+    files: Vec<ResultFile>,
+    /// The documents of the block, by name; other files are read one by one.
+    documents: HashMap<String, Vec<u8>>,
+}
+
 /// Writes an archive into the channel; an error ends the body early.
 fn send(
     app: &App,
-    id: Uuid,
-    files: &[ResultFile],
+    archived: &Archived,
     chunks: &mpsc::Sender<io::Result<Bytes>>,
     permit: OwnedSemaphorePermit,
 ) {
@@ -100,32 +119,49 @@ fn send(
         runtime: Handle::current(),
         buffer: Vec::with_capacity(CHUNK_BYTES),
     };
-    if let Err(error) = write_archive(app, id, files, writer) {
-        tracing::warn!(job = %id, %error, "an archive was aborted");
+    if let Err(error) = write_archive(app, archived, writer) {
+        tracing::warn!(job = %archived.id, %error, "an archive was aborted");
         // The client sees an incomplete body; it may have disconnected.
         let _ = chunks.try_send(Err(error));
     }
     drop(permit);
 }
 
-fn write_archive(app: &App, id: Uuid, files: &[ResultFile], writer: ChunkWriter) -> io::Result<()> {
+fn write_archive(app: &App, archived: &Archived, writer: ChunkWriter) -> io::Result<()> {
     let runtime = writer.runtime.clone();
     let mut archive = ZipWriter::new_stream(writer);
-    for file in files {
-        let stored = runtime.block_on(app.store.result_file(id, &file.name));
-        let Some((_, content)) = stored.map_err(io::Error::other)? else {
-            return Err(io::Error::other("the job was deleted"));
-        };
+    for file in &archived.files {
         let options = SimpleFileOptions::default()
             .compression_method(CompressionMethod::Deflated)
             .large_file(file.bytes > u64::from(u32::MAX));
         archive.start_file(file.name.as_str(), options)?;
-        match content {
-            Content::Inline(bytes) => archive.write_all(&bytes)?,
-            Content::File(path) => copy(app, (id, file), &path, &mut archive)?,
+        let content = if let Some(document) = archived.documents.get(&file.name) {
+            Content::Inline(document.clone())
+        } else {
+            let stored = runtime.block_on(app.store.result_file(archived.id, &file.name));
+            let stored = stored.map_err(io::Error::other)?;
+            let (_, content) = stored.ok_or_else(|| io::Error::other("the job was deleted"))?;
+            content
+        };
+        match &content {
+            Content::Inline(bytes) => archive.write_all(bytes)?,
+            Content::File(path) => copy(app, (archived.id, file), path, &mut archive)?,
+        }
+        if let Some(picture) = file.name.strip_suffix(".svg") {
+            // `fretwear solve --out` writes it too; it is not stored, because browsers show the drawing.
+            archive.start_file(format!("{picture}.png"), options)?;
+            archive.write_all(&raster(content)?)?;
         }
     }
     archive.finish()?.into_inner().flush()
+}
+
+fn raster(drawing: Content) -> io::Result<Vec<u8>> {
+    let svg = match drawing {
+        Content::Inline(bytes) => String::from_utf8(bytes).map_err(io::Error::other)?,
+        Content::File(path) => std::fs::read_to_string(path)?,
+    };
+    pictures::png(&svg).map_err(io::Error::other)
 }
 
 /// Copies a file into an archive, and checks it meanwhile.

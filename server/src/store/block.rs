@@ -1,0 +1,453 @@
+//! Blocks: the small results of an ended job, one after the other and compressed together.
+//!
+//! Documents, history and snapshots of a job have most of their digits in common, so that together they take a tenth of their
+//! length; each by itself takes a quarter, besides a row of its own.
+
+use std::collections::HashMap;
+use std::io::{Read, Write};
+use std::ops::Range;
+
+use api::results::{ResultFile, Snapshot};
+use brotli::{CompressorWriter, Decompressor};
+use serde::{Deserialize, Serialize};
+use serde_json::value::RawValue;
+use solver::record::CycleReport;
+
+use crate::export::documents::JSON;
+use crate::export::files::manifest_entry;
+use crate::store::{IntegrityError, SnapshotPart, integrity};
+
+/// Largest length of the content of a block, bytes; it is read as a whole.
+const LIMIT: usize = 4 << 20;
+/// Buffer of the compression, bytes.
+const BUFFER: usize = 16 << 10;
+/// Quality of the compression: 4 to 9 differ by 5 % in length, 4 and 5 take 3 ms for 200 kB, 9 takes 20 ms.
+const QUALITY: u32 = 5;
+/// Logarithm of the compression's window, bytes: 4 MB.
+const WINDOW: u32 = 22;
+
+/// What an entry of a block is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+enum Kind {
+    /// A document of the manifest.
+    Document,
+    /// The rows of the history.
+    History,
+    /// All snapshots.
+    Snapshots,
+}
+
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+struct Entry {
+    kind: Kind,
+    file: ResultFile,
+}
+
+/// The small results of a job.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Block {
+    entries: Vec<Entry>,
+    content: Vec<u8>,
+}
+
+/// A compressed block.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct EncodedBlock {
+    /// The entries, JSON.
+    pub(in crate::store) entries: Vec<u8>,
+    /// The content.
+    pub(in crate::store) content: Vec<u8>,
+    /// Whether history and snapshots are part of it.
+    pub(in crate::store) has_history: bool,
+}
+
+/// Why a block cannot be read.
+#[derive(Debug, thiserror::Error)]
+pub enum BlockError {
+    /// The entries are damaged.
+    #[error("its entries cannot be read: {0}")]
+    Entries(#[from] serde_json::Error),
+    /// Its history or its snapshots are damaged.
+    #[error("{what}: {cause}")]
+    Damaged {
+        /// The entry.
+        what: String,
+        /// The damage.
+        cause: IntegrityError,
+    },
+}
+
+/// A snapshot whose documents are not parsed.
+#[derive(Deserialize)]
+struct RawSnapshot<'a> {
+    #[serde(borrow)]
+    profile: &'a RawValue,
+    #[serde(borrow)]
+    pressure: &'a RawValue,
+    #[serde(borrow)]
+    friction_loop: &'a RawValue,
+}
+
+#[derive(Deserialize)]
+struct OfCycle {
+    cycle: u64,
+}
+
+impl Block {
+    /// Adds history and snapshots; false if they are too long.
+    ///
+    /// # Errors
+    /// If they cannot be written as JSON.
+    pub fn push_history(
+        &mut self,
+        rows: &[CycleReport],
+        snapshots: &[Snapshot],
+    ) -> Result<bool, serde_json::Error> {
+        let (history, snapshots) = (serde_json::to_vec(rows)?, serde_json::to_vec(snapshots)?);
+        if !self.has_room(history.len() + snapshots.len()) {
+            return Ok(false);
+        }
+        for (kind, name, bytes) in [
+            (Kind::History, "history", history),
+            (Kind::Snapshots, "snapshots", snapshots),
+        ] {
+            self.push(kind, manifest_entry(name, None, JSON, &bytes), &bytes);
+        }
+        Ok(true)
+    }
+
+    /// Adds a document of the manifest; false if the block is full.
+    pub fn push_document(&mut self, file: &ResultFile, bytes: &[u8]) -> bool {
+        let has_room = self.has_room(bytes.len());
+        if has_room {
+            self.push(Kind::Document, file.clone(), bytes);
+        }
+        has_room
+    }
+
+    /// Compresses it.
+    ///
+    /// # Errors
+    /// If the entries cannot be written as JSON.
+    pub fn encode(&self) -> Result<EncodedBlock, serde_json::Error> {
+        Ok(EncodedBlock {
+            entries: compress(&serde_json::to_vec(&self.entries)?),
+            content: compress(&self.content),
+            has_history: self.range(Kind::History).is_some(),
+        })
+    }
+
+    /// Decompresses a block. What cannot be decompressed is missing from the content, and is found by the checks of its
+    /// entries.
+    ///
+    /// # Errors
+    /// [`BlockError::Entries`].
+    pub(in crate::store) fn decode(entries: &[u8], content: &[u8]) -> Result<Self, BlockError> {
+        Ok(Self {
+            entries: serde_json::from_slice(&decompress(entries))?,
+            content: decompress(content),
+        })
+    }
+
+    /// Returns the entries of the documents, by a block's compressed entries only.
+    ///
+    /// # Errors
+    /// [`BlockError::Entries`].
+    pub(in crate::store) fn listed(entries: &[u8]) -> Result<Vec<ResultFile>, BlockError> {
+        let block = Self::decode(entries, &[])?;
+        let documents = block.entries.into_iter();
+        let documents = documents.filter(|entry| entry.kind == Kind::Document);
+        Ok(documents.map(|entry| entry.file).collect())
+    }
+
+    /// Returns all entries with their contents, checked or not.
+    pub(in crate::store) fn all(&self) -> impl Iterator<Item = (&ResultFile, &[u8])> {
+        let entries = self.entries.iter().zip(self.ranges());
+        entries.map(|(entry, range)| (&entry.file, self.slice(range)))
+    }
+
+    /// Returns a document, unchecked.
+    pub(in crate::store) fn document(&self, name: &str) -> Option<(ResultFile, Vec<u8>)> {
+        let mut entries = self.entries.iter().zip(self.ranges());
+        let is_it = |entry: &Entry| entry.kind == Kind::Document && entry.file.name == name;
+        let (entry, range) = entries.find(|(entry, _)| is_it(entry))?;
+        Some((entry.file.clone(), self.slice(range).to_vec()))
+    }
+
+    /// Returns the contents of all documents by name, unchecked.
+    pub(in crate::store) fn into_documents(self) -> HashMap<String, Vec<u8>> {
+        let documents = self.entries.iter().zip(self.ranges());
+        let documents = documents.filter(|(entry, _)| entry.kind == Kind::Document);
+        documents
+            .map(|(entry, range)| (entry.file.name.clone(), self.slice(range).to_vec()))
+            .collect()
+    }
+
+    /// Returns the rows of the history; `None` if they are not part of the block.
+    ///
+    /// # Errors
+    /// [`BlockError`] if they are damaged.
+    pub(in crate::store) fn history(&self) -> Result<Option<Vec<CycleReport>>, BlockError> {
+        let bytes = self.checked(Kind::History)?;
+        Ok(bytes.map(serde_json::from_slice).transpose()?)
+    }
+
+    /// Returns all snapshots; `None` if they are not part of the block.
+    ///
+    /// # Errors
+    /// [`BlockError`] if they are damaged.
+    pub(in crate::store) fn snapshots(&self) -> Result<Option<Vec<Snapshot>>, BlockError> {
+        let bytes = self.checked(Kind::Snapshots)?;
+        Ok(bytes.map(serde_json::from_slice).transpose()?)
+    }
+
+    /// Returns a document (JSON) of the snapshot nearest to a cycle, of the earlier one of two.
+    ///
+    /// # Errors
+    /// [`BlockError`] if the snapshots are damaged.
+    pub(in crate::store) fn snapshot(
+        &self,
+        part: SnapshotPart,
+        cycle: u64,
+    ) -> Result<Option<String>, BlockError> {
+        let Some(bytes) = self.checked(Kind::Snapshots)? else {
+            return Ok(None);
+        };
+        let mut nearest: Option<(u64, &RawValue)> = None;
+        for snapshot in serde_json::from_slice::<Vec<RawSnapshot<'_>>>(bytes)? {
+            let document = match part {
+                SnapshotPart::Profile => snapshot.profile,
+                SnapshotPart::Pressure => snapshot.pressure,
+                SnapshotPart::Loop => snapshot.friction_loop,
+            };
+            let OfCycle { cycle: found } = serde_json::from_str(document.get())?;
+            let distance = found.abs_diff(cycle);
+            if nearest.is_none_or(|(least, _)| distance < least) {
+                nearest = Some((distance, document));
+            }
+        }
+        Ok(nearest.map(|(_, document)| document.get().to_owned()))
+    }
+
+    /// Marks documents as damaged, or no longer; returns the new compressed entries if there is a change.
+    ///
+    /// # Errors
+    /// If the entries cannot be written as JSON.
+    pub(in crate::store) fn mark(
+        &mut self,
+        name: &str,
+        how: Option<&str>,
+    ) -> Result<Option<Vec<u8>>, serde_json::Error> {
+        let mut entries = self.entries.iter_mut();
+        let Some(entry) = entries.find(|entry| entry.file.name == name) else {
+            return Ok(None);
+        };
+        if entry.file.damaged.as_deref() == how {
+            return Ok(None);
+        }
+        entry.file.damaged = how.map(str::to_owned);
+        Ok(Some(compress(&serde_json::to_vec(&self.entries)?)))
+    }
+
+    fn has_room(&self, bytes: usize) -> bool {
+        self.content.len() + bytes <= LIMIT
+    }
+
+    fn push(&mut self, kind: Kind, file: ResultFile, bytes: &[u8]) {
+        self.entries.push(Entry { kind, file });
+        self.content.extend_from_slice(bytes);
+    }
+
+    /// Returns a part that is no document, after its check.
+    fn checked(&self, kind: Kind) -> Result<Option<&[u8]>, BlockError> {
+        let Some((entry, range)) = self.range(kind) else {
+            return Ok(None);
+        };
+        let bytes = self.slice(range);
+        integrity::check_bytes(entry, bytes).map_err(|cause| BlockError::Damaged {
+            what: entry.name.clone(),
+            cause,
+        })?;
+        Ok(Some(bytes))
+    }
+
+    fn range(&self, kind: Kind) -> Option<(&ResultFile, Range<usize>)> {
+        let mut entries = self.entries.iter().zip(self.ranges());
+        let (entry, range) = entries.find(|(entry, _)| entry.kind == kind)?;
+        Some((&entry.file, range))
+    }
+
+    fn ranges(&self) -> impl Iterator<Item = Range<usize>> {
+        self.entries.iter().scan(0_usize, |from, entry| {
+            let length = usize::try_from(entry.file.bytes).unwrap_or(usize::MAX);
+            let range = *from..from.saturating_add(length);
+            *from = range.end;
+            Some(range)
+        })
+    }
+
+    /// The part of a range that could be decompressed.
+    fn slice(&self, range: Range<usize>) -> &[u8] {
+        let length = self.content.len();
+        &self.content[range.start.min(length)..range.end.min(length)]
+    }
+}
+
+fn compress(bytes: &[u8]) -> Vec<u8> {
+    let mut writer = CompressorWriter::new(Vec::new(), BUFFER, QUALITY, WINDOW);
+    // Writing to memory cannot fail.
+    let _ = writer.write_all(bytes);
+    writer.into_inner()
+}
+
+/// Decompresses up to the first damage that the format can find; damaged bytes may expand, up to twice the limit.
+fn decompress(bytes: &[u8]) -> Vec<u8> {
+    let mut content = Vec::new();
+    let limit = u64::try_from(2 * LIMIT).unwrap_or(u64::MAX);
+    let mut reader = Decompressor::new(bytes, BUFFER).take(limit);
+    // What was read before an error stays.
+    let _ = reader.read_to_end(&mut content);
+    content
+}
+
+#[cfg(test)]
+mod tests {
+    use api::results::{Loop, Profile};
+
+    use super::*;
+
+    fn snapshot(cycle: u64) -> Snapshot {
+        Snapshot {
+            profile: Profile {
+                cycle,
+                ..Profile::default()
+            },
+            pressure: api::results::Pressure {
+                cycle,
+                positions: Vec::new(),
+            },
+            friction_loop: Loop {
+                cycle,
+                displacement_mm: vec![0.1, 1.0 / 3.0],
+                tangential_force_n_per_mm: vec![f64::MIN_POSITIVE, -1e300],
+            },
+        }
+    }
+
+    fn row(cycle: u64) -> CycleReport {
+        CycleReport {
+            cycle,
+            sliding_distance_mm: 1.0 / 7.0,
+            ..CycleReport::default()
+        }
+    }
+
+    /// A block with history, snapshots and two documents.
+    fn block() -> Block {
+        let mut block = Block::default();
+        let rows: Vec<_> = (0..50).map(row).collect();
+        let pushed = block.push_history(&rows, &[10, 20, 40].map(snapshot));
+        assert!(pushed.expect("JSON"));
+        for (name, bytes) in [("a.csv", b"x_mm\n1\n".as_slice()), ("b.svg", b"<svg/>")] {
+            let file = manifest_entry(name, Some(3), "text/plain", bytes);
+            assert!(block.push_document(&file, bytes));
+        }
+        block
+    }
+
+    fn decoded(encoded: &EncodedBlock) -> Block {
+        Block::decode(&encoded.entries, &encoded.content).expect("entries")
+    }
+
+    #[test]
+    fn every_result_comes_back_as_it_was() {
+        let encoded = block().encode().expect("JSON");
+        assert!(encoded.has_history);
+        assert!(
+            10 * encoded.content.len() < block().content.len(),
+            "{}",
+            encoded.content.len()
+        );
+        let found = decoded(&encoded);
+        assert_eq!(found, block());
+        let rows: Vec<_> = (0..50).map(row).collect();
+        assert_eq!(found.history().expect("whole"), Some(rows));
+        let snapshots = [10, 20, 40].map(snapshot).to_vec();
+        assert_eq!(found.snapshots().expect("whole"), Some(snapshots));
+        let (entry, bytes) = found.document("b.svg").expect("a document");
+        assert_eq!((entry.cycle, bytes.as_slice()), (Some(3), &b"<svg/>"[..]));
+        assert_eq!(found.document("history"), None);
+        let names: Vec<_> = Block::listed(&encoded.entries).expect("entries");
+        let names: Vec<_> = names.iter().map(|file| file.name.as_str()).collect();
+        assert_eq!(names, ["a.csv", "b.svg"]);
+    }
+
+    #[test]
+    fn the_nearest_snapshot_is_found_and_the_earlier_of_two() {
+        let block = block();
+        for (cycle, nearest) in [(0, 10), (15, 10), (16, 20), (30, 20), (u64::MAX, 40)] {
+            for part in [
+                SnapshotPart::Profile,
+                SnapshotPart::Pressure,
+                SnapshotPart::Loop,
+            ] {
+                let found = block.snapshot(part, cycle).expect("whole").expect("one");
+                let OfCycle { cycle: found } = serde_json::from_str(&found).expect("JSON");
+                assert_eq!(found, nearest, "{cycle}");
+            }
+        }
+        assert_eq!(
+            Block::default()
+                .snapshot(SnapshotPart::Loop, 1)
+                .expect("whole"),
+            None
+        );
+    }
+
+    #[test]
+    fn damage_is_found_wherever_it_is() {
+        let encoded = block().encode().expect("JSON");
+        for at in 0..encoded.content.len() {
+            let mut content = encoded.content.clone();
+            content[at] ^= 0x10;
+            let found = Block::decode(&encoded.entries, &content).expect("entries");
+            let sound =
+                |(entry, bytes): (&ResultFile, &[u8])| integrity::check_bytes(entry, bytes).is_ok();
+            let is_sound = found.all().all(sound);
+            // Some bits of the format do not change what is decompressed.
+            assert_eq!(
+                is_sound,
+                found.content[..block().content.len().min(found.content.len())] == block().content,
+                "{at}"
+            );
+        }
+        let short = Block::decode(&encoded.entries, &encoded.content[..40]).expect("entries");
+        assert!(matches!(short.snapshots(), Err(BlockError::Damaged { .. })));
+        assert!(Block::decode(&encoded.entries[1..], &encoded.content).is_err());
+    }
+
+    #[test]
+    fn what_does_not_fit_is_refused() {
+        let mut block = Block::default();
+        let bytes = vec![b' '; LIMIT];
+        let file = manifest_entry("long", None, JSON, &bytes);
+        assert!(block.push_document(&file, &bytes));
+        assert!(!block.push_document(&file, b" "));
+        assert!(!block.push_history(&[], &[]).expect("JSON"));
+        let encoded = block.encode().expect("JSON");
+        assert!(!encoded.has_history);
+        assert_eq!(decoded(&encoded).history().expect("whole"), None);
+    }
+
+    #[test]
+    fn a_mark_of_damage_is_stored_and_taken_back() {
+        let mut block = block();
+        let marked = block.mark("a.csv", Some("gone")).expect("JSON");
+        let listed = Block::listed(&marked.expect("a change")).expect("entries");
+        assert_eq!(listed[0].damaged.as_deref(), Some("gone"));
+        assert_eq!(block.mark("a.csv", Some("gone")).expect("JSON"), None);
+        assert!(block.mark("a.csv", None).expect("JSON").is_some());
+        assert_eq!(block.mark("c.csv", None).expect("JSON"), None);
+    }
+}

@@ -1,0 +1,102 @@
+//! Blocks of results of ended jobs.
+
+use std::collections::HashMap;
+
+use sqlx::SqliteConnection;
+use uuid::Uuid;
+
+use crate::store::block::{Block, BlockError, EncodedBlock};
+use crate::store::sqlite::queries::corrupt;
+use crate::store::{Store, StoreError};
+
+impl Store {
+    /// Returns the block of a job; `None` if it has none.
+    pub(super) async fn block(&self, id: Uuid) -> Result<Option<Block>, StoreError> {
+        let mut connection = self.readers.acquire().await?;
+        block(&mut connection, id).await
+    }
+
+    /// Returns the documents of a job's block, by name.
+    ///
+    /// # Errors
+    /// [`StoreError`] if the database fails or the block cannot be read.
+    pub async fn block_documents(&self, id: Uuid) -> Result<HashMap<String, Vec<u8>>, StoreError> {
+        let block = self.block(id).await?.unwrap_or_default();
+        Ok(block.into_documents())
+    }
+
+    /// Returns what is read of a job's block; `None` if it has none, or if it is not part of it.
+    pub(super) async fn in_block<T>(
+        &self,
+        id: Uuid,
+        read: impl FnOnce(&Block) -> Result<Option<T>, BlockError>,
+    ) -> Result<Option<T>, StoreError> {
+        let Some(block) = self.block(id).await? else {
+            return Ok(None);
+        };
+        read(&block).map_err(|cause| unreadable(id, &cause))
+    }
+}
+
+/// Returns the block of a job; `None` if it has none.
+pub(super) async fn block(
+    connection: &mut SqliteConnection,
+    id: Uuid,
+) -> Result<Option<Block>, StoreError> {
+    let found: Option<(Vec<u8>, Vec<u8>)> =
+        sqlx::query_as("SELECT entries, content FROM result_blocks WHERE job_id = ?")
+            .bind(id.to_string())
+            .fetch_optional(connection)
+            .await?;
+    let decoded = found.map(|(entries, content)| Block::decode(&entries, &content));
+    decoded.transpose().map_err(|cause| unreadable(id, &cause))
+}
+
+/// Stores the block of a job that ends. Its history replaces the rows if the job has succeeded: the next try of another one
+/// continues them.
+pub(super) async fn insert_block(
+    connection: &mut SqliteConnection,
+    id: Uuid,
+    block: &EncodedBlock,
+    succeeded: bool,
+) -> Result<(), StoreError> {
+    let id = id.to_string();
+    sqlx::query("INSERT OR REPLACE INTO result_blocks (job_id, entries, content) VALUES (?, ?, ?)")
+        .bind(&id)
+        .bind(&block.entries)
+        .bind(&block.content)
+        .execute(&mut *connection)
+        .await?;
+    if !(succeeded && block.has_history) {
+        return Ok(());
+    }
+    for statement in [
+        "DELETE FROM history_rows WHERE job_id = ?",
+        "DELETE FROM snapshots WHERE job_id = ?",
+    ] {
+        sqlx::query(statement)
+            .bind(&id)
+            .execute(&mut *connection)
+            .await?;
+    }
+    Ok(())
+}
+
+/// Replaces the entries of a block.
+pub(super) async fn update_entries(
+    connection: &mut SqliteConnection,
+    id: Uuid,
+    entries: &[u8],
+) -> Result<(), sqlx::Error> {
+    sqlx::query("UPDATE result_blocks SET entries = ? WHERE job_id = ?")
+        .bind(entries)
+        .bind(id.to_string())
+        .execute(connection)
+        .await?;
+    Ok(())
+}
+
+/// The error of a block that cannot be read.
+pub(super) fn unreadable(id: Uuid, cause: &BlockError) -> StoreError {
+    corrupt(id, "block of results", cause)
+}
