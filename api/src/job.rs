@@ -88,11 +88,81 @@ pub struct Job {
     pub links: BTreeMap<String, String>,
 }
 
+/// A job in short: without specification, plan and summary.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct JobOverview {
+    /// Identifier; ordered by creation.
+    pub id: Uuid,
+    /// Display name of the specification.
+    pub name: Option<String>,
+    /// Kind of system.
+    pub system: String,
+    /// Labels of the specification.
+    pub labels: BTreeMap<String, String>,
+    /// Status.
+    pub status: Status,
+    /// Reason for the status, in words.
+    pub status_reason: Option<String>,
+    /// Outcome of the solve.
+    pub outcome: Option<Outcome>,
+    /// Minutes added to its age in the order of the queue; -100 to 100.
+    pub priority: i32,
+    /// Time at which it fails unless it has ended (RFC 3339).
+    pub deadline_at: Option<String>,
+    /// Time of acceptance (RFC 3339).
+    pub created_at: String,
+    /// Time of the first claim by a worker (RFC 3339).
+    pub started_at: Option<String>,
+    /// Time at which it ended (RFC 3339).
+    pub finished_at: Option<String>,
+    /// Progress of the solve.
+    pub progress: Progress,
+    /// Number of claims by a worker; those ended by a graceful shutdown do not count.
+    pub attempts: u32,
+    /// The most important figures of the summary, once available.
+    pub key_figures: Option<KeyFigures>,
+    /// Path of the job, by the relation `self`.
+    pub links: BTreeMap<String, String>,
+}
+
+/// The most important figures of a summary.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct KeyFigures {
+    /// Maximum worn depth of the receptacle, mm.
+    pub receptacle_max_depth_mm: f64,
+    /// Maximum worn depth of the slider, mm.
+    pub slider_max_depth_mm: f64,
+    /// Peak pressure at the end, MPa.
+    pub peak_pressure_mpa: f64,
+    /// Estimated relative error of worn depth and scar width.
+    pub estimated_relative_error: f64,
+}
+
+/// A job in a list.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+#[serde(untagged)]
+pub enum ListedJob {
+    /// In full, with `?view=full`.
+    Full(Box<Job>),
+    /// In short.
+    Short(Box<JobOverview>),
+}
+
+impl ListedJob {
+    /// Identifier.
+    pub fn id(&self) -> Uuid {
+        match self {
+            Self::Full(job) => job.id,
+            Self::Short(job) => job.id,
+        }
+    }
+}
+
 /// Jobs, newest first.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct JobList {
-    /// The jobs of this page.
-    pub jobs: Vec<Job>,
+    /// The jobs of this page, in short, or in full with `?view=full`.
+    pub jobs: Vec<ListedJob>,
     /// Token of the next page; absent on the last one.
     pub next_page_token: Option<String>,
 }

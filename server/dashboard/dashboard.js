@@ -24,9 +24,9 @@ function create_row(job) {
     depth: element("td", { class: "number" }),
     actions: element("td", { class: "actions" }),
   };
-  cells.name.append(element("a", { href: `#${job.id}`, class: "mono" }, job.spec.name ?? job.id.slice(-12)));
+  cells.name.append(element("a", { href: `#${job.id}`, class: "mono" }, job.name ?? job.id.slice(-12)));
   cells.row = element("tr", { id: `row-${job.id}`, title: job.id }, cells.name,
-    element("td", {}, job.spec.system.kind), cells.status,
+    element("td", {}, job.system), cells.status,
     element("td", {}, element("div", { class: "bar" }, cells.bar)), cells.cycle, cells.remaining, cells.depth, cells.actions);
   return cells;
 }
@@ -39,8 +39,8 @@ function update_progress(cells, { cycle, cycles, fraction, eta_s }) {
   cells.remaining.textContent = eta_s == null ? "" : format_duration(eta_s);
 }
 
-function update_depth(cells, sides) {
-  if (sides) cells.depth.textContent = format_number(Math.max(sides.receptacle.max_depth_mm, sides.slider.max_depth_mm), 1000);
+function update_depth(cells, depths_mm) {
+  cells.depth.textContent = format_number(Math.max(...depths_mm), 1000);
 }
 
 function update_row(cells, job) {
@@ -49,9 +49,10 @@ function update_row(cells, job) {
   const status = element("span", { class: job.status }, job.outcome ? `${job.status} (${job.outcome})` : job.status);
   cells.status.replaceChildren(status, ...(reason ? [element("div", { class: "muted reason", title: reason }, reason)] : []));
   update_progress(cells, ended ? { ...job.progress, eta_s: null } : job.progress);
-  update_depth(cells, job.summary);
+  const figures = job.key_figures;
+  if (figures) update_depth(cells, [figures.receptacle_max_depth_mm, figures.slider_max_depth_mm]);
   const action = ended
-    ? download_link(`${job.links.results}/archive`, `fretwear-${job.id}.zip`, "all results")
+    ? download_link(`${job.links.self}/results/archive`, `fretwear-${job.id}.zip`, "all results")
     : element("button", { type: "button" }, "cancel");
   if (!ended) action.addEventListener("click", () => cancel(job));
   cells.actions.replaceChildren(action);
@@ -59,7 +60,7 @@ function update_row(cells, job) {
 
 async function cancel(job) {
   try {
-    await fetch_json(job.links.cancel, { method: "POST" });
+    await fetch_json(`${job.links.self}/cancel`, { method: "POST" });
   } catch (error) {
     document.getElementById("error").textContent = error.message;
   }
@@ -86,13 +87,13 @@ async function follow_events(job) {
   const abort = new AbortController();
   streams.set(job.id, abort);
   try {
-    const response = await send_request(job.links.events, { signal: abort.signal });
+    const response = await send_request(`${job.links.self}/events`, { signal: abort.signal });
     for await (const { name, data } of parse_events(response, abort.signal)) {
       const cells = rows.get(job.id);
       if (!cells) break;
       // A stream starts with past events; those older than the displayed cycle are ignored.
       if (name === "progress" && data.cycle >= cells.shown_cycle) update_progress(cells, data);
-      if (name === "cycle" && data.cycle >= cells.shown_cycle) update_depth(cells, data);
+      if (name === "cycle" && data.cycle >= cells.shown_cycle) update_depth(cells, [data.receptacle.max_depth_mm, data.slider.max_depth_mm]);
       if (name === "done") refresh();
     }
   } catch {
@@ -120,7 +121,7 @@ async function refresh() {
     for (const job of page.jobs)
       if (job.status === "running" && !streams.has(job.id) && streams.size < MAX_STREAMS) follow_events(job);
     const selected = selected_id();
-    await show(selected && (page.jobs.find((job) => job.id === selected) ?? (await fetch_json(`/v1/jobs/${selected}`))));
+    await show(selected && (await fetch_json(`/v1/jobs/${selected}`)));
     message.textContent = "";
   } catch (error) {
     message.textContent = error.message;

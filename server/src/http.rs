@@ -2,6 +2,7 @@
 
 mod access;
 mod app;
+mod compression;
 mod connections;
 mod disk_space;
 mod extract;
@@ -57,6 +58,8 @@ pub fn router(app: App) -> Router {
         .fallback(no_such_path)
         .method_not_allowed_fallback(wrong_method)
         .layer(disk_space)
+        .layer(compression::layer())
+        .layer(middleware::map_response(compression::weaken_etag))
         .layer(access)
         .layer(requests)
         .layer(SetResponseHeaderLayer::if_not_present(

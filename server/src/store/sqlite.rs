@@ -22,6 +22,7 @@ mod leases;
 mod maintenance;
 mod migrations;
 mod open;
+mod overview;
 mod owner;
 mod queries;
 mod reclaim;

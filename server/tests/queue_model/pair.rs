@@ -319,6 +319,11 @@ impl Pair {
 
     /// Compares every job with the model; its events have no gaps and `done` is the last one of one that has ended.
     async fn compare(&self) -> TestCaseResult {
+        for (status, count, _) in self.store.gauges(0).await.expect("the store").jobs {
+            let jobs = self.jobs.iter();
+            let expected = jobs.filter(|job| !job.deleted && job.status == status);
+            prop_assert_eq!(usize::try_from(count), Ok(expected.count()));
+        }
         for job in &self.jobs {
             let stored = self.store.job(job.id).await.expect("the store");
             let Some(stored) = stored else {

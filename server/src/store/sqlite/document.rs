@@ -22,9 +22,7 @@ pub(super) fn select() -> QueryBuilder<Sqlite> {
 /// Returns the document of a selected row.
 pub(super) fn document(disk: &DataDisk, row: &SqliteRow) -> Result<Job, StoreError> {
     let id = queries::id(row, "id")?;
-    let time = |column| -> Result<Option<String>, sqlx::Error> {
-        Ok(row.try_get::<Option<i64>, _>(column)?.map(timestamp))
-    };
+    let time = |column| time(row, column);
     let (status, reason) = status_and_reason(disk, id, row)?;
     Ok(Job {
         id,
@@ -53,6 +51,11 @@ pub(super) fn status_and_reason(
 ) -> Result<(Status, Option<String>), StoreError> {
     let (status, stored) = (status(id, row)?, row.try_get("status_reason")?);
     Ok((status, disk.status_reason(status).or(stored)))
+}
+
+/// Returns a time of a selected row.
+pub(super) fn time(row: &SqliteRow, column: &str) -> Result<Option<String>, sqlx::Error> {
+    Ok(row.try_get::<Option<i64>, _>(column)?.map(timestamp))
 }
 
 fn links(id: Uuid) -> BTreeMap<String, String> {

@@ -18,16 +18,17 @@ impl Store {
     /// # Errors
     /// [`StoreError`] if the database fails.
     pub async fn gauges(&self, now: i64) -> Result<Gauges, StoreError> {
-        let rows: Vec<(String, i64, i64)> =
-            sqlx::query_as("SELECT status, count(*), min(created_at) FROM jobs GROUP BY status")
-                .fetch_all(&self.readers)
-                .await?;
+        let rows: Vec<(String, i64, Option<i64>)> = sqlx::query_as(
+            "SELECT status, jobs, (SELECT min(created_at) FROM jobs WHERE jobs.status = job_counts.status) FROM job_counts",
+        )
+        .fetch_all(&self.readers)
+        .await?;
         let jobs = Status::ALL
             .into_iter()
             .map(|status| {
                 let row = rows.iter().find(|(name, ..)| name == status.as_str());
                 row.map_or((status, 0, 0), |(_, count, oldest)| {
-                    (status, *count, seconds(now, *oldest))
+                    (status, *count, oldest.map_or(0, |oldest| seconds(now, oldest)))
                 })
             })
             .collect();

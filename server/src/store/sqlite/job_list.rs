@@ -1,9 +1,12 @@
 //! Lists of jobs.
 
-use api::job::Job;
+use api::job::{Job, JobOverview};
+use sqlx::sqlite::SqliteRow;
+use sqlx::{QueryBuilder, Sqlite, SqlitePool};
 use uuid::Uuid;
 
 use crate::store::sqlite::document::{document, select};
+use crate::store::sqlite::overview::{overview, select_overview};
 use crate::store::{Filter, Store, StoreError};
 
 /// Longest time between the creation of a job and that of its id, ms: the wait for a commit, with a margin. Far fewer jobs are
@@ -16,52 +19,74 @@ impl Store {
     /// # Errors
     /// [`StoreError`] if the database fails.
     pub async fn list(&self, filter: &Filter) -> Result<Vec<Job>, StoreError> {
-        let mut query = select();
-        query.push(" WHERE 1");
-        if !filter.statuses.is_empty() {
-            query.push(" AND status IN (");
-            let mut list = query.separated(", ");
-            for status in &filter.statuses {
-                list.push_bind(status.as_str());
-            }
-            query.push(")");
-        }
-        if let Some(system) = &filter.system {
-            query.push(" AND system = ").push_bind(system);
-        }
-        for (key, value) in &filter.labels {
-            query
-                .push(" AND id IN (SELECT job_id FROM labels WHERE key = ")
-                .push_bind(key)
-                .push(" AND value = ")
-                .push_bind(value)
-                .push(")");
-        }
-        if let Some(from) = filter.created_from {
-            query.push(" AND created_at >= ").push_bind(from);
-            let first = first_id(from.saturating_sub(SUBMISSION_MS));
-            query.push(" AND id >= ").push_bind(first);
-        }
-        if let Some(before) = filter.created_before {
-            query.push(" AND created_at < ").push_bind(before);
-            let end = first_id(before.saturating_add(SUBMISSION_MS));
-            query.push(" AND id < ").push_bind(end);
-        }
-        if let Some(sweep) = filter.sweep {
-            query
-                .push(" AND id IN (SELECT job_id FROM sweep_jobs WHERE sweep_id = ")
-                .push_bind(sweep.to_string())
-                .push(")");
-        }
-        if let Some(before) = filter.before {
-            query.push(" AND id < ").push_bind(before.to_string());
-        }
-        query
-            .push(" ORDER BY id DESC LIMIT ")
-            .push_bind(filter.limit);
-        let rows = query.build().fetch_all(&self.readers).await?;
+        let query = filtered(select(), filter);
+        let rows = fetch(query, &self.readers).await?;
         rows.iter().map(|row| document(&self.disk, row)).collect()
     }
+
+    /// Returns the same in short.
+    ///
+    /// # Errors
+    /// [`StoreError`] if the database fails.
+    pub async fn list_short(&self, filter: &Filter) -> Result<Vec<JobOverview>, StoreError> {
+        let query = filtered(select_overview(), filter);
+        let rows = fetch(query, &self.readers).await?;
+        rows.iter().map(|row| overview(&self.disk, row)).collect()
+    }
+}
+
+async fn fetch(
+    mut query: QueryBuilder<Sqlite>,
+    readers: &SqlitePool,
+) -> Result<Vec<SqliteRow>, sqlx::Error> {
+    query.build().fetch_all(readers).await
+}
+
+/// Completes a query of jobs by the conditions, the order and the limit of a filter.
+fn filtered(mut query: QueryBuilder<Sqlite>, filter: &Filter) -> QueryBuilder<Sqlite> {
+    query.push(" WHERE 1");
+    if !filter.statuses.is_empty() {
+        query.push(" AND status IN (");
+        let mut list = query.separated(", ");
+        for status in &filter.statuses {
+            list.push_bind(status.as_str());
+        }
+        query.push(")");
+    }
+    if let Some(system) = &filter.system {
+        query.push(" AND system = ").push_bind(system);
+    }
+    for (key, value) in &filter.labels {
+        query
+            .push(" AND id IN (SELECT job_id FROM labels WHERE key = ")
+            .push_bind(key)
+            .push(" AND value = ")
+            .push_bind(value)
+            .push(")");
+    }
+    if let Some(from) = filter.created_from {
+        query.push(" AND created_at >= ").push_bind(from);
+        let first = first_id(from.saturating_sub(SUBMISSION_MS));
+        query.push(" AND id >= ").push_bind(first);
+    }
+    if let Some(before) = filter.created_before {
+        query.push(" AND created_at < ").push_bind(before);
+        let end = first_id(before.saturating_add(SUBMISSION_MS));
+        query.push(" AND id < ").push_bind(end);
+    }
+    if let Some(sweep) = filter.sweep {
+        query
+            .push(" AND id IN (SELECT job_id FROM sweep_jobs WHERE sweep_id = ")
+            .push_bind(sweep.to_string())
+            .push(")");
+    }
+    if let Some(before) = filter.before {
+        query.push(" AND id < ").push_bind(before.to_string());
+    }
+    query
+        .push(" ORDER BY id DESC LIMIT ")
+        .push_bind(filter.limit);
+    query
 }
 
 /// The first id that can be created at a time, ms since 1970: ids begin with it (RFC 9562, UUID version 7), so that a time

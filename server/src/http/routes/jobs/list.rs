@@ -1,10 +1,10 @@
 //! `GET /v1/jobs`: jobs, newest first.
 
-use api::job::{JobList, Status};
+use api::job::{JobList, ListedJob, Status};
 use axum::Json;
 use axum::extract::State;
 use jiff::Timestamp;
-use utoipa::IntoParams;
+use utoipa::{IntoParams, ToSchema};
 use uuid::Uuid;
 
 use crate::http::app::App;
@@ -35,6 +35,9 @@ pub(crate) enum ListError {
     /// Not the id of a sweep.
     #[error("`{0}` is not the id of a sweep")]
     Sweep(String),
+    /// Not a view.
+    #[error("`{0}` is not a view; views are short and full")]
+    View(String),
     /// Too many labels.
     #[error("a filter can have {MAX_LABELS} labels, not {0}")]
     Labels(usize),
@@ -49,7 +52,7 @@ impl RouteError for ListError {
 
 /// Names of the parameters below.
 const PARAMETERS: &str =
-    "status, system, label, created_from, created_before, sweep, limit and page_token";
+    "status, system, label, created_from, created_before, sweep, view, limit and page_token";
 
 /// Filters and page; a listed job passes all filters.
 #[derive(Debug, Default, IntoParams)]
@@ -71,11 +74,34 @@ pub(crate) struct ListQuery {
     created_before: Option<String>,
     /// Jobs of this sweep.
     sweep: Option<Uuid>,
+    /// `short` (default), or `full` with specification, plan and summary.
+    #[param(inline)]
+    view: Option<View>,
     /// Maximum number of jobs of the page.
     #[param(minimum = 1, maximum = 500)]
     limit: Option<u32>,
     /// `next_page_token` of the previous page, with the same filters.
     page_token: Option<String>,
+}
+
+/// How much of each job a list contains.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, ToSchema)]
+#[schema(rename_all = "snake_case")]
+pub(crate) enum View {
+    /// Status, progress and key figures.
+    #[default]
+    Short,
+    /// The job documents.
+    Full,
+}
+
+/// A parsed query.
+#[derive(Debug, Default)]
+struct ParsedQuery<'a> {
+    filter: Filter,
+    view: View,
+    limit: Option<&'a str>,
+    token: Option<&'a str>,
 }
 
 /// Jobs, newest first.
@@ -92,12 +118,26 @@ pub(crate) async fn list(
     State(app): State<App>,
     Params(pairs): Params<Vec<(String, String)>>,
 ) -> Result<Json<JobList>, ProblemResponse> {
-    let (mut filter, limit, token) = parse(&pairs)?;
+    let ParsedQuery {
+        mut filter,
+        view,
+        limit,
+        token,
+    } = parse(&pairs)?;
     let page = Page::parse(&format!("{filter:?}"), limit, token)?;
     filter.before = page.before;
     filter.limit = page.query_limit();
-    let mut jobs = app.store.list(&filter).await?;
-    let next_page_token = page.truncate(&mut jobs, |job| job.id);
+    let mut jobs: Vec<ListedJob> = match view {
+        View::Short => {
+            let jobs = app.store.list_short(&filter).await?.into_iter();
+            jobs.map(|job| ListedJob::Short(Box::new(job))).collect()
+        }
+        View::Full => {
+            let jobs = app.store.list(&filter).await?.into_iter();
+            jobs.map(|job| ListedJob::Full(Box::new(job))).collect()
+        }
+    };
+    let next_page_token = page.truncate(&mut jobs, ListedJob::id);
     Ok(Json(JobList {
         jobs,
         next_page_token,
@@ -105,8 +145,9 @@ pub(crate) async fn list(
 }
 
 /// Parses the query into filter, limit and page token.
-fn parse(pairs: &[(String, String)]) -> Result<(Filter, Option<&str>, Option<&str>), ListError> {
-    let (mut filter, mut limit, mut token) = (Filter::default(), None, None);
+fn parse(pairs: &[(String, String)]) -> Result<ParsedQuery<'_>, ListError> {
+    let mut query = ParsedQuery::default();
+    let filter = &mut query.filter;
     for (index, (name, value)) in pairs.iter().enumerate() {
         let twice = pairs[..index].iter().any(|(earlier, _)| earlier == name);
         if twice && name != "label" {
@@ -122,15 +163,24 @@ fn parse(pairs: &[(String, String)]) -> Result<(Filter, Option<&str>, Option<&st
                 let id = Uuid::parse_str(value);
                 filter.sweep = Some(id.map_err(|_| ListError::Sweep(shortened(value)))?);
             }
-            "limit" => limit = Some(value.as_str()),
-            "page_token" => token = Some(value.as_str()),
+            "view" => query.view = self::view(value)?,
+            "limit" => query.limit = Some(value.as_str()),
+            "page_token" => query.token = Some(value.as_str()),
             _ => return Err(ListError::Unknown(shortened(name))),
         }
     }
     if filter.labels.len() > MAX_LABELS {
         return Err(ListError::Labels(filter.labels.len()));
     }
-    Ok((filter, limit, token))
+    Ok(query)
+}
+
+fn view(name: &str) -> Result<View, ListError> {
+    match name {
+        "short" => Ok(View::Short),
+        "full" => Ok(View::Full),
+        _ => Err(ListError::View(shortened(name))),
+    }
 }
 
 fn statuses(list: &str) -> Result<Vec<Status>, ListError> {
@@ -154,6 +204,8 @@ fn label(text: &str) -> Result<(String, String), ListError> {
 
 #[cfg(test)]
 mod tests {
+    use serde_json::json;
+
     use crate::http::tests::Service;
 
     #[tokio::test]
@@ -213,6 +265,43 @@ mod tests {
     }
 
     #[tokio::test]
+    async fn a_short_document_contains_what_the_full_one_says() {
+        let service = Service::new().await;
+        let spec = r#"{"name":"a \"b\" ü","system":{"kind":"dimm"},"labels":{"lot":"7"}}"#;
+        let named = service.queued(spec).await;
+        let other = service.queued(r#"{"system":{"kind":"zif"}}"#).await;
+        let (_, _, short) = service.get("/v1/jobs").await;
+        let (_, _, full) = service.get("/v1/jobs?view=full").await;
+        assert_eq!(
+            full["jobs"][1],
+            service.get(&format!("/v1/jobs/{named}")).await.2
+        );
+        for (short, id) in [(&short["jobs"][1], &named), (&short["jobs"][0], &other)] {
+            let (_, _, job) = service.get(&format!("/v1/jobs/{id}")).await;
+            assert_eq!(short["name"], job["spec"]["name"]);
+            assert_eq!(short["system"], job["spec"]["system"]["kind"]);
+            let labels = job["spec"].get("labels").cloned();
+            assert_eq!(short["labels"], labels.unwrap_or_else(|| json!({})));
+            assert_eq!(short["links"]["self"], job["links"]["self"]);
+            for field in [
+                "id",
+                "status",
+                "status_reason",
+                "outcome",
+                "priority",
+                "deadline_at",
+                "created_at",
+                "started_at",
+                "finished_at",
+                "progress",
+                "attempts",
+            ] {
+                assert_eq!(short[field], job[field], "{field}");
+            }
+        }
+    }
+
+    #[tokio::test]
     async fn a_page_token_belongs_to_its_filters() {
         let service = Service::new().await;
         for _ in 0..2 {
@@ -232,6 +321,7 @@ mod tests {
             "status=done",
             "label=x",
             "limit=0",
+            "view=long",
             "limit=501",
             "limit=many",
             "page_token=1",
