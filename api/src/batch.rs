@@ -14,6 +14,7 @@ pub struct BatchOverview {
     /// Name for people.
     pub name: Option<String>,
     /// Time of its submission (RFC 3339).
+    #[schema(format = DateTime)]
     pub created_at: String,
     /// Number of its jobs by status, including statuses that no job has.
     pub counts: BTreeMap<String, u64>,

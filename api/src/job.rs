@@ -49,6 +49,7 @@ pub struct Progress {
     /// Estimated remaining time, s, from the speed so far.
     pub eta_s: Option<f64>,
     /// Time of the last report of the solve (RFC 3339); an old one indicates a job that hangs.
+    #[schema(format = DateTime)]
     pub updated_at: Option<String>,
 }
 
@@ -67,12 +68,16 @@ pub struct Job {
     #[serde(default)]
     pub priority: i32,
     /// Time at which it fails unless it has ended (RFC 3339).
+    #[schema(format = DateTime)]
     pub deadline_at: Option<String>,
     /// Time of acceptance (RFC 3339).
+    #[schema(format = DateTime)]
     pub created_at: String,
     /// Time of the first claim by a worker (RFC 3339).
+    #[schema(format = DateTime)]
     pub started_at: Option<String>,
     /// Time at which it ended (RFC 3339).
+    #[schema(format = DateTime)]
     pub finished_at: Option<String>,
     /// Progress of the solve.
     pub progress: Progress,
@@ -108,12 +113,16 @@ pub struct JobOverview {
     /// Minutes added to its age in the order of the queue; -100 to 100.
     pub priority: i32,
     /// Time at which it fails unless it has ended (RFC 3339).
+    #[schema(format = DateTime)]
     pub deadline_at: Option<String>,
     /// Time of acceptance (RFC 3339).
+    #[schema(format = DateTime)]
     pub created_at: String,
     /// Time of the first claim by a worker (RFC 3339).
+    #[schema(format = DateTime)]
     pub started_at: Option<String>,
     /// Time at which it ended (RFC 3339).
+    #[schema(format = DateTime)]
     pub finished_at: Option<String>,
     /// Progress of the solve.
     pub progress: Progress,

@@ -53,6 +53,7 @@ pub struct StudyDocument {
     /// Name for people.
     pub name: Option<String>,
     /// Time of its submission (RFC 3339).
+    #[schema(format = DateTime)]
     pub created_at: String,
     /// Number of its jobs by status, including statuses that no job has.
     pub counts: BTreeMap<String, u64>,

@@ -55,6 +55,7 @@ pub struct Sweep {
     /// Name for people.
     pub name: Option<String>,
     /// Time of its submission (RFC 3339).
+    #[schema(format = DateTime)]
     pub created_at: String,
     /// Number of its jobs by status, including statuses that no job has.
     pub counts: BTreeMap<String, u64>,

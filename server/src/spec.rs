@@ -14,6 +14,7 @@ mod materials;
 mod motion;
 mod output;
 mod repair;
+pub(crate) mod schema;
 mod sourced;
 mod suggestion;
 mod system;
@@ -28,12 +29,13 @@ use solver::scene::{Body, Scene};
 
 use diagnostics::Diagnostics;
 pub(crate) use diagnostics::NAME_LIMIT;
+pub(crate) use suggestion::did_you_mean;
 pub(crate) use system::definition as system_definition;
 
 /// Most labels of a job.
-const LABEL_LIMIT: usize = 64;
+pub(crate) const LABEL_LIMIT: usize = 64;
 /// Longest key or value of a label, characters.
-const LABEL_TEXT_LIMIT: usize = 256;
+pub(crate) const LABEL_TEXT_LIMIT: usize = 256;
 
 /// A specification with every default filled in, and its scene.
 #[derive(Debug, Clone, PartialEq)]

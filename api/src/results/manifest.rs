@@ -20,6 +20,7 @@ pub struct ResultFile {
     /// Length in bytes.
     pub bytes: u64,
     /// SHA-256 of the content, hexadecimal.
+    #[schema(pattern = "^[0-9a-f]{64}$")]
     pub sha256: String,
     /// How the stored content was found to differ from this entry; absent while no damage was found.
     #[serde(default, skip_serializing_if = "Option::is_none")]

@@ -7,6 +7,9 @@
 //! cargo run --release -- openapi > api/openapi.json
 //! ```
 
+mod parameters;
+mod specification;
+
 use std::sync::OnceLock;
 
 use serde_json::{Value, json};
@@ -69,6 +72,7 @@ fn complete(document: &mut Value) {
     });
     document["security"] = json!([{}, {"token": []}]);
     let schemas = &mut document["components"]["schemas"];
+    specification::complete(schemas);
     describe_channels::<CycleReport>(&mut schemas["WearHistory"]);
     describe_channels::<SideReport>(&mut schemas["SideSeries"]);
     let paths = document["paths"].as_object_mut().into_iter().flatten();
@@ -99,6 +103,9 @@ fn complete_operation(noun: Option<&str>, operation: &mut Value) {
             "schema": {"type": "string", "format": "uuid"}
         });
         parameters.insert(0, id);
+    }
+    if !parameters.is_empty() {
+        parameters::complete(&mut parameters);
         operation["parameters"] = parameters.into();
     }
     let Some(responses) = operation["responses"].as_object_mut() else {

@@ -10,11 +10,11 @@ use crate::spec::sourced::assumed;
 use crate::spec::system::Shapes;
 
 /// Relative.
-const TOLERANCE: RangeInclusive<f64> = 1e-6..=0.5;
+pub(in crate::spec) const TOLERANCE: RangeInclusive<f64> = 1e-6..=0.5;
 /// Most surface elements along the block at a fixed element size.
 const CONTACT_ELEMENT_LIMIT: f64 = 20_000.0;
 const CONTACT_ELEMENT: &str = "/accuracy/overrides/contact_element_mm";
-const INCREMENTS: RangeInclusive<u64> = 4..=1_000_000;
+pub(in crate::spec) const INCREMENTS: RangeInclusive<u64> = 4..=1_000_000;
 /// Increments a cycle of the source.
 const SOURCE_INCREMENTS: u32 = 32;
 

@@ -27,6 +27,12 @@ const PLANNED: [&str; 6] = [
     "resistance",
 ];
 
+/// Names of all effects.
+pub(crate) fn names() -> Vec<&'static str> {
+    let names = AVAILABLE.iter().map(|effect| effect.name());
+    names.chain(PLANNED).collect()
+}
+
 /// Switches by the name of their effect; an absent one is `auto`.
 type Switches = BTreeMap<String, EnumValue<Switch>>;
 
@@ -36,8 +42,7 @@ pub(crate) fn resolve(given: &Switches, diagnostics: &mut Diagnostics) {
         let pointer = format!("/effects/{}", api::spec::pointer_token(name));
         let available = AVAILABLE.iter().any(|effect| effect.name() == name);
         if !available && !PLANNED.contains(&name.as_str()) {
-            let names = AVAILABLE.iter().map(|effect| effect.name());
-            let names: Vec<_> = names.chain(PLANNED).collect();
+            let names = names();
             let detail = format!(
                 "`{}` is no effect; effects are {}{}",
                 shortened(name),

@@ -1,7 +1,7 @@
 //! Friction and wear, one file a law.
 
-mod archard;
-mod coulomb;
+pub(super) mod archard;
+pub(super) mod coulomb;
 mod frictionless;
 mod wearing_side;
 

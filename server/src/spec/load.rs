@@ -9,17 +9,17 @@ use crate::spec::system::{Preset, Shapes};
 use crate::spec::unit;
 
 /// MPa on the top face.
-const PRESSURE_MPA: RangeInclusive<f64> = 1e-9..=1e6;
+pub(in crate::spec) const PRESSURE_MPA: RangeInclusive<f64> = 1e-9..=1e6;
 /// N per mm of depth.
-const LINE_FORCE_N_PER_MM: RangeInclusive<f64> = 1e-9..=1e6;
+pub(in crate::spec) const LINE_FORCE_N_PER_MM: RangeInclusive<f64> = 1e-9..=1e6;
 /// N.
-const FORCE_N: RangeInclusive<f64> = 1e-9..=1e7;
+pub(in crate::spec) const FORCE_N: RangeInclusive<f64> = 1e-9..=1e7;
 /// mm.
-const WIDTH_MM: RangeInclusive<f64> = 1e-6..=1e4;
+pub(in crate::spec) const WIDTH_MM: RangeInclusive<f64> = 1e-6..=1e4;
 /// Width of a contact that carries a force, mm: that of contact springs.
 const TYPICAL_WIDTH_MM: f64 = 1.0;
 /// N per mm of deflection.
-const SPRING_N_PER_MM: RangeInclusive<f64> = 0.0..=1e9;
+pub(in crate::spec) const SPRING_N_PER_MM: RangeInclusive<f64> = 0.0..=1e9;
 
 /// The load of one mm of depth.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]

@@ -132,7 +132,7 @@ fn from_properties(
     given.clone()
 }
 
-fn range(field: &str) -> RangeInclusive<f64> {
+pub(in crate::spec) fn range(field: &str) -> RangeInclusive<f64> {
     match field {
         "youngs_modulus_mpa" => YOUNGS_MODULUS_MPA,
         "poisson_ratio" => POISSON_RATIO,
@@ -150,7 +150,7 @@ fn typical(field: &str) -> Option<Typical> {
     }
 }
 
-fn numbers(of: &MaterialProperties) -> [(&'static str, Option<f64>); 8] {
+pub(in crate::spec) fn numbers(of: &MaterialProperties) -> [(&'static str, Option<f64>); 8] {
     [
         ("youngs_modulus_mpa", of.youngs_modulus_mpa),
         ("poisson_ratio", of.poisson_ratio),

@@ -12,17 +12,17 @@ use crate::spec::system::Preset;
 use crate::spec::unit;
 
 /// mm; from below an atom to far beyond any contact. 0 is accepted too: no motion.
-const AMPLITUDE_MM: RangeInclusive<f64> = 1e-9..=1e4;
+pub(in crate::spec) const AMPLITUDE_MM: RangeInclusive<f64> = 1e-9..=1e4;
 /// s; a megahertz to a month.
-const PERIOD_S: RangeInclusive<f64> = 1e-6..=3e6;
+pub(in crate::spec) const PERIOD_S: RangeInclusive<f64> = 1e-6..=3e6;
 /// Hz; the same range as of the period.
-const FREQUENCY_HZ: RangeInclusive<f64> = 1.0 / 3e6..=1.0 / 1e-6;
+pub(in crate::spec) const FREQUENCY_HZ: RangeInclusive<f64> = 1.0 / 3e6..=1.0 / 1e-6;
 /// mm.
-const DISTANCE_MM: RangeInclusive<f64> = 1e-6..=1e12;
+pub(in crate::spec) const DISTANCE_MM: RangeInclusive<f64> = 1e-6..=1e12;
 /// mm/s.
-const SPEED_MM_S: RangeInclusive<f64> = 1e-9..=1e6;
+pub(in crate::spec) const SPEED_MM_S: RangeInclusive<f64> = 1e-9..=1e6;
 /// Cycles of a job.
-const CYCLES: RangeInclusive<u64> = 1..=1_000_000_000;
+pub(in crate::spec) const CYCLES: RangeInclusive<u64> = 1..=1_000_000_000;
 /// A continuous motion is recorded in this many equal parts of its distance, the `cycle` of its histories.
 pub(crate) const CONTINUOUS_PARTS: u64 = 100_000;
 /// Default speed of a continuous motion, mm/s. Quasi-static contact does not depend on it.

@@ -12,11 +12,11 @@ use crate::spec::sourced::assumed;
 use crate::spec::system::Shapes;
 
 /// Most stations and most snapshots of a job: each is a column, or three documents.
-const STATION_LIMIT: usize = 1000;
-const SNAPSHOT_LIMIT: usize = 1000;
-const STOP_LIMIT: usize = 16;
+pub(in crate::spec) const STATION_LIMIT: usize = 1000;
+pub(in crate::spec) const SNAPSHOT_LIMIT: usize = 1000;
+pub(in crate::spec) const STOP_LIMIT: usize = 16;
 /// mm.
-const WORN_DEPTH_MM: RangeInclusive<f64> = 1e-9..=1e4;
+pub(in crate::spec) const WORN_DEPTH_MM: RangeInclusive<f64> = 1e-9..=1e4;
 
 const AT_CYCLES: &str = "snapshots_at_cycles";
 const AT_DISTANCES: &str = "snapshots_at_distance_mm";

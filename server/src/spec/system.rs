@@ -22,7 +22,7 @@ pub(crate) use preset::{ArchardPreset, Preset};
 pub(crate) use shapes::Shapes;
 
 /// Lengths of a contact system, mm: from 1 nm to 10 m.
-const LENGTH_MM: RangeInclusive<f64> = 1e-6..=1e4;
+pub(in crate::spec) const LENGTH_MM: RangeInclusive<f64> = 1e-6..=1e4;
 
 /// Returns the definition of a kind.
 pub(crate) fn definition(kind: SystemKind) -> &'static SystemDefinition {
@@ -33,6 +33,17 @@ pub(crate) fn definition(kind: SystemKind) -> &'static SystemDefinition {
         SystemKind::Zif => &zif::DEFINITION,
         SystemKind::CylinderOnFlat => &cylinder_on_flat::DEFINITION,
     }
+}
+
+/// Names of the dimensions of all kinds.
+pub(in crate::spec) fn dimension_names() -> Vec<&'static str> {
+    let names = SystemKind::ALL.into_iter();
+    let mut names: Vec<_> = names
+        .flat_map(|kind| definition(kind).dimension_names())
+        .collect();
+    names.sort_unstable();
+    names.dedup();
+    names
 }
 
 /// Resolves the dimensions of a kind and builds both bodies.

@@ -68,7 +68,14 @@ pub fn svg(picture: &Picture) -> Result<String, PlotError> {
         draw(picture, &root, size)?;
         root.present()?;
     }
+    // A name may contain characters that XML cannot.
+    let text = text.replace(|character| !is_xml(character), "\u{fffd}");
     Ok(sized_in_pixels(&text, size))
+}
+
+/// Whether XML 1.0 allows a character (section 2.2).
+fn is_xml(character: char) -> bool {
+    matches!(character, '\t' | '\n' | '\r' | ' '..='\u{d7ff}' | '\u{e000}'..='\u{fffd}' | '\u{10000}'..)
 }
 
 /// The SVG with its size in pixels; its `viewBox` stays in drawing units.

@@ -15,9 +15,9 @@ use crate::spec::unit;
 const FIELDS: [&str; 4] = ["law", "k", "hardness_mpa", "k_over_h_per_mpa"];
 
 /// Wear coefficient k, -: from a perfect film (1e-12) to certain removal.
-const K: RangeInclusive<f64> = 0.0..=1.0;
+pub(in crate::spec) const K: RangeInclusive<f64> = 0.0..=1.0;
 /// k/H, 1/MPa.
-const K_OVER_H_PER_MPA: RangeInclusive<f64> = 0.0..=1.0;
+pub(in crate::spec) const K_OVER_H_PER_MPA: RangeInclusive<f64> = 0.0..=1.0;
 
 /// Resolves the law of a specification.
 pub(super) fn resolve(

@@ -11,7 +11,7 @@ const LAW: &str = "/interface/friction/law";
 const COEFFICIENT: &str = "/interface/friction/coefficient";
 
 /// Coefficient of friction, -; the highest of clean metals in air stay below 2.
-const RANGE: RangeInclusive<f64> = 0.0..=2.0;
+pub(in crate::spec) const RANGE: RangeInclusive<f64> = 0.0..=2.0;
 
 /// Resolves the law of a specification.
 pub(super) fn resolve(given: &Friction, diagnostics: &mut Diagnostics) -> scene::Friction {

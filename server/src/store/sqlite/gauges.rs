@@ -28,7 +28,11 @@ impl Store {
             .map(|status| {
                 let row = rows.iter().find(|(name, ..)| name == status.as_str());
                 row.map_or((status, 0, 0), |(_, count, oldest)| {
-                    (status, *count, oldest.map_or(0, |oldest| seconds(now, oldest)))
+                    (
+                        status,
+                        *count,
+                        oldest.map_or(0, |oldest| seconds(now, oldest)),
+                    )
                 })
             })
             .collect();

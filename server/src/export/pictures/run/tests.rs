@@ -112,6 +112,15 @@ fn pictures_are_drawn_without_system_fonts() {
 }
 
 #[test]
+fn every_name_can_be_drawn() {
+    for name in ["a\u{0}b\u{1}\u{1f}\u{ffff}", "<b> & \"c\" ü 漢"] {
+        for (_, picture) in pictures(name, &history(), &[]) {
+            png(&svg(&picture).expect("it can be drawn")).expect("it can be rasterised");
+        }
+    }
+}
+
+#[test]
 fn a_run_without_wear_or_cycles_has_no_picture_of_them() {
     let mut unworn = snapshot(0, 0.0);
     unworn.friction_loop = Loop::default();

@@ -1,6 +1,7 @@
 //! `GET /v1/jobs`: jobs, newest first.
 
 use api::job::{JobList, ListedJob, Status};
+use api::spec::{StringEnum, SystemKind};
 use axum::Json;
 use axum::extract::State;
 use jiff::Timestamp;
@@ -11,6 +12,7 @@ use crate::http::app::App;
 use crate::http::extract::Params;
 use crate::http::paging::Page;
 use crate::http::problem::{ProblemResponse, ProblemType, RouteError};
+use crate::spec;
 use crate::store::Filter;
 use crate::text::shortened;
 
@@ -35,6 +37,9 @@ pub(crate) enum ListError {
     /// Not the id of a sweep.
     #[error("`{0}` is not the id of a sweep")]
     Sweep(String),
+    /// Not a kind of system.
+    #[error("`{0}` is not a kind of system; kinds are {1}")]
+    System(String, String),
     /// Not a view.
     #[error("`{0}` is not a view; views are short and full")]
     View(String),
@@ -65,7 +70,7 @@ pub(crate) struct ListQuery {
     /// Any of these statuses, separated by commas.
     status: Option<String>,
     /// This kind of system.
-    system: Option<String>,
+    system: Option<SystemKind>,
     /// This label, as `key:value`; can be repeated, for jobs that have all of them.
     label: Option<Vec<String>>,
     /// Accepted at this time (RFC 3339) or later.
@@ -155,7 +160,7 @@ fn parse(pairs: &[(String, String)]) -> Result<ParsedQuery<'_>, ListError> {
         }
         match name.as_str() {
             "status" => filter.statuses = statuses(value)?,
-            "system" => filter.system = Some(value.clone()),
+            "system" => filter.system = Some(system(value)?),
             "label" => filter.labels.push(label(value)?),
             "created_from" => filter.created_from = Some(time(value)?),
             "created_before" => filter.created_before = Some(time(value)?),
@@ -187,6 +192,15 @@ fn statuses(list: &str) -> Result<Vec<Status>, ListError> {
     list.split(',')
         .map(|name| Status::from_name(name).ok_or_else(|| ListError::Status(shortened(name))))
         .collect()
+}
+
+fn system(name: &str) -> Result<String, ListError> {
+    if SystemKind::NAMES.contains(&name) {
+        return Ok(name.to_owned());
+    }
+    let mut detail = SystemKind::NAMES.join(", ");
+    detail += &spec::did_you_mean(name, SystemKind::NAMES.iter().copied());
+    Err(ListError::System(shortened(name), detail))
 }
 
 fn time(text: &str) -> Result<i64, ListError> {
@@ -322,6 +336,7 @@ mod tests {
             "label=x",
             "limit=0",
             "view=long",
+            "system=fuzzbutton",
             "limit=501",
             "limit=many",
             "page_token=1",

@@ -136,6 +136,9 @@ fn parse_wait(text: &str) -> Result<Duration, WaitError> {
         Some(digits) => (digits, 1),
         None => (text.strip_suffix('s').unwrap_or(text), 1000),
     };
+    if !digits.bytes().all(|digit| digit.is_ascii_digit()) {
+        return Err(wrong());
+    }
     let count: u64 = digits.parse().map_err(|_| wrong())?;
     let milliseconds = count
         .checked_mul(scale_ms)

@@ -149,8 +149,14 @@ fn write_archive(app: &App, archived: &Archived, writer: ChunkWriter) -> io::Res
         }
         if let Some(picture) = file.name.strip_suffix(".svg") {
             // `fretwear solve --out` writes it too; it is not stored, because browsers show the drawing.
-            archive.start_file(format!("{picture}.png"), options)?;
-            archive.write_all(&raster(content)?)?;
+            match raster(content) {
+                Ok(pixels) => {
+                    archive.start_file(format!("{picture}.png"), options)?;
+                    archive.write_all(&pixels)?;
+                }
+                // The drawing of an earlier version may not be valid XML.
+                Err(error) => tracing::warn!(job = %archived.id, %error, "a picture was left out"),
+            }
         }
     }
     archive.finish()?.into_inner().flush()

@@ -13,7 +13,7 @@ use axum::extract::State;
 use axum::http::{HeaderMap, StatusCode, header};
 use axum::response::{IntoResponse, Response};
 use futures_util::{TryStreamExt, stream};
-use http_range_header::RangeUnsatisfiableError;
+use http_range_header::{RangeUnsatisfiableError, StartPosition, SyntacticallyCorrectRange};
 use tokio::fs::File;
 use tokio::io::{AsyncRead, AsyncReadExt, AsyncSeekExt};
 use tokio_util::io::ReaderStream;
@@ -148,6 +148,18 @@ fn requested_range(
     };
     if parsed.ranges.len() != 1 {
         return Ok(None);
+    }
+    if let [
+        SyntacticallyCorrectRange {
+            start: StartPosition::FromLast(length),
+            ..
+        },
+    ] = parsed.ranges[..]
+        && length >= file.bytes
+        && file.bytes > 0
+    {
+        // A longer suffix is the whole file (RFC 9110, 14.1.2).
+        return Ok(Some(0..=file.bytes - 1));
     }
     Ok(parsed.validate(file.bytes)?.pop())
 }
@@ -300,6 +312,7 @@ mod tests {
                 ("bytes=0-0", 0, 0),
                 ("bytes=1-", 1, last),
                 ("bytes=-1", last, last),
+                ("bytes=-99", 0, last),
                 ("bytes=0-999999", 0, last),
             ] {
                 let (status, headers, text) =
@@ -310,6 +323,7 @@ mod tests {
             }
             for (headers, expected) in [
                 (vec![("range", "bytes=99999-")], 416),
+                (vec![("range", "bytes=-0")], 200),
                 (vec![("range", "lines=1-2")], 200),
                 (vec![("range", "bytes=0-0,1-1")], 200),
                 (vec![("range", "bytes=0-0"), ("if-range", "\"older\"")], 200),

@@ -1,0 +1,228 @@
+//! The limits of a specification as JSON Schema keywords, from the constants that its resolution checks.
+
+use std::ops::RangeInclusive;
+
+use api::spec::MaterialProperties;
+use serde_json::{Value, json};
+
+use crate::reference::materials::LibraryMaterial;
+use crate::spec::diagnostics::NAME_LIMIT;
+use crate::spec::law::{archard, coulomb};
+use crate::spec::{
+    LABEL_LIMIT, LABEL_TEXT_LIMIT, accuracy, effects, load, materials, motion, output, system,
+};
+
+/// Keywords of the schema of a field.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Keywords {
+    /// Name of the object's schema.
+    pub(crate) object: &'static str,
+    /// The field.
+    pub(crate) field: &'static str,
+    /// The keywords and their values.
+    pub(crate) values: Value,
+}
+
+/// The keywords of every field whose values have limits. Limits that depend on other fields are not among them.
+pub(crate) fn keywords() -> Vec<Keywords> {
+    let numbers = numbers().into_iter();
+    let numbers = numbers.map(|(object, field, range)| (object, field, within(&range)));
+    let others = others().into_iter();
+    let dimensions = system::dimension_names().into_iter();
+    let dimensions = dimensions.map(|field| ("System", field, within(&system::LENGTH_MM)));
+    numbers
+        .chain(others)
+        .chain(dimensions)
+        .map(|(object, field, values)| Keywords {
+            object,
+            field,
+            values,
+        })
+        .collect()
+}
+
+/// Fields whose values are in a range.
+fn numbers() -> Vec<(&'static str, &'static str, RangeInclusive<f64>)> {
+    let materials = materials::numbers(&MaterialProperties::default()).into_iter();
+    let materials =
+        materials.map(|(field, _)| ("MaterialProperties", field, materials::range(field)));
+    let others = [
+        ("Load", "mpa", load::PRESSURE_MPA),
+        ("Load", "n_per_mm", load::LINE_FORCE_N_PER_MM),
+        ("Load", "n", load::FORCE_N),
+        ("Load", "width_mm", load::WIDTH_MM),
+        ("Load", "spring_n_per_mm", load::SPRING_N_PER_MM),
+        ("Motion", "period_s", motion::PERIOD_S),
+        ("Motion", "frequency_hz", motion::FREQUENCY_HZ),
+        ("Motion", "distance_mm", motion::DISTANCE_MM),
+        ("Motion", "speed_mm_s", motion::SPEED_MM_S),
+        ("Friction", "coefficient", coulomb::RANGE),
+        ("WearLaw", "k", archard::K),
+        ("WearLaw", "k_over_h_per_mpa", archard::K_OVER_H_PER_MPA),
+        ("WearLaw", "hardness_mpa", materials::HARDNESS_MPA),
+        ("Accuracy", "tolerance", accuracy::TOLERANCE),
+        ("Stop", "worn_depth_mm", output::WORN_DEPTH_MM),
+    ];
+    materials.chain(others).collect()
+}
+
+fn others() -> Vec<(&'static str, &'static str, Value)> {
+    let amplitude = within(&motion::AMPLITUDE_MM);
+    let (cycles, increments) = (counts(&motion::CYCLES), counts(&accuracy::INCREMENTS));
+    let mut jump = counts(&motion::CYCLES);
+    jump["type"] = json!("integer");
+    let text = json!({"minLength": 1, "maxLength": LABEL_TEXT_LIMIT});
+    let labels = json!({
+        "maxProperties": LABEL_LIMIT,
+        "propertyNames": text,
+        "additionalProperties": {"type": "string", "maxLength": LABEL_TEXT_LIMIT}
+    });
+    vec![
+        ("Spec", "name", json!({"maxLength": NAME_LIMIT})),
+        ("Spec", "labels", labels),
+        ("Spec", "cycles", cycles),
+        ("Spec", "stop", json!({"maxItems": output::STOP_LIMIT})),
+        (
+            "Spec",
+            "effects",
+            json!({"propertyNames": {"enum": effects::names()}}),
+        ),
+        (
+            "Motion",
+            "amplitude_mm",
+            json!({"anyOf": [{"const": 0}, amplitude]}),
+        ),
+        ("Overrides", "increments_per_cycle", increments),
+        (
+            "Overrides",
+            "cycle_jump",
+            json!({"oneOf": [{"const": "adaptive"}, jump, {"type": "null"}]}),
+        ),
+        (
+            "Overrides",
+            "contact_element_mm",
+            json!({"exclusiveMinimum": 0}),
+        ),
+        (
+            "Output",
+            "stations_mm",
+            json!({"maxItems": output::STATION_LIMIT}),
+        ),
+        (
+            "Output",
+            "snapshots_at_cycles",
+            json!({"maxItems": output::SNAPSHOT_LIMIT}),
+        ),
+        (
+            "Output",
+            "snapshots_at_distance_mm",
+            json!({"maxItems": output::SNAPSHOT_LIMIT, "items": {"type": "number", "format": "double", "minimum": 0}}),
+        ),
+        (
+            "MaterialProperties",
+            "name",
+            json!({"maxLength": NAME_LIMIT}),
+        ),
+    ]
+}
+
+/// Names of the materials that a specification can name.
+pub(crate) fn material_names() -> Vec<&'static str> {
+    LibraryMaterial::names()
+}
+
+fn within(range: &RangeInclusive<f64>) -> Value {
+    json!({"minimum": range.start(), "maximum": range.end()})
+}
+
+fn counts(range: &RangeInclusive<u64>) -> Value {
+    json!({"minimum": range.start(), "maximum": range.end()})
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::spec;
+    use crate::spec::Refused;
+
+    /// Details of the faults of a specification at a pointer.
+    fn faults_at(pointer: &str, text: &str) -> Vec<String> {
+        let Err(Refused::Faults(faults)) = spec::read(text.as_bytes()) else {
+            return Vec::new();
+        };
+        let at = faults.into_iter().filter(|fault| fault.pointer == pointer);
+        at.map(|fault| fault.detail).collect()
+    }
+
+    /// A specification with a value at a field of an object, and the pointer to it.
+    fn with(object: &str, field: &str, value: f64) -> (String, String) {
+        let (pointer, rest) = match object {
+            "Load" => {
+                let kind = match field {
+                    "mpa" => "pressure",
+                    "n" | "width_mm" => "force",
+                    _ => "line_force",
+                };
+                (
+                    "/load",
+                    format!(r#""load":{{"kind":"{kind}","{field}":{value}}}"#),
+                )
+            }
+            "Motion" => {
+                let kind = match field {
+                    "distance_mm" | "speed_mm_s" => "continuous",
+                    _ => "reciprocating",
+                };
+                (
+                    "/motion",
+                    format!(r#""motion":{{"kind":"{kind}","{field}":{value}}}"#),
+                )
+            }
+            "Friction" => (
+                "/interface/friction",
+                format!(r#""interface":{{"friction":{{"law":"coulomb","{field}":{value}}}}}"#),
+            ),
+            "WearLaw" => {
+                let other = if field == "hardness_mpa" {
+                    r#""k":0.1,"#
+                } else {
+                    ""
+                };
+                (
+                    "/interface/wear/receptacle",
+                    format!(
+                        r#""interface":{{"wear":{{"receptacle":{{"law":"archard",{other}"{field}":{value}}}}}}}"#
+                    ),
+                )
+            }
+            "Accuracy" => ("/accuracy", format!(r#""accuracy":{{"{field}":{value}}}"#)),
+            "Stop" => ("/stop/0", format!(r#""stop":[{{"{field}":{value}}}]"#)),
+            "MaterialProperties" => (
+                "/materials/slider",
+                format!(r#""materials":{{"slider":{{"{field}":{value}}}}}"#),
+            ),
+            _ => panic!("{object} has no sample"),
+        };
+        let text = format!(r#"{{"system":{{"kind":"dimm"}},{rest}}}"#);
+        (text, format!("{pointer}/{field}"))
+    }
+
+    #[test]
+    fn every_range_is_the_one_that_is_enforced() {
+        for (object, field, range) in numbers() {
+            let outside = |value: f64| {
+                let (text, pointer) = with(object, field, value);
+                let faults = faults_at(&pointer, &text);
+                faults.iter().any(|detail| detail.contains(" is outside "))
+            };
+            let (from, to) = range.into_inner();
+            for (inside, beyond) in [
+                (from, from - 1e-3 * from.abs().max(1e-30)),
+                (to, 1.001 * to),
+            ] {
+                assert!(!outside(inside), "{object}.{field} = {inside}");
+                assert!(outside(beyond), "{object}.{field} = {beyond}");
+            }
+        }
+    }
+}
