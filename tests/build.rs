@@ -8,7 +8,7 @@ fn main() {
     println!("cargo::rerun-if-env-changed=FRETWEAR_PYTHON");
     println!("cargo::rerun-if-env-changed=PATH");
     println!(
-        "cargo::rustc-check-cfg=cfg(has_vtk, has_ccx, has_chromium, has_curl, has_fma, has_mount, has_schemathesis)"
+        "cargo::rustc-check-cfg=cfg(has_vtk, has_cc, has_ccx, has_chromium, has_curl, has_fma, has_mount, has_schemathesis)"
     );
     let python = std::env::var("FRETWEAR_PYTHON").unwrap_or_else(|_| "python3".to_owned());
     println!("cargo::rustc-env=FRETWEAR_PYTHON={python}");
@@ -22,6 +22,9 @@ fn main() {
         && runs(Command::new("bash").args(["-c", "true"]))
     {
         println!("cargo::rustc-cfg=has_curl");
+    }
+    if runs(Command::new("cc").arg("--version")) {
+        println!("cargo::rustc-cfg=has_cc");
     }
     if has_fma() {
         println!("cargo::rustc-cfg=has_fma");

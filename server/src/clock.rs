@@ -1,9 +1,55 @@
 //! Clocks of the service.
+//!
+//! Times that users see are those of the system's clock. Times that are compared with each other, of leases, deadlines and
+//! places in the queue, are those of a monotonic clock, so that a step of the system's clock ends or delays nothing.
 
 use std::sync::OnceLock;
 use std::time::{Instant, SystemTime, UNIX_EPOCH};
 
-/// Returns the milliseconds since 1970-01-01 UTC.
+/// Smallest difference of the clocks that is a step, ms: what is smaller comes from reading them one after the other, and from
+/// slow corrections.
+const STEP_MS: i64 = 500;
+
+/// A time by both clocks.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Now {
+    /// By the system's clock, ms since 1970.
+    pub system_ms: i64,
+    /// By the monotonic clock, which started with the process at the time of the system's, ms since 1970.
+    pub monotonic_ms: i64,
+}
+
+impl Now {
+    /// Reads both clocks.
+    pub fn read() -> Self {
+        Self {
+            system_ms: now_ms(),
+            monotonic_ms: monotonic_ms(),
+        }
+    }
+
+    /// How far the system's clock was stepped since the process started, ms.
+    pub fn stepped_ms(self) -> i64 {
+        let difference = self.system_ms.saturating_sub(self.monotonic_ms);
+        if difference.abs() < STEP_MS {
+            0
+        } else {
+            difference
+        }
+    }
+}
+
+/// A time at which the clocks agree.
+impl From<i64> for Now {
+    fn from(ms: i64) -> Self {
+        Self {
+            system_ms: ms,
+            monotonic_ms: ms,
+        }
+    }
+}
+
+/// Returns the milliseconds since 1970-01-01 UTC by the system's clock.
 pub fn now_ms() -> i64 {
     let since = SystemTime::now()
         .duration_since(UNIX_EPOCH)
@@ -11,10 +57,27 @@ pub fn now_ms() -> i64 {
     i64::try_from(since.as_millis()).unwrap_or(i64::MAX)
 }
 
-/// Returns the milliseconds of a monotonic clock, which starts with the process at [`now_ms`]. Leases, which never
-/// outlive a process, are measured by it, so that a correction of the system time expires none.
+/// Returns the milliseconds of the monotonic clock.
 pub fn monotonic_ms() -> i64 {
     static START: OnceLock<(i64, Instant)> = OnceLock::new();
     let (start, since) = START.get_or_init(|| (now_ms(), Instant::now()));
     start.saturating_add(i64::try_from(since.elapsed().as_millis()).unwrap_or(i64::MAX))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn small_differences_are_no_steps() {
+        let now = |system_ms| Now {
+            system_ms,
+            monotonic_ms: 1_000,
+        };
+        assert_eq!(now(1_499).stepped_ms(), 0);
+        assert_eq!(now(3_601_000).stepped_ms(), 3_600_000);
+        assert_eq!(now(-3_599_000).stepped_ms(), -3_600_000);
+        assert_eq!(Now::read().stepped_ms(), 0);
+        assert_eq!(Now::from(7).stepped_ms(), 0);
+    }
 }

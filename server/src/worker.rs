@@ -13,7 +13,7 @@ use std::time::{Duration, Instant};
 use tokio_util::sync::CancellationToken;
 use tracing::Instrument;
 
-use crate::clock::now_ms;
+use crate::clock::Now;
 use crate::store::{Claim, Store, StoreError};
 
 use attempt::Attempt;
@@ -58,7 +58,7 @@ async fn next(
         return Ok(false);
     }
     let claimed = store
-        .claim_within(config.memory_mb, now_ms(), config.lease_end())
+        .claim_within(config.memory_mb, Now::read(), config.lease_end())
         .await?;
     let Some(claim) = claimed else {
         return Ok(false);

@@ -6,7 +6,9 @@ pub mod database;
 pub mod disk;
 pub mod program;
 pub mod server;
+mod stepped_clock;
 
 pub use disk::Disk;
 pub use program::{Ran, binary, fretwear, fuzz_button_with_jump, spec};
 pub use server::Server;
+pub use stepped_clock::SteppedClock;

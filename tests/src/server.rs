@@ -38,7 +38,19 @@ impl Server {
     /// # Panics
     /// If it does not start.
     pub fn start_with(folder: &Path, options: &[&str]) -> Self {
-        let (server, lines) = Self::start_with_log(folder, options, "info");
+        Self::start_in(folder, options, &[])
+    }
+
+    /// The same with variables of its environment.
+    ///
+    /// # Panics
+    /// If it does not start.
+    pub fn start_in(folder: &Path, options: &[&str], environment: &[(&str, &Path)]) -> Self {
+        let mut command = serve(folder, options);
+        command
+            .env("RUST_LOG", "info")
+            .envs(environment.iter().copied());
+        let (server, lines) = Self::started(command);
         // Its further output is read and discarded, so that it never blocks on a full pipe.
         std::thread::spawn(move || lines.for_each(drop));
         server
@@ -54,21 +66,14 @@ impl Server {
         options: &[&str],
         level: &str,
     ) -> (Self, Lines<impl BufRead + use<>>) {
-        let database = format!("sqlite://{}", folder.join("fretwear.db").display());
-        let arguments = ["serve", "--listen", "127.0.0.1:0", "--database", &database];
-        let workers: &[&str] = if options.contains(&"--workers") {
-            &[]
-        } else {
-            &["--workers", "1"]
-        };
-        let mut child = Command::new(binary())
-            .args(arguments)
-            .args(workers)
-            .args(options)
-            .env("RUST_LOG", level)
-            .stderr(Stdio::piped())
-            .spawn()
-            .expect("the service can be started");
+        let mut command = serve(folder, options);
+        command.env("RUST_LOG", level);
+        Self::started(command)
+    }
+
+    fn started(mut command: Command) -> (Self, Lines<impl BufRead + use<>>) {
+        let started = command.stderr(Stdio::piped()).spawn();
+        let mut child = started.expect("the service can be started");
         let mut lines = BufReader::new(child.stderr.take().expect("a pipe was asked for")).lines();
         let base = loop {
             let line = lines.next().expect("the service says where it serves");
@@ -185,6 +190,18 @@ impl Server {
             tokio::time::sleep(Duration::from_millis(20)).await;
         }
     }
+}
+
+/// The command of a service with its database in a folder; one worker unless the options name another number.
+fn serve(folder: &Path, options: &[&str]) -> Command {
+    let database = format!("sqlite://{}", folder.join("fretwear.db").display());
+    let mut command = Command::new(binary());
+    command.args(["serve", "--listen", "127.0.0.1:0", "--database", &database]);
+    if !options.contains(&"--workers") {
+        command.args(["--workers", "1"]);
+    }
+    command.args(options);
+    command
 }
 
 async fn answer(request: reqwest::RequestBuilder) -> (u16, Value) {

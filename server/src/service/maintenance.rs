@@ -7,7 +7,7 @@ use tokio::task::JoinSet;
 use tokio_util::sync::CancellationToken;
 use tracing::Instrument;
 
-use crate::clock::{monotonic_ms, now_ms};
+use crate::clock::{Now, monotonic_ms, now_ms};
 use crate::store::{OWNER_HEARTBEAT, Reclaimed, Store, StoreError};
 use crate::worker;
 use crate::worker::WorkerConfig;
@@ -134,7 +134,7 @@ async fn round(
     if queued + ending > 0 {
         tracing::warn!(queued, ending, "jobs reclaimed from lost workers");
     }
-    let expired = store.expire(now_ms()).await?;
+    let expired = store.expire(Now::read()).await?;
     if expired > 0 {
         tracing::warn!(
             expired,

@@ -41,6 +41,7 @@ use sqlx::sqlite::SqlitePool;
 use tokio::sync::{Notify, broadcast};
 use uuid::Uuid;
 
+use crate::clock::Now;
 use crate::metrics::Metrics;
 use crate::store::{
     Cancelled, Changes, DataDisk, LeaseState, NewJob, RequestKey, StoreError, Submitted,
@@ -79,7 +80,7 @@ impl Store {
         &self,
         job: &NewJob,
         key: Option<&RequestKey>,
-        now: i64,
+        now: impl Into<Now>,
     ) -> Result<Submitted, StoreError> {
         self.disk.check()?;
         let submitted = self.submissions.submit(&self.writer, job, key, now).await?;

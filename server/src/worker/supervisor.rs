@@ -8,7 +8,7 @@ use api::spec::Spec;
 use tokio::time::MissedTickBehavior;
 use tokio_util::sync::CancellationToken;
 
-use crate::clock::now_ms;
+use crate::clock::monotonic_ms;
 use crate::queue::Transition;
 use crate::solve::Line;
 use crate::solve::process::{LineError, ReceivedLine, SolveCommand, SolveProcess};
@@ -141,7 +141,7 @@ impl Supervision<'_> {
                 () = self.stopping.cancelled() => return Ok(Stop::Shutdown),
             };
             let deadline_at = self.attempt.claim.deadline_at;
-            if deadline_at.is_some_and(|at| now_ms() >= at) {
+            if deadline_at.is_some_and(|at| monotonic_ms() >= at) {
                 return Ok(Stop::DeadlinePassed);
             }
             match self.execute(write).await {

@@ -8,6 +8,7 @@ use sqlx::{Row, Sqlite, SqliteExecutor, Transaction};
 use uuid::Uuid;
 use uuid::fmt::Hyphenated;
 
+use crate::clock::Now;
 use crate::store::batches::{
     BatchDetail, BatchFilter, BatchJob, BatchOverview, NewBatch, StoredBatch,
 };
@@ -19,7 +20,7 @@ use crate::store::{DataDisk, Deleted, RequestKey, SnapshotPart, Store, StoreErro
 
 impl Store {
     /// Queues all jobs of a batch or none; returns the earlier batch if a request with the same key and body has queued
-    /// one. `now` in milliseconds since 1970.
+    /// one. `now` is the time of their submission.
     ///
     /// # Errors
     /// [`StoreError`] if the database fails.
@@ -27,7 +28,7 @@ impl Store {
         &self,
         batch: &NewBatch,
         key: Option<&RequestKey>,
-        now: i64,
+        now: impl Into<Now>,
     ) -> Result<Submitted, StoreError> {
         self.disk.check()?;
         let mut transaction = self.writer.begin_with(BEGIN).await?;
@@ -36,7 +37,7 @@ impl Store {
         {
             return Ok(earlier);
         }
-        let id = insert_batch(&mut transaction, batch, key, now).await?;
+        let id = insert_batch(&mut transaction, batch, key, now.into()).await?;
         transaction.commit().await?;
         // Wakes every idle worker; one that misses the notification polls within a second.
         self.waiting.notify_waiters();
@@ -210,7 +211,7 @@ async fn insert_batch(
     transaction: &mut Transaction<'_, Sqlite>,
     batch: &NewBatch,
     key: Option<&RequestKey>,
-    now: i64,
+    now: Now,
 ) -> Result<Uuid, StoreError> {
     let id = Uuid::now_v7();
     sqlx::query(
@@ -218,7 +219,7 @@ async fn insert_batch(
     )
     .bind(id.to_string())
     .bind(&batch.name)
-    .bind(now)
+    .bind(now.system_ms)
     .bind(key.map(|key| &key.key))
     .bind(key.map(|key| key.meaning_sha256.as_slice()))
     .execute(&mut **transaction)

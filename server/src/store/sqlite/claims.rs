@@ -5,6 +5,7 @@ use sqlx::{Row, Sqlite, Transaction};
 use uuid::Uuid;
 use uuid::fmt::Hyphenated;
 
+use crate::clock::Now;
 use crate::queue::{MemoryBudget, WaitingJob, admit};
 use crate::solve::checkpoint::EncodedCheckpoint;
 use crate::store::sqlite::checkpoints;
@@ -23,17 +24,18 @@ impl Store {
     pub async fn claim_within(
         &self,
         memory_mb: i64,
-        now: i64,
+        now: impl Into<Now>,
         expires_at: i64,
     ) -> Result<Option<Claim>, StoreError> {
         self.disk.check()?;
+        let now = now.into();
         let mut transaction = self.writer.begin_with(BEGIN).await?;
         let (ids, waiting) = candidates(&mut transaction).await?;
         if waiting.is_empty() {
             return Ok(None);
         }
         let budget = memory_budget(&mut transaction, memory_mb).await?;
-        let admission = admit(&waiting, &budget, now);
+        let admission = admit(&waiting, &budget, now.monotonic_ms);
         let mut changed = Vec::new();
         for index in admission.too_large {
             let reason = format!(
@@ -63,7 +65,7 @@ async fn candidates(
     transaction: &mut Transaction<'_, Sqlite>,
 ) -> Result<(Vec<Uuid>, Vec<WaitingJob>), StoreError> {
     let rows: Vec<(Hyphenated, i64, i64)> = sqlx::query_as(
-        "SELECT id, memory_mb, created_at FROM jobs WHERE status = 'queued' ORDER BY place, id LIMIT ?",
+        "SELECT id, memory_mb, queued_at FROM jobs WHERE status = 'queued' ORDER BY place, id LIMIT ?",
     )
     .bind(CANDIDATE_LIMIT)
     .fetch_all(&mut **transaction)
@@ -107,23 +109,23 @@ async fn set_reason(
 async fn claim(
     transaction: &mut Transaction<'_, Sqlite>,
     id: Uuid,
-    now: i64,
+    now: Now,
     expires_at: i64,
 ) -> Result<Claim, StoreError> {
     let row = sqlx::query(
         "UPDATE jobs SET status = 'running', lease = lease + 1, lease_expires_at = ?, attempts = attempts + 1, \
          fruitless = fruitless + 1, started_at = COALESCE(started_at, ?), status_reason = NULL, last_event = last_event + 1, version = version + 1 \
          WHERE id = ? AND status = 'queued' \
-         RETURNING lease, spec, last_event, attempts, created_at, deadline_at, memory_mb",
+         RETURNING lease, spec, last_event, attempts, queued_at, deadline_at, memory_mb",
     )
     .bind(expires_at)
-    .bind(now)
+    .bind(now.system_ms)
     .bind(id.to_string())
     .fetch_one(&mut **transaction)
     .await?;
     let checkpoint = checkpoints::restore(transaction, id).await?;
     let from_cycle = checkpoint.as_ref().map_or(0, |found| found.cycle);
-    let waited_ms = now.saturating_sub(row.try_get("created_at")?);
+    let waited_ms = now.monotonic_ms.saturating_sub(row.try_get("queued_at")?);
     let claim = claimed(id, &row, waited_ms, checkpoint)?;
     let event = row.try_get("last_event")?;
     insert_attempt_event(transaction, id, event, claim.attempt, from_cycle).await?;

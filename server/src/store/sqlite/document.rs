@@ -8,6 +8,7 @@ use sqlx::sqlite::SqliteRow;
 use sqlx::{QueryBuilder, Row, Sqlite};
 use uuid::Uuid;
 
+use crate::clock::Now;
 use crate::store::sqlite::queries::{self, outcome, parsed, status, summary};
 use crate::store::{DataDisk, StoreError};
 
@@ -30,7 +31,7 @@ pub(super) fn document(disk: &DataDisk, row: &SqliteRow) -> Result<Job, StoreErr
         status_reason: reason,
         outcome: outcome(row)?,
         priority: row.try_get("priority")?,
-        deadline_at: time("deadline_at")?,
+        deadline_at: deadline(row)?,
         created_at: timestamp(row.try_get("created_at")?),
         started_at: time("started_at")?,
         finished_at: time("finished_at")?,
@@ -56,6 +57,12 @@ pub(super) fn status_and_reason(
 /// Returns a time of a selected row.
 pub(super) fn time(row: &SqliteRow, column: &str) -> Result<Option<String>, sqlx::Error> {
     Ok(row.try_get::<Option<i64>, _>(column)?.map(timestamp))
+}
+
+/// Returns the deadline of a selected row by the system's clock.
+pub(super) fn deadline(row: &SqliteRow) -> Result<Option<String>, sqlx::Error> {
+    let at: Option<i64> = row.try_get("deadline_at")?;
+    Ok(at.map(|at| timestamp(at.saturating_add(Now::read().stepped_ms()))))
 }
 
 fn links(id: Uuid) -> BTreeMap<String, String> {

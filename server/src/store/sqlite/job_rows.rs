@@ -6,6 +6,7 @@ use api::spec::SystemKind;
 use sqlx::{Sqlite, SqliteConnection, Transaction};
 use uuid::Uuid;
 
+use crate::clock::Now;
 use crate::queue;
 use crate::queue::{Attempts, Transition, next_status};
 use crate::store::sqlite::document::timestamp;
@@ -55,7 +56,7 @@ pub(super) async fn cancel(
 pub(super) async fn retry(
     connection: &mut SqliteConnection,
     id: Uuid,
-    now: i64,
+    now: Now,
 ) -> Result<Option<Retried>, StoreError> {
     let Some(status) = status_of(connection, id).await? else {
         return Ok(None);
@@ -80,7 +81,7 @@ pub(super) async fn retry(
     )
     .bind(queued.as_str())
     .bind(queue::WAITING_FOR_WORKER)
-    .bind(now)
+    .bind(now.monotonic_ms)
     .bind(id.to_string())
     .fetch_one(&mut *connection)
     .await?;
@@ -92,14 +93,18 @@ pub(super) async fn retry(
 pub(super) async fn insert(
     transaction: &mut Transaction<'_, Sqlite>,
     job: &NewJob,
-    now: i64,
+    now: Now,
 ) -> Result<Uuid, StoreError> {
+    let Now {
+        system_ms,
+        monotonic_ms,
+    } = now;
     let id = Uuid::now_v7();
     let options = job.options;
     let system = job.spec.system.kind.known().map_or("", SystemKind::as_str);
     let progress = Progress {
         cycles: crate::spec::cycles(&job.spec),
-        updated_at: Some(timestamp(now)),
+        updated_at: Some(timestamp(system_ms)),
         ..Progress::default()
     };
     let progress = serde_json::to_string(&progress)?;
@@ -112,13 +117,13 @@ pub(super) async fn insert(
     .bind(serde_json::to_string(&job.spec)?)
     .bind(serde_json::to_string(&job.plan)?)
     .bind(queue::WAITING_FOR_WORKER)
-    .bind(now)
+    .bind(system_ms)
     .bind(&progress)
     .bind(options.priority)
-    .bind(queue::sort_key(now, options.priority))
-    .bind(options.deadline_s.map(|s| now.saturating_add(1_000 * i64::from(s))))
+    .bind(queue::sort_key(monotonic_ms, options.priority))
+    .bind(options.deadline_s.map(|s| monotonic_ms.saturating_add(1_000 * i64::from(s))))
     .bind(memory_mb(&job.plan))
-    .bind(now)
+    .bind(monotonic_ms)
     .execute(&mut **transaction)
     .await?;
     for (key, value) in &job.spec.labels {

@@ -4,6 +4,7 @@ use api::job::Status;
 use sqlx::Row;
 use uuid::Uuid;
 
+use crate::clock::Now;
 use crate::store::sqlite::document::{document, select};
 use crate::store::sqlite::job_rows::{cancel, retry, status_of};
 use crate::store::sqlite::queries::BEGIN;
@@ -51,10 +52,14 @@ impl Store {
     ///
     /// # Errors
     /// [`StoreError`] if the database fails.
-    pub async fn retry(&self, id: Uuid, now: i64) -> Result<Option<Retried>, StoreError> {
+    pub async fn retry(
+        &self,
+        id: Uuid,
+        now: impl Into<Now>,
+    ) -> Result<Option<Retried>, StoreError> {
         self.disk.check()?;
         let mut transaction = self.writer.begin_with(BEGIN).await?;
-        let effect = retry(&mut transaction, id, now).await?;
+        let effect = retry(&mut transaction, id, now.into()).await?;
         transaction.commit().await?;
         if effect == Some(Retried::Queued) {
             self.concluded(id, Some(Status::Queued));

@@ -3,6 +3,7 @@
 use api::job::{Outcome, Status};
 use uuid::fmt::Hyphenated;
 
+use crate::clock::Now;
 use crate::queue::Transition;
 use crate::store::sqlite::queries::BEGIN;
 use crate::store::sqlite::transitions::{EndingJob, end_job};
@@ -16,11 +17,12 @@ impl Store {
     ///
     /// # Errors
     /// [`StoreError`] if the database fails.
-    pub async fn expire(&self, now: i64) -> Result<usize, StoreError> {
+    pub async fn expire(&self, now: impl Into<Now>) -> Result<usize, StoreError> {
+        let now = now.into();
         let mut transaction = self.writer.begin_with(BEGIN).await?;
         let late: Vec<Hyphenated> =
             sqlx::query_scalar("SELECT id FROM jobs WHERE status = 'queued' AND deadline_at <= ?")
-                .bind(now)
+                .bind(now.monotonic_ms)
                 .fetch_all(&mut *transaction)
                 .await?;
         let end = End {
@@ -29,7 +31,7 @@ impl Store {
         };
         for id in &late {
             let job = EndingJob::queued((*id).into(), false);
-            end_job(&mut transaction, &job, &end, None, now).await?;
+            end_job(&mut transaction, &job, &end, None, now.system_ms).await?;
         }
         transaction.commit().await?;
         for id in &late {

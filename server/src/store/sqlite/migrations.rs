@@ -14,7 +14,7 @@ macro_rules! file {
 }
 
 /// All files of the folder; a name is the version and what it is about.
-const FILES: [(&str, &str); 19] = [
+const FILES: [(&str, &str); 20] = [
     file!("0001_jobs.sql"),
     file!("0002_labels.sql"),
     file!("0003_events.sql"),
@@ -34,6 +34,7 @@ const FILES: [(&str, &str); 19] = [
     file!("0055_list_indexes.sql"),
     file!("0056_result_blocks.sql"),
     file!("0057_job_counts.sql"),
+    file!("0058_clock.sql"),
 ];
 
 /// Applies the migrations that a database does not have; refuses a database with others.

@@ -5,7 +5,7 @@ use sqlx::sqlite::SqliteRow;
 use sqlx::{QueryBuilder, Row, Sqlite};
 use uuid::Uuid;
 
-use crate::store::sqlite::document::{status_and_reason, time, timestamp};
+use crate::store::sqlite::document::{deadline, status_and_reason, time, timestamp};
 use crate::store::sqlite::queries::{self, outcome, parsed};
 use crate::store::{DataDisk, StoreError};
 
@@ -39,7 +39,7 @@ pub(super) fn overview(disk: &DataDisk, row: &SqliteRow) -> Result<JobOverview, 
         status_reason,
         outcome: outcome(row)?,
         priority: row.try_get("priority")?,
-        deadline_at: time(row, "deadline_at")?,
+        deadline_at: deadline(row)?,
         created_at: timestamp(row.try_get("created_at")?),
         started_at: time(row, "started_at")?,
         finished_at: time(row, "finished_at")?,

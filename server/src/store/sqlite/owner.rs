@@ -7,8 +7,10 @@ use std::path::Path;
 use std::time::Duration;
 
 use sqlx::sqlite::SqlitePool;
+use sqlx::{Sqlite, Transaction};
 use uuid::Uuid;
 
+use crate::clock::Now;
 use crate::store::sqlite::queries::BEGIN;
 use crate::store::{Store, StoreError};
 
@@ -81,8 +83,28 @@ pub(super) async fn become_owner(
         .bind(this_process())
         .execute(&mut *transaction)
         .await?;
+    move_times(&mut transaction).await?;
     transaction.commit().await?;
     Ok(id)
+}
+
+/// Moves what the last process measured by its monotonic clock to that of this one.
+async fn move_times(transaction: &mut Transaction<'_, Sqlite>) -> Result<(), StoreError> {
+    let stepped_ms: Option<i64> = sqlx::query_scalar("DELETE FROM clock RETURNING stepped_ms")
+        .fetch_optional(&mut **transaction)
+        .await?;
+    let Some(stepped_ms) = stepped_ms.filter(|ms| *ms != 0) else {
+        return Ok(());
+    };
+    sqlx::query("UPDATE jobs SET queued_at = queued_at + ?1, place = place + ?1, deadline_at = deadline_at + ?1")
+        .bind(stepped_ms)
+        .execute(&mut **transaction)
+        .await?;
+    tracing::info!(
+        stepped_ms,
+        "the clock was stepped under the last service; deadlines were moved"
+    );
+    Ok(())
 }
 
 fn served(path: &Path, owner: Row) -> StoreError {
@@ -115,6 +137,7 @@ impl Store {
                 .bind(self.owner.to_string())
                 .execute(&self.writer)
                 .await?;
+            self.store_step(Now::read().stepped_ms()).await?;
             Ok(written.rows_affected())
         };
         if self.disk.with_reserve(write).await? > 0 {
@@ -127,8 +150,22 @@ impl Store {
         })
     }
 
+    /// Stores how far the system's clock was stepped.
+    async fn store_step(&self, stepped_ms: i64) -> Result<(), StoreError> {
+        sqlx::query(
+            "INSERT INTO clock (one, stepped_ms) VALUES (1, ?1) \
+             ON CONFLICT DO UPDATE SET stepped_ms = ?1 WHERE abs(stepped_ms - ?1) > 500",
+        )
+        .bind(stepped_ms)
+        .execute(&self.writer)
+        .await?;
+        Ok(())
+    }
+
     /// Gives the database up.
     pub(super) async fn disown(&self) {
+        // If it fails, deadlines are moved by the steps of the last seconds.
+        let _ = self.store_step(Now::read().stepped_ms()).await;
         // If it fails, the next process finds that this one has ended, or waits for a heartbeat.
         let _ = sqlx::query("DELETE FROM owner WHERE id = ?")
             .bind(self.owner.to_string())

@@ -8,6 +8,7 @@ use sqlx::{Sqlite, Transaction};
 use tokio::sync::oneshot;
 use uuid::fmt::Hyphenated;
 
+use crate::clock::Now;
 use crate::store::sqlite::job_rows::insert;
 use crate::store::sqlite::queries::BEGIN;
 use crate::store::{NewJob, RequestKey, StoreError, Submitted};
@@ -26,7 +27,7 @@ pub(super) struct Submissions {
 struct Pending {
     job: NewJob,
     key: Option<RequestKey>,
-    now: i64,
+    now: Now,
     answer: oneshot::Sender<Result<Submitted, StoreError>>,
 }
 
@@ -37,13 +38,13 @@ impl Submissions {
         writer: &SqlitePool,
         job: &NewJob,
         key: Option<&RequestKey>,
-        now: i64,
+        now: impl Into<Now>,
     ) -> Result<Submitted, StoreError> {
         let (answer, mut answered) = oneshot::channel();
         self.pending().push(Pending {
             job: job.clone(),
             key: key.cloned(),
-            now,
+            now: now.into(),
             answer,
         });
         loop {
