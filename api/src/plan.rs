@@ -5,7 +5,6 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
-use crate::problem::Fault;
 use crate::spec::Spec;
 
 /// Whether an effect is simulated, with the reason.
@@ -15,6 +14,17 @@ pub struct PlannedEffect {
     pub simulated: bool,
     /// Reason, in words.
     pub reason: String,
+}
+
+/// A warning about a value.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
+pub struct Warning {
+    /// JSON pointer (RFC 6901) of the field.
+    // Plans were stored with the name that faults have.
+    #[serde(alias = "pointer")]
+    pub field: String,
+    /// What is unusual, and what is likely meant.
+    pub detail: String,
 }
 
 /// A plan: simulated effects with reasons, and estimates.
@@ -28,7 +38,7 @@ pub struct Plan {
     pub estimates: BTreeMap<String, f64>,
     /// Values that were probably written in another unit than that of their field. They are accepted as they are.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub warnings: Vec<Fault>,
+    pub warnings: Vec<Warning>,
     /// Contradictions in the source of the presets that concern this specification.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub notes: Vec<String>,

@@ -5,6 +5,7 @@ mod arguments;
 mod backup;
 mod bench;
 mod child;
+mod client;
 mod demo;
 mod export;
 mod log;
@@ -23,7 +24,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use arguments::{BenchArguments, ChildArguments, DATABASE, LISTEN, LogFormat, ServeArguments};
-use clap::{Parser, Subcommand};
+use clap::{CommandFactory, Parser, Subcommand};
 
 /// First line of `--help`.
 const ABOUT: &str = "Wear of electrical contacts under vibration, by finite elements: on the command line and over HTTP";
@@ -121,6 +122,13 @@ enum Command {
         #[arg(long, env = "FRETWEAR_DATABASE", default_value = DATABASE)]
         database: String,
     },
+    #[command(flatten)]
+    Client(client::ClientCommand),
+    /// Write a script for the completion of commands and options in a shell to standard output.
+    Completions {
+        /// The shell.
+        shell: clap_complete::Shell,
+    },
     /// Write the description of the HTTP interface (OpenAPI 3.1) to standard output.
     Openapi,
     /// Solve the specification on standard input, as a service's child process.
@@ -169,9 +177,17 @@ pub fn main() -> ExitCode {
         Command::Verify { database } => backup::run_verify(&database),
         Command::Restore { from, database } => backup::run_restore(&from, &database),
         Command::SolveChild(arguments) => child::run(&arguments),
+        Command::Client(command) => client::run(command),
+        Command::Completions { shell } => completions(shell),
         Command::Openapi => terminal::write_out(crate::http::openapi::text().trim_end()),
     };
     ended.err().unwrap_or(ExitCode::SUCCESS)
+}
+
+fn completions(shell: clap_complete::Shell) -> terminal::Ended {
+    let mut script = Vec::new();
+    clap_complete::generate(shell, &mut Arguments::command(), "fretwear", &mut script);
+    terminal::write_out(String::from_utf8_lossy(&script).trim_end())
 }
 
 #[cfg(test)]

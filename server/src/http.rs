@@ -13,6 +13,7 @@ mod listener;
 pub mod openapi;
 mod paging;
 mod problem;
+mod problem_type;
 mod routes;
 mod table;
 mod verified_file;

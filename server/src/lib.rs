@@ -3,6 +3,7 @@
 pub mod batch;
 pub mod bench;
 pub mod cli;
+pub mod client;
 pub mod clock;
 pub mod estimate;
 pub mod export;

@@ -13,6 +13,7 @@ mod bench_against_calculix;
 mod calculix_agrees;
 mod cancel_running_job;
 mod chaos;
+mod client_commands;
 mod clock_steps;
 mod command_line;
 mod docker_files;

@@ -1,6 +1,6 @@
 //! Options of `serve` for access control.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use crate::http::{Access, TokenError};
 
@@ -36,19 +36,22 @@ pub(super) struct AccessOptions {
     allowed_hosts: Vec<String>,
 }
 
+/// Returns the access token in a file, or in the environment.
+pub(super) fn token(file: Option<&Path>) -> Result<Option<String>, AccessError> {
+    let Some(path) = file else {
+        return Ok(std::env::var("FRETWEAR_TOKEN").ok());
+    };
+    let error = |cause| AccessError::File {
+        path: path.to_owned(),
+        cause,
+    };
+    std::fs::read_to_string(path).map(Some).map_err(error)
+}
+
 impl AccessOptions {
     /// Returns the access rules; only a digest of the token stays in memory.
     pub(super) fn access(&self) -> Result<Access, AccessError> {
-        let token = match &self.token_file {
-            Some(path) => {
-                let error = |cause| AccessError::File {
-                    path: path.clone(),
-                    cause,
-                };
-                Some(std::fs::read_to_string(path).map_err(error)?)
-            }
-            None => std::env::var("FRETWEAR_TOKEN").ok(),
-        };
+        let token = token(self.token_file.as_deref())?;
         Ok(Access::new(
             token.as_deref().map(str::trim),
             &self.allowed_hosts,

@@ -4,7 +4,8 @@
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
 
-use api::plan::{MachineFigures, Plan, PlannedEffect};
+use api::plan::{MachineFigures, Plan, PlannedEffect, Warning};
+use api::problem::Fault;
 use solver::model::resolution;
 use solver::scene::{Scene, WearLaw};
 
@@ -27,9 +28,16 @@ impl Estimate {
                 .into_iter()
                 .map(|(name, value)| (name.to_owned(), value))
                 .collect(),
-            warnings: resolved.warnings.clone(),
+            warnings: resolved.warnings.iter().map(warning).collect(),
             notes: notes::notes(resolved),
         }
+    }
+}
+
+fn warning(Fault { pointer, detail }: &Fault) -> Warning {
+    Warning {
+        field: pointer.clone(),
+        detail: detail.clone(),
     }
 }
 

@@ -22,8 +22,8 @@ const MIN_TOKEN_LENGTH: usize = 16;
 const MAX_TOKEN_LENGTH: usize = 512;
 /// Paths that need no token, besides the assets of the pages: health checks, and pages, which contain no data.
 const PUBLIC_PATHS: [&str; 4] = ["/", "/docs", "/healthz", "/readyz"];
-/// The assets are the scripts and style sheets of the pages, without data too.
-const PUBLIC_FOLDER: &str = "/assets/";
+/// The assets are the scripts and style sheets of the pages, without data too; so are the explanations of problems.
+const PUBLIC_FOLDERS: [&str; 2] = ["/assets/", "/problems/"];
 
 /// Error of a configured token.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
@@ -87,7 +87,8 @@ impl Access {
             );
         }
         let digest = self.token_sha256.as_ref()?;
-        let public = PUBLIC_PATHS.contains(&path) || path.starts_with(PUBLIC_FOLDER);
+        let public = PUBLIC_PATHS.contains(&path)
+            || PUBLIC_FOLDERS.iter().any(|folder| path.starts_with(folder));
         if public || has_token(headers, digest) {
             return None;
         }

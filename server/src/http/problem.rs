@@ -1,4 +1,4 @@
-//! Problem documents (RFC 9457), and the table of their types. A type, once published, is never renamed.
+//! Problem documents (RFC 9457).
 
 use api::problem::{Fault, Problem};
 use axum::http::{HeaderValue, StatusCode, header};
@@ -7,6 +7,7 @@ use axum::response::{IntoResponse, Response};
 use crate::export::csv::CsvError;
 use crate::export::documents::DocumentError;
 use crate::export::parquet::ParquetError;
+pub(super) use crate::http::problem_type::ProblemType;
 use crate::spec::Refused;
 use crate::store::StoreError;
 
@@ -19,63 +20,6 @@ const RETRY_AFTER_S: &str = "5";
 /// Marks a response with the problem of a full disk; [`crate::http::disk_space`] adds the free space to it.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct DiskFull;
-
-/// Type of a problem: a row of the table below.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct ProblemType {
-    status: u16,
-    name: &'static str,
-    /// Title, the same for every problem of the type.
-    title: &'static str,
-}
-
-/// Declares the types: constant, status, name, title.
-macro_rules! problem_types {
-    ($($constant:ident, $status:literal, $name:literal, $title:literal;)+) => {
-        impl ProblemType {
-            $(
-                #[doc = concat!("Problem: ", $title, ".")]
-                pub(super) const $constant: Self = Self {
-                    status: $status,
-                    name: $name,
-                    title: $title,
-                };
-            )+
-        }
-    };
-}
-
-problem_types! {
-    UNREADABLE_BODY, 400, "unreadable-body", "the body cannot be read";
-    INVALID_SPECIFICATION, 422, "invalid-specification", "the specification has faults";
-    KEY_REUSED, 422, "idempotency-key-reused", "the key was used for another request";
-    INVALID_KEY, 400, "invalid-idempotency-key", "the key is not valid";
-    INVALID_QUERY, 400, "invalid-query", "a query parameter is not valid";
-    RANGE, 416, "range", "the range lies outside the file";
-    BODY_TOO_LARGE, 413, "body-too-large", "the body is too large";
-    MEDIA_TYPE, 415, "media-type", "the body is not declared as JSON";
-    NO_SUCH_PATH, 404, "no-such-path", "there is no such path";
-    WRONG_METHOD, 405, "wrong-method", "the path does not support this method";
-    NO_SUCH_JOB, 404, "no-such-job", "there is no such job";
-    NO_SUCH_SWEEP, 404, "no-such-sweep", "there is no such sweep";
-    NO_SUCH_STUDY, 404, "no-such-study", "there is no such study";
-    STUDY_OUTDATED, 410, "study-outdated", "the study cannot be compared any more";
-    NO_SUCH_RESULT, 404, "no-such-result", "the job has no such result";
-    NO_SUCH_SYSTEM, 404, "no-such-system", "there is no such system";
-    JOB_ACTIVE, 409, "job-active", "the job has not ended";
-    JOB_SUCCEEDED, 409, "job-succeeded", "the job has succeeded";
-    SWEEP_ACTIVE, 409, "sweep-active", "the sweep has jobs that have not ended";
-    STUDY_ACTIVE, 409, "study-active", "the study has jobs that have not ended";
-    INVALID_HOST, 400, "invalid-host", "the Host header is missing or repeated";
-    FOREIGN_HOST, 403, "foreign-host", "the request is for another host";
-    TOKEN_REQUIRED, 401, "token-required", "the access token is missing or wrong";
-    REQUEST_TIMEOUT, 408, "request-timeout", "the request did not arrive in time";
-    BUSY, 503, "busy", "the service cannot take the request at present";
-    DISK_FULL, 503, "disk-full", "the data disk is full";
-    RESULT_DAMAGED, 500, "result-damaged", "a stored result is damaged";
-    TASK_FAILING, 503, "task-failing", "a task of the service fails repeatedly";
-    INTERNAL, 500, "internal", "internal error";
-}
 
 impl ProblemType {
     /// A problem of this type with its explanation.
@@ -181,6 +125,7 @@ impl IntoResponse for ProblemResponse {
             status,
             name,
             title,
+            ..
         } = self.problem_type;
         let is_full = self.detail == Some(StoreError::DiskFull.to_string());
         let problem = Problem {

@@ -66,6 +66,7 @@ pub(super) fn routes_and_document() -> (Router<App>, Document) {
         .routes(routes!(operation::serve_pages::dashboard))
         .routes(routes!(operation::serve_pages::docs))
         .routes(routes!(operation::serve_pages::asset))
+        .routes(routes!(operation::explain_problem::explain))
         .routes(routes!(operation::show_openapi::openapi))
         .routes(routes!(operation::check_health::healthz))
         .routes(routes!(operation::check_health::readyz))

@@ -72,7 +72,7 @@ const SEVERAL_PATHS: [&str; 9] = [
     "server/src/http/routes/operation/serve_pages.rs",
 ];
 
-const RULES: [(&str, Rule); 14] = [
+const RULES: [(&str, Rule); 15] = [
     (
         "laws know no mesh",
         MustNotName(
@@ -201,6 +201,21 @@ const RULES: [(&str, Rule); 14] = [
                 "server/src/worker",
             ],
             &["server/src/http"],
+        ),
+    ),
+    (
+        "the client knows nothing of the service but the wire contract",
+        MustNotName(
+            &["server/src/client"],
+            &[
+                "server/src/batch",
+                "server/src/cli",
+                "server/src/http",
+                "server/src/queue",
+                "server/src/service",
+                "server/src/spec",
+                "server/src/worker",
+            ],
         ),
     ),
     ("one file per route", OneRoute(&["server/src/http/routes"])),

@@ -1,6 +1,7 @@
 //! Operation of the service: health checks, metrics, pages, OpenAPI document.
 
 pub(crate) mod check_health;
+pub(crate) mod explain_problem;
 pub(crate) mod serve_pages;
 pub(crate) mod show_metrics;
 pub(crate) mod show_openapi;

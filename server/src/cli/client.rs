@@ -1,0 +1,52 @@
+//! Commands that use a service elsewhere: `submit`, `list`, `watch`, `fetch`, `cancel` and `retry`.
+//!
+//! Exit codes: 0, the job succeeded, or what was asked for was done; 1, the job failed, or another error; 2, the service
+//! refused the request; 3, the job was cancelled; 4, the service could not be reached; 130, interrupted (Ctrl-C).
+
+mod connection;
+mod control;
+mod fetch;
+mod list;
+mod submit;
+mod watch;
+
+use clap::Subcommand;
+use uuid::Uuid;
+
+use crate::cli::client::connection::ServerOptions;
+use crate::cli::terminal::Ended;
+
+pub(in crate::cli) use watch::follow;
+
+/// Commands that use a service.
+#[derive(Debug, Subcommand)]
+pub(super) enum ClientCommand {
+    /// Queue a job at a service, and write its id to standard output.
+    Submit(submit::SubmitArguments),
+    /// List the newest jobs of a service.
+    List(list::ListArguments),
+    /// Follow a job with a progress bar to its end; Ctrl-C leaves it running.
+    Watch {
+        /// The job.
+        id: Uuid,
+        #[command(flatten)]
+        server: ServerOptions,
+    },
+    /// Write the files of a job into a folder, and compare their SHA-256.
+    Fetch(fetch::FetchArguments),
+    /// Cancel jobs; results computed so far remain.
+    Cancel(control::ControlArguments),
+    /// Queue failed or cancelled jobs again, from their last checkpoints.
+    Retry(control::ControlArguments),
+}
+
+pub(super) fn run(command: ClientCommand) -> Ended {
+    match command {
+        ClientCommand::Submit(arguments) => submit::run(&arguments),
+        ClientCommand::List(arguments) => list::run(&arguments),
+        ClientCommand::Watch { id, server } => watch::run(id, &server),
+        ClientCommand::Fetch(arguments) => fetch::run(&arguments),
+        ClientCommand::Cancel(arguments) => control::run(&arguments, "cancel"),
+        ClientCommand::Retry(arguments) => control::run(&arguments, "retry"),
+    }
+}

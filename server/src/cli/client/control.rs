@@ -1,0 +1,29 @@
+//! `fretwear cancel ID...` and `fretwear retry ID...`.
+
+use uuid::Uuid;
+
+use crate::cli::client::connection::{ServerOptions, interruptible, report};
+use crate::cli::terminal::{Ended, write_out};
+
+#[derive(Debug, clap::Args)]
+pub(in crate::cli) struct ControlArguments {
+    /// The jobs.
+    #[arg(required = true)]
+    ids: Vec<Uuid>,
+    #[command(flatten)]
+    server: ServerOptions,
+}
+
+/// Posts to each job; one that is refused does not prevent the others.
+pub(super) fn run(arguments: &ControlArguments, action: &str) -> Ended {
+    let client = arguments.server.client()?;
+    let mut ended = Ok(());
+    for id in &arguments.ids {
+        let path = format!("/v1/jobs/{id}/{action}");
+        match interruptible(client.post(&path), None)? {
+            Ok(job) => write_out(format_args!("{id} {}", job.status.as_str()))?,
+            Err(error) => ended = Err(report(&error)),
+        }
+    }
+    ended
+}

@@ -1,0 +1,73 @@
+//! `fretwear submit SPEC`: queues a job.
+
+use std::path::PathBuf;
+
+use uuid::Uuid;
+
+use crate::cli::client::connection::{ServerOptions, interruptible, report};
+use crate::cli::client::{fetch, watch};
+use crate::cli::terminal::{Ended, failed_at, write_err, write_out};
+
+#[derive(Debug, clap::Args)]
+pub(in crate::cli) struct SubmitArguments {
+    /// The specification, JSON.
+    spec: PathBuf,
+    #[command(flatten)]
+    server: ServerOptions,
+    /// Minutes added to the job's age in the order of the queue, -100 to 100.
+    #[arg(long, allow_negative_numbers = true)]
+    priority: Option<i32>,
+    /// The job fails if it has not ended so many seconds after its submission.
+    #[arg(long)]
+    deadline_s: Option<u32>,
+    /// Requests with the same key queue one job, also from another terminal; a new key unless given.
+    #[arg(long)]
+    key: Option<String>,
+    /// Follow the job to its end, as `watch` does.
+    #[arg(long)]
+    watch: bool,
+    /// Follow the job and write its files into this folder, as `fetch` does.
+    #[arg(long)]
+    out: Option<PathBuf>,
+}
+
+pub(super) fn run(arguments: &SubmitArguments) -> Ended {
+    let client = arguments.server.client()?;
+    let path = &arguments.spec;
+    let specification = std::fs::read(path).map_err(|cause| failed_at(path, &cause))?;
+    let key = arguments.key.clone();
+    let key = key.unwrap_or_else(|| Uuid::now_v7().to_string());
+    let options = [
+        (
+            "priority",
+            arguments.priority.map(|given| given.to_string()),
+        ),
+        (
+            "deadline_s",
+            arguments.deadline_s.map(|given| given.to_string()),
+        ),
+    ];
+    let options: Vec<_> = options
+        .into_iter()
+        .filter_map(|(name, value)| Some((name, value?)))
+        .collect();
+    let submitted = interruptible(client.submit(specification, &options, &key), None)?;
+    let job = submitted.map_err(|error| report(&error))?;
+    for warning in job.plan.iter().flat_map(|plan| &plan.warnings) {
+        write_err(format_args!(
+            "fretwear: warning: {}: {}",
+            warning.field, warning.detail
+        ));
+    }
+    if !arguments.watch && arguments.out.is_none() {
+        return write_out(job.id);
+    }
+    // Standard output is for the summary.
+    write_err(format_args!("job {}", job.id));
+    let ended = interruptible(watch::watch(&client, job.id), Some(job.id))?;
+    match &arguments.out {
+        // The results of a job that failed show why.
+        Some(folder) => fetch::fetch(&client, job.id, &[], folder).and(ended),
+        None => ended,
+    }
+}

@@ -1,0 +1,112 @@
+//! Files of a job, written into a folder and checked against the manifest.
+
+use std::fs::File;
+use std::io::Write;
+use std::path::Path;
+
+use api::results::{Manifest, ResultFile};
+use futures_util::StreamExt;
+use sha2::{Digest, Sha256};
+use uuid::Uuid;
+
+use crate::client::{Client, ClientError};
+use crate::export::files::hexadecimal;
+use crate::store::{Content, integrity};
+
+/// What became of a file.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Fetched {
+    /// It was received.
+    Received,
+    /// The folder had it already.
+    Present,
+}
+
+impl Client {
+    /// Writes files of a job into a folder, which is created; all of them if none is named. Files that are there with their
+    /// SHA-256 are not requested again, so that an interrupted download continues.
+    ///
+    /// # Errors
+    /// [`ClientError`]; files that were received stay.
+    pub async fn fetch(
+        &self,
+        id: Uuid,
+        names: &[String],
+        folder: &Path,
+        mut observe: impl FnMut(&ResultFile, Fetched),
+    ) -> Result<(), ClientError> {
+        let manifest: Manifest = self.get(&format!("/v1/jobs/{id}/results")).await?;
+        let files = chosen(manifest.files, names)?;
+        std::fs::create_dir_all(folder).map_err(|cause| file_error(folder, cause))?;
+        for file in &files {
+            if Path::new(&file.name).file_name() != Some(file.name.as_ref()) {
+                return Err(ClientError::Name(file.name.clone()));
+            }
+            let path = folder.join(&file.name);
+            let fetched = if is_present(&path, file) {
+                Fetched::Present
+            } else {
+                self.receive(id, file, &path).await?;
+                Fetched::Received
+            };
+            observe(file, fetched);
+        }
+        Ok(())
+    }
+
+    /// Receives a file under a temporary name, and renames it once its SHA-256 was compared.
+    async fn receive(&self, id: Uuid, file: &ResultFile, path: &Path) -> Result<(), ClientError> {
+        let url = self.url(&format!("/v1/jobs/{id}/results/files/{}", file.name));
+        let mut chunks = self.send(self.http.get(url)).await?.bytes_stream();
+        let unfinished = path.with_file_name(format!("{}.unfinished", file.name));
+        let failed = |cause| file_error(&unfinished, cause);
+        let mut target = File::create(&unfinished).map_err(failed)?;
+        let mut sha256 = Sha256::new();
+        while let Some(chunk) = chunks.next().await {
+            let chunk = chunk.map_err(|cause| ClientError::unreachable(&self.base, cause))?;
+            sha256.update(&chunk);
+            target.write_all(&chunk).map_err(failed)?;
+        }
+        let found = hexadecimal(&sha256.finalize());
+        if found != file.sha256 {
+            return Err(ClientError::Checksum {
+                name: file.name.clone(),
+                found,
+                named: file.sha256.clone(),
+            });
+        }
+        target.sync_all().map_err(failed)?;
+        std::fs::rename(&unfinished, path).map_err(|cause| file_error(path, cause))
+    }
+}
+
+/// The named files of a manifest; all if none is named.
+fn chosen(files: Vec<ResultFile>, names: &[String]) -> Result<Vec<ResultFile>, ClientError> {
+    if let Some(name) = names
+        .iter()
+        .find(|name| files.iter().all(|file| file.name != **name))
+    {
+        let others: Vec<&str> = files.iter().map(|file| file.name.as_str()).collect();
+        return Err(ClientError::NoFile {
+            name: name.clone(),
+            others: if others.is_empty() {
+                "none so far".to_owned()
+            } else {
+                others.join(", ")
+            },
+        });
+    }
+    let is_chosen = |file: &ResultFile| names.is_empty() || names.contains(&file.name);
+    Ok(files.into_iter().filter(is_chosen).collect())
+}
+
+fn is_present(path: &Path, file: &ResultFile) -> bool {
+    integrity::check(file, &Content::File(path.to_owned())).is_ok()
+}
+
+fn file_error(path: &Path, cause: std::io::Error) -> ClientError {
+    ClientError::File {
+        path: path.to_owned(),
+        cause,
+    }
+}

@@ -1,0 +1,128 @@
+//! Errors of the client.
+
+use std::path::PathBuf;
+use std::time::Duration;
+
+use api::problem::Problem;
+
+/// Why a request failed.
+#[derive(Debug, thiserror::Error)]
+pub enum ClientError {
+    /// The address of the service is invalid.
+    #[error("`{0}` is not the address of a service such as http://127.0.0.1:8080")]
+    Address(String),
+    /// The access token cannot be sent.
+    #[error("the access token has characters that a header cannot contain")]
+    Token,
+    /// The body of a request cannot be sent again.
+    #[error("the request cannot be sent again")]
+    Body,
+    /// The service cannot be reached, or the connection broke.
+    #[error("{url} cannot be reached: {cause}")]
+    Unreachable {
+        /// The service.
+        url: String,
+        /// The error and its causes.
+        cause: String,
+    },
+    /// The service answered with a problem.
+    #[error("{}", words(.problem))]
+    Problem {
+        /// The problem.
+        problem: Box<Problem>,
+        /// When to send the request again.
+        retry_after: Option<Duration>,
+    },
+    /// An answer is not what this version expects.
+    #[error("the answer of {url} cannot be read: {cause}")]
+    Answer {
+        /// The address.
+        url: String,
+        /// Why.
+        cause: serde_json::Error,
+    },
+    /// A file cannot be written.
+    #[error("{}: {cause}", .path.display())]
+    File {
+        /// The file or folder.
+        path: PathBuf,
+        /// The system's error.
+        cause: std::io::Error,
+    },
+    /// A received file differs from its entry in the manifest.
+    #[error("{name} was received with the SHA-256 {found}, the manifest names {named}")]
+    Checksum {
+        /// The file.
+        name: String,
+        /// SHA-256 of what was received.
+        found: String,
+        /// SHA-256 in the manifest.
+        named: String,
+    },
+    /// The manifest names a path instead of a file.
+    #[error("the service names `{0}`, which is no plain file name")]
+    Name(String),
+    /// The manifest has no such file.
+    #[error("the job has no file `{name}`; it has {others}")]
+    NoFile {
+        /// The file.
+        name: String,
+        /// What there is.
+        others: String,
+    },
+}
+
+impl ClientError {
+    /// The connection failed; with the causes, which the library does not show.
+    pub(super) fn unreachable(url: &str, error: reqwest::Error) -> Self {
+        let mut cause = error.to_string();
+        let error = error.without_url();
+        let mut source = std::error::Error::source(&error);
+        while let Some(inner) = source {
+            cause = inner.to_string();
+            source = inner.source();
+        }
+        Self::Unreachable {
+            url: url.to_owned(),
+            cause,
+        }
+    }
+
+    /// Whether the same request may succeed later.
+    pub fn is_temporary(&self) -> bool {
+        match self {
+            Self::Unreachable { .. } => true,
+            Self::Problem { problem, .. } => [429, 502, 503, 504].contains(&problem.status),
+            _ => false,
+        }
+    }
+
+    /// Whether the service could not be reached.
+    pub fn is_unreachable(&self) -> bool {
+        matches!(self, Self::Unreachable { .. })
+    }
+
+    /// Whether the service refused what was sent, which the user can correct.
+    pub fn is_refused(&self) -> bool {
+        matches!(self, Self::Problem { problem, .. } if [400, 413, 415, 422].contains(&problem.status))
+    }
+
+    pub(super) fn retry_after(&self) -> Option<Duration> {
+        match self {
+            Self::Problem { retry_after, .. } => *retry_after,
+            _ => None,
+        }
+    }
+}
+
+/// A problem in words, with all faults.
+fn words(problem: &Problem) -> String {
+    let detail = problem.detail.iter();
+    let detail = detail.map(|detail| format!(": {detail}"));
+    let faults = problem.faults.iter();
+    let faults = faults.map(|fault| format!("\n  {}: {}", fault.pointer, fault.detail));
+    std::iter::once(problem.title.clone())
+        .chain(detail)
+        .chain(faults)
+        .collect()
+}
