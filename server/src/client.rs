@@ -7,12 +7,14 @@ mod download;
 mod error;
 mod events;
 
+use std::net::IpAddr;
 use std::time::Duration;
 
 use api::job::Job;
 use api::problem::Problem;
-use reqwest::header::{AUTHORIZATION, HeaderMap, HeaderValue, RETRY_AFTER};
-use reqwest::{RequestBuilder, Response, StatusCode};
+use reqwest::header::{AUTHORIZATION, HeaderMap, HeaderValue, LOCATION, RETRY_AFTER};
+use reqwest::redirect::Policy;
+use reqwest::{RequestBuilder, Response, StatusCode, Url};
 use serde::de::DeserializeOwned;
 use uuid::Uuid;
 
@@ -44,12 +46,8 @@ impl Client {
     /// [`ClientError::Address`] and [`ClientError::Token`].
     pub fn new(server: &str, token: Option<&str>) -> Result<Self, ClientError> {
         let base = server.trim_end_matches('/');
-        let is_address = reqwest::Url::parse(base).is_ok_and(|url| {
-            ["http", "https"].contains(&url.scheme()) && url.has_host() && url.query().is_none()
-        });
-        if !is_address {
-            return Err(ClientError::Address(server.to_owned()));
-        }
+        let url = Url::parse(base).ok().filter(is_address);
+        let url = url.ok_or_else(|| ClientError::Address(server.to_owned()))?;
         let mut headers = HeaderMap::new();
         if let Some(token) = token {
             let value = HeaderValue::try_from(format!("Bearer {token}"));
@@ -57,11 +55,20 @@ impl Client {
             value.set_sensitive(true);
             headers.insert(AUTHORIZATION, value);
         }
-        let http = reqwest::Client::builder()
+        let mut http = reqwest::Client::builder()
             .default_headers(headers)
             .connect_timeout(CONNECT_TIMEOUT)
             .read_timeout(READ_TIMEOUT)
-            .build();
+            // A submission that is redirected would become a GET.
+            .redirect(Policy::none());
+        if url.scheme() == "http" {
+            // Those of the system are not needed, and a system without any would be an error.
+            http = http.tls_certs_only([]);
+        }
+        if is_loopback(&url) {
+            http = http.no_proxy();
+        }
+        let http = http.build();
         let http = http.map_err(|cause| ClientError::unreachable(base, cause))?;
         Ok(Self {
             base: base.to_owned(),
@@ -115,6 +122,15 @@ impl Client {
         self.get(&format!("/v1/jobs/{id}")).await
     }
 
+    /// Returns whether the service is ready; asks once.
+    ///
+    /// # Errors
+    /// [`ClientError`], also if it is not ready.
+    pub async fn check_ready(&self, timeout: Duration) -> Result<(), ClientError> {
+        let request = self.http.get(self.url("/readyz")).timeout(timeout);
+        self.send_once(request).await.map(drop)
+    }
+
     fn url(&self, path: &str) -> String {
         format!("{}{path}", self.base)
     }
@@ -143,6 +159,12 @@ impl Client {
         if status.is_success() {
             return Ok(response);
         }
+        if let Some(location) = response.headers().get(LOCATION) {
+            return Err(ClientError::Redirected {
+                url: self.base.clone(),
+                location: String::from_utf8_lossy(location.as_bytes()).into_owned(),
+            });
+        }
         Err(problem(status, response).await)
     }
 
@@ -158,6 +180,17 @@ impl Client {
             cause,
         })
     }
+}
+
+fn is_address(url: &Url) -> bool {
+    ["http", "https"].contains(&url.scheme()) && url.has_host() && url.query().is_none()
+}
+
+/// Whether a proxy cannot reach the host of an address.
+fn is_loopback(url: &Url) -> bool {
+    let host = url.host_str().unwrap_or_default();
+    let ip = host.trim_matches(['[', ']']).parse::<IpAddr>();
+    host == "localhost" || ip.is_ok_and(|ip| ip.is_loopback())
 }
 
 /// The problem of an answer; of its status alone if it is no problem document, as that of a proxy.

@@ -11,6 +11,7 @@ use nix::sys::signal::{Signal, kill};
 use nix::unistd::Pid;
 use serde_json::Value;
 use tests::{Ran, Server, binary, fretwear};
+use tokio::io::{AsyncReadExt, AsyncWriteExt};
 use tokio::net::{TcpListener, TcpStream};
 use tokio::task::JoinSet;
 
@@ -256,4 +257,48 @@ async fn a_service_with_a_token_is_used_with_it() {
     )
     .await;
     assert_eq!(with.code, Some(0), "{}", with.stderr);
+}
+
+#[tokio::test]
+async fn a_service_here_needs_no_certificates_and_no_proxy() {
+    let folder = tempfile::tempdir().expect("a folder can be made");
+    let server = Server::start(folder.path());
+    // As in an image without certificates, with the proxy of a company.
+    let environment = [
+        ("SSL_CERT_FILE", "/nonexistent"),
+        ("SSL_CERT_DIR", "/nonexistent"),
+        ("http_proxy", "http://127.0.0.1:1"),
+        ("FRETWEAR_SERVER", server.base.as_str()),
+        ("FRETWEAR_LISTEN", server.base.trim_start_matches("http://")),
+    ];
+    for command in ["list", "probe"] {
+        let ran = Command::new(binary())
+            .arg(command)
+            .envs(environment)
+            .output();
+        let ran = ran.expect("it can be started");
+        assert!(
+            ran.status.success(),
+            "{command}: {}",
+            String::from_utf8_lossy(&ran.stderr)
+        );
+    }
+}
+
+#[tokio::test]
+async fn a_redirection_is_reported_and_not_followed() {
+    let listener = TcpListener::bind("127.0.0.1:0").await.expect("a port");
+    let base = format!("http://{}", listener.local_addr().expect("an address"));
+    tokio::spawn(async move {
+        let (mut client, _) = listener.accept().await.expect("a connection");
+        client.read(&mut [0; 4096]).await.expect("a request");
+        let answer = b"HTTP/1.1 308 Permanent Redirect\r\nlocation: https://wear.test/\r\ncontent-length: 0\r\n\r\n";
+        client.write_all(answer).await.expect("written");
+        // Until the other side closes it.
+        let _ = client.read_to_end(&mut Vec::new()).await;
+    });
+    let folder = tempfile::tempdir().expect("a folder can be made");
+    let ran = client(folder.path(), &base, &["list"]).await;
+    assert_eq!(ran.code, Some(1));
+    assert!(ran.stderr.contains("https://wear.test/"), "{}", ran.stderr);
 }

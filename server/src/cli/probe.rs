@@ -5,22 +5,15 @@ use std::time::Duration;
 
 use crate::cli::runtime::block_on;
 use crate::cli::terminal::{Ended, failed, write_out};
+use crate::client::Client;
 
 /// Time limit of the request.
 const TIMEOUT: Duration = Duration::from_secs(4);
 
 pub(super) fn run(listen: SocketAddr) -> Ended {
-    let url = format!("http://{}/readyz", local(listen));
-    let status = block_on(request(&url))?.map_err(failed)?;
-    if !status.is_success() {
-        return Err(failed(format_args!("{url}: {status}")));
-    }
+    let client = Client::new(&format!("http://{}", local(listen)), None).map_err(failed)?;
+    block_on(client.check_ready(TIMEOUT))?.map_err(failed)?;
     write_out("ready")
-}
-
-async fn request(url: &str) -> reqwest::Result<reqwest::StatusCode> {
-    let client = reqwest::Client::builder().timeout(TIMEOUT).build()?;
-    Ok(client.get(url).send().await?.status())
 }
 
 /// Returns the address at which a local service with this listen address is reached.

@@ -33,6 +33,14 @@ pub enum ClientError {
         /// When to send the request again.
         retry_after: Option<Duration>,
     },
+    /// The service is at another address.
+    #[error("{url} is redirected to {location}; give the address of the service itself")]
+    Redirected {
+        /// The address that was given.
+        url: String,
+        /// Where it is redirected to.
+        location: String,
+    },
     /// An answer is not what this version expects.
     #[error("the answer of {url} cannot be read: {cause}")]
     Answer {
