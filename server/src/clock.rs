@@ -4,11 +4,13 @@
 //! places in the queue, are those of a monotonic clock, so that a step of the system's clock ends or delays nothing.
 
 use std::sync::OnceLock;
-use std::time::{Instant, SystemTime, UNIX_EPOCH};
+use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
+
+use nix::time::{ClockId, clock_gettime};
 
 /// Smallest difference of the clocks that is a step, ms: what is smaller comes from reading them one after the other, and from
 /// slow corrections.
-const STEP_MS: i64 = 500;
+pub const STEP_MS: i64 = 500;
 
 /// A time by both clocks.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -64,6 +66,34 @@ pub fn monotonic_ms() -> i64 {
     start.saturating_add(i64::try_from(since.elapsed().as_millis()).unwrap_or(i64::MAX))
 }
 
+/// What the monotonic clock of this process counts from.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Origin {
+    /// The start of the system, by its id.
+    pub boot: String,
+    /// [`monotonic_ms`] at that start, ms.
+    pub offset_ms: i64,
+}
+
+impl Origin {
+    /// That of this process; none where the system does not tell (it is Linux that does).
+    pub fn of_this_process() -> Option<Self> {
+        let boot = boot()?;
+        let since_boot = clock_gettime(ClockId::CLOCK_MONOTONIC).ok()?;
+        let since_boot_ms = i64::try_from(Duration::from(since_boot).as_millis()).ok()?;
+        Some(Self {
+            boot,
+            offset_ms: monotonic_ms().saturating_sub(since_boot_ms),
+        })
+    }
+}
+
+/// The id of this start of the system (random(4)).
+pub fn boot() -> Option<String> {
+    let id = std::fs::read_to_string("/proc/sys/kernel/random/boot_id").ok()?;
+    Some(id.trim().to_owned())
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -79,5 +109,15 @@ mod tests {
         assert_eq!(now(-3_599_000).stepped_ms(), -3_600_000);
         assert_eq!(Now::read().stepped_ms(), 0);
         assert_eq!(Now::from(7).stepped_ms(), 0);
+    }
+
+    #[test]
+    fn the_origin_stays() {
+        let first = Origin::of_this_process().expect("Linux tells");
+        std::thread::sleep(Duration::from_millis(20));
+        let second = Origin::of_this_process().expect("Linux tells");
+        assert_eq!(first.boot, second.boot);
+        // Each clock is rounded down.
+        assert!(first.offset_ms.abs_diff(second.offset_ms) <= 1);
     }
 }

@@ -291,7 +291,7 @@ async fn a_redirection_is_reported_and_not_followed() {
     let base = format!("http://{}", listener.local_addr().expect("an address"));
     tokio::spawn(async move {
         let (mut client, _) = listener.accept().await.expect("a connection");
-        client.read(&mut [0; 4096]).await.expect("a request");
+        client.read_exact(&mut [0; 16]).await.expect("a request");
         let answer = b"HTTP/1.1 308 Permanent Redirect\r\nlocation: https://wear.test/\r\ncontent-length: 0\r\n\r\n";
         client.write_all(answer).await.expect("written");
         // Until the other side closes it.

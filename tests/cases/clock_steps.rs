@@ -1,5 +1,5 @@
-//! Requirement: a step of the system's clock, forwards or backwards, while the service runs or before it starts again, ends no
-//! job before its deadline, delays no deadline, and costs no attempt.
+//! Requirement: a step of the system's clock, forwards or backwards, while the service runs, just before it is killed or while it is
+//! down, ends no job before its deadline, delays no deadline, and costs no attempt.
 
 use std::path::Path;
 
@@ -89,7 +89,13 @@ async fn deadlines_leases_and_order_do_not_follow_steps_of_the_clock() {
         (json!("running"), json!(1))
     );
 
-    // The next service starts with the stepped clock.
+    // The next services start with a clock that was stepped just before the end of the last one, and while there was none.
+    clock.set_to(TWO_HOURS);
+    server.signal(Signal::SIGKILL);
+    server.wait();
+    clock.set_to(-TWO_HOURS);
+    let server = started(folder.path(), &clock);
+    progress(&server, &running).await;
     clock.set_to(TWO_HOURS);
     server.signal(Signal::SIGTERM);
     assert_eq!(server.wait(), Some(0));

@@ -6,7 +6,7 @@ use std::path::Path;
 use std::process::{Child, Command, Stdio};
 
 use serde_json::{Value, json};
-use tests::{Server, binary};
+use tests::{Log, Server, SteppedClock, binary};
 
 /// Enough jobs that every worker logs several lines.
 const JOBS: u64 = 4;
@@ -54,6 +54,25 @@ async fn jobs_are_solved_while_the_log_is_not_read() {
     let (server, lines) = Server::start_with_log(folder.path(), &["--workers", "2"], "trace");
     works(&server).await;
     drop(lines);
+}
+
+#[tokio::test]
+#[cfg_attr(not(has_cc), ignore = "needs a C compiler")]
+async fn tasks_may_panic_while_the_log_is_not_read() {
+    let folder = tempfile::tempdir().expect("a folder can be made");
+    let clock = SteppedClock::new(folder.path());
+    let environment = clock.environment();
+    let options = ["--workers", "2"];
+    let server = Server::start_logging(folder.path(), &options, &environment, &Log::Unread);
+    let server = server.expect("it serves");
+    // Its lines fill the pipe.
+    works(&server).await;
+    for _ in 0..10 {
+        clock.fail_once();
+        server.get_in_the_end("/v1/jobs").await;
+    }
+    clock.forget_failure();
+    works(&server).await;
 }
 
 /// A service whose standard error is a file.

@@ -71,6 +71,15 @@ impl Shared {
         (took, serde_json::from_slice(&body).unwrap_or_default())
     }
 
+    /// Bytes of the body of an answer in an encoding.
+    async fn bytes_of(&self, path: &str, encoding: &str) -> usize {
+        let request = self.client.get(format!("{}{path}", self.base));
+        let request = request.header("accept-encoding", encoding);
+        let answer = request.send().await.expect("the service answers");
+        assert_eq!(answer.status(), 200);
+        answer.bytes().await.expect("a body").len()
+    }
+
     fn job(&self, id: &str) -> reqwest::RequestBuilder {
         self.client.get(format!("{}/v1/jobs/{id}", self.base))
     }
@@ -113,6 +122,18 @@ async fn nothing_is_lost_under_many_polls_and_streams() {
         waits.extend(poll.expect("a client that was answered"));
     }
     report(load, submitting, submits, elapsed, waits, &jobs);
+    let (list, last) = (
+        "/v1/jobs?limit=50",
+        format!("/v1/jobs/{}", ids[load.jobs - 1]),
+    );
+    for (what, path) in [("poll", last.as_str()), ("list of 50", list)] {
+        let plain = shared.bytes_of(path, "identity").await;
+        let compressed = shared.bytes_of(path, "gzip").await;
+        assert!(compressed < plain, "{what}: {compressed} of {plain} bytes");
+        tell(format_args!(
+            "{what}: {plain} bytes, {compressed} with gzip"
+        ));
+    }
     let bytes = database_bytes(folder.path()).await;
     tell(format_args!(
         "database: {:.1} kB a job",

@@ -10,5 +10,5 @@ mod stepped_clock;
 
 pub use disk::Disk;
 pub use program::{Ran, binary, fretwear, fuzz_button_with_jump, spec};
-pub use server::Server;
+pub use server::{Log, Server};
 pub use stepped_clock::SteppedClock;

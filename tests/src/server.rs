@@ -1,8 +1,9 @@
 //! A real `fretwear serve` on a free loopback port, killed when it goes out of scope.
 
+use std::fs::File;
 use std::io::{BufRead, BufReader, Lines};
-use std::path::Path;
-use std::process::{Child, Command, Stdio};
+use std::path::{Path, PathBuf};
+use std::process::{Child, ChildStderr, Command, Stdio};
 use std::time::{Duration, Instant};
 
 use nix::sys::signal::{Signal, kill};
@@ -22,6 +23,21 @@ pub struct Server {
     pub base: String,
     /// A client.
     pub client: reqwest::Client,
+    /// Its log, if nobody reads it.
+    unread: Option<Lines<BufReader<ChildStderr>>>,
+}
+
+/// What becomes of the log of a service.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Log {
+    /// It is read and discarded.
+    Read,
+    /// It goes to a pipe that nobody reads; all lines are written.
+    Unread,
+    /// It goes to a pipe that is closed.
+    Closed,
+    /// It goes to a file.
+    File(PathBuf),
 }
 
 impl Server {
@@ -71,23 +87,78 @@ impl Server {
         Self::started(command)
     }
 
-    fn started(mut command: Command) -> (Self, Lines<impl BufRead + use<>>) {
+    /// The same with a place where its log goes; none if it ends before it serves.
+    ///
+    /// # Panics
+    /// If it cannot be started.
+    pub fn start_logging(
+        folder: &Path,
+        options: &[&str],
+        environment: &[(&str, &Path)],
+        log: &Log,
+    ) -> Option<Self> {
+        let mut command = serve(folder, options);
+        let level = if *log == Log::Unread { "trace" } else { "info" };
+        command
+            .env("RUST_LOG", level)
+            .envs(environment.iter().copied());
+        if let Log::File(path) = log {
+            return Self::started_logging_to(command, path);
+        }
+        let (mut server, lines) = Self::serving(command)?;
+        match log {
+            Log::Unread => server.unread = Some(lines),
+            Log::Closed => drop(lines),
+            _ => drop(std::thread::spawn(move || lines.for_each(drop))),
+        }
+        Some(server)
+    }
+
+    fn started_logging_to(mut command: Command, path: &Path) -> Option<Self> {
+        let log = File::create(path).expect("the log can be made");
+        let mut child = command
+            .stderr(log)
+            .spawn()
+            .expect("the service can be started");
+        loop {
+            let lines = std::fs::read_to_string(path).expect("the log can be read");
+            if let Some(base) = lines.lines().find_map(address) {
+                return Some(Self::at(child, base));
+            }
+            if child.try_wait().expect("it can be asked for").is_some() {
+                return None;
+            }
+            std::thread::sleep(Duration::from_millis(10));
+        }
+    }
+
+    fn started(command: Command) -> (Self, Lines<impl BufRead + use<>>) {
+        Self::serving(command).expect("the service says where it serves")
+    }
+
+    /// Starts a service; none if it ends before it says where it serves.
+    fn serving(mut command: Command) -> Option<(Self, Lines<BufReader<ChildStderr>>)> {
         let started = command.stderr(Stdio::piped()).spawn();
         let mut child = started.expect("the service can be started");
         let mut lines = BufReader::new(child.stderr.take().expect("a pipe was asked for")).lines();
-        let base = loop {
-            let line = lines.next().expect("the service says where it serves");
-            let line = line.expect("its words are text");
-            if let Some(at) = line.find("http://127.0.0.1:") {
-                break line[at..].trim().to_owned();
+        loop {
+            let Some(line) = lines.next() else {
+                child.wait().expect("it can be waited for");
+                return None;
+            };
+            if let Some(base) = address(&line.expect("its words are text")) {
+                return Some((Self::at(child, base), lines));
             }
-        };
-        let server = Self {
+        }
+    }
+
+    fn at(child: Child, base: String) -> Self {
+        Self {
             child,
             base,
             client: reqwest::Client::new(),
-        };
-        (server, lines)
+            unread: None,
+        }
     }
 
     /// Sends a signal to the service alone, not to its children.
@@ -166,6 +237,26 @@ impl Server {
         answer(self.client.get(format!("{}{path}", self.base))).await
     }
 
+    /// Gets a path, again if the service does not answer; returns status and body.
+    ///
+    /// # Panics
+    /// If it does not in four minutes.
+    pub async fn get_in_the_end(&self, path: &str) -> (u16, Value) {
+        let start = Instant::now();
+        loop {
+            let request = self.client.get(format!("{}{path}", self.base));
+            let request = request.timeout(Duration::from_secs(20));
+            if let Ok(response) = request.send().await {
+                let status = response.status().as_u16();
+                if let Ok(body) = response.json().await {
+                    return (status, body);
+                }
+            }
+            assert!(start.elapsed() < PATIENCE, "the service answers");
+            tokio::time::sleep(Duration::from_millis(20)).await;
+        }
+    }
+
     /// Posts an empty body to a path; returns status and body.
     ///
     /// # Panics
@@ -202,6 +293,12 @@ fn serve(folder: &Path, options: &[&str]) -> Command {
     }
     command.args(options);
     command
+}
+
+/// The address in a line of the log, if it has one.
+fn address(line: &str) -> Option<String> {
+    let at = line.find("http://127.0.0.1:")?;
+    Some(line[at..].trim().to_owned())
 }
 
 async fn answer(request: reqwest::RequestBuilder) -> (u16, Value) {

@@ -1,5 +1,7 @@
-//! A clock that a test can step, for one service.
+//! A clock that a test can step or let fail, for one service.
 
+use std::fs::File;
+use std::os::unix::fs::FileExt;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
@@ -27,7 +29,8 @@ impl SteppedClock {
             .arg(source)
             .status();
         assert!(compiled.expect("a compiler").success());
-        clock.set_to(0);
+        clock.write(0, 0);
+        clock.write(1, 0);
         clock
     }
 
@@ -36,15 +39,35 @@ impl SteppedClock {
     /// # Panics
     /// If the file cannot be written.
     pub fn set_to(&self, seconds: i64) {
-        use std::os::unix::fs::FileExt;
-        let file = std::fs::File::options()
+        self.write(0, seconds);
+    }
+
+    /// Lets the next read of it by the service fail, so that the task that reads it panics.
+    ///
+    /// # Panics
+    /// If the file cannot be written.
+    pub fn fail_once(&self) {
+        self.write(1, 1);
+    }
+
+    /// Takes back a failure that has met no read.
+    ///
+    /// # Panics
+    /// If the file cannot be written.
+    pub fn forget_failure(&self) {
+        self.write(1, 0);
+    }
+
+    /// Writes one of the two numbers that the library reads.
+    fn write(&self, index: u64, number: i64) {
+        let file = File::options()
             .create(true)
             .truncate(false)
             .write(true)
             .open(&self.file);
         let written = file
             .expect("a file")
-            .write_all_at(&seconds.to_ne_bytes(), 0);
+            .write_all_at(&number.to_ne_bytes(), 8 * index);
         written.expect("written");
     }
 

@@ -3,7 +3,9 @@
 //! Lines pass through a queue to a thread of its own. A reader that stops reading, a closed pipe or a full disk costs lines
 //! of the log and nothing else: no task waits for the log, and none fails with it.
 
+use std::backtrace::{Backtrace, BacktraceStatus};
 use std::io::IsTerminal;
+use std::panic::PanicHookInfo;
 
 use tracing_appender::non_blocking::{NonBlockingBuilder, WorkerGuard};
 use tracing_subscriber::EnvFilter;
@@ -29,11 +31,17 @@ pub(super) fn start(level: &str, format: LogFormat) -> WorkerGuard {
         .with_writer(writer);
     match format {
         LogFormat::Text => builder.init(),
-        LogFormat::Json => {
-            builder.json().init();
-            // What a panic says is a line of the log, too.
-            std::panic::set_hook(Box::new(|panic| tracing::error!(%panic, "a task panicked")));
-        }
+        LogFormat::Json => builder.json().init(),
     }
+    // The standard hook would write on standard error itself, and wait there.
+    std::panic::set_hook(Box::new(log_panic));
     guard
+}
+
+/// Logs a panic, with a backtrace where `RUST_BACKTRACE` requests one.
+fn log_panic(panic: &PanicHookInfo<'_>) {
+    let backtrace = Backtrace::capture();
+    let captured = backtrace.status() == BacktraceStatus::Captured;
+    let backtrace = captured.then(|| backtrace.to_string());
+    tracing::error!(%panic, backtrace, "a task panicked");
 }

@@ -14,7 +14,7 @@ macro_rules! file {
 }
 
 /// All files of the folder; a name is the version and what it is about.
-const FILES: [(&str, &str); 20] = [
+const FILES: [(&str, &str); 21] = [
     file!("0001_jobs.sql"),
     file!("0002_labels.sql"),
     file!("0003_events.sql"),
@@ -35,6 +35,7 @@ const FILES: [(&str, &str); 20] = [
     file!("0056_result_blocks.sql"),
     file!("0057_job_counts.sql"),
     file!("0058_clock.sql"),
+    file!("0059_clock_of_the_boot.sql"),
 ];
 
 /// Applies the migrations that a database does not have; refuses a database with others.

@@ -10,7 +10,7 @@ use sqlx::sqlite::SqlitePool;
 use sqlx::{Sqlite, Transaction};
 use uuid::Uuid;
 
-use crate::clock::Now;
+use crate::clock::{Now, Origin, STEP_MS, boot};
 use crate::store::sqlite::queries::BEGIN;
 use crate::store::{Store, StoreError};
 
@@ -88,21 +88,45 @@ pub(super) async fn become_owner(
     Ok(id)
 }
 
+/// What the last process stored about its clock: the step that it had found until its last heartbeat, ms; and where known, its
+/// origin, as the start of the system and the offset since it, ms.
+type LastClock = (i64, Option<String>, Option<i64>);
+
+/// How far times that the last process measured have to be moved to be those of this one, ms: by what the clocks themselves tell
+/// if the system was not started since, or else by what that process had found.
+fn step_ms(last: LastClock, own: Option<&Origin>) -> i64 {
+    match (last, own) {
+        ((_, Some(boot), Some(offset_ms)), Some(own)) if boot == own.boot => {
+            own.offset_ms.saturating_sub(offset_ms)
+        }
+        ((stepped_ms, ..), _) => stepped_ms,
+    }
+}
+
 /// Moves what the last process measured by its monotonic clock to that of this one.
 async fn move_times(transaction: &mut Transaction<'_, Sqlite>) -> Result<(), StoreError> {
-    let stepped_ms: Option<i64> = sqlx::query_scalar("DELETE FROM clock RETURNING stepped_ms")
-        .fetch_optional(&mut **transaction)
+    let last: Option<LastClock> =
+        sqlx::query_as("DELETE FROM clock RETURNING stepped_ms, boot, offset_ms")
+            .fetch_optional(&mut **transaction)
+            .await?;
+    let own = Origin::of_this_process();
+    let (boot, offset_ms) = own.as_ref().map(|own| (&own.boot, own.offset_ms)).unzip();
+    sqlx::query("INSERT INTO clock (one, stepped_ms, boot, offset_ms) VALUES (1, 0, ?, ?)")
+        .bind(boot)
+        .bind(offset_ms)
+        .execute(&mut **transaction)
         .await?;
-    let Some(stepped_ms) = stepped_ms.filter(|ms| *ms != 0) else {
+    let step_ms = last.map_or(0, |last| step_ms(last, own.as_ref()));
+    if step_ms.abs() < STEP_MS {
         return Ok(());
-    };
+    }
     sqlx::query("UPDATE jobs SET queued_at = queued_at + ?1, place = place + ?1, deadline_at = deadline_at + ?1")
-        .bind(stepped_ms)
+        .bind(step_ms)
         .execute(&mut **transaction)
         .await?;
     tracing::info!(
-        stepped_ms,
-        "the clock was stepped under the last service; deadlines were moved"
+        step_ms,
+        "the clock was stepped since the last service started; deadlines were moved"
     );
     Ok(())
 }
@@ -152,19 +176,17 @@ impl Store {
 
     /// Stores how far the system's clock was stepped.
     async fn store_step(&self, stepped_ms: i64) -> Result<(), StoreError> {
-        sqlx::query(
-            "INSERT INTO clock (one, stepped_ms) VALUES (1, ?1) \
-             ON CONFLICT DO UPDATE SET stepped_ms = ?1 WHERE abs(stepped_ms - ?1) > 500",
-        )
-        .bind(stepped_ms)
-        .execute(&self.writer)
-        .await?;
+        sqlx::query("UPDATE clock SET stepped_ms = ?1 WHERE abs(stepped_ms - ?1) > ?2")
+            .bind(stepped_ms)
+            .bind(STEP_MS)
+            .execute(&self.writer)
+            .await?;
         Ok(())
     }
 
     /// Gives the database up.
     pub(super) async fn disown(&self) {
-        // If it fails, deadlines are moved by the steps of the last seconds.
+        // If it fails, steps of the last seconds move deadlines, and only if the system is started again.
         let _ = self.store_step(Now::read().stepped_ms()).await;
         // If it fails, the next process finds that this one has ended, or waits for a heartbeat.
         let _ = sqlx::query("DELETE FROM owner WHERE id = ?")
@@ -198,9 +220,9 @@ fn has_ended(process: &str) -> bool {
 
 /// What process numbers refer to.
 fn namespace() -> Option<String> {
-    let boot = std::fs::read_to_string("/proc/sys/kernel/random/boot_id").ok()?;
+    let boot = boot()?;
     let space = std::fs::read_link("/proc/self/ns/pid").ok()?;
-    Some(format!("{} {}", boot.trim(), space.display()))
+    Some(format!("{boot} {}", space.display()))
 }
 
 /// Start of a process in clock ticks since the start of the system: field 22 of `/proc/PID/stat` (proc(5)), where the name in
@@ -214,6 +236,19 @@ fn started(pid: u32) -> Option<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_step_is_known_from_the_clocks_under_one_start_of_the_system() {
+        let own = Origin {
+            boot: "a".to_owned(),
+            offset_ms: 9_000,
+        };
+        let last = |boot: &str| (700, Some(boot.to_owned()), Some(5_000));
+        assert_eq!(step_ms(last("a"), Some(&own)), 4_000);
+        assert_eq!(step_ms(last("b"), Some(&own)), 700, "another start");
+        assert_eq!(step_ms(last("a"), None), 700);
+        assert_eq!(step_ms((700, None, None), Some(&own)), 700);
+    }
 
     #[test]
     fn only_processes_that_this_one_could_see_are_known_to_have_ended() {
