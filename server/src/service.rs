@@ -7,7 +7,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use axum::Router;
-use tokio::net::TcpListener;
+use tokio::net::{TcpListener, TcpSocket};
 use tokio::task::JoinSet;
 use tokio_util::sync::CancellationToken;
 
@@ -20,6 +20,8 @@ use crate::worker::WorkerConfig;
 
 /// Time for open requests to end when the service stops, after the grace period of solving processes.
 const GRACE: Duration = Duration::from_secs(5);
+/// Connections that may wait to be accepted, as far as the system allows: a client that finds no place tries again after 1 s.
+const BACKLOG: u32 = 1_024;
 
 /// Configuration of the service.
 #[derive(Debug, Clone)]
@@ -110,7 +112,7 @@ impl Service {
             address: config.listen,
             cause,
         };
-        let listener = TcpListener::bind(config.listen).await.map_err(listen)?;
+        let listener = bound(config.listen).map_err(listen)?;
         let address = listener.local_addr().map_err(listen)?;
         let store = Arc::new(Store::open_with(&config.database, config.limits).await?);
         let worker = Arc::new(config.worker);
@@ -191,12 +193,26 @@ async fn serve(
 ) {
     let bound = match listener {
         Some(listener) => Ok(listener),
-        None => TcpListener::bind(address).await,
+        None => bound(address),
     };
     match bound {
         Ok(listener) => http::serve(listener, router, stopping).await,
         Err(error) => tracing::error!(%error, %address, "cannot listen again"),
     }
+}
+
+/// Listens at an address.
+fn bound(address: SocketAddr) -> std::io::Result<TcpListener> {
+    let socket = if address.is_ipv4() {
+        TcpSocket::new_v4()?
+    } else {
+        TcpSocket::new_v6()?
+    };
+    // Connections of the last process that are still being closed keep the address from nobody.
+    #[cfg(unix)]
+    socket.set_reuseaddr(true)?;
+    socket.bind(address)?;
+    socket.listen(BACKLOG)
 }
 
 #[cfg(test)]
