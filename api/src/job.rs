@@ -130,7 +130,7 @@ pub struct JobOverview {
     pub attempts: u32,
     /// The most important figures of the summary, once available.
     pub key_figures: Option<KeyFigures>,
-    /// Path of the job, by the relation `self`.
+    /// Paths of the job, its events, actions and results, by relation.
     pub links: BTreeMap<String, String>,
 }
 

@@ -147,7 +147,10 @@ enum DeckFormat {
 pub fn main() -> ExitCode {
     let command = Arguments::parse().command;
     let _log = match &command {
-        Command::Serve(serve) => Some(log::start("info", serve.log)),
+        Command::Serve(serve) => {
+            log::log_panics();
+            Some(log::start("info", serve.log))
+        }
         Command::Probe { .. }
         | Command::Backup { .. }
         | Command::Verify { .. }

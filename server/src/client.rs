@@ -81,17 +81,35 @@ impl Client {
     /// # Errors
     /// [`ClientError`].
     pub async fn get<T: DeserializeOwned>(&self, path: &str) -> Result<T, ClientError> {
-        let response = self.send(self.http.get(self.url(path))).await?;
-        self.document(path, response).await
+        repeated(async || self.document(path, self.http.get(self.url(path))).await).await
     }
 
-    /// Posts to a path that does nothing the second time.
+    /// Cancels a job.
     ///
     /// # Errors
     /// [`ClientError`].
-    pub async fn post(&self, path: &str) -> Result<Job, ClientError> {
-        let response = self.send(self.http.post(self.url(path))).await?;
-        self.document(path, response).await
+    pub async fn cancel(&self, id: Uuid) -> Result<Job, ClientError> {
+        let path = format!("/v1/jobs/{id}/cancel");
+        repeated(async || self.document(&path, self.http.post(self.url(&path))).await).await
+    }
+
+    /// Queues a failed or cancelled job again.
+    ///
+    /// # Errors
+    /// [`ClientError`].
+    pub async fn retry(&self, id: Uuid) -> Result<Job, ClientError> {
+        let (path, mut tries) = (format!("/v1/jobs/{id}/retry"), 0);
+        let post = async || {
+            tries += 1;
+            self.document(&path, self.http.post(self.url(&path))).await
+        };
+        match repeated(post).await {
+            // An earlier try whose answer was lost has queued it, and it has succeeded since.
+            Err(error) if tries > 1 && error.is_of_type("/problems/job-succeeded") => {
+                self.job(id).await
+            }
+            answer => answer,
+        }
     }
 
     /// Submits a specification under a key, so that one job is queued however often it is sent.
@@ -104,14 +122,14 @@ impl Client {
         options: &[(&str, String)],
         key: &str,
     ) -> Result<Job, ClientError> {
-        let request = self.http.post(self.url("/v1/jobs"));
-        let request = request
-            .query(options)
-            .header("content-type", "application/json")
-            .header("idempotency-key", key)
-            .body(specification);
-        let response = self.send(request).await?;
-        self.document("/v1/jobs", response).await
+        let request = || {
+            let request = self.http.post(self.url("/v1/jobs")).query(options);
+            request
+                .header("content-type", "application/json")
+                .header("idempotency-key", key)
+                .body(specification.clone())
+        };
+        repeated(async || self.document("/v1/jobs", request()).await).await
     }
 
     /// Returns a job.
@@ -128,31 +146,15 @@ impl Client {
     /// [`ClientError`], also if it is not ready.
     pub async fn check_ready(&self, timeout: Duration) -> Result<(), ClientError> {
         let request = self.http.get(self.url("/readyz")).timeout(timeout);
-        self.send_once(request).await.map(drop)
+        self.send(request).await.map(drop)
     }
 
     fn url(&self, path: &str) -> String {
         format!("{}{path}", self.base)
     }
 
-    /// Sends a request, again if the service cannot be reached or is busy; an error status is an error.
+    /// Sends a request once; an error status is an error.
     async fn send(&self, request: RequestBuilder) -> Result<Response, ClientError> {
-        let mut pause = FIRST_PAUSE;
-        for _ in 1..TRIES {
-            let again = request.try_clone().ok_or(ClientError::Body)?;
-            match self.send_once(again).await {
-                Err(error) if error.is_temporary() => {
-                    let pause_now = error.retry_after().unwrap_or(pause).min(LONGEST_PAUSE);
-                    tokio::time::sleep(pause_now).await;
-                    pause *= 2;
-                }
-                answer => return answer,
-            }
-        }
-        self.send_once(request).await
-    }
-
-    async fn send_once(&self, request: RequestBuilder) -> Result<Response, ClientError> {
         let sent = request.send().await;
         let response = sent.map_err(|cause| ClientError::unreachable(&self.base, cause))?;
         let status = response.status();
@@ -168,18 +170,37 @@ impl Client {
         Err(problem(status, response).await)
     }
 
+    /// Sends a request and reads the document of its answer.
     async fn document<T: DeserializeOwned>(
         &self,
         path: &str,
-        response: Response,
+        request: RequestBuilder,
     ) -> Result<T, ClientError> {
-        let bytes = response.bytes().await;
+        let bytes = self.send(request).await?.bytes().await;
         let bytes = bytes.map_err(|cause| ClientError::unreachable(&self.base, cause))?;
         serde_json::from_slice(&bytes).map_err(|cause| ClientError::Answer {
             url: self.url(path),
             cause,
         })
     }
+}
+
+/// Tries something that does nothing the second time, again if the service cannot be reached, breaks off or is busy.
+async fn repeated<T>(
+    mut attempt: impl AsyncFnMut() -> Result<T, ClientError>,
+) -> Result<T, ClientError> {
+    let mut pause = FIRST_PAUSE;
+    for _ in 1..TRIES {
+        match attempt().await {
+            Err(error) if error.is_temporary() => {
+                let pause_now = error.retry_after().unwrap_or(pause).min(LONGEST_PAUSE);
+                tokio::time::sleep(pause_now).await;
+                pause *= 2;
+            }
+            ended => return ended,
+        }
+    }
+    attempt().await
 }
 
 fn is_address(url: &Url) -> bool {

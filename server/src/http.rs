@@ -61,6 +61,7 @@ pub fn router(app: App) -> Router {
         .layer(disk_space)
         .layer(compression::layer())
         .layer(middleware::map_response(compression::weaken_etag))
+        .layer(middleware::map_request(compression::accept_identity))
         .layer(access)
         .layer(requests)
         .layer(SetResponseHeaderLayer::if_not_present(

@@ -126,6 +126,10 @@ async fn check_database(folder: &Path, jobs: usize) {
         ("SELECT count(*) FROM checkpoints", 0),
         ("SELECT count(*) FROM events WHERE name = 'done'", jobs),
         (
+            "SELECT count(*) FROM job_counts WHERE jobs <> (SELECT count(*) FROM jobs WHERE jobs.status = job_counts.status)",
+            0,
+        ),
+        (
             "SELECT count(*) FROM jobs WHERE last_event <> (SELECT count(*) FROM events WHERE job_id = id)",
             0,
         ),

@@ -80,6 +80,9 @@ fn the_compose_file_names_the_dockerfile_and_the_volume() {
     let context = root().join("docker").join(field("context:"));
     assert!(context.join(field("dockerfile:")).is_file());
     assert!(compose.contains("fretwear-data:/data"));
+    // As compose names it.
+    let volume = format!("{}_fretwear-data:/data", field("name:"));
+    assert!(read("docker/README.md").contains(&volume), "{volume}");
     let grace = field("stop_grace_period:");
     let grace: u32 = grace.trim_end_matches('s').parse().expect("seconds");
     // The service gives solves 5 s and open requests 5 s more.

@@ -9,7 +9,7 @@ use std::path::Path;
 
 use serde_json::Value;
 use sha2::{Digest, Sha256};
-use tests::{Server, fretwear};
+use tests::{Server, database, fretwear};
 use zip::ZipArchive;
 
 const SPEC: &str = r#"{
@@ -96,6 +96,40 @@ async fn every_file_is_served_as_the_manifest_describes_it() {
         .expect("the service answers");
     assert_eq!(deleted.status(), 204);
     assert!(!results.join(&id).exists());
+}
+
+#[tokio::test]
+async fn damaged_small_results_are_named_and_not_sent() {
+    let folder = tempfile::tempdir().expect("a folder can be made");
+    let server = Server::start(folder.path());
+    let spec = SPEC.replace("true", "false");
+    let (_, job) = server.submit(spec).await;
+    let id = job["id"].as_str().expect("a job has an id").to_owned();
+    let ended = |job: &Value| job["finished_at"].is_string();
+    server.job_when(&id, ended).await;
+    assert_eq!(database::damage_results(folder.path()).await, 1);
+    let results = format!("/v1/jobs/{id}/results");
+    for path in [
+        "wear-history",
+        "profile?cycle=20",
+        "files/wear-history.parquet",
+    ] {
+        let (status, problem) = server.get(&format!("{results}/{path}")).await;
+        let kind = problem["type"].as_str();
+        assert_eq!(
+            (status, kind),
+            (500, Some("/problems/result-damaged")),
+            "{path}"
+        );
+    }
+    let ran = fretwear(folder.path(), &["verify"]);
+    assert_eq!(ran.code, Some(1), "{}", ran.stdout);
+    let (_, manifest) = server.get(&results).await;
+    let files = manifest["files"].as_array().expect("files");
+    assert!(
+        files.iter().any(|file| file["damaged"].is_string()),
+        "{manifest}"
+    );
 }
 
 /// Solves the same specification without a service; returns the folder of its files.

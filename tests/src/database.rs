@@ -33,6 +33,20 @@ pub async fn damage_checkpoints(folder: &Path) -> u64 {
     done.rows_affected()
 }
 
+/// Overwrites the small results of all jobs that have ended; returns their number.
+///
+/// # Panics
+/// If the database cannot be written.
+pub async fn damage_results(folder: &Path) -> u64 {
+    let mut database = open(folder).await;
+    let done = database
+        .execute("UPDATE result_blocks SET content = zeroblob(length(content))")
+        .await
+        .expect("the database can be written");
+    database.close().await.expect("the database can be closed");
+    done.rows_affected()
+}
+
 /// Holds the write lock for a while.
 ///
 /// # Panics

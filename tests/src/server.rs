@@ -242,14 +242,31 @@ impl Server {
     /// # Panics
     /// If it does not in four minutes.
     pub async fn get_in_the_end(&self, path: &str) -> (u16, Value) {
+        self.read_in_the_end(path, |status, body| {
+            Some((status, serde_json::from_slice(body).ok()?))
+        })
+        .await
+    }
+
+    /// Gets the bytes of a path, again if the service does not answer with them.
+    ///
+    /// # Panics
+    /// If it does not in four minutes.
+    pub async fn bytes_in_the_end(&self, path: &str) -> Vec<u8> {
+        self.read_in_the_end(path, |status, body| (status == 200).then(|| body.to_vec()))
+            .await
+    }
+
+    async fn read_in_the_end<T>(&self, path: &str, read: impl Fn(u16, &[u8]) -> Option<T>) -> T {
         let start = Instant::now();
         loop {
             let request = self.client.get(format!("{}{path}", self.base));
             let request = request.timeout(Duration::from_secs(20));
             if let Ok(response) = request.send().await {
                 let status = response.status().as_u16();
-                if let Ok(body) = response.json().await {
-                    return (status, body);
+                let body = response.bytes().await;
+                if let Some(found) = body.ok().and_then(|body| read(status, &body)) {
+                    return found;
                 }
             }
             assert!(start.elapsed() < PATIENCE, "the service answers");

@@ -14,6 +14,7 @@ use clap::Subcommand;
 use uuid::Uuid;
 
 use crate::cli::client::connection::ServerOptions;
+use crate::cli::client::control::Action;
 use crate::cli::terminal::Ended;
 
 pub(in crate::cli) use watch::follow;
@@ -46,7 +47,7 @@ pub(super) fn run(command: ClientCommand) -> Ended {
         ClientCommand::List(arguments) => list::run(&arguments),
         ClientCommand::Watch { id, server } => watch::run(id, &server),
         ClientCommand::Fetch(arguments) => fetch::run(&arguments),
-        ClientCommand::Cancel(arguments) => control::run(&arguments, "cancel"),
-        ClientCommand::Retry(arguments) => control::run(&arguments, "retry"),
+        ClientCommand::Cancel(arguments) => control::run(&arguments, Action::Cancel),
+        ClientCommand::Retry(arguments) => control::run(&arguments, Action::Retry),
     }
 }

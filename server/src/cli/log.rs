@@ -33,9 +33,12 @@ pub(super) fn start(level: &str, format: LogFormat) -> WorkerGuard {
         LogFormat::Text => builder.init(),
         LogFormat::Json => builder.json().init(),
     }
-    // The standard hook would write on standard error itself, and wait there.
-    std::panic::set_hook(Box::new(log_panic));
     guard
+}
+
+/// Logs what a panic says: the standard hook would write on standard error itself, and wait there.
+pub(super) fn log_panics() {
+    std::panic::set_hook(Box::new(log_panic));
 }
 
 /// Logs a panic, with a backtrace where `RUST_BACKTRACE` requests one.

@@ -37,7 +37,17 @@ pub(super) fn write_json(document: &impl Serialize) -> Ended {
 
 /// Writes a line on standard error.
 pub(super) fn write_err(line: impl Display) {
-    let _ = writeln!(std::io::stderr().lock(), "{line}");
+    let _ = writeln!(std::io::stderr().lock(), "{}", printable(&line.to_string()));
+}
+
+/// Text without control characters other than new lines: names and reasons of jobs may have some, which act on terminals.
+pub(super) fn printable(text: &str) -> String {
+    let shown = |c: char| match c {
+        '\n' => c,
+        c if c.is_control() => char::REPLACEMENT_CHARACTER,
+        c => c,
+    };
+    text.chars().map(shown).collect()
 }
 
 /// Reports a failure; returns its exit code.

@@ -9,7 +9,7 @@ use futures_util::StreamExt;
 use sha2::{Digest, Sha256};
 use uuid::Uuid;
 
-use crate::client::{Client, ClientError};
+use crate::client::{Client, ClientError, repeated};
 use crate::export::files::hexadecimal;
 use crate::store::{Content, integrity};
 
@@ -38,29 +38,51 @@ impl Client {
         let manifest: Manifest = self.get(&format!("/v1/jobs/{id}/results")).await?;
         let files = chosen(manifest.files, names)?;
         std::fs::create_dir_all(folder).map_err(|cause| file_error(folder, cause))?;
+        let mut failed = Vec::new();
         for file in &files {
             if Path::new(&file.name).file_name() != Some(file.name.as_ref()) {
                 return Err(ClientError::Name(file.name.clone()));
             }
             let path = folder.join(&file.name);
-            let fetched = if is_present(&path, file) {
-                Fetched::Present
-            } else {
-                self.receive(id, file, &path).await?;
-                Fetched::Received
-            };
-            observe(file, fetched);
+            if is_present(&path, file) {
+                observe(file, Fetched::Present);
+                continue;
+            }
+            match repeated(async || self.receive(id, file, &path).await).await {
+                Ok(()) => observe(file, Fetched::Received),
+                Err(error) if error.is_of_file() => failed.push(error),
+                Err(error) => return Err(error),
+            }
         }
-        Ok(())
+        let number = failed.len();
+        let first = failed.into_iter().next().map(Box::new);
+        first.map_or(Ok(()), |first| Err(ClientError::Files { number, first }))
     }
 
     /// Receives a file under a temporary name, and renames it once its SHA-256 was compared.
     async fn receive(&self, id: Uuid, file: &ResultFile, path: &Path) -> Result<(), ClientError> {
+        let unfinished = path.with_file_name(format!("{}.unfinished", file.name));
+        let received = self.receive_as(id, file, &unfinished).await;
+        let renamed = received.and_then(|()| {
+            std::fs::rename(&unfinished, path).map_err(|cause| file_error(path, cause))
+        });
+        if renamed.is_err() {
+            // There may be none.
+            let _ = std::fs::remove_file(&unfinished);
+        }
+        renamed
+    }
+
+    async fn receive_as(
+        &self,
+        id: Uuid,
+        file: &ResultFile,
+        unfinished: &Path,
+    ) -> Result<(), ClientError> {
         let url = self.url(&format!("/v1/jobs/{id}/results/files/{}", file.name));
         let mut chunks = self.send(self.http.get(url)).await?.bytes_stream();
-        let unfinished = path.with_file_name(format!("{}.unfinished", file.name));
-        let failed = |cause| file_error(&unfinished, cause);
-        let mut target = File::create(&unfinished).map_err(failed)?;
+        let failed = |cause| file_error(unfinished, cause);
+        let mut target = File::create(unfinished).map_err(failed)?;
         let mut sha256 = Sha256::new();
         while let Some(chunk) = chunks.next().await {
             let chunk = chunk.map_err(|cause| ClientError::unreachable(&self.base, cause))?;
@@ -75,8 +97,7 @@ impl Client {
                 named: file.sha256.clone(),
             });
         }
-        target.sync_all().map_err(failed)?;
-        std::fs::rename(&unfinished, path).map_err(|cause| file_error(path, cause))
+        target.sync_all().map_err(failed)
     }
 }
 

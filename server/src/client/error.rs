@@ -14,9 +14,6 @@ pub enum ClientError {
     /// The access token cannot be sent.
     #[error("the access token has characters that a header cannot contain")]
     Token,
-    /// The body of a request cannot be sent again.
-    #[error("the request cannot be sent again")]
-    Body,
     /// The service cannot be reached, or the connection broke.
     #[error("{url} cannot be reached: {cause}")]
     Unreachable {
@@ -48,6 +45,20 @@ pub enum ClientError {
         url: String,
         /// Why.
         cause: serde_json::Error,
+    },
+    /// An answer is no stream of events.
+    #[error("the answer of {url} is no event stream; is it the address of the service?")]
+    NoStream {
+        /// The address.
+        url: String,
+    },
+    /// Several files could not be received.
+    #[error("{} files could not be received, the first of them: {first}", .number)]
+    Files {
+        /// How many.
+        number: usize,
+        /// Why the first could not.
+        first: Box<ClientError>,
     },
     /// A file cannot be written.
     #[error("{}: {cause}", .path.display())]
@@ -113,6 +124,16 @@ impl ClientError {
     /// Whether the service refused what was sent, which the user can correct.
     pub fn is_refused(&self) -> bool {
         matches!(self, Self::Problem { problem, .. } if [400, 413, 415, 422].contains(&problem.status))
+    }
+
+    /// Whether the service answered with a problem of this type.
+    pub(super) fn is_of_type(&self, kind: &str) -> bool {
+        matches!(self, Self::Problem { problem, .. } if problem.kind == kind)
+    }
+
+    /// Whether it concerns one file of several.
+    pub(super) fn is_of_file(&self) -> bool {
+        matches!(self, Self::Checksum { .. }) || self.is_of_type("/problems/result-damaged")
     }
 
     pub(super) fn retry_after(&self) -> Option<Duration> {

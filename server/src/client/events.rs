@@ -1,5 +1,6 @@
 //! The event stream of a job, resumed after the last event wherever it breaks off.
 
+use std::cell::Cell;
 use std::time::{Duration, Instant};
 
 use api::event::Done;
@@ -7,6 +8,7 @@ use api::job::{Job, Progress};
 use eventsource_stream::Eventsource;
 use futures_util::StreamExt;
 use reqwest::StatusCode;
+use reqwest::header::CONTENT_TYPE;
 use serde::de::DeserializeOwned;
 use uuid::Uuid;
 
@@ -74,18 +76,37 @@ impl Client {
         if let Some(last) = &last {
             request = request.header("last-event-id", last);
         }
-        let response = self.send_once(request).await?;
+        let response = self.send(request).await?;
         if response.status() == StatusCode::NO_CONTENT {
-            return Ok(Ended::Done(Box::new(done(self.job(id).await?))));
+            let job = self.job(id).await?;
+            // It may have been queued again.
+            return Ok(if job.status.is_terminal() {
+                Ended::Done(Box::new(done(job)))
+            } else {
+                Ended::Open
+            });
         }
+        let media_type = response.headers().get(CONTENT_TYPE);
+        if !media_type.is_some_and(|value| value.as_bytes().starts_with(b"text/event-stream")) {
+            let url = self.url(&path);
+            return Err(ClientError::NoStream { url });
+        }
+        *since = Instant::now();
+        let heard = Cell::new(*since);
+        // Comments are no events, but show that the service is there.
+        let chunks = response
+            .bytes_stream()
+            .inspect(|_| heard.set(Instant::now()));
         let parsed = |data: &str| self.parsed::<Progress>(&path, data);
-        let (mut events, mut ended) = (response.bytes_stream().eventsource(), Ended::Open);
+        let (mut events, mut ended) = (chunks.eventsource(), Ended::Open);
         while let Some(event) = events.next().await {
+            *since = heard.get();
             let event = event.map_err(|error| ClientError::Unreachable {
                 url: self.base.clone(),
                 cause: error.to_string(),
             })?;
-            *since = Instant::now();
+            // Those after `done` are of a job that was queued again.
+            ended = Ended::Open;
             if !event.id.is_empty() {
                 *last = Some(event.id);
             }
@@ -96,11 +117,10 @@ impl Client {
                 }
                 "progress" => observe(Followed::Progress(&parsed(&event.data)?)),
                 "done" => ended = Ended::Done(Box::new(self.parsed(&path, &event.data)?)),
-                // A job that was queued again.
-                "attempt" => ended = Ended::Open,
                 _ => {}
             }
         }
+        *since = heard.get();
         Ok(ended)
     }
 

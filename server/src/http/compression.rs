@@ -1,5 +1,6 @@
 //! Compression of answers, if the client accepts it: documents, tables, pages and drawings.
 
+use axum::extract::Request;
 use axum::http::{Extensions, HeaderMap, HeaderValue, StatusCode, Version, header};
 use axum::response::Response;
 use tower_http::CompressionLevel;
@@ -40,6 +41,27 @@ fn is_text(headers: &HeaderMap) -> bool {
     let media_type = media_type.and_then(|value| value.to_str().ok());
     let essence = media_type.and_then(|value| value.split(';').next());
     essence.is_some_and(|essence| MEDIA_TYPES.contains(&essence.trim()))
+}
+
+/// Middleware that removes an `Accept-Encoding` without an encoding of the layer: it would answer with 406 after the request was
+/// carried out; uncompressed answers are allowed to all (RFC 9110, 12.5.3).
+pub(super) async fn accept_identity(mut request: Request) -> Request {
+    let headers = request.headers_mut();
+    let values = headers.get_all(header::ACCEPT_ENCODING).iter();
+    let mut values = values.filter_map(|value| value.to_str().ok());
+    if !values.any(accepts_compression) {
+        headers.remove(header::ACCEPT_ENCODING);
+    }
+    request
+}
+
+fn accepts_compression(value: &str) -> bool {
+    value.split(',').any(|choice| {
+        let (coding, weight) = choice.split_once(';').unwrap_or((choice, "q=1"));
+        let weight = weight.trim().strip_prefix("q=").map(str::parse::<f32>);
+        let is_accepted = weight.is_some_and(|weight| weight.is_ok_and(|weight| weight > 0.0));
+        is_accepted && ["gzip", "br"].contains(&coding.trim().to_ascii_lowercase().as_str())
+    })
 }
 
 /// Middleware that marks the ETag of a compressed answer as weak: it names the uncompressed bytes (RFC 9110, 8.8.1).
@@ -112,10 +134,17 @@ mod tests {
             assert!(!headers.contains_key("content-encoding"), "{path}");
         }
         // A range is one of the stored bytes.
-        let path = format!("/v1/jobs/{id}/results/files/summary.json");
-        let range = [("accept-encoding", "gzip"), ("range", "bytes=0-0")];
+        let path = format!("/v1/jobs/{id}/results/files/profile-20.csv");
+        let range = [("accept-encoding", "gzip"), ("range", "bytes=0-1999")];
         let (status, headers, bytes) = service.bytes("GET", &path, &range, "").await;
-        assert_eq!((status.as_u16(), bytes.as_slice()), (206, &b"{"[..]));
+        assert_eq!((status.as_u16(), bytes.len()), (206, 2_000));
         assert!(!headers.contains_key("content-encoding"));
+        // An answer that is not acceptable is better than a request that was carried out and is called unacceptable.
+        for refused in ["identity;q=0", "*;q=0", "gzip;q=0", "zstd"] {
+            let accepts = [("accept-encoding", refused)];
+            let (status, headers, _) = service.bytes("GET", "/v1/systems", &accepts, "").await;
+            assert_eq!(status, 200, "{refused}");
+            assert!(!headers.contains_key("content-encoding"), "{refused}");
+        }
     }
 }

@@ -91,6 +91,10 @@ impl From<StoreError> for ProblemResponse {
             error if error.is_disk_full() => {
                 ProblemType::DISK_FULL.with_detail(StoreError::DiskFull.to_string())
             }
+            StoreError::DamagedResults { .. } => {
+                tracing::error!(%error, "results are damaged");
+                return ProblemType::RESULT_DAMAGED.with_detail(error.to_string());
+            }
             error if error.is_transient() => {
                 ProblemType::BUSY.with_detail("the database is busy; send the request again")
             }

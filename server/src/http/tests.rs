@@ -17,7 +17,7 @@ use tokio_util::sync::CancellationToken;
 use tower::ServiceExt;
 
 use crate::estimate::machine::CalibrationCache;
-use crate::export::documents::{JSON, VTU};
+use crate::export::documents::{CSV, JSON, VTU};
 use crate::export::files;
 use crate::http::{Access, App, MAX_REQUESTS, openapi, router};
 use crate::queue::Transition;
@@ -142,8 +142,13 @@ impl Service {
         let fields = files::manifest_entry("fields-20.vtu", Some(20), VTU, content);
         files::write_atomically(&store.attempt_folder(&claim), &fields.name, content)
             .expect("kept");
+        let table = "0.1,0.2\n".repeat(500).into_bytes();
         let update = JobUpdate {
             files: vec![
+                NewFile {
+                    file: files::manifest_entry("profile-20.csv", Some(20), CSV, &table),
+                    content: Some(table),
+                },
                 NewFile {
                     file: fields,
                     content: None,

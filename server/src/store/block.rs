@@ -23,8 +23,9 @@ const LIMIT: usize = 4 << 20;
 const BUFFER: usize = 16 << 10;
 /// Quality of the compression: 4 to 9 differ by 5 % in length, 4 and 5 take 3 ms for 200 kB, 9 takes 20 ms.
 const QUALITY: u32 = 5;
-/// Logarithm of the compression's window, bytes: 4 MB.
-const WINDOW: u32 = 22;
+/// Logarithms of the compression's smallest and largest window, bytes: 64 kB and 4 MB. A window larger than what it compresses takes
+/// memory and nothing else.
+const WINDOW: (u32, u32) = (16, 22);
 
 /// What an entry of a block is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -58,6 +59,8 @@ pub struct EncodedBlock {
     pub(in crate::store) entries: Vec<u8>,
     /// The content.
     pub(in crate::store) content: Vec<u8>,
+    /// Names of its documents.
+    pub(in crate::store) documents: Vec<String>,
     /// Whether history and snapshots are part of it.
     pub(in crate::store) has_history: bool,
 }
@@ -134,6 +137,7 @@ impl Block {
         Ok(EncodedBlock {
             entries: compress(&serde_json::to_vec(&self.entries)?),
             content: compress(&self.content),
+            documents: self.documents().map(|file| file.name.clone()).collect(),
             has_history: self.range(Kind::History).is_some(),
         })
     }
@@ -250,6 +254,14 @@ impl Block {
         Ok(Some(compress(&serde_json::to_vec(&self.entries)?)))
     }
 
+    fn documents(&self) -> impl Iterator<Item = &ResultFile> {
+        let is_document = |entry: &&Entry| entry.kind == Kind::Document;
+        self.entries
+            .iter()
+            .filter(is_document)
+            .map(|entry| &entry.file)
+    }
+
     fn has_room(&self, bytes: usize) -> bool {
         self.content.len() + bytes <= LIMIT
     }
@@ -295,7 +307,9 @@ impl Block {
 }
 
 fn compress(bytes: &[u8]) -> Vec<u8> {
-    let mut writer = CompressorWriter::new(Vec::new(), BUFFER, QUALITY, WINDOW);
+    let window = bytes.len().next_power_of_two().ilog2();
+    let window = window.clamp(WINDOW.0, WINDOW.1);
+    let mut writer = CompressorWriter::new(Vec::new(), BUFFER, QUALITY, window);
     // Writing to memory cannot fail.
     let _ = writer.write_all(bytes);
     writer.into_inner()

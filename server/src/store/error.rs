@@ -111,6 +111,14 @@ pub enum StoreError {
         /// The parser's error.
         cause: String,
     },
+    /// Results of a job are damaged.
+    #[error("results of job {id} are damaged: {cause}")]
+    DamagedResults {
+        /// The job.
+        id: Uuid,
+        /// The damage.
+        cause: String,
+    },
     /// A submission was interrupted before it was written.
     #[error("the submission was interrupted before it was written")]
     Unwritten,

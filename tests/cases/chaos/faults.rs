@@ -204,21 +204,8 @@ impl Trial {
             "{name}"
         );
         std::fs::write(&path, &bytes).expect("the file can be restored");
-        let server = self.server();
-        let again = server
-            .client
-            .get(format!("{}{url}", server.base))
-            .send()
-            .await;
-        // A failure that another fault has left behind may hit this request.
-        if let Ok(answer) = again
-            && answer.status() == 200
-        {
-            assert!(
-                answer.bytes().await.is_ok_and(|found| found == bytes),
-                "{name}"
-            );
-        }
+        let sent = self.server().bytes_in_the_end(&url).await;
+        assert!(sent == bytes, "{name} was restored");
         true
     }
 

@@ -14,13 +14,25 @@ pub(in crate::cli) struct ControlArguments {
     server: ServerOptions,
 }
 
-/// Posts to each job; one that is refused does not prevent the others.
-pub(super) fn run(arguments: &ControlArguments, action: &str) -> Ended {
+/// What is done with each job.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Action {
+    Cancel,
+    Retry,
+}
+
+/// Does it with each job; one that is refused does not prevent the others.
+pub(super) fn run(arguments: &ControlArguments, action: Action) -> Ended {
     let client = arguments.server.client()?;
     let mut ended = Ok(());
-    for id in &arguments.ids {
-        let path = format!("/v1/jobs/{id}/{action}");
-        match interruptible(client.post(&path), None)? {
+    for &id in &arguments.ids {
+        let done = async {
+            match action {
+                Action::Cancel => client.cancel(id).await,
+                Action::Retry => client.retry(id).await,
+            }
+        };
+        match interruptible(done, None)? {
             Ok(job) => write_out(format_args!("{id} {}", job.status.as_str()))?,
             Err(error) => ended = Err(report(&error)),
         }

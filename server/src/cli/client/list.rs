@@ -4,7 +4,7 @@ use api::job::{JobList, JobOverview, ListedJob};
 use comfy_table::Table;
 
 use crate::cli::client::connection::{ServerOptions, interruptible, report};
-use crate::cli::terminal::{Ended, write_json, write_out};
+use crate::cli::terminal::{Ended, printable, write_json, write_out};
 use crate::client::{Client, ClientError};
 
 /// Largest number of jobs of one answer.
@@ -108,7 +108,7 @@ fn table(jobs: &[JobOverview]) -> Table {
         });
         table.add_row([
             job.id.to_string(),
-            job.name.clone().unwrap_or_default(),
+            printable(job.name.as_deref().unwrap_or_default()).replace('\n', " "),
             job.system.clone(),
             job.status.as_str().to_owned(),
             format!("{:.0} %", 100.0 * job.progress.fraction),

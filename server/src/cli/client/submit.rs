@@ -20,8 +20,8 @@ pub(in crate::cli) struct SubmitArguments {
     /// The job fails if it has not ended so many seconds after its submission.
     #[arg(long)]
     deadline_s: Option<u32>,
-    /// Requests with the same key queue one job, also from another terminal; a new key unless given.
-    #[arg(long)]
+    /// Requests with the same key queue one job, also from another terminal; a new key unless given. 1 to 255 printable ASCII characters.
+    #[arg(long, value_parser = checked_key)]
     key: Option<String>,
     /// Follow the job to its end, as `watch` does.
     #[arg(long)]
@@ -29,6 +29,14 @@ pub(in crate::cli) struct SubmitArguments {
     /// Follow the job and write its files into this folder, as `fetch` does.
     #[arg(long)]
     out: Option<PathBuf>,
+}
+
+fn checked_key(key: &str) -> Result<String, &'static str> {
+    let is_printable = key.chars().all(|c| matches!(c, ' '..='~'));
+    if key.is_empty() || key.len() > 255 || !is_printable {
+        return Err("a key has 1 to 255 printable ASCII characters");
+    }
+    Ok(key.to_owned())
 }
 
 pub(super) fn run(arguments: &SubmitArguments) -> Ended {

@@ -6,7 +6,6 @@ use sqlx::SqliteConnection;
 use uuid::Uuid;
 
 use crate::store::block::{Block, BlockError, EncodedBlock};
-use crate::store::sqlite::queries::corrupt;
 use crate::store::{Store, StoreError};
 
 impl Store {
@@ -52,7 +51,7 @@ pub(super) async fn block(
     decoded.transpose().map_err(|cause| unreadable(id, &cause))
 }
 
-/// Stores the block of a job that ends. Its history replaces the rows if the job has succeeded: the next try of another one
+/// Stores the block of a job that ends. Its documents replace files of the same names that an earlier end has left. Its history replaces the rows if the job has succeeded: the next try of another one
 /// continues them.
 pub(super) async fn insert_block(
     connection: &mut SqliteConnection,
@@ -67,6 +66,13 @@ pub(super) async fn insert_block(
         .bind(&block.content)
         .execute(&mut *connection)
         .await?;
+    for name in &block.documents {
+        sqlx::query("DELETE FROM result_files WHERE job_id = ? AND name = ?")
+            .bind(&id)
+            .bind(name)
+            .execute(&mut *connection)
+            .await?;
+    }
     if !(succeeded && block.has_history) {
         return Ok(());
     }
@@ -82,15 +88,28 @@ pub(super) async fn insert_block(
     Ok(())
 }
 
-/// Replaces the entries of a block.
+/// Returns the compressed entries of a job's block; `None` if it has none.
+pub(super) async fn entries(
+    connection: &mut SqliteConnection,
+    id: Uuid,
+) -> Result<Option<Vec<u8>>, sqlx::Error> {
+    sqlx::query_scalar("SELECT entries FROM result_blocks WHERE job_id = ?")
+        .bind(id.to_string())
+        .fetch_optional(connection)
+        .await
+}
+
+/// Replaces the entries of a block, unless the job has another one meanwhile.
 pub(super) async fn update_entries(
     connection: &mut SqliteConnection,
     id: Uuid,
-    entries: &[u8],
+    old: &[u8],
+    new: &[u8],
 ) -> Result<(), sqlx::Error> {
-    sqlx::query("UPDATE result_blocks SET entries = ? WHERE job_id = ?")
-        .bind(entries)
+    sqlx::query("UPDATE result_blocks SET entries = ? WHERE job_id = ? AND entries = ?")
+        .bind(new)
         .bind(id.to_string())
+        .bind(old)
         .execute(connection)
         .await?;
     Ok(())
@@ -98,5 +117,8 @@ pub(super) async fn update_entries(
 
 /// The error of a block that cannot be read.
 pub(super) fn unreadable(id: Uuid, cause: &BlockError) -> StoreError {
-    corrupt(id, "block of results", cause)
+    StoreError::DamagedResults {
+        id,
+        cause: cause.to_string(),
+    }
 }

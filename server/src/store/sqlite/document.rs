@@ -59,13 +59,16 @@ pub(super) fn time(row: &SqliteRow, column: &str) -> Result<Option<String>, sqlx
     Ok(row.try_get::<Option<i64>, _>(column)?.map(timestamp))
 }
 
-/// Returns the deadline of a selected row by the system's clock.
+/// Returns the deadline of a selected row by the system's clock, by which it is stored once the job has ended.
 pub(super) fn deadline(row: &SqliteRow) -> Result<Option<String>, sqlx::Error> {
-    let at: Option<i64> = row.try_get("deadline_at")?;
-    Ok(at.map(|at| timestamp(at.saturating_add(Now::read().stepped_ms()))))
+    let (at, finished): (Option<i64>, Option<i64>) =
+        (row.try_get("deadline_at")?, row.try_get("finished_at")?);
+    let step_ms = finished.map_or_else(|| Now::read().stepped_ms(), |_| 0);
+    Ok(at.map(|at| timestamp(at.saturating_add(step_ms))))
 }
 
-fn links(id: Uuid) -> BTreeMap<String, String> {
+/// Returns the links of a job.
+pub(super) fn links(id: Uuid) -> BTreeMap<String, String> {
     let own = format!("/v1/jobs/{id}");
     let relations = [
         ("self", ""),

@@ -9,7 +9,7 @@ use sqlx::{Row, Sqlite, Transaction};
 use uuid::Uuid;
 
 use crate::store::block::Block;
-use crate::store::sqlite::blocks::{block, unreadable, update_entries};
+use crate::store::sqlite::blocks::{block, entries, unreadable, update_entries};
 use crate::store::sqlite::folder::Folder;
 use crate::store::sqlite::queries::{BEGIN, corrupt, integer};
 use crate::store::{Claim, Content, NewFile, Store, StoreError};
@@ -32,12 +32,8 @@ impl Store {
         .fetch_all(&self.readers)
         .await?;
         let mut files: Vec<_> = rows.iter().map(entry).collect::<Result<_, _>>()?;
-        let entries: Option<Vec<u8>> =
-            sqlx::query_scalar("SELECT entries FROM result_blocks WHERE job_id = ?")
-                .bind(id.to_string())
-                .fetch_optional(&self.readers)
-                .await?;
-        if let Some(entries) = entries {
+        let mut connection = self.readers.acquire().await?;
+        if let Some(entries) = entries(&mut connection, id).await? {
             files.extend(Block::listed(&entries).map_err(|cause| unreadable(id, &cause))?);
             files.sort_by(|a, b| a.name.cmp(&b.name));
         }
@@ -94,10 +90,11 @@ impl Store {
         .bind(name)
         .execute(&mut *transaction)
         .await?;
-        if let Some(mut block) = block(&mut transaction, id).await?
-            && let Some(entries) = block.mark(name, how)?
+        if let Some(old) = entries(&mut transaction, id).await?
+            && let Some(mut block) = block(&mut transaction, id).await?
+            && let Some(new) = block.mark(name, how)?
         {
-            update_entries(&mut transaction, id, &entries).await?;
+            update_entries(&mut transaction, id, &old, &new).await?;
         }
         Ok(transaction.commit().await?)
     }

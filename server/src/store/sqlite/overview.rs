@@ -5,7 +5,7 @@ use sqlx::sqlite::SqliteRow;
 use sqlx::{QueryBuilder, Row, Sqlite};
 use uuid::Uuid;
 
-use crate::store::sqlite::document::{deadline, status_and_reason, time, timestamp};
+use crate::store::sqlite::document::{deadline, links, status_and_reason, time, timestamp};
 use crate::store::sqlite::queries::{self, outcome, parsed};
 use crate::store::{DataDisk, StoreError};
 
@@ -26,7 +26,6 @@ pub(super) fn overview(disk: &DataDisk, row: &SqliteRow) -> Result<JobOverview, 
     let (status, status_reason) = status_and_reason(disk, id, row)?;
     let name: Option<&str> = row.try_get("name")?;
     let labels: Option<&str> = row.try_get("labels")?;
-    let path = format!("/v1/jobs/{id}");
     Ok(JobOverview {
         id,
         name: name.map_or(Ok(None), |name| parsed(id, "name", name))?,
@@ -46,7 +45,7 @@ pub(super) fn overview(disk: &DataDisk, row: &SqliteRow) -> Result<JobOverview, 
         progress: parsed(id, "progress", row.try_get("progress")?)?,
         attempts: row.try_get("attempts")?,
         key_figures: key_figures(id, row)?,
-        links: [("self".to_owned(), path)].into(),
+        links: links(id),
     })
 }
 

@@ -120,7 +120,7 @@ async fn move_times(transaction: &mut Transaction<'_, Sqlite>) -> Result<(), Sto
     if step_ms.abs() < STEP_MS {
         return Ok(());
     }
-    sqlx::query("UPDATE jobs SET queued_at = queued_at + ?1, place = place + ?1, deadline_at = deadline_at + ?1")
+    sqlx::query("UPDATE jobs SET queued_at = queued_at + ?1, place = place + ?1, deadline_at = deadline_at + ?1 WHERE finished_at IS NULL")
         .bind(step_ms)
         .execute(&mut **transaction)
         .await?;

@@ -5,6 +5,7 @@ use api::job::{Outcome, Status};
 use sqlx::SqliteConnection;
 use uuid::Uuid;
 
+use crate::clock::Now;
 use crate::queue::{Attempts, Transition, next_status};
 use crate::store::sqlite::queries::insert_event;
 use crate::store::{End, StoreError};
@@ -59,11 +60,18 @@ pub(super) async fn end_job(
         return Ok(None);
     };
     let (status_reason, outcome) = reason_and_outcome(status, job.attempts, end);
+    // What is not measured any more is shown by the system's clock.
+    let step_ms = if status.is_terminal() {
+        Now::read().stepped_ms()
+    } else {
+        0
+    };
     let is_released = status == Status::Queued && end.transition == Transition::Release;
     let seq: i64 = sqlx::query_scalar(
         "UPDATE jobs SET status = ?, status_reason = ?, outcome = ?, summary = ?, cancel_requested = ?, \
          lease_expires_at = NULL, finished_at = ?, progress = COALESCE(?, progress), attempts = attempts - ?, \
-         fruitless = max(fruitless - ?, 0), last_event = last_event + ?, version = version + 1 \
+         fruitless = max(fruitless - ?, 0), last_event = last_event + ?, version = version + 1, \
+         queued_at = queued_at + ?, deadline_at = deadline_at + ? \
          WHERE id = ? AND status = ? RETURNING last_event",
     )
     .bind(status.as_str())
@@ -76,6 +84,8 @@ pub(super) async fn end_job(
     .bind(is_released)
     .bind(is_released)
     .bind(status.is_terminal())
+    .bind(step_ms)
+    .bind(step_ms)
     .bind(job.id.to_string())
     .bind(job.status.as_str())
     .fetch_one(&mut *connection)

@@ -7,7 +7,7 @@ use uuid::fmt::Hyphenated;
 
 use crate::export::files::{hexadecimal, sha256};
 use crate::store::sqlite::backup::{at, check_integrity, database_at};
-use crate::store::sqlite::blocks::{block, update_entries};
+use crate::store::sqlite::blocks::{block, entries, update_entries};
 use crate::store::sqlite::files::entry;
 use crate::store::sqlite::folder::Folder;
 use crate::store::sqlite::migrations::newest_version;
@@ -104,10 +104,13 @@ async fn verify_block(
     job: Uuid,
     verified: &mut CopySummary,
 ) -> Result<(), BackupError> {
+    let Some(mut entries) = entries(&mut *database, job).await? else {
+        return Ok(());
+    };
     let block = match block(&mut *database, job).await {
         Ok(Some(block)) => block,
         Ok(None) => return Ok(()),
-        Err(error @ StoreError::Corrupt { .. }) => {
+        Err(error @ StoreError::DamagedResults { .. }) => {
             verified.damaged.push(error.to_string());
             return Ok(());
         }
@@ -119,11 +122,11 @@ async fn verify_block(
         verified.file_bytes += entry.bytes;
         let how = integrity::check_bytes(entry, bytes).err();
         let how = how.map(|cause| cause.to_string());
-        if let Some(entries) = marked
-            .mark(&entry.name, how.as_deref())
-            .map_err(StoreError::from)?
-        {
-            update_entries(database, job, &entries).await?;
+        let marked = marked.mark(&entry.name, how.as_deref());
+        if let Some(new) = marked.map_err(StoreError::from)? {
+            // A job that was queued again meanwhile may have another block.
+            update_entries(database, job, &entries, &new).await?;
+            entries = new;
         }
         let said = how.map(|how| format!("{} of job {job}: {how}", entry.name));
         verified.damaged.extend(said);

@@ -1,8 +1,9 @@
 //! Result files.
 
 use super::*;
-use crate::export::documents::VTU;
+use crate::export::documents::{CSV, VTU};
 use crate::export::files;
+use crate::store::block::Block;
 
 /// Writes a file of an attempt; returns its entry.
 fn written(store: &Store, claim: &Claim, name: &str) -> NewFile {
@@ -49,4 +50,41 @@ async fn removing_files_of_a_lost_attempt_leaves_those_of_the_next_one() {
     };
     assert_eq!(std::fs::read(path).expect("it exists"), b"fields");
     assert!(!store.attempt_folder(&lost).exists());
+}
+
+#[tokio::test]
+async fn a_document_in_a_block_replaces_the_file_that_an_earlier_end_has_left() {
+    let fixture = Fixture::new().await;
+    let (id, store) = (fixture.queued().await, &fixture.store);
+    let first = fixture.claimed(10).await;
+    let recorded = store.record(&first, &with_checkpoint(5), 10).await;
+    recorded.expect("the store");
+    // As an earlier version stored it.
+    let old = JobUpdate {
+        files: vec![NewFile {
+            file: files::manifest_entry("wear-history.csv", None, CSV, b"old"),
+            content: Some(b"old".to_vec()),
+        }],
+        ..JobUpdate::default()
+    };
+    let ended = store.end(&first, &old, &end(Transition::Fail), 20).await;
+    assert_eq!(ended.expect("the store"), Some(Status::Failed));
+    store.retry(id, 30).await.expect("the store");
+    let second = fixture.claimed(40).await;
+    let mut block = Block::default();
+    let file = files::manifest_entry("wear-history.csv", None, CSV, b"new");
+    assert!(block.push_document(&file, b"new"));
+    let new = JobUpdate {
+        block: Some(block.encode().expect("JSON")),
+        ..JobUpdate::default()
+    };
+    let ended = store
+        .end(&second, &new, &end(Transition::Succeed), 50)
+        .await;
+    assert_eq!(ended.expect("the store"), Some(Status::Succeeded));
+    let manifest = store.manifest(id).await.expect("the store");
+    assert_eq!(manifest, std::slice::from_ref(&file));
+    let found = store.result_file(id, "wear-history.csv").await;
+    let (entry, content) = found.expect("the store").expect("a file");
+    assert!(entry == file && matches!(content, Content::Inline(bytes) if bytes == b"new"));
 }

@@ -147,11 +147,11 @@ fn write_archive(app: &App, archived: &Archived, writer: ChunkWriter) -> io::Res
             Content::Inline(bytes) => archive.write_all(bytes)?,
             Content::File(path) => copy(app, (archived.id, file), path, &mut archive)?,
         }
-        if let Some(picture) = file.name.strip_suffix(".svg") {
+        if let Some(picture) = picture_of(&archived.files, &file.name) {
             // `fretwear solve --out` writes it too; it is not stored, because browsers show the drawing.
             match raster(content) {
                 Ok(pixels) => {
-                    archive.start_file(format!("{picture}.png"), options)?;
+                    archive.start_file(picture, options)?;
                     archive.write_all(&pixels)?;
                 }
                 // The drawing of an earlier version may not be valid XML.
@@ -160,6 +160,13 @@ fn write_archive(app: &App, archived: &Archived, writer: ChunkWriter) -> io::Res
         }
     }
     archive.finish()?.into_inner().flush()
+}
+
+/// The name of the picture of a drawing, unless it is stored, as earlier versions did.
+fn picture_of(files: &[ResultFile], drawing: &str) -> Option<String> {
+    let picture = format!("{}.png", drawing.strip_suffix(".svg")?);
+    let is_stored = files.iter().any(|file| file.name == picture);
+    (!is_stored).then_some(picture)
 }
 
 fn raster(drawing: Content) -> io::Result<Vec<u8>> {
@@ -244,7 +251,7 @@ mod tests {
             .map(|name| name.expect("a name").into_owned())
             .collect();
         names.sort();
-        assert_eq!(names, ["fields-20.vtu", "summary.json"]);
+        assert_eq!(names, ["fields-20.vtu", "profile-20.csv", "summary.json"]);
         let mut content = String::new();
         let mut fields = archive.by_name("fields-20.vtu").expect("a file");
         fields.read_to_string(&mut content).expect("text");

@@ -63,7 +63,7 @@ mod tests {
             .iter()
             .map(|file| file["name"].as_str().expect("a name"))
             .collect();
-        assert_eq!(names, ["fields-20.vtu", "summary.json"]);
+        assert_eq!(names, ["fields-20.vtu", "profile-20.csv", "summary.json"]);
         let fields = &manifest["files"][0];
         assert_eq!(
             (&fields["bytes"], &fields["cycle"], &fields["media_type"]),
