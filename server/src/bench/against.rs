@@ -52,9 +52,9 @@ pub fn is_installed() -> bool {
 /// [`BenchError`] if this engine fails or the other code cannot be started.
 pub fn ccx(element_um: f64) -> Result<Comparison, BenchError> {
     let folder = std::env::temp_dir().join(format!("fretwear-ccx-{}", std::process::id()));
-    std::fs::create_dir_all(&folder)?;
+    fs_err::create_dir_all(&folder)?;
     let compared = compare(&folder, element_um);
-    std::fs::remove_dir_all(&folder)?;
+    fs_err::remove_dir_all(&folder)?;
     compared
 }
 
@@ -81,7 +81,7 @@ fn compare(folder: &Path, element_um: f64) -> Result<Comparison, BenchError> {
     .map_err(|error: CycleError| SolveError::from(error))?;
 
     let deck = cycle::friction_cycle(&scene, &model, lowered_mm, QUARTER);
-    std::fs::write(folder.join(format!("{DECK}.inp")), deck)?;
+    fs_err::write(folder.join(format!("{DECK}.inp")), deck)?;
     let before = children_cpu_s();
     let ran = Command::new("ccx")
         .arg(DECK)

@@ -43,7 +43,7 @@ pub(super) fn run(listen: SocketAddr, exit: bool) -> Ended {
 
 async fn demonstrate(listen: SocketAddr, exit: bool) -> Result<(), DemoError> {
     let folder = PathBuf::from("fretwear-data").join(format!("demo-{}", Uuid::now_v7()));
-    std::fs::create_dir_all(&folder)?;
+    fs_err::create_dir_all(&folder)?;
     let database = format!("sqlite://{}", folder.join("fretwear.db").display());
     let program = std::env::current_exe()?;
     let service = Service::start(Config {

@@ -2,9 +2,9 @@
 //! lease cannot touch the files of the next attempt; a file counts once the manifest names it.
 
 use std::collections::HashSet;
-use std::fs::DirEntry;
 use std::path::{Component, Path, PathBuf};
 
+use fs_err::DirEntry;
 use uuid::Uuid;
 
 /// Returns the path of a file or folder beside a database, by its suffix.
@@ -48,7 +48,7 @@ impl Folder {
 
     /// Removes all files of a job.
     pub(super) fn remove(&self, id: Uuid) -> std::io::Result<()> {
-        match std::fs::remove_dir_all(self.root.join(id.to_string())) {
+        match fs_err::remove_dir_all(self.root.join(id.to_string())) {
             Err(cause) if cause.kind() != std::io::ErrorKind::NotFound => Err(cause),
             _ => Ok(()),
         }
@@ -88,19 +88,19 @@ fn remove_unnamed(folder: &Path, named: &HashSet<PathBuf>) -> std::io::Result<us
         } else if named.contains(&path) {
             is_empty = false;
         } else {
-            std::fs::remove_file(&path)?;
+            fs_err::remove_file(&path)?;
             removed += 1;
         }
     }
     if is_empty && folder.exists() {
-        std::fs::remove_dir(folder)?;
+        fs_err::remove_dir(folder)?;
     }
     Ok(removed)
 }
 
 /// Returns the entries of a folder; none if it does not exist.
 fn entries(folder: &Path) -> std::io::Result<Vec<DirEntry>> {
-    match std::fs::read_dir(folder) {
+    match fs_err::read_dir(folder) {
         Err(cause) if cause.kind() == std::io::ErrorKind::NotFound => Ok(Vec::new()),
         entries => entries?.collect(),
     }
