@@ -97,11 +97,11 @@ async fn a_store_that_stalls_across_the_end_of_a_job_uses_no_attempt() {
     let spec = spec(40);
     let expected = uninterrupted(&spec).await;
     let folder = tempfile::tempdir().expect("a folder can be made");
-    // The stall is longer than a lease.
-    let server = Server::start_with(folder.path(), &["--lease-s", "1"]);
+    // The stall is longer than a lease, which is longer than a busy machine takes for a renewal.
+    let server = Server::start_with(folder.path(), &["--lease-s", "4"]);
     let id = submitted(&server, &spec).await;
     computing(&server, &id, 5).await;
-    database::stall(folder.path(), Duration::from_secs(6)).await;
+    database::stall(folder.path(), Duration::from_secs(10)).await;
     let job = ended(&server, &id).await;
     assert_eq!(job["attempts"], 1, "{job}");
     assert_eq!(bits::of(&server, &id).await, expected);

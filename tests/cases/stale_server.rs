@@ -51,7 +51,7 @@ async fn a_service_that_continues_after_another_finished_its_job_writes_nothing(
 #[tokio::test]
 async fn a_service_that_was_paused_beyond_its_leases_continues_its_jobs() {
     let folder = tempfile::tempdir().expect("a folder can be made");
-    let server = Server::start_with(folder.path(), &["--lease-s", "1"]);
+    let server = Server::start_with(folder.path(), &["--lease-s", "4"]);
     let spec = json!({
         "system": {"kind": "fuzz_button"},
         "cycles": 1000,
@@ -63,7 +63,7 @@ async fn a_service_that_was_paused_beyond_its_leases_continues_its_jobs() {
         .job_when(&id, |job| job["progress"]["cycle"].as_u64() > Some(10))
         .await;
     server.signal(Signal::SIGSTOP);
-    tokio::time::sleep(Duration::from_secs(3)).await;
+    tokio::time::sleep(Duration::from_secs(6)).await;
     server.signal(Signal::SIGCONT);
     let job = server
         .job_when(&id, |job| job["finished_at"].is_string())
