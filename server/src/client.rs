@@ -1,6 +1,6 @@
 //! A client of the service: its requests, the event stream of a job, and the files of a job.
 //!
-//! Requests that change nothing twice are sent again for a while if the service cannot be reached or is busy, so that a restart
+//! Idempotent requests are sent again for a while if the service cannot be reached or is busy, so that a restart
 //! of the service fails no script.
 
 mod download;
@@ -185,7 +185,7 @@ impl Client {
     }
 }
 
-/// Tries something that does nothing the second time, again if the service cannot be reached, breaks off or is busy.
+/// Repeats an idempotent attempt if the service cannot be reached, breaks off or is busy.
 async fn repeated<T>(
     mut attempt: impl AsyncFnMut() -> Result<T, ClientError>,
 ) -> Result<T, ClientError> {

@@ -57,8 +57,8 @@ async fn uninterrupted(specs: &[Value]) -> Vec<Value> {
     found
 }
 
-#[expect(clippy::print_stdout, reason = "the figures that the README quotes")]
 /// Solves at least so many jobs, and injects every fault at least once.
+#[expect(clippy::print_stdout, reason = "the figures that the README quotes")]
 async fn chaos(least_jobs: usize, seed: u64) {
     let began = Instant::now();
     let specs = specs();

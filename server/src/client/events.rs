@@ -16,7 +16,7 @@ use crate::client::{Client, ClientError};
 
 /// Pause before a stream is opened again.
 const PAUSE: Duration = Duration::from_secs(1);
-/// Time without an event or a connection after which no further attempt is made.
+/// Time without a connection or a byte of the stream after which no further attempt is made.
 const PATIENCE: Duration = Duration::from_mins(5);
 
 /// What a stream tells while a job has not ended.
