@@ -80,8 +80,13 @@ impl Client {
     ///
     /// # Errors
     /// [`ClientError`].
-    pub async fn get<T: DeserializeOwned>(&self, path: &str) -> Result<T, ClientError> {
-        repeated(async || self.document(path, self.http.get(self.url(path))).await).await
+    pub async fn get<T: DeserializeOwned>(
+        &self,
+        path: &str,
+        options: &[(&str, String)],
+    ) -> Result<T, ClientError> {
+        let request = || self.http.get(self.url(path)).query(options);
+        repeated(async || self.document(path, request()).await).await
     }
 
     /// Cancels a job.
@@ -137,7 +142,7 @@ impl Client {
     /// # Errors
     /// [`ClientError`].
     pub async fn job(&self, id: Uuid) -> Result<Job, ClientError> {
-        self.get(&format!("/v1/jobs/{id}")).await
+        self.get(&format!("/v1/jobs/{id}"), &[]).await
     }
 
     /// Returns whether the service is ready; asks once.
@@ -178,7 +183,12 @@ impl Client {
     ) -> Result<T, ClientError> {
         let bytes = self.send(request).await?.bytes().await;
         let bytes = bytes.map_err(|cause| ClientError::unreachable(&self.base, cause))?;
-        serde_json::from_slice(&bytes).map_err(|cause| ClientError::Answer {
+        self.parsed(path, &bytes)
+    }
+
+    /// Parses what a path has answered.
+    fn parsed<T: DeserializeOwned>(&self, path: &str, json: &[u8]) -> Result<T, ClientError> {
+        serde_json::from_slice(json).map_err(|cause| ClientError::Answer {
             url: self.url(path),
             cause,
         })

@@ -6,7 +6,7 @@ mod compression;
 mod connections;
 mod disk_space;
 mod extract;
-mod idempotency_key;
+pub mod idempotency_key;
 mod job_error;
 mod limits;
 mod listener;

@@ -66,7 +66,7 @@ async fn a_job_is_submitted_followed_and_fetched() {
     assert_eq!(fetched.code, Some(0), "{}", fetched.stderr);
     let solved = fretwear(folder, &["solve", "spec.json", "--out", "solved"]);
     assert_eq!(solved.code, Some(0));
-    let (fetched, mut solved) = (folder.join("fetched"), folder.join("solved"));
+    let (fetched, solved) = (folder.join("fetched"), folder.join("solved"));
     for name in names(&fetched)
         .into_iter()
         .filter(|name| name != "summary.json")
@@ -76,15 +76,15 @@ async fn a_job_is_submitted_followed_and_fetched() {
         assert!(same, "{name}");
     }
     // Only what differs is received again.
-    solved = fetched.join("wear-history.csv");
-    std::fs::write(&solved, "cycle\n").expect("written");
+    let history = fetched.join("wear-history.csv");
+    std::fs::write(&history, "cycle\n").expect("written");
     let again = client(folder, &server.base, &["fetch", id, "--out", "fetched"]).await;
     assert!(
-        again.stderr.contains("1 files received"),
+        again.stderr.contains("received files: 1 "),
         "{}",
         again.stderr
     );
-    assert!(std::fs::read(&solved).expect("a file").len() > 100);
+    assert!(std::fs::read(&history).expect("a file").len() > 100);
 
     let listed = client(
         folder,
@@ -149,18 +149,11 @@ async fn an_interrupted_watch_leaves_the_job_running() {
         .args(["watch", &id, "--server", &server.base])
         .stderr(Stdio::piped())
         .spawn();
-    let watch = watch.expect("it can be started");
+    let mut watch = watch.expect("it can be started");
     let process = Pid::from_raw(i32::try_from(watch.id()).expect("small"));
     // Its open stream shows that it follows the job.
-    loop {
-        let (_, metrics) = server.get("/metrics").await;
-        let metrics = metrics.as_str().expect("text");
-        if metrics
-            .lines()
-            .any(|line| line == "fretwear_streams_open 1")
-        {
-            break;
-        }
+    while !has_open_stream(&server).await {
+        assert!(matches!(watch.try_wait(), Ok(None)), "it has ended early");
     }
     kill(process, Signal::SIGINT).expect("it is there");
     let ended = tokio::task::spawn_blocking(|| watch.wait_with_output()).await;
@@ -170,6 +163,14 @@ async fn an_interrupted_watch_leaves_the_job_running() {
     assert!(said.contains(&format!("fretwear watch {id}")), "{said}");
     let (_, job) = server.get(&format!("/v1/jobs/{id}")).await;
     assert_eq!(job["status"], "running", "{job}");
+}
+
+async fn has_open_stream(server: &Server) -> bool {
+    let (_, metrics) = server.get("/metrics").await;
+    let metrics = metrics.as_str().expect("text");
+    metrics
+        .lines()
+        .any(|line| line == "fretwear_streams_open 1")
 }
 
 /// Forwards connections at an address that stays to the port of the present service; all break when the service changes.

@@ -87,7 +87,7 @@ async fn show_job(base: &str) -> Result<(), DemoError> {
     }
     let job = client.job(id).await?;
     let history: WearHistory = client
-        .get(&format!("/v1/jobs/{id}/results/wear-history"))
+        .get(&format!("/v1/jobs/{id}/results/wear-history"), &[])
         .await?;
     let report = table::report(&job, &history);
     for line in report.into_iter().chain(next_steps(base, id)) {

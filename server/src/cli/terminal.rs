@@ -17,7 +17,7 @@ use crate::spec::{Refused, Resolved};
 pub(super) type Ended = Result<(), ExitCode>;
 
 /// Exit code of a refused specification.
-const REFUSED: u8 = 2;
+pub(super) const REFUSED: u8 = 2;
 
 /// Writes a line on standard output; reports a failure and returns its exit code. A closed pipe (`| head`) is none.
 pub(super) fn write_out(line: impl Display) -> Ended {

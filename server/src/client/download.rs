@@ -6,12 +6,11 @@ use std::path::Path;
 
 use api::results::{Manifest, ResultFile};
 use futures_util::StreamExt;
-use sha2::{Digest, Sha256};
 use uuid::Uuid;
 
 use crate::client::{Client, ClientError, repeated};
-use crate::export::files::hexadecimal;
-use crate::store::{Content, integrity};
+use crate::store::Content;
+use crate::store::integrity::{self, Checksum};
 
 /// What became of a file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -35,7 +34,7 @@ impl Client {
         folder: &Path,
         mut observe: impl FnMut(&ResultFile, Fetched),
     ) -> Result<(), ClientError> {
-        let manifest: Manifest = self.get(&format!("/v1/jobs/{id}/results")).await?;
+        let manifest: Manifest = self.get(&format!("/v1/jobs/{id}/results"), &[]).await?;
         let files = chosen(manifest.files, names)?;
         std::fs::create_dir_all(folder).map_err(|cause| file_error(folder, cause))?;
         let mut failed = Vec::new();
@@ -83,20 +82,18 @@ impl Client {
         let mut chunks = self.send(self.http.get(url)).await?.bytes_stream();
         let failed = |cause| file_error(unfinished, cause);
         let mut target = File::create(unfinished).map_err(failed)?;
-        let mut sha256 = Sha256::new();
+        let mut checksum = Checksum::default();
         while let Some(chunk) = chunks.next().await {
             let chunk = chunk.map_err(|cause| ClientError::unreachable(&self.base, cause))?;
-            sha256.update(&chunk);
+            checksum.update(&chunk);
             target.write_all(&chunk).map_err(failed)?;
         }
-        let found = hexadecimal(&sha256.finalize());
-        if found != file.sha256 {
-            return Err(ClientError::Checksum {
+        checksum
+            .compare(file)
+            .map_err(|cause| ClientError::Received {
                 name: file.name.clone(),
-                found,
-                named: file.sha256.clone(),
-            });
-        }
+                cause,
+            })?;
         target.sync_all().map_err(failed)
     }
 }

@@ -5,6 +5,8 @@ use std::time::Duration;
 
 use api::problem::Problem;
 
+use crate::store::IntegrityError;
+
 /// Why a request failed.
 #[derive(Debug, thiserror::Error)]
 pub enum ClientError {
@@ -69,14 +71,12 @@ pub enum ClientError {
         cause: std::io::Error,
     },
     /// A received file differs from its entry in the manifest.
-    #[error("{name} was received with the SHA-256 {found}, the manifest names {named}")]
-    Checksum {
+    #[error("{name} was not received as it is stored: {cause}")]
+    Received {
         /// The file.
         name: String,
-        /// SHA-256 of what was received.
-        found: String,
-        /// SHA-256 in the manifest.
-        named: String,
+        /// The difference.
+        cause: IntegrityError,
     },
     /// The manifest names a path instead of a file.
     #[error("the service names `{0}`, which is no plain file name")]
@@ -133,7 +133,7 @@ impl ClientError {
 
     /// Whether it concerns one file of several.
     pub(super) fn is_of_file(&self) -> bool {
-        matches!(self, Self::Checksum { .. }) || self.is_of_type("/problems/result-damaged")
+        matches!(self, Self::Received { .. }) || self.is_of_type("/problems/result-damaged")
     }
 
     pub(super) fn retry_after(&self) -> Option<Duration> {

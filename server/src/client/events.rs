@@ -9,7 +9,6 @@ use eventsource_stream::Eventsource;
 use futures_util::StreamExt;
 use reqwest::StatusCode;
 use reqwest::header::CONTENT_TYPE;
-use serde::de::DeserializeOwned;
 use uuid::Uuid;
 
 use crate::client::{Client, ClientError};
@@ -97,7 +96,6 @@ impl Client {
         let chunks = response
             .bytes_stream()
             .inspect(|_| heard.set(Instant::now()));
-        let parsed = |data: &str| self.parsed::<Progress>(&path, data);
         let (mut events, mut ended) = (chunks.eventsource(), Ended::Open);
         while let Some(event) = events.next().await {
             *since = heard.get();
@@ -110,25 +108,19 @@ impl Client {
             if !event.id.is_empty() {
                 *last = Some(event.id);
             }
+            let data = event.data.as_bytes();
             match event.event.as_str() {
                 "snapshot" => {
-                    let job: Job = self.parsed(&path, &event.data)?;
+                    let job: Job = self.parsed(&path, data)?;
                     observe(Followed::Progress(&job.progress));
                 }
-                "progress" => observe(Followed::Progress(&parsed(&event.data)?)),
-                "done" => ended = Ended::Done(Box::new(self.parsed(&path, &event.data)?)),
+                "progress" => observe(Followed::Progress(&self.parsed(&path, data)?)),
+                "done" => ended = Ended::Done(Box::new(self.parsed(&path, data)?)),
                 _ => {}
             }
         }
         *since = heard.get();
         Ok(ended)
-    }
-
-    fn parsed<T: DeserializeOwned>(&self, path: &str, data: &str) -> Result<T, ClientError> {
-        serde_json::from_str(data).map_err(|cause| ClientError::Answer {
-            url: self.url(path),
-            cause,
-        })
     }
 }
 

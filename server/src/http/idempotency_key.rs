@@ -19,7 +19,7 @@ const MAX_LENGTH: usize = 255;
 
 /// Error of an `Idempotency-Key`.
 #[derive(Debug, thiserror::Error)]
-pub(super) enum KeyError {
+pub(crate) enum KeyError {
     /// Empty, or too long.
     #[error("the Idempotency-Key has {0} characters; it must have 1 to {MAX_LENGTH}")]
     Length(usize),
@@ -51,15 +51,24 @@ pub(super) fn idempotency_key(
     let Some(value) = headers.get(HEADER) else {
         return Ok(None);
     };
-    let key = value.to_str().map_err(|_| KeyError::Text)?.trim();
-    if key.is_empty() || key.len() > MAX_LENGTH {
-        return Err(KeyError::Length(key.len()));
-    }
+    let key = value.to_str().map_err(|_| KeyError::Text)?;
     Ok(Some(RequestKey {
-        key: key.to_owned(),
+        key: checked(key)?,
         meaning_sha256: meaning(&options.to_string(), body),
         body_sha256: Sha256::digest(body).into(),
     }))
+}
+
+/// Returns a key without spaces around it if it can be used.
+pub(crate) fn checked(key: &str) -> Result<String, KeyError> {
+    let key = key.trim();
+    if !key.chars().all(|character| matches!(character, ' '..='~')) {
+        return Err(KeyError::Text);
+    }
+    if key.is_empty() || key.len() > MAX_LENGTH {
+        return Err(KeyError::Length(key.len()));
+    }
+    Ok(key.to_owned())
 }
 
 /// Digest of the meaning of a request.
@@ -138,8 +147,11 @@ mod tests {
             problem["detail"],
             "the Idempotency-Key has 256 characters; it must have 1 to 255"
         );
-        let empty = [json, ("idempotency-key", " ")];
-        assert_eq!(service.send("POST", "/v1/jobs", &empty, body).await.0, 400);
+        for key in [" ", "a\tb"] {
+            let headers = [json, ("idempotency-key", key)];
+            let (status, ..) = service.send("POST", "/v1/jobs", &headers, body).await;
+            assert_eq!(status, 400, "{key}");
+        }
         let (_, _, page) = service.get("/v1/jobs").await;
         assert_eq!(page["jobs"].as_array().map_or(0, Vec::len), 1, "{page}");
     }

@@ -9,12 +9,11 @@ use uuid::Uuid;
 use crate::cli::access;
 use crate::cli::runtime::block_on;
 use crate::cli::serve::until_signal;
-use crate::cli::terminal::{failed, write_err};
+use crate::cli::terminal::{REFUSED, failed, write_err};
 use crate::client::{Client, ClientError};
 
 /// Default address of the service.
 const SERVER: &str = "http://127.0.0.1:8080";
-const REFUSED: u8 = 2;
 pub(super) const CANCELLED: u8 = 3;
 const UNREACHABLE: u8 = 4;
 /// As shells report the end by a signal 2.

@@ -39,7 +39,7 @@ pub(super) fn fetch(client: &Client, id: Uuid, names: &[String], folder: &Path) 
     let fetched = interruptible(fetched, None)?;
     fetched.map_err(|error| report(&error))?;
     write_err(format_args!(
-        "{}: {received} files received ({} kB), {present} were there",
+        "{}: received files: {received} ({} kB), unchanged: {present}",
         folder.display(),
         bytes.div_ceil(1_000)
     ));

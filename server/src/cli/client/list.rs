@@ -1,6 +1,6 @@
 //! `fretwear list`: the newest jobs.
 
-use api::job::{JobList, JobOverview, ListedJob};
+use api::job::JobOverview;
 use comfy_table::Table;
 
 use crate::cli::client::connection::{ServerOptions, interruptible, report};
@@ -41,6 +41,13 @@ pub(super) fn run(arguments: &ListArguments) -> Ended {
     write_out(table(&jobs))
 }
 
+/// A page of the list: every job in short, as is asked for.
+#[derive(serde::Deserialize)]
+struct Page {
+    jobs: Vec<JobOverview>,
+    next_page_token: Option<String>,
+}
+
 /// Requests pages until there are enough jobs.
 async fn jobs(client: &Client, arguments: &ListArguments) -> Result<Vec<JobOverview>, ClientError> {
     let (mut jobs, mut token) = (Vec::new(), None);
@@ -51,12 +58,9 @@ async fn jobs(client: &Client, arguments: &ListArguments) -> Result<Vec<JobOverv
         if left == 0 {
             return Ok(jobs);
         }
-        let path = path(arguments, left.min(PAGE), token.as_deref());
-        let page: JobList = client.get(&path).await?;
-        jobs.extend(page.jobs.into_iter().filter_map(|job| match job {
-            ListedJob::Short(job) => Some(*job),
-            ListedJob::Full(_) => None,
-        }));
+        let options = options(arguments, left.min(PAGE), token);
+        let page: Page = client.get("/v1/jobs", &options).await?;
+        jobs.extend(page.jobs);
         token = page.next_page_token;
         if token.is_none() {
             return Ok(jobs);
@@ -64,29 +68,23 @@ async fn jobs(client: &Client, arguments: &ListArguments) -> Result<Vec<JobOverv
     }
 }
 
-fn path(arguments: &ListArguments, limit: u32, token: Option<&str>) -> String {
-    let mut pairs = vec![("limit", limit.to_string())];
+fn options(
+    arguments: &ListArguments,
+    limit: u32,
+    token: Option<String>,
+) -> Vec<(&'static str, String)> {
     let given = [
-        ("status", arguments.status.as_deref()),
-        ("system", arguments.system.as_deref()),
+        ("limit", Some(limit.to_string())),
+        ("view", Some("short".to_owned())),
+        ("status", arguments.status.clone()),
+        ("system", arguments.system.clone()),
         ("page_token", token),
     ];
-    pairs.extend(
-        given
-            .iter()
-            .filter_map(|(name, value)| Some((*name, (*value)?.to_owned()))),
-    );
-    pairs.extend(arguments.label.iter().map(|label| ("label", label.clone())));
-    let query = form_urlencoded(&pairs);
-    format!("/v1/jobs?{query}")
-}
-
-fn form_urlencoded(pairs: &[(&str, String)]) -> String {
-    // Any base: only its query is used.
-    let url = reqwest::Url::parse_with_params("http://localhost", pairs);
-    url.ok()
-        .and_then(|url| url.query().map(str::to_owned))
-        .unwrap_or_default()
+    let labels = arguments.label.iter().map(|label| ("label", label.clone()));
+    let given = given
+        .into_iter()
+        .filter_map(|(name, value)| Some((name, value?)));
+    given.chain(labels).collect()
 }
 
 fn table(jobs: &[JobOverview]) -> Table {

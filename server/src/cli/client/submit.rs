@@ -7,6 +7,7 @@ use uuid::Uuid;
 use crate::cli::client::connection::{ServerOptions, interruptible, report};
 use crate::cli::client::{fetch, watch};
 use crate::cli::terminal::{Ended, failed_at, write_err, write_out};
+use crate::http::idempotency_key;
 
 #[derive(Debug, clap::Args)]
 pub(in crate::cli) struct SubmitArguments {
@@ -21,7 +22,7 @@ pub(in crate::cli) struct SubmitArguments {
     #[arg(long)]
     deadline_s: Option<u32>,
     /// Requests with the same key queue one job, also from another terminal; a new key unless given. 1 to 255 printable ASCII characters.
-    #[arg(long, value_parser = checked_key)]
+    #[arg(long, value_parser = idempotency_key::checked)]
     key: Option<String>,
     /// Follow the job to its end, as `watch` does.
     #[arg(long)]
@@ -29,14 +30,6 @@ pub(in crate::cli) struct SubmitArguments {
     /// Follow the job and write its files into this folder, as `fetch` does.
     #[arg(long)]
     out: Option<PathBuf>,
-}
-
-fn checked_key(key: &str) -> Result<String, &'static str> {
-    let is_printable = key.chars().all(|c| matches!(c, ' '..='~'));
-    if key.is_empty() || key.len() > 255 || !is_printable {
-        return Err("a key has 1 to 255 printable ASCII characters");
-    }
-    Ok(key.to_owned())
 }
 
 pub(super) fn run(arguments: &SubmitArguments) -> Ended {

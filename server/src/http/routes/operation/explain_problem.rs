@@ -3,11 +3,11 @@
 use std::fmt::Write as _;
 
 use api::problem::Problem;
-use axum::http::header;
 use axum::response::IntoResponse;
 
 use crate::http::extract::Name;
 use crate::http::problem::{ProblemResponse, ProblemType, RouteError};
+use crate::http::routes::operation::serve_pages::{HTML, headers};
 
 /// `Content-Security-Policy` of the page: it loads its style sheet only.
 const CONTENT_POLICY: &str = "default-src 'none'; style-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
@@ -35,13 +35,7 @@ impl RouteError for NoTypeError {
 pub(crate) async fn explain(Name(name): Name) -> Result<impl IntoResponse, ProblemResponse> {
     let found = ProblemType::ALL.iter().find(|known| known.name == name);
     let page = page(found.ok_or(NoTypeError)?)?;
-    let headers = [
-        (header::CONTENT_TYPE, "text/html; charset=utf-8"),
-        (header::CONTENT_SECURITY_POLICY, CONTENT_POLICY),
-        // The pages change with the binary.
-        (header::CACHE_CONTROL, "no-cache"),
-    ];
-    Ok((headers, page))
+    Ok((headers(HTML, CONTENT_POLICY), page))
 }
 
 fn page(problem: &ProblemType) -> Result<String, std::fmt::Error> {

@@ -8,7 +8,7 @@ use axum::response::{IntoResponse, Response};
 use crate::http::extract::Name;
 use crate::http::problem::{ProblemResponse, ProblemType, RouteError};
 
-const HTML: &str = "text/html; charset=utf-8";
+pub(super) const HTML: &str = "text/html; charset=utf-8";
 const SCRIPT: &str = "text/javascript; charset=utf-8";
 const STYLE: &str = "text/css; charset=utf-8";
 /// `Content-Security-Policy` of a page: it loads and requests only from this service.
@@ -42,17 +42,17 @@ impl RouteError for NoAssetError {
     const TYPE: ProblemType = ProblemType::NO_SUCH_PATH;
 }
 
-fn page(
+/// Headers of a page or asset.
+pub(super) fn headers(
     media_type: &'static str,
-    content: &'static str,
-) -> ([(HeaderName, &'static str); 3], &'static str) {
-    let headers = [
+    content_policy: &'static str,
+) -> [(HeaderName, &'static str); 3] {
+    [
         (header::CONTENT_TYPE, media_type),
-        (header::CONTENT_SECURITY_POLICY, CONTENT_POLICY),
+        (header::CONTENT_SECURITY_POLICY, content_policy),
         // The pages change with the binary.
         (header::CACHE_CONTROL, "no-cache"),
-    ];
-    (headers, content)
+    ]
 }
 
 /// Dashboard: the newest jobs and their progress.
@@ -63,7 +63,7 @@ fn page(
     responses((status = 200, description = "The page", content_type = "text/html", body = String))
 )]
 pub(crate) async fn dashboard() -> impl IntoResponse {
-    page(HTML, dashboard!("dashboard.html"))
+    (headers(HTML, CONTENT_POLICY), dashboard!("dashboard.html"))
 }
 
 /// Documentation of this interface.
@@ -74,7 +74,7 @@ pub(crate) async fn dashboard() -> impl IntoResponse {
     responses((status = 200, description = "The page", content_type = "text/html", body = String))
 )]
 pub(crate) async fn docs() -> impl IntoResponse {
-    page(HTML, dashboard!("docs.html"))
+    (headers(HTML, CONTENT_POLICY), dashboard!("docs.html"))
 }
 
 /// A script or style sheet of the pages.
@@ -94,7 +94,7 @@ pub(crate) async fn docs() -> impl IntoResponse {
 pub(crate) async fn asset(Name(name): Name) -> Result<Response, ProblemResponse> {
     let found = ASSETS.iter().find(|(known, _, _)| *known == name);
     let (_, media_type, content) = found.ok_or(NoAssetError)?;
-    Ok(page(media_type, content).into_response())
+    Ok((headers(media_type, CONTENT_POLICY), *content).into_response())
 }
 
 #[cfg(test)]
