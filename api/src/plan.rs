@@ -2,18 +2,82 @@
 
 use std::collections::BTreeMap;
 
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Deserializer, Serialize};
 use utoipa::ToSchema;
 
+use crate::enum_value::string_enum;
 use crate::spec::Spec;
 
-/// Whether an effect is simulated, with the reason.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
+string_enum! {
+    /// A decision about an effect.
+    Decision {
+        /// The scene calls for it.
+        Simulated = "simulated",
+        /// The scene does not call for it, or has nothing to simulate.
+        Skipped = "skipped",
+        /// Simulated because it is switched on.
+        ForcedOn = "forced_on",
+        /// Left out because it is switched off.
+        ForcedOff = "forced_off",
+    }
+}
+
+/// The decision about an effect, with the numbers that it was made by.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct PlannedEffect {
-    /// Whether it is simulated.
-    pub simulated: bool,
+    /// Name of the effect.
+    pub effect: String,
+    /// The decision.
+    pub decision: Decision,
+    /// What the value is, in words and symbols.
+    #[serde(default)]
+    pub indicator: String,
+    /// How much the effect changes the outputs, relative: the larger value of the unworn contact and of the estimated end.
+    /// Absent where there is nothing to simulate or the change has no bound.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub value: Option<f64>,
+    /// Largest value of an effect that is skipped. Absent where there is nothing to simulate.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub threshold: Option<f64>,
+    /// Outputs that the effect changes.
+    #[serde(default)]
+    pub changes: Vec<String>,
     /// Reason, in words.
     pub reason: String,
+}
+
+/// Reads effects as a list, or as the map by name that plans were stored with.
+fn effects<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<PlannedEffect>, D::Error> {
+    #[derive(Deserialize)]
+    struct Stored {
+        simulated: bool,
+        reason: String,
+    }
+    #[derive(Deserialize)]
+    #[serde(untagged)]
+    enum Effects {
+        List(Vec<PlannedEffect>),
+        Map(BTreeMap<String, Stored>),
+    }
+    Ok(match Effects::deserialize(deserializer)? {
+        Effects::List(effects) => effects,
+        Effects::Map(effects) => effects
+            .into_iter()
+            .map(|(effect, stored)| PlannedEffect {
+                effect,
+                decision: if stored.simulated {
+                    Decision::Simulated
+                } else {
+                    Decision::Skipped
+                },
+                indicator: String::new(),
+                value: None,
+                threshold: None,
+                changes: Vec::new(),
+                reason: stored.reason,
+            })
+            .collect(),
+    })
 }
 
 /// A warning about a value.
@@ -30,8 +94,9 @@ pub struct Warning {
 /// A plan: simulated effects with reasons, and estimates.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct Plan {
-    /// Effects by name.
-    pub effects: BTreeMap<String, PlannedEffect>,
+    /// The decision about each effect.
+    #[serde(deserialize_with = "effects")]
+    pub effects: Vec<PlannedEffect>,
     /// Values by name with unit: closed-form results for the unworn contact, and estimates of the solve: unknowns,
     /// memory, output, computed cycles, increments, and processor seconds (`cpu_s`), which are absent until the machine
     /// is calibrated and if that fails.
@@ -69,4 +134,35 @@ pub struct MachineFigures {
     pub condensation_dof_s: f64,
     /// Processor seconds of a condensation per (number of surface nodes)^3.
     pub condensation_surface_s: f64,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn plans_of_earlier_versions_have_a_map_of_effects() {
+        let stored = r#"{"effects":{"friction":{"simulated":true,"reason":"a"},
+            "slider_wear":{"simulated":false,"reason":"b"}},"estimates":{}}"#;
+        let plan: Plan = serde_json::from_str(stored).expect("it is a plan");
+        let decisions = plan.effects.iter();
+        let decisions: Vec<_> = decisions
+            .map(|effect| {
+                (
+                    effect.effect.as_str(),
+                    effect.decision,
+                    effect.reason.as_str(),
+                )
+            })
+            .collect();
+        assert_eq!(
+            decisions,
+            [
+                ("friction", Decision::Simulated, "a"),
+                ("slider_wear", Decision::Skipped, "b")
+            ]
+        );
+        let again = serde_json::to_string(&plan).expect("it is written");
+        assert_eq!(serde_json::from_str::<Plan>(&again).expect("a plan"), plan);
+    }
 }

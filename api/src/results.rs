@@ -11,5 +11,6 @@ pub use snapshot::{
     Loop, Pressure, PressurePosition, Profile, SideProfile, SlidePosition, Snapshot,
 };
 pub use summary::{
-    AccuracyReached, Checks, Cost, EstimatedError, EstimatedErrors, Initial, SideSummary, Summary,
+    AccuracyReached, Checks, Cost, EffectCalledFor, EstimatedError, EstimatedErrors, Initial,
+    SideSummary, Summary,
 };

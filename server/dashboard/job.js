@@ -48,7 +48,24 @@ function format_errors({ errors, estimated_relative_error }) {
   return names.map(([name, field]) => `${name} ${percent(errors[field].relative)}`).join(", ");
 }
 
-function render_summary({ receptacle, slider, peak_pressure_mpa, initial, accuracy, cost, cycles_done, warnings }) {
+/** Names of effects by whether they were simulated. */
+function effect_names(effects, is_simulated) {
+  const on = ["simulated", "forced_on"];
+  const names = Object.keys(effects ?? {}).filter((name) => on.includes(effects[name]) === is_simulated);
+  return names.join(", ").replaceAll("_", " ");
+}
+
+/** The plan's decision about each effect, with the numbers that it was made by. */
+function render_plan({ effects }) {
+  const percent = (value) => (value == null ? "" : `${format_number(value, 100)} %`);
+  const row = ({ effect, decision, value, threshold, indicator, reason }) =>
+    element("tr", { title: indicator },
+      ...[effect.replaceAll("_", " "), decision.replaceAll("_", " "), percent(value), percent(threshold), reason].map((text) => element("td", {}, text)));
+  const head = element("tr", {}, ...["effect", "decision", "change of the outputs", "limit", "reason"].map((text) => element("th", {}, text)));
+  return element("details", {}, element("summary", {}, "effects: what is simulated and why"), element("table", {}, head, ...effects.map(row)));
+}
+
+function render_summary({ receptacle, slider, peak_pressure_mpa, initial, accuracy, cost, cycles_done, effects, warnings }) {
   const sides = (field, scale, unit) => `${format_number(receptacle[field], scale)} / ${format_number(slider[field], scale)} ${unit}`;
   return definition_list([
     ["cycles", `${cycles_done}, ${accuracy.computed_cycles} of them computed`],
@@ -58,6 +75,8 @@ function render_summary({ receptacle, slider, peak_pressure_mpa, initial, accura
     ["peak pressure, unworn / worn", `${format_number(initial.peak_pressure_mpa)} / ${format_number(peak_pressure_mpa)} MPa`],
     ["estimated error", format_errors(accuracy)],
     ["warnings", (warnings ?? []).join("; ")],
+    ["simulated", effect_names(effects, true)],
+    ["left out", effect_names(effects, false)],
     ["computing time", format_duration(cost.wall_s)],
   ]);
 }
@@ -109,6 +128,7 @@ export async function show(job) {
     element("h2", {}, job.spec.name ?? job.spec.system.kind), element("p", { class: "mono muted" }, job.id),
     element("div", { id: "status" }, render_status(job)), ...(job.summary ? [render_summary(job.summary)] : []),
     element("div", { id: "wear" }, await wear_chart(job)), ...(job.finished_at ? await render_files(job) : []),
+    ...(job.plan ? [render_plan(job.plan)] : []),
     element("details", {}, element("summary", {}, "resolved specification and plan"),
       element("div", {}, element("pre", {}, JSON.stringify({ spec: job.spec, plan: job.plan }, null, 2)))),
   ];

@@ -60,6 +60,9 @@ enum Command {
     Plan {
         /// The specification, JSON.
         spec: PathBuf,
+        /// Write the document as JSON instead of tables.
+        #[arg(long)]
+        json: bool,
     },
     /// Solve one specification at many accuracies, and show the cost and error of each.
     Study {
@@ -162,7 +165,7 @@ pub fn main() -> ExitCode {
     let ended = match command {
         Command::Serve(serve) => serve::run(serve),
         Command::Solve { spec, out } => solve::run(&spec, out.as_deref()),
-        Command::Plan { spec } => plan::run(&spec),
+        Command::Plan { spec, json } => plan::run(&spec, json),
         Command::Study {
             spec,
             out,

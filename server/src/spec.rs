@@ -9,6 +9,7 @@ mod cause;
 mod diagnostics;
 mod effects;
 mod law;
+mod law_range;
 mod load;
 mod materials;
 mod motion;
@@ -114,7 +115,9 @@ pub fn resolve(spec: &Spec) -> Result<Resolved, Vec<Fault>> {
             return Err(diagnostics.into_faults());
         }
     };
-    let warnings = diagnostics.warnings().to_vec();
+    let mut warnings = diagnostics.warnings().to_vec();
+    warnings.extend(law_range::warnings(&filled, &scene));
+    warnings.extend(effects::warnings(&scene));
     filled.provenance = diagnostics.finish()?;
     Ok(Resolved {
         spec: filled,
@@ -157,7 +160,7 @@ fn fill(spec: &Spec, kind: SystemKind, diagnostics: &mut Diagnostics) -> (Spec, 
     let (accuracy, numerical) = accuracy::resolve(&spec.accuracy, &shapes, cycles, diagnostics);
     let (output, recorded) = output::resolve(&spec.output, &motion, &shapes, cycles, diagnostics);
     let stop = output::stop(&spec.stop, diagnostics);
-    effects::resolve(&spec.effects, diagnostics);
+    let effects = effects::resolve(&spec.effects, diagnostics);
     let filled = Spec {
         system,
         materials,
@@ -190,6 +193,7 @@ fn fill(spec: &Spec, kind: SystemKind, diagnostics: &mut Diagnostics) -> (Spec, 
         accuracy: numerical,
         output: recorded,
         stop,
+        effects,
     };
     (filled, scene)
 }

@@ -243,7 +243,7 @@ fn print_errors(name: &str, value: f64, found: &(Summary, Recorder), exact: &(Su
         ),
         resolution.contact_elements,
         resolution.computed_cycles,
-        resolution.increments,
+        resolution.work.increments,
     );
 }
 
@@ -283,7 +283,7 @@ fn print_forecasts(variation: &Variation, name: &str) -> Result<(), SolveError> 
         let forecast = solver::forecast::forecast(&scene, &layout);
         let (cycles, increments) = (
             solved.resolution.computed_cycles,
-            solved.resolution.increments,
+            solved.resolution.work.increments,
         );
         println!(
             "{name:>20} {value:>7} {:>8.2} {:>10.2}",

@@ -14,15 +14,9 @@ use crate::sides::{Side, Sides};
 pub use spines::Spines;
 pub(crate) use spines::WORN_THROUGH_SHARE;
 
-/// The stiffness is rebuilt when a spine has lost this part of its length since it was last built.
-pub(crate) fn drift_share(accuracy: &Accuracy) -> f64 {
-    let (least, most) = accuracy.tuning.drift_bounds;
-    (accuracy.tuning.drift.at(accuracy.tolerance) / accuracy.refinement.mesh).clamp(least, most)
-}
-
 /// Whether the geometry has changed enough since the operators were built to rebuild them; worn depths in mm.
 pub fn has_drifted(model: &Model, depth: &Sides<Vec<f64>>, accuracy: &Accuracy) -> bool {
-    let share = drift_share(accuracy);
+    let share = accuracy.drift_share();
     let drifted = |side: &Side| drift(model.bodies.of(*side), depth.of(*side), *side) > share;
     Side::BOTH.iter().any(drifted)
 }

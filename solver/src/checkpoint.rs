@@ -8,6 +8,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::ale;
 use crate::cycle::CycleState;
+use crate::effects::Crossing;
 use crate::mesh::MeshError;
 use crate::model::Model;
 use crate::record::{Compared, Initial, Summary};
@@ -23,6 +24,8 @@ pub struct Checkpoint {
     pub(crate) relocations: u64,
     /// Factor by which zones of fine elements are wider than the scene's.
     pub(crate) widened: f64,
+    /// Skipped effects that the run has called for.
+    pub(crate) crossings: Vec<Crossing>,
     /// Histories that the run's error is estimated by.
     pub(crate) compared: Compared,
     /// What error control knows from the runs of this scene before this one.
@@ -105,6 +108,12 @@ impl Checkpoint {
             Some(depth) => ale::relocate(earlier, depth)?,
         };
         model.with_zones_widened(self.widened)
+    }
+
+    /// Goes back to an earlier state for effects that were skipped.
+    pub(crate) fn go_back(&mut self, to: CycleState, called_for: Vec<Crossing>) {
+        self.state = to;
+        self.crossings.extend(called_for);
     }
 
     /// Records that zones must be wider.

@@ -4,5 +4,5 @@ pub mod line;
 
 pub use line::{
     ContactError, ContactState, Displacement, GAP_TOLERANCE, Increment, MOST_ITERATIONS, Pair,
-    Solver, Status, Surfaces, WarmStart, slopes,
+    Solver, Status, Surfaces, WarmStart, Work, slopes,
 };

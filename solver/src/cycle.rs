@@ -25,7 +25,7 @@ mod wear_limit;
 use crate::ale::Spines;
 use crate::condensation::Operators;
 use crate::contact::{self, ContactError, ContactState, Displacement, Pair, Solver, Surfaces};
-use crate::model::Model;
+use crate::model::{Interface, Model, Tangential};
 use crate::number::{cycles_at_least, real, real_cycles};
 use crate::scene::Scene;
 use crate::schedule::increments::{self, Position};
@@ -106,7 +106,16 @@ impl<'a> Integrator<'a> {
     /// that is locked in depends on the path of the load, because a node that slipped at the edge sticks once the edge
     /// has moved on (Spence 1975).
     fn increase_load(&mut self, state: &mut CycleState) -> Result<(), ContactError> {
-        let full = self.pair.interface.load;
+        let Interface {
+            load: full,
+            tangential,
+            friction,
+            ..
+        } = self.pair.interface;
+        // Nothing is imposed that could slip: between unlike bodies friction holds the contact together.
+        if friction > 0.0 {
+            self.pair.interface.tangential = Tangential::StickSlip;
+        }
         // Gross slip erases the locked-in shear.
         let steps = if self.pair.interface.sticks {
             self.scene.accuracy.load_steps()
@@ -122,6 +131,7 @@ impl<'a> Integrator<'a> {
             }
         }
         self.pair.interface.load = full;
+        self.pair.interface.tangential = tangential;
         loaded
     }
 
@@ -252,7 +262,7 @@ impl<'a> Integrator<'a> {
             }
         }
         state.energy += to.cycles * done.energy;
-        state.increments += 1;
+        state.work += done.work;
         let checks = &mut state.checks;
         checks.force_balance = checks.force_balance.max(done.force_balance);
         checks.complementarity = checks.complementarity.max(done.complementarity);
@@ -285,7 +295,9 @@ impl<'a> Integrator<'a> {
         (replays, is_reported): (&mut Replays, bool),
     ) {
         let contact = &state.contact;
-        let point = (contact.slider_x, contact.tangential_force());
+        let widths = &self.pair.slave().widths;
+        let force = contact.tangential_force(&self.pair.interface, widths);
+        let point = (contact.slider_x, force);
         record.friction_loop.extend(&[point]);
         let Some(position) = at else { return };
         let replayed = replays.take(position);

@@ -1,9 +1,29 @@
-//! Effects plan: only the effects that a scene calls for are simulated.
+//! Effects plan: decides by numbers which effects a scene calls for. Only those are simulated.
+//!
+//! An indicator estimates how much an effect changes the outputs, relative. It is taken for the unworn contact and at the
+//! estimated end, and again after every computed cycle. An effect is skipped if its indicator is at most a fifth of the
+//! tolerance and those of all skipped effects add up to at most half of it; otherwise the largest is simulated too.
 
-use crate::law::elastic::contact_modulus;
-use crate::law::friction;
-use crate::model::resolution;
-use crate::scene::{Friction, Scene};
+mod choice;
+mod decision;
+mod effect;
+mod indicators;
+mod reason;
+pub mod small_strain;
+mod switches;
+mod worn_depth;
+
+pub use decision::{Decision, Indicator, Verdict};
+pub use effect::Effect;
+pub use switches::Switches;
+
+use crate::scene::Scene;
+use crate::sides::Sides;
+use indicators::Indicators;
+use serde::{Deserialize, Serialize};
+
+/// Largest sum of the indicators of skipped effects over the tolerance: the rest is for mesh, increments and jumps.
+const BUDGET: f64 = 0.5;
 
 /// Decisions about all effects.
 #[derive(Debug, Clone, PartialEq)]
@@ -12,183 +32,184 @@ pub struct EffectsPlan {
     pub decisions: Vec<Decision>,
 }
 
+/// A skipped effect that a run has called for.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Crossing {
+    /// The effect.
+    pub effect: Effect,
+    /// Physical cycles done before it was switched on.
+    pub cycle: u64,
+    /// Its indicator after the next computed cycle without it; `None` where that has no solution.
+    pub value: Option<f64>,
+}
+
+/// Decides which effects a scene calls for.
+pub fn plan(scene: &Scene) -> EffectsPlan {
+    let indicators = Indicators::of(scene);
+    let mut called_for = Vec::new();
+    loop {
+        let decisions = choice::decide(scene, &indicators, &called_for);
+        match beyond_budget(&decisions, scene.accuracy.tolerance) {
+            Some(effect) => called_for.push(effect),
+            None => return EffectsPlan { decisions },
+        }
+    }
+}
+
+/// The skipped effect with the largest indicator if those of all skipped ones exceed their budget.
+fn beyond_budget(decisions: &[Decision], tolerance: f64) -> Option<Effect> {
+    largest_beyond(counted(decisions), BUDGET * tolerance)
+}
+
+/// Skipped effects that count, with their indicators.
+fn counted(decisions: &[Decision]) -> impl Iterator<Item = (Effect, f64)> {
+    decisions.iter().filter_map(|decision| {
+        let indicator = decision.indicator?;
+        let counts = decision.verdict == Verdict::Skipped && decision.effect.is_counted();
+        counts.then_some((decision.effect, indicator.value()))
+    })
+}
+
+/// The effect with the largest value if all of them add up to more than a limit.
+fn largest_beyond(values: impl Iterator<Item = (Effect, f64)>, limit: f64) -> Option<Effect> {
+    let (mut sum, mut largest) = (0.0, None);
+    for (effect, value) in values {
+        sum += value;
+        if largest.is_none_or(|(_, most)| value > most) {
+            largest = Some((effect, value));
+        }
+    }
+    largest.filter(|_| sum > limit).map(|(effect, _)| effect)
+}
+
 impl EffectsPlan {
     /// Whether an effect is simulated.
     pub fn simulates(&self, effect: Effect) -> bool {
         let mut decisions = self.decisions.iter();
-        decisions.any(|decision| decision.effect == effect && decision.simulated)
+        decisions.any(|decision| decision.effect == effect && decision.verdict.is_on())
     }
-}
 
-/// Decision about one effect.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Decision {
-    /// The effect.
-    pub effect: Effect,
-    /// Whether it is simulated.
-    pub simulated: bool,
-    /// Reason, with the numbers that decided.
-    pub reason: String,
-}
-
-/// Effects that can be simulated.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Effect {
-    /// Elastic deformation of both bodies.
-    Elasticity,
-    /// Shear traction at the contact.
-    Friction,
-    /// Wear of the receptacle.
-    ReceptacleWear,
-    /// Wear of the slider.
-    SliderWear,
-    /// Moving mesh and rebuilt stiffness.
-    Relocation,
-    /// Finite strains and rotations of the bodies; never simulated: a scene that calls for it is refused.
-    GeometricNonlinearity,
-}
-
-/// Largest accepted error of small-strain elasticity, relative to peak pressure and half-width.
-pub const SMALL_STRAIN_LIMIT: f64 = 0.01;
-
-impl Effect {
-    /// Stable name.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Elasticity => "elasticity",
-            Self::Friction => "friction",
-            Self::ReceptacleWear => "receptacle_wear",
-            Self::SliderWear => "slider_wear",
-            Self::Relocation => "relocation",
-            Self::GeometricNonlinearity => "geometric_nonlinearity",
-        }
-    }
-}
-
-/// Decides which effects a scene calls for. Where relocation is planned, each computed cycle checks whether the
-/// geometry has drifted enough for it.
-pub fn plan(scene: &Scene) -> EffectsPlan {
-    let sizes = resolution::choose(scene);
-    let modulus = contact_modulus(scene.slider.elastic, scene.receptacle.elastic);
-    let elasticity = Decision {
-        effect: Effect::Elasticity,
-        simulated: true,
-        reason: format!(
-            "contact modulus {modulus:.0} MPa, unworn Hertz half-width {:.3e} mm",
-            sizes.hertz_half_width
-        ),
-    };
-    let friction = match scene.friction {
-        Friction::Coulomb { coefficient } if coefficient > 0.0 => {
-            (true, format!("Coulomb friction {coefficient}"))
-        }
-        _ => (
-            false,
-            "no friction in the scene: the shear unknowns are left out".to_owned(),
-        ),
-    };
-    let rates = resolution::wear_rates(scene, sizes.hertz_half_width);
-    let wear = |effect, k: f64, side: &str| {
-        let (simulated, reason) = if k <= 0.0 {
-            (false, format!("the {side} has no wear law"))
-        } else if scene.motion.distance_per_cycle_mm() <= 0.0 {
-            (false, "nothing slides: the amplitude is 0".to_owned())
-        } else {
-            (true, format!("Archard, k/H = {k:.4e} per MPa"))
-        };
-        Decision {
-            effect,
-            simulated,
-            reason,
-        }
-    };
-    let receptacle = wear(Effect::ReceptacleWear, rates.receptacle, "receptacle");
-    let slider = wear(Effect::SliderWear, rates.slider, "slider");
-    let wears = receptacle.simulated || slider.simulated;
-    let relocation = Decision {
-        effect: Effect::Relocation,
-        simulated: wears,
-        reason: if wears {
-            "the mesh follows the worn surface once it has drifted".to_owned()
-        } else {
-            "nothing wears, so nothing moves the mesh".to_owned()
-        },
-    };
-    let friction = Decision {
-        effect: Effect::Friction,
-        simulated: friction.0,
-        reason: friction.1,
-    };
-    let cost = small_strain_cost(scene);
-    let finite = Decision {
-        effect: Effect::GeometricNonlinearity,
-        simulated: false,
-        reason: format!(
-            "strains and rotations are taken as small, which costs {:.2} % of the peak pressure (limit {:.0} %)",
-            100.0 * cost,
-            100.0 * SMALL_STRAIN_LIMIT
-        ),
-    };
-    EffectsPlan {
-        decisions: vec![elasticity, friction, receptacle, slider, relocation, finite],
-    }
-}
-
-/// Relative error of small-strain elasticity in peak pressure and half-width of the unworn contact:
-///   1/2 (p0/E*) (1 + 0.16 mu^2),  p0 = E* a/(2 R).
-/// Measured, not derived: the surface of a block under Hertz' pressure and sliding friction with and without geometric
-/// non-linearity (CalculiX 2.20, p0/E* from 0.3 to 3 %, mu from 0 to 1.21) changes its curvature by twice this, and
-/// the peak goes with the square root of the curvature; two bodies in contact without friction changed their peak by
-/// 0.17 % at p0/E* = 0.3 % and by 0.55 % at 1 %. Wear only ever widens the contact and lowers this.
-pub fn small_strain_cost(scene: &Scene) -> f64 {
-    let strain = 0.5 * resolution::choose(scene).hertz_half_width / resolution::radius(scene);
-    let friction = friction::coefficient(scene.friction);
-    0.5 * strain * (1.0 + 0.16 * friction * friction)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::model::tests::fuzz_button;
-    use crate::scene::Motion;
-
-    fn simulated(scene: &Scene) -> Vec<&'static str> {
-        let plan = plan(scene);
-        plan.decisions
-            .iter()
-            .filter(|d| d.simulated)
-            .map(|d| d.effect.name())
+    /// The decisions without their numbers.
+    pub fn verdicts(&self) -> Vec<(Effect, Verdict)> {
+        let decisions = self.decisions.iter();
+        decisions
+            .map(|decision| (decision.effect, decision.verdict))
             .collect()
     }
 
-    #[test]
-    fn only_what_the_scene_calls_for_is_simulated() {
-        let mut scene = fuzz_button();
-        assert_eq!(
-            simulated(&scene),
-            ["elasticity", "friction", "receptacle_wear", "relocation"]
-        );
-        scene.friction = Friction::Frictionless;
-        scene.receptacle.wear = None;
-        assert_eq!(simulated(&scene), ["elasticity"]);
+    /// Relative change of the outputs by all skipped effects.
+    pub fn skipped_change(&self) -> f64 {
+        counted(&self.decisions).fold(0.0, |sum, (_, value)| sum + value)
     }
 
-    /// The fuzz button: p0/E* = a/(2 R) = 0.51 um / 50.8 um = 1 % and mu = 1.21.
-    #[test]
-    fn small_strains_cost_half_the_strain_and_something_for_friction() {
-        let mut scene = fuzz_button();
-        assert!((small_strain_cost(&scene) - 0.0062).abs() < 2e-4);
-        scene.load_n_per_mm *= 4.0;
-        assert!((small_strain_cost(&scene) - 0.0124).abs() < 4e-4);
+    /// The plan with the effects that a run has called for.
+    #[must_use]
+    pub fn after(&self, crossings: &[Crossing]) -> Self {
+        let mut plan = self.clone();
+        for crossing in crossings {
+            for decision in &mut plan.decisions {
+                if decision.effect == crossing.effect && decision.verdict == Verdict::Skipped {
+                    decision.verdict = Verdict::Simulated;
+                    decision.reason = reason::called_for(crossing.cycle, crossing.value);
+                }
+            }
+        }
+        plan
     }
 
-    #[test]
-    fn nothing_wears_where_nothing_slides() {
-        let mut scene = fuzz_button();
-        scene.motion = Motion::Reciprocating {
-            amplitude_mm: 0.0,
-            period_s: 1.0,
+    /// The skipped effects that the largest worn depths after so many physical cycles call for, mm; a run goes back to the
+    /// cycle before.
+    pub fn crossed(
+        &self,
+        scene: &Scene,
+        (back_to, cycle): (u64, u64),
+        depth: Sides<f64>,
+    ) -> Vec<Crossing> {
+        let indicators = Indicators::of(scene);
+        let depth = self.with_skipped_wear(depth, indicators.worn_depth_after(cycle));
+        let skipped = self.decisions.iter().filter_map(|decision| {
+            let indicator = decision.indicator?;
+            let value = indicators.value(decision.effect, depth);
+            (decision.verdict == Verdict::Skipped).then_some((decision.effect, value, indicator))
+        });
+        let alone = skipped
+            .clone()
+            .find(|(effect, value, indicator)| {
+                *value > indicator.threshold && effect.is_available()
+            })
+            .map(|(effect, ..)| effect);
+        let counted = skipped
+            .clone()
+            .filter(|(effect, ..)| effect.is_counted())
+            .map(|(effect, value, _)| (effect, value));
+        let effect = alone.or_else(|| largest_beyond(counted, BUDGET * scene.accuracy.tolerance));
+        effect.map_or_else(Vec::new, |effect| {
+            self.called_for(effect, back_to, |effect| {
+                Some(indicators.value(effect, depth))
+            })
+        })
+    }
+
+    /// Depths with those that skipped sides would have.
+    fn with_skipped_wear(&self, depth: Sides<f64>, estimated: Sides<f64>) -> Sides<f64> {
+        let of = |effect, depth: f64, estimated: f64| {
+            if self.simulates(effect) {
+                depth
+            } else {
+                estimated
+            }
         };
-        assert_eq!(simulated(&scene), ["elasticity", "friction"]);
+        Sides {
+            slider: of(Effect::SliderWear, depth.slider, estimated.slider),
+            receptacle: of(
+                Effect::ReceptacleWear,
+                depth.receptacle,
+                estimated.receptacle,
+            ),
+        }
+    }
+
+    /// An effect that a run has called for. Where friction acts on the bodies, nodes may stick unless that is switched off.
+    fn called_for(
+        &self,
+        effect: Effect,
+        cycle: u64,
+        value: impl Fn(Effect) -> Option<f64>,
+    ) -> Vec<Crossing> {
+        let with = match effect {
+            Effect::Friction => Some(Effect::StickMemory),
+            _ => None,
+        };
+        let is_skipped = |effect: &Effect| {
+            let mut decisions = self.decisions.iter();
+            decisions.any(|d| d.effect == *effect && d.verdict == Verdict::Skipped)
+        };
+        [effect]
+            .into_iter()
+            .chain(with.filter(is_skipped))
+            .map(|effect| Crossing {
+                effect,
+                cycle,
+                value: value(effect),
+            })
+            .collect()
+    }
+
+    /// The skipped effects that a contact without a solution calls for, after so many physical cycles: one that jams where
+    /// every node has to slip may stick.
+    pub fn called_for_by_failure(&self, cycle: u64) -> Vec<Crossing> {
+        let skipped = |effect: &Effect| {
+            self.decisions.iter().any(|decision| {
+                decision.effect == *effect
+                    && decision.verdict == Verdict::Skipped
+                    && decision.indicator.is_some()
+            })
+        };
+        let mut effects = [Effect::Friction, Effect::StickMemory].into_iter();
+        let effect = effects.find(skipped);
+        effect.map_or_else(Vec::new, |effect| self.called_for(effect, cycle, |_| None))
     }
 }
+
+#[cfg(test)]
+mod tests;

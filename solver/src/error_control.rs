@@ -18,6 +18,7 @@ pub use companions::companion_scenes;
 
 use crate::SolveError;
 use crate::checkpoint::{Checkpoint, Earlier, Finished};
+use crate::effects::{self, EffectsPlan};
 use crate::observer::{Event, Observer, Phase};
 use crate::record::{Compared, Errors, Outcome, Quantity, Summary};
 use crate::run;
@@ -52,6 +53,7 @@ fn control(
 ) -> Result<Summary, SolveError> {
     let mut runs = Runs {
         scene,
+        plan: effects::plan(scene),
         earlier: from
             .as_ref()
             .map_or_else(Earlier::default, |from| from.earlier.clone()),
@@ -83,6 +85,8 @@ const NEXT: Stage = Ok(ControlFlow::Continue(()));
 /// The runs of a scene.
 struct Runs<'a> {
     scene: &'a Scene,
+    /// The plan of the scene, which all runs follow.
+    plan: EffectsPlan,
     /// The checkpoint that the next run resumes from.
     from: Option<Checkpoint>,
     /// The run with the settings of the tolerance, its companions, and `None` for a finer run without a solution.
@@ -119,7 +123,8 @@ impl Runs<'_> {
             let observer = &mut companions::Quiet {
                 observer: self.observer,
             };
-            let done = one_run(&companion, self.from.take(), &self.earlier, observer);
+            let from = self.from.take();
+            let done = one_run((&companion, &self.plan), from, &self.earlier, observer);
             let compared = match done {
                 Ok(done) if done.outcome == Outcome::Stopped => {
                     return Ok(ControlFlow::Break(done));
@@ -192,7 +197,8 @@ impl Runs<'_> {
     }
 
     fn solve(&mut self, scene: &Scene) -> Result<Summary, SolveError> {
-        one_run(scene, self.from.take(), &self.earlier, self.observer)
+        let from = self.from.take();
+        one_run((scene, &self.plan), from, &self.earlier, self.observer)
     }
 
     fn first_errors(&self) -> Option<Errors> {
@@ -207,14 +213,14 @@ impl Runs<'_> {
 
 /// One of the runs of a scene, from its checkpoint if there is one.
 fn one_run(
-    scene: &Scene,
+    (scene, plan): (&Scene, &EffectsPlan),
     from: Option<Checkpoint>,
     earlier: &Earlier,
     observer: &mut dyn Observer,
 ) -> Result<Summary, SolveError> {
     match from {
-        Some(from) => run::resume(scene, from, observer),
-        None => run::begin(scene, earlier.clone(), observer),
+        Some(from) => run::proceed(scene, plan, from, observer),
+        None => run::begin(scene, plan, earlier.clone(), observer),
     }
 }
 

@@ -70,11 +70,25 @@ pub enum Support {
     GuidedUnderPressure,
 }
 
+/// How the shear traction and the slip of a contact are found.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Tangential {
+    /// Every node slips as the slider is displaced, and the contact is solved without shear: |q| = mu p, known afterwards,
+    /// deforms nothing.
+    Omitted,
+    /// Every node slips as the slider is displaced, and q = mu p acts on both bodies.
+    ImposedSlip,
+    /// Each node sticks or slips, and the tangential deformation of both bodies is part of the slip.
+    StickSlip,
+}
+
 /// Laws and load between the bodies.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Interface {
     /// Coefficient of friction, -.
     pub friction: f64,
+    /// How the shear traction and the slip are found.
+    pub tangential: Tangential,
     /// The body whose nodes carry the contact constraints, pressure and shear.
     pub slave: Side,
     /// Whether part of the contact may stick through the whole stroke.
@@ -100,23 +114,7 @@ pub fn build(scene: &Scene, plan: &EffectsPlan) -> Result<Model, MeshError> {
         Drive::Handle => Support::FarFaceHeld,
         Drive::WholeBody => Support::GuidedUnderPressure,
     };
-    let wear = |effect, law: Option<WearLaw>| law.filter(|_| plan.simulates(effect));
-    let interface = Interface {
-        slave: layout.sizes.slave,
-        sticks: layout.sizes.sticks,
-        slope_weights: slope_weights(scene, layout.sizes.sticks),
-        friction: if plan.simulates(Effect::Friction) {
-            friction::coefficient(scene.friction)
-        } else {
-            0.0
-        },
-        wear: Sides {
-            slider: wear(Effect::SliderWear, scene.slider.wear),
-            receptacle: wear(Effect::ReceptacleWear, scene.receptacle.wear),
-        },
-        load: scene.load_n_per_mm,
-        spring: scene.spring_n_per_mm2,
-    };
+    let interface = interface(scene, plan, &layout.sizes);
     let Sides { slider, receptacle } = layout.bodies;
     Ok(Model {
         bodies: Sides {
@@ -127,6 +125,35 @@ pub fn build(scene: &Scene, plan: &EffectsPlan) -> Result<Model, MeshError> {
         relocates: plan.simulates(Effect::Relocation),
         sizes: layout.sizes,
     })
+}
+
+/// The interface of a scene with the laws of simulated effects only.
+fn interface(scene: &Scene, plan: &EffectsPlan, sizes: &Sizes) -> Interface {
+    let wear = |effect, law: Option<WearLaw>| law.filter(|_| plan.simulates(effect));
+    let on = |effect| plan.simulates(effect);
+    let tangential = match (on(Effect::Friction), on(Effect::StickMemory)) {
+        (true, true) => Tangential::StickSlip,
+        (true, false) => Tangential::ImposedSlip,
+        (false, _) => Tangential::Omitted,
+    };
+    let sticks = sizes.sticks && tangential == Tangential::StickSlip;
+    Interface {
+        slave: sizes.slave,
+        sticks,
+        slope_weights: slope_weights(scene, sticks),
+        friction: friction::coefficient(scene.friction),
+        tangential,
+        wear: Sides {
+            slider: wear(Effect::SliderWear, scene.slider.wear),
+            receptacle: wear(Effect::ReceptacleWear, scene.receptacle.wear),
+        },
+        load: scene.load_n_per_mm,
+        spring: if on(Effect::SpringFading) {
+            scene.spring_n_per_mm2
+        } else {
+            0.0
+        },
+    }
 }
 
 /// Weights of both surfaces' slopes in that of the interface. Two elastic bodies press the surfaces together, the more
@@ -265,6 +292,12 @@ impl BodyModel {
 }
 
 impl Model {
+    /// Switches the effects of the interface on or off as a plan has decided.
+    pub(crate) fn follow(&mut self, scene: &Scene, plan: &EffectsPlan) {
+        self.interface = interface(scene, plan, &self.sizes);
+        self.relocates = plan.simulates(Effect::Relocation);
+    }
+
     /// The model with zones of another width, over that of the layout.
     ///
     /// # Errors

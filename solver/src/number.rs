@@ -40,3 +40,8 @@ pub(crate) fn cycles_at_least(value: f64) -> u64 {
     }
     value.clamp(1.0, 9_007_199_254_740_992.0).ceil() as u64
 }
+
+/// A count as a number of fixed size.
+pub(crate) fn count(count: usize) -> u64 {
+    u64::try_from(count).unwrap_or(u64::MAX)
+}

@@ -7,7 +7,7 @@ use crate::ale::{self, Spines};
 use crate::checkpoint::{Checkpoint, Earlier};
 use crate::condensation::{self, Condensed};
 use crate::cycle::{CycleRecord, CycleState, Integrator};
-use crate::effects;
+use crate::effects::{self, EffectsPlan};
 use crate::fields;
 use crate::model::{self, Model};
 use crate::observer::{Event, Observer, Phase};
@@ -20,24 +20,42 @@ use crate::schedule::stops::{self, Progress};
 /// # Errors
 /// [`SolveError`]; events delivered before it stay valid.
 pub fn solve(scene: &Scene, observer: &mut dyn Observer) -> Result<Summary, SolveError> {
-    begin(scene, Earlier::default(), observer)
+    begin(scene, &effects::plan(scene), Earlier::default(), observer)
 }
 
-/// Solves a scene after earlier runs of it.
+/// Solves a scene by a plan, after earlier runs of it.
 pub(crate) fn begin(
     scene: &Scene,
+    plan: &EffectsPlan,
     earlier: Earlier,
     observer: &mut dyn Observer,
 ) -> Result<Summary, SolveError> {
     observer.on_phase(Phase::Mesh);
-    let model = model::build(scene, &effects::plan(scene))?;
+    let (mut plan, mut model) = (plan.clone(), model::build(scene, plan)?);
     observer.on_phase(Phase::Condense);
     let condensed = condensation::condense(&model)?;
-    let (mut run, flow) = load(scene, &model, &condensed, observer)?;
-    run.earlier = earlier;
+    let mut crossings = Vec::new();
+    let (mut run, flow) = loop {
+        let error = match load(scene, &model, &condensed, observer) {
+            Ok(loaded) => break loaded,
+            Err(error) => error,
+        };
+        let called_for = plan.called_for_by_failure(0);
+        let Some(first) = called_for.first() else {
+            return Err(error);
+        };
+        let reason = format!("without {}: {error}", first.effect.name());
+        if observer.on(Event::Restart(&reason)).is_break() {
+            return Err(error);
+        }
+        crossings.extend(called_for);
+        plan = plan.after(&crossings);
+        model.follow(scene, &plan);
+    };
+    (run.crossings, run.earlier) = (crossings, earlier);
     match flow {
-        ControlFlow::Continue(()) => advance(scene, model, condensed, run, observer),
-        ControlFlow::Break(()) => Ok(summary(scene, &model, &run, Outcome::Stopped)),
+        ControlFlow::Continue(()) => advance(scene, (plan, model), condensed, run, observer),
+        ControlFlow::Break(()) => Ok(summary(scene, (&plan, &model), &run, Outcome::Stopped)),
     }
 }
 
@@ -51,28 +69,47 @@ pub fn resume(
     run: Checkpoint,
     observer: &mut dyn Observer,
 ) -> Result<Summary, SolveError> {
+    proceed(scene, &effects::plan(scene), run, observer)
+}
+
+/// Solves a scene by a plan from a checkpoint to its end.
+pub(crate) fn proceed(
+    scene: &Scene,
+    plan: &EffectsPlan,
+    run: Checkpoint,
+    observer: &mut dyn Observer,
+) -> Result<Summary, SolveError> {
     observer.on_phase(Phase::Mesh);
-    let unworn = model::build(scene, &effects::plan(scene))?;
+    let plan = plan.after(&run.crossings);
+    let unworn = model::build(scene, &plan)?;
     run.check(&unworn, scene.cycles)?;
     let model = run.model(&unworn)?;
     observer.on_phase(Phase::Condense);
     let condensed = condensation::condense(&model)?;
-    advance(scene, model, condensed, run, observer)
+    advance(scene, (plan, model), condensed, run, observer)
 }
 
 /// Integrates, relocates and condenses until the run ends.
 fn advance(
     scene: &Scene,
-    mut model: Model,
+    (mut plan, mut model): (EffectsPlan, Model),
     mut condensed: Condensed,
     mut run: Checkpoint,
     observer: &mut dyn Observer,
 ) -> Result<Summary, SolveError> {
     loop {
         observer.on_phase(Phase::Cycles);
-        let flow = integrate(scene, &model, &condensed, &mut run, observer)?;
-        if let ControlFlow::Break(outcome) = flow {
-            return Ok(summary(scene, &model, &run, outcome));
+        let flow = integrate(scene, (&plan, &model), &condensed, &mut run, observer)?;
+        match flow {
+            ControlFlow::Break(outcome) => {
+                return Ok(summary(scene, (&plan, &model), &run, outcome));
+            }
+            ControlFlow::Continue(Renewal::Effects) => {
+                plan = plan.after(&run.crossings);
+                model.follow(scene, &plan);
+                continue;
+            }
+            ControlFlow::Continue(Renewal::Stiffness) => {}
         }
         observer.on_phase(Phase::Relocate);
         run.relocated();
@@ -114,37 +151,60 @@ fn load(
         built: None,
         relocations: 0,
         widened: 1.0,
+        crossings: Vec::new(),
         compared,
         earlier: Earlier::default(),
     };
     Ok((run, flow))
 }
 
-/// Computes cycles until the run ends (`Break`), or the geometry has drifted or the contact outgrown its zones
-/// (`Continue`).
+/// What a run needs before its next cycle.
+enum Renewal {
+    /// The stiffness of the bodies: the geometry has drifted, or the contact has outgrown its zones.
+    Stiffness,
+    /// Effects that were skipped.
+    Effects,
+}
+
+/// Computes cycles until the run ends (`Break`), or needs something else before its next cycle (`Continue`).
 fn integrate(
     scene: &Scene,
-    model: &Model,
+    (plan, model): (&EffectsPlan, &Model),
     condensed: &Condensed,
     run: &mut Checkpoint,
     observer: &mut dyn Observer,
-) -> Result<ControlFlow<Outcome>, SolveError> {
-    const STOPPED: ControlFlow<Outcome> = ControlFlow::Break(Outcome::Stopped);
+) -> Result<ControlFlow<Outcome, Renewal>, SolveError> {
+    const STOPPED: ControlFlow<Outcome, Renewal> = ControlFlow::Break(Outcome::Stopped);
     let mut integrator = Integrator::new(scene, model, &condensed.operators);
     let spines = Spines::of(model);
     while run.state.cycle < scene.cycles {
         if model.relocates && ale::has_drifted(model, &run.state.depth, &scene.accuracy) {
-            return Ok(ControlFlow::Continue(()));
+            return Ok(ControlFlow::Continue(Renewal::Stiffness));
         }
+        let before = run.state.clone();
         let state = &mut run.state;
         let until = stops::next(scene, progress(&spines, state));
         let record = match integrator.compute_cycle(state, until) {
             Err(error) if error.needs_wider_zones() => {
                 run.widen();
-                return Ok(ControlFlow::Continue(()));
+                return Ok(ControlFlow::Continue(Renewal::Stiffness));
             }
-            computed => computed?,
+            Err(error) => {
+                let called_for = plan.called_for_by_failure(before.cycle);
+                if called_for.is_empty() {
+                    return Err(error.into());
+                }
+                run.go_back(before, called_for);
+                return Ok(ControlFlow::Continue(Renewal::Effects));
+            }
+            Ok(record) => record,
         };
+        let cycles = (before.cycle, state.cycle);
+        let called_for = plan.crossed(scene, cycles, state.depth.largest_of_each());
+        if !called_for.is_empty() {
+            run.go_back(before, called_for);
+            return Ok(ControlFlow::Continue(Renewal::Effects));
+        }
         let report = record::report(scene, model, state);
         run.compared.push(&report);
         if observer.on(Event::Cycle(&report)).is_break() {
@@ -193,11 +253,18 @@ fn snapshot(
     Ok(record::snapshot(model, state, record, fields))
 }
 
-fn summary(scene: &Scene, model: &Model, run: &Checkpoint, outcome: Outcome) -> Summary {
+fn summary(
+    scene: &Scene,
+    (plan, model): (&EffectsPlan, &Model),
+    run: &Checkpoint,
+    outcome: Outcome,
+) -> Summary {
     let state = &run.state;
     let last = record::report(scene, model, state);
     let mut checks = state.checks;
     checks.worn_area = record::worn_area_residual(state, &last);
+    let mut compared = run.compared.clone();
+    compared.skipped_change = plan.skipped_change();
     Summary {
         outcome,
         initial: run.initial,
@@ -206,7 +273,7 @@ fn summary(scene: &Scene, model: &Model, run: &Checkpoint, outcome: Outcome) -> 
             contact_elements: model.bodies.receptacle.contact_x().len() - 1,
             increments_per_cycle: u32::try_from(state.most_increments).unwrap_or(u32::MAX),
             computed_cycles: state.computed_cycles,
-            increments: state.increments,
+            work: state.work,
             dofs: model.bodies.slider.dofs() + model.bodies.receptacle.dofs(),
             relocations: run.relocations,
             estimated_relative_error: state.jump.mean_error(),
@@ -215,6 +282,11 @@ fn summary(scene: &Scene, model: &Model, run: &Checkpoint, outcome: Outcome) -> 
         checks,
         errors: None,
         warnings: Vec::new(),
-        compared: run.compared.clone(),
+        compared,
+        effects: plan.verdicts(),
+        crossings: run.crossings.clone(),
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -8,6 +8,8 @@ mod tuning;
 
 pub use tuning::{Power, Tuning};
 
+use crate::effects::Switches;
+use crate::law::friction;
 use crate::number::count_at_least;
 
 pub use crate::law::elastic::Elastic;
@@ -40,6 +42,15 @@ pub struct Scene {
     pub output: Output,
     /// Conditions that end the run.
     pub stop: Vec<StopCondition>,
+    /// Effects that are switched on or off.
+    pub effects: Switches,
+}
+
+impl Scene {
+    /// Whether there is friction between the bodies.
+    pub(crate) fn has_friction(&self) -> bool {
+        friction::coefficient(self.friction) > 0.0
+    }
 }
 
 /// A deformable body: shape, elasticity, wear.
@@ -195,6 +206,12 @@ impl Accuracy {
             step
         };
         step.at(self.tolerance)
+    }
+
+    /// The stiffness is rebuilt when a spine has lost this part of its length since it was last built.
+    pub(crate) fn drift_share(&self) -> f64 {
+        let (least, most) = self.tuning.drift_bounds;
+        (self.tuning.drift.at(self.tolerance) / self.refinement.mesh).clamp(least, most)
     }
 
     /// Number of increments in which the load is applied.

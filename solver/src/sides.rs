@@ -127,4 +127,10 @@ impl Sides<Vec<f64>> {
         let values = self.slider.iter().chain(&self.receptacle);
         values.fold(0.0, |m: f64, value| m.max(*value))
     }
+
+    /// Largest value of each side, at least 0.
+    pub fn largest_of_each(&self) -> Sides<f64> {
+        self.as_ref()
+            .map(|values| values.iter().fold(0.0, |m: f64, value| m.max(*value)))
+    }
 }

@@ -12,6 +12,7 @@ mod contact;
 use std::f64::consts::PI;
 
 use fastrand::Rng;
+use solver::effects::Switches;
 use solver::model::Layout;
 use solver::scene::{Accuracy, Body, Drive, Friction, Motion, Output, Scene, WearLaw};
 use solver::sides::Sides;
@@ -232,6 +233,7 @@ fn scene(u: &mut Numbers, regime: Regime, worn: Worn) -> Scene {
             fields: false,
         },
         stop: Vec::new(),
+        effects: Switches::default(),
     }
 }
 

@@ -1,5 +1,6 @@
 //! The scenes of the suite.
 
+use solver::effects::Switches;
 use solver::scene::{
     Accuracy, BlockShape, Body, Drive, Elastic, Friction, Motion, Output, Scene, SliderShape,
     WearLaw,
@@ -55,6 +56,7 @@ pub(crate) fn mccoll() -> Scene {
             fields: false,
         },
         stop: Vec::new(),
+        effects: Switches::default(),
     }
 }
 
@@ -97,6 +99,7 @@ pub(crate) fn fuzz_button() -> Scene {
             fields: false,
         },
         stop: Vec::new(),
+        effects: Switches::default(),
     }
 }
 

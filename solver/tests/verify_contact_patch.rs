@@ -10,7 +10,9 @@
 
 use solver::condensation::condense;
 use solver::contact::{ContactState, Displacement, Pair, Solver, Surfaces};
-use solver::model::{BodyLayout, BodyModel, Interface, Model, Profile, Support, Zone, ZoneSizes};
+use solver::model::{
+    BodyLayout, BodyModel, Interface, Model, Profile, Support, Tangential, Zone, ZoneSizes,
+};
 use solver::scene::Elastic;
 use solver::sides::{Side, Sides};
 
@@ -70,6 +72,11 @@ fn uniform_pressure_passes_through_non_matching_meshes_at_any_position() {
                     receptacle: 0.5,
                 },
                 friction,
+                tangential: if friction > 0.0 {
+                    Tangential::StickSlip
+                } else {
+                    Tangential::Omitted
+                },
                 wear: Sides::default(),
                 load: pressure * 1.0,
                 spring: 0.0,

@@ -12,6 +12,7 @@
 
 use crate::recorder::solve;
 use crate::scenes::mccoll;
+use solver::effects::{Effect, Switches};
 use solver::scene::{Friction, Motion, Scene, WearLaw};
 
 const K: f64 = 1e-10;
@@ -41,6 +42,11 @@ fn deviation(radius: f64, friction: f64, element: f64, increments: u32) -> (f64,
     scene.receptacle.wear = Some(WearLaw::Archard {
         k_over_h_per_mpa: K,
     });
+    if friction > 0.0 {
+        scene.effects = Switches::default()
+            .with(Effect::Friction, true)
+            .with(Effect::StickMemory, true);
+    }
     scene.accuracy.contact_element_mm = Some(element);
     scene.accuracy.increments_per_cycle = Some(increments);
     scene.output.snapshots_at_cycles = vec![1];

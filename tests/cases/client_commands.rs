@@ -151,6 +151,8 @@ async fn an_interrupted_watch_leaves_the_job_running() {
         .spawn();
     let mut watch = watch.expect("it can be started");
     let process = Pid::from_raw(i32::try_from(watch.id()).expect("small"));
+    let running = |job: &Value| job["status"] == "running";
+    server.job_when(&id, running).await;
     // Its open stream shows that it follows the job.
     while !has_open_stream(&server).await {
         assert!(matches!(watch.try_wait(), Ok(None)), "it has ended early");

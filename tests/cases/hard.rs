@@ -21,7 +21,7 @@ mod radius_range;
 mod random_specifications;
 mod regressions_of_random_specifications;
 mod reversal;
-mod run;
+pub(crate) mod run;
 mod slender_elements;
 mod specs;
 mod steep_wall;

@@ -8,6 +8,7 @@
 mod access_token;
 mod api_fuzz;
 mod architecture;
+mod auto_against_all_on;
 mod backup;
 mod bench_against_calculix;
 mod calculix_agrees;

@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
 use crate::outcome::{Outcome, Phase};
+use crate::plan::Decision;
 
 /// One side's wear at the end.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize, ToSchema)]
@@ -40,6 +41,9 @@ pub struct EstimatedError {
     pub increments: f64,
     /// The part of the cycle jumps.
     pub jump: f64,
+    /// The part of the effects that the plan skips.
+    #[serde(default)]
+    pub effects: f64,
 }
 
 /// Estimated errors at the end, each that of the worse side.
@@ -91,6 +95,27 @@ pub struct Cost {
     pub peak_memory_mb: f64,
     /// Degrees of freedom of both meshes.
     pub dofs: u64,
+    /// Factorizations of the contact's systems, in the delivered run.
+    #[serde(default)]
+    pub factorizations: u64,
+    /// Unknowns of these systems, summed.
+    #[serde(default)]
+    pub unknowns: u64,
+    /// Entries of the bodies' responses that were computed for these systems.
+    #[serde(default)]
+    pub response_entries: u64,
+}
+
+/// An effect that the plan had skipped and the run has called for. The run returned to this cycle and continued with it.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct EffectCalledFor {
+    /// Name of the effect.
+    pub effect: String,
+    /// Physical cycles done before it was switched on.
+    pub cycle: u64,
+    /// How much it would have changed the outputs after the next computed cycle, relative; null where that has no bound or the
+    /// contact has no solution without it.
+    pub value: Option<f64>,
 }
 
 /// Worst residuals of the run, each relative to its scale.
@@ -139,6 +164,12 @@ pub struct Summary {
     pub cost: Cost,
     /// Worst residuals of the run.
     pub checks: Checks,
+    /// The decision about each effect at the end; `plan.effects` has their numbers.
+    #[serde(default)]
+    pub effects: BTreeMap<String, Decision>,
+    /// Effects that the plan had skipped and the run has called for.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub effects_called_for: Vec<EffectCalledFor>,
     /// What the result is to be read with, in words: errors beyond the tolerance.
     #[serde(default)]
     pub warnings: Vec<String>,

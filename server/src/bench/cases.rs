@@ -160,11 +160,11 @@ fn time_cycle(scene: &Scene) -> Result<(f64, f64, f64), SolveError> {
         let mut integrator = Integrator::new(scene, &model, operators);
         integrator.apply_load(&mut state)?;
         integrator.initial_quarter(&mut state)?;
-        let before = state.increments;
+        let before = state.work.increments;
         // Short of its stop, so that the loop has no points besides the increments.
         let (cycle_s, _) = measured(1, || integrator.compute_cycle(&mut state, 2))?;
         best = best.min(cycle_s);
-        increments = state.increments - before;
+        increments = state.work.increments - before;
     }
     Ok((setup_s, best, real(increments)))
 }

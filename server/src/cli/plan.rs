@@ -1,21 +1,92 @@
-//! `fretwear plan SPEC`.
+//! `fretwear plan SPEC`: tables for a reader, or the document.
 
 use std::path::Path;
 
-use api::plan::PlanDocument;
+use api::plan::{Plan, PlanDocument, PlannedEffect};
+use comfy_table::Table;
 
-use crate::cli::terminal::{Ended, specification, write_json};
+use crate::cli::terminal::{Ended, specification, write_json, write_out};
 use crate::estimate::Estimate;
 use crate::estimate::machine::{CalibrationCache, cache_file};
+use crate::export::markdown;
 
-pub(super) fn run(spec: &Path) -> Ended {
+pub(super) fn run(spec: &Path, json: bool) -> Ended {
     let resolved = specification(spec)?;
     let cache = CalibrationCache::open(cache_file());
     let machine = cache.get_or_measure().cloned();
     let plan = Estimate::of(&resolved).plan(&resolved, machine.as_ref());
-    write_json(&PlanDocument {
-        spec: resolved.spec,
-        plan,
-        machine,
-    })
+    if json {
+        return write_json(&PlanDocument {
+            spec: resolved.spec,
+            plan,
+            machine,
+        });
+    }
+    write_out(effects(&plan))?;
+    write_out(reasons(&plan))?;
+    write_out(estimates(&plan))?;
+    write_out(plan.notes.join("\n"))
+}
+
+/// Decisions with their numbers.
+fn effects(plan: &Plan) -> Table {
+    let header = ["effect", "decision", "value, %", "limit, %"];
+    let mut table = markdown::table(header, 2);
+    for effect in &plan.effects {
+        table.add_row([
+            effect.effect.clone(),
+            effect.decision.as_str().to_owned(),
+            value(effect),
+            effect.threshold.map_or_else(String::new, percent),
+        ]);
+    }
+    table
+}
+
+/// The value of an effect; nothing where there is nothing to simulate.
+fn value(effect: &PlannedEffect) -> String {
+    match (effect.value, effect.threshold) {
+        (Some(value), _) => percent(value),
+        (None, Some(_)) => "without bound".to_owned(),
+        (None, None) => String::new(),
+    }
+}
+
+fn percent(share: f64) -> String {
+    number(100.0 * share)
+}
+
+/// What each value is, and the reasons.
+fn reasons(plan: &Plan) -> String {
+    let lines = plan.effects.iter().map(|effect| {
+        let PlannedEffect {
+            effect,
+            indicator,
+            reason,
+            ..
+        } = effect;
+        format!("\n{effect}: {reason}\n    value: {indicator}")
+    });
+    lines.collect()
+}
+
+/// A number with four digits or more, at any scale.
+fn number(value: f64) -> String {
+    if value.fract() == 0.0 {
+        format!("{value:.0}")
+    } else if value.abs() >= 100.0 {
+        format!("{value:.1}")
+    } else if value.abs() >= 0.1 {
+        format!("{value:.4}")
+    } else {
+        format!("{value:.3e}")
+    }
+}
+
+fn estimates(plan: &Plan) -> Table {
+    let mut table = markdown::table(["estimate", "value"], 1);
+    for (name, value) in &plan.estimates {
+        table.add_row([name.clone(), number(*value)]);
+    }
+    table
 }

@@ -1,15 +1,16 @@
 //! The plan of a resolved specification: effects with reasons, closed-form results for the unworn contact, and the
 //! estimated cost of the solve.
 
-use std::collections::BTreeMap;
 use std::f64::consts::PI;
 
 use api::plan::{MachineFigures, Plan, PlannedEffect, Warning};
 use api::problem::Fault;
+use solver::effects::{self, Indicator};
 use solver::model::resolution;
 use solver::scene::{Scene, WearLaw};
 
 use crate::estimate::{Estimate, machine, notes};
+use crate::export::history;
 use crate::spec::Resolved;
 
 impl Estimate {
@@ -23,7 +24,7 @@ impl Estimate {
             estimates.push(("cpu_s", seconds));
         }
         Plan {
-            effects: effects(&resolved.scene),
+            effects: planned_effects(&resolved.scene),
             estimates: estimates
                 .into_iter()
                 .map(|(name, value)| (name.to_owned(), value))
@@ -41,18 +42,34 @@ fn warning(Fault { pointer, detail }: &Fault) -> Warning {
     }
 }
 
-fn effects(scene: &Scene) -> BTreeMap<String, PlannedEffect> {
-    let decisions = solver::effects::plan(scene).decisions;
-    decisions
-        .into_iter()
-        .map(|decision| {
-            let planned = PlannedEffect {
-                simulated: decision.simulated,
-                reason: decision.reason,
-            };
-            (decision.effect.name().to_owned(), planned)
-        })
-        .collect()
+fn planned_effects(scene: &Scene) -> Vec<PlannedEffect> {
+    let decisions = effects::plan(scene).decisions;
+    decisions.into_iter().map(planned).collect()
+}
+
+fn planned(decision: effects::Decision) -> PlannedEffect {
+    let effects::Decision {
+        effect,
+        verdict,
+        indicator,
+        reason,
+    } = decision;
+    PlannedEffect {
+        effect: effect.name().to_owned(),
+        decision: history::decision(verdict),
+        indicator: effect.indicator().to_owned(),
+        // JSON has no infinity.
+        value: indicator
+            .map(Indicator::value)
+            .filter(|value| value.is_finite()),
+        threshold: indicator.map(|indicator| indicator.threshold),
+        changes: effect
+            .changes()
+            .iter()
+            .map(|&output| output.to_owned())
+            .collect(),
+        reason,
+    }
 }
 
 /// Hertz line contact (K. L. Johnson, *Contact Mechanics*, eq. 4.43 to 4.45): the engine's a,

@@ -1,11 +1,13 @@
 //! Result documents of the engine's results.
 
 use api::job::{Outcome, Phase};
+use api::plan::Decision;
 use api::results::{
-    AccuracyReached, Checks, Cost, EstimatedError, EstimatedErrors, Initial, Loop, Pressure,
-    PressurePosition, Profile, SideProfile, SideSummary, SlidePosition, Snapshot, Station, Summary,
-    WearHistory,
+    AccuracyReached, Checks, Cost, EffectCalledFor, EstimatedError, EstimatedErrors, Initial, Loop,
+    Pressure, PressurePosition, Profile, SideProfile, SideSummary, SlidePosition, Snapshot,
+    Station, Summary, WearHistory,
 };
+use solver::effects::{Crossing, Effect, Verdict};
 use solver::observer;
 use solver::record::{self, Record, Side, SideReport};
 
@@ -78,18 +80,50 @@ pub fn summary(summary: &record::Summary, cost: Cost) -> Summary {
         initial: document!(Initial of summary.initial; peak_pressure_mpa, contact_half_width_mm);
         accuracy: document!(
             AccuracyReached of resolution;
-            contact_element_mm, increments_per_cycle, computed_cycles, increments, relocations;
+            contact_element_mm, increments_per_cycle, computed_cycles, relocations;
+            increments: resolution.work.increments;
             estimated_relative_error: estimated_error(summary);
             errors: summary.errors.map(|errors| estimated_errors(&errors));
             contact_elements: count(resolution.contact_elements)
         );
-        cost: Cost { dofs: count(resolution.dofs), ..cost };
+        effects: summary.effects.iter().copied().map(named).collect();
+        effects_called_for: summary.crossings.iter().map(called_for).collect();
+        cost: Cost {
+            dofs: count(resolution.dofs),
+            factorizations: resolution.work.factorizations,
+            unknowns: resolution.work.unknowns,
+            response_entries: resolution.work.response_entries,
+            ..cost
+        };
         checks: document!(
             Checks of summary.checks;
             force_balance, worn_area, complementarity, friction_cone, friction_use;
             force_balance_present_normals: Some(summary.checks.force_balance_present_normals)
         )
     )
+}
+
+fn named((effect, verdict): (Effect, Verdict)) -> (String, Decision) {
+    (effect.name().to_owned(), decision(verdict))
+}
+
+/// A decision about an effect.
+pub(crate) fn decision(verdict: Verdict) -> Decision {
+    match verdict {
+        Verdict::Simulated => Decision::Simulated,
+        Verdict::Skipped => Decision::Skipped,
+        Verdict::ForcedOn => Decision::ForcedOn,
+        Verdict::ForcedOff => Decision::ForcedOff,
+    }
+}
+
+fn called_for(crossing: &Crossing) -> EffectCalledFor {
+    EffectCalledFor {
+        effect: crossing.effect.name().to_owned(),
+        cycle: crossing.cycle,
+        // JSON has no infinity.
+        value: crossing.value.filter(|value| value.is_finite()),
+    }
 }
 
 /// The larger one of worn depth and scar width; that of the jumps alone without companions.
@@ -104,7 +138,7 @@ fn estimated_error(summary: &record::Summary) -> f64 {
 }
 
 fn estimated_errors(errors: &record::Errors) -> EstimatedErrors {
-    let parts = |parts: record::ErrorParts| document!(EstimatedError of parts; relative, mesh, increments, jump);
+    let parts = |parts: record::ErrorParts| document!(EstimatedError of parts; relative, mesh, increments, jump, effects);
     EstimatedErrors {
         worn_depth: parts(errors.worn_depth),
         scar_half_width: parts(errors.scar_half_width),

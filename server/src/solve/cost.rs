@@ -40,7 +40,7 @@ impl Stopwatch {
         }
     }
 
-    /// Returns the cost so far, without the degrees of freedom, which the engine reports.
+    /// Returns the cost so far, without what the engine counts.
     pub(super) fn cost(&mut self) -> Cost {
         if let Some((phase, _)) = self.current {
             self.enter(phase);
@@ -51,7 +51,7 @@ impl Stopwatch {
             cpu_s: earlier.cpu_s + cpu_s() - self.cpu_at_start,
             phases_s: self.phases.clone(),
             peak_memory_mb: peak_memory_mb().max(earlier.peak_memory_mb),
-            dofs: 0,
+            ..Cost::default()
         }
     }
 }

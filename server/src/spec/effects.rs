@@ -2,25 +2,17 @@
 
 use std::collections::BTreeMap;
 
+use api::problem::Fault;
 use api::spec::{EnumValue, Switch};
-use solver::effects::{Effect, SMALL_STRAIN_LIMIT};
+use solver::effects::{Effect, Switches, Verdict, small_strain};
 use solver::scene::Scene;
 
 use crate::spec::diagnostics::{Diagnostics, shortened};
 use crate::spec::suggestion::did_you_mean;
 
-/// Effects that the engine simulates.
-const AVAILABLE: [Effect; 5] = [
-    Effect::Elasticity,
-    Effect::Friction,
-    Effect::ReceptacleWear,
-    Effect::SliderWear,
-    Effect::Relocation,
-];
-/// Effects that are planned but not available yet.
-const PLANNED: [&str; 6] = [
+/// Effects that are planned but not known to the engine yet.
+const PLANNED: [&str; 5] = [
     "frictional_heating",
-    "geometric_nonlinearity",
     "oxidation",
     "plasticity",
     "plating",
@@ -29,19 +21,21 @@ const PLANNED: [&str; 6] = [
 
 /// Names of all effects.
 pub(crate) fn names() -> Vec<&'static str> {
-    let names = AVAILABLE.iter().map(|effect| effect.name());
+    let names = Effect::ALL.iter().map(|effect| effect.name());
     names.chain(PLANNED).collect()
 }
 
 /// Switches by the name of their effect; an absent one is `auto`.
-type Switches = BTreeMap<String, EnumValue<Switch>>;
+type Given = BTreeMap<String, EnumValue<Switch>>;
 
-/// Checks the switches.
-pub(crate) fn resolve(given: &Switches, diagnostics: &mut Diagnostics) {
+/// Checks the switches, and returns those of the effects that the engine knows.
+pub(crate) fn resolve(given: &Given, diagnostics: &mut Diagnostics) -> Switches {
+    let mut switches = Switches::default();
     for (name, switch) in given {
         let pointer = format!("/effects/{}", api::spec::pointer_token(name));
-        let available = AVAILABLE.iter().any(|effect| effect.name() == name);
-        if !available && !PLANNED.contains(&name.as_str()) {
+        let mut effects = Effect::ALL.iter().copied();
+        let effect = effects.find(|effect| effect.name() == name);
+        if effect.is_none() && !PLANNED.contains(&name.as_str()) {
             let names = names();
             let detail = format!(
                 "`{}` is no effect; effects are {}{}",
@@ -52,24 +46,32 @@ pub(crate) fn resolve(given: &Switches, diagnostics: &mut Diagnostics) {
             diagnostics.fault(&pointer, detail);
             continue;
         }
-        match diagnostics.enum_member(&pointer, switch) {
-            Some(Switch::On) if !available => {
+        match (diagnostics.enum_member(&pointer, switch), effect) {
+            (Some(Switch::On), effect) if !effect.is_some_and(Effect::is_available) => {
                 diagnostics.fault(&pointer, format!("`{name}` is not available yet"));
             }
-            Some(Switch::Off) if available => {
+            (Some(Switch::Off), Some(Effect::Elasticity)) => {
                 diagnostics.fault(
                     &pointer,
-                    "switching it off is not available yet; leave it out of the scene instead",
+                    "cannot be off: pressure and width of the contact follow from it",
                 );
             }
+            (Some(Switch::On), Some(effect)) => switches = switches.with(effect, true),
+            (Some(Switch::Off), Some(effect)) => switches = switches.with(effect, false),
             _ => {}
         }
     }
+    let on = |effect| switches.of(effect);
+    if (on(Effect::Friction), on(Effect::StickMemory)) == (Some(false), Some(true)) {
+        let detail = "cannot be on while `friction` is off: nothing sticks without friction";
+        diagnostics.fault("/effects/stick_memory", detail);
+    }
+    switches
 }
 
 /// Checks a scene against the switches. `cause` is the pointer of the field that causes strains beyond the limit.
 pub(crate) fn check(
-    given: &Switches,
+    given: &Given,
     scene: &Scene,
     cause: impl FnOnce() -> String,
     diagnostics: &mut Diagnostics,
@@ -82,31 +84,45 @@ pub(crate) fn check(
         "the contact would be strained so much that small-strain elasticity would miss the peak pressure by {:.1} % (limit \
          {:.0} %), and finite strains are not available; lower the load or enlarge the radius, or accept it with \
          `effects.{}`: `off`",
-        100.0 * solver::effects::small_strain_cost(scene),
-        100.0 * SMALL_STRAIN_LIMIT,
+        100.0 * small_strain::cost(scene),
+        100.0 * small_strain::LIMIT,
         Effect::GeometricNonlinearity.name()
     );
     diagnostics.fault(&cause(), detail);
 }
 
 /// Whether the strains of the contact are within the range of small-strain theory, or accepted by `off`.
-pub(crate) fn has_small_strains(given: &Switches, scene: &Scene) -> bool {
+pub(crate) fn has_small_strains(given: &Given, scene: &Scene) -> bool {
     let accepted = switch(given, Effect::GeometricNonlinearity) == Some(Switch::Off);
-    accepted || solver::effects::small_strain_cost(scene) <= SMALL_STRAIN_LIMIT
+    accepted || small_strain::cost(scene) <= small_strain::LIMIT
 }
 
 /// Adds a fault for each effect that is switched on and has nothing to simulate in the scene.
-fn check_forced(given: &Switches, scene: &Scene, diagnostics: &mut Diagnostics) {
+fn check_forced(given: &Given, scene: &Scene, diagnostics: &mut Diagnostics) {
     for decision in solver::effects::plan(scene).decisions {
         let name = decision.effect.name();
         let forced = switch(given, decision.effect) == Some(Switch::On);
-        if forced && !decision.simulated && decision.effect != Effect::GeometricNonlinearity {
+        if forced && decision.verdict == Verdict::Skipped {
             let detail = format!("cannot be on: {}", decision.reason);
             diagnostics.fault(&format!("/effects/{name}"), detail);
         }
     }
 }
 
-fn switch(given: &Switches, effect: Effect) -> Option<Switch> {
+/// Warnings of effects that are switched off although the scene calls for them.
+pub(crate) fn warnings(scene: &Scene) -> Vec<Fault> {
+    let decisions = solver::effects::plan(scene).decisions.into_iter();
+    let off = decisions.filter_map(|decision| {
+        let indicator = decision.indicator?;
+        let matters = indicator.value() > indicator.threshold;
+        (decision.verdict == Verdict::ForcedOff && matters).then(|| Fault {
+            pointer: format!("/effects/{}", decision.effect.name()),
+            detail: format!("the scene calls for it: {}", decision.reason),
+        })
+    });
+    off.collect()
+}
+
+fn switch(given: &Given, effect: Effect) -> Option<Switch> {
     given.get(effect.name()).and_then(EnumValue::known)
 }

@@ -39,6 +39,7 @@ mod state;
 mod status;
 mod unknown;
 mod wear_coupling;
+mod work;
 
 pub(crate) use active_window::CANDIDATE_GAP;
 pub use error::ContactError;
@@ -48,6 +49,7 @@ pub use pair::{Displacement, Pair, Surfaces, WarmStart, slopes};
 pub use problem::{GAP_TOLERANCE, MOST_ITERATIONS};
 pub use state::ContactState;
 pub use status::Status;
+pub use work::Work;
 
 #[cfg(test)]
 mod tests;

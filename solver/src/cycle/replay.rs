@@ -37,7 +37,7 @@ impl Replays {
             let mut smoothing = self.plan.smoothing(place, direction).into_iter();
             let succeeded = lead_in.all(|step| solve(&mut single, step.slider_x, 1))
                 && smoothing.all(|(to, parts)| solve(&mut single, to, parts));
-            state.increments = single.increments;
+            state.work = single.work;
             if let (true, Some(position)) = (succeeded, steps[end].at) {
                 state.checks = single.checks;
                 self.states.push((position, single));

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{Checks, Neutral, Skew, WarmStarts};
 use crate::condensation::Operators;
-use crate::contact::{ContactError, ContactState};
+use crate::contact::{ContactError, ContactState, Work};
 use crate::schedule::jump::JumpControl;
 use crate::sides::{Side, Sides};
 
@@ -58,10 +58,10 @@ pub struct CycleState {
     pub neutral: Neutral,
     /// Mean half-width of the contact over the last computed cycle, mm.
     pub mean_half_width: f64,
-    /// Computed cycles, increments, and the most increments in one cycle.
+    /// Computed cycles.
     pub computed_cycles: u64,
-    /// Increments solved.
-    pub increments: u64,
+    /// Work of all contact solves.
+    pub work: Work,
     /// Most increments in one cycle.
     pub most_increments: usize,
     /// Wear of the receptacle per cycle in both strokes of the last computed one at its contact nodes, mm; none before the
@@ -92,7 +92,7 @@ impl CycleState {
             neutral: Neutral::default(),
             mean_half_width: 0.0,
             computed_cycles: 0,
-            increments: 0,
+            work: Work::default(),
             most_increments: 0,
             wear_of_strokes: Default::default(),
             energy_per_cycle: 0.0,

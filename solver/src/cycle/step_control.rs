@@ -82,9 +82,11 @@ impl Integrator<'_> {
             if !self.replay_to(&mut copy, to, 1) {
                 break;
             }
-            points.push((copy.contact.slider_x, copy.contact.tangential_force()));
+            let widths = &self.pair.slave().widths;
+            let force = copy.contact.tangential_force(&self.pair.interface, widths);
+            points.push((copy.contact.slider_x, force));
         }
-        state.increments = copy.increments;
+        state.work = copy.work;
         points
     }
 

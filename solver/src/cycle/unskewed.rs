@@ -50,7 +50,7 @@ impl Integrator<'_> {
             }
         }
         self.slope = slope_of_cycle;
-        state.increments = unskewed.increments;
+        state.work = unskewed.work;
         state.checks = unskewed.checks;
     }
 

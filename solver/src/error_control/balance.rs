@@ -46,11 +46,12 @@ pub(super) fn finer(scene: &Scene, errors: &Errors) -> Refinement {
             mesh,
             increments,
             jump,
+            effects,
             ..
         } = errors.parts(quantity);
         let parts = [mesh, increments, jump];
         let fixed: f64 = (0..3).filter(|k| !free[*k]).map(|k| parts[k]).sum();
-        let allowed = quantity.allowed(tolerance);
+        let allowed = quantity.allowed(tolerance) - effects;
         if fixed >= allowed {
             continue;
         }
@@ -107,6 +108,7 @@ mod tests {
                 mesh,
                 increments,
                 jump,
+                effects: 0.0,
             },
             ..Errors::default()
         }

@@ -53,7 +53,8 @@ fn parts(companions: &[Option<Compared>], quantity: Quantity) -> [f64; 3] {
     parts
 }
 
-/// The estimated errors of a run of some refinement; `None` if its first companion has no solution.
+/// The estimated errors of a run of some refinement; `None` if its first companion has no solution. The companions follow the
+/// plan of the run, so that they do not show what skipped effects change.
 pub(super) fn errors(
     scene: &Scene,
     companions: &[Option<Compared>],
@@ -90,8 +91,11 @@ pub(super) fn errors(
             Quantity::PeakPressure => LEAST_OF_PRESSURE,
             Quantity::WornDepth | Quantity::ScarHalfWidth | Quantity::WornArea => LEAST,
         };
+        let effects = SAFETY * run.skipped_change;
+        let numerical = (mesh + increments + jump).max(least * scene.accuracy.tolerance);
         ErrorParts {
-            relative: (mesh + increments + jump).max(least * scene.accuracy.tolerance),
+            relative: numerical + effects,
+            effects,
             mesh,
             increments,
             jump,

@@ -243,7 +243,7 @@ impl Scar {
     /// Counts a condensation of the bodies that have changed where one has drifted.
     pub(super) fn rebuild(&mut self, scene: &Scene, condensations: &mut Sides<u32>) {
         let now = self.remaining();
-        let share = ale::drift_share(&scene.accuracy);
+        let share = scene.accuracy.drift_share();
         let drifted = |side: Side| self.built.of(side) - now.of(side) > share * self.built.of(side);
         if Side::BOTH.into_iter().any(drifted) {
             for side in Side::BOTH {

@@ -43,6 +43,20 @@ pub fn contact_modulus(a: Elastic, b: Elastic) -> f64 {
     1.0 / (plane_strain_compliance(a) + plane_strain_compliance(b))
 }
 
+/// Dundurs' second parameter of two bodies in plane strain, -: how far pressure displaces their surfaces along x relative to
+/// each other,
+///   beta = [(1 - 2 nu_a)/G_a - (1 - 2 nu_b)/G_b] / (2 [(1 - nu_a)/G_a + (1 - nu_b)/G_b])
+/// (Johnson 1985, eq. 5.3); 0 for equal bodies. A body that is held along x does not spread: its term above is 0.
+pub fn dundurs_beta(a: Elastic, b: Elastic, held: [bool; 2]) -> f64 {
+    let terms = |body: Elastic, held: bool| {
+        let (shear, nu) = (Lame::from(body).mu, body.poisson_ratio);
+        let spread = if held { 0.0 } else { (1.0 - 2.0 * nu) / shear };
+        (spread, (1.0 - nu) / shear)
+    };
+    let ((spread_a, sinks_a), (spread_b, sinks_b)) = (terms(a, held[0]), terms(b, held[1]));
+    (spread_a - spread_b) / (2.0 * (sinks_a + sinks_b))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -66,5 +80,26 @@ mod tests {
         };
         let expected = 0.5 * 200e3 / (1.0 - 0.09);
         assert!((contact_modulus(steel, steel) - expected).abs() < 1e-9 * expected);
+    }
+
+    #[test]
+    fn unlike_bodies_have_opposite_parameters_when_swapped() {
+        let steel = Elastic {
+            youngs_modulus_mpa: 200e3,
+            poisson_ratio: 0.3,
+        };
+        let rubber = Elastic {
+            youngs_modulus_mpa: 5.0,
+            poisson_ratio: 0.2,
+        };
+        let free = [false; 2];
+        assert!(dundurs_beta(steel, steel, free).abs() < 1e-15);
+        let beta = dundurs_beta(rubber, steel, free);
+        assert!((beta + dundurs_beta(steel, rubber, free)).abs() < 1e-15);
+        // Against a rigid body: (1 - 2 nu)/(2 (1 - nu)).
+        assert!((beta - 0.6 / 1.6).abs() < 1e-4, "{beta}");
+        // Steel on steel that is held: half of that of steel on a rigid body.
+        let held = dundurs_beta(steel, steel, [true, false]);
+        assert!((held + 0.5 * 0.4 / 1.4).abs() < 1e-15, "{held}");
     }
 }

@@ -1,4 +1,5 @@
 use super::*;
+use crate::effects::Switches;
 use crate::scene::{
     Accuracy, BlockShape, Body, Friction, Motion, Output, SliderShape, StopCondition, WearLaw,
 };
@@ -45,6 +46,7 @@ pub(crate) fn fuzz_button() -> Scene {
             fields: false,
         },
         stop: vec![StopCondition::WornDepth(1.0)],
+        effects: Switches::default(),
     }
 }
 

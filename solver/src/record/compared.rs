@@ -58,6 +58,8 @@ pub struct Compared {
     cycles: Vec<f64>,
     /// Those of a quantity at twice its place in [`Quantity::ALL`] and the next.
     values: [Vec<f64>; 2 * Quantity::ALL.len()],
+    /// Relative change of the outputs by the effects that were skipped to the end.
+    pub(crate) skipped_change: f64,
 }
 
 impl Compared {

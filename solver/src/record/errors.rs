@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::record::Quantity;
 
-/// Estimated relative error of a quantity and the parts of it that mesh, increments and cycle jumps cause.
+/// Estimated relative error of a quantity and the parts of it that mesh, increments, cycle jumps and skipped effects cause.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 pub struct ErrorParts {
     /// The whole error.
@@ -15,6 +15,8 @@ pub struct ErrorParts {
     pub increments: f64,
     /// The part of the cycle jumps.
     pub jump: f64,
+    /// The part of the effects that the plan skips.
+    pub effects: f64,
 }
 
 /// Estimated errors of a run, each that of the worse side.

@@ -100,7 +100,7 @@ impl<'a> CycleEnd<'a> {
             x: body.contact_x(),
             widths: body.contact_widths(),
             depth: self.state.depth.of(side),
-            ideal_area: ideal_area.filter(|_| interface.spring <= 0.0),
+            ideal_area: ideal_area.filter(|_| self.scene.spring_n_per_mm2 <= 0.0),
         }
     }
 

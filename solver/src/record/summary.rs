@@ -2,7 +2,9 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::contact::Work;
 use crate::cycle::{Checks, CycleState};
+use crate::effects::{Crossing, Effect, Verdict};
 use crate::record::{Compared, CycleReport, Errors};
 use crate::schedule::stops::Outcome;
 use crate::sides::Sides;
@@ -33,6 +35,10 @@ pub struct Summary {
     pub errors: Option<Errors>,
     /// Which errors exceed what the tolerance allows, in words.
     pub warnings: Vec<String>,
+    /// The decision about each effect at the end.
+    pub effects: Vec<(Effect, Verdict)>,
+    /// Skipped effects that the run has called for, in their order.
+    pub crossings: Vec<Crossing>,
     /// Histories that errors are estimated by.
     pub compared: Compared,
 }
@@ -48,8 +54,8 @@ pub struct Resolution {
     pub increments_per_cycle: u32,
     /// Computed cycles.
     pub computed_cycles: u64,
-    /// Contact increments that were solved.
-    pub increments: u64,
+    /// Work of all contact solves.
+    pub work: Work,
     /// Degrees of freedom of both meshes.
     pub dofs: usize,
     /// How often the operators were rebuilt after the first time.

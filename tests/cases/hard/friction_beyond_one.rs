@@ -16,6 +16,7 @@ fn high_friction_preserves_balance_cone_and_worn_area() {
         let run = solve(&fuzz_button(json!({
             "interface": {"friction": {"law": "coulomb", "coefficient": mu}},
             "cycles": 40,
+            "effects": {"friction": "on", "stick_memory": "on"},
         })));
         hold(&run);
         let used = run.summary().checks.friction_use;

@@ -48,7 +48,11 @@ struct Recorder {
 impl Observer for Recorder {
     fn on(&mut self, event: Event<'_>) -> ControlFlow<()> {
         match event {
-            Event::Checkpoint(_) | Event::Restart(_) => {}
+            Event::Checkpoint(_) => {}
+            Event::Restart(_) => {
+                self.reports.clear();
+                self.snapshots.clear();
+            }
             Event::Cycle(report) => self.reports.push(report.clone()),
             Event::Snapshot(snapshot) => self.snapshots.push(snapshot.clone()),
         }

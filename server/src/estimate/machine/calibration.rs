@@ -70,7 +70,7 @@ fn solve(specification: &str) -> Result<Sample, MachineError> {
     let mut clock = PhaseClock::default();
     let summary = solver::run::solve(&resolved.scene, &mut clock)?;
     clock.enter(None);
-    let increments = u32::try_from(summary.resolution.increments.max(1)).unwrap_or(u32::MAX);
+    let increments = u32::try_from(summary.resolution.work.increments.max(1)).unwrap_or(u32::MAX);
     Ok(Sample {
         workload: Estimate::of(&resolved).workload,
         increment_s: clock.increments_s / f64::from(increments),

@@ -61,8 +61,9 @@ fn required_status(
         if it.gap[i] >= -tolerance * gap_scale {
             return (Status::Open, 0.0);
         }
-        let sliding = problem.step.abs() > 0.0 || problem.friction <= 0.0;
-        let new = if sliding {
+        let new = if !problem.tracks_slip {
+            Status::slip(problem.step)
+        } else if problem.step.abs() > 0.0 {
             Status::slip(slip)
         } else {
             Status::Stick
@@ -71,7 +72,7 @@ fn required_status(
     }
     if p < 0.0 {
         // The edge of a first load slips: where sticking would tear a node open, that is tried before it opens.
-        let slips = problem.first_load && slack > 1.0 && problem.friction > 0.0;
+        let slips = problem.first_load && slack > 1.0;
         let new = if slips && old == Status::Stick {
             Status::slip(q)
         } else {
@@ -79,12 +80,8 @@ fn required_status(
         };
         return (new, -p / pressure_scale);
     }
-    if problem.friction <= 0.0 {
-        let turned = old != Status::slip(slip) && slip.abs() > tolerance * slip_scale;
-        return (
-            Status::slip(slip),
-            if turned { slip.abs() / slip_scale } else { 0.0 },
-        );
+    if !problem.tracks_slip {
+        return (Status::slip(problem.step), 0.0);
     }
     match old {
         Status::Stick if q.abs() > cone * (1.0 + slack * GAP_TOLERANCE) => {

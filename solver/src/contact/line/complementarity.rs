@@ -9,6 +9,8 @@
 //! * mu p - a - b >= 0 with gamma >= 0,
 //! * and once: load - sum of vertical forces >= 0 with the height above a bound far below any solution.
 //!
+//! Where slip is imposed, gamma is that of the slider's displacement and the friction part of the pressure's column.
+//!
 //! With equal slopes on both sides its matrix is copositive and Lemke's method finds a solution for any friction and
 //! slopes: the wear adds products of p and gamma, which are not negative. The wear is relinearised about that solution
 //! (Josephy 1979), and the result is the warm start of Newton's method, with the right signs.
@@ -81,7 +83,10 @@ impl Complementarity {
             return end;
         }
         for node in 0..it.status.len() {
-            response.compute_both(problem, node);
+            response.compute(problem, Unknown::pressure(problem, node));
+            if problem.tracks_slip {
+                response.compute(problem, Unknown::Shear(node));
+            }
         }
         self.reset(problem, it);
         for _ in 0..MOST_LINEARISATIONS {
@@ -199,17 +204,17 @@ impl Complementarity {
     ) {
         self.open_column(wear.per_pressure(), a, self.slip[a]);
         let scale = layout.pressure / layout.length;
-        let pressure = Unknown::Pressure(a, Status::Stick);
+        let pressure = Unknown::pressure(problem, a);
         let (gaps, jumps) = response.column(pressure);
-        for (i, (gap, jump)) in gaps.iter().zip(jumps).enumerate() {
+        for (i, gap) in gaps.iter().enumerate() {
             *self.matrix.at(i, a) = (gap + self.opened[i]) * scale;
-            if layout.sheared {
+        }
+        if layout.sheared {
+            for (i, jump) in jumps.iter().enumerate() {
                 let [right, left, _] = layout.shear(i);
                 *self.matrix.at(right, a) = -jump * scale;
                 *self.matrix.at(left, a) = jump * scale;
             }
-        }
-        if layout.sheared {
             *self.matrix.at(layout.shear(a)[2], a) = problem.friction;
         }
         let [_, force] = pressure.force(problem);

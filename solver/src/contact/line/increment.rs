@@ -15,6 +15,8 @@ use super::problem::{GAP_TOLERANCE, Iterate, MOST_ITERATIONS, Problem};
 use super::response::Response;
 use super::state::ContactState;
 use super::wear_coupling::WearCoupling;
+use super::work::Work;
+use crate::model::{Interface, Tangential};
 use crate::sides::Sides;
 
 /// Most extensions of the active window within one increment.
@@ -52,6 +54,9 @@ impl Solver {
         next: &mut ContactState,
     ) -> Result<Increment<'_>, ContactError> {
         let slider_x = to.slider_x;
+        // That of an increment without a solution does not count.
+        self.newton.work = Work::default();
+        self.response.entries = 0;
         if is_at_rest(last, to) {
             next.clone_from(last);
             return Ok(Increment::NONE);
@@ -76,8 +81,14 @@ impl Solver {
             if touching == window {
                 let (geometry, it) = (&self.geometry, &self.iterate);
                 let recession = &mut self.recession;
+                let mut work = std::mem::take(&mut self.newton.work);
+                work.increments = 1;
+                work.response_entries = std::mem::take(&mut self.response.entries);
                 return Ok(Increment::of(
-                    pair, geometry, it, &self.wear, recession, next,
+                    (pair, geometry, it),
+                    (&self.wear, recession),
+                    next,
+                    work,
                 ));
             }
             window = widened(touching, covered);
@@ -109,7 +120,11 @@ impl Solver {
         let vertical: f64 = (first..end)
             .zip(slopes)
             .map(|(i, slope)| {
-                pair.slave().widths[i] * (contact.pressure[i] - contact.shear[i] * slope)
+                let shear = match pair.interface.tangential {
+                    Tangential::Omitted => 0.0,
+                    Tangential::ImposedSlip | Tangential::StickSlip => contact.shear[i],
+                };
+                pair.slave().widths[i] * (contact.pressure[i] - shear * slope)
             })
             .sum();
         (vertical - contact.equilibrium_load(&pair.interface)).abs() / pair.interface.load
@@ -167,7 +182,8 @@ impl Solver {
         let (begin, stop) = geometry.coupling.master_range;
         let zones = pair.zones(last, first..end, begin..stop)?;
         geometry.measure((pair, zones), surfaces, setting);
-        self.response.reset(geometry.coupling.len());
+        let tracks_slip = interface.tangential == Tangential::StickSlip;
+        self.response.reset(geometry.coupling.len(), tracks_slip);
         let laws = interface.wear.map(|law| law.filter(|_| cycles > 0.0));
         self.wear.assemble(&geometry.coupling, pair, laws, cycles);
         let step = slider_x - last.slider_x + to.surface_slip;
@@ -181,7 +197,8 @@ impl Solver {
             width: &pair.slave().widths[first..end],
             slope: &geometry.slopes.interface,
             master_slope: &geometry.slopes.master,
-            friction: interface.friction,
+            friction: acting_friction(interface, step),
+            tracks_slip,
             load: setting.load,
             spring: setting.spring,
             sag: &geometry.sag,
@@ -212,8 +229,13 @@ impl Solver {
                 .solve(newton, &problem, response, wear, it, end);
         }
         match end {
-            Convergence::Converged => Ok(()),
-            _ if wall * interface.friction > 1.0 => Err(ContactError::Jammed {
+            Convergence::Converged => {
+                if interface.tangential == Tangential::Omitted && step != 0.0 {
+                    self.iterate.apply_friction(interface.friction);
+                }
+                Ok(())
+            }
+            _ if wall * problem.friction > 1.0 => Err(ContactError::Jammed {
                 slider_x_mm: slider_x,
                 slope: wall,
                 limit: interface.friction.recip(),
@@ -233,7 +255,7 @@ impl Solver {
     }
 
     /// Slip of each node before the new forces and the new height are known, mm: less the tangential jump that the last
-    /// forces would make at the new position.
+    /// forces would make at the new position where the deformation is part of the slip.
     fn assemble_fixed_slip(
         &mut self,
         (pair, zones): (&Pair<'_>, Zones<'_>),
@@ -244,11 +266,26 @@ impl Solver {
             coupling, slopes, ..
         } = &self.geometry;
         let slave = pair.interface.slave;
+        self.fixed_slip.clear();
+        if pair.interface.tangential != Tangential::StickSlip {
+            let slopes = slopes.interface.iter();
+            self.fixed_slip
+                .extend(slopes.map(|s| step - s * last.height));
+            return;
+        }
         self.deformation.under_contact(zones, slave, coupling, last);
         let jumps = self.deformation.averaged(coupling).zip(&slopes.interface);
-        self.fixed_slip.clear();
         self.fixed_slip
             .extend(jumps.map(|([x, y], s)| step - s * last.height - (x + s * y)));
+    }
+}
+
+/// Coefficient of the friction that acts on the bodies in a step of the slider; an imposed slip of zero has no direction.
+fn acting_friction(interface: &Interface, step: f64) -> f64 {
+    match interface.tangential {
+        Tangential::StickSlip => interface.friction,
+        Tangential::ImposedSlip if step != 0.0 => interface.friction,
+        Tangential::ImposedSlip | Tangential::Omitted => 0.0,
     }
 }
 

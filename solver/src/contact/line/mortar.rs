@@ -220,7 +220,7 @@ fn product(a: &[f64; 2], b: &[f64; 2]) -> f64 {
 mod tests {
     use super::*;
     use crate::condensation::{BodyOperators, Operators};
-    use crate::model::{Interface, Profile};
+    use crate::model::{Interface, Profile, Tangential};
     use crate::sides::{Side, Sides};
 
     fn body(x: Vec<f64>, profile: Profile) -> BodyOperators {
@@ -256,6 +256,7 @@ mod tests {
                     receptacle: 1.0,
                 },
                 friction: 0.0,
+                tangential: Tangential::Omitted,
                 wear: Sides::default(),
                 load: 1.0,
                 spring: 0.0,

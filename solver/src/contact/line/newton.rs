@@ -24,7 +24,9 @@ use super::problem::{Iterate, Problem};
 use super::response::Response;
 use super::status::Status;
 use super::wear_coupling::WearCoupling;
+use super::work::Work;
 use crate::linear::CondensedSystem;
+use crate::number::count;
 use correction::{Correction, settle};
 use evaluation::Evaluation;
 use jacobian::Jacobian;
@@ -48,6 +50,8 @@ pub(super) struct Newton {
     system: CondensedSystem,
     correction: Correction,
     evaluation: Evaluation,
+    /// Factorizations, and unknowns of their systems, since the last reset.
+    pub(super) work: Work,
 }
 
 /// A residual within so many tolerances that another iteration did not halve, without a change of status, is the
@@ -130,6 +134,8 @@ impl Newton {
         self.jacobian
             .assemble(problem, partition, response, wear, (it, lumped), matrix);
         self.system.condense(partition.core);
+        self.work.factorizations += 1;
+        self.work.unknowns += count(partition.unknowns.len() + 1);
         residual
     }
 

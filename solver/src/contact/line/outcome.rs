@@ -6,6 +6,8 @@ use super::problem::{GAP_TOLERANCE, Iterate};
 use super::state::ContactState;
 use super::status::Status;
 use super::wear_coupling::WearCoupling;
+use super::work::Work;
+use crate::model::Tangential;
 use crate::sides::Sides;
 
 /// Result of an increment; arrays begin at the first coupled node of their side.
@@ -28,6 +30,8 @@ pub struct Increment<'a> {
     pub complementarity: f64,
     /// Largest |q| - mu p over the peak pressure.
     pub friction_cone: f64,
+    /// Work of the solve.
+    pub work: Work,
 }
 
 impl<'a> Increment<'a> {
@@ -50,16 +54,20 @@ impl<'a> Increment<'a> {
         force_balance: 0.0,
         complementarity: 0.0,
         friction_cone: 0.0,
+        work: Work {
+            increments: 1,
+            factorizations: 0,
+            unknowns: 0,
+            response_entries: 0,
+        },
     };
 
     /// Of a solution that is written to `next`; `recession` is a buffer.
     pub(super) fn of(
-        pair: &Pair<'_>,
-        geometry: &Geometry,
-        it: &'a Iterate,
-        wear: &WearCoupling,
-        recession: &'a mut Sides<Vec<f64>>,
+        (pair, geometry, it): (&Pair<'_>, &Geometry, &'a Iterate),
+        (wear, recession): (&WearCoupling, &'a mut Sides<Vec<f64>>),
         next: &ContactState,
+        work: Work,
     ) -> Self {
         let coupling = &geometry.coupling;
         let slave = pair.interface.slave;
@@ -103,6 +111,7 @@ impl<'a> Increment<'a> {
             force_balance: (vertical - load).abs() / pair.interface.load,
             complementarity: complementarity / scale,
             friction_cone: cone / peak,
+            work,
         }
     }
 }
@@ -127,7 +136,12 @@ pub(super) fn write(
     next.shear[span.clone()].copy_from_slice(&it.shear);
     for i in span {
         let width = pair.slave().widths[i];
-        let (p, q) = (next.pressure[i], next.shear[i]);
+        let p = next.pressure[i];
+        // Omitted shear acts on neither body.
+        let q = match pair.interface.tangential {
+            Tangential::Omitted => 0.0,
+            Tangential::ImposedSlip | Tangential::StickSlip => next.shear[i],
+        };
         let s = geometry.slopes.interface[i - coupling.first];
         let force = [width * (-p * s - q), width * (p - q * s)];
         next.force.of_mut(slave)[2 * i..2 * i + 2].copy_from_slice(&force);

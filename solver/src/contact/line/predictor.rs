@@ -38,7 +38,7 @@ pub(super) fn predict(
         let was = last.status[near].direction();
         let status = if !travelled {
             Status::Open
-        } else if problem.friction <= 0.0 || was * problem.step > 0.0 {
+        } else if !problem.tracks_slip || was * problem.step > 0.0 {
             Status::slip(problem.step)
         } else {
             Status::Stick
@@ -52,7 +52,7 @@ pub(super) fn predict(
         it.slip.push(problem.step);
     }
     if it.status.iter().all(|s| *s == Status::Open) {
-        it.status.fill(if problem.friction > 0.0 {
+        it.status.fill(if problem.tracks_slip {
             Status::Stick
         } else {
             Status::slip(problem.step)

@@ -25,7 +25,10 @@ pub(super) struct Problem<'a> {
     /// Slopes of the interface and of the master's surface.
     pub(super) slope: &'a [f64],
     pub(super) master_slope: &'a [f64],
+    /// Coefficient of the friction that acts on the bodies, -.
     pub(super) friction: f64,
+    /// Whether each node sticks or slips by the deformation; each slips as imposed otherwise.
+    pub(super) tracks_slip: bool,
     /// Vertical load at height 0, N/mm, and its increase per mm of height.
     pub(super) load: f64,
     pub(super) spring: f64,
@@ -79,6 +82,14 @@ pub(super) struct Iterate {
 }
 
 impl Iterate {
+    /// Sets the shears that follow from the pressures of slipping nodes under a coefficient of friction.
+    pub(super) fn apply_friction(&mut self, coefficient: f64) {
+        let nodes = self.shear.iter_mut().zip(&self.pressure).zip(&self.status);
+        for ((shear, pressure), status) in nodes {
+            *shear = status.direction() * coefficient * pressure;
+        }
+    }
+
     /// Pressure and slip of a node as a wear law takes them: no slip against the direction of its status.
     pub(super) fn local_state(&self, node: usize) -> LocalState {
         LocalState {

@@ -5,29 +5,36 @@
 
 use super::deformation::Deformation;
 use super::problem::Problem;
-use super::status::Status;
 use super::unknown::Unknown;
+use crate::number::count;
 
 /// Changes of the gap and of the tangential jump of each coupled node, per unit of tractions at coupled nodes.
 #[derive(Debug, Default)]
 pub(super) struct Response {
     /// Number of coupled nodes.
     nodes: usize,
-    /// For each node: gaps, then jumps per unit of its pressure; gaps, then jumps per unit of its shear, mm/MPa.
+    /// Whether jumps and shears are computed.
+    tangential: bool,
+    /// For each node: gaps, then jumps per unit of its pressure; gaps, then jumps per unit of its shear, mm/MPa. Gaps per
+    /// unit of its pressure only, where slip is imposed.
     columns: Vec<f64>,
     /// Unknowns whose columns are computed, pressure and shear of each node.
     computed: Vec<[Option<Unknown>; 2]>,
     deformation: Deformation,
+    /// Entries computed since the last reset of the count.
+    pub(super) entries: u64,
 }
 
-/// Gaps and tangential jumps of all coupled nodes.
+/// Gaps and tangential jumps of all coupled nodes; no jumps where slip is imposed.
 pub(super) type Column<'a> = (&'a [f64], &'a [f64]);
 
 impl Response {
     /// Resets to another set of coupled nodes; no column is computed yet.
-    pub(super) fn reset(&mut self, nodes: usize) {
+    pub(super) fn reset(&mut self, nodes: usize, tangential: bool) {
         self.nodes = nodes;
-        self.columns.resize(4 * nodes * nodes, 0.0);
+        self.tangential = tangential;
+        let per_node = if tangential { 4 } else { 1 };
+        self.columns.resize(per_node * nodes * nodes, 0.0);
         self.computed.clear();
         self.computed.resize(nodes, [None; 2]);
     }
@@ -40,14 +47,19 @@ impl Response {
             self.computed[place / 2][place % 2] == Some(unknown),
             "a column is computed before use"
         );
-        let begin = 2 * place * self.nodes;
-        self.columns[begin..begin + 2 * self.nodes].split_at(self.nodes)
+        let begin = self.begin(place);
+        let values = if self.tangential { 2 } else { 1 };
+        self.columns[begin..begin + values * self.nodes].split_at(self.nodes)
     }
 
-    /// Computes the columns of the pressure without friction and of the shear of a node.
-    pub(super) fn compute_both(&mut self, problem: &Problem<'_>, node: usize) {
-        self.compute(problem, Unknown::Pressure(node, Status::Stick));
-        self.compute(problem, Unknown::Shear(node));
+    /// Where the column of a place begins.
+    #[inline]
+    fn begin(&self, place: usize) -> usize {
+        if self.tangential {
+            2 * place * self.nodes
+        } else {
+            place / 2 * self.nodes
+        }
     }
 
     /// Computes the column of an unknown once.
@@ -57,15 +69,25 @@ impl Response {
         if computed.replace(unknown) == Some(unknown) {
             return;
         }
+        let values = if self.tangential { 2 } else { 1 };
+        self.entries += count(values * self.nodes);
         let coupling = problem.coupling;
         let (node, force) = (coupling.first + unknown.node(), unknown.force(problem));
+        let (n, begin) = (self.nodes, self.begin(place));
         let deformation = &mut self.deformation;
         deformation.under_force(problem.zones, coupling, node, force);
-        let n = self.nodes;
-        let (gap, jump) = self.columns[2 * place * n..2 * (place + 1) * n].split_at_mut(n);
+        let displacements = deformation.averaged(coupling);
+        if !self.tangential {
+            let rows = self.columns[begin..begin + n].iter_mut();
+            let rows = rows.zip(problem.master_slope).zip(displacements);
+            for ((gap, master_slope), [x, y]) in rows {
+                *gap = y - master_slope * x;
+            }
+            return;
+        }
+        let (gap, jump) = self.columns[begin..begin + 2 * n].split_at_mut(n);
         let slopes = problem.slope.iter().zip(problem.master_slope);
         let rows = gap.iter_mut().zip(jump).zip(slopes);
-        let displacements = deformation.averaged(coupling);
         for (((gap, jump), (slope, master_slope)), [x, y]) in rows.zip(displacements) {
             *gap = y - master_slope * x;
             *jump = x + slope * y;

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::status::Status;
 use crate::condensation::Operators;
-use crate::model::Interface;
+use crate::model::{Interface, Tangential};
 use crate::sides::{Side, Sides};
 use std::ops::Range;
 
@@ -106,11 +106,19 @@ impl ContactState {
         self.loaded.of(side).clone()
     }
 
-    /// Force of the slider on the receptacle along x, N/mm.
-    pub fn tangential_force(&self) -> f64 {
+    /// Force of the slider on the receptacle along x, N/mm; with that of the shear which acts on neither body. Widths of the
+    /// slave's nodes in mm.
+    pub fn tangential_force(&self, interface: &Interface, widths: &[f64]) -> f64 {
         let loaded = self.loaded(Side::Receptacle);
         let forces = &self.force.receptacle[2 * loaded.start..2 * loaded.end];
-        -forces.iter().step_by(2).sum::<f64>()
+        let acting = -forces.iter().step_by(2).sum::<f64>();
+        if interface.tangential != Tangential::Omitted {
+            return acting;
+        }
+        let active = self.active.clone();
+        let widths = &widths[active.clone()];
+        let shears = self.shear[active].iter().zip(widths);
+        acting + shears.map(|(q, width)| q * width).sum::<f64>()
     }
 
     /// |sum of shear forces| over the sum of normal ones, in the frame of the surface; at most mu.

@@ -13,6 +13,16 @@ pub(super) enum Unknown {
 }
 
 impl Unknown {
+    /// The pressure of a node, without friction where its shear is an unknown of its own.
+    pub(super) fn pressure(problem: &Problem<'_>, node: usize) -> Self {
+        let status = if problem.tracks_slip {
+            Status::Stick
+        } else {
+            Status::slip(problem.step)
+        };
+        Self::Pressure(node, status)
+    }
+
     /// Its node.
     pub(super) fn node(self) -> usize {
         match self {

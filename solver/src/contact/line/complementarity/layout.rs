@@ -2,7 +2,6 @@
 
 use super::super::problem::{Iterate, Problem};
 use super::super::response::Response;
-use super::super::status::Status;
 use super::super::unknown::Unknown;
 
 /// The bound of the height lies this many indentations below any possible height. Arbitrary: 4 solves the same of the
@@ -36,11 +35,11 @@ impl Layout {
         };
         let length = indentation.max(range.1 - range.0).max(f64::MIN_POSITIVE);
         let stiffest = (0..n)
-            .map(|i| response.column(Unknown::Pressure(i, Status::Stick)).0[i])
+            .map(|i| response.column(Unknown::pressure(problem, i)).0[i])
             .fold(f64::MIN_POSITIVE, f64::max);
         Self {
             n,
-            sheared: problem.friction > 0.0,
+            sheared: problem.tracks_slip,
             pressure: length / stiffest,
             length,
             lowest: -range.1 - HEIGHT_MARGIN * length,

@@ -31,8 +31,11 @@ impl Evaluation {
         let n = it.status.len();
         self.deform(unknowns, response, it);
         let mut indentation = 0.0_f64;
-        for (i, jump) in self.slip.iter().enumerate() {
-            it.slip[i] = problem.fixed_slip[i] + problem.slope[i] * it.height + jump;
+        for (i, fixed) in problem.fixed_slip.iter().enumerate() {
+            it.slip[i] = fixed + problem.slope[i] * it.height;
+            if problem.tracks_slip {
+                it.slip[i] += self.slip[i];
+            }
             let slips = it.status[i].direction() * it.slip[i];
             it.path[i] = (it.pressure[i] * slips).max(0.0);
             if it.status[i] != Status::Open {

@@ -53,7 +53,9 @@ impl Jacobian {
             let (gap, slip) = response.column(*unknown);
             self.gap[span.clone()].copy_from_slice(&gap[span.clone()]);
             if problem.wears {
-                self.opening.add_product(&span, slip, &mut self.gap);
+                if problem.tracks_slip {
+                    self.opening.add_product(&span, slip, &mut self.gap);
+                }
                 if let Unknown::Pressure(a, _) = *unknown {
                     let column = wear.per_pressure();
                     column.add_column(&span, a, local(a).slip, &mut self.gap);

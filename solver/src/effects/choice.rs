@@ -1,0 +1,119 @@
+//! The decision about each effect: nothing to simulate, the user's switch, what the run has called for, its indicator.
+
+use super::decision::{Decision, Indicator, Verdict};
+use super::effect::Effect;
+use super::indicators::Indicators;
+use super::reason::{Grounds, reason};
+use super::small_strain;
+
+use crate::scene::{Scene, WearLaw};
+use crate::sides::Sides;
+
+/// Largest indicator of a skipped effect over the tolerance. Arbitrary: five effects at this limit exceed their budget
+/// twice.
+const SHARE: f64 = 0.2;
+
+/// Decides about all effects, some of which the run or the budget calls for.
+pub(super) fn decide(
+    scene: &Scene,
+    indicators: &Indicators<'_>,
+    called_for: &[Effect],
+) -> Vec<Decision> {
+    let mut decisions: Vec<Decision> = Vec::with_capacity(Effect::ALL.len());
+    for &effect in Effect::ALL {
+        let is_on = |effect| {
+            decisions
+                .iter()
+                .any(|decision| decision.effect == effect && decision.verdict.is_on())
+        };
+        let nothing = nothing_to_simulate(scene, effect, is_on);
+        let grounds = match nothing {
+            Some(nothing) => Grounds::Nothing(nothing),
+            None => Grounds::Indicator(indicator(scene, indicators, effect)),
+        };
+        let verdict = verdict(scene, effect, grounds, called_for.contains(&effect));
+        decisions.push(Decision {
+            effect,
+            verdict,
+            indicator: grounds.indicator(),
+            reason: reason(
+                scene,
+                indicators,
+                effect,
+                (verdict, grounds, called_for.contains(&effect)),
+            ),
+        });
+    }
+    decisions
+}
+
+fn verdict(scene: &Scene, effect: Effect, grounds: Grounds, called_for: bool) -> Verdict {
+    let Grounds::Indicator(indicator) = grounds else {
+        return Verdict::Skipped;
+    };
+    let switch = scene.effects.of(effect);
+    // Sticking needs shear.
+    let needed = effect == Effect::Friction && scene.effects.of(Effect::StickMemory) == Some(true);
+    match switch {
+        Some(true) => Verdict::ForcedOn,
+        Some(false) => Verdict::ForcedOff,
+        None if !effect.is_available() => Verdict::Skipped,
+        None if called_for || needed || indicator.value() > indicator.threshold => {
+            Verdict::Simulated
+        }
+        None => Verdict::Skipped,
+    }
+}
+
+fn indicator(scene: &Scene, indicators: &Indicators<'_>, effect: Effect) -> Indicator {
+    let accuracy = &scene.accuracy;
+    Indicator {
+        unworn: indicators.value(effect, Sides::default()),
+        worn: indicators.value(effect, indicators.worn_depth_at_end()),
+        threshold: match effect {
+            Effect::Elasticity => 0.0,
+            Effect::GeometricNonlinearity => small_strain::LIMIT,
+            _ => SHARE * accuracy.tolerance,
+        },
+    }
+}
+
+/// Whether a law removes anything.
+fn wears_by_law(law: Option<WearLaw>) -> bool {
+    law.is_some_and(|law| law.uniform().is_none_or(|rate| rate > 0.0))
+}
+
+/// Why there is nothing to simulate, beside the effects that are on already.
+fn nothing_to_simulate(
+    scene: &Scene,
+    effect: Effect,
+    is_on: impl Fn(Effect) -> bool,
+) -> Option<&'static str> {
+    let wears = || is_on(Effect::ReceptacleWear) || is_on(Effect::SliderWear);
+    let slides = scene.motion.distance_per_cycle_mm() > 0.0;
+    let wear = |has_law: bool, without: &'static str| match (has_law, slides) {
+        (false, _) => Some(without),
+        (true, false) => Some("nothing slides: the amplitude is 0"),
+        (true, true) => None,
+    };
+    match effect {
+        Effect::Friction | Effect::StickMemory if !scene.has_friction() => {
+            Some("there is no friction in the scene")
+        }
+        Effect::StickMemory if !is_on(Effect::Friction) => {
+            Some("friction acts on neither body, so that nothing sticks")
+        }
+        Effect::ReceptacleWear => wear(
+            wears_by_law(scene.receptacle.wear),
+            "the receptacle has no wear law",
+        ),
+        Effect::SliderWear => wear(
+            wears_by_law(scene.slider.wear),
+            "the slider has no wear law",
+        ),
+        Effect::Relocation if !wears() => Some("nothing wears, so nothing moves the mesh"),
+        Effect::SpringFading if scene.spring_n_per_mm2 <= 0.0 => Some("the load is a dead load"),
+        Effect::SpringFading if !wears() => Some("nothing wears, so the spring keeps its load"),
+        _ => None,
+    }
+}

@@ -1,0 +1,55 @@
+//! The decision about an effect.
+
+use super::effect::Effect;
+use serde::{Deserialize, Serialize};
+
+/// Decision about one effect.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Decision {
+    /// The effect.
+    pub effect: Effect,
+    /// The decision.
+    pub verdict: Verdict,
+    /// Its indicator; `None` where there is nothing to decide.
+    pub indicator: Option<Indicator>,
+    /// Reason, with the numbers that decided.
+    pub reason: String,
+}
+
+/// A decision.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Verdict {
+    /// The scene calls for it.
+    Simulated,
+    /// The scene does not call for it, or has nothing to simulate.
+    Skipped,
+    /// Simulated because the user switched it on.
+    ForcedOn,
+    /// Left out because the user switched it off.
+    ForcedOff,
+}
+
+impl Verdict {
+    /// Whether the effect is part of the model.
+    pub fn is_on(self) -> bool {
+        matches!(self, Self::Simulated | Self::ForcedOn)
+    }
+}
+
+/// Relative change of the outputs by an effect.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Indicator {
+    /// For the unworn contact.
+    pub unworn: f64,
+    /// At the estimated end.
+    pub worn: f64,
+    /// Largest value of an effect that is skipped.
+    pub threshold: f64,
+}
+
+impl Indicator {
+    /// The larger of both values.
+    pub fn value(self) -> f64 {
+        self.unworn.max(self.worn)
+    }
+}

@@ -1,0 +1,86 @@
+//! Effects that a plan decides about.
+
+use serde::{Deserialize, Serialize};
+
+/// Declares the effects with their stable names, their indicators in words and the outputs that they change.
+macro_rules! effects {
+    ($($(#[doc = $doc:literal])+ $effect:ident = $name:literal, $indicator:literal, [$($output:literal),*];)+) => {
+        /// Effects that a plan decides about.
+        #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+        pub enum Effect {
+            $($(#[doc = $doc])+ $effect,)+
+        }
+
+        impl Effect {
+            /// All effects, in the order of a plan.
+            pub const ALL: &'static [Self] = &[$(Self::$effect),+];
+
+            /// Stable name.
+            pub fn name(self) -> &'static str {
+                match self { $(Self::$effect => $name,)+ }
+            }
+
+            /// What its indicator is, in words and symbols.
+            pub fn indicator(self) -> &'static str {
+                match self { $(Self::$effect => $indicator,)+ }
+            }
+
+            /// Outputs that it changes.
+            pub fn changes(self) -> &'static [&'static str] {
+                match self { $(Self::$effect => &[$($output),*],)+ }
+            }
+        }
+    };
+}
+
+effects! {
+    /// Elastic deformation of both bodies.
+    Elasticity = "elasticity",
+        "always: the pressure and the width of the contact follow from it",
+        ["peak_pressure_mpa", "contact_half_width_mm", "max_depth_mm", "scar_half_width_mm"];
+    /// Action of the shear traction on the contact.
+    Friction = "friction",
+        "largest of: slip lost by tangential deformation over the amplitude, (A_c/A)/(1 - mu s), with the slope of the scar's \
+         edge, s = sqrt(2 h/R), or on a corner; (mu s)^2; (mu times Dundurs' beta)^2; mu where fields are asked for",
+        ["max_depth_mm", "scar_half_width_mm", "worn_area_mm2", "peak_pressure_mpa", "fields"];
+    /// Stick, slip and the tangential deformation in the slip.
+    StickMemory = "stick_memory",
+        "slip lost by tangential deformation over the amplitude, (A_c/A)/(1 - mu s), with the slope of the scar's edge, \
+         s = sqrt(2 h/R), or on a corner of the block",
+        ["max_depth_mm", "scar_half_width_mm", "worn_area_mm2", "tangential_force_n_per_mm"];
+    /// Wear of the receptacle.
+    ReceptacleWear = "receptacle_wear",
+        "larger of: its worn depth over the deepest; its wear rate over three times the slider's",
+        ["max_depth_mm", "scar_half_width_mm", "worn_area_mm2"];
+    /// Wear of the slider.
+    SliderWear = "slider_wear",
+        "largest of: its worn depth over the deepest; its wear rate over three times the receptacle's; half the width of its \
+         flat over the amplitude",
+        ["max_depth_mm", "scar_half_width_mm", "worn_area_mm2"];
+    /// Moving mesh and rebuilt stiffness.
+    Relocation = "relocation",
+        "0.0125 times the square of the worn part of the height over what is left, (h/H)^2/(1 - h/H), as measured; h/H where fields \
+         are asked for",
+        ["peak_pressure_mpa", "contact_half_width_mm", "fields"];
+    /// Decrease of the spring's load as the bodies wear.
+    SpringFading = "spring_fading",
+        "mean loss of load over the load, (h_slider + h_receptacle) k/(2 P)",
+        ["load_n_per_mm", "max_depth_mm", "worn_area_mm2", "peak_pressure_mpa"];
+    /// Finite strains and rotations of the bodies; never simulated: a scene that calls for it is refused.
+    GeometricNonlinearity = "geometric_nonlinearity",
+        "error of small strains in peak pressure and half-width, (p0/2E*)(1 + 0.16 mu^2)",
+        ["peak_pressure_mpa", "contact_half_width_mm"];
+}
+
+impl Effect {
+    /// Whether it can be simulated.
+    pub fn is_available(self) -> bool {
+        self != Self::GeometricNonlinearity
+    }
+
+    /// Whether its indicator, if it is skipped, counts as an error of what the tolerance bounds. Small strains have a limit of
+    /// their own.
+    pub(super) fn is_counted(self) -> bool {
+        self != Self::GeometricNonlinearity
+    }
+}

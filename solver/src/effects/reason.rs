@@ -1,0 +1,114 @@
+//! Reasons of decisions, in words with their numbers.
+
+use super::decision::{Indicator, Verdict};
+use super::effect::Effect;
+use super::indicators::Indicators;
+
+use crate::law::elastic::contact_modulus;
+use crate::scene::Scene;
+
+/// What a decision was made by.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Grounds {
+    /// There is nothing to simulate.
+    Nothing(&'static str),
+    /// An indicator.
+    Indicator(Indicator),
+}
+
+impl Grounds {
+    /// The indicator.
+    pub(super) fn indicator(self) -> Option<Indicator> {
+        match self {
+            Self::Nothing(_) => None,
+            Self::Indicator(indicator) => Some(indicator),
+        }
+    }
+}
+
+/// The reason of a decision.
+pub(super) fn reason(
+    scene: &Scene,
+    indicators: &Indicators<'_>,
+    effect: Effect,
+    (verdict, grounds, called_for): (Verdict, Grounds, bool),
+) -> String {
+    let indicator = match grounds {
+        Grounds::Nothing(nothing) => return nothing.to_owned(),
+        Grounds::Indicator(indicator) => indicator,
+    };
+    if effect == Effect::Elasticity {
+        let modulus = contact_modulus(scene.slider.elastic, scene.receptacle.elastic);
+        let half_width = indicators.hertz_half_width();
+        return format!(
+            "contact modulus {modulus:.0} MPa, unworn Hertz half-width {half_width:.3e} mm"
+        );
+    }
+    let Indicator {
+        unworn,
+        worn,
+        threshold,
+    } = indicator;
+    let switch = match verdict {
+        Verdict::ForcedOn => "switched on; ",
+        Verdict::ForcedOff => "switched off; ",
+        Verdict::Simulated | Verdict::Skipped => "",
+    };
+    let result = consequence(effect, verdict.is_on());
+    let together = if called_for && verdict == Verdict::Simulated {
+        ", and more than half of the tolerance together with all that is left out"
+    } else {
+        ""
+    };
+    format!(
+        "{switch}{} unworn, {} at the estimated end, limit {}{together}: {result}",
+        percent(unworn),
+        percent(worn),
+        percent(threshold)
+    )
+}
+
+/// The reason of an effect that a run has called for.
+pub(super) fn called_for(cycle: u64, value: Option<f64>) -> String {
+    match value {
+        Some(value) => format!(
+            "called for by the run: {} after cycle {cycle}",
+            percent(value)
+        ),
+        None => format!("called for by the run: no solution without it after cycle {cycle}"),
+    }
+}
+
+/// What follows from simulating an effect or leaving it out.
+fn consequence(effect: Effect, is_on: bool) -> &'static str {
+    match (effect, is_on) {
+        (Effect::Elasticity, _) => "both bodies deform",
+        (Effect::Friction, true) => "the shear traction deforms both bodies",
+        (Effect::Friction, false) => {
+            "the contact is solved without shear, which follows from the pressure as mu p"
+        }
+        (Effect::StickMemory, true) => "each node sticks or slips, and the bodies deform along x",
+        (Effect::StickMemory, false) => "each node slips as the slider is displaced",
+        (Effect::ReceptacleWear | Effect::SliderWear, true) => "its surface wears",
+        (Effect::ReceptacleWear | Effect::SliderWear, false) => "its surface does not wear",
+        (Effect::Relocation, true) => {
+            "the mesh follows the worn surface and the stiffness is rebuilt"
+        }
+        (Effect::Relocation, false) => "the stiffness of the unworn bodies is used throughout",
+        (Effect::SpringFading, true) => "the load decreases as the bodies wear",
+        (Effect::SpringFading, false) => "the load is constant",
+        (Effect::GeometricNonlinearity, _) => "strains and rotations are taken as small",
+    }
+}
+
+/// A relative change in percent.
+fn percent(value: f64) -> String {
+    let percent = 100.0 * value;
+    if !percent.is_finite() {
+        "without bound".to_owned()
+    } else if percent == 0.0 || percent >= 0.01 {
+        format!("{percent:.2} %")
+    } else {
+        format!("{percent:.0e} %")
+    }
+}

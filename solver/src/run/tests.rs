@@ -1,0 +1,100 @@
+//! A run that calls for an effect which its plan has skipped.
+
+use super::*;
+use crate::effects::{Effect, Switches};
+use crate::model::tests::fuzz_button;
+use crate::scene::Friction;
+
+/// Records the cycles of reports, and the checkpoints.
+#[derive(Default)]
+struct Recorder {
+    cycles: Vec<u64>,
+    checkpoints: Vec<Checkpoint>,
+}
+
+impl Observer for Recorder {
+    fn on(&mut self, event: Event<'_>) -> ControlFlow<()> {
+        match event {
+            Event::Cycle(report) => self.cycles.push(report.cycle),
+            Event::Checkpoint(checkpoint) => self.checkpoints.push(checkpoint.clone()),
+            Event::Snapshot(_) | Event::Restart(_) => {}
+        }
+        ControlFlow::Continue(())
+    }
+}
+
+fn scene(cycles: u64) -> Scene {
+    let mut scene = fuzz_button();
+    scene.friction = Friction::Coulomb { coefficient: 0.3 };
+    scene.cycles = cycles;
+    scene.accuracy.tolerance = 0.02;
+    scene.stop.clear();
+    scene
+}
+
+/// The plan of few cycles skips friction, because the scar is shallow.
+fn plan_of_few_cycles() -> EffectsPlan {
+    let plan = effects::plan(&scene(5));
+    assert!(!plan.simulates(Effect::Friction), "{plan:?}");
+    plan
+}
+
+#[test]
+fn a_run_goes_back_and_switches_on_what_it_calls_for() {
+    let scene = scene(400);
+    let mut recorder = Recorder::default();
+    let done = begin(
+        &scene,
+        &plan_of_few_cycles(),
+        Earlier::default(),
+        &mut recorder,
+    );
+    let done = done.expect("it can be solved");
+    let [crossing, stick] = done.crossings[..] else {
+        panic!("{:?}", done.crossings);
+    };
+    assert_eq!(stick.effect, Effect::StickMemory);
+    assert_eq!(crossing.effect, Effect::Friction);
+    assert!(crossing.value > Some(0.004) && (1..400).contains(&crossing.cycle));
+    // The cycle without friction is not reported.
+    assert!(
+        recorder.cycles.is_sorted_by(|a, b| a < b),
+        "{:?}",
+        recorder.cycles
+    );
+    assert!(recorder.cycles.contains(&crossing.cycle));
+
+    let all_on = Scene {
+        effects: Switches::default()
+            .with(Effect::Friction, true)
+            .with(Effect::StickMemory, true),
+        ..scene
+    };
+    let all_on = solve(&all_on, &mut Recorder::default()).expect("it can be solved");
+    let (a, b) = (done.last.receptacle, all_on.last.receptacle);
+    assert!((a.max_depth_mm / b.max_depth_mm - 1.0).abs() < 0.01);
+    assert!((a.worn_area_mm2 / b.worn_area_mm2 - 1.0).abs() < 0.01);
+}
+
+#[test]
+fn a_resumed_run_continues_with_what_it_has_called_for() {
+    let scene = scene(400);
+    let mut whole = Recorder::default();
+    let done = begin(
+        &scene,
+        &plan_of_few_cycles(),
+        Earlier::default(),
+        &mut whole,
+    );
+    let done = done.expect("it can be solved");
+    let called_for = whole.checkpoints.iter();
+    let from = called_for.filter(|checkpoint| !checkpoint.crossings.is_empty());
+    let from = from
+        .clone()
+        .nth(from.count() / 2)
+        .expect("checkpoints after the crossing");
+    let mut rest = Recorder::default();
+    let resumed = proceed(&scene, &plan_of_few_cycles(), from.clone(), &mut rest);
+    let resumed = resumed.expect("it resumes");
+    assert_eq!(format!("{resumed:?}"), format!("{done:?}"));
+}

@@ -1,0 +1,171 @@
+//! Requirement: the plan leaves out what does not matter and nothing else.
+//!
+//! Over scenes of all regimes the outputs with `auto` are those with every effect on, within the tolerance, for no more
+//! work; and an effect that the plan calls decisive changes the outputs by more than the tolerance when it is switched
+//! off. The table is that of `solver/README.md`.
+
+mod difference;
+mod scenes;
+
+use comfy_table::{Table, presets};
+use solver::effects::{self, Effect, EffectsPlan, Switches, Verdict};
+use solver::law::friction;
+use solver::record::Summary;
+use solver::scene::Scene;
+
+use crate::hard::run;
+use difference::largest;
+
+/// Tolerance of all scenes.
+const TOLERANCE: f64 = 0.02;
+
+/// A scene solved by its plan, with every effect on, and with each decisive effect off.
+struct Compared {
+    name: String,
+    skipped: Vec<&'static str>,
+    /// Largest difference of an output from the run with every effect on, and its name.
+    difference: (f64, &'static str),
+    /// Entries of responses and unknowns, over those with every effect on.
+    work: [f64; 2],
+    /// Decisive effects with the largest change of an output when they are off.
+    decisive: Vec<(Effect, f64)>,
+}
+
+#[test]
+fn plans_leave_out_only_what_does_not_matter() {
+    let scenes = scenes::all();
+    assert!(scenes.len() >= 40, "{}", scenes.len());
+    let compared: Vec<Compared> = scenes
+        .iter()
+        .map(|(name, spec)| compare(name, &run::scene(spec)))
+        .collect();
+    println!("{}", table(&compared));
+    for scene in &compared {
+        let (difference, output) = scene.difference;
+        let name = &scene.name;
+        assert!(difference <= TOLERANCE, "{name}: {output} {difference}");
+        let [entries, unknowns] = scene.work;
+        assert!(entries <= 1.0, "{name}: {entries}");
+        // The control of jumps may take a cycle more on another solution.
+        assert!(unknowns <= 1.05, "{name}: {unknowns}");
+    }
+    for &effect in Effect::ALL {
+        let changes: Vec<f64> = changes(&compared, effect).collect();
+        let called = changes.len();
+        let decisive = changes.iter().filter(|change| **change > TOLERANCE).count();
+        println!(
+            "{}: decisive in {decisive} of {called} scenes that call it so",
+            effect.name()
+        );
+        // Half of them at least: the indicators are upper estimates.
+        assert!(2 * decisive >= called, "{}: {changes:?}", effect.name());
+    }
+}
+
+/// The change of the outputs without an effect, in the scenes in which it is called decisive.
+fn changes(compared: &[Compared], effect: Effect) -> impl Iterator<Item = f64> {
+    let decisive = compared.iter().flat_map(|scene| &scene.decisive);
+    decisive
+        .filter(move |(other, _)| *other == effect)
+        .map(|(_, change)| *change)
+}
+
+fn compare(name: &str, scene: &Scene) -> Compared {
+    let plan = effects::plan(scene);
+    let auto = solved(scene.clone());
+    let all_on = solved(Scene {
+        effects: all_on(&plan, scene),
+        ..scene.clone()
+    });
+    let decisive = decisive(&plan).map(|effect| {
+        let off = solved(Scene {
+            effects: Switches::default().with(effect, false),
+            ..scene.clone()
+        });
+        (effect, largest(&off, &auto).0)
+    });
+    let decisive = decisive.collect();
+    let share = |of: fn(&Summary) -> u64| number(of(&auto)) / number(of(&all_on));
+    Compared {
+        name: name.to_owned(),
+        skipped: skipped(&plan).map(Effect::name).collect(),
+        difference: largest(&auto, &all_on),
+        work: [
+            share(|summary| summary.resolution.work.response_entries),
+            share(|summary| summary.resolution.work.unknowns),
+        ],
+        decisive,
+    }
+}
+
+fn number(count: u64) -> f64 {
+    f64::from(u32::try_from(count).expect("counts of short runs are small"))
+}
+
+fn solved(scene: Scene) -> Summary {
+    let ended = run::solve_part(scene, usize::MAX);
+    ended.end.expect("the scene can be solved")
+}
+
+/// Effects that the plan skips although there is something to simulate.
+fn skipped(plan: &EffectsPlan) -> impl Iterator<Item = Effect> {
+    let skipped = plan
+        .decisions
+        .iter()
+        .filter(|decision| decision.verdict == Verdict::Skipped && decision.indicator.is_some());
+    skipped.map(|decision| decision.effect)
+}
+
+/// Every effect that has something to simulate.
+fn all_on(plan: &EffectsPlan, scene: &Scene) -> Switches {
+    let has_friction = friction::coefficient(scene.friction) > 0.0;
+    let on = Effect::ALL.iter().filter(|effect| {
+        let sticks = **effect == Effect::StickMemory && has_friction;
+        let mut decisions = plan.decisions.iter();
+        let decision = decisions.find(|decision| decision.effect == **effect);
+        effect.is_available() && (sticks || decision.is_some_and(|d| d.indicator.is_some()))
+    });
+    on.fold(Switches::default(), |switches, effect| {
+        switches.with(*effect, true)
+    })
+}
+
+/// Effects whose indicator exceeds the tolerance.
+fn decisive(plan: &EffectsPlan) -> impl Iterator<Item = Effect> {
+    let decisive = plan.decisions.iter().filter(|decision| {
+        decision.verdict == Verdict::Simulated
+            && decision.effect != Effect::Elasticity
+            && decision
+                .indicator
+                .is_some_and(|indicator| indicator.value() > TOLERANCE)
+    });
+    decisive.map(|decision| decision.effect)
+}
+
+fn table(compared: &[Compared]) -> Table {
+    let mut table = Table::new();
+    table.load_style(presets::ASCII_MARKDOWN);
+    table.set_header([
+        "scene",
+        "skipped",
+        "difference from all on",
+        "response entries",
+        "unknowns",
+        "change without each decisive effect",
+    ]);
+    for scene in compared {
+        let (difference, output) = scene.difference;
+        let decisive = scene.decisive.iter();
+        let decisive =
+            decisive.map(|(effect, change)| format!("{} {:.1} %", effect.name(), 100.0 * change));
+        table.add_row([
+            scene.name.clone(),
+            scene.skipped.join(", "),
+            format!("{:.2} % ({output})", 100.0 * difference),
+            format!("{:.2}", scene.work[0]),
+            format!("{:.2}", scene.work[1]),
+            decisive.collect::<Vec<_>>().join(", "),
+        ]);
+    }
+    table
+}

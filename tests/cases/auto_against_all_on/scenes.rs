@@ -1,0 +1,118 @@
+//! Scenes of all regimes: systems, friction, slip regimes, wear of both sides, springs, stiffness and depth of wear.
+
+use serde_json::{Value, json};
+
+const KINDS: [&str; 5] = ["fuzz_button", "sd_card", "dimm", "zif", "cylinder_on_flat"];
+
+/// All scenes with their names.
+pub(super) fn all() -> Vec<(String, Value)> {
+    let mut scenes = Vec::new();
+    for kind in KINDS {
+        add_to(&mut scenes, kind.to_owned(), kind, &json!({}));
+        for coefficient in [0.0, 0.05, 0.6] {
+            let friction = match coefficient {
+                0.0 => json!({"law": "frictionless"}),
+                _ => json!({"law": "coulomb", "coefficient": coefficient}),
+            };
+            let name = format!("{kind}, friction {coefficient}");
+            add_to(
+                &mut scenes,
+                name,
+                kind,
+                &json!({"interface": {"friction": friction}}),
+            );
+        }
+    }
+    for kind in ["sd_card", "cylinder_on_flat"] {
+        for amplitude in [5e-5, 2e-4, 1e-3, 5e-3, 0.1] {
+            let name = format!("{kind}, amplitude {amplitude} mm");
+            let motion =
+                json!({"kind": "reciprocating", "amplitude_mm": amplitude, "period_s": 0.05});
+            add_to(&mut scenes, name, kind, &json!({"motion": motion}));
+        }
+        for share in [1.0, 0.1, 1e-3, 1e-5] {
+            let name = format!("{kind}, slider wears {share} times as fast");
+            let law = |k: f64| json!({"law": "archard", "k_over_h_per_mpa": k});
+            let wear = json!({"slider": law(1e-6 * share), "receptacle": law(1e-6)});
+            add_to(
+                &mut scenes,
+                name,
+                kind,
+                &json!({"interface": {"wear": wear}}),
+            );
+        }
+        for spring in [1e-3, 0.1, 10.0] {
+            let name = format!("{kind}, spring {spring} N/mm");
+            let load =
+                json!({"kind": "force", "n": 0.5, "width_mm": 0.8, "spring_n_per_mm": spring});
+            add_to(&mut scenes, name, kind, &json!({"load": load}));
+        }
+    }
+    for coefficient in [0.1, 0.6] {
+        for kind in ["sd_card", "cylinder_on_flat"] {
+            let name = format!("{kind}, whole slider driven, friction {coefficient}");
+            let changes = json!({
+                "motion": {"kind": "reciprocating", "amplitude_mm": 0.1, "period_s": 0.05, "drive": "slider_body"},
+                "interface": {"friction": {"law": "coulomb", "coefficient": coefficient}},
+            });
+            add_to(&mut scenes, name, kind, &changes);
+        }
+    }
+    let soft = json!({"youngs_modulus_mpa": 3000.0, "poisson_ratio": 0.38, "hardness_mpa": 100.0});
+    for (side, coefficient) in [
+        ("slider", 0.1),
+        ("slider", 0.5),
+        ("receptacle", 0.1),
+        ("slider", 0.8),
+    ] {
+        let name = format!("sd_card, soft {side}, friction {coefficient}");
+        let changes = json!({
+            "materials": {side: soft},
+            "interface": {"friction": {"law": "coulomb", "coefficient": coefficient}},
+        });
+        add_to(&mut scenes, name, "sd_card", &changes);
+    }
+    let driven = json!({"cycles": 2_000});
+    add_to(
+        &mut scenes,
+        "fuzz_button, 2000 cycles".to_owned(),
+        "fuzz_button",
+        &driven,
+    );
+    // The block is worn to a part of its height.
+    let thin = json!({"system": {"kind": "cylinder_on_flat", "flat_height_mm": 0.02}, "cycles": 1_000_000,
+        "motion": {"kind": "reciprocating", "amplitude_mm": 0.005, "period_s": 0.05}});
+    add_to(
+        &mut scenes,
+        "thin block, short stroke".to_owned(),
+        "cylinder_on_flat",
+        &thin,
+    );
+    for spring in [20.0, 200.0] {
+        let name = format!("sd_card, 5000 cycles, spring {spring} N/mm");
+        let load = json!({"kind": "force", "n": 0.5, "width_mm": 0.8, "spring_n_per_mm": spring});
+        add_to(
+            &mut scenes,
+            name,
+            "sd_card",
+            &json!({"load": load, "cycles": 5_000}),
+        );
+    }
+    for cycles in [20, 20_000] {
+        let name = format!("zif, {cycles} cycles");
+        add_to(&mut scenes, name, "zif", &json!({"cycles": cycles}));
+    }
+    scenes
+}
+
+/// Adds the preset of a kind with changes, at few cycles unless given.
+fn add_to(scenes: &mut Vec<(String, Value)>, name: String, kind: &str, changes: &Value) {
+    let mut spec = json!({
+        "system": {"kind": kind},
+        "cycles": 500,
+        "accuracy": {"tolerance": super::TOLERANCE, "estimate_errors": false},
+    });
+    let fields = spec.as_object_mut().expect("an object");
+    fields.extend(changes.as_object().expect("an object").clone());
+    scenes.push((name, spec));
+}
