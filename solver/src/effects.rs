@@ -83,10 +83,16 @@ fn largest_beyond(values: impl Iterator<Item = (Effect, f64)>, limit: f64) -> Op
 }
 
 impl EffectsPlan {
+    /// The decision about an effect.
+    fn decision(&self, effect: Effect) -> Option<&Decision> {
+        let mut decisions = self.decisions.iter();
+        decisions.find(|decision| decision.effect == effect)
+    }
+
     /// Whether an effect is simulated.
     pub fn simulates(&self, effect: Effect) -> bool {
-        let mut decisions = self.decisions.iter();
-        decisions.any(|decision| decision.effect == effect && decision.verdict.is_on())
+        let decision = self.decision(effect);
+        decision.is_some_and(|decision| decision.verdict.is_on())
     }
 
     /// The decisions without their numbers.
@@ -181,8 +187,8 @@ impl EffectsPlan {
             _ => None,
         };
         let is_skipped = |effect: &Effect| {
-            let mut decisions = self.decisions.iter();
-            decisions.any(|d| d.effect == *effect && d.verdict == Verdict::Skipped)
+            let decision = self.decision(*effect);
+            decision.is_some_and(|decision| decision.verdict == Verdict::Skipped)
         };
         [effect]
             .into_iter()
@@ -199,10 +205,8 @@ impl EffectsPlan {
     /// every node has to slip may stick.
     pub fn called_for_by_failure(&self, cycle: u64) -> Vec<Crossing> {
         let skipped = |effect: &Effect| {
-            self.decisions.iter().any(|decision| {
-                decision.effect == *effect
-                    && decision.verdict == Verdict::Skipped
-                    && decision.indicator.is_some()
+            self.decision(*effect).is_some_and(|decision| {
+                decision.verdict == Verdict::Skipped && decision.indicator.is_some()
             })
         };
         let mut effects = [Effect::Friction, Effect::StickMemory].into_iter();
