@@ -1,11 +1,13 @@
 //! Result documents.
 
 mod history;
+mod life;
 mod manifest;
 mod snapshot;
 mod summary;
 
-pub use history::{Columns, SideSeries, Station, WearHistory};
+pub use history::{Columns, ExposedLayer, SideSeries, Station, WearHistory};
+pub use life::{LifeBand, LifeEntry, LifeStatus};
 pub use manifest::{Manifest, ResultFile};
 pub use snapshot::{
     Loop, Pressure, PressurePosition, Profile, SideProfile, SlidePosition, Snapshot,

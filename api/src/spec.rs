@@ -5,9 +5,11 @@
 
 mod count;
 mod interface;
+mod life;
 mod load;
 mod materials;
 mod motion;
+mod plating;
 mod read;
 mod settings;
 mod system;
@@ -21,9 +23,11 @@ use utoipa::ToSchema;
 use crate::enum_value::string_enum;
 pub use crate::enum_value::{EnumValue, StringEnum};
 pub use interface::{Friction, FrictionLaw, Interface, Sides, WearLaw, WearLawName};
+pub use life::{Criterion, CriterionKind, LifeSettings, Part};
 pub use load::{Load, LoadKind};
 pub use materials::{Material, MaterialProperties, Materials};
 pub use motion::{Drive, Motion, MotionKind, Waveform};
+pub use plating::{PlatingLayer, Platings};
 pub use read::{ParseError, pointer_token};
 pub use settings::{Accuracy, CycleJump, Output, Overrides, Preset, Stop, Switch};
 pub use system::{System, SystemKind};
@@ -63,6 +67,9 @@ pub struct Spec {
     /// Friction and wear.
     #[serde(default)]
     pub interface: Interface,
+    /// Layers over the base materials.
+    #[serde(default, skip_serializing_if = "Platings::is_empty")]
+    pub plating: Platings,
     /// The normal load.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub load: Option<Load>,
@@ -93,6 +100,9 @@ pub struct Spec {
     /// Conditions that end the run.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub stop: Vec<Stop>,
+    /// Life of the contact.
+    #[serde(default)]
+    pub life: LifeSettings,
     /// Provenance of each value, by JSON pointer. Filled in by the service; accepted and replaced when submitted,
     /// so that a resolved specification can be submitted again.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]

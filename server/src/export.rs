@@ -6,6 +6,7 @@ pub mod deck;
 pub mod documents;
 pub mod files;
 pub mod history;
+pub mod life;
 pub(crate) mod markdown;
 pub mod parquet;
 pub mod pictures;

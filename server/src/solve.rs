@@ -8,24 +8,47 @@ pub(crate) mod protocol;
 use std::ops::ControlFlow;
 
 use api::results::{Cost, Summary};
+use api::spec::LifeSettings;
 use solver::SolveError;
 use solver::error_control;
 use solver::observer::{self, Event, Observer};
 use solver::record::PlacedFields;
 use solver::scene::Scene;
 
-use crate::export::{history, vtu};
+use crate::export::{history, life, vtu};
+use crate::spec::Resolved;
 use checkpoint::{Checkpoint, CheckpointPolicy, EncodedCheckpoint};
 use cost::Stopwatch;
 pub use cost::{children_cpu_s, cpu_s, thread_cpu_s};
 pub use protocol::{Failure, FieldsFile, Line};
 
+/// What is solved.
+#[derive(Debug, Clone, Copy)]
+pub struct Case<'a> {
+    /// The scene.
+    pub scene: &'a Scene,
+    /// The resolved criteria of its life, and how wear coefficients scatter.
+    pub life: &'a LifeSettings,
+}
+
+impl<'a> From<&'a Resolved> for Case<'a> {
+    fn from(resolved: &'a Resolved) -> Self {
+        Self {
+            scene: &resolved.scene,
+            life: &resolved.spec.life,
+        }
+    }
+}
+
 /// Solves a scene. `on` receives every line except the last one, and may stop the run.
 ///
 /// # Errors
 /// [`Failure`] with the engine's numbers.
-pub fn run(scene: &Scene, on: &mut dyn FnMut(Line) -> ControlFlow<()>) -> Result<Summary, Failure> {
-    run_from(scene, None, &CheckpointPolicy::default(), on)
+pub fn run(
+    case: Case<'_>,
+    on: &mut dyn FnMut(Line) -> ControlFlow<()>,
+) -> Result<Summary, Failure> {
+    run_from(case, None, &CheckpointPolicy::default(), on)
 }
 
 /// Solves a scene from a checkpoint, if there is one, and emits checkpoints. If the checkpoint does not fit the scene, or
@@ -34,7 +57,7 @@ pub fn run(scene: &Scene, on: &mut dyn FnMut(Line) -> ControlFlow<()>) -> Result
 /// # Errors
 /// [`Failure`] with the engine's numbers.
 pub fn run_from(
-    scene: &Scene,
+    Case { scene, life }: Case<'_>,
     from: Option<Checkpoint>,
     policy: &CheckpointPolicy,
     on: &mut dyn FnMut(Line) -> ControlFlow<()>,
@@ -55,7 +78,9 @@ pub fn run_from(
         recorder.emit(Line::Restarted(misfit.to_string()));
         ended = error_control::solve(scene, &mut recorder);
     }
-    Ok(history::summary(&ended?, recorder.watch.cost()))
+    let summary = ended?;
+    let life = life::entries(life, scene, &summary.life, summary.last.cycle);
+    Ok(history::summary(&summary, recorder.watch.cost(), life))
 }
 
 struct Recorder<'a> {

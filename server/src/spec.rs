@@ -6,17 +6,21 @@
 
 mod accuracy;
 mod cause;
+mod criterion;
 mod diagnostics;
 mod effects;
 mod law;
 mod law_range;
+mod life;
 mod load;
 mod materials;
 mod motion;
 mod output;
+mod plating;
 mod repair;
 pub(crate) mod schema;
 mod sourced;
+mod stop;
 mod suggestion;
 mod system;
 mod unit;
@@ -25,6 +29,7 @@ use std::collections::BTreeMap;
 
 use api::problem::Fault;
 use api::spec::{ParseError, Spec, SystemKind};
+use solver::law::friction;
 use solver::model::Layout;
 use solver::scene::{Body, Scene};
 
@@ -140,18 +145,21 @@ fn fill(spec: &Spec, kind: SystemKind, diagnostics: &mut Diagnostics) -> (Spec, 
     let preset = (system::definition(kind).preset)();
     let (system, shapes) = system::resolve(kind, &spec.system, diagnostics);
     let (materials, elastic) = materials::resolve(&spec.materials, &preset, diagnostics);
+    let plated = plating::by_side(&spec.plating).map(|layers| !layers.is_empty());
     let (interface, laws) = law::resolve(
         &spec.interface,
         &spec.materials,
         &materials,
-        &preset,
+        (&preset, plated),
         diagnostics,
     );
+    let friction = friction::coefficient(laws.friction);
+    let (platings, layers) = plating::resolve(&spec.plating, friction, diagnostics);
     let (load, line_load) = load::resolve(spec.load.as_ref(), &preset, &shapes, diagnostics);
     let motion = motion::resolve(spec.motion.as_ref(), &preset, diagnostics);
     let continuous = motion.spec.distance_mm.is_some();
     let cycles = motion::cycles(spec.cycles, &motion, &preset, diagnostics);
-    if continuous && laws.wear.slider.is_some() {
+    if continuous && (laws.wear.slider.is_some() || plated.slider) {
         diagnostics.fault(
             "/interface/wear/slider",
             "a slider whose surface runs past continuously cannot wear yet; write null",
@@ -159,17 +167,27 @@ fn fill(spec: &Spec, kind: SystemKind, diagnostics: &mut Diagnostics) -> (Spec, 
     }
     let (accuracy, numerical) = accuracy::resolve(&spec.accuracy, &shapes, cycles, diagnostics);
     let (output, recorded) = output::resolve(&spec.output, &motion, &shapes, cycles, diagnostics);
-    let stop = output::stop(&spec.stop, diagnostics);
+    let surfaces = criterion::Surfaces {
+        plating: &layers,
+        wears: laws
+            .wear
+            .zip(plated)
+            .map(|(law, plated)| law.is_some() || plated),
+    };
+    let stop = stop::resolve(&spec.stop, surfaces, diagnostics);
+    let (life, criteria) = life::resolve(&spec.life, surfaces, diagnostics);
     let effects = effects::resolve(&spec.effects, diagnostics);
     let filled = Spec {
         system,
         materials,
         interface,
+        plating: platings,
         load: Some(load),
         motion: Some(motion.spec),
         cycles: (!continuous).then_some(cycles),
         accuracy,
         output,
+        life,
         provenance: BTreeMap::new(),
         ..spec.clone()
     };
@@ -178,11 +196,13 @@ fn fill(spec: &Spec, kind: SystemKind, diagnostics: &mut Diagnostics) -> (Spec, 
             shape: shapes.slider,
             elastic: elastic.slider,
             wear: laws.wear.slider,
+            plating: layers.slider,
         },
         receptacle: Body {
             shape: shapes.block,
             elastic: elastic.receptacle,
             wear: laws.wear.receptacle,
+            plating: layers.receptacle,
         },
         friction: laws.friction,
         load_n_per_mm: line_load.n_per_mm,
@@ -193,6 +213,7 @@ fn fill(spec: &Spec, kind: SystemKind, diagnostics: &mut Diagnostics) -> (Spec, 
         accuracy: numerical,
         output: recorded,
         stop,
+        life: criteria,
         effects,
     };
     (filled, scene)

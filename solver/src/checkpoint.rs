@@ -11,7 +11,7 @@ use crate::cycle::CycleState;
 use crate::effects::Crossing;
 use crate::mesh::MeshError;
 use crate::model::Model;
-use crate::record::{Compared, Initial, Summary};
+use crate::record::{Compared, Initial, Life, Summary};
 use crate::sides::{Side, Sides};
 
 /// A run between two computed cycles. It survives serialisation bit for bit in any format that preserves `f64`.
@@ -28,6 +28,8 @@ pub struct Checkpoint {
     pub(crate) crossings: Vec<Crossing>,
     /// Histories that the run's error is estimated by.
     pub(crate) compared: Compared,
+    /// Life by the criteria of the scene.
+    pub(crate) life: Life,
     /// What error control knows from the runs of this scene before this one.
     pub(crate) earlier: Earlier,
 }

@@ -25,7 +25,8 @@ mod wear_limit;
 use crate::ale::Spines;
 use crate::condensation::Operators;
 use crate::contact::{self, ContactError, ContactState, Displacement, Pair, Solver, Surfaces};
-use crate::model::{Interface, Model, Tangential};
+use crate::law::surface;
+use crate::model::{Interface, Model, Tangential, resolution};
 use crate::number::{cycles_at_least, real, real_cycles};
 use crate::scene::Scene;
 use crate::schedule::increments::{self, Position};
@@ -57,6 +58,8 @@ pub struct Integrator<'a> {
     /// Slopes of the surfaces at the beginning of the computed cycle.
     slope: Sides<Vec<f64>>,
     spines: Spines,
+    /// Cycles until the end of the run, estimated where it stops at a depth.
+    expected_cycles: u64,
     next: ContactState,
 }
 
@@ -74,6 +77,7 @@ impl<'a> Integrator<'a> {
             solver: Solver::default(),
             slope: Sides::default(),
             spines: Spines::of(model),
+            expected_cycles: resolution::expected_cycles(scene, model.sizes.hertz_half_width),
             next,
         }
     }
@@ -173,13 +177,13 @@ impl<'a> Integrator<'a> {
         let mut replays = Replays::new(plan.replays);
         let mut record = CycleRecord::default();
         let is_unskewed = plan.unskewed > 0 && state.skew.remains_after(jump);
-        let mut passes = Passes::begin(&state.depth);
+        let mut passes = Passes::begin(self.equivalents(&state.depth));
         let warm_starts = std::mem::take(&mut state.warm_starts);
         let mut next_starts = WarmStarts::default();
         let (mut half_widths, mut touching, mut done, mut neutral) = (0.0, 0, 0, 0);
         for (increment, step) in steps.iter().enumerate() {
             if increment > 0 && increments::begins_a_stroke(steps, increment) {
-                state.wear_of_strokes[0] = wear_per_cycle(state, &before, jump);
+                state.wear_of_strokes[0] = self.wear_per_cycle(state, &before, jump);
                 energy += self.extrapolate(state, extrapolated);
                 before.clone_from(&state.depth.receptacle);
             }
@@ -201,7 +205,7 @@ impl<'a> Integrator<'a> {
             let is_reported = !is_unskewed && !replays.are_planned();
             self.record(&mut record, state, step.at, (&mut replays, is_reported));
             if step.at == Some(Position::Leftmost) {
-                passes.between = Some(state.depth.clone());
+                passes.between = Some(self.equivalents(&state.depth));
             }
             if step.at == Some(Position::Neutral) {
                 neutral = record.friction_loop.displacement_mm.len();
@@ -212,7 +216,8 @@ impl<'a> Integrator<'a> {
             }
         }
         if is_unskewed && done == steps.len() {
-            state.skew.update(&passes, &state.depth, jump);
+            let after = self.equivalents(&state.depth);
+            state.skew.update(&passes, &after, jump);
             let step = self.scene.motion.amplitude_mm().abs() * 4.0 / real(steps.len());
             self.remove_skew(state, &mut record, (step, detailed));
         }
@@ -223,7 +228,7 @@ impl<'a> Integrator<'a> {
             cycles_at_least(real_cycles(jump) * real(done) / real(steps.len())).min(jump)
         };
         self.count(state, cycles);
-        state.wear_of_strokes[1] = wear_per_cycle(state, &before, cycles);
+        state.wear_of_strokes[1] = self.wear_per_cycle(state, &before, cycles);
         state.energy_per_cycle = (state.energy - energy) / real_cycles(cycles);
         if touching > 0 {
             state.mean_half_width = half_widths / real(touching);
@@ -232,6 +237,22 @@ impl<'a> Integrator<'a> {
         state.warm_starts = next_starts;
         state.most_increments = state.most_increments.max(steps.len());
         Ok(record)
+    }
+
+    /// Equivalents of the depths of both surfaces, mm.
+    fn equivalents(&self, depth: &Sides<Vec<f64>>) -> Sides<Vec<f64>> {
+        let wear = self.pair.interface.wear;
+        Sides::from_fn(|side| surface::equivalents(*wear.of(side), depth.of(side)).into_owned())
+    }
+
+    /// Wear of the receptacle since these depths, mm, over a number of cycles, as equivalent depth.
+    fn wear_per_cycle(&self, state: &CycleState, before: &[f64], cycles: u64) -> Vec<f64> {
+        let wear = self.pair.interface.wear.receptacle;
+        let [after, before] =
+            [&state.depth.receptacle, before].map(|depth| surface::equivalents(wear, depth));
+        let worn = after.iter().zip(&before[..]);
+        worn.map(|(after, before)| (after - before) / real_cycles(cycles))
+            .collect()
     }
 
     /// Counts cycles done.
@@ -313,11 +334,4 @@ impl<'a> Integrator<'a> {
         }
         record.contacts.push((position, contact));
     }
-}
-
-/// Wear of the receptacle since these depths, mm, over a number of cycles.
-fn wear_per_cycle(state: &CycleState, before: &[f64], cycles: u64) -> Vec<f64> {
-    let worn = state.depth.receptacle.iter().zip(before);
-    worn.map(|(after, before)| (after - before) / real_cycles(cycles))
-        .collect()
 }

@@ -11,7 +11,6 @@ mod indicators;
 mod reason;
 pub mod small_strain;
 mod switches;
-mod worn_depth;
 
 pub use decision::{Decision, Indicator, Verdict};
 pub use effect::Effect;

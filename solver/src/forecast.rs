@@ -78,7 +78,11 @@ pub fn forecast(scene: &Scene, layout: &Layout) -> Forecast {
     let x = layout.bodies.of(layout.sizes.slave).contact_x();
     let mut jump = JumpControl::default();
     let mut cycle = 0;
-    while stops::end(scene, scar.progress(cycle, &jump)).is_none() {
+    let is_done = |scar: &Scar, cycle, jump: &JumpControl| {
+        let exposed = |side, layer| scar.exposed(scene, (side, layer));
+        stops::end(scene, scar.progress(cycle, jump), exposed).is_some()
+    };
+    while !is_done(&scar, cycle, &jump) {
         if MOST_SEGMENTS <= run.segments.len() {
             run.extrapolate(cycle, scene.cycles);
             break;
@@ -102,7 +106,8 @@ pub fn forecast(scene: &Scene, layout: &Layout) -> Forecast {
         let before = scar.depth.clone();
         scar.wear(step * together);
         let done = step * together;
-        jump.update(scar.widths(), &before, &scar.depth, done);
+        let worn = (before.as_slices(), scar.depth.as_slices());
+        jump.update(scar.widths(), worn, done);
         cycle += done;
         run.computed_cycles += real_cycles(together);
         run.segments.push(Segment {

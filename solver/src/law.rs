@@ -2,4 +2,6 @@
 
 pub mod elastic;
 pub mod friction;
+pub mod plating;
+pub mod surface;
 pub mod wear;

@@ -3,13 +3,14 @@
 pub mod layout;
 pub mod profile;
 pub mod resolution;
+pub(crate) mod worn_depth;
 mod zones;
 
 use crate::effects::{Effect, EffectsPlan};
 use crate::element;
 use crate::law::elastic::{Lame, contact_modulus, plane_strain_compliance};
 use crate::law::friction;
-use crate::law::wear::WearLaw;
+use crate::law::surface::SurfaceWear;
 use crate::mesh::{ColumnMesh, MeshError};
 use crate::scene::{Drive, Elastic, Scene};
 use crate::sides::{Side, Sides};
@@ -28,6 +29,8 @@ pub struct Model {
     pub interface: Interface,
     /// Whether the meshes follow the worn surfaces.
     pub relocates: bool,
+    /// Whether layers below the outermost one are part of it.
+    pub plating: bool,
     /// The lengths that the mesh was chosen from.
     pub sizes: Sizes,
 }
@@ -95,8 +98,8 @@ pub struct Interface {
     pub sticks: bool,
     /// Weights of both surfaces' slopes in that of the interface, which the contact's normals belong to, -.
     pub slope_weights: Sides<f64>,
-    /// Wear laws; none where nothing wears.
-    pub wear: Sides<Option<WearLaw>>,
+    /// Wear of both surfaces; none where nothing wears.
+    pub wear: Sides<Option<SurfaceWear>>,
     /// Normal load on the unworn contact, N/mm.
     pub load: f64,
     /// Stiffness of the spring that applies the load: the load decreases by this as the slider sinks, N/mm per mm.
@@ -123,13 +126,14 @@ pub fn build(scene: &Scene, plan: &EffectsPlan) -> Result<Model, MeshError> {
         },
         interface,
         relocates: plan.simulates(Effect::Relocation),
+        plating: plan.simulates(Effect::Plating),
         sizes: layout.sizes,
     })
 }
 
 /// The interface of a scene with the laws of simulated effects only.
 fn interface(scene: &Scene, plan: &EffectsPlan, sizes: &Sizes) -> Interface {
-    let wear = |effect, law: Option<WearLaw>| law.filter(|_| plan.simulates(effect));
+    let plated = plan.simulates(Effect::Plating);
     let on = |effect| plan.simulates(effect);
     let tangential = match (on(Effect::Friction), on(Effect::StickMemory)) {
         (true, true) => Tangential::StickSlip,
@@ -144,8 +148,9 @@ fn interface(scene: &Scene, plan: &EffectsPlan, sizes: &Sizes) -> Interface {
         friction: friction::coefficient(scene.friction),
         tangential,
         wear: Sides {
-            slider: wear(Effect::SliderWear, scene.slider.wear),
-            receptacle: wear(Effect::ReceptacleWear, scene.receptacle.wear),
+            slider: (scene.slider.surface_wear(plated)).filter(|_| on(Effect::SliderWear)),
+            receptacle: (scene.receptacle.surface_wear(plated))
+                .filter(|_| on(Effect::ReceptacleWear)),
         },
         load: scene.load_n_per_mm,
         spring: if on(Effect::SpringFading) {
@@ -296,6 +301,7 @@ impl Model {
     pub(crate) fn follow(&mut self, scene: &Scene, plan: &EffectsPlan) {
         self.interface = interface(scene, plan, &self.sizes);
         self.relocates = plan.simulates(Effect::Relocation);
+        self.plating = plan.simulates(Effect::Plating);
     }
 
     /// The model with zones of another width, over that of the layout.

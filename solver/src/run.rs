@@ -9,11 +9,13 @@ use crate::condensation::{self, Condensed};
 use crate::cycle::{CycleRecord, CycleState, Integrator};
 use crate::effects::{self, EffectsPlan};
 use crate::fields;
+use crate::law::surface;
 use crate::model::{self, Model};
 use crate::observer::{Event, Observer, Phase};
-use crate::record::{self, Compared, Initial, Outcome, Resolution, Snapshot, Summary};
+use crate::record::{self, Compared, Initial, Life, Outcome, Resolution, Snapshot, Summary};
 use crate::scene::Scene;
 use crate::schedule::stops::{self, Progress};
+use crate::sides::Sides;
 
 /// Solves a scene from the unworn bodies to its end.
 ///
@@ -153,6 +155,7 @@ fn load(
         widened: 1.0,
         crossings: Vec::new(),
         compared,
+        life: Life::default(),
         earlier: Earlier::default(),
     };
     Ok((run, flow))
@@ -183,7 +186,7 @@ fn integrate(
         }
         let before = run.state.clone();
         let state = &mut run.state;
-        let until = stops::next(scene, progress(&spines, state));
+        let until = stops::next(scene, progress(model, &spines, state));
         let record = match integrator.compute_cycle(state, until) {
             Err(error) if error.needs_wider_zones() => {
                 run.widen();
@@ -207,10 +210,12 @@ fn integrate(
         }
         let report = record::report(scene, model, state);
         run.compared.push(&report);
+        run.life.push(scene, &report);
         if observer.on(Event::Cycle(&report)).is_break() {
             return Ok(STOPPED);
         }
-        let end = stops::end(scene, progress(&spines, state));
+        let exposed = |side, layer| report.exposed_fraction(side, layer);
+        let end = stops::end(scene, progress(model, &spines, state), exposed);
         if end.is_some() || scene.output.snapshots_at_cycles.contains(&state.cycle) {
             let snapshot = snapshot(scene, model, condensed, state, record)?;
             if observer.on(Event::Snapshot(&snapshot)).is_break() {
@@ -228,11 +233,15 @@ fn integrate(
 }
 
 /// Progress of the run for its stops.
-fn progress(spines: &Spines, state: &CycleState) -> Progress {
+fn progress(model: &Model, spines: &Spines, state: &CycleState) -> Progress {
+    let (wear, equivalent) = (model.interface.wear, state.jump.rates());
+    let rates = Sides::from_fn(|side| {
+        surface::at_relative_rates(*wear.of(side), equivalent.of(side), state.depth.of(side))
+    });
     Progress {
         cycle: state.cycle,
-        deepest: state.depth.largest(),
-        cycles_left: spines.cycles_left(&state.depth, state.jump.rates()),
+        deepest: state.depth.largest_of_each(),
+        cycles_left: spines.cycles_left(&state.depth, rates.as_ref().map(|rates| &rates[..])),
         fastest_rate: state.jump.fastest_rate(),
         worn_through: spines.are_worn_through(&state.depth),
     }
@@ -285,6 +294,7 @@ fn summary(
         compared,
         effects: plan.verdicts(),
         crossings: run.crossings.clone(),
+        life: run.life.clone(),
     }
 }
 

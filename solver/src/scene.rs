@@ -4,16 +4,21 @@
 //! direction with its origin at the neutral position, y points up. A scene is plain data, validated
 //! where it is created; the engine does not check it again.
 
+mod criterion;
 mod tuning;
 
+pub use criterion::Criterion;
 pub use tuning::{Power, Tuning};
 
-use crate::effects::Switches;
+use crate::effects::{Effect, Switches};
 use crate::law::friction;
+use crate::law::surface::SurfaceWear;
 use crate::number::count_at_least;
+use crate::sides::{Side, Sides};
 
 pub use crate::law::elastic::Elastic;
 pub use crate::law::friction::Friction;
+pub use crate::law::plating::{Layer, MOST_LAYERS};
 pub use crate::law::wear::WearLaw;
 
 /// A contact system with its loads, motion and numerical settings.
@@ -40,8 +45,10 @@ pub struct Scene {
     pub accuracy: Accuracy,
     /// Recorded output.
     pub output: Output,
-    /// Conditions that end the run.
-    pub stop: Vec<StopCondition>,
+    /// Criteria that end the run.
+    pub stop: Vec<Criterion>,
+    /// Criteria whose life is recorded.
+    pub life: Vec<Criterion>,
     /// Effects that are switched on or off.
     pub effects: Switches,
 }
@@ -50,6 +57,29 @@ impl Scene {
     /// Whether there is friction between the bodies.
     pub(crate) fn has_friction(&self) -> bool {
         friction::coefficient(self.friction) > 0.0
+    }
+
+    /// Layers of a side, from the surface down.
+    pub fn plating(&self, side: Side) -> &[Layer] {
+        match side {
+            Side::Slider => &self.slider.plating,
+            Side::Receptacle => &self.receptacle.plating,
+        }
+    }
+
+    /// Wear of both surfaces with the effects that are switched off left out.
+    pub(crate) fn surface_wear(&self) -> Sides<Option<SurfaceWear>> {
+        let is_on = |effect| self.effects.of(effect) != Some(false);
+        let plated = is_on(Effect::Plating);
+        let (slider, receptacle) = (&self.slider, &self.receptacle);
+        Sides {
+            slider: slider
+                .surface_wear(plated)
+                .filter(|_| is_on(Effect::SliderWear)),
+            receptacle: receptacle
+                .surface_wear(plated)
+                .filter(|_| is_on(Effect::ReceptacleWear)),
+        }
     }
 }
 
@@ -60,8 +90,27 @@ pub struct Body<S> {
     pub shape: S,
     /// Its elastic constants.
     pub elastic: Elastic,
-    /// Wear law of its surface; `None` does not wear.
+    /// Wear law of its surface, below the plating if there is one; `None` does not wear.
     pub wear: Option<WearLaw>,
+    /// Layers over the base, from the surface down; at most [`MOST_LAYERS`].
+    pub plating: Vec<Layer>,
+}
+
+impl<S> Body<S> {
+    /// Wear of its surface, with all of its layers or with the outermost one at every depth.
+    pub(crate) fn surface_wear(&self, plated: bool) -> Option<SurfaceWear> {
+        match self.plating.first() {
+            Some(outer) if !plated => Some(SurfaceWear::Law(WearLaw::Archard {
+                k_over_h_per_mpa: outer.rate_per_mpa,
+            })),
+            _ => SurfaceWear::new(&self.plating, self.wear),
+        }
+    }
+
+    /// Specific wear rate of its outermost layer, or of the bare body, 1/MPa, if it is the same in every state.
+    pub fn outer_rate(&self) -> Option<f64> {
+        self.surface_wear(false).and_then(SurfaceWear::uniform)
+    }
 }
 
 /// The slider: a circular arc around x = 0 whose lowest point touches y = 0, under a flat top face.
@@ -234,11 +283,4 @@ pub struct Output {
     pub snapshots_at_cycles: Vec<u64>,
     /// Whether snapshots hold displacement and stress inside the bodies.
     pub fields: bool,
-}
-
-/// Conditions that end a run.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum StopCondition {
-    /// The deepest wear of either side has reached this depth, mm.
-    WornDepth(f64),
 }

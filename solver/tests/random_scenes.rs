@@ -116,7 +116,7 @@ fn over_fewer_cycles(mut scene: Scene) -> Scene {
 
 /// A wear law whose rate is multiplied.
 pub(crate) fn scaled(law: WearLaw, factor: f64) -> WearLaw {
-    let WearLaw::Archard { k_over_h_per_mpa } = law;
+    let k_over_h_per_mpa = law.uniform().expect("drawn scenes wear by Archard's law");
     WearLaw::Archard {
         k_over_h_per_mpa: factor * k_over_h_per_mpa,
     }
@@ -207,11 +207,13 @@ fn scene(u: &mut Numbers, regime: Regime, worn: Worn) -> Scene {
             shape: slider,
             elastic: contact.slider,
             wear: wear.slider,
+            plating: Vec::new(),
         },
         receptacle: Body {
             shape: block,
             elastic: contact.receptacle,
             wear: wear.receptacle,
+            plating: Vec::new(),
         },
         friction: if frictionless {
             Friction::Frictionless
@@ -233,6 +235,7 @@ fn scene(u: &mut Numbers, regime: Regime, worn: Worn) -> Scene {
             fields: false,
         },
         stop: Vec::new(),
+        life: Vec::new(),
         effects: Switches::default(),
     }
 }

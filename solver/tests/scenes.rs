@@ -30,6 +30,7 @@ pub(crate) fn mccoll() -> Scene {
             },
             elastic: STEEL,
             wear: wear(1.9e-8),
+            plating: Vec::new(),
         },
         receptacle: Body {
             shape: BlockShape {
@@ -39,6 +40,7 @@ pub(crate) fn mccoll() -> Scene {
             },
             elastic: STEEL,
             wear: wear(2.9e-8),
+            plating: Vec::new(),
         },
         friction: Friction::Coulomb { coefficient: 0.9 },
         load_n_per_mm: 18.5,
@@ -56,6 +58,7 @@ pub(crate) fn mccoll() -> Scene {
             fields: false,
         },
         stop: Vec::new(),
+        life: Vec::new(),
         effects: Switches::default(),
     }
 }
@@ -71,6 +74,7 @@ pub(crate) fn fuzz_button() -> Scene {
             },
             elastic: COPPER,
             wear: None,
+            plating: Vec::new(),
         },
         receptacle: Body {
             shape: BlockShape {
@@ -82,6 +86,7 @@ pub(crate) fn fuzz_button() -> Scene {
             wear: Some(WearLaw::Archard {
                 k_over_h_per_mpa: COPPER_WEAR,
             }),
+            plating: Vec::new(),
         },
         friction: Friction::Coulomb { coefficient: 1.21 },
         load_n_per_mm: 0.508,
@@ -99,6 +104,7 @@ pub(crate) fn fuzz_button() -> Scene {
             fields: false,
         },
         stop: Vec::new(),
+        life: Vec::new(),
         effects: Switches::default(),
     }
 }

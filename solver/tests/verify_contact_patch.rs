@@ -82,6 +82,7 @@ fn uniform_pressure_passes_through_non_matching_meshes_at_any_position() {
                 spring: 0.0,
             },
             relocates: false,
+            plating: false,
             sizes,
         };
         let operators = condense(&model)

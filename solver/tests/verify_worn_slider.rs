@@ -8,10 +8,11 @@
 use crate::recorder::solve;
 use crate::scenes::sprung_contact;
 use solver::record::{CycleReport, Outcome, Position, TractionField};
-use solver::scene::{Body, Motion, Scene, SliderShape, StopCondition, Tuning, WearLaw};
+use solver::scene::{Body, Criterion, Motion, Scene, SliderShape, Tuning, WearLaw};
 
+const RATE: f64 = 0.004 / 1700.0;
 const WEAR: WearLaw = WearLaw::Archard {
-    k_over_h_per_mpa: 0.004 / 1700.0,
+    k_over_h_per_mpa: RATE,
 };
 
 /// A sprung contact whose stroke is four times its final flat.
@@ -28,9 +29,8 @@ fn scene(slider: Option<WearLaw>, receptacle: Option<WearLaw>) -> Scene {
 }
 
 fn worn_flat(slider: &Body<SliderShape>, load: f64, distance: f64) -> (f64, f64) {
-    let WearLaw::Archard { k_over_h_per_mpa } = WEAR;
     let radius = slider.shape.radius_mm;
-    let half_width = (1.5 * radius * k_over_h_per_mpa * load * distance).cbrt();
+    let half_width = (1.5 * radius * RATE * load * distance).cbrt();
     (half_width, half_width.powi(2) / (2.0 * radius))
 }
 
@@ -83,7 +83,10 @@ fn a_stop_condition_on_either_side_is_not_overshot() {
         let mut scene = scene(slider, receptacle);
         scene.cycles = 100_000;
         scene.accuracy.tolerance = 0.1;
-        scene.stop = vec![StopCondition::WornDepth(limit)];
+        scene.stop = vec![Criterion::WornDepth {
+            side: None,
+            depth_mm: limit,
+        }];
         let (summary, run) = solve(&scene).expect("the scene can be solved");
         let deepest = |report: &CycleReport| {
             report
@@ -107,11 +110,10 @@ fn a_stop_condition_on_either_side_is_not_overshot() {
 
 #[test]
 fn both_sides_worn_leave_no_comb_in_the_pressure() {
-    let WearLaw::Archard { k_over_h_per_mpa } = WEAR;
     let mut largest = 0.0_f64;
     for ratio in [0.001, 0.004, 0.01, 0.05, 0.1, 1.0, 5.0] {
         let slider = WearLaw::Archard {
-            k_over_h_per_mpa: ratio * k_over_h_per_mpa,
+            k_over_h_per_mpa: ratio * RATE,
         };
         let worst = |slider_from: f64| {
             let mut scene = scene(Some(slider), Some(WEAR));

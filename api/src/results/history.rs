@@ -19,6 +19,17 @@ pub struct Station {
     pub depth_mm: Vec<f64>,
 }
 
+/// Length on which a layer, or a deeper one, is exposed.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct ExposedLayer {
+    /// The side, `slider` or `receptacle`.
+    pub side: String,
+    /// The layer, the outermost one being 1; null for the base metal.
+    pub layer: Option<u64>,
+    /// Exposed length along the surface, mm, one value per row.
+    pub length_mm: Vec<f64>,
+}
+
 /// One side's wear over the cycles.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct SideSeries {
@@ -39,6 +50,9 @@ pub struct WearHistory {
     pub sliding_distance_mm: Vec<f64>,
     /// Worn depth at the stations.
     pub stations: Vec<Station>,
+    /// Exposed layers of platings.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub exposed: Vec<ExposedLayer>,
     /// The receptacle's wear.
     pub receptacle: SideSeries,
     /// The slider's wear.

@@ -7,6 +7,7 @@ use utoipa::ToSchema;
 
 use crate::outcome::{Outcome, Phase};
 use crate::plan::Decision;
+use crate::results::LifeEntry;
 
 /// One side's wear at the end.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize, ToSchema)]
@@ -170,6 +171,9 @@ pub struct Summary {
     /// Effects that the plan had skipped and the run has called for.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub effects_called_for: Vec<EffectCalledFor>,
+    /// Life by each criterion of the specification, in their order.
+    #[serde(default)]
+    pub life: Vec<LifeEntry>,
     /// What the result is to be read with, in words: errors beyond the tolerance.
     #[serde(default)]
     pub warnings: Vec<String>,

@@ -20,6 +20,12 @@ string_enum! {
     WearLawName {
         /// Worn depth = (k/H) p |slip|.
         Archard = "archard",
+        /// Worn depth = (k/H) sqrt(1 + 3 mu^2) p |slip|, Archard's with the junctions that shear enlarges.
+        Sarkar = "sarkar",
+        /// Worn depth = (k/H) (mu/mu0) p |slip|, with k as measured at the coefficient of friction mu0.
+        Saracibar = "saracibar",
+        /// Worn depth = alpha mu p |slip|, with the worn volume per dissipated energy alpha.
+        DissipatedEnergy = "dissipated_energy",
     }
 }
 
@@ -72,15 +78,35 @@ pub struct WearLaw {
     /// The law.
     #[schema(value_type = WearLawName)]
     pub law: EnumValue<WearLawName>,
-    /// `archard`: the wear coefficient k, -; together with `hardness_mpa`.
+    /// `archard`, `sarkar`, `saracibar`: the wear coefficient k, -; together with `hardness_mpa`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub k: Option<f64>,
-    /// `archard`: the hardness H of the wearing surface, MPa; that of the material if `k` is given alone.
+    /// Beside `k`: the hardness H of the wearing surface, MPa; that of the material if `k` is given alone.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub hardness_mpa: Option<f64>,
-    /// `archard`: k/H, 1/MPa; instead of `k` and `hardness_mpa`.
+    /// k/H, 1/MPa; instead of `k` and `hardness_mpa`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub k_over_h_per_mpa: Option<f64>,
+    /// `saracibar`: the coefficient of friction mu0 at which k was measured, -. Required there.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub reference_friction: Option<f64>,
+    /// `dissipated_energy`: the worn volume per dissipated energy alpha, mm^3/J. Required there.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub energy_coefficient_mm3_per_j: Option<f64>,
+}
+
+impl WearLaw {
+    /// A law without its values.
+    pub fn of(law: WearLawName) -> Self {
+        Self {
+            law: law.into(),
+            k: None,
+            hardness_mpa: None,
+            k_over_h_per_mpa: None,
+            reference_friction: None,
+            energy_coefficient_mm3_per_j: None,
+        }
+    }
 }
 
 #[expect(

@@ -50,7 +50,7 @@ impl Spec {
 }
 
 /// Pointers of objects. Serde also accepts an array of their fields in order, which is surely a mistake.
-const OBJECTS: [&str; 14] = [
+const OBJECTS: [&str; 16] = [
     "",
     "/system",
     "/materials",
@@ -61,6 +61,8 @@ const OBJECTS: [&str; 14] = [
     "/interface/wear",
     "/interface/wear/slider",
     "/interface/wear/receptacle",
+    "/plating",
+    "/life",
     "/load",
     "/motion",
     "/accuracy",

@@ -4,7 +4,7 @@ use serde::de::{Unexpected, Visitor};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use utoipa::ToSchema;
 
-use super::count;
+use super::{CriterionKind, Part, count};
 use crate::enum_value::{EnumValue, string_enum};
 
 string_enum! {
@@ -155,10 +155,34 @@ pub struct Output {
     pub fields: Option<bool>,
 }
 
-/// A condition that ends the run; exactly one field.
+/// A condition that ends the run: `worn_depth_mm` alone, or a criterion of a life.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct Stop {
     /// The largest worn depth of either side has reached this value, mm.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub worn_depth_mm: Option<f64>,
+    /// The kind of a criterion; see `Criterion` for its fields.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schema(value_type = Option<CriterionKind>)]
+    pub kind: Option<EnumValue<CriterionKind>>,
+    /// The part; either where absent.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schema(value_type = Option<Part>)]
+    pub side: Option<EnumValue<Part>>,
+    /// The layer that is exposed, the outermost one being 1.
+    #[serde(
+        default,
+        skip_serializing_if = "Option::is_none",
+        deserialize_with = "count::optional"
+    )]
+    pub layer: Option<u64>,
+    /// The exposed part of the scar, -.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub fraction: Option<f64>,
+    /// The depth, mm.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub mm: Option<f64>,
+    /// The resistance, mOhm.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub mohm: Option<f64>,
 }

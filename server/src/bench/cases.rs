@@ -2,6 +2,7 @@
 
 use std::ops::ControlFlow;
 
+use api::spec::LifeSettings;
 use solver::SolveError;
 use solver::condensation::{self, Condensed};
 use solver::cycle::{CycleState, Integrator};
@@ -180,7 +181,10 @@ fn friction_cycle() -> Result<Vec<Row>, BenchError> {
 }
 
 fn solved(what: impl Into<String>, size: &str, scene: &Scene) -> Result<Row, BenchError> {
-    let summary = solve::run(scene, &mut |_| ControlFlow::Continue(()))?;
+    let life = &LifeSettings::default();
+    let summary = solve::run(solve::Case { scene, life }, &mut |_| {
+        ControlFlow::Continue(())
+    })?;
     let size = format!(
         "{size}{} elements, {} computed cycles, {} increments",
         summary.accuracy.contact_elements,

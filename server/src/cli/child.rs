@@ -50,7 +50,7 @@ pub(super) fn run(arguments: &ChildArguments) -> Ended {
     };
     let every = Duration::from_millis(arguments.checkpoint_every_ms);
     let policy = CheckpointPolicy::new(every, Arc::clone(&stop));
-    let solved = solve::run_from(&resolved.scene, from, &policy, &mut |line| match line {
+    let solved = solve::run_from((&resolved).into(), from, &policy, &mut |line| match line {
         Line::Fields(fields) => store(&arguments.folder, &fields, &stop),
         line => write(&line),
     });

@@ -48,7 +48,7 @@ struct Recorded {
 
 fn solve(resolved: &Resolved, recorded: &mut Recorded) -> Result<Summary, Failure> {
     let bar = bar(resolved.scene.cycles);
-    let solved = solve::run(&resolved.scene, &mut |line| {
+    let solved = solve::run(resolved.into(), &mut |line| {
         record(line, recorded, &bar);
         ControlFlow::Continue(())
     });

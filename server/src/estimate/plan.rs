@@ -7,7 +7,7 @@ use api::plan::{MachineFigures, Plan, PlannedEffect, Warning};
 use api::problem::Fault;
 use solver::effects::{self, Indicator};
 use solver::model::resolution;
-use solver::scene::{Scene, WearLaw};
+use solver::scene::Scene;
 
 use crate::estimate::{Estimate, machine, notes};
 use crate::export::history;
@@ -84,12 +84,12 @@ fn unworn_contact(scene: &Scene) -> Vec<(&'static str, f64)> {
         ("hertz_peak_pressure_mpa", 2.0 * load / (PI * half_width)),
         ("sliding_distance_per_cycle_mm", distance),
     ];
-    if let Some(WearLaw::Archard { k_over_h_per_mpa }) = scene.slider.wear {
-        let area = k_over_h_per_mpa * load * distance;
+    if let Some(rate) = scene.slider.outer_rate() {
+        let area = rate * load * distance;
         estimates.push(("slider_ideal_area_per_cycle_mm2", area));
     }
-    if let Some(WearLaw::Archard { k_over_h_per_mpa }) = scene.receptacle.wear {
-        let depth = k_over_h_per_mpa * load;
+    if let Some(rate) = scene.receptacle.outer_rate() {
+        let depth = rate * load;
         estimates.push(("receptacle_ideal_area_per_cycle_mm2", depth * distance));
         estimates.push(("receptacle_full_pass_depth_mm", depth));
     }

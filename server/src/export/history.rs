@@ -3,13 +3,13 @@
 use api::job::{Outcome, Phase};
 use api::plan::Decision;
 use api::results::{
-    AccuracyReached, Checks, Cost, EffectCalledFor, EstimatedError, EstimatedErrors, Initial, Loop,
-    Pressure, PressurePosition, Profile, SideProfile, SideSummary, SlidePosition, Snapshot,
-    Station, Summary, WearHistory,
+    AccuracyReached, Checks, Cost, EffectCalledFor, EstimatedError, EstimatedErrors, ExposedLayer,
+    Initial, LifeEntry, Loop, Pressure, PressurePosition, Profile, SideProfile, SideSummary,
+    SlidePosition, Snapshot, Station, Summary, WearHistory,
 };
 use solver::effects::{Crossing, Effect, Verdict};
 use solver::observer;
-use solver::record::{self, Record, Side, SideReport};
+use solver::record::{self, Layer, Record, Side, SideReport};
 
 /// The phase of a job.
 pub fn phase(phase: observer::Phase) -> Phase {
@@ -62,7 +62,7 @@ fn position(field: &record::TractionField) -> PressurePosition {
 }
 
 /// The summary document. `cost` was measured outside of the engine, which knows no clock; only its `dofs` are set here.
-pub fn summary(summary: &record::Summary, cost: Cost) -> Summary {
+pub fn summary(summary: &record::Summary, cost: Cost, life: Vec<LifeEntry>) -> Summary {
     let (last, resolution) = (&summary.last, &summary.resolution);
     let side = |side: &SideReport| {
         document!(
@@ -76,6 +76,7 @@ pub fn summary(summary: &record::Summary, cost: Cost) -> Summary {
         outcome: outcome(summary.outcome);
         receptacle: side(&last.receptacle);
         slider: side(&last.slider);
+        life: life;
         warnings: summary.warnings.clone();
         initial: document!(Initial of summary.initial; peak_pressure_mpa, contact_half_width_mm);
         accuracy: document!(
@@ -171,6 +172,17 @@ pub fn wear_history(record: Record) -> WearHistory {
         ..WearHistory::default()
     };
     for column in record.columns {
+        if let (Some(side), Some(layer)) = (column.side, column.layer) {
+            history.exposed.push(ExposedLayer {
+                side: side.name().to_owned(),
+                layer: match layer {
+                    Layer::Plated(number) => Some(count(number)),
+                    Layer::BaseMetal => None,
+                },
+                length_mm: column.values,
+            });
+            continue;
+        }
         let columns = match (column.side, column.place_mm) {
             (Some(side), Some(x_mm)) => {
                 history.stations.push(Station {

@@ -1,9 +1,13 @@
 //! Friction and wear, one file a law.
 
-pub(super) mod archard;
+mod archard;
 pub(super) mod coulomb;
+pub(super) mod dissipated_energy;
 mod frictionless;
-mod wearing_side;
+pub(super) mod saracibar;
+mod sarkar;
+pub(super) mod wear_coefficient;
+pub(super) mod wearing_side;
 
 use api::spec::{
     Friction, FrictionLaw, Interface, Material, Materials, Provenance, WearLaw, WearLawName,
@@ -13,7 +17,7 @@ use solver::sides::{Side, Sides};
 
 use crate::spec::diagnostics::Diagnostics;
 use crate::spec::materials::by_side;
-use crate::spec::sourced::Sourced;
+use crate::spec::sourced::{Sourced, source};
 use crate::spec::system::{ArchardPreset, Preset};
 use wearing_side::WearingSide;
 
@@ -26,16 +30,18 @@ pub(crate) struct Laws {
     pub(crate) wear: Sides<Option<scene::WearLaw>>,
 }
 
-/// Resolves friction and wear. `materials` as given, `resolved` with their properties.
+/// Resolves friction and the wear of the bodies, below a plating where they are plated. `materials` as given, `resolved` with their
+/// properties.
 pub(crate) fn resolve(
     given: &Interface,
     materials: &Materials,
     resolved: &Materials,
-    preset: &Preset,
+    (preset, plated): (&Preset, Sides<bool>),
     diagnostics: &mut Diagnostics,
 ) -> (Interface, Laws) {
     let (materials, resolved) = (by_side(materials), by_side(resolved));
     let (friction, friction_law) = friction(given, materials, preset, diagnostics);
+    let coefficient = solver::law::friction::coefficient(friction_law);
     let wear = Sides::from_fn(|at| {
         let law = match at {
             Side::Slider => given.wear.slider.as_ref(),
@@ -46,7 +52,12 @@ pub(crate) fn resolve(
             given: *materials.of(at),
             resolved: *resolved.of(at),
         };
-        wear(&side, law, *preset.wear.of(at), diagnostics)
+        let preset = if *plated.of(at) {
+            base_below_plating(&side)
+        } else {
+            Some(*preset.wear.of(at))
+        };
+        wear(&side, law, preset, coefficient, diagnostics)
     });
     let (slider, slider_law) = wear.slider;
     let (receptacle, receptacle_law) = wear.receptacle;
@@ -101,27 +112,77 @@ fn friction(
 fn wear(
     side: &WearingSide<'_>,
     given: Option<&Option<WearLaw>>,
-    preset: Sourced<Option<ArchardPreset>>,
+    preset: Option<Sourced<Option<ArchardPreset>>>,
+    friction: f64,
     diagnostics: &mut Diagnostics,
 ) -> (Option<WearLaw>, Option<scene::WearLaw>) {
-    let unworn = match (given, preset.value) {
+    let unworn = match (given, preset) {
         (Some(Some(given)), _) => {
-            let law = diagnostics.enum_member(&side.field("law"), &given.law);
-            diagnostics.provenance(side.field("law"), Provenance::Given);
-            let (filled, law) = match law {
-                Some(WearLawName::Archard) => archard::resolve(side, given, diagnostics),
-                None => (given.clone(), None),
-            };
+            let (filled, law) = given_wear(side, given, friction, diagnostics);
             return (Some(filled), law);
         }
-        (None, Some(law)) => {
-            diagnostics.provenance(side.field("law"), preset.provenance);
-            let (filled, law) = archard::from_preset(side, law, preset.provenance, diagnostics);
+        (Some(None), _) => Provenance::Given,
+        (None, Some(preset)) => {
+            let provenance = preset.provenance;
+            let Some(law) = preset.value else {
+                diagnostics.provenance(&side.pointer, provenance);
+                return (None, None);
+            };
+            diagnostics.provenance(side.field("law"), provenance);
+            let (filled, law) = archard::from_preset(side, law, provenance, diagnostics);
             return (Some(filled), Some(law));
         }
-        (Some(None), _) => Provenance::Given,
-        (None, None) => preset.provenance,
+        (None, None) => {
+            let detail = "the law of the base below the plating; write null if it does not wear";
+            diagnostics.missing(&side.pointer, detail);
+            return (None, None);
+        }
     };
     diagnostics.provenance(&side.pointer, unworn);
     (None, None)
+}
+
+/// Resolves a wear law as given, beside a coefficient of friction.
+pub(super) fn given_wear(
+    side: &WearingSide<'_>,
+    given: &WearLaw,
+    friction: f64,
+    diagnostics: &mut Diagnostics,
+) -> (WearLaw, Option<scene::WearLaw>) {
+    let law = diagnostics.enum_member(&side.field("law"), &given.law);
+    diagnostics.provenance(side.field("law"), Provenance::Given);
+    match law {
+        Some(WearLawName::Archard) => archard::resolve(side, given, diagnostics),
+        Some(WearLawName::Sarkar) => sarkar::resolve(side, given, friction, diagnostics),
+        Some(WearLawName::Saracibar) => saracibar::resolve(side, given, friction, diagnostics),
+        Some(WearLawName::DissipatedEnergy) => {
+            dissipated_energy::resolve(side, given, friction, diagnostics)
+        }
+        None => (given.clone(), None),
+    }
+}
+
+/// The law that the library lists for the material of a side.
+pub(super) fn listed_wear(
+    side: &WearingSide<'_>,
+    diagnostics: &mut Diagnostics,
+) -> Option<(WearLaw, scene::WearLaw)> {
+    let law = base_below_plating(side)?;
+    diagnostics.provenance(side.field("law"), law.provenance);
+    Some(archard::from_preset(
+        side,
+        law.value?,
+        law.provenance,
+        diagnostics,
+    ))
+}
+
+/// The law of a material that the library lists a wear coefficient of: that of a preset belongs to the preset's plating.
+fn base_below_plating(side: &WearingSide<'_>) -> Option<Sourced<Option<ArchardPreset>>> {
+    let material = side.resolved_library()?;
+    let preset = ArchardPreset {
+        k: material.archard_k?,
+        hardness_mpa: material.properties.hardness_mpa?,
+    };
+    Some(source(Some(preset)))
 }

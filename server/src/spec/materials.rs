@@ -68,8 +68,19 @@ fn side(
 ) -> MaterialProperties {
     match given {
         None => from_library(pointer, preset.value, preset.provenance, diagnostics),
-        Some(Material::Named(name)) => from_library(pointer, name, Provenance::Given, diagnostics),
-        Some(Material::Given(properties)) => from_properties(pointer, properties, diagnostics),
+        Some(given) => properties(pointer, given, diagnostics),
+    }
+}
+
+/// Properties of a material as given.
+pub(in crate::spec) fn properties(
+    pointer: &str,
+    given: &Material,
+    diagnostics: &mut Diagnostics,
+) -> MaterialProperties {
+    match given {
+        Material::Named(name) => from_library(pointer, name, Provenance::Given, diagnostics),
+        Material::Given(properties) => from_properties(pointer, properties, diagnostics),
     }
 }
 

@@ -1,8 +1,8 @@
-//! Recorded output, and stop conditions.
+//! Recorded output.
 
 use std::ops::RangeInclusive;
 
-use api::spec::{Output, Stop};
+use api::spec::Output;
 use solver::scene;
 
 use crate::number::real;
@@ -14,9 +14,6 @@ use crate::spec::system::Shapes;
 /// Most stations and most snapshots of a job: each is a column, or three documents.
 pub(in crate::spec) const STATION_LIMIT: usize = 1000;
 pub(in crate::spec) const SNAPSHOT_LIMIT: usize = 1000;
-pub(in crate::spec) const STOP_LIMIT: usize = 16;
-/// mm.
-pub(in crate::spec) const WORN_DEPTH_MM: RangeInclusive<f64> = 1e-9..=1e4;
 
 const AT_CYCLES: &str = "snapshots_at_cycles";
 const AT_DISTANCES: &str = "snapshots_at_distance_mm";
@@ -156,22 +153,4 @@ fn default_snapshots(cycles: u64) -> Vec<u64> {
     snapshots.sort_unstable();
     snapshots.dedup();
     snapshots
-}
-
-/// Resolves the stop conditions.
-pub(crate) fn stop(given: &[Stop], diagnostics: &mut Diagnostics) -> Vec<scene::StopCondition> {
-    diagnostics.check_length("/stop", given.len(), STOP_LIMIT);
-    let mut conditions = Vec::new();
-    for (index, condition) in given.iter().enumerate().take(STOP_LIMIT) {
-        let pointer = format!("/stop/{index}");
-        match condition.worn_depth_mm {
-            Some(depth) => {
-                let pointer = format!("{pointer}/worn_depth_mm");
-                diagnostics.check_range(&pointer, depth, &WORN_DEPTH_MM);
-                conditions.push(scene::StopCondition::WornDepth(depth));
-            }
-            None => diagnostics.missing(&pointer, "a condition such as `worn_depth_mm`"),
-        }
-    }
-    conditions
 }

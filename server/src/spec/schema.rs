@@ -4,12 +4,14 @@ use std::ops::RangeInclusive;
 
 use api::spec::MaterialProperties;
 use serde_json::{Value, json};
+use solver::scene::MOST_LAYERS;
 
 use crate::reference::materials::LibraryMaterial;
 use crate::spec::diagnostics::NAME_LIMIT;
-use crate::spec::law::{archard, coulomb};
+use crate::spec::law::{coulomb, dissipated_energy, saracibar, wear_coefficient};
 use crate::spec::{
-    LABEL_LIMIT, LABEL_TEXT_LIMIT, accuracy, effects, load, materials, motion, output, system,
+    LABEL_LIMIT, LABEL_TEXT_LIMIT, accuracy, criterion, effects, life, load, materials, motion,
+    output, plating, stop, system,
 };
 
 /// Keywords of the schema of a field.
@@ -57,11 +59,33 @@ fn numbers() -> Vec<(&'static str, &'static str, RangeInclusive<f64>)> {
         ("Motion", "distance_mm", motion::DISTANCE_MM),
         ("Motion", "speed_mm_s", motion::SPEED_MM_S),
         ("Friction", "coefficient", coulomb::RANGE),
-        ("WearLaw", "k", archard::K),
-        ("WearLaw", "k_over_h_per_mpa", archard::K_OVER_H_PER_MPA),
+        ("WearLaw", "k", wear_coefficient::K),
+        (
+            "WearLaw",
+            "k_over_h_per_mpa",
+            wear_coefficient::K_OVER_H_PER_MPA,
+        ),
         ("WearLaw", "hardness_mpa", materials::HARDNESS_MPA),
+        (
+            "WearLaw",
+            "reference_friction",
+            saracibar::REFERENCE_FRICTION,
+        ),
+        (
+            "WearLaw",
+            "energy_coefficient_mm3_per_j",
+            dissipated_energy::ENERGY_COEFFICIENT_MM3_PER_J,
+        ),
+        ("PlatingLayer", "thickness_um", plating::THICKNESS_UM),
+        ("PlatingLayer", "thickness_mm", plating::THICKNESS_MM),
+        ("LifeSettings", "coefficient_of_variation", life::VARIATION),
+        ("Criterion", "fraction", criterion::FRACTION),
+        ("Criterion", "mm", criterion::WORN_DEPTH_MM),
+        ("Criterion", "mohm", criterion::RESISTANCE_MOHM),
+        ("Stop", "fraction", criterion::FRACTION),
+        ("Stop", "mm", criterion::WORN_DEPTH_MM),
         ("Accuracy", "tolerance", accuracy::TOLERANCE),
-        ("Stop", "worn_depth_mm", output::WORN_DEPTH_MM),
+        ("Stop", "worn_depth_mm", criterion::WORN_DEPTH_MM),
     ];
     materials.chain(others).collect()
 }
@@ -81,7 +105,15 @@ fn others() -> Vec<(&'static str, &'static str, Value)> {
         ("Spec", "name", json!({"maxLength": NAME_LIMIT})),
         ("Spec", "labels", labels),
         ("Spec", "cycles", cycles),
-        ("Spec", "stop", json!({"maxItems": output::STOP_LIMIT})),
+        ("Spec", "stop", json!({"maxItems": stop::STOP_LIMIT})),
+        ("LifeSettings", "contacts", counts(&life::CONTACTS)),
+        (
+            "LifeSettings",
+            "criteria",
+            json!({"maxItems": life::CRITERION_LIMIT}),
+        ),
+        ("Platings", "slider", json!({"maxItems": MOST_LAYERS})),
+        ("Platings", "receptacle", json!({"maxItems": MOST_LAYERS})),
         (
             "Spec",
             "effects",
@@ -154,6 +186,19 @@ mod tests {
         at.map(|fault| fault.detail).collect()
     }
 
+    /// A receptacle with a layer.
+    const PLATED: &str = r#""plating":{"receptacle":[{"material":"silver","thickness_um":1.0}]}"#;
+
+    /// A criterion with a value at a field.
+    fn criterion(field: &str, value: f64) -> String {
+        let kind = match field {
+            "fraction" => "exposed_fraction",
+            "mm" => "worn_depth",
+            _ => "resistance",
+        };
+        format!(r#"{{"kind":"{kind}","{field}":{value}}}"#)
+    }
+
     /// A specification with a value at a field of an object, and the pointer to it.
     fn with(object: &str, field: &str, value: f64) -> (String, String) {
         let (pointer, rest) = match object {
@@ -183,20 +228,39 @@ mod tests {
                 format!(r#""interface":{{"friction":{{"law":"coulomb","{field}":{value}}}}}"#),
             ),
             "WearLaw" => {
-                let other = if field == "hardness_mpa" {
-                    r#""k":0.1,"#
-                } else {
-                    ""
+                let (law, other) = match field {
+                    "hardness_mpa" => ("archard", r#""k":0.1,"#),
+                    "reference_friction" => ("saracibar", r#""k":0.1,"#),
+                    "energy_coefficient_mm3_per_j" => ("dissipated_energy", ""),
+                    _ => ("archard", ""),
                 };
                 (
                     "/interface/wear/receptacle",
                     format!(
-                        r#""interface":{{"wear":{{"receptacle":{{"law":"archard",{other}"{field}":{value}}}}}}}"#
+                        r#""interface":{{"wear":{{"receptacle":{{"law":"{law}",{other}"{field}":{value}}}}}}}"#
                     ),
                 )
             }
+            "PlatingLayer" => (
+                "/plating/slider/0",
+                format!(r#""plating":{{"slider":[{{"material":"silver","{field}":{value}}}]}}"#),
+            ),
+            "LifeSettings" => ("/life", format!(r#""life":{{"{field}":{value}}}"#)),
+            "Criterion" => (
+                "/life/criteria/0",
+                format!(
+                    r#"{PLATED},"life":{{"criteria":[{}]}}"#,
+                    criterion(field, value)
+                ),
+            ),
             "Accuracy" => ("/accuracy", format!(r#""accuracy":{{"{field}":{value}}}"#)),
-            "Stop" => ("/stop/0", format!(r#""stop":[{{"{field}":{value}}}]"#)),
+            "Stop" if field == "worn_depth_mm" => {
+                ("/stop/0", format!(r#""stop":[{{"{field}":{value}}}]"#))
+            }
+            "Stop" => (
+                "/stop/0",
+                format!(r#"{PLATED},"stop":[{}]"#, criterion(field, value)),
+            ),
             "MaterialProperties" => (
                 "/materials/slider",
                 format!(r#""materials":{{"slider":{{"{field}":{value}}}}}"#),

@@ -7,11 +7,11 @@ use solver::scene::{Drive, Friction, Motion, WearLaw};
 
 const FUZZ_BUTTON: &str = include_str!("../../examples/fuzz_button.json");
 
-fn accepted(text: &str) -> Resolved {
+pub(super) fn accepted(text: &str) -> Resolved {
     read(text.as_bytes()).expect("accepted")
 }
 
-fn faults(text: &str) -> Vec<Fault> {
+pub(super) fn faults(text: &str) -> Vec<Fault> {
     match read(text.as_bytes()) {
         Err(Refused::Faults(faults)) => faults,
         other => panic!("expected faults, got {other:?}"),

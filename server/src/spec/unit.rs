@@ -77,6 +77,19 @@ pub(crate) const FREQUENCY_HZ: Typical = Typical {
     others: &FREQUENCIES,
 };
 
+/// Layers of a plating, um: from a flash to a thick clad layer.
+pub(crate) const LAYER_UM: Typical = Typical {
+    range: 1e-2..=100.0,
+    unit: "um",
+    others: &[("mm", 1e3), ("nm", 1e-3), ("uin", 0.0254)],
+};
+/// Layers of a plating, mm.
+pub(crate) const LAYER_MM: Typical = Typical {
+    range: 1e-5..=0.1,
+    unit: "mm",
+    others: &LENGTHS,
+};
+
 const fn pressures(from: f64, to: f64) -> Typical {
     Typical {
         range: from..=to,

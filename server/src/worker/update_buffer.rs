@@ -176,6 +176,7 @@ fn fraction(cycle: u64, cycles: u64) -> f64 {
 #[cfg(test)]
 mod tests {
     use solver::record::SideReport;
+    use solver::sides::Sides;
 
     use super::*;
     use crate::solve::checkpoint::EncodedCheckpoint;
@@ -189,6 +190,7 @@ mod tests {
             receptacle: SideReport::default(),
             slider: SideReport::default(),
             station_depth_mm: Vec::new(),
+            exposed_length_mm: Sides::default(),
             load_n_per_mm: 0.0,
             peak_pressure_mpa: 0.0,
             contact_half_width_mm: 0.0,

@@ -1,13 +1,17 @@
 //! A computed cycle: its jump, its plan, and its retry with a smaller jump where an increment fails.
 
+use std::borrow::Cow;
+
 use super::extrapolation::loss_of_load;
 use super::{CycleError, CycleRecord, CycleState, Integrator};
 use crate::law::elastic::contact_modulus;
-use crate::law::wear::{self, LocalState};
+use crate::law::surface;
+use crate::law::wear::LocalState;
 use crate::model::resolution::radius;
 use crate::number::real_cycles;
 use crate::schedule::jump::Stroke;
 use crate::schedule::plan::{CyclePlan, Cycles, Followed};
+use crate::sides::Sides;
 
 /// Load at a turning point over that at the neutral position from which on a groove is not extrapolated: where a spring has
 /// faded on the floor, all wear is that of the walls, which the rate of a groove under an even load does not describe. Arbitrary:
@@ -70,8 +74,16 @@ impl Integrator<'_> {
         let done = state.cycle - before.cycle;
         let load = |state: &CycleState| state.contact.load(&self.pair.interface);
         state.loss_of_load = loss_of_load(load(before), load(state), real_cycles(done));
+        let wear = self.pair.interface.wear;
         let widths = self.pair.operators.as_ref().map(|body| &body.widths[..]);
-        state.jump.update(widths, &before.depth, &state.depth, done);
+        let weights = Sides::from_fn(|side| {
+            surface::at_relative_rates(*wear.of(side), widths.of(side), state.depth.of(side))
+        });
+        let [before, after] = [&before.depth, &state.depth].map(|depth| {
+            Sides::from_fn(|side| surface::equivalents(*wear.of(side), depth.of(side)))
+        });
+        let worn = (as_slices(&before), as_slices(&after));
+        state.jump.update(as_slices(&weights), worn, done);
     }
 
     pub(super) fn followed(&self, state: &CycleState) -> Followed {
@@ -87,7 +99,8 @@ impl Integrator<'_> {
         let amplitude = scene.motion.amplitude_mm().abs();
         let modulus = contact_modulus(scene.slider.elastic, scene.receptacle.elastic);
         let at = LocalState::mean(interface.load, state.mean_half_width);
-        let wear = wear::coefficients(interface.wear, at);
+        let wear = interface.wear.zip(state.depth.largest_of_each());
+        let wear = wear.map(|(wear, depth)| wear.map_or(0.0, |wear| wear.largest_rate(depth, at)));
         let mut stroke = Stroke::new(
             &scene.accuracy.tuning,
             wear,
@@ -97,12 +110,16 @@ impl Integrator<'_> {
                 radius(scene) / scene.slider.shape.radius_mm,
                 interface.sticks,
             ),
-            scene.cycles,
+            self.expected_cycles,
         );
         let is_even = state.contact.load(interface) <= UNEVEN * state.neutral.load;
         stroke.is_groove &= is_even;
         stroke
     }
+}
+
+fn as_slices<'a>(values: &'a Sides<Cow<'_, [f64]>>) -> Sides<&'a [f64]> {
+    values.as_ref().map(|values| &values[..])
 }
 
 /// Cycles that are extrapolated before a computed cycle, and between its strokes: half of them at either turning point,

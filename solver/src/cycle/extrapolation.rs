@@ -8,6 +8,7 @@
 
 use super::groove::Groove;
 use super::{CycleState, Integrator};
+use crate::law::surface::SurfaceWear;
 use crate::number::real_cycles;
 
 impl Integrator<'_> {
@@ -18,6 +19,12 @@ impl Integrator<'_> {
         if one.len() != body.x.len() || other.len() != body.x.len() {
             return 0.0;
         }
+        let layers = self
+            .pair
+            .interface
+            .wear
+            .receptacle
+            .and_then(SurfaceWear::layers);
         let single: Vec<f64> = one.iter().zip(other).map(|(a, b)| a + b).collect();
         let groove = Groove {
             x: &body.x,
@@ -26,6 +33,7 @@ impl Integrator<'_> {
             radius: self.scene.slider.shape.radius_mm,
             amplitude: self.scene.motion.amplitude_mm().abs(),
             half_width: self.followed(state).narrower(),
+            layers: layers.as_ref(),
         };
         let mut cycles = most;
         while cycles > 0 {

@@ -16,8 +16,10 @@
 //!   w - n [r(d + w) - r(d)] = n w_1
 //! waves fade, the worn area is n times that of the computed cycle, and where the computed wear changes as the surrogate's
 //! does, w is exact to the first order in n for contacts of any shape. S increases with d', so this is the gradient of a convex
-//! function, whose minimum Newton's method with a line search finds.
+//! function, whose minimum Newton's method with a line search finds. Through a plating w - n w_1 is that of the equivalent depths,
+//! and the rest that of the depths: E(d + w) - E(d) increases with w, so the function stays convex, with a kink at each interface.
 
+use crate::law::plating::Layers;
 use crate::linear::tridiagonal::solve_tridiagonal;
 use crate::model::Profile;
 
@@ -29,6 +31,8 @@ const MOST_STEPS: usize = 60;
 const MOST_HALVINGS: usize = 12;
 /// A step is halved until the slope along it has decreased to this part. Arbitrary.
 const SLOPE_LEFT: f64 = 0.5;
+/// Rate of a base that does not wear over that of the outermost layer, in the derivative of Newton's method.
+const SLOWEST: f64 = 1e-9;
 
 /// The receptacle of a scene, and the slider's stroke over it. Lengths in mm.
 #[derive(Debug, Clone, Copy)]
@@ -44,11 +48,13 @@ pub(super) struct Groove<'a> {
     pub(super) amplitude: f64,
     /// Half-width b of the contact.
     pub(super) half_width: f64,
+    /// The layers of the surface, if it is plated.
+    pub(super) layers: Option<&'a Layers>,
 }
 
 impl Groove<'_> {
-    /// Further wear of a groove of this depth in so many cycles, if one cycle has worn `single` there; `None` if Newton's
-    /// method does not converge.
+    /// Further wear of a groove of this depth in so many cycles, if one cycle has worn `single` there, as equivalent depth; `None`
+    /// if Newton's method does not converge.
     pub(super) fn wear(&self, depth: &[f64], single: &[f64], cycles: f64) -> Option<Vec<f64>> {
         let area = single.iter().zip(self.widths).map(|(d, width)| d * width);
         let flux = cycles * area.sum::<f64>() / (2.0 * self.amplitude);
@@ -62,6 +68,27 @@ impl Groove<'_> {
         };
         equation.before = equation.places(&vec![0.0; depth.len()]);
         equation.solve()
+    }
+
+    /// Equivalent of a further wear of a depth, mm.
+    fn equivalent(&self, depth: f64, wear: f64) -> f64 {
+        self.layers.map_or(wear, |layers| {
+            layers.equivalent(depth + wear) - layers.equivalent(depth)
+        })
+    }
+
+    /// Further wear of a depth whose equivalent is this, mm.
+    fn wear_of(&self, depth: f64, equivalent: f64) -> f64 {
+        self.layers.map_or(equivalent, |layers| {
+            layers.recession(depth, equivalent / layers.outer_rate()).0
+        })
+    }
+
+    /// Derivative of the equivalent by the wear at a depth, -.
+    fn equivalent_per_wear(&self, depth: f64) -> f64 {
+        self.layers.map_or(1.0, |layers| {
+            layers.outer_rate() / layers.rate(depth).max(SLOWEST * layers.outer_rate())
+        })
     }
 
     /// Mean displacement S at which the slider touches the surface with this slope of the depth, and its derivative by that,
@@ -95,7 +122,10 @@ struct Equation<'a> {
 
 impl Equation<'_> {
     fn solve(&self) -> Option<Vec<f64>> {
-        let mut wear = self.explicit.to_vec();
+        let nodes = self.depth.iter().zip(self.explicit);
+        let mut wear: Vec<f64> = nodes
+            .map(|(depth, explicit)| self.groove.wear_of(*depth, *explicit))
+            .collect();
         let largest = wear.iter().fold(0.0, |most: f64, wear| most.max(*wear));
         let mut places = self.places(&wear);
         for _ in 0..MOST_STEPS {
@@ -150,7 +180,8 @@ impl Equation<'_> {
         (0..wear.len()).map(move |i| {
             let from_left = if i > 0 { flux(i - 1) } else { 0.0 };
             let to_right = if i + 1 < wear.len() { flux(i) } else { 0.0 };
-            self.groove.widths[i] * (wear[i] - self.explicit[i]) + from_left - to_right
+            let worn = self.groove.equivalent(self.depth[i], wear[i]);
+            self.groove.widths[i] * (worn - self.explicit[i]) + from_left - to_right
         })
     }
 
@@ -160,7 +191,10 @@ impl Equation<'_> {
         let beside: Vec<f64> = beside
             .map(|((_, by_slope), x)| -self.flux * by_slope / (x[1] - x[0]))
             .collect();
-        let mut diagonal = self.groove.widths.to_vec();
+        let nodes = self.groove.widths.iter().zip(self.depth).zip(wear);
+        let mut diagonal: Vec<f64> = nodes
+            .map(|((width, depth), wear)| width * self.groove.equivalent_per_wear(depth + wear))
+            .collect();
         for (i, beside) in beside.iter().enumerate() {
             diagonal[i] -= beside;
             diagonal[i + 1] -= beside;
@@ -197,6 +231,7 @@ mod tests {
             radius: 1.0,
             amplitude: 1.0,
             half_width: 0.02,
+            layers: None,
         }
     }
 

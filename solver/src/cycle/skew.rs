@@ -13,7 +13,7 @@ use serde::{Deserialize, Serialize};
 use crate::number::real_cycles;
 use crate::sides::{Side, Sides};
 
-/// Depth by which both surfaces are skewed toward the last pass.
+/// Equivalent depth by which both surfaces are skewed toward the last pass.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Skew {
     /// At the contact nodes, mm.
@@ -22,7 +22,7 @@ pub(crate) struct Skew {
     pub(super) jump: f64,
 }
 
-/// Worn depths at the turning points of a computed cycle, mm.
+/// Equivalents of the worn depths at the turning points of a computed cycle, mm.
 #[derive(Debug)]
 pub(super) struct Passes {
     before: Sides<Vec<f64>>,
@@ -32,9 +32,9 @@ pub(super) struct Passes {
 
 impl Passes {
     /// Before the first pass.
-    pub(super) fn begin(depth: &Sides<Vec<f64>>) -> Self {
+    pub(super) fn begin(before: Sides<Vec<f64>>) -> Self {
         Self {
-            before: depth.clone(),
+            before,
             between: None,
         }
     }
@@ -46,7 +46,7 @@ impl Skew {
         jump > 1 || self.jump > 1.0
     }
 
-    /// Updates the skew with the worn depths before, between and after the passes of a computed cycle of a jump. The skew of
+    /// Updates the skew with the equivalents of the worn depths before, between and after the passes of a computed cycle of a jump. The skew of
     /// a longer jump before lasts: a shorter one replaces the part of it that is its part of that jump.
     pub(super) fn update(&mut self, passes: &Passes, after: &Sides<Vec<f64>>, jump: u64) {
         let Some(between) = &passes.between else {
@@ -68,7 +68,7 @@ impl Skew {
         }
     }
 
-    /// Depths without the skew, mm.
+    /// Equivalents without the skew, mm.
     pub(super) fn removed_from(&self, depth: &Sides<Vec<f64>>) -> Sides<Vec<f64>> {
         Sides::from_fn(|side| {
             let skewed = depth.of(side).iter().zip(self.depth.of(side));

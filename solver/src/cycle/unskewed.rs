@@ -7,6 +7,7 @@ use std::mem;
 
 use super::{CycleRecord, CycleState, Integrator, Neutral};
 use crate::contact::{ContactError, ContactState, Displacement, WarmStart};
+use crate::law::surface;
 use crate::schedule::increments::Position;
 
 impl Integrator<'_> {
@@ -19,7 +20,11 @@ impl Integrator<'_> {
         record: &mut CycleRecord,
         (step, all): (f64, bool),
     ) {
-        let depth = state.skew.removed_from(&state.depth);
+        let wear = self.pair.interface.wear;
+        let equivalents = state.skew.removed_from(&self.equivalents(&state.depth));
+        let depth = wear
+            .zip(equivalents)
+            .map(|(wear, depth)| surface::depths(wear, depth));
         let mut unskewed = state.clone();
         unskewed.depth.clone_from(&depth);
         let slope = self.slopes(&unskewed);

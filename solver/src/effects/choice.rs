@@ -6,12 +6,16 @@ use super::indicators::Indicators;
 use super::reason::{Grounds, reason};
 use super::small_strain;
 
-use crate::scene::{Scene, WearLaw};
+use crate::law::surface::SurfaceWear;
+use crate::scene::{Body, Scene};
 use crate::sides::Sides;
 
 /// Largest indicator of a skipped effect over the tolerance. Arbitrary: five effects at this limit exceed their budget
 /// twice.
 const SHARE: f64 = 0.2;
+/// Deepest wear over the thickness of the outermost layer from which on the layers below are simulated: those of a later cycle
+/// are reached within a jump. Arbitrary.
+const LAYER_SHARE: f64 = 0.8;
 
 /// Decides about all effects, some of which the run or the budget calls for.
 pub(super) fn decide(
@@ -73,14 +77,20 @@ fn indicator(scene: &Scene, indicators: &Indicators<'_>, effect: Effect) -> Indi
         threshold: match effect {
             Effect::Elasticity => 0.0,
             Effect::GeometricNonlinearity => small_strain::LIMIT,
+            Effect::Plating => LAYER_SHARE,
             _ => SHARE * accuracy.tolerance,
         },
     }
 }
 
-/// Whether a law removes anything.
-fn wears_by_law(law: Option<WearLaw>) -> bool {
-    law.is_some_and(|law| law.uniform().is_none_or(|rate| rate > 0.0))
+/// Whether the surface of a body wears by its law or plating.
+fn wears_by_law<S>(body: &Body<S>) -> bool {
+    let wears = |wear: SurfaceWear| wear.uniform().is_none_or(|rate| rate > 0.0);
+    body.surface_wear(true).is_some_and(wears)
+}
+
+fn is_plated(scene: &Scene) -> bool {
+    !scene.slider.plating.is_empty() || !scene.receptacle.plating.is_empty()
 }
 
 /// Why there is nothing to simulate, beside the effects that are on already.
@@ -104,13 +114,12 @@ fn nothing_to_simulate(
             Some("friction acts on neither body, so that nothing sticks")
         }
         Effect::ReceptacleWear => wear(
-            wears_by_law(scene.receptacle.wear),
+            wears_by_law(&scene.receptacle),
             "the receptacle has no wear law",
         ),
-        Effect::SliderWear => wear(
-            wears_by_law(scene.slider.wear),
-            "the slider has no wear law",
-        ),
+        Effect::SliderWear => wear(wears_by_law(&scene.slider), "the slider has no wear law"),
+        Effect::Plating if !is_plated(scene) => Some("neither body is plated"),
+        Effect::Plating if !wears() => Some("nothing wears, so no layer is worn through"),
         Effect::Relocation if !wears() => Some("nothing wears, so nothing moves the mesh"),
         Effect::SpringFading if scene.spring_n_per_mm2 <= 0.0 => Some("the load is a dead load"),
         Effect::SpringFading if !wears() => Some("nothing wears, so the spring keeps its load"),

@@ -57,6 +57,10 @@ effects! {
         "largest of: its worn depth over the deepest; its wear rate over three times the receptacle's; half the width of its \
          flat over the amplitude",
         ["max_depth_mm", "scar_half_width_mm", "worn_area_mm2"];
+    /// Layers below the outermost one.
+    Plating = "plating",
+        "deepest wear over the thickness of the outermost layer, of the worse side",
+        ["max_depth_mm", "scar_half_width_mm", "worn_area_mm2", "life"];
     /// Moving mesh and rebuilt stiffness.
     Relocation = "relocation",
         "0.0125 times the square of the worn part of the height over what is left, (h/H)^2/(1 - h/H), as measured; h/H where fields \
@@ -79,8 +83,8 @@ impl Effect {
     }
 
     /// Whether its indicator, if it is skipped, counts as an error of what the tolerance bounds. Small strains have a limit of
-    /// their own.
+    /// their own; layers that the wear does not reach change nothing.
     pub(super) fn is_counted(self) -> bool {
-        self != Self::GeometricNonlinearity
+        !matches!(self, Self::GeometricNonlinearity | Self::Plating)
     }
 }

@@ -4,10 +4,12 @@
 
 use super::effect::Effect;
 use super::small_strain;
-use super::worn_depth;
 use crate::law::elastic::dundurs_beta;
 use crate::law::friction;
+use crate::law::surface::SurfaceWear;
+use crate::law::wear::LocalState;
 use crate::model::resolution::{self, Sizes};
+use crate::model::worn_depth;
 use crate::number::real_cycles;
 use crate::scene::{Drive, Motion, Scene};
 use crate::sides::{Side, Sides};
@@ -21,6 +23,8 @@ const CHANGE_PER_LOST_HEIGHT: f64 = 0.0125;
 pub(super) struct Indicators<'a> {
     scene: &'a Scene,
     sizes: Sizes,
+    /// Wear of the sides that are not switched off, and its rates.
+    wear: Sides<Option<SurfaceWear>>,
     rates: Sides<f64>,
     friction: f64,
     radius: f64,
@@ -33,7 +37,8 @@ impl<'a> Indicators<'a> {
         let sizes = resolution::choose(scene);
         Self {
             scene,
-            rates: switched(scene, resolution::wear_rates(scene, sizes.hertz_half_width)),
+            wear: scene.surface_wear(),
+            rates: resolution::wear_rates(scene, sizes.hertz_half_width),
             friction: friction::coefficient(scene.friction),
             radius: resolution::radius(scene),
             lost_slip: lost_slip(scene, sizes.hertz_half_width),
@@ -43,12 +48,14 @@ impl<'a> Indicators<'a> {
 
     /// Estimated largest worn depths after so many cycles, mm.
     pub(super) fn worn_depth_after(&self, cycles: u64) -> Sides<f64> {
-        worn_depth::after(self.scene, self.rates, cycles)
+        let at = LocalState::mean(self.scene.load_n_per_mm, self.sizes.hertz_half_width);
+        worn_depth::after(self.scene, (self.radius, at), &self.wear, cycles)
     }
 
     /// Those at the end.
     pub(super) fn worn_depth_at_end(&self) -> Sides<f64> {
-        self.worn_depth_after(self.scene.cycles)
+        let cycles = resolution::expected_cycles(self.scene, self.sizes.hertz_half_width);
+        self.worn_depth_after(cycles)
     }
 
     /// Hertz half-width of the unworn contact, mm.
@@ -72,6 +79,13 @@ impl<'a> Indicators<'a> {
                     0.0
                 };
                 self.wear(Side::Slider, depth).max(wider)
+            }
+            Effect::Plating => {
+                let through = |side| {
+                    let outer = self.scene.plating(side).first();
+                    outer.map_or(0.0, |layer| depth.of(side) / layer.thickness_mm)
+                };
+                through(Side::Slider).max(through(Side::Receptacle))
             }
             Effect::Relocation => self.relocation(depth),
             Effect::SpringFading => {
@@ -159,18 +173,6 @@ impl<'a> Indicators<'a> {
             }
         };
         share(depth, 1.0).max(share(self.rates, 3.0))
-    }
-}
-
-/// The wear rates of sides that are not switched off.
-fn switched(scene: &Scene, rates: Sides<f64>) -> Sides<f64> {
-    let rate = |effect, rate: f64| match scene.effects.of(effect) {
-        Some(false) => 0.0,
-        _ => rate,
-    };
-    Sides {
-        slider: rate(Effect::SliderWear, rates.slider),
-        receptacle: rate(Effect::ReceptacleWear, rates.receptacle),
     }
 }
 

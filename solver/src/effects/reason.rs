@@ -91,6 +91,8 @@ fn consequence(effect: Effect, is_on: bool) -> &'static str {
         (Effect::StickMemory, false) => "each node slips as the slider is displaced",
         (Effect::ReceptacleWear | Effect::SliderWear, true) => "its surface wears",
         (Effect::ReceptacleWear | Effect::SliderWear, false) => "its surface does not wear",
+        (Effect::Plating, true) => "each point wears through the layers by its dose",
+        (Effect::Plating, false) => "the outermost layer alone wears",
         (Effect::Relocation, true) => {
             "the mesh follows the worn surface and the stiffness is rebuilt"
         }

@@ -6,6 +6,8 @@
 use crate::ale;
 use crate::contact::line::CANDIDATE_GAP;
 use crate::law::elastic::contact_modulus;
+use crate::law::plating::bottoms;
+use crate::law::surface::SurfaceWear;
 use crate::model::{Layout, resolution};
 use crate::number::{real, real_cycles};
 use crate::scene::{Scene, Tuning};
@@ -48,6 +50,10 @@ pub(super) struct Scar {
     pass: f64,
     /// Share of each side in the depth.
     shares: Sides<f64>,
+    /// Expected cycles of the run.
+    cycles: u64,
+    /// Rate of the outermost layer of each side over the mean rate that it wears by.
+    outer: Sides<f64>,
     /// Heights of the bodies when their operators were built, and unworn, mm.
     built: Sides<f64>,
     heights: Sides<f64>,
@@ -97,6 +103,11 @@ impl Scar {
             area_per_cycle: wear * scene.load_n_per_mm * sliding,
             pass: wear * scene.load_n_per_mm,
             shares: rates.map(share),
+            cycles: resolution::expected_cycles(scene, hertz),
+            outer: scene.surface_wear().zip(rates).map(|(wear, rate)| {
+                let layers = wear.and_then(SurfaceWear::layers);
+                layers.map_or(1.0, |layers| layers.outer_rate() / rate)
+            }),
             built: heights,
             heights,
             area: 0.0,
@@ -116,7 +127,7 @@ impl Scar {
             self.modulus,
             (self.amplitude, self.half_width),
             (self.radius / scene.slider.shape.radius_mm, self.sticks),
-            scene.cycles,
+            self.cycles,
         )
     }
 
@@ -227,11 +238,30 @@ impl Scar {
             .map(|(left, rate)| left / rate.max(f64::MIN_POSITIVE));
         Progress {
             cycle,
-            deepest: self.deepest.slider.max(self.deepest.receptacle),
+            deepest: self.deepest,
             cycles_left: cycles.slider.min(cycles.receptacle),
-            fastest_rate: jump.fastest_rate(),
+            fastest_rate: self
+                .outer
+                .zip(jump.fastest_rate())
+                .map(|(outer, rate)| outer * rate),
             worn_through: shares.slider.min(shares.receptacle) < ale::WORN_THROUGH_SHARE,
         }
+    }
+
+    /// Part of the scar that is worn through a layer.
+    pub(super) fn exposed(&self, scene: &Scene, (side, layer): (Side, usize)) -> f64 {
+        let limit = bottoms(scene.plating(side))
+            .nth(layer)
+            .unwrap_or(f64::INFINITY);
+        let places = |at_least: f64| {
+            let deep = self
+                .depth
+                .of(side)
+                .iter()
+                .filter(|depth| **depth > at_least);
+            real(deep.count())
+        };
+        places(limit) / places(0.0).max(1.0)
     }
 
     /// Remaining heights of the bodies at the deepest point, mm.

@@ -6,13 +6,14 @@
 //! that sticking points do not wear and a return stroke removes material like the stroke before.
 
 pub mod archard;
+pub mod dissipated_energy;
 #[cfg(test)]
 mod pressure_power;
 mod rate;
+pub mod saracibar;
+pub mod sarkar;
 
 pub use rate::{LocalState, Rate};
-
-use crate::sides::Sides;
 
 /// Wear laws: normal recession rate of a surface.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -21,6 +22,29 @@ pub enum WearLaw {
     Archard {
         /// k/H, 1/MPa.
         k_over_h_per_mpa: f64,
+    },
+    /// Sarkar: recession = (k/H) sqrt(1 + 3 mu^2) p |slip| (thesis, equation 9).
+    Sarkar {
+        /// k/H without friction, 1/MPa.
+        k_over_h_per_mpa: f64,
+        /// Coefficient of friction mu, -.
+        friction: f64,
+    },
+    /// Saracibar and Chiumenti: recession = k q |slip|/(mu0 H) (thesis, equation 10).
+    Saracibar {
+        /// k/H at the coefficient of friction mu0, 1/MPa.
+        k_over_h_per_mpa: f64,
+        /// Coefficient of friction mu, -.
+        friction: f64,
+        /// Coefficient of friction mu0 that k was measured at, -.
+        reference_friction: f64,
+    },
+    /// Dissipated energy: recession = alpha q |slip|.
+    DissipatedEnergy {
+        /// Worn volume per energy alpha, mm^3/J.
+        mm3_per_j: f64,
+        /// Coefficient of friction mu, -.
+        friction: f64,
     },
     /// A specific wear rate that grows with the pressure, for tests of the contact solve.
     #[cfg(test)]
@@ -39,6 +63,19 @@ impl WearLaw {
     pub fn rate(self, at: LocalState) -> Rate {
         match self {
             Self::Archard { k_over_h_per_mpa } => archard::rate(k_over_h_per_mpa, at),
+            Self::Sarkar {
+                k_over_h_per_mpa,
+                friction,
+            } => sarkar::rate(k_over_h_per_mpa, friction, at),
+            Self::Saracibar {
+                k_over_h_per_mpa,
+                friction,
+                reference_friction,
+            } => saracibar::rate(k_over_h_per_mpa, friction, reference_friction, at),
+            Self::DissipatedEnergy {
+                mm3_per_j,
+                friction,
+            } => dissipated_energy::rate(mm3_per_j, friction, at),
             #[cfg(test)]
             Self::PressurePower {
                 k_per_mpa,
@@ -51,25 +88,36 @@ impl WearLaw {
     /// The specific wear rate of a law for which it is the same in every state, 1/MPa.
     pub fn uniform(self) -> Option<f64> {
         match self {
-            Self::Archard { k_over_h_per_mpa } => Some(k_over_h_per_mpa),
+            Self::Archard { .. }
+            | Self::Sarkar { .. }
+            | Self::Saracibar { .. }
+            | Self::DissipatedEnergy { .. } => Some(self.rate(LocalState::default()).value),
             #[cfg(test)]
             Self::PressurePower { .. } => None,
         }
     }
 }
 
-/// Specific wear rates of both surfaces at a representative state, 1/MPa, for estimates; 0 where nothing wears.
-pub fn coefficients(laws: Sides<Option<WearLaw>>, at: LocalState) -> Sides<f64> {
-    laws.map(|law| law.map_or(0.0, |law| law.rate(at).value))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    const LAWS: [WearLaw; 2] = [
+    const LAWS: [WearLaw; 5] = [
         WearLaw::Archard {
             k_over_h_per_mpa: 2.5761e-5,
+        },
+        WearLaw::Sarkar {
+            k_over_h_per_mpa: 2.5761e-5,
+            friction: 0.9,
+        },
+        WearLaw::Saracibar {
+            k_over_h_per_mpa: 2.5761e-5,
+            friction: 0.6,
+            reference_friction: 0.3,
+        },
+        WearLaw::DissipatedEnergy {
+            mm3_per_j: 4.23e-5,
+            friction: 0.8,
         },
         WearLaw::PressurePower {
             k_per_mpa: 2.5761e-5,
@@ -114,15 +162,5 @@ mod tests {
             assert_eq!(law.uniform().is_some(), here == unloaded, "{law:?}");
             assert!(law.uniform().is_none_or(|k| (k - here.value).abs() <= 0.0));
         }
-    }
-
-    #[test]
-    fn a_surface_without_a_law_does_not_wear() {
-        let laws = Sides {
-            slider: None,
-            receptacle: Some(LAWS[0]),
-        };
-        let rates = coefficients(laws, STATE);
-        assert_eq!((rates.slider, rates.receptacle), (0.0, 2.5761e-5));
     }
 }

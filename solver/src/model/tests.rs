@@ -1,7 +1,7 @@
 use super::*;
 use crate::effects::Switches;
 use crate::scene::{
-    Accuracy, BlockShape, Body, Friction, Motion, Output, SliderShape, StopCondition, WearLaw,
+    Accuracy, BlockShape, Body, Criterion, Friction, Motion, Output, SliderShape, WearLaw,
 };
 
 pub(crate) fn fuzz_button() -> Scene {
@@ -18,6 +18,7 @@ pub(crate) fn fuzz_button() -> Scene {
             },
             elastic: copper,
             wear: None,
+            plating: Vec::new(),
         },
         receptacle: Body {
             shape: BlockShape {
@@ -29,6 +30,7 @@ pub(crate) fn fuzz_button() -> Scene {
             wear: Some(WearLaw::Archard {
                 k_over_h_per_mpa: 0.011 / 427.0,
             }),
+            plating: Vec::new(),
         },
         friction: Friction::Coulomb { coefficient: 1.21 },
         load_n_per_mm: 0.508,
@@ -45,7 +47,11 @@ pub(crate) fn fuzz_button() -> Scene {
             snapshots_at_cycles: vec![],
             fields: false,
         },
-        stop: vec![StopCondition::WornDepth(1.0)],
+        stop: vec![Criterion::WornDepth {
+            side: None,
+            depth_mm: 1.0,
+        }],
+        life: Vec::new(),
         effects: Switches::default(),
     }
 }

@@ -3,6 +3,15 @@
 use crate::record::{Channels, CycleReport};
 use crate::sides::Side;
 
+/// A layer below the outermost one.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Layer {
+    /// A layer of the plating, the outermost one being 1.
+    Plated(usize),
+    /// The base.
+    BaseMetal,
+}
+
 /// One scalar over the computed cycles.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Column {
@@ -14,6 +23,8 @@ pub struct Column {
     pub side: Option<Side>,
     /// The place on the body, mm; `None` for the body as a whole.
     pub place_mm: Option<f64>,
+    /// The layer that it belongs to, from the surface down; `None` for the body as a whole.
+    pub layer: Option<Layer>,
     /// Name of its curve in the picture of worn depths; empty if it is not drawn there.
     pub curve: &'static str,
     /// One value a report.
@@ -21,18 +32,20 @@ pub struct Column {
 }
 
 impl Column {
-    /// Header in tables: `receptacle_depth_at_0.1_mm`, `slider_max_depth_mm`, `peak_pressure_mpa`.
+    /// Header in tables: `receptacle_depth_at_0.1_mm`, `slider_exposed_length_of_layer_2_mm`, `slider_max_depth_mm`,
+    /// `peak_pressure_mpa`.
     pub fn header(&self) -> String {
         let side = self
             .side
             .map_or_else(String::new, |side| format!("{}_", side.name()));
-        match self.place_mm {
-            None => format!("{side}{}", self.name),
-            Some(place) => {
-                let quantity = self.name.strip_suffix(self.unit).unwrap_or(self.name);
-                format!("{side}{quantity}at_{place}_{}", self.unit)
-            }
-        }
+        let of = match (self.place_mm, self.layer) {
+            (None, None) => return format!("{side}{}", self.name),
+            (Some(place), _) => format!("at_{place}"),
+            (None, Some(Layer::Plated(number))) => format!("of_layer_{number}"),
+            (None, Some(Layer::BaseMetal)) => "of_base_metal".to_owned(),
+        };
+        let quantity = self.name.strip_suffix(self.unit).unwrap_or(self.name);
+        format!("{side}{quantity}{of}_{}", self.unit)
     }
 }
 
@@ -45,7 +58,8 @@ pub struct Record {
     pub jump: Vec<u64>,
     /// Accumulated imposed sliding distance, mm.
     pub sliding_distance_mm: Vec<f64>,
-    /// Worn depth at the stations, then the channels of the receptacle, the slider and the contact.
+    /// Worn depth at the stations, then the channels of the receptacle and its exposed layers, the same of the slider, and the
+    /// channels of the contact.
     pub columns: Vec<Column>,
 }
 
@@ -57,6 +71,7 @@ impl Record {
             unit: "mm",
             side: Some(Side::Receptacle),
             place_mm: Some(x),
+            layer: None,
             curve: "",
             values: reports
                 .iter()
@@ -81,11 +96,35 @@ impl Record {
                 .collect(),
             columns: stations
                 .chain(receptacle)
+                .chain(exposed(reports, Side::Receptacle))
                 .chain(slider)
+                .chain(exposed(reports, Side::Slider))
                 .chain(contact)
                 .collect(),
         }
     }
+}
+
+/// One column a layer of a side below its outermost one.
+fn exposed(reports: &[CycleReport], side: Side) -> impl Iterator<Item = Column> {
+    let lengths = move |report: &CycleReport| report.exposed_length_mm.of(side).clone();
+    let layers = reports.last().map_or(0, |report| lengths(report).len());
+    (0..layers).map(move |index| Column {
+        name: "exposed_length_mm",
+        unit: "mm",
+        side: Some(side),
+        place_mm: None,
+        layer: Some(if index + 1 == layers {
+            Layer::BaseMetal
+        } else {
+            Layer::Plated(index + 2)
+        }),
+        curve: "",
+        values: reports
+            .iter()
+            .map(|report| lengths(report).get(index).copied().unwrap_or_default())
+            .collect(),
+    })
 }
 
 /// One column a channel of the part of each report that `part` selects.
@@ -99,6 +138,7 @@ fn columns<R: Channels>(
         unit: channel.unit,
         side,
         place_mm: None,
+        layer: None,
         curve: channel.curve,
         values: reports
             .iter()

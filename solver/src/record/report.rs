@@ -2,12 +2,14 @@
 
 use crate::cycle::CycleState;
 use crate::interpolation;
-use crate::law::wear::WearLaw;
+use crate::law::plating::bottoms;
+use crate::law::surface::SurfaceWear;
 use crate::model::Model;
 use crate::record::channel::declare_report;
+use crate::record::exposure::exposed_length;
 use crate::record::scar;
 use crate::scene::Scene;
-use crate::sides::Side;
+use crate::sides::{Side, Sides};
 
 declare_report! {
     /// Wear of one body.
@@ -47,6 +49,10 @@ declare_report! {
         slider: SideReport = SideReport::of(&end.surface(Side::Slider)),
         /// Worn depth of the receptacle at the stations of the scene, mm.
         station_depth_mm: Vec<f64> = end.station_depths(),
+        /// Length on which each layer below the outermost one, or a deeper one, is exposed, mm: from the second layer down to the
+        /// base; none without a plating.
+        #[serde(default)]
+        exposed_length_mm: Sides<Vec<f64>> = Sides::from_fn(|side| end.exposed_lengths(side)),
     }
     channels {
         /// Normal load, which a spring reduces as the bodies wear, N per mm of depth.
@@ -58,6 +64,25 @@ declare_report! {
         contact_half_width_mm ["mm"] = end.state.neutral.half_width,
         /// Accumulated energy dissipated by friction, mJ per mm of depth.
         dissipated_energy_mj_per_mm ["mj_per_mm"] = end.state.energy,
+    }
+}
+
+impl CycleReport {
+    /// The wear of a side.
+    pub fn side(&self, side: Side) -> &SideReport {
+        match side {
+            Side::Slider => &self.slider,
+            Side::Receptacle => &self.receptacle,
+        }
+    }
+
+    /// Part of a side's scar that is worn through a layer and all layers above it.
+    pub fn exposed_fraction(&self, side: Side, layer: usize) -> f64 {
+        let exposed = self.exposed_length_mm.of(side).get(layer).copied();
+        let scar = 2.0 * self.side(side).scar_half_width_mm;
+        exposed
+            .filter(|length| *length > 0.0)
+            .map_or(0.0, |length| length / scar)
     }
 }
 
@@ -90,11 +115,12 @@ impl<'a> CycleEnd<'a> {
         let interface = &self.model.interface;
         let body = self.model.bodies.of(side);
         // The identity is that of the law, also where nothing slides and the plan leaves wear out.
-        let law = match side {
-            Side::Slider => self.scene.slider.wear,
-            Side::Receptacle => self.scene.receptacle.wear,
+        let plated = self.model.plating;
+        let wear = match side {
+            Side::Slider => self.scene.slider.surface_wear(plated),
+            Side::Receptacle => self.scene.receptacle.surface_wear(plated),
         };
-        let uniform = law.and_then(WearLaw::uniform).filter(|k| *k > 0.0);
+        let uniform = wear.and_then(SurfaceWear::uniform).filter(|k| *k > 0.0);
         let ideal_area = uniform.map(|k| k * interface.load * self.state.sliding_distance);
         Surface {
             x: body.contact_x(),
@@ -102,6 +128,12 @@ impl<'a> CycleEnd<'a> {
             depth: self.state.depth.of(side),
             ideal_area: ideal_area.filter(|_| self.scene.spring_n_per_mm2 <= 0.0),
         }
+    }
+
+    fn exposed_lengths(&self, side: Side) -> Vec<f64> {
+        let body = self.model.bodies.of(side);
+        let exposed = |bottom| exposed_length(body.contact_x(), self.state.depth.of(side), bottom);
+        bottoms(self.scene.plating(side)).map(exposed).collect()
     }
 
     fn station_depths(&self) -> Vec<f64> {

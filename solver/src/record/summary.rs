@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use crate::contact::Work;
 use crate::cycle::{Checks, CycleState};
 use crate::effects::{Crossing, Effect, Verdict};
-use crate::record::{Compared, CycleReport, Errors};
+use crate::record::{Compared, CycleReport, Errors, Life};
 use crate::schedule::stops::Outcome;
 use crate::sides::Sides;
 
@@ -39,6 +39,8 @@ pub struct Summary {
     pub effects: Vec<(Effect, Verdict)>,
     /// Skipped effects that the run has called for, in their order.
     pub crossings: Vec<Crossing>,
+    /// Life by the criteria of the scene.
+    pub life: Life,
     /// Histories that errors are estimated by.
     pub compared: Compared,
 }

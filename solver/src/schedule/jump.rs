@@ -109,7 +109,7 @@ impl Stroke {
 /// State of the jump control.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct JumpControl {
-    /// Wear per physical cycle in the last computed one at the nodes of both surfaces, mm.
+    /// Wear per physical cycle in the last computed one at the nodes of both surfaces, as equivalent depth, mm.
     rate: Sides<Vec<f64>>,
     /// The last jump; 0 before the first cycle.
     pub last: u64,
@@ -184,12 +184,12 @@ impl JumpControl {
         }
     }
 
-    /// Updates the control with the wear of a computed cycle on both surfaces, whose nodes have these widths.
+    /// Updates the control with the wear of a computed cycle on both surfaces, whose nodes have these weights: its equivalent
+    /// depths before and after it. The widths of the nodes weigh bare surfaces; the rate of the layer there counts as well.
     pub(crate) fn update(
         &mut self,
-        widths: Sides<&[f64]>,
-        before: &Sides<Vec<f64>>,
-        after: &Sides<Vec<f64>>,
+        weights: Sides<&[f64]>,
+        (before, after): (Sides<&[f64]>, Sides<&[f64]>),
         jump: u64,
     ) {
         let dn = real_cycles(jump);
@@ -201,11 +201,11 @@ impl JumpControl {
         }
         let (mut change, mut total, mut known) = (0.0, 0.0, true);
         for side in Side::BOTH {
-            let (widths, rates) = (*widths.of(side), self.rate.of_mut(side));
-            known &= rates.len() == widths.len();
-            rates.resize(widths.len(), 0.0);
-            let worn = before.of(side).iter().zip(after.of(side));
-            for ((old, (before, after)), width) in rates.iter_mut().zip(worn).zip(widths) {
+            let (weights, rates) = (*weights.of(side), self.rate.of_mut(side));
+            known &= rates.len() == weights.len();
+            rates.resize(weights.len(), 0.0);
+            let worn = before.of(side).iter().zip(*after.of(side));
+            for ((old, (before, after)), width) in rates.iter_mut().zip(worn).zip(weights) {
                 let rate = (after - before) / dn;
                 change += width * (rate - *old).abs();
                 total += width * rate;
@@ -222,14 +222,14 @@ impl JumpControl {
         self.base = dn;
     }
 
-    /// Wear of each point of both surfaces per physical cycle in the last computed one, mm.
+    /// Wear of each point of both surfaces per physical cycle in the last computed one, as equivalent depth, mm.
     pub(crate) fn rates(&self) -> Sides<&[f64]> {
         self.rate.as_slices()
     }
 
-    /// Largest wear of a point of either surface per physical cycle in the last computed one, mm.
-    pub fn fastest_rate(&self) -> f64 {
-        self.rate.largest()
+    /// Largest wear of a point of each surface per physical cycle in the last computed one, as equivalent depth, mm.
+    pub fn fastest_rate(&self) -> Sides<f64> {
+        self.rate.largest_of_each()
     }
 
     /// Estimated relative error of the worn depth so far.
@@ -268,7 +268,11 @@ mod tests {
             slider: &[1.0][..],
             receptacle: &[1.0][..],
         };
-        control.update(widths, &depth(before), &depth(after), jump);
+        control.update(
+            widths,
+            (depth(before).as_slices(), depth(after).as_slices()),
+            jump,
+        );
     }
 
     const STROKE: Stroke = Stroke {
@@ -310,16 +314,17 @@ mod tests {
                 slider: &of_three[..],
                 receptacle: &of_two[..],
             };
-            one.update(widths, &step[0], &step[1], 5);
+            one.update(widths, (step[0].as_slices(), step[1].as_slices()), 5);
             let widths = Sides {
                 slider: &of_two[..],
                 receptacle: &of_three[..],
             };
-            other.update(widths, &swap(&step[0]), &swap(&step[1]), 5);
+            let swapped = [swap(&step[0]), swap(&step[1])];
+            other.update(widths, (swapped[0].as_slices(), swapped[1].as_slices()), 5);
         }
         assert!((one.error - other.error).abs() < 1e-15 && one.error > 0.1);
-        assert!((one.fastest_rate() - 0.8).abs() < 1e-15);
-        assert!((other.fastest_rate() - 0.8).abs() < 1e-15);
+        assert!((one.fastest_rate().receptacle - 0.8).abs() < 1e-15);
+        assert!((other.fastest_rate().slider - 0.8).abs() < 1e-15);
         assert!((one.mean_error() - other.mean_error()).abs() < 1e-15);
     }
 

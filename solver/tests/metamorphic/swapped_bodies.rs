@@ -49,6 +49,7 @@ fn turned(scene: &Scene, crown: f64) -> Scene {
             },
             elastic: receptacle.elastic,
             wear: receptacle.wear,
+            plating: receptacle.plating.clone(),
         },
         receptacle: Body {
             shape: BlockShape {
@@ -58,6 +59,7 @@ fn turned(scene: &Scene, crown: f64) -> Scene {
             },
             elastic: slider.elastic,
             wear: slider.wear,
+            plating: slider.plating.clone(),
         },
         ..scene.clone()
     }

@@ -6,6 +6,7 @@
 use serde_json::json;
 use solver::condensation::condense;
 use solver::cycle::{CycleState, Integrator};
+use solver::law::surface::SurfaceWear;
 use solver::law::wear::WearLaw;
 
 use super::run::scene;
@@ -26,9 +27,9 @@ fn wear_coefficient_can_change_a_hundredfold_between_two_cycles() {
     let mut energy = 0.0;
     let mut expected = 0.0;
     for (round, k) in [1e-8, 1e-6, 1e-8].into_iter().enumerate() {
-        model.interface.wear.receptacle = Some(WearLaw::Archard {
+        model.interface.wear.receptacle = Some(SurfaceWear::Law(WearLaw::Archard {
             k_over_h_per_mpa: k,
-        });
+        }));
         let mut integrator = Integrator::new(&scene, &model, operators);
         if round == 0 {
             integrator.apply_load(&mut state).expect("it settles");

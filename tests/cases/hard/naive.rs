@@ -2,7 +2,7 @@
 
 use solver::condensation::condense;
 use solver::contact::{ContactError, ContactState, Displacement, Pair, Solver, Surfaces, slopes};
-use solver::law::wear::WearLaw;
+use solver::law::surface::SurfaceWear;
 use solver::record::{Position, TractionField};
 use solver::scene::Scene;
 use solver::sides::{Side, Sides};
@@ -26,7 +26,7 @@ pub(crate) fn explicit_wear(
             .interface
             .wear
             .receptacle
-            .and_then(WearLaw::uniform)
+            .and_then(SurfaceWear::uniform)
             .expect("the receptacle wears by Archard's law");
     let mut solver = Solver::default();
     let mut depth = vec![0.0; operators.receptacle.x.len()];

@@ -23,7 +23,7 @@ pub(super) fn complete(schemas: &mut Value) {
             property.extend(keywords);
         }
     }
-    require(&mut schemas["Stop"], &["worn_depth_mm"]);
+    schemas["Stop"]["anyOf"] = json!([{"required": ["worn_depth_mm"]}, {"required": ["kind"]}]);
     require(
         &mut schemas["MaterialProperties"],
         &["youngs_modulus_mpa", "poisson_ratio"],

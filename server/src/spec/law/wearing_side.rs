@@ -5,10 +5,10 @@ use api::spec::Material;
 use crate::reference::materials::LibraryMaterial;
 
 /// A side with its material as given and as resolved.
-pub(super) struct WearingSide<'a> {
-    pub(super) pointer: String,
-    pub(super) given: Option<&'a Material>,
-    pub(super) resolved: Option<&'a Material>,
+pub(in crate::spec) struct WearingSide<'a> {
+    pub(in crate::spec) pointer: String,
+    pub(in crate::spec) given: Option<&'a Material>,
+    pub(in crate::spec) resolved: Option<&'a Material>,
 }
 
 impl WearingSide<'_> {
@@ -22,6 +22,17 @@ impl WearingSide<'_> {
         match self.given {
             Some(Material::Named(name)) => LibraryMaterial::named(name),
             _ => None,
+        }
+    }
+
+    /// The material of the library that the side consists of, named or by default.
+    pub(super) fn resolved_library(&self) -> Option<&'static LibraryMaterial> {
+        match (self.given, self.resolved) {
+            (Some(Material::Given(_)), _) | (_, None) => None,
+            (_, Some(Material::Given(properties))) => {
+                LibraryMaterial::named(properties.name.as_deref()?)
+            }
+            (_, Some(Material::Named(name))) => LibraryMaterial::named(name),
         }
     }
 

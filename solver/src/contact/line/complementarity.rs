@@ -128,8 +128,9 @@ impl Complementarity {
         let layout = Layout::of(problem, response, it);
         let solution = self.pressure.iter().zip(&self.slip);
         wear.linearise(
-            problem.pair.interface.slave,
-            solution.map(|(&pressure, &slip)| LocalState { pressure, slip }),
+            problem.coupling,
+            problem.pair,
+            &solution.map(|(&pressure, &slip)| LocalState { pressure, slip }),
         );
         self.assemble(problem, response, wear, layout);
         let Some(z) = self.lemke.solve(&self.matrix, &self.constant) else {

@@ -184,8 +184,9 @@ impl Solver {
         geometry.measure((pair, zones), surfaces, setting);
         let tracks_slip = interface.tangential == Tangential::StickSlip;
         self.response.reset(geometry.coupling.len(), tracks_slip);
-        let laws = interface.wear.map(|law| law.filter(|_| cycles > 0.0));
-        self.wear.assemble(&geometry.coupling, pair, laws, cycles);
+        let wear = interface.wear.map(|wear| wear.filter(|_| cycles > 0.0));
+        let worn = (wear, surfaces.depth);
+        self.wear.assemble(&geometry.coupling, pair, worn, cycles);
         let step = slider_x - last.slider_x + to.surface_slip;
         self.assemble_fixed_slip((pair, zones), last, step);
         let geometry = &self.geometry;
@@ -203,7 +204,7 @@ impl Solver {
             spring: setting.spring,
             sag: &geometry.sag,
             fixed_slip: &self.fixed_slip,
-            wears: laws.slider.is_some() || laws.receptacle.is_some(),
+            wears: wear.slider.is_some() || wear.receptacle.is_some(),
             travel: pair.travel(last, setting.pairing_x),
             first_load: last.reference_height.is_none(),
             step,

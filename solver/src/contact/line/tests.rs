@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::condensation::{Operators, condense};
+use crate::law::surface::SurfaceWear;
 use crate::law::wear::{LocalState, WearLaw};
 use crate::model::{build, tests::fuzz_button};
 use crate::sides::{Side, Sides};
@@ -40,7 +41,7 @@ fn wear_from(
 ) -> (Operators, Worn) {
     let scene = fuzz_button();
     let mut model = build(&scene, &crate::effects::plan(&scene)).expect("the scene can be meshed");
-    model.interface.wear = laws;
+    model.interface.wear = laws.map(|law| law.map(SurfaceWear::Law));
     let operators = condense(&model).expect("it can be condensed").operators;
     let pair = Pair {
         operators: &operators,

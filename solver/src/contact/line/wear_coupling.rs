@@ -1,105 +1,175 @@
 //! Wear in the contact solve: the gap that the wear of both surfaces opens.
 //!
-//! With e = p |sigma| and the specific wear rates k_s of the slave and k_m of the master at the coupled nodes, an
-//! increment of n cycles opens the gaps
-//!   F = W e,  W = n (diag k_s + S diag k_m),  S = Mhat D^-1 M^T,
-//! where S transfers the master's recession to its nodes and averages it back. A rate that varies with p and |sigma|
-//! adds its derivatives: dF/dp = W_p |sigma| with k + p dk/dp in place of k, dF/d|sigma| = W_s p with
-//! k + |sigma| dk/d|sigma|. Uniform rates are assembled once an increment.
+//! With e = p |sigma| and the specific wear rates k_s of the slave and k_m of the master, an increment of n cycles opens the
+//! gaps
+//!   F = W e,  W = n (diag k_s + Mhat diag k_m D^-1 M^T),
+//! where the master's nodes take the path e and their recession is averaged back. The rates of a law that varies with the local
+//! state are those at the coupled nodes on either side, so that its columns of S = Mhat D^-1 M^T are multiplied by k_m; those of
+//! a plating belong to the nodes of their own surface, whose depths they depend on. Rates that vary add their derivatives:
+//! dF/dp = W_p |sigma| and dF/d|sigma| = W_s p (`rates`). Uniform rates are assembled once an increment.
+
+mod rates;
 
 use super::band::Band;
 use super::mortar::Coupling;
 use super::pair::Pair;
-use crate::law::wear::{LocalState, Rate, WearLaw};
+use crate::law::surface::SurfaceWear;
+use crate::law::wear::LocalState;
 use crate::sides::{Side, Sides};
+use rates::NodeRates;
 
 /// Gap opening of an increment, and its derivatives.
 #[derive(Debug, Default)]
 pub(super) struct WearCoupling {
-    laws: Sides<Option<WearLaw>>,
+    wear: Sides<Option<SurfaceWear>>,
     cycles: f64,
+    /// Depths of the slave's coupled nodes and of the master's nodes in the coupled range before the increment, mm.
+    depth: Sides<Vec<f64>>,
     /// S; zero where the master does not wear.
     transfer: Band,
-    /// States of the coupled nodes with their rates, where these vary.
-    local: Vec<(LocalState, Sides<Rate>)>,
+    /// The master's part of W where it is plated.
+    plated: Band,
+    /// Path at the coupled nodes, and at the master's nodes where it is plated, MPa mm.
+    path: Vec<f64>,
+    master_path: Vec<f64>,
+    /// Rates that vary: at the coupled nodes, or at the master's where that is plated.
+    rates: Sides<Vec<NodeRates>>,
     opening: Band,
     per_pressure: Band,
     per_slip: Band,
 }
 
 impl WearCoupling {
-    /// Assembles the matrices for the laws of both surfaces and a number of cycles. Rates that vary are evaluated by
-    /// [`Self::linearise`].
+    /// Assembles the matrices for the wear of both surfaces, worn to these depths at their contact nodes, and a number of cycles.
+    /// Rates that vary are evaluated by [`Self::linearise`].
     pub(super) fn assemble(
         &mut self,
         coupling: &Coupling,
         pair: &Pair<'_>,
-        laws: Sides<Option<WearLaw>>,
+        (wear, depth): (Sides<Option<SurfaceWear>>, Sides<&[f64]>),
         cycles: f64,
     ) {
-        self.laws = laws;
+        self.wear = wear;
         self.cycles = cycles;
         self.transfer.reset(coupling.len(), 0);
         let (slave, master) = (pair.interface.slave, pair.interface.slave.other());
-        if laws.of(master).is_some() {
-            self.assemble_transfer(coupling, &pair.master().widths);
+        if wear.of(master).is_some() && !self.is_plated(master) {
+            let widths = &pair.master().widths;
+            assemble_transfer(coupling, |shared, j| shared / widths[j], &mut self.transfer);
         }
-        if !self.varies() {
-            let rates = laws.map(|law| uniform(law) * cycles);
+        if self.varies() {
+            let (begin, end) = coupling.master_range;
+            let ranges = [(slave, coupling.first..coupling.end), (master, begin..end)];
+            for (side, range) in ranges {
+                let depths = self.depth.of_mut(side);
+                depths.clear();
+                depths.extend_from_slice(&depth.of(side)[range]);
+            }
+        } else {
+            let rates = wear.map(|wear| uniform(wear) * cycles);
             let (own, far) = (*rates.of(slave), *rates.of(master));
             self.transfer.combine(|_| far, |_| own, &mut self.opening);
         }
     }
 
-    fn assemble_transfer(&mut self, coupling: &Coupling, master_width: &[f64]) {
-        let (n, b) = (coupling.len(), half_bandwidth(coupling));
-        self.transfer.reset(n, b);
-        for i in 0..n {
-            let (to, averages) = coupling.dual_row(coupling.first + i);
-            for l in i.saturating_sub(b)..(i + b + 1).min(n) {
-                let (from, shares) = coupling.standard_row(coupling.first + l);
-                let begin = to.max(from);
-                let end = (to + averages.len()).min(from + shares.len());
-                let mut sum = 0.0;
-                for j in begin..end {
-                    sum += averages[j - to] * shares[j - from] / master_width[j];
-                }
-                *self.transfer.at(i, l) = sum;
-            }
-        }
+    fn is_plated(&self, side: Side) -> bool {
+        matches!(self.wear.of(side), Some(SurfaceWear::Plated(_)))
     }
 
-    /// Whether a rate depends on the local state.
+    /// Whether a rate depends on the local state or on the depth.
     pub(super) fn varies(&self) -> bool {
-        let varies = |law: Option<WearLaw>| law.is_some_and(|law| law.uniform().is_none());
-        varies(self.laws.slider) || varies(self.laws.receptacle)
+        let varies = |wear: Option<SurfaceWear>| wear.is_some_and(|wear| wear.uniform().is_none());
+        varies(self.wear.slider) || varies(self.wear.receptacle)
     }
 
     /// Linearises rates that vary about the pressures and slips of the coupled nodes.
-    pub(super) fn linearise(&mut self, slave: Side, states: impl Iterator<Item = LocalState>) {
+    pub(super) fn linearise(
+        &mut self,
+        coupling: &Coupling,
+        pair: &Pair<'_>,
+        states: &(impl Iterator<Item = LocalState> + Clone),
+    ) {
         if !self.varies() {
             return;
         }
-        let laws = self.laws;
-        let rate = |at| laws.map(|law| law.map_or_else(Rate::default, |law| law.rate(at)));
-        self.local.clear();
-        self.local.extend(states.map(|at| (at, rate(at))));
-        let (transfer, local, cycles) = (&self.transfer, &self.local, self.cycles);
-        let master = slave.other();
-        let combine = |factor: fn(LocalState, Rate) -> f64, combined: &mut Band| {
-            let factor = |at, rate| cycles * factor(at, rate);
-            transfer.combine(
-                |l| factor(local[l].0, *local[l].1.of(master)),
-                |l| factor(local[l].0, *local[l].1.of(slave)),
-                combined,
+        let (slave, master) = (pair.interface.slave, pair.interface.slave.other());
+        self.path.clear();
+        let paths = states.clone().map(|at| (at.pressure * at.slip).max(0.0));
+        self.path.extend(paths);
+        if self.is_plated(master) {
+            transfer_path(
+                coupling,
+                &pair.master().widths,
+                &self.path,
+                &mut self.master_path,
             );
-        };
-        combine(|_, k| k.value, &mut self.opening);
-        combine(
-            |at, k| k.value + at.pressure * k.d_pressure,
-            &mut self.per_pressure,
+        }
+        for side in Side::BOTH {
+            let rates = self.rates.of_mut(side);
+            rates.clear();
+            match *self.wear.of(side) {
+                None => rates.resize(coupling.len(), NodeRates::default()),
+                Some(SurfaceWear::Law(law)) => {
+                    rates.extend(states.clone().map(|at| NodeRates::of_law(law, at)));
+                }
+                Some(SurfaceWear::Plated(layers)) => {
+                    let path = if side == slave {
+                        &self.path
+                    } else {
+                        &self.master_path
+                    };
+                    let nodes = self.depth.of(side).iter().zip(path);
+                    rates.extend(
+                        nodes.map(|(depth, e)| {
+                            NodeRates::of_layers(&layers, *depth, self.cycles * e)
+                        }),
+                    );
+                }
+            }
+        }
+        self.combine(
+            coupling,
+            pair,
+            |rates| rates.value,
+            |wear| &mut wear.opening,
         );
-        combine(|at, k| k.value + at.slip * k.d_slip, &mut self.per_slip);
+        self.combine(
+            coupling,
+            pair,
+            |rates| rates.per_pressure,
+            |wear| &mut wear.per_pressure,
+        );
+        self.combine(
+            coupling,
+            pair,
+            |rates| rates.per_slip,
+            |wear| &mut wear.per_slip,
+        );
+    }
+
+    /// Assembles the matrix of one kind of rates.
+    fn combine(
+        &mut self,
+        coupling: &Coupling,
+        pair: &Pair<'_>,
+        kind: fn(&NodeRates) -> f64,
+        combined: fn(&mut Self) -> &mut Band,
+    ) {
+        let slave = pair.interface.slave;
+        let mut matrix = std::mem::take(combined(self));
+        let (own, far) = (self.rates.of(slave), self.rates.of(slave.other()));
+        let (cycles, diagonal) = (self.cycles, |l: usize| self.cycles * kind(&own[l]));
+        if self.is_plated(slave.other()) {
+            let widths = &pair.master().widths;
+            let begin = coupling.master_range.0;
+            let worn = |shared: f64, j: usize| shared * kind(&far[j - begin]) / widths[j];
+            assemble_transfer(coupling, worn, &mut self.plated);
+            self.plated.combine(|_| cycles, diagonal, &mut matrix);
+        } else {
+            let factor = |l: usize| cycles * kind(&far[l]);
+            self.transfer.combine(factor, diagonal, &mut matrix);
+        }
+        *combined(self) = matrix;
     }
 
     /// W: gap opened per path p |sigma|, 1/MPa.
@@ -126,7 +196,7 @@ impl WearCoupling {
     }
 
     /// Writes the recession of both surfaces, mm, the slave's at the coupled nodes and the master's at its nodes in the
-    /// coupled range; returns the worn areas as the integrals of the rates over the coupled nodes, mm^2.
+    /// coupled range; returns the worn areas as the integrals of the rates over the nodes that they belong to, mm^2.
     pub(super) fn recession(
         &self,
         coupling: &Coupling,
@@ -137,35 +207,86 @@ impl WearCoupling {
         Sides::from_fn(|side| {
             let recession = recession.of_mut(side);
             recession.clear();
-            let Some(law) = *self.laws.of(side) else {
-                return 0.0;
-            };
-            // A uniform rate is a factor of the transferred path.
-            let factor = law.uniform().unwrap_or(1.0) * self.cycles;
-            let share = |(l, e): (usize, &f64)| match law.uniform() {
-                Some(_) => *e,
-                None => self.local[l].1.of(side).value * e,
-            };
-            let shares = path.iter().enumerate().map(share);
-            let widths = &pair.slave().widths[coupling.first..];
-            let area = widths.iter().zip(shares.clone());
-            let area = factor * area.map(|(width, e)| width * e).sum::<f64>();
-            if side == pair.interface.slave {
-                recession.extend(shares);
-            } else {
-                transfer_path(coupling, &pair.master().widths, shares, recession);
+            match *self.wear.of(side) {
+                None => 0.0,
+                Some(SurfaceWear::Law(_)) => {
+                    self.recession_by_law((coupling, pair), side, path, recession)
+                }
+                Some(SurfaceWear::Plated(layers)) => {
+                    let widths = if side == pair.interface.slave {
+                        recession.extend_from_slice(path);
+                        &pair.slave().widths[coupling.first..]
+                    } else {
+                        transfer_path(coupling, &pair.master().widths, path, recession);
+                        &pair.master().widths[coupling.master_range.0..]
+                    };
+                    let nodes = recession.iter_mut().zip(self.depth.of(side)).zip(widths);
+                    nodes.fold(0.0, |area, ((depth, before), width)| {
+                        *depth = layers.recession(*before, self.cycles * *depth).0;
+                        area + width * *depth
+                    })
+                }
             }
-            for depth in recession.iter_mut() {
-                *depth *= factor;
-            }
-            area
         })
+    }
+
+    /// Recession of a side that wears by one law; returns its worn area.
+    fn recession_by_law(
+        &self,
+        (coupling, pair): (&Coupling, &Pair<'_>),
+        side: Side,
+        path: &[f64],
+        recession: &mut Vec<f64>,
+    ) -> f64 {
+        // A uniform rate is a factor of the transferred path.
+        let uniform = self.wear.of(side).and_then(SurfaceWear::uniform);
+        let factor = uniform.unwrap_or(1.0) * self.cycles;
+        if uniform.is_some() {
+            recession.extend_from_slice(path);
+        } else {
+            let nodes = path.iter().zip(self.rates.of(side));
+            recession.extend(nodes.map(|(e, rates)| rates.value * e));
+        }
+        let widths = &pair.slave().widths[coupling.first..];
+        let area = widths.iter().zip(&recession[..]);
+        let area = factor * area.map(|(width, e)| width * e).sum::<f64>();
+        if side != pair.interface.slave {
+            let shares = std::mem::take(recession);
+            transfer_path(coupling, &pair.master().widths, &shares, recession);
+        }
+        for depth in recession.iter_mut() {
+            *depth *= factor;
+        }
+        area
     }
 }
 
-/// The specific wear rate of a law whose rate is uniform, 1/MPa.
-fn uniform(law: Option<WearLaw>) -> f64 {
-    law.and_then(WearLaw::uniform).unwrap_or(0.0)
+/// The specific wear rate of a surface on which it is uniform, 1/MPa.
+fn uniform(wear: Option<SurfaceWear>) -> f64 {
+    wear.and_then(SurfaceWear::uniform).unwrap_or(0.0)
+}
+
+/// Writes Mhat R M^T, where R multiplies what is shared by a node of the master.
+fn assemble_transfer(
+    coupling: &Coupling,
+    at_node: impl Fn(f64, usize) -> f64,
+    transfer: &mut Band,
+) {
+    let (n, b) = (coupling.len(), half_bandwidth(coupling));
+    transfer.reset(n, b);
+    for i in 0..n {
+        let (to, averages) = coupling.dual_row(coupling.first + i);
+        for l in i.saturating_sub(b)..(i + b + 1).min(n) {
+            let (from, shares) = coupling.standard_row(coupling.first + l);
+            let begin = to.max(from);
+            let end = (to + averages.len()).min(from + shares.len());
+            let mut sum = 0.0;
+            for j in begin..end {
+                sum += at_node(averages[j - to] * shares[j - from], j);
+            }
+            *transfer.at(i, l) = sum;
+        }
+    }
 }
 
 /// Largest distance of two rows of the coupling that share a master node.
@@ -184,12 +305,13 @@ fn half_bandwidth(coupling: &Coupling) -> usize {
 fn transfer_path(
     coupling: &Coupling,
     master_width: &[f64],
-    path: impl Iterator<Item = f64>,
+    path: &[f64],
     transferred: &mut Vec<f64>,
 ) {
     let (begin, end) = coupling.master_range;
+    transferred.clear();
     transferred.resize(end - begin, 0.0);
-    for (l, e) in path.enumerate().filter(|(_, e)| *e != 0.0) {
+    for (l, e) in path.iter().enumerate().filter(|(_, e)| **e != 0.0) {
         let (from, weights) = coupling.standard_row(coupling.first + l);
         for (r, weight) in transferred[from - begin..].iter_mut().zip(weights) {
             *r += weight * e;

@@ -7,11 +7,7 @@ use super::rate::{LocalState, Rate};
 
 /// Specific wear rate for k/H in 1/MPa.
 pub(super) fn rate(k_over_h: f64, _: LocalState) -> Rate {
-    Rate {
-        value: k_over_h,
-        d_pressure: 0.0,
-        d_slip: 0.0,
-    }
+    Rate::uniform(k_over_h)
 }
 
 #[cfg(test)]

@@ -31,3 +31,14 @@ pub struct Rate {
     /// Derivative with respect to slip, 1/(MPa mm).
     pub d_slip: f64,
 }
+
+impl Rate {
+    /// A rate that is the same in every state, 1/MPa.
+    pub(super) const fn uniform(value: f64) -> Self {
+        Self {
+            value,
+            d_pressure: 0.0,
+            d_slip: 0.0,
+        }
+    }
+}

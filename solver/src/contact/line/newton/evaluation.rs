@@ -46,8 +46,8 @@ impl Evaluation {
         it.gap.clear();
         it.gap.resize(n, 0.0);
         if problem.wears {
-            let slave = problem.pair.interface.slave;
-            wear.linearise(slave, (0..n).map(|l| it.local_state(l)));
+            let states = (0..n).map(|l| it.local_state(l));
+            wear.linearise(problem.coupling, problem.pair, &states);
             wear.opening().add_product(&(0..n), &it.path, &mut it.gap);
         }
         let (mut residual, mut largest) = (0.0_f64, 0.0_f64);

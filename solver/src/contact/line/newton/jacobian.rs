@@ -41,7 +41,7 @@ impl Jacobian {
             slip: (partition.status(it, node).direction() * it.slip[node]).max(0.0),
         };
         if problem.wears {
-            wear.linearise(problem.pair.interface.slave, (0..n).map(local));
+            wear.linearise(problem.coupling, problem.pair, &(0..n).map(local));
             let per_slip = |l: usize| partition.status(it, l).direction() * it.pressure[l];
             wear.per_slip()
                 .combine(per_slip, |_| 0.0, &mut self.opening);

@@ -1,0 +1,57 @@
+//! Life by each criterion of a specification.
+
+use serde::{Deserialize, Serialize};
+use utoipa::ToSchema;
+
+use crate::enum_value::string_enum;
+use crate::spec::Criterion;
+
+string_enum! {
+    /// Whether a criterion was reached.
+    LifeStatus {
+        /// It was.
+        Reached = "reached",
+        /// It was not within the cycles of the run.
+        NotReached = "not_reached",
+        /// What it is about is not simulated.
+        NotModelled = "not_modelled",
+    }
+}
+
+/// Life by one criterion.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct LifeEntry {
+    /// The criterion, with its side.
+    pub criterion: Criterion,
+    /// The side, `slider` or `receptacle`; null for the contact as a whole.
+    pub side: Option<String>,
+    /// Whether it was reached.
+    pub status: LifeStatus,
+    /// Cycles after which it was reached, interpolated between computed ones.
+    pub cycles: Option<f64>,
+    /// Imposed sliding distance until then, mm.
+    pub sliding_distance_mm: Option<f64>,
+    /// Duration until then, h; null for a continuous motion.
+    pub duration_h: Option<f64>,
+    /// Scatter of these cycles; null where it was not reached.
+    pub band: Option<LifeBand>,
+    /// What the criterion compares, at the end of the run: a worn depth in mm or a part of the scar.
+    pub value: Option<f64>,
+    /// Its limit, in the same unit.
+    pub limit: Option<f64>,
+    /// What was missing, in words.
+    pub reason: Option<String>,
+}
+
+/// Cycles that a part of all contacts does not survive, for wear coefficients of a lognormal distribution.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct LifeBand {
+    /// Of a tenth.
+    pub b10: f64,
+    /// Of a half.
+    pub b50: f64,
+    /// Of nine tenths.
+    pub b90: f64,
+    /// Cycles that the first of `contacts` independent contacts does not survive in a tenth of all connectors.
+    pub first_of_contacts_b10: f64,
+}

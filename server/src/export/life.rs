@@ -1,0 +1,141 @@
+//! Life documents: the cycles to each criterion with their scatter.
+//!
+//! Depths depend on a wear coefficient k and the number of cycles N by their product, so that a life is N ~ 1/k: with k lognormal,
+//! ln N is normal with the standard deviation s = sqrt(ln(1 + CV^2)), and a part F of all contacts lives no longer than
+//!   N exp(s z(F)),  z the quantile of the normal distribution.
+//! The computed life is taken as the median. Of n independent contacts the first one ends in a part 0.1 of all connectors where
+//! F = 1 - 0.9^(1/n).
+
+use api::results::{LifeBand, LifeEntry, LifeStatus};
+use api::spec::{Criterion, CriterionKind, EnumValue, LifeSettings};
+use solver::record::{Life, Lived};
+use solver::scene::{Motion, Scene};
+use statrs::distribution::{ContinuousCDF, Normal};
+
+use crate::number::real;
+
+const SECONDS_PER_HOUR: f64 = 3_600.0;
+
+/// Part of all contacts, or connectors, that b10 belongs to.
+const TENTH: f64 = 0.1;
+
+/// Life by the criteria of resolved settings.
+pub(crate) fn entries(
+    settings: &LifeSettings,
+    scene: &Scene,
+    life: &Life,
+    done: u64,
+) -> Vec<LifeEntry> {
+    let mut lived = life.lived.iter();
+    let criteria = settings.criteria.iter().flatten();
+    criteria
+        .map(|criterion| match criterion.kind {
+            EnumValue::Known(CriterionKind::Resistance) => not_modelled(criterion),
+            _ => match lived.next() {
+                Some(lived) => entry(settings, scene, (criterion, lived), done),
+                None => not_modelled(criterion),
+            },
+        })
+        .collect()
+}
+
+fn not_modelled(criterion: &Criterion) -> LifeEntry {
+    LifeEntry {
+        reason: Some(
+            "the contact resistance is not computed: it needs the film on the base metal after its exposure".to_owned(),
+        ),
+        ..empty(criterion, LifeStatus::NotModelled)
+    }
+}
+
+fn empty(criterion: &Criterion, status: LifeStatus) -> LifeEntry {
+    let side = match &criterion.side {
+        Some(EnumValue::Known(part)) => Some(part.as_str().to_owned()),
+        _ => None,
+    };
+    LifeEntry {
+        criterion: criterion.clone(),
+        side,
+        status,
+        cycles: None,
+        sliding_distance_mm: None,
+        duration_h: None,
+        band: None,
+        value: None,
+        limit: None,
+        reason: None,
+    }
+}
+
+fn entry(
+    settings: &LifeSettings,
+    scene: &Scene,
+    (criterion, lived): (&Criterion, &Lived),
+    done: u64,
+) -> LifeEntry {
+    let measured = |status| LifeEntry {
+        value: Some(lived.value),
+        limit: Some(lived.limit),
+        ..empty(criterion, status)
+    };
+    let Some(cycles) = lived.cycles else {
+        let reason = format!(
+            "{:.1} % of the limit after {done} cycles",
+            100.0 * lived.value / lived.limit
+        );
+        return LifeEntry {
+            reason: Some(reason),
+            ..measured(LifeStatus::NotReached)
+        };
+    };
+    let hours = match scene.motion {
+        Motion::Reciprocating { period_s, .. } => Some(cycles * period_s / SECONDS_PER_HOUR),
+        Motion::Continuous { .. } => None,
+    };
+    LifeEntry {
+        cycles: Some(cycles),
+        sliding_distance_mm: Some(cycles * scene.motion.distance_per_cycle_mm()),
+        duration_h: hours,
+        band: Some(band(
+            cycles,
+            settings.coefficient_of_variation.unwrap_or_default(),
+            settings.contacts.unwrap_or(1),
+        )),
+        ..measured(LifeStatus::Reached)
+    }
+}
+
+/// The scatter of a life for a coefficient of variation of k and a number of independent contacts.
+fn band(cycles: f64, variation: f64, contacts: u64) -> LifeBand {
+    let s = variation.powi(2).ln_1p().sqrt();
+    let part = |part: f64| cycles * (s * Normal::standard().inverse_cdf(part)).exp();
+    // Exact where the part is far below the precision of 1 - 0.9^(1/n).
+    let first = -((-TENTH).ln_1p() / real(contacts)).exp_m1();
+    LifeBand {
+        b10: part(TENTH),
+        b50: cycles,
+        b90: part(1.0 - TENTH),
+        first_of_contacts_b10: part(first),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn half_of_the_mean_as_deviation_scatters_the_life_by_a_factor_of_1_8() {
+        let band_of = |contacts| band(1_000.0, 0.5, contacts);
+        let LifeBand { b10, b50, b90, .. } = band_of(1);
+        assert!(
+            (b10 - 545.87).abs() < 0.01 && (b90 - 1_831.95).abs() < 0.01,
+            "{b10} {b90}"
+        );
+        assert!((b50 - 1_000.0).abs() < 1e-12);
+        assert!((band_of(1).first_of_contacts_b10 - b10).abs() < 1e-9);
+        let nine = band_of(9).first_of_contacts_b10;
+        assert!((nine - 342.40).abs() < 0.01, "{nine}");
+        let certain = band(1_000.0, 0.0, 9);
+        assert!((certain.b10 - 1_000.0).abs() < 1e-9 && (certain.b90 - 1_000.0).abs() < 1e-9);
+    }
+}

@@ -1,0 +1,387 @@
+//! Criteria of stops and lives.
+
+use std::ops::RangeInclusive;
+
+use api::spec::{Criterion, CriterionKind, EnumValue, Part, Stop};
+use solver::law::plating::bottoms;
+use solver::scene::{self, Layer};
+use solver::sides::{Side, Sides};
+
+use crate::spec::diagnostics::Diagnostics;
+
+/// mm.
+pub(in crate::spec) const WORN_DEPTH_MM: RangeInclusive<f64> = 1e-9..=1e4;
+/// Part of a scar, -.
+pub(in crate::spec) const FRACTION: RangeInclusive<f64> = 1e-3..=1.0;
+/// mOhm.
+pub(in crate::spec) const RESISTANCE_MOHM: RangeInclusive<f64> = 1e-6..=1e12;
+
+/// The platings of a scene, and which side wears at all.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Surfaces<'a> {
+    pub(super) plating: &'a Sides<Vec<Layer>>,
+    pub(super) wears: Sides<bool>,
+}
+
+impl Surfaces<'_> {
+    /// The sides that a criterion of a kind is about.
+    fn sides(&self, kind: CriterionKind) -> Vec<Side> {
+        let is_about = |side: &Side| match kind {
+            CriterionKind::FirstExposure
+            | CriterionKind::BaseMetal
+            | CriterionKind::ExposedFraction => !self.plating.of(*side).is_empty(),
+            CriterionKind::WornDepth => *self.wears.of(*side),
+            CriterionKind::Resistance => true,
+        };
+        Side::BOTH.into_iter().filter(is_about).collect()
+    }
+}
+
+/// The name of a side in a specification.
+pub(super) fn part(side: Side) -> Part {
+    match side {
+        Side::Slider => Part::Slider,
+        Side::Receptacle => Part::Receptacle,
+    }
+}
+
+/// A criterion of a kind without its values, for a side.
+pub(super) fn of(kind: CriterionKind, side: Option<Side>) -> Criterion {
+    Criterion {
+        kind: kind.into(),
+        side: side.map(|side| part(side).into()),
+        layer: None,
+        fraction: None,
+        mm: None,
+        mohm: None,
+    }
+}
+
+/// A stop as a criterion; `None` where it has no kind.
+pub(super) fn of_stop(stop: &Stop) -> Option<Criterion> {
+    let Stop {
+        kind,
+        side,
+        layer,
+        fraction,
+        mm,
+        mohm,
+        ..
+    } = stop.clone();
+    kind.map(|kind| Criterion {
+        kind,
+        side,
+        layer,
+        fraction,
+        mm,
+        mohm,
+    })
+}
+
+/// Resolves a criterion into one for each side that it is about. One whose quantity is not modelled has none.
+pub(super) fn resolve(
+    pointer: &str,
+    given: &Criterion,
+    surfaces: Surfaces<'_>,
+    diagnostics: &mut Diagnostics,
+) -> Vec<(Criterion, Option<scene::Criterion>)> {
+    let Some(kind) = diagnostics.enum_member(&format!("{pointer}/kind"), &given.kind) else {
+        return Vec::new();
+    };
+    check_fields(pointer, given, kind, diagnostics);
+    let sides = sides(pointer, given.side.as_ref(), (kind, surfaces), diagnostics);
+    if kind == CriterionKind::Resistance {
+        let limit = required(
+            &format!("{pointer}/mohm"),
+            given.mohm,
+            &RESISTANCE_MOHM,
+            diagnostics,
+        );
+        return limit.map(|_| (given.clone(), None)).into_iter().collect();
+    }
+    let of_side = |side: Side| {
+        let layers = surfaces.plating.of(side);
+        let criterion = match kind {
+            CriterionKind::WornDepth => {
+                let mm = required(
+                    &format!("{pointer}/mm"),
+                    given.mm,
+                    &WORN_DEPTH_MM,
+                    diagnostics,
+                )?;
+                scene::Criterion::WornDepth {
+                    side: Some(side),
+                    depth_mm: mm,
+                }
+            }
+            CriterionKind::ExposedFraction => {
+                let pointer_of = |field| format!("{pointer}/{field}");
+                let fraction = required(
+                    &pointer_of("fraction"),
+                    given.fraction,
+                    &FRACTION,
+                    diagnostics,
+                )?;
+                scene::Criterion::ExposedFraction {
+                    side,
+                    layer: above(&pointer_of("layer"), given.layer, layers, diagnostics)?,
+                    fraction,
+                }
+            }
+            CriterionKind::FirstExposure => {
+                let pointer = format!("{pointer}/layer");
+                if given.layer.is_none() {
+                    diagnostics.missing(
+                        &pointer,
+                        "the layer that is exposed; the outermost one is 1",
+                    );
+                    return None;
+                }
+                let above = above(&pointer, given.layer, layers, diagnostics)?;
+                through(side, layers, above)?
+            }
+            CriterionKind::BaseMetal => through(side, layers, layers.len().checked_sub(1)?)?,
+            CriterionKind::Resistance => return None,
+        };
+        let named = Criterion {
+            side: Some(part(side).into()),
+            ..given.clone()
+        };
+        Some((named, Some(criterion)))
+    };
+    sides.into_iter().filter_map(of_side).collect()
+}
+
+/// Through a layer and all layers above it, somewhere.
+fn through(side: Side, layers: &[Layer], layer: usize) -> Option<scene::Criterion> {
+    let depth_mm = bottoms(layers).nth(layer)?;
+    Some(scene::Criterion::WornDepth {
+        side: Some(side),
+        depth_mm,
+    })
+}
+
+/// Number, from 0, of the layer above one whose number counts from 1; the last one above the base if absent.
+fn above(
+    pointer: &str,
+    layer: Option<u64>,
+    layers: &[Layer],
+    diagnostics: &mut Diagnostics,
+) -> Option<usize> {
+    let count = layers.len();
+    let Some(layer) = layer else {
+        return count.checked_sub(1);
+    };
+    let above = usize::try_from(layer).ok()?.checked_sub(2);
+    let above = above.filter(|above| above + 1 < count);
+    if above.is_none() {
+        let detail = if count < 2 {
+            format!(
+                "{layer} is not below another layer: there is one layer; below it is the `base_metal`"
+            )
+        } else {
+            format!(
+                "{layer} is outside 2 to {count}: 1 is the outermost layer, below the last one is the `base_metal`"
+            )
+        };
+        diagnostics.fault(pointer, detail);
+    }
+    above
+}
+
+/// The sides of a criterion; adds a fault where there is none.
+fn sides(
+    pointer: &str,
+    given: Option<&EnumValue<Part>>,
+    (kind, surfaces): (CriterionKind, Surfaces<'_>),
+    diagnostics: &mut Diagnostics,
+) -> Vec<Side> {
+    let possible = surfaces.sides(kind);
+    let lacks = if kind == CriterionKind::WornDepth {
+        "does not wear"
+    } else {
+        "is not plated"
+    };
+    let Some(given) = given else {
+        if possible.is_empty() {
+            diagnostics.fault(pointer, format!("either side {lacks}"));
+        }
+        return possible;
+    };
+    let pointer = format!("{pointer}/side");
+    let side = match diagnostics.enum_member(&pointer, given) {
+        Some(Part::Slider) => Side::Slider,
+        Some(Part::Receptacle) => Side::Receptacle,
+        None => return Vec::new(),
+    };
+    if !possible.contains(&side) {
+        diagnostics.fault(&pointer, format!("the {} {lacks}", side.name()));
+        return Vec::new();
+    }
+    vec![side]
+}
+
+fn check_fields(
+    pointer: &str,
+    given: &Criterion,
+    kind: CriterionKind,
+    diagnostics: &mut Diagnostics,
+) {
+    let (name, fields): (_, &[&str]) = match kind {
+        CriterionKind::FirstExposure => ("first_exposure", &["kind", "side", "layer"]),
+        CriterionKind::BaseMetal => ("base_metal", &["kind", "side"]),
+        CriterionKind::ExposedFraction => {
+            ("exposed_fraction", &["kind", "side", "layer", "fraction"])
+        }
+        CriterionKind::WornDepth => ("worn_depth", &["kind", "side", "mm"]),
+        CriterionKind::Resistance => ("resistance", &["kind", "mohm"]),
+    };
+    diagnostics.check_fields(pointer, given, fields, name);
+}
+
+fn required(
+    pointer: &str,
+    given: Option<f64>,
+    range: &RangeInclusive<f64>,
+    diagnostics: &mut Diagnostics,
+) -> Option<f64> {
+    if given.is_none() {
+        diagnostics.missing(pointer, "a criterion of this kind needs it");
+    }
+    given.map(|value| diagnostics.check_range(pointer, value, range))
+}
+
+#[cfg(test)]
+mod tests {
+    use solver::scene::Criterion;
+    use solver::sides::Side;
+
+    use crate::spec::tests::{accepted as resolved, faults};
+
+    /// An SD card with two layers on the pad and one on the tip.
+    fn plated(rest: &str) -> String {
+        let layer = |um: f64| format!(r#"{{"material":"silver","thickness_um":{um}}}"#);
+        format!(
+            r#"{{"system":{{"kind":"sd_card"}},"interface":{{"wear":{{"slider":null}}}},"plating":{{"slider":[{}],"receptacle":[{},{}]}}{rest}}}"#,
+            layer(1.0),
+            layer(2.0),
+            layer(3.0)
+        )
+    }
+
+    fn depth(side: Side, depth_mm: f64) -> Criterion {
+        Criterion::WornDepth {
+            side: Some(side),
+            depth_mm,
+        }
+    }
+
+    #[test]
+    fn the_first_exposure_of_every_layer_ends_a_life_by_default() {
+        let resolved = resolved(&plated(""));
+        let expected = [
+            depth(Side::Slider, 1e-3),
+            depth(Side::Receptacle, 2e-3),
+            depth(Side::Receptacle, 5e-3),
+        ];
+        assert_eq!(resolved.scene.life.len(), 3);
+        for (found, expected) in resolved.scene.life.iter().zip(expected) {
+            let (
+                Criterion::WornDepth { side: a, depth_mm },
+                Criterion::WornDepth {
+                    side: b,
+                    depth_mm: to,
+                },
+            ) = (*found, expected)
+            else {
+                panic!("a depth: {found:?}");
+            };
+            assert!(a == b && (depth_mm - to).abs() < 1e-15, "{found:?}");
+        }
+    }
+
+    #[test]
+    fn a_criterion_without_a_side_is_about_each_plated_one() {
+        let rest = r#","stop":[{"kind":"base_metal"}],"life":{"criteria":[{"kind":"exposed_fraction","fraction":0.5},
+            {"kind":"exposed_fraction","fraction":0.1,"layer":2,"side":"receptacle"},{"kind":"resistance","mohm":10}]}"#;
+        let resolved = resolved(&plated(rest));
+        assert_eq!(resolved.scene.stop.len(), 2);
+        let exposed = |side, layer, fraction| Criterion::ExposedFraction {
+            side,
+            layer,
+            fraction,
+        };
+        assert_eq!(
+            resolved.scene.life,
+            [
+                exposed(Side::Slider, 0, 0.5),
+                exposed(Side::Receptacle, 1, 0.5),
+                exposed(Side::Receptacle, 0, 0.1)
+            ]
+        );
+        // The resistance, which is not modelled, keeps its place.
+        assert_eq!(
+            resolved.spec.life.criteria.map(|criteria| criteria.len()),
+            Some(4)
+        );
+    }
+
+    #[test]
+    fn criteria_that_cannot_be_reached_are_refused_by_their_field() {
+        let pointers = |text: &str| -> Vec<String> {
+            faults(text)
+                .into_iter()
+                .map(|fault| fault.pointer)
+                .collect()
+        };
+        let life = |criterion: &str| plated(&format!(r#","life":{{"criteria":[{criterion}]}}"#));
+        for (criterion, field) in [
+            (r#"{"kind":"first_exposure"}"#, "/layer"),
+            (
+                r#"{"kind":"first_exposure","layer":1,"side":"receptacle"}"#,
+                "/layer",
+            ),
+            (
+                r#"{"kind":"first_exposure","layer":3,"side":"receptacle"}"#,
+                "/layer",
+            ),
+            (
+                r#"{"kind":"exposed_fraction","side":"slider"}"#,
+                "/fraction",
+            ),
+            (r#"{"kind":"worn_depth","side":"slider"}"#, "/mm"),
+            (r#"{"kind":"base_metal","fraction":0.5}"#, "/fraction"),
+            (r#"{"kind":"base"}"#, "/kind"),
+            (r#"{"kind":"base_metal","side":"tip"}"#, "/side"),
+            (r#"{"kind":"resistance"}"#, "/mohm"),
+        ] {
+            let found = pointers(&life(criterion));
+            assert!(
+                found.contains(&format!("/life/criteria/0{field}")),
+                "{criterion}: {found:?}"
+            );
+        }
+        let bare = |rest: &str| format!(r#"{{"system":{{"kind":"sd_card"}},{rest}}}"#);
+        assert_eq!(
+            pointers(&bare(r#""stop":[{"kind":"base_metal"}]"#)),
+            ["/stop/0"]
+        );
+        assert_eq!(
+            pointers(&bare(
+                r#""stop":[{"kind":"worn_depth","mm":0.001,"side":"slider"}]"#
+            )),
+            ["/stop/0/side"]
+        );
+        assert_eq!(
+            pointers(&bare(r#""stop":[{"kind":"resistance","mohm":10}]"#)),
+            ["/stop/0/kind"]
+        );
+        assert_eq!(
+            pointers(&bare(
+                r#""stop":[{"worn_depth_mm":0.001,"kind":"worn_depth","mm":0.1}]"#
+            )),
+            ["/stop/0/worn_depth_mm"]
+        );
+        assert_eq!(pointers(&bare(r#""stop":[{}]"#)), ["/stop/0"]);
+    }
+}

@@ -1,0 +1,281 @@
+//! Platings: layers with their materials, thicknesses and wear laws.
+
+use std::ops::RangeInclusive;
+
+use api::spec::{Material, PlatingLayer, Platings, Provenance, WearLaw};
+use solver::scene::{self, Layer, MOST_LAYERS};
+use solver::sides::Sides;
+
+use crate::spec::diagnostics::Diagnostics;
+use crate::spec::law;
+use crate::spec::law::wearing_side::WearingSide;
+use crate::spec::materials;
+use crate::spec::unit;
+
+/// From a flash of some atoms to a clad inlay, um and mm.
+pub(in crate::spec) const THICKNESS_UM: RangeInclusive<f64> = 1e-3..=1e3;
+pub(in crate::spec) const THICKNESS_MM: RangeInclusive<f64> = 1e-6..=1.0;
+
+/// The layers of both parts of a specification.
+pub(super) fn by_side(platings: &Platings) -> Sides<&[PlatingLayer]> {
+    Sides {
+        slider: &platings.slider,
+        receptacle: &platings.receptacle,
+    }
+}
+
+/// Resolves the platings of both parts beside a coefficient of friction.
+pub(super) fn resolve(
+    given: &Platings,
+    friction: f64,
+    diagnostics: &mut Diagnostics,
+) -> (Platings, Sides<Vec<Layer>>) {
+    let given = by_side(given);
+    let resolved = Sides::from_fn(|side| {
+        let pointer = format!("/plating/{}", side.name());
+        let layers = *given.of(side);
+        diagnostics.check_length(&pointer, layers.len(), MOST_LAYERS);
+        let layers = layers.iter().take(MOST_LAYERS).enumerate();
+        let resolved = layers.map(|(index, given)| {
+            layer(&format!("{pointer}/{index}"), given, friction, diagnostics)
+        });
+        let (filled, layers): (Vec<_>, Vec<_>) = resolved.unzip();
+        (filled, layers.into_iter().flatten().collect())
+    });
+    let (slider, slider_layers) = resolved.slider;
+    let (receptacle, receptacle_layers) = resolved.receptacle;
+    let layers = Sides {
+        slider: slider_layers,
+        receptacle: receptacle_layers,
+    };
+    (Platings { slider, receptacle }, layers)
+}
+
+fn layer(
+    pointer: &str,
+    given: &PlatingLayer,
+    friction: f64,
+    diagnostics: &mut Diagnostics,
+) -> (PlatingLayer, Option<Layer>) {
+    let thickness_mm = thickness_mm(pointer, given, diagnostics);
+    let material = material(&format!("{pointer}/material"), given, diagnostics);
+    let side = WearingSide {
+        pointer: format!("{pointer}/wear"),
+        given: given.material.as_ref(),
+        resolved: material.as_ref(),
+    };
+    let (wear, law) = wear(&side, given.wear.as_ref(), friction, diagnostics);
+    let rate = law.and_then(scene::WearLaw::uniform);
+    if rate.is_some_and(|rate| rate <= 0.0) {
+        diagnostics.fault(
+            &side.pointer,
+            "a layer that does not wear protects all below it; leave these out",
+        );
+    }
+    let layer = thickness_mm
+        .zip(rate)
+        .map(|(thickness_mm, rate_per_mpa)| Layer {
+            thickness_mm,
+            rate_per_mpa,
+        });
+    let filled = PlatingLayer {
+        material,
+        wear,
+        ..given.clone()
+    };
+    (filled, layer)
+}
+
+fn thickness_mm(pointer: &str, given: &PlatingLayer, diagnostics: &mut Diagnostics) -> Option<f64> {
+    let (um, mm) = (
+        format!("{pointer}/thickness_um"),
+        format!("{pointer}/thickness_mm"),
+    );
+    match (given.thickness_um, given.thickness_mm) {
+        (Some(_), Some(_)) => {
+            diagnostics.exclusive_fields(&mm, "thickness_um");
+            None
+        }
+        (None, None) => {
+            diagnostics.missing(&um, "the thickness of the layer");
+            None
+        }
+        (Some(thickness), None) => {
+            diagnostics.provenance(&um, Provenance::Given);
+            diagnostics.check_unit(&um, Some(thickness), &unit::LAYER_UM);
+            Some(1e-3 * diagnostics.check_range(&um, thickness, &THICKNESS_UM))
+        }
+        (None, Some(thickness)) => {
+            diagnostics.provenance(&mm, Provenance::Given);
+            diagnostics.check_unit(&mm, Some(thickness), &unit::LAYER_MM);
+            Some(diagnostics.check_range(&mm, thickness, &THICKNESS_MM))
+        }
+    }
+}
+
+fn material(
+    pointer: &str,
+    given: &PlatingLayer,
+    diagnostics: &mut Diagnostics,
+) -> Option<Material> {
+    let Some(given) = &given.material else {
+        diagnostics.missing(pointer, "the material of the layer");
+        return None;
+    };
+    let properties = materials::properties(pointer, given, diagnostics);
+    Some(Material::Given(Box::new(properties)))
+}
+
+fn wear(
+    side: &WearingSide<'_>,
+    given: Option<&WearLaw>,
+    friction: f64,
+    diagnostics: &mut Diagnostics,
+) -> (Option<WearLaw>, Option<scene::WearLaw>) {
+    if let Some(given) = given {
+        let (filled, law) = law::given_wear(side, given, friction, diagnostics);
+        return (Some(filled), law);
+    }
+    let Some((filled, law)) = law::listed_wear(side, diagnostics) else {
+        let detail = "no published wear coefficient of this material is in the library; measure it, or derive it from a rated \
+                      number of cycles by `fretwear calibrate`";
+        diagnostics.missing(&side.pointer, detail);
+        return (None, None);
+    };
+    (Some(filled), Some(law))
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::spec::tests::{accepted as resolved, faults};
+
+    const GOLD: &str =
+        r#"{"material":"hard_gold","thickness_um":0.76,"wear":{"law":"archard","k":1e-4}}"#;
+
+    fn plated(layers: &str, base: &str) -> String {
+        format!(
+            r#"{{"system":{{"kind":"sd_card"}},"plating":{{"receptacle":[{layers}]}},"interface":{{"wear":{{{base}}}}}}}"#
+        )
+    }
+
+    #[test]
+    fn layers_take_their_hardness_from_their_material_and_their_law_from_the_library() {
+        let silver = r#"{"material":"silver","thickness_mm":0.002}"#;
+        let resolved = resolved(&plated(&format!("{GOLD},{silver}"), ""));
+        let [gold, silver] = &resolved.scene.receptacle.plating[..] else {
+            panic!("two layers");
+        };
+        assert!((gold.thickness_mm - 0.76e-3).abs() < 1e-18);
+        assert!((gold.rate_per_mpa - 1e-4 / 1_700.0).abs() < 1e-20);
+        assert!((silver.rate_per_mpa - 0.004 / 250.0).abs() < 1e-18);
+        // The base below is copper, of which the library lists a coefficient, and not the preset's gold.
+        let base = resolved
+            .scene
+            .receptacle
+            .wear
+            .and_then(solver::scene::WearLaw::uniform);
+        assert!(
+            base.is_some_and(|rate| (rate - 0.011 / 427.0).abs() < 1e-18),
+            "{base:?}"
+        );
+        // Submitted again, the resolved specification is the same.
+        let again = serde_json::to_string(&resolved.spec).expect("JSON");
+        assert_eq!(crate::spec::tests::accepted(&again).scene, resolved.scene);
+    }
+
+    #[test]
+    fn what_nobody_has_published_is_asked_for_by_name() {
+        let pointers = |text: &str| -> Vec<String> {
+            let found = faults(text).into_iter();
+            found.map(|fault| fault.pointer).collect()
+        };
+        let bare = r#"{"material":"hard_gold"}"#;
+        assert_eq!(
+            pointers(&plated(bare, "")),
+            [
+                "/plating/receptacle/0/thickness_um",
+                "/plating/receptacle/0/wear"
+            ]
+        );
+        let both = r#"{"thickness_um":1.0,"thickness_mm":0.001}"#;
+        assert_eq!(
+            pointers(&plated(both, "")),
+            [
+                "/plating/receptacle/0/thickness_mm",
+                "/plating/receptacle/0/material",
+                "/plating/receptacle/0/wear"
+            ]
+        );
+        let hard = r#"{"material":"silver","thickness_um":1.0,"wear":{"law":"archard","k":0}}"#;
+        assert_eq!(pointers(&plated(hard, "")), ["/plating/receptacle/0/wear"]);
+        // The tip's beryllium copper has no listed coefficient.
+        let tip = format!(r#"{{"system":{{"kind":"sd_card"}},"plating":{{"slider":[{GOLD}]}}}}"#);
+        assert_eq!(pointers(&tip), ["/interface/wear/slider"]);
+        let unworn = format!(
+            r#"{{"system":{{"kind":"sd_card"}},"plating":{{"slider":[{GOLD}]}},"interface":{{"wear":{{"slider":null}}}}}}"#
+        );
+        assert_eq!(resolved(&unworn).scene.slider.wear, None);
+        let many = [GOLD; 9].join(",");
+        assert_eq!(pointers(&plated(&many, "")), ["/plating/receptacle"]);
+    }
+
+    #[test]
+    fn a_layer_in_another_unit_is_questioned() {
+        let thick = GOLD.replace("0.76", "760");
+        let resolved = resolved(&plated(&thick, ""));
+        let warning = &resolved.warnings[0];
+        assert_eq!(warning.pointer, "/plating/receptacle/0/thickness_um");
+        assert!(warning.detail.contains("in nm?"), "{}", warning.detail);
+    }
+
+    #[test]
+    fn laws_of_friction_take_the_coefficient_of_the_contact() {
+        let rate = |law: &str| {
+            let base = format!(r#""receptacle":{law}"#);
+            let text = format!(
+                r#"{{"system":{{"kind":"sd_card"}},"interface":{{"friction":{{"law":"coulomb","coefficient":0.6}},"wear":{{{base}}}}}}}"#
+            );
+            resolved(&text)
+                .scene
+                .receptacle
+                .outer_rate()
+                .expect("a uniform rate")
+        };
+        let near = |a: f64, b: f64| (a / b - 1.0).abs() < 1e-12;
+        let k = r#""k":1e-4,"hardness_mpa":1700"#;
+        let archard = 1e-4 / 1_700.0;
+        assert!(near(rate(&format!(r#"{{"law":"archard",{k}}}"#)), archard));
+        let sarkar = rate(&format!(r#"{{"law":"sarkar",{k}}}"#));
+        assert!(near(sarkar, archard * 2.08_f64.sqrt()), "{sarkar}");
+        let saracibar = rate(&format!(
+            r#"{{"law":"saracibar",{k},"reference_friction":0.3}}"#
+        ));
+        assert!(near(saracibar, 2.0 * archard), "{saracibar}");
+        let energy = rate(r#"{"law":"dissipated_energy","energy_coefficient_mm3_per_j":4.23e-5}"#);
+        assert!(near(energy, 4.23e-8 * 0.6), "{energy}");
+    }
+
+    #[test]
+    fn laws_name_the_field_that_they_lack_or_do_not_have() {
+        let fault = |law: &str| {
+            let text = plated("", &format!(r#""receptacle":{law}"#));
+            faults(&text)
+                .into_iter()
+                .map(|fault| fault.pointer)
+                .collect::<Vec<_>>()
+        };
+        let at = |field: &str| vec![format!("/interface/wear/receptacle/{field}")];
+        assert_eq!(
+            fault(r#"{"law":"saracibar","k":1e-4}"#),
+            at("reference_friction")
+        );
+        assert_eq!(
+            fault(r#"{"law":"dissipated_energy"}"#),
+            at("energy_coefficient_mm3_per_j")
+        );
+        let foreign = r#"{"law":"archard","k":1e-4,"reference_friction":0.3}"#;
+        assert_eq!(fault(foreign), at("reference_friction"));
+        let foreign = r#"{"law":"dissipated_energy","energy_coefficient_mm3_per_j":1e-5,"k":1e-4}"#;
+        assert_eq!(fault(foreign), at("k"));
+    }
+}

@@ -1,0 +1,175 @@
+//! Wear of a surface: one law, or the layers of a plating over a base.
+//!
+//! A depth and its equivalent, the depth that the outermost layer alone would have lost by the same dose, are equal without a
+//! plating. Doses add where depths do not: the wear of cycles is extrapolated in equivalent depths.
+
+use std::borrow::Cow;
+
+use super::plating::{Layer, Layers};
+use super::wear::{LocalState, WearLaw};
+
+/// Wear of a surface.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum SurfaceWear {
+    /// One law at every depth.
+    Law(WearLaw),
+    /// Layers over a base.
+    Plated(Layers),
+}
+
+impl SurfaceWear {
+    /// That of a plating over a base; `None` for a bare base that does not wear. Under a plating the base has a rate that is the
+    /// same in every state, and does not wear otherwise.
+    pub fn new(plating: &[Layer], base: Option<WearLaw>) -> Option<Self> {
+        if plating.is_empty() {
+            return base.map(Self::Law);
+        }
+        let base = base.and_then(WearLaw::uniform).unwrap_or(0.0);
+        Some(Self::Plated(Layers::new(plating, base)))
+    }
+
+    /// The specific wear rate of one that is the same in every state and at every depth, 1/MPa.
+    pub fn uniform(self) -> Option<f64> {
+        match self {
+            Self::Law(law) => law.uniform(),
+            Self::Plated(_) => None,
+        }
+    }
+
+    /// Its layers, if it has any.
+    pub fn layers(self) -> Option<Layers> {
+        match self {
+            Self::Law(_) => None,
+            Self::Plated(layers) => Some(layers),
+        }
+    }
+
+    /// Largest specific wear rate from the surface down to a depth in mm, at a representative state, 1/MPa.
+    pub fn largest_rate(self, depth: f64, at: LocalState) -> f64 {
+        match self {
+            Self::Law(law) => law.rate(at).value,
+            Self::Plated(layers) => layers.largest_rate(depth),
+        }
+    }
+
+    /// Mean specific wear rate from the surface down to a depth in mm, at a representative state, 1/MPa.
+    pub fn mean_rate(self, depth: f64, at: LocalState) -> f64 {
+        match self {
+            Self::Law(law) => law.rate(at).value,
+            Self::Plated(layers) => {
+                let equivalent = layers.equivalent(depth);
+                let share = if equivalent > 0.0 {
+                    depth / equivalent
+                } else {
+                    1.0
+                };
+                share * layers.outer_rate()
+            }
+        }
+    }
+
+    /// Equivalent of a depth, mm.
+    pub fn equivalent(self, depth: f64) -> f64 {
+        match self {
+            Self::Law(_) => depth,
+            Self::Plated(layers) => layers.equivalent(depth),
+        }
+    }
+
+    /// Depth of an equivalent, mm.
+    pub fn depth(self, equivalent: f64) -> f64 {
+        match self {
+            Self::Law(_) => equivalent,
+            Self::Plated(layers) => layers.depth(equivalent),
+        }
+    }
+
+    /// Specific wear rate at a depth in mm over that of the outermost layer, -.
+    pub fn relative_rate(self, depth: f64) -> f64 {
+        match self {
+            Self::Law(_) => 1.0,
+            Self::Plated(layers) => layers.rate(depth) / layers.outer_rate(),
+        }
+    }
+}
+
+/// Equivalents of the depths of a surface, mm.
+pub fn equivalents(wear: Option<SurfaceWear>, depth: &[f64]) -> Cow<'_, [f64]> {
+    match wear.and_then(SurfaceWear::layers) {
+        None => Cow::Borrowed(depth),
+        Some(layers) => depth
+            .iter()
+            .map(|depth| layers.equivalent(*depth))
+            .collect(),
+    }
+}
+
+/// Depths of equivalents, mm.
+pub fn depths(wear: Option<SurfaceWear>, equivalent: Vec<f64>) -> Vec<f64> {
+    match wear.and_then(SurfaceWear::layers) {
+        None => equivalent,
+        Some(layers) => equivalent
+            .iter()
+            .map(|depth| layers.depth(*depth))
+            .collect(),
+    }
+}
+
+/// Values at the nodes of a surface times the rates at their depths in mm over that of the outermost layer.
+pub fn at_relative_rates<'a>(
+    wear: Option<SurfaceWear>,
+    values: &'a [f64],
+    depth: &[f64],
+) -> Cow<'a, [f64]> {
+    match wear.filter(|wear| wear.layers().is_some()) {
+        None => Cow::Borrowed(values),
+        Some(wear) => {
+            let nodes = values.iter().zip(depth);
+            nodes
+                .map(|(value, depth)| value * wear.relative_rate(*depth))
+                .collect()
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_surface_without_a_plating_has_its_depth_as_equivalent() {
+        let law = WearLaw::Archard {
+            k_over_h_per_mpa: 2e-8,
+        };
+        let bare = SurfaceWear::new(&[], Some(law));
+        let depth = [0.0, 1e-3];
+        assert!(matches!(equivalents(bare, &depth), Cow::Borrowed(_)));
+        assert_eq!(SurfaceWear::new(&[], None), None);
+        assert_eq!(bare.and_then(SurfaceWear::uniform), Some(2e-8));
+    }
+
+    #[test]
+    fn a_plated_surface_wears_by_the_mean_rate_of_its_layers() {
+        let layer = Layer {
+            thickness_mm: 1e-3,
+            rate_per_mpa: 1e-8,
+        };
+        let base = WearLaw::Archard {
+            k_over_h_per_mpa: 4e-8,
+        };
+        let plated = SurfaceWear::new(&[layer], Some(base));
+        let at = LocalState::default();
+        let rate = |depth| plated.map_or(0.0, |wear| wear.mean_rate(depth, at));
+        // 1 um at 1e-8 takes as long as 4 um at 4e-8: 5 um at 2.5e-8.
+        assert!((rate(5e-3) - 2.5e-8).abs() < 1e-20, "{}", rate(5e-3));
+        assert!((rate(0.0) - 1e-8).abs() < 1e-22);
+        let depth = [0.5e-3, 5e-3];
+        let equivalent = equivalents(plated, &depth).into_owned();
+        assert!((equivalent[1] - 2e-3).abs() < 1e-17, "{}", equivalent[1]);
+        assert!((depths(plated, equivalent)[1] - 5e-3).abs() < 1e-17);
+        assert_eq!(
+            at_relative_rates(plated, &[1.0, 1.0], &depth)[..],
+            [1.0, 4.0]
+        );
+    }
+}
