@@ -8,6 +8,7 @@ pub mod job;
 pub mod outcome;
 pub mod plan;
 pub mod problem;
+pub mod rating;
 pub mod results;
 pub mod spec;
 pub mod study;

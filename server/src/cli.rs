@@ -4,6 +4,7 @@ mod access;
 mod arguments;
 mod backup;
 mod bench;
+mod calibrate;
 mod child;
 mod client;
 mod demo;
@@ -23,7 +24,9 @@ use std::net::SocketAddr;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-use arguments::{BenchArguments, ChildArguments, DATABASE, LISTEN, LogFormat, ServeArguments};
+use arguments::{
+    BenchArguments, CalibrateArguments, ChildArguments, DATABASE, LISTEN, LogFormat, ServeArguments,
+};
 use clap::{CommandFactory, Parser, Subcommand};
 
 /// First line of `--help`.
@@ -75,6 +78,8 @@ enum Command {
         #[arg(long, default_value_t = crate::batch::accuracy::BUDGET_S)]
         budget_s: f64,
     },
+    /// Find the wear coefficients that a rated number of cycles implies.
+    Calibrate(CalibrateArguments),
     /// Write the model as an input deck for another code to standard output.
     Export {
         /// The specification, JSON.
@@ -171,6 +176,7 @@ pub fn main() -> ExitCode {
             out,
             budget_s,
         } => study::run(&spec, out.as_deref(), budget_s),
+        Command::Calibrate(arguments) => calibrate::run(&arguments),
         Command::Export {
             spec,
             format: DeckFormat::Inp,

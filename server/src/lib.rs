@@ -11,6 +11,7 @@ pub mod http;
 pub mod metrics;
 mod number;
 pub mod queue;
+pub mod rating;
 pub mod reference;
 pub mod service;
 pub mod solve;

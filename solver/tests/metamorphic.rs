@@ -14,6 +14,7 @@ mod halved_wear_rate;
 mod longer_block;
 mod mirrored_motion;
 mod moved_wear;
+mod plated_bodies;
 mod refined_tolerance;
 mod scaled_units;
 mod split_run;
@@ -47,14 +48,21 @@ pub(crate) fn setting<T: FromStr>(name: &str, default: T) -> T {
 
 /// Asserts that a relation holds in every drawn scene of some regimes.
 fn holds(name: &str, regimes: &[Regime], relation: Relation) {
+    holds_in(name, drawn(regimes), relation);
+}
+
+/// Asserts that a relation holds in every drawn scene of some regimes when its bodies are plated.
+fn holds_plated(name: &str, regimes: &[Regime], relation: Relation) {
+    let plated = drawn(regimes)
+        .map(|drawn| plated_bodies::plated(&drawn).expect("the bare scene can be solved"));
+    holds_in(&format!("{name}, plated"), plated, relation);
+}
+
+fn drawn(regimes: &[Regime]) -> impl Iterator<Item = Drawn> {
     let (seed, first) = (setting("FRETWEAR_SEED", 1), setting("FRETWEAR_FIRST", 0));
     let numbers = first..first + setting("FRETWEAR_DRAWS", DRAWS);
-    let drawn = numbers.map(|number| draw(seed, number, TOLERANCE, MOST_S));
-    holds_in(
-        name,
-        drawn.filter(|drawn| regimes.contains(&drawn.regime)),
-        relation,
-    );
+    let drawn = numbers.map(move |number| draw(seed, number, TOLERANCE, MOST_S));
+    drawn.filter(|drawn| regimes.contains(&drawn.regime))
 }
 
 /// Asserts that a relation holds in the scenes of seed 1 with these numbers.

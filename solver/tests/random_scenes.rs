@@ -14,7 +14,7 @@ use std::f64::consts::PI;
 use fastrand::Rng;
 use solver::effects::Switches;
 use solver::model::Layout;
-use solver::scene::{Accuracy, Body, Drive, Friction, Motion, Output, Scene, WearLaw};
+use solver::scene::{Accuracy, Body, Drive, Friction, Layer, Motion, Output, Scene, WearLaw};
 use solver::sides::Sides;
 
 use contact::{Numbers, gross_slip, shapes};
@@ -109,16 +109,29 @@ fn over_fewer_cycles(mut scene: Scene) -> Scene {
     let fewer = (scene.cycles * 3 / 4).max(FEWEST_CYCLES);
     let factor = real(scene.cycles) / real(fewer);
     scene.cycles = fewer;
-    scene.slider.wear = scene.slider.wear.map(|law| scaled(law, factor));
-    scene.receptacle.wear = scene.receptacle.wear.map(|law| scaled(law, factor));
+    scale_wear(&mut scene, factor);
     scene
 }
 
-/// A wear law whose rate is multiplied.
-pub(crate) fn scaled(law: WearLaw, factor: f64) -> WearLaw {
-    let k_over_h_per_mpa = law.uniform().expect("drawn scenes wear by Archard's law");
-    WearLaw::Archard {
-        k_over_h_per_mpa: factor * k_over_h_per_mpa,
+/// Multiplies all wear rates of a scene.
+pub(crate) fn scale_wear(scene: &mut Scene, factor: f64) {
+    scale_rates(&mut scene.slider.wear, &mut scene.slider.plating, factor);
+    scale_rates(
+        &mut scene.receptacle.wear,
+        &mut scene.receptacle.plating,
+        factor,
+    );
+}
+
+fn scale_rates(wear: &mut Option<WearLaw>, plating: &mut [Layer], factor: f64) {
+    *wear = wear.map(|law| {
+        let rate = law.uniform().expect("drawn scenes wear by Archard's law");
+        WearLaw::Archard {
+            k_over_h_per_mpa: factor * rate,
+        }
+    });
+    for layer in plating {
+        layer.rate_per_mpa *= factor;
     }
 }
 

@@ -30,6 +30,7 @@ mod load;
 mod main_job;
 mod many_jobs;
 mod pages_in_a_browser;
+mod plated_contact;
 mod predicted_cost;
 mod readme_commands;
 mod refused_specifications;

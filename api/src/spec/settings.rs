@@ -4,7 +4,7 @@ use serde::de::{Unexpected, Visitor};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use utoipa::ToSchema;
 
-use super::{CriterionKind, Part, count};
+use super::{Criterion, CriterionKind, Part, count};
 use crate::enum_value::{EnumValue, string_enum};
 
 string_enum! {
@@ -185,4 +185,26 @@ pub struct Stop {
     /// The resistance, mOhm.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub mohm: Option<f64>,
+}
+
+impl From<Criterion> for Stop {
+    fn from(criterion: Criterion) -> Self {
+        let Criterion {
+            kind,
+            side,
+            layer,
+            fraction,
+            mm,
+            mohm,
+        } = criterion;
+        Self {
+            worn_depth_mm: None,
+            kind: Some(kind),
+            side,
+            layer,
+            fraction,
+            mm,
+            mohm,
+        }
+    }
 }

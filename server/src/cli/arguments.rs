@@ -3,9 +3,12 @@
 use std::net::SocketAddr;
 use std::path::PathBuf;
 
+use api::spec::{Criterion, EnumValue, Part};
+
 use crate::bench::{against, predictions};
 use crate::cli::access::AccessOptions;
 use crate::cli::options::WorkOptions;
+use crate::rating;
 
 /// Default address of a service.
 pub(super) const LISTEN: &str = "127.0.0.1:8080";
@@ -59,6 +62,58 @@ pub(super) struct BenchArguments {
     /// Tolerances of the compared solves.
     #[arg(long, value_delimiter = ',', requires = "predictions", default_values_t = predictions::TOLERANCES)]
     pub(super) tolerances: Vec<f64>,
+}
+
+#[derive(Debug, clap::Args)]
+pub(super) struct CalibrateArguments {
+    /// The specification, JSON; the ratios of its wear coefficients are kept.
+    pub(super) spec: PathBuf,
+    /// The rated cycles.
+    #[arg(long, value_parser = clap::value_parser!(u64).range(rating::RATED_CYCLES))]
+    pub(super) rated_cycles: u64,
+    /// What ends the life: a kind, such as `base_metal`, or a criterion as in `life.criteria`, such as
+    /// '{"kind": "worn_depth", "mm": 0.001}'.
+    #[arg(long, value_parser = criterion)]
+    pub(super) criterion: Criterion,
+    /// The part; either where absent.
+    #[arg(long, value_parser = side)]
+    pub(super) side: Option<EnumValue<Part>>,
+    /// Part of the contacts that may have failed after the rated cycles, by the scatter of `life`.
+    #[arg(long, default_value_t = 0.5, value_parser = part)]
+    pub(super) failing: f64,
+    /// Write the specification with these coefficients into this file.
+    #[arg(long)]
+    pub(super) out: Option<PathBuf>,
+    /// Write the document as JSON instead of a table.
+    #[arg(long)]
+    pub(super) json: bool,
+}
+
+/// Reads a criterion, or its kind alone.
+fn criterion(text: &str) -> Result<Criterion, serde_json::Error> {
+    if text.trim_start().starts_with('{') {
+        serde_json::from_str(text)
+    } else {
+        serde_json::from_value(serde_json::json!({ "kind": text }))
+    }
+}
+
+fn side(text: &str) -> Result<EnumValue<Part>, serde_json::Error> {
+    serde_json::from_value(text.into())
+}
+
+/// Reads a part of all contacts.
+fn part(text: &str) -> Result<f64, String> {
+    let part: f64 = text.parse().map_err(|_| "not a number".to_owned())?;
+    if rating::FAILING.contains(&part) {
+        Ok(part)
+    } else {
+        Err(format!(
+            "outside {} to {}",
+            rating::FAILING.start(),
+            rating::FAILING.end()
+        ))
+    }
 }
 
 #[derive(Debug, clap::Args)]

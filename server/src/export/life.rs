@@ -105,10 +105,21 @@ fn entry(
     }
 }
 
+/// Median life of a contact of whose kind a part has failed after some cycles.
+pub(crate) fn median(cycles: f64, failing: f64, settings: &LifeSettings) -> f64 {
+    let variation = settings.coefficient_of_variation.unwrap_or_default();
+    cycles / lognormal(variation, failing)
+}
+
+/// Cycles that a part of all contacts does not survive over the median ones.
+fn lognormal(variation: f64, part: f64) -> f64 {
+    let s = variation.powi(2).ln_1p().sqrt();
+    (s * Normal::standard().inverse_cdf(part)).exp()
+}
+
 /// The scatter of a life for a coefficient of variation of k and a number of independent contacts.
 fn band(cycles: f64, variation: f64, contacts: u64) -> LifeBand {
-    let s = variation.powi(2).ln_1p().sqrt();
-    let part = |part: f64| cycles * (s * Normal::standard().inverse_cdf(part)).exp();
+    let part = |part: f64| cycles * lognormal(variation, part);
     // Exact where the part is far below the precision of 1 - 0.9^(1/n).
     let first = -((-TENTH).ln_1p() / real(contacts)).exp_m1();
     LifeBand {

@@ -26,9 +26,12 @@ pub(crate) struct Diagnostics {
 }
 
 impl Diagnostics {
-    /// Adds a fault.
+    /// Adds a fault, once: what holds for both sides is read for each.
     pub(crate) fn fault(&mut self, pointer: &str, detail: impl Into<String>) {
-        self.faults.push(Fault::new(pointer, detail));
+        let fault = Fault::new(pointer, detail);
+        if !self.faults.contains(&fault) {
+            self.faults.push(fault);
+        }
     }
 
     /// Adds a fault for a required value that is missing.

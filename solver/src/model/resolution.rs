@@ -143,7 +143,12 @@ pub(crate) fn wear_rates(scene: &Scene, half_width: f64) -> Sides<f64> {
         .map(|(wear, depth)| wear.map_or(0.0, |wear| wear.mean_rate(depth, at)))
 }
 
-/// Cycles until the end of the run: all of them, or fewer where it stops at a depth.
+/// Estimated cycles until the end of a run: all of them, or fewer where it stops at a criterion.
+pub fn expected_end(scene: &Scene) -> u64 {
+    expected_cycles(scene, choose(scene).hertz_half_width)
+}
+
+/// The same for a Hertz half-width, mm.
 pub(crate) fn expected_cycles(scene: &Scene, half_width: f64) -> u64 {
     let at = LocalState::mean(scene.load_n_per_mm, half_width);
     worn_depth::expected_cycles(scene, (radius(scene), at), &scene.surface_wear())

@@ -5,8 +5,9 @@
 //! for A = 0 the segment of the arc, in gross sliding an empirical mean of parabola and flat floor (`sd_card`: 1.83 um for 1.76 um
 //! at A = 0.02 mm). A worn section of the slider is the segment. Each body is taken to
 //! wear against an unworn one: where both wear a common scar, neither becomes deeper. Through a plating the section wears by the
-//! mean rate of its deepest point.
+//! mean rate of its deepest point. A part f of the parabola is deeper than d where h = d/(1 - f^2).
 
+use crate::law::plating::bottoms;
 use crate::law::surface::SurfaceWear;
 use crate::law::wear::LocalState;
 use crate::number::{cycles_at_least, real_cycles};
@@ -15,6 +16,9 @@ use crate::sides::{Side, Sides};
 
 /// Halvings of the interval that holds a depth: far below any indicator's precision.
 const HALVINGS: usize = 50;
+
+/// Largest exposed part of a scar of which the depth is estimated: the edges of a parabola are never through.
+const MOST_EXPOSED: f64 = 0.95;
 
 /// Largest worn depths after so many cycles with this wear of both surfaces, in mm, for a radius of relative curvature in mm and
 /// a representative state.
@@ -38,7 +42,7 @@ pub(crate) fn after(
     }
 }
 
-/// Cycles until the run ends: all of them, or fewer where it stops at a depth.
+/// Cycles until the run ends: all of them, or fewer where it stops at a criterion.
 pub(crate) fn expected_cycles(
     scene: &Scene,
     (radius, at): (f64, LocalState),
@@ -62,7 +66,15 @@ pub(crate) fn expected_cycles(
             let of = |side| cycles(side, depth_mm);
             side.map_or_else(|| of(Side::Slider).min(of(Side::Receptacle)), of)
         }
-        Criterion::ExposedFraction { .. } => f64::INFINITY,
+        Criterion::ExposedFraction {
+            side,
+            layer,
+            fraction,
+        } => {
+            let mut bottoms = bottoms(scene.plating(side));
+            let bottom = bottoms.nth(layer).unwrap_or(f64::INFINITY);
+            cycles(side, bottom / (1.0 - fraction.min(MOST_EXPOSED).powi(2)))
+        }
     });
     let first = stops.fold(f64::INFINITY, f64::min);
     cycles_at_least(first).min(scene.cycles)
@@ -93,6 +105,7 @@ fn depth(worn: impl Fn(f64) -> f64, most: f64, amplitude: f64, radius: f64) -> f
 mod tests {
     use super::*;
     use crate::model::tests::fuzz_button;
+    use crate::scene::Layer;
 
     #[test]
     fn a_groove_holds_its_section() {
@@ -126,5 +139,21 @@ mod tests {
             depth_mm: depth,
         }];
         assert_eq!(expected_cycles(&scene, (radius, at), &wear), scene.cycles);
+        // A plating of that thickness is through on half the scar later than at its deepest point.
+        scene.receptacle.plating = vec![Layer {
+            thickness_mm: depth,
+            rate_per_mpa: scene.receptacle.outer_rate().unwrap_or(0.0),
+        }];
+        let at_fraction = |fraction| {
+            let mut scene = scene.clone();
+            scene.stop = vec![Criterion::ExposedFraction {
+                side: Side::Receptacle,
+                layer: 0,
+                fraction,
+            }];
+            expected_cycles(&scene, (radius, at), &scene.surface_wear())
+        };
+        assert!(at_fraction(1e-3).abs_diff(100) <= 1);
+        assert!(at_fraction(0.5) > 120 && at_fraction(1.0) > at_fraction(0.5));
     }
 }

@@ -20,8 +20,8 @@ use solver::scene::Scene;
 use solver::sides::{Side, Sides};
 
 use super::comparison::{Allowed, Deviation, compare};
-use super::{ALL, SLIDING, STICKING, TOLERANCE, holds};
-use crate::random_scenes::{Drawn, Regime, scaled};
+use super::{ALL, SLIDING, STICKING, TOLERANCE, holds, holds_plated};
+use crate::random_scenes::{Drawn, Regime, scale_wear};
 use crate::recorder::solve;
 
 /// So many times the cycles at a rate that wears the same area.
@@ -29,8 +29,7 @@ fn slower(scene: &Scene, times: u32) -> Scene {
     let mut scene = scene.clone();
     let factor = f64::from(times).recip();
     scene.cycles *= u64::from(times);
-    scene.slider.wear = scene.slider.wear.map(|law| scaled(law, factor));
-    scene.receptacle.wear = scene.receptacle.wear.map(|law| scaled(law, factor));
+    scale_wear(&mut scene, factor);
     scene
 }
 
@@ -120,4 +119,18 @@ fn half_the_rate_wears_the_same_later_in_partial_slip() {
         &STICKING,
         the_same_later_wear_at_half_the_rate,
     );
+}
+
+#[test]
+fn half_the_rate_with_twice_the_jump_changes_no_bit_of_plated_bodies() {
+    holds_plated(
+        "half the rate, twice the jump",
+        &ALL,
+        the_same_bits_with_twice_the_jump,
+    );
+}
+
+#[test]
+fn half_the_rate_wears_the_same_scar_of_plated_bodies_in_gross_slip() {
+    holds_plated("half the rate", &SLIDING, the_same_scar_at_half_the_rate);
 }

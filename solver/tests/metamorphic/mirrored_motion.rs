@@ -16,7 +16,7 @@ use solver::scene::{Motion, Scene};
 use solver::sides::Side;
 
 use super::comparison::Deviation;
-use super::{ALL, holds};
+use super::{ALL, holds, holds_plated};
 use crate::random_scenes::Drawn;
 
 /// Computed cycles, each of so many physical ones.
@@ -86,4 +86,9 @@ fn the_mirror_image(drawn: &Drawn) -> Result<Option<Vec<Deviation>>, SolveError>
 #[test]
 fn mirrored_motion_gives_the_mirror_image() {
     holds("mirrored motion", &ALL, the_mirror_image);
+}
+
+#[test]
+fn mirrored_motion_of_plated_bodies_gives_the_mirror_image() {
+    holds_plated("mirrored motion", &ALL, the_mirror_image);
 }

@@ -14,7 +14,7 @@ use solver::scene::{Motion, Scene, WearLaw};
 
 use super::comparison::{Allowed, Deviation};
 use super::{SLIDING, STICKING, TOLERANCE, holds, holds_in_found};
-use crate::random_scenes::{Drawn, Regime, scaled};
+use crate::random_scenes::{Drawn, Regime, scale_wear};
 use crate::recorder::solve;
 
 fn short(scene: &Scene) -> (Scene, f64) {
@@ -30,8 +30,7 @@ fn short(scene: &Scene) -> (Scene, f64) {
         period_s: 1.0,
     };
     let factor = before / amplitude_mm;
-    scene.slider.wear = scene.slider.wear.map(|law| scaled(law, factor));
-    scene.receptacle.wear = scene.receptacle.wear.map(|law| scaled(law, factor));
+    scale_wear(&mut scene, factor);
     (scene, amplitude_mm)
 }
 

@@ -9,8 +9,8 @@ use solver::record::{DepthProfile, Snapshot};
 use solver::scene::{Motion, Scene};
 
 use super::comparison::Deviation;
-use super::{ALL, holds};
-use crate::random_scenes::{Drawn, scaled};
+use super::{ALL, holds, holds_plated};
+use crate::random_scenes::{Drawn, scale_wear};
 use crate::recorder::solve;
 
 /// The scene with its lengths and stresses multiplied.
@@ -25,8 +25,11 @@ fn in_other_units(scene: &Scene, length: f64, stress: f64) -> Scene {
     block.crown_radius_mm = block.crown_radius_mm.map(|radius| radius * length);
     other.slider.elastic.youngs_modulus_mpa *= stress;
     other.receptacle.elastic.youngs_modulus_mpa *= stress;
-    other.slider.wear = other.slider.wear.map(|law| scaled(law, stress.recip()));
-    other.receptacle.wear = other.receptacle.wear.map(|law| scaled(law, stress.recip()));
+    scale_wear(&mut other, stress.recip());
+    let (slider, receptacle) = (&mut other.slider.plating, &mut other.receptacle.plating);
+    for layer in slider.iter_mut().chain(receptacle) {
+        layer.thickness_mm *= length;
+    }
     other.load_n_per_mm *= length * stress;
     other.spring_n_per_mm2 *= stress;
     if let Motion::Reciprocating { amplitude_mm, .. } = &mut other.motion {
@@ -95,6 +98,16 @@ fn scaled_units_change_no_bit() {
 #[test]
 fn scaled_units_change_nothing_but_round_off() {
     holds(
+        "units scaled by odd powers of two",
+        &ALL,
+        the_same_but_for_round_off,
+    );
+}
+
+/// With powers of four scene 1 of seed 1 differs by 3e-14 of the depth, all others by nothing; why is not known.
+#[test]
+fn scaled_units_change_nothing_but_round_off_of_plated_bodies() {
+    holds_plated(
         "units scaled by odd powers of two",
         &ALL,
         the_same_but_for_round_off,

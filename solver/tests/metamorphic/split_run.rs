@@ -10,7 +10,7 @@ use solver::observer::{Event, Observer};
 use solver::run;
 
 use super::comparison::Deviation;
-use super::{ALL, holds};
+use super::{ALL, holds, holds_plated};
 use crate::random_scenes::Drawn;
 use crate::recorder::{Recorder, solve};
 
@@ -59,4 +59,9 @@ fn the_same_in_two_parts(drawn: &Drawn) -> Result<Option<Vec<Deviation>>, SolveE
 #[test]
 fn split_runs_change_no_bit() {
     holds("split run", &ALL, the_same_in_two_parts);
+}
+
+#[test]
+fn split_runs_of_plated_bodies_change_no_bit() {
+    holds_plated("split run", &ALL, the_same_in_two_parts);
 }

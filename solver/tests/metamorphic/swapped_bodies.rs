@@ -16,7 +16,7 @@ use solver::SolveError;
 use solver::scene::{BlockShape, Body, Drive, Scene, SliderShape};
 
 use super::comparison::{Allowed, Deviation, compare};
-use super::{SLIDING, STICKING, TOLERANCE, holds, holds_in_found};
+use super::{SLIDING, STICKING, TOLERANCE, holds, holds_in_found, holds_plated};
 use crate::random_scenes::Drawn;
 use crate::recorder::solve;
 
@@ -121,4 +121,14 @@ fn bodies_swap_in_the_scenes_found_in_gross_slip() {
 #[ignore = "width of the slider's flat off by 4.9 %, the answers state 4.5 %"]
 fn bodies_swap_where_the_estimates_miss() {
     holds_in_found("swapped bodies, missed", &[92], the_same_upside_down);
+}
+
+#[test]
+fn plated_bodies_swap_in_gross_slip() {
+    holds_plated("swapped bodies", &SLIDING, the_same_upside_down);
+}
+
+#[test]
+fn plated_bodies_swap_in_partial_slip() {
+    holds_plated("swapped bodies", &STICKING, the_same_upside_down);
 }

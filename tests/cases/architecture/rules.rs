@@ -182,6 +182,7 @@ const RULES: [(&str, Rule); 15] = [
                 "server/src/cli",
                 "server/src/estimate",
                 "server/src/export",
+                "server/src/rating",
                 "server/src/solve",
                 "server/src/spec",
             ],

@@ -98,11 +98,40 @@ pub(super) fn all() -> Vec<(String, Value)> {
             &json!({"load": load, "cycles": 5_000}),
         );
     }
+    add_plated_to(&mut scenes);
     for cycles in [20, 20_000] {
         let name = format!("zif, {cycles} cycles");
         add_to(&mut scenes, name, "zif", &json!({"cycles": cycles}));
     }
     scenes
+}
+
+/// Two layers over a base that wears twenty times as fast as the outer one: through on both sides, on one of them, and not.
+fn add_plated_to(scenes: &mut Vec<(String, Value)>) {
+    let law = |rate: f64| json!({"law": "archard", "k_over_h_per_mpa": rate});
+    let layers = |thickness_um: f64| {
+        json!([
+            {"material": "hard_gold", "thickness_um": thickness_um, "wear": law(1e-6)},
+            {"material": "nickel", "thickness_um": 1.5 * thickness_um, "wear": law(4e-6)},
+        ])
+    };
+    let wear = json!({"slider": law(2e-5), "receptacle": law(2e-5)});
+    for kind in ["sd_card", "cylinder_on_flat"] {
+        for thickness_um in [0.05, 0.5, 50.0] {
+            let changes = json!({
+                "plating": {"slider": layers(thickness_um), "receptacle": layers(thickness_um)},
+                "interface": {"wear": wear},
+            });
+            let name = format!("{kind}, {thickness_um} um of gold on both sides");
+            add_to(scenes, name, kind, &changes);
+        }
+        let changes = json!({
+            "plating": {"receptacle": layers(0.2)},
+            "interface": {"wear": {"slider": null, "receptacle": law(2e-5)}},
+        });
+        let name = format!("{kind}, 0.2 um of gold on the receptacle");
+        add_to(scenes, name, kind, &changes);
+    }
 }
 
 /// Adds the preset of a kind with changes, at few cycles unless given.

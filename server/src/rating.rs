@@ -1,0 +1,181 @@
+//! Ratings: the wear coefficients that a rated number of cycles implies.
+//!
+//! A depth depends on a wear coefficient k and the number of cycles N by their product k N, as long as one cycle wears little.
+//! All coefficients of a specification are therefore multiplied by one factor until the criterion of the rating is reached
+//! after the rated cycles: the first factor is the one of a closed form, the next ones follow from runs of the engine, and the
+//! last run has reached the criterion after the rated cycles within the tolerance. How the coefficients of layers and
+//! bodies relate is not known from one rating: their ratios stay as given.
+
+mod coefficients;
+
+use std::ops::{ControlFlow, RangeInclusive};
+
+use api::problem::Fault;
+use api::rating::{Rating, RatingRun};
+use api::results::LifeStatus;
+use api::spec::{Criterion, LifeSettings, Spec, Stop};
+use solver::model::resolution;
+
+use crate::export::life;
+use crate::number::real;
+use crate::solve;
+use crate::solve::{Failure, Line};
+use crate::spec::{self, Refused, Resolved};
+
+/// Cycles that a contact may be rated for.
+pub const RATED_CYCLES: RangeInclusive<u64> = 1..=100_000_000;
+/// Part of the contacts that may have failed by then.
+pub const FAILING: RangeInclusive<f64> = 1e-6..=0.999_999;
+/// Most runs: one corrects the closed form, the next ones what does not depend on k N alone.
+const MOST_RUNS: usize = 6;
+/// Cycles of a run over the rated ones: by so much the closed form may be off.
+const MARGIN: u64 = 10;
+
+/// A rated life.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Request<'a> {
+    /// The contact; the ratios of its wear coefficients are kept.
+    pub resolved: &'a Resolved,
+    /// What ends its life.
+    pub criterion: Criterion,
+    /// The rated cycles.
+    pub cycles: u64,
+    /// Part of the contacts that may have failed by then.
+    pub failing: f64,
+}
+
+/// Reason for which no coefficients can be given.
+#[derive(Debug, thiserror::Error)]
+pub enum RatingError {
+    /// The criterion does not fit the contact, or a coefficient would leave its range.
+    #[error(transparent)]
+    Refused(#[from] Refused),
+    /// A run failed.
+    #[error("the run with {factor:.4e} times the coefficients failed: {failure}")]
+    Failed {
+        /// What the given coefficients were multiplied by.
+        factor: f64,
+        /// Why.
+        failure: Failure,
+    },
+    /// A run ended before the criterion was reached.
+    #[error(
+        "with {factor:.4e} times the coefficients the criterion was not reached: {outcome} after {cycles} cycles"
+    )]
+    NotReached {
+        /// What the given coefficients were multiplied by.
+        factor: f64,
+        /// How the run ended.
+        outcome: &'static str,
+        /// Its cycles.
+        cycles: u64,
+    },
+    /// The runs do not approach the rated cycles.
+    #[error("after {MOST_RUNS} runs the life is {cycles:.1} cycles instead of {median_cycles:.1}")]
+    Diverged {
+        /// Life of the last run.
+        cycles: f64,
+        /// Life that was sought.
+        median_cycles: f64,
+    },
+}
+
+/// Finds the coefficients. Calls `on_progress` after each computed cycle.
+///
+/// # Errors
+/// [`RatingError`].
+pub fn coefficients(
+    request: &Request<'_>,
+    on_progress: &mut dyn FnMut(&str),
+) -> Result<Rating, RatingError> {
+    let given = question(request)?;
+    let tolerance = given.scene.accuracy.tolerance;
+    let settings = &request.resolved.spec.life;
+    let median_cycles = life::median(real(request.cycles), request.failing, settings);
+    let mut factor = real(resolution::expected_end(&given.scene)) / median_cycles;
+    let mut runs = Vec::new();
+    while runs.len() < MOST_RUNS {
+        let run = format!(
+            "run {}, {factor:.4e} times the coefficients",
+            runs.len() + 1
+        );
+        let mut on_cycle = |cycle| on_progress(&format!("{run}: cycle {cycle}"));
+        let cycles = lived(&given.spec, factor, &mut on_cycle)?;
+        runs.push(RatingRun { factor, cycles });
+        if (cycles / median_cycles - 1.0).abs() <= tolerance {
+            let mut spec = request.resolved.spec.clone();
+            let coefficients = coefficients::scale(&mut spec, factor);
+            return Ok(Rating {
+                criterion: request.criterion.clone(),
+                rated_cycles: request.cycles,
+                failing: request.failing,
+                median_cycles,
+                factor,
+                coefficients,
+                runs,
+                spec: resolve(&spec)?.spec,
+            });
+        }
+        factor *= cycles / median_cycles;
+    }
+    let cycles = runs.last().map_or(f64::NAN, |run| run.cycles);
+    Err(RatingError::Diverged {
+        cycles,
+        median_cycles,
+    })
+}
+
+/// The contact of a request, whose run ends at the criterion.
+fn question(request: &Request<'_>) -> Result<Resolved, RatingError> {
+    let Some(cycles) = request.resolved.spec.cycles else {
+        let detail = "a continuous motion has no cycles".to_owned();
+        let pointer = "/motion/kind".to_owned();
+        return Err(Refused::Faults(vec![Fault { pointer, detail }]).into());
+    };
+    let mut spec = request.resolved.spec.clone();
+    spec.cycles = Some(cycles.max(request.cycles.saturating_mul(MARGIN)));
+    spec.stop = vec![Stop::from(request.criterion.clone())];
+    spec.life = LifeSettings {
+        criteria: Some(vec![request.criterion.clone()]),
+        ..spec.life
+    };
+    spec.output.snapshots_at_cycles = Some(Vec::new());
+    spec.output.fields = None;
+    let resolved = spec::resolve(&spec).map_err(|faults| {
+        // The criterion stands at two places of the specification, and at none of the request.
+        let faults = faults.into_iter();
+        let faults = faults.filter(|fault| !fault.pointer.starts_with("/life/criteria"));
+        let faults = faults.map(|fault| Fault {
+            pointer: fault.pointer.replacen("/stop/0", "criterion", 1),
+            ..fault
+        });
+        Refused::Faults(faults.collect())
+    })?;
+    Ok(resolved)
+}
+
+fn resolve(spec: &Spec) -> Result<Resolved, Refused> {
+    spec::resolve(spec).map_err(Refused::Faults)
+}
+
+/// Cycles until the criterion is reached on either side with coefficients multiplied by a factor.
+fn lived(spec: &Spec, factor: f64, on_cycle: &mut dyn FnMut(u64)) -> Result<f64, RatingError> {
+    let mut spec = spec.clone();
+    coefficients::scale(&mut spec, factor);
+    let resolved = resolve(&spec)?;
+    let solved = solve::run((&resolved).into(), &mut |line| {
+        if let Line::Cycle(report) = line {
+            on_cycle(report.cycle);
+        }
+        ControlFlow::Continue(())
+    });
+    let summary = solved.map_err(|failure| RatingError::Failed { factor, failure })?;
+    let reached = summary.life.iter();
+    let reached = reached.filter(|entry| entry.status == LifeStatus::Reached);
+    let first = reached.filter_map(|entry| entry.cycles).reduce(f64::min);
+    first.ok_or(RatingError::NotReached {
+        factor,
+        outcome: summary.outcome.as_str(),
+        cycles: summary.cycles_done,
+    })
+}

@@ -1,0 +1,150 @@
+//! Requirement: a plated contact answers after how many cycles each layer is through, on which side first, and how sure that
+//! is; `fretwear calibrate` gives the coefficients with which it lasts as long as it is rated for.
+
+use std::path::Path;
+
+use serde_json::{Value, json};
+use tests::{Server, fretwear, spec};
+
+/// The SD card with both sides plated, at a coarse tolerance.
+fn plated() -> Value {
+    let text = std::fs::read(spec("sd_card_plated.json")).expect("the specification is there");
+    let mut spec: Value = serde_json::from_slice(&text).expect("JSON");
+    spec["accuracy"] = json!({"preset": "draft"});
+    spec
+}
+
+fn number(value: &Value) -> f64 {
+    value.as_f64().expect("a number")
+}
+
+/// The entry of a life for a side and a kind.
+fn entry<'a>(summary: &'a Value, side: &str, kind: &str) -> &'a Value {
+    let mut entries = summary["life"].as_array().expect("a list").iter();
+    let entry = entries.find(|entry| entry["side"] == side && entry["criterion"]["kind"] == kind);
+    entry.expect("the criterion is there")
+}
+
+#[tokio::test]
+async fn a_plated_contact_names_its_life_and_its_exposed_layers() {
+    let folder = tempfile::tempdir().expect("a folder can be made");
+    let server = Server::start(folder.path());
+    let (status, job) = server.submit(plated().to_string()).await;
+    assert_eq!(status, 202, "{job}");
+    let id = job["id"].as_str().expect("a job has an id").to_owned();
+    let job = server
+        .job_when(&id, |job| job["finished_at"].is_string())
+        .await;
+    assert_eq!(job["outcome"], "stop_condition", "{job}");
+    let mut effects = job["plan"]["effects"].as_array().expect("a list").iter();
+    let plating = effects.find(|effect| effect["effect"] == "plating");
+    assert_eq!(plating.expect("it is decided")["decision"], "simulated");
+
+    let summary = &job["summary"];
+    let done = number(&summary["cycles_done"]);
+    // The tip, which rubs on the same place all the time, is through before the pad.
+    let base = entry(summary, "slider", "base_metal");
+    let nickel = entry(summary, "slider", "first_exposure");
+    assert_eq!(
+        (&base["status"], &nickel["status"]),
+        (&"reached".into(), &"reached".into())
+    );
+    assert!(number(&nickel["cycles"]) < 0.5 * number(&base["cycles"]));
+    assert!((done - number(&base["cycles"])).abs() <= 1.0, "{base}");
+    let pad = entry(summary, "receptacle", "first_exposure");
+    assert_eq!(pad["status"], "not_reached");
+    assert!(number(&pad["value"]) < number(&pad["limit"]));
+    // A coefficient of variation of 0.5, nine contacts.
+    let share = |name: &str| number(&base["band"][name]) / number(&base["cycles"]);
+    for (name, expected) in [
+        ("b10", 0.54587),
+        ("b50", 1.0),
+        ("b90", 1.83195),
+        ("first_of_contacts_b10", 0.34240),
+    ] {
+        assert!((share(name) - expected).abs() < 1e-5, "{name}: {base}");
+    }
+
+    let (_, history) = server
+        .get(&format!("/v1/jobs/{id}/results/wear-history"))
+        .await;
+    let exposed = history["exposed"].as_array().expect("a list");
+    let of_slider: Vec<&Value> = exposed
+        .iter()
+        .filter(|layer| layer["side"] == "slider")
+        .collect();
+    let last = |layer: &Value| {
+        let lengths = layer["length_mm"].as_array().expect("a list");
+        number(lengths.last().expect("a row"))
+    };
+    let [nickel, base] = of_slider[..] else {
+        panic!("nickel and the base: {exposed:?}");
+    };
+    let (nickel, base) = (last(nickel), last(base));
+    assert!(nickel > base && base >= 0.0, "{nickel} {base}");
+}
+
+#[test]
+fn calibrated_coefficients_last_for_the_rated_cycles() {
+    let folder = tempfile::tempdir().expect("a folder can be made");
+    std::fs::write(folder.path().join("spec.json"), plated().to_string()).expect("a file");
+    let once = calibrated(folder.path(), "10000");
+    // Twice the cycles by half the coefficients.
+    let twice = calibrated(folder.path(), "20000");
+    let ratio = number(&once["factor"]) / number(&twice["factor"]);
+    assert!((ratio / 2.0 - 1.0).abs() < 0.1, "{ratio}");
+    for coefficient in twice["coefficients"].as_array().expect("a list") {
+        let scale = number(&coefficient["implied"]) / number(&coefficient["given"]);
+        assert!((scale / number(&twice["factor"]) - 1.0).abs() < 1e-12);
+    }
+    assert_eq!(twice["coefficients"].as_array().map(Vec::len), Some(6));
+
+    // The written specification lasts for as long, by a run of its own.
+    let ran = fretwear(folder.path(), &["solve", "calibrated.json"]);
+    assert_eq!(ran.code, Some(0), "{}", ran.stderr);
+    let summary: Value = serde_json::from_str(&ran.stdout).expect("a summary");
+    let cycles = number(&entry(&summary, "slider", "base_metal")["cycles"]);
+    assert!((cycles / 20_000.0 - 1.0).abs() < 0.1, "{cycles}");
+}
+
+/// The document of a calibration by a rating for base metal; the specification is written to `calibrated.json`.
+fn calibrated(folder: &Path, cycles: &str) -> Value {
+    let arguments = [
+        "calibrate",
+        "spec.json",
+        "--rated-cycles",
+        cycles,
+        "--criterion",
+        "base_metal",
+        "--json",
+        "--out",
+        "calibrated.json",
+    ];
+    let ran = fretwear(folder, &arguments);
+    assert_eq!(ran.code, Some(0), "{}", ran.stderr);
+    serde_json::from_str(&ran.stdout).expect("a document")
+}
+
+#[test]
+fn a_rating_that_cannot_be_read_is_refused_by_name() {
+    let folder = tempfile::tempdir().expect("a folder can be made");
+    std::fs::write(folder.path().join("spec.json"), plated().to_string()).expect("a file");
+    for (criterion, expected) in [
+        ("first_exposure", "criterion/layer: missing"),
+        ("base_metall", "did you mean `base_metal`?"),
+        (r#"{"kind": "worn_depth", "mm": 0}"#, "criterion/mm"),
+        (r#"{"kind": "resistance", "mohm": 10}"#, "criterion/kind"),
+    ] {
+        let arguments = [
+            "calibrate",
+            "spec.json",
+            "--rated-cycles",
+            "100",
+            "--criterion",
+            criterion,
+        ];
+        let ran = fretwear(folder.path(), &arguments);
+        assert_eq!(ran.code, Some(2), "{criterion}: {}", ran.stderr);
+        assert_eq!(ran.stderr.matches(expected).count(), 1, "{}", ran.stderr);
+    }
+}
