@@ -10,11 +10,13 @@ mod coefficients;
 
 use std::ops::{ControlFlow, RangeInclusive};
 
+use api::job::Outcome;
 use api::problem::Fault;
 use api::rating::{Rating, RatingRun};
 use api::results::LifeStatus;
 use api::spec::{Criterion, LifeSettings, Spec, Stop};
 use solver::model::resolution;
+use solver::scene::Scene;
 
 use crate::export::life;
 use crate::number::real;
@@ -28,8 +30,8 @@ pub const RATED_CYCLES: RangeInclusive<u64> = 1..=100_000_000;
 pub const FAILING: RangeInclusive<f64> = 1e-6..=0.999_999;
 /// Most runs: one corrects the closed form, the next ones what does not depend on k N alone.
 const MOST_RUNS: usize = 6;
-/// Cycles of a run over the rated ones: by so much the closed form may be off.
-const MARGIN: u64 = 10;
+/// Cycles of a run over the life that is sought: by so much the closed form may be off.
+const MARGIN: f64 = 10.0;
 
 /// A rated life.
 #[derive(Debug, Clone, PartialEq)]
@@ -88,19 +90,28 @@ pub fn coefficients(
     request: &Request<'_>,
     on_progress: &mut dyn FnMut(&str),
 ) -> Result<Rating, RatingError> {
-    let given = question(request)?;
-    let tolerance = given.scene.accuracy.tolerance;
     let settings = &request.resolved.spec.life;
     let median_cycles = life::median(real(request.cycles), request.failing, settings);
-    let mut factor = real(resolution::expected_end(&given.scene)) / median_cycles;
-    let mut runs = Vec::new();
-    while runs.len() < MOST_RUNS {
+    let given = question(request, median_cycles)?;
+    let tolerance = given.scene.accuracy.tolerance;
+    let endless = Scene {
+        cycles: u64::MAX,
+        ..given.scene
+    };
+    let mut factor = real(resolution::expected_end(&endless)) / median_cycles;
+    let (mut runs, mut unreached) = (Vec::new(), 0);
+    while runs.len() + unreached < MOST_RUNS {
         let run = format!(
             "run {}, {factor:.4e} times the coefficients",
-            runs.len() + 1
+            runs.len() + unreached + 1
         );
         let mut on_cycle = |cycle| on_progress(&format!("{run}: cycle {cycle}"));
-        let cycles = lived(&given.spec, factor, &mut on_cycle)?;
+        let (cycles, is_reached) = lived(&given.spec, factor, &mut on_cycle)?;
+        if !is_reached {
+            factor *= cycles / median_cycles;
+            unreached += 1;
+            continue;
+        }
         runs.push(RatingRun { factor, cycles });
         if (cycles / median_cycles - 1.0).abs() <= tolerance {
             let mut spec = request.resolved.spec.clone();
@@ -126,14 +137,18 @@ pub fn coefficients(
 }
 
 /// The contact of a request, whose run ends at the criterion.
-fn question(request: &Request<'_>) -> Result<Resolved, RatingError> {
-    let Some(cycles) = request.resolved.spec.cycles else {
+fn question(request: &Request<'_>, median_cycles: f64) -> Result<Resolved, RatingError> {
+    if request.resolved.spec.cycles.is_none() {
         let detail = "a continuous motion has no cycles".to_owned();
         let pointer = "/motion/kind".to_owned();
         return Err(Refused::Faults(vec![Fault { pointer, detail }]).into());
-    };
+    }
     let mut spec = request.resolved.spec.clone();
-    spec.cycles = Some(cycles.max(request.cycles.saturating_mul(MARGIN)));
+    let mut cycles = request.cycles;
+    while real(cycles) < MARGIN * median_cycles && cycles < *spec::CYCLES.end() {
+        cycles = (2 * cycles).min(*spec::CYCLES.end());
+    }
+    spec.cycles = Some(cycles);
     spec.stop = vec![Stop::from(request.criterion.clone())];
     spec.life = LifeSettings {
         criteria: Some(vec![request.criterion.clone()]),
@@ -158,8 +173,13 @@ fn resolve(spec: &Spec) -> Result<Resolved, Refused> {
     spec::resolve(spec).map_err(Refused::Faults)
 }
 
-/// Cycles until the criterion is reached on either side with coefficients multiplied by a factor.
-fn lived(spec: &Spec, factor: f64, on_cycle: &mut dyn FnMut(u64)) -> Result<f64, RatingError> {
+/// Cycles until the criterion is reached on either side with coefficients multiplied by a factor, and whether it was; if it was
+/// not, in proportion to how far it is.
+fn lived(
+    spec: &Spec,
+    factor: f64,
+    on_cycle: &mut dyn FnMut(u64),
+) -> Result<(f64, bool), RatingError> {
     let mut spec = spec.clone();
     coefficients::scale(&mut spec, factor);
     let resolved = resolve(&spec)?;
@@ -173,7 +193,16 @@ fn lived(spec: &Spec, factor: f64, on_cycle: &mut dyn FnMut(u64)) -> Result<f64,
     let reached = summary.life.iter();
     let reached = reached.filter(|entry| entry.status == LifeStatus::Reached);
     let first = reached.filter_map(|entry| entry.cycles).reduce(f64::min);
-    first.ok_or(RatingError::NotReached {
+    if let Some(first) = first {
+        return Ok((first, true));
+    }
+    let done = summary.life.iter();
+    let done = done.filter_map(|entry| Some(entry.value? / entry.limit?));
+    let furthest = done.fold(0.0, f64::max);
+    if summary.outcome == Outcome::Completed && furthest > 0.0 {
+        return Ok((real(summary.cycles_done) / furthest, false));
+    }
+    Err(RatingError::NotReached {
         factor,
         outcome: summary.outcome.as_str(),
         cycles: summary.cycles_done,

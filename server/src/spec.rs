@@ -35,6 +35,7 @@ use solver::scene::{Body, Scene};
 
 use diagnostics::Diagnostics;
 pub(crate) use diagnostics::NAME_LIMIT;
+pub(crate) use motion::CYCLES;
 pub(crate) use suggestion::did_you_mean;
 pub(crate) use system::definition as system_definition;
 

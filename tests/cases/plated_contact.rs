@@ -81,7 +81,7 @@ async fn a_plated_contact_names_its_life_and_its_exposed_layers() {
         panic!("nickel and the base: {exposed:?}");
     };
     let (nickel, base) = (last(nickel), last(base));
-    assert!(nickel > base && base >= 0.0, "{nickel} {base}");
+    assert!(nickel > base, "{nickel} {base}");
 }
 
 #[test]
@@ -105,6 +105,55 @@ fn calibrated_coefficients_last_for_the_rated_cycles() {
     let summary: Value = serde_json::from_str(&ran.stdout).expect("a summary");
     let cycles = number(&entry(&summary, "slider", "base_metal")["cycles"]);
     assert!((cycles / 20_000.0 - 1.0).abs() < 0.1, "{cycles}");
+}
+
+/// Coefficients that are ten thousand times too small, a short run, and a median far beyond the rated cycles.
+#[test]
+fn a_calibration_depends_on_the_ratios_of_the_given_coefficients_alone() {
+    let folder = tempfile::tempdir().expect("a folder can be made");
+    let mut spec = plated();
+    std::fs::write(folder.path().join("spec.json"), spec.to_string()).expect("a file");
+    let rates = |document: &Value| -> Vec<f64> {
+        let coefficients = document["coefficients"].as_array().expect("a list");
+        coefficients
+            .iter()
+            .map(|coefficient| number(&coefficient["implied"]))
+            .collect()
+    };
+    let expected = rates(&calibrated(folder.path(), "1000"));
+    spec["cycles"] = json!(1_000);
+    for side in ["slider", "receptacle"] {
+        let scaled = |law: &mut Value| {
+            law["k_over_h_per_mpa"] = json!(1e-4 * number(&law["k_over_h_per_mpa"]));
+        };
+        scaled(&mut spec["interface"]["wear"][side]);
+        for layer in spec["plating"][side].as_array_mut().expect("layers") {
+            scaled(&mut layer["wear"]);
+        }
+    }
+    std::fs::write(folder.path().join("spec.json"), spec.to_string()).expect("a file");
+    let found = rates(&calibrated(folder.path(), "1000"));
+    assert_eq!(found.len(), expected.len());
+    for (found, expected) in found.iter().zip(&expected) {
+        assert!((found / expected - 1.0).abs() < 0.1, "{found} {expected}");
+    }
+    let arguments = [
+        "calibrate",
+        "spec.json",
+        "--rated-cycles",
+        "1000",
+        "--criterion",
+        "base_metal",
+        "--failing",
+        "0.000001",
+        "--json",
+    ];
+    let ran = fretwear(folder.path(), &arguments);
+    assert_eq!(ran.code, Some(0), "{}", ran.stderr);
+    let rare: Value = serde_json::from_str(&ran.stdout).expect("a document");
+    // exp(4.7534 x 0.47238), the quantile of 1e-6 with a coefficient of variation of 0.5.
+    let ratio = number(&rare["median_cycles"]) / 1_000.0;
+    assert!((ratio / 9.444 - 1.0).abs() < 1e-3, "{ratio}");
 }
 
 /// The document of a calibration by a rating for base metal; the specification is written to `calibrated.json`.

@@ -70,9 +70,9 @@ fn report(rating: &Rating) -> Ended {
         ));
     }
     write_out(format_args!(
-        "The median contact lasts {:.0} cycles, so that {} % have failed after {}.",
+        "The median contact lasts {:.1} cycles, so that {} % have failed after {}.",
         rating.median_cycles,
-        100.0 * rating.failing,
+        format_args!("{:.4}", 100.0 * rating.failing),
         rating.rated_cycles
     ))
 }

@@ -197,14 +197,14 @@ fn sides(
     diagnostics: &mut Diagnostics,
 ) -> Vec<Side> {
     let possible = surfaces.sides(kind);
-    let lacks = if kind == CriterionKind::WornDepth {
-        "does not wear"
+    let (lacks, neither) = if kind == CriterionKind::WornDepth {
+        ("does not wear", "neither side wears")
     } else {
-        "is not plated"
+        ("is not plated", "neither side is plated")
     };
     let Some(given) = given else {
         if possible.is_empty() {
-            diagnostics.fault(pointer, format!("either side {lacks}"));
+            diagnostics.fault(pointer, neither);
         }
         return possible;
     };
@@ -234,7 +234,7 @@ fn check_fields(
             ("exposed_fraction", &["kind", "side", "layer", "fraction"])
         }
         CriterionKind::WornDepth => ("worn_depth", &["kind", "side", "mm"]),
-        CriterionKind::Resistance => ("resistance", &["kind", "mohm"]),
+        CriterionKind::Resistance => ("resistance", &["kind", "side", "mohm"]),
     };
     diagnostics.check_fields(pointer, given, fields, name);
 }

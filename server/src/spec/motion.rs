@@ -22,7 +22,7 @@ pub(in crate::spec) const DISTANCE_MM: RangeInclusive<f64> = 1e-6..=1e12;
 /// mm/s.
 pub(in crate::spec) const SPEED_MM_S: RangeInclusive<f64> = 1e-9..=1e6;
 /// Cycles of a job.
-pub(in crate::spec) const CYCLES: RangeInclusive<u64> = 1..=1_000_000_000;
+pub(crate) const CYCLES: RangeInclusive<u64> = 1..=1_000_000_000;
 /// A continuous motion is recorded in this many equal parts of its distance, the `cycle` of its histories.
 pub(crate) const CONTINUOUS_PARTS: u64 = 100_000;
 /// Default speed of a continuous motion, mm/s. Quasi-static contact does not depend on it.

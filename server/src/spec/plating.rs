@@ -137,8 +137,8 @@ fn wear(
         return (Some(filled), law);
     }
     let Some((filled, law)) = law::listed_wear(side, diagnostics) else {
-        let detail = "no published wear coefficient of this material is in the library; measure it, or derive it from a rated \
-                      number of cycles by `fretwear calibrate`";
+        let detail = "no published wear coefficient of this material is in the library; measure it, or write any value and let \
+                      `fretwear calibrate` scale it to a rated number of cycles";
         diagnostics.missing(&side.pointer, detail);
         return (None, None);
     };
