@@ -38,7 +38,8 @@ fn fuzzed(server: &Server, folder: &Path, seconds: &str, chosen: &[&str]) {
         .args(["--checks", CHECKS])
         .args(["--phases", "examples,coverage,fuzzing"])
         .args(["--max-examples", "20", "--max-time", seconds, "--seed", "7"])
-        .args(["--request-timeout", "30", "--no-color"])
+        // A request may wait for a job for 60 s.
+        .args(["--request-timeout", "90", "--no-color"])
         .args(chosen)
         .current_dir(folder)
         .output()
