@@ -43,6 +43,8 @@ pub struct Coefficient {
 pub struct RatingRun {
     /// What the given coefficients were multiplied by.
     pub factor: f64,
-    /// Cycles until the criterion was reached.
+    /// Cycles until the criterion was reached; if it was not, the cycles of the run in proportion to how far it was.
     pub cycles: f64,
+    /// Whether it was reached.
+    pub is_reached: bool,
 }

@@ -92,28 +92,25 @@ pub fn coefficients(
 ) -> Result<Rating, RatingError> {
     let settings = &request.resolved.spec.life;
     let median_cycles = life::median(real(request.cycles), request.failing, settings);
-    let given = question(request, median_cycles)?;
+    let given = until_criterion(request, median_cycles)?;
     let tolerance = given.scene.accuracy.tolerance;
     let endless = Scene {
         cycles: u64::MAX,
         ..given.scene
     };
     let mut factor = real(resolution::expected_end(&endless)) / median_cycles;
-    let (mut runs, mut unreached) = (Vec::new(), 0);
-    while runs.len() + unreached < MOST_RUNS {
-        let run = format!(
-            "run {}, {factor:.4e} times the coefficients",
-            runs.len() + unreached + 1
-        );
-        let mut on_cycle = |cycle| on_progress(&format!("{run}: cycle {cycle}"));
-        let (cycles, is_reached) = lived(&given.spec, factor, &mut on_cycle)?;
-        if !is_reached {
-            factor *= cycles / median_cycles;
-            unreached += 1;
-            continue;
-        }
-        runs.push(RatingRun { factor, cycles });
-        if (cycles / median_cycles - 1.0).abs() <= tolerance {
+    let mut runs = Vec::new();
+    while runs.len() < MOST_RUNS {
+        let number = runs.len() + 1;
+        let mut on_cycle = |cycle| {
+            on_progress(&format!(
+                "run {number}, {factor:.4e} times the coefficients: cycle {cycle}"
+            ));
+        };
+        let run = solved(&given.spec, factor, &mut on_cycle)?;
+        runs.push(run);
+        let relative = run.cycles / median_cycles;
+        if run.is_reached && (relative - 1.0).abs() <= tolerance {
             let mut spec = request.resolved.spec.clone();
             let coefficients = coefficients::scale(&mut spec, factor);
             return Ok(Rating {
@@ -127,7 +124,7 @@ pub fn coefficients(
                 spec: resolve(&spec)?.spec,
             });
         }
-        factor *= cycles / median_cycles;
+        factor *= relative;
     }
     let cycles = runs.last().map_or(f64::NAN, |run| run.cycles);
     Err(RatingError::Diverged {
@@ -137,7 +134,7 @@ pub fn coefficients(
 }
 
 /// The contact of a request, whose run ends at the criterion.
-fn question(request: &Request<'_>, median_cycles: f64) -> Result<Resolved, RatingError> {
+fn until_criterion(request: &Request<'_>, median_cycles: f64) -> Result<Resolved, RatingError> {
     if request.resolved.spec.cycles.is_none() {
         let detail = "a continuous motion has no cycles".to_owned();
         let pointer = "/motion/kind".to_owned();
@@ -173,13 +170,12 @@ fn resolve(spec: &Spec) -> Result<Resolved, Refused> {
     spec::resolve(spec).map_err(Refused::Faults)
 }
 
-/// Cycles until the criterion is reached on either side with coefficients multiplied by a factor, and whether it was; if it was
-/// not, in proportion to how far it is.
-fn lived(
+/// The run with coefficients multiplied by a factor.
+fn solved(
     spec: &Spec,
     factor: f64,
     on_cycle: &mut dyn FnMut(u64),
-) -> Result<(f64, bool), RatingError> {
+) -> Result<RatingRun, RatingError> {
     let mut spec = spec.clone();
     coefficients::scale(&mut spec, factor);
     let resolved = resolve(&spec)?;
@@ -193,14 +189,19 @@ fn lived(
     let reached = summary.life.iter();
     let reached = reached.filter(|entry| entry.status == LifeStatus::Reached);
     let first = reached.filter_map(|entry| entry.cycles).reduce(f64::min);
+    let run = |cycles, is_reached| RatingRun {
+        factor,
+        cycles,
+        is_reached,
+    };
     if let Some(first) = first {
-        return Ok((first, true));
+        return Ok(run(first, true));
     }
     let done = summary.life.iter();
     let done = done.filter_map(|entry| Some(entry.value? / entry.limit?));
     let furthest = done.fold(0.0, f64::max);
     if summary.outcome == Outcome::Completed && furthest > 0.0 {
-        return Ok((real(summary.cycles_done) / furthest, false));
+        return Ok(run(real(summary.cycles_done) / furthest, false));
     }
     Err(RatingError::NotReached {
         factor,

@@ -63,10 +63,11 @@ fn coefficients(rating: &Rating) -> Table {
 fn report(rating: &Rating) -> Ended {
     for (index, run) in rating.runs.iter().enumerate() {
         write_err(format_args!(
-            "run {}: {:.4e} times the given coefficients, {:.1} cycles",
+            "run {}: {:.4e} times the given coefficients, {:.1} cycles{}",
             index + 1,
             run.factor,
-            run.cycles
+            run.cycles,
+            if run.is_reached { "" } else { " if continued" }
         ));
     }
     write_out(format_args!(
