@@ -79,15 +79,16 @@ pub fn forecast(scene: &Scene, layout: &Layout) -> Forecast {
     let mut jump = JumpControl::default();
     let mut cycle = 0;
     let is_done = |scar: &Scar, cycle, jump: &JumpControl| {
-        let exposed = |side, layer| scar.exposed(scene, (side, layer));
-        stops::end(scene, scar.progress(cycle, jump), exposed).is_some()
+        let depth = |side, part| scar.depth_of_part(side, part);
+        stops::end(scene, scar.progress(cycle, jump), depth).is_some()
     };
     while !is_done(&scar, cycle, &jump) {
         if MOST_SEGMENTS <= run.segments.len() {
             run.extrapolate(cycle, scene.cycles);
             break;
         }
-        let until = stops::next(scene, scar.progress(cycle, &jump));
+        let depth = |side, part| scar.depth_of_part(side, part);
+        let until = stops::next(scene, scar.progress(cycle, &jump), depth);
         let (accuracy, stroke) = (&scene.accuracy, scar.stroke(scene));
         let step = jump.next(accuracy, stroke, until - cycle);
         let followed = Followed {

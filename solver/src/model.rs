@@ -104,6 +104,8 @@ pub struct Interface {
     pub load: f64,
     /// Stiffness of the spring that applies the load: the load decreases by this as the slider sinks, N/mm per mm.
     pub spring: f64,
+    /// Contact modulus E* of both bodies, MPa.
+    pub modulus: f64,
 }
 
 /// Builds the model of a scene from its plan: meshes both bodies, and gives the interface the laws of simulated effects
@@ -158,6 +160,7 @@ fn interface(scene: &Scene, plan: &EffectsPlan, sizes: &Sizes) -> Interface {
         } else {
             0.0
         },
+        modulus: contact_modulus(scene.slider.elastic, scene.receptacle.elastic),
     }
 }
 

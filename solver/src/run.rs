@@ -186,7 +186,8 @@ fn integrate(
         }
         let before = run.state.clone();
         let state = &mut run.state;
-        let until = stops::next(scene, progress(model, &spines, state));
+        let depth = |side, part| record::worn_surface(model, &before, side).depth_of_part(part);
+        let until = stops::next(scene, progress(model, &spines, state), depth);
         let record = match integrator.compute_cycle(state, until) {
             Err(error) if error.needs_wider_zones() => {
                 run.widen();
@@ -210,12 +211,13 @@ fn integrate(
         }
         let report = record::report(scene, model, state);
         run.compared.push(&report);
-        run.life.push(scene, &report);
+        let surface = |side| record::worn_surface(model, state, side);
+        run.life.push(scene, state.cycle, surface);
         if observer.on(Event::Cycle(&report)).is_break() {
             return Ok(STOPPED);
         }
-        let exposed = |side, layer| report.exposed_fraction(side, layer);
-        let end = stops::end(scene, progress(model, &spines, state), exposed);
+        let depth = |side, part| surface(side).depth_of_part(part);
+        let end = stops::end(scene, progress(model, &spines, state), depth);
         if end.is_some() || scene.output.snapshots_at_cycles.contains(&state.cycle) {
             let snapshot = snapshot(scene, model, condensed, state, record)?;
             if observer.on(Event::Snapshot(&snapshot)).is_break() {
@@ -240,7 +242,6 @@ fn progress(model: &Model, spines: &Spines, state: &CycleState) -> Progress {
     });
     Progress {
         cycle: state.cycle,
-        deepest: state.depth.largest_of_each(),
         cycles_left: spines.cycles_left(&state.depth, rates.as_ref().map(|rates| &rates[..])),
         fastest_rate: state.jump.fastest_rate(),
         worn_through: spines.are_worn_through(&state.depth),

@@ -80,6 +80,7 @@ fn uniform_pressure_passes_through_non_matching_meshes_at_any_position() {
                 wear: Sides::default(),
                 load: pressure * 1.0,
                 spring: 0.0,
+                modulus: 50e3,
             },
             relocates: false,
             plating: false,

@@ -13,11 +13,11 @@ use solver::scene::{Accuracy, Criterion, Layer, Motion, Scene, WearLaw};
 use solver::sides::{Side, Sides};
 
 /// Gold, nickel and the base, 1/MPa.
-const RATES: [f64; 3] = [1e-7, 4e-7, 2e-6];
+pub(crate) const RATES: [f64; 3] = [1e-7, 4e-7, 2e-6];
 /// Thickness of gold and nickel, mm.
-const THICKNESS: [f64; 2] = [0.1e-3, 0.15e-3];
+pub(crate) const THICKNESS: [f64; 2] = [0.1e-3, 0.15e-3];
 
-fn layer(thickness_mm: f64, rate_per_mpa: f64) -> Layer {
+pub(crate) fn layer(thickness_mm: f64, rate_per_mpa: f64) -> Layer {
     Layer {
         thickness_mm,
         rate_per_mpa,
@@ -25,7 +25,7 @@ fn layer(thickness_mm: f64, rate_per_mpa: f64) -> Layer {
 }
 
 /// Plates both bodies, or one of them; the other does not wear.
-fn plated(amplitude_mm: f64, sides: &[Side], cycles: u64, tolerance: f64) -> Scene {
+pub(crate) fn plated(amplitude_mm: f64, sides: &[Side], cycles: u64, tolerance: f64) -> Scene {
     let mut scene = sprung_contact();
     let layers = vec![layer(THICKNESS[0], RATES[0]), layer(THICKNESS[1], RATES[1])];
     let of = |side| {
@@ -82,10 +82,7 @@ fn last_profiles(run: &Recorder) -> Sides<DepthProfile> {
 /// Wears a floor from the unworn surface to a depth; returns the cycles by the last two reports, interpolated to the depth.
 fn cycles_to(depth_mm: f64, tolerance: f64) -> f64 {
     let mut scene = plated(0.1, &[Side::Receptacle], 1_000_000, tolerance);
-    scene.stop = vec![Criterion::WornDepth {
-        side: Some(Side::Receptacle),
-        depth_mm,
-    }];
+    scene.stop = vec![Criterion::deepest(Side::Receptacle, depth_mm)];
     let (summary, run) = solve(&scene).expect("the scene can be solved");
     assert_eq!(summary.outcome, Outcome::StopCondition);
     let reports = &run.reports[run.reports.len() - 2..];

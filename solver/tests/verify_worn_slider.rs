@@ -9,6 +9,7 @@ use crate::recorder::solve;
 use crate::scenes::sprung_contact;
 use solver::record::{CycleReport, Outcome, Position, TractionField};
 use solver::scene::{Body, Criterion, Motion, Scene, SliderShape, Tuning, WearLaw};
+use solver::sides::Side;
 
 const RATE: f64 = 0.004 / 1700.0;
 const WEAR: WearLaw = WearLaw::Archard {
@@ -83,10 +84,9 @@ fn a_stop_condition_on_either_side_is_not_overshot() {
         let mut scene = scene(slider, receptacle);
         scene.cycles = 100_000;
         scene.accuracy.tolerance = 0.1;
-        scene.stop = vec![Criterion::WornDepth {
-            side: None,
-            depth_mm: limit,
-        }];
+        scene.stop = Side::BOTH
+            .map(|side| Criterion::deepest(side, limit))
+            .to_vec();
         let (summary, run) = solve(&scene).expect("the scene can be solved");
         let deepest = |report: &CycleReport| {
             report

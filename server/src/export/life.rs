@@ -8,7 +8,7 @@
 
 use api::results::{LifeBand, LifeEntry, LifeStatus};
 use api::spec::{Criterion, CriterionKind, EnumValue, LifeSettings};
-use solver::record::{Life, Lived};
+use solver::record::{CriterionState, Life};
 use solver::scene::{Motion, Scene};
 use statrs::distribution::{ContinuousCDF, Normal};
 
@@ -26,13 +26,13 @@ pub(crate) fn entries(
     life: &Life,
     done: u64,
 ) -> Vec<LifeEntry> {
-    let mut lived = life.lived.iter();
+    let mut states = life.criteria.iter();
     let criteria = settings.criteria.iter().flatten();
     criteria
         .map(|criterion| match criterion.kind {
             EnumValue::Known(CriterionKind::Resistance) => not_modelled(criterion),
-            _ => match lived.next() {
-                Some(lived) => entry(settings, scene, (criterion, lived), done),
+            _ => match states.next() {
+                Some(state) => entry(settings, scene, (criterion, state), done),
                 None => not_modelled(criterion),
             },
         })
@@ -70,18 +70,18 @@ fn empty(criterion: &Criterion, status: LifeStatus) -> LifeEntry {
 fn entry(
     settings: &LifeSettings,
     scene: &Scene,
-    (criterion, lived): (&Criterion, &Lived),
+    (criterion, state): (&Criterion, &CriterionState),
     done: u64,
 ) -> LifeEntry {
     let measured = |status| LifeEntry {
-        value: Some(lived.value),
-        limit: Some(lived.limit),
+        value: Some(state.value),
+        limit: Some(state.limit),
         ..empty(criterion, status)
     };
-    let Some(cycles) = lived.cycles else {
+    let Some(cycles) = state.cycles else {
         let reason = format!(
             "{:.1} % of the limit after {done} cycles",
-            100.0 * lived.value / lived.limit
+            100.0 * state.value / state.limit
         );
         return LifeEntry {
             reason: Some(reason),

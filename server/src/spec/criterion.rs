@@ -89,7 +89,8 @@ pub(super) fn resolve(
         return Vec::new();
     };
     check_fields(pointer, given, kind, diagnostics);
-    let sides = sides(pointer, given.side.as_ref(), (kind, surfaces), diagnostics);
+    let of = (given.side.as_ref(), given.layer);
+    let sides = sides(pointer, of, (kind, surfaces), diagnostics);
     if kind == CriterionKind::Resistance {
         let limit = required(
             &format!("{pointer}/mohm"),
@@ -109,10 +110,7 @@ pub(super) fn resolve(
                     &WORN_DEPTH_MM,
                     diagnostics,
                 )?;
-                scene::Criterion::WornDepth {
-                    side: Some(side),
-                    depth_mm: mm,
-                }
+                scene::Criterion::deepest(side, mm)
             }
             CriterionKind::ExposedFraction => {
                 let pointer_of = |field| format!("{pointer}/{field}");
@@ -122,10 +120,10 @@ pub(super) fn resolve(
                     &FRACTION,
                     diagnostics,
                 )?;
-                scene::Criterion::ExposedFraction {
-                    side,
-                    layer: above(&pointer_of("layer"), given.layer, layers, diagnostics)?,
-                    fraction,
+                let above = above(&pointer_of("layer"), given.layer, layers, diagnostics)?;
+                scene::Criterion {
+                    part: fraction,
+                    ..through(side, layers, above)?
                 }
             }
             CriterionKind::FirstExposure => {
@@ -155,10 +153,7 @@ pub(super) fn resolve(
 /// Through a layer and all layers above it, somewhere.
 fn through(side: Side, layers: &[Layer], layer: usize) -> Option<scene::Criterion> {
     let depth_mm = bottoms(layers).nth(layer)?;
-    Some(scene::Criterion::WornDepth {
-        side: Some(side),
-        depth_mm,
-    })
+    Some(scene::Criterion::deepest(side, depth_mm))
 }
 
 /// Number, from 0, of the layer above one whose number counts from 1; the last one above the base if absent.
@@ -192,11 +187,11 @@ fn above(
 /// The sides of a criterion; adds a fault where there is none.
 fn sides(
     pointer: &str,
-    given: Option<&EnumValue<Part>>,
+    (given, layer): (Option<&EnumValue<Part>>, Option<u64>),
     (kind, surfaces): (CriterionKind, Surfaces<'_>),
     diagnostics: &mut Diagnostics,
 ) -> Vec<Side> {
-    let possible = surfaces.sides(kind);
+    let mut possible = surfaces.sides(kind);
     let (lacks, neither) = if kind == CriterionKind::WornDepth {
         ("does not wear", "neither side wears")
     } else {
@@ -205,6 +200,14 @@ fn sides(
     let Some(given) = given else {
         if possible.is_empty() {
             diagnostics.fault(pointer, neither);
+        }
+        // A layer that only one side has is that of this side.
+        let has = |side: &Side| {
+            let layers = u64::try_from(surfaces.plating.of(*side).len());
+            layer.is_none_or(|layer| layers.is_ok_and(|layers| layer <= layers))
+        };
+        if possible.iter().any(has) {
+            possible.retain(has);
         }
         return possible;
     };

@@ -69,7 +69,12 @@ impl Diagnostics {
         if !range.contains(&value) {
             let (from, to) = range.clone().into_inner();
             let value = formatted(value);
-            self.fault(pointer, format!("{value} is outside {from} to {to}"));
+            let mut detail = format!("{value} is outside {from} to {to}");
+            // A warning would not be seen beside a fault.
+            if let Some(unit) = self.warnings.iter().find(|fault| fault.pointer == pointer) {
+                detail = format!("{detail}; {}", unit.detail);
+            }
+            self.fault(pointer, detail);
         }
         value
     }

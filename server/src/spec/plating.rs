@@ -2,7 +2,7 @@
 
 use std::ops::RangeInclusive;
 
-use api::spec::{Material, PlatingLayer, Platings, Provenance, WearLaw};
+use api::spec::{EnumValue, Material, PlatingLayer, Platings, Provenance, WearLaw, WearLawName};
 use solver::scene::{self, Layer, MOST_LAYERS};
 use solver::sides::Sides;
 
@@ -67,10 +67,19 @@ fn layer(
     let (wear, law) = wear(&side, given.wear.as_ref(), friction, diagnostics);
     let rate = law.and_then(scene::WearLaw::uniform);
     if rate.is_some_and(|rate| rate <= 0.0) {
-        diagnostics.fault(
-            &side.pointer,
-            "a layer that does not wear protects all below it; leave these out",
-        );
+        let of_friction = |law: &WearLaw| {
+            matches!(
+                law.law,
+                EnumValue::Known(WearLawName::Saracibar | WearLawName::DissipatedEnergy)
+            )
+        };
+        if friction <= 0.0 && wear.as_ref().is_some_and(of_friction) {
+            let detail = "without friction the layers of this law do not wear";
+            diagnostics.fault("/interface/friction", detail);
+        } else {
+            let detail = "a layer that does not wear protects all below it; leave these out";
+            diagnostics.fault(&side.pointer, detail);
+        }
     }
     let layer = thickness_mm
         .zip(rate)
@@ -221,6 +230,12 @@ mod tests {
 
     #[test]
     fn a_layer_in_another_unit_is_questioned() {
+        let in_mm = GOLD.replace(r#""thickness_um":0.76"#, r#""thickness_mm":1.27"#);
+        let [fault] = &faults(&plated(&in_mm, ""))[..] else {
+            panic!("one fault");
+        };
+        assert_eq!(fault.pointer, "/plating/receptacle/0/thickness_mm");
+        assert!(fault.detail.contains("in um?"), "{}", fault.detail);
         let thick = GOLD.replace("0.76", "760");
         let resolved = resolved(&plated(&thick, ""));
         let warning = &resolved.warnings[0];

@@ -2,6 +2,7 @@
 
 use api::spec::Stop;
 use solver::scene;
+use solver::sides::Side;
 
 use crate::spec::criterion::{self, Surfaces, WORN_DEPTH_MM};
 use crate::spec::diagnostics::Diagnostics;
@@ -42,10 +43,8 @@ fn condition(
         (Some(depth_mm), None) => {
             diagnostics.check_fields(pointer, stop, &["worn_depth_mm"], "worn_depth_mm");
             diagnostics.check_range(&depth, depth_mm, &WORN_DEPTH_MM);
-            vec![scene::Criterion::WornDepth {
-                side: None,
-                depth_mm,
-            }]
+            let of_side = |side| scene::Criterion::deepest(side, depth_mm);
+            Side::BOTH.into_iter().map(of_side).collect()
         }
         (None, Some(given)) => {
             let resolved = criterion::resolve(pointer, &given, surfaces, diagnostics);

@@ -5,7 +5,7 @@ use std::borrow::Cow;
 use super::extrapolation::loss_of_load;
 use super::{CycleError, CycleRecord, CycleState, Integrator};
 use crate::law::elastic::contact_modulus;
-use crate::law::surface;
+use crate::law::surface::{self, SurfaceWear};
 use crate::law::wear::LocalState;
 use crate::model::resolution::radius;
 use crate::number::real_cycles;
@@ -47,12 +47,20 @@ impl Integrator<'_> {
                 done: state.cycle,
                 jump: computed,
             };
-            let (run, stroke) = ((motion, accuracy), (stroke, cycles));
-            let plan = CyclePlan::new(run, self.followed(state), stroke, detailed);
+            let run = (motion, accuracy);
+            let plan = CyclePlan::new(run, self.followed(state), (stroke, cycles), detailed);
             let error = match self.integrate(state, plan, (computed, extrapolated[1]), detailed) {
                 Ok(record) => {
                     self.measure_jump(state, &before);
-                    return Ok(record);
+                    let shorter = self.rejected(state, (stroke, jump));
+                    let Some(shorter) = shorter else {
+                        return Ok(record);
+                    };
+                    let work = state.work;
+                    *state = before.clone();
+                    (state.work, jump) = (work, shorter);
+                    state.jump.limit(shorter);
+                    continue;
                 }
                 Err(error) => error,
             };
@@ -67,6 +75,17 @@ impl Integrator<'_> {
             };
             jump = cut.ok_or(error)?;
         }
+    }
+
+    /// A shorter jump where the estimated error of one far exceeds what it may be, as where it has passed an interface of a
+    /// plating: the rate before does not foresee that behind it.
+    fn rejected(&self, state: &CycleState, (stroke, jump): (Stroke, u64)) -> Option<u64> {
+        let wear = self.pair.interface.wear;
+        let is_plated = |wear: Option<SurfaceWear>| wear.and_then(SurfaceWear::layers).is_some();
+        if !(is_plated(wear.slider) || is_plated(wear.receptacle)) {
+            return None;
+        }
+        state.jump.rejected(&self.scene.accuracy, stroke, jump)
     }
 
     /// Measures what the next jump depends on.

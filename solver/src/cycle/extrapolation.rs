@@ -25,6 +25,7 @@ impl Integrator<'_> {
             .wear
             .receptacle
             .and_then(SurfaceWear::layers);
+        let outer = layers.map_or(0.0, |layers| layers.outer_rate());
         let single: Vec<f64> = one.iter().zip(other).map(|(a, b)| a + b).collect();
         let groove = Groove {
             x: &body.x,
@@ -34,6 +35,8 @@ impl Integrator<'_> {
             amplitude: self.scene.motion.amplitude_mm().abs(),
             half_width: self.followed(state).narrower(),
             layers: layers.as_ref(),
+            // Two passes.
+            floor: 2.0 * outer * state.neutral.load,
         };
         let mut cycles = most;
         while cycles > 0 {

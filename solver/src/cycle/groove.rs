@@ -17,7 +17,8 @@
 //! waves fade, the worn area is n times that of the computed cycle, and where the computed wear changes as the surrogate's
 //! does, w is exact to the first order in n for contacts of any shape. S increases with d', so this is the gradient of a convex
 //! function, whose minimum Newton's method with a line search finds. Through a plating w - n w_1 is that of the equivalent depths,
-//! and the rest that of the depths: E(d + w) - E(d) increases with w, so the function stays convex, with a kink at each interface.
+//! and the rest that of the depths: E(d + w) - E(d) increases with w, so the function stays convex, with a kink in its derivative
+//! at each interface. A base that does not wear bounds w (projected Newton method, Bertsekas 1982).
 
 use crate::law::plating::Layers;
 use crate::linear::tridiagonal::solve_tridiagonal;
@@ -25,14 +26,18 @@ use crate::model::Profile;
 
 /// Change of a Newton step over the largest wear at which the iteration ends: far below any tolerance.
 const PRECISION: f64 = 1e-7;
-/// Most Newton steps; 4 to 25 are needed.
-const MOST_STEPS: usize = 60;
-/// Most halvings of a Newton step.
-const MOST_HALVINGS: usize = 12;
-/// A step is halved until the slope along it has decreased to this part. Arbitrary.
+/// Most Newton steps; 4 to 25 are needed, more where a jump wears many times a layer's thickness.
+const MOST_STEPS: usize = 100;
+/// Most bisections of a Newton step.
+const MOST_BISECTIONS: usize = 12;
+/// A whole step is taken where the derivative along it is at most this part of its decrease: it then has not passed the minimum by
+/// much. Arbitrary.
+const PASSED: f64 = 0.1;
+/// A part of a step ends where the derivative has fallen to this part, before the minimum. Arbitrary.
 const SLOPE_LEFT: f64 = 0.5;
-/// Rate of a base that does not wear over that of the outermost layer, in the derivative of Newton's method.
-const SLOWEST: f64 = 1e-9;
+
+/// Equivalent per wear of a node that does not move.
+const HELD: f64 = 1e150;
 
 /// The receptacle of a scene, and the slider's stroke over it. Lengths in mm.
 #[derive(Debug, Clone, Copy)]
@@ -50,6 +55,8 @@ pub(super) struct Groove<'a> {
     pub(super) half_width: f64,
     /// The layers of the surface, if it is plated.
     pub(super) layers: Option<&'a Layers>,
+    /// Wear h of the outermost layer in a cycle, mm; of a surface that wears at every depth the mean of the computed cycle counts.
+    pub(super) floor: f64,
 }
 
 impl Groove<'_> {
@@ -57,7 +64,15 @@ impl Groove<'_> {
     /// if Newton's method does not converge.
     pub(super) fn wear(&self, depth: &[f64], single: &[f64], cycles: f64) -> Option<Vec<f64>> {
         let area = single.iter().zip(self.widths).map(|(d, width)| d * width);
-        let flux = cycles * area.sum::<f64>() / (2.0 * self.amplitude);
+        let floor = if self
+            .layers
+            .is_some_and(|layers| layers.deepest().is_finite())
+        {
+            self.floor
+        } else {
+            area.sum::<f64>() / (2.0 * self.amplitude)
+        };
+        let flux = cycles * floor;
         let explicit: Vec<f64> = single.iter().map(|wear| cycles * wear).collect();
         let mut equation = Equation {
             groove: self,
@@ -66,7 +81,7 @@ impl Groove<'_> {
             before: Vec::new(),
             explicit: &explicit,
         };
-        equation.before = equation.places(&vec![0.0; depth.len()]);
+        equation.before = equation.touching(&vec![0.0; depth.len()]);
         equation.solve()
     }
 
@@ -84,11 +99,18 @@ impl Groove<'_> {
         })
     }
 
-    /// Derivative of the equivalent by the wear at a depth, -.
-    fn equivalent_per_wear(&self, depth: f64) -> f64 {
-        self.layers.map_or(1.0, |layers| {
-            layers.outer_rate() / layers.rate(depth).max(SLOWEST * layers.outer_rate())
+    /// Derivative of the equivalent by the wear at a depth, -; none where the surface does not wear any further.
+    fn equivalent_per_wear(&self, depth: f64) -> Option<f64> {
+        self.layers.map_or(Some(1.0), |layers| {
+            let rate = layers.rate(depth);
+            (rate > 0.0).then(|| layers.outer_rate() / rate)
         })
+    }
+
+    /// Most further wear of a depth, mm.
+    fn room(&self, depth: f64) -> f64 {
+        let deepest = self.layers.map_or(f64::INFINITY, Layers::deepest);
+        (deepest - depth).max(0.0)
     }
 
     /// Mean displacement S at which the slider touches the surface with this slope of the depth, and its derivative by that,
@@ -120,47 +142,72 @@ struct Equation<'a> {
     explicit: &'a [f64],
 }
 
+/// A step of Newton's method.
+struct Step {
+    /// Change of the wear, mm.
+    wear: Vec<f64>,
+    /// The largest change of an equivalent depth, mm.
+    largest: f64,
+}
+
 impl Equation<'_> {
     fn solve(&self) -> Option<Vec<f64>> {
+        let largest = self.explicit.iter().fold(0.0, |a: f64, b| a.max(*b));
         let nodes = self.depth.iter().zip(self.explicit);
         let mut wear: Vec<f64> = nodes
             .map(|(depth, explicit)| self.groove.wear_of(*depth, *explicit))
             .collect();
-        let largest = wear.iter().fold(0.0, |most: f64, wear| most.max(*wear));
-        let mut places = self.places(&wear);
         for _ in 0..MOST_STEPS {
-            let step = self.newton_step(&wear, &places);
-            let slope = |places: &[(f64, f64)], wear: &[f64]| -> f64 {
-                let residual = self.residual(wear, places);
-                residual
-                    .zip(&step)
-                    .map(|(residual, step)| residual * step)
-                    .sum()
-            };
-            let start = slope(&places, &wear).abs();
-            let mut part = 1.0;
-            for _ in 0..MOST_HALVINGS {
-                let tried: Vec<f64> = wear.iter().zip(&step).map(|(w, s)| w + part * s).collect();
-                let there = self.places(&tried);
-                let left = slope(&there, &tried);
-                if left <= SLOPE_LEFT * start {
-                    (wear, places) = (tried, there);
-                    break;
-                }
-                part *= 0.5;
-            }
-            let change = step
-                .iter()
-                .fold(0.0, |most: f64, step| most.max(step.abs()));
-            if change <= PRECISION * largest {
+            let step = self.newton_step(&wear);
+            if step.largest <= PRECISION * largest {
                 return Some(wear);
             }
+            wear = self.line_search(&wear, &step.wear);
         }
         None
     }
 
+    /// The wear after a step, or after the part of it that does not pass the minimum.
+    fn line_search(&self, wear: &[f64], step: &[f64]) -> Vec<f64> {
+        let moved = |part: f64| -> Vec<f64> {
+            let nodes = wear.iter().zip(step).zip(self.depth);
+            nodes
+                .map(|((wear, step), depth)| (wear + part * step).min(self.groove.room(*depth)))
+                .collect()
+        };
+        // Where a bound has stopped a node, it changes nothing any more.
+        let slope = |moved: &[f64]| -> f64 {
+            let touching = self.touching(moved);
+            let residual = self.residual(moved, &touching);
+            let nodes = residual.zip(step).zip(moved.iter().zip(self.depth));
+            nodes
+                .filter(|(_, (wear, depth))| **wear < self.groove.room(**depth))
+                .map(|((residual, step), _)| residual * step)
+                .sum()
+        };
+        let start = slope(wear).abs();
+        let (mut low, mut high) = (0.0, 1.0);
+        let mut whole = moved(1.0);
+        if slope(&whole) <= PASSED * start {
+            return whole;
+        }
+        for _ in 0..MOST_BISECTIONS {
+            let middle = 0.5 * (low + high);
+            whole = moved(middle);
+            let slope = slope(&whole);
+            if slope > 0.0 {
+                high = middle;
+            } else if slope < -SLOPE_LEFT * start {
+                low = middle;
+            } else {
+                return whole;
+            }
+        }
+        moved(if low > 0.0 { low } else { high })
+    }
+
     /// S between the nodes with this wear, and its derivative by the slope there, mm.
-    fn places(&self, wear: &[f64]) -> Vec<(f64, f64)> {
+    fn touching(&self, wear: &[f64]) -> Vec<(f64, f64)> {
         let Self { groove, depth, .. } = self;
         let x = groove.x;
         let between = |i: usize| {
@@ -174,9 +221,9 @@ impl Equation<'_> {
     fn residual<'b>(
         &'b self,
         wear: &'b [f64],
-        places: &'b [(f64, f64)],
+        touching: &'b [(f64, f64)],
     ) -> impl Iterator<Item = f64> + 'b {
-        let flux = |i: usize| self.flux * (places[i].0 - self.before[i].0);
+        let flux = |i: usize| self.flux * (touching[i].0 - self.before[i].0);
         (0..wear.len()).map(move |i| {
             let from_left = if i > 0 { flux(i - 1) } else { 0.0 };
             let to_right = if i + 1 < wear.len() { flux(i) } else { 0.0 };
@@ -185,29 +232,50 @@ impl Equation<'_> {
         })
     }
 
-    fn newton_step(&self, wear: &[f64], places: &[(f64, f64)]) -> Vec<f64> {
-        let x = self.groove.x;
-        let beside = places.iter().zip(x.windows(2));
+    /// Newton's step from this wear; nodes that their bound holds do not move.
+    fn newton_step(&self, wear: &[f64]) -> Step {
+        let (groove, x) = (self.groove, self.groove.x);
+        let touching = self.touching(wear);
+        let mut step: Vec<f64> = self.residual(wear, &touching).map(|r| -r).collect();
+        let per_wear = self.depth.iter().zip(wear).zip(&step);
+        let per_wear: Vec<f64> = per_wear
+            .map(|((depth, wear), step)| {
+                let is_held = *wear >= groove.room(*depth) && *step >= 0.0;
+                let inside = depth + wear * (1.0 - f64::EPSILON);
+                let per_wear = groove.equivalent_per_wear(depth + wear);
+                let per_wear = per_wear.or_else(|| groove.equivalent_per_wear(inside));
+                per_wear.filter(|_| !is_held).unwrap_or(HELD)
+            })
+            .collect();
+        let beside = touching.iter().zip(x.windows(2));
         let beside: Vec<f64> = beside
             .map(|((_, by_slope), x)| -self.flux * by_slope / (x[1] - x[0]))
             .collect();
-        let nodes = self.groove.widths.iter().zip(self.depth).zip(wear);
-        let mut diagonal: Vec<f64> = nodes
-            .map(|((width, depth), wear)| width * self.groove.equivalent_per_wear(depth + wear))
-            .collect();
+        let nodes = groove.widths.iter().zip(&per_wear);
+        let mut diagonal: Vec<f64> = nodes.map(|(width, per_wear)| width * per_wear).collect();
         for (i, beside) in beside.iter().enumerate() {
             diagonal[i] -= beside;
             diagonal[i + 1] -= beside;
         }
-        let mut step: Vec<f64> = self.residual(wear, places).map(|r| -r).collect();
         solve_tridiagonal(&mut diagonal, &beside, &mut step);
-        step
+        let mut largest = 0.0;
+        for (step, per_wear) in step.iter_mut().zip(&per_wear) {
+            if *per_wear >= HELD {
+                *step = 0.0;
+            }
+            largest = f64::max(largest, step.abs() * per_wear);
+        }
+        Step {
+            wear: step,
+            largest,
+        }
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::law::plating::Layer;
     use crate::number::real;
 
     const NODES: usize = 401;
@@ -232,6 +300,7 @@ mod tests {
             amplitude: 1.0,
             half_width: 0.02,
             layers: None,
+            floor: FLOOR,
         }
     }
 
@@ -310,6 +379,68 @@ mod tests {
         assert!(largest < 1.1 / 401.0, "{largest}");
         let ratio = area(&wear, &widths) / (cycles * area(&single, &widths));
         assert!((ratio - 1.0).abs() < 1e-12, "{ratio}");
+    }
+
+    /// Depth of 4 096 cycles through a layer of half that equivalent over a base of a rate, in jumps of a share of the cycles done,
+    /// and the worn area over that of the dose.
+    fn worn_through(base: f64, share: f64) -> (Vec<f64>, f64) {
+        let layer = Layer {
+            thickness_mm: 2_048.0 * FLOOR,
+            rate_per_mpa: 1e-8,
+        };
+        let layers = Layers::new(&[layer], base);
+        let (x, widths) = surface();
+        let groove = Groove {
+            layers: Some(&layers),
+            ..groove(&x, &widths)
+        };
+        let (mut depth, mut done) = (vec![0.0; NODES], 0.0);
+        while done < 4_096.0 {
+            let jump = (share * done).ceil().clamp(1.0, 4_096.0 - done);
+            let mut single = rate(&groove, &depth);
+            for (single, depth) in single.iter_mut().zip(&depth) {
+                *single *= f64::from(u8::from(*depth < layers.deepest()));
+            }
+            let wear = groove.wear(&depth, &single, jump);
+            let wear = wear.unwrap_or_else(|| panic!("{base}, {share}: not after {done} cycles"));
+            for (depth, wear) in depth.iter_mut().zip(wear) {
+                *depth += wear;
+            }
+            done += jump;
+        }
+        let equivalent: Vec<f64> = depth.iter().map(|d| layers.equivalent(*d)).collect();
+        let ideal = 4_096.0 * FLOOR * 2.0;
+        (depth, area(&equivalent, &widths) / ideal)
+    }
+
+    #[test]
+    fn jumps_through_a_layer_converge_over_any_base() {
+        for base in [1e-10, 1e-9, 0.5e-8, 2e-8, 2e-7] {
+            let [fine, coarse] = [0.01, 0.1].map(|share| worn_through(base, share));
+            let [fine_deepest, deepest] = [&fine, &coarse].map(|(d, _)| d[NODES / 2]);
+            assert!(
+                (deepest / fine_deepest - 1.0).abs() < 0.02,
+                "{base}: {deepest} {fine_deepest}"
+            );
+            for (_, area) in [fine, coarse] {
+                assert!((area - 1.0).abs() < 1e-6, "{base}: {area}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_base_that_does_not_wear_ends_the_wear_of_a_jump() {
+        for share in [0.01, 0.1] {
+            let (depth, area) = worn_through(0.0, share);
+            let deepest = depth.iter().fold(0.0, |most: f64, d| most.max(*d));
+            assert!(
+                (deepest / (2_048.0 * FLOOR) - 1.0).abs() < 1e-12,
+                "{deepest}"
+            );
+            let middle = &depth[NODES / 2 - 50..NODES / 2 + 50];
+            assert!(middle.iter().all(|d| *d >= deepest), "{middle:?}");
+            assert!((0.5..0.7).contains(&area), "{area}");
+        }
     }
 
     #[test]

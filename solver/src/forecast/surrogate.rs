@@ -6,10 +6,10 @@
 use crate::ale;
 use crate::contact::line::CANDIDATE_GAP;
 use crate::law::elastic::contact_modulus;
-use crate::law::plating::bottoms;
 use crate::law::surface::SurfaceWear;
 use crate::model::{Layout, resolution};
 use crate::number::{real, real_cycles};
+use crate::record::WornSurface;
 use crate::scene::{Scene, Tuning};
 use crate::schedule::jump::{JumpControl, Stroke};
 use crate::schedule::stops::Progress;
@@ -238,7 +238,6 @@ impl Scar {
             .map(|(left, rate)| left / rate.max(f64::MIN_POSITIVE));
         Progress {
             cycle,
-            deepest: self.deepest,
             cycles_left: cycles.slider.min(cycles.receptacle),
             fastest_rate: self
                 .outer
@@ -248,20 +247,16 @@ impl Scar {
         }
     }
 
-    /// Part of the scar that is worn through a layer.
-    pub(super) fn exposed(&self, scene: &Scene, (side, layer): (Side, usize)) -> f64 {
-        let limit = bottoms(scene.plating(side))
-            .nth(layer)
-            .unwrap_or(f64::INFINITY);
-        let places = |at_least: f64| {
-            let deep = self
-                .depth
-                .of(side)
-                .iter()
-                .filter(|depth| **depth > at_least);
-            real(deep.count())
+    /// Depth that a part of a side's scar has at least, mm.
+    pub(super) fn depth_of_part(&self, side: Side, part: f64) -> f64 {
+        if part <= 0.0 {
+            return *self.deepest.of(side);
+        }
+        let worn = WornSurface {
+            x: &self.x,
+            depth: self.depth.of(side),
         };
-        places(limit) / places(0.0).max(1.0)
+        worn.depth_of_part(part)
     }
 
     /// Remaining heights of the bodies at the deepest point, mm.

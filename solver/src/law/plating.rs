@@ -97,8 +97,8 @@ impl Layers {
         (worn + rate * left.max(0.0), rate)
     }
 
-    /// Depth that the outermost layer alone would have lost by the dose of a depth, mm; at the upper end of a base that does
-    /// not wear the dose is the least of those that reach it.
+    /// Depth that the outermost layer alone would have lost by the dose of a depth, mm; from the upper end of a base that does
+    /// not wear on the least dose that reaches it.
     pub fn equivalent(&self, depth: f64) -> f64 {
         let (mut equivalent, mut above) = (0.0, 0.0);
         for i in 0..=self.count {
@@ -107,14 +107,25 @@ impl Layers {
             } else {
                 f64::INFINITY
             };
-            let within = depth.min(bottom) - above;
-            if within <= 0.0 {
+            if self.rate[i] <= 0.0 {
                 break;
             }
-            equivalent += within * (self.rate[0] / self.rate[i].max(f64::MIN_POSITIVE));
+            equivalent += (depth.min(bottom) - above) * (self.rate[0] / self.rate[i]);
+            if depth <= bottom {
+                break;
+            }
             above = bottom;
         }
         equivalent
+    }
+
+    /// Largest depth that wear reaches, mm.
+    pub fn deepest(&self) -> f64 {
+        if self.rate[self.count] > 0.0 {
+            f64::INFINITY
+        } else {
+            self.bottom[self.count - 1]
+        }
     }
 
     /// Depth whose equivalent is this, mm.

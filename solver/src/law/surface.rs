@@ -52,19 +52,30 @@ impl SurfaceWear {
         }
     }
 
-    /// Mean specific wear rate from the surface down to a depth in mm, at a representative state, 1/MPa.
+    /// Mean specific wear rate from the surface down to a depth in mm, at a representative state, 1/MPa; 0 for a depth that wear
+    /// does not reach.
     pub fn mean_rate(self, depth: f64, at: LocalState) -> f64 {
         match self {
             Self::Law(law) => law.rate(at).value,
             Self::Plated(layers) => {
                 let equivalent = layers.equivalent(depth);
-                let share = if equivalent > 0.0 {
+                let share = if depth > layers.deepest() {
+                    0.0
+                } else if equivalent > 0.0 {
                     depth / equivalent
                 } else {
                     1.0
                 };
                 share * layers.outer_rate()
             }
+        }
+    }
+
+    /// Largest depth that wear reaches, mm.
+    pub fn deepest(self) -> f64 {
+        match self {
+            Self::Law(_) => f64::INFINITY,
+            Self::Plated(layers) => layers.deepest(),
         }
     }
 

@@ -3,6 +3,7 @@ use crate::effects::Switches;
 use crate::scene::{
     Accuracy, BlockShape, Body, Criterion, Friction, Motion, Output, SliderShape, WearLaw,
 };
+use crate::sides::Side;
 
 pub(crate) fn fuzz_button() -> Scene {
     let copper = Elastic {
@@ -47,10 +48,9 @@ pub(crate) fn fuzz_button() -> Scene {
             snapshots_at_cycles: vec![],
             fields: false,
         },
-        stop: vec![Criterion::WornDepth {
-            side: None,
-            depth_mm: 1.0,
-        }],
+        stop: Side::BOTH
+            .map(|side| Criterion::deepest(side, 1.0))
+            .to_vec(),
         life: Vec::new(),
         effects: Switches::default(),
     }

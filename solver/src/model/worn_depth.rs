@@ -7,7 +7,6 @@
 //! wear against an unworn one: where both wear a common scar, neither becomes deeper. Through a plating the section wears by the
 //! mean rate of its deepest point. A part f of the parabola is deeper than d where h = d/(1 - f^2).
 
-use crate::law::plating::bottoms;
 use crate::law::surface::SurfaceWear;
 use crate::law::wear::LocalState;
 use crate::number::{cycles_at_least, real_cycles};
@@ -61,20 +60,12 @@ pub(crate) fn expected_cycles(
             f64::INFINITY
         }
     };
-    let stops = scene.stop.iter().map(|criterion| match *criterion {
-        Criterion::WornDepth { side, depth_mm } => {
-            let of = |side| cycles(side, depth_mm);
-            side.map_or_else(|| of(Side::Slider).min(of(Side::Receptacle)), of)
-        }
-        Criterion::ExposedFraction {
-            side,
-            layer,
-            fraction,
-        } => {
-            let mut bottoms = bottoms(scene.plating(side));
-            let bottom = bottoms.nth(layer).unwrap_or(f64::INFINITY);
-            cycles(side, bottom / (1.0 - fraction.min(MOST_EXPOSED).powi(2)))
-        }
+    let stops = scene.stop.iter().map(|criterion| {
+        let Criterion { side, depth_mm, .. } = *criterion;
+        let part = criterion.part.min(MOST_EXPOSED);
+        let deepest = wear.of(side).map_or(depth_mm, SurfaceWear::deepest);
+        let depth = depth_mm / (1.0 - part.powi(2));
+        cycles(side, depth.min(deepest.max(depth_mm)))
     });
     let first = stops.fold(f64::INFINITY, f64::min);
     cycles_at_least(first).min(scene.cycles)
@@ -127,33 +118,26 @@ mod tests {
         let wear = scene.surface_wear();
         assert_eq!(expected_cycles(&scene, (radius, at), &wear), scene.cycles);
         let depth = after(&scene, (radius, at), &wear, 100).receptacle;
-        scene.stop = vec![Criterion::WornDepth {
-            side: None,
-            depth_mm: depth,
-        }];
+        scene.stop = vec![Criterion::deepest(Side::Receptacle, depth)];
         let expected = expected_cycles(&scene, (radius, at), &wear);
         assert!(expected.abs_diff(100) <= 1, "{expected}");
         // The slider does not wear.
-        scene.stop = vec![Criterion::WornDepth {
-            side: Some(Side::Slider),
-            depth_mm: depth,
-        }];
+        scene.stop = vec![Criterion::deepest(Side::Slider, depth)];
         assert_eq!(expected_cycles(&scene, (radius, at), &wear), scene.cycles);
         // A plating of that thickness is through on half the scar later than at its deepest point.
         scene.receptacle.plating = vec![Layer {
             thickness_mm: depth,
             rate_per_mpa: scene.receptacle.outer_rate().unwrap_or(0.0),
         }];
-        let at_fraction = |fraction| {
+        let at_part = |part| {
             let mut scene = scene.clone();
-            scene.stop = vec![Criterion::ExposedFraction {
-                side: Side::Receptacle,
-                layer: 0,
-                fraction,
+            scene.stop = vec![Criterion {
+                part,
+                ..Criterion::deepest(Side::Receptacle, depth)
             }];
             expected_cycles(&scene, (radius, at), &scene.surface_wear())
         };
-        assert!(at_fraction(1e-3).abs_diff(100) <= 1);
-        assert!(at_fraction(0.5) > 120 && at_fraction(1.0) > at_fraction(0.5));
+        assert!(at_part(1e-3).abs_diff(100) <= 1);
+        assert!(at_part(0.5) > 120 && at_part(0.99) > at_part(0.5));
     }
 }

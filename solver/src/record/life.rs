@@ -1,11 +1,12 @@
 //! Life: the cycles until each criterion of a scene is reached.
 //!
-//! Between two computed cycles the dose of the deepest point is taken as linear in the cycles, which is exact for a pressure
-//! that does not change; an exposed part is taken as linear itself.
+//! The cycles that a computed one represents do not pass a criterion by far (`schedule::stops`). Between two computed cycles the
+//! dose at the depth of the criterion is taken as linear in the cycles, which is exact for a pressure that does not change; where
+//! the wear ends at that depth, as linear with the rate before.
 
 use serde::{Deserialize, Serialize};
 
-use super::CycleReport;
+use super::WornSurface;
 use crate::number::real_cycles;
 use crate::scene::{Criterion, Scene};
 use crate::sides::Side;
@@ -14,87 +15,76 @@ use crate::sides::Side;
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct Life {
     /// One entry a criterion.
-    pub lived: Vec<Lived>,
-    /// Cycle of the last report.
+    pub criteria: Vec<CriterionState>,
+    /// Cycle of the last computed one.
     cycle: u64,
 }
 
 /// How far a criterion is.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
-pub struct Lived {
+pub struct CriterionState {
     /// Physical cycles at which it was reached; `None` if it was not.
     pub cycles: Option<f64>,
-    /// Value at the last report: worn depth, mm, or exposed part of the scar, -.
+    /// Value after the last computed cycle: worn depth, mm, or exposed part of the scar, -.
     pub value: f64,
     /// Value that counts as reached.
     pub limit: f64,
-    /// Measure at the last report, and at the limit: the equivalent depth, mm, or the exposed part, -.
-    measure: [f64; 2],
+    /// Equivalent of the depth that the part of the scar has, mm.
+    equivalent: f64,
+    /// Its increase per cycle in the last computed one, mm.
+    rate: f64,
 }
 
 impl Life {
-    /// Takes the report of the next computed cycle.
-    pub fn push(&mut self, scene: &Scene, report: &CycleReport) {
-        self.lived.resize(scene.life.len(), Lived::default());
-        for (lived, criterion) in self.lived.iter_mut().zip(&scene.life) {
-            let last = *lived;
-            *lived = Lived {
-                cycles: last.cycles,
-                ..at(scene, *criterion, report)
-            };
-            let [measure, limit] = lived.measure;
-            if lived.cycles.is_none() && lived.value >= lived.limit {
-                let step = real_cycles(report.cycle - self.cycle);
-                let share = (limit - last.measure[0]) / (measure - last.measure[0]);
-                lived.cycles = Some(real_cycles(self.cycle) + share.clamp(0.0, 1.0) * step);
-            }
+    /// Takes the state after the next computed cycle, which is the given one.
+    pub(crate) fn push<'a>(
+        &mut self,
+        scene: &Scene,
+        cycle: u64,
+        surface: impl Fn(Side) -> WornSurface<'a>,
+    ) {
+        self.criteria
+            .resize(scene.life.len(), CriterionState::default());
+        for (state, criterion) in self.criteria.iter_mut().zip(&scene.life) {
+            let worn = surface(criterion.side);
+            state.follow(scene, *criterion, worn, (self.cycle, cycle));
         }
-        self.cycle = report.cycle;
+        self.cycle = cycle;
     }
 }
 
-/// How far a criterion is in a report.
-fn at(scene: &Scene, criterion: Criterion, report: &CycleReport) -> Lived {
-    match criterion {
-        Criterion::WornDepth { side, depth_mm } => {
-            let of = |side| worn_depth(scene, side, depth_mm, report);
-            side.map_or_else(
-                || {
-                    let (slider, receptacle) = (of(Side::Slider), of(Side::Receptacle));
-                    if slider.value > receptacle.value {
-                        slider
-                    } else {
-                        receptacle
-                    }
-                },
-                of,
-            )
-        }
-        Criterion::ExposedFraction {
+impl CriterionState {
+    fn follow(
+        &mut self,
+        scene: &Scene,
+        criterion: Criterion,
+        worn: WornSurface<'_>,
+        (last, cycle): (u64, u64),
+    ) {
+        let Criterion {
             side,
-            layer,
-            fraction,
-        } => {
-            let value = report.exposed_fraction(side, layer);
-            Lived {
-                cycles: None,
-                value,
-                limit: fraction,
-                measure: [value, fraction],
-            }
+            part,
+            depth_mm,
+        } = criterion;
+        let wear = *scene.surface_wear().of(side);
+        let equivalent = |depth| wear.map_or(depth, |wear| wear.equivalent(depth));
+        let depth = worn.depth_of_part(part);
+        let (before, after, at) = (self.equivalent, equivalent(depth), equivalent(depth_mm));
+        (self.value, self.limit) = if part > 0.0 {
+            (worn.exposed_part(depth_mm), part)
+        } else {
+            (depth, depth_mm)
+        };
+        self.equivalent = after;
+        let cycles = real_cycles(cycle - last);
+        let rate = (after - before) / cycles;
+        let is_end = wear.is_some_and(|wear| depth_mm >= wear.deepest());
+        if self.cycles.is_none() && depth >= depth_mm {
+            let needed = (at - before) / if is_end { self.rate } else { rate };
+            let needed = if needed.is_finite() { needed } else { cycles };
+            self.cycles = Some(real_cycles(last) + needed.clamp(0.0, cycles));
         }
-    }
-}
-
-fn worn_depth(scene: &Scene, side: Side, limit: f64, report: &CycleReport) -> Lived {
-    let wear = *scene.surface_wear().of(side);
-    let equivalent = |depth| wear.map_or(depth, |wear| wear.equivalent(depth));
-    let value = report.side(side).max_depth_mm;
-    Lived {
-        cycles: None,
-        value,
-        limit,
-        measure: [equivalent(value), equivalent(limit)],
+        self.rate = rate;
     }
 }
 
@@ -102,21 +92,20 @@ fn worn_depth(scene: &Scene, side: Side, limit: f64, report: &CycleReport) -> Li
 mod tests {
     use super::*;
     use crate::model::tests::fuzz_button;
-    use crate::record::SideReport;
     use crate::scene::{Layer, WearLaw};
 
-    fn report(cycle: u64, depth: f64, exposed: f64) -> CycleReport {
-        let mut report = CycleReport {
-            cycle,
-            receptacle: SideReport {
-                max_depth_mm: depth,
-                scar_half_width_mm: 0.5,
-                ..SideReport::default()
+    /// A triangular scar of this depth on the receptacle, and an unworn slider.
+    fn push(life: &mut Life, scene: &Scene, cycle: u64, depth: f64) {
+        let x = [-1.0, -0.5, 0.0, 0.5, 1.0];
+        let worn = x.map(|x: f64| (1.0 - x.abs()) * depth);
+        let unworn = [0.0; 5];
+        life.push(scene, cycle, |side| WornSurface {
+            x: &x,
+            depth: match side {
+                Side::Slider => &unworn,
+                Side::Receptacle => &worn,
             },
-            ..CycleReport::default()
-        };
-        report.exposed_length_mm.receptacle = vec![exposed];
-        report
+        });
     }
 
     #[test]
@@ -129,32 +118,42 @@ mod tests {
         scene.receptacle.wear = Some(WearLaw::Archard {
             k_over_h_per_mpa: 4e-8,
         });
-        let depth = |side, depth_mm| Criterion::WornDepth { side, depth_mm };
         scene.life = vec![
-            depth(Some(Side::Receptacle), 1e-3),
-            depth(None, 2e-3),
-            Criterion::ExposedFraction {
+            Criterion::deepest(Side::Receptacle, 1e-3),
+            Criterion::deepest(Side::Receptacle, 2e-3),
+            Criterion {
                 side: Side::Receptacle,
-                layer: 0,
-                fraction: 0.5,
+                part: 0.5,
+                depth_mm: 1e-3,
             },
-            depth(Some(Side::Slider), 1e-3),
+            Criterion::deepest(Side::Slider, 1e-3),
         ];
         let mut life = Life::default();
         // 1 um of the layer in 100 cycles, so 3 um in the 75 cycles after these.
-        life.push(&scene, &report(50, 0.5e-3, 0.0));
-        assert!(life.lived.iter().all(|lived| lived.cycles.is_none()));
-        life.push(&scene, &report(175, 4e-3, 0.8));
-        let cycles: Vec<_> = life.lived.iter().map(|lived| lived.cycles).collect();
-        let expected = [Some(100.0), Some(125.0), Some(50.0 + 125.0 * 0.625), None];
-        for (found, expected) in cycles.iter().zip(expected) {
-            assert_eq!(found.is_some(), expected.is_some());
-            let apart = found.unwrap_or(0.0) - expected.unwrap_or(0.0);
-            assert!(apart.abs() < 1e-9, "{found:?} {expected:?}");
+        push(&mut life, &scene, 50, 0.5e-3);
+        assert!(life.criteria.iter().all(|state| state.cycles.is_none()));
+        push(&mut life, &scene, 175, 4e-3);
+        // Half of a triangle is at least half as deep: 0.25 um after 50 cycles, with 2 um the equivalent of 1.25 um after 175.
+        let half = 50.0 + 125.0 * 0.75;
+        let expected = [Some(100.0), Some(125.0), Some(half), None];
+        for (found, expected) in life.criteria.iter().zip(expected) {
+            assert_eq!(found.cycles.is_some(), expected.is_some());
+            let apart = found.cycles.unwrap_or(0.0) - expected.unwrap_or(0.0);
+            assert!(apart.abs() < 1e-6, "{found:?} {expected:?}");
         }
+        // Where wear ends at the layer's bottom, the rate before tells when it got there.
+        scene.receptacle.wear = None;
+        let mut ended = Life::default();
+        push(&mut ended, &scene, 50, 0.5e-3);
+        push(&mut ended, &scene, 175, 1e-3);
+        let cycles = ended.criteria[0].cycles;
+        assert!(
+            cycles.is_some_and(|cycles| (cycles - 100.0).abs() < 1e-9),
+            "{cycles:?}"
+        );
         // What is reached stays.
-        life.push(&scene, &report(200, 5e-3, 0.9));
-        assert_eq!(life.lived[0].cycles.map(f64::round), Some(100.0));
-        assert!((life.lived[0].value - 5e-3).abs() < 1e-15);
+        push(&mut life, &scene, 200, 5e-3);
+        assert_eq!(life.criteria[0].cycles.map(f64::round), Some(100.0));
+        assert!((life.criteria[0].value - 5e-3).abs() < 1e-15);
     }
 }

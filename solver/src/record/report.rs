@@ -6,7 +6,7 @@ use crate::law::plating::bottoms;
 use crate::law::surface::SurfaceWear;
 use crate::model::Model;
 use crate::record::channel::declare_report;
-use crate::record::exposure::exposed_length;
+use crate::record::exposure::WornSurface;
 use crate::record::scar;
 use crate::scene::Scene;
 use crate::sides::{Side, Sides};
@@ -75,14 +75,17 @@ impl CycleReport {
             Side::Receptacle => &self.receptacle,
         }
     }
+}
 
-    /// Part of a side's scar that is worn through a layer and all layers above it.
-    pub fn exposed_fraction(&self, side: Side, layer: usize) -> f64 {
-        let exposed = self.exposed_length_mm.of(side).get(layer).copied();
-        let scar = 2.0 * self.side(side).scar_half_width_mm;
-        exposed
-            .filter(|length| *length > 0.0)
-            .map_or(0.0, |length| length / scar)
+/// The surface of a side as it is worn in a state.
+pub(crate) fn worn_surface<'a>(
+    model: &'a Model,
+    state: &'a CycleState,
+    side: Side,
+) -> WornSurface<'a> {
+    WornSurface {
+        x: model.bodies.of(side).contact_x(),
+        depth: state.depth.of(side),
     }
 }
 
@@ -131,9 +134,10 @@ impl<'a> CycleEnd<'a> {
     }
 
     fn exposed_lengths(&self, side: Side) -> Vec<f64> {
-        let body = self.model.bodies.of(side);
-        let exposed = |bottom| exposed_length(body.contact_x(), self.state.depth.of(side), bottom);
-        bottoms(self.scene.plating(side)).map(exposed).collect()
+        let worn = worn_surface(self.model, self.state, side);
+        bottoms(self.scene.plating(side))
+            .map(|bottom| worn.exposed_length(bottom))
+            .collect()
     }
 
     fn station_depths(&self) -> Vec<f64> {

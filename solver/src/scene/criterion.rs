@@ -2,23 +2,25 @@
 
 use crate::sides::Side;
 
-/// A criterion.
+/// A criterion: a part of a scar is worn to a depth.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Criterion {
-    /// The deepest wear has reached a depth.
-    WornDepth {
-        /// The side; either if absent.
-        side: Option<Side>,
-        /// The depth, mm.
-        depth_mm: f64,
-    },
-    /// A part of the scar is worn through a layer and all layers above it.
-    ExposedFraction {
-        /// The side.
-        side: Side,
-        /// Number of the layer among those of the plating, from 0.
-        layer: usize,
-        /// Length on which the layer below is exposed over that of the scar, -.
-        fraction: f64,
-    },
+pub struct Criterion {
+    /// The side that wears.
+    pub side: Side,
+    /// Part of the scar's length that is at least as deep, -; 0 for its deepest point, below 1 because a scar has no depth at its
+    /// ends.
+    pub part: f64,
+    /// The depth, mm.
+    pub depth_mm: f64,
+}
+
+impl Criterion {
+    /// The deepest point of a side has reached a depth, mm.
+    pub const fn deepest(side: Side, depth_mm: f64) -> Self {
+        Self {
+            side,
+            part: 0.0,
+            depth_mm,
+        }
+    }
 }

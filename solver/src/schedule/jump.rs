@@ -22,6 +22,10 @@ fn largest_skew(accuracy: &Accuracy) -> f64 {
 /// as long as one of the jumps has a solution.
 const CUT: u64 = 4;
 
+/// Estimated error of a jump over the largest that is allowed, from which on it is not accepted. Arbitrary: accepted jumps
+/// follow each other with errors of up to twice that.
+const REJECTED: f64 = 3.0;
+
 /// Floor of the error estimate: where nothing changes, or nothing wears, jumps grow as fast as they may. Any value far
 /// below the smallest tolerance does the same.
 const SMALLEST_ERROR: f64 = 1e-6;
@@ -154,6 +158,19 @@ impl JumpControl {
     pub(crate) fn cut(&mut self, failed: u64) -> Option<u64> {
         self.most = failed.div_ceil(CUT);
         (failed > 1).then_some(self.most)
+    }
+
+    /// A smaller jump in place of one whose estimated error is too large; `None` if it is accepted, was fixed by the scene or a
+    /// single cycle.
+    pub(crate) fn rejected(&self, accuracy: &Accuracy, stroke: Stroke, jump: u64) -> Option<u64> {
+        let allowed = stroke.largest_error(accuracy) / accuracy.refinement.cycles;
+        let is_rejected = accuracy.cycle_jump.is_none() && self.error > REJECTED * allowed;
+        (is_rejected && jump > 1).then(|| jump.div_ceil(CUT))
+    }
+
+    /// Limits the next jump.
+    pub(crate) fn limit(&mut self, most: u64) {
+        self.most = most;
     }
 
     /// The jump that the error allows, shortened to hit the end of what remains.

@@ -2,7 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::number::cycles_at_least;
+use crate::law::surface::SurfaceWear;
+use crate::number::{cycles_at_least, real_cycles};
 use crate::scene::{Criterion, Scene};
 use crate::sides::{Side, Sides};
 
@@ -26,8 +27,6 @@ pub enum Outcome {
 pub(crate) struct Progress {
     /// Physical cycles done.
     pub(crate) cycle: u64,
-    /// Largest worn depth of each side, mm.
-    pub(crate) deepest: Sides<f64>,
     /// Cycles in which a body would be worn through somewhere at the present rates.
     pub(crate) cycles_left: f64,
     /// Largest wear of a point of each side per physical cycle, as equivalent depth, mm.
@@ -36,49 +35,47 @@ pub(crate) struct Progress {
     pub(crate) worn_through: bool,
 }
 
-/// The next cycle that must be hit exactly, or beyond which a stop condition or a body's height would be passed at
-/// the present rate.
-pub(crate) fn next(scene: &Scene, now: Progress) -> u64 {
+/// Least step toward a criterion of a life over the cycles done: the life is interpolated within it. With a rate that falls as
+/// the inverse of the cycles at worst, by an eighth of the square of this part.
+const LIFE_STEP: f64 = 0.01;
+
+/// The next cycle that must be hit exactly, or beyond which a criterion or a body's height would be passed at the present rate;
+/// a criterion of a life may be passed by a small step. `depth` is that of a part of a side's scar, mm.
+pub(crate) fn next(scene: &Scene, now: Progress, depth: impl Fn(Side, f64) -> f64) -> u64 {
     let snapshots = &scene.output.snapshots_at_cycles;
     let snapshot = snapshots.iter().copied().find(|&at| at > now.cycle);
     let wear = scene.surface_wear();
-    let cycles = |side: Side, limit: f64| {
+    // The deepest point wears fastest, so that no other is deeper by then.
+    let cycles = |criterion: &Criterion| {
+        let Criterion { side, depth_mm, .. } = *criterion;
+        let depth = depth(side, criterion.part);
         let equivalent = |depth| wear.of(side).map_or(depth, |wear| wear.equivalent(depth));
-        let left = equivalent(limit) - equivalent(*now.deepest.of(side));
-        left / now.fastest_rate.of(side).max(f64::MIN_POSITIVE)
-    };
-    // How far a part of a scar is from a layer is not foreseen.
-    let limits = scene.stop.iter().map(|criterion| match *criterion {
-        Criterion::WornDepth { side, depth_mm } => {
-            let of = |side| cycles(side, depth_mm);
-            side.map_or_else(|| of(Side::Slider).min(of(Side::Receptacle)), of)
+        let deepest = wear.of(side).map_or(0.0, SurfaceWear::deepest);
+        if depth >= depth_mm || depth_mm > deepest {
+            f64::INFINITY
+        } else {
+            let left = equivalent(depth_mm) - equivalent(depth);
+            left / now.fastest_rate.of(side).max(f64::MIN_POSITIVE)
         }
-        Criterion::ExposedFraction { .. } => f64::INFINITY,
-    });
-    let cycles = limits.fold(now.cycles_left, f64::min);
+    };
+    let least = LIFE_STEP * real_cycles(now.cycle);
+    let lives = scene.life.iter().map(|life| cycles(life).max(least));
+    let cycles = scene.stop.iter().map(cycles).chain(lives);
+    let cycles = cycles.fold(now.cycles_left, f64::min);
     snapshot
         .unwrap_or(scene.cycles)
         .min(scene.cycles)
         .min(now.cycle.saturating_add(cycles_at_least(cycles.floor())))
 }
 
-/// How the run ends here, if it does; `exposed` is the part of a side's scar that is worn through a layer.
+/// How the run ends here, if it does; `depth` is that of a part of a side's scar, mm.
 pub(crate) fn end(
     scene: &Scene,
     now: Progress,
-    exposed: impl Fn(Side, usize) -> f64,
+    depth: impl Fn(Side, f64) -> f64,
 ) -> Option<Outcome> {
-    let reached = |criterion: &Criterion| match *criterion {
-        Criterion::WornDepth { side, depth_mm } => {
-            let of = |side| *now.deepest.of(side) >= depth_mm;
-            side.map_or_else(|| of(Side::Slider) || of(Side::Receptacle), of)
-        }
-        Criterion::ExposedFraction {
-            side,
-            layer,
-            fraction,
-        } => exposed(side, layer) >= fraction,
-    };
+    let reached =
+        |criterion: &Criterion| depth(criterion.side, criterion.part) >= criterion.depth_mm;
     if scene.stop.iter().any(reached) {
         Some(Outcome::StopCondition)
     } else if now.worn_through {
@@ -101,93 +98,97 @@ mod tests {
         }
     }
 
-    fn depth(depth_mm: f64) -> Criterion {
-        Criterion::WornDepth {
-            side: None,
-            depth_mm,
-        }
+    fn deepest(depth_mm: f64) -> Criterion {
+        Criterion::deepest(Side::Receptacle, depth_mm)
     }
 
-    fn unexposed(_: Side, _: usize) -> f64 {
-        0.0
+    /// A triangular scar of the receptacle.
+    fn worn(depth_mm: f64) -> impl Fn(Side, f64) -> f64 {
+        move |side, part| *of_receptacle((1.0 - part) * depth_mm).of(side)
     }
 
     const UNWORN: Progress = Progress {
         cycle: 0,
-        deepest: of_receptacle(0.0),
         cycles_left: f64::INFINITY,
         fastest_rate: of_receptacle(0.0),
         worn_through: false,
+    };
+
+    const WEARING: Progress = Progress {
+        fastest_rate: of_receptacle(1.0 / 1_024.0),
+        ..UNWORN
     };
 
     #[test]
     fn snapshots_limits_and_heights_are_not_passed() {
         let mut scene = fuzz_button();
         scene.output.snapshots_at_cycles = vec![100, 400];
-        scene.stop = vec![depth(0.25)];
-        assert_eq!(next(&scene, UNWORN), 100);
+        scene.stop = vec![deepest(0.25)];
+        assert_eq!(next(&scene, UNWORN, worn(0.0)), 100);
         let wearing = Progress {
             cycle: 100,
-            deepest: of_receptacle(0.125),
-            fastest_rate: of_receptacle(1.0 / 1_024.0),
-            ..UNWORN
+            ..WEARING
         };
-        assert_eq!(next(&scene, wearing), 228);
+        assert_eq!(next(&scene, wearing, worn(0.125)), 228);
         scene.stop.clear();
-        assert_eq!(next(&scene, wearing), 400);
+        assert_eq!(next(&scene, wearing, worn(0.125)), 400);
         let thin = Progress {
             cycles_left: 16.5,
             ..wearing
         };
-        assert_eq!(next(&scene, thin), 116);
+        assert_eq!(next(&scene, thin, worn(0.125)), 116);
+    }
+
+    #[test]
+    fn a_criterion_of_a_life_is_passed_by_a_small_step() {
+        let mut scene = fuzz_button();
+        scene.cycles = 100_000;
+        scene.stop.clear();
+        scene.output.snapshots_at_cycles.clear();
+        scene.life = vec![deepest(0.25)];
+        let next = |cycle, depth| next(&scene, Progress { cycle, ..WEARING }, worn(depth));
+        assert_eq!(next(10_000, 0.125), 10_128);
+        assert_eq!(next(10_000, 0.249), 10_100);
+        // Passed.
+        assert_eq!(next(10_000, 0.25), 100_000);
     }
 
     #[test]
     fn a_run_ends_by_the_first_of_its_conditions() {
         let mut scene = fuzz_button();
-        scene.stop = vec![depth(0.25)];
-        assert_eq!(end(&scene, UNWORN, unexposed), None);
-        let deep = Progress {
-            deepest: of_receptacle(0.25),
+        scene.stop = vec![deepest(0.25)];
+        assert_eq!(end(&scene, UNWORN, worn(0.0)), None);
+        let consumed = Progress {
             worn_through: true,
             ..UNWORN
         };
-        assert_eq!(end(&scene, deep, unexposed), Some(Outcome::StopCondition));
+        assert_eq!(
+            end(&scene, consumed, worn(0.25)),
+            Some(Outcome::StopCondition)
+        );
         scene.stop.clear();
-        assert_eq!(end(&scene, deep, unexposed), Some(Outcome::WornThrough));
+        assert_eq!(
+            end(&scene, consumed, worn(0.25)),
+            Some(Outcome::WornThrough)
+        );
         let last = Progress {
             cycle: scene.cycles,
             ..UNWORN
         };
-        assert_eq!(end(&scene, last, unexposed), Some(Outcome::Completed));
+        assert_eq!(end(&scene, last, worn(0.25)), Some(Outcome::Completed));
     }
 
     #[test]
-    fn a_side_and_an_exposed_part_end_a_run() {
+    fn the_other_side_or_a_smaller_part_does_not_end_a_run() {
         let mut scene = fuzz_button();
-        let deep = Progress {
-            deepest: of_receptacle(0.25),
-            ..UNWORN
-        };
-        scene.stop = vec![Criterion::WornDepth {
-            side: Some(Side::Slider),
-            depth_mm: 0.25,
+        scene.stop = vec![Criterion::deepest(Side::Slider, 0.25)];
+        assert_eq!(end(&scene, UNWORN, worn(0.25)), None);
+        scene.stop = vec![Criterion {
+            part: 0.5,
+            ..deepest(0.25)
         }];
-        assert_eq!(end(&scene, deep, unexposed), None);
-        scene.stop = vec![Criterion::ExposedFraction {
-            side: Side::Receptacle,
-            layer: 1,
-            fraction: 0.5,
-        }];
-        assert_eq!(end(&scene, deep, unexposed), None);
-        let half = |side, layer| {
-            if side == Side::Receptacle && layer == 1 {
-                0.5
-            } else {
-                0.0
-            }
-        };
-        assert_eq!(end(&scene, deep, half), Some(Outcome::StopCondition));
+        assert_eq!(end(&scene, UNWORN, worn(0.25)), None);
+        assert_eq!(end(&scene, UNWORN, worn(0.5)), Some(Outcome::StopCondition));
     }
 
     #[test]
@@ -200,12 +201,14 @@ mod tests {
         scene.receptacle.wear = Some(WearLaw::Archard {
             k_over_h_per_mpa: 4e-8,
         });
-        scene.stop = vec![depth(0.25)];
-        let wearing = Progress {
-            fastest_rate: of_receptacle(1.0 / 1_024.0),
-            ..UNWORN
-        };
+        scene.stop = vec![deepest(0.25)];
         // 128 cycles through the layer, and 32 more as deep below it.
-        assert_eq!(next(&scene, wearing), 160);
+        assert_eq!(next(&scene, WEARING, worn(0.0)), 160);
+        // A base that does not wear is never worn to a depth.
+        scene.receptacle.wear = None;
+        scene.cycles = 10_000;
+        assert_eq!(next(&scene, WEARING, worn(0.0)), 10_000);
+        scene.stop = vec![deepest(0.125)];
+        assert_eq!(next(&scene, WEARING, worn(0.0)), 128);
     }
 }

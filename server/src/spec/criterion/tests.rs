@@ -16,34 +16,24 @@ fn plated(rest: &str) -> String {
     )
 }
 
-fn depth(side: Side, depth_mm: f64) -> Criterion {
-    Criterion::WornDepth {
-        side: Some(side),
-        depth_mm,
-    }
-}
-
 #[test]
 fn the_first_exposure_of_every_layer_ends_a_life_by_default() {
     let resolved = resolved(&plated(""));
     let expected = [
-        depth(Side::Slider, 1e-3),
-        depth(Side::Receptacle, 2e-3),
-        depth(Side::Receptacle, 5e-3),
+        Criterion::deepest(Side::Slider, 1e-3),
+        Criterion::deepest(Side::Receptacle, 2e-3),
+        Criterion::deepest(Side::Receptacle, 5e-3),
     ];
     assert_eq!(resolved.scene.life.len(), 3);
     for (found, expected) in resolved.scene.life.iter().zip(expected) {
-        let (
-            Criterion::WornDepth { side: a, depth_mm },
-            Criterion::WornDepth {
-                side: b,
-                depth_mm: to,
-            },
-        ) = (*found, expected)
-        else {
-            panic!("a depth: {found:?}");
-        };
-        assert!(a == b && (depth_mm - to).abs() < 1e-15, "{found:?}");
+        assert!(
+            found.side == expected.side && found.part <= 0.0,
+            "{found:?}"
+        );
+        assert!(
+            (found.depth_mm - expected.depth_mm).abs() < 1e-15,
+            "{found:?}"
+        );
     }
 }
 
@@ -53,23 +43,32 @@ fn a_criterion_without_a_side_is_about_each_plated_one() {
         {"kind":"exposed_fraction","fraction":0.1,"layer":2,"side":"receptacle"},{"kind":"resistance","mohm":10}]}"#;
     let resolved = resolved(&plated(rest));
     assert_eq!(resolved.scene.stop.len(), 2);
-    let exposed = |side, layer, fraction| Criterion::ExposedFraction {
-        side,
-        layer,
-        fraction,
+    let exposed = |side, part, depth_mm| Criterion {
+        part,
+        ..Criterion::deepest(side, depth_mm)
     };
     assert_eq!(
         resolved.scene.life,
         [
-            exposed(Side::Slider, 0, 0.5),
-            exposed(Side::Receptacle, 1, 0.5),
-            exposed(Side::Receptacle, 0, 0.1)
+            exposed(Side::Slider, 0.5, 1e-3),
+            exposed(Side::Receptacle, 0.5, 5e-3),
+            exposed(Side::Receptacle, 0.1, 2e-3)
         ]
     );
     // The resistance, which is not modelled, keeps its place.
     assert_eq!(
         resolved.spec.life.criteria.map(|criteria| criteria.len()),
         Some(4)
+    );
+}
+
+#[test]
+fn a_layer_that_one_side_has_needs_no_side() {
+    let rest = r#","stop":[{"kind":"first_exposure","layer":2}]"#;
+    let resolved = resolved(&plated(rest));
+    assert_eq!(
+        resolved.scene.stop,
+        [Criterion::deepest(Side::Receptacle, 2e-3)]
     );
 }
 

@@ -260,6 +260,7 @@ mod tests {
                 wear: Sides::default(),
                 load: 1.0,
                 spring: 0.0,
+                modulus: 1.0,
             },
         }
     }

@@ -77,7 +77,8 @@ impl Correction {
             Unknown::Shear(i) => -it.slip[i],
         });
         self.change.extend(residuals);
-        self.change.push(partition.balance(problem, it));
+        let modulus = problem.pair.interface.modulus;
+        self.change.push(partition.balance(problem, it) / modulus);
     }
 
     fn set_conditions(&mut self, problem: &Problem<'_>, partition: &Partition, it: &Iterate) {

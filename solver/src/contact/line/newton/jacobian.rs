@@ -1,4 +1,7 @@
 //! The Jacobian of an increment: equations of the unknowns, in their order, and the vertical balance.
+//!
+//! The balance is divided by the contact modulus E*: as a length, like the gaps beside it, it does not make the pivots depend on the
+//! unit of stress.
 
 use super::super::band::Band;
 use super::super::problem::{Iterate, Problem};
@@ -34,6 +37,7 @@ impl Jacobian {
         let n = it.status.len();
         let unknowns = &partition.unknowns;
         let span = span(unknowns);
+        let modulus = problem.pair.interface.modulus;
         self.gap.resize(n, 0.0);
         self.slip.resize(n, 0.0);
         let local = |node: usize| LocalState {
@@ -62,7 +66,13 @@ impl Jacobian {
                 }
             }
             let balance = unknown.force(problem)[1];
-            write_column(unknowns, &self.gap, slip, balance, matrix.column_mut(u));
+            write_column(
+                unknowns,
+                &self.gap,
+                slip,
+                balance / modulus,
+                matrix.column_mut(u),
+            );
         }
         for i in span.clone() {
             self.gap[i] = 1.0 + problem.sag[i];
@@ -72,7 +82,13 @@ impl Jacobian {
             self.opening.add_product(&span, &self.slip, &mut self.gap);
         }
         let height = matrix.column_mut(unknowns.len());
-        write_column(unknowns, &self.gap, &self.slip, -problem.spring, height);
+        write_column(
+            unknowns,
+            &self.gap,
+            &self.slip,
+            -problem.spring / modulus,
+            height,
+        );
     }
 }
 
