@@ -18,6 +18,8 @@ use trial::Trial;
 
 /// Largest number of queued and running jobs in the short form and in the long one: some, so that submissions are interrupted too.
 const AHEAD: (usize, usize) = (12, 60);
+/// Most jobs beyond those that are asked for, until every fault was injected: the disk holds the results of all of them.
+const MOST_MORE: usize = 60;
 
 /// The specifications of the jobs, in rotation.
 fn specs() -> Vec<Value> {
@@ -64,7 +66,8 @@ async fn chaos(least_jobs: usize, seed: u64) {
     let specs = specs();
     let expected = uninterrupted(&specs).await;
     let ahead = least_jobs.clamp(AHEAD.0, AHEAD.1);
-    let mut trial = Trial::new(least_jobs, seed);
+    let most_jobs = least_jobs + MOST_MORE;
+    let mut trial = Trial::new(most_jobs, seed);
     loop {
         let open = trial.open().await;
         let is_last = trial.accepted.len() >= least_jobs && trial.had_every_fault();
@@ -72,7 +75,8 @@ async fn chaos(least_jobs: usize, seed: u64) {
             break;
         }
         if !is_last {
-            for _ in open..ahead {
+            let room = most_jobs.saturating_sub(trial.accepted.len());
+            for _ in 0..ahead.saturating_sub(open).min(room) {
                 trial.submit(&specs).await;
             }
         }
