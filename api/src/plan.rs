@@ -6,7 +6,7 @@ use serde::{Deserialize, Deserializer, Serialize};
 use utoipa::ToSchema;
 
 use crate::enum_value::string_enum;
-use crate::spec::Spec;
+use crate::spec::{DerivedMotion, Spec};
 
 string_enum! {
     /// A decision about an effect.
@@ -101,6 +101,9 @@ pub struct Plan {
     /// memory, output, computed cycles, increments, and processor seconds (`cpu_s`), which are absent until the machine
     /// is calibrated and if that fails.
     pub estimates: BTreeMap<String, f64>,
+    /// How the motion was derived from a vibration, a thermal cycle or an insertion.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub motion: Option<DerivedMotion>,
     /// Values that were probably written in another unit than that of their field. They are accepted as they are.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub warnings: Vec<Warning>,

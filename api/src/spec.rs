@@ -26,7 +26,7 @@ pub use interface::{Friction, FrictionLaw, Interface, Sides, WearLaw, WearLawNam
 pub use life::{Criterion, CriterionKind, LifeSettings, Part};
 pub use load::{Load, LoadKind};
 pub use materials::{Material, MaterialProperties, Materials};
-pub use motion::{Drive, Motion, MotionKind, Waveform};
+pub use motion::{DerivedMotion, Drive, Motion, MotionKind, PsdPoint, Waveform};
 pub use plating::{PlatingLayer, Platings};
 pub use read::{ParseError, pointer_token};
 pub use settings::{Accuracy, CycleJump, Output, Overrides, Preset, Stop, Switch};

@@ -8,7 +8,7 @@ pub(crate) mod protocol;
 use std::ops::ControlFlow;
 
 use api::results::{Cost, Summary};
-use api::spec::LifeSettings;
+use api::spec::{DerivedMotion, LifeSettings};
 use solver::SolveError;
 use solver::error_control;
 use solver::observer::{self, Event, Observer};
@@ -29,6 +29,8 @@ pub struct Case<'a> {
     pub scene: &'a Scene,
     /// The resolved criteria of its life, and how wear coefficients scatter.
     pub life: &'a LifeSettings,
+    /// How its motion was derived.
+    pub motion: Option<&'a DerivedMotion>,
 }
 
 impl<'a> From<&'a Resolved> for Case<'a> {
@@ -36,6 +38,7 @@ impl<'a> From<&'a Resolved> for Case<'a> {
         Self {
             scene: &resolved.scene,
             life: &resolved.spec.life,
+            motion: resolved.motion.as_ref(),
         }
     }
 }
@@ -57,7 +60,11 @@ pub fn run(
 /// # Errors
 /// [`Failure`] with the engine's numbers.
 pub fn run_from(
-    Case { scene, life }: Case<'_>,
+    Case {
+        scene,
+        life,
+        motion,
+    }: Case<'_>,
     from: Option<Checkpoint>,
     policy: &CheckpointPolicy,
     on: &mut dyn FnMut(Line) -> ControlFlow<()>,
@@ -80,7 +87,10 @@ pub fn run_from(
     }
     let summary = ended?;
     let life = life::entries(life, scene, &summary.life, summary.last.cycle);
-    Ok(history::summary(&summary, recorder.watch.cost(), life))
+    Ok(Summary {
+        motion: motion.cloned(),
+        ..history::summary(&summary, recorder.watch.cost(), life)
+    })
 }
 
 struct Recorder<'a> {

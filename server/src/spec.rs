@@ -28,7 +28,7 @@ mod unit;
 use std::collections::BTreeMap;
 
 use api::problem::Fault;
-use api::spec::{ParseError, Spec, SystemKind};
+use api::spec::{DerivedMotion, ParseError, Spec, SystemKind};
 use solver::law::friction;
 use solver::model::Layout;
 use solver::scene::{Body, Scene};
@@ -55,6 +55,8 @@ pub struct Resolved {
     pub scene: Scene,
     /// Its mesh lines, which show that it can be meshed.
     pub layout: Layout,
+    /// How its motion was derived from a vibration, a thermal cycle or an insertion.
+    pub motion: Option<DerivedMotion>,
     /// Values that were probably written in another unit.
     pub warnings: Vec<Fault>,
 }
@@ -100,7 +102,11 @@ pub fn resolve(spec: &Spec) -> Result<Resolved, Vec<Fault>> {
     let Some(kind) = diagnostics.enum_member("/system/kind", &spec.system.kind) else {
         return Err(diagnostics.into_faults());
     };
-    let (mut filled, scene) = fill(spec, kind, &mut diagnostics);
+    let Filled {
+        spec: mut filled,
+        scene,
+        motion,
+    } = fill(spec, kind, &mut diagnostics);
     if !diagnostics.is_clean() {
         return Err(diagnostics.into_faults());
     }
@@ -124,25 +130,35 @@ pub fn resolve(spec: &Spec) -> Result<Resolved, Vec<Fault>> {
     let mut warnings = diagnostics.warnings().to_vec();
     warnings.extend(law_range::warnings(&filled, &scene));
     warnings.extend(effects::warnings(&scene));
+    let sticks = motion.iter().filter(|motion| motion.sticks);
+    warnings.extend(sticks.map(|motion| Fault::new("/motion", motion.reason.clone())));
     filled.provenance = diagnostics.finish()?;
     Ok(Resolved {
         spec: filled,
         kind,
         scene,
         layout,
+        motion,
         warnings,
     })
+}
+
+/// A specification with its defaults.
+struct Filled {
+    spec: Spec,
+    scene: Scene,
+    motion: Option<DerivedMotion>,
 }
 
 /// The scene of a specification without faults.
 fn scene_of(spec: &Spec, kind: SystemKind) -> Option<Scene> {
     let mut diagnostics = Diagnostics::default();
-    let (_, scene) = fill(spec, kind, &mut diagnostics);
+    let Filled { scene, .. } = fill(spec, kind, &mut diagnostics);
     diagnostics.is_clean().then_some(scene)
 }
 
 /// The specification with every default filled in, and its scene.
-fn fill(spec: &Spec, kind: SystemKind, diagnostics: &mut Diagnostics) -> (Spec, Scene) {
+fn fill(spec: &Spec, kind: SystemKind, diagnostics: &mut Diagnostics) -> Filled {
     let preset = (system::definition(kind).preset)();
     let (system, shapes) = system::resolve(kind, &spec.system, diagnostics);
     let (materials, elastic) = materials::resolve(&spec.materials, &preset, diagnostics);
@@ -157,7 +173,11 @@ fn fill(spec: &Spec, kind: SystemKind, diagnostics: &mut Diagnostics) -> (Spec, 
     let friction = friction::coefficient(laws.friction);
     let (platings, layers) = plating::resolve(&spec.plating, friction, diagnostics);
     let (load, line_load) = load::resolve(spec.load.as_ref(), &preset, &shapes, diagnostics);
-    let motion = motion::resolve(spec.motion.as_ref(), &preset, diagnostics);
+    let contact = motion::HeldContact {
+        friction,
+        force_n: load.n,
+    };
+    let motion = motion::resolve(spec.motion.as_ref(), &preset, contact, diagnostics);
     let continuous = motion.spec.distance_mm.is_some();
     let cycles = motion::cycles(spec.cycles, &motion, &preset, diagnostics);
     if continuous && (laws.wear.slider.is_some() || plated.slider) {
@@ -217,7 +237,11 @@ fn fill(spec: &Spec, kind: SystemKind, diagnostics: &mut Diagnostics) -> (Spec, 
         life: criteria,
         effects,
     };
-    (filled, scene)
+    Filled {
+        spec: filled,
+        scene,
+        motion: motion.derived,
+    }
 }
 
 /// Cycles in the histories of a resolved specification.

@@ -45,3 +45,4 @@ mod structured_log;
 mod study_of_accuracy;
 mod study_over_http;
 mod sweep;
+mod vibrated_contact;

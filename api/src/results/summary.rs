@@ -8,6 +8,7 @@ use utoipa::ToSchema;
 use crate::outcome::{Outcome, Phase};
 use crate::plan::Decision;
 use crate::results::LifeEntry;
+use crate::spec::DerivedMotion;
 
 /// One side's wear at the end.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize, ToSchema)]
@@ -174,6 +175,9 @@ pub struct Summary {
     /// Life by each criterion of the specification, in their order.
     #[serde(default)]
     pub life: Vec<LifeEntry>,
+    /// How the motion was derived from a vibration, a thermal cycle or an insertion.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub motion: Option<DerivedMotion>,
     /// What the result is to be read with, in words: errors beyond the tolerance.
     #[serde(default)]
     pub warnings: Vec<String>,

@@ -182,9 +182,14 @@ fn friction_cycle() -> Result<Vec<Row>, BenchError> {
 
 fn solved(what: impl Into<String>, size: &str, scene: &Scene) -> Result<Row, BenchError> {
     let life = &LifeSettings::default();
-    let summary = solve::run(solve::Case { scene, life }, &mut |_| {
-        ControlFlow::Continue(())
-    })?;
+    let summary = solve::run(
+        solve::Case {
+            scene,
+            life,
+            motion: None,
+        },
+        &mut |_| ControlFlow::Continue(()),
+    )?;
     let size = format!(
         "{size}{} elements, {} computed cycles, {} increments",
         summary.accuracy.contact_elements,

@@ -25,6 +25,9 @@ pub(super) fn run(spec: &Path, json: bool) -> Ended {
     write_out(effects(&plan))?;
     write_out(reasons(&plan))?;
     write_out(estimates(&plan))?;
+    if let Some(motion) = &plan.motion {
+        write_out(format!("motion: {}", motion.reason))?;
+    }
     write_out(plan.notes.join("\n"))
 }
 

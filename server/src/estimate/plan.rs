@@ -29,6 +29,7 @@ impl Estimate {
                 .into_iter()
                 .map(|(name, value)| (name.to_owned(), value))
                 .collect(),
+            motion: resolved.motion.clone(),
             warnings: resolved.warnings.iter().map(warning).collect(),
             notes: notes::notes(resolved),
         }

@@ -77,6 +77,7 @@ pub fn summary(summary: &record::Summary, cost: Cost, life: Vec<LifeEntry>) -> S
         receptacle: side(&last.receptacle);
         slider: side(&last.slider);
         life: life;
+        motion: None;
         warnings: summary.warnings.clone();
         initial: document!(Initial of summary.initial; peak_pressure_mpa, contact_half_width_mm);
         accuracy: document!(

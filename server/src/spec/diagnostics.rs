@@ -109,6 +109,33 @@ impl Diagnostics {
         value
     }
 
+    /// A required value; adds a fault if it is missing or outside the range. The least of the range stands for a missing one.
+    pub(crate) fn required(
+        &mut self,
+        pointer: &str,
+        given: Option<f64>,
+        range: &RangeInclusive<f64>,
+        needs: &str,
+    ) -> f64 {
+        let Some(value) = self.optional(pointer, given, range) else {
+            self.missing(pointer, needs);
+            return *range.start();
+        };
+        value
+    }
+
+    /// A value without a default; adds a fault if it is outside the range.
+    pub(crate) fn optional(
+        &mut self,
+        pointer: &str,
+        given: Option<f64>,
+        range: &RangeInclusive<f64>,
+    ) -> Option<f64> {
+        let value = given?;
+        self.provenance(pointer, Provenance::Given);
+        Some(self.check_range(pointer, value, range))
+    }
+
     /// Adds a fault if a count is outside the range; returns the count in any case.
     pub(crate) fn check_count<T: Into<u64> + Copy>(
         &mut self,

@@ -1,8 +1,16 @@
 //! The imposed motion, where it enters, and the number of cycles.
 
+mod contact;
+mod imposed;
+pub(in crate::spec) mod insertion;
+mod oscillator;
+mod shaken_block;
+pub(in crate::spec) mod thermal_cycle;
+pub(in crate::spec) mod vibration;
+
 use std::ops::RangeInclusive;
 
-use api::spec::{Drive, Motion, MotionKind, Provenance};
+use api::spec::{Motion, MotionKind, Provenance};
 use solver::scene;
 
 use crate::number::real;
@@ -10,13 +18,11 @@ use crate::spec::diagnostics::Diagnostics;
 use crate::spec::sourced::assumed;
 use crate::spec::system::Preset;
 use crate::spec::unit;
+pub(crate) use contact::HeldContact;
+pub(crate) use imposed::ImposedMotion;
+pub(in crate::spec) use imposed::{AMPLITUDE_MM, FREQUENCY_HZ, PERIOD_S};
+use imposed::{drive, engine_drive, period};
 
-/// mm; from below an atom to far beyond any contact. 0 is accepted too: no motion.
-pub(in crate::spec) const AMPLITUDE_MM: RangeInclusive<f64> = 1e-9..=1e4;
-/// s; a megahertz to a month.
-pub(in crate::spec) const PERIOD_S: RangeInclusive<f64> = 1e-6..=3e6;
-/// Hz; the same range as of the period.
-pub(in crate::spec) const FREQUENCY_HZ: RangeInclusive<f64> = 1.0 / 3e6..=1.0 / 1e-6;
 /// mm.
 pub(in crate::spec) const DISTANCE_MM: RangeInclusive<f64> = 1e-6..=1e12;
 /// mm/s.
@@ -28,18 +34,11 @@ pub(crate) const CONTINUOUS_PARTS: u64 = 100_000;
 /// Default speed of a continuous motion, mm/s. Quasi-static contact does not depend on it.
 const DEFAULT_SPEED_MM_S: f64 = 1.0;
 
-/// A resolved motion.
-pub(crate) struct ImposedMotion {
-    /// As written in the resolved specification.
-    pub(crate) spec: Motion,
-    pub(crate) drive: scene::Drive,
-    pub(crate) scene: scene::Motion,
-}
-
 /// Resolves the motion.
 pub(crate) fn resolve(
     given: Option<&Motion>,
     preset: &Preset,
+    contact: HeldContact,
     diagnostics: &mut Diagnostics,
 ) -> ImposedMotion {
     let provenance = match given {
@@ -50,6 +49,11 @@ pub(crate) fn resolve(
     let given = &given.cloned().unwrap_or_default();
     match diagnostics.enum_member("/motion/kind", &given.kind) {
         Some(MotionKind::Continuous) => continuous(given, diagnostics),
+        Some(MotionKind::Vibration) => vibration::resolve(given, preset, contact, diagnostics),
+        Some(MotionKind::ThermalCycle) => {
+            thermal_cycle::resolve(given, preset, contact, diagnostics)
+        }
+        Some(MotionKind::Insertion) => insertion::resolve(given, preset, diagnostics),
         Some(MotionKind::Reciprocating) => {
             let fields = [
                 "kind",
@@ -79,6 +83,17 @@ pub(crate) fn cycles(
         }
         return CONTINUOUS_PARTS;
     }
+    if let Some(cycles) = motion.duration_cycles {
+        if given.is_some() {
+            diagnostics.exclusive_fields("/cycles", "motion.duration_s");
+        }
+        if !CYCLES.contains(&cycles) {
+            let (least, most) = CYCLES.into_inner();
+            let detail = format!("{cycles} cycles in that time, {least} to {most} are allowed");
+            diagnostics.fault("/motion/duration_s", detail);
+        }
+        return cycles.max(1);
+    }
     let cycles = diagnostics.or_default("/cycles", given, preset.cycles);
     diagnostics.check_count("/cycles", cycles, &CYCLES)
 }
@@ -106,6 +121,8 @@ fn continuous(given: &Motion, diagnostics: &mut Diagnostics) -> ImposedMotion {
         },
         drive: scene::Drive::Handle,
         scene: scene::Motion::Continuous { step_mm },
+        derived: None,
+        duration_cycles: None,
     }
 }
 
@@ -115,11 +132,7 @@ fn reciprocating(given: &Motion, preset: &Preset, diagnostics: &mut Diagnostics)
         .as_ref()
         .and_then(|waveform| diagnostics.enum_member("/motion/waveform", waveform));
     let waveform = diagnostics.or_default("/motion/waveform", waveform, preset.waveform);
-    let drive = given
-        .drive
-        .as_ref()
-        .and_then(|drive| diagnostics.enum_member("/motion/drive", drive));
-    let drive = diagnostics.or_default("/motion/drive", drive, preset.drive);
+    let drive = drive(given, preset, diagnostics);
     let amplitude = given.amplitude_mm;
     let amplitude_mm =
         diagnostics.or_default("/motion/amplitude_mm", amplitude, preset.amplitude_mm);
@@ -132,7 +145,7 @@ fn reciprocating(given: &Motion, preset: &Preset, diagnostics: &mut Diagnostics)
         amplitude_mm: Some(amplitude_mm),
         ..Motion::default()
     };
-    let period_s = period(given, preset, &mut spec, diagnostics);
+    let period_s = period(given, preset.period_s, &mut spec, diagnostics);
     ImposedMotion {
         spec,
         drive: engine_drive(drive),
@@ -140,41 +153,7 @@ fn reciprocating(given: &Motion, preset: &Preset, diagnostics: &mut Diagnostics)
             amplitude_mm,
             period_s,
         },
-    }
-}
-
-/// The period, from the given one of period and frequency.
-fn period(
-    given: &Motion,
-    preset: &Preset,
-    filled: &mut Motion,
-    diagnostics: &mut Diagnostics,
-) -> f64 {
-    match (given.period_s, given.frequency_hz) {
-        (Some(_), Some(_)) => {
-            diagnostics.exclusive_fields("/motion/period_s", "frequency_hz");
-            preset.period_s.value
-        }
-        (None, Some(frequency_hz)) => {
-            diagnostics.provenance("/motion/frequency_hz", Provenance::Given);
-            filled.frequency_hz = Some(frequency_hz);
-            diagnostics.check_range("/motion/frequency_hz", frequency_hz, &FREQUENCY_HZ);
-            let typical = &unit::FREQUENCY_HZ;
-            diagnostics.check_unit("/motion/frequency_hz", Some(frequency_hz), typical);
-            1.0 / frequency_hz
-        }
-        (period_s, None) => {
-            let period_s = diagnostics.or_default("/motion/period_s", period_s, preset.period_s);
-            filled.period_s = Some(period_s);
-            diagnostics.check_range("/motion/period_s", period_s, &PERIOD_S)
-        }
-    }
-}
-
-/// In quasi-static contact only the relative motion matters, not which body is held.
-fn engine_drive(drive: Drive) -> scene::Drive {
-    match drive {
-        Drive::SliderTop | Drive::ReceptacleBase => scene::Drive::Handle,
-        Drive::SliderBody => scene::Drive::WholeBody,
+        derived: None,
+        duration_cycles: None,
     }
 }

@@ -73,7 +73,7 @@ fn stations(
         &(-half..=half),
         diagnostics,
     );
-    let amplitude_mm = motion.spec.amplitude_mm.unwrap_or_default();
+    let amplitude_mm = motion.scene.amplitude_mm();
     let default = assumed(default_stations(amplitude_mm, half));
     diagnostics.or_default(POINTER, given.stations_mm.clone(), default)
 }

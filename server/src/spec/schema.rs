@@ -9,6 +9,7 @@ use solver::scene::MOST_LAYERS;
 use crate::reference::materials::LibraryMaterial;
 use crate::spec::diagnostics::NAME_LIMIT;
 use crate::spec::law::{coulomb, dissipated_energy, saracibar, wear_coefficient};
+use crate::spec::motion::{insertion, thermal_cycle, vibration};
 use crate::spec::{
     LABEL_LIMIT, LABEL_TEXT_LIMIT, accuracy, criterion, effects, life, load, materials, motion,
     output, plating, stop, system,
@@ -58,6 +59,27 @@ fn numbers() -> Vec<(&'static str, &'static str, RangeInclusive<f64>)> {
         ("Motion", "frequency_hz", motion::FREQUENCY_HZ),
         ("Motion", "distance_mm", motion::DISTANCE_MM),
         ("Motion", "speed_mm_s", motion::SPEED_MM_S),
+        ("Motion", "acceleration_g", vibration::ACCELERATION_G),
+        ("Motion", "duration_s", vibration::DURATION_S),
+        ("Motion", "mass_g", vibration::MASS_G),
+        (
+            "Motion",
+            "tangential_stiffness_n_per_mm",
+            vibration::STIFFNESS_N_PER_MM,
+        ),
+        ("Motion", "natural_frequency_hz", motion::FREQUENCY_HZ),
+        ("Motion", "quality_factor", vibration::QUALITY),
+        ("Motion", "clearance_mm", vibration::CLEARANCE_MM),
+        ("Motion", "delta_t_k", thermal_cycle::DELTA_T_K),
+        ("Motion", "length_mm", thermal_cycle::LENGTH_MM),
+        (
+            "Motion",
+            "expansion_mismatch_per_k",
+            thermal_cycle::MISMATCH_PER_K,
+        ),
+        ("Motion", "wipe_mm", insertion::WIPE_MM),
+        ("PsdPoint", "frequency_hz", motion::FREQUENCY_HZ),
+        ("PsdPoint", "g2_per_hz", vibration::G2_PER_HZ),
         ("Friction", "coefficient", coulomb::RANGE),
         ("WearLaw", "k", wear_coefficient::K),
         (
@@ -107,6 +129,12 @@ fn others() -> Vec<(&'static str, &'static str, Value)> {
         ("Spec", "cycles", cycles),
         ("Spec", "stop", json!({"maxItems": stop::STOP_LIMIT})),
         ("LifeSettings", "contacts", counts(&life::CONTACTS)),
+        ("Motion", "contacts", counts(&vibration::CONTACTS)),
+        (
+            "Motion",
+            "psd",
+            json!({"minItems": 2, "maxItems": vibration::MOST_POINTS}),
+        ),
         (
             "LifeSettings",
             "criteria",
@@ -216,11 +244,26 @@ mod tests {
             "Motion" => {
                 let kind = match field {
                     "distance_mm" | "speed_mm_s" => "continuous",
-                    _ => "reciprocating",
+                    "wipe_mm" => "insertion",
+                    "delta_t_k" | "length_mm" | "expansion_mismatch_per_k" => "thermal_cycle",
+                    "period_s" | "frequency_hz" => "reciprocating",
+                    _ => "vibration",
                 };
                 (
                     "/motion",
                     format!(r#""motion":{{"kind":"{kind}","{field}":{value}}}"#),
+                )
+            }
+            "PsdPoint" => {
+                let other = match field {
+                    "frequency_hz" => "g2_per_hz",
+                    _ => "frequency_hz",
+                };
+                (
+                    "/motion/psd/0",
+                    format!(
+                        r#""motion":{{"kind":"vibration","psd":[{{"{field}":{value},"{other}":1}}]}}"#
+                    ),
                 )
             }
             "Friction" => (
