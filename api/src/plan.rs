@@ -19,6 +19,8 @@ string_enum! {
         ForcedOn = "forced_on",
         /// Left out because it is switched off.
         ForcedOff = "forced_off",
+        /// The scene calls for it and the specification lacks what it needs, which the reason names.
+        InputMissing = "input_missing",
     }
 }
 

@@ -4,6 +4,7 @@
 //! `kind` or `law` within one flat object, so that every fault has its JSON pointer.
 
 mod count;
+mod environment;
 mod interface;
 mod life;
 mod load;
@@ -22,6 +23,7 @@ use utoipa::ToSchema;
 
 use crate::enum_value::string_enum;
 pub use crate::enum_value::{EnumValue, StringEnum};
+pub use environment::Environment;
 pub use interface::{Friction, FrictionLaw, Interface, Sides, WearLaw, WearLawName};
 pub use life::{Criterion, CriterionKind, LifeSettings, Part};
 pub use load::{Load, LoadKind};
@@ -73,6 +75,9 @@ pub struct Spec {
     /// The normal load.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub load: Option<Load>,
+    /// Surroundings of the contact.
+    #[serde(default)]
+    pub environment: Environment,
     /// The imposed motion.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub motion: Option<Motion>,

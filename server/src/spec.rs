@@ -9,6 +9,7 @@ mod cause;
 mod criterion;
 mod diagnostics;
 mod effects;
+mod environment;
 mod law;
 mod law_range;
 mod life;
@@ -198,12 +199,14 @@ fn fill(spec: &Spec, kind: SystemKind, diagnostics: &mut Diagnostics) -> Filled 
     let stop = stop::resolve(&spec.stop, surfaces, diagnostics);
     let (life, criteria) = life::resolve(&spec.life, surfaces, diagnostics);
     let effects = effects::resolve(&spec.effects, diagnostics);
+    let environment = environment::resolve(&spec.environment, diagnostics);
     let filled = Spec {
         system,
         materials,
         interface,
         plating: platings,
         load: Some(load),
+        environment,
         motion: Some(motion.spec),
         cycles: (!continuous).then_some(cycles),
         accuracy,
@@ -212,18 +215,24 @@ fn fill(spec: &Spec, kind: SystemKind, diagnostics: &mut Diagnostics) -> Filled 
         provenance: BTreeMap::new(),
         ..spec.clone()
     };
+    let softening = environment::softening(&filled, diagnostics);
+    let conductivity = environment::conductivities(&filled);
     let scene = Scene {
         slider: Body {
             shape: shapes.slider,
             elastic: elastic.slider,
             wear: laws.wear.slider,
             plating: layers.slider,
+            conductivity_w_mk: conductivity.slider,
+            softening: softening.slider,
         },
         receptacle: Body {
             shape: shapes.block,
             elastic: elastic.receptacle,
             wear: laws.wear.receptacle,
             plating: layers.receptacle,
+            conductivity_w_mk: conductivity.receptacle,
+            softening: softening.receptacle,
         },
         friction: laws.friction,
         load_n_per_mm: line_load.n_per_mm,

@@ -2,6 +2,8 @@
 
 pub mod elastic;
 pub mod friction;
+pub mod heating;
 pub mod plating;
+pub mod softening;
 pub mod surface;
 pub mod wear;

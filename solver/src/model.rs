@@ -12,7 +12,7 @@ use crate::law::elastic::{Lame, contact_modulus, plane_strain_compliance};
 use crate::law::friction;
 use crate::law::surface::SurfaceWear;
 use crate::mesh::{ColumnMesh, MeshError};
-use crate::scene::{Drive, Elastic, Scene};
+use crate::scene::{Drive, Elastic, Scene, SurfaceEffects};
 use crate::sides::{Side, Sides};
 
 pub use layout::{BodyLayout, Layout};
@@ -29,8 +29,8 @@ pub struct Model {
     pub interface: Interface,
     /// Whether the meshes follow the worn surfaces.
     pub relocates: bool,
-    /// Whether layers below the outermost one are part of it.
-    pub plating: bool,
+    /// Effects on the wear of the surfaces that are part of it.
+    pub surface: SurfaceEffects,
     /// The lengths that the mesh was chosen from.
     pub sizes: Sizes,
 }
@@ -128,14 +128,22 @@ pub fn build(scene: &Scene, plan: &EffectsPlan) -> Result<Model, MeshError> {
         },
         interface,
         relocates: plan.simulates(Effect::Relocation),
-        plating: plan.simulates(Effect::Plating),
+        surface: surface_effects(plan),
         sizes: layout.sizes,
     })
 }
 
+/// The effects on the wear of a surface that a plan simulates.
+fn surface_effects(plan: &EffectsPlan) -> SurfaceEffects {
+    SurfaceEffects {
+        plating: plan.simulates(Effect::Plating),
+        softening: plan.simulates(Effect::ThermalSoftening),
+    }
+}
+
 /// The interface of a scene with the laws of simulated effects only.
 fn interface(scene: &Scene, plan: &EffectsPlan, sizes: &Sizes) -> Interface {
-    let plated = plan.simulates(Effect::Plating);
+    let surface = surface_effects(plan);
     let on = |effect| plan.simulates(effect);
     let tangential = match (on(Effect::Friction), on(Effect::StickMemory)) {
         (true, true) => Tangential::StickSlip,
@@ -150,8 +158,8 @@ fn interface(scene: &Scene, plan: &EffectsPlan, sizes: &Sizes) -> Interface {
         friction: friction::coefficient(scene.friction),
         tangential,
         wear: Sides {
-            slider: (scene.slider.surface_wear(plated)).filter(|_| on(Effect::SliderWear)),
-            receptacle: (scene.receptacle.surface_wear(plated))
+            slider: (scene.slider.surface_wear(surface)).filter(|_| on(Effect::SliderWear)),
+            receptacle: (scene.receptacle.surface_wear(surface))
                 .filter(|_| on(Effect::ReceptacleWear)),
         },
         load: scene.load_n_per_mm,
@@ -304,7 +312,7 @@ impl Model {
     pub(crate) fn follow(&mut self, scene: &Scene, plan: &EffectsPlan) {
         self.interface = interface(scene, plan, &self.sizes);
         self.relocates = plan.simulates(Effect::Relocation);
-        self.plating = plan.simulates(Effect::Plating);
+        self.surface = surface_effects(plan);
     }
 
     /// The model with zones of another width, over that of the layout.

@@ -19,6 +19,7 @@ use crate::sides::{Side, Sides};
 pub use crate::law::elastic::Elastic;
 pub use crate::law::friction::Friction;
 pub use crate::law::plating::{Layer, MOST_LAYERS};
+pub use crate::law::softening::Softening;
 pub use crate::law::wear::WearLaw;
 
 /// A contact system with its loads, motion and numerical settings.
@@ -70,17 +71,29 @@ impl Scene {
     /// Wear of both surfaces with the effects that are switched off left out.
     pub(crate) fn surface_wear(&self) -> Sides<Option<SurfaceWear>> {
         let is_on = |effect| self.effects.of(effect) != Some(false);
-        let plated = is_on(Effect::Plating);
+        let on = SurfaceEffects {
+            plating: is_on(Effect::Plating),
+            softening: is_on(Effect::ThermalSoftening),
+        };
         let (slider, receptacle) = (&self.slider, &self.receptacle);
         Sides {
             slider: slider
-                .surface_wear(plated)
+                .surface_wear(on)
                 .filter(|_| is_on(Effect::SliderWear)),
             receptacle: receptacle
-                .surface_wear(plated)
+                .surface_wear(on)
                 .filter(|_| is_on(Effect::ReceptacleWear)),
         }
     }
+}
+
+/// Effects on the wear of a surface that are simulated.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct SurfaceEffects {
+    /// Layers below the outermost one.
+    pub plating: bool,
+    /// Change of the hardness with the temperature.
+    pub softening: bool,
 }
 
 /// A deformable body: shape, elasticity, wear.
@@ -94,22 +107,47 @@ pub struct Body<S> {
     pub wear: Option<WearLaw>,
     /// Layers over the base, from the surface down; at most [`MOST_LAYERS`].
     pub plating: Vec<Layer>,
+    /// Its thermal conductivity, W/(m K), if it is known.
+    pub conductivity_w_mk: Option<f64>,
+    /// Its hardnesses at the temperature of the contact.
+    pub softening: Softening,
 }
 
 impl<S> Body<S> {
-    /// Wear of its surface, with all of its layers or with the outermost one at every depth.
-    pub(crate) fn surface_wear(&self, plated: bool) -> Option<SurfaceWear> {
-        match self.plating.first() {
-            Some(outer) if !plated => Some(SurfaceWear::Law(WearLaw::Archard {
+    /// Wear of its surface by the surface effects that are simulated: with all of its layers or with the outermost one at every
+    /// depth, at the temperature of the contact or at that of the measured hardness.
+    pub(crate) fn surface_wear(&self, on: SurfaceEffects) -> Option<SurfaceWear> {
+        let ratio = |layer| {
+            if on.softening {
+                self.softening.ratio(layer)
+            } else {
+                1.0
+            }
+        };
+        let softened = |(number, layer): (usize, &Layer)| Layer {
+            rate_per_mpa: layer.rate_per_mpa / ratio(number),
+            ..*layer
+        };
+        let layers = self.plating.iter().enumerate().map(softened);
+        let layers: Vec<Layer> = layers.collect();
+        match layers.first() {
+            Some(outer) if !on.plating => Some(SurfaceWear::Law(WearLaw::Archard {
                 k_over_h_per_mpa: outer.rate_per_mpa,
             })),
-            _ => SurfaceWear::new(&self.plating, self.wear),
+            _ => {
+                let base = self.wear.map(|law| law.softened(ratio(layers.len())));
+                SurfaceWear::new(&layers, base)
+            }
         }
     }
 
     /// Specific wear rate of its outermost layer, or of the bare body, 1/MPa, if it is the same in every state.
     pub fn outer_rate(&self) -> Option<f64> {
-        self.surface_wear(false).and_then(SurfaceWear::uniform)
+        let bare = SurfaceEffects {
+            plating: false,
+            softening: true,
+        };
+        self.surface_wear(bare).and_then(SurfaceWear::uniform)
     }
 }
 

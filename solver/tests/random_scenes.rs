@@ -14,7 +14,9 @@ use std::f64::consts::PI;
 use fastrand::Rng;
 use solver::effects::Switches;
 use solver::model::Layout;
-use solver::scene::{Accuracy, Body, Drive, Friction, Layer, Motion, Output, Scene, WearLaw};
+use solver::scene::{
+    Accuracy, Body, Drive, Friction, Layer, Motion, Output, Scene, Softening, WearLaw,
+};
 use solver::sides::Sides;
 
 use contact::{Numbers, gross_slip, shapes};
@@ -221,12 +223,16 @@ fn scene(u: &mut Numbers, regime: Regime, worn: Worn) -> Scene {
             elastic: contact.slider,
             wear: wear.slider,
             plating: Vec::new(),
+            conductivity_w_mk: None,
+            softening: Softening::default(),
         },
         receptacle: Body {
             shape: block,
             elastic: contact.receptacle,
             wear: wear.receptacle,
             plating: Vec::new(),
+            conductivity_w_mk: None,
+            softening: Softening::default(),
         },
         friction: if frictionless {
             Friction::Frictionless

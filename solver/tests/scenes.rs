@@ -3,7 +3,7 @@
 use solver::effects::Switches;
 use solver::scene::{
     Accuracy, BlockShape, Body, Drive, Elastic, Friction, Motion, Output, Scene, SliderShape,
-    WearLaw,
+    Softening, WearLaw,
 };
 
 const STEEL: Elastic = Elastic {
@@ -31,6 +31,8 @@ pub(crate) fn mccoll() -> Scene {
             elastic: STEEL,
             wear: wear(1.9e-8),
             plating: Vec::new(),
+            conductivity_w_mk: None,
+            softening: Softening::default(),
         },
         receptacle: Body {
             shape: BlockShape {
@@ -41,6 +43,8 @@ pub(crate) fn mccoll() -> Scene {
             elastic: STEEL,
             wear: wear(2.9e-8),
             plating: Vec::new(),
+            conductivity_w_mk: None,
+            softening: Softening::default(),
         },
         friction: Friction::Coulomb { coefficient: 0.9 },
         load_n_per_mm: 18.5,
@@ -75,6 +79,8 @@ pub(crate) fn fuzz_button() -> Scene {
             elastic: COPPER,
             wear: None,
             plating: Vec::new(),
+            conductivity_w_mk: None,
+            softening: Softening::default(),
         },
         receptacle: Body {
             shape: BlockShape {
@@ -87,6 +93,8 @@ pub(crate) fn fuzz_button() -> Scene {
                 k_over_h_per_mpa: COPPER_WEAR,
             }),
             plating: Vec::new(),
+            conductivity_w_mk: None,
+            softening: Softening::default(),
         },
         friction: Friction::Coulomb { coefficient: 1.21 },
         load_n_per_mm: 0.508,

@@ -35,4 +35,5 @@ mod verify_short_stroke_scar;
 mod verify_spring_load;
 mod verify_stick_zone;
 mod verify_symmetry;
+mod verify_thermal_softening;
 mod verify_worn_slider;

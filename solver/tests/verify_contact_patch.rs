@@ -13,7 +13,7 @@ use solver::contact::{ContactState, Displacement, Pair, Solver, Surfaces};
 use solver::model::{
     BodyLayout, BodyModel, Interface, Model, Profile, Support, Tangential, Zone, ZoneSizes,
 };
-use solver::scene::Elastic;
+use solver::scene::{Elastic, SurfaceEffects};
 use solver::sides::{Side, Sides};
 
 use crate::scenes::mccoll;
@@ -83,7 +83,10 @@ fn uniform_pressure_passes_through_non_matching_meshes_at_any_position() {
                 modulus: 50e3,
             },
             relocates: false,
-            plating: false,
+            surface: SurfaceEffects {
+                plating: false,
+                softening: false,
+            },
             sizes,
         };
         let operators = condense(&model)

@@ -107,12 +107,13 @@ fn solved(scene: Scene) -> Summary {
     ended.end.expect("the scene can be solved")
 }
 
-/// Effects that the plan skips although there is something to simulate.
+/// Effects that the plan skips although there is something to simulate, and that it could.
 fn skipped(plan: &EffectsPlan) -> impl Iterator<Item = Effect> {
     let skipped = plan
         .decisions
         .iter()
-        .filter(|decision| decision.verdict == Verdict::Skipped && decision.indicator.is_some());
+        .filter(|decision| decision.verdict == Verdict::Skipped && decision.indicator.is_some())
+        .filter(|decision| decision.effect.is_available());
     skipped.map(|decision| decision.effect)
 }
 

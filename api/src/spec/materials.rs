@@ -54,6 +54,9 @@ pub struct MaterialProperties {
     /// Thermal expansion, 1/K.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub thermal_expansion_per_k: Option<f64>,
+    /// Melting temperature, of an alloy that of its solidus, °C.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub melting_temperature_c: Option<f64>,
 }
 
 struct MaterialVisitor;

@@ -100,7 +100,11 @@ pub struct Motion {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub mass_g: Option<f64>,
     /// `vibration`: number of contacts that hold the part.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(
+        default,
+        skip_serializing_if = "Option::is_none",
+        deserialize_with = "super::count::optional"
+    )]
     pub contacts: Option<u64>,
     /// `vibration`, `thermal_cycle`: stiffness of a contact's arm along the slip, N/mm; it takes up what it can before the contact slips.
     #[serde(skip_serializing_if = "Option::is_none")]

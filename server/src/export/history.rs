@@ -116,6 +116,7 @@ pub(crate) fn decision(verdict: Verdict) -> Decision {
         Verdict::Skipped => Decision::Skipped,
         Verdict::ForcedOn => Decision::ForcedOn,
         Verdict::ForcedOff => Decision::ForcedOff,
+        Verdict::InputMissing => Decision::InputMissing,
     }
 }
 

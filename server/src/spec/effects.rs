@@ -11,13 +11,7 @@ use crate::spec::diagnostics::{Diagnostics, shortened};
 use crate::spec::suggestion::did_you_mean;
 
 /// Effects that are planned but not known to the engine yet.
-const PLANNED: [&str; 5] = [
-    "frictional_heating",
-    "oxidation",
-    "plasticity",
-    "plating",
-    "resistance",
-];
+const PLANNED: [&str; 3] = ["oxidation", "plasticity", "resistance"];
 
 /// Names of all effects.
 pub(crate) fn names() -> Vec<&'static str> {
@@ -102,20 +96,30 @@ fn check_forced(given: &Given, scene: &Scene, diagnostics: &mut Diagnostics) {
     for decision in solver::effects::plan(scene).decisions {
         let name = decision.effect.name();
         let forced = switch(given, decision.effect) == Some(Switch::On);
-        if forced && decision.verdict == Verdict::Skipped {
+        let is_out = matches!(decision.verdict, Verdict::Skipped | Verdict::InputMissing);
+        if forced && is_out {
             let detail = format!("cannot be on: {}", decision.reason);
             diagnostics.fault(&format!("/effects/{name}"), detail);
         }
     }
 }
 
-/// Warnings of effects that are switched off although the scene calls for them.
+/// Warnings of effects that are switched off, or lack an input, although the scene calls for them.
 pub(crate) fn warnings(scene: &Scene) -> Vec<Fault> {
     let decisions = solver::effects::plan(scene).decisions.into_iter();
     let off = decisions.filter_map(|decision| {
+        if decision.verdict == Verdict::InputMissing {
+            return Some(Fault {
+                pointer: format!("/effects/{}", decision.effect.name()),
+                detail: decision.reason,
+            });
+        }
         let indicator = decision.indicator?;
         let matters = indicator.value() > indicator.threshold;
-        (decision.verdict == Verdict::ForcedOff && matters).then(|| Fault {
+        let is_missed = decision.effect == Effect::FrictionalHeating;
+        let is_out = decision.verdict == Verdict::ForcedOff && !is_missed
+            || decision.verdict == Verdict::Skipped && is_missed;
+        (is_out && matters).then(|| Fault {
             pointer: format!("/effects/{}", decision.effect.name()),
             detail: format!("the scene calls for it: {}", decision.reason),
         })

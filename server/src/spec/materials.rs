@@ -21,6 +21,8 @@ const POISSON_RATIO: RangeInclusive<f64> = 0.0..=0.499_9;
 pub(crate) const HARDNESS_MPA: RangeInclusive<f64> = 1e-3..=1e6;
 /// Per K; some materials shrink when heated.
 const THERMAL_EXPANSION_PER_K: RangeInclusive<f64> = -1e-3..=1e-3;
+/// From gallium to beyond tungsten, °C; above the temperature at which hardnesses are measured.
+const MELTING_TEMPERATURE_C: RangeInclusive<f64> = 25.0..=5_000.0;
 /// Any positive property that no effect uses yet.
 const POSITIVE: RangeInclusive<f64> = 1e-15..=1e15;
 
@@ -149,6 +151,7 @@ pub(in crate::spec) fn range(field: &str) -> RangeInclusive<f64> {
         "poisson_ratio" => POISSON_RATIO,
         "hardness_mpa" => HARDNESS_MPA,
         "thermal_expansion_per_k" => THERMAL_EXPANSION_PER_K,
+        "melting_temperature_c" => MELTING_TEMPERATURE_C,
         _ => POSITIVE,
     }
 }
@@ -161,7 +164,7 @@ fn typical(field: &str) -> Option<Typical> {
     }
 }
 
-pub(in crate::spec) fn numbers(of: &MaterialProperties) -> [(&'static str, Option<f64>); 8] {
+pub(in crate::spec) fn numbers(of: &MaterialProperties) -> [(&'static str, Option<f64>); 9] {
     [
         ("youngs_modulus_mpa", of.youngs_modulus_mpa),
         ("poisson_ratio", of.poisson_ratio),
@@ -171,5 +174,6 @@ pub(in crate::spec) fn numbers(of: &MaterialProperties) -> [(&'static str, Optio
         ("specific_heat_j_kgk", of.specific_heat_j_kgk),
         ("resistivity_ohm_m", of.resistivity_ohm_m),
         ("thermal_expansion_per_k", of.thermal_expansion_per_k),
+        ("melting_temperature_c", of.melting_temperature_c),
     ]
 }

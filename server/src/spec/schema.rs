@@ -11,8 +11,8 @@ use crate::spec::diagnostics::NAME_LIMIT;
 use crate::spec::law::{coulomb, dissipated_energy, saracibar, wear_coefficient};
 use crate::spec::motion::{insertion, thermal_cycle, vibration};
 use crate::spec::{
-    LABEL_LIMIT, LABEL_TEXT_LIMIT, accuracy, criterion, effects, life, load, materials, motion,
-    output, plating, stop, system,
+    LABEL_LIMIT, LABEL_TEXT_LIMIT, accuracy, criterion, effects, environment, life, load,
+    materials, motion, output, plating, stop, system,
 };
 
 /// Keywords of the schema of a field.
@@ -80,6 +80,7 @@ fn numbers() -> Vec<(&'static str, &'static str, RangeInclusive<f64>)> {
         ("Motion", "wipe_mm", insertion::WIPE_MM),
         ("PsdPoint", "frequency_hz", motion::FREQUENCY_HZ),
         ("PsdPoint", "g2_per_hz", vibration::G2_PER_HZ),
+        ("Environment", "temperature_c", environment::TEMPERATURE_C),
         ("Friction", "coefficient", coulomb::RANGE),
         ("WearLaw", "k", wear_coefficient::K),
         (
@@ -266,6 +267,10 @@ mod tests {
                     ),
                 )
             }
+            "Environment" => (
+                "/environment",
+                format!(r#""environment":{{"{field}":{value}}}"#),
+            ),
             "Friction" => (
                 "/interface/friction",
                 format!(r#""interface":{{"friction":{{"law":"coulomb","{field}":{value}}}}}"#),

@@ -7,7 +7,7 @@ use super::reason::{Grounds, reason};
 use super::small_strain;
 
 use crate::law::surface::SurfaceWear;
-use crate::scene::{Body, Scene};
+use crate::scene::{Body, Motion, Scene, Softening, SurfaceEffects};
 use crate::sides::Sides;
 
 /// Largest indicator of a skipped effect over the tolerance. Arbitrary: five effects at this limit exceed their budget
@@ -31,9 +31,10 @@ pub(super) fn decide(
                 .any(|decision| decision.effect == effect && decision.verdict.is_on())
         };
         let nothing = nothing_to_simulate(scene, effect, is_on);
-        let grounds = match nothing {
-            Some(nothing) => Grounds::Nothing(nothing),
-            None => Grounds::Indicator(indicator(scene, indicators, effect)),
+        let grounds = match (nothing, missing_input(scene, effect)) {
+            (Some(nothing), _) => Grounds::Nothing(nothing),
+            (None, Some(missing)) => Grounds::Missing(missing),
+            (None, None) => Grounds::Indicator(indicator(scene, indicators, effect)),
         };
         let verdict = verdict(scene, effect, grounds, called_for.contains(&effect));
         decisions.push(Decision {
@@ -52,10 +53,13 @@ pub(super) fn decide(
 }
 
 fn verdict(scene: &Scene, effect: Effect, grounds: Grounds, called_for: bool) -> Verdict {
-    let Grounds::Indicator(indicator) = grounds else {
-        return Verdict::Skipped;
-    };
     let switch = scene.effects.of(effect);
+    let indicator = match grounds {
+        Grounds::Nothing(_) => return Verdict::Skipped,
+        Grounds::Missing(_) if switch == Some(false) => return Verdict::ForcedOff,
+        Grounds::Missing(_) => return Verdict::InputMissing,
+        Grounds::Indicator(indicator) => indicator,
+    };
     // Sticking needs shear.
     let needed = effect == Effect::Friction && scene.effects.of(Effect::StickMemory) == Some(true);
     match switch {
@@ -86,11 +90,44 @@ fn indicator(scene: &Scene, indicators: &Indicators<'_>, effect: Effect) -> Indi
 /// Whether the surface of a body wears by its law or plating.
 fn wears_by_law<S>(body: &Body<S>) -> bool {
     let wears = |wear: SurfaceWear| wear.uniform().is_none_or(|rate| rate > 0.0);
-    body.surface_wear(true).is_some_and(wears)
+    let all = SurfaceEffects {
+        plating: true,
+        softening: true,
+    };
+    body.surface_wear(all).is_some_and(wears)
 }
 
 fn is_plated(scene: &Scene) -> bool {
     !scene.slider.plating.is_empty() || !scene.receptacle.plating.is_empty()
+}
+
+fn is_at_reference(scene: &Scene) -> bool {
+    let softening = [&scene.slider.softening, &scene.receptacle.softening];
+    softening.iter().all(|side| side.ratios.is_empty())
+}
+
+fn heating_is_known(scene: &Scene) -> bool {
+    let (slider, receptacle) = (&scene.slider, &scene.receptacle);
+    let conducts = slider.conductivity_w_mk.is_some() && receptacle.conductivity_w_mk.is_some();
+    let melts = slider.softening.margin_k.or(receptacle.softening.margin_k);
+    conducts && melts.is_some()
+}
+
+/// What the specification lacks of an effect that matters.
+fn missing_input(scene: &Scene, effect: Effect) -> Option<&'static str> {
+    let unknown = [&scene.slider.softening, &scene.receptacle.softening].map(Softening::is_unknown);
+    match (effect, unknown) {
+        (Effect::ThermalSoftening, [true, true]) => Some(
+            "the melting temperatures of both parts' materials are not all known: give `melting_temperature_c`",
+        ),
+        (Effect::ThermalSoftening, [true, false]) => Some(
+            "the melting temperatures of the slider's materials are not all known: give `melting_temperature_c`",
+        ),
+        (Effect::ThermalSoftening, [false, true]) => Some(
+            "the melting temperatures of the receptacle's materials are not all known: give `melting_temperature_c`",
+        ),
+        _ => None,
+    }
 }
 
 /// Why there is nothing to simulate, beside the effects that are on already.
@@ -107,7 +144,9 @@ fn nothing_to_simulate(
         (true, true) => None,
     };
     match effect {
-        Effect::Friction | Effect::StickMemory if !scene.has_friction() => {
+        Effect::Friction | Effect::StickMemory | Effect::FrictionalHeating
+            if !scene.has_friction() =>
+        {
             Some("there is no friction in the scene")
         }
         Effect::StickMemory if !is_on(Effect::Friction) => {
@@ -120,6 +159,18 @@ fn nothing_to_simulate(
         Effect::SliderWear => wear(wears_by_law(&scene.slider), "the slider has no wear law"),
         Effect::Plating if !is_plated(scene) => Some("neither body is plated"),
         Effect::Plating if !wears() => Some("nothing wears, so no layer is worn through"),
+        Effect::ThermalSoftening if is_at_reference(scene) => {
+            Some("the contact is at 20 °C, at which hardnesses are measured")
+        }
+        Effect::ThermalSoftening | Effect::FrictionalHeating if !wears() => {
+            Some("nothing wears, so no hardness counts")
+        }
+        Effect::FrictionalHeating if matches!(scene.motion, Motion::Continuous { .. }) => {
+            Some("the heat of a continuous motion is not estimated")
+        }
+        Effect::FrictionalHeating if !heating_is_known(scene) => Some(
+            "not estimated: it needs the conductivities of both materials, and the melting temperature of one that wears",
+        ),
         Effect::Relocation if !wears() => Some("nothing wears, so nothing moves the mesh"),
         Effect::SpringFading if scene.spring_n_per_mm2 <= 0.0 => Some("the load is a dead load"),
         Effect::SpringFading if !wears() => Some("nothing wears, so the spring keeps its load"),

@@ -27,6 +27,8 @@ pub enum Verdict {
     ForcedOn,
     /// Left out because the user switched it off.
     ForcedOff,
+    /// Left out because the scene lacks what it needs.
+    InputMissing,
 }
 
 impl Verdict {

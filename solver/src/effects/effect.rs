@@ -61,6 +61,14 @@ effects! {
     Plating = "plating",
         "deepest wear over the thickness of the outermost layer, of the worse side",
         ["max_depth_mm", "scar_half_width_mm", "worn_area_mm2", "life"];
+    /// Change of the hardness with the temperature of the contact.
+    ThermalSoftening = "thermal_softening",
+        "largest change of a wear rate by the hardness at this temperature, (Tm - T0)/(Tm - T) - 1",
+        ["max_depth_mm", "scar_half_width_mm", "worn_area_mm2", "life"];
+    /// Softening by frictional heat; never simulated.
+    FrictionalHeating = "frictional_heating",
+        "temperature by friction over what is left to the melting temperature, mu P v (ln(d/a) + 1)/(pi (K1 + K2) (Tm - T))",
+        ["max_depth_mm", "scar_half_width_mm", "worn_area_mm2", "life"];
     /// Moving mesh and rebuilt stiffness.
     Relocation = "relocation",
         "0.0125 times the square of the worn part of the height over what is left, (h/H)^2/(1 - h/H), as measured; h/H where fields \
@@ -79,12 +87,12 @@ effects! {
 impl Effect {
     /// Whether it can be simulated.
     pub fn is_available(self) -> bool {
-        self != Self::GeometricNonlinearity
+        !matches!(self, Self::GeometricNonlinearity | Self::FrictionalHeating)
     }
 
-    /// Whether its indicator, if it is skipped, counts as an error of what the tolerance bounds. Small strains have a limit of
-    /// their own; layers that the wear does not reach change nothing.
+    /// Whether its indicator, if it is skipped, counts as an error of what the tolerance bounds. Effects that are never
+    /// simulated have limits of their own; layers that the wear does not reach change nothing.
     pub(super) fn is_counted(self) -> bool {
-        !matches!(self, Self::GeometricNonlinearity | Self::Plating)
+        self.is_available() && self != Self::Plating
     }
 }

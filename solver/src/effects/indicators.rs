@@ -2,10 +2,13 @@
 //!
 //! R radius of relative curvature, A amplitude, A_c displacement of gross slip, h worn depth, P load, k spring.
 
+use std::f64::consts::PI;
+
 use super::effect::Effect;
 use super::small_strain;
 use crate::law::elastic::dundurs_beta;
 use crate::law::friction;
+use crate::law::heating;
 use crate::law::surface::SurfaceWear;
 use crate::law::wear::LocalState;
 use crate::model::resolution::{self, Sizes};
@@ -87,6 +90,16 @@ impl<'a> Indicators<'a> {
                 };
                 through(Side::Slider).max(through(Side::Receptacle))
             }
+            Effect::ThermalSoftening => {
+                let (slider, receptacle) = (&self.scene.slider, &self.scene.receptacle);
+                slider.softening.change().max(receptacle.softening.change())
+            }
+            Effect::FrictionalHeating => {
+                let (slider, receptacle) = (&self.scene.slider, &self.scene.receptacle);
+                let margins = [slider.softening.margin_k, receptacle.softening.margin_k];
+                let margin = margins.into_iter().flatten().fold(f64::INFINITY, f64::min);
+                self.frictional_heat_k() / margin
+            }
             Effect::Relocation => self.relocation(depth),
             Effect::SpringFading => {
                 let Scene {
@@ -98,6 +111,25 @@ impl<'a> Indicators<'a> {
             }
             Effect::GeometricNonlinearity => small_strain::cost(self.scene),
         }
+    }
+
+    /// Temperature rise of the unworn contact by friction, K; a wider one is cooler.
+    pub(super) fn frictional_heat_k(&self) -> f64 {
+        let Scene {
+            slider, receptacle, ..
+        } = self.scene;
+        let conductivity = slider.conductivity_w_mk.zip(receptacle.conductivity_w_mk);
+        let (Some((one, other)), Motion::Reciprocating { period_s, .. }) =
+            (conductivity, self.scene.motion)
+        else {
+            return 0.0;
+        };
+        // The largest of a sine.
+        let speed = 2.0 * PI * self.scene.motion.amplitude_mm() / period_s;
+        let distance = slider.shape.height_mm.max(receptacle.shape.height_mm);
+        let friction = self.friction * self.scene.load_n_per_mm;
+        let lengths = (distance, self.sizes.hertz_half_width);
+        heating::line_source(friction, speed, lengths, one + other)
     }
 
     /// Largest part of either body's height that is worn off.

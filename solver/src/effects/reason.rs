@@ -12,6 +12,8 @@ use crate::scene::Scene;
 pub(super) enum Grounds {
     /// There is nothing to simulate.
     Nothing(&'static str),
+    /// The specification lacks an input.
+    Missing(&'static str),
     /// An indicator.
     Indicator(Indicator),
 }
@@ -20,7 +22,7 @@ impl Grounds {
     /// The indicator.
     pub(super) fn indicator(self) -> Option<Indicator> {
         match self {
-            Self::Nothing(_) => None,
+            Self::Nothing(_) | Self::Missing(_) => None,
             Self::Indicator(indicator) => Some(indicator),
         }
     }
@@ -34,7 +36,7 @@ pub(super) fn reason(
     (verdict, grounds, called_for): (Verdict, Grounds, bool),
 ) -> String {
     let indicator = match grounds {
-        Grounds::Nothing(nothing) => return nothing.to_owned(),
+        Grounds::Nothing(words) | Grounds::Missing(words) => return words.to_owned(),
         Grounds::Indicator(indicator) => indicator,
     };
     if effect == Effect::Elasticity {
@@ -52,8 +54,18 @@ pub(super) fn reason(
     let switch = match verdict {
         Verdict::ForcedOn => "switched on; ",
         Verdict::ForcedOff => "switched off; ",
-        Verdict::Simulated | Verdict::Skipped => "",
+        Verdict::Simulated | Verdict::Skipped | Verdict::InputMissing => "",
     };
+    if effect == Effect::FrictionalHeating {
+        let kelvin = indicators.frictional_heat_k();
+        return format!(
+            "{switch}friction heats the unworn contact by {kelvin:.2e} K at most, {} of what is left to the melting temperature, limit \
+             {}: {}",
+            percent(unworn),
+            percent(threshold),
+            consequence(effect, false)
+        );
+    }
     let result = consequence(effect, verdict.is_on());
     let together = if called_for && verdict == Verdict::Simulated {
         ", and more than half of the tolerance together with all that is left out"
@@ -93,6 +105,9 @@ fn consequence(effect: Effect, is_on: bool) -> &'static str {
         (Effect::ReceptacleWear | Effect::SliderWear, false) => "its surface does not wear",
         (Effect::Plating, true) => "each point wears through the layers by its dose",
         (Effect::Plating, false) => "the outermost layer alone wears",
+        (Effect::ThermalSoftening, true) => "surfaces wear by their hardness at this temperature",
+        (Effect::ThermalSoftening, false) => "surfaces wear by their hardness at 20 °C",
+        (Effect::FrictionalHeating, _) => "the contact has the temperature of its surroundings",
         (Effect::Relocation, true) => {
             "the mesh follows the worn surface and the stiffness is rebuilt"
         }

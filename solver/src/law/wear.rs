@@ -85,6 +85,35 @@ impl WearLaw {
         }
     }
 
+    /// The law at another hardness than it was given with; the energy that detaches a volume does not depend on it.
+    #[must_use]
+    pub fn softened(self, ratio: f64) -> Self {
+        match self {
+            Self::Archard { k_over_h_per_mpa } => Self::Archard {
+                k_over_h_per_mpa: k_over_h_per_mpa / ratio,
+            },
+            Self::Sarkar {
+                k_over_h_per_mpa,
+                friction,
+            } => Self::Sarkar {
+                k_over_h_per_mpa: k_over_h_per_mpa / ratio,
+                friction,
+            },
+            Self::Saracibar {
+                k_over_h_per_mpa,
+                friction,
+                reference_friction,
+            } => Self::Saracibar {
+                k_over_h_per_mpa: k_over_h_per_mpa / ratio,
+                friction,
+                reference_friction,
+            },
+            Self::DissipatedEnergy { .. } => self,
+            #[cfg(test)]
+            Self::PressurePower { .. } => self,
+        }
+    }
+
     /// The specific wear rate of a law for which it is the same in every state, 1/MPa.
     pub fn uniform(self) -> Option<f64> {
         match self {

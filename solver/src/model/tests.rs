@@ -1,7 +1,8 @@
 use super::*;
 use crate::effects::Switches;
 use crate::scene::{
-    Accuracy, BlockShape, Body, Criterion, Friction, Motion, Output, SliderShape, WearLaw,
+    Accuracy, BlockShape, Body, Criterion, Friction, Motion, Output, SliderShape, Softening,
+    WearLaw,
 };
 use crate::sides::Side;
 
@@ -20,6 +21,8 @@ pub(crate) fn fuzz_button() -> Scene {
             elastic: copper,
             wear: None,
             plating: Vec::new(),
+            conductivity_w_mk: None,
+            softening: Softening::default(),
         },
         receptacle: Body {
             shape: BlockShape {
@@ -32,6 +35,8 @@ pub(crate) fn fuzz_button() -> Scene {
                 k_over_h_per_mpa: 0.011 / 427.0,
             }),
             plating: Vec::new(),
+            conductivity_w_mk: None,
+            softening: Softening::default(),
         },
         friction: Friction::Coulomb { coefficient: 1.21 },
         load_n_per_mm: 0.508,

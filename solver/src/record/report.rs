@@ -118,10 +118,10 @@ impl<'a> CycleEnd<'a> {
         let interface = &self.model.interface;
         let body = self.model.bodies.of(side);
         // The identity is that of the law, also where nothing slides and the plan leaves wear out.
-        let plated = self.model.plating;
+        let on = self.model.surface;
         let wear = match side {
-            Side::Slider => self.scene.slider.surface_wear(plated),
-            Side::Receptacle => self.scene.receptacle.surface_wear(plated),
+            Side::Slider => self.scene.slider.surface_wear(on),
+            Side::Receptacle => self.scene.receptacle.surface_wear(on),
         };
         let uniform = wear.and_then(SurfaceWear::uniform).filter(|k| *k > 0.0);
         let ideal_area = uniform.map(|k| k * interface.load * self.state.sliding_distance);

@@ -26,6 +26,10 @@ const CUT: u64 = 4;
 /// follow each other with errors of up to twice that.
 const REJECTED: f64 = 3.0;
 
+/// Shortest jump over the cycles done that is not accepted: a shorter one is no large part of the wear, and nodes that pass an interface
+/// one by one leave an error of their own in jumps of any length. Arbitrary.
+const SHORTEST_REJECTED: f64 = 0.01;
+
 /// Floor of the error estimate: where nothing changes, or nothing wears, jumps grow as fast as they may. Any value far
 /// below the smallest tolerance does the same.
 const SMALLEST_ERROR: f64 = 1e-6;
@@ -160,12 +164,13 @@ impl JumpControl {
         (failed > 1).then_some(self.most)
     }
 
-    /// A smaller jump in place of one whose estimated error is too large; `None` if it is accepted, was fixed by the scene or a
-    /// single cycle.
+    /// A smaller jump in place of a long one whose estimated error is too large; `None` if it is accepted, or was fixed by the
+    /// scene.
     pub(crate) fn rejected(&self, accuracy: &Accuracy, stroke: Stroke, jump: u64) -> Option<u64> {
         let allowed = stroke.largest_error(accuracy) / accuracy.refinement.cycles;
         let is_rejected = accuracy.cycle_jump.is_none() && self.error > REJECTED * allowed;
-        (is_rejected && jump > 1).then(|| jump.div_ceil(CUT))
+        let is_long = real_cycles(jump) > SHORTEST_REJECTED * real_cycles(self.done);
+        (is_rejected && is_long && jump > 1).then(|| jump.div_ceil(CUT))
     }
 
     /// Limits the next jump.

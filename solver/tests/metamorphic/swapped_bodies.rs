@@ -50,6 +50,8 @@ fn turned(scene: &Scene, crown: f64) -> Scene {
             elastic: receptacle.elastic,
             wear: receptacle.wear,
             plating: receptacle.plating.clone(),
+            conductivity_w_mk: receptacle.conductivity_w_mk,
+            softening: receptacle.softening.clone(),
         },
         receptacle: Body {
             shape: BlockShape {
@@ -60,6 +62,8 @@ fn turned(scene: &Scene, crown: f64) -> Scene {
             elastic: slider.elastic,
             wear: slider.wear,
             plating: slider.plating.clone(),
+            conductivity_w_mk: slider.conductivity_w_mk,
+            softening: slider.softening.clone(),
         },
         ..scene.clone()
     }

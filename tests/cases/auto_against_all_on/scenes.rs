@@ -99,6 +99,7 @@ pub(super) fn all() -> Vec<(String, Value)> {
         );
     }
     add_plated_to(&mut scenes);
+    add_heated_to(&mut scenes);
     for cycles in [20, 20_000] {
         let name = format!("zif, {cycles} cycles");
         add_to(&mut scenes, name, "zif", &json!({"cycles": cycles}));
@@ -132,6 +133,20 @@ fn add_plated_to(scenes: &mut Vec<(String, Value)>) {
         let name = format!("{kind}, 0.2 um of gold on the receptacle");
         add_to(scenes, name, kind, &changes);
     }
+}
+
+/// Copper hardly, noticeably and much warmer or colder than its hardness was measured at, and tin.
+fn add_heated_to(scenes: &mut Vec<(String, Value)>) {
+    for temperature in [-40, 24, 85, 300] {
+        let changes = json!({"environment": {"temperature_c": temperature}});
+        let name = format!("sd_card, {temperature} °C");
+        add_to(scenes, name, "sd_card", &changes);
+    }
+    let tin =
+        json!([{"material": "tin", "thickness_um": 5, "wear": {"law": "archard", "k": 1e-4}}]);
+    let changes = json!({"environment": {"temperature_c": 85}, "plating": {"receptacle": tin}});
+    let name = "cylinder_on_flat, tin at 85 °C".to_owned();
+    add_to(scenes, name, "cylinder_on_flat", &changes);
 }
 
 /// Adds the preset of a kind with changes, at few cycles unless given.

@@ -127,18 +127,15 @@ fn part(given: &Motion, contact: HeldContact, diagnostics: &mut Diagnostics) -> 
     let of_arms = stiffness
         .map(|stiffness| (contacts * stiffness / (mass_g * N_PER_G_MM_S2)).sqrt() / (2.0 * PI));
     let natural = natural.or(of_arms);
-    if natural.is_none() && given.quality_factor.is_some() {
+    let pointer = "/motion/quality_factor";
+    let quality = diagnostics.optional(pointer, given.quality_factor, &QUALITY);
+    if natural.is_none() && quality.is_some() {
         let detail = "belongs to an oscillator: give `natural_frequency_hz` or `tangential_stiffness_n_per_mm`";
-        diagnostics.fault("/motion/quality_factor", detail);
+        diagnostics.fault(pointer, detail);
     }
-    let oscillator = natural.map(|natural_hz| {
-        let quality = given.quality_factor;
-        let quality =
-            diagnostics.or_default("/motion/quality_factor", quality, assumed(DEFAULT_QUALITY));
-        Oscillator {
-            natural_hz,
-            quality: diagnostics.check_range("/motion/quality_factor", quality, &QUALITY),
-        }
+    let oscillator = natural.map(|natural_hz| Oscillator {
+        natural_hz,
+        quality: diagnostics.or_default(pointer, quality, assumed(DEFAULT_QUALITY)),
     });
     Part {
         mass_g,

@@ -1,0 +1,12 @@
+//! Surroundings of the contact.
+
+use serde::{Deserialize, Serialize};
+use utoipa::ToSchema;
+
+/// Surroundings of the contact.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct Environment {
+    /// Temperature, °C.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub temperature_c: Option<f64>,
+}
