@@ -168,6 +168,27 @@ fn doses_of_worn_layers_add_up_to_the_load_times_its_path() {
     }
 }
 
+/// Beside what else a scene may have: a spring, a crown, fields, a continuous motion.
+#[test]
+fn doses_add_up_beside_other_features() {
+    for (name, amplitude, cycles) in [("short stroke", 0.004, 3_000), ("long stroke", 0.1, 600)] {
+        let scene = plated(amplitude, &Side::BOTH, cycles, 0.1);
+        let mut sprung = scene.clone();
+        sprung.spring_n_per_mm2 = 200.0 * sprung.load_n_per_mm;
+        check_dose(&format!("{name}, spring"), &sprung);
+        let mut crowned = scene.clone();
+        crowned.receptacle.shape.crown_radius_mm = Some(20.0);
+        check_dose(&format!("{name}, crown"), &crowned);
+        let mut with_fields = scene.clone();
+        with_fields.output.fields = true;
+        check_dose(&format!("{name}, fields"), &with_fields);
+    }
+    let mut continuous = plated(0.0, &[Side::Receptacle], 1_000, 0.1);
+    continuous.motion = Motion::Continuous { step_mm: 0.02 };
+    let (summary, _) = check_dose("continuous", &continuous);
+    assert!(summary.last.receptacle.max_depth_mm > THICKNESS[0]);
+}
+
 /// The jump control knows layers by their rates only: a crossing within a jump is part of its implicit step.
 #[test]
 fn layers_of_a_short_stroke_converge_with_the_tolerance() {

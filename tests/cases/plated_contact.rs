@@ -197,3 +197,30 @@ fn a_rating_that_cannot_be_read_is_refused_by_name() {
         assert_eq!(ran.stderr.matches(expected).count(), 1, "{}", ran.stderr);
     }
 }
+
+#[tokio::test]
+async fn a_continuous_contact_lives_by_its_distance() {
+    let folder = tempfile::tempdir().expect("a folder can be made");
+    let server = Server::start(folder.path());
+    let law = |rate: f64| json!({"law": "archard", "k_over_h_per_mpa": rate});
+    let spec = json!({
+        "system": {"kind": "cylinder_on_flat"},
+        "motion": {"kind": "continuous", "distance_mm": 2_000.0},
+        "plating": {"receptacle": [{"material": "hard_gold", "thickness_um": 2.0, "wear": law(1e-7)}]},
+        "interface": {"wear": {"slider": null, "receptacle": law(4e-7)}},
+        "accuracy": {"preset": "draft"}
+    });
+    let (status, job) = server.submit(spec.to_string()).await;
+    assert_eq!(status, 202, "{job}");
+    let id = job["id"].as_str().expect("a job has an id").to_owned();
+    let job = server
+        .job_when(&id, |job| job["finished_at"].is_string())
+        .await;
+    let life = &job["summary"]["life"][0];
+    assert_eq!(life["status"], "reached", "{life}");
+    assert!(life["cycles"].is_null() && life["duration_h"].is_null());
+    let distance = number(&life["sliding_distance_mm"]);
+    assert!(distance > 0.0 && distance < 2_000.0, "{life}");
+    let band = number(&life["band"]["b50"]) / distance;
+    assert!((band - 1.0).abs() < 1e-12, "{life}");
+}

@@ -27,13 +27,13 @@ pub struct LifeEntry {
     pub side: Option<String>,
     /// Whether it was reached.
     pub status: LifeStatus,
-    /// Cycles after which it was reached, interpolated between computed ones.
+    /// Cycles after which it was reached, interpolated between computed ones; null for a continuous motion.
     pub cycles: Option<f64>,
     /// Imposed sliding distance until then, mm.
     pub sliding_distance_mm: Option<f64>,
     /// Duration until then, h; null for a continuous motion.
     pub duration_h: Option<f64>,
-    /// Scatter of these cycles; null where it was not reached.
+    /// Scatter of these cycles, of a continuous motion that of the distance in mm; null where it was not reached.
     pub band: Option<LifeBand>,
     /// What the criterion compares, at the end of the run: a worn depth in mm or a part of the scar.
     pub value: Option<f64>,
@@ -43,7 +43,7 @@ pub struct LifeEntry {
     pub reason: Option<String>,
 }
 
-/// Cycles that a part of all contacts does not survive, for wear coefficients of a lognormal distribution.
+/// Cycles, of a continuous motion mm, that a part of all contacts does not survive, for wear coefficients of a lognormal distribution.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct LifeBand {
     /// Of a tenth.
@@ -52,6 +52,6 @@ pub struct LifeBand {
     pub b50: f64,
     /// Of nine tenths.
     pub b90: f64,
-    /// Cycles that the first of `contacts` independent contacts does not survive in a tenth of all connectors.
+    /// What the first of `contacts` independent contacts does not survive in a tenth of all connectors.
     pub first_of_contacts_b10: f64,
 }

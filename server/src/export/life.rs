@@ -79,25 +79,39 @@ fn entry(
         ..empty(criterion, status)
     };
     let Some(cycles) = state.cycles else {
-        let reason = format!(
-            "{:.1} % of the limit after {done} cycles",
-            100.0 * state.value / state.limit
-        );
+        let share = 100.0 * state.value / state.limit;
+        let reason = match scene.motion {
+            Motion::Reciprocating { .. } => {
+                format!("{share:.1} % of the limit after {done} cycles")
+            }
+            Motion::Continuous { step_mm } => {
+                format!(
+                    "{share:.1} % of the limit after {} mm",
+                    step_mm * real(done)
+                )
+            }
+        };
         return LifeEntry {
             reason: Some(reason),
             ..measured(LifeStatus::NotReached)
         };
     };
-    let hours = match scene.motion {
-        Motion::Reciprocating { period_s, .. } => Some(cycles * period_s / SECONDS_PER_HOUR),
-        Motion::Continuous { .. } => None,
+    let distance_mm = cycles * scene.motion.distance_per_cycle_mm();
+    // The parts of a continuous motion are no cycles of the user.
+    let (counted, hours, measure) = match scene.motion {
+        Motion::Reciprocating { period_s, .. } => (
+            Some(cycles),
+            Some(cycles * period_s / SECONDS_PER_HOUR),
+            cycles,
+        ),
+        Motion::Continuous { .. } => (None, None, distance_mm),
     };
     LifeEntry {
-        cycles: Some(cycles),
-        sliding_distance_mm: Some(cycles * scene.motion.distance_per_cycle_mm()),
+        cycles: counted,
+        sliding_distance_mm: Some(distance_mm),
         duration_h: hours,
         band: Some(band(
-            cycles,
+            measure,
             settings.coefficient_of_variation.unwrap_or_default(),
             settings.contacts.unwrap_or(1),
         )),

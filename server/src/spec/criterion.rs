@@ -11,8 +11,8 @@ use crate::spec::diagnostics::Diagnostics;
 
 /// mm.
 pub(in crate::spec) const WORN_DEPTH_MM: RangeInclusive<f64> = 1e-9..=1e4;
-/// Part of a scar, -.
-pub(in crate::spec) const FRACTION: RangeInclusive<f64> = 1e-3..=1.0;
+/// Part of a scar, -; its ends have no depth.
+pub(in crate::spec) const FRACTION: RangeInclusive<f64> = 1e-3..=0.99;
 /// mOhm.
 pub(in crate::spec) const RESISTANCE_MOHM: RangeInclusive<f64> = 1e-6..=1e12;
 
