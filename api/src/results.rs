@@ -3,12 +3,14 @@
 mod history;
 mod life;
 mod manifest;
+mod resistance;
 mod snapshot;
 mod summary;
 
 pub use history::{Columns, ExposedLayer, SideSeries, Station, WearHistory};
 pub use life::{LifeBand, LifeEntry, LifeStatus};
 pub use manifest::{Manifest, ResultFile};
+pub use resistance::{ContactResistance, ResistanceParts};
 pub use snapshot::{
     Loop, Pressure, PressurePosition, Profile, SideProfile, SlidePosition, Snapshot,
 };

@@ -10,6 +10,7 @@ pub mod life;
 pub(crate) mod markdown;
 pub mod parquet;
 pub mod pictures;
+pub(crate) mod resistance;
 pub mod thin;
 pub mod vtu;
 

@@ -14,9 +14,10 @@ use solver::error_control;
 use solver::observer::{self, Event, Observer};
 use solver::record::PlacedFields;
 use solver::scene::Scene;
+use solver::sides::Sides;
 
-use crate::export::{history, life, vtu};
-use crate::spec::Resolved;
+use crate::export::{history, life, resistance, vtu};
+use crate::spec::{Conductors, Resolved};
 use checkpoint::{Checkpoint, CheckpointPolicy, EncodedCheckpoint};
 use cost::Stopwatch;
 pub use cost::{children_cpu_s, cpu_s, thread_cpu_s};
@@ -31,6 +32,8 @@ pub struct Case<'a> {
     pub life: &'a LifeSettings,
     /// How its motion was derived.
     pub motion: Option<&'a DerivedMotion>,
+    /// Its conductors, where all of them are known.
+    pub conductors: Option<&'a Conductors>,
 }
 
 impl<'a> From<&'a Resolved> for Case<'a> {
@@ -39,6 +42,7 @@ impl<'a> From<&'a Resolved> for Case<'a> {
             scene: &resolved.scene,
             life: &resolved.spec.life,
             motion: resolved.motion.as_ref(),
+            conductors: resolved.conductors.as_ref(),
         }
     }
 }
@@ -64,6 +68,7 @@ pub fn run_from(
         scene,
         life,
         motion,
+        conductors,
     }: Case<'_>,
     from: Option<Checkpoint>,
     policy: &CheckpointPolicy,
@@ -87,8 +92,13 @@ pub fn run_from(
     }
     let summary = ended?;
     let life = life::entries(life, scene, &summary.life, summary.last.cycle);
+    let depth = Sides {
+        slider: summary.last.slider.max_depth_mm,
+        receptacle: summary.last.receptacle.max_depth_mm,
+    };
     Ok(Summary {
         motion: motion.cloned(),
+        contact_resistance_mohm: conductors.map(|conductors| resistance::of(conductors, depth)),
         ..history::summary(&summary, recorder.watch.cost(), life)
     })
 }

@@ -6,6 +6,7 @@
 
 mod accuracy;
 mod cause;
+mod conductors;
 mod criterion;
 mod diagnostics;
 mod effects;
@@ -34,6 +35,8 @@ use solver::law::friction;
 use solver::model::Layout;
 use solver::scene::{Body, Scene};
 
+pub use conductors::Conductors;
+pub(crate) use conductors::Metal;
 use diagnostics::Diagnostics;
 pub(crate) use diagnostics::NAME_LIMIT;
 pub(crate) use motion::CYCLES;
@@ -58,6 +61,8 @@ pub struct Resolved {
     pub layout: Layout,
     /// How its motion was derived from a vibration, a thermal cycle or an insertion.
     pub motion: Option<DerivedMotion>,
+    /// Its conductors, where all of them are known.
+    pub conductors: Option<Conductors>,
     /// Values that were probably written in another unit.
     pub warnings: Vec<Fault>,
 }
@@ -134,12 +139,14 @@ pub fn resolve(spec: &Spec) -> Result<Resolved, Vec<Fault>> {
     let sticks = motion.iter().filter(|motion| motion.sticks);
     warnings.extend(sticks.map(|motion| Fault::new("/motion", motion.reason.clone())));
     filled.provenance = diagnostics.finish()?;
+    let conductors = conductors::resolve(&filled, &scene);
     Ok(Resolved {
         spec: filled,
         kind,
         scene,
         layout,
         motion,
+        conductors,
         warnings,
     })
 }

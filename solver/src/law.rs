@@ -4,6 +4,7 @@ pub mod elastic;
 pub mod friction;
 pub mod heating;
 pub mod plating;
+pub mod resistance;
 pub mod softening;
 pub mod surface;
 pub mod wear;

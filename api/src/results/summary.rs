@@ -7,7 +7,7 @@ use utoipa::ToSchema;
 
 use crate::outcome::{Outcome, Phase};
 use crate::plan::Decision;
-use crate::results::LifeEntry;
+use crate::results::{ContactResistance, LifeEntry};
 use crate::spec::DerivedMotion;
 
 /// One side's wear at the end.
@@ -175,6 +175,9 @@ pub struct Summary {
     /// Life by each criterion of the specification, in their order.
     #[serde(default)]
     pub life: Vec<LifeEntry>,
+    /// Constriction resistance, mOhm; absent where the force on the contact, a resistivity or a hardness is not known.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub contact_resistance_mohm: Option<ContactResistance>,
     /// How the motion was derived from a vibration, a thermal cycle or an insertion.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub motion: Option<DerivedMotion>,

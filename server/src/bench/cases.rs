@@ -187,6 +187,7 @@ fn solved(what: impl Into<String>, size: &str, scene: &Scene) -> Result<Row, Ben
             scene,
             life,
             motion: None,
+            conductors: None,
         },
         &mut |_| ControlFlow::Continue(()),
     )?;

@@ -26,7 +26,7 @@ pub struct Softening {
 
 impl Softening {
     /// Ratio of a layer from the surface down, or of the base by the number of layers; 1 of an unknown one.
-    pub(crate) fn ratio(&self, layer: usize) -> f64 {
+    pub fn ratio(&self, layer: usize) -> f64 {
         self.ratios.get(layer).copied().flatten().unwrap_or(1.0)
     }
 
