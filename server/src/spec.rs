@@ -19,6 +19,7 @@ mod materials;
 mod motion;
 mod output;
 mod plating;
+mod rated_life;
 mod repair;
 pub(crate) mod schema;
 mod sourced;
@@ -136,6 +137,7 @@ pub fn resolve(spec: &Spec) -> Result<Resolved, Vec<Fault>> {
     let mut warnings = diagnostics.warnings().to_vec();
     warnings.extend(law_range::warnings(&filled, &scene));
     warnings.extend(effects::warnings(&scene));
+    warnings.extend(rated_life::warning(kind, &scene));
     let sticks = motion.iter().filter(|motion| motion.sticks);
     warnings.extend(sticks.map(|motion| Fault::new("/motion", motion.reason.clone())));
     filled.provenance = diagnostics.finish()?;

@@ -55,7 +55,7 @@ mod tests {
 
     fn fields(text: &str) -> Vec<String> {
         let resolved = spec::read(text.as_bytes()).expect("accepted");
-        let warnings = resolved.warnings.into_iter();
+        let warnings = super::warnings(&resolved.spec, &resolved.scene).into_iter();
         warnings.map(|warning| warning.pointer).collect()
     }
 
