@@ -86,6 +86,16 @@ fn through_one_layer(base: Option<f64>) -> (u64, f64) {
     (summary.resolution.computed_cycles, deepest)
 }
 
+/// Long after the plating is through nothing wears but the ends of the groove.
+#[test]
+fn a_base_that_does_not_wear_needs_few_computed_cycles_for_long() {
+    let mut scene = plated(0.1, &Side::BOTH[1..], 1_000_000, 0.1);
+    scene.receptacle.wear = None;
+    let computed = summary(&scene).resolution.computed_cycles;
+    println!("a million cycles: {computed} computed ones");
+    assert!(computed < 400, "{computed}");
+}
+
 #[test]
 fn a_base_of_any_rate_needs_few_computed_cycles() {
     let (same, _) = through_one_layer(Some(1e-7));

@@ -1,11 +1,12 @@
 //! Conductors of both parts: their layers and bases with resistivities and hardnesses, for the constriction of the current.
 
-use api::spec::{Material, Spec};
+use api::spec::{Material, Spec, WearLaw};
 use solver::law::plating::bottoms;
 use solver::law::resistance::Conductor;
 use solver::scene::{Layer, Scene, Softening};
 use solver::sides::{Side, Sides};
 
+use crate::spec::environment;
 use crate::spec::materials;
 use crate::spec::plating;
 
@@ -58,9 +59,11 @@ pub(super) fn resolve(filled: &Spec, scene: &Scene) -> Option<Conductors> {
     let force_n = filled.load.as_ref()?.n?;
     let bases = materials::by_side(&filled.materials);
     let layers = plating::by_side(&filled.plating);
+    let laws = environment::laws(filled);
     let of = |side| {
-        let layers = layers.of(side).iter().map(|layer| layer.material.as_ref());
-        let materials = layers.chain([*bases.of(side)]);
+        let layers = layers.of(side).iter();
+        let layers = layers.map(|layer| (layer.material.as_ref(), layer.wear.as_ref()));
+        let materials = layers.chain([(*bases.of(side), *laws.of(side))]);
         let (plating, softening): (&[Layer], &Softening) = match side {
             Side::Slider => (&scene.slider.plating, &scene.slider.softening),
             Side::Receptacle => (&scene.receptacle.plating, &scene.receptacle.softening),
@@ -68,8 +71,8 @@ pub(super) fn resolve(filled: &Spec, scene: &Scene) -> Option<Conductors> {
         let bottoms = bottoms(plating).chain([f64::INFINITY]);
         let metals = materials.zip(bottoms).enumerate();
         metals
-            .map(|(number, (material, bottom_mm))| {
-                metal(material, bottom_mm, softening.ratio(number))
+            .map(|(number, ((material, law), bottom_mm))| {
+                metal((material, law), bottom_mm, softening.ratio(number))
             })
             .collect::<Option<Vec<Metal>>>()
     };
@@ -80,13 +83,20 @@ pub(super) fn resolve(filled: &Spec, scene: &Scene) -> Option<Conductors> {
     Some(Conductors { force_n, metals })
 }
 
-fn metal(material: Option<&Material>, bottom_mm: f64, softening: f64) -> Option<Metal> {
+/// A metal with the hardness that its wear law states, or its own.
+fn metal(
+    (material, law): (Option<&Material>, Option<&WearLaw>),
+    bottom_mm: f64,
+    softening: f64,
+) -> Option<Metal> {
     let Some(Material::Given(properties)) = material else {
         return None;
     };
+    let of_law = law.and_then(|law| law.hardness_mpa);
+    let hardness_mpa = of_law.or(properties.hardness_mpa)? * softening;
     Some(Metal {
         bottom_mm,
         resistivity_ohm_m: properties.resistivity_ohm_m?,
-        hardness_mpa: properties.hardness_mpa? * softening,
+        hardness_mpa,
     })
 }

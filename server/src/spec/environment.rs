@@ -81,7 +81,7 @@ pub(super) fn conductivities(resolved: &Spec) -> Sides<Option<f64>> {
 }
 
 /// The laws of the bases.
-fn laws(resolved: &Spec) -> Sides<Option<&WearLaw>> {
+pub(super) fn laws(resolved: &Spec) -> Sides<Option<&WearLaw>> {
     let wear = &resolved.interface.wear;
     Sides {
         slider: wear.slider.as_ref().and_then(Option::as_ref),

@@ -152,7 +152,8 @@ struct Step {
 
 impl Equation<'_> {
     fn solve(&self) -> Option<Vec<f64>> {
-        let largest = self.explicit.iter().fold(0.0, |a: f64, b| a.max(*b));
+        // Where the floor does not wear any more, what a layer would have worn is the scale of round-off.
+        let largest = self.explicit.iter().fold(self.flux, |a: f64, b| a.max(*b));
         let nodes = self.depth.iter().zip(self.explicit);
         let mut wear: Vec<f64> = nodes
             .map(|(depth, explicit)| self.groove.wear_of(*depth, *explicit))

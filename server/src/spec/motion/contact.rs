@@ -3,7 +3,7 @@
 use api::spec::{DerivedMotion, Drive, Motion, MotionKind};
 use solver::scene;
 
-use super::imposed::{ImposedMotion, engine_drive};
+use super::imposed::{AMPLITUDE_MM, ImposedMotion, engine_drive};
 use crate::spec::diagnostics::Diagnostics;
 
 /// A contact of the connector.
@@ -60,11 +60,18 @@ impl Demand {
         self,
         spec: Motion,
         drive: Drive,
-        clearance_mm: Option<f64>,
-        how: &str,
+        (clearance_mm, how): (Option<f64>, &str),
+        diagnostics: &mut Diagnostics,
     ) -> ImposedMotion {
         let most = clearance_mm.map_or(f64::INFINITY, |clearance| 0.5 * clearance);
         let amplitude_mm = self.slip_mm.min(most);
+        if amplitude_mm > *AMPLITUDE_MM.end() {
+            let detail = format!(
+                "the contact would slip by +-{amplitude_mm:.3e} mm, {} are the most",
+                AMPLITUDE_MM.end()
+            );
+            diagnostics.fault("/motion", detail);
+        }
         let reason = self.reason(how, amplitude_mm);
         let derived = DerivedMotion {
             relative_amplitude_mm: self.relative_mm,

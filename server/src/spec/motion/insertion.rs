@@ -37,5 +37,6 @@ pub(super) fn resolve(
     };
     let period_s = period(given, assumed(PERIOD_S), &mut spec, diagnostics);
     let demand = Demand::beyond(0.5 * wipe_mm, 0.0, 1.0 / period_s);
-    demand.imposed(spec, drive, None, "half of the wipe to either side")
+    let how = "half of the wipe to either side";
+    demand.imposed(spec, drive, (None, how), diagnostics)
 }

@@ -76,5 +76,5 @@ pub(super) fn resolve(
     let range_mm = (mismatch * delta_t_k * length_mm).abs();
     let demand = Demand::beyond(0.5 * range_mm, held, 1.0 / period_s);
     let how = format!("{mismatch:e} 1/K times {delta_t_k} K over {length_mm} mm");
-    demand.imposed(spec, drive, clearance, &how)
+    demand.imposed(spec, drive, (clearance, &how), diagnostics)
 }

@@ -97,7 +97,7 @@ pub(super) fn resolve(
     let cycles = duration.map(|duration| duration * demand.frequency_hz);
     ImposedMotion {
         duration_cycles: cycles.map(whole),
-        ..demand.imposed(spec, drive, clearance, &how)
+        ..demand.imposed(spec, drive, (clearance, &how), diagnostics)
     }
 }
 
