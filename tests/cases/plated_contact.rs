@@ -210,12 +210,7 @@ async fn a_continuous_contact_lives_by_its_distance() {
         "interface": {"wear": {"slider": null, "receptacle": law(4e-7)}},
         "accuracy": {"preset": "draft"}
     });
-    let (status, job) = server.submit(spec.to_string()).await;
-    assert_eq!(status, 202, "{job}");
-    let id = job["id"].as_str().expect("a job has an id").to_owned();
-    let job = server
-        .job_when(&id, |job| job["finished_at"].is_string())
-        .await;
+    let job = server.ended(&spec).await;
     let life = &job["summary"]["life"][0];
     assert_eq!(life["status"], "reached", "{life}");
     assert!(life["cycles"].is_null() && life["duration_h"].is_null());

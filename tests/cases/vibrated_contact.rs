@@ -14,12 +14,7 @@ fn vibrated() -> Value {
 
 /// The summary of a specification, solved by the service.
 async fn solved(server: &Server, spec: &Value) -> Value {
-    let (status, job) = server.submit(spec.to_string()).await;
-    assert_eq!(status, 202, "{job}");
-    let id = job["id"].as_str().expect("a job has an id").to_owned();
-    let job = server
-        .job_when(&id, |job| job["finished_at"].is_string())
-        .await;
+    let job = server.ended(spec).await;
     assert_eq!(job["status"], "succeeded", "{job}");
     assert_eq!(job["plan"]["motion"], job["summary"]["motion"]);
     job["summary"].clone()

@@ -282,6 +282,18 @@ impl Server {
         answer(self.client.post(format!("{}{path}", self.base))).await
     }
 
+    /// Submits a specification and returns its job when it has ended.
+    ///
+    /// # Panics
+    /// If it is refused, or has not ended in four minutes.
+    pub async fn ended(&self, spec: &Value) -> Value {
+        let (status, job) = self.submit(spec.to_string()).await;
+        assert_eq!(status, 202, "{job}");
+        let id = job["id"].as_str().expect("a job has an id");
+        self.job_when(id, |job| job["finished_at"].is_string())
+            .await
+    }
+
     /// Polls a job until it meets a condition.
     ///
     /// # Panics
