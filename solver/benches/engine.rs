@@ -50,7 +50,9 @@ fn cycle_of_40_increments(bencher: Bencher<'_, '_>, element_um: u32) {
     bencher
         .with_inputs(|| loaded.clone())
         .bench_local_values(|mut state| {
-            integrator.compute_cycle(&mut state, 2).expect("it slides")
+            integrator
+                .compute_cycle(&mut state, (2, true))
+                .expect("it slides")
         });
 }
 

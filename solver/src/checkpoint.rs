@@ -7,17 +7,20 @@
 use serde::{Deserialize, Serialize};
 
 use crate::ale;
-use crate::cycle::CycleState;
+use crate::cycle::{CycleState, MissionState};
 use crate::effects::Crossing;
 use crate::mesh::MeshError;
 use crate::model::Model;
 use crate::record::{Compared, Initial, Life, Summary};
+use crate::scene::Scene;
 use crate::sides::{Side, Sides};
 
 /// A run between two computed cycles. It survives serialisation bit for bit in any format that preserves `f64`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Checkpoint {
     pub(crate) state: CycleState,
+    /// State of its mission, if it has one.
+    pub(crate) mission: Option<MissionState>,
     pub(crate) initial: Initial,
     /// Worn depths at which the operators were last rebuilt, mm.
     pub(crate) built: Option<Sides<Vec<f64>>>,
@@ -116,6 +119,38 @@ impl Checkpoint {
     pub(crate) fn go_back(&mut self, to: CycleState, called_for: Vec<Crossing>) {
         self.state = to;
         self.crossings.extend(called_for);
+    }
+
+    /// The present block of its mission; the first one without a mission.
+    pub(crate) fn block(&self) -> usize {
+        let mission = self.mission.as_ref();
+        mission.map_or(0, |mission| mission.position.block)
+    }
+
+    /// The block whose motion the slider has to leave before the next cycle.
+    pub(crate) fn block_left(&self) -> Option<usize> {
+        self.mission.as_ref().and_then(|mission| mission.left)
+    }
+
+    /// Whether the present block of its mission is done.
+    pub(crate) fn is_block_done(&self) -> bool {
+        let mission = self.mission.as_ref();
+        mission.is_some_and(|mission| mission.is_block_done(&self.state))
+    }
+
+    /// Records that the slider is where the cycles of the present block begin.
+    pub(crate) fn motion_changed(&mut self) {
+        if let Some(mission) = &mut self.mission {
+            mission.left = None;
+        }
+    }
+
+    /// Whether the state can be compared with that of another run after as many cycles: one that takes other repetitions of a
+    /// mission together has worn its blocks in another order before they are whole.
+    pub(crate) fn is_comparable(&self, scene: &Scene) -> bool {
+        let (mission, repeated) = (self.mission.as_ref(), scene.mission.as_ref());
+        let repeats = repeated.is_some_and(|mission| mission.repeat > 1);
+        mission.is_none_or(|mission| !repeats || mission.is_whole(scene, &self.state))
     }
 
     /// Records that zones must be wider.

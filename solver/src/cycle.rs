@@ -14,6 +14,8 @@ mod computed_cycle;
 mod cycle_record;
 mod extrapolation;
 mod groove;
+mod mission_state;
+mod motion_history;
 mod replay;
 mod skew;
 mod state;
@@ -28,13 +30,15 @@ use crate::contact::{self, ContactError, ContactState, Displacement, Pair, Solve
 use crate::law::surface;
 use crate::model::{Interface, Model, Tangential, resolution};
 use crate::number::{cycles_at_least, real, real_cycles};
-use crate::scene::Scene;
+use crate::scene::{Motion, Scene};
 use crate::schedule::increments::{self, Position};
 use crate::schedule::plan::CyclePlan;
 use crate::sides::{Side, Sides};
 
 pub use checks::Checks;
 pub use cycle_record::{CycleRecord, FrictionLoop, Neutral};
+pub use mission_state::BlockWear;
+pub(crate) use mission_state::MissionState;
 use replay::Replays;
 use skew::Passes;
 pub(crate) use skew::Skew;
@@ -64,11 +68,11 @@ pub struct Integrator<'a> {
 }
 
 impl<'a> Integrator<'a> {
-    /// An integrator for a scene on its condensed model.
+    /// An integrator for a scene, or a block of its mission, on its condensed model.
     pub fn new(scene: &'a Scene, model: &Model, operators: &'a Operators) -> Self {
         let pair = Pair {
             operators,
-            interface: model.interface,
+            interface: model.interface_of(scene),
         };
         let next = ContactState::untouched(operators, model.interface.slave);
         Self {
@@ -161,6 +165,25 @@ impl<'a> Integrator<'a> {
             self.step(state, step, 0.0, (increment, None))?;
         }
         Ok(())
+    }
+
+    /// Moves the slider from the turning point where the cycles of another motion end to that where those of this one begin,
+    /// without wear.
+    ///
+    /// # Errors
+    /// [`CycleError`] if an increment fails however small it is.
+    pub(crate) fn change_motion(
+        &mut self,
+        state: &mut CycleState,
+        from: Motion,
+    ) -> Result<(), CycleError> {
+        self.update_slopes(state);
+        let contact = (state.mean_half_width, self.pair.interface.sticks);
+        let steps = increments::steps(from, increments::count(from, &self.scene.accuracy, contact));
+        for (increment, step) in increments::first_quarter(&steps).iter().enumerate() {
+            self.step(state, step, 0.0, (increment, None))?;
+        }
+        self.initial_quarter(state)
     }
 
     /// Integrates one computed cycle up to its end, or until a body is worn through; with additional points of the

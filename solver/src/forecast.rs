@@ -13,16 +13,18 @@
 //! The contact of a short stroke is nearly as wide as the segment; that of a long one rests on the leading-edge step of
 //! one pass, sqrt(2 R k P jump) deep into the floor, to which its half-width adds by a share (`scene::Tuning`).
 
+mod blocks;
 mod surrogate;
 
 use crate::model::Layout;
 use crate::number::{cycles_at_least, real, real_cycles};
 use crate::scene::Scene;
-use crate::schedule::jump::JumpControl;
+use crate::schedule::mission::MissionPosition;
 use crate::schedule::plan::{CyclePlan, Cycles, Followed};
 use crate::schedule::stops;
 use crate::sides::Sides;
 
+use blocks::{Block, WornBlocks};
 use surrogate::Scar;
 
 /// Computed cycles that are forecast one by one; the rest is extrapolated from the last.
@@ -67,7 +69,7 @@ impl Forecast {
 
 /// Forecasts a run of a scene from the layout of its meshes.
 pub fn forecast(scene: &Scene, layout: &Layout) -> Forecast {
-    let mut scar = Scar::new(scene, layout);
+    let mut worn = WornBlocks::new(scene, layout);
     let mut run = Forecast {
         condensations: Sides {
             slider: 1,
@@ -76,50 +78,66 @@ pub fn forecast(scene: &Scene, layout: &Layout) -> Forecast {
         ..Forecast::default()
     };
     let x = layout.bodies.of(layout.sizes.slave).contact_x();
-    let mut jump = JumpControl::default();
-    let mut cycle = 0;
-    let is_done = |scar: &Scar, cycle, jump: &JumpControl| {
-        let depth = |side, part| scar.depth_of_part(side, part);
-        stops::end(scene, scar.progress(cycle, jump), depth).is_some()
-    };
-    while !is_done(&scar, cycle, &jump) {
+    let mut position = MissionPosition::first(scene);
+    let (mut cycle, mut is_first) = (0, false);
+    while !worn.is_done(scene, position.block, cycle) {
         if MOST_SEGMENTS <= run.segments.len() {
             run.extrapolate(cycle, scene.cycles);
             break;
         }
-        let depth = |side, part| scar.depth_of_part(side, part);
-        let until = stops::next(scene, scar.progress(cycle, &jump), depth);
+        let depth = |side, part| worn.depth_of_part(side, part);
+        if scene.mission.is_some() && cycle >= position.until {
+            position = position.next(scene, worn.mean_progress(cycle), depth);
+            is_first = true;
+        }
+        let now = worn.progress(position.block, cycle);
+        let (until, is_reported) = position.next_reported(scene, stops::next(scene, now, depth));
+        let Block { scar, jump, motion } = &mut worn.blocks[position.block];
+        if is_first {
+            scar.change_motion();
+        }
         let (accuracy, stroke) = (&scene.accuracy, scar.stroke(scene));
-        let step = jump.next(accuracy, stroke, until - cycle);
+        let mut step = jump.next(accuracy, stroke, until - cycle);
+        if is_first && stroke.is_groove {
+            // Nothing to extrapolate from.
+            step = 1;
+        }
         let followed = Followed {
             half_width: scar.half_width,
             single: scar.half_width,
-            sticks: layout.sizes.sticks,
+            sticks: scar.sticks,
         };
-        let motion = scene.motion;
-        let detailed = cycle + step == until || !scene.stop.is_empty();
+        let is_last = cycle + step == until;
+        let detailed = (is_last && is_reported) || !scene.stop.is_empty();
         let cycles = Cycles {
             done: cycle,
             jump: if stroke.is_groove { 1 } else { step },
         };
-        let plan = CyclePlan::new((motion, accuracy), followed, (stroke, cycles), detailed);
+        let plan = CyclePlan::new((*motion, accuracy), followed, (stroke, cycles), detailed);
         let together = batch_size(scene, run.computed_cycles, (until - cycle) / step);
         let before = scar.depth.clone();
         scar.wear(step * together);
         let done = step * together;
-        let worn = (before.as_slices(), scar.depth.as_slices());
-        jump.update(scar.widths(), worn, done);
+        let depths = (before.as_slices(), scar.depth.as_slices());
+        jump.update(scar.widths(), depths, done);
         cycle += done;
         run.computed_cycles += real_cycles(together);
+        // A quarter of a cycle from the last motion to the neutral position, and another one from there.
+        let changed = if is_first {
+            0.5 * real(plan.steps)
+        } else {
+            0.0
+        };
         run.segments.push(Segment {
             cycle,
-            increments: real_cycles(together) * real(plan.increments()),
+            increments: real_cycles(together) * real(plan.increments()) + changed,
             steps: plan.steps,
             half_width_mm: scar.half_width,
             nodes: nodes_within(x, scar.half_width),
-            solved: solved(x, &scar, layout.sizes.sticks),
+            solved: solved(x, scar),
         });
-        scar.rebuild(scene, &mut run.condensations);
+        is_first = false;
+        worn.rebuild(scene, &mut run.condensations);
     }
     run
 }
@@ -157,9 +175,9 @@ impl Forecast {
 /// Nodes that the cost of an increment depends on. Measured: in a sliding contact that stays where it is those in contact, in
 /// gross sliding half of the candidates, because the contact lies on one side of the leading-edge step; where it may stick, with
 /// two tractions a node and statuses that change, all candidates.
-fn solved(x: &[f64], scar: &Scar, sticks: bool) -> usize {
+fn solved(x: &[f64], scar: &Scar) -> usize {
     let candidates = nodes_within(x, scar.candidate_half_width());
-    if sticks {
+    if scar.sticks {
         candidates
     } else if scar.is_gross() {
         candidates.div_ceil(2)

@@ -315,6 +315,17 @@ impl Model {
         self.surface = surface_effects(plan);
     }
 
+    /// The interface in a block of a mission, in which nothing may stick although it may in others.
+    pub(crate) fn interface_of(&self, block: &Scene) -> Interface {
+        let hertz = self.sizes.hertz_half_width;
+        let sticks = self.interface.sticks && resolution::sticks(block, hertz);
+        Interface {
+            sticks,
+            slope_weights: slope_weights(block, sticks),
+            ..self.interface
+        }
+    }
+
     /// The model with zones of another width, over that of the layout.
     ///
     /// # Errors

@@ -15,7 +15,7 @@ mod scar;
 mod snapshot;
 mod summary;
 
-pub use crate::cycle::{Checks, FrictionLoop};
+pub use crate::cycle::{BlockWear, Checks, FrictionLoop};
 pub use crate::fields::PlacedFields;
 pub use crate::schedule::increments::Position;
 pub use crate::schedule::stops::Outcome;

@@ -6,7 +6,7 @@ use crate::SolveError;
 use crate::ale::{self, Spines};
 use crate::checkpoint::{Checkpoint, Earlier};
 use crate::condensation::{self, Condensed};
-use crate::cycle::{CycleRecord, CycleState, Integrator};
+use crate::cycle::{CycleError, CycleRecord, CycleState, Integrator, MissionState};
 use crate::effects::{self, EffectsPlan};
 use crate::fields;
 use crate::law::surface;
@@ -111,6 +111,10 @@ fn advance(
                 model.follow(scene, &plan);
                 continue;
             }
+            ControlFlow::Continue(Renewal::Motion) => {
+                next_block(scene, &model, &mut run);
+                continue;
+            }
             ControlFlow::Continue(Renewal::Stiffness) => {}
         }
         observer.on_phase(Phase::Relocate);
@@ -130,7 +134,8 @@ fn load(
     observer: &mut dyn Observer,
 ) -> Result<(Checkpoint, ControlFlow<()>), SolveError> {
     let mut state = CycleState::start(&condensed.operators, model.interface.slave);
-    let mut integrator = Integrator::new(scene, model, &condensed.operators);
+    let blocks = scene.blocks();
+    let mut integrator = Integrator::new(&blocks[0], model, &condensed.operators);
     let record = integrator.apply_load(&mut state)?;
     let report = record::report(scene, model, &state);
     let mut compared = Compared::default();
@@ -147,7 +152,9 @@ fn load(
         peak_pressure_mpa: report.peak_pressure_mpa,
         contact_half_width_mm: report.contact_half_width_mm,
     };
+    let mission = scene.mission.as_ref();
     let run = Checkpoint {
+        mission: mission.map(|mission| MissionState::new(scene, mission, &state)),
         state,
         initial,
         built: None,
@@ -167,6 +174,8 @@ enum Renewal {
     Stiffness,
     /// Effects that were skipped.
     Effects,
+    /// The motion of the next block of a mission.
+    Motion,
 }
 
 /// Computes cycles until the run ends (`Break`), or needs something else before its next cycle (`Continue`).
@@ -178,18 +187,29 @@ fn integrate(
     observer: &mut dyn Observer,
 ) -> Result<ControlFlow<Outcome, Renewal>, SolveError> {
     const STOPPED: ControlFlow<Outcome, Renewal> = ControlFlow::Break(Outcome::Stopped);
-    let mut integrator = Integrator::new(scene, model, &condensed.operators);
+    let blocks = scene.blocks();
+    let block = &blocks[run.block()];
+    let mut integrator = Integrator::new(block, model, &condensed.operators);
     let spines = Spines::of(model);
     while run.state.cycle < scene.cycles {
+        if run.is_block_done() {
+            return Ok(ControlFlow::Continue(Renewal::Motion));
+        }
         if model.relocates && ale::has_drifted(model, &run.state.depth, &scene.accuracy) {
             return Ok(ControlFlow::Continue(Renewal::Stiffness));
         }
         let before = run.state.clone();
-        let state = &mut run.state;
-        let depth = |side, part| record::worn_surface(model, &before, side).depth_of_part(part);
-        let until = stops::next(scene, progress(model, &spines, state), depth);
-        let record = match integrator.compute_cycle(state, until) {
+        let step = match run.block_left() {
+            Some(left) => {
+                let motion = blocks[left].motion;
+                let moved = integrator.change_motion(&mut run.state, motion);
+                moved.map(|()| None)
+            }
+            None => next_cycle(scene, model, (&mut integrator, &spines), run).map(Some),
+        };
+        let record = match step {
             Err(error) if error.needs_wider_zones() => {
+                run.state = before;
                 run.widen();
                 return Ok(ControlFlow::Continue(Renewal::Stiffness));
             }
@@ -201,8 +221,13 @@ fn integrate(
                 run.go_back(before, called_for);
                 return Ok(ControlFlow::Continue(Renewal::Effects));
             }
-            Ok(record) => record,
+            Ok(None) => {
+                run.motion_changed();
+                continue;
+            }
+            Ok(Some(record)) => record,
         };
+        let state = &run.state;
         let cycles = (before.cycle, state.cycle);
         let called_for = plan.crossed(scene, cycles, state.depth.largest_of_each());
         if !called_for.is_empty() {
@@ -210,14 +235,17 @@ fn integrate(
             return Ok(ControlFlow::Continue(Renewal::Effects));
         }
         let report = record::report(scene, model, state);
-        run.compared.push(&report);
+        if run.is_comparable(scene) {
+            run.compared.push(&report);
+        }
         let surface = |side| record::worn_surface(model, state, side);
         run.life.push(scene, state.cycle, surface);
         if observer.on(Event::Cycle(&report)).is_break() {
             return Ok(STOPPED);
         }
         let depth = |side, part| surface(side).depth_of_part(part);
-        let end = stops::end(scene, progress(model, &spines, state), depth);
+        let rates = state.jump.rates();
+        let end = stops::end(scene, progress((model, &spines), state, rates), depth);
         if end.is_some() || scene.output.snapshots_at_cycles.contains(&state.cycle) {
             let snapshot = snapshot(scene, model, condensed, state, record)?;
             if observer.on(Event::Snapshot(&snapshot)).is_break() {
@@ -234,16 +262,51 @@ fn integrate(
     Ok(ControlFlow::Break(Outcome::Completed))
 }
 
-/// Progress of the run for its stops.
-fn progress(model: &Model, spines: &Spines, state: &CycleState) -> Progress {
-    let (wear, equivalent) = (model.interface.wear, state.jump.rates());
+/// The next computed cycle, within the present block of a mission.
+fn next_cycle(
+    scene: &Scene,
+    model: &Model,
+    (integrator, spines): (&mut Integrator<'_>, &Spines),
+    run: &mut Checkpoint,
+) -> Result<CycleRecord, CycleError> {
+    let state = &run.state;
+    let depth = |side, part| record::worn_surface(model, state, side).depth_of_part(part);
+    let now = progress((model, spines), state, state.jump.rates());
+    let next = stops::next(scene, now, depth);
+    let position = run.mission.as_ref().map(|mission| mission.position);
+    let until = position.map_or((next, true), |position| position.next_reported(scene, next));
+    integrator.compute_cycle(&mut run.state, until)
+}
+
+/// Moves on to the next block of a mission.
+fn next_block(scene: &Scene, model: &Model, run: &mut Checkpoint) {
+    let spines = Spines::of(model);
+    let Some(mission) = &mut run.mission else {
+        return;
+    };
+    mission.next_block(
+        scene,
+        &mut run.state,
+        &model.interface.wear,
+        |state, rates| progress((model, &spines), state, rates),
+        |state, side, part| record::worn_surface(model, state, side).depth_of_part(part),
+    );
+}
+
+/// Progress of the run for its stops, at rates of the contact nodes as equivalent depths, mm a cycle.
+fn progress(
+    (model, spines): (&Model, &Spines),
+    state: &CycleState,
+    equivalent: Sides<&[f64]>,
+) -> Progress {
+    let wear = model.interface.wear;
     let rates = Sides::from_fn(|side| {
         surface::at_relative_rates(*wear.of(side), equivalent.of(side), state.depth.of(side))
     });
     Progress {
         cycle: state.cycle,
         cycles_left: spines.cycles_left(&state.depth, rates.as_ref().map(|rates| &rates[..])),
-        fastest_rate: state.jump.fastest_rate(),
+        fastest_rate: equivalent.map(|rates| rates.iter().fold(0.0, |m: f64, rate| m.max(*rate))),
         worn_through: spines.are_worn_through(&state.depth),
     }
 }
@@ -286,7 +349,10 @@ fn summary(
             work: state.work,
             dofs: model.bodies.slider.dofs() + model.bodies.receptacle.dofs(),
             relocations: run.relocations,
-            estimated_relative_error: state.jump.mean_error(),
+            estimated_relative_error: match &run.mission {
+                Some(mission) => mission.mean_error(state),
+                None => state.jump.mean_error(),
+            },
         },
         last,
         checks,
@@ -296,6 +362,9 @@ fn summary(
         effects: plan.verdicts(),
         crossings: run.crossings.clone(),
         life: run.life.clone(),
+        blocks: run.mission.as_ref().map_or_else(Vec::new, |mission| {
+            mission.wear(state, &model.interface.wear)
+        }),
     }
 }
 

@@ -5,10 +5,16 @@
 //! where it is created; the engine does not check it again.
 
 mod criterion;
+mod mission;
+mod motion;
 mod tuning;
 
 pub use criterion::Criterion;
+pub use mission::{Block, Mission};
+pub use motion::Motion;
 pub use tuning::{Power, Tuning};
+
+use std::borrow::Cow;
 
 use crate::effects::{Effect, Switches};
 use crate::law::friction;
@@ -38,10 +44,12 @@ pub struct Scene {
     pub spring_n_per_mm2: f64,
     /// Boundary conditions of the slider.
     pub drive: Drive,
-    /// The imposed relative motion (slider minus receptacle).
+    /// The imposed relative motion (slider minus receptacle); of a mission its mean cycle, for estimates.
     pub motion: Motion,
-    /// Number of physical cycles.
+    /// Number of physical cycles, of all blocks of a mission.
     pub cycles: u64,
+    /// Blocks of different motions, if there are several.
+    pub mission: Option<Mission>,
     /// Mesh and integration settings.
     pub accuracy: Accuracy,
     /// Recorded output.
@@ -58,6 +66,44 @@ impl Scene {
     /// Whether there is friction between the bodies.
     pub(crate) fn has_friction(&self) -> bool {
         friction::coefficient(self.friction) > 0.0
+    }
+
+    /// The scene of each block of its mission, with the motion of that block and as many cycles as it has in the whole mission;
+    /// itself without a mission.
+    pub(crate) fn blocks(&self) -> Vec<Cow<'_, Self>> {
+        let Some(mission) = &self.mission else {
+            return vec![Cow::Borrowed(self)];
+        };
+        let blocks = mission.blocks.iter().map(|block| {
+            Cow::Owned(Self {
+                motion: block.motion,
+                cycles: block.cycles.saturating_mul(mission.repeat),
+                mission: None,
+                ..self.clone()
+            })
+        });
+        blocks.collect()
+    }
+
+    /// Imposed sliding distance, mm, and time, s, after a number of physical cycles; no time of a continuous motion.
+    pub fn elapsed(&self, cycles: f64) -> (f64, Option<f64>) {
+        match &self.mission {
+            Some(mission) => {
+                let (distance, time) = mission.elapsed(cycles);
+                (distance, Some(time))
+            }
+            None => (
+                cycles * self.motion.distance_per_cycle_mm(),
+                self.motion.period_s().map(|period| cycles * period),
+            ),
+        }
+    }
+
+    /// Largest amplitude of the contact's motion over the receptacle, mm.
+    pub fn largest_amplitude_mm(&self) -> f64 {
+        let blocks = self.mission.iter().flat_map(|mission| &mission.blocks);
+        let amplitudes = blocks.map(|block| block.motion.amplitude_mm().abs());
+        amplitudes.fold(self.motion.amplitude_mm(), f64::max)
     }
 
     /// Layers of a side, from the surface down.
@@ -181,43 +227,6 @@ pub enum Drive {
     Handle,
     /// The thesis' drive: `u_x` of every slider node prescribed, `u_y` free, pressure on the top face.
     WholeBody,
-}
-
-/// Imposed relative motion.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Motion {
-    /// Reciprocating around the neutral position, toward +x first. Quasi-static contact does not depend on time:
-    /// waveform and period do not change the result.
-    Reciprocating {
-        /// Amplitude, mm.
-        amplitude_mm: f64,
-        /// Duration of a cycle, s.
-        period_s: f64,
-    },
-    /// The slider's surface slides through a contact that stays at one position of the receptacle, as for a ring
-    /// rotating on a block. A cycle of the run is the distance `step_mm`; the slider must not wear.
-    Continuous {
-        /// Distance of one cycle, mm.
-        step_mm: f64,
-    },
-}
-
-impl Motion {
-    /// Imposed sliding distance of a cycle, mm.
-    pub fn distance_per_cycle_mm(self) -> f64 {
-        match self {
-            Self::Reciprocating { amplitude_mm, .. } => 4.0 * amplitude_mm,
-            Self::Continuous { step_mm } => step_mm,
-        }
-    }
-
-    /// Amplitude of the contact's motion over the receptacle, mm.
-    pub fn amplitude_mm(self) -> f64 {
-        match self {
-            Self::Reciprocating { amplitude_mm, .. } => amplitude_mm,
-            Self::Continuous { .. } => 0.0,
-        }
-    }
 }
 
 /// Mesh and integration settings.

@@ -3,6 +3,7 @@
 
 pub mod increments;
 pub mod jump;
+pub(crate) mod mission;
 pub mod plan;
 pub mod replay;
 pub mod stops;

@@ -247,6 +247,7 @@ fn scene(u: &mut Numbers, regime: Regime, worn: Worn) -> Scene {
             period_s: 1.0,
         },
         cycles,
+        mission: None,
         accuracy: Accuracy::from_tolerance(0.02),
         output: Output {
             stations_mm: Vec::new(),

@@ -55,6 +55,7 @@ pub(crate) fn mccoll() -> Scene {
             period_s: 0.05,
         },
         cycles: 18_000,
+        mission: None,
         accuracy: Accuracy::from_tolerance(0.02),
         output: Output {
             stations_mm: vec![0.0, 0.05, 0.1, 0.2],
@@ -105,6 +106,7 @@ pub(crate) fn fuzz_button() -> Scene {
             period_s: 16.0,
         },
         cycles: 2_000,
+        mission: None,
         accuracy: Accuracy::from_tolerance(0.02),
         output: Output {
             stations_mm: vec![-0.04, -0.02, -0.008, 0.0, 0.008, 0.02, 0.04],

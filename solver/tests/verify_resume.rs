@@ -5,6 +5,7 @@ use std::ops::ControlFlow;
 use crate::recorder::Recorder;
 use crate::scenes::{fuzz_button, mccoll};
 use crate::verify_long_wipe::{RATE, wipe};
+use crate::verify_mission::vibrated_and_wiped;
 use solver::SolveError;
 use solver::checkpoint::{Checkpoint, Misfit};
 use solver::observer::{Event, Observer};
@@ -138,6 +139,13 @@ fn a_continuous_run_resumes_to_the_same_bits() {
     scene.slider.wear = None;
     scene.output.snapshots_at_cycles = vec![500, 1_000];
     resumes_to_the_same_bits("continuous", &scene, 6);
+}
+
+#[test]
+fn a_mission_resumes_to_the_same_bits() {
+    let scene = vibrated_and_wiped(12, Some(1e-7));
+    let (summary, _) = resumes_to_the_same_bits("mission", &scene, 12);
+    assert_eq!(summary.blocks.len(), 2);
 }
 
 #[test]

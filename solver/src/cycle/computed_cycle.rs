@@ -19,7 +19,8 @@ use crate::sides::Sides;
 const UNEVEN: f64 = 2.0;
 
 impl Integrator<'_> {
-    /// Computes one cycle, which represents as many physical ones as the jump control and `until` allow.
+    /// Computes one cycle, which represents as many physical ones as the jump control and `until` allow; what happens until then
+    /// may be reported in detail.
     ///
     /// # Errors
     /// [`CycleError`] if an increment fails however small it is; the state is then that before the cycle if wider zones
@@ -27,7 +28,7 @@ impl Integrator<'_> {
     pub fn compute_cycle(
         &mut self,
         state: &mut CycleState,
-        until: u64,
+        (until, is_reported): (u64, bool),
     ) -> Result<CycleRecord, CycleError> {
         let (motion, accuracy) = (self.scene.motion, &self.scene.accuracy);
         let stroke = self.stroke(state);
@@ -35,7 +36,8 @@ impl Integrator<'_> {
         let before = state.clone();
         loop {
             // A run may end after this cycle.
-            let detailed = before.cycle + jump == until || !self.scene.stop.is_empty();
+            let is_last = before.cycle + jump == until;
+            let detailed = (is_last && is_reported) || !self.scene.stop.is_empty();
             let (computed, extrapolated) = if stroke.is_groove {
                 (1, extrapolated(jump - 1, detailed))
             } else {

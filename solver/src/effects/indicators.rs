@@ -2,6 +2,7 @@
 //!
 //! R radius of relative curvature, A amplitude, A_c displacement of gross slip, h worn depth, P load, k spring.
 
+use std::borrow::Cow;
 use std::f64::consts::PI;
 
 use super::effect::Effect;
@@ -24,7 +25,9 @@ const CHANGE_PER_LOST_HEIGHT: f64 = 0.0125;
 
 /// What the indicators of a scene depend on besides its worn depths.
 pub(super) struct Indicators<'a> {
-    scene: &'a Scene,
+    scene: Cow<'a, Scene>,
+    /// Those of the blocks of a mission; none without a mission.
+    blocks: Vec<Indicators<'a>>,
     sizes: Sizes,
     /// Wear of the sides that are not switched off, and its rates.
     wear: Sides<Option<SurfaceWear>>,
@@ -37,27 +40,38 @@ pub(super) struct Indicators<'a> {
 
 impl<'a> Indicators<'a> {
     pub(super) fn of(scene: &'a Scene) -> Self {
-        let sizes = resolution::choose(scene);
+        let mut blocks = Vec::new();
+        if scene.mission.is_some() {
+            let moving = scene.blocks().into_iter();
+            let moving = moving.filter(|block| block.motion.distance_per_cycle_mm() > 0.0);
+            blocks.extend(moving.map(|block| Self::alone(block, Vec::new())));
+        }
+        Self::alone(Cow::Borrowed(scene), blocks)
+    }
+
+    fn alone(scene: Cow<'a, Scene>, blocks: Vec<Self>) -> Self {
+        let sizes = resolution::choose(&scene);
         Self {
-            scene,
+            blocks,
             wear: scene.surface_wear(),
-            rates: resolution::wear_rates(scene, sizes.hertz_half_width),
+            rates: resolution::wear_rates(&scene, sizes.hertz_half_width),
             friction: friction::coefficient(scene.friction),
-            radius: resolution::radius(scene),
-            lost_slip: lost_slip(scene, sizes.hertz_half_width),
+            radius: resolution::radius(&scene),
+            lost_slip: lost_slip(&scene, sizes.hertz_half_width),
             sizes,
+            scene,
         }
     }
 
     /// Estimated largest worn depths after so many cycles, mm.
     pub(super) fn worn_depth_after(&self, cycles: u64) -> Sides<f64> {
         let at = LocalState::mean(self.scene.load_n_per_mm, self.sizes.hertz_half_width);
-        worn_depth::after(self.scene, (self.radius, at), &self.wear, cycles)
+        worn_depth::after(&self.scene, (self.radius, at), &self.wear, cycles)
     }
 
     /// Those at the end.
     pub(super) fn worn_depth_at_end(&self) -> Sides<f64> {
-        let cycles = resolution::expected_cycles(self.scene, self.sizes.hertz_half_width);
+        let cycles = resolution::expected_cycles(&self.scene, self.sizes.hertz_half_width);
         self.worn_depth_after(cycles)
     }
 
@@ -66,8 +80,14 @@ impl<'a> Indicators<'a> {
         self.sizes.hertz_half_width
     }
 
-    /// The indicator of an effect at these largest worn depths, mm.
+    /// The indicator of an effect at these largest worn depths, mm: the largest of all blocks of a mission.
     pub(super) fn value(&self, effect: Effect, depth: Sides<f64>) -> f64 {
+        let blocks = self.blocks.iter().map(|block| block.value(effect, depth));
+        let largest = blocks.reduce(f64::max);
+        largest.unwrap_or_else(|| self.value_alone(effect, depth))
+    }
+
+    fn value_alone(&self, effect: Effect, depth: Sides<f64>) -> f64 {
         match effect {
             Effect::Elasticity => 1.0,
             Effect::Friction => self.friction(depth),
@@ -106,18 +126,22 @@ impl<'a> Indicators<'a> {
                     spring_n_per_mm2: spring,
                     load_n_per_mm: load,
                     ..
-                } = self.scene;
+                } = *self.scene;
                 0.5 * (depth.slider + depth.receptacle) * spring / load
             }
-            Effect::GeometricNonlinearity => small_strain::cost(self.scene),
+            Effect::GeometricNonlinearity => small_strain::cost(&self.scene),
         }
     }
 
     /// Temperature rise of the unworn contact by friction, K; a wider one is cooler.
     pub(super) fn frictional_heat_k(&self) -> f64 {
+        let blocks = self.blocks.iter().map(Self::frictional_heat_k);
+        if let Some(largest) = blocks.reduce(f64::max) {
+            return largest;
+        }
         let Scene {
             slider, receptacle, ..
-        } = self.scene;
+        } = &*self.scene;
         let conductivity = slider.conductivity_w_mk.zip(receptacle.conductivity_w_mk);
         let (Some((one, other)), Motion::Reciprocating { period_s, .. }) =
             (conductivity, self.scene.motion)
@@ -136,7 +160,7 @@ impl<'a> Indicators<'a> {
     fn relocation(&self, depth: Sides<f64>) -> f64 {
         let Scene {
             slider, receptacle, ..
-        } = self.scene;
+        } = &*self.scene;
         let slider = depth.slider / slider.shape.height_mm;
         let lost = slider.max(depth.receptacle / receptacle.shape.height_mm);
         // The mesh is part of the fields.

@@ -3,7 +3,6 @@
 //! In gross sliding a worn slider carries a flat of half-width b_s = (3 R W_s / 2)^(1/3), its worn area W_s cut off its
 //! arc, and the contact is at least as wide; in a shorter stroke both sides share one scar.
 
-use crate::ale;
 use crate::contact::line::CANDIDATE_GAP;
 use crate::law::elastic::contact_modulus;
 use crate::law::surface::SurfaceWear;
@@ -11,8 +10,7 @@ use crate::model::{Layout, resolution};
 use crate::number::{real, real_cycles};
 use crate::record::WornSurface;
 use crate::scene::{Scene, Tuning};
-use crate::schedule::jump::{JumpControl, Stroke};
-use crate::schedule::stops::Progress;
+use crate::schedule::jump::Stroke;
 use crate::sides::{Side, Sides};
 
 /// Points of the surrogate, from the middle to the end.
@@ -32,7 +30,7 @@ fn shape(x: f64, drawn: f64, flat: f64, reach: f64) -> f64 {
 pub(super) struct Scar {
     tuning: Tuning,
     /// Whether part of the contact may stick through the whole stroke.
-    sticks: bool,
+    pub(super) sticks: bool,
     /// Radius of the relative curvature, Hertz half-width, amplitude, mm.
     radius: f64,
     hertz: f64,
@@ -53,23 +51,23 @@ pub(super) struct Scar {
     /// Expected cycles of the run.
     cycles: u64,
     /// Rate of the outermost layer of each side over the mean rate that it wears by.
-    outer: Sides<f64>,
-    /// Heights of the bodies when their operators were built, and unworn, mm.
-    built: Sides<f64>,
-    heights: Sides<f64>,
+    pub(super) outer: Sides<f64>,
     pub(super) area: f64,
+    /// Worn area since another motion has worn the surfaces, which no longer conform then, mm^2.
+    conforming: f64,
     x: Vec<f64>,
     widths: Vec<f64>,
     /// Depth of each body in its own frame, and the largest of each, mm.
     pub(super) depth: Sides<Vec<f64>>,
-    deepest: Sides<f64>,
+    pub(super) deepest: Sides<f64>,
     /// Half-width of the contact and of the scar beyond the stroke, mm.
     pub(super) half_width: f64,
     reach: f64,
 }
 
 impl Scar {
-    pub(super) fn new(scene: &Scene, layout: &Layout) -> Self {
+    /// That of a motion under which part of the contact may stick or not.
+    pub(super) fn new(scene: &Scene, layout: &Layout, sticks: bool) -> Self {
         let modulus = contact_modulus(scene.slider.elastic, scene.receptacle.elastic);
         let tuning = scene.accuracy.tuning;
         let hertz = layout.sizes.hertz_half_width;
@@ -86,12 +84,8 @@ impl Scar {
         let end = (amplitude + 1.5 * layout.sizes.final_half_width + hertz).min(half_block);
         let width = end / real(PLACES);
         let share = |k: f64| if wear > 0.0 { k / wear } else { 0.0 };
-        let heights = Sides {
-            slider: scene.slider.shape.height_mm,
-            receptacle: scene.receptacle.shape.height_mm,
-        };
         Self {
-            sticks: layout.sizes.sticks,
+            sticks,
             radius: resolution::radius(scene),
             hertz,
             flat: tuning.surrogate_half_width * hertz,
@@ -108,9 +102,8 @@ impl Scar {
                 let layers = wear.and_then(SurfaceWear::layers);
                 layers.map_or(1.0, |layers| layers.outer_rate() / rate)
             }),
-            built: heights,
-            heights,
             area: 0.0,
+            conforming: 0.0,
             x: (0..PLACES).map(|i| width * (real(i) + 0.5)).collect(),
             widths: vec![width; PLACES],
             depth: Sides::from_fn(|_| vec![0.0; PLACES]),
@@ -134,6 +127,7 @@ impl Scar {
     /// Wears so many cycles more.
     pub(super) fn wear(&mut self, cycles: u64) {
         self.area += self.area_per_cycle * real_cycles(cycles);
+        self.conforming += self.area_per_cycle * real_cycles(cycles);
         self.grow();
         let drawn = (self.amplitude - self.flat).max(0.0);
         // The rest of the stroke moves the contact over the scar, which smears its growing edges.
@@ -151,9 +145,25 @@ impl Scar {
         self.half_width = self.contact();
     }
 
+    /// Takes it that another motion has worn the surfaces.
+    pub(super) fn change_motion(&mut self) {
+        self.conforming = 0.0;
+    }
+
     /// Half-width of the slider's flat in gross sliding, mm.
     fn slider_flat(&self) -> f64 {
         (1.5 * self.radius * self.shares.slider * self.area).cbrt()
+    }
+
+    /// Part of the width of a scar, or flat, that the contact has after another motion: that of the wear since then would be the cube
+    /// root of its share in the worn area. Measured: the root of that, on a sprung contact in which both bodies wear
+    /// (`verify_mission`).
+    fn conformity(&self) -> f64 {
+        if self.conforming < self.area {
+            (self.conforming / self.area).powf(1.0 / 6.0)
+        } else {
+            1.0
+        }
     }
 
     fn wear_slider(&mut self) {
@@ -197,10 +207,11 @@ impl Scar {
     fn contact(&self) -> f64 {
         let step = 2.0 * self.radius * self.pass;
         let gross = self.hertz.hypot((self.tuning.step_share * step).sqrt());
-        let gross = gross.max(self.slider_flat());
+        let gross = gross.max(self.conformity() * self.slider_flat());
         let share = (self.amplitude / gross - 1.0).clamp(0.0, 1.0);
+        let reach = self.conformity() * self.reach;
         gross.powf(share)
-            * (self.reach / self.tuning.surrogate_half_width)
+            * (reach / self.tuning.surrogate_half_width)
                 .max(gross)
                 .powf(1.0 - share)
     }
@@ -225,28 +236,6 @@ impl Scar {
         self.tuning.is_gross(self.amplitude, self.half_width)
     }
 
-    /// Progress of the forecast run for its stops.
-    pub(super) fn progress(&self, cycle: u64, jump: &JumpControl) -> Progress {
-        let left = self.remaining();
-        let share = |(left, height): (f64, f64)| left / height;
-        let shares = left.zip(self.heights).map(share);
-        let fastest = jump
-            .rates()
-            .map(|rates| rates.iter().fold(0.0, |m: f64, rate| m.max(*rate)));
-        let cycles = left
-            .zip(fastest)
-            .map(|(left, rate)| left / rate.max(f64::MIN_POSITIVE));
-        Progress {
-            cycle,
-            cycles_left: cycles.slider.min(cycles.receptacle),
-            fastest_rate: self
-                .outer
-                .zip(jump.fastest_rate())
-                .map(|(outer, rate)| outer * rate),
-            worn_through: shares.slider.min(shares.receptacle) < ale::WORN_THROUGH_SHARE,
-        }
-    }
-
     /// Depth that a part of a side's scar has at least, mm.
     pub(super) fn depth_of_part(&self, side: Side, part: f64) -> f64 {
         if part <= 0.0 {
@@ -257,24 +246,5 @@ impl Scar {
             depth: self.depth.of(side),
         };
         worn.depth_of_part(part)
-    }
-
-    /// Remaining heights of the bodies at the deepest point, mm.
-    fn remaining(&self) -> Sides<f64> {
-        let left = |(height, deepest): (f64, f64)| height - deepest;
-        self.heights.zip(self.deepest).map(left)
-    }
-
-    /// Counts a condensation of the bodies that have changed where one has drifted.
-    pub(super) fn rebuild(&mut self, scene: &Scene, condensations: &mut Sides<u32>) {
-        let now = self.remaining();
-        let share = scene.accuracy.drift_share();
-        let drifted = |side: Side| self.built.of(side) - now.of(side) > share * self.built.of(side);
-        if Side::BOTH.into_iter().any(drifted) {
-            for side in Side::BOTH {
-                *condensations.of_mut(side) += u32::from(now.of(side) < self.built.of(side));
-            }
-            self.built = now;
-        }
     }
 }

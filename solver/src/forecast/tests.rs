@@ -6,7 +6,7 @@ use crate::number::real_cycles;
 fn the_surrogate_has_the_worn_area() {
     let scene = fuzz_button();
     let layout = Layout::of(&scene).expect("it can be meshed");
-    let mut scar = Scar::new(&scene, &layout);
+    let mut scar = Scar::new(&scene, &layout, false);
     for jump in [1, 10, 100] {
         scar.wear(jump);
         let held: f64 = scar

@@ -19,6 +19,20 @@ pub struct Spacing {
     pub largest: f64,
 }
 
+impl Spacing {
+    /// The spacing that is nowhere coarser than either of two.
+    pub(crate) fn for_both(self, other: Self) -> Self {
+        Self {
+            core: self.core.min(other.core),
+            core_half: self.core_half.max(other.core_half),
+            zone_growth: self.zone_growth.min(other.zone_growth),
+            zone_half: self.zone_half.max(other.zone_half),
+            outer_growth: self.outer_growth.min(other.outer_growth),
+            largest: self.largest.min(other.largest),
+        }
+    }
+}
+
 /// Symmetric node positions on [-half, half] with one node in the middle and one at each end, ascending.
 ///
 /// The core is divided evenly. Beyond it the spacing grows by a fixed ratio per element, more slowly in the zone that

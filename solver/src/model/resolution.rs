@@ -103,7 +103,7 @@ pub(crate) fn gross_slip(scene: &Scene, half_width: f64) -> f64 {
 
 /// Whether part of the contact may stick through the whole stroke: the amplitude is below twice the displacement of
 /// gross slip.
-fn sticks(scene: &Scene, half_width: f64) -> bool {
+pub(crate) fn sticks(scene: &Scene, half_width: f64) -> bool {
     let Motion::Reciprocating { amplitude_mm, .. } = scene.motion else {
         return false;
     };
@@ -187,19 +187,78 @@ fn slave(scene: &Scene, rates: Sides<f64>, gross: bool, (element, slip): (f64, f
     }
 }
 
-/// Chooses the spacing of a scene's meshes.
+/// Chooses the spacing of a scene's meshes: of a mission the finest and widest that one of its blocks needs.
 pub fn choose(scene: &Scene) -> Sizes {
+    let modulus = contact_modulus(scene.slider.elastic, scene.receptacle.elastic);
+    let hertz = (4.0 * scene.load_n_per_mm * radius(scene) / (PI * modulus)).sqrt();
+    let rates = wear_rates(scene, hertz);
+    let expected = expected_cycles(scene, hertz).saturating_mul(EXPECTED_MARGIN);
+    let expected = expected.min(scene.cycles);
+    let of_block = |block: &Scene| {
+        let cycles = if block.cycles == scene.cycles {
+            real_cycles(expected)
+        } else {
+            real_cycles(expected) * (real_cycles(block.cycles) / real_cycles(scene.cycles))
+        };
+        let sliding = block.motion.distance_per_cycle_mm() * cycles;
+        (sliding, of_motion(block, hertz, rates, sliding))
+    };
+    let mut blocks = scene.blocks();
+    // A block without any motion wears nothing and needs no mesh, if another one moves.
+    if blocks.iter().any(|block| moves(block)) {
+        blocks.retain(|block| moves(block));
+    }
+    let blocks = blocks.iter().map(|block| of_block(block));
+    let both = |(one_path, one): (f64, Sizes), (other_path, other): (f64, Sizes)| {
+        let slave = if other_path > one_path {
+            other.slave
+        } else {
+            one.slave
+        };
+        let path = one_path.max(other_path);
+        (
+            path,
+            Sizes {
+                slave,
+                ..one.for_both(other)
+            },
+        )
+    };
+    let sizes = blocks.reduce(both).map(|(_, sizes)| sizes);
+    sizes.unwrap_or_else(|| of_motion(scene, hertz, rates, 0.0))
+}
+
+/// Whether anything moves in a scene.
+fn moves(scene: &Scene) -> bool {
+    scene.motion.distance_per_cycle_mm() > 0.0
+}
+
+impl Sizes {
+    /// Sizes that serve both of two blocks.
+    fn for_both(self, other: Self) -> Self {
+        Self {
+            hertz_half_width: self.hertz_half_width,
+            final_half_width: self.final_half_width.max(other.final_half_width),
+            sticks: self.sticks || other.sticks,
+            slave: self.slave,
+            contact_element: self.contact_element.min(other.contact_element),
+            layer_growth: self.layer_growth.min(other.layer_growth),
+            spacing: self
+                .spacing
+                .zip(other.spacing)
+                .map(|(one, other)| one.for_both(other)),
+        }
+    }
+}
+
+/// The spacing for one motion, by which the surfaces slide so far on each other, mm.
+fn of_motion(scene: &Scene, hertz: f64, rates: Sides<f64>, sliding: f64) -> Sizes {
     let slider_radius = scene.slider.shape.radius_mm;
     let crown = scene.receptacle.shape.crown_radius_mm;
     let radius = radius(scene);
     let load = scene.load_n_per_mm;
-    let modulus = contact_modulus(scene.slider.elastic, scene.receptacle.elastic);
-    let hertz = (4.0 * load * radius / (PI * modulus)).sqrt();
     let amplitude = scene.motion.amplitude_mm();
-    let rates = wear_rates(scene, hertz);
     let wear = rates.receptacle + rates.slider;
-    let cycles = expected_cycles(scene, hertz).saturating_mul(EXPECTED_MARGIN);
-    let sliding = scene.motion.distance_per_cycle_mm() * real_cycles(cycles.min(scene.cycles));
     let worn = wear * load * sliding;
     let edge_step = (2.0 * radius * wear * load).sqrt();
     let narrowest = hertz.max(edge_step);

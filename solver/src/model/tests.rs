@@ -47,6 +47,7 @@ pub(crate) fn fuzz_button() -> Scene {
             period_s: 16.0,
         },
         cycles: 2000,
+        mission: None,
         accuracy: Accuracy::from_tolerance(0.02),
         output: Output {
             stations_mm: vec![0.0],

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::contact::Work;
-use crate::cycle::{Checks, CycleState};
+use crate::cycle::{BlockWear, Checks, CycleState};
 use crate::effects::{Crossing, Effect, Verdict};
 use crate::record::{Compared, CycleReport, Errors, Life};
 use crate::schedule::stops::Outcome;
@@ -41,6 +41,8 @@ pub struct Summary {
     pub crossings: Vec<Crossing>,
     /// Life by the criteria of the scene.
     pub life: Life,
+    /// What each block of a mission has worn; none without a mission.
+    pub blocks: Vec<BlockWear>,
     /// Histories that errors are estimated by.
     pub compared: Compared,
 }

@@ -174,6 +174,10 @@ pub struct Tuning {
     /// Number of computed cycles, times the tolerance, that suffices where even single cycles are skewed. Arbitrary: 1
     /// and 10 change nothing on the sprung contact.
     pub sufficient_cycles: f64,
+    /// Repetitions of a mission that are taken together over those done. On a sprung contact with 30 cycles of 0.02 mm and 2 of 0.15 mm in
+    /// each of 60 repetitions, with 0.1, 0.2, 0.5 and 1 against 0: the depth 0.15, 0.36, 0.85, 1.5 % off, the profile 1.1, 1.9, 3.8, 5.4 %
+    /// (first order), with 236, 192, 134, 111 computed cycles (278).
+    pub repetitions_of_done: Power,
     /// Length of the lead-in of a replay over the mean half-width of the contact: twice the contact's width. A length
     /// of 8 changes the peak pressure of the long groove by 0.01 %, of 2 by 2 %.
     pub lead_in: f64,
@@ -257,6 +261,7 @@ impl Tuning {
         least_skew: 0.4,
         unskewed_to: 0.1,
         sufficient_cycles: 2.5,
+        repetitions_of_done: power(0.1, -1.0),
         lead_in: 4.0,
         widest_followed: 6.0,
         smoothed_step: power(0.5, -0.25),

@@ -82,6 +82,11 @@ pub(crate) fn initial_quarter(steps: &[Step]) -> &[Step] {
     }
 }
 
+/// The steps of the first quarter of a cycle, from the turning point where it begins to the neutral position.
+pub(crate) fn first_quarter(steps: &[Step]) -> &[Step] {
+    &steps[..steps.len() / 4]
+}
+
 fn steps_per_quarter(
     accuracy: &Accuracy,
     amplitude: f64,

@@ -254,6 +254,11 @@ impl JumpControl {
         self.rate.largest_of_each()
     }
 
+    /// Sum of estimated error times wear, and of wear.
+    pub(crate) fn weighted_error(&self) -> (f64, f64) {
+        (self.weighted_error, self.worn)
+    }
+
     /// Estimated relative error of the worn depth so far.
     pub fn mean_error(&self) -> f64 {
         if self.worn > 0.0 {

@@ -1,0 +1,193 @@
+//! State of a mission between two computed cycles: its position, what each block has left for its next cycles, and what it has worn.
+
+use serde::{Deserialize, Serialize};
+
+use super::CycleState;
+use super::motion_history::MotionHistory;
+use crate::law::surface::{self, SurfaceWear};
+use crate::number::real_cycles;
+use crate::scene::{Mission, Scene};
+use crate::schedule::mission::MissionPosition;
+use crate::schedule::stops::Progress;
+use crate::sides::{Side, Sides};
+
+/// Wear of a block of a mission.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub struct BlockWear {
+    /// Physical cycles done.
+    pub cycles: u64,
+    /// Imposed sliding distance, mm.
+    pub sliding_distance_mm: f64,
+    /// Energy dissipated by friction, mJ/mm.
+    pub energy_mj_per_mm: f64,
+    /// Worn area of each side, mm^2.
+    pub worn_area_mm2: Sides<f64>,
+    /// Share of the dose that the deepest point of each side has received, -; 0 of one that has received none.
+    pub share_of_deepest: Sides<f64>,
+    /// Equivalent depth at the contact nodes, in proportion to the dose, mm.
+    equivalent: Sides<Vec<f64>>,
+}
+
+/// State of a mission.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub(crate) struct MissionState {
+    pub(crate) position: MissionPosition,
+    /// The block before, until the slider has moved to the turning point where the cycles of the present one begin.
+    pub(crate) left: Option<usize>,
+    histories: Vec<Option<MotionHistory>>,
+    wear: Vec<BlockWear>,
+    /// Totals where the present block and the present repetitions began.
+    block: BlockWear,
+    repetitions: BlockWear,
+    /// Equivalent depth per cycle of the mission over the last repetitions, mm.
+    rates: Sides<Vec<f64>>,
+}
+
+impl MissionState {
+    /// That of the loaded, unworn bodies.
+    pub(crate) fn new(scene: &Scene, mission: &Mission, state: &CycleState) -> Self {
+        let totals = BlockWear::total(state, &Sides::default());
+        let nodes = state.depth.as_ref().map(Vec::len);
+        Self {
+            position: MissionPosition::first(scene),
+            left: None,
+            histories: vec![None; mission.blocks.len()],
+            wear: vec![BlockWear::default(); mission.blocks.len()],
+            block: totals.clone(),
+            repetitions: totals,
+            rates: nodes.map(|nodes| vec![0.0; nodes]),
+        }
+    }
+
+    /// Whether the present block is done.
+    pub(crate) fn is_block_done(&self, state: &CycleState) -> bool {
+        state.cycle >= self.position.until
+    }
+
+    /// Whether all blocks have been repeated equally often.
+    pub(crate) fn is_whole(&self, scene: &Scene, state: &CycleState) -> bool {
+        self.is_block_done(state) && self.position.is_last_block(scene)
+    }
+
+    /// Moves on to the next block, on surfaces of this wear; `progress` is that of the run at given rates of each node, and
+    /// `depth` that of a part of a side's scar.
+    pub(crate) fn next_block(
+        &mut self,
+        scene: &Scene,
+        state: &mut CycleState,
+        wear: &Sides<Option<SurfaceWear>>,
+        progress: impl Fn(&CycleState, Sides<&[f64]>) -> Progress,
+        depth: impl Fn(&CycleState, Side, f64) -> f64,
+    ) {
+        let total = BlockWear::total(state, wear);
+        let present = self.position.block;
+        self.wear[present].add(&total, &self.block);
+        if self.position.is_last_block(scene) {
+            self.rates = total.equivalent_per_cycle_since(&self.repetitions);
+            self.repetitions.clone_from(&total);
+        }
+        self.block = total;
+        let now = progress(state, self.rates.as_slices());
+        let depth = |side, part| depth(state, side, part);
+        self.position = self.position.next(scene, now, depth);
+        self.left = Some(present);
+        self.histories[present] = Some(state.take_motion_history());
+        if let Some(history) = self.histories[self.position.block].take() {
+            state.continue_motion(history);
+        }
+    }
+
+    /// What each block has worn so far.
+    pub(crate) fn wear(
+        &self,
+        state: &CycleState,
+        wear: &Sides<Option<SurfaceWear>>,
+    ) -> Vec<BlockWear> {
+        let mut blocks = self.wear.clone();
+        blocks[self.position.block].add(&BlockWear::total(state, wear), &self.block);
+        for side in Side::BOTH {
+            let deepest = deepest(state.depth.of(side));
+            let at = |block: &BlockWear| {
+                let node = block.equivalent.of(side).get(deepest);
+                node.copied().unwrap_or_default()
+            };
+            let sum: f64 = blocks.iter().map(at).sum();
+            for block in &mut blocks {
+                let share = if sum > 0.0 { at(block) / sum } else { 0.0 };
+                *block.share_of_deepest.of_mut(side) = share;
+            }
+        }
+        blocks
+    }
+
+    /// Estimated relative error of the worn depth by the jumps of all blocks.
+    pub(crate) fn mean_error(&self, state: &CycleState) -> f64 {
+        let histories = self.histories.iter().flatten().map(|history| &history.jump);
+        let (mut error, mut worn) = state.jump.weighted_error();
+        for jump in histories {
+            let (more_error, more_worn) = jump.weighted_error();
+            error += more_error;
+            worn += more_worn;
+        }
+        if worn > 0.0 { error / worn } else { 0.0 }
+    }
+}
+
+impl BlockWear {
+    /// Totals of a run.
+    fn total(state: &CycleState, wear: &Sides<Option<SurfaceWear>>) -> Self {
+        Self {
+            cycles: state.cycle,
+            sliding_distance_mm: state.sliding_distance,
+            energy_mj_per_mm: state.energy,
+            worn_area_mm2: state.worn_area,
+            share_of_deepest: Sides::default(),
+            equivalent: Sides::from_fn(|side| {
+                surface::equivalents(*wear.of(side), state.depth.of(side)).into_owned()
+            }),
+        }
+    }
+
+    /// Adds the difference of two totals.
+    fn add(&mut self, after: &Self, before: &Self) {
+        self.cycles += after.cycles - before.cycles;
+        self.sliding_distance_mm += after.sliding_distance_mm - before.sliding_distance_mm;
+        self.energy_mj_per_mm += after.energy_mj_per_mm - before.energy_mj_per_mm;
+        for side in Side::BOTH {
+            *self.worn_area_mm2.of_mut(side) +=
+                after.worn_area_mm2.of(side) - before.worn_area_mm2.of(side);
+            let sum = self.equivalent.of_mut(side);
+            sum.resize(after.equivalent.of(side).len(), 0.0);
+            let worn = after
+                .equivalent
+                .of(side)
+                .iter()
+                .zip(before.equivalent.of(side));
+            for (sum, (after, before)) in sum.iter_mut().zip(worn) {
+                *sum += after - before;
+            }
+        }
+    }
+
+    /// Equivalent depth per cycle since an earlier total, mm.
+    fn equivalent_per_cycle_since(&self, before: &Self) -> Sides<Vec<f64>> {
+        let cycles = real_cycles((self.cycles - before.cycles).max(1));
+        let mut worn = Self::default();
+        worn.add(self, before);
+        worn.equivalent
+            .map(|nodes| nodes.iter().map(|worn| worn / cycles).collect())
+    }
+}
+
+/// Number of the deepest node.
+fn deepest(depth: &[f64]) -> usize {
+    let nodes = depth.iter().enumerate();
+    let deepest = nodes.fold((0, f64::NEG_INFINITY), |best, (node, depth)| {
+        if *depth > best.1 {
+            (node, *depth)
+        } else {
+            best
+        }
+    });
+    deepest.0
+}
