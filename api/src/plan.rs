@@ -6,6 +6,7 @@ use serde::{Deserialize, Deserializer, Serialize};
 use utoipa::ToSchema;
 
 use crate::enum_value::string_enum;
+use crate::results::BlockExtent;
 use crate::spec::{DerivedMotion, Spec};
 
 string_enum! {
@@ -106,6 +107,9 @@ pub struct Plan {
     /// How the motion was derived from a vibration, a thermal cycle or an insertion.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub motion: Option<DerivedMotion>,
+    /// Blocks of a mission over all repetitions, in their order.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub mission: Vec<BlockExtent>,
     /// Values that were probably written in another unit than that of their field. They are accepted as they are.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub warnings: Vec<Warning>,

@@ -3,6 +3,7 @@
 mod history;
 mod life;
 mod manifest;
+mod mission;
 mod resistance;
 mod snapshot;
 mod summary;
@@ -10,6 +11,7 @@ mod summary;
 pub use history::{Columns, ExposedLayer, SideSeries, Station, WearHistory};
 pub use life::{LifeBand, LifeEntry, LifeStatus};
 pub use manifest::{Manifest, ResultFile};
+pub use mission::{BlockExtent, BlockSide, BlockSummary};
 pub use resistance::{ContactResistance, ResistanceParts};
 pub use snapshot::{
     Loop, Pressure, PressurePosition, Profile, SideProfile, SlidePosition, Snapshot,

@@ -9,6 +9,7 @@ mod interface;
 mod life;
 mod load;
 mod materials;
+mod mission;
 mod motion;
 mod plating;
 mod read;
@@ -28,7 +29,8 @@ pub use interface::{Friction, FrictionLaw, Interface, Sides, WearLaw, WearLawNam
 pub use life::{Criterion, CriterionKind, LifeSettings, Part};
 pub use load::{Load, LoadKind};
 pub use materials::{Material, MaterialProperties, Materials};
-pub use motion::{DerivedMotion, Drive, Motion, MotionKind, PsdPoint, Waveform};
+pub use mission::MissionBlock;
+pub use motion::{DerivedMotion, Drive, FourierTerm, Motion, MotionKind, PsdPoint, Waveform};
 pub use plating::{PlatingLayer, Platings};
 pub use read::{ParseError, pointer_token};
 pub use settings::{Accuracy, CycleJump, Output, Overrides, Preset, Stop, Switch};
@@ -88,6 +90,16 @@ pub struct Spec {
         deserialize_with = "count::optional"
     )]
     pub cycles: Option<u64>,
+    /// Blocks of different motions, one after the other, instead of `motion` and `cycles`; one history over all of them.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub mission: Vec<MissionBlock>,
+    /// How often the blocks of a mission are done.
+    #[serde(
+        default,
+        skip_serializing_if = "Option::is_none",
+        deserialize_with = "count::optional"
+    )]
+    pub repeat: Option<u64>,
     /// Physical effects by name.
     #[serde(
         default,

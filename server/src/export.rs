@@ -8,6 +8,7 @@ pub mod files;
 pub mod history;
 pub mod life;
 pub(crate) mod markdown;
+pub(crate) mod mission;
 pub mod parquet;
 pub mod pictures;
 pub(crate) mod resistance;

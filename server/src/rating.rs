@@ -135,6 +135,11 @@ pub fn coefficients(
 
 /// The contact of a request, whose run ends at the criterion.
 fn until_criterion(request: &Request<'_>, median_cycles: f64) -> Result<Resolved, RatingError> {
+    if !request.resolved.spec.mission.is_empty() {
+        let detail = "a rating counts cycles of one motion: give `motion` instead".to_owned();
+        let pointer = "/mission".to_owned();
+        return Err(Refused::Faults(vec![Fault { pointer, detail }]).into());
+    }
     if request.resolved.spec.cycles.is_none() {
         let detail = "a continuous motion has no cycles".to_owned();
         let pointer = "/motion/kind".to_owned();

@@ -7,7 +7,7 @@ pub(crate) mod protocol;
 
 use std::ops::ControlFlow;
 
-use api::results::{Cost, Summary};
+use api::results::{BlockExtent, Cost, Summary};
 use api::spec::{DerivedMotion, LifeSettings};
 use solver::SolveError;
 use solver::error_control;
@@ -16,7 +16,7 @@ use solver::record::PlacedFields;
 use solver::scene::Scene;
 use solver::sides::Sides;
 
-use crate::export::{history, life, resistance, vtu};
+use crate::export::{history, life, mission, resistance, vtu};
 use crate::spec::{Conductors, Resolved};
 use checkpoint::{Checkpoint, CheckpointPolicy, EncodedCheckpoint};
 use cost::Stopwatch;
@@ -32,6 +32,8 @@ pub struct Case<'a> {
     pub life: &'a LifeSettings,
     /// How its motion was derived.
     pub motion: Option<&'a DerivedMotion>,
+    /// The blocks of its mission.
+    pub blocks: &'a [BlockExtent],
     /// Its conductors, where all of them are known.
     pub conductors: Option<&'a Conductors>,
 }
@@ -42,6 +44,7 @@ impl<'a> From<&'a Resolved> for Case<'a> {
             scene: &resolved.scene,
             life: &resolved.spec.life,
             motion: resolved.motion.as_ref(),
+            blocks: &resolved.blocks,
             conductors: resolved.conductors.as_ref(),
         }
     }
@@ -68,6 +71,7 @@ pub fn run_from(
         scene,
         life,
         motion,
+        blocks,
         conductors,
     }: Case<'_>,
     from: Option<Checkpoint>,
@@ -98,6 +102,7 @@ pub fn run_from(
     };
     Ok(Summary {
         motion: motion.cloned(),
+        mission: mission::blocks(blocks, &summary),
         contact_resistance_mohm: conductors.map(|conductors| resistance::of(conductors, depth)),
         ..history::summary(&summary, recorder.watch.cost(), life)
     })

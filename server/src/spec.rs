@@ -5,6 +5,7 @@
 //! meshed; nothing is meshed or estimated.
 
 mod accuracy;
+mod blocks;
 mod cause;
 mod conductors;
 mod criterion;
@@ -16,7 +17,9 @@ mod law_range;
 mod life;
 mod load;
 mod materials;
+mod mission;
 mod motion;
+mod movement;
 mod output;
 mod plating;
 mod rated_life;
@@ -31,6 +34,7 @@ mod unit;
 use std::collections::BTreeMap;
 
 use api::problem::Fault;
+use api::results::BlockExtent;
 use api::spec::{DerivedMotion, ParseError, Spec, SystemKind};
 use solver::law::friction;
 use solver::model::Layout;
@@ -41,6 +45,7 @@ pub(crate) use conductors::Metal;
 use diagnostics::Diagnostics;
 pub(crate) use diagnostics::NAME_LIMIT;
 pub(crate) use motion::CYCLES;
+use movement::Movement;
 pub(crate) use suggestion::did_you_mean;
 pub(crate) use system::definition as system_definition;
 
@@ -62,6 +67,8 @@ pub struct Resolved {
     pub layout: Layout,
     /// How its motion was derived from a vibration, a thermal cycle or an insertion.
     pub motion: Option<DerivedMotion>,
+    /// The blocks of its mission.
+    pub blocks: Vec<BlockExtent>,
     /// Its conductors, where all of them are known.
     pub conductors: Option<Conductors>,
     /// Values that were probably written in another unit.
@@ -112,7 +119,7 @@ pub fn resolve(spec: &Spec) -> Result<Resolved, Vec<Fault>> {
     let Filled {
         spec: mut filled,
         scene,
-        motion,
+        movement,
     } = fill(spec, kind, &mut diagnostics);
     if !diagnostics.is_clean() {
         return Err(diagnostics.into_faults());
@@ -138,8 +145,9 @@ pub fn resolve(spec: &Spec) -> Result<Resolved, Vec<Fault>> {
     warnings.extend(law_range::warnings(&filled, &scene));
     warnings.extend(effects::warnings(&scene));
     warnings.extend(rated_life::warning(kind, &scene));
-    let sticks = motion.iter().filter(|motion| motion.sticks);
-    warnings.extend(sticks.map(|motion| Fault::new("/motion", motion.reason.clone())));
+    let sticks = movement.all_derived().filter(|(_, motion)| motion.sticks);
+    warnings.extend(sticks.map(|(pointer, motion)| Fault::new(&pointer, motion.reason.clone())));
+    let blocks = blocks::extents(&filled, &movement);
     filled.provenance = diagnostics.finish()?;
     let conductors = conductors::resolve(&filled, &scene);
     Ok(Resolved {
@@ -147,7 +155,8 @@ pub fn resolve(spec: &Spec) -> Result<Resolved, Vec<Fault>> {
         kind,
         scene,
         layout,
-        motion,
+        motion: movement.derived,
+        blocks,
         conductors,
         warnings,
     })
@@ -157,7 +166,7 @@ pub fn resolve(spec: &Spec) -> Result<Resolved, Vec<Fault>> {
 struct Filled {
     spec: Spec,
     scene: Scene,
-    motion: Option<DerivedMotion>,
+    movement: Movement,
 }
 
 /// The scene of a specification without faults.
@@ -187,17 +196,16 @@ fn fill(spec: &Spec, kind: SystemKind, diagnostics: &mut Diagnostics) -> Filled 
         friction,
         force_n: load.n,
     };
-    let motion = motion::resolve(spec.motion.as_ref(), &preset, contact, diagnostics);
-    let continuous = motion.spec.distance_mm.is_some();
-    let cycles = motion::cycles(spec.cycles, &motion, &preset, diagnostics);
-    if continuous && (laws.wear.slider.is_some() || plated.slider) {
+    let movement = movement::resolve(spec, &preset, contact, diagnostics);
+    let cycles = movement.total_cycles;
+    if movement.distance_mm.is_some() && (laws.wear.slider.is_some() || plated.slider) {
         diagnostics.fault(
             "/interface/wear/slider",
             "a slider whose surface runs past continuously cannot wear yet; write null",
         );
     }
     let (accuracy, numerical) = accuracy::resolve(&spec.accuracy, &shapes, cycles, diagnostics);
-    let (output, recorded) = output::resolve(&spec.output, &motion, &shapes, cycles, diagnostics);
+    let (output, recorded) = output::resolve(&spec.output, &movement, &shapes, diagnostics);
     let surfaces = criterion::Surfaces {
         plating: &layers,
         wears: laws
@@ -216,8 +224,10 @@ fn fill(spec: &Spec, kind: SystemKind, diagnostics: &mut Diagnostics) -> Filled 
         plating: platings,
         load: Some(load),
         environment,
-        motion: Some(motion.spec),
-        cycles: (!continuous).then_some(cycles),
+        motion: movement.motion.clone(),
+        cycles: movement.cycles,
+        mission: movement.mission.clone(),
+        repeat: movement.repeat,
         accuracy,
         output,
         life,
@@ -246,9 +256,10 @@ fn fill(spec: &Spec, kind: SystemKind, diagnostics: &mut Diagnostics) -> Filled 
         friction: laws.friction,
         load_n_per_mm: line_load.n_per_mm,
         spring_n_per_mm2: line_load.spring_n_per_mm2,
-        drive: motion.drive,
-        motion: motion.scene,
+        drive: movement.drive,
+        motion: movement.scene,
         cycles,
+        mission: movement.blocks.clone(),
         accuracy: numerical,
         output: recorded,
         stop,
@@ -258,13 +269,25 @@ fn fill(spec: &Spec, kind: SystemKind, diagnostics: &mut Diagnostics) -> Filled 
     Filled {
         spec: filled,
         scene,
-        motion: motion.derived,
+        movement,
     }
 }
 
 /// Cycles in the histories of a resolved specification.
 pub fn cycles(spec: &Spec) -> u64 {
-    spec.cycles.unwrap_or(motion::CONTINUOUS_PARTS)
+    if is_continuous(spec) {
+        return motion::CONTINUOUS_PARTS;
+    }
+    let blocks = spec.mission.iter().filter_map(|block| block.cycles);
+    let mission = blocks.fold(0, u64::saturating_add);
+    spec.cycles
+        .unwrap_or_else(|| mission.saturating_mul(spec.repeat.unwrap_or(1)))
+}
+
+/// Whether the motion of a resolved specification is continuous.
+pub(crate) fn is_continuous(spec: &Spec) -> bool {
+    let motion = spec.motion.as_ref();
+    motion.is_some_and(|motion| motion.distance_mm.is_some())
 }
 
 fn check_names(spec: &Spec, diagnostics: &mut Diagnostics) {

@@ -29,6 +29,7 @@ mod hostile_inputs;
 mod load;
 mod main_job;
 mod many_jobs;
+mod mission;
 mod pages_in_a_browser;
 mod plated_contact;
 mod predicted_cost;

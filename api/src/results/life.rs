@@ -29,6 +29,9 @@ pub struct LifeEntry {
     pub status: LifeStatus,
     /// Cycles after which it was reached, interpolated between computed ones; null for a continuous motion.
     pub cycles: Option<f64>,
+    /// Repetitions of a mission until then; absent without a mission.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub repetitions: Option<f64>,
     /// Imposed sliding distance until then, mm.
     pub sliding_distance_mm: Option<f64>,
     /// Duration until then, h; null for a continuous motion.

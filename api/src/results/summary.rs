@@ -7,7 +7,7 @@ use utoipa::ToSchema;
 
 use crate::outcome::{Outcome, Phase};
 use crate::plan::Decision;
-use crate::results::{ContactResistance, LifeEntry};
+use crate::results::{BlockSummary, ContactResistance, LifeEntry};
 use crate::spec::DerivedMotion;
 
 /// One side's wear at the end.
@@ -181,6 +181,9 @@ pub struct Summary {
     /// How the motion was derived from a vibration, a thermal cycle or an insertion.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub motion: Option<DerivedMotion>,
+    /// What each block of a mission has worn, in their order.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub mission: Vec<BlockSummary>,
     /// What the result is to be read with, in words: errors beyond the tolerance.
     #[serde(default)]
     pub warnings: Vec<String>,

@@ -14,6 +14,8 @@ string_enum! {
     MotionKind {
         /// Reciprocating around the neutral position, starting to +x.
         Reciprocating = "reciprocating",
+        /// One period of a sum of sines and cosines.
+        Fourier = "fourier",
         /// The slider's surface slides past a contact that stays at one position of the receptacle, as a ring turning
         /// on a block.
         Continuous = "continuous",
@@ -57,6 +59,19 @@ pub struct PsdPoint {
     pub g2_per_hz: f64,
 }
 
+/// A term of a Fourier series.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct FourierTerm {
+    /// Its order: periods of the term in one of the motion.
+    pub order: u64,
+    /// Amplitude of the sine, mm.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub sine_mm: Option<f64>,
+    /// Amplitude of the cosine, mm.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub cosine_mm: Option<f64>,
+}
+
 /// The imposed motion. Which fields belong to it depends on its kind.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct Motion {
@@ -70,10 +85,13 @@ pub struct Motion {
     /// `reciprocating`: amplitude, mm.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub amplitude_mm: Option<f64>,
-    /// `reciprocating`, `thermal_cycle`, `insertion`: frequency, Hz; instead of `period_s`. `vibration`: that of a sine.
+    /// `fourier`: its terms.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub terms: Option<Vec<FourierTerm>>,
+    /// `reciprocating`, `fourier`, `thermal_cycle`, `insertion`: frequency, Hz; instead of `period_s`. `vibration`: that of a sine.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub frequency_hz: Option<f64>,
-    /// `reciprocating`, `thermal_cycle`, `insertion`: duration of a cycle, s; instead of `frequency_hz`.
+    /// `reciprocating`, `fourier`, `thermal_cycle`, `insertion`: duration of a cycle, s; instead of `frequency_hz`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub period_s: Option<f64>,
     /// Where the motion is imposed; not of `continuous`.

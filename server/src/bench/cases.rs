@@ -163,7 +163,7 @@ fn time_cycle(scene: &Scene) -> Result<(f64, f64, f64), SolveError> {
         integrator.initial_quarter(&mut state)?;
         let before = state.work.increments;
         // Short of its stop, so that the loop has no points besides the increments.
-        let (cycle_s, _) = measured(1, || integrator.compute_cycle(&mut state, 2))?;
+        let (cycle_s, _) = measured(1, || integrator.compute_cycle(&mut state, (2, true)))?;
         best = best.min(cycle_s);
         increments = state.work.increments - before;
     }
@@ -187,6 +187,7 @@ fn solved(what: impl Into<String>, size: &str, scene: &Scene) -> Result<Row, Ben
             scene,
             life,
             motion: None,
+            blocks: &[],
             conductors: None,
         },
         &mut |_| ControlFlow::Continue(()),

@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use api::plan::{Plan, PlanDocument, PlannedEffect};
+use api::results::BlockExtent;
 use comfy_table::Table;
 
 use crate::cli::terminal::{Ended, specification, write_json, write_out};
@@ -27,6 +28,9 @@ pub(super) fn run(spec: &Path, json: bool) -> Ended {
     write_out(estimates(&plan))?;
     if let Some(motion) = &plan.motion {
         write_out(format!("motion: {}", motion.reason))?;
+    }
+    if !plan.mission.is_empty() {
+        write_out(blocks(&plan.mission))?;
     }
     write_out(plan.notes.join("\n"))
 }
@@ -84,6 +88,34 @@ fn number(value: f64) -> String {
     } else {
         format!("{value:.3e}")
     }
+}
+
+/// Blocks of a mission over all repetitions.
+fn blocks(blocks: &[BlockExtent]) -> Table {
+    let header = [
+        "block",
+        "motion",
+        "cycles",
+        "amplitude, mm",
+        "path, mm",
+        "time, h",
+    ];
+    let mut table = markdown::table(header, 2);
+    for (index, block) in blocks.iter().enumerate() {
+        let motion = block.motion.as_ref();
+        table.add_row([
+            block
+                .name
+                .clone()
+                .unwrap_or_else(|| (index + 1).to_string()),
+            motion.map_or_else(String::new, |motion| motion.reason.clone()),
+            block.cycles.to_string(),
+            number(block.amplitude_mm),
+            number(block.sliding_distance_mm),
+            number(block.duration_h),
+        ]);
+    }
+    table
 }
 
 fn estimates(plan: &Plan) -> Table {

@@ -30,6 +30,7 @@ impl Estimate {
                 .map(|(name, value)| (name.to_owned(), value))
                 .collect(),
             motion: resolved.motion.clone(),
+            mission: resolved.blocks.clone(),
             warnings: resolved.warnings.iter().map(warning).collect(),
             notes: notes::notes(resolved),
         }

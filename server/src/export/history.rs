@@ -78,6 +78,7 @@ pub fn summary(summary: &record::Summary, cost: Cost, life: Vec<LifeEntry>) -> S
         slider: side(&last.slider);
         life: life;
         motion: None;
+        mission: Vec::new();
         contact_resistance_mohm: None;
         warnings: summary.warnings.clone();
         initial: document!(Initial of summary.initial; peak_pressure_mpa, contact_half_width_mm);

@@ -58,6 +58,7 @@ fn empty(criterion: &Criterion, status: LifeStatus) -> LifeEntry {
         side,
         status,
         cycles: None,
+        repetitions: None,
         sliding_distance_mm: None,
         duration_h: None,
         band: None,
@@ -96,20 +97,18 @@ fn entry(
             ..measured(LifeStatus::NotReached)
         };
     };
-    let distance_mm = cycles * scene.motion.distance_per_cycle_mm();
+    let (distance_mm, seconds) = scene.elapsed(cycles);
+    let mission = scene.mission.as_ref();
     // The parts of a continuous motion are no cycles of the user.
-    let (counted, hours, measure) = match scene.motion {
-        Motion::Reciprocating { period_s, .. } => (
-            Some(cycles),
-            Some(cycles * period_s / SECONDS_PER_HOUR),
-            cycles,
-        ),
-        Motion::Continuous { .. } => (None, None, distance_mm),
+    let (counted, measure) = match scene.motion {
+        Motion::Reciprocating { .. } => (Some(cycles), cycles),
+        Motion::Continuous { .. } => (None, distance_mm),
     };
     LifeEntry {
         cycles: counted,
+        repetitions: mission.map(|mission| cycles / real(mission.cycles())),
         sliding_distance_mm: Some(distance_mm),
-        duration_h: hours,
+        duration_h: seconds.map(|seconds| seconds / SECONDS_PER_HOUR),
         band: Some(band(
             measure,
             settings.coefficient_of_variation.unwrap_or_default(),

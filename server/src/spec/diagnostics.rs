@@ -218,6 +218,28 @@ impl Diagnostics {
         );
     }
 
+    /// Takes over the diagnostics of a part that was resolved like a specification, whose fields of these pointers stand below
+    /// another pointer here.
+    pub(crate) fn adopt(&mut self, below: &str, pointers: &[&str], part: Self) {
+        let here = |pointer: String| {
+            let is_moved = pointers.iter().any(|moved| pointer.starts_with(moved));
+            if is_moved {
+                format!("{below}{pointer}")
+            } else {
+                pointer
+            }
+        };
+        for fault in part.faults {
+            self.fault(&here(fault.pointer), fault.detail);
+        }
+        let warnings = part.warnings.into_iter();
+        self.warnings
+            .extend(warnings.map(|warning| Fault::new(here(warning.pointer), warning.detail)));
+        let provenance = part.provenance.into_iter();
+        self.provenance
+            .extend(provenance.map(|(pointer, provenance)| (here(pointer), provenance)));
+    }
+
     /// Whether there is no fault so far.
     pub(crate) fn is_clean(&self) -> bool {
         self.faults.is_empty()

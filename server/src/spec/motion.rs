@@ -1,6 +1,7 @@
 //! The imposed motion, where it enters, and the number of cycles.
 
 mod contact;
+pub(in crate::spec) mod fourier;
 mod imposed;
 pub(in crate::spec) mod insertion;
 mod oscillator;
@@ -53,6 +54,7 @@ pub(crate) fn resolve(
         Some(MotionKind::ThermalCycle) => {
             thermal_cycle::resolve(given, preset, contact, diagnostics)
         }
+        Some(MotionKind::Fourier) => fourier::resolve(given, preset, diagnostics),
         Some(MotionKind::Insertion) => insertion::resolve(given, preset, diagnostics),
         Some(MotionKind::Reciprocating) => {
             let fields = [

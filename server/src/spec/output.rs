@@ -7,7 +7,7 @@ use solver::scene;
 
 use crate::number::real;
 use crate::spec::diagnostics::Diagnostics;
-use crate::spec::motion::ImposedMotion;
+use crate::spec::movement::Movement;
 use crate::spec::sourced::assumed;
 use crate::spec::system::Shapes;
 
@@ -21,20 +21,20 @@ const AT_DISTANCES: &str = "snapshots_at_distance_mm";
 /// Resolves the output.
 pub(crate) fn resolve(
     given: &Output,
-    motion: &ImposedMotion,
+    movement: &Movement,
     shapes: &Shapes,
-    cycles: u64,
     diagnostics: &mut Diagnostics,
 ) -> (Output, scene::Output) {
     let fields = diagnostics.or_default("/output/fields", given.fields, assumed(false));
     let half = 0.5 * shapes.block.length_mm;
-    let stations_mm = stations(given, motion, half, diagnostics);
+    let cycles = movement.total_cycles;
+    let stations_mm = stations(given, movement, half, diagnostics);
     let mut filled = Output {
         stations_mm: Some(stations_mm.clone()),
         fields: Some(fields),
         ..Output::default()
     };
-    let mut snapshots = match motion.spec.distance_mm {
+    let mut snapshots = match movement.distance_mm {
         None => {
             let at = at_cycles(given, cycles, diagnostics);
             filled.snapshots_at_cycles = Some(at.clone());
@@ -60,7 +60,7 @@ pub(crate) fn resolve(
 /// Stations; defaults derived from a faulty value are no faults of their own.
 fn stations(
     given: &Output,
-    motion: &ImposedMotion,
+    movement: &Movement,
     half: f64,
     diagnostics: &mut Diagnostics,
 ) -> Vec<f64> {
@@ -73,8 +73,7 @@ fn stations(
         &(-half..=half),
         diagnostics,
     );
-    let amplitude_mm = motion.scene.amplitude_mm();
-    let default = assumed(default_stations(amplitude_mm, half));
+    let default = assumed(default_stations(movement.amplitude_mm, half));
     diagnostics.or_default(POINTER, given.stations_mm.clone(), default)
 }
 

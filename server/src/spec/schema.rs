@@ -9,10 +9,10 @@ use solver::scene::MOST_LAYERS;
 use crate::reference::materials::LibraryMaterial;
 use crate::spec::diagnostics::NAME_LIMIT;
 use crate::spec::law::{coulomb, dissipated_energy, saracibar, wear_coefficient};
-use crate::spec::motion::{insertion, thermal_cycle, vibration};
+use crate::spec::motion::{fourier, insertion, thermal_cycle, vibration};
 use crate::spec::{
     LABEL_LIMIT, LABEL_TEXT_LIMIT, accuracy, criterion, effects, environment, life, load,
-    materials, motion, output, plating, stop, system,
+    materials, mission, motion, output, plating, stop, system,
 };
 
 /// Keywords of the schema of a field.
@@ -127,10 +127,16 @@ fn others() -> Vec<(&'static str, &'static str, Value)> {
     vec![
         ("Spec", "name", json!({"maxLength": NAME_LIMIT})),
         ("Spec", "labels", labels),
-        ("Spec", "cycles", cycles),
+        ("Spec", "cycles", cycles.clone()),
+        ("MissionBlock", "cycles", cycles),
+        ("MissionBlock", "name", json!({"maxLength": NAME_LIMIT})),
+        ("Spec", "mission", json!({"maxItems": mission::BLOCK_LIMIT})),
+        ("Spec", "repeat", counts(&mission::REPEAT)),
         ("Spec", "stop", json!({"maxItems": stop::STOP_LIMIT})),
         ("LifeSettings", "contacts", counts(&life::CONTACTS)),
         ("Motion", "contacts", counts(&vibration::CONTACTS)),
+        ("Motion", "terms", json!({"maxItems": fourier::TERM_LIMIT})),
+        ("FourierTerm", "order", counts(&fourier::ORDER)),
         (
             "Motion",
             "psd",

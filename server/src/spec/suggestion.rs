@@ -50,7 +50,9 @@ pub(super) fn suggest_fields(faults: &mut [Fault]) {
         let parent = without_indices(parent);
         let siblings = places.iter().filter(|(place, _)| *place == parent);
         let siblings = siblings.map(|(_, field)| field.as_str());
-        let elsewhere = places.iter().find(|(_, field)| field == name);
+        // Of several places the one of the fewest levels.
+        let elsewhere = places.iter().filter(|(_, field)| field == name);
+        let elsewhere = elsewhere.min_by_key(|(place, _)| place.matches('/').count());
         let suggestion = match (closest(name, siblings), elsewhere) {
             (Some(sibling), _) => format!("; did you mean `{sibling}`?"),
             (None, Some((place, field))) => format!("; did you mean `{place}/{field}`?"),

@@ -134,6 +134,22 @@ impl MissionState {
 }
 
 impl BlockWear {
+    /// That of a run without a mission, after so many cycles over a distance in mm.
+    pub(crate) fn whole(
+        (cycles, sliding_distance_mm): (u64, f64),
+        energy_mj_per_mm: f64,
+        worn_area_mm2: Sides<f64>,
+    ) -> Self {
+        Self {
+            cycles,
+            sliding_distance_mm,
+            energy_mj_per_mm,
+            worn_area_mm2,
+            share_of_deepest: worn_area_mm2.map(|area| if area > 0.0 { 1.0 } else { 0.0 }),
+            equivalent: Sides::default(),
+        }
+    }
+
     /// Totals of a run.
     fn total(state: &CycleState, wear: &Sides<Option<SurfaceWear>>) -> Self {
         Self {

@@ -47,6 +47,26 @@ pub struct Summary {
     pub compared: Compared,
 }
 
+impl Summary {
+    /// What each block of a mission has worn; the whole run without a mission.
+    pub fn block_wear(&self) -> Vec<BlockWear> {
+        if !self.blocks.is_empty() {
+            return self.blocks.clone();
+        }
+        let last = &self.last;
+        let areas = Sides {
+            slider: last.slider.worn_area_mm2,
+            receptacle: last.receptacle.worn_area_mm2,
+        };
+        let energy = last.dissipated_energy_mj_per_mm;
+        vec![BlockWear::whole(
+            (last.cycle, last.sliding_distance_mm),
+            energy,
+            areas,
+        )]
+    }
+}
+
 /// Resolution that the accuracy settings led to.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Resolution {

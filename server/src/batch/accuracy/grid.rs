@@ -97,7 +97,7 @@ impl Baseline {
             },
             cycles,
             increment_s: expected_s / workload.increments().max(1.0),
-            continuous: scene.spec.cycles.is_none(),
+            continuous: spec::is_continuous(&scene.spec),
         }
     }
 

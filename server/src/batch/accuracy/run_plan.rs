@@ -176,7 +176,8 @@ fn run_spec(spec: &Spec, accuracy: RunAccuracy) -> Spec {
     // The last cycle always has a snapshot; any other snapshot would cut jumps short.
     spec.output.fields = Some(false);
     spec.output.snapshots_at_distance_mm = None;
-    spec.output.snapshots_at_cycles = spec.cycles.map(|cycles| vec![cycles]);
+    let cycles = (!spec::is_continuous(&spec)).then(|| spec::cycles(&spec));
+    spec.output.snapshots_at_cycles = cycles.map(|cycles| vec![cycles]);
     spec
 }
 

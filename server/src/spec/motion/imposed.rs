@@ -28,6 +28,13 @@ pub(crate) struct ImposedMotion {
     pub(super) duration_cycles: Option<u64>,
 }
 
+impl ImposedMotion {
+    /// Whether its duration gives its number of cycles.
+    pub(in crate::spec) fn is_timed(&self) -> bool {
+        self.duration_cycles.is_some()
+    }
+}
+
 /// The period, from the given one of period and frequency.
 pub(super) fn period(
     given: &Motion,
