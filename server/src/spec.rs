@@ -39,6 +39,7 @@ use api::spec::{DerivedMotion, ParseError, Spec, SystemKind};
 use solver::law::friction;
 use solver::model::Layout;
 use solver::scene::{Body, Scene};
+use solver::sides::Side;
 
 pub use conductors::Conductors;
 pub(crate) use conductors::Metal;
@@ -189,6 +190,10 @@ fn fill(spec: &Spec, kind: SystemKind, diagnostics: &mut Diagnostics) -> Filled 
         (&preset, plated),
         diagnostics,
     );
+    for side in Side::BOTH.into_iter().filter(|side| *plated.of(*side)) {
+        let pointer = format!("/interface/wear/{}", side.name());
+        law::check_plated(&pointer, *laws.wear.of(side), diagnostics);
+    }
     let friction = friction::coefficient(laws.friction);
     let (platings, layers) = plating::resolve(&spec.plating, friction, diagnostics);
     let (load, line_load) = load::resolve(spec.load.as_ref(), &preset, &shapes, diagnostics);

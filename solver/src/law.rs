@@ -1,5 +1,6 @@
 //! Constitutive laws. A law knows no mesh: it takes a local state and returns a value with its derivatives.
 
+pub mod dose;
 pub mod elastic;
 pub mod friction;
 pub mod heating;

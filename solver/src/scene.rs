@@ -27,6 +27,7 @@ pub use crate::law::friction::Friction;
 pub use crate::law::plating::{Layer, MOST_LAYERS};
 pub use crate::law::softening::Softening;
 pub use crate::law::wear::WearLaw;
+pub use crate::law::wear::barwell::{Barwell, Course};
 
 /// A contact system with its loads, motion and numerical settings.
 #[derive(Debug, Clone, PartialEq)]

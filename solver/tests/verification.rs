@@ -37,4 +37,5 @@ mod verify_spring_load;
 mod verify_stick_zone;
 mod verify_symmetry;
 mod verify_thermal_softening;
+mod verify_wear_laws;
 mod verify_worn_slider;

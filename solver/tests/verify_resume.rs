@@ -16,7 +16,7 @@ use solver::sides::Sides;
 
 /// An observer that records everything, checkpoints included.
 #[derive(Default)]
-struct CheckpointRecorder {
+pub(crate) struct CheckpointRecorder {
     recorder: Recorder,
     checkpoints: Vec<Checkpoint>,
 }
@@ -49,7 +49,7 @@ fn bits_after(cycle: u64, recorder: &Recorder, summary: &Summary) -> String {
 }
 
 /// Resumes a scene from about `times` of its checkpoints, spread evenly, the last one included.
-fn resumes_to_the_same_bits(
+pub(crate) fn resumes_to_the_same_bits(
     name: &str,
     scene: &Scene,
     times: usize,

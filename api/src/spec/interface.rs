@@ -26,6 +26,20 @@ string_enum! {
         Saracibar = "saracibar",
         /// Worn depth = alpha mu p |slip|, with the worn volume per dissipated energy alpha.
         DissipatedEnergy = "dissipated_energy",
+        /// A rate that falls, stays or grows with the dose D = int p |ds| of a place, from k/H on.
+        Barwell = "barwell",
+    }
+}
+
+string_enum! {
+    /// How the rate of `barwell` changes with the dose D.
+    WearCourse {
+        /// Worn depth = (k/H) D0 (1 - exp(-D/D0)).
+        Decelerating = "decelerating",
+        /// Worn depth = (k/H) D.
+        Steady = "steady",
+        /// Worn depth = (k/H) D0 (exp(D/D0) - 1).
+        Accelerating = "accelerating",
     }
 }
 
@@ -78,7 +92,7 @@ pub struct WearLaw {
     /// The law.
     #[schema(value_type = WearLawName)]
     pub law: EnumValue<WearLawName>,
-    /// `archard`, `sarkar`, `saracibar`: the wear coefficient k, -; together with `hardness_mpa`.
+    /// `archard`, `sarkar`, `saracibar`, `barwell` (the initial one): the wear coefficient k, -; together with `hardness_mpa`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub k: Option<f64>,
     /// Beside `k`: the hardness H of the wearing surface, MPa; that of the material if `k` is given alone.
@@ -93,6 +107,14 @@ pub struct WearLaw {
     /// `dissipated_energy`: the worn volume per dissipated energy alpha, mm^3/J. Required there.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub energy_coefficient_mm3_per_j: Option<f64>,
+    /// `barwell`: how the rate changes with the dose. Required there.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schema(value_type = Option<WearCourse>)]
+    pub course: Option<EnumValue<WearCourse>>,
+    /// `barwell`: the characteristic dose D0, MPa mm, after which the rate has fallen or grown by a factor of e. Required there, but
+    /// for a steady course.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub characteristic_dose_mpa_mm: Option<f64>,
 }
 
 impl WearLaw {
@@ -105,6 +127,8 @@ impl WearLaw {
             k_over_h_per_mpa: None,
             reference_friction: None,
             energy_coefficient_mm3_per_j: None,
+            course: None,
+            characteristic_dose_mpa_mm: None,
         }
     }
 }

@@ -15,7 +15,7 @@ pub(super) fn scale(spec: &mut Spec, factor: f64) -> Vec<Coefficient> {
     for (side, law, material) in bases {
         let pointer = format!("/interface/wear/{side}");
         if let Some(Some(law)) = law {
-            scaled.extend(scale_law(&pointer, name(material.as_ref()), law, factor));
+            scaled.extend(scale_law(&pointer, material.as_ref(), law, factor));
         }
     }
     let plating = &mut spec.plating;
@@ -26,37 +26,48 @@ pub(super) fn scale(spec: &mut Spec, factor: f64) -> Vec<Coefficient> {
         for (index, PlatingLayer { material, wear, .. }) in layers.iter_mut().enumerate() {
             let pointer = format!("/plating/{side}/{index}/wear");
             if let Some(law) = wear {
-                scaled.extend(scale_law(&pointer, name(material.as_ref()), law, factor));
+                scaled.extend(scale_law(&pointer, material.as_ref(), law, factor));
             }
         }
     }
     scaled
 }
 
-/// Every law has one of these coefficients.
+/// Every law has one of these coefficients; the dose after which a rate changes is in proportion to the inverse, so that all depths
+/// depend on the product of coefficient and cycles.
 fn scale_law(
     pointer: &str,
-    material: Option<String>,
+    material: Option<&Material>,
     law: &mut WearLaw,
     factor: f64,
-) -> Option<Coefficient> {
+) -> Vec<Coefficient> {
     let coefficients = [
-        ("k", &mut law.k),
-        ("k_over_h_per_mpa", &mut law.k_over_h_per_mpa),
+        ("k", &mut law.k, factor),
+        ("k_over_h_per_mpa", &mut law.k_over_h_per_mpa, factor),
         (
             "energy_coefficient_mm3_per_j",
             &mut law.energy_coefficient_mm3_per_j,
+            factor,
+        ),
+        (
+            "characteristic_dose_mpa_mm",
+            &mut law.characteristic_dose_mpa_mm,
+            1.0 / factor,
         ),
     ];
-    let mut given = coefficients.into_iter();
-    let (field, value) = given.find_map(|(field, value)| Some((field, value.as_mut()?)))?;
-    let given = std::mem::replace(value, *value * factor);
-    Some(Coefficient {
-        pointer: format!("{pointer}/{field}"),
-        material,
-        given,
-        implied: *value,
-    })
+    let scaled = coefficients
+        .into_iter()
+        .filter_map(|(field, value, factor)| {
+            let value = value.as_mut()?;
+            let given = std::mem::replace(value, *value * factor);
+            Some(Coefficient {
+                pointer: format!("{pointer}/{field}"),
+                material: name(material),
+                given,
+                implied: *value,
+            })
+        });
+    scaled.collect()
 }
 
 /// The name of a material, if it has one.

@@ -1,6 +1,7 @@
 //! Friction and wear, one file a law.
 
 mod archard;
+pub(super) mod barwell;
 pub(super) mod coulomb;
 pub(super) mod dissipated_energy;
 mod frictionless;
@@ -142,6 +143,20 @@ fn wear(
     (None, None)
 }
 
+/// Adds a fault for the law of a base or a layer of a plating whose rate is not the same in every state: a plating wears through by
+/// the dose that each of its layers takes.
+pub(super) fn check_plated(
+    pointer: &str,
+    law: Option<scene::WearLaw>,
+    diagnostics: &mut Diagnostics,
+) {
+    if law.is_some_and(|law| law.uniform().is_none()) {
+        let detail = "a plating and its base wear by laws whose rate is the same in every state: archard, sarkar, saracibar, \
+                      dissipated_energy";
+        diagnostics.fault(pointer, detail);
+    }
+}
+
 /// Resolves a wear law as given, beside a coefficient of friction.
 pub(super) fn given_wear(
     side: &WearingSide<'_>,
@@ -158,6 +173,7 @@ pub(super) fn given_wear(
         Some(WearLawName::DissipatedEnergy) => {
             dissipated_energy::resolve(side, given, friction, diagnostics)
         }
+        Some(WearLawName::Barwell) => barwell::resolve(side, given, diagnostics),
         None => (given.clone(), None),
     }
 }

@@ -65,6 +65,7 @@ fn layer(
         resolved: material.as_ref(),
     };
     let (wear, law) = wear(&side, given.wear.as_ref(), friction, diagnostics);
+    law::check_plated(&side.pointer, law, diagnostics);
     let rate = law.and_then(scene::WearLaw::uniform);
     if rate.is_some_and(|rate| rate <= 0.0) {
         let of_friction = |law: &WearLaw| {

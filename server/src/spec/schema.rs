@@ -8,7 +8,7 @@ use solver::scene::MOST_LAYERS;
 
 use crate::reference::materials::LibraryMaterial;
 use crate::spec::diagnostics::NAME_LIMIT;
-use crate::spec::law::{coulomb, dissipated_energy, saracibar, wear_coefficient};
+use crate::spec::law::{barwell, coulomb, dissipated_energy, saracibar, wear_coefficient};
 use crate::spec::motion::{fourier, insertion, thermal_cycle, vibration};
 use crate::spec::{
     LABEL_LIMIT, LABEL_TEXT_LIMIT, accuracy, criterion, effects, environment, life, load,
@@ -98,6 +98,11 @@ fn numbers() -> Vec<(&'static str, &'static str, RangeInclusive<f64>)> {
             "WearLaw",
             "energy_coefficient_mm3_per_j",
             dissipated_energy::ENERGY_COEFFICIENT_MM3_PER_J,
+        ),
+        (
+            "WearLaw",
+            "characteristic_dose_mpa_mm",
+            barwell::CHARACTERISTIC_DOSE_MPA_MM,
         ),
         ("PlatingLayer", "thickness_um", plating::THICKNESS_UM),
         ("PlatingLayer", "thickness_mm", plating::THICKNESS_MM),
@@ -286,6 +291,7 @@ mod tests {
                     "hardness_mpa" => ("archard", r#""k":0.1,"#),
                     "reference_friction" => ("saracibar", r#""k":0.1,"#),
                     "energy_coefficient_mm3_per_j" => ("dissipated_energy", ""),
+                    "characteristic_dose_mpa_mm" => ("barwell", ""),
                     _ => ("archard", ""),
                 };
                 (

@@ -80,11 +80,11 @@ impl Integrator<'_> {
     }
 
     /// A shorter jump where the estimated error of one far exceeds what it may be, as where it has passed an interface of a
-    /// plating: the rate before does not foresee that behind it.
+    /// plating: the rate before does not foresee that behind it. Of surfaces that wear by dose.
     fn rejected(&self, state: &CycleState, (stroke, jump): (Stroke, u64)) -> Option<u64> {
         let wear = self.pair.interface.wear;
-        let is_plated = |wear: Option<SurfaceWear>| wear.and_then(SurfaceWear::layers).is_some();
-        if !(is_plated(wear.slider) || is_plated(wear.receptacle)) {
+        let by_dose = |wear: Option<SurfaceWear>| wear.and_then(SurfaceWear::dose_curve).is_some();
+        if !(by_dose(wear.slider) || by_dose(wear.receptacle)) {
             return None;
         }
         state.jump.rejected(&self.scene.accuracy, stroke, jump)

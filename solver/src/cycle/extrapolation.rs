@@ -19,13 +19,13 @@ impl Integrator<'_> {
         if one.len() != body.x.len() || other.len() != body.x.len() {
             return 0.0;
         }
-        let layers = self
+        let curve = self
             .pair
             .interface
             .wear
             .receptacle
-            .and_then(SurfaceWear::layers);
-        let outer = layers.map_or(0.0, |layers| layers.outer_rate());
+            .and_then(SurfaceWear::dose_curve);
+        let initial = curve.map_or(0.0, |curve| curve.initial_rate());
         let single: Vec<f64> = one.iter().zip(other).map(|(a, b)| a + b).collect();
         let groove = Groove {
             x: &body.x,
@@ -34,9 +34,9 @@ impl Integrator<'_> {
             radius: self.scene.slider.shape.radius_mm,
             amplitude: self.scene.motion.amplitude_mm().abs(),
             half_width: self.followed(state).narrower(),
-            layers: layers.as_ref(),
+            curve: curve.as_ref(),
             // Two passes.
-            floor: 2.0 * outer * state.neutral.load,
+            floor: 2.0 * initial * state.neutral.load,
         };
         let mut cycles = most;
         while cycles > 0 {

@@ -16,11 +16,11 @@
 //!   w - n [r(d + w) - r(d)] = n w_1
 //! waves fade, the worn area is n times that of the computed cycle, and where the computed wear changes as the surrogate's
 //! does, w is exact to the first order in n for contacts of any shape. S increases with d', so this is the gradient of a convex
-//! function, whose minimum Newton's method with a line search finds. Through a plating w - n w_1 is that of the equivalent depths,
+//! function, whose minimum Newton's method with a line search finds. By dose w - n w_1 is that of the equivalent depths,
 //! and the rest that of the depths: E(d + w) - E(d) increases with w, so the function stays convex, with a kink in its derivative
-//! at each interface. A base that does not wear bounds w (projected Newton method, Bertsekas 1982).
+//! at each interface of a plating. A base that does not wear bounds w (projected Newton method, Bertsekas 1982).
 
-use crate::law::plating::Layers;
+use crate::law::dose::DoseCurve;
 use crate::linear::tridiagonal::solve_tridiagonal;
 use crate::model::Profile;
 
@@ -53,9 +53,9 @@ pub(super) struct Groove<'a> {
     pub(super) amplitude: f64,
     /// Half-width b of the contact.
     pub(super) half_width: f64,
-    /// The layers of the surface, if it is plated.
-    pub(super) layers: Option<&'a Layers>,
-    /// Wear h of the outermost layer in a cycle, mm; of a surface that wears at every depth the mean of the computed cycle counts.
+    /// The curve of its depth over the dose, if it wears by dose.
+    pub(super) curve: Option<&'a DoseCurve>,
+    /// Wear h of the unworn surface in a cycle, mm; of a surface that wears at every depth the mean of the computed cycle counts.
     pub(super) floor: f64,
 }
 
@@ -64,10 +64,7 @@ impl Groove<'_> {
     /// if Newton's method does not converge.
     pub(super) fn wear(&self, depth: &[f64], single: &[f64], cycles: f64) -> Option<Vec<f64>> {
         let area = single.iter().zip(self.widths).map(|(d, width)| d * width);
-        let floor = if self
-            .layers
-            .is_some_and(|layers| layers.deepest().is_finite())
-        {
+        let floor = if self.curve.is_some_and(|curve| curve.deepest().is_finite()) {
             self.floor
         } else {
             area.sum::<f64>() / (2.0 * self.amplitude)
@@ -87,29 +84,29 @@ impl Groove<'_> {
 
     /// Equivalent of a further wear of a depth, mm.
     fn equivalent(&self, depth: f64, wear: f64) -> f64 {
-        self.layers.map_or(wear, |layers| {
-            layers.equivalent(depth + wear) - layers.equivalent(depth)
+        self.curve.map_or(wear, |curve| {
+            curve.equivalent(depth + wear) - curve.equivalent(depth)
         })
     }
 
     /// Further wear of a depth whose equivalent is this, mm.
     fn wear_of(&self, depth: f64, equivalent: f64) -> f64 {
-        self.layers.map_or(equivalent, |layers| {
-            layers.recession(depth, equivalent / layers.outer_rate()).0
+        self.curve.map_or(equivalent, |curve| {
+            curve.recession(depth, equivalent / curve.initial_rate()).0
         })
     }
 
     /// Derivative of the equivalent by the wear at a depth, -; none where the surface does not wear any further.
     fn equivalent_per_wear(&self, depth: f64) -> Option<f64> {
-        self.layers.map_or(Some(1.0), |layers| {
-            let rate = layers.rate(depth);
-            (rate > 0.0).then(|| layers.outer_rate() / rate)
+        self.curve.map_or(Some(1.0), |curve| {
+            let rate = curve.rate(depth);
+            (rate > 0.0).then(|| curve.initial_rate() / rate)
         })
     }
 
     /// Most further wear of a depth, mm.
     fn room(&self, depth: f64) -> f64 {
-        let deepest = self.layers.map_or(f64::INFINITY, Layers::deepest);
+        let deepest = self.curve.map_or(f64::INFINITY, DoseCurve::deepest);
         (deepest - depth).max(0.0)
     }
 

@@ -94,11 +94,11 @@ impl WornBlocks {
         let cycles = left
             .zip(rates)
             .map(|(left, rate)| left / rate.max(f64::MIN_POSITIVE));
-        let outer = self.blocks[0].scar.outer;
+        let initial = self.blocks[0].scar.initial;
         Progress {
             cycle,
             cycles_left: cycles.slider.min(cycles.receptacle),
-            fastest_rate: outer.zip(rates).map(|(outer, rate)| outer * rate),
+            fastest_rate: initial.zip(rates).map(|(initial, rate)| initial * rate),
             worn_through: shares.slider.min(shares.receptacle) < ale::WORN_THROUGH_SHARE,
         }
     }

@@ -50,8 +50,8 @@ pub(super) struct Scar {
     shares: Sides<f64>,
     /// Expected cycles of the run.
     cycles: u64,
-    /// Rate of the outermost layer of each side over the mean rate that it wears by.
-    pub(super) outer: Sides<f64>,
+    /// Initial rate of each side over the mean rate that it wears by.
+    pub(super) initial: Sides<f64>,
     pub(super) area: f64,
     /// Worn area since another motion has worn the surfaces, which no longer conform then, mm^2.
     conforming: f64,
@@ -98,9 +98,9 @@ impl Scar {
             pass: wear * scene.load_n_per_mm,
             shares: rates.map(share),
             cycles: resolution::expected_cycles(scene, hertz),
-            outer: scene.surface_wear().zip(rates).map(|(wear, rate)| {
-                let layers = wear.and_then(SurfaceWear::layers);
-                layers.map_or(1.0, |layers| layers.outer_rate() / rate)
+            initial: scene.surface_wear().zip(rates).map(|(wear, rate)| {
+                let curve = wear.and_then(SurfaceWear::dose_curve);
+                curve.map_or(1.0, |curve| curve.initial_rate() / rate)
             }),
             area: 0.0,
             conforming: 0.0,

@@ -1,10 +1,11 @@
-//! Wear of a surface: one law, or the layers of a plating over a base.
+//! Wear of a surface: one law at every depth, or a curve of the depth over the dose, as that of the layers of a plating.
 //!
-//! A depth and its equivalent, the depth that the outermost layer alone would have lost by the same dose, are equal without a
-//! plating. Doses add where depths do not: the wear of cycles is extrapolated in equivalent depths.
+//! A depth and its equivalent, the depth that the initial rate alone would have worn by the same dose, are equal where one law
+//! holds at every depth. Doses add where depths do not: the wear of cycles is extrapolated in equivalent depths.
 
 use std::borrow::Cow;
 
+use super::dose::DoseCurve;
 use super::plating::{Layer, Layers};
 use super::wear::{LocalState, WearLaw};
 
@@ -13,8 +14,8 @@ use super::wear::{LocalState, WearLaw};
 pub enum SurfaceWear {
     /// One law at every depth.
     Law(WearLaw),
-    /// Layers over a base.
-    Plated(Layers),
+    /// A depth that the dose determines.
+    ByDose(DoseCurve),
 }
 
 impl SurfaceWear {
@@ -22,25 +23,28 @@ impl SurfaceWear {
     /// same in every state, and does not wear otherwise.
     pub fn new(plating: &[Layer], base: Option<WearLaw>) -> Option<Self> {
         if plating.is_empty() {
-            return base.map(Self::Law);
+            return base.map(|law| match law {
+                WearLaw::Barwell(law) => Self::ByDose(DoseCurve::Barwell(law)),
+                law => Self::Law(law),
+            });
         }
         let base = base.and_then(WearLaw::uniform).unwrap_or(0.0);
-        Some(Self::Plated(Layers::new(plating, base)))
+        Some(Self::ByDose(DoseCurve::Layers(Layers::new(plating, base))))
     }
 
     /// The specific wear rate of one that is the same in every state and at every depth, 1/MPa.
     pub fn uniform(self) -> Option<f64> {
         match self {
             Self::Law(law) => law.uniform(),
-            Self::Plated(_) => None,
+            Self::ByDose(_) => None,
         }
     }
 
-    /// Its layers, if it has any.
-    pub fn layers(self) -> Option<Layers> {
+    /// The curve of its depth over the dose, if it has one.
+    pub fn dose_curve(self) -> Option<DoseCurve> {
         match self {
             Self::Law(_) => None,
-            Self::Plated(layers) => Some(layers),
+            Self::ByDose(curve) => Some(curve),
         }
     }
 
@@ -48,7 +52,7 @@ impl SurfaceWear {
     pub fn largest_rate(self, depth: f64, at: LocalState) -> f64 {
         match self {
             Self::Law(law) => law.rate(at).value,
-            Self::Plated(layers) => layers.largest_rate(depth),
+            Self::ByDose(curve) => curve.largest_rate(depth),
         }
     }
 
@@ -57,16 +61,16 @@ impl SurfaceWear {
     pub fn mean_rate(self, depth: f64, at: LocalState) -> f64 {
         match self {
             Self::Law(law) => law.rate(at).value,
-            Self::Plated(layers) => {
-                let equivalent = layers.equivalent(depth);
-                let share = if depth > layers.deepest() {
+            Self::ByDose(curve) => {
+                let equivalent = curve.equivalent(depth);
+                let share = if depth > curve.deepest() {
                     0.0
                 } else if equivalent > 0.0 {
                     depth / equivalent
                 } else {
                     1.0
                 };
-                share * layers.outer_rate()
+                share * curve.initial_rate()
             }
         }
     }
@@ -75,7 +79,7 @@ impl SurfaceWear {
     pub fn deepest(self) -> f64 {
         match self {
             Self::Law(_) => f64::INFINITY,
-            Self::Plated(layers) => layers.deepest(),
+            Self::ByDose(curve) => curve.deepest(),
         }
     }
 
@@ -83,7 +87,7 @@ impl SurfaceWear {
     pub fn equivalent(self, depth: f64) -> f64 {
         match self {
             Self::Law(_) => depth,
-            Self::Plated(layers) => layers.equivalent(depth),
+            Self::ByDose(curve) => curve.equivalent(depth),
         }
     }
 
@@ -91,48 +95,42 @@ impl SurfaceWear {
     pub fn depth(self, equivalent: f64) -> f64 {
         match self {
             Self::Law(_) => equivalent,
-            Self::Plated(layers) => layers.depth(equivalent),
+            Self::ByDose(curve) => curve.depth(equivalent),
         }
     }
 
-    /// Specific wear rate at a depth in mm over that of the outermost layer, -.
+    /// Specific wear rate at a depth in mm over that of the unworn surface, -.
     pub fn relative_rate(self, depth: f64) -> f64 {
         match self {
             Self::Law(_) => 1.0,
-            Self::Plated(layers) => layers.rate(depth) / layers.outer_rate(),
+            Self::ByDose(curve) => curve.rate(depth) / curve.initial_rate(),
         }
     }
 }
 
 /// Equivalents of the depths of a surface, mm.
 pub fn equivalents(wear: Option<SurfaceWear>, depth: &[f64]) -> Cow<'_, [f64]> {
-    match wear.and_then(SurfaceWear::layers) {
+    match wear.and_then(SurfaceWear::dose_curve) {
         None => Cow::Borrowed(depth),
-        Some(layers) => depth
-            .iter()
-            .map(|depth| layers.equivalent(*depth))
-            .collect(),
+        Some(curve) => depth.iter().map(|depth| curve.equivalent(*depth)).collect(),
     }
 }
 
 /// Depths of equivalents, mm.
 pub fn depths(wear: Option<SurfaceWear>, equivalent: Vec<f64>) -> Vec<f64> {
-    match wear.and_then(SurfaceWear::layers) {
+    match wear.and_then(SurfaceWear::dose_curve) {
         None => equivalent,
-        Some(layers) => equivalent
-            .iter()
-            .map(|depth| layers.depth(*depth))
-            .collect(),
+        Some(curve) => equivalent.iter().map(|depth| curve.depth(*depth)).collect(),
     }
 }
 
-/// Values at the nodes of a surface times the rates at their depths in mm over that of the outermost layer.
+/// Values at the nodes of a surface times the rates at their depths in mm over that of the unworn surface.
 pub fn at_relative_rates<'a>(
     wear: Option<SurfaceWear>,
     values: &'a [f64],
     depth: &[f64],
 ) -> Cow<'a, [f64]> {
-    match wear.filter(|wear| wear.layers().is_some()) {
+    match wear.filter(|wear| wear.dose_curve().is_some()) {
         None => Cow::Borrowed(values),
         Some(wear) => {
             let nodes = values.iter().zip(depth);

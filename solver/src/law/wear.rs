@@ -6,6 +6,7 @@
 //! that sticking points do not wear and a return stroke removes material like the stroke before.
 
 pub mod archard;
+pub mod barwell;
 pub mod dissipated_energy;
 #[cfg(test)]
 mod pressure_power;
@@ -13,6 +14,7 @@ mod rate;
 pub mod saracibar;
 pub mod sarkar;
 
+use barwell::Barwell;
 pub use rate::{LocalState, Rate};
 
 /// Wear laws: normal recession rate of a surface.
@@ -46,6 +48,8 @@ pub enum WearLaw {
         /// Coefficient of friction mu, -.
         friction: f64,
     },
+    /// Barwell: the rate falls or grows with the dose (thesis, equations 1 and 3).
+    Barwell(Barwell),
     /// A specific wear rate that grows with the pressure, for tests of the contact solve.
     #[cfg(test)]
     PressurePower {
@@ -76,6 +80,7 @@ impl WearLaw {
                 mm3_per_j,
                 friction,
             } => dissipated_energy::rate(mm3_per_j, friction, at),
+            Self::Barwell(law) => barwell::rate(law, at),
             #[cfg(test)]
             Self::PressurePower {
                 k_per_mpa,
@@ -109,6 +114,7 @@ impl WearLaw {
                 reference_friction,
             },
             Self::DissipatedEnergy { .. } => self,
+            Self::Barwell(law) => Self::Barwell(law.softened(ratio)),
             #[cfg(test)]
             Self::PressurePower { .. } => self,
         }
@@ -121,6 +127,7 @@ impl WearLaw {
             | Self::Sarkar { .. }
             | Self::Saracibar { .. }
             | Self::DissipatedEnergy { .. } => Some(self.rate(LocalState::default()).value),
+            Self::Barwell(_) => None,
             #[cfg(test)]
             Self::PressurePower { .. } => None,
         }
@@ -129,9 +136,10 @@ impl WearLaw {
 
 #[cfg(test)]
 mod tests {
+    use super::barwell::Course;
     use super::*;
 
-    const LAWS: [WearLaw; 5] = [
+    const LAWS: [WearLaw; 7] = [
         WearLaw::Archard {
             k_over_h_per_mpa: 2.5761e-5,
         },
@@ -148,6 +156,8 @@ mod tests {
             mm3_per_j: 4.23e-5,
             friction: 0.8,
         },
+        barwell(Course::Decelerating),
+        barwell(Course::Accelerating),
         WearLaw::PressurePower {
             k_per_mpa: 2.5761e-5,
             reference_mpa: 100.0,
@@ -157,7 +167,17 @@ mod tests {
     const STATE: LocalState = LocalState {
         pressure: 150.0,
         slip: 0.02,
+        depth: 1e-4,
     };
+
+    /// A fifth of the characteristic dose in an increment.
+    const fn barwell(course: Course) -> WearLaw {
+        WearLaw::Barwell(Barwell {
+            rate_per_mpa: 2.5761e-5,
+            dose_mpa_mm: 15.0,
+            course,
+        })
+    }
 
     #[test]
     fn derivatives_are_those_of_the_value() {
@@ -165,7 +185,14 @@ mod tests {
         for law in LAWS {
             let rate = law.rate(at);
             let step = 1e-4;
-            let value = |pressure: f64, slip: f64| law.rate(LocalState { pressure, slip }).value;
+            let value = |pressure: f64, slip: f64| {
+                let to = LocalState {
+                    pressure,
+                    slip,
+                    ..at
+                };
+                law.rate(to).value
+            };
             let central = |more: f64, less: f64, h: f64| (more - less) / (2.0 * h);
             let h = step * at.pressure;
             let d_pressure = central(

@@ -127,13 +127,13 @@ fn travel_over_slider(slider: f64, crown: Option<f64>) -> f64 {
     crown.map_or(0.0, |crown| slider / (slider + crown))
 }
 
-/// Specific wear rates in a contact of a half-width, 1/MPa; through a plating the mean rate down to the estimated depth at the
+/// Specific wear rates in a contact of a half-width, 1/MPa; of laws by dose the mean rate down to the estimated depth at the
 /// end.
 pub(crate) fn wear_rates(scene: &Scene, half_width: f64) -> Sides<f64> {
     let wear = scene.surface_wear();
     let at = LocalState::mean(scene.load_n_per_mm, half_width);
-    let is_plated = |wear: Option<SurfaceWear>| wear.and_then(SurfaceWear::layers).is_some();
-    let depth = if is_plated(wear.slider) || is_plated(wear.receptacle) {
+    let by_dose = |wear: Option<SurfaceWear>| wear.and_then(SurfaceWear::dose_curve).is_some();
+    let depth = if by_dose(wear.slider) || by_dose(wear.receptacle) {
         let cycles = expected_cycles(scene, half_width);
         worn_depth::after(scene, (radius(scene), at), &wear, cycles)
     } else {

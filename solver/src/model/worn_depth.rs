@@ -4,8 +4,8 @@
 //!   (4/3) h (A/2 + sqrt(2 R h)) = W:
 //! for A = 0 the segment of the arc, in gross sliding an empirical mean of parabola and flat floor (`sd_card`: 1.83 um for 1.76 um
 //! at A = 0.02 mm). A worn section of the slider is the segment. Each body is taken to
-//! wear against an unworn one: where both wear a common scar, neither becomes deeper. Through a plating the section wears by the
-//! mean rate of its deepest point. A part f of the parabola is deeper than d where h = d/(1 - f^2).
+//! wear against an unworn one: where both wear a common scar, neither becomes deeper. By dose the section wears by the mean
+//! rate of its deepest point. A part f of the parabola is deeper than d where h = d/(1 - f^2).
 
 use crate::law::surface::SurfaceWear;
 use crate::law::wear::LocalState;
@@ -28,16 +28,17 @@ pub(crate) fn after(
     cycles: u64,
 ) -> Sides<f64> {
     let path = scene.load_n_per_mm * scene.motion.distance_per_cycle_mm() * real_cycles(cycles);
-    let depth = |wear: Option<SurfaceWear>, amplitude| {
+    let depth = |wear: Option<SurfaceWear>, amplitude, height: f64| {
         wear.map_or(0.0, |wear| {
-            let most = path * wear.largest_rate(f64::INFINITY, at);
-            depth(|h| path * wear.mean_rate(h, at), most, amplitude, radius)
+            let most = path * wear.largest_rate(height, at);
+            let depth = depth(|h| path * wear.mean_rate(h, at), most, amplitude, radius);
+            depth.min(height)
         })
     };
+    let amplitude = scene.motion.amplitude_mm();
     Sides {
-        slider: depth(wear.slider, 0.0).min(scene.slider.shape.height_mm),
-        receptacle: depth(wear.receptacle, scene.motion.amplitude_mm())
-            .min(scene.receptacle.shape.height_mm),
+        slider: depth(wear.slider, 0.0, scene.slider.shape.height_mm),
+        receptacle: depth(wear.receptacle, amplitude, scene.receptacle.shape.height_mm),
     }
 }
 

@@ -130,7 +130,11 @@ impl Complementarity {
         wear.linearise(
             problem.coupling,
             problem.pair,
-            &solution.map(|(&pressure, &slip)| LocalState { pressure, slip }),
+            &solution.map(|(&pressure, &slip)| LocalState {
+                pressure,
+                slip,
+                ..LocalState::default()
+            }),
         );
         self.assemble(problem, response, wear, layout);
         let Some(z) = self.lemke.solve(&self.matrix, &self.constant) else {

@@ -95,6 +95,7 @@ impl Iterate {
         LocalState {
             pressure: self.pressure[node],
             slip: (self.status[node].direction() * self.slip[node]).max(0.0),
+            ..LocalState::default()
         }
     }
 }

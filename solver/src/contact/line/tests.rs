@@ -106,6 +106,7 @@ fn recession_is_the_rate_at_the_end_of_the_increment() {
             let rate = power(exponent).rate(LocalState {
                 pressure,
                 slip: path / pressure.max(f64::MIN_POSITIVE),
+                ..LocalState::default()
             });
             let expected = cycles * rate.value * path;
             assert!(

@@ -5,7 +5,7 @@
 //!   F = W e,  W = n (diag k_s + Mhat diag k_m D^-1 M^T),
 //! where the master's nodes take the path e and their recession is averaged back. The rates of a law that varies with the local
 //! state are those at the coupled nodes on either side, so that its columns of S = Mhat D^-1 M^T are multiplied by k_m; those of
-//! a plating belong to the nodes of their own surface, whose depths they depend on. Rates that vary add their derivatives:
+//! laws by dose, as that of a plating, belong to the nodes of their own surface, whose depths they depend on. Rates that vary add their derivatives:
 //! dF/dp = W_p |sigma| and dF/d|sigma| = W_s p (`rates`). Uniform rates are assembled once an increment.
 
 mod rates;
@@ -27,12 +27,12 @@ pub(super) struct WearCoupling {
     depth: Sides<Vec<f64>>,
     /// S; zero where the master does not wear.
     transfer: Band,
-    /// The master's part of W where it is plated.
-    plated: Band,
-    /// Path at the coupled nodes, and at the master's nodes where it is plated, MPa mm.
+    /// The master's part of W where it wears by dose.
+    by_dose: Band,
+    /// Path at the coupled nodes, and at the master's nodes where it wears by dose, MPa mm.
     path: Vec<f64>,
     master_path: Vec<f64>,
-    /// Rates that vary: at the coupled nodes, or at the master's where that is plated.
+    /// Rates that vary: at the coupled nodes, or at the master's where that wears by dose.
     rates: Sides<Vec<NodeRates>>,
     opening: Band,
     per_pressure: Band,
@@ -53,7 +53,7 @@ impl WearCoupling {
         self.cycles = cycles;
         self.transfer.reset(coupling.len(), 0);
         let (slave, master) = (pair.interface.slave, pair.interface.slave.other());
-        if wear.of(master).is_some() && !self.is_plated(master) {
+        if wear.of(master).is_some() && !self.wears_by_dose(master) {
             let widths = &pair.master().widths;
             assemble_transfer(coupling, |shared, j| shared / widths[j], &mut self.transfer);
         }
@@ -72,8 +72,8 @@ impl WearCoupling {
         }
     }
 
-    fn is_plated(&self, side: Side) -> bool {
-        matches!(self.wear.of(side), Some(SurfaceWear::Plated(_)))
+    fn wears_by_dose(&self, side: Side) -> bool {
+        matches!(self.wear.of(side), Some(SurfaceWear::ByDose(_)))
     }
 
     /// Whether a rate depends on the local state or on the depth.
@@ -96,7 +96,7 @@ impl WearCoupling {
         self.path.clear();
         let paths = states.clone().map(|at| (at.pressure * at.slip).max(0.0));
         self.path.extend(paths);
-        if self.is_plated(master) {
+        if self.wears_by_dose(master) {
             transfer_path(
                 coupling,
                 &pair.master().widths,
@@ -112,7 +112,7 @@ impl WearCoupling {
                 Some(SurfaceWear::Law(law)) => {
                     rates.extend(states.clone().map(|at| NodeRates::of_law(law, at)));
                 }
-                Some(SurfaceWear::Plated(layers)) => {
+                Some(SurfaceWear::ByDose(curve)) => {
                     let path = if side == slave {
                         &self.path
                     } else {
@@ -120,9 +120,7 @@ impl WearCoupling {
                     };
                     let nodes = self.depth.of(side).iter().zip(path);
                     rates.extend(
-                        nodes.map(|(depth, e)| {
-                            NodeRates::of_layers(&layers, *depth, self.cycles * e)
-                        }),
+                        nodes.map(|(depth, e)| NodeRates::by_dose(&curve, *depth, self.cycles * e)),
                     );
                 }
             }
@@ -159,12 +157,12 @@ impl WearCoupling {
         let mut matrix = std::mem::take(combined(self));
         let (own, far) = (self.rates.of(slave), self.rates.of(slave.other()));
         let (cycles, diagonal) = (self.cycles, |l: usize| self.cycles * kind(&own[l]));
-        if self.is_plated(slave.other()) {
+        if self.wears_by_dose(slave.other()) {
             let widths = &pair.master().widths;
             let begin = coupling.master_range.0;
             let worn = |shared: f64, j: usize| shared * kind(&far[j - begin]) / widths[j];
-            assemble_transfer(coupling, worn, &mut self.plated);
-            self.plated.combine(|_| cycles, diagonal, &mut matrix);
+            assemble_transfer(coupling, worn, &mut self.by_dose);
+            self.by_dose.combine(|_| cycles, diagonal, &mut matrix);
         } else {
             let factor = |l: usize| cycles * kind(&far[l]);
             self.transfer.combine(factor, diagonal, &mut matrix);
@@ -212,7 +210,7 @@ impl WearCoupling {
                 Some(SurfaceWear::Law(_)) => {
                     self.recession_by_law((coupling, pair), side, path, recession)
                 }
-                Some(SurfaceWear::Plated(layers)) => {
+                Some(SurfaceWear::ByDose(curve)) => {
                     let widths = if side == pair.interface.slave {
                         recession.extend_from_slice(path);
                         &pair.slave().widths[coupling.first..]
@@ -222,7 +220,7 @@ impl WearCoupling {
                     };
                     let nodes = recession.iter_mut().zip(self.depth.of(side)).zip(widths);
                     nodes.fold(0.0, |area, ((depth, before), width)| {
-                        *depth = layers.recession(*before, self.cycles * *depth).0;
+                        *depth = curve.recession(*before, self.cycles * *depth).0;
                         area + width * *depth
                     })
                 }

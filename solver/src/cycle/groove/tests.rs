@@ -1,7 +1,7 @@
 //! Grooves with and without platings, in jumps of several lengths.
 
 use super::*;
-use crate::law::plating::Layer;
+use crate::law::plating::{Layer, Layers};
 use crate::number::real;
 
 const NODES: usize = 401;
@@ -25,7 +25,7 @@ fn groove<'a>(x: &'a [f64], widths: &'a [f64]) -> Groove<'a> {
         radius: 1.0,
         amplitude: 1.0,
         half_width: 0.02,
-        layers: None,
+        curve: None,
         floor: FLOOR,
     }
 }
@@ -114,10 +114,10 @@ fn worn_through(base: f64, share: f64) -> (Vec<f64>, f64) {
         thickness_mm: 2_048.0 * FLOOR,
         rate_per_mpa: 1e-8,
     };
-    let layers = Layers::new(&[layer], base);
+    let curve = DoseCurve::Layers(Layers::new(&[layer], base));
     let (x, widths) = surface();
     let groove = Groove {
-        layers: Some(&layers),
+        curve: Some(&curve),
         ..groove(&x, &widths)
     };
     let (mut depth, mut done) = (vec![0.0; NODES], 0.0);
@@ -125,7 +125,7 @@ fn worn_through(base: f64, share: f64) -> (Vec<f64>, f64) {
         let jump = (share * done).ceil().clamp(1.0, 4_096.0 - done);
         let mut single = rate(&groove, &depth);
         for (single, depth) in single.iter_mut().zip(&depth) {
-            *single *= f64::from(u8::from(*depth < layers.deepest()));
+            *single *= f64::from(u8::from(*depth < curve.deepest()));
         }
         let wear = groove.wear(&depth, &single, jump);
         let wear = wear.unwrap_or_else(|| panic!("{base}, {share}: not after {done} cycles"));
@@ -134,7 +134,7 @@ fn worn_through(base: f64, share: f64) -> (Vec<f64>, f64) {
         }
         done += jump;
     }
-    let equivalent: Vec<f64> = depth.iter().map(|d| layers.equivalent(*d)).collect();
+    let equivalent: Vec<f64> = depth.iter().map(|d| curve.equivalent(*d)).collect();
     let ideal = 4_096.0 * FLOOR * 2.0;
     (depth, area(&equivalent, &widths) / ideal)
 }

@@ -20,6 +20,7 @@ mod tests {
         let at = LocalState {
             pressure: 150.0,
             slip: 0.02,
+            ..LocalState::default()
         };
         let depth = rate(1e-4 / 1_700.0, at).value * at.pressure * at.slip;
         assert!((depth - 1.764_706e-7).abs() < 1e-13, "{depth}");

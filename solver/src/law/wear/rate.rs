@@ -7,6 +7,9 @@ pub struct LocalState {
     pub pressure: f64,
     /// Magnitude of the slip |ds| in the increment, mm.
     pub slip: f64,
+    /// Worn depth before the increment, mm. The contact solve evaluates laws that depend on it through their dose
+    /// (`law::dose`), at the nodes of the surface that wears.
+    pub depth: f64,
 }
 
 impl LocalState {
@@ -16,6 +19,7 @@ impl LocalState {
         Self {
             pressure: load / (2.0 * half_width),
             slip: 0.5 * half_width,
+            ..Self::default()
         }
     }
 }
@@ -39,6 +43,20 @@ impl Rate {
             value,
             d_pressure: 0.0,
             d_slip: 0.0,
+        }
+    }
+
+    /// The mean rate over a dose p |ds| that wears a depth in mm and ends with a rate in 1/MPa.
+    pub(super) fn over_dose((pressure, slip): (f64, f64), worn: f64, end: f64) -> Self {
+        let dose = pressure * slip;
+        if dose <= 0.0 {
+            return Self::uniform(end);
+        }
+        let value = worn / dose;
+        Self {
+            value,
+            d_pressure: (end - value) / pressure,
+            d_slip: (end - value) / slip,
         }
     }
 }

@@ -21,6 +21,7 @@ mod tests {
         let at = LocalState {
             pressure: 150.0,
             slip: 0.02,
+            ..LocalState::default()
         };
         let depth =
             |friction| rate(1e-4 / 1_700.0, friction, 0.3, at).value * at.pressure * at.slip;

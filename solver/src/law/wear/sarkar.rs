@@ -21,6 +21,7 @@ mod tests {
         let at = LocalState {
             pressure: 150.0,
             slip: 0.02,
+            ..LocalState::default()
         };
         let depth = |friction| rate(1e-4 / 1_700.0, friction, at).value * at.pressure * at.slip;
         assert!((depth(0.3) - 1.988_723e-7).abs() < 1e-13, "{}", depth(0.3));

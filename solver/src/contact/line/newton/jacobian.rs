@@ -43,6 +43,7 @@ impl Jacobian {
         let local = |node: usize| LocalState {
             pressure: it.pressure[node],
             slip: (partition.status(it, node).direction() * it.slip[node]).max(0.0),
+            ..LocalState::default()
         };
         if problem.wears {
             wear.linearise(problem.coupling, problem.pair, &(0..n).map(local));

@@ -2,9 +2,9 @@
 //!
 //! For h = n k e with e = p |sigma| the derivatives are dh/dp = n k_p |sigma| and dh/d|sigma| = n k_s p:
 //! * a law k(p, |sigma|): k_p = k + p dk/dp, k_s = k + |sigma| dk/d|sigma|,
-//! * layers: k the mean over the dose n e, and k_p = k_s the rate of the layer in which the increment ends.
+//! * a law by dose: k the mean over the dose n e, and k_p = k_s the rate with which the increment ends.
 
-use crate::law::plating::Layers;
+use crate::law::dose::DoseCurve;
 use crate::law::wear::{LocalState, WearLaw};
 
 /// Rates of a node, 1/MPa.
@@ -29,9 +29,9 @@ impl NodeRates {
         }
     }
 
-    /// Those of layers from a depth in mm over a dose in MPa mm.
-    pub(super) fn of_layers(layers: &Layers, depth: f64, dose: f64) -> Self {
-        let (worn, end) = layers.recession(depth, dose);
+    /// Those of a law by dose from a depth in mm over a dose in MPa mm.
+    pub(super) fn by_dose(curve: &DoseCurve, depth: f64, dose: f64) -> Self {
+        let (worn, end) = curve.recession(depth, dose);
         Self {
             value: if dose > 0.0 { worn / dose } else { end },
             per_pressure: end,
