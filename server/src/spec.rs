@@ -263,6 +263,7 @@ fn fill(spec: &Spec, kind: SystemKind, diagnostics: &mut Diagnostics) -> Filled 
         spring_n_per_mm2: line_load.spring_n_per_mm2,
         drive: movement.drive,
         motion: movement.scene,
+        timing: movement.timing,
         cycles,
         mission: movement.blocks.clone(),
         accuracy: numerical,

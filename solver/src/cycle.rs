@@ -27,7 +27,7 @@ mod wear_limit;
 use crate::ale::Spines;
 use crate::condensation::Operators;
 use crate::contact::{self, ContactError, ContactState, Displacement, Pair, Solver, Surfaces};
-use crate::law::surface;
+use crate::law::surface::{self, SurfaceWear};
 use crate::model::{Interface, Model, Tangential, resolution};
 use crate::number::{cycles_at_least, real, real_cycles};
 use crate::scene::{Motion, Scene};
@@ -61,6 +61,8 @@ pub struct Integrator<'a> {
     solver: Solver,
     /// Slopes of the surfaces at the beginning of the computed cycle.
     slope: Sides<Vec<f64>>,
+    /// Wear of both surfaces; the pair has that of the present increment.
+    wear: Sides<Option<SurfaceWear>>,
     spines: Spines,
     /// Cycles until the end of the run, estimated where it stops at a depth.
     expected_cycles: u64,
@@ -74,12 +76,16 @@ impl<'a> Integrator<'a> {
             operators,
             interface: model.interface_of(scene),
         };
+        let constant = scene.timed_motion().constant();
+        let at_pace = |wear: SurfaceWear| constant.map_or(wear, |pace| wear.at_pace(pace));
+        let wear = pair.interface.wear.map(|wear| wear.map(at_pace));
         let next = ContactState::untouched(operators, model.interface.slave);
         Self {
             scene,
             pair,
             solver: Solver::default(),
             slope: Sides::default(),
+            wear,
             spines: Spines::of(model),
             expected_cycles: resolution::expected_cycles(scene, model.sizes.hertz_half_width),
             next,
@@ -264,13 +270,13 @@ impl<'a> Integrator<'a> {
 
     /// Equivalents of the depths of both surfaces, mm.
     fn equivalents(&self, depth: &Sides<Vec<f64>>) -> Sides<Vec<f64>> {
-        let wear = self.pair.interface.wear;
+        let wear = self.wear;
         Sides::from_fn(|side| surface::equivalents(*wear.of(side), depth.of(side)).into_owned())
     }
 
     /// Wear of the receptacle since these depths, mm, over a number of cycles, as equivalent depth.
     fn wear_per_cycle(&self, state: &CycleState, before: &[f64], cycles: u64) -> Vec<f64> {
-        let wear = self.pair.interface.wear.receptacle;
+        let wear = self.wear.receptacle;
         let [after, before] =
             [&state.depth.receptacle, before].map(|depth| surface::equivalents(wear, depth));
         let worn = after.iter().zip(&before[..]);
@@ -294,6 +300,11 @@ impl<'a> Integrator<'a> {
             slope: self.slope.as_slices(),
         };
         let last = &state.contact;
+        let pace = self
+            .scene
+            .timed_motion()
+            .between(last.slider_x, to.slider_x);
+        self.pair.interface.wear = self.wear.map(|wear| wear.map(|wear| wear.at_pace(pace)));
         let done = self
             .solver
             .advance(&self.pair, &surfaces, last, to, &mut self.next)?;

@@ -4,6 +4,7 @@ pub mod dose;
 pub mod elastic;
 pub mod friction;
 pub mod heating;
+pub mod pace;
 pub mod plating;
 pub mod resistance;
 pub mod softening;

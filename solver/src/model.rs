@@ -158,8 +158,8 @@ fn interface(scene: &Scene, plan: &EffectsPlan, sizes: &Sizes) -> Interface {
         friction: friction::coefficient(scene.friction),
         tangential,
         wear: Sides {
-            slider: (scene.slider.surface_wear(surface)).filter(|_| on(Effect::SliderWear)),
-            receptacle: (scene.receptacle.surface_wear(surface))
+            slider: (scene.slider.surface_wear(surface, None)).filter(|_| on(Effect::SliderWear)),
+            receptacle: (scene.receptacle.surface_wear(surface, None))
                 .filter(|_| on(Effect::ReceptacleWear)),
         },
         load: scene.load_n_per_mm,

@@ -7,17 +7,21 @@
 mod criterion;
 mod mission;
 mod motion;
+mod timing;
 mod tuning;
 
 pub use criterion::Criterion;
 pub use mission::{Block, Mission};
 pub use motion::Motion;
+pub use timing::Timing;
+pub(crate) use timing::{Spread, TimedMotion};
 pub use tuning::{Power, Tuning};
 
 use std::borrow::Cow;
 
 use crate::effects::{Effect, Switches};
 use crate::law::friction;
+use crate::law::pace::Pace;
 use crate::law::surface::SurfaceWear;
 use crate::number::count_at_least;
 use crate::sides::{Side, Sides};
@@ -28,6 +32,10 @@ pub use crate::law::plating::{Layer, MOST_LAYERS};
 pub use crate::law::softening::Softening;
 pub use crate::law::wear::WearLaw;
 pub use crate::law::wear::barwell::{Barwell, Course};
+pub use crate::law::wear::mild_oxidation::MildOxidation;
+pub use crate::law::wear::quinn::Quinn;
+pub use crate::law::wear::severe_oxidation::SevereOxidation;
+pub use crate::law::wear::speed::SpeedLaw;
 
 /// A contact system with its loads, motion and numerical settings.
 #[derive(Debug, Clone, PartialEq)]
@@ -47,6 +55,8 @@ pub struct Scene {
     pub drive: Drive,
     /// The imposed relative motion (slider minus receptacle); of a mission its mean cycle, for estimates.
     pub motion: Motion,
+    /// Its course in time.
+    pub timing: Timing,
     /// Number of physical cycles, of all blocks of a mission.
     pub cycles: u64,
     /// Blocks of different motions, if there are several.
@@ -78,6 +88,7 @@ impl Scene {
         let blocks = mission.blocks.iter().map(|block| {
             Cow::Owned(Self {
                 motion: block.motion,
+                timing: block.timing,
                 cycles: block.cycles.saturating_mul(mission.repeat),
                 mission: None,
                 ..self.clone()
@@ -107,6 +118,32 @@ impl Scene {
         amplitudes.fold(self.motion.amplitude_mm(), f64::max)
     }
 
+    /// Mean speed of the imposed motion, mm/s.
+    pub fn mean_speed_mm_s(&self) -> f64 {
+        self.timed_motion().mean().speed()
+    }
+
+    /// Its largest speed, mm/s.
+    pub fn fastest_speed_mm_s(&self) -> f64 {
+        self.timed_motion().fastest().speed()
+    }
+
+    /// The motion with its course in time.
+    pub(crate) fn timed_motion(&self) -> TimedMotion {
+        let (amplitude_mm, period_s) = match self.motion {
+            Motion::Reciprocating {
+                amplitude_mm,
+                period_s,
+            } => (amplitude_mm.abs(), period_s),
+            Motion::Continuous { .. } => (0.0, f64::INFINITY),
+        };
+        TimedMotion {
+            amplitude_mm,
+            period_s,
+            timing: self.timing,
+        }
+    }
+
     /// Layers of a side, from the surface down.
     pub fn plating(&self, side: Side) -> &[Layer] {
         match side {
@@ -123,12 +160,13 @@ impl Scene {
             softening: is_on(Effect::ThermalSoftening),
         };
         let (slider, receptacle) = (&self.slider, &self.receptacle);
+        let pace = self.timed_motion().constant();
         Sides {
             slider: slider
-                .surface_wear(on)
+                .surface_wear(on, pace)
                 .filter(|_| is_on(Effect::SliderWear)),
             receptacle: receptacle
-                .surface_wear(on)
+                .surface_wear(on, pace)
                 .filter(|_| is_on(Effect::ReceptacleWear)),
         }
     }
@@ -162,8 +200,12 @@ pub struct Body<S> {
 
 impl<S> Body<S> {
     /// Wear of its surface by the surface effects that are simulated: with all of its layers or with the outermost one at every
-    /// depth, at the temperature of the contact or at that of the measured hardness.
-    pub(crate) fn surface_wear(&self, on: SurfaceEffects) -> Option<SurfaceWear> {
+    /// depth, at the temperature of the contact or at that of the measured hardness; at a pace that is the same all the time.
+    pub(crate) fn surface_wear(
+        &self,
+        on: SurfaceEffects,
+        pace: Option<Pace>,
+    ) -> Option<SurfaceWear> {
         let ratio = |layer| {
             if on.softening {
                 self.softening.ratio(layer)
@@ -183,6 +225,7 @@ impl<S> Body<S> {
             })),
             _ => {
                 let base = self.wear.map(|law| law.softened(ratio(layers.len())));
+                let base = base.map(|law| pace.map_or(law, |pace| law.at_pace(pace)));
                 SurfaceWear::new(&layers, base)
             }
         }
@@ -194,7 +237,7 @@ impl<S> Body<S> {
             plating: false,
             softening: true,
         };
-        self.surface_wear(bare).and_then(SurfaceWear::uniform)
+        self.surface_wear(bare, None).and_then(SurfaceWear::uniform)
     }
 }
 

@@ -15,7 +15,7 @@ use fastrand::Rng;
 use solver::effects::Switches;
 use solver::model::Layout;
 use solver::scene::{
-    Accuracy, Body, Drive, Friction, Layer, Motion, Output, Scene, Softening, WearLaw,
+    Accuracy, Body, Drive, Friction, Layer, Motion, Output, Scene, Softening, Timing, WearLaw,
 };
 use solver::sides::Sides;
 
@@ -246,6 +246,7 @@ fn scene(u: &mut Numbers, regime: Regime, worn: Worn) -> Scene {
             amplitude_mm,
             period_s: 1.0,
         },
+        timing: Timing::Sine,
         cycles,
         mission: None,
         accuracy: Accuracy::from_tolerance(0.02),

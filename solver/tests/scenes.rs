@@ -3,7 +3,7 @@
 use solver::effects::Switches;
 use solver::scene::{
     Accuracy, BlockShape, Body, Drive, Elastic, Friction, Motion, Output, Scene, SliderShape,
-    Softening, WearLaw,
+    Softening, Timing, WearLaw,
 };
 
 const STEEL: Elastic = Elastic {
@@ -54,6 +54,7 @@ pub(crate) fn mccoll() -> Scene {
             amplitude_mm: 0.025,
             period_s: 0.05,
         },
+        timing: Timing::Sine,
         cycles: 18_000,
         mission: None,
         accuracy: Accuracy::from_tolerance(0.02),
@@ -105,6 +106,7 @@ pub(crate) fn fuzz_button() -> Scene {
             amplitude_mm: 0.033_868,
             period_s: 16.0,
         },
+        timing: Timing::Sine,
         cycles: 2_000,
         mission: None,
         accuracy: Accuracy::from_tolerance(0.02),

@@ -3,7 +3,7 @@
 use solver::forecast::forecast;
 use solver::model::Layout;
 use solver::record::DepthProfile;
-use solver::scene::{Accuracy, Block, Criterion, Mission, Motion, Power, Scene, WearLaw};
+use solver::scene::{Accuracy, Block, Criterion, Mission, Motion, Power, Scene, Timing, WearLaw};
 use solver::sides::{Side, Sides};
 
 use crate::recorder::{depth_at, largest_distance, solve};
@@ -18,6 +18,7 @@ pub(crate) fn block(amplitude_mm: f64, cycles: u64) -> Block {
             amplitude_mm,
             period_s: 1.0,
         },
+        timing: Timing::Sine,
         cycles,
     }
 }

@@ -28,6 +28,12 @@ string_enum! {
         DissipatedEnergy = "dissipated_energy",
         /// A rate that falls, stays or grows with the dose D = int p |ds| of a place, from k/H on.
         Barwell = "barwell",
+        /// Quinn's mild oxidational wear: an oxide that grows on touching asperities breaks off at a critical thickness.
+        Quinn = "quinn",
+        /// Mild oxidational wear at moderate speeds, after Lim and Ashby.
+        MildOxidation = "mild_oxidation",
+        /// Severe oxidational wear at high speeds, after Lim and Ashby: friction melts an oxide film.
+        SevereOxidation = "severe_oxidation",
     }
 }
 
@@ -87,7 +93,7 @@ pub struct Sides {
 }
 
 /// A wear law.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct WearLaw {
     /// The law.
     #[schema(value_type = WearLawName)]
@@ -95,7 +101,8 @@ pub struct WearLaw {
     /// `archard`, `sarkar`, `saracibar`, `barwell` (the initial one): the wear coefficient k, -; together with `hardness_mpa`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub k: Option<f64>,
-    /// Beside `k`: the hardness H of the wearing surface, MPa; that of the material if `k` is given alone.
+    /// Beside `k`, and of `quinn`, `mild_oxidation`, `severe_oxidation`: the hardness H of the wearing surface, MPa; that of the material
+    /// if absent.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub hardness_mpa: Option<f64>,
     /// k/H, 1/MPa; instead of `k` and `hardness_mpa`.
@@ -115,6 +122,52 @@ pub struct WearLaw {
     /// for a steady course.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub characteristic_dose_mpa_mm: Option<f64>,
+    /// `quinn`, `mild_oxidation`: temperature of the touching asperities, with that of flashes by friction; `severe_oxidation`: of the
+    /// bulk, °C. Required there.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub contact_temperature_c: Option<f64>,
+    /// `quinn`, `mild_oxidation`: activation energy of the oxidation, J/mol. Required there.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub activation_energy_j_mol: Option<f64>,
+    /// `quinn`, `mild_oxidation`: thickness at which the oxide breaks off, um. Required there.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub critical_film_um: Option<f64>,
+    /// `quinn`: diameter of a touching asperity, um. Required there.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub asperity_diameter_um: Option<f64>,
+    /// `quinn`: Arrhenius constant of the parabolic oxidation by mass, kg^2/(m^4 s). Required there.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub arrhenius_constant_kg2_m4s: Option<f64>,
+    /// `quinn`: density of the oxide, kg/m^3. Required there.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub oxide_density_kg_m3: Option<f64>,
+    /// `quinn`: mass fraction of oxygen in the oxide, -. Required there.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub oxygen_fraction: Option<f64>,
+    /// `mild_oxidation`: Arrhenius constant of the oxidation, m^2/s. Required there.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub arrhenius_constant_m2_s: Option<f64>,
+    /// `mild_oxidation`: the constant C of the law, -. Required there.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub oxidation_constant: Option<f64>,
+    /// `severe_oxidation`: fraction of the molten oxide that is removed, -. Required there.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub molten_fraction: Option<f64>,
+    /// `severe_oxidation`: latent heat of the oxide, J/m^3. Required there.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub latent_heat_j_m3: Option<f64>,
+    /// `severe_oxidation`: share of the frictional heat that enters the body, -. Required there.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub heat_share: Option<f64>,
+    /// `severe_oxidation`: thermal conductivity of the oxide, W/(m K). Required there.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub oxide_conductivity_w_mk: Option<f64>,
+    /// `severe_oxidation`: melting temperature of the oxide, °C. Required there.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub oxide_melting_temperature_c: Option<f64>,
+    /// `severe_oxidation`: distance over which the heat of a flash diffuses, um. Required there.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub diffusion_distance_um: Option<f64>,
 }
 
 impl WearLaw {
@@ -122,13 +175,7 @@ impl WearLaw {
     pub fn of(law: WearLawName) -> Self {
         Self {
             law: law.into(),
-            k: None,
-            hardness_mpa: None,
-            k_over_h_per_mpa: None,
-            reference_friction: None,
-            energy_coefficient_mm3_per_j: None,
-            course: None,
-            characteristic_dose_mpa_mm: None,
+            ..Self::default()
         }
     }
 }

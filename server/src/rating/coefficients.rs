@@ -50,6 +50,17 @@ fn scale_law(
             factor,
         ),
         (
+            "arrhenius_constant_kg2_m4s",
+            &mut law.arrhenius_constant_kg2_m4s,
+            factor,
+        ),
+        (
+            "arrhenius_constant_m2_s",
+            &mut law.arrhenius_constant_m2_s,
+            factor,
+        ),
+        ("molten_fraction", &mut law.molten_fraction, factor),
+        (
             "characteristic_dose_mpa_mm",
             &mut law.characteristic_dose_mpa_mm,
             1.0 / factor,

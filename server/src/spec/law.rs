@@ -1,13 +1,18 @@
 //! Friction and wear, one file a law.
 
 mod archard;
-pub(super) mod barwell;
+mod barwell;
 pub(super) mod coulomb;
-pub(super) mod dissipated_energy;
+mod dissipated_energy;
 mod frictionless;
-pub(super) mod saracibar;
+mod mild_oxidation;
+mod numbers;
+mod oxidation;
+mod quinn;
+mod saracibar;
 mod sarkar;
-pub(super) mod wear_coefficient;
+mod severe_oxidation;
+mod wear_coefficient;
 pub(super) mod wearing_side;
 
 use api::spec::{
@@ -20,6 +25,7 @@ use crate::spec::diagnostics::Diagnostics;
 use crate::spec::materials::by_side;
 use crate::spec::sourced::{Sourced, source};
 use crate::spec::system::{ArchardPreset, Preset};
+pub(super) use numbers::numbers;
 use wearing_side::WearingSide;
 
 const FRICTION: &str = "/interface/friction";
@@ -174,6 +180,11 @@ pub(super) fn given_wear(
             dissipated_energy::resolve(side, given, friction, diagnostics)
         }
         Some(WearLawName::Barwell) => barwell::resolve(side, given, diagnostics),
+        Some(WearLawName::Quinn) => quinn::resolve(side, given, diagnostics),
+        Some(WearLawName::MildOxidation) => mild_oxidation::resolve(side, given, diagnostics),
+        Some(WearLawName::SevereOxidation) => {
+            severe_oxidation::resolve(side, given, friction, diagnostics)
+        }
         None => (given.clone(), None),
     }
 }

@@ -1,5 +1,8 @@
-//! Warnings where a wear law is used beyond its range: Archard's holds while the contact is elastic as a whole, a mean pressure of
-//! at most a third of the hardness; beyond it the contact flows, and the wear coefficient rises steeply (Archard 1953).
+//! Warnings where a wear law is used beyond its range. Archard's holds while the contact is elastic as a whole, a mean pressure of
+//! at most a third of the hardness; beyond it the contact flows, and the wear coefficient rises steeply (Archard 1953). Oxidational
+//! laws hold at speeds (`speed`).
+
+mod speed;
 
 use std::f64::consts::PI;
 
@@ -30,7 +33,7 @@ pub(super) fn warnings(spec: &Spec, scene: &Scene) -> Vec<Fault> {
         let is_beyond = mean > MEAN * hardness && scene.effects.of(effect) != Some(false);
         is_beyond.then(|| warning(side, [mean, peak, hardness]))
     });
-    warnings.collect()
+    warnings.chain(speed::warnings(spec, scene)).collect()
 }
 
 fn warning(side: &str, [mean, peak, hardness]: [f64; 3]) -> Fault {

@@ -63,6 +63,11 @@ pub(super) fn resolve(
             [single] => single.motion,
             _ => mission.mean_motion(),
         },
+        // The speeds of several blocks differ, whatever their courses.
+        timing: match &mission.blocks[..] {
+            [single] => single.timing,
+            _ => scene::Timing::Sine,
+        },
         blocks: (mission.blocks.len() > 1).then_some(mission),
         total_cycles,
         distance_mm: None,
@@ -83,6 +88,7 @@ impl Block {
     fn scene(&self) -> scene::Block {
         scene::Block {
             motion: self.motion.scene,
+            timing: self.motion.timing,
             cycles: self.cycles,
         }
     }

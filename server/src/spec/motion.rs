@@ -123,6 +123,7 @@ fn continuous(given: &Motion, diagnostics: &mut Diagnostics) -> ImposedMotion {
         },
         drive: scene::Drive::Handle,
         scene: scene::Motion::Continuous { step_mm },
+        timing: scene::Timing::Speed { mm_s: speed },
         derived: None,
         duration_cycles: None,
     }
@@ -155,6 +156,7 @@ fn reciprocating(given: &Motion, preset: &Preset, diagnostics: &mut Diagnostics)
             amplitude_mm,
             period_s,
         },
+        timing: imposed::timing(waveform),
         derived: None,
         duration_cycles: None,
     }

@@ -18,6 +18,8 @@ pub(super) struct Movement {
     pub(super) drive: scene::Drive,
     /// The motion of the scene, its blocks if there are several, and its cycles.
     pub(super) scene: scene::Motion,
+    /// Its course in time.
+    pub(super) timing: scene::Timing,
     pub(super) blocks: Option<scene::Mission>,
     pub(super) total_cycles: u64,
     /// Distance of a continuous motion, mm.
@@ -39,6 +41,7 @@ impl Movement {
             repeat: None,
             drive: motion.drive,
             scene: motion.scene,
+            timing: motion.timing,
             blocks: None,
             total_cycles: cycles,
             distance_mm,

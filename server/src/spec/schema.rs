@@ -8,7 +8,7 @@ use solver::scene::MOST_LAYERS;
 
 use crate::reference::materials::LibraryMaterial;
 use crate::spec::diagnostics::NAME_LIMIT;
-use crate::spec::law::{barwell, coulomb, dissipated_energy, saracibar, wear_coefficient};
+use crate::spec::law::{self, coulomb};
 use crate::spec::motion::{fourier, insertion, thermal_cycle, vibration};
 use crate::spec::{
     LABEL_LIMIT, LABEL_TEXT_LIMIT, accuracy, criterion, effects, environment, life, load,
@@ -82,28 +82,6 @@ fn numbers() -> Vec<(&'static str, &'static str, RangeInclusive<f64>)> {
         ("PsdPoint", "g2_per_hz", vibration::G2_PER_HZ),
         ("Environment", "temperature_c", environment::TEMPERATURE_C),
         ("Friction", "coefficient", coulomb::RANGE),
-        ("WearLaw", "k", wear_coefficient::K),
-        (
-            "WearLaw",
-            "k_over_h_per_mpa",
-            wear_coefficient::K_OVER_H_PER_MPA,
-        ),
-        ("WearLaw", "hardness_mpa", materials::HARDNESS_MPA),
-        (
-            "WearLaw",
-            "reference_friction",
-            saracibar::REFERENCE_FRICTION,
-        ),
-        (
-            "WearLaw",
-            "energy_coefficient_mm3_per_j",
-            dissipated_energy::ENERGY_COEFFICIENT_MM3_PER_J,
-        ),
-        (
-            "WearLaw",
-            "characteristic_dose_mpa_mm",
-            barwell::CHARACTERISTIC_DOSE_MPA_MM,
-        ),
         ("PlatingLayer", "thickness_um", plating::THICKNESS_UM),
         ("PlatingLayer", "thickness_mm", plating::THICKNESS_MM),
         ("LifeSettings", "coefficient_of_variation", life::VARIATION),
@@ -115,7 +93,9 @@ fn numbers() -> Vec<(&'static str, &'static str, RangeInclusive<f64>)> {
         ("Accuracy", "tolerance", accuracy::TOLERANCE),
         ("Stop", "worn_depth_mm", criterion::WORN_DEPTH_MM),
     ];
-    materials.chain(others).collect()
+    let laws = law::numbers().into_iter();
+    let laws = laws.map(|(field, range)| ("WearLaw", field, range));
+    materials.chain(others).chain(laws).collect()
 }
 
 fn others() -> Vec<(&'static str, &'static str, Value)> {
@@ -239,6 +219,32 @@ mod tests {
         format!(r#"{{"kind":"{kind}","{field}":{value}}}"#)
     }
 
+    /// A wear law that has a field, and what else it needs beside it.
+    fn law_with(field: &str) -> (&'static str, &'static str) {
+        match field {
+            "hardness_mpa" => ("archard", r#""k":0.1,"#),
+            "k" | "k_over_h_per_mpa" => ("archard", ""),
+            "reference_friction" => ("saracibar", r#""k":0.1,"#),
+            "energy_coefficient_mm3_per_j" => ("dissipated_energy", ""),
+            "characteristic_dose_mpa_mm" => ("barwell", ""),
+            "arrhenius_constant_m2_s" | "oxidation_constant" => ("mild_oxidation", ""),
+            "contact_temperature_c"
+            | "activation_energy_j_mol"
+            | "critical_film_um"
+            | "asperity_diameter_um"
+            | "arrhenius_constant_kg2_m4s"
+            | "oxide_density_kg_m3"
+            | "oxygen_fraction" => ("quinn", ""),
+            "molten_fraction"
+            | "latent_heat_j_m3"
+            | "heat_share"
+            | "oxide_conductivity_w_mk"
+            | "oxide_melting_temperature_c"
+            | "diffusion_distance_um" => ("severe_oxidation", ""),
+            _ => panic!("{field} has no sample"),
+        }
+    }
+
     /// A specification with a value at a field of an object, and the pointer to it.
     fn with(object: &str, field: &str, value: f64) -> (String, String) {
         let (pointer, rest) = match object {
@@ -287,13 +293,7 @@ mod tests {
                 format!(r#""interface":{{"friction":{{"law":"coulomb","{field}":{value}}}}}"#),
             ),
             "WearLaw" => {
-                let (law, other) = match field {
-                    "hardness_mpa" => ("archard", r#""k":0.1,"#),
-                    "reference_friction" => ("saracibar", r#""k":0.1,"#),
-                    "energy_coefficient_mm3_per_j" => ("dissipated_energy", ""),
-                    "characteristic_dose_mpa_mm" => ("barwell", ""),
-                    _ => ("archard", ""),
-                };
+                let (law, other) = law_with(field);
                 (
                     "/interface/wear/receptacle",
                     format!(

@@ -82,7 +82,7 @@ impl Integrator<'_> {
     /// A shorter jump where the estimated error of one far exceeds what it may be, as where it has passed an interface of a
     /// plating: the rate before does not foresee that behind it. Of surfaces that wear by dose.
     fn rejected(&self, state: &CycleState, (stroke, jump): (Stroke, u64)) -> Option<u64> {
-        let wear = self.pair.interface.wear;
+        let wear = self.wear;
         let by_dose = |wear: Option<SurfaceWear>| wear.and_then(SurfaceWear::dose_curve).is_some();
         if !(by_dose(wear.slider) || by_dose(wear.receptacle)) {
             return None;
@@ -95,7 +95,7 @@ impl Integrator<'_> {
         let done = state.cycle - before.cycle;
         let load = |state: &CycleState| state.contact.load(&self.pair.interface);
         state.loss_of_load = loss_of_load(load(before), load(state), real_cycles(done));
-        let wear = self.pair.interface.wear;
+        let wear = self.wear;
         let widths = self.pair.operators.as_ref().map(|body| &body.widths[..]);
         let weights = Sides::from_fn(|side| {
             surface::at_relative_rates(*wear.of(side), widths.of(side), state.depth.of(side))
@@ -119,8 +119,9 @@ impl Integrator<'_> {
         let (scene, interface) = (self.scene, &self.pair.interface);
         let amplitude = scene.motion.amplitude_mm().abs();
         let modulus = contact_modulus(scene.slider.elastic, scene.receptacle.elastic);
-        let at = LocalState::mean(interface.load, state.mean_half_width);
-        let wear = interface.wear.zip(state.depth.largest_of_each());
+        let pace = scene.timed_motion().mean();
+        let at = LocalState::mean(interface.load, state.mean_half_width, pace);
+        let wear = self.wear.zip(state.depth.largest_of_each());
         let wear = wear.map(|(wear, depth)| wear.map_or(0.0, |wear| wear.largest_rate(depth, at)));
         let mut stroke = Stroke::new(
             &scene.accuracy.tuning,
@@ -134,7 +135,8 @@ impl Integrator<'_> {
             self.expected_cycles,
         );
         let is_even = state.contact.load(interface) <= UNEVEN * state.neutral.load;
-        stroke.is_groove &= is_even;
+        let passes = self.wear.receptacle;
+        stroke.is_groove &= is_even && passes.is_none_or(SurfaceWear::is_even);
         stroke
     }
 }

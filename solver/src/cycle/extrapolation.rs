@@ -10,6 +10,7 @@ use super::groove::Groove;
 use super::{CycleState, Integrator};
 use crate::law::surface::SurfaceWear;
 use crate::number::real_cycles;
+use crate::scene::Spread;
 
 impl Integrator<'_> {
     /// Wears the receptacle by so many cycles, by fewer where it would be worn through; returns the dissipated energy, mJ/mm.
@@ -19,12 +20,13 @@ impl Integrator<'_> {
         if one.len() != body.x.len() || other.len() != body.x.len() {
             return 0.0;
         }
-        let curve = self
-            .pair
-            .interface
-            .wear
-            .receptacle
-            .and_then(SurfaceWear::dose_curve);
+        let wear = self.wear.receptacle;
+        let curve = wear.and_then(SurfaceWear::dose_curve);
+        let spread = if wear.is_some_and(SurfaceWear::is_by_time) {
+            Spread::SineTime
+        } else {
+            Spread::Distance
+        };
         let initial = curve.map_or(0.0, |curve| curve.initial_rate());
         let single: Vec<f64> = one.iter().zip(other).map(|(a, b)| a + b).collect();
         let groove = Groove {
@@ -34,6 +36,7 @@ impl Integrator<'_> {
             radius: self.scene.slider.shape.radius_mm,
             amplitude: self.scene.motion.amplitude_mm().abs(),
             half_width: self.followed(state).narrower(),
+            spread,
             curve: curve.as_ref(),
             // Two passes.
             floor: 2.0 * initial * state.neutral.load,

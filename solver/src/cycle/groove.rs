@@ -8,7 +8,8 @@
 //! the width 2 b of the contact this is a surrogate for the wear rate of a groove of any depth d,
 //!   r(d) = h d/dx S(x, d'),  d' = dd/dx:
 //! a diffusion, of diffusivity h R where the groove is flat and none beyond its ends, which move as the slope there grows. The
-//! flux h S is that at the ends of the body too: a contact on its edge wears the edge.
+//! flux h S is that at the ends of the body too: a contact on its edge wears the edge. Where a pass wears by time, S is the part of
+//! the pass that has been done by then instead.
 //!
 //! The wear of a computed cycle, times n, would amplify each of its waves. With the change of the surrogate's rate by all of
 //! the wear w of n cycles (implicit Euler; the computed cycle is the explicit part, as in the IMEX methods of Ascher, Ruuth and
@@ -23,6 +24,7 @@
 use crate::law::dose::DoseCurve;
 use crate::linear::tridiagonal::solve_tridiagonal;
 use crate::model::Profile;
+use crate::scene::Spread;
 
 /// Change of a Newton step over the largest wear at which the iteration ends: far below any tolerance.
 const PRECISION: f64 = 1e-7;
@@ -53,6 +55,8 @@ pub(super) struct Groove<'a> {
     pub(super) amplitude: f64,
     /// Half-width b of the contact.
     pub(super) half_width: f64,
+    /// How the wear of a pass is spread over the stroke.
+    pub(super) spread: Spread,
     /// The curve of its depth over the dose, if it wears by dose.
     pub(super) curve: Option<&'a DoseCurve>,
     /// Wear h of the unworn surface in a cycle, mm; of a surface that wears at every depth the mean of the computed cycle counts.
@@ -118,11 +122,10 @@ impl Groove<'_> {
         let s = x - self.radius * slope / secant;
         let (first, last) = (s - self.half_width, s + self.half_width);
         let width = last - first;
-        // The integral of the limited displacement.
-        let limited = |s: f64| s.clamp(-self.amplitude, self.amplitude);
-        let integral = |s: f64| limited(s) * (s - 0.5 * limited(s));
-        let mean = (integral(last) - integral(first)) / width;
-        let share = (limited(last) - limited(first)) / width;
+        let swept = |s: f64| self.spread.swept(s, self.amplitude);
+        let ((last, above), (first, below)) = (swept(last), swept(first));
+        let mean = (above - below) / width;
+        let share = (last - first) / width;
         (mean, share * self.radius / secant.powi(3))
     }
 }

@@ -20,7 +20,7 @@ impl Integrator<'_> {
         record: &mut CycleRecord,
         (step, all): (f64, bool),
     ) {
-        let wear = self.pair.interface.wear;
+        let wear = self.wear;
         let equivalents = state.skew.removed_from(&self.equivalents(&state.depth));
         let depth = wear
             .zip(equivalents)

@@ -88,13 +88,17 @@ fn indicator(scene: &Scene, indicators: &Indicators<'_>, effect: Effect) -> Indi
 }
 
 /// Whether the surface of a body wears by its law or plating.
-fn wears_by_law<S>(body: &Body<S>) -> bool {
-    let wears = |wear: SurfaceWear| wear.uniform().is_none_or(|rate| rate > 0.0);
+fn wears_by_law<S>(scene: &Scene, body: &Body<S>) -> bool {
+    let motion = scene.timed_motion();
+    let wears = |wear: SurfaceWear| {
+        let fastest = wear.at_pace(motion.fastest());
+        fastest.uniform().is_none_or(|rate| rate > 0.0)
+    };
     let all = SurfaceEffects {
         plating: true,
         softening: true,
     };
-    body.surface_wear(all).is_some_and(wears)
+    body.surface_wear(all, motion.constant()).is_some_and(wears)
 }
 
 fn is_plated(scene: &Scene) -> bool {
@@ -153,10 +157,13 @@ fn nothing_to_simulate(
             Some("friction acts on neither body, so that nothing sticks")
         }
         Effect::ReceptacleWear => wear(
-            wears_by_law(&scene.receptacle),
-            "the receptacle has no wear law",
+            wears_by_law(scene, &scene.receptacle),
+            "the receptacle has no wear law, or one that wears nothing here",
         ),
-        Effect::SliderWear => wear(wears_by_law(&scene.slider), "the slider has no wear law"),
+        Effect::SliderWear => wear(
+            wears_by_law(scene, &scene.slider),
+            "the slider has no wear law, or one that wears nothing here",
+        ),
         Effect::Plating if !is_plated(scene) => Some("neither body is plated"),
         Effect::Plating if !wears() => Some("nothing wears, so no layer is worn through"),
         Effect::ThermalSoftening if is_at_reference(scene) => {

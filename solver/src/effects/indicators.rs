@@ -65,7 +65,11 @@ impl<'a> Indicators<'a> {
 
     /// Estimated largest worn depths after so many cycles, mm.
     pub(super) fn worn_depth_after(&self, cycles: u64) -> Sides<f64> {
-        let at = LocalState::mean(self.scene.load_n_per_mm, self.sizes.hertz_half_width);
+        let at = LocalState::mean(
+            self.scene.load_n_per_mm,
+            self.sizes.hertz_half_width,
+            self.scene.timed_motion().mean(),
+        );
         worn_depth::after(&self.scene, (self.radius, at), &self.wear, cycles)
     }
 
@@ -193,7 +197,13 @@ impl<'a> Indicators<'a> {
     /// The tangential deformation grows with the normal force of a slider that climbs the edge of its scar, which is without
     /// bound where it jams.
     fn lost_slip(&self, depth: Sides<f64>) -> f64 {
-        self.lost_slip / (1.0 - self.climb(depth)).max(0.0)
+        let lost = self.lost_slip / (1.0 - self.climb(depth)).max(0.0);
+        let by_time = |wear: Option<SurfaceWear>| wear.is_some_and(SurfaceWear::is_by_time);
+        if by_time(self.wear.slider) || by_time(self.wear.receptacle) {
+            lost.max(share_of_time(lost))
+        } else {
+            lost
+        }
     }
 
     /// mu times the steepest slope that the slider climbs: that of the arc at the edge of the scar, at the half-width
@@ -230,6 +240,11 @@ impl<'a> Indicators<'a> {
         };
         share(depth, 1.0).max(share(self.rates, 3.0))
     }
+}
+
+/// Part of the time of a pass of a sine that the first part of its displacement takes.
+fn share_of_time(part: f64) -> f64 {
+    (1.0 - 2.0 * part.min(1.0)).acos() / PI
 }
 
 /// Slip that the tangential deformation takes at a reversal, over the displacement that it is taken from; a continuous motion

@@ -1,8 +1,9 @@
 //! Plans of scenes in different regimes.
 
 use super::*;
+use crate::law::wear::WearLaw;
 use crate::model::tests::fuzz_button;
-use crate::scene::{Friction, Motion};
+use crate::scene::{Friction, MildOxidation, Motion, SpeedLaw};
 
 fn simulated(scene: &Scene) -> Vec<&'static str> {
     let plan = plan(scene);
@@ -42,4 +43,24 @@ fn nothing_wears_where_nothing_slides() {
         simulated(&scene),
         ["elasticity", "friction", "stick_memory"]
     );
+}
+
+/// A sine takes its time at the turning points, where the shear of the bodies takes up slip.
+#[test]
+fn wear_by_time_calls_for_friction_where_wear_by_distance_does_not() {
+    let mut scene = fuzz_button();
+    // The walls of a deep groove would call for it too.
+    scene.cycles = 50;
+    scene.friction = Friction::Coulomb { coefficient: 0.05 };
+    let has_friction = |scene: &Scene| simulated(scene).contains(&"friction");
+    assert!(!has_friction(&scene));
+    scene.receptacle.wear = Some(WearLaw::OfSpeed(SpeedLaw::MildOxidation(MildOxidation {
+        constant: 1.0,
+        arrhenius_m2_s: 1e-6,
+        activation_j_mol: 1e5,
+        temperature_k: 800.0,
+        film_um: 10.0,
+        hardness_mpa: 427.0,
+    })));
+    assert!(has_friction(&scene));
 }

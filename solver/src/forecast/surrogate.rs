@@ -48,6 +48,8 @@ pub(super) struct Scar {
     pass: f64,
     /// Share of each side in the depth.
     shares: Sides<f64>,
+    /// Whether grooves can be extrapolated.
+    passes_are_even: bool,
     /// Expected cycles of the run.
     cycles: u64,
     /// Initial rate of each side over the mean rate that it wears by.
@@ -97,6 +99,10 @@ impl Scar {
             area_per_cycle: wear * scene.load_n_per_mm * sliding,
             pass: wear * scene.load_n_per_mm,
             shares: rates.map(share),
+            passes_are_even: scene
+                .surface_wear()
+                .receptacle
+                .is_none_or(SurfaceWear::is_even),
             cycles: resolution::expected_cycles(scene, hertz),
             initial: scene.surface_wear().zip(rates).map(|(wear, rate)| {
                 let curve = wear.and_then(SurfaceWear::dose_curve);
@@ -114,14 +120,16 @@ impl Scar {
     }
 
     pub(super) fn stroke(&self, scene: &Scene) -> Stroke {
-        Stroke::new(
+        let mut stroke = Stroke::new(
             &self.tuning,
             self.shares.map(|share| share * self.wear),
             self.modulus,
             (self.amplitude, self.half_width),
             (self.radius / scene.slider.shape.radius_mm, self.sticks),
             self.cycles,
-        )
+        );
+        stroke.is_groove &= self.passes_are_even;
+        stroke
     }
 
     /// Wears so many cycles more.

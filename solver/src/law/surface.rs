@@ -6,6 +6,7 @@
 use std::borrow::Cow;
 
 use super::dose::DoseCurve;
+use super::pace::Pace;
 use super::plating::{Layer, Layers};
 use super::wear::{LocalState, WearLaw};
 
@@ -37,6 +38,35 @@ impl SurfaceWear {
         match self {
             Self::Law(law) => law.uniform(),
             Self::ByDose(_) => None,
+        }
+    }
+
+    /// The wear as it is at a pace.
+    #[must_use]
+    pub fn at_pace(self, pace: Pace) -> Self {
+        match self {
+            Self::Law(law) => Self::Law(law.at_pace(pace)),
+            Self::ByDose(_) => self,
+        }
+    }
+
+    /// Whether it is by the time of slip.
+    pub fn is_by_time(self) -> bool {
+        matches!(self, Self::Law(WearLaw::OfSpeed(law)) if law.is_by_time())
+    }
+
+    /// Whether a pass wears a flat floor evenly by distance or by time, so that jumps in grooves can extrapolate it.
+    pub fn is_even(self) -> bool {
+        self.uniform().is_some() || self.dose_curve().is_some() || self.is_by_time()
+    }
+
+    /// The specific wear rate whose product with load and distance is the worn area of whole cycles at a mean pace, 1/MPa, if there
+    /// is one.
+    pub fn area_rate(self, mean: Pace) -> Option<f64> {
+        if self.is_by_time() {
+            self.at_pace(mean).uniform()
+        } else {
+            self.uniform()
         }
     }
 

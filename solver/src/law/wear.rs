@@ -6,16 +6,24 @@
 //! that sticking points do not wear and a return stroke removes material like the stroke before.
 
 pub mod archard;
+mod arrhenius;
 pub mod barwell;
 pub mod dissipated_energy;
+pub mod mild_oxidation;
 #[cfg(test)]
 mod pressure_power;
+pub mod quinn;
 mod rate;
 pub mod saracibar;
 pub mod sarkar;
+pub mod severe_oxidation;
+pub mod speed;
 
 use barwell::Barwell;
 pub use rate::{LocalState, Rate};
+use speed::SpeedLaw;
+
+use super::pace::Pace;
 
 /// Wear laws: normal recession rate of a surface.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -50,6 +58,8 @@ pub enum WearLaw {
     },
     /// Barwell: the rate falls or grows with the dose (thesis, equations 1 and 3).
     Barwell(Barwell),
+    /// Oxidational: the rate depends on the speed (thesis, equations 7, 11 and 12).
+    OfSpeed(SpeedLaw),
     /// A specific wear rate that grows with the pressure, for tests of the contact solve.
     #[cfg(test)]
     PressurePower {
@@ -81,6 +91,7 @@ impl WearLaw {
                 friction,
             } => dissipated_energy::rate(mm3_per_j, friction, at),
             Self::Barwell(law) => barwell::rate(law, at),
+            Self::OfSpeed(law) => Rate::uniform(law.rate(at.pace)),
             #[cfg(test)]
             Self::PressurePower {
                 k_per_mpa,
@@ -115,8 +126,20 @@ impl WearLaw {
             },
             Self::DissipatedEnergy { .. } => self,
             Self::Barwell(law) => Self::Barwell(law.softened(ratio)),
+            Self::OfSpeed(law) => Self::OfSpeed(law.softened(ratio)),
             #[cfg(test)]
             Self::PressurePower { .. } => self,
+        }
+    }
+
+    /// The law as it is at a pace.
+    #[must_use]
+    pub fn at_pace(self, pace: Pace) -> Self {
+        match self {
+            Self::OfSpeed(law) => Self::Archard {
+                k_over_h_per_mpa: law.rate(pace),
+            },
+            law => law,
         }
     }
 
@@ -127,7 +150,7 @@ impl WearLaw {
             | Self::Sarkar { .. }
             | Self::Saracibar { .. }
             | Self::DissipatedEnergy { .. } => Some(self.rate(LocalState::default()).value),
-            Self::Barwell(_) => None,
+            Self::Barwell(_) | Self::OfSpeed(_) => None,
             #[cfg(test)]
             Self::PressurePower { .. } => None,
         }
@@ -137,9 +160,12 @@ impl WearLaw {
 #[cfg(test)]
 mod tests {
     use super::barwell::Course;
+    use super::mild_oxidation::MildOxidation;
+    use super::quinn::Quinn;
+    use super::severe_oxidation::SevereOxidation;
     use super::*;
 
-    const LAWS: [WearLaw; 7] = [
+    const LAWS: [WearLaw; 10] = [
         WearLaw::Archard {
             k_over_h_per_mpa: 2.5761e-5,
         },
@@ -158,6 +184,34 @@ mod tests {
         },
         barwell(Course::Decelerating),
         barwell(Course::Accelerating),
+        WearLaw::OfSpeed(SpeedLaw::Quinn(Quinn {
+            asperity_um: 20.0,
+            arrhenius_kg2_m4s: 1.5e6,
+            activation_j_mol: 208e3,
+            temperature_k: 673.15,
+            film_um: 1.0,
+            oxide_density_kg_m3: 5_240.0,
+            oxygen_fraction: 0.3006,
+            hardness_mpa: 6_865.0,
+        })),
+        WearLaw::OfSpeed(SpeedLaw::MildOxidation(MildOxidation {
+            constant: 3.4e-4,
+            arrhenius_m2_s: 1e6,
+            activation_j_mol: 138e3,
+            temperature_k: 700.0,
+            film_um: 10.0,
+            hardness_mpa: 6_865.0,
+        })),
+        WearLaw::OfSpeed(SpeedLaw::SevereOxidation(SevereOxidation {
+            molten_fraction: 0.01,
+            latent_heat_j_m3: 2e9,
+            heat_share: 0.5,
+            friction: 0.3,
+            conductivity_w_mk: 3.2,
+            rise_k: 1_467.0,
+            diffusion_um: 10.0,
+            hardness_mpa: 6_865.0,
+        })),
         WearLaw::PressurePower {
             k_per_mpa: 2.5761e-5,
             reference_mpa: 100.0,
@@ -168,6 +222,7 @@ mod tests {
         pressure: 150.0,
         slip: 0.02,
         depth: 1e-4,
+        pace: Pace { s_per_mm: 1e-3 },
     };
 
     /// A fifth of the characteristic dose in an increment.

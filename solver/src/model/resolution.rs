@@ -131,7 +131,7 @@ fn travel_over_slider(slider: f64, crown: Option<f64>) -> f64 {
 /// end.
 pub(crate) fn wear_rates(scene: &Scene, half_width: f64) -> Sides<f64> {
     let wear = scene.surface_wear();
-    let at = LocalState::mean(scene.load_n_per_mm, half_width);
+    let at = LocalState::mean(scene.load_n_per_mm, half_width, scene.timed_motion().mean());
     let by_dose = |wear: Option<SurfaceWear>| wear.and_then(SurfaceWear::dose_curve).is_some();
     let depth = if by_dose(wear.slider) || by_dose(wear.receptacle) {
         let cycles = expected_cycles(scene, half_width);
@@ -150,7 +150,7 @@ pub fn expected_end(scene: &Scene) -> u64 {
 
 /// The same for a Hertz half-width, mm.
 pub(crate) fn expected_cycles(scene: &Scene, half_width: f64) -> u64 {
-    let at = LocalState::mean(scene.load_n_per_mm, half_width);
+    let at = LocalState::mean(scene.load_n_per_mm, half_width, scene.timed_motion().mean());
     worn_depth::expected_cycles(scene, (radius(scene), at), &scene.surface_wear())
 }
 

@@ -2,7 +2,7 @@ use super::*;
 use crate::effects::Switches;
 use crate::scene::{
     Accuracy, BlockShape, Body, Criterion, Friction, Motion, Output, SliderShape, Softening,
-    WearLaw,
+    Timing, WearLaw,
 };
 use crate::sides::Side;
 
@@ -46,6 +46,7 @@ pub(crate) fn fuzz_button() -> Scene {
             amplitude_mm: 0.033_868,
             period_s: 16.0,
         },
+        timing: Timing::Sine,
         cycles: 2000,
         mission: None,
         accuracy: Accuracy::from_tolerance(0.02),

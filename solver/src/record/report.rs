@@ -3,7 +3,6 @@
 use crate::cycle::CycleState;
 use crate::interpolation;
 use crate::law::plating::bottoms;
-use crate::law::surface::SurfaceWear;
 use crate::model::Model;
 use crate::record::channel::declare_report;
 use crate::record::exposure::WornSurface;
@@ -119,12 +118,15 @@ impl<'a> CycleEnd<'a> {
         let body = self.model.bodies.of(side);
         // The identity is that of the law, also where nothing slides and the plan leaves wear out.
         let on = self.model.surface;
+        let motion = self.scene.timed_motion();
         let wear = match side {
-            Side::Slider => self.scene.slider.surface_wear(on),
-            Side::Receptacle => self.scene.receptacle.surface_wear(on),
+            Side::Slider => self.scene.slider.surface_wear(on, motion.constant()),
+            Side::Receptacle => self.scene.receptacle.surface_wear(on, motion.constant()),
         };
-        let uniform = wear.and_then(SurfaceWear::uniform).filter(|k| *k > 0.0);
-        let ideal_area = uniform.map(|k| k * interface.load * self.state.sliding_distance);
+        let rate = wear.and_then(|wear| wear.area_rate(motion.mean()));
+        let ideal_area = rate
+            .filter(|k| *k > 0.0)
+            .map(|k| k * interface.load * self.state.sliding_distance);
         Surface {
             x: body.contact_x(),
             widths: body.contact_widths(),

@@ -1,6 +1,7 @@
 //! Mission: blocks of different reciprocating motions, one after the other, repeated as a whole.
 
 use super::motion::Motion;
+use super::timing::Timing;
 use crate::number::real_cycles;
 
 /// A block of a mission.
@@ -8,6 +9,8 @@ use crate::number::real_cycles;
 pub struct Block {
     /// Its reciprocating motion.
     pub motion: Motion,
+    /// The course of that in time.
+    pub timing: Timing,
     /// Number of its cycles in one repetition of the mission.
     pub cycles: u64,
 }
@@ -71,6 +74,7 @@ mod tests {
                 amplitude_mm,
                 period_s,
             },
+            timing: Timing::Sine,
             cycles,
         };
         Mission {

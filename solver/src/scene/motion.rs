@@ -3,8 +3,8 @@
 /// Imposed relative motion.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Motion {
-    /// Reciprocating around the neutral position, toward +x first. Quasi-static contact does not depend on time:
-    /// waveform and period do not change the result.
+    /// Reciprocating around the neutral position, toward +x first. Quasi-static contact does not depend on time: waveform and period
+    /// change the result by wear laws of time and speed alone.
     Reciprocating {
         /// Amplitude, mm.
         amplitude_mm: f64,

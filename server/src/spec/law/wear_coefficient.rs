@@ -51,8 +51,12 @@ pub(super) fn resolve(
     (filled, k_over_h)
 }
 
-/// The hardness beside a given k: given too, or the material's.
-fn hardness(side: &WearingSide<'_>, given: &WearLaw, diagnostics: &mut Diagnostics) -> Option<f64> {
+/// The hardness of a wearing surface: given, or the material's.
+pub(super) fn hardness(
+    side: &WearingSide<'_>,
+    given: &WearLaw,
+    diagnostics: &mut Diagnostics,
+) -> Option<f64> {
     let pointer = side.field("hardness_mpa");
     match (given.hardness_mpa, side.hardness_mpa()) {
         (Some(hardness), _) => {

@@ -89,6 +89,7 @@ impl Demand {
                 amplitude_mm,
                 period_s: 1.0 / self.frequency_hz,
             },
+            timing: scene::Timing::Sine,
             derived: Some(derived),
             duration_cycles: None,
         }

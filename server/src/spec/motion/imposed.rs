@@ -2,7 +2,7 @@
 
 use std::ops::RangeInclusive;
 
-use api::spec::{DerivedMotion, Drive, Motion, Provenance};
+use api::spec::{DerivedMotion, Drive, Motion, Provenance, Waveform};
 use solver::scene;
 
 use crate::spec::diagnostics::Diagnostics;
@@ -22,6 +22,7 @@ pub(crate) struct ImposedMotion {
     pub(crate) spec: Motion,
     pub(crate) drive: scene::Drive,
     pub(crate) scene: scene::Motion,
+    pub(crate) timing: scene::Timing,
     /// How it was derived from another kind.
     pub(crate) derived: Option<DerivedMotion>,
     /// Cycles of its duration, if it has one.
@@ -60,6 +61,14 @@ pub(super) fn period(
             filled.period_s = Some(period_s);
             diagnostics.check_range("/motion/period_s", period_s, &PERIOD_S)
         }
+    }
+}
+
+/// Course in time of a reciprocating motion of a waveform.
+pub(super) fn timing(waveform: Waveform) -> scene::Timing {
+    match waveform {
+        Waveform::Sine => scene::Timing::Sine,
+        Waveform::Triangle => scene::Timing::Triangle,
     }
 }
 

@@ -2,10 +2,10 @@
 
 use std::ops::RangeInclusive;
 
-use api::spec::{Motion, MotionKind};
+use api::spec::{Motion, MotionKind, Waveform};
 
 use super::contact::Demand;
-use super::imposed::{ImposedMotion, drive, period};
+use super::imposed::{ImposedMotion, drive, period, timing};
 use crate::spec::diagnostics::Diagnostics;
 use crate::spec::sourced::assumed;
 use crate::spec::system::Preset;
@@ -38,5 +38,8 @@ pub(super) fn resolve(
     let period_s = period(given, assumed(PERIOD_S), &mut spec, diagnostics);
     let demand = Demand::beyond(0.5 * wipe_mm, 0.0, 1.0 / period_s);
     let how = "half of the wipe to either side";
-    demand.imposed(spec, drive, (None, how), diagnostics)
+    ImposedMotion {
+        timing: timing(Waveform::Triangle),
+        ..demand.imposed(spec, drive, (None, how), diagnostics)
+    }
 }

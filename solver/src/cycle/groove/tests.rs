@@ -25,6 +25,7 @@ fn groove<'a>(x: &'a [f64], widths: &'a [f64]) -> Groove<'a> {
         radius: 1.0,
         amplitude: 1.0,
         half_width: 0.02,
+        spread: Spread::Distance,
         curve: None,
         floor: FLOOR,
     }

@@ -1,5 +1,7 @@
 //! Local state of a contact, and the rate that a wear law returns for it.
 
+use crate::law::pace::Pace;
+
 /// Local state of a contact point over one increment of slip.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct LocalState {
@@ -10,15 +12,19 @@ pub struct LocalState {
     /// Worn depth before the increment, mm. The contact solve evaluates laws that depend on it through their dose
     /// (`law::dose`), at the nodes of the surface that wears.
     pub depth: f64,
+    /// Pace of the imposed motion. The contact solve takes laws that depend on it as they are during an increment
+    /// (`WearLaw::at_pace`).
+    pub pace: Pace,
 }
 
 impl LocalState {
     /// Representative state for estimates: the mean pressure P/(2 b) under a load in N/mm and a half-width in mm, and a
-    /// slip of b/2, about an increment at a tolerance of 2 %.
-    pub fn mean(load: f64, half_width: f64) -> Self {
+    /// slip of b/2, about an increment at a tolerance of 2 %, at a pace.
+    pub fn mean(load: f64, half_width: f64, pace: Pace) -> Self {
         Self {
             pressure: load / (2.0 * half_width),
             slip: 0.5 * half_width,
+            pace,
             ..Self::default()
         }
     }

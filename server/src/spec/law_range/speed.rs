@@ -1,0 +1,122 @@
+//! Warnings where an oxidational wear law is used outside of its range of speed and temperature.
+
+use api::problem::Fault;
+use api::spec::{Spec, WearLaw as Given};
+use solver::law::wear::speed::SLOWEST_MM_S;
+use solver::scene::{Scene, SpeedLaw, WearLaw};
+use solver::sides::Side;
+
+use crate::spec::environment;
+
+/// The warnings of a resolved specification.
+pub(super) fn warnings(spec: &Spec, scene: &Scene) -> Vec<Fault> {
+    let laws = [
+        (Side::Slider, scene.slider.wear),
+        (Side::Receptacle, scene.receptacle.wear),
+    ];
+    let given = environment::laws(spec);
+    let warnings = laws.into_iter().flat_map(|(side, law)| {
+        let Some(WearLaw::OfSpeed(law)) = law else {
+            return Vec::new();
+        };
+        let pointer = format!("/interface/wear/{}", side.name());
+        let mut found = Vec::new();
+        found.extend(by_speed(scene, law).map(|detail| Fault::new(&pointer, detail)));
+        let cold = given
+            .of(side)
+            .and_then(|law| colder_than_surroundings(spec, law));
+        found.extend(
+            cold.map(|detail| Fault::new(format!("{pointer}/contact_temperature_c"), detail)),
+        );
+        found
+    });
+    warnings.collect()
+}
+
+fn by_speed(scene: &Scene, law: SpeedLaw) -> Option<String> {
+    let mean = scene.mean_speed_mm_s();
+    let coefficient = match law {
+        SpeedLaw::Quinn(law) => law.coefficient_at(mean),
+        SpeedLaw::MildOxidation(law) => law.coefficient_at(mean),
+        SpeedLaw::SevereOxidation(law) => {
+            let (slowest, fastest) = (law.slowest_mm_s(), scene.fastest_speed_mm_s());
+            return (fastest <= slowest).then(|| {
+                format!(
+                    "nothing wears: the oxide melts from {slowest:.4} mm/s on, and the motion has {fastest:.4} mm/s at most"
+                )
+            });
+        }
+    };
+    if coefficient > 1.0 {
+        return Some(format!(
+            "the law gives {coefficient:.2} particles for each encounter of asperities at {mean:.4} mm/s: at most one can come off"
+        ));
+    }
+    (mean < SLOWEST_MM_S).then(|| {
+        format!(
+            "the contact slides at {mean:.4} mm/s on average: oxidational wear is that of asperities that friction heats, from some \
+             {SLOWEST_MM_S} mm/s on for steels; below, Archard's law holds"
+        )
+    })
+}
+
+fn colder_than_surroundings(spec: &Spec, law: &Given) -> Option<String> {
+    let (contact, surroundings) = (law.contact_temperature_c?, spec.environment.temperature_c?);
+    (contact < surroundings).then(|| {
+        format!("{contact} °C is less than the {surroundings} °C of the surroundings, which a contact that rubs exceeds")
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::spec;
+
+    fn details(law: &str, motion: &str) -> Vec<String> {
+        let text = format!(
+            r#"{{"system":{{"kind":"cylinder_on_flat"}},"motion":{motion},"interface":{{"wear":{{"slider":null,"receptacle":{law}}}}}}}"#
+        );
+        let resolved = spec::read(text.as_bytes()).expect("accepted");
+        let warnings = super::warnings(&resolved.spec, &resolved.scene).into_iter();
+        warnings.map(|warning| warning.detail).collect()
+    }
+
+    fn continuous(speed: f64) -> String {
+        format!(r#"{{"kind":"continuous","distance_mm":1000,"speed_mm_s":{speed}}}"#)
+    }
+
+    const SEVERE: &str = r#"{"law":"severe_oxidation","molten_fraction":0.01,"latent_heat_j_m3":2e9,"heat_share":0.5,
+        "oxide_conductivity_w_mk":3.2,"oxide_melting_temperature_c":1487,"contact_temperature_c":20,"diffusion_distance_um":10,
+        "hardness_mpa":6865}"#;
+
+    fn mild(temperature_c: f64) -> String {
+        format!(
+            r#"{{"law":"mild_oxidation","oxidation_constant":3.4e-4,"arrhenius_constant_m2_s":1e6,"activation_energy_j_mol":138e3,
+            "contact_temperature_c":{temperature_c},"critical_film_um":10,"hardness_mpa":6865}}"#
+        )
+    }
+
+    #[test]
+    fn slow_sliding_is_outside_the_range_of_oxidational_laws() {
+        assert!(details(SEVERE, &continuous(5_000.0)).is_empty());
+        let slow = details(SEVERE, &continuous(10.0));
+        assert!(
+            slow.len() == 1 && slow[0].starts_with("nothing wears"),
+            "{slow:?}"
+        );
+        let law = mild(426.85);
+        assert!(details(&law, &continuous(1_000.0)).is_empty());
+        let fretting = r#"{"kind":"reciprocating","amplitude_mm":0.025,"frequency_hz":20}"#;
+        let slow = details(&law, fretting);
+        assert!(
+            slow.len() == 1 && slow[0].contains("2.0000 mm/s"),
+            "{slow:?}"
+        );
+        let cold = details(&mild(-50.0), &continuous(1_000.0));
+        assert!(
+            cold.len() == 1 && cold[0].contains("surroundings"),
+            "{cold:?}"
+        );
+        let hot = details(&mild(2_900.0), &continuous(1e-3));
+        assert!(hot.len() == 1 && hot[0].contains("at most one"), "{hot:?}");
+    }
+}

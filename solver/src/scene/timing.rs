@@ -1,0 +1,134 @@
+//! Course of the imposed motion in time: nothing in the contact problem depends on it, wear laws of time and speed do.
+
+use std::f64::consts::{FRAC_2_PI, PI};
+
+use crate::law::pace::Pace;
+
+/// Course of the imposed motion in time.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Timing {
+    /// A sine of the period of a reciprocating motion.
+    Sine,
+    /// A constant speed between the turning points of one.
+    Triangle,
+    /// A constant speed of a continuous motion.
+    Speed {
+        /// The speed, mm/s.
+        mm_s: f64,
+    },
+}
+
+/// A motion and its course in time.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct TimedMotion {
+    /// Amplitude of a reciprocating motion, mm.
+    pub(crate) amplitude_mm: f64,
+    /// Its period, s.
+    pub(crate) period_s: f64,
+    pub(crate) timing: Timing,
+}
+
+impl TimedMotion {
+    /// Mean pace of a cycle; none of a motion without a distance.
+    pub(crate) fn mean(&self) -> Pace {
+        match self.timing {
+            Timing::Speed { mm_s } => Pace::at_speed(mm_s),
+            Timing::Sine | Timing::Triangle => {
+                Pace::at_speed(4.0 * self.amplitude_mm / self.period_s)
+            }
+        }
+    }
+
+    /// Pace at the fastest moment.
+    pub(crate) fn fastest(&self) -> Pace {
+        match self.timing {
+            Timing::Sine => Pace::at_speed(2.0 * PI * self.amplitude_mm / self.period_s),
+            Timing::Speed { .. } | Timing::Triangle => self.mean(),
+        }
+    }
+
+    /// The pace, if it is the same all the time.
+    pub(crate) fn constant(&self) -> Option<Pace> {
+        match self.timing {
+            Timing::Sine => None,
+            Timing::Speed { .. } | Timing::Triangle => Some(self.mean()),
+        }
+    }
+
+    /// Mean pace from one displacement of the same stroke to another, mm.
+    pub(crate) fn between(&self, from: f64, to: f64) -> Pace {
+        match self.timing {
+            Timing::Speed { .. } | Timing::Triangle => self.mean(),
+            Timing::Sine => {
+                let phase = |x: f64| (x / self.amplitude_mm).clamp(-1.0, 1.0).asin();
+                let distance = (to - from).abs();
+                let time = self.period_s / (2.0 * PI) * (phase(to) - phase(from)).abs();
+                Pace {
+                    s_per_mm: if distance > 0.0 { time / distance } else { 0.0 },
+                }
+            }
+        }
+    }
+}
+
+/// How the wear of a pass is spread over its stroke.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Spread {
+    /// Evenly over the distance.
+    Distance,
+    /// Evenly over the time of a sine.
+    SineTime,
+}
+
+impl Spread {
+    /// Part of a pass up to a displacement s, from -A to A, as a displacement in mm that would be worn evenly; its integral over s.
+    pub(crate) fn swept(self, s: f64, amplitude: f64) -> (f64, f64) {
+        let within = s.clamp(-amplitude, amplitude);
+        match self {
+            Self::Distance => (within, within * (s - 0.5 * within)),
+            Self::SineTime => {
+                let share = within / amplitude;
+                let swept = FRAC_2_PI * amplitude * share.asin();
+                let rest = FRAC_2_PI * amplitude * amplitude * (1.0 - share * share).sqrt();
+                (swept, swept * s + rest)
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SINE: TimedMotion = TimedMotion {
+        amplitude_mm: 0.5,
+        period_s: 2.0,
+        timing: Timing::Sine,
+    };
+
+    #[test]
+    fn the_parts_of_a_stroke_take_half_a_period_together() {
+        let steps = [-0.5, -0.3, 0.0, 0.1, 0.45, 0.5];
+        let time = |pair: &[f64]| SINE.between(pair[0], pair[1]).s_per_mm * (pair[1] - pair[0]);
+        let all: f64 = steps.windows(2).map(time).sum();
+        assert!((all - 1.0).abs() < 1e-15, "{all}");
+        assert!((SINE.mean().s_per_mm - 1.0).abs() < 1e-15);
+        // The middle of the stroke has the highest speed.
+        let middle = SINE.between(-1e-6, 1e-6).s_per_mm;
+        assert!((middle / SINE.fastest().s_per_mm - 1.0).abs() < 1e-6);
+        assert_eq!(SINE.between(0.1, 0.1), Pace::default());
+    }
+
+    #[test]
+    fn the_integral_of_a_swept_part_is_its_own() {
+        for spread in [Spread::Distance, Spread::SineTime] {
+            let swept = |s| spread.swept(s, 0.5);
+            assert!((swept(2.0).0 - 0.5).abs() < 1e-15 && (swept(-2.0).0 + 0.5).abs() < 1e-15);
+            for s in [-0.8, -0.5, -0.2, 0.0, 0.3, 0.499, 0.7] {
+                let h = 1e-7;
+                let slope = (swept(s + h).1 - swept(s - h).1) / (2.0 * h);
+                assert!((slope - swept(s).0).abs() < 1e-4, "{spread:?} {s}");
+            }
+        }
+    }
+}

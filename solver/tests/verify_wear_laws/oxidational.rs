@@ -1,0 +1,197 @@
+//! Oxidational laws: the worn area is C P' t with the time t of sliding, or that of Archard's law at a constant speed.
+
+use super::{
+    ARCHARD, LONG, SHORT, TOLERANCE, check_refinement, check_swap, difference, reports, scene,
+};
+use crate::recorder::{largest_distance, solve};
+use crate::verify_resume::resumes_to_the_same_bits;
+use solver::effects::{Effect, Switches};
+use solver::scene::{
+    MildOxidation, Motion, Quinn, Scene, SevereOxidation, SpeedLaw, Timing, WearLaw,
+};
+use solver::sides::{Side, Sides};
+
+/// Mean speed of a stroke of 0.1 mm in a second, mm/s.
+const SPEED: f64 = 0.4;
+
+/// Wears by 2e-7 1/MPa at that speed; the constants are none of a material.
+fn quinn() -> WearLaw {
+    let law = Quinn {
+        asperity_um: 20.0,
+        arrhenius_kg2_m4s: 1.5e6,
+        activation_j_mol: 208e3,
+        temperature_k: 673.15,
+        film_um: 1.0,
+        oxide_density_kg_m3: 5_240.0,
+        oxygen_fraction: 0.3006,
+        hardness_mpa: 1_700.0,
+    };
+    let factor = 2e-7 * law.hardness_mpa / law.coefficient_at(SPEED);
+    WearLaw::OfSpeed(SpeedLaw::Quinn(Quinn {
+        arrhenius_kg2_m4s: factor * law.arrhenius_kg2_m4s,
+        ..law
+    }))
+}
+
+/// The same rate at that speed.
+fn mild_oxidation() -> WearLaw {
+    let law = MildOxidation {
+        constant: 3.4e-4,
+        arrhenius_m2_s: 1e6,
+        activation_j_mol: 138e3,
+        temperature_k: 700.0,
+        film_um: 10.0,
+        hardness_mpa: 1_700.0,
+    };
+    let factor = 2e-7 * law.hardness_mpa / law.coefficient_at(SPEED);
+    WearLaw::OfSpeed(SpeedLaw::MildOxidation(MildOxidation {
+        arrhenius_m2_s: factor * law.arrhenius_m2_s,
+        ..law
+    }))
+}
+
+/// Wears from half that speed on.
+fn severe_oxidation() -> WearLaw {
+    let law = SevereOxidation {
+        molten_fraction: 4e-3,
+        latent_heat_j_m3: 2e9,
+        heat_share: 0.5,
+        friction: 0.3,
+        conductivity_w_mk: 3.2,
+        rise_k: 1_467.0,
+        diffusion_um: 10.0,
+        hardness_mpa: 1_700.0,
+    };
+    let factor = 0.5 * SPEED / law.slowest_mm_s();
+    WearLaw::OfSpeed(SpeedLaw::SevereOxidation(SevereOxidation {
+        conductivity_w_mk: factor * law.conductivity_w_mk,
+        ..law
+    }))
+}
+
+/// A scene whose stroke has the mean speed above.
+fn at_speed(stroke: (f64, u64), law: WearLaw, sides: &[Side], timing: Timing) -> Scene {
+    let mut scene = scene(stroke, law, sides);
+    scene.motion = Motion::Reciprocating {
+        amplitude_mm: stroke.0,
+        period_s: 4.0 * stroke.0 / SPEED,
+    };
+    scene.timing = timing;
+    scene
+}
+
+#[test]
+fn laws_of_time_wear_by_the_time_of_sliding() {
+    for (name, law) in [("Quinn", quinn()), ("mild oxidation", mild_oxidation())] {
+        for (stroke, cycles) in [("short", (0.004, 1_000)), ("long", (0.1, 200))] {
+            for timing in [Timing::Sine, Timing::Triangle] {
+                let mut scene = at_speed(cycles, law, &Side::BOTH, timing);
+                // The slip that the bodies' shear takes at the turning points would take most of the time there.
+                scene.effects = Switches::default().with(Effect::Friction, false);
+                let summary = solve(&scene).expect("the scene can be solved").0;
+                let expected = 2e-7 * scene.load_n_per_mm * summary.last.sliding_distance_mm;
+                for side in Side::BOTH {
+                    let report = *reports(&summary).of(side);
+                    let off = report.worn_area_mm2 / expected - 1.0;
+                    println!(
+                        "{name}, {stroke}, {timing:?}: worn area of the {} off by {off:+.1e}",
+                        side.name()
+                    );
+                    let ideal = report.ideal_area_mm2.expect("the law has one");
+                    // On the slopes of the scar the slip is longer than its displacement.
+                    assert!(off.abs() < 0.1 * TOLERANCE);
+                    assert!((ideal / expected - 1.0).abs() < 1e-12);
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn oxidational_laws_at_a_constant_speed_are_archards() {
+    for (name, law, rate) in [
+        ("Quinn", quinn(), 2e-7),
+        // 4e-3 / 2e9 (0.15 - 0.075) in 1/Pa.
+        ("severe oxidation", severe_oxidation(), 1.5e-7),
+    ] {
+        for cycles in [(0.004, 300), (0.1, 60)] {
+            let oxidational = at_speed(cycles, law, &Side::BOTH[1..], Timing::Triangle);
+            let archard = WearLaw::Archard {
+                k_over_h_per_mpa: rate,
+            };
+            let archard = at_speed(cycles, archard, &Side::BOTH[1..], Timing::Triangle);
+            let run = |scene: &Scene| solve(scene).expect("the scene can be solved").0;
+            let (found, expected) = (run(&oxidational), run(&archard));
+            let off = difference(&found, &expected);
+            println!("{name} at a constant speed: {off:.1e} from Archard");
+            assert!(off < 1e-9, "{off}");
+        }
+    }
+}
+
+#[test]
+fn slow_sliding_does_not_melt_an_oxide() {
+    let mut scene = at_speed((0.1, 20), severe_oxidation(), &Side::BOTH, Timing::Triangle);
+    scene.motion = Motion::Reciprocating {
+        amplitude_mm: 0.1,
+        period_s: 2.5,
+    };
+    let summary = solve(&scene).expect("the scene can be solved").0;
+    assert!(
+        summary
+            .last
+            .receptacle
+            .max_depth_mm
+            .max(summary.last.slider.max_depth_mm)
+            <= 0.0
+    );
+}
+
+#[test]
+fn oxidational_laws_do_not_depend_on_increments_and_jumps() {
+    for (name, law) in [("Quinn", quinn()), ("severe oxidation", severe_oxidation())] {
+        for (stroke, cycles) in [("short", SHORT), ("long", LONG)] {
+            check_refinement(
+                &format!("{name}, {stroke} stroke"),
+                &at_speed(cycles, law, &Side::BOTH[1..], Timing::Sine),
+            );
+        }
+    }
+}
+
+/// A pass by time is slowest at the turning points: jumps extrapolate it as single cycles wear it.
+#[test]
+fn jumps_in_a_groove_by_time_are_within_the_tolerance_of_single_cycles() {
+    let worn = |cycle_jump: Option<u64>| {
+        let mut scene = at_speed((0.1, 400), quinn(), &Side::BOTH[1..], Timing::Sine);
+        scene.accuracy.cycle_jump = cycle_jump;
+        let (summary, run) = solve(&scene).expect("the scene can be solved");
+        (summary, run.last_profile().clone())
+    };
+    let ((jumps, profile), (single, exact)) = (worn(None), worn(Some(1)));
+    let apart = largest_distance(&profile, &exact);
+    println!(
+        "groove by time: depth and area off by {:.1e}, profile by {apart:.1e}, {} computed cycles",
+        difference(&jumps, &single),
+        jumps.resolution.computed_cycles
+    );
+    assert!(difference(&jumps, &single) < 0.1 * TOLERANCE && apart < TOLERANCE);
+}
+
+#[test]
+fn bodies_can_be_swapped_beside_an_oxidational_law() {
+    let laws = Sides {
+        slider: ARCHARD,
+        receptacle: quinn(),
+    };
+    check_swap("Quinn, beside Archard", laws);
+}
+
+#[test]
+fn runs_by_an_oxidational_law_resume_to_the_same_bits() {
+    for stroke in [(0.004, 1_000), (0.1, 100)] {
+        let mut scene = at_speed(stroke, quinn(), &Side::BOTH[1..], Timing::Sine);
+        scene.output.snapshots_at_cycles = vec![stroke.1 / 2, stroke.1];
+        resumes_to_the_same_bits(&format!("Quinn, {} mm", stroke.0), &scene, 4);
+    }
+}
