@@ -209,6 +209,9 @@ fn fill(spec: &Spec, kind: SystemKind, diagnostics: &mut Diagnostics) -> Filled 
             "a slider whose surface runs past continuously cannot wear yet; write null",
         );
     }
+    if movement.distance_mm.is_some() {
+        law::check_continuous(&laws, diagnostics);
+    }
     let (accuracy, numerical) = accuracy::resolve(&spec.accuracy, &shapes, cycles, diagnostics);
     let (output, recorded) = output::resolve(&spec.output, &movement, &shapes, diagnostics);
     let surfaces = criterion::Surfaces {

@@ -77,7 +77,7 @@ impl<'a> Integrator<'a> {
             interface: model.interface_of(scene),
         };
         let constant = scene.timed_motion().constant();
-        let at_pace = |wear: SurfaceWear| constant.map_or(wear, |pace| wear.at_pace(pace));
+        let at_pace = |wear: SurfaceWear| constant.map_or(wear, |pace| wear.during(pace, 0.0));
         let wear = pair.interface.wear.map(|wear| wear.map(at_pace));
         let next = ContactState::untouched(operators, model.interface.slave);
         Self {
@@ -304,7 +304,10 @@ impl<'a> Integrator<'a> {
             .scene
             .timed_motion()
             .between(last.slider_x, to.slider_x);
-        self.pair.interface.wear = self.wear.map(|wear| wear.map(|wear| wear.at_pace(pace)));
+        let distance = (to.slider_x - last.slider_x).abs() + to.surface_slip.abs();
+        self.pair.interface.wear = self
+            .wear
+            .map(|wear| wear.map(|wear| wear.during(pace, distance)));
         let done = self
             .solver
             .advance(&self.pair, &surfaces, last, to, &mut self.next)?;

@@ -32,10 +32,14 @@ pub use crate::law::plating::{Layer, MOST_LAYERS};
 pub use crate::law::softening::Softening;
 pub use crate::law::wear::WearLaw;
 pub use crate::law::wear::barwell::{Barwell, Course};
+pub use crate::law::wear::load_repetition::LoadRepetition;
 pub use crate::law::wear::mild_oxidation::MildOxidation;
+pub use crate::law::wear::power::PowerLaw;
 pub use crate::law::wear::quinn::Quinn;
+pub use crate::law::wear::rhee::Rhee;
 pub use crate::law::wear::severe_oxidation::SevereOxidation;
 pub use crate::law::wear::speed::SpeedLaw;
+pub use crate::law::wear::strain_hardening::StrainHardening;
 
 /// A contact system with its loads, motion and numerical settings.
 #[derive(Debug, Clone, PartialEq)]
@@ -130,18 +134,7 @@ impl Scene {
 
     /// The motion with its course in time.
     pub(crate) fn timed_motion(&self) -> TimedMotion {
-        let (amplitude_mm, period_s) = match self.motion {
-            Motion::Reciprocating {
-                amplitude_mm,
-                period_s,
-            } => (amplitude_mm.abs(), period_s),
-            Motion::Continuous { .. } => (0.0, f64::INFINITY),
-        };
-        TimedMotion {
-            amplitude_mm,
-            period_s,
-            timing: self.timing,
-        }
+        TimedMotion::new(self.motion, self.timing)
     }
 
     /// Layers of a side, from the surface down.

@@ -4,10 +4,11 @@
 
 mod barwell;
 mod oxidational;
+mod power;
 
-use crate::recorder::{largest_distance, solve};
+use crate::recorder::{Recorder, largest_distance, solve};
 use crate::scenes::{mccoll, sprung_contact};
-use solver::record::{SideReport, Summary};
+use solver::record::{DepthProfile, SideReport, Summary};
 use solver::scene::{Accuracy, BlockShape, Friction, Motion, Scene, SliderShape, WearLaw};
 use solver::sides::{Side, Sides};
 
@@ -115,3 +116,21 @@ fn check_swap(name: &str, laws: Sides<WearLaw>) {
 const ARCHARD: WearLaw = WearLaw::Archard {
     k_over_h_per_mpa: 2e-8,
 };
+
+/// Integral of a function of the depth over a profile.
+fn integral(profile: &DepthProfile, of: impl Fn(f64) -> f64) -> f64 {
+    let x = &profile.x_mm;
+    let last = x.len() - 1;
+    let nodes = profile.depth_mm.iter().enumerate();
+    nodes
+        .map(|(i, depth)| 0.5 * (x[(i + 1).min(last)] - x[i.saturating_sub(1)]) * of(*depth))
+        .sum()
+}
+
+fn last_profile(run: &Recorder, side: Side) -> &DepthProfile {
+    let last = run.snapshots.last().expect("a snapshot at the end");
+    match side {
+        Side::Slider => &last.slider,
+        Side::Receptacle => &last.receptacle,
+    }
+}

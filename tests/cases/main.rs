@@ -47,3 +47,4 @@ mod study_of_accuracy;
 mod study_over_http;
 mod sweep;
 mod vibrated_contact;
+mod wear_laws;

@@ -34,6 +34,12 @@ string_enum! {
         MildOxidation = "mild_oxidation",
         /// Severe oxidational wear at high speeds, after Lim and Ashby: friction melts an oxide film.
         SevereOxidation = "severe_oxidation",
+        /// Worn depth = K p^a v^b t^c under a constant pressure p and speed v: Rhee's, of friction materials.
+        Rhee = "rhee",
+        /// Worn depth = t0 C1 p^C2 N^C3 after N repetitions of a constant pressure p; also where the contact sticks.
+        LoadRepetition = "load_repetition",
+        /// Worn depth = t0 e with a wear strain that grows by de/dt = C1 p^C2 e^C3 exp(-C4/T); also where the contact sticks.
+        StrainHardening = "strain_hardening",
     }
 }
 
@@ -123,7 +129,7 @@ pub struct WearLaw {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub characteristic_dose_mpa_mm: Option<f64>,
     /// `quinn`, `mild_oxidation`: temperature of the touching asperities, with that of flashes by friction; `severe_oxidation`: of the
-    /// bulk, °C. Required there.
+    /// bulk; `strain_hardening`: of the contact, °C. Required there.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub contact_temperature_c: Option<f64>,
     /// `quinn`, `mild_oxidation`: activation energy of the oxidation, J/mol. Required there.
@@ -165,6 +171,32 @@ pub struct WearLaw {
     /// `severe_oxidation`: melting temperature of the oxide, °C. Required there.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub oxide_melting_temperature_c: Option<f64>,
+    /// `rhee`: the factor K, mm/(MPa^a (mm/s)^b s^c); `load_repetition`: C1, 1/MPa^C2; `strain_hardening`: C1, 1/(MPa^C2 s). Required
+    /// there.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub wear_factor: Option<f64>,
+    /// `rhee`: the exponent a, `load_repetition`, `strain_hardening`: C2, of the pressure, -. Required there.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub pressure_exponent: Option<f64>,
+    /// `rhee`: the exponent b of the speed, -. Required there.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub speed_exponent: Option<f64>,
+    /// `rhee`: the exponent c of the time, -. Required there.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub time_exponent: Option<f64>,
+    /// `load_repetition`: the exponent C3 of the repetitions, -. Required there.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub repetition_exponent: Option<f64>,
+    /// `strain_hardening`: the exponent C3 of the strain, -. Required there.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub strain_exponent: Option<f64>,
+    /// `strain_hardening`: C4, K. Required there.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub activation_temperature_k: Option<f64>,
+    /// `load_repetition`, `strain_hardening`: the length t0 over which the strain is worn, mm: a length of the material, which no mesh
+    /// determines. Required there.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub reference_length_mm: Option<f64>,
     /// `severe_oxidation`: distance over which the heat of a flash diffuses, um. Required there.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub diffusion_distance_um: Option<f64>,

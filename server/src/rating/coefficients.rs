@@ -41,6 +41,8 @@ fn scale_law(
     law: &mut WearLaw,
     factor: f64,
 ) -> Vec<Coefficient> {
+    // Of a depth that grows with a power of the time, the factor to this power is in proportion to the inverse of the cycles.
+    let course = law.time_exponent.or(law.repetition_exponent).unwrap_or(1.0);
     let coefficients = [
         ("k", &mut law.k, factor),
         ("k_over_h_per_mpa", &mut law.k_over_h_per_mpa, factor),
@@ -60,6 +62,7 @@ fn scale_law(
             factor,
         ),
         ("molten_fraction", &mut law.molten_fraction, factor),
+        ("wear_factor", &mut law.wear_factor, factor.powf(course)),
         (
             "characteristic_dose_mpa_mm",
             &mut law.characteristic_dose_mpa_mm,

@@ -60,7 +60,15 @@ pub(super) fn softening(resolved: &Spec, diagnostics: &mut Diagnostics) -> Sides
 }
 
 fn wears_by_hardness(law: &WearLaw) -> bool {
-    law.law.known() != Some(WearLawName::DissipatedEnergy)
+    !matches!(
+        law.law.known(),
+        Some(
+            WearLawName::DissipatedEnergy
+                | WearLawName::Rhee
+                | WearLawName::LoadRepetition
+                | WearLawName::StrainHardening
+        )
+    )
 }
 
 fn properties(material: Option<&Material>) -> Option<&MaterialProperties> {

@@ -5,13 +5,17 @@ mod barwell;
 pub(super) mod coulomb;
 mod dissipated_energy;
 mod frictionless;
+mod load_repetition;
 mod mild_oxidation;
 mod numbers;
 mod oxidation;
+mod power;
 mod quinn;
+mod rhee;
 mod saracibar;
 mod sarkar;
 mod severe_oxidation;
+mod strain_hardening;
 mod wear_coefficient;
 pub(super) mod wearing_side;
 
@@ -163,6 +167,17 @@ pub(super) fn check_plated(
     }
 }
 
+/// Adds a fault for a law that counts repetitions of the load where none are: in a continuous motion.
+pub(super) fn check_continuous(laws: &Laws, diagnostics: &mut Diagnostics) {
+    for side in Side::BOTH {
+        let counts = |law: &scene::WearLaw| matches!(law, scene::WearLaw::Power(law) if law.counts_repetitions());
+        if laws.wear.of(side).as_ref().is_some_and(counts) {
+            let detail = "a continuous motion repeats no load; use a law of slip or of time";
+            diagnostics.fault(&format!("/interface/wear/{}/law", side.name()), detail);
+        }
+    }
+}
+
 /// Resolves a wear law as given, beside a coefficient of friction.
 pub(super) fn given_wear(
     side: &WearingSide<'_>,
@@ -185,6 +200,9 @@ pub(super) fn given_wear(
         Some(WearLawName::SevereOxidation) => {
             severe_oxidation::resolve(side, given, friction, diagnostics)
         }
+        Some(WearLawName::Rhee) => rhee::resolve(side, given, diagnostics),
+        Some(WearLawName::LoadRepetition) => load_repetition::resolve(side, given, diagnostics),
+        Some(WearLawName::StrainHardening) => strain_hardening::resolve(side, given, diagnostics),
         None => (given.clone(), None),
     }
 }

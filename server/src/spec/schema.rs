@@ -241,6 +241,13 @@ mod tests {
             | "oxide_conductivity_w_mk"
             | "oxide_melting_temperature_c"
             | "diffusion_distance_um" => ("severe_oxidation", ""),
+            "wear_factor" | "pressure_exponent" | "speed_exponent" | "time_exponent" => {
+                ("rhee", "")
+            }
+            "repetition_exponent" => ("load_repetition", ""),
+            "strain_exponent" | "activation_temperature_k" | "reference_length_mm" => {
+                ("strain_hardening", "")
+            }
             _ => panic!("{field} has no sample"),
         }
     }

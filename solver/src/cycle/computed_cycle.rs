@@ -80,11 +80,11 @@ impl Integrator<'_> {
     }
 
     /// A shorter jump where the estimated error of one far exceeds what it may be, as where it has passed an interface of a
-    /// plating: the rate before does not foresee that behind it. Of surfaces that wear by dose.
+    /// plating: the rate before does not foresee that behind it. Of surfaces whose rate depends on their depth.
     fn rejected(&self, state: &CycleState, (stroke, jump): (Stroke, u64)) -> Option<u64> {
         let wear = self.wear;
-        let by_dose = |wear: Option<SurfaceWear>| wear.and_then(SurfaceWear::dose_curve).is_some();
-        if !(by_dose(wear.slider) || by_dose(wear.receptacle)) {
+        let by_depth = |wear: Option<SurfaceWear>| wear.is_some_and(SurfaceWear::depends_on_depth);
+        if !(by_depth(wear.slider) || by_depth(wear.receptacle)) {
             return None;
         }
         state.jump.rejected(&self.scene.accuracy, stroke, jump)
@@ -137,6 +137,11 @@ impl Integrator<'_> {
         let is_even = state.contact.load(interface) <= UNEVEN * state.neutral.load;
         let passes = self.wear.receptacle;
         stroke.is_groove &= is_even && passes.is_none_or(SurfaceWear::is_even);
+        let is_proportional =
+            |wear: Option<SurfaceWear>| wear.is_none_or(SurfaceWear::is_proportional);
+        if !(is_proportional(self.wear.slider) && is_proportional(self.wear.receptacle)) {
+            return stroke.of_uneven_wear();
+        }
         stroke
     }
 }

@@ -91,7 +91,7 @@ fn indicator(scene: &Scene, indicators: &Indicators<'_>, effect: Effect) -> Indi
 fn wears_by_law<S>(scene: &Scene, body: &Body<S>) -> bool {
     let motion = scene.timed_motion();
     let wears = |wear: SurfaceWear| {
-        let fastest = wear.at_pace(motion.fastest());
+        let fastest = wear.during(motion.fastest(), 0.0);
         fastest.uniform().is_none_or(|rate| rate > 0.0)
     };
     let all = SurfaceEffects {

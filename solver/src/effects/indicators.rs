@@ -198,7 +198,11 @@ impl<'a> Indicators<'a> {
     /// bound where it jams.
     fn lost_slip(&self, depth: Sides<f64>) -> f64 {
         let lost = self.lost_slip / (1.0 - self.climb(depth)).max(0.0);
-        let by_time = |wear: Option<SurfaceWear>| wear.is_some_and(SurfaceWear::is_by_time);
+        let by_time = |wear: Option<SurfaceWear>| {
+            wear.is_some_and(|wear| {
+                wear.is_by_time() || matches!(wear, SurfaceWear::ByPower { .. })
+            })
+        };
         if by_time(self.wear.slider) || by_time(self.wear.receptacle) {
             lost.max(share_of_time(lost))
         } else {

@@ -6,6 +6,7 @@
 use crate::contact::line::CANDIDATE_GAP;
 use crate::law::elastic::contact_modulus;
 use crate::law::surface::SurfaceWear;
+use crate::law::wear::LocalState;
 use crate::model::{Layout, resolution};
 use crate::number::{real, real_cycles};
 use crate::record::WornSurface;
@@ -48,11 +49,12 @@ pub(super) struct Scar {
     pass: f64,
     /// Share of each side in the depth.
     shares: Sides<f64>,
-    /// Whether grooves can be extrapolated.
+    /// Whether grooves can be extrapolated, and whether wear is in proportion to the load.
     passes_are_even: bool,
+    is_proportional: bool,
     /// Expected cycles of the run.
     cycles: u64,
-    /// Initial rate of each side over the mean rate that it wears by.
+    /// Rate of the equivalent depths of each side over the mean rate that it wears by.
     pub(super) initial: Sides<f64>,
     pub(super) area: f64,
     /// Worn area since another motion has worn the surfaces, which no longer conform then, mm^2.
@@ -74,6 +76,7 @@ impl Scar {
         let tuning = scene.accuracy.tuning;
         let hertz = layout.sizes.hertz_half_width;
         let rates = resolution::wear_rates(scene, hertz);
+        let at = LocalState::mean(scene.load_n_per_mm, hertz, scene.timed_motion().mean());
         let wear = rates.slider + rates.receptacle;
         let approach = resolution::approach(scene, hertz, modulus);
         let amplitude = scene.motion.amplitude_mm();
@@ -99,14 +102,18 @@ impl Scar {
             area_per_cycle: wear * scene.load_n_per_mm * sliding,
             pass: wear * scene.load_n_per_mm,
             shares: rates.map(share),
+            is_proportional: Side::BOTH.into_iter().all(|side| {
+                let wear = *scene.surface_wear().of(side);
+                wear.is_none_or(SurfaceWear::is_proportional)
+            }),
             passes_are_even: scene
                 .surface_wear()
                 .receptacle
                 .is_none_or(SurfaceWear::is_even),
             cycles: resolution::expected_cycles(scene, hertz),
             initial: scene.surface_wear().zip(rates).map(|(wear, rate)| {
-                let curve = wear.and_then(SurfaceWear::dose_curve);
-                curve.map_or(1.0, |curve| curve.initial_rate() / rate)
+                let equivalent = wear.and_then(|wear| wear.equivalent_rate(at));
+                equivalent.map_or(1.0, |equivalent| equivalent / rate)
             }),
             area: 0.0,
             conforming: 0.0,
@@ -129,7 +136,11 @@ impl Scar {
             self.cycles,
         );
         stroke.is_groove &= self.passes_are_even;
-        stroke
+        if self.is_proportional {
+            stroke
+        } else {
+            stroke.of_uneven_wear()
+        }
     }
 
     /// Wears so many cycles more.

@@ -3,11 +3,13 @@
 //! A point that slips by the part |s'| of the imposed displacement |ds| of an increment is taken to slip for that part of its
 //! duration, so that its time of slip is |s'| times the pace: exact in gross slip, none where a point sticks.
 
-/// Time over imposed displacement.
+/// Time and cycles over imposed displacement.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Pace {
     /// Time per displacement, s/mm: the inverse of the mean speed.
     pub s_per_mm: f64,
+    /// Cycles per displacement, 1/mm; none of a motion without cycles.
+    pub cycles_per_mm: f64,
 }
 
 impl Pace {
@@ -15,6 +17,7 @@ impl Pace {
     pub fn at_speed(mm_s: f64) -> Self {
         Self {
             s_per_mm: if mm_s > 0.0 { 1.0 / mm_s } else { 0.0 },
+            cycles_per_mm: 0.0,
         }
     }
 

@@ -1,6 +1,6 @@
 //! Wear of a surface: one law at every depth, or a curve of the depth over the dose, as that of the layers of a plating.
 //!
-//! A depth and its equivalent, the depth that the initial rate alone would have worn by the same dose, are equal where one law
+//! Laws of which a power of the depth adds have that power as equivalent. A depth and its equivalent, the depth that the initial rate alone would have worn by the same dose, are equal where one law
 //! holds at every depth. Doses add where depths do not: the wear of cycles is extrapolated in equivalent depths.
 
 use std::borrow::Cow;
@@ -8,6 +8,7 @@ use std::borrow::Cow;
 use super::dose::DoseCurve;
 use super::pace::Pace;
 use super::plating::{Layer, Layers};
+use super::wear::power::{Exposure, PowerLaw};
 use super::wear::{LocalState, WearLaw};
 
 /// Wear of a surface.
@@ -17,6 +18,13 @@ pub enum SurfaceWear {
     Law(WearLaw),
     /// A depth that the dose determines.
     ByDose(DoseCurve),
+    /// A depth of which a power adds.
+    ByPower {
+        /// Its law.
+        law: PowerLaw,
+        /// What adds during an increment; nothing outside of one.
+        during: Exposure,
+    },
 }
 
 impl SurfaceWear {
@@ -26,6 +34,10 @@ impl SurfaceWear {
         if plating.is_empty() {
             return base.map(|law| match law {
                 WearLaw::Barwell(law) => Self::ByDose(DoseCurve::Barwell(law)),
+                WearLaw::Power(law) => Self::ByPower {
+                    law,
+                    during: Exposure::default(),
+                },
                 law => Self::Law(law),
             });
         }
@@ -37,16 +49,37 @@ impl SurfaceWear {
     pub fn uniform(self) -> Option<f64> {
         match self {
             Self::Law(law) => law.uniform(),
-            Self::ByDose(_) => None,
+            Self::ByDose(_) | Self::ByPower { .. } => None,
         }
     }
 
-    /// The wear as it is at a pace.
+    /// The wear as it is in an increment of an imposed displacement in mm at a pace.
     #[must_use]
-    pub fn at_pace(self, pace: Pace) -> Self {
+    pub fn during(self, pace: Pace, distance_mm: f64) -> Self {
         match self {
             Self::Law(law) => Self::Law(law.at_pace(pace)),
             Self::ByDose(_) => self,
+            Self::ByPower { law, .. } => Self::ByPower {
+                law,
+                during: law.exposure(pace, distance_mm),
+            },
+        }
+    }
+
+    /// Whether the rate depends on the depth.
+    pub fn depends_on_depth(self) -> bool {
+        match self {
+            Self::Law(_) => false,
+            Self::ByDose(_) | Self::ByPower { .. } => true,
+        }
+    }
+
+    /// The rate at which the equivalent grows by p |ds| in a representative state, 1/MPa, where it is no depth.
+    pub fn equivalent_rate(self, at: LocalState) -> Option<f64> {
+        match self {
+            Self::Law(_) => None,
+            Self::ByDose(curve) => Some(curve.initial_rate()),
+            Self::ByPower { law, .. } => Some(law.equivalent_rate(at)),
         }
     }
 
@@ -60,11 +93,16 @@ impl SurfaceWear {
         self.uniform().is_some() || self.dose_curve().is_some() || self.is_by_time()
     }
 
+    /// Whether the wear of a pass is in proportion to its load, however this is distributed.
+    pub fn is_proportional(self) -> bool {
+        !matches!(self, Self::ByPower { .. })
+    }
+
     /// The specific wear rate whose product with load and distance is the worn area of whole cycles at a mean pace, 1/MPa, if there
     /// is one.
     pub fn area_rate(self, mean: Pace) -> Option<f64> {
         if self.is_by_time() {
-            self.at_pace(mean).uniform()
+            self.during(mean, 0.0).uniform()
         } else {
             self.uniform()
         }
@@ -73,7 +111,7 @@ impl SurfaceWear {
     /// The curve of its depth over the dose, if it has one.
     pub fn dose_curve(self) -> Option<DoseCurve> {
         match self {
-            Self::Law(_) => None,
+            Self::Law(_) | Self::ByPower { .. } => None,
             Self::ByDose(curve) => Some(curve),
         }
     }
@@ -83,6 +121,8 @@ impl SurfaceWear {
         match self {
             Self::Law(law) => law.rate(at).value,
             Self::ByDose(curve) => curve.largest_rate(depth),
+            // A rate that falls has no bound on the unworn surface; that of the deepest place counts.
+            Self::ByPower { law, .. } => WearLaw::Power(law).rate(LocalState { depth, ..at }).value,
         }
     }
 
@@ -102,13 +142,17 @@ impl SurfaceWear {
                 };
                 share * curve.initial_rate()
             }
+            Self::ByPower { law, .. } if depth > 0.0 => {
+                depth * law.equivalent_rate(at) / law.equivalent(depth)
+            }
+            Self::ByPower { law, .. } => WearLaw::Power(law).rate(at).value,
         }
     }
 
     /// Largest depth that wear reaches, mm.
     pub fn deepest(self) -> f64 {
         match self {
-            Self::Law(_) => f64::INFINITY,
+            Self::Law(_) | Self::ByPower { .. } => f64::INFINITY,
             Self::ByDose(curve) => curve.deepest(),
         }
     }
@@ -118,6 +162,7 @@ impl SurfaceWear {
         match self {
             Self::Law(_) => depth,
             Self::ByDose(curve) => curve.equivalent(depth),
+            Self::ByPower { law, .. } => law.equivalent(depth),
         }
     }
 
@@ -126,6 +171,7 @@ impl SurfaceWear {
         match self {
             Self::Law(_) => equivalent,
             Self::ByDose(curve) => curve.depth(equivalent),
+            Self::ByPower { law, .. } => law.depth(equivalent),
         }
     }
 
@@ -134,23 +180,24 @@ impl SurfaceWear {
         match self {
             Self::Law(_) => 1.0,
             Self::ByDose(curve) => curve.rate(depth) / curve.initial_rate(),
+            Self::ByPower { law, .. } => law.depth_per_equivalent(depth),
         }
     }
 }
 
 /// Equivalents of the depths of a surface, mm.
 pub fn equivalents(wear: Option<SurfaceWear>, depth: &[f64]) -> Cow<'_, [f64]> {
-    match wear.and_then(SurfaceWear::dose_curve) {
+    match wear.filter(|wear| wear.depends_on_depth()) {
         None => Cow::Borrowed(depth),
-        Some(curve) => depth.iter().map(|depth| curve.equivalent(*depth)).collect(),
+        Some(wear) => depth.iter().map(|depth| wear.equivalent(*depth)).collect(),
     }
 }
 
 /// Depths of equivalents, mm.
 pub fn depths(wear: Option<SurfaceWear>, equivalent: Vec<f64>) -> Vec<f64> {
-    match wear.and_then(SurfaceWear::dose_curve) {
+    match wear.filter(|wear| wear.depends_on_depth()) {
         None => equivalent,
-        Some(curve) => equivalent.iter().map(|depth| curve.depth(*depth)).collect(),
+        Some(wear) => equivalent.iter().map(|depth| wear.depth(*depth)).collect(),
     }
 }
 
@@ -160,7 +207,7 @@ pub fn at_relative_rates<'a>(
     values: &'a [f64],
     depth: &[f64],
 ) -> Cow<'a, [f64]> {
-    match wear.filter(|wear| wear.dose_curve().is_some()) {
+    match wear.filter(|wear| wear.depends_on_depth()) {
         None => Cow::Borrowed(values),
         Some(wear) => {
             let nodes = values.iter().zip(depth);

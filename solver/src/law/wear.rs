@@ -9,17 +9,22 @@ pub mod archard;
 mod arrhenius;
 pub mod barwell;
 pub mod dissipated_energy;
+pub mod load_repetition;
 pub mod mild_oxidation;
+pub mod power;
 #[cfg(test)]
 mod pressure_power;
 pub mod quinn;
 mod rate;
+pub mod rhee;
 pub mod saracibar;
 pub mod sarkar;
 pub mod severe_oxidation;
 pub mod speed;
+pub mod strain_hardening;
 
 use barwell::Barwell;
+use power::PowerLaw;
 pub use rate::{LocalState, Rate};
 use speed::SpeedLaw;
 
@@ -60,6 +65,8 @@ pub enum WearLaw {
     Barwell(Barwell),
     /// Oxidational: the rate depends on the speed (thesis, equations 7, 11 and 12).
     OfSpeed(SpeedLaw),
+    /// A power of the depth adds (thesis, equations 4, 18, 19 and 20).
+    Power(PowerLaw),
     /// A specific wear rate that grows with the pressure, for tests of the contact solve.
     #[cfg(test)]
     PressurePower {
@@ -92,6 +99,7 @@ impl WearLaw {
             } => dissipated_energy::rate(mm3_per_j, friction, at),
             Self::Barwell(law) => barwell::rate(law, at),
             Self::OfSpeed(law) => Rate::uniform(law.rate(at.pace)),
+            Self::Power(law) => power::rate(law, at),
             #[cfg(test)]
             Self::PressurePower {
                 k_per_mpa,
@@ -101,7 +109,8 @@ impl WearLaw {
         }
     }
 
-    /// The law at another hardness than it was given with; the energy that detaches a volume does not depend on it.
+    /// The law at another hardness than it was given with; the energy that detaches a volume, and laws
+    /// without a hardness, do not depend on it.
     #[must_use]
     pub fn softened(self, ratio: f64) -> Self {
         match self {
@@ -124,7 +133,7 @@ impl WearLaw {
                 friction,
                 reference_friction,
             },
-            Self::DissipatedEnergy { .. } => self,
+            Self::DissipatedEnergy { .. } | Self::Power(_) => self,
             Self::Barwell(law) => Self::Barwell(law.softened(ratio)),
             Self::OfSpeed(law) => Self::OfSpeed(law.softened(ratio)),
             #[cfg(test)]
@@ -150,7 +159,7 @@ impl WearLaw {
             | Self::Sarkar { .. }
             | Self::Saracibar { .. }
             | Self::DissipatedEnergy { .. } => Some(self.rate(LocalState::default()).value),
-            Self::Barwell(_) | Self::OfSpeed(_) => None,
+            Self::Barwell(_) | Self::OfSpeed(_) | Self::Power(_) => None,
             #[cfg(test)]
             Self::PressurePower { .. } => None,
         }
@@ -161,11 +170,12 @@ impl WearLaw {
 mod tests {
     use super::barwell::Course;
     use super::mild_oxidation::MildOxidation;
+    use super::power::Measure;
     use super::quinn::Quinn;
     use super::severe_oxidation::SevereOxidation;
     use super::*;
 
-    const LAWS: [WearLaw; 10] = [
+    const LAWS: [WearLaw; 15] = [
         WearLaw::Archard {
             k_over_h_per_mpa: 2.5761e-5,
         },
@@ -184,6 +194,21 @@ mod tests {
         },
         barwell(Course::Decelerating),
         barwell(Course::Accelerating),
+        power(
+            0.5,
+            Measure::SlipTime {
+                speed_exponent: 0.8,
+            },
+        ),
+        power(
+            0.9,
+            Measure::SlipTime {
+                speed_exponent: 1.3,
+            },
+        ),
+        power(0.9, Measure::Repetitions),
+        power(0.7, Measure::Time),
+        power(1.5, Measure::Time),
         WearLaw::OfSpeed(SpeedLaw::Quinn(Quinn {
             asperity_um: 20.0,
             arrhenius_kg2_m4s: 1.5e6,
@@ -222,8 +247,21 @@ mod tests {
         pressure: 150.0,
         slip: 0.02,
         depth: 1e-4,
-        pace: Pace { s_per_mm: 1e-3 },
+        pace: Pace {
+            s_per_mm: 1e-3,
+            cycles_per_mm: 10.0,
+        },
     };
+
+    /// Wears as much in an increment as before it.
+    const fn power(exponent: f64, measure: Measure) -> WearLaw {
+        WearLaw::Power(PowerLaw {
+            exponent,
+            factor: 1e-5,
+            pressure_exponent: 2.0,
+            measure,
+        })
+    }
 
     /// A fifth of the characteristic dose in an increment.
     const fn barwell(course: Course) -> WearLaw {

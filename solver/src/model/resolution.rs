@@ -127,13 +127,13 @@ fn travel_over_slider(slider: f64, crown: Option<f64>) -> f64 {
     crown.map_or(0.0, |crown| slider / (slider + crown))
 }
 
-/// Specific wear rates in a contact of a half-width, 1/MPa; of laws by dose the mean rate down to the estimated depth at the
+/// Specific wear rates in a contact of a half-width, 1/MPa; of laws whose rate depends on the depth the mean rate down to the estimated depth at the
 /// end.
 pub(crate) fn wear_rates(scene: &Scene, half_width: f64) -> Sides<f64> {
     let wear = scene.surface_wear();
     let at = LocalState::mean(scene.load_n_per_mm, half_width, scene.timed_motion().mean());
-    let by_dose = |wear: Option<SurfaceWear>| wear.and_then(SurfaceWear::dose_curve).is_some();
-    let depth = if by_dose(wear.slider) || by_dose(wear.receptacle) {
+    let by_depth = |wear: Option<SurfaceWear>| wear.is_some_and(SurfaceWear::depends_on_depth);
+    let depth = if by_depth(wear.slider) || by_depth(wear.receptacle) {
         let cycles = expected_cycles(scene, half_width);
         worn_depth::after(scene, (radius(scene), at), &wear, cycles)
     } else {

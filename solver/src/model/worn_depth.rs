@@ -30,8 +30,13 @@ pub(crate) fn after(
     let path = scene.load_n_per_mm * scene.motion.distance_per_cycle_mm() * real_cycles(cycles);
     let depth = |wear: Option<SurfaceWear>, amplitude, height: f64| {
         wear.map_or(0.0, |wear| {
-            let most = path * wear.largest_rate(height, at);
-            let depth = depth(|h| path * wear.mean_rate(h, at), most, amplitude, radius);
+            // Where the rate falls without bound from the unworn surface on, the height is the bound.
+            let most = match wear {
+                SurfaceWear::ByPower { .. } => f64::INFINITY,
+                _ => path * wear.largest_rate(height, at),
+            };
+            let worn = |h| path * wear.mean_rate(h, at);
+            let depth = depth(worn, (most, height), amplitude, radius);
             depth.min(height)
         })
     };
@@ -77,11 +82,16 @@ fn section(h: f64, amplitude: f64, radius: f64) -> f64 {
     4.0 / 3.0 * h * (0.5 * amplitude + (2.0 * radius * h).sqrt())
 }
 
-/// Depth of a groove, mm, whose section, mm^2, depends on its depth and is at most a value.
-fn depth(worn: impl Fn(f64) -> f64, most: f64, amplitude: f64, radius: f64) -> f64 {
+/// Depth of a groove, mm, whose section, mm^2, depends on its depth and is at most a value, or the depth at most another.
+fn depth(
+    worn: impl Fn(f64) -> f64,
+    (most, height): (f64, f64),
+    amplitude: f64,
+    radius: f64,
+) -> f64 {
     // Without the flat part.
     let segment = (0.75 * most / (2.0 * radius).sqrt()).powf(2.0 / 3.0);
-    let (mut low, mut high) = (0.0, segment);
+    let (mut low, mut high) = (0.0, if most.is_finite() { segment } else { height });
     for _ in 0..HALVINGS {
         let middle = 0.5 * (low + high);
         if section(middle, amplitude, radius) < worn(middle) {
@@ -102,13 +112,13 @@ mod tests {
     #[test]
     fn a_groove_holds_its_section() {
         for (amplitude, radius) in [(0.0, 0.4), (1e-3, 0.4), (0.02, 0.05), (1.0, 0.4)] {
-            let h = depth(|_| 1e-4, 1e-4, amplitude, radius);
+            let h = depth(|_| 1e-4, (1e-4, 1.0), amplitude, radius);
             assert!(
                 (section(h, amplitude, radius) / 1e-4 - 1.0).abs() < 1e-9,
                 "{amplitude} {radius}"
             );
         }
-        assert!(depth(|_| 0.0, 0.0, 0.02, 0.4) <= 0.0);
+        assert!(depth(|_| 0.0, (0.0, 1.0), 0.02, 0.4) <= 0.0);
     }
 
     #[test]

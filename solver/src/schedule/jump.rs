@@ -43,7 +43,7 @@ pub(crate) struct Stroke {
     pub(crate) smoothing: f64,
     /// Whether only the receptacle wears, in a groove that is longer than the contact: jumps extrapolate single cycles.
     pub(crate) is_groove: bool,
-    /// Whether both bodies wear.
+    /// Whether both bodies wear, or one whose wear is in no proportion to the pressure.
     both: bool,
     /// Factor on the allowed error of a jump.
     error_factor: f64,
@@ -80,6 +80,13 @@ impl Stroke {
             skew: wear * 2.0 * amplitude * modulus / half_width,
             cycles,
         }
+    }
+
+    /// The stroke of a body whose wear is in no proportion to the pressure: the step of a jump lowers the pressure of a longer contact,
+    /// which leaves the wear of other laws as it is.
+    #[must_use]
+    pub(crate) fn of_uneven_wear(self) -> Self {
+        Self { both: true, ..self }
     }
 
     /// Largest estimated error of a jump.

@@ -1,10 +1,11 @@
 //! Barwell's laws: the dose that the worn depth of every node stands for adds up to that of the load sliding its path, whichever body
 //! wears: integral of G^-1(h) dx = energy/mu.
 
-use super::{ARCHARD, LONG, SHORT, check_refinement, check_swap, reports, scene};
-use crate::recorder::{Recorder, solve};
+use super::{
+    ARCHARD, LONG, SHORT, check_refinement, check_swap, integral, last_profile, reports, scene,
+};
+use crate::recorder::solve;
 use crate::verify_resume::resumes_to_the_same_bits;
-use solver::record::DepthProfile;
 use solver::scene::{Accuracy, Barwell, Course, Friction, Motion, Scene, WearLaw};
 use solver::sides::{Side, Sides};
 
@@ -28,24 +29,6 @@ fn dose(law: Barwell, depth: f64) -> f64 {
     match law.course {
         Course::Decelerating => -law.dose_mpa_mm * (1.0 - share).ln(),
         Course::Accelerating => law.dose_mpa_mm * (1.0 + share).ln(),
-    }
-}
-
-/// Integral of a function of the depth over a profile.
-fn integral(profile: &DepthProfile, of: impl Fn(f64) -> f64) -> f64 {
-    let x = &profile.x_mm;
-    let last = x.len() - 1;
-    let nodes = profile.depth_mm.iter().enumerate();
-    nodes
-        .map(|(i, depth)| 0.5 * (x[(i + 1).min(last)] - x[i.saturating_sub(1)]) * of(*depth))
-        .sum()
-}
-
-fn last_profile(run: &Recorder, side: Side) -> &DepthProfile {
-    let last = run.snapshots.last().expect("a snapshot at the end");
-    match side {
-        Side::Slider => &last.slider,
-        Side::Receptacle => &last.receptacle,
     }
 }
 

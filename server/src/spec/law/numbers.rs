@@ -2,7 +2,7 @@
 
 use std::ops::RangeInclusive;
 
-use super::{barwell, dissipated_energy, oxidation, saracibar, wear_coefficient};
+use super::{barwell, dissipated_energy, oxidation, power, saracibar, wear_coefficient};
 use crate::spec::materials::HARDNESS_MPA;
 
 /// The fields with their ranges.
@@ -41,5 +41,13 @@ pub(in crate::spec) fn numbers() -> Vec<(&'static str, RangeInclusive<f64>)> {
             oxidation::CONTACT_TEMPERATURE_C,
         ),
         ("diffusion_distance_um", oxidation::LENGTH_UM),
+        ("wear_factor", power::FACTOR),
+        ("pressure_exponent", power::PRESSURE_EXPONENT),
+        ("speed_exponent", power::SPEED_EXPONENT),
+        ("time_exponent", power::COURSE_EXPONENT),
+        ("repetition_exponent", power::COURSE_EXPONENT),
+        ("strain_exponent", power::STRAIN_EXPONENT),
+        ("activation_temperature_k", power::ACTIVATION_TEMPERATURE_K),
+        ("reference_length_mm", power::REFERENCE_LENGTH_MM),
     ]
 }

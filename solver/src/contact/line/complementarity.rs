@@ -17,7 +17,6 @@
 
 mod layout;
 
-use super::band::Band;
 use super::newton::{Convergence, Newton};
 use super::problem::{Iterate, Problem};
 use super::response::Response;
@@ -28,6 +27,7 @@ use crate::law::wear::LocalState;
 use crate::linear::{Lemke, SquareMatrix};
 use crate::number::real;
 use layout::Layout;
+use std::ops::Range;
 
 /// Slack of each friction cone, over the pressures: it breaks ties of the pivoting. Arbitrary: 1e-8 and 1e-12 solve the
 /// same of the hard cases (`cargo test --release -p tests hard`).
@@ -207,7 +207,8 @@ impl Complementarity {
         layout: Layout,
         a: usize,
     ) {
-        self.open_column(wear.per_pressure(), a, self.slip[a]);
+        let span = self.reset_opened();
+        wear.open_by_pressure(&span, a, self.slip[a], &mut self.opened);
         let scale = layout.pressure / layout.length;
         let pressure = Unknown::pressure(problem, a);
         let (gaps, jumps) = response.column(pressure);
@@ -252,33 +253,51 @@ impl Complementarity {
             *self.matrix.at(layout.height(), place) = sign * lean;
         }
         if self.pressure[k] > 0.0 {
-            self.open_column(wear.per_slip(), k, self.pressure[k]);
+            let span = self.reset_opened();
+            wear.open_by_slip(&span, k, self.pressure[k], &mut self.opened);
             for (i, opened) in self.opened.iter().enumerate() {
                 *self.matrix.at(i, gamma) = *opened;
             }
         }
     }
 
-    /// Gaps that a path at one node opens.
-    fn open_column(&mut self, per_path: &Band, node: usize, path: f64) {
+    /// Resets the opened gaps to zero; returns the range of their nodes.
+    fn reset_opened(&mut self) -> Range<usize> {
         let n = self.pressure.len();
         self.opened.clear();
         self.opened.resize(n, 0.0);
-        per_path.add_column(&(0..n), node, path, &mut self.opened);
+        0..n
     }
 
     /// Gaps that the linearised wear subtracts at the last solution: (W_p + W_s - W) e.
     fn open_path(&mut self, wear: &WearCoupling) {
-        let n = self.pressure.len();
-        self.opened.clear();
-        self.opened.resize(n, 0.0);
+        let span = self.reset_opened();
         wear.per_pressure()
-            .add_product(&(0..n), &self.path, &mut self.opened);
+            .add_product(&span, &self.path, &mut self.opened);
         if wear.varies() {
             wear.per_slip()
-                .add_product(&(0..n), &self.path, &mut self.opened);
+                .add_product(&span, &self.path, &mut self.opened);
             wear.opening()
-                .subtract_product(&(0..n), &self.path, &mut self.opened);
+                .subtract_product(&span, &self.path, &mut self.opened);
+        }
+    }
+
+    /// The same of the wear that is no product with the path; where slip is imposed, it does not change.
+    fn open_other(&mut self, wear: &WearCoupling, sheared: bool) {
+        let Some(other) = wear.other_opening() else {
+            return;
+        };
+        let span = 0..self.pressure.len();
+        other
+            .per_pressure
+            .add_product(&span, &self.pressure, &mut self.opened);
+        if sheared {
+            other
+                .per_slip
+                .add_product(&span, &self.slip, &mut self.opened);
+        }
+        for (sum, opened) in self.opened.iter_mut().zip(&other.opened) {
+            *sum -= opened;
         }
     }
 
@@ -309,6 +328,7 @@ impl Complementarity {
             self.path.resize(layout.n, 0.0);
         }
         self.open_path(wear);
+        self.open_other(wear, layout.sheared);
         for i in 0..layout.n {
             let raised = (1.0 + problem.sag[i]) * layout.lowest;
             self.constant[i] = (problem.gap[i] + raised - self.opened[i]) / layout.length;

@@ -2,7 +2,9 @@
 
 use super::*;
 use crate::condensation::{Operators, condense};
+use crate::law::pace::Pace;
 use crate::law::surface::SurfaceWear;
+use crate::law::wear::power::{Measure, PowerLaw};
 use crate::law::wear::{LocalState, WearLaw};
 use crate::model::{build, tests::fuzz_button};
 use crate::sides::{Side, Sides};
@@ -41,7 +43,8 @@ fn wear_from(
 ) -> (Operators, Worn) {
     let scene = fuzz_button();
     let mut model = build(&scene, &crate::effects::plan(&scene)).expect("the scene can be meshed");
-    model.interface.wear = laws.map(|law| law.map(SurfaceWear::Law));
+    model.interface.wear = laws
+        .map(|law| SurfaceWear::new(&[], law).map(|wear| wear.during(Pace::at_speed(1.0), STEP)));
     let operators = condense(&model).expect("it can be condensed").operators;
     let pair = Pair {
         operators: &operators,
@@ -128,6 +131,56 @@ fn recession_is_the_rate_at_the_end_of_the_increment() {
     }
 }
 
+/// A law of which a power of the depth adds, with or without slip.
+fn of_power(measure: Measure) -> PowerLaw {
+    PowerLaw {
+        exponent: 0.8,
+        factor: 1e-8,
+        pressure_exponent: 1.5,
+        measure,
+    }
+}
+
+const MEASURES: [Measure; 2] = [
+    Measure::SlipTime {
+        speed_exponent: 0.5,
+    },
+    Measure::Time,
+];
+
+#[test]
+fn a_power_of_the_depth_adds_by_the_pressure_at_the_end_of_the_increment() {
+    for law in MEASURES.map(of_power) {
+        let laws = Sides {
+            slider: Some(WearLaw::Power(law)),
+            receptacle: Some(WearLaw::Power(law)),
+        };
+        let (operators, worn) = wear(laws, 4.0);
+        let exposure = law.exposure(Pace::at_speed(1.0), STEP);
+        let mut deepest = 0.0_f64;
+        for (l, (path, depth)) in worn.path.iter().zip(&worn.recession.receptacle).enumerate() {
+            let pressure = worn.state.pressure[worn.first.receptacle + l];
+            let slip = path / pressure.max(f64::MIN_POSITIVE);
+            let expected = law
+                .recession(0.0, 4.0 * exposure.increase(pressure, slip)[0])
+                .0;
+            assert!(
+                (depth - expected).abs() <= 1e-12 * expected,
+                "{depth} {expected}"
+            );
+            deepest = deepest.max(*depth);
+        }
+        assert!(deepest > 0.1 * worn.state.indentation, "{deepest}");
+        for side in Side::BOTH {
+            let (area, expected) = (area(&operators, &worn, side), *worn.area.of(side));
+            assert!(
+                (area / expected - 1.0).abs() < 1e-12,
+                "{side:?}: {area} {expected}"
+            );
+        }
+    }
+}
+
 #[test]
 fn a_rate_that_varies_without_exponent_wears_like_a_uniform_one() {
     let both = |law| Sides {
@@ -182,9 +235,19 @@ fn sides_wear_by_their_own_laws() {
 
 #[test]
 fn any_start_leads_to_the_same_contact() {
+    for law in [
+        power(1.0),
+        WearLaw::Power(of_power(MEASURES[0])),
+        WearLaw::Power(of_power(MEASURES[1])),
+    ] {
+        starts_lead_to_the_same_contact(law);
+    }
+}
+
+fn starts_lead_to_the_same_contact(law: WearLaw) {
     let laws = Sides {
-        slider: Some(power(1.0)),
-        receptacle: Some(power(1.0)),
+        slider: Some(law),
+        receptacle: Some(law),
     };
     let (_, worn) = wear(laws, 4.0);
     let (first, end) = worn.state.active_range().expect("the bodies touch");

@@ -6,9 +6,12 @@
 //! where the master's nodes take the path e and their recession is averaged back. The rates of a law that varies with the local
 //! state are those at the coupled nodes on either side, so that its columns of S = Mhat D^-1 M^T are multiplied by k_m; those of
 //! laws by dose, as that of a plating, belong to the nodes of their own surface, whose depths they depend on. Rates that vary add their derivatives:
-//! dF/dp = W_p |sigma| and dF/d|sigma| = W_s p (`rates`). Uniform rates are assembled once an increment.
+//! dF/dp = W_p |sigma| and dF/d|sigma| = W_s p (`rates`). Laws of which a power of the depth adds open a gap of their own
+//! (`power_opening`). Uniform rates are assembled once an increment.
 
+mod power_opening;
 mod rates;
+mod transfer;
 
 use super::band::Band;
 use super::mortar::Coupling;
@@ -16,7 +19,10 @@ use super::pair::Pair;
 use crate::law::surface::SurfaceWear;
 use crate::law::wear::LocalState;
 use crate::sides::{Side, Sides};
+use power_opening::PowerOpening;
 use rates::NodeRates;
+use std::ops::Range;
+use transfer::{assemble_transfer, transfer_path};
 
 /// Gap opening of an increment, and its derivatives.
 #[derive(Debug, Default)]
@@ -37,6 +43,8 @@ pub(super) struct WearCoupling {
     opening: Band,
     per_pressure: Band,
     per_slip: Band,
+    /// The part of sides that wear by no path.
+    by_power: PowerOpening,
 }
 
 impl WearCoupling {
@@ -53,7 +61,7 @@ impl WearCoupling {
         self.cycles = cycles;
         self.transfer.reset(coupling.len(), 0);
         let (slave, master) = (pair.interface.slave, pair.interface.slave.other());
-        if wear.of(master).is_some() && !self.wears_by_dose(master) {
+        if matches!(wear.of(master), Some(SurfaceWear::Law(_))) {
             let widths = &pair.master().widths;
             assemble_transfer(coupling, |shared, j| shared / widths[j], &mut self.transfer);
         }
@@ -82,6 +90,45 @@ impl WearCoupling {
         varies(self.wear.slider) || varies(self.wear.receptacle)
     }
 
+    /// Whether a side wears by no path.
+    fn has_power(&self) -> bool {
+        let has = |wear| matches!(wear, Some(SurfaceWear::ByPower { .. }));
+        has(self.wear.slider) || has(self.wear.receptacle)
+    }
+
+    /// The opening that is no product with the path, if there is one.
+    pub(super) fn other_opening(&self) -> Option<&PowerOpening> {
+        self.has_power().then_some(&self.by_power)
+    }
+
+    /// Adds the gaps that a pressure at a node opens, over its slip.
+    pub(super) fn open_by_pressure(
+        &self,
+        span: &Range<usize>,
+        node: usize,
+        slip: f64,
+        sum: &mut [f64],
+    ) {
+        self.per_pressure().add_column(span, node, slip, sum);
+        if let Some(other) = self.other_opening() {
+            other.per_pressure.add_column(span, node, 1.0, sum);
+        }
+    }
+
+    /// Adds the gaps that the magnitude of a slip at a node opens, over its pressure.
+    pub(super) fn open_by_slip(
+        &self,
+        span: &Range<usize>,
+        node: usize,
+        pressure: f64,
+        sum: &mut [f64],
+    ) {
+        self.per_slip().add_column(span, node, pressure, sum);
+        if let Some(other) = self.other_opening() {
+            other.per_slip.add_column(span, node, 1.0, sum);
+        }
+    }
+
     /// Linearises rates that vary about the pressures and slips of the coupled nodes.
     pub(super) fn linearise(
         &mut self,
@@ -108,7 +155,9 @@ impl WearCoupling {
             let rates = self.rates.of_mut(side);
             rates.clear();
             match *self.wear.of(side) {
-                None => rates.resize(coupling.len(), NodeRates::default()),
+                None | Some(SurfaceWear::ByPower { .. }) => {
+                    rates.resize(coupling.len(), NodeRates::default());
+                }
                 Some(SurfaceWear::Law(law)) => {
                     rates.extend(states.clone().map(|at| NodeRates::of_law(law, at)));
                 }
@@ -124,6 +173,11 @@ impl WearCoupling {
                     );
                 }
             }
+        }
+        if self.has_power() {
+            let worn = (self.wear, &self.depth);
+            self.by_power
+                .linearise((coupling, pair), worn, self.cycles, states);
         }
         self.combine(
             coupling,
@@ -207,6 +261,16 @@ impl WearCoupling {
             recession.clear();
             match *self.wear.of(side) {
                 None => 0.0,
+                Some(SurfaceWear::ByPower { .. }) => {
+                    recession.extend_from_slice(self.by_power.recession.of(side));
+                    let widths = if side == pair.interface.slave {
+                        &pair.slave().widths[coupling.first..]
+                    } else {
+                        &pair.master().widths[coupling.master_range.0..]
+                    };
+                    let nodes = recession.iter().zip(widths);
+                    nodes.map(|(worn, width)| width * worn).sum()
+                }
                 Some(SurfaceWear::Law(_)) => {
                     self.recession_by_law((coupling, pair), side, path, recession)
                 }
@@ -262,60 +326,4 @@ impl WearCoupling {
 /// The specific wear rate of a surface on which it is uniform, 1/MPa.
 fn uniform(wear: Option<SurfaceWear>) -> f64 {
     wear.and_then(SurfaceWear::uniform).unwrap_or(0.0)
-}
-
-/// Writes Mhat R M^T, where R multiplies what is shared by a node of the master.
-fn assemble_transfer(
-    coupling: &Coupling,
-    at_node: impl Fn(f64, usize) -> f64,
-    transfer: &mut Band,
-) {
-    let (n, b) = (coupling.len(), half_bandwidth(coupling));
-    transfer.reset(n, b);
-    for i in 0..n {
-        let (to, averages) = coupling.dual_row(coupling.first + i);
-        for l in i.saturating_sub(b)..(i + b + 1).min(n) {
-            let (from, shares) = coupling.standard_row(coupling.first + l);
-            let begin = to.max(from);
-            let end = (to + averages.len()).min(from + shares.len());
-            let mut sum = 0.0;
-            for j in begin..end {
-                sum += at_node(averages[j - to] * shares[j - from], j);
-            }
-            *transfer.at(i, l) = sum;
-        }
-    }
-}
-
-/// Largest distance of two rows of the coupling that share a master node.
-fn half_bandwidth(coupling: &Coupling) -> usize {
-    let mut bandwidth = 0;
-    for i in coupling.first..coupling.end {
-        let (from, weights) = coupling.dual_row(i);
-        let shares = |l: &usize| coupling.dual_row(*l).0 < from + weights.len();
-        let last = (i..coupling.end).take_while(shares).last().unwrap_or(i);
-        bandwidth = bandwidth.max(last - i);
-    }
-    bandwidth
-}
-
-/// Transfers a path p |sigma| from the coupled nodes to the master's nodes in the coupled range, MPa mm.
-fn transfer_path(
-    coupling: &Coupling,
-    master_width: &[f64],
-    path: &[f64],
-    transferred: &mut Vec<f64>,
-) {
-    let (begin, end) = coupling.master_range;
-    transferred.clear();
-    transferred.resize(end - begin, 0.0);
-    for (l, e) in path.iter().enumerate().filter(|(_, e)| **e != 0.0) {
-        let (from, weights) = coupling.standard_row(coupling.first + l);
-        for (r, weight) in transferred[from - begin..].iter_mut().zip(weights) {
-            *r += weight * e;
-        }
-    }
-    for (r, width) in transferred.iter_mut().zip(&master_width[begin..end]) {
-        *r /= width;
-    }
 }

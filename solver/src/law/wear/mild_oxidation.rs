@@ -66,7 +66,7 @@ mod tests {
             film_um: 10.0,
             hardness_mpa: 6_865.0,
         };
-        let found = law.coefficient(Pace { s_per_mm: 1e-3 });
+        let found = law.coefficient(Pace::at_speed(1e3));
         assert!((found / 5.827_372e-7 - 1.0).abs() < 1e-6, "{found}");
     }
 }

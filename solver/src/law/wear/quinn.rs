@@ -73,7 +73,7 @@ mod tests {
             oxygen_fraction: 0.3006,
             hardness_mpa: 6_865.0,
         };
-        let rate = |s_per_mm| law.rate(Pace { s_per_mm });
+        let rate = |s_per_mm| law.rate(Pace::at_speed(1.0 / s_per_mm));
         assert!(
             (rate(0.1) / 1.276_179e-11 - 1.0).abs() < 1e-6,
             "{}",

@@ -70,11 +70,7 @@ mod tests {
             diffusion_um: 10.0,
             hardness_mpa: 6_865.0,
         };
-        let at = |mm_s: f64| {
-            law.rate(Pace {
-                s_per_mm: 1.0 / mm_s,
-            })
-        };
+        let at = |mm_s: f64| law.rate(Pace::at_speed(mm_s));
         assert!((150.0 * at(5_000.0) / 1.022_428e-4 - 1.0).abs() < 1e-6);
         assert!(
             (law.slowest_mm_s() - 455.88).abs() < 5e-3,

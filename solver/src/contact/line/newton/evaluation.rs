@@ -49,6 +49,11 @@ impl Evaluation {
             let states = (0..n).map(|l| it.local_state(l));
             wear.linearise(problem.coupling, problem.pair, &states);
             wear.opening().add_product(&(0..n), &it.path, &mut it.gap);
+            if let Some(other) = wear.other_opening() {
+                for (gap, opened) in it.gap.iter_mut().zip(&other.opened) {
+                    *gap += opened;
+                }
+            }
         }
         let (mut residual, mut largest) = (0.0_f64, 0.0_f64);
         for (i, jump) in self.gap.iter().enumerate() {

@@ -19,8 +19,9 @@ pub(super) struct Jacobian {
     /// Gaps and slips of the coupled nodes per unit of an unknown.
     gap: Vec<f64>,
     slip: Vec<f64>,
-    /// Gap opened by wear, per slip.
+    /// Gap opened by wear, per slip: by the path, and by no path.
     opening: Band,
+    other_opening: Band,
 }
 
 impl Jacobian {
@@ -54,6 +55,15 @@ impl Jacobian {
                 self.opening.lump();
             }
         }
+        let other = wear.other_opening().filter(|_| problem.wears);
+        if let Some(other) = other {
+            let direction = |l: usize| partition.status(it, l).direction();
+            let per_slip = &mut self.other_opening;
+            other.per_slip.combine(direction, |_| 0.0, per_slip);
+            if lumped {
+                per_slip.lump();
+            }
+        }
         for (u, unknown) in unknowns.iter().enumerate() {
             let (gap, slip) = response.column(*unknown);
             self.gap[span.clone()].copy_from_slice(&gap[span.clone()]);
@@ -62,9 +72,11 @@ impl Jacobian {
                     self.opening.add_product(&span, slip, &mut self.gap);
                 }
                 if let Unknown::Pressure(a, _) = *unknown {
-                    let column = wear.per_pressure();
-                    column.add_column(&span, a, local(a).slip, &mut self.gap);
+                    wear.open_by_pressure(&span, a, local(a).slip, &mut self.gap);
                 }
+            }
+            if other.is_some() && problem.tracks_slip {
+                self.other_opening.add_product(&span, slip, &mut self.gap);
             }
             let balance = unknown.force(problem)[1];
             write_column(
@@ -81,6 +93,10 @@ impl Jacobian {
         }
         if problem.wears {
             self.opening.add_product(&span, &self.slip, &mut self.gap);
+        }
+        if other.is_some() {
+            self.other_opening
+                .add_product(&span, &self.slip, &mut self.gap);
         }
         let height = matrix.column_mut(unknowns.len());
         write_column(

@@ -1,0 +1,150 @@
+//! Rhee's law of friction materials: worn depth = K p^a v^b t^c.
+
+use api::spec::WearLaw;
+use solver::scene::{self, Rhee};
+
+use super::power::{
+    COURSE_EXPONENT, FACTOR, PRESSURE_EXPONENT, SPEED_EXPONENT, check_exponents, required,
+};
+use crate::spec::diagnostics::Diagnostics;
+use crate::spec::law::wearing_side::WearingSide;
+
+/// The fields of the law.
+const FIELDS: [&str; 5] = [
+    "law",
+    "wear_factor",
+    "pressure_exponent",
+    "speed_exponent",
+    "time_exponent",
+];
+
+/// Resolves the law of a specification.
+pub(super) fn resolve(
+    side: &WearingSide<'_>,
+    given: &WearLaw,
+    diagnostics: &mut Diagnostics,
+) -> (WearLaw, Option<scene::WearLaw>) {
+    diagnostics.check_fields(&side.pointer, given, &FIELDS, "rhee");
+    let mut constant = |field, value, range| required(side, (field, value), range, diagnostics);
+    let law = Rhee {
+        factor: constant("wear_factor", given.wear_factor, &FACTOR),
+        pressure_exponent: constant(
+            "pressure_exponent",
+            given.pressure_exponent,
+            &PRESSURE_EXPONENT,
+        ),
+        speed_exponent: constant("speed_exponent", given.speed_exponent, &SPEED_EXPONENT),
+        time_exponent: constant("time_exponent", given.time_exponent, &COURSE_EXPONENT),
+    };
+    let other = (law.time_exponent, "`time_exponent`");
+    check_exponents(side, given.pressure_exponent, other, diagnostics);
+    (given.clone(), Some(scene::WearLaw::Power(law.power_law())))
+}
+
+#[cfg(test)]
+mod tests {
+    use solver::scene::WearLaw;
+
+    use crate::spec::tests::{accepted, faults};
+
+    fn specification(law: &str, rest: &str) -> String {
+        format!(
+            r#"{{"system":{{"kind":"sd_card"}},"interface":{{"wear":{{"receptacle":{{"law":"{law}"{rest}}}}}}}}}"#
+        )
+    }
+
+    fn pointers(law: &str, rest: &str) -> Vec<String> {
+        let found = faults(&specification(law, rest)).into_iter();
+        let pointers = found.map(|fault| fault.pointer.replace("/interface/wear/receptacle/", ""));
+        pointers.collect()
+    }
+
+    const RHEE: &str =
+        r#","wear_factor":2e-9,"pressure_exponent":1.2,"speed_exponent":0.8,"time_exponent":0.9"#;
+    const REPETITION: &str = r#","wear_factor":1e-13,"pressure_exponent":1.5,"repetition_exponent":0.8,"reference_length_mm":1e-3"#;
+    const STRAIN: &str = r#","wear_factor":1e-9,"pressure_exponent":2,"strain_exponent":-0.5,"activation_temperature_k":1000,
+        "contact_temperature_c":26.85,"reference_length_mm":1e-3"#;
+
+    #[test]
+    fn constants_that_nobody_has_published_are_asked_by_name() {
+        assert_eq!(
+            pointers("rhee", ""),
+            [
+                "wear_factor",
+                "pressure_exponent",
+                "speed_exponent",
+                "time_exponent"
+            ]
+        );
+        assert_eq!(
+            pointers("load_repetition", ""),
+            [
+                "wear_factor",
+                "pressure_exponent",
+                "repetition_exponent",
+                "reference_length_mm"
+            ]
+        );
+        assert_eq!(
+            pointers("strain_hardening", ""),
+            [
+                "wear_factor",
+                "pressure_exponent",
+                "strain_exponent",
+                "activation_temperature_k",
+                "contact_temperature_c",
+                "reference_length_mm"
+            ]
+        );
+        for (law, rest) in [
+            ("rhee", RHEE),
+            ("load_repetition", REPETITION),
+            ("strain_hardening", STRAIN),
+        ] {
+            let resolved = accepted(&specification(law, rest));
+            assert!(matches!(
+                resolved.scene.receptacle.wear,
+                Some(WearLaw::Power(_))
+            ));
+            let again = serde_json::to_string(&resolved.spec).expect("JSON");
+            assert_eq!(accepted(&again).scene, resolved.scene);
+        }
+    }
+
+    #[test]
+    fn exponents_without_a_limit_at_the_edge_are_refused() {
+        let steep = RHEE.replace("0.9", "1.3");
+        assert_eq!(pointers("rhee", &steep), ["pressure_exponent"]);
+        let steep = REPETITION.replace("0.8", "1.6");
+        assert_eq!(pointers("load_repetition", &steep), ["pressure_exponent"]);
+        let steep = STRAIN.replace("-0.5", "-1.5");
+        assert_eq!(pointers("strain_hardening", &steep), ["pressure_exponent"]);
+        let foreign = format!(r#"{RHEE},"reference_length_mm":1"#);
+        assert_eq!(pointers("rhee", &foreign), ["reference_length_mm"]);
+    }
+
+    #[test]
+    fn platings_and_continuous_repetitions_are_refused_by_name() {
+        let layer = format!(
+            r#"{{"system":{{"kind":"sd_card"}},"plating":{{"receptacle":[{{"material":"silver","thickness_um":1,"wear":{{"law":"rhee"{RHEE}}}}}]}}}}"#
+        );
+        assert_eq!(faults(&layer)[0].pointer, "/plating/receptacle/0/wear");
+        let base = format!(
+            r#"{{"system":{{"kind":"sd_card"}},"plating":{{"receptacle":[{{"material":"silver","thickness_um":1}}]}},"interface":
+            {{"wear":{{"receptacle":{{"law":"rhee"{RHEE}}}}}}}}}"#
+        );
+        assert_eq!(faults(&base)[0].pointer, "/interface/wear/receptacle");
+        let turning = |law: &str| {
+            format!(
+                r#"{{"system":{{"kind":"cylinder_on_flat"}},"motion":{{"kind":"continuous","distance_mm":100}},"interface":{{"wear":{{
+                "slider":null,"receptacle":{law}}}}}}}"#
+            )
+        };
+        let repetition = turning(&format!(r#"{{"law":"load_repetition"{REPETITION}}}"#));
+        assert_eq!(
+            faults(&repetition)[0].pointer,
+            "/interface/wear/receptacle/law"
+        );
+        accepted(&turning(&format!(r#"{{"law":"rhee"{RHEE}}}"#)));
+    }
+}
