@@ -311,7 +311,8 @@ impl<'a> Integrator<'a> {
         let done = self
             .solver
             .advance(&self.pair, &surfaces, last, to, &mut self.next)?;
-        wear_limit::check(&self.spines, &state.depth, to.slider_x, &done)?;
+        let limit = self.scene.accuracy.largest_wear_mm;
+        wear_limit::check(&self.spines, &state.depth, to.slider_x, &done, limit)?;
         for side in Side::BOTH {
             *state.worn_area.of_mut(side) += done.worn_area.of(side);
             let depths = &mut state.depth.of_mut(side)[*done.first.of(side)..];

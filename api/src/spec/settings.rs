@@ -71,6 +71,9 @@ pub struct Overrides {
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schema(value_type = Option<serde_json::Value>)]
     pub cycle_jump: Option<CycleJump>,
+    /// Most wear of a point in an increment, mm, as explicit schemes limit it; for comparison with them, the implicit solve needs none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub largest_wear_mm: Option<f64>,
 }
 
 /// Physical cycles per computed cycle: `"adaptive"` or a count.

@@ -91,6 +91,7 @@ fn numbers() -> Vec<(&'static str, &'static str, RangeInclusive<f64>)> {
         ("Stop", "fraction", criterion::FRACTION),
         ("Stop", "mm", criterion::WORN_DEPTH_MM),
         ("Accuracy", "tolerance", accuracy::TOLERANCE),
+        ("Overrides", "largest_wear_mm", accuracy::LARGEST_WEAR_MM),
         ("Stop", "worn_depth_mm", criterion::WORN_DEPTH_MM),
     ];
     let laws = law::numbers().into_iter();
@@ -321,6 +322,10 @@ mod tests {
                 ),
             ),
             "Accuracy" => ("/accuracy", format!(r#""accuracy":{{"{field}":{value}}}"#)),
+            "Overrides" => (
+                "/accuracy/overrides",
+                format!(r#""accuracy":{{"overrides":{{"{field}":{value}}}}}"#),
+            ),
             "Stop" if field == "worn_depth_mm" => {
                 ("/stop/0", format!(r#""stop":[{{"{field}":{value}}}]"#))
             }

@@ -1,4 +1,11 @@
-//! Limit of the wear in one increment.
+//! Limits of the wear in one increment.
+//!
+//! Explicit schemes, which add dh = k p |ds| to the depths with the pressure of the increment's beginning (thesis, equation 14, whose
+//! indices of node and step are exchanged between its two terms), become erratic where an increment wears more than the contact is
+//! indented, so that Podra and Andersson (1999) limit it. The implicit solve is stable for any increment and needs no limit: one is an
+//! option for comparison with such schemes. Nothing is cut off: an increment beyond it is halved, and a jump whose increments cannot be
+//! halved any further is shortened, so that the worn area stays that of the law. Cycles that are extrapolated in a groove are no
+//! increments.
 
 use crate::ale::Spines;
 use crate::contact::{ContactError, Increment};
@@ -7,16 +14,32 @@ use crate::sides::{Side, Sides};
 /// Largest wear of an increment at a node over the remaining height there; an increment beyond it is halved.
 const LARGEST_SHARE: f64 = 0.9;
 
-/// Checks that an increment leaves part of both bodies, for worn depths in mm.
+/// Checks that an increment leaves part of both bodies, for worn depths in mm, and wears at most a depth in mm.
 ///
 /// # Errors
-/// [`ContactError::TooMuchWear`].
+/// [`ContactError::TooMuchWear`], [`ContactError::BeyondWearLimit`].
 pub(super) fn check(
     spines: &Spines,
     depth: &Sides<Vec<f64>>,
     slider_x: f64,
     done: &Increment<'_>,
+    largest_mm: Option<f64>,
 ) -> Result<(), ContactError> {
+    if let Some(limit_mm) = largest_mm {
+        let recessions = done
+            .recession
+            .slider
+            .iter()
+            .chain(done.recession.receptacle);
+        let wear_mm = recessions.fold(0.0, |m: f64, d| m.max(*d));
+        if wear_mm > limit_mm {
+            return Err(ContactError::BeyondWearLimit {
+                slider_x_mm: slider_x,
+                wear_mm,
+                limit_mm,
+            });
+        }
+    }
     for side in [Side::Receptacle, Side::Slider] {
         let first = *done.first.of(side);
         let (lengths, depths) = (spines.lengths(), depth.of(side));

@@ -48,6 +48,7 @@ impl RunAccuracy {
                     contact_element_mm: Some(settings.contact_element_mm),
                     increments_per_cycle: Some(settings.increments_per_cycle),
                     cycle_jump: Some(CycleJump::Fixed(settings.jump())),
+                    ..Overrides::default()
                 }),
                 estimate_errors: Some(false),
             },
