@@ -39,7 +39,6 @@ use api::spec::{DerivedMotion, ParseError, Spec, SystemKind};
 use solver::law::friction;
 use solver::model::Layout;
 use solver::scene::{Body, Scene};
-use solver::sides::Side;
 
 pub use conductors::Conductors;
 pub(crate) use conductors::Metal;
@@ -190,10 +189,7 @@ fn fill(spec: &Spec, kind: SystemKind, diagnostics: &mut Diagnostics) -> Filled 
         (&preset, plated),
         diagnostics,
     );
-    for side in Side::BOTH.into_iter().filter(|side| *plated.of(*side)) {
-        let pointer = format!("/interface/wear/{}", side.name());
-        law::check_plated(&pointer, *laws.wear.of(side), diagnostics);
-    }
+    law::check_plated_sides(&laws, plated, diagnostics);
     let friction = friction::coefficient(laws.friction);
     let (platings, layers) = plating::resolve(&spec.plating, friction, diagnostics);
     let (load, line_load) = load::resolve(spec.load.as_ref(), &preset, &shapes, diagnostics);
@@ -203,23 +199,15 @@ fn fill(spec: &Spec, kind: SystemKind, diagnostics: &mut Diagnostics) -> Filled 
     };
     let movement = movement::resolve(spec, &preset, contact, diagnostics);
     let cycles = movement.total_cycles;
-    if movement.distance_mm.is_some() && (laws.wear.slider.is_some() || plated.slider) {
-        diagnostics.fault(
-            "/interface/wear/slider",
-            "a slider whose surface runs past continuously cannot wear yet; write null",
-        );
-    }
     if movement.distance_mm.is_some() {
-        law::check_continuous(&laws, diagnostics);
+        law::check_continuous(&laws, plated, diagnostics);
     }
     let (accuracy, numerical) = accuracy::resolve(&spec.accuracy, &shapes, cycles, diagnostics);
     let (output, recorded) = output::resolve(&spec.output, &movement, &shapes, diagnostics);
+    let wears = laws.wear.zip(plated);
     let surfaces = criterion::Surfaces {
         plating: &layers,
-        wears: laws
-            .wear
-            .zip(plated)
-            .map(|(law, plated)| law.is_some() || plated),
+        wears: wears.map(|(law, plated)| law.is_some() || plated),
     };
     let stop = stop::resolve(&spec.stop, surfaces, diagnostics);
     let (life, criteria) = life::resolve(&spec.life, surfaces, diagnostics);

@@ -167,8 +167,22 @@ pub(super) fn check_plated(
     }
 }
 
-/// Adds a fault for a law that counts repetitions of the load where none are: in a continuous motion.
-pub(super) fn check_continuous(laws: &Laws, diagnostics: &mut Diagnostics) {
+/// The same for the bases of plated sides.
+pub(super) fn check_plated_sides(laws: &Laws, plated: Sides<bool>, diagnostics: &mut Diagnostics) {
+    for side in Side::BOTH.into_iter().filter(|side| *plated.of(*side)) {
+        let pointer = format!("/interface/wear/{}", side.name());
+        check_plated(&pointer, *laws.wear.of(side), diagnostics);
+    }
+}
+
+/// Adds faults for what a continuous motion cannot have: a slider that wears, a law that counts repetitions of the load.
+pub(super) fn check_continuous(laws: &Laws, plated: Sides<bool>, diagnostics: &mut Diagnostics) {
+    if laws.wear.slider.is_some() || plated.slider {
+        diagnostics.fault(
+            "/interface/wear/slider",
+            "a slider whose surface runs past continuously cannot wear yet; write null",
+        );
+    }
     for side in Side::BOTH {
         let counts = |law: &scene::WearLaw| matches!(law, scene::WearLaw::Power(law) if law.counts_repetitions());
         if laws.wear.of(side).as_ref().is_some_and(counts) {
