@@ -7,7 +7,7 @@ use utoipa::ToSchema;
 
 use crate::enum_value::string_enum;
 use crate::results::BlockExtent;
-use crate::spec::{DerivedMotion, Spec};
+use crate::spec::{Criterion, DerivedMotion, Provenance, Spec};
 
 string_enum! {
     /// A decision about an effect.
@@ -94,6 +94,43 @@ pub struct Warning {
     pub detail: String,
 }
 
+/// The life by a criterion, estimated in closed form before anything is solved: of laws whose rate is the same in every state,
+/// under a constant load, in gross slip.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct PlannedLife {
+    /// The criterion, with its side.
+    pub criterion: Criterion,
+    /// The side, `slider` or `receptacle`.
+    pub side: String,
+    /// Cycles of the motion until it is reached, whatever the run's cycles are; null for a continuous motion, and where it
+    /// is never reached.
+    pub cycles: Option<f64>,
+    /// Imposed sliding distance until then, mm.
+    pub sliding_distance_mm: Option<f64>,
+    /// The same beside the rated matings. Absent for a worn depth, where no rating is published, and where it is never reached.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub rated: Option<RatedLife>,
+}
+
+/// Matings until an exposure beside the rated ones.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct RatedLife {
+    /// Estimated matings until the exposure: passes in and out over the wipe.
+    pub matings: f64,
+    /// Matings that connectors of this kind are rated for.
+    pub rated_matings: f64,
+    /// Matings over the rated ones; below 1 the plating is through within the rated life.
+    pub matings_over_rated: f64,
+    /// Provenance of the rated matings.
+    pub rated_matings_provenance: Provenance,
+    /// Whose rating it is.
+    pub rating: String,
+    /// Path of the contact in one direction of a mating, mm: that of the motion if it is a mating.
+    pub wipe_mm: f64,
+    /// Provenance of the wipe.
+    pub wipe_provenance: Provenance,
+}
+
 /// A plan: simulated effects with reasons, and estimates.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct Plan {
@@ -110,6 +147,9 @@ pub struct Plan {
     /// Blocks of a mission over all repetitions, in their order.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub mission: Vec<BlockExtent>,
+    /// Lives by the criteria of the specification, and beside the rated matings of its kind.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub life: Vec<PlannedLife>,
     /// Values that were probably written in another unit than that of their field. They are accepted as they are.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub warnings: Vec<Warning>,

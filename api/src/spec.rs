@@ -72,7 +72,7 @@ pub struct Spec {
     #[serde(default)]
     pub interface: Interface,
     /// Layers over the base materials.
-    #[serde(default, skip_serializing_if = "Platings::is_empty")]
+    #[serde(default, skip_serializing_if = "Platings::is_absent")]
     pub plating: Platings,
     /// The normal load.
     #[serde(skip_serializing_if = "Option::is_none")]

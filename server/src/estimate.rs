@@ -2,6 +2,7 @@
 //! contact increments, and the processor time that this machine needs for them.
 
 pub mod footprint;
+mod life;
 pub mod machine;
 mod notes;
 mod plan;

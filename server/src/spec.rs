@@ -8,6 +8,7 @@ mod accuracy;
 mod blocks;
 mod cause;
 mod conductors;
+mod covering;
 mod criterion;
 mod diagnostics;
 mod effects;
@@ -46,6 +47,7 @@ use diagnostics::Diagnostics;
 pub(crate) use diagnostics::NAME_LIMIT;
 pub(crate) use motion::CYCLES;
 use movement::Movement;
+pub(crate) use rated_life::RatedMatings;
 pub(crate) use suggestion::did_you_mean;
 pub(crate) use system::definition as system_definition;
 
@@ -144,7 +146,7 @@ pub fn resolve(spec: &Spec) -> Result<Resolved, Vec<Fault>> {
     let mut warnings = diagnostics.warnings().to_vec();
     warnings.extend(law_range::warnings(&filled, &scene));
     warnings.extend(effects::warnings(&scene));
-    warnings.extend(rated_life::warning(kind, &scene));
+    warnings.extend(rated_life::warnings(kind, filled.motion.as_ref(), &scene));
     let sticks = movement.all_derived().filter(|(_, motion)| motion.sticks);
     warnings.extend(sticks.map(|(pointer, motion)| Fault::new(&pointer, motion.reason.clone())));
     let blocks = blocks::extents(&filled, &movement);
@@ -178,20 +180,21 @@ fn scene_of(spec: &Spec, kind: SystemKind) -> Option<Scene> {
 
 /// The specification with every default filled in, and its scene.
 fn fill(spec: &Spec, kind: SystemKind, diagnostics: &mut Diagnostics) -> Filled {
-    let preset = (system::definition(kind).preset)();
+    let preset = covering::preset_for_motion(spec, (system::definition(kind).preset)());
     let (system, shapes) = system::resolve(kind, &spec.system, diagnostics);
     let (materials, elastic) = materials::resolve(&spec.materials, &preset, diagnostics);
-    let plated = plating::by_side(&spec.plating).map(|layers| !layers.is_empty());
+    let coverings = covering::resolve(spec, &preset);
+    let plated = coverings.map(|covering| covering.is_plated());
     let (interface, laws) = law::resolve(
         &spec.interface,
         &spec.materials,
         &materials,
-        (&preset, plated),
+        (&preset, coverings),
         diagnostics,
     );
     law::check_plated_sides(&laws, plated, diagnostics);
     let friction = friction::coefficient(laws.friction);
-    let (platings, layers) = plating::resolve(&spec.plating, friction, diagnostics);
+    let (platings, layers) = plating::resolve(coverings, friction, diagnostics);
     let (load, line_load) = load::resolve(spec.load.as_ref(), &preset, &shapes, diagnostics);
     let contact = motion::HeldContact {
         friction,

@@ -1,5 +1,6 @@
 //! The model: two meshed bodies with their surfaces, materials and supports. Knows both meshes and laws.
 
+pub mod expected_life;
 pub mod layout;
 pub mod profile;
 pub mod resolution;

@@ -12,7 +12,7 @@ use std::path::Path;
 use std::time::Instant;
 
 use serde_json::{Value, json};
-use tests::{Server, bits, database, fretwear};
+use tests::{Server, bare_preset, bits, database, fretwear, merged};
 
 use trial::Trial;
 
@@ -24,13 +24,15 @@ const MOST_MORE: usize = 60;
 /// The specifications of the jobs, in rotation.
 fn specs() -> Vec<Value> {
     let spec = |kind: &str, cycles: u64, jump: u64| {
-        json!({
-            "system": {"kind": kind},
+        let length = json!({
             "cycles": cycles,
             "accuracy": {"preset": "draft", "overrides": {"cycle_jump": jump}},
             "output": {"snapshots_at_cycles": [1, cycles]}
-        })
+        });
+        merged(bare_preset(kind), length)
     };
+    let mut plated = spec("dimm", 40, 1);
+    plated["interface"] = json!({});
     let mut with_fields = spec("cylinder_on_flat", 20, 1);
     with_fields["output"]["fields"] = true.into();
     vec![
@@ -40,6 +42,7 @@ fn specs() -> Vec<Value> {
         // The block loses so much height that the mesh is moved.
         spec("fuzz_button", 700, 20),
         spec("dimm", 40, 1),
+        plated,
     ]
 }
 

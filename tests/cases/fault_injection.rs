@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use nix::sys::signal::{Signal, kill};
 use serde_json::{Value, json};
-use tests::{Disk, Server, bits, database};
+use tests::{Disk, Server, bare_preset, bits, database, merged};
 
 /// Checkpoints after every computed cycle.
 const EVERY_CYCLE: [&str; 2] = ["--checkpoint-every-s", "0"];
@@ -14,12 +14,14 @@ const EVERY_CYCLE: [&str; 2] = ["--checkpoint-every-s", "0"];
 /// A job of so many computed cycles; interrupted ones have enough to be found running after a poll, also where other
 /// programs occupy the processors.
 fn spec(cycles: u64) -> Value {
-    json!({
-        "system": {"kind": "fuzz_button"},
-        "cycles": cycles,
-        "accuracy": {"preset": "draft", "overrides": {"cycle_jump": 1}},
-        "output": {"snapshots_at_cycles": [1, 20, cycles], "fields": true}
-    })
+    merged(
+        bare_preset("fuzz_button"),
+        json!({
+            "cycles": cycles,
+            "accuracy": {"preset": "draft", "overrides": {"cycle_jump": 1}},
+            "output": {"snapshots_at_cycles": [1, 20, cycles], "fields": true}
+        }),
+    )
 }
 
 async fn submitted(server: &Server, spec: &Value) -> String {
@@ -113,10 +115,12 @@ async fn a_store_that_stalls_across_the_end_of_a_job_uses_no_attempt() {
 async fn a_job_beyond_its_memory_limit_ends_alone_with_the_reason() {
     let folder = tempfile::tempdir().expect("a folder can be made");
     let server = Server::start_with(folder.path(), &["--job-memory-mb", "64"]);
-    let large = json!({
-        "system": {"kind": "fuzz_button"},
-        "accuracy": {"preset": "fine", "overrides": {"contact_element_mm": 0.00005}}
-    });
+    let large = merged(
+        bare_preset("fuzz_button"),
+        json!({
+            "accuracy": {"preset": "fine", "overrides": {"contact_element_mm": 0.00005}}
+        }),
+    );
     let id = submitted(&server, &large).await;
     let job = ended(&server, &id).await;
     assert_eq!(
@@ -200,12 +204,14 @@ async fn a_running_job_ends_at_its_deadline_and_retains_its_results() {
 async fn a_disk_that_is_full_while_fields_are_written_uses_no_attempt() {
     let disk = Disk::new(256);
     let cycles: Vec<u64> = (1..=30).collect();
-    let spec = json!({
-        "system": {"kind": "fuzz_button"},
-        "cycles": 30,
-        "accuracy": {"preset": "draft", "overrides": {"cycle_jump": 1}},
-        "output": {"snapshots_at_cycles": cycles, "fields": true}
-    });
+    let spec = merged(
+        bare_preset("fuzz_button"),
+        json!({
+            "cycles": 30,
+            "accuracy": {"preset": "draft", "overrides": {"cycle_jump": 1}},
+            "output": {"snapshots_at_cycles": cycles, "fields": true}
+        }),
+    );
     let expected = uninterrupted(&spec).await;
     let server = Server::start_with(disk.path(), &["--least-free-disk-mb", "0"]);
     let id = submitted(&server, &spec).await;

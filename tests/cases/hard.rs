@@ -10,7 +10,7 @@ mod extreme_loads;
 mod fading_spring;
 mod first_touch;
 mod friction_beyond_one;
-mod invariants;
+pub(crate) mod invariants;
 mod jumps;
 mod leaving_the_block;
 mod long_wipes;

@@ -32,6 +32,7 @@ mod many_jobs;
 mod mission;
 mod pages_in_a_browser;
 mod plated_contact;
+mod plated_presets;
 mod predicted_cost;
 mod readme_commands;
 mod refused_specifications;

@@ -4,7 +4,7 @@ use std::time::Duration;
 
 use nix::sys::signal::Signal;
 use serde_json::json;
-use tests::{Server, bits, database};
+use tests::{Server, bare_preset, bits, database, merged};
 
 /// One process serves a database, so no other can take over from a stopped one. If the lock is lost, as on a file
 /// system without locks, the lease number must separate the two.
@@ -13,11 +13,13 @@ async fn a_service_that_continues_after_another_finished_its_job_writes_nothing(
     let folder = tempfile::tempdir().expect("a folder can be made");
     let options = ["--lease-s", "1", "--checkpoint-every-s", "0"];
     let stopped = Server::start_with(folder.path(), &options);
-    let spec = json!({
-        "system": {"kind": "fuzz_button"},
-        "cycles": 600,
-        "accuracy": {"preset": "draft", "overrides": {"cycle_jump": 1}}
-    });
+    let spec = merged(
+        bare_preset("fuzz_button"),
+        json!({
+            "cycles": 600,
+            "accuracy": {"preset": "draft", "overrides": {"cycle_jump": 1}}
+        }),
+    );
     let (_, job) = stopped.submit(spec.to_string()).await;
     let id = job["id"].as_str().expect("a job has an id").to_owned();
     stopped
@@ -52,11 +54,13 @@ async fn a_service_that_continues_after_another_finished_its_job_writes_nothing(
 async fn a_service_that_was_paused_beyond_its_leases_continues_its_jobs() {
     let folder = tempfile::tempdir().expect("a folder can be made");
     let server = Server::start_with(folder.path(), &["--lease-s", "4"]);
-    let spec = json!({
-        "system": {"kind": "fuzz_button"},
-        "cycles": 1000,
-        "accuracy": {"preset": "draft", "overrides": {"cycle_jump": 1}}
-    });
+    let spec = merged(
+        bare_preset("fuzz_button"),
+        json!({
+            "cycles": 1000,
+            "accuracy": {"preset": "draft", "overrides": {"cycle_jump": 1}}
+        }),
+    );
     let (_, job) = server.submit(spec.to_string()).await;
     let id = job["id"].as_str().expect("a job has an id").to_owned();
     server

@@ -1,5 +1,6 @@
 //! Shared by the end-to-end cases: runs the real binary as a user would, in a folder of its own.
 
+mod bare_preset;
 pub mod bits;
 pub mod calculix;
 pub mod database;
@@ -8,6 +9,7 @@ pub mod program;
 pub mod server;
 mod stepped_clock;
 
+pub use bare_preset::{bare_preset, merged};
 pub use disk::Disk;
 pub use program::{Ran, binary, fretwear, fuzz_button_with_jump, spec};
 pub use server::{Log, Server};

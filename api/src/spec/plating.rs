@@ -5,21 +5,22 @@ use utoipa::ToSchema;
 
 use super::{Material, WearLaw};
 
-/// The platings of both parts.
+/// The platings of both parts. A part without a list has the preset's plating, unless its material or the law of its wear is given: it
+/// is bare then. A part whose list is empty is bare.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct Platings {
     /// Layers of the sprung or vibrating part, from the surface down.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub slider: Vec<PlatingLayer>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub slider: Option<Vec<PlatingLayer>>,
     /// Layers of the fixed part, from the surface down.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub receptacle: Vec<PlatingLayer>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub receptacle: Option<Vec<PlatingLayer>>,
 }
 
 impl Platings {
-    /// Whether neither part is plated.
-    pub fn is_empty(&self) -> bool {
-        self.slider.is_empty() && self.receptacle.is_empty()
+    /// Whether neither part has a list.
+    pub fn is_absent(&self) -> bool {
+        self.slider.is_none() && self.receptacle.is_none()
     }
 }
 

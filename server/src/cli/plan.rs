@@ -2,8 +2,9 @@
 
 use std::path::Path;
 
-use api::plan::{Plan, PlanDocument, PlannedEffect};
+use api::plan::{Plan, PlanDocument, PlannedEffect, RatedLife};
 use api::results::BlockExtent;
+use api::spec::{Criterion, EnumValue};
 use comfy_table::Table;
 
 use crate::cli::terminal::{Ended, specification, write_json, write_out};
@@ -31,6 +32,9 @@ pub(super) fn run(spec: &Path, json: bool) -> Ended {
     }
     if !plan.mission.is_empty() {
         write_out(blocks(&plan.mission))?;
+    }
+    if !plan.life.is_empty() {
+        write_out(lives(&plan))?;
     }
     write_out(plan.notes.join("\n"))
 }
@@ -116,6 +120,48 @@ fn blocks(blocks: &[BlockExtent]) -> Table {
         ]);
     }
     table
+}
+
+/// Lives in cycles of the motion, and in matings beside the rated ones.
+fn lives(plan: &Plan) -> Table {
+    let header = [
+        "expected life until",
+        "side",
+        "cycles",
+        "matings",
+        "rated",
+        "matings/rated",
+    ];
+    let mut table = markdown::table(header, 4);
+    for life in &plan.life {
+        let of_rated = |value: fn(&RatedLife) -> f64| {
+            let rated = life.rated.as_ref();
+            rated.map_or_else(String::new, |rated| number(value(rated)))
+        };
+        table.add_row([
+            until(&life.criterion),
+            life.side.clone(),
+            life.cycles
+                .map_or_else(String::new, |cycles| format!("{cycles:.0}")),
+            of_rated(|rated| rated.matings.round()),
+            of_rated(|rated| rated.rated_matings),
+            of_rated(|rated| rated.matings_over_rated),
+        ]);
+    }
+    table
+}
+
+/// A criterion with its layer, part or depth.
+fn until(criterion: &Criterion) -> String {
+    let kind = match &criterion.kind {
+        EnumValue::Known(kind) => kind.as_str(),
+        EnumValue::Unknown(text) => text,
+    };
+    let layer = criterion.layer.map(|layer| format!(", layer {layer}"));
+    let fraction = criterion.fraction.map(|part| format!(", {}", number(part)));
+    let depth = criterion.mm.map(|mm| format!(", {} mm", number(mm)));
+    let details = [layer, fraction, depth].into_iter().flatten();
+    details.fold(kind.to_owned(), |text, detail| text + &detail)
 }
 
 fn estimates(plan: &Plan) -> Table {

@@ -89,21 +89,34 @@ mod tests {
     use crate::estimate::Estimate;
     use crate::spec;
 
+    /// The surfaces of the base scene.
+    const FUZZ_BUTTON: &str = r#""materials":{"slider":"copper","receptacle":"copper"},
+        "interface":{"friction":{"law":"coulomb","coefficient":1.21},
+        "wear":{"slider":null,"receptacle":{"law":"archard","k":0.011,"hardness_mpa":427}}}"#;
+
     fn footprint(text: &str) -> Footprint {
         Estimate::of(&spec::read(text.as_bytes()).expect("accepted")).footprint
     }
 
     #[test]
     fn estimates_match_measured_runs() {
+        let zif = r#""interface":{"wear":{"slider":null,"receptacle":{"law":"archard","k":0.004,"hardness_mpa":1700}}}"#;
         // Unknowns and peak memory of whole runs, as `fretwear solve` reported them.
-        for (kind, preset, dofs, memory_mb) in [
-            ("fuzz_button", "fine", 75_660.0, 262.0),
-            ("fuzz_button", "standard", 21_488.0, 66.0),
-            ("zif", "fine", 56_144.0, 107.0),
-            ("cylinder_on_flat", "draft", 5_760.0, 16.0),
+        for (kind, surfaces, preset, dofs, memory_mb) in [
+            ("fuzz_button", FUZZ_BUTTON, "fine", 75_660.0, 262.0),
+            ("fuzz_button", FUZZ_BUTTON, "standard", 21_488.0, 66.0),
+            ("zif", zif, "fine", 56_144.0, 107.0),
+            (
+                "cylinder_on_flat",
+                "\"materials\":{}",
+                "draft",
+                5_760.0,
+                16.0,
+            ),
         ] {
-            let text =
-                format!(r#"{{"system":{{"kind":"{kind}"}},"accuracy":{{"preset":"{preset}"}}}}"#);
+            let text = format!(
+                r#"{{"system":{{"kind":"{kind}"}},{surfaces},"accuracy":{{"preset":"{preset}"}}}}"#
+            );
             let footprint = footprint(&text);
             assert!(
                 (footprint.dofs / dofs - 1.0).abs() < 0.2,
@@ -118,11 +131,13 @@ mod tests {
 
     #[test]
     fn fields_and_fixed_jumps_add_output() {
-        let plain =
-            footprint(r#"{"system":{"kind":"fuzz_button"},"output":{"snapshots_at_cycles":[2]}}"#);
-        let fields = footprint(
-            r#"{"system":{"kind":"fuzz_button"},"output":{"snapshots_at_cycles":[2],"fields":true}}"#,
-        );
+        let of = |output: &str| {
+            footprint(&format!(
+                r#"{{"system":{{"kind":"fuzz_button"}},{FUZZ_BUTTON},"output":{{{output}}}}}"#
+            ))
+        };
+        let plain = of(r#""snapshots_at_cycles":[2]"#);
+        let fields = of(r#""snapshots_at_cycles":[2],"fields":true"#);
         // Four files of 2.15 MB.
         assert!(
             (fields.output_mb - plain.output_mb - 8.6).abs() < 1.0,

@@ -86,8 +86,16 @@ mod tests {
         let base = of(r#"{"system":{"kind":"fuzz_button"}}"#);
         assert_eq!(base.len(), 4, "{base:?}");
         assert!(base[0].starts_with("427 MPa"));
-        assert!(of(r#"{"system":{"kind":"sd_card"}}"#).is_empty());
-        let coarse = of(r#"{"system":{"kind":"sd_card"},"accuracy":{"preset":"source_fine"}}"#);
+        // The copper below its plating.
+        let plated = of(r#"{"system":{"kind":"sd_card"}}"#);
+        assert!(plated.len() == 1 && plated[0].starts_with("427 MPa"));
+        let worn =
+            r#""interface":{"wear":{"receptacle":{"law":"archard","k":1e-4,"hardness_mpa":1700}}}"#;
+        assert!(of(&format!(r#"{{"system":{{"kind":"sd_card"}},{worn}}}"#)).is_empty());
+        let fine = r#""accuracy":{"preset":"source_fine"}"#;
+        let coarse = of(&format!(
+            r#"{{"system":{{"kind":"sd_card"}},{worn},{fine}}}"#
+        ));
         assert!(coarse[0].contains("artefacts"), "{coarse:?}");
     }
 }

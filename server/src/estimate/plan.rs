@@ -9,7 +9,7 @@ use solver::effects::{self, Indicator};
 use solver::model::resolution;
 use solver::scene::Scene;
 
-use crate::estimate::{Estimate, machine, notes};
+use crate::estimate::{Estimate, life, machine, notes};
 use crate::export::history;
 use crate::spec::Resolved;
 
@@ -31,6 +31,7 @@ impl Estimate {
                 .collect(),
             motion: resolved.motion.clone(),
             mission: resolved.blocks.clone(),
+            life: life::planned(resolved),
             warnings: resolved.warnings.iter().map(warning).collect(),
             notes: notes::notes(resolved),
         }

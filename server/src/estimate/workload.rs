@@ -109,7 +109,12 @@ mod tests {
 
     #[test]
     fn a_tighter_tolerance_is_more_work_and_a_stop_condition_less() {
-        let system = |rest: &str| workload(&format!(r#"{{"system":{{"kind":"sd_card"}}{rest}}}"#));
+        let system = |rest: &str| {
+            let law = r#"{"law":"archard","k":0.004,"hardness_mpa":1700}"#;
+            workload(&format!(
+                r#"{{"system":{{"kind":"sd_card"}},"interface":{{"wear":{{"slider":null,"receptacle":{law}}}}}{rest}}}"#
+            ))
+        };
         let standard = system("");
         let fine = system(r#","accuracy":{"preset":"fine"}"#);
         assert!(fine.increments() > 4.0 * standard.increments());

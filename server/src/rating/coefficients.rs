@@ -23,7 +23,8 @@ pub(super) fn scale(spec: &mut Spec, factor: f64) -> Vec<Coefficient> {
         ("slider", &mut plating.slider),
         ("receptacle", &mut plating.receptacle),
     ] {
-        for (index, PlatingLayer { material, wear, .. }) in layers.iter_mut().enumerate() {
+        for (index, PlatingLayer { material, wear, .. }) in layers.iter_mut().flatten().enumerate()
+        {
             let pointer = format!("/plating/{side}/{index}/wear");
             if let Some(law) = wear {
                 scaled.extend(scale_law(&pointer, material.as_ref(), law, factor));

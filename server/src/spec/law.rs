@@ -10,6 +10,7 @@ mod mild_oxidation;
 mod numbers;
 mod oxidation;
 mod power;
+mod preset_friction;
 mod quinn;
 mod rhee;
 mod saracibar;
@@ -25,6 +26,7 @@ use api::spec::{
 use solver::scene;
 use solver::sides::{Side, Sides};
 
+use crate::spec::covering::Covering;
 use crate::spec::diagnostics::Diagnostics;
 use crate::spec::materials::by_side;
 use crate::spec::sourced::{Sourced, source};
@@ -47,27 +49,37 @@ pub(crate) fn resolve(
     given: &Interface,
     materials: &Materials,
     resolved: &Materials,
-    (preset, plated): (&Preset, Sides<bool>),
+    (preset, coverings): (&Preset, Sides<Covering<'_>>),
     diagnostics: &mut Diagnostics,
 ) -> (Interface, Laws) {
     let (materials, resolved) = (by_side(materials), by_side(resolved));
-    let (friction, friction_law) = friction(given, materials, preset, diagnostics);
+    let (friction, friction_law) = friction(given, materials, (preset, coverings), diagnostics);
     let coefficient = solver::law::friction::coefficient(friction_law);
     let wear = Sides::from_fn(|at| {
         let law = match at {
             Side::Slider => given.wear.slider.as_ref(),
             Side::Receptacle => given.wear.receptacle.as_ref(),
         };
-        let side = WearingSide {
+        let metal = Material::Named(preset.materials.of(at).value.to_owned());
+        let mut side = WearingSide {
             pointer: format!("/interface/wear/{}", at.name()),
             given: *materials.of(at),
             resolved: *resolved.of(at),
         };
-        let preset = if *plated.of(at) {
-            base_below_plating(&side)
-        } else {
-            Some(*preset.wear.of(at))
+        let is_base_metal = match coverings.of(at) {
+            Covering::Given(_) => {
+                let preset = base_below_plating(&side);
+                return wear(&side, law, preset, coefficient, diagnostics);
+            }
+            Covering::Preset(_) => true,
+            Covering::Removed => !preset.plating.of(at).is_empty(),
+            Covering::Bare => false,
         };
+        // The base of a preset that is plated is a metal as any other that is named.
+        if is_base_metal {
+            side.given = side.given.or(Some(&metal));
+        }
+        let preset = Some(*preset.wear.of(at));
         wear(&side, law, preset, coefficient, diagnostics)
     });
     let (slider, slider_law) = wear.slider;
@@ -92,22 +104,12 @@ pub(crate) fn resolve(
 fn friction(
     given: &Interface,
     materials: Sides<Option<&Material>>,
-    preset: &Preset,
+    (preset, coverings): (&Preset, Sides<Covering<'_>>),
     diagnostics: &mut Diagnostics,
 ) -> (Friction, scene::Friction) {
     let Some(given) = &given.friction else {
-        let is_preset = |side| {
-            let name = preset.materials.of(side).value;
-            let given = materials.of(side);
-            given.is_none_or(|given| matches!(given, Material::Named(given) if given == name))
-        };
-        // The preset's coefficient belongs to the preset's pair of materials.
-        let provenance = if Side::BOTH.into_iter().all(is_preset) {
-            preset.friction.provenance
-        } else {
-            Provenance::Assumed
-        };
-        return coulomb::from_preset(preset.friction.value, provenance, diagnostics);
+        let coefficient = preset_friction::coefficient(materials, preset, coverings);
+        return coulomb::from_preset(coefficient.value, coefficient.provenance, diagnostics);
     };
     let law = diagnostics.enum_member(&format!("{FRICTION}/law"), &given.law);
     diagnostics.provenance(format!("{FRICTION}/law"), Provenance::Given);
@@ -177,11 +179,15 @@ pub(super) fn check_plated_sides(laws: &Laws, plated: Sides<bool>, diagnostics: 
 
 /// Adds faults for what a continuous motion cannot have: a slider that wears, a law that counts repetitions of the load.
 pub(super) fn check_continuous(laws: &Laws, plated: Sides<bool>, diagnostics: &mut Diagnostics) {
-    if laws.wear.slider.is_some() || plated.slider {
-        diagnostics.fault(
-            "/interface/wear/slider",
-            "a slider whose surface runs past continuously cannot wear yet; write null",
+    let wearing = [
+        ("/plating/slider", plated.slider, "an empty list"),
+        ("/interface/wear/slider", laws.wear.slider.is_some(), "null"),
+    ];
+    for (pointer, _, nothing) in wearing.into_iter().filter(|(_, wears, _)| *wears) {
+        let detail = format!(
+            "a slider whose surface runs past continuously cannot wear yet; write {nothing}"
         );
+        diagnostics.fault(pointer, detail);
     }
     for side in Side::BOTH {
         let counts = |law: &scene::WearLaw| matches!(law, scene::WearLaw::Power(law) if law.counts_repetitions());

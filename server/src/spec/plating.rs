@@ -6,10 +6,12 @@ use api::spec::{EnumValue, Material, PlatingLayer, Platings, Provenance, WearLaw
 use solver::scene::{self, Layer, MOST_LAYERS};
 use solver::sides::Sides;
 
+use crate::spec::covering::{self, Covering};
 use crate::spec::diagnostics::Diagnostics;
 use crate::spec::law;
 use crate::spec::law::wearing_side::WearingSide;
 use crate::spec::materials;
+use crate::spec::system::LayerPreset;
 use crate::spec::unit;
 
 /// From a flash of some atoms to a clad inlay, um and mm.
@@ -18,29 +20,40 @@ pub(in crate::spec) const THICKNESS_MM: RangeInclusive<f64> = 1e-6..=1.0;
 
 /// The layers of both parts of a specification.
 pub(super) fn by_side(platings: &Platings) -> Sides<&[PlatingLayer]> {
-    Sides {
-        slider: &platings.slider,
-        receptacle: &platings.receptacle,
-    }
+    covering::given(platings).map(Option::unwrap_or_default)
 }
 
 /// Resolves the platings of both parts beside a coefficient of friction.
 pub(super) fn resolve(
-    given: &Platings,
+    coverings: Sides<Covering<'_>>,
     friction: f64,
     diagnostics: &mut Diagnostics,
 ) -> (Platings, Sides<Vec<Layer>>) {
-    let given = by_side(given);
     let resolved = Sides::from_fn(|side| {
         let pointer = format!("/plating/{}", side.name());
-        let layers = *given.of(side);
-        diagnostics.check_length(&pointer, layers.len(), MOST_LAYERS);
-        let layers = layers.iter().take(MOST_LAYERS).enumerate();
-        let resolved = layers.map(|(index, given)| {
-            layer(&format!("{pointer}/{index}"), given, friction, diagnostics)
-        });
-        let (filled, layers): (Vec<_>, Vec<_>) = resolved.unzip();
-        (filled, layers.into_iter().flatten().collect())
+        match *coverings.of(side) {
+            Covering::Bare => (None, Vec::new()),
+            Covering::Removed => {
+                diagnostics.provenance(&pointer, Provenance::Given);
+                (Some(Vec::new()), Vec::new())
+            }
+            Covering::Given(layers) => {
+                diagnostics.check_length(&pointer, layers.len(), MOST_LAYERS);
+                let layers = layers.iter().take(MOST_LAYERS).enumerate();
+                let resolved = layers.map(|(index, given)| {
+                    layer(&format!("{pointer}/{index}"), given, friction, diagnostics)
+                });
+                side_of(resolved)
+            }
+            Covering::Preset(layers) => {
+                let layers = layers.iter().enumerate();
+                let resolved = layers.map(|(index, preset)| {
+                    let pointer = format!("{pointer}/{index}");
+                    preset_layer(&pointer, preset, friction, diagnostics)
+                });
+                side_of(resolved)
+            }
+        }
     });
     let (slider, slider_layers) = resolved.slider;
     let (receptacle, receptacle_layers) = resolved.receptacle;
@@ -49,6 +62,47 @@ pub(super) fn resolve(
         receptacle: receptacle_layers,
     };
     (Platings { slider, receptacle }, layers)
+}
+
+/// The layers of a side, filled in and as the engine takes them.
+fn side_of(
+    resolved: impl Iterator<Item = (PlatingLayer, Option<Layer>)>,
+) -> (Option<Vec<PlatingLayer>>, Vec<Layer>) {
+    let (filled, layers): (Vec<_>, Vec<_>) = resolved.unzip();
+    (Some(filled), layers.into_iter().flatten().collect())
+}
+
+/// A layer of a preset, as a specification would write it, with the provenance of each value.
+fn preset_layer(
+    pointer: &str,
+    preset: &LayerPreset,
+    friction: f64,
+    diagnostics: &mut Diagnostics,
+) -> (PlatingLayer, Option<Layer>) {
+    let LayerPreset {
+        material,
+        thickness_um,
+        k,
+    } = *preset;
+    let written = PlatingLayer {
+        material: Some(Material::Named(material.value.to_owned())),
+        thickness_um: Some(thickness_um.value),
+        thickness_mm: None,
+        wear: Some(WearLaw {
+            k: Some(k.value),
+            ..WearLaw::of(WearLawName::Archard)
+        }),
+    };
+    let layer = layer(pointer, &written, friction, diagnostics);
+    for (field, provenance) in [
+        ("material/name", material.provenance),
+        ("thickness_um", thickness_um.provenance),
+        ("wear/law", k.provenance),
+        ("wear/k", k.provenance),
+    ] {
+        diagnostics.provenance(format!("{pointer}/{field}"), provenance);
+    }
+    layer
 }
 
 fn layer(

@@ -18,7 +18,7 @@ use crate::spec::diagnostics::Diagnostics;
 use crate::spec::unit::length_mm;
 
 use definition::SystemDefinition;
-pub(crate) use preset::{ArchardPreset, Preset};
+pub(crate) use preset::{ArchardPreset, FrictionPreset, LayerPreset, Preset, RatingPreset};
 pub(crate) use shapes::Shapes;
 
 /// Lengths of a contact system, mm: from 1 nm to 10 m.

@@ -11,6 +11,15 @@ pub(super) fn accepted(text: &str) -> Resolved {
     read(text.as_bytes()).expect("accepted")
 }
 
+/// A specification of bare copper on bare copper, as in the base scene, with further fields.
+fn bare_fuzz_button(rest: &str) -> String {
+    format!(
+        r#"{{"system":{{"kind":"fuzz_button"}},"materials":{{"slider":"copper","receptacle":"copper"}},
+        "interface":{{"friction":{{"law":"coulomb","coefficient":1.21}},
+            "wear":{{"slider":null,"receptacle":{{"law":"archard","k":0.011,"hardness_mpa":427}}}}}}{rest}}}"#
+    )
+}
+
 pub(super) fn faults(text: &str) -> Vec<Fault> {
     match read(text.as_bytes()) {
         Err(Refused::Faults(faults)) => faults,
@@ -76,9 +85,9 @@ fn presets_offer_the_meshes_of_the_source() {
 #[test]
 fn a_contact_beyond_small_strains_is_refused_unless_accepted() {
     let spec = |effects: &str| {
-        format!(
-            r#"{{"system":{{"kind":"fuzz_button"}},"load":{{"kind":"pressure","mpa":40}},"effects":{{{effects}}}}}"#
-        )
+        bare_fuzz_button(&format!(
+            r#","load":{{"kind":"pressure","mpa":40}},"effects":{{{effects}}}"#
+        ))
     };
     let refused = faults(&spec(""));
     assert_eq!(refused[0].pointer, "/load");
@@ -93,8 +102,8 @@ fn a_contact_beyond_small_strains_is_refused_unless_accepted() {
 }
 
 #[test]
-fn the_preset_of_the_fuzz_button_is_the_base_scene() {
-    let preset = accepted(r#"{"system":{"kind":"fuzz_button"}}"#);
+fn the_preset_of_the_fuzz_button_in_bare_copper_is_the_base_scene() {
+    let preset = accepted(&bare_fuzz_button(""));
     let mut given = accepted(FUZZ_BUTTON).scene;
     given.output = preset.scene.output.clone();
     assert_eq!(preset.scene, given);
@@ -118,7 +127,7 @@ fn provenance_distinguishes_given_sourced_and_assumed_values() {
     assert_eq!(provenance["/system/wire_diameter_mm"], Provenance::Source);
     assert_eq!(provenance["/system/pcb_height_mm"], Provenance::Assumed);
     assert_eq!(
-        provenance["/materials/slider/hardness_mpa"],
+        provenance["/materials/receptacle/hardness_mpa"],
         Provenance::Source
     );
 }
@@ -440,7 +449,7 @@ fn a_fault_of_the_whole_scene_names_the_field_that_causes_it() {
             "/materials",
         ),
         (
-            r#""system":{"kind":"fuzz_button"},"load":{"kind":"pressure","mpa":40}"#,
+            r#""system":{"kind":"fuzz_button"},"load":{"kind":"pressure","mpa":50}"#,
             "/load",
         ),
     ] {

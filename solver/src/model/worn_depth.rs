@@ -17,7 +17,7 @@ use crate::sides::{Side, Sides};
 const HALVINGS: usize = 50;
 
 /// Largest exposed part of a scar of which the depth is estimated: the edges of a parabola are never through.
-const MOST_EXPOSED: f64 = 0.95;
+pub(super) const MOST_EXPOSED: f64 = 0.95;
 
 /// Largest worn depths after so many cycles with this wear of both surfaces, in mm, for a radius of relative curvature in mm and
 /// a representative state.

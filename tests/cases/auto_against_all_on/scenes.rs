@@ -1,6 +1,7 @@
 //! Scenes of all regimes: systems, friction, slip regimes, wear of both sides, springs, stiffness and depth of wear.
 
 use serde_json::{Value, json};
+use tests::{bare_preset, merged};
 
 const KINDS: [&str; 5] = ["fuzz_button", "sd_card", "dimm", "zif", "cylinder_on_flat"];
 
@@ -58,20 +59,7 @@ pub(super) fn all() -> Vec<(String, Value)> {
             add_to(&mut scenes, name, kind, &changes);
         }
     }
-    let soft = json!({"youngs_modulus_mpa": 3000.0, "poisson_ratio": 0.38, "hardness_mpa": 100.0});
-    for (side, coefficient) in [
-        ("slider", 0.1),
-        ("slider", 0.5),
-        ("receptacle", 0.1),
-        ("slider", 0.8),
-    ] {
-        let name = format!("sd_card, soft {side}, friction {coefficient}");
-        let changes = json!({
-            "materials": {side: soft},
-            "interface": {"friction": {"law": "coulomb", "coefficient": coefficient}},
-        });
-        add_to(&mut scenes, name, "sd_card", &changes);
-    }
+    add_soft_to(&mut scenes);
     let driven = json!({"cycles": 2_000});
     add_to(
         &mut scenes,
@@ -104,7 +92,31 @@ pub(super) fn all() -> Vec<(String, Value)> {
         let name = format!("zif, {cycles} cycles");
         add_to(&mut scenes, name, "zif", &json!({"cycles": cycles}));
     }
+    add_presets_to(&mut scenes);
     scenes
+}
+
+/// A soft body on either side.
+fn add_soft_to(scenes: &mut Vec<(String, Value)>) {
+    let hardness_mpa = 100.0;
+    let soft =
+        json!({"youngs_modulus_mpa": 3000.0, "poisson_ratio": 0.38, "hardness_mpa": hardness_mpa});
+    for (side, coefficient) in [
+        ("slider", 0.1),
+        ("slider", 0.5),
+        ("receptacle", 0.1),
+        ("slider", 0.8),
+    ] {
+        let name = format!("sd_card, soft {side}, friction {coefficient}");
+        let mut changes = json!({
+            "materials": {side: soft},
+            "interface": {"friction": {"law": "coulomb", "coefficient": coefficient}},
+        });
+        if side == "receptacle" {
+            changes["interface"]["wear"] = json!({"receptacle": {"hardness_mpa": hardness_mpa}});
+        }
+        add_to(scenes, name, "sd_card", &changes);
+    }
 }
 
 /// Two layers over a base that wears twenty times as fast as the outer one: through on both sides, on one of them, and not.
@@ -149,14 +161,34 @@ fn add_heated_to(scenes: &mut Vec<(String, Value)>) {
     add_to(scenes, name, "cylinder_on_flat", &changes);
 }
 
-/// Adds the preset of a kind with changes, at few cycles unless given.
+/// The platings of the presets: after few cycles, and after so many that both layers of the slider are through.
+fn add_presets_to(scenes: &mut Vec<(String, Value)>) {
+    for kind in ["fuzz_button", "sd_card", "dimm", "zif"] {
+        let preset = json!({"system": {"kind": kind}});
+        let name = format!("{kind} with its platings");
+        scenes.push((name, merged(preset.clone(), short())));
+        let worn = json!({"cycles": 2_000_000, "stop": [{"kind": "base_metal"}]});
+        let name = format!("{kind} with its platings, to base metal");
+        scenes.push((name, merged(merged(preset, short()), worn)));
+    }
+}
+
+/// Adds the bare preset of a kind with changes, at few cycles unless given. Friction replaces that of the preset as a whole.
 fn add_to(scenes: &mut Vec<(String, Value)>, name: String, kind: &str, changes: &Value) {
-    let mut spec = json!({
-        "system": {"kind": kind},
+    let mut base = bare_preset(kind);
+    if let Some(Value::Object(interface)) = base.get_mut("interface")
+        && changes["interface"]["friction"].is_object()
+    {
+        interface.remove("friction");
+    }
+    let spec = merged(merged(base, short()), changes.clone());
+    scenes.push((name, spec));
+}
+
+/// Few cycles, for the tolerance of all scenes.
+fn short() -> Value {
+    json!({
         "cycles": 500,
         "accuracy": {"tolerance": super::TOLERANCE, "estimate_errors": false},
-    });
-    let fields = spec.as_object_mut().expect("an object");
-    fields.extend(changes.as_object().expect("an object").clone());
-    scenes.push((name, spec));
+    })
 }

@@ -1,6 +1,7 @@
 //! The specifications that the cases change.
 
 use serde_json::{Value, json};
+use tests::{bare_preset, merged};
 
 /// Accepted error against closed solutions. The worst of these cases reaches 1.5 %, the others 0.9 % and better; the
 /// tolerance of most of them, `draft`, is 10 %.
@@ -8,13 +9,12 @@ pub(crate) const AGREEMENT: f64 = 0.02;
 
 /// The thesis' fuzz button, coarse enough for a test, with changes.
 pub(crate) fn fuzz_button(changes: Value) -> Value {
-    let base = json!({
-        "system": {"kind": "fuzz_button"},
+    let short = json!({
         "motion": {"kind": "reciprocating", "amplitude_mm": 0.033_868, "period_s": 16},
         "cycles": 20,
         "accuracy": {"preset": "draft"},
     });
-    merged(base, changes)
+    merged(merged(bare_preset("fuzz_button"), short), changes)
 }
 
 /// McColl's cylinder of 6 mm on a flat, coarse enough for a test, with changes.
@@ -33,18 +33,4 @@ pub(crate) fn cylinder(changes: Value) -> Value {
         "accuracy": {"preset": "draft"},
     });
     merged(base, changes)
-}
-
-/// Merges changes into a document, member by member.
-fn merged(base: Value, changes: Value) -> Value {
-    match (base, changes) {
-        (Value::Object(mut base), Value::Object(changes)) => {
-            for (name, change) in changes {
-                let old = base.remove(&name).unwrap_or(Value::Null);
-                base.insert(name, merged(old, change));
-            }
-            Value::Object(base)
-        }
-        (_, changes) => changes,
-    }
 }

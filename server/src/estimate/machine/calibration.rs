@@ -14,6 +14,12 @@ use crate::number::real;
 use crate::solve::thread_cpu_s;
 use crate::spec;
 
+/// A pad that wears below an unworn contact.
+const BARE_PAD: &str = r#""interface":{"wear":{"slider":null,"receptacle":{"law":"archard","k":0.004,"hardness_mpa":1700}}}"#;
+/// The surfaces of the fuzz button of the source.
+const BARE_WIRE: &str = r#""materials":{"slider":"copper","receptacle":"copper"},"interface":{
+    "friction":{"law":"coulomb","coefficient":1.21},
+    "wear":{"slider":null,"receptacle":{"law":"archard","k":0.011,"hardness_mpa":427}}}"#;
 const MCCOLL: &str = include_str!("../../../examples/mccoll.json");
 
 /// Plausible powers of the number of solved nodes: from a column per node to the factorization of a dense matrix.
@@ -51,15 +57,22 @@ fn specifications() -> Result<[String; 5], MachineError> {
     if !MCCOLL.contains(PRESET) {
         return Err(MachineError::Example(PRESET));
     }
-    let system = |kind: &str, rest: &str| format!(r#"{{"system":{{"kind":"{kind}"}},{rest}}}"#);
+    let system = |kind: &str, surfaces: &str, rest: &str| {
+        format!(r#"{{"system":{{"kind":"{kind}"}},{surfaces},{rest}}}"#)
+    };
     let mccoll = |accuracy: &str| MCCOLL.replace(PRESET, accuracy);
     Ok([
         mccoll(r#"{"preset": "draft"}"#),
         mccoll(r#"{"tolerance": 0.01, "overrides": {"cycle_jump": 1800}}"#),
-        system("sd_card", r#""accuracy":{"preset":"draft"}"#),
-        system("dimm", r#""accuracy":{"tolerance":0.01},"cycles":8"#),
+        system("sd_card", BARE_PAD, r#""accuracy":{"preset":"draft"}"#),
+        system(
+            "dimm",
+            BARE_PAD,
+            r#""accuracy":{"tolerance":0.01},"cycles":8"#,
+        ),
         system(
             "fuzz_button",
+            BARE_WIRE,
             r#""accuracy":{"preset":"draft","overrides":{"cycle_jump":20}},"cycles":200"#,
         ),
     ])

@@ -107,7 +107,11 @@ fn criteria_that_cannot_be_reached_are_refused_by_their_field() {
             "{criterion}: {found:?}"
         );
     }
-    let bare = |rest: &str| format!(r#"{{"system":{{"kind":"sd_card"}},{rest}}}"#);
+    let bare = |rest: &str| {
+        format!(
+            r#"{{"system":{{"kind":"sd_card"}},"interface":{{"wear":{{"slider":null}}}},"plating":{{"receptacle":[]}},{rest}}}"#
+        )
+    };
     assert_eq!(
         pointers(&bare(r#""stop":[{"kind":"base_metal"}]"#)),
         ["/stop/0"]

@@ -6,7 +6,7 @@ use solver::scene::{BlockShape, SliderShape};
 use crate::spec::diagnostics::Diagnostics;
 use crate::spec::sourced::{assumed, typical};
 use crate::spec::system::definition::{SystemDefinition, dimension};
-use crate::spec::system::preset::{Preset, archard, sides};
+use crate::spec::system::preset::{Preset, archard, friction, sides};
 use crate::spec::system::shapes::{Shapes, check_crown, flat, length, sagitta};
 
 pub(super) const DEFINITION: SystemDefinition = SystemDefinition {
@@ -70,9 +70,12 @@ fn check_slider(slider: &SliderShape, diagnostics: &mut Diagnostics) {
 }
 
 fn preset() -> Preset {
+    let friction = friction("steel", "steel", typical(0.78));
     Preset {
         materials: sides(assumed("steel"), assumed("steel")),
-        friction: typical(0.78),
+        plating: sides(&[], &[]),
+        friction,
+        bare_friction: friction,
         wear: sides(assumed(None), assumed(Some(archard(1.0e-4, 6865.0)))),
         load: assumed(Load {
             kind: LoadKind::LineForce.into(),
@@ -84,5 +87,6 @@ fn preset() -> Preset {
         period_s: assumed(0.05),
         drive: assumed(Drive::ReceptacleBase),
         cycles: assumed(1000),
+        rating: None,
     }
 }

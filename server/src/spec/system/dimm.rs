@@ -1,7 +1,8 @@
 //! DIMM: a semicircular socket contact on a memory module's flat pad.
 
+use crate::spec::sourced::assumed;
 use crate::spec::system::definition::{SystemDefinition, dimension};
-use crate::spec::system::preset::plated;
+use crate::spec::system::preset::{RatingPreset, Spring, USUAL_PLATING, socket};
 use crate::spec::system::shapes::{Shapes, flat, half_round, length};
 
 pub(super) const DEFINITION: SystemDefinition = SystemDefinition {
@@ -16,5 +17,17 @@ pub(super) const DEFINITION: SystemDefinition = SystemDefinition {
         block: flat(system.pad_length_mm, system.pad_height_mm),
     },
     check: |_, _| {},
-    preset: || plated("phosphor_bronze", 0.6, 0.6),
+    preset: || {
+        socket(&Spring {
+            material: "phosphor_bronze",
+            force_n: 0.6,
+            width_mm: 0.6,
+            plating: &USUAL_PLATING,
+            rating: RatingPreset {
+                matings: assumed(25.0),
+                of: "sockets of memory modules",
+                wipe_mm: assumed(1.5),
+            },
+        })
+    },
 };

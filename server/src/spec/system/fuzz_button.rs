@@ -6,12 +6,16 @@
 //!  ___`-...-'___
 //!  |   pcb     |
 //! ```
+//!
+//! Fuzz buttons are made of gold-plated beryllium copper (the source); its base scene rubs bare copper on bare copper and is the
+//! specification `examples/fuzz_button.json`. They are pressed and not wiped, so that no number of matings follows from their
+//! wear (the source mentions 500 000 insertions).
 
 use api::spec::{Drive, Load, LoadKind, Waveform};
 
-use crate::spec::sourced::{assumed, source};
+use crate::spec::sourced::{assumed, source, typical};
 use crate::spec::system::definition::{SystemDefinition, dimension};
-use crate::spec::system::preset::{Preset, archard, sides};
+use crate::spec::system::preset::{Preset, USUAL_PLATING, archard, friction, sides};
 use crate::spec::system::shapes::{Shapes, flat, half_round, length};
 
 pub(super) const DEFINITION: SystemDefinition = SystemDefinition {
@@ -31,9 +35,15 @@ pub(super) const DEFINITION: SystemDefinition = SystemDefinition {
 
 fn preset() -> Preset {
     Preset {
-        materials: sides(source("copper"), source("copper")),
-        friction: source(1.21),
-        wear: sides(source(None), source(Some(archard(0.011, 427.0)))),
+        materials: sides(source("becu"), source("copper")),
+        plating: sides(&USUAL_PLATING, &USUAL_PLATING),
+        // Gold on gold under fretting has 0.55 to 0.60.
+        friction: friction("hard_gold", "hard_gold", typical(0.55)),
+        bare_friction: friction("copper", "copper", source(1.21)),
+        wear: sides(
+            assumed(Some(archard(0.011, 427.0))),
+            source(Some(archard(0.011, 427.0))),
+        ),
         load: source(Load {
             kind: LoadKind::Pressure.into(),
             mpa: Some(10.0),
@@ -45,5 +55,6 @@ fn preset() -> Preset {
         // The source moves every slider node; a rigid handle is the physical drive.
         drive: assumed(Drive::SliderTop),
         cycles: source(2000),
+        rating: None,
     }
 }

@@ -8,8 +8,9 @@
 //!  |    pad    |
 //! ```
 
+use crate::spec::sourced::{assumed, typical};
 use crate::spec::system::definition::{SystemDefinition, dimension};
-use crate::spec::system::preset::plated;
+use crate::spec::system::preset::{RatingPreset, Spring, USUAL_PLATING, socket};
 use crate::spec::system::shapes::{Shapes, flat, length, tip};
 
 pub(super) const DEFINITION: SystemDefinition = SystemDefinition {
@@ -24,5 +25,17 @@ pub(super) const DEFINITION: SystemDefinition = SystemDefinition {
         block: flat(system.pad_length_mm, system.pad_height_mm),
     },
     check: |_, _| {},
-    preset: || plated("becu", 0.5, 0.8),
+    preset: || {
+        socket(&Spring {
+            material: "becu",
+            force_n: 0.5,
+            width_mm: 0.8,
+            plating: &USUAL_PLATING,
+            rating: RatingPreset {
+                matings: typical(10_000.0),
+                of: "miniSD sockets",
+                wipe_mm: assumed(1.5),
+            },
+        })
+    },
 };

@@ -9,8 +9,9 @@
 
 use solver::scene::BlockShape;
 
+use crate::spec::sourced::{assumed, typical};
 use crate::spec::system::definition::{SystemDefinition, dimension};
-use crate::spec::system::preset::plated;
+use crate::spec::system::preset::{MPGA604_PLATING, RatingPreset, Spring, socket};
 use crate::spec::system::shapes::{Shapes, check_crown, flat, length, tip};
 
 pub(super) const DEFINITION: SystemDefinition = SystemDefinition {
@@ -29,5 +30,18 @@ pub(super) const DEFINITION: SystemDefinition = SystemDefinition {
         },
     },
     check: |shapes, diagnostics| check_crown("/system/pin_radius_mm", shapes, diagnostics),
-    preset: || plated("phosphor_bronze", 0.5, 0.46),
+    preset: || {
+        socket(&Spring {
+            material: "phosphor_bronze",
+            force_n: 0.5,
+            width_mm: 0.46,
+            plating: &MPGA604_PLATING,
+            rating: RatingPreset {
+                matings: typical(50.0),
+                of: "mPGA604 sockets",
+                // The way of the sliding cover: the pins are not rubbed while they are put in.
+                wipe_mm: assumed(0.5),
+            },
+        })
+    },
 };

@@ -6,11 +6,12 @@ use solver::scene::Motion;
 use crate::spec::Resolved;
 use crate::spec::tests::{accepted, faults};
 
-/// An SD card (nine contacts of 0.5 N, friction 0.3) with a motion.
+/// An SD card (nine contacts of 0.5 N, friction 0.3, a bare pad that wears) with a motion.
 fn sd_card(motion: &str) -> String {
     format!(
         r#"{{"system":{{"kind":"sd_card"}},"load":{{"kind":"force","n":0.5,"width_mm":1.0}},
-        "interface":{{"friction":{{"law":"coulomb","coefficient":0.3}}}},"motion":{motion}}}"#
+        "interface":{{"friction":{{"law":"coulomb","coefficient":0.3}},
+            "wear":{{"slider":null,"receptacle":{{"law":"archard","k":0.004,"hardness_mpa":1700}}}}}},"motion":{motion}}}"#
     )
 }
 

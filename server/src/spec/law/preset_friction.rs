@@ -1,0 +1,97 @@
+//! Friction that a specification leaves out: the preset's coefficient, for its own surfaces as the preset states it, and
+//! assumed for others.
+
+use api::spec::{Material, PlatingLayer};
+use solver::sides::{Side, Sides};
+
+use crate::spec::covering::Covering;
+use crate::spec::sourced::{Sourced, assumed};
+use crate::spec::system::{FrictionPreset, Preset};
+
+/// The coefficient of a preset for parts with these coverings and given materials.
+pub(super) fn coefficient(
+    materials: Sides<Option<&Material>>,
+    preset: &Preset,
+    coverings: Sides<Covering<'_>>,
+) -> Sourced<f64> {
+    let is_bare = |side| !coverings.of(side).is_plated();
+    let FrictionPreset {
+        surfaces,
+        coefficient,
+    } = if Side::BOTH.into_iter().all(is_bare) {
+        preset.bare_friction
+    } else {
+        preset.friction
+    };
+    let is_of_pair = |side: Side| {
+        let surface = surface(*coverings.of(side), *materials.of(side), side, preset);
+        surface == Some(*surfaces.of(side))
+    };
+    if Side::BOTH.into_iter().all(is_of_pair) {
+        coefficient
+    } else {
+        assumed(coefficient.value)
+    }
+}
+
+/// Name of the material at the surface of a part, if it has one.
+fn surface<'a>(
+    covering: Covering<'a>,
+    material: Option<&'a Material>,
+    side: Side,
+    preset: &Preset,
+) -> Option<&'a str> {
+    match covering {
+        Covering::Given([PlatingLayer { material, .. }, ..]) => name(material.as_ref()?),
+        Covering::Given([]) => None,
+        Covering::Preset(layers) => Some(layers.first()?.material.value),
+        Covering::Removed | Covering::Bare => match material {
+            Some(material) => name(material),
+            None => Some(preset.materials.of(side).value),
+        },
+    }
+}
+
+fn name(material: &Material) -> Option<&str> {
+    match material {
+        Material::Named(name) => Some(name),
+        // Its properties may be other ones than those of the library.
+        Material::Given(_) => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use api::spec::Provenance;
+
+    use crate::spec::tests::accepted;
+
+    fn friction(rest: &str) -> (f64, Provenance) {
+        let spec = accepted(&format!(r#"{{"system":{{"kind":"fuzz_button"}}{rest}}}"#)).spec;
+        let friction = spec.interface.friction.and_then(|law| law.coefficient);
+        (
+            friction.expect("Coulomb's law"),
+            spec.provenance["/interface/friction/coefficient"],
+        )
+    }
+
+    #[test]
+    fn a_coefficient_belongs_to_its_pair_of_surfaces() {
+        assert_eq!(friction(""), (0.55, Provenance::Typical));
+        let copper = r#","materials":{"slider":"copper","receptacle":"copper"}"#;
+        assert_eq!(friction(copper), (1.21, Provenance::Source));
+        // Beryllium copper on copper, and copper on gold.
+        let bare = r#","plating":{"slider":[],"receptacle":[]}"#;
+        assert_eq!(friction(bare), (1.21, Provenance::Assumed));
+        let one = r#","materials":{"slider":"copper"}"#;
+        assert_eq!(friction(one), (0.55, Provenance::Assumed));
+        let layer = |material: &str| {
+            format!(
+                r#","plating":{{"slider":[{{"material":"{material}","thickness_um":1,"wear":{{"law":"archard","k":1e-5}}}}]}},
+                "interface":{{"wear":{{"slider":null}}}}"#
+            )
+        };
+        assert_eq!(friction(&layer("hard_gold")), (0.55, Provenance::Typical));
+        assert_eq!(friction(&layer("tin")), (0.55, Provenance::Assumed));
+    }
+}
