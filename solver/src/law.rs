@@ -7,6 +7,7 @@ pub mod heating;
 pub mod pace;
 pub mod plating;
 pub mod resistance;
+pub mod skin_effect;
 pub mod softening;
 pub mod surface;
 pub mod wear;

@@ -1,7 +1,7 @@
 //! Constriction resistance of a contact through the layers that are left, from one spot whose size the softer surface gives.
 
 use api::results::{ContactResistance, ResistanceParts};
-use solver::law::resistance::{half_space, spot_radius};
+use solver::law::resistance::{Deformation, half_space};
 use solver::sides::Sides;
 
 use crate::spec::Conductors;
@@ -27,7 +27,7 @@ fn parts(conductors: &Conductors, depth: Sides<f64>) -> ResistanceParts {
         outermost.map_or(f64::INFINITY, |(metal, _)| metal.hardness_mpa)
     };
     let hardness = surface(&left.slider).min(surface(&left.receptacle));
-    let radius_mm = spot_radius(conductors.force_n, hardness);
+    let radius_mm = Deformation::Plastic.radius_mm(conductors.force_n, hardness);
     let constriction = left.map(|metals| {
         let stack: Vec<_> = metals.into_iter().map(|(_, conductor)| conductor).collect();
         MILLI * half_space(radius_mm, &stack)
