@@ -13,6 +13,7 @@ mod mission;
 mod motion;
 mod plating;
 mod read;
+mod real_contact;
 mod settings;
 mod system;
 mod unique;
@@ -33,6 +34,7 @@ pub use mission::MissionBlock;
 pub use motion::{DerivedMotion, Drive, FourierTerm, Motion, MotionKind, PsdPoint, Waveform};
 pub use plating::{PlatingLayer, Platings};
 pub use read::{ParseError, pointer_token};
+pub use real_contact::{Film, SpotDeformation, Spots};
 pub use settings::{Accuracy, CycleJump, Output, Overrides, Preset, Stop, Switch};
 pub use system::{System, SystemKind};
 

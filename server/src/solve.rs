@@ -14,10 +14,9 @@ use solver::error_control;
 use solver::observer::{self, Event, Observer};
 use solver::record::PlacedFields;
 use solver::scene::Scene;
-use solver::sides::Sides;
 
-use crate::export::{history, life, mission, resistance, vtu};
-use crate::spec::{Conductors, Resolved};
+use crate::export::{history, life, mission, vtu};
+use crate::spec::Resolved;
 use checkpoint::{Checkpoint, CheckpointPolicy, EncodedCheckpoint};
 use cost::Stopwatch;
 pub use cost::{children_cpu_s, cpu_s, thread_cpu_s};
@@ -34,8 +33,8 @@ pub struct Case<'a> {
     pub motion: Option<&'a DerivedMotion>,
     /// The blocks of its mission.
     pub blocks: &'a [BlockExtent],
-    /// Its conductors, where all of them are known.
-    pub conductors: Option<&'a Conductors>,
+    /// What a criterion of the contact resistance lacks; nothing if it is modelled.
+    pub resistance_lacks: &'a [String],
 }
 
 impl<'a> From<&'a Resolved> for Case<'a> {
@@ -45,7 +44,7 @@ impl<'a> From<&'a Resolved> for Case<'a> {
             life: &resolved.spec.life,
             motion: resolved.motion.as_ref(),
             blocks: &resolved.blocks,
-            conductors: resolved.conductors.as_ref(),
+            resistance_lacks: &resolved.resistance_lacks,
         }
     }
 }
@@ -72,7 +71,7 @@ pub fn run_from(
         life,
         motion,
         blocks,
-        conductors,
+        resistance_lacks,
     }: Case<'_>,
     from: Option<Checkpoint>,
     policy: &CheckpointPolicy,
@@ -95,15 +94,11 @@ pub fn run_from(
         ended = error_control::solve(scene, &mut recorder);
     }
     let summary = ended?;
-    let life = life::entries(life, scene, &summary.life, summary.last.cycle);
-    let depth = Sides {
-        slider: summary.last.slider.max_depth_mm,
-        receptacle: summary.last.receptacle.max_depth_mm,
-    };
+    let settings = (life, resistance_lacks);
+    let life = life::entries(settings, scene, &summary.life, summary.last.cycle);
     Ok(Summary {
         motion: motion.cloned(),
         mission: mission::blocks(blocks, &summary),
-        contact_resistance_mohm: conductors.map(|conductors| resistance::of(conductors, depth)),
         ..history::summary(&summary, recorder.watch.cost(), life)
     })
 }

@@ -13,6 +13,7 @@ mod criterion;
 mod diagnostics;
 mod effects;
 mod environment;
+mod films;
 mod law;
 mod law_range;
 mod life;
@@ -27,6 +28,7 @@ mod rated_life;
 mod repair;
 pub(crate) mod schema;
 mod sourced;
+mod spots;
 mod stop;
 mod suggestion;
 mod system;
@@ -39,10 +41,10 @@ use api::results::BlockExtent;
 use api::spec::{DerivedMotion, ParseError, Spec, SystemKind};
 use solver::law::friction;
 use solver::model::Layout;
-use solver::scene::{Body, Scene};
+use solver::scene::{Body, Conduction, Criterion, Layer, Scene};
+use solver::sides::Sides;
 
-pub use conductors::Conductors;
-pub(crate) use conductors::Metal;
+use conductors::Conductors;
 use diagnostics::Diagnostics;
 pub(crate) use diagnostics::NAME_LIMIT;
 pub(crate) use motion::CYCLES;
@@ -71,8 +73,8 @@ pub struct Resolved {
     pub motion: Option<DerivedMotion>,
     /// The blocks of its mission.
     pub blocks: Vec<BlockExtent>,
-    /// Its conductors, where all of them are known.
-    pub conductors: Option<Conductors>,
+    /// What a criterion of the contact resistance lacks, in words; nothing if it is modelled.
+    pub resistance_lacks: Vec<String>,
     /// Values that were probably written in another unit.
     pub warnings: Vec<Fault>,
 }
@@ -122,6 +124,7 @@ pub fn resolve(spec: &Spec) -> Result<Resolved, Vec<Fault>> {
         spec: mut filled,
         scene,
         movement,
+        resistance_lacks,
     } = fill(spec, kind, &mut diagnostics);
     if !diagnostics.is_clean() {
         return Err(diagnostics.into_faults());
@@ -151,7 +154,6 @@ pub fn resolve(spec: &Spec) -> Result<Resolved, Vec<Fault>> {
     warnings.extend(sticks.map(|(pointer, motion)| Fault::new(&pointer, motion.reason.clone())));
     let blocks = blocks::extents(&filled, &movement);
     filled.provenance = diagnostics.finish()?;
-    let conductors = conductors::resolve(&filled, &scene);
     Ok(Resolved {
         spec: filled,
         kind,
@@ -159,7 +161,7 @@ pub fn resolve(spec: &Spec) -> Result<Resolved, Vec<Fault>> {
         layout,
         motion: movement.derived,
         blocks,
-        conductors,
+        resistance_lacks,
         warnings,
     })
 }
@@ -169,6 +171,7 @@ struct Filled {
     spec: Spec,
     scene: Scene,
     movement: Movement,
+    resistance_lacks: Vec<String>,
 }
 
 /// The scene of a specification without faults.
@@ -179,6 +182,10 @@ fn scene_of(spec: &Spec, kind: SystemKind) -> Option<Scene> {
 }
 
 /// The specification with every default filled in, and its scene.
+#[expect(
+    clippy::too_many_lines,
+    reason = "a list of the parts of a specification"
+)]
 fn fill(spec: &Spec, kind: SystemKind, diagnostics: &mut Diagnostics) -> Filled {
     let preset = covering::preset_for_motion(spec, (system::definition(kind).preset)());
     let (system, shapes) = system::resolve(kind, &spec.system, diagnostics);
@@ -207,16 +214,9 @@ fn fill(spec: &Spec, kind: SystemKind, diagnostics: &mut Diagnostics) -> Filled 
     }
     let (accuracy, numerical) = accuracy::resolve(&spec.accuracy, &shapes, cycles, diagnostics);
     let (output, recorded) = output::resolve(&spec.output, &movement, &shapes, diagnostics);
-    let wears = laws.wear.zip(plated);
-    let surfaces = criterion::Surfaces {
-        plating: &layers,
-        wears: wears.map(|(law, plated)| law.is_some() || plated),
-    };
-    let stop = stop::resolve(&spec.stop, surfaces, diagnostics);
-    let (life, criteria) = life::resolve(&spec.life, surfaces, diagnostics);
     let effects = effects::resolve(&spec.effects, diagnostics);
     let environment = environment::resolve(&spec.environment, diagnostics);
-    let filled = Spec {
+    let mut filled = Spec {
         system,
         materials,
         interface,
@@ -229,12 +229,24 @@ fn fill(spec: &Spec, kind: SystemKind, diagnostics: &mut Diagnostics) -> Filled 
         repeat: movement.repeat,
         accuracy,
         output,
-        life,
         provenance: BTreeMap::new(),
         ..spec.clone()
     };
     let softening = environment::softening(&filled, diagnostics);
     let conductivity = environment::conductivities(&filled);
+    let bodies = conductors::Bodies {
+        layers: &layers,
+        elastic: &elastic,
+        softening: &softening,
+        motion: movement.scene,
+    };
+    let mut conductors = conductors::resolve(&mut filled, bodies, diagnostics);
+    let wears = laws
+        .wear
+        .zip(plated)
+        .map(|(law, plated)| law.is_some() || plated);
+    let surfaces = (&layers, wears);
+    let (stop, criteria) = limits(spec, &mut filled, surfaces, &mut conductors, diagnostics);
     let scene = Scene {
         slider: Body {
             shape: shapes.slider,
@@ -264,13 +276,37 @@ fn fill(spec: &Spec, kind: SystemKind, diagnostics: &mut Diagnostics) -> Filled 
         output: recorded,
         stop,
         life: criteria,
+        conduction: conductors.conduction,
         effects,
     };
     Filled {
         spec: filled,
         scene,
         movement,
+        resistance_lacks: conductors.lacks,
     }
+}
+
+/// Criteria that end the run, and those whose life is recorded; limits of the resistance belong to what conducts.
+fn limits(
+    spec: &Spec,
+    filled: &mut Spec,
+    (plating, wears): (&Sides<Vec<Layer>>, Sides<bool>),
+    conductors: &mut Conductors,
+    diagnostics: &mut Diagnostics,
+) -> (Vec<Criterion>, Vec<Criterion>) {
+    let surfaces = criterion::Surfaces {
+        plating,
+        wears,
+        resistance_lacks: &conductors.lacks,
+    };
+    let (stop, stop_mohm) = stop::resolve(&spec.stop, surfaces, diagnostics);
+    let (life, criteria, life_mohm) = life::resolve(&spec.life, surfaces, diagnostics);
+    filled.life = life;
+    if let Conduction::Known(electrical) = &mut conductors.conduction {
+        (electrical.stop_mohm, electrical.life_mohm) = (stop_mohm, life_mohm);
+    }
+    (stop, criteria)
 }
 
 /// Cycles in the histories of a resolved specification.

@@ -9,6 +9,7 @@ use serde::{Deserialize, Serialize};
 use crate::ale;
 use crate::cycle::{CycleState, MissionState};
 use crate::effects::Crossing;
+use crate::electrical::ElectricalState;
 use crate::mesh::MeshError;
 use crate::model::Model;
 use crate::record::{Compared, Initial, Life, Summary};
@@ -33,6 +34,8 @@ pub struct Checkpoint {
     pub(crate) compared: Compared,
     /// Life by the criteria of the scene.
     pub(crate) life: Life,
+    /// Resistance of the contact, and what the next one depends on.
+    pub(crate) electrical: ElectricalState,
     /// What error control knows from the runs of this scene before this one.
     pub(crate) earlier: Earlier,
 }

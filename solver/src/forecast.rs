@@ -108,7 +108,7 @@ pub fn forecast(scene: &Scene, layout: &Layout) -> Forecast {
             sticks: scar.sticks,
         };
         let is_last = cycle + step == until;
-        let detailed = (is_last && is_reported) || !scene.stop.is_empty();
+        let detailed = (is_last && is_reported) || scene.has_stops();
         let cycles = Cycles {
             done: cycle,
             jump: if stroke.is_groove { 1 } else { step },

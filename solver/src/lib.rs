@@ -6,6 +6,7 @@ pub mod condensation;
 pub mod contact;
 pub mod cycle;
 pub mod effects;
+pub mod electrical;
 pub mod element;
 mod error;
 pub mod error_control;

@@ -1,5 +1,7 @@
 //! The run: integrate until the geometry has drifted or the contact has outgrown its mesh, relocate, condense again.
 
+mod resistance;
+
 use std::ops::ControlFlow;
 
 use crate::SolveError;
@@ -8,6 +10,7 @@ use crate::checkpoint::{Checkpoint, Earlier};
 use crate::condensation::{self, Condensed};
 use crate::cycle::{CycleError, CycleRecord, CycleState, Integrator, MissionState};
 use crate::effects::{self, EffectsPlan};
+use crate::electrical::ElectricalState;
 use crate::fields;
 use crate::law::surface;
 use crate::model::{self, Model};
@@ -38,7 +41,7 @@ pub(crate) fn begin(
     let condensed = condensation::condense(&model)?;
     let mut crossings = Vec::new();
     let (mut run, flow) = loop {
-        let error = match load(scene, &model, &condensed, observer) {
+        let error = match load(scene, (&plan, &model), &condensed, observer) {
             Ok(loaded) => break loaded,
             Err(error) => error,
         };
@@ -129,7 +132,7 @@ fn advance(
 /// Cycle 0: the unworn, loaded state.
 fn load(
     scene: &Scene,
-    model: &Model,
+    (plan, model): (&EffectsPlan, &Model),
     condensed: &Condensed,
     observer: &mut dyn Observer,
 ) -> Result<(Checkpoint, ControlFlow<()>), SolveError> {
@@ -137,7 +140,11 @@ fn load(
     let blocks = scene.blocks();
     let mut integrator = Integrator::new(&blocks[0], model, &condensed.operators);
     let record = integrator.apply_load(&mut state)?;
-    let report = record::report(scene, model, &state);
+    let mut electrical = ElectricalState::default();
+    if let Some(evaluation) = resistance::evaluation(scene, plan) {
+        evaluation.update(&mut electrical, &resistance::contact(scene, model, &state));
+    }
+    let report = record::report(scene, model, &state, electrical.resistance);
     let mut compared = Compared::default();
     compared.push(&report);
     let mut flow = observer.on(Event::Cycle(&report));
@@ -151,6 +158,7 @@ fn load(
     let initial = Initial {
         peak_pressure_mpa: report.peak_pressure_mpa,
         contact_half_width_mm: report.contact_half_width_mm,
+        contact_resistance_mohm: electrical.total_mohm(),
     };
     let mission = scene.mission.as_ref();
     let run = Checkpoint {
@@ -163,6 +171,7 @@ fn load(
         crossings: Vec::new(),
         compared,
         life: Life::default(),
+        electrical,
         earlier: Earlier::default(),
     };
     Ok((run, flow))
@@ -191,6 +200,9 @@ fn integrate(
     let block = &blocks[run.block()];
     let mut integrator = Integrator::new(block, model, &condensed.operators);
     let spines = Spines::of(model);
+    let evaluation = resistance::evaluation(scene, plan);
+    // Where a limit of the resistance was passed by too much.
+    let mut until_limit = u64::MAX;
     while run.state.cycle < scene.cycles {
         if run.is_block_done() {
             return Ok(ControlFlow::Continue(Renewal::Motion));
@@ -205,7 +217,9 @@ fn integrate(
                 let moved = integrator.change_motion(&mut run.state, motion);
                 moved.map(|()| None)
             }
-            None => next_cycle(scene, model, (&mut integrator, &spines), run).map(Some),
+            None => {
+                next_cycle(scene, model, (&mut integrator, &spines), (run, until_limit)).map(Some)
+            }
         };
         let record = match step {
             Err(error) if error.needs_wider_zones() => {
@@ -234,9 +248,32 @@ fn integrate(
             run.go_back(before, called_for);
             return Ok(ControlFlow::Continue(Renewal::Effects));
         }
-        let report = record::report(scene, model, state);
+        let electrical_before = run.electrical.clone();
+        if let Some(evaluation) = &evaluation {
+            evaluation.update(
+                &mut run.electrical,
+                &resistance::contact(scene, model, state),
+            );
+            if let Some(sooner) =
+                resistance::passed_limit(scene, cycles, (&electrical_before, &run.electrical))
+            {
+                run.state = CycleState {
+                    work: state.work,
+                    ..before
+                };
+                (run.electrical, until_limit) = (electrical_before, sooner);
+                continue;
+            }
+        }
+        until_limit = u64::MAX;
+        let report = record::report(scene, model, state, run.electrical.resistance);
         if run.is_comparable(scene) {
             run.compared.push(&report);
+        }
+        if let Some((limits, resistances)) =
+            resistance::of_life(scene, (&electrical_before, &run.electrical))
+        {
+            run.life.push_resistance(limits, state.cycle, resistances);
         }
         let surface = |side| record::worn_surface(model, state, side);
         run.life.push(scene, state.cycle, surface);
@@ -245,7 +282,11 @@ fn integrate(
         }
         let depth = |side, part| surface(side).depth_of_part(part);
         let rates = state.jump.rates();
-        let end = stops::end(scene, progress((model, &spines), state, rates), depth);
+        let now = Progress {
+            exceeds_resistance: resistance::exceeds_limit(scene, &run.electrical),
+            ..progress((model, &spines), state, rates)
+        };
+        let end = stops::end(scene, now, depth);
         if end.is_some() || scene.output.snapshots_at_cycles.contains(&state.cycle) {
             let snapshot = snapshot(scene, model, condensed, state, record)?;
             if observer.on(Event::Snapshot(&snapshot)).is_break() {
@@ -262,17 +303,20 @@ fn integrate(
     Ok(ControlFlow::Break(Outcome::Completed))
 }
 
-/// The next computed cycle, within the present block of a mission.
+/// The next computed cycle, within the present block of a mission and up to a cycle.
 fn next_cycle(
     scene: &Scene,
     model: &Model,
     (integrator, spines): (&mut Integrator<'_>, &Spines),
-    run: &mut Checkpoint,
+    (run, until_limit): (&mut Checkpoint, u64),
 ) -> Result<CycleRecord, CycleError> {
     let state = &run.state;
     let depth = |side, part| record::worn_surface(model, state, side).depth_of_part(part);
-    let now = progress((model, spines), state, state.jump.rates());
-    let next = stops::next(scene, now, depth);
+    let now = Progress {
+        exceeds_resistance: resistance::exceeds_limit(scene, &run.electrical),
+        ..progress((model, spines), state, state.jump.rates())
+    };
+    let next = stops::next(scene, now, depth).min(until_limit);
     let position = run.mission.as_ref().map(|mission| mission.position);
     let until = position.map_or((next, true), |position| position.next_reported(scene, next));
     integrator.compute_cycle(&mut run.state, until)
@@ -308,6 +352,7 @@ fn progress(
         cycles_left: spines.cycles_left(&state.depth, rates.as_ref().map(|rates| &rates[..])),
         fastest_rate: equivalent.map(|rates| rates.iter().fold(0.0, |m: f64, rate| m.max(*rate))),
         worn_through: spines.are_worn_through(&state.depth),
+        exceeds_resistance: false,
     }
 }
 
@@ -333,7 +378,7 @@ fn summary(
     outcome: Outcome,
 ) -> Summary {
     let state = &run.state;
-    let last = record::report(scene, model, state);
+    let last = record::report(scene, model, state, run.electrical.resistance);
     let mut checks = state.checks;
     checks.worn_area = record::worn_area_residual(state, &last);
     let mut compared = run.compared.clone();

@@ -5,12 +5,14 @@
 //! where it is created; the engine does not check it again.
 
 mod criterion;
+mod electrical;
 mod mission;
 mod motion;
 mod timing;
 mod tuning;
 
 pub use criterion::Criterion;
+pub use electrical::{Conduction, Electrical, MOST_METALS, Metal, Spots};
 pub use mission::{Block, Mission};
 pub use motion::Motion;
 pub use timing::Timing;
@@ -73,6 +75,8 @@ pub struct Scene {
     pub stop: Vec<Criterion>,
     /// Criteria whose life is recorded.
     pub life: Vec<Criterion>,
+    /// The contact as an electrical conductor.
+    pub conduction: Conduction,
     /// Effects that are switched on or off.
     pub effects: Switches,
 }
@@ -135,6 +139,13 @@ impl Scene {
     /// The motion with its course in time.
     pub(crate) fn timed_motion(&self) -> TimedMotion {
         TimedMotion::new(self.motion, self.timing)
+    }
+
+    /// Whether a run may end before its last cycle by a condition of the user.
+    pub(crate) fn has_stops(&self) -> bool {
+        let conduction = self.conduction.known();
+        let limited = conduction.is_some_and(|electrical| !electrical.stop_mohm.is_empty());
+        limited || !self.stop.is_empty()
     }
 
     /// Layers of a side, from the surface down.

@@ -15,7 +15,8 @@ use fastrand::Rng;
 use solver::effects::Switches;
 use solver::model::Layout;
 use solver::scene::{
-    Accuracy, Body, Drive, Friction, Layer, Motion, Output, Scene, Softening, Timing, WearLaw,
+    Accuracy, Body, Conduction, Drive, Friction, Layer, Motion, Output, Scene, Softening, Timing,
+    WearLaw,
 };
 use solver::sides::Sides;
 
@@ -257,6 +258,7 @@ fn scene(u: &mut Numbers, regime: Regime, worn: Worn) -> Scene {
         },
         stop: Vec::new(),
         life: Vec::new(),
+        conduction: Conduction::default(),
         effects: Switches::default(),
     }
 }

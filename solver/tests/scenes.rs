@@ -2,8 +2,8 @@
 
 use solver::effects::Switches;
 use solver::scene::{
-    Accuracy, BlockShape, Body, Drive, Elastic, Friction, Motion, Output, Scene, SliderShape,
-    Softening, Timing, WearLaw,
+    Accuracy, BlockShape, Body, Conduction, Drive, Elastic, Friction, Motion, Output, Scene,
+    SliderShape, Softening, Timing, WearLaw,
 };
 
 const STEEL: Elastic = Elastic {
@@ -65,6 +65,7 @@ pub(crate) fn mccoll() -> Scene {
         },
         stop: Vec::new(),
         life: Vec::new(),
+        conduction: Conduction::default(),
         effects: Switches::default(),
     }
 }
@@ -117,6 +118,7 @@ pub(crate) fn fuzz_button() -> Scene {
         },
         stop: Vec::new(),
         life: Vec::new(),
+        conduction: Conduction::default(),
         effects: Switches::default(),
     }
 }

@@ -15,6 +15,7 @@ mod verify_block_on_ring;
 mod verify_cattaneo_mindlin;
 mod verify_constraint_side;
 mod verify_contact_patch;
+mod verify_contact_resistance;
 mod verify_error_control;
 mod verify_first_load;
 mod verify_fuzz_button_groove;

@@ -136,6 +136,7 @@ fn decisive(plan: &EffectsPlan) -> impl Iterator<Item = Effect> {
     let decisive = plan.decisions.iter().filter(|decision| {
         decision.verdict == Verdict::Simulated
             && decision.effect != Effect::Elasticity
+            && !decision.effect.is_derived()
             && decision
                 .indicator
                 .is_some_and(|indicator| indicator.value() > TOLERANCE)

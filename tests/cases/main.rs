@@ -17,6 +17,7 @@ mod chaos;
 mod client_commands;
 mod clock_steps;
 mod command_line;
+mod contact_resistance;
 mod docker_files;
 mod every_system_from_its_kind_alone;
 mod failing_log;

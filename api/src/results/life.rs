@@ -38,7 +38,7 @@ pub struct LifeEntry {
     pub duration_h: Option<f64>,
     /// Scatter of these cycles, of a continuous motion that of the distance in mm; null where it was not reached.
     pub band: Option<LifeBand>,
-    /// What the criterion compares, at the end of the run: a worn depth in mm or a part of the scar.
+    /// What the criterion compares, at the end of the run: a worn depth in mm, a part of the scar or a resistance in mOhm.
     pub value: Option<f64>,
     /// Its limit, in the same unit.
     pub limit: Option<f64>,

@@ -10,12 +10,18 @@ pub struct ResistanceParts {
     pub slider_constriction: f64,
     /// Constriction in the receptacle and its layers, mOhm.
     pub receptacle_constriction: f64,
-    /// Radius of the spot of real contact, um.
+    /// Films on exposed metals, mOhm.
+    #[serde(default)]
+    pub film: f64,
+    /// Part of the contact's length on which a side shows a metal with a film, -.
+    #[serde(default)]
+    pub filmed_fraction: f64,
+    /// Radius of a spot of real contact, um.
     pub spot_radius_um: f64,
 }
 
-/// Constriction resistance of one spot of real contact, mOhm: without films, without the way through the rest of the parts, and at
-/// the deepest point of each side.
+/// Resistance of the contact at the neutral position, mOhm: the constriction at its spots of real contact and the films of the
+/// specification.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct ContactResistance {
     /// Of the unworn contact.

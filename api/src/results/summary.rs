@@ -175,7 +175,7 @@ pub struct Summary {
     /// Life by each criterion of the specification, in their order.
     #[serde(default)]
     pub life: Vec<LifeEntry>,
-    /// Constriction resistance, mOhm; absent where the force on the contact, a resistivity or a hardness is not known.
+    /// Resistance of the contact, mOhm; absent where the force on the contact, a resistivity or a hardness is not known.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub contact_resistance_mohm: Option<ContactResistance>,
     /// How the motion was derived from a vibration, a thermal cycle or an insertion.

@@ -3,6 +3,7 @@
 use serde::{Deserialize, Deserializer, Serialize};
 use utoipa::ToSchema;
 
+use super::{Film, Spots};
 use crate::enum_value::{EnumValue, string_enum};
 
 string_enum! {
@@ -64,6 +65,12 @@ pub struct Interface {
     /// Wear of each part.
     #[serde(default)]
     pub wear: Sides,
+    /// Spots of real contact, for the contact resistance.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub spots: Option<Spots>,
+    /// Films on exposed metals, for the contact resistance.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub films: Vec<Film>,
 }
 
 /// Friction.

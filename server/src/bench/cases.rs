@@ -188,7 +188,7 @@ fn solved(what: impl Into<String>, size: &str, scene: &Scene) -> Result<Row, Ben
             life,
             motion: None,
             blocks: &[],
-            conductors: None,
+            resistance_lacks: &[],
         },
         &mut |_| ControlFlow::Continue(()),
     )?;

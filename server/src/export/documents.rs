@@ -1,7 +1,7 @@
 //! Result documents of a run: the same for `solve --out` and for a job of the service.
 
 use api::results::{Snapshot, Summary};
-use api::spec::Spec;
+use api::spec::{Film, Spec};
 use solver::record::{CycleReport, Record};
 
 use crate::export::csv;
@@ -9,7 +9,7 @@ use crate::export::csv::CsvError;
 use crate::export::parquet;
 use crate::export::parquet::ParquetError;
 use crate::export::pictures;
-use crate::export::pictures::PlotError;
+use crate::export::pictures::{Picture, PlotError};
 
 /// Media type of JSON.
 pub const JSON: &str = "application/json";
@@ -106,7 +106,9 @@ pub fn all(results: &Results<'_>) -> Result<Vec<Document>, DocumentError> {
         }
     }
     let name = results.spec.name.as_deref().unwrap_or_default();
-    for (picture, drawn) in pictures::run::pictures(name, &record, results.snapshots) {
+    let drawn = pictures::run::pictures(name, &record, results.snapshots);
+    let life = life(name, results.spec, &record);
+    for (picture, drawn) in drawn.into_iter().chain(life) {
         let drawing = pictures::svg(&drawn)?;
         if results.pixels {
             let pixels = pictures::png(&drawing)?;
@@ -115,4 +117,13 @@ pub fn all(results: &Results<'_>) -> Result<Vec<Document>, DocumentError> {
         add(format!("{picture}.svg"), None, SVG, drawing.into_bytes());
     }
     Ok(documents)
+}
+
+/// The picture of the life, with its file name.
+fn life(name: &str, spec: &Spec, record: &Record) -> Option<(&'static str, Picture)> {
+    let grows = |film: &Film| film.growth_exponent.is_some();
+    let film_grows = spec.interface.films.iter().any(grows);
+    let settings = (&spec.life, spec.cycles.is_none());
+    let drawn = pictures::life::picture(name, settings, film_grows, record)?;
+    Some(("life", drawn))
 }

@@ -11,6 +11,8 @@ use solver::effects::{Crossing, Effect, Verdict};
 use solver::observer;
 use solver::record::{self, Layer, Record, Side, SideReport};
 
+use crate::export::resistance;
+
 /// The phase of a job.
 pub fn phase(phase: observer::Phase) -> Phase {
     match phase {
@@ -79,7 +81,7 @@ pub fn summary(summary: &record::Summary, cost: Cost, life: Vec<LifeEntry>) -> S
         life: life;
         motion: None;
         mission: Vec::new();
-        contact_resistance_mohm: None;
+        contact_resistance_mohm: resistance::of(summary);
         warnings: summary.warnings.clone();
         initial: document!(Initial of summary.initial; peak_pressure_mpa, contact_half_width_mm);
         accuracy: document!(

@@ -19,31 +19,39 @@ const SECONDS_PER_HOUR: f64 = 3_600.0;
 /// Part of all contacts, or connectors, that b10 belongs to.
 const TENTH: f64 = 0.1;
 
-/// Life by the criteria of resolved settings.
+/// Life by the criteria of resolved settings. A criterion of the resistance is not modelled where something is lacking.
 pub(crate) fn entries(
-    settings: &LifeSettings,
+    (settings, resistance_lacks): (&LifeSettings, &[String]),
     scene: &Scene,
     life: &Life,
     done: u64,
 ) -> Vec<LifeEntry> {
-    let mut states = life.criteria.iter();
+    let (mut states, mut resistances) = (life.criteria.iter(), life.resistance.iter());
     let criteria = settings.criteria.iter().flatten();
     criteria
-        .map(|criterion| match criterion.kind {
-            EnumValue::Known(CriterionKind::Resistance) => not_modelled(criterion),
-            _ => match states.next() {
+        .map(|criterion| {
+            let state = match criterion.kind {
+                EnumValue::Known(CriterionKind::Resistance) => resistances.next(),
+                _ => states.next(),
+            };
+            match state {
                 Some(state) => entry(settings, scene, (criterion, state), done),
-                None => not_modelled(criterion),
-            },
+                None => not_modelled(criterion, resistance_lacks),
+            }
         })
         .collect()
 }
 
-fn not_modelled(criterion: &Criterion) -> LifeEntry {
+fn not_modelled(criterion: &Criterion, lacks: &[String]) -> LifeEntry {
+    let lacks = if lacks.is_empty() {
+        "a computed cycle".to_owned()
+    } else {
+        lacks.join(", ")
+    };
     LifeEntry {
-        reason: Some(
-            "the contact resistance is not computed: it needs the film on the base metal after its exposure".to_owned(),
-        ),
+        reason: Some(format!(
+            "the contact resistance is not modelled: it needs {lacks}"
+        )),
         ..empty(criterion, LifeStatus::NotModelled)
     }
 }
@@ -97,6 +105,8 @@ fn entry(
             ..measured(LifeStatus::NotReached)
         };
     };
+    let is_resistance = criterion.kind == EnumValue::Known(CriterionKind::Resistance);
+    let by_wear = !(is_resistance && has_growing_film(scene));
     let (distance_mm, seconds) = scene.elapsed(cycles);
     let mission = scene.mission.as_ref();
     // The parts of a continuous motion are no cycles of the user.
@@ -109,13 +119,34 @@ fn entry(
         repetitions: mission.map(|mission| cycles / real(mission.cycles())),
         sliding_distance_mm: Some(distance_mm),
         duration_h: seconds.map(|seconds| seconds / SECONDS_PER_HOUR),
-        band: Some(band(
-            measure,
-            settings.coefficient_of_variation.unwrap_or_default(),
-            settings.contacts.unwrap_or(1),
-        )),
+        band: by_wear.then(|| {
+            band(
+                measure,
+                settings.coefficient_of_variation.unwrap_or_default(),
+                settings.contacts.unwrap_or(1),
+            )
+        }),
+        reason: (!by_wear).then(|| {
+            "no band: a film that grows with the time makes the life depend on more than the product of coefficient and cycles"
+                .to_owned()
+        }),
         ..measured(LifeStatus::Reached)
     }
+}
+
+/// Whether the resistance depends on the time.
+fn has_growing_film(scene: &Scene) -> bool {
+    let electrical = scene.conduction.known().into_iter();
+    let mut metals =
+        electrical.flat_map(|known| known.metals.slider.iter().chain(&known.metals.receptacle));
+    metals.any(|metal| metal.film.is_some_and(|film| film.growth.is_some()))
+}
+
+/// Lives of the first tenth and of nine tenths of all contacts over the median one; `None` where the coefficients are certain.
+pub(crate) fn scatter(settings: &LifeSettings) -> Option<[f64; 2]> {
+    let variation = settings.coefficient_of_variation?;
+    let ends = [TENTH, 1.0 - TENTH].map(|part| lognormal(variation, part));
+    (variation > 0.0).then_some(ends)
 }
 
 /// Median life of a contact of whose kind a part has failed after some cycles.

@@ -1,7 +1,7 @@
 //! Plots: panels of curves and markers, drawn as SVG; the PNG is rasterised from the SVG.
 //!
 //! Text is measured and rasterised with an embedded font, so that no system font is needed and the same data give the
-//! same picture on every machine. Apart from `run`, nothing here knows the meaning of the numbers.
+//! same picture on every machine. Apart from `run` and `life`, nothing here knows the meaning of the numbers.
 
 mod axis;
 mod canvas;
@@ -9,6 +9,7 @@ mod colour;
 mod raster;
 mod ticks;
 
+pub mod life;
 pub mod run;
 
 use plotters::drawing::DrawingAreaErrorKind;

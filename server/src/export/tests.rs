@@ -3,7 +3,7 @@
 use ::parquet::file::reader::{FileReader, SerializedFileReader};
 use ::parquet::record::RowAccessor;
 use serde_json::{Value, json};
-use solver::record::{Channel, Channels, CycleReport, Record, SideReport};
+use solver::record::{Channel, Channels, CycleReport, Record, ResistanceReport, SideReport};
 
 use crate::export::thin::FEWEST_POINTS;
 use crate::export::{csv, history, parquet, pictures, thin};
@@ -20,6 +20,9 @@ struct Found {
     name: &'static str,
     curve: &'static str,
     schema: &'static str,
+    /// The object of a row that has it, where that is not the row or a side.
+    part: Option<&'static str>,
+    is_required: bool,
 }
 
 impl Found {
@@ -29,10 +32,20 @@ impl Found {
             name: channel.name,
             curve: channel.curve,
             schema,
+            part: None,
+            is_required: true,
         }
     }
 
-    /// The object that has the channel as a field, in a row or a wear history.
+    /// The object that has the channel as a field, in a row.
+    fn holder_in_row<'a>(&self, row: &'a mut Value) -> &'a mut Value {
+        match self.part {
+            Some(part) => &mut row[part],
+            None => self.holder(row),
+        }
+    }
+
+    /// The same in a wear history.
     fn holder<'a>(&self, document: &'a mut Value) -> &'a mut Value {
         match self.side {
             Some(side) => &mut document[side],
@@ -45,11 +58,12 @@ impl Found {
         let report = |cycle: u64| {
             let report = CycleReport {
                 cycle,
+                resistance: self.part.map(|_| ResistanceReport::default()),
                 ..CycleReport::default()
             };
             let mut row = json!(report);
             if cycle == PEAK_CYCLE {
-                self.holder(&mut row)[self.name] = PEAK.into();
+                self.holder_in_row(&mut row)[self.name] = PEAK.into();
             }
             serde_json::from_value(row).expect("a report")
         };
@@ -71,6 +85,12 @@ fn channels() -> Vec<Found> {
     });
     let contact = Found::new(None, "WearHistory");
     let contact = CycleReport::CHANNELS.iter().map(contact);
+    let resistance = ResistanceReport::CHANNELS.iter().map(|channel| Found {
+        part: Some("resistance"),
+        is_required: false,
+        ..Found::new(None, "WearHistory")(channel)
+    });
+    let contact = contact.chain(resistance);
     sides.into_iter().flatten().chain(contact).collect()
 }
 
@@ -79,7 +99,7 @@ fn every_channel_is_in_the_rows_and_the_document() {
     for channel in channels() {
         let reports = channel.reports();
         let mut row = json!(reports[PEAK_ROW]);
-        assert_eq!(channel.holder(&mut row)[channel.name], json!(PEAK));
+        assert_eq!(channel.holder_in_row(&mut row)[channel.name], json!(PEAK));
         let mut document = json!(history::wear_history(Record::new(&reports, &[])));
         let column = &channel.holder(&mut document)[channel.name];
         assert_eq!(column[PEAK_ROW], json!(PEAK), "{}", channel.header());
@@ -147,10 +167,20 @@ fn every_channel_is_described() {
         let schema = &document()["components"]["schemas"][channel.schema];
         assert_eq!(schema["properties"][channel.name]["type"], "array");
         let required = schema["required"].as_array().expect("a list");
-        assert!(
+        assert_eq!(
             required.contains(&channel.name.into()),
+            channel.is_required,
             "{}",
             channel.header()
         );
+    }
+}
+
+#[test]
+fn a_run_whose_resistance_is_not_computed_has_no_columns_of_it() {
+    let reports = vec![CycleReport::default(); 3];
+    let document = json!(history::wear_history(Record::new(&reports, &[])));
+    for channel in ResistanceReport::CHANNELS {
+        assert!(document[channel.name].is_null(), "{}", channel.name);
     }
 }

@@ -13,7 +13,7 @@ mod specification;
 use std::sync::OnceLock;
 
 use serde_json::{Value, json};
-use solver::record::{Channels, CycleReport, SideReport};
+use solver::record::{Channels, CycleReport, ResistanceReport, SideReport};
 
 /// Status and description of the problems of operations with a body, which is always a specification or contains one.
 const BODY_PROBLEMS: [(&str, &str); 5] = [
@@ -73,8 +73,9 @@ fn complete(document: &mut Value) {
     document["security"] = json!([{}, {"token": []}]);
     let schemas = &mut document["components"]["schemas"];
     specification::complete(schemas);
-    describe_channels::<CycleReport>(&mut schemas["WearHistory"]);
-    describe_channels::<SideReport>(&mut schemas["SideSeries"]);
+    describe_channels::<CycleReport>(&mut schemas["WearHistory"], true);
+    describe_channels::<ResistanceReport>(&mut schemas["WearHistory"], false);
+    describe_channels::<SideReport>(&mut schemas["SideSeries"], true);
     let paths = document["paths"].as_object_mut().into_iter().flatten();
     for (path, methods) in paths {
         for (_, operation) in methods.as_object_mut().into_iter().flatten() {
@@ -143,11 +144,14 @@ fn identified(path: &str) -> Option<&'static str> {
         .find_map(|(collection, noun)| is_in(collection).then_some(noun))
 }
 
-/// Adds the channels of a report of the engine, which `api` does not know, to the schema of their columns.
-fn describe_channels<R: Channels>(schema: &mut Value) {
+/// Adds the channels of a report of the engine, which `api` does not know, to the schema of their columns. Those of a report that every
+/// run has are always there.
+fn describe_channels<R: Channels>(schema: &mut Value, is_always_there: bool) {
     let mut required = schema["required"].as_array().cloned().unwrap_or_default();
     for channel in R::CHANNELS {
-        required.push(channel.name.into());
+        if is_always_there {
+            required.push(channel.name.into());
+        }
         schema["properties"][channel.name] = json!({
             "type": "array",
             "description": channel.description,

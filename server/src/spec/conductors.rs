@@ -1,102 +1,148 @@
-//! Conductors of both parts: their layers and bases with resistivities and hardnesses, for the constriction of the current.
+//! The contact as an electrical conductor: force, resistivities, hardnesses, spots and films.
 
-use api::spec::{Material, Spec, WearLaw};
+use api::spec::{CriterionKind, EnumValue, Material, MaterialProperties, Spec, Switch, WearLaw};
+use solver::law::elastic::contact_modulus;
 use solver::law::plating::bottoms;
-use solver::law::resistance::Conductor;
-use solver::scene::{Layer, Scene, Softening};
-use solver::sides::{Side, Sides};
+use solver::scene::{Conduction, Elastic, Electrical, Layer, Metal, Motion, Softening};
+use solver::sides::Sides;
 
-use crate::spec::environment;
-use crate::spec::materials;
-use crate::spec::plating;
+use crate::spec::diagnostics::Diagnostics;
+use crate::spec::{environment, films, materials, plating, spots};
 
-/// A layer, or a base, of a part.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Metal {
-    /// Depth of its lower end below the unworn surface, mm; of a base without bound.
-    bottom_mm: f64,
-    resistivity_ohm_m: f64,
-    /// Hardness at the temperature of the contact, MPa.
-    pub(crate) hardness_mpa: f64,
+const NO_FORCE: &str =
+    "the force on the contact is not known: give a load of the kind `force` with its `width_mm`";
+const NO_RESISTIVITY: &str =
+    "a resistivity is not known: give `resistivity_ohm_m` of each material";
+const NO_HARDNESS: &str = "a hardness is not known: give `hardness_mpa` of each material";
+
+/// What conducts, and what is known of it.
+pub(super) struct Conductors {
+    /// With the limits of no criterion yet.
+    pub(super) conduction: Conduction,
+    /// What a criterion of the resistance lacks, in words.
+    pub(super) lacks: Vec<String>,
 }
 
-/// Both parts of a contact that carries a force.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Conductors {
-    /// Force on the contact, N.
-    pub(crate) force_n: f64,
-    /// Metals from the surface down.
-    metals: Sides<Vec<Metal>>,
+/// Parts of the scene that the metals depend on.
+#[derive(Clone, Copy)]
+pub(super) struct Bodies<'a> {
+    pub(super) layers: &'a Sides<Vec<Layer>>,
+    pub(super) elastic: &'a Sides<Elastic>,
+    pub(super) softening: &'a Sides<Softening>,
+    pub(super) motion: Motion,
 }
 
-impl Conductors {
-    /// Metals of both sides that are left at a depth in mm of each, from the surface down.
-    pub(crate) fn left_at(&self, depth: Sides<f64>) -> Sides<Vec<(Metal, Conductor)>> {
-        Sides::from_fn(|side| {
-            let depth = *depth.of(side);
-            let metals = self.metals.of(side).iter();
-            let left = metals
-                .filter(|metal| metal.bottom_mm > depth)
-                .scan(depth, |top, metal| {
-                    let thickness_mm = metal.bottom_mm - *top;
-                    *top = metal.bottom_mm;
-                    let resistivity_ohm_m = metal.resistivity_ohm_m;
-                    Some((
-                        *metal,
-                        Conductor {
-                            resistivity_ohm_m,
-                            thickness_mm,
-                        },
-                    ))
-                });
-            left.collect()
-        })
+/// Resolves what conducts in a specification whose materials, laws and load are resolved; fills in its spots where the resistance is
+/// computed.
+pub(super) fn resolve(
+    filled: &mut Spec,
+    bodies: Bodies<'_>,
+    diagnostics: &mut Diagnostics,
+) -> Conductors {
+    let is_asked_for = is_asked_for(filled);
+    let platings = plating::by_side(&filled.plating);
+    let films = films::resolve(
+        &filled.interface.films,
+        platings,
+        bodies.motion,
+        diagnostics,
+    );
+    let (mut lacks, mut unknown) = (Vec::new(), None);
+    let force = filled
+        .load
+        .as_ref()
+        .and_then(|load| load.n.zip(load.width_mm));
+    if force.is_none() {
+        lacks.push("a load of the kind `force` with its `width_mm`".to_owned());
+        unknown = Some(NO_FORCE);
     }
+    let metals = Sides::from_fn(|side| {
+        let of_side = (*platings.of(side), bodies.layers.of(side));
+        let base = *materials::by_side(&filled.materials).of(side);
+        let law = *environment::laws(filled).of(side);
+        let pointers = of_side.0.iter().enumerate().map(|(number, layer)| {
+            let name = format!("plating.{}[{number}].material", side.name());
+            (name, layer.material.as_ref(), layer.wear.as_ref())
+        });
+        let base = (format!("materials.{}", side.name()), base, law);
+        let bottoms = bottoms(of_side.1).chain([f64::INFINITY]);
+        let metals = pointers.chain([base]).zip(bottoms).enumerate();
+        let metals = metals.map(|(number, ((name, material, law), bottom_mm))| {
+            let softening = bodies.softening.of(side).ratio(number);
+            let (resistivity, hardness) = properties(material, law);
+            if resistivity.is_none() {
+                lacks.push(format!("`{name}.resistivity_ohm_m`"));
+                unknown.get_or_insert(NO_RESISTIVITY);
+            }
+            if hardness.is_none() {
+                lacks.push(format!("`{name}.hardness_mpa`"));
+                unknown.get_or_insert(NO_HARDNESS);
+            }
+            Metal {
+                bottom_mm,
+                resistivity_ohm_m: resistivity.unwrap_or_default(),
+                hardness_mpa: softening * hardness.unwrap_or_default(),
+                film: films.of(side).get(number).copied().flatten(),
+            }
+        });
+        metals.collect::<Vec<_>>()
+    });
+    let modulus = contact_modulus(bodies.elastic.slider, bodies.elastic.receptacle);
+    let conduction = match (unknown, force) {
+        (None, Some((_, width_mm))) => {
+            let given = filled.interface.spots.as_ref();
+            let (spots, found) = spots::resolve(given, modulus, diagnostics);
+            filled.interface.spots = Some(spots);
+            Conduction::Known(Box::new(Electrical {
+                width_mm,
+                metals,
+                spots: found,
+                stop_mohm: Vec::new(),
+                life_mohm: Vec::new(),
+            }))
+        }
+        (missing, _) => {
+            if filled.interface.spots.is_some() {
+                spots::resolve(filled.interface.spots.as_ref(), modulus, diagnostics);
+            }
+            Conduction::Unknown {
+                missing: missing.unwrap_or(NO_FORCE),
+                is_asked_for,
+            }
+        }
+    };
+    if filled.interface.films.is_empty() {
+        lacks.push("the films on exposed metals (`interface.films`)".to_owned());
+    }
+    if filled.effects.get("resistance").and_then(EnumValue::known) == Some(Switch::Off) {
+        lacks.push("`effects.resistance`, which is `off`".to_owned());
+    }
+    Conductors { conduction, lacks }
 }
 
-/// Conductors of a resolved specification; `None` where the force on the contact, a resistivity or a hardness is not known.
-pub(super) fn resolve(filled: &Spec, scene: &Scene) -> Option<Conductors> {
-    let force_n = filled.load.as_ref()?.n?;
-    let bases = materials::by_side(&filled.materials);
-    let layers = plating::by_side(&filled.plating);
-    let laws = environment::laws(filled);
-    let of = |side| {
-        let layers = layers.of(side).iter();
-        let layers = layers.map(|layer| (layer.material.as_ref(), layer.wear.as_ref()));
-        let materials = layers.chain([(*bases.of(side), *laws.of(side))]);
-        let (plating, softening): (&[Layer], &Softening) = match side {
-            Side::Slider => (&scene.slider.plating, &scene.slider.softening),
-            Side::Receptacle => (&scene.receptacle.plating, &scene.receptacle.softening),
-        };
-        let bottoms = bottoms(plating).chain([f64::INFINITY]);
-        let metals = materials.zip(bottoms).enumerate();
-        metals
-            .map(|(number, ((material, law), bottom_mm))| {
-                metal((material, law), bottom_mm, softening.ratio(number))
-            })
-            .collect::<Option<Vec<Metal>>>()
+/// Whether something of the specification is about the resistance alone.
+fn is_asked_for(filled: &Spec) -> bool {
+    let is_resistance = |kind: &EnumValue<CriterionKind>| {
+        matches!(kind, EnumValue::Known(CriterionKind::Resistance))
     };
-    let metals = Sides {
-        slider: of(Side::Slider)?,
-        receptacle: of(Side::Receptacle)?,
-    };
-    Some(Conductors { force_n, metals })
+    let mut criteria = filled.life.criteria.iter().flatten();
+    let mut stops = filled.stop.iter().filter_map(|stop| stop.kind.as_ref());
+    filled.interface.spots.is_some()
+        || !filled.interface.films.is_empty()
+        || criteria.any(|criterion| is_resistance(&criterion.kind))
+        || stops.any(is_resistance)
 }
 
-/// A metal with the hardness that its wear law states, or its own.
-fn metal(
-    (material, law): (Option<&Material>, Option<&WearLaw>),
-    bottom_mm: f64,
-    softening: f64,
-) -> Option<Metal> {
-    let Some(Material::Given(properties)) = material else {
-        return None;
+/// Resistivity of a metal, and its hardness: that which its wear law states, or its own.
+fn properties(material: Option<&Material>, law: Option<&WearLaw>) -> (Option<f64>, Option<f64>) {
+    let properties: Option<&MaterialProperties> = match material {
+        Some(Material::Given(properties)) => Some(properties),
+        _ => None,
     };
     let of_law = law.and_then(|law| law.hardness_mpa);
-    let hardness_mpa = of_law.or(properties.hardness_mpa)? * softening;
-    Some(Metal {
-        bottom_mm,
-        resistivity_ohm_m: properties.resistivity_ohm_m?,
-        hardness_mpa,
-    })
+    let hardness = of_law.or(properties.and_then(|own| own.hardness_mpa));
+    (properties.and_then(|own| own.resistivity_ohm_m), hardness)
 }
+
+#[cfg(test)]
+mod tests;

@@ -16,11 +16,35 @@ pub(in crate::spec) const FRACTION: RangeInclusive<f64> = 1e-3..=0.99;
 /// mOhm.
 pub(in crate::spec) const RESISTANCE_MOHM: RangeInclusive<f64> = 1e-6..=1e12;
 
-/// The platings of a scene, and which side wears at all.
+/// The platings of a scene, which side wears at all, and what the resistance lacks.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Surfaces<'a> {
     pub(super) plating: &'a Sides<Vec<Layer>>,
     pub(super) wears: Sides<bool>,
+    pub(super) resistance_lacks: &'a [String],
+}
+
+/// What the engine compares of a criterion.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Modelled {
+    /// A depth of a part of a scar.
+    Depth(scene::Criterion),
+    /// A resistance of the contact, mOhm.
+    Resistance(f64),
+}
+
+impl Modelled {
+    /// Those of depths, and the limits of those of resistances.
+    pub(super) fn apart(all: impl IntoIterator<Item = Self>) -> (Vec<scene::Criterion>, Vec<f64>) {
+        let (mut depths, mut limits) = (Vec::new(), Vec::new());
+        for modelled in all {
+            match modelled {
+                Self::Depth(criterion) => depths.push(criterion),
+                Self::Resistance(mohm) => limits.push(mohm),
+            }
+        }
+        (depths, limits)
+    }
 }
 
 impl Surfaces<'_> {
@@ -84,7 +108,7 @@ pub(super) fn resolve(
     given: &Criterion,
     surfaces: Surfaces<'_>,
     diagnostics: &mut Diagnostics,
-) -> Vec<(Criterion, Option<scene::Criterion>)> {
+) -> Vec<(Criterion, Option<Modelled>)> {
     let Some(kind) = diagnostics.enum_member(&format!("{pointer}/kind"), &given.kind) else {
         return Vec::new();
     };
@@ -98,7 +122,14 @@ pub(super) fn resolve(
             &RESISTANCE_MOHM,
             diagnostics,
         );
-        return limit.map(|_| (given.clone(), None)).into_iter().collect();
+        // That of the whole contact, whichever side is named.
+        let named = Criterion {
+            side: None,
+            ..given.clone()
+        };
+        let modelled = limit.filter(|_| surfaces.resistance_lacks.is_empty());
+        let resolved = limit.map(|_| (named, modelled.map(Modelled::Resistance)));
+        return resolved.into_iter().collect();
     }
     let of_side = |side: Side| {
         let layers = surfaces.plating.of(side);
@@ -145,7 +176,7 @@ pub(super) fn resolve(
             side: Some(part(side).into()),
             ..given.clone()
         };
-        Some((named, Some(criterion)))
+        Some((named, Some(Modelled::Depth(criterion))))
     };
     sides.into_iter().filter_map(of_side).collect()
 }

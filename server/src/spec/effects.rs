@@ -11,7 +11,7 @@ use crate::spec::diagnostics::{Diagnostics, shortened};
 use crate::spec::suggestion::did_you_mean;
 
 /// Effects that are planned but not known to the engine yet.
-const PLANNED: [&str; 3] = ["oxidation", "plasticity", "resistance"];
+const PLANNED: [&str; 2] = ["oxidation", "plasticity"];
 
 /// Names of all effects.
 pub(crate) fn names() -> Vec<&'static str> {

@@ -90,6 +90,7 @@ pub(crate) fn resolve(
             slider: Some(slider),
             receptacle: Some(receptacle),
         },
+        ..given.clone()
     };
     let laws = Laws {
         friction: friction_law,

@@ -6,7 +6,7 @@ use api::spec::{Criterion, CriterionKind, LifeSettings};
 use solver::scene;
 use solver::sides::Side;
 
-use crate::spec::criterion::{self, Surfaces};
+use crate::spec::criterion::{self, Modelled, Surfaces};
 use crate::spec::diagnostics::Diagnostics;
 use crate::spec::sourced::{assumed, typical};
 
@@ -17,12 +17,12 @@ pub(in crate::spec) const VARIATION: RangeInclusive<f64> = 0.0..=10.0;
 /// Contacts of a connector.
 pub(in crate::spec) const CONTACTS: RangeInclusive<u64> = 1..=1_000_000;
 
-/// Resolves the life.
+/// Resolves the life: its settings, its criteria of depths, and limits of the resistance in mOhm.
 pub(super) fn resolve(
     given: &LifeSettings,
     surfaces: Surfaces<'_>,
     diagnostics: &mut Diagnostics,
-) -> (LifeSettings, Vec<scene::Criterion>) {
+) -> (LifeSettings, Vec<scene::Criterion>, Vec<f64>) {
     let criteria = match &given.criteria {
         Some(given) => {
             diagnostics.check_length("/life/criteria", given.len(), CRITERION_LIMIT);
@@ -49,11 +49,12 @@ pub(super) fn resolve(
         contacts: Some(contacts),
         criteria: Some(criteria),
     };
-    (filled, modelled.into_iter().flatten().collect())
+    let (depths, limits) = Modelled::apart(modelled.into_iter().flatten());
+    (filled, depths, limits)
 }
 
 /// The first exposure of every layer below the outermost one, and of the base metal, of each plated side.
-fn exposures(surfaces: Surfaces<'_>) -> Vec<(Criterion, Option<scene::Criterion>)> {
+fn exposures(surfaces: Surfaces<'_>) -> Vec<(Criterion, Option<Modelled>)> {
     let mut diagnostics = Diagnostics::default();
     let of_side = |side: Side| {
         let layers = 2..=surfaces.plating.of(side).len();

@@ -11,8 +11,8 @@ use crate::spec::diagnostics::NAME_LIMIT;
 use crate::spec::law::{self, coulomb};
 use crate::spec::motion::{fourier, insertion, thermal_cycle, vibration};
 use crate::spec::{
-    LABEL_LIMIT, LABEL_TEXT_LIMIT, accuracy, criterion, effects, environment, life, load,
-    materials, mission, motion, output, plating, stop, system,
+    LABEL_LIMIT, LABEL_TEXT_LIMIT, accuracy, criterion, effects, environment, films, life, load,
+    materials, mission, motion, output, plating, spots, stop, system,
 };
 
 /// Keywords of the schema of a field.
@@ -82,6 +82,15 @@ fn numbers() -> Vec<(&'static str, &'static str, RangeInclusive<f64>)> {
         ("PsdPoint", "g2_per_hz", vibration::G2_PER_HZ),
         ("Environment", "temperature_c", environment::TEMPERATURE_C),
         ("Friction", "coefficient", coulomb::RANGE),
+        ("Spots", "cluster_diameter_mm", spots::CLUSTER_DIAMETER_MM),
+        ("Spots", "asperity_radius_mm", spots::ASPERITY_RADIUS_MM),
+        (
+            "Film",
+            "specific_resistance_ohm_mm2",
+            films::SPECIFIC_RESISTANCE_OHM_MM2,
+        ),
+        ("Film", "growth_exponent", films::GROWTH_EXPONENT),
+        ("Film", "growth_time_h", films::GROWTH_TIME_H),
         ("PlatingLayer", "thickness_um", plating::THICKNESS_UM),
         ("PlatingLayer", "thickness_mm", plating::THICKNESS_MM),
         ("LifeSettings", "coefficient_of_variation", life::VARIATION),
@@ -120,6 +129,8 @@ fn others() -> Vec<(&'static str, &'static str, Value)> {
         ("Spec", "repeat", counts(&mission::REPEAT)),
         ("Spec", "stop", json!({"maxItems": stop::STOP_LIMIT})),
         ("LifeSettings", "contacts", counts(&life::CONTACTS)),
+        ("Spots", "count", counts(&spots::COUNT)),
+        ("Interface", "films", json!({"maxItems": films::FILM_LIMIT})),
         ("Motion", "contacts", counts(&vibration::CONTACTS)),
         ("Motion", "terms", json!({"maxItems": fourier::TERM_LIMIT})),
         ("FourierTerm", "order", counts(&fourier::ORDER)),
@@ -312,6 +323,14 @@ mod tests {
             "PlatingLayer" => (
                 "/plating/slider/0",
                 format!(r#""plating":{{"slider":[{{"material":"silver","{field}":{value}}}]}}"#),
+            ),
+            "Spots" => (
+                "/interface/spots",
+                format!(r#""interface":{{"spots":{{"{field}":{value}}}}}"#),
+            ),
+            "Film" => (
+                "/interface/films/0",
+                format!(r#""interface":{{"films":[{{"{field}":{value}}}]}}"#),
             ),
             "LifeSettings" => ("/life", format!(r#""life":{{"{field}":{value}}}"#)),
             "Criterion" => (

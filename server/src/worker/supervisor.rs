@@ -27,7 +27,7 @@ const MALFORMED_TIMEOUT: Duration = Duration::from_secs(1);
 /// Why reading the output of the process has ended.
 enum Stop {
     /// The process closed its output; with its last line, if there was one.
-    Output(Option<Line>),
+    Output(Option<Box<Line>>),
     /// A line cannot be read.
     Unreadable(LineError),
     /// The user has requested the end of the job.
@@ -134,7 +134,7 @@ impl Supervision<'_> {
                         }
                         Write::Update
                     }
-                    Ok(None) => return Ok(Stop::Output(last)),
+                    Ok(None) => return Ok(Stop::Output(last.map(Box::new))),
                     Err(error) => return Ok(self.stop_by(error, last).await),
                 },
                 _ = tick.tick() => Write::Update,
@@ -183,7 +183,7 @@ impl Supervision<'_> {
         if matches!(error, LineError::Malformed(_)) {
             let next = tokio::time::timeout(MALFORMED_TIMEOUT, self.process.next_line()).await;
             if matches!(next, Ok(Ok(None))) {
-                return Stop::Output(last);
+                return Stop::Output(last.map(Box::new));
             }
         }
         Stop::Unreadable(error)
@@ -215,7 +215,12 @@ impl Supervision<'_> {
     /// the job.
     async fn end_process(&mut self, stop: Stop) -> Option<End> {
         let end = match stop {
-            Stop::Output(last) => return Some(end_by_exit(last, &self.process.wait().await)),
+            Stop::Output(last) => {
+                return Some(end_by_exit(
+                    last.map(|line| *line),
+                    &self.process.wait().await,
+                ));
+            }
             Stop::Shutdown => match self.stop_gracefully().await {
                 Some(last) => return Some(end_by_exit(Some(last), &self.process.wait().await)),
                 None => Some(End::without_result(Transition::Release, "")),

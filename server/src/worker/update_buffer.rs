@@ -191,6 +191,7 @@ mod tests {
             slider: SideReport::default(),
             station_depth_mm: Vec::new(),
             exposed_length_mm: Sides::default(),
+            resistance: None,
             load_n_per_mm: 0.0,
             peak_pressure_mpa: 0.0,
             contact_half_width_mm: 0.0,

@@ -37,7 +37,7 @@ impl Integrator<'_> {
         loop {
             // A run may end after this cycle.
             let is_last = before.cycle + jump == until;
-            let detailed = (is_last && is_reported) || !self.scene.stop.is_empty();
+            let detailed = (is_last && is_reported) || self.scene.has_stops();
             let (computed, extrapolated) = if stroke.is_groove {
                 (1, extrapolated(jump - 1, detailed))
             } else {

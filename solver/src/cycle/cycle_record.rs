@@ -14,6 +14,8 @@ pub struct Neutral {
     pub peak_pressure: f64,
     /// Half-width of the contact, mm.
     pub half_width: f64,
+    /// Its middle, mm.
+    pub middle: f64,
 }
 
 impl Neutral {
@@ -23,6 +25,7 @@ impl Neutral {
             load: contact.load(&pair.interface),
             peak_pressure: contact.peak_pressure(),
             half_width: contact.half_width(x),
+            middle: contact.middle(x),
         }
     }
 }

@@ -7,7 +7,7 @@ use super::reason::{Grounds, reason};
 use super::small_strain;
 
 use crate::law::surface::SurfaceWear;
-use crate::scene::{Body, Motion, Scene, Softening, SurfaceEffects};
+use crate::scene::{Body, Conduction, Motion, Scene, Softening, SurfaceEffects};
 use crate::sides::Sides;
 
 /// Largest indicator of a skipped effect over the tolerance. Arbitrary: five effects at this limit exceed their budget
@@ -79,7 +79,7 @@ fn indicator(scene: &Scene, indicators: &Indicators<'_>, effect: Effect) -> Indi
         unworn: indicators.value(effect, Sides::default()),
         worn: indicators.value(effect, indicators.worn_depth_at_end()),
         threshold: match effect {
-            Effect::Elasticity => 0.0,
+            Effect::Elasticity | Effect::Resistance => 0.0,
             Effect::GeometricNonlinearity => small_strain::LIMIT,
             Effect::Plating => LAYER_SHARE,
             _ => SHARE * accuracy.tolerance,
@@ -130,6 +130,13 @@ fn missing_input(scene: &Scene, effect: Effect) -> Option<&'static str> {
         (Effect::ThermalSoftening, [false, true]) => Some(
             "the melting temperatures of the receptacle's materials are not all known: give `melting_temperature_c`",
         ),
+        (Effect::Resistance, _) => match scene.conduction {
+            Conduction::Unknown {
+                missing,
+                is_asked_for: true,
+            } => Some(missing),
+            _ => None,
+        },
         _ => None,
     }
 }
@@ -180,6 +187,13 @@ fn nothing_to_simulate(
         ),
         Effect::Relocation if !wears() => Some("nothing wears, so nothing moves the mesh"),
         Effect::SpringFading if scene.spring_n_per_mm2 <= 0.0 => Some("the load is a dead load"),
+        Effect::Resistance => match scene.conduction {
+            Conduction::Unknown {
+                missing,
+                is_asked_for: false,
+            } => Some(missing),
+            _ => None,
+        },
         Effect::SpringFading if !wears() => Some("nothing wears, so the spring keeps its load"),
         _ => None,
     }

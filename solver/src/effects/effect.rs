@@ -82,6 +82,10 @@ effects! {
     GeometricNonlinearity = "geometric_nonlinearity",
         "error of small strains in peak pressure and half-width, (p0/2E*)(1 + 0.16 mu^2)",
         ["peak_pressure_mpa", "contact_half_width_mm"];
+    /// Resistance of the contact; derived from the wear, which it does not change.
+    Resistance = "resistance",
+        "always where the force, the resistivities and the hardnesses are known",
+        ["contact_resistance_mohm", "life"];
 }
 
 impl Effect {
@@ -93,6 +97,11 @@ impl Effect {
     /// Whether its indicator, if it is skipped, counts as an error of what the tolerance bounds. Effects that are never
     /// simulated have limits of their own; layers that the wear does not reach change nothing.
     pub(super) fn is_counted(self) -> bool {
-        self.is_available() && self != Self::Plating
+        self.is_available() && self != Self::Plating && !self.is_derived()
+    }
+
+    /// Whether it follows from the wear and changes none of it.
+    pub fn is_derived(self) -> bool {
+        self == Self::Resistance
     }
 }

@@ -93,7 +93,7 @@ impl<'a> Indicators<'a> {
 
     fn value_alone(&self, effect: Effect, depth: Sides<f64>) -> f64 {
         match effect {
-            Effect::Elasticity => 1.0,
+            Effect::Elasticity | Effect::Resistance => 1.0,
             Effect::Friction => self.friction(depth),
             Effect::StickMemory => self.lost_slip(depth),
             Effect::ReceptacleWear => self.wear(Side::Receptacle, depth),

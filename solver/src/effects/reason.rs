@@ -46,6 +46,20 @@ pub(super) fn reason(
             "contact modulus {modulus:.0} MPa, unworn Hertz half-width {half_width:.3e} mm"
         );
     }
+    if effect == Effect::Resistance {
+        let switch = if verdict == Verdict::ForcedOn {
+            "switched on; "
+        } else {
+            ""
+        };
+        return if verdict.is_on() {
+            format!(
+                "{switch}force, resistivities and hardnesses are known; the wear does not depend on it"
+            )
+        } else {
+            "switched off".to_owned()
+        };
+    }
     let Indicator {
         unworn,
         worn,
@@ -114,6 +128,8 @@ fn consequence(effect: Effect, is_on: bool) -> &'static str {
         (Effect::Relocation, false) => "the stiffness of the unworn bodies is used throughout",
         (Effect::SpringFading, true) => "the load decreases as the bodies wear",
         (Effect::SpringFading, false) => "the load is constant",
+        (Effect::Resistance, true) => "the resistance of the worn contact is computed",
+        (Effect::Resistance, false) => "the resistance of the contact is not computed",
         (Effect::GeometricNonlinearity, _) => "strains and rotations are taken as small",
     }
 }

@@ -100,6 +100,8 @@ impl WornBlocks {
             cycles_left: cycles.slider.min(cycles.receptacle),
             fastest_rate: initial.zip(rates).map(|(initial, rate)| initial * rate),
             worn_through: shares.slider.min(shares.receptacle) < ale::WORN_THROUGH_SHARE,
+            // Not foreseen: a film is there at once where a layer is through.
+            exceeds_resistance: false,
         }
     }
 

@@ -1,8 +1,8 @@
 use super::*;
 use crate::effects::Switches;
 use crate::scene::{
-    Accuracy, BlockShape, Body, Criterion, Friction, Motion, Output, SliderShape, Softening,
-    Timing, WearLaw,
+    Accuracy, BlockShape, Body, Conduction, Criterion, Friction, Motion, Output, SliderShape,
+    Softening, Timing, WearLaw,
 };
 use crate::sides::Side;
 
@@ -59,6 +59,7 @@ pub(crate) fn fuzz_button() -> Scene {
             .map(|side| Criterion::deepest(side, 1.0))
             .to_vec(),
         life: Vec::new(),
+        conduction: Conduction::default(),
         effects: Switches::default(),
     }
 }

@@ -1,6 +1,6 @@
 //! The wear history as a list of named columns of equal length.
 
-use crate::record::{Channels, CycleReport};
+use crate::record::{Channels, CycleReport, ResistanceReport};
 use crate::sides::Side;
 
 /// A layer below the outermost one.
@@ -59,7 +59,7 @@ pub struct Record {
     /// Accumulated imposed sliding distance, mm.
     pub sliding_distance_mm: Vec<f64>,
     /// Worn depth at the stations, then the channels of the receptacle and its exposed layers, the same of the slider, and the
-    /// channels of the contact.
+    /// channels of the contact and of its resistance, if that is computed.
     pub columns: Vec<Column>,
 }
 
@@ -87,6 +87,7 @@ impl Record {
         let receptacle = columns(reports, Some(Side::Receptacle), |report| &report.receptacle);
         let slider = columns(reports, Some(Side::Slider), |report| &report.slider);
         let contact = columns(reports, None, |report| report);
+        let resistance = resistance(reports);
         Self {
             cycle: reports.iter().map(|report| report.cycle).collect(),
             jump: reports.iter().map(|report| report.jump).collect(),
@@ -100,6 +101,7 @@ impl Record {
                 .chain(slider)
                 .chain(exposed(reports, Side::Slider))
                 .chain(contact)
+                .chain(resistance)
                 .collect(),
         }
     }
@@ -123,6 +125,26 @@ fn exposed(reports: &[CycleReport], side: Side) -> impl Iterator<Item = Column> 
         values: reports
             .iter()
             .map(|report| lengths(report).get(index).copied().unwrap_or_default())
+            .collect(),
+    })
+}
+
+/// One column a channel of the resistance; none where it is not computed.
+fn resistance(reports: &[CycleReport]) -> impl Iterator<Item = Column> {
+    let is_computed = reports.iter().any(|report| report.resistance.is_some());
+    let channels = ResistanceReport::CHANNELS
+        .iter()
+        .filter(move |_| is_computed);
+    channels.map(|channel| Column {
+        name: channel.name,
+        unit: channel.unit,
+        side: None,
+        place_mm: None,
+        layer: None,
+        curve: channel.curve,
+        values: reports
+            .iter()
+            .map(|report| report.resistance.as_ref().map_or(0.0, channel.value))
             .collect(),
     })
 }
@@ -189,6 +211,7 @@ mod tests {
     fn every_channel_has_its_unit_in_its_name() {
         names_end_with_units::<SideReport>();
         names_end_with_units::<CycleReport>();
+        names_end_with_units::<ResistanceReport>();
     }
 
     #[test]

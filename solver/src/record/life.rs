@@ -2,7 +2,7 @@
 //!
 //! The cycles that a computed one represents do not pass a criterion by far (`schedule::stops`). Between two computed cycles the
 //! dose at the depth of the criterion is taken as linear in the cycles, which is exact for a pressure that does not change; where
-//! the wear ends at that depth, as linear with the rate before.
+//! the wear ends at that depth, as linear with the rate before. A contact resistance is taken as linear in the cycles.
 
 use serde::{Deserialize, Serialize};
 
@@ -16,6 +16,8 @@ use crate::sides::Side;
 pub struct Life {
     /// One entry a criterion.
     pub criteria: Vec<CriterionState>,
+    /// One entry a limit of the contact resistance.
+    pub resistance: Vec<CriterionState>,
     /// Cycle of the last computed one.
     cycle: u64,
 }
@@ -25,7 +27,7 @@ pub struct Life {
 pub struct CriterionState {
     /// Physical cycles at which it was reached; `None` if it was not.
     pub cycles: Option<f64>,
-    /// Value after the last computed cycle: worn depth, mm, or exposed part of the scar, -.
+    /// Value after the last computed cycle: worn depth, mm, exposed part of the scar, -, or resistance, mOhm.
     pub value: f64,
     /// Value that counts as reached.
     pub limit: f64,
@@ -36,6 +38,29 @@ pub struct CriterionState {
 }
 
 impl Life {
+    /// Takes the resistances before and after the next computed cycle, mOhm; before the states of its wear.
+    pub(crate) fn push_resistance(
+        &mut self,
+        limits: &[f64],
+        cycle: u64,
+        (before, after): (f64, f64),
+    ) {
+        self.resistance
+            .resize(limits.len(), CriterionState::default());
+        let cycles = real_cycles(cycle - self.cycle);
+        for (state, limit) in self.resistance.iter_mut().zip(limits) {
+            (state.value, state.limit) = (after, *limit);
+            if state.cycles.is_none() && before.max(after) >= *limit {
+                let part = if before >= *limit {
+                    0.0
+                } else {
+                    (limit - before) / (after - before)
+                };
+                state.cycles = Some(real_cycles(self.cycle) + part * cycles);
+            }
+        }
+    }
+
     /// Takes the state after the next computed cycle, which is the given one.
     pub(crate) fn push<'a>(
         &mut self,
@@ -106,6 +131,28 @@ mod tests {
                 Side::Receptacle => &worn,
             },
         });
+    }
+
+    #[test]
+    fn a_resistance_is_reached_between_computed_cycles() {
+        let mut life = Life::default();
+        let scene = fuzz_button();
+        let limits = [1.0, 3.0, 10.0];
+        let mut next = |cycle, resistances| {
+            life.push_resistance(&limits, cycle, resistances);
+            push(&mut life, &scene, cycle, 0.0);
+            life.resistance
+                .iter()
+                .map(|state| state.cycles)
+                .collect::<Vec<_>>()
+        };
+        // One that is reached already has no life.
+        assert_eq!(next(100, (2.0, 2.0)), [Some(0.0), None, None]);
+        assert_eq!(next(200, (2.0, 6.0)), [Some(0.0), Some(125.0), None]);
+        // What is reached stays.
+        assert_eq!(next(300, (6.0, 1.0)), [Some(0.0), Some(125.0), None]);
+        let open = life.resistance[2];
+        assert!((open.value - 1.0).abs() < 1e-15 && (open.limit - 10.0).abs() < 1e-15);
     }
 
     #[test]

@@ -1,6 +1,7 @@
 //! The report of a computed cycle: every scalar of it is one line of a table here.
 
 use crate::cycle::CycleState;
+use crate::electrical::ContactResistance;
 use crate::interpolation;
 use crate::law::plating::bottoms;
 use crate::model::Model;
@@ -31,6 +32,27 @@ declare_report! {
 }
 
 declare_report! {
+    /// Resistance of the contact at the neutral position.
+    #[derive(Copy)]
+    pub ResistanceReport from found: &ContactResistance;
+    fields {}
+    channels {
+        /// Resistance of the contact: constriction in both sides and films, mOhm.
+        contact_resistance_mohm ["mohm"] = found.total_mohm,
+        /// Its part by the constriction in the slider and its layers, mOhm.
+        slider_constriction_mohm ["mohm"] = found.constriction_mohm.slider,
+        /// Its part by the constriction in the receptacle and its layers, mOhm.
+        receptacle_constriction_mohm ["mohm"] = found.constriction_mohm.receptacle,
+        /// Its part by films on exposed metals, mOhm.
+        film_resistance_mohm ["mohm"] = found.film_mohm,
+        /// Part of the contact's length on which a side shows a metal with a film, -.
+        filmed_fraction ["fraction"] = found.filmed_fraction,
+        /// Radius of a spot of real contact, um.
+        spot_radius_um ["um"] = found.spot_radius_um,
+    }
+}
+
+declare_report! {
     /// State after a computed cycle; cycle 0 is the unworn, loaded state.
     pub CycleReport from end: &CycleEnd<'_>;
     fields {
@@ -52,6 +74,9 @@ declare_report! {
         /// base; none without a plating.
         #[serde(default)]
         exposed_length_mm: Sides<Vec<f64>> = Sides::from_fn(|side| end.exposed_lengths(side)),
+        /// Resistance of the contact; `None` where it is not computed.
+        #[serde(default)]
+        resistance: Option<ResistanceReport> = end.resistance.as_ref().map(ResistanceReport::of),
     }
     channels {
         /// Normal load, which a spring reduces as the bodies wear, N per mm of depth.
@@ -88,12 +113,18 @@ pub(crate) fn worn_surface<'a>(
     }
 }
 
-/// The report of the present state.
-pub fn report(scene: &Scene, model: &Model, state: &CycleState) -> CycleReport {
+/// The report of the present state, and of the resistance of its contact if that is computed.
+pub fn report(
+    scene: &Scene,
+    model: &Model,
+    state: &CycleState,
+    resistance: Option<ContactResistance>,
+) -> CycleReport {
     CycleReport::of(&CycleEnd {
         scene,
         model,
         state,
+        resistance,
     })
 }
 
@@ -102,6 +133,7 @@ struct CycleEnd<'a> {
     scene: &'a Scene,
     model: &'a Model,
     state: &'a CycleState,
+    resistance: Option<ContactResistance>,
 }
 
 /// A worn contact surface.

@@ -16,6 +16,8 @@ pub struct Initial {
     pub peak_pressure_mpa: f64,
     /// Half-width of the contact, mm.
     pub contact_half_width_mm: f64,
+    /// Resistance of the contact, mOhm; `None` where it is not computed.
+    pub contact_resistance_mohm: Option<f64>,
 }
 
 /// Result of a finished run.

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::law::surface::SurfaceWear;
 use crate::number::{cycles_at_least, real_cycles};
-use crate::scene::{Criterion, Scene};
+use crate::scene::{Criterion, Electrical, Scene};
 use crate::sides::{Side, Sides};
 
 /// Why a run ended.
@@ -33,6 +33,8 @@ pub(crate) struct Progress {
     pub(crate) fastest_rate: Sides<f64>,
     /// Whether a body is nearly consumed somewhere.
     pub(crate) worn_through: bool,
+    /// Whether the resistance of the contact has reached a limit that ends the run.
+    pub(crate) exceeds_resistance: bool,
 }
 
 /// Least step toward a criterion of a life over the cycles done: the life is interpolated within it. With a rate that falls as
@@ -42,6 +44,9 @@ const LIFE_STEP: f64 = 0.01;
 /// The next cycle that must be hit exactly, or beyond which a criterion or a body's height would be passed at the present rate;
 /// a criterion of a life may be passed by a small step. `depth` is that of a part of a side's scar, mm.
 pub(crate) fn next(scene: &Scene, now: Progress, depth: impl Fn(Side, f64) -> f64) -> u64 {
+    if now.exceeds_resistance {
+        return now.cycle + 1;
+    }
     let snapshots = &scene.output.snapshots_at_cycles;
     let snapshot = snapshots.iter().copied().find(|&at| at > now.cycle);
     let wear = scene.surface_wear();
@@ -68,6 +73,28 @@ pub(crate) fn next(scene: &Scene, now: Progress, depth: impl Fn(Side, f64) -> f6
         .min(now.cycle.saturating_add(cycles_at_least(cycles.floor())))
 }
 
+/// The cycle to go to instead where the resistance of the contact has passed a limit in a step that is too long: a limit that ends the
+/// run is met to one cycle, that of a life to a small step. The resistance jumps where a layer is through, so that no rate before foresees
+/// it; the step is cut to where a linear resistance would meet the limit, at most to half.
+pub(crate) fn resistance_passed(
+    electrical: &Electrical,
+    (last, cycle): (u64, u64),
+    (before, after): (f64, f64),
+) -> Option<u64> {
+    let done = cycle - last;
+    let least = cycles_at_least(LIFE_STEP * real_cycles(last));
+    let stops = electrical.stop_mohm.iter().map(|limit| (*limit, 1));
+    let lives = electrical.life_mohm.iter().map(|limit| (*limit, least));
+    let passed = stops
+        .chain(lives)
+        .filter(|(limit, allowed)| before < *limit && *limit <= after && done > *allowed);
+    let steps = passed.map(|(limit, allowed)| {
+        let linear = real_cycles(done) * (limit - before) / (after - before);
+        cycles_at_least(linear).min(done / 2).max(allowed)
+    });
+    steps.min().map(|step| last + step)
+}
+
 /// How the run ends here, if it does; `depth` is that of a part of a side's scar, mm.
 pub(crate) fn end(
     scene: &Scene,
@@ -76,7 +103,7 @@ pub(crate) fn end(
 ) -> Option<Outcome> {
     let reached =
         |criterion: &Criterion| depth(criterion.side, criterion.part) >= criterion.depth_mm;
-    if scene.stop.iter().any(reached) {
+    if scene.stop.iter().any(reached) || now.exceeds_resistance {
         Some(Outcome::StopCondition)
     } else if now.worn_through {
         Some(Outcome::WornThrough)
@@ -88,8 +115,9 @@ pub(crate) fn end(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::law::resistance::Deformation;
     use crate::model::tests::fuzz_button;
-    use crate::scene::{Layer, WearLaw};
+    use crate::scene::{Layer, Metal, Spots, WearLaw};
 
     const fn of_receptacle(receptacle: f64) -> Sides<f64> {
         Sides {
@@ -112,6 +140,7 @@ mod tests {
         cycles_left: f64::INFINITY,
         fastest_rate: of_receptacle(0.0),
         worn_through: false,
+        exceeds_resistance: false,
     };
 
     const WEARING: Progress = Progress {
@@ -132,6 +161,11 @@ mod tests {
         assert_eq!(next(&scene, wearing, worn(0.125)), 228);
         scene.stop.clear();
         assert_eq!(next(&scene, wearing, worn(0.125)), 400);
+        let exceeding = Progress {
+            exceeds_resistance: true,
+            ..wearing
+        };
+        assert_eq!(next(&scene, exceeding, worn(0.125)), 101);
         let thin = Progress {
             cycles_left: 16.5,
             ..wearing
@@ -176,6 +210,45 @@ mod tests {
             ..UNWORN
         };
         assert_eq!(end(&scene, last, worn(0.25)), Some(Outcome::Completed));
+    }
+
+    #[test]
+    fn a_limit_of_the_resistance_is_met_to_a_cycle_and_that_of_a_life_to_a_small_step() {
+        let metal = Metal {
+            bottom_mm: f64::INFINITY,
+            resistivity_ohm_m: 1e-8,
+            hardness_mpa: 1e3,
+            film: None,
+        };
+        let of = |stop_mohm: &[f64], life_mohm: &[f64]| Electrical {
+            width_mm: 1.0,
+            metals: Sides {
+                slider: vec![metal],
+                receptacle: vec![metal],
+            },
+            spots: Spots {
+                count: 1,
+                cluster_diameter_mm: 0.0,
+                deformation: Deformation::Plastic,
+            },
+            stop_mohm: stop_mohm.to_vec(),
+            life_mohm: life_mohm.to_vec(),
+        };
+        let stop = of(&[10.0], &[]);
+        let passed = |cycles, resistances| resistance_passed(&stop, cycles, resistances);
+        assert_eq!(passed((1_000, 2_000), (2.0, 4.0)), None);
+        assert_eq!(passed((1_000, 2_000), (2.0, 34.0)), Some(1_250));
+        // At most to half, at least by a cycle.
+        assert_eq!(passed((1_000, 2_000), (2.0, 11.0)), Some(1_500));
+        assert_eq!(passed((1_000, 1_002), (2.0, 1e9)), Some(1_001));
+        assert_eq!(passed((1_000, 1_001), (2.0, 1e9)), None);
+        // What was passed before does not count.
+        assert_eq!(passed((1_000, 2_000), (12.0, 34.0)), None);
+        let life = of(&[], &[10.0, 20.0]);
+        let passed = |cycles, resistances| resistance_passed(&life, cycles, resistances);
+        assert_eq!(passed((1_000, 2_000), (2.0, 34.0)), Some(1_250));
+        assert_eq!(passed((1_000, 1_010), (2.0, 34.0)), None);
+        assert_eq!(passed((1_000, 1_012), (2.0, 1e9)), Some(1_010));
     }
 
     #[test]

@@ -169,6 +169,29 @@ impl ContactState {
         let Some((first, end)) = self.active_range() else {
             return 0.0;
         };
+        let last = end - 1;
+        if first == last {
+            return 0.25 * (x[(last + 1).min(x.len() - 1)] - x[last.saturating_sub(1)]);
+        }
+        let (left, right) = self.edges(x, first, last);
+        0.5 * (right - left)
+    }
+
+    /// Middle between the edges of the contact, mm; 0 of an open one.
+    pub fn middle(&self, x: &[f64]) -> f64 {
+        let Some((first, end)) = self.active_range() else {
+            return 0.0;
+        };
+        let last = end - 1;
+        if first == last {
+            return x[last];
+        }
+        let (left, right) = self.edges(x, first, last);
+        0.5 * (left + right)
+    }
+
+    /// The edges of a contact from one loaded node to another, mm.
+    fn edges(&self, x: &[f64], first: usize, last: usize) -> (f64, f64) {
         let edge = |last: usize, inner: usize, outer: usize| -> f64 {
             let (p, q) = (self.pressure[last].powi(2), self.pressure[inner].powi(2));
             let step = x[last] - x[inner];
@@ -180,12 +203,8 @@ impl ContactState {
             };
             x[last] + step.signum() * beyond.min((x[outer] - x[last]).abs())
         };
-        let last = end - 1;
-        if first == last {
-            return 0.25 * (x[(last + 1).min(x.len() - 1)] - x[last.saturating_sub(1)]);
-        }
         let right = edge(last, last - 1, (last + 1).min(x.len() - 1));
         let left = edge(first, first + 1, first.saturating_sub(1));
-        0.5 * (right - left)
+        (left, right)
     }
 }

@@ -1,0 +1,199 @@
+//! Resistance of the contact at the neutral position as it is worn: a derived effect, which changes no wear.
+//!
+//! The contact is divided into patches on which each side shows one metal (`patches`). A patch has the resistance that the whole contact
+//! would have if all of it were like this patch (`constriction`, and the films of both metals over the area of all spots), and takes the
+//! part of the spots that it has of the length of the contact, so that
+//!   1/R = sum of share_i/R_i.
+//! Its parts are by the power that is dissipated in them, sum of share_i (R/R_i)^2 R_ik, and add up to R. Limiting case: one patch, the
+//! sum of its constrictions and films.
+
+mod constriction;
+mod patches;
+
+use std::f64::consts::PI;
+
+use serde::{Deserialize, Serialize};
+
+use crate::law::resistance::Film;
+use crate::scene::{Electrical, Metal};
+use crate::sides::{Side, Sides};
+use constriction::{Constriction, Spreading};
+pub(crate) use patches::Surface;
+use patches::{Patch, patches};
+
+/// mOhm in an ohm, um in a mm.
+const MILLI: f64 = 1e3;
+
+/// Resistance of an open contact, mOhm: 1 TOhm, beyond what insulation between contacts is measured to.
+pub const OPEN_MOHM: f64 = 1e15;
+
+/// Resistance of the contact and its parts.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+pub struct ContactResistance {
+    /// All of it, mOhm.
+    pub total_mohm: f64,
+    /// Constriction of the current in each side and its layers, mOhm.
+    pub constriction_mohm: Sides<f64>,
+    /// Films on exposed metals, mOhm.
+    pub film_mohm: f64,
+    /// Part of the contact's length on which a side shows a metal with a film, -.
+    pub filmed_fraction: f64,
+    /// Radius of a spot of mean area, um.
+    pub spot_radius_um: f64,
+}
+
+/// The contact at the neutral position.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Contact<'a> {
+    /// Load per depth of the section, N/mm.
+    pub(crate) load_n_per_mm: f64,
+    /// Its ends, mm.
+    pub(crate) span: (f64, f64),
+    /// Both worn surfaces.
+    pub(crate) surfaces: Sides<Surface<'a>>,
+    /// Time since the run began, s.
+    pub(crate) time_s: f64,
+}
+
+/// What the next resistance depends on.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub struct ElectricalState {
+    /// The last one; `None` where it is not computed.
+    pub(crate) resistance: Option<ContactResistance>,
+    /// Load of its contact, N.
+    force_n: f64,
+    /// Patches of its contact, and what is computed for them.
+    patches: Vec<(Patch, Constriction)>,
+    /// Time of the last contact in which a metal of a side was not exposed yet, s; `None` until it is.
+    exposed_since_s: Sides<Vec<Option<f64>>>,
+    time_s: f64,
+}
+
+impl ElectricalState {
+    /// The last resistance, mOhm.
+    pub(crate) fn total_mohm(&self) -> Option<f64> {
+        self.resistance.map(|found| found.total_mohm)
+    }
+}
+
+/// Evaluates the resistance of a contact.
+pub(crate) struct Evaluation<'a> {
+    electrical: &'a Electrical,
+    spreading: Spreading,
+}
+
+impl<'a> Evaluation<'a> {
+    pub(crate) fn new(electrical: &'a Electrical) -> Self {
+        Self {
+            electrical,
+            spreading: Spreading::of(&electrical.spots),
+        }
+    }
+
+    /// Takes the next contact into the state. Constrictions are computed where load or layers have changed.
+    pub(crate) fn update(&self, state: &mut ElectricalState, contact: &Contact<'_>) {
+        let Electrical {
+            width_mm, metals, ..
+        } = self.electrical;
+        let force_n = width_mm * contact.load_n_per_mm;
+        let found = patches(contact.span, contact.surfaces, metals);
+        note_exposure(state, &found, metals, contact.time_s);
+        if force_n <= 0.0 {
+            *state = ElectricalState {
+                resistance: Some(open()),
+                force_n,
+                patches: Vec::new(),
+                ..std::mem::take(state)
+            };
+            return;
+        }
+        let is_same = |(patch, (known, _)): (&Patch, &(Patch, _))| patch == known;
+        let unchanged = force_n.to_bits() == state.force_n.to_bits()
+            && found.len() == state.patches.len()
+            && found.iter().zip(&state.patches).all(is_same);
+        if !unchanged {
+            let constrictions = found.into_iter().map(|patch| {
+                let constriction = self.spreading.of_patch(self.electrical, force_n, &patch);
+                (patch, constriction)
+            });
+            (state.patches, state.force_n) = (constrictions.collect(), force_n);
+        }
+        state.resistance = Some(self.parallel(state));
+    }
+
+    /// All patches in parallel.
+    fn parallel(&self, state: &ElectricalState) -> ContactResistance {
+        let count = crate::number::real(self.electrical.spots.count);
+        let films = |patch: &Patch, constriction: &Constriction| {
+            let area = count * PI * constriction.radius_mm.powi(2);
+            let specific = Side::BOTH.map(|side| self.film(state, side, *patch.metal.of(side)));
+            MILLI * (specific[0] + specific[1]) / area
+        };
+        let branches = state.patches.iter().map(|(patch, constriction)| {
+            let film = films(patch, constriction);
+            let Sides { slider, receptacle } = constriction.mohm;
+            (patch, constriction, film, slider + receptacle + film)
+        });
+        let conductance: f64 = branches
+            .clone()
+            .map(|(patch, .., whole)| patch.share / whole)
+            .sum();
+        let total = (1.0 / conductance).min(OPEN_MOHM);
+        let mut sum = ContactResistance {
+            total_mohm: total,
+            ..ContactResistance::default()
+        };
+        let mut area = 0.0;
+        for (patch, constriction, film, whole) in branches {
+            let power = patch.share * (total / whole).powi(2);
+            for side in Side::BOTH {
+                *sum.constriction_mohm.of_mut(side) += power * constriction.mohm.of(side);
+            }
+            sum.film_mohm += power * film;
+            if film > 0.0 {
+                sum.filmed_fraction += patch.share;
+            }
+            area += patch.share * constriction.radius_mm.powi(2);
+        }
+        sum.spot_radius_um = MILLI * area.sqrt();
+        sum
+    }
+
+    /// Specific resistance of the film on a metal of a side, ohm mm^2.
+    fn film(&self, state: &ElectricalState, side: Side, metal: usize) -> f64 {
+        let film: Option<Film> = self.electrical.metals.of(side)[metal].film;
+        film.map_or(0.0, |film| {
+            let since = state.exposed_since_s.of(side)[metal];
+            film.at_age(state.time_s - since.unwrap_or(state.time_s))
+        })
+    }
+}
+
+/// An open contact: its resistance is that of the gap.
+fn open() -> ContactResistance {
+    ContactResistance {
+        total_mohm: OPEN_MOHM,
+        film_mohm: OPEN_MOHM,
+        ..ContactResistance::default()
+    }
+}
+
+/// Notes since when metals are exposed: at the latest since the contact before the first one that shows them.
+fn note_exposure(
+    state: &mut ElectricalState,
+    patches: &[Patch],
+    metals: &Sides<Vec<Metal>>,
+    time_s: f64,
+) {
+    for side in Side::BOTH {
+        let since = state.exposed_since_s.of_mut(side);
+        since.resize(metals.of(side).len(), None);
+        for patch in patches {
+            since[*patch.metal.of(side)].get_or_insert(state.time_s);
+        }
+    }
+    state.time_s = time_s;
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,65 @@
+//! The resistance of the contact in a run.
+
+use crate::cycle::CycleState;
+use crate::effects::{Effect, EffectsPlan};
+use crate::electrical::{Contact, ElectricalState, Evaluation, Surface};
+use crate::model::Model;
+use crate::number::real_cycles;
+use crate::scene::Scene;
+use crate::schedule::stops;
+use crate::sides::Sides;
+
+/// What evaluates the resistance of the contact, if the plan has it.
+pub(super) fn evaluation<'a>(scene: &'a Scene, plan: &EffectsPlan) -> Option<Evaluation<'a>> {
+    let electrical = scene.conduction.known()?;
+    plan.simulates(Effect::Resistance)
+        .then(|| Evaluation::new(electrical))
+}
+
+/// The contact at the last passage of the neutral position.
+pub(super) fn contact<'a>(scene: &Scene, model: &'a Model, state: &'a CycleState) -> Contact<'a> {
+    let neutral = state.neutral;
+    Contact {
+        load_n_per_mm: neutral.load,
+        span: (
+            neutral.middle - neutral.half_width,
+            neutral.middle + neutral.half_width,
+        ),
+        surfaces: Sides::from_fn(|side| Surface {
+            x: model.bodies.of(side).contact_x(),
+            depth: state.depth.of(side),
+        }),
+        time_s: scene
+            .elapsed(real_cycles(state.cycle))
+            .1
+            .unwrap_or_default(),
+    }
+}
+
+/// The cycle to go to instead where a limit of the resistance was passed in too long a step.
+pub(super) fn passed_limit(
+    scene: &Scene,
+    cycles: (u64, u64),
+    (before, after): (&ElectricalState, &ElectricalState),
+) -> Option<u64> {
+    let electrical = scene.conduction.known()?;
+    let resistances = (before.total_mohm()?, after.total_mohm()?);
+    stops::resistance_passed(electrical, cycles, resistances)
+}
+
+/// Limits of the resistance whose life is recorded, mOhm, with the resistances before and after a computed cycle.
+pub(super) fn of_life<'a>(
+    scene: &'a Scene,
+    (before, after): (&ElectricalState, &ElectricalState),
+) -> Option<(&'a [f64], (f64, f64))> {
+    let electrical = scene.conduction.known()?;
+    let resistances = (before.total_mohm()?, after.total_mohm()?);
+    Some((&electrical.life_mohm, resistances))
+}
+
+/// Whether the resistance has reached a limit that ends the run.
+pub(super) fn exceeds_limit(scene: &Scene, electrical: &ElectricalState) -> bool {
+    let limits = scene.conduction.known().map(|known| &known.stop_mohm);
+    let exceeds = |limit: &f64| electrical.total_mohm().is_some_and(|total| total >= *limit);
+    limits.into_iter().flatten().any(exceeds)
+}

@@ -1,0 +1,80 @@
+//! The contact as an electrical conductor.
+
+use crate::law::plating::MOST_LAYERS;
+use crate::law::resistance::{Deformation, Film};
+use crate::sides::Sides;
+
+/// Most metals of a side: its layers and its base.
+pub const MOST_METALS: usize = MOST_LAYERS + 1;
+
+/// What a scene says about the contact as a conductor.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Conduction {
+    /// All that its resistance follows from.
+    Known(Box<Electrical>),
+    /// Something is missing.
+    Unknown {
+        /// What, in words.
+        missing: &'static str,
+        /// Whether the resistance is asked for.
+        is_asked_for: bool,
+    },
+}
+
+impl Default for Conduction {
+    fn default() -> Self {
+        Self::Unknown {
+            missing: "nothing is known about the contact as a conductor",
+            is_asked_for: false,
+        }
+    }
+}
+
+impl Conduction {
+    /// The electrical properties, if all of them are known.
+    pub fn known(&self) -> Option<&Electrical> {
+        match self {
+            Self::Known(electrical) => Some(electrical),
+            Self::Unknown { .. } => None,
+        }
+    }
+}
+
+/// Electrical properties of the contact.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Electrical {
+    /// Depth of the section that carries the load, mm.
+    pub width_mm: f64,
+    /// Metals of each side from the surface down, at most [`MOST_METALS`]; the last one is the base.
+    pub metals: Sides<Vec<Metal>>,
+    /// Spots of real contact.
+    pub spots: Spots,
+    /// Limits of the resistance that end the run, mOhm.
+    pub stop_mohm: Vec<f64>,
+    /// Limits whose life is recorded, mOhm.
+    pub life_mohm: Vec<f64>,
+}
+
+/// A layer, or the base, of a side.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Metal {
+    /// Depth of its lower end below the unworn surface, mm; of a base without bound.
+    pub bottom_mm: f64,
+    /// Resistivity, ohm m.
+    pub resistivity_ohm_m: f64,
+    /// Hardness at the temperature of the contact, MPa.
+    pub hardness_mpa: f64,
+    /// Film on it where it is exposed.
+    pub film: Option<Film>,
+}
+
+/// Spots of real contact.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Spots {
+    /// Their number.
+    pub count: usize,
+    /// Diameter of the circle that they fill evenly, mm; of one spot without meaning.
+    pub cluster_diameter_mm: f64,
+    /// How they carry the load.
+    pub deformation: Deformation,
+}

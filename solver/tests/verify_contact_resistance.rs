@@ -1,0 +1,183 @@
+//! Contact resistance over the cycles of a plated contact.
+//!
+//! * Unworn, worn into the base, and worn in part: the closed resistances of a spot of gold, of copper, and both in parallel.
+//! * A limit is met at the same cycle whether the run stops there or goes on, and interrupted runs reach the same bits.
+//! * The resistance changes no wear.
+
+use crate::recorder::{Recorder, solve};
+use crate::verify_plating::{THICKNESS, plated};
+use crate::verify_resume::resumes_to_the_same_bits;
+use solver::law::resistance::{Deformation, Film, Growth};
+use solver::record::{CycleReport, Outcome, ResistanceReport};
+use solver::scene::{Accuracy, Conduction, Electrical, Metal, Scene, Spots};
+use solver::sides::{Side, Sides};
+
+const GOLD: f64 = 2.21e-8;
+const HARDNESS: f64 = 1_700.0;
+/// N; the width follows from the load per depth.
+const FORCE: f64 = 0.5;
+/// ohm mm^2: 17 mOhm on a spot of gold under this force.
+const FILM: f64 = 5e-6;
+
+/// A plated receptacle whose layers and base are gold, with a film on the base, under an unplated slider of gold.
+fn filmed(amplitude: f64, growth: Option<Growth>) -> Scene {
+    let mut scene = plated(amplitude, &Side::BOTH[1..], 200_000, 0.02);
+    scene.spring_n_per_mm2 = 0.0;
+    let metal = |bottom_mm| Metal {
+        bottom_mm,
+        resistivity_ohm_m: GOLD,
+        hardness_mpa: HARDNESS,
+        film: None,
+    };
+    let film = Film {
+        specific_resistance_ohm_mm2: FILM,
+        growth,
+    };
+    let base = Metal {
+        film: Some(film),
+        ..metal(f64::INFINITY)
+    };
+    scene.conduction = Conduction::Known(Box::new(Electrical {
+        width_mm: FORCE / scene.load_n_per_mm,
+        metals: Sides {
+            slider: vec![metal(f64::INFINITY)],
+            receptacle: vec![
+                metal(THICKNESS[0]),
+                metal(THICKNESS[0] + THICKNESS[1]),
+                base,
+            ],
+        },
+        spots: Spots {
+            count: 1,
+            cluster_diameter_mm: 0.0,
+            deformation: Deformation::Plastic,
+        },
+        stop_mohm: Vec::new(),
+        life_mohm: Vec::new(),
+    }));
+    scene
+}
+
+fn limited(mut scene: Scene, stop: &[f64], life: &[f64]) -> Scene {
+    if let Conduction::Known(electrical) = &mut scene.conduction {
+        electrical.stop_mohm = stop.to_vec();
+        electrical.life_mohm = life.to_vec();
+    }
+    scene
+}
+
+fn resistance(report: &CycleReport) -> ResistanceReport {
+    report.resistance.expect("it is computed")
+}
+
+/// Amplitudes of a scar and of a groove, mm.
+const AMPLITUDES: [f64; 2] = [0.004, 0.1];
+
+/// Resistances of a clean and of a covered spot, mOhm.
+fn clean_and_covered() -> (f64, f64) {
+    let area = FORCE / HARDNESS;
+    let clean = 1e6 * GOLD / (2.0 * (area / std::f64::consts::PI).sqrt());
+    (clean, clean + 1e3 * FILM / area)
+}
+
+#[test]
+fn a_worn_contact_has_its_covered_and_its_exposed_part_in_parallel() {
+    let (clean, covered) = clean_and_covered();
+    for amplitude in AMPLITUDES {
+        let scene = limited(filmed(amplitude, None), &[0.99 * covered], &[]);
+        let (summary, recorder) = solve(&scene).expect("the scene can be solved");
+        assert_eq!(summary.outcome, Outcome::StopCondition);
+        let first = resistance(&recorder.reports[0]);
+        assert!((first.contact_resistance_mohm / clean - 1.0).abs() < 1e-6);
+        assert!(summary.initial.contact_resistance_mohm == Some(first.contact_resistance_mohm));
+        let mut worst = 0.0_f64;
+        for report in &recorder.reports {
+            let found = resistance(report);
+            let exposed = found.filmed_fraction;
+            let expected = 1.0 / (exposed / covered + (1.0 - exposed) / clean);
+            worst = worst.max((found.contact_resistance_mohm / expected - 1.0).abs());
+            let parts = found.slider_constriction_mohm
+                + found.receptacle_constriction_mohm
+                + found.film_resistance_mohm;
+            worst = worst.max((found.contact_resistance_mohm / parts - 1.0).abs());
+        }
+        println!(
+            "resistance, amplitude {amplitude} mm: {clean:.5} to {covered:.5} mOhm within {worst:.1e}"
+        );
+        assert!(worst < 1e-6, "{worst}");
+        let partly = recorder
+            .reports
+            .iter()
+            .map(|report| resistance(report).filmed_fraction);
+        let partly = partly.filter(|part| *part > 0.0 && *part < 1.0).count();
+        assert!(partly > 0, "the film is reached in steps that show it");
+    }
+}
+
+#[test]
+fn a_limit_is_met_at_the_same_cycle_whether_the_run_stops_or_goes_on() {
+    let (clean, covered) = clean_and_covered();
+    for (amplitude, tolerance) in [
+        (AMPLITUDES[0], 0.02),
+        (AMPLITUDES[0], 0.005),
+        (AMPLITUDES[1], 0.02),
+    ] {
+        let scene = Scene {
+            accuracy: Accuracy::from_tolerance(tolerance),
+            ..filmed(amplitude, None)
+        };
+        for limit in [1.1 * clean, 0.5 * covered] {
+            let stopped = limited(scene.clone(), &[limit], &[]);
+            let (stopped, _) = solve(&stopped).expect("the scene can be solved");
+            assert_eq!(stopped.outcome, Outcome::StopCondition);
+            let last = stopped.last.cycle;
+            let mut passed = limited(scene.clone(), &[], &[limit]);
+            passed.cycles = 2 * last;
+            let (passed, _) = solve(&passed).expect("the scene can be solved");
+            let life = passed.life.resistance[0].cycles.expect("it is reached");
+            let off = life / f64::from(u32::try_from(last).expect("few cycles")) - 1.0;
+            println!(
+                "limit of {limit:.3} mOhm at {tolerance}, amplitude {amplitude} mm: {last} cycles, life off by {off:+.1e}"
+            );
+            // Both runs have other jumps, and depths to the tolerance; a depth is proportional to the cycles.
+            assert!(off.abs() < tolerance, "{off}");
+        }
+    }
+}
+
+#[test]
+fn a_run_with_a_growing_film_resumes_to_the_same_bits() {
+    let growth = Growth {
+        exponent: 0.5,
+        time_s: 100.0,
+    };
+    let (clean, covered) = clean_and_covered();
+    let mut scene = limited(
+        filmed(0.004, Some(growth)),
+        &[0.5 * covered],
+        &[1.2 * clean],
+    );
+    scene.cycles = 100_000;
+    let (summary, _) = resumes_to_the_same_bits("growing film", &scene, 6);
+    assert!(summary.life.resistance[0].cycles.is_some());
+}
+
+#[test]
+fn the_resistance_changes_no_wear() {
+    for amplitude in AMPLITUDES {
+        let mut scene = filmed(amplitude, None);
+        scene.cycles = 2_000;
+        let with = solve(&scene).expect("the scene can be solved").1;
+        scene.conduction = Conduction::default();
+        let without = solve(&scene).expect("the scene can be solved").1;
+        let bits = |recorder: &Recorder| {
+            let reports = recorder.reports.iter().map(|report| CycleReport {
+                resistance: None,
+                ..report.clone()
+            });
+            format!("{:?}", reports.collect::<Vec<_>>())
+        };
+        assert!(bits(&with) == bits(&without), "{amplitude}");
+        assert!(without.reports[0].resistance.is_none());
+    }
+}
