@@ -182,10 +182,6 @@ fn scene_of(spec: &Spec, kind: SystemKind) -> Option<Scene> {
 }
 
 /// The specification with every default filled in, and its scene.
-#[expect(
-    clippy::too_many_lines,
-    reason = "a list of the parts of a specification"
-)]
 fn fill(spec: &Spec, kind: SystemKind, diagnostics: &mut Diagnostics) -> Filled {
     let preset = covering::preset_for_motion(spec, (system::definition(kind).preset)());
     let (system, shapes) = system::resolve(kind, &spec.system, diagnostics);

@@ -211,12 +211,11 @@ fn integrate(
             return Ok(ControlFlow::Continue(Renewal::Stiffness));
         }
         let before = run.state.clone();
-        let step = match run.block_left() {
-            Some(left) => {
-                let motion = blocks[left].motion;
-                let moved = integrator.change_motion(&mut run.state, motion);
-                moved.map(|()| None)
-            }
+        let left = run.block_left().map(|left| blocks[left].motion);
+        let step = match left {
+            Some(motion) => integrator
+                .change_motion(&mut run.state, motion)
+                .map(|()| None),
             None => {
                 next_cycle(scene, model, (&mut integrator, &spines), (run, until_limit)).map(Some)
             }
@@ -250,13 +249,10 @@ fn integrate(
         }
         let electrical_before = run.electrical.clone();
         if let Some(evaluation) = &evaluation {
-            evaluation.update(
-                &mut run.electrical,
-                &resistance::contact(scene, model, state),
-            );
-            if let Some(sooner) =
-                resistance::passed_limit(scene, cycles, (&electrical_before, &run.electrical))
-            {
+            let contact = resistance::contact(scene, model, state);
+            evaluation.update(&mut run.electrical, &contact);
+            let resistances = (&electrical_before, &run.electrical);
+            if let Some(sooner) = resistance::passed_limit(scene, cycles, resistances) {
                 run.state = CycleState {
                     work: state.work,
                     ..before
@@ -270,9 +266,8 @@ fn integrate(
         if run.is_comparable(scene) {
             run.compared.push(&report);
         }
-        if let Some((limits, resistances)) =
-            resistance::of_life(scene, (&electrical_before, &run.electrical))
-        {
+        let resistances = (&electrical_before, &run.electrical);
+        if let Some((limits, resistances)) = resistance::of_life(scene, resistances) {
             run.life.push_resistance(limits, state.cycle, resistances);
         }
         let surface = |side| record::worn_surface(model, state, side);
