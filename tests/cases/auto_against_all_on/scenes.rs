@@ -113,7 +113,8 @@ fn add_soft_to(scenes: &mut Vec<(String, Value)>) {
             "interface": {"friction": {"law": "coulomb", "coefficient": coefficient}},
         });
         if side == "receptacle" {
-            changes["interface"]["wear"] = json!({"receptacle": {"hardness_mpa": hardness_mpa}});
+            let law = json!({"law": "archard", "k": 0.004, "hardness_mpa": hardness_mpa});
+            changes["interface"]["wear"] = json!({"receptacle": law});
         }
         add_to(scenes, name, "sd_card", &changes);
     }
@@ -173,13 +174,16 @@ fn add_presets_to(scenes: &mut Vec<(String, Value)>) {
     }
 }
 
-/// Adds the bare preset of a kind with changes, at few cycles unless given. Friction replaces that of the preset as a whole.
+/// Adds the bare preset of a kind with changes, at few cycles unless given. Laws replace those of the preset as a whole.
 fn add_to(scenes: &mut Vec<(String, Value)>, name: String, kind: &str, changes: &Value) {
     let mut base = bare_preset(kind);
-    if let Some(Value::Object(interface)) = base.get_mut("interface")
-        && changes["interface"]["friction"].is_object()
-    {
-        interface.remove("friction");
+    for law in ["friction", "wear/slider", "wear/receptacle"] {
+        let pointer = format!("/interface/{law}");
+        if let Some(replaced) = base.pointer_mut(&pointer)
+            && changes.pointer(&pointer).is_some()
+        {
+            *replaced = Value::Null;
+        }
     }
     let spec = merged(merged(base, short()), changes.clone());
     scenes.push((name, spec));
