@@ -39,7 +39,7 @@ pub fn inp(scene: &Scene, model: &Model) -> String {
     let mut deck = Deck::default();
     let slider = deck.bodies_and_contact(scene, model, PENALTY);
     deck.load_step(scene, &slider);
-    let amplitude = scene.motion.amplitude_mm();
+    let amplitude = scene.largest_amplitude_mm();
     if amplitude > 0.0 {
         deck.motion_step(amplitude);
     }

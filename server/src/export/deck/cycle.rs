@@ -25,7 +25,7 @@ pub fn friction_cycle(scene: &Scene, model: &Model, lowered_mm: f64, quarter: u3
     let control_node = slider.control_node;
     let quarter = f64::from(quarter);
     let load = scene.load_n_per_mm;
-    let amplitude = scene.motion.amplitude_mm();
+    let amplitude = scene.largest_amplitude_mm();
     let mut step = |increments: f64, constraints: &[String], load: Option<f64>| {
         deck.line("*STEP, INC=1000\n*STATIC");
         let length = 1.0 / increments;
