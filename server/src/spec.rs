@@ -51,6 +51,7 @@ pub(crate) use motion::CYCLES;
 use movement::Movement;
 pub(crate) use rated_life::RatedMatings;
 pub(crate) use suggestion::did_you_mean;
+use system::Preset;
 pub(crate) use system::definition as system_definition;
 
 /// Most labels of a job.
@@ -203,7 +204,7 @@ fn fill(spec: &Spec, kind: SystemKind, diagnostics: &mut Diagnostics) -> Filled 
         friction,
         force_n: load.n,
     };
-    let movement = movement::resolve(spec, &preset, contact, diagnostics);
+    let movement = resolve_movement(spec, &preset, contact, diagnostics);
     let cycles = movement.total_cycles;
     if movement.distance_mm.is_some() {
         law::check_continuous(&laws, plated, diagnostics);
@@ -281,6 +282,24 @@ fn fill(spec: &Spec, kind: SystemKind, diagnostics: &mut Diagnostics) -> Filled 
         movement,
         resistance_lacks: conductors.lacks,
     }
+}
+
+/// The motion or the mission.
+fn resolve_movement(
+    spec: &Spec,
+    preset: &Preset,
+    contact: motion::HeldContact,
+    diagnostics: &mut Diagnostics,
+) -> Movement {
+    if !spec.mission.is_empty() {
+        return mission::resolve(spec, preset, contact, diagnostics);
+    }
+    if spec.repeat.is_some() {
+        diagnostics.fault("/repeat", "it repeats a `mission`, which is not given");
+    }
+    let motion = motion::resolve(spec.motion.as_ref(), preset, contact, diagnostics);
+    let cycles = motion::cycles(spec.cycles, &motion, preset, diagnostics);
+    Movement::single(motion, cycles)
 }
 
 /// Criteria that end the run, and those whose life is recorded; limits of the resistance belong to what conducts.

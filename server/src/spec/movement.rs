@@ -1,12 +1,9 @@
 //! What moves the contact: one motion for a number of cycles, or a mission.
 
-use api::spec::{DerivedMotion, MissionBlock, Motion, Spec};
+use api::spec::{DerivedMotion, MissionBlock, Motion};
 use solver::scene;
 
-use super::diagnostics::Diagnostics;
-use super::mission;
-use super::motion::{self, HeldContact, ImposedMotion};
-use super::system::Preset;
+use super::motion::ImposedMotion;
 
 /// Resolved motions of a specification.
 pub(super) struct Movement {
@@ -62,22 +59,4 @@ impl Movement {
         });
         single.chain(blocks)
     }
-}
-
-/// Resolves the motion or the mission.
-pub(super) fn resolve(
-    given: &Spec,
-    preset: &Preset,
-    contact: HeldContact,
-    diagnostics: &mut Diagnostics,
-) -> Movement {
-    if !given.mission.is_empty() {
-        return mission::resolve(given, preset, contact, diagnostics);
-    }
-    if given.repeat.is_some() {
-        diagnostics.fault("/repeat", "it repeats a `mission`, which is not given");
-    }
-    let motion = motion::resolve(given.motion.as_ref(), preset, contact, diagnostics);
-    let cycles = motion::cycles(given.cycles, &motion, preset, diagnostics);
-    Movement::single(motion, cycles)
 }
