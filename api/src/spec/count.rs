@@ -18,6 +18,14 @@ where
     T::try_from(count).map(Some).map_err(too_large)
 }
 
+/// Deserializes a count.
+pub(super) fn required<'de, D>(deserializer: D) -> Result<u64, D::Error>
+where
+    D: Deserializer<'de>,
+{
+    Count::deserialize(deserializer).map(|Count(count)| count)
+}
+
 /// Deserializes an optional list of counts.
 pub(super) fn optional_list<'de, D>(deserializer: D) -> Result<Option<Vec<u64>>, D::Error>
 where

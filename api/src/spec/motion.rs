@@ -63,6 +63,7 @@ pub struct PsdPoint {
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct FourierTerm {
     /// Its order: periods of the term in one of the motion.
+    #[serde(deserialize_with = "super::count::required")]
     pub order: u64,
     /// Amplitude of the sine, mm.
     #[serde(default, skip_serializing_if = "Option::is_none")]
