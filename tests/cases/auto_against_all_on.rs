@@ -85,7 +85,7 @@ fn compare(name: &str, scene: &Scene) -> Compared {
         (effect, largest(&off, &auto).0)
     });
     let decisive = decisive.collect();
-    let share = |of: fn(&Summary) -> u64| number(of(&auto)) / number(of(&all_on));
+    let share = |of: fn(&Summary) -> u64| share(of(&auto), of(&all_on));
     Compared {
         name: name.to_owned(),
         skipped: skipped(&plan).map(Effect::name).collect(),
@@ -98,8 +98,10 @@ fn compare(name: &str, scene: &Scene) -> Compared {
     }
 }
 
-fn number(count: u64) -> f64 {
-    f64::from(u32::try_from(count).expect("counts of short runs are small"))
+/// A count over another one, to a millionth.
+fn share(part: u64, whole: u64) -> f64 {
+    let millionths = (u128::from(part) * 1_000_000).div_ceil(u128::from(whole));
+    f64::from(u32::try_from(millionths).expect("a plan counts little more than everything")) * 1e-6
 }
 
 fn solved(scene: Scene) -> Summary {

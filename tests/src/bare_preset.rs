@@ -24,13 +24,15 @@ pub fn bare_preset(kind: &str) -> Value {
     }
 }
 
-/// A document with changes, member by member; a wear law by its specific rate replaces one by other constants.
+/// A document with changes, member by member; a specific wear rate takes the place of a coefficient and a hardness.
 #[must_use]
 pub fn merged(base: Value, changes: Value) -> Value {
     match (base, changes) {
-        (Value::Object(mut base), Value::Object(changes))
-            if !changes.contains_key("k_over_h_per_mpa") =>
-        {
+        (Value::Object(mut base), Value::Object(changes)) => {
+            if changes.contains_key("k_over_h_per_mpa") {
+                base.remove("k");
+                base.remove("hardness_mpa");
+            }
             for (name, change) in changes {
                 let old = base.remove(&name).unwrap_or(Value::Null);
                 base.insert(name, merged(old, change));
