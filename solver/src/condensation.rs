@@ -8,6 +8,7 @@
 mod assembly;
 mod compliance;
 mod near_field;
+mod spreading;
 mod zone_operators;
 
 use crate::linear::{CholeskyFactor, CholeskyPattern, FactorError};
@@ -18,6 +19,7 @@ use std::ops::Range;
 use std::sync::Arc;
 
 pub use compliance::{Compliance, Response};
+pub use spreading::Spreading;
 pub use zone_operators::ZoneOperators;
 
 /// Why operators cannot be built.
@@ -82,6 +84,8 @@ pub struct Condensed {
     pub operators: Operators,
     /// Factored interior of a body that is one mesh; those of several zones are not stored.
     interior: Sides<Option<Interior>>,
+    /// Bodies as conductors; `None` where the model does not conduct.
+    pub spreading: Sides<Option<Spreading>>,
 }
 
 /// The factored stiffness of a mesh: gives interior displacements back.
@@ -98,7 +102,15 @@ pub struct Interior {
 /// [`OperatorError`] if an element is inverted or a body is not held.
 pub fn condense(model: &Model) -> Result<Condensed, OperatorError> {
     let bodies = Sides::from_fn(|side| condense_body(model.bodies.of(side), side, None));
-    Ok(Condensed::of(bodies.transpose()?))
+    let spreading = Sides::from_fn(|side| spreading_of(model, side));
+    Ok(Condensed::of(bodies.transpose()?, spreading.transpose()?))
+}
+
+/// A body as a conductor, if the model conducts.
+fn spreading_of(model: &Model, side: Side) -> Result<Option<Spreading>, OperatorError> {
+    let body = model.bodies.of(side);
+    let spreading = model.conducts.then(|| Spreading::of(body, side));
+    spreading.transpose()
 }
 
 /// Condenses again what has changed from a model to the next: a body whose meshes are the same keeps its operators, one of
@@ -122,15 +134,27 @@ pub fn renew(
         drop((operators, interior));
         condense_body(body, side, pattern)
     };
+    let mut known = earlier.spreading;
+    let spreading = Sides::from_fn(|side| {
+        let is_same = model.bodies.of(side).zones == before.bodies.of(side).zones;
+        match known.of_mut(side).take().filter(|_| is_same) {
+            Some(same) => Ok(Some(same)),
+            None => spreading_of(model, side),
+        }
+    });
     let Sides { slider, receptacle } = earlier.operators.zip(earlier.interior);
-    Ok(Condensed::of(Sides {
+    let bodies = Sides {
         slider: renew_body(Side::Slider, slider)?,
         receptacle: renew_body(Side::Receptacle, receptacle)?,
-    }))
+    };
+    Ok(Condensed::of(bodies, spreading.transpose()?))
 }
 
 impl Condensed {
-    fn of(bodies: Sides<(BodyOperators, Option<Interior>)>) -> Self {
+    fn of(
+        bodies: Sides<(BodyOperators, Option<Interior>)>,
+        spreading: Sides<Option<Spreading>>,
+    ) -> Self {
         let Sides { slider, receptacle } = bodies;
         Self {
             operators: Sides {
@@ -141,7 +165,18 @@ impl Condensed {
                 slider: slider.1,
                 receptacle: receptacle.1,
             },
+            spreading,
         }
+    }
+
+    /// Resistance of both bodies around a contact between two places, mm, times the depth of the section over their resistivities, -;
+    /// 0 where it is not part of the model.
+    pub fn spreading_ratios(&self, span: (f64, f64)) -> Sides<f64> {
+        Sides::from_fn(|side| {
+            let spreading = self.spreading.of(side).as_ref();
+            let ratio = spreading.and_then(|known| known.ratio(self.operators.of(side), span));
+            ratio.unwrap_or_default()
+        })
     }
 
     /// Displacements of all nodes of the mesh of one zone, mm, under nodal forces on the contact surface (x, y for each

@@ -5,7 +5,9 @@
 //! part of the spots that it has of the length of the contact, so that
 //!   1/R = sum of share_i/R_i.
 //! Its parts are by the power that is dissipated in them, sum of share_i (R/R_i)^2 R_ik, and add up to R. Limiting case: one patch, the
-//! sum of its constrictions and films.
+//! sum of its constrictions and films. The way through the bodies is in series (`condensation::Spreading`), by the resistivity of the
+//! bases. A single spot spreads the current along the depth of the section, too, which the bodies' part, even along it, counts again: by a
+//! few per cent of it.
 
 mod constriction;
 mod patches;
@@ -36,6 +38,8 @@ pub struct ContactResistance {
     pub constriction_mohm: Sides<f64>,
     /// Films on exposed metals, mOhm.
     pub film_mohm: f64,
+    /// The way of the current from the contact to the far face of each body, mOhm.
+    pub bulk_mohm: Sides<f64>,
     /// Part of the contact's length on which a side shows a metal with a film, -.
     pub filmed_fraction: f64,
     /// Radius of a spot of mean area, um.
@@ -53,6 +57,8 @@ pub(crate) struct Contact<'a> {
     pub(crate) surfaces: Sides<Surface<'a>>,
     /// Time since the run began, s.
     pub(crate) time_s: f64,
+    /// Resistance of each body times the depth of the section over its resistivity, -.
+    pub(crate) spreading: Sides<f64>,
 }
 
 /// What the next resistance depends on.
@@ -118,7 +124,23 @@ impl<'a> Evaluation<'a> {
             });
             (state.patches, state.force_n) = (constrictions.collect(), force_n);
         }
-        state.resistance = Some(self.parallel(state));
+        state.resistance = Some(self.with_bulk(self.parallel(state), contact));
+    }
+
+    /// The contact with the way of the current through both bodies.
+    fn with_bulk(&self, contact: ContactResistance, at: &Contact<'_>) -> ContactResistance {
+        let bulk_mohm = Sides::from_fn(|side| {
+            let base = self.electrical.metals.of(side).last();
+            let resistivity = base.map_or(0.0, |base| base.resistivity_ohm_m);
+            // ohm m over mm is 1e3 ohm.
+            MILLI * MILLI * resistivity / self.electrical.width_mm * at.spreading.of(side)
+        });
+        let total = contact.total_mohm + bulk_mohm.slider + bulk_mohm.receptacle;
+        ContactResistance {
+            total_mohm: total.min(OPEN_MOHM),
+            bulk_mohm,
+            ..contact
+        }
     }
 
     /// All patches in parallel.

@@ -30,6 +30,8 @@ pub struct Model {
     pub interface: Interface,
     /// Whether the meshes follow the worn surfaces.
     pub relocates: bool,
+    /// Whether the current in the bodies is part of it.
+    pub conducts: bool,
     /// Effects on the wear of the surfaces that are part of it.
     pub surface: SurfaceEffects,
     /// The lengths that the mesh was chosen from.
@@ -129,6 +131,7 @@ pub fn build(scene: &Scene, plan: &EffectsPlan) -> Result<Model, MeshError> {
         },
         interface,
         relocates: plan.simulates(Effect::Relocation),
+        conducts: scene.conduction.known().is_some() && plan.simulates(Effect::Resistance),
         surface: surface_effects(plan),
         sizes: layout.sizes,
     })

@@ -142,7 +142,10 @@ fn load(
     let record = integrator.apply_load(&mut state)?;
     let mut electrical = ElectricalState::default();
     if let Some(evaluation) = resistance::evaluation(scene, plan) {
-        evaluation.update(&mut electrical, &resistance::contact(scene, model, &state));
+        evaluation.update(
+            &mut electrical,
+            &resistance::contact(scene, (model, condensed), &state),
+        );
     }
     let report = record::report(scene, model, &state, electrical.resistance);
     let mut compared = Compared::default();
@@ -249,7 +252,7 @@ fn integrate(
         }
         let electrical_before = run.electrical.clone();
         if let Some(evaluation) = &evaluation {
-            let contact = resistance::contact(scene, model, state);
+            let contact = resistance::contact(scene, (model, condensed), state);
             evaluation.update(&mut run.electrical, &contact);
             let resistances = (&electrical_before, &run.electrical);
             if let Some(sooner) = resistance::passed_limit(scene, cycles, resistances) {

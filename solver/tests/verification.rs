@@ -34,6 +34,7 @@ mod verify_pressure_history;
 mod verify_repeatability;
 mod verify_resume;
 mod verify_short_stroke_scar;
+mod verify_spreading;
 mod verify_spring_load;
 mod verify_stick_zone;
 mod verify_symmetry;

@@ -83,6 +83,7 @@ fn uniform_pressure_passes_through_non_matching_meshes_at_any_position() {
                 modulus: 50e3,
             },
             relocates: false,
+            conducts: false,
             surface: SurfaceEffects {
                 plating: false,
                 softening: false,

@@ -61,6 +61,8 @@ fn the_resistance_of_a_filmed_contact_ends_its_life_and_its_run() {
         "slider_constriction_mohm",
         "receptacle_constriction_mohm",
         "film_resistance_mohm",
+        "slider_bulk_mohm",
+        "receptacle_bulk_mohm",
     ]
     .map(|name| column(&table, name));
     for (row, total) in total.iter().enumerate() {

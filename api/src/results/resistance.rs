@@ -13,6 +13,12 @@ pub struct ResistanceParts {
     /// Films on exposed metals, mOhm.
     #[serde(default)]
     pub film: f64,
+    /// The way of the current through the slider to its far face, mOhm.
+    #[serde(default)]
+    pub slider_bulk: f64,
+    /// The way through the receptacle, mOhm.
+    #[serde(default)]
+    pub receptacle_bulk: f64,
     /// Part of the contact's length on which a side shows a metal with a film, -.
     #[serde(default)]
     pub filmed_fraction: f64,
@@ -20,8 +26,8 @@ pub struct ResistanceParts {
     pub spot_radius_um: f64,
 }
 
-/// Resistance of the contact at the neutral position, mOhm: the constriction at its spots of real contact and the films of the
-/// specification.
+/// Resistance of the contact at the neutral position, mOhm: the constriction at its spots of real contact, the films of the
+/// specification and the way through both bodies.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct ContactResistance {
     /// Of the unworn contact.

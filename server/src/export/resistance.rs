@@ -14,6 +14,8 @@ pub(crate) fn of(summary: &Summary) -> Option<ContactResistance> {
             slider_constriction: last.slider_constriction_mohm,
             receptacle_constriction: last.receptacle_constriction_mohm,
             film: last.film_resistance_mohm,
+            slider_bulk: last.slider_bulk_mohm,
+            receptacle_bulk: last.receptacle_bulk_mohm,
             filmed_fraction: last.filmed_fraction,
             spot_radius_um: last.spot_radius_um,
         },

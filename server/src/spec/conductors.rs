@@ -97,6 +97,7 @@ pub(super) fn resolve(
                 width_mm,
                 metals,
                 spots: found,
+                frequency_hz: filled.environment.frequency_hz,
                 stop_mohm: Vec::new(),
                 life_mohm: Vec::new(),
             }))

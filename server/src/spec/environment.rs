@@ -17,12 +17,18 @@ const POINTER: &str = "/environment/temperature_c";
 /// °C, from absolute zero to beyond every contact.
 pub(in crate::spec) const TEMPERATURE_C: RangeInclusive<f64> = -273.0..=3_000.0;
 
+/// Hz, of the current; from what is direct in all but name to beyond any connector.
+pub(in crate::spec) const FREQUENCY_HZ: RangeInclusive<f64> = 1e-3..=1e12;
+
 /// Resolves the surroundings.
 pub(super) fn resolve(given: &Environment, diagnostics: &mut Diagnostics) -> Environment {
     let temperature = diagnostics.or_default(POINTER, given.temperature_c, assumed(REFERENCE_C));
     diagnostics.check_range(POINTER, temperature, &TEMPERATURE_C);
+    let pointer = "/environment/frequency_hz";
+    let frequency_hz = diagnostics.optional(pointer, given.frequency_hz, &FREQUENCY_HZ);
     Environment {
         temperature_c: Some(temperature),
+        frequency_hz,
     }
 }
 

@@ -81,6 +81,7 @@ fn numbers() -> Vec<(&'static str, &'static str, RangeInclusive<f64>)> {
         ("PsdPoint", "frequency_hz", motion::FREQUENCY_HZ),
         ("PsdPoint", "g2_per_hz", vibration::G2_PER_HZ),
         ("Environment", "temperature_c", environment::TEMPERATURE_C),
+        ("Environment", "frequency_hz", environment::FREQUENCY_HZ),
         ("Friction", "coefficient", coulomb::RANGE),
         ("Spots", "cluster_diameter_mm", spots::CLUSTER_DIAMETER_MM),
         ("Spots", "asperity_radius_mm", spots::ASPERITY_RADIUS_MM),

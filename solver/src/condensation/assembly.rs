@@ -164,7 +164,7 @@ fn scatter<const N: usize>(
 }
 
 /// Sorts by column and row and adds up equal places; stable, so that sums are taken in the order of elements.
-fn compress(entries: Vec<(usize, usize, f64)>, order: usize) -> LowerTriangle {
+pub(super) fn compress(entries: Vec<(usize, usize, f64)>, order: usize) -> LowerTriangle {
     let mut count = vec![0_usize; order + 1];
     for (column, ..) in &entries {
         count[column + 1] += 1;

@@ -194,6 +194,13 @@ fn nothing_to_simulate(
             } => Some(missing),
             _ => None,
         },
+        Effect::SkinEffect => match &scene.conduction {
+            Conduction::Unknown { missing, .. } => Some(missing),
+            Conduction::Known(electrical) if electrical.frequency_hz.is_none() => {
+                Some("the current is direct: `environment.frequency_hz` is not given")
+            }
+            Conduction::Known(_) => None,
+        },
         Effect::SpringFading if !wears() => Some("nothing wears, so the spring keeps its load"),
         _ => None,
     }

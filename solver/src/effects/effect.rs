@@ -86,12 +86,19 @@ effects! {
     Resistance = "resistance",
         "always where the force, the resistivities and the hardnesses are known",
         ["contact_resistance_mohm", "life"];
+    /// Displacement of an alternating current to the surface; never simulated.
+    SkinEffect = "skin_effect",
+        "resistance of a round wire as thick as a body over that to direct current, less 1, of the worse body",
+        ["contact_resistance_mohm"];
 }
 
 impl Effect {
     /// Whether it can be simulated.
     pub fn is_available(self) -> bool {
-        !matches!(self, Self::GeometricNonlinearity | Self::FrictionalHeating)
+        !matches!(
+            self,
+            Self::GeometricNonlinearity | Self::FrictionalHeating | Self::SkinEffect
+        )
     }
 
     /// Whether its indicator, if it is skipped, counts as an error of what the tolerance bounds. Effects that are never
@@ -102,6 +109,6 @@ impl Effect {
 
     /// Whether it follows from the wear and changes none of it.
     pub fn is_derived(self) -> bool {
-        self == Self::Resistance
+        matches!(self, Self::Resistance | Self::SkinEffect)
     }
 }

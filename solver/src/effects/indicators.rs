@@ -10,6 +10,7 @@ use super::small_strain;
 use crate::law::elastic::dundurs_beta;
 use crate::law::friction;
 use crate::law::heating;
+use crate::law::skin_effect;
 use crate::law::surface::SurfaceWear;
 use crate::law::wear::LocalState;
 use crate::model::resolution::{self, Sizes};
@@ -133,8 +134,37 @@ impl<'a> Indicators<'a> {
                 } = *self.scene;
                 0.5 * (depth.slider + depth.receptacle) * spring / load
             }
+            Effect::SkinEffect => {
+                let ratios = self.over_skin_depth().map(skin_effect::wire_ratio);
+                ratios.slider.max(ratios.receptacle) - 1.0
+            }
             Effect::GeometricNonlinearity => small_strain::cost(&self.scene),
         }
+    }
+
+    /// Half of the smaller dimension of each body over the skin depth of its base; 0 for a direct current.
+    fn over_skin_depth(&self) -> Sides<f64> {
+        let (slider, block) = (self.scene.slider.shape, self.scene.receptacle.shape);
+        let half = Sides {
+            slider: slider.half_width_mm.min(0.5 * slider.height_mm),
+            receptacle: 0.5 * block.length_mm.min(block.height_mm),
+        };
+        half.zip(self.skin_depth_mm())
+            .map(|(half, depth)| half / depth)
+    }
+
+    /// Skin depth in the base of each body, mm; without bound for a direct current.
+    pub(super) fn skin_depth_mm(&self) -> Sides<f64> {
+        let known = self.scene.conduction.known();
+        let depth = |side| {
+            let electrical = known?;
+            let base = electrical.metals.of(side).last()?;
+            Some(skin_effect::depth_mm(
+                base.resistivity_ohm_m,
+                electrical.frequency_hz?,
+            ))
+        };
+        Sides::from_fn(|side| depth(side).unwrap_or(f64::INFINITY))
     }
 
     /// Temperature rise of the unworn contact by friction, K; a wider one is cooler.

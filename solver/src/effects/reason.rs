@@ -6,6 +6,7 @@ use super::indicators::Indicators;
 
 use crate::law::elastic::contact_modulus;
 use crate::scene::Scene;
+use crate::sides::Sides;
 
 /// What a decision was made by.
 #[derive(Debug, Clone, Copy)]
@@ -70,6 +71,16 @@ pub(super) fn reason(
         Verdict::ForcedOff => "switched off; ",
         Verdict::Simulated | Verdict::Skipped | Verdict::InputMissing => "",
     };
+    if effect == Effect::SkinEffect {
+        let Sides { slider, receptacle } = indicators.skin_depth_mm();
+        return format!(
+            "{switch}the current enters the slider by {slider:.2e} mm and the receptacle by {receptacle:.2e} mm: {} more resistance, \
+             limit {}: {}",
+            percent(unworn),
+            percent(threshold),
+            consequence(effect, false)
+        );
+    }
     if effect == Effect::FrictionalHeating {
         let kelvin = indicators.frictional_heat_k();
         return format!(
@@ -128,6 +139,7 @@ fn consequence(effect: Effect, is_on: bool) -> &'static str {
         (Effect::Relocation, false) => "the stiffness of the unworn bodies is used throughout",
         (Effect::SpringFading, true) => "the load decreases as the bodies wear",
         (Effect::SpringFading, false) => "the load is constant",
+        (Effect::SkinEffect, _) => "the resistance to direct current is computed",
         (Effect::Resistance, true) => "the resistance of the worn contact is computed",
         (Effect::Resistance, false) => "the resistance of the contact is not computed",
         (Effect::GeometricNonlinearity, _) => "strains and rotations are taken as small",

@@ -28,6 +28,7 @@ fn electrical(metals: Sides<Vec<Metal>>) -> Electrical {
             cluster_diameter_mm: 0.0,
             deformation: Deformation::Plastic,
         },
+        frequency_hz: None,
         stop_mohm: Vec::new(),
         life_mohm: Vec::new(),
     }
@@ -53,6 +54,7 @@ fn contact(depth: &[f64; 5], time_s: f64) -> Contact<'_> {
             receptacle: surface(depth),
         },
         time_s,
+        spreading: Sides::default(),
     }
 }
 
@@ -245,4 +247,22 @@ fn a_contact_without_load_is_open() {
     point.span = (0.5e-3, 0.5e-3);
     evaluation.update(&mut state, &point);
     assert!(total(&state).is_some_and(|total| total < 2.0));
+}
+
+#[test]
+fn the_bodies_are_in_series_by_the_resistivity_of_their_bases() {
+    let mut bodies = contact(&[0.0; 5], 0.0);
+    bodies.spreading = Sides {
+        slider: 1.5,
+        receptacle: 0.5,
+    };
+    let mut state = ElectricalState::default();
+    Evaluation::new(&of_gold()).update(&mut state, &bodies);
+    let found = state.resistance.expect("it is computed");
+    // 2.21e-8 ohm m over 0.5 mm: 0.0442 mOhm a square.
+    assert!(
+        (found.bulk_mohm.slider - 1.5 * 0.0442).abs() < 1e-12,
+        "{found:?}"
+    );
+    assert!((found.total_mohm - 1.142_03 - 2.0 * 0.0442).abs() < 1e-5);
 }

@@ -37,7 +37,7 @@ declare_report! {
     pub ResistanceReport from found: &ContactResistance;
     fields {}
     channels {
-        /// Resistance of the contact: constriction in both sides and films, mOhm.
+        /// Resistance of the contact: constriction in both sides, films and the way through the bodies, mOhm.
         contact_resistance_mohm ["mohm"] = found.total_mohm,
         /// Its part by the constriction in the slider and its layers, mOhm.
         slider_constriction_mohm ["mohm"] = found.constriction_mohm.slider,
@@ -45,6 +45,10 @@ declare_report! {
         receptacle_constriction_mohm ["mohm"] = found.constriction_mohm.receptacle,
         /// Its part by films on exposed metals, mOhm.
         film_resistance_mohm ["mohm"] = found.film_mohm,
+        /// Its part by the way of the current through the slider to its far face, mOhm.
+        slider_bulk_mohm ["mohm"] = found.bulk_mohm.slider,
+        /// Its part by the way of the current through the receptacle to its far face, mOhm.
+        receptacle_bulk_mohm ["mohm"] = found.bulk_mohm.receptacle,
         /// Part of the contact's length on which a side shows a metal with a film, -.
         filmed_fraction ["fraction"] = found.filmed_fraction,
         /// Radius of a spot of real contact, um.

@@ -1,5 +1,6 @@
 //! The resistance of the contact in a run.
 
+use crate::condensation::Condensed;
 use crate::cycle::CycleState;
 use crate::effects::{Effect, EffectsPlan};
 use crate::electrical::{Contact, ElectricalState, Evaluation, Surface};
@@ -17,14 +18,19 @@ pub(super) fn evaluation<'a>(scene: &'a Scene, plan: &EffectsPlan) -> Option<Eva
 }
 
 /// The contact at the last passage of the neutral position.
-pub(super) fn contact<'a>(scene: &Scene, model: &'a Model, state: &'a CycleState) -> Contact<'a> {
+pub(super) fn contact<'a>(
+    scene: &Scene,
+    (model, condensed): (&'a Model, &Condensed),
+    state: &'a CycleState,
+) -> Contact<'a> {
     let neutral = state.neutral;
+    let span = (
+        neutral.middle - neutral.half_width,
+        neutral.middle + neutral.half_width,
+    );
     Contact {
         load_n_per_mm: neutral.load,
-        span: (
-            neutral.middle - neutral.half_width,
-            neutral.middle + neutral.half_width,
-        ),
+        span,
         surfaces: Sides::from_fn(|side| Surface {
             x: model.bodies.of(side).contact_x(),
             depth: state.depth.of(side),
@@ -33,6 +39,7 @@ pub(super) fn contact<'a>(scene: &Scene, model: &'a Model, state: &'a CycleState
             .elapsed(real_cycles(state.cycle))
             .1
             .unwrap_or_default(),
+        spreading: condensed.spreading_ratios(span),
     }
 }
 

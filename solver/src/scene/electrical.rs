@@ -49,6 +49,8 @@ pub struct Electrical {
     pub metals: Sides<Vec<Metal>>,
     /// Spots of real contact.
     pub spots: Spots,
+    /// Frequency of the current, Hz; `None` of a direct one.
+    pub frequency_hz: Option<f64>,
     /// Limits of the resistance that end the run, mOhm.
     pub stop_mohm: Vec<f64>,
     /// Limits whose life is recorded, mOhm.

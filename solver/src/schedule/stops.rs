@@ -231,6 +231,7 @@ mod tests {
                 cluster_diameter_mm: 0.0,
                 deformation: Deformation::Plastic,
             },
+            frequency_hz: None,
             stop_mohm: stop_mohm.to_vec(),
             life_mohm: life_mohm.to_vec(),
         };

@@ -202,3 +202,31 @@ fn what_is_not_known_is_input_that_is_missing_where_it_is_asked_for() {
     let forced = r#"{"system":{"kind":"fuzz_button"},"effects":{"resistance":"on"}}"#;
     assert_eq!(pointers(forced), ["/effects/resistance"]);
 }
+
+#[test]
+fn a_current_of_high_frequency_is_warned_of() {
+    let skin = |rest: &str| {
+        let resolved = accepted(&card("", rest));
+        let mut decisions = plan(&resolved.scene).decisions.into_iter();
+        let decision = decisions.find(|decision| decision.effect == Effect::SkinEffect);
+        let mut warned = resolved.warnings.iter();
+        let is_warned = warned.any(|fault| fault.pointer == "/effects/skin_effect");
+        (decision.expect("it is decided"), is_warned)
+    };
+    let (direct, is_warned) = skin("");
+    assert!(
+        direct.indicator.is_none() && !is_warned,
+        "{}",
+        direct.reason
+    );
+    let (slow, is_warned) = skin(r#","environment":{"frequency_hz":50}"#);
+    assert!(slow.indicator.is_some_and(|found| found.value() < 1e-6) && !is_warned);
+    let (fast, is_warned) = skin(r#","environment":{"frequency_hz":1e9}"#);
+    assert!(
+        fast.reason.contains("direct current") && is_warned,
+        "{}",
+        fast.reason
+    );
+    assert!(fast.indicator.is_some_and(|found| found.value() > 1.0));
+    assert_eq!(fast.verdict, Verdict::Skipped);
+}
