@@ -40,6 +40,7 @@ use api::problem::Fault;
 use api::results::BlockExtent;
 use api::spec::{DerivedMotion, ParseError, Spec, SystemKind};
 use solver::law::friction;
+use solver::law::softening::REFERENCE_C;
 use solver::model::Layout;
 use solver::scene::{Body, Conduction, Criterion, Layer, Scene};
 use solver::sides::Sides;
@@ -189,11 +190,12 @@ fn fill(spec: &Spec, kind: SystemKind, diagnostics: &mut Diagnostics) -> Filled 
     let (materials, elastic) = materials::resolve(&spec.materials, &preset, diagnostics);
     let coverings = covering::resolve(spec, &preset);
     let plated = coverings.map(|covering| covering.is_plated());
+    let surroundings_c = spec.environment.temperature_c.unwrap_or(REFERENCE_C);
     let (interface, laws) = law::resolve(
         &spec.interface,
         &spec.materials,
         &materials,
-        (&preset, coverings),
+        (&preset, coverings, surroundings_c),
         diagnostics,
     );
     law::check_plated_sides(&laws, plated, diagnostics);
@@ -230,7 +232,7 @@ fn fill(spec: &Spec, kind: SystemKind, diagnostics: &mut Diagnostics) -> Filled 
         ..spec.clone()
     };
     let softening = environment::softening(&filled, diagnostics);
-    let conductivity = environment::conductivities(&filled);
+    let thermal = environment::conductors(&filled);
     let bodies = conductors::Bodies {
         layers: &layers,
         elastic: &elastic,
@@ -250,7 +252,7 @@ fn fill(spec: &Spec, kind: SystemKind, diagnostics: &mut Diagnostics) -> Filled 
             elastic: elastic.slider,
             wear: laws.wear.slider,
             plating: layers.slider,
-            conductivity_w_mk: conductivity.slider,
+            thermal: thermal.slider,
             softening: softening.slider,
         },
         receptacle: Body {
@@ -258,10 +260,11 @@ fn fill(spec: &Spec, kind: SystemKind, diagnostics: &mut Diagnostics) -> Filled 
             elastic: elastic.receptacle,
             wear: laws.wear.receptacle,
             plating: layers.receptacle,
-            conductivity_w_mk: conductivity.receptacle,
+            thermal: thermal.receptacle,
             softening: softening.receptacle,
         },
         friction: laws.friction,
+        temperature_c: surroundings_c,
         load_n_per_mm: line_load.n_per_mm,
         spring_n_per_mm2: line_load.spring_n_per_mm2,
         drive: movement.drive,

@@ -14,6 +14,7 @@ mod computed_cycle;
 mod cycle_record;
 mod extrapolation;
 mod groove;
+mod heating;
 mod mission_state;
 mod motion_history;
 mod replay;
@@ -37,6 +38,7 @@ use crate::sides::{Side, Sides};
 
 pub use checks::Checks;
 pub use cycle_record::{CycleRecord, FrictionLoop, Neutral};
+use heating::Heating;
 pub use mission_state::BlockWear;
 pub(crate) use mission_state::MissionState;
 use replay::Replays;
@@ -61,8 +63,10 @@ pub struct Integrator<'a> {
     solver: Solver,
     /// Slopes of the surfaces at the beginning of the computed cycle.
     slope: Sides<Vec<f64>>,
-    /// Wear of both surfaces; the pair has that of the present increment.
+    /// Wear of both surfaces, at the mean temperature of a cycle; the pair has that of the present increment.
     wear: Sides<Option<SurfaceWear>>,
+    /// What heats the contact, if something does.
+    heating: Option<Heating>,
     spines: Spines,
     /// Cycles until the end of the run, estimated where it stops at a depth.
     expected_cycles: u64,
@@ -79,6 +83,7 @@ impl<'a> Integrator<'a> {
         let constant = scene.timed_motion().constant();
         let at_pace = |wear: SurfaceWear| constant.map_or(wear, |pace| wear.during(pace, 0.0));
         let wear = pair.interface.wear.map(|wear| wear.map(at_pace));
+        let heating = Heating::of(scene, &pair.interface, pair.interface.wear);
         let next = ContactState::untouched(operators, model.interface.slave);
         Self {
             scene,
@@ -86,6 +91,7 @@ impl<'a> Integrator<'a> {
             solver: Solver::default(),
             slope: Sides::default(),
             wear,
+            heating,
             spines: Spines::of(model),
             expected_cycles: resolution::expected_cycles(scene, model.sizes.hertz_half_width),
             next,
@@ -290,6 +296,28 @@ impl<'a> Integrator<'a> {
         state.sliding_distance += self.scene.motion.distance_per_cycle_mm() * real_cycles(cycles);
     }
 
+    /// Takes the temperature that the contact has in the next computed cycle.
+    ///
+    /// # Errors
+    /// [`CycleError::Melts`] if it is beyond the melting temperature of a surface.
+    fn heat(&mut self, state: &mut CycleState) -> Result<(), CycleError> {
+        let Some(heating) = &mut self.heating else {
+            return Ok(());
+        };
+        let (rise_k, wear) = heating.begin_cycle((self.scene, &self.pair.interface), state);
+        if let Some(rise_k) = heating.melts() {
+            return Err(CycleError::Melts {
+                cycle: state.cycle,
+                temperature_c: self.scene.temperature_c + rise_k,
+            });
+        }
+        state.temperature_rise_k = rise_k;
+        let constant = self.scene.timed_motion().constant();
+        self.wear =
+            wear.map(|wear| wear.map(|wear| constant.map_or(wear, |pace| wear.during(pace, 0.0))));
+        Ok(())
+    }
+
     fn increment(
         &mut self,
         state: &mut CycleState,
@@ -305,9 +333,11 @@ impl<'a> Integrator<'a> {
             .timed_motion()
             .between(last.slider_x, to.slider_x);
         let distance = (to.slider_x - last.slider_x).abs() + to.surface_slip.abs();
-        self.pair.interface.wear = self
-            .wear
-            .map(|wear| wear.map(|wear| wear.during(pace, distance)));
+        let wear = match &self.heating {
+            Some(heating) => heating.at_speed(pace.speed()),
+            None => self.wear,
+        };
+        self.pair.interface.wear = wear.map(|wear| wear.map(|wear| wear.during(pace, distance)));
         let done = self
             .solver
             .advance(&self.pair, &surfaces, last, to, &mut self.next)?;

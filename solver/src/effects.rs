@@ -16,6 +16,7 @@ pub use decision::{Decision, Indicator, Verdict};
 pub use effect::Effect;
 pub use switches::Switches;
 
+use crate::electrical::ElectricalState;
 use crate::scene::Scene;
 use crate::sides::Sides;
 use indicators::Indicators;
@@ -153,6 +154,27 @@ impl EffectsPlan {
                 Some(indicators.value(effect, depth))
             })
         })
+    }
+
+    /// Heat of the current, if it was skipped and the resistance of the contact calls for it; a run goes back to the cycle before.
+    pub(crate) fn crossed_by_current(
+        &self,
+        scene: &Scene,
+        back_to: u64,
+        electrical: &ElectricalState,
+    ) -> Vec<Crossing> {
+        let decision = self.decision(Effect::JouleHeating);
+        let skipped = decision.filter(|decision| decision.verdict == Verdict::Skipped);
+        let Some(indicator) = skipped.and_then(|decision| decision.indicator) else {
+            return Vec::new();
+        };
+        let rise_k = scene.joule_rise_k(electrical.constriction_mohm());
+        let value = Indicators::of(scene).change_by_heat(rise_k);
+        if value > indicator.threshold {
+            self.called_for(Effect::JouleHeating, back_to, |_| Some(value))
+        } else {
+            Vec::new()
+        }
     }
 
     /// Depths with those that skipped sides would have.

@@ -76,6 +76,14 @@ pub struct ElectricalState {
 }
 
 impl ElectricalState {
+    /// The last resistance without that of the bodies, mOhm; 0 where it is not computed.
+    pub(crate) fn constriction_mohm(&self) -> f64 {
+        self.resistance.map_or(0.0, |found| {
+            let Sides { slider, receptacle } = found.bulk_mohm;
+            found.total_mohm - slider - receptacle
+        })
+    }
+
     /// The last resistance, mOhm.
     pub(crate) fn total_mohm(&self) -> Option<f64> {
         self.resistance.map(|found| found.total_mohm)
@@ -189,6 +197,34 @@ impl<'a> Evaluation<'a> {
             film.at_age(state.time_s - since.unwrap_or(state.time_s))
         })
     }
+}
+
+/// Resistance of the unworn contact under a load in N/mm with each side all of its most resistive metal, without films, mOhm: an upper
+/// limit that costs no layers.
+pub(crate) fn largest_unworn_mohm(electrical: &Electrical, load_n_per_mm: f64) -> f64 {
+    let metals = electrical.metals.as_ref().map(|metals| {
+        let resistivities = metals.iter().map(|metal| metal.resistivity_ohm_m);
+        let largest = resistivities.fold(0.0, f64::max);
+        let outer = metals.iter().take(1);
+        let alone = outer.map(|metal| Metal {
+            bottom_mm: f64::INFINITY,
+            resistivity_ohm_m: largest,
+            ..*metal
+        });
+        alone.collect::<Vec<_>>()
+    });
+    let alike = Electrical {
+        metals,
+        ..electrical.clone()
+    };
+    let patch = Patch {
+        metal: Sides::default(),
+        depth: Sides::default(),
+        share: 1.0,
+    };
+    let spreading = Spreading::of(&electrical.spots);
+    let found = spreading.of_patch(&alike, electrical.width_mm * load_n_per_mm, &patch);
+    found.mohm.slider + found.mohm.receptacle
 }
 
 /// An open contact: its resistance is that of the gap.

@@ -10,4 +10,5 @@ pub mod resistance;
 pub mod skin_effect;
 pub mod softening;
 pub mod surface;
+pub mod temperature;
 pub mod wear;

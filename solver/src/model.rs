@@ -109,6 +109,17 @@ pub struct Interface {
     pub spring: f64,
     /// Contact modulus E* of both bodies, MPa.
     pub modulus: f64,
+    /// What heats the contact.
+    pub heated_by: HeatSources,
+}
+
+/// What heats the contact.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct HeatSources {
+    /// Friction.
+    pub friction: bool,
+    /// The current.
+    pub current: bool,
 }
 
 /// Builds the model of a scene from its plan: meshes both bodies, and gives the interface the laws of simulated effects
@@ -173,6 +184,10 @@ fn interface(scene: &Scene, plan: &EffectsPlan, sizes: &Sizes) -> Interface {
             0.0
         },
         modulus: contact_modulus(scene.slider.elastic, scene.receptacle.elastic),
+        heated_by: HeatSources {
+            friction: on(Effect::FrictionalHeating),
+            current: on(Effect::JouleHeating),
+        },
     }
 }
 

@@ -27,7 +27,7 @@ pub(crate) use exposure::WornSurface;
 pub use history::{Column, Layer, Record};
 pub use life::{CriterionState, Life};
 pub(crate) use report::worn_surface;
-pub use report::{CycleReport, ResistanceReport, SideReport, report};
+pub use report::{CycleReport, ResistanceReport, SideReport, TemperatureReport, report};
 pub use snapshot::{DepthProfile, Snapshot, TractionField, snapshot};
 pub(crate) use summary::worn_area_residual;
 pub use summary::{Initial, Resolution, Summary};

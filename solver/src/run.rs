@@ -146,6 +146,7 @@ fn load(
             &mut electrical,
             &resistance::contact(scene, (model, condensed), &state),
         );
+        state.constriction_mohm = electrical.constriction_mohm();
     }
     let report = record::report(scene, model, &state, electrical.resistance);
     let mut compared = Compared::default();
@@ -263,7 +264,15 @@ fn integrate(
                 (run.electrical, until_limit) = (electrical_before, sooner);
                 continue;
             }
+            let called_for = plan.crossed_by_current(scene, before.cycle, &run.electrical);
+            if !called_for.is_empty() {
+                run.electrical = electrical_before;
+                run.go_back(before, called_for);
+                return Ok(ControlFlow::Continue(Renewal::Effects));
+            }
+            run.state.constriction_mohm = run.electrical.constriction_mohm();
         }
+        let state = &run.state;
         until_limit = u64::MAX;
         let report = record::report(scene, model, state, run.electrical.resistance);
         if run.is_comparable(scene) {

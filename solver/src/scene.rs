@@ -6,6 +6,7 @@
 
 mod criterion;
 mod electrical;
+mod heat;
 mod mission;
 mod motion;
 mod timing;
@@ -13,6 +14,7 @@ mod tuning;
 
 pub use criterion::Criterion;
 pub use electrical::{Conduction, Electrical, MOST_METALS, Metal, Spots};
+pub(crate) use heat::ContactHeat;
 pub use mission::{Block, Mission};
 pub use motion::Motion;
 pub use timing::Timing;
@@ -30,11 +32,14 @@ use crate::sides::{Side, Sides};
 
 pub use crate::law::elastic::Elastic;
 pub use crate::law::friction::Friction;
+pub use crate::law::heating::sliding::Conductor;
 pub use crate::law::plating::{Layer, MOST_LAYERS};
 pub use crate::law::softening::Softening;
+pub use crate::law::temperature::Temperature;
 pub use crate::law::wear::WearLaw;
 pub use crate::law::wear::barwell::{Barwell, Course};
 pub use crate::law::wear::load_repetition::LoadRepetition;
+pub use crate::law::wear::mechanism::Mechanism;
 pub use crate::law::wear::mild_oxidation::MildOxidation;
 pub use crate::law::wear::power::PowerLaw;
 pub use crate::law::wear::quinn::Quinn;
@@ -52,6 +57,8 @@ pub struct Scene {
     pub receptacle: Body<BlockShape>,
     /// Friction between both.
     pub friction: Friction,
+    /// Temperature of the surroundings, °C.
+    pub temperature_c: f64,
     /// Normal load on the unworn contact, N per mm of depth.
     pub load_n_per_mm: f64,
     /// Stiffness of the spring that applies the load, which decreases as the slider sinks, N/mm per mm of depth; 0 for
@@ -156,15 +163,20 @@ impl Scene {
         }
     }
 
-    /// Wear of both surfaces with the effects that are switched off left out.
+    /// Wear of both surfaces with the effects that are switched off left out; at the pace of the motion if that is the same all the
+    /// time.
     pub(crate) fn surface_wear(&self) -> Sides<Option<SurfaceWear>> {
+        self.surface_wear_at(self.timed_motion().constant())
+    }
+
+    /// Wear of both surfaces with the effects that are switched off left out, at a pace if one is given.
+    pub(crate) fn surface_wear_at(&self, pace: Option<Pace>) -> Sides<Option<SurfaceWear>> {
         let is_on = |effect| self.effects.of(effect) != Some(false);
         let on = SurfaceEffects {
             plating: is_on(Effect::Plating),
             softening: is_on(Effect::ThermalSoftening),
         };
         let (slider, receptacle) = (&self.slider, &self.receptacle);
-        let pace = self.timed_motion().constant();
         Sides {
             slider: slider
                 .surface_wear(on, pace)
@@ -196,8 +208,8 @@ pub struct Body<S> {
     pub wear: Option<WearLaw>,
     /// Layers over the base, from the surface down; at most [`MOST_LAYERS`].
     pub plating: Vec<Layer>,
-    /// Its thermal conductivity, W/(m K), if it is known.
-    pub conductivity_w_mk: Option<f64>,
+    /// The body as a conductor of heat, if its conductivity is known.
+    pub thermal: Option<Conductor>,
     /// Its hardnesses at the temperature of the contact.
     pub softening: Softening,
 }

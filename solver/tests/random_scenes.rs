@@ -224,7 +224,7 @@ fn scene(u: &mut Numbers, regime: Regime, worn: Worn) -> Scene {
             elastic: contact.slider,
             wear: wear.slider,
             plating: Vec::new(),
-            conductivity_w_mk: None,
+            thermal: None,
             softening: Softening::default(),
         },
         receptacle: Body {
@@ -232,7 +232,7 @@ fn scene(u: &mut Numbers, regime: Regime, worn: Worn) -> Scene {
             elastic: contact.receptacle,
             wear: wear.receptacle,
             plating: Vec::new(),
-            conductivity_w_mk: None,
+            thermal: None,
             softening: Softening::default(),
         },
         friction: if frictionless {
@@ -240,6 +240,7 @@ fn scene(u: &mut Numbers, regime: Regime, worn: Worn) -> Scene {
         } else {
             Friction::Coulomb { coefficient }
         },
+        temperature_c: 20.0,
         load_n_per_mm: load,
         spring_n_per_mm2: spring.unwrap_or(0.0),
         drive,

@@ -20,6 +20,7 @@ mod verify_error_control;
 mod verify_first_load;
 mod verify_fuzz_button_groove;
 mod verify_gross_slip;
+mod verify_heating;
 mod verify_hertz_line_contact;
 mod verify_invariance;
 mod verify_jumps_in_a_deep_groove;

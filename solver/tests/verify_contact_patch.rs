@@ -11,7 +11,8 @@
 use solver::condensation::condense;
 use solver::contact::{ContactState, Displacement, Pair, Solver, Surfaces};
 use solver::model::{
-    BodyLayout, BodyModel, Interface, Model, Profile, Support, Tangential, Zone, ZoneSizes,
+    BodyLayout, BodyModel, HeatSources, Interface, Model, Profile, Support, Tangential, Zone,
+    ZoneSizes,
 };
 use solver::scene::{Elastic, SurfaceEffects};
 use solver::sides::{Side, Sides};
@@ -81,6 +82,7 @@ fn uniform_pressure_passes_through_non_matching_meshes_at_any_position() {
                 load: pressure * 1.0,
                 spring: 0.0,
                 modulus: 50e3,
+                heated_by: HeatSources::default(),
             },
             relocates: false,
             conducts: false,

@@ -53,6 +53,7 @@ fn filmed(amplitude: f64, growth: Option<Growth>) -> Scene {
             deformation: Deformation::Plastic,
         },
         frequency_hz: None,
+        current_a: None,
         stop_mohm: Vec::new(),
         life_mohm: Vec::new(),
     }));

@@ -12,7 +12,7 @@ fn heated(scene: &Scene) -> Scene {
     let mut scene = scene.clone();
     let softening = Softening {
         ratios: RATIOS.map(Some).to_vec(),
-        margin_k: None,
+        margins_k: Vec::new(),
     };
     scene.slider.softening = softening.clone();
     scene.receptacle.softening = softening;

@@ -178,6 +178,9 @@ pub struct Summary {
     /// Resistance of the contact, mOhm; absent where the force on the contact, a resistivity or a hardness is not known.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub contact_resistance_mohm: Option<ContactResistance>,
+    /// Mean temperature of the contact at the end, °C; absent where neither friction nor the current heats it in the run.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub contact_temperature_c: Option<f64>,
     /// How the motion was derived from a vibration, a thermal cycle or an insertion.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub motion: Option<DerivedMotion>,

@@ -35,6 +35,9 @@ string_enum! {
         MildOxidation = "mild_oxidation",
         /// Severe oxidational wear at high speeds, after Lim and Ashby: friction melts an oxide film.
         SevereOxidation = "severe_oxidation",
+        /// The mechanism of the speed: `archard`, from a transition on `mild_oxidation`, and `severe_oxidation` where friction melts the
+        /// oxide.
+        Oxidation = "oxidation",
         /// Worn depth = K p^a v^b t^c under a constant pressure p and speed v: Rhee's, of friction materials.
         Rhee = "rhee",
         /// Worn depth = t0 C1 p^C2 N^C3 after N repetitions of a constant pressure p; also where the contact sticks.
@@ -136,7 +139,8 @@ pub struct WearLaw {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub characteristic_dose_mpa_mm: Option<f64>,
     /// `quinn`, `mild_oxidation`: temperature of the touching asperities, with that of flashes by friction; `severe_oxidation`: of the
-    /// bulk; `strain_hardening`: of the contact, °C. Required there.
+    /// bulk; `strain_hardening`: of the contact, °C. If absent, that of the surroundings and what friction and current heat the contact
+    /// by, which leaves out flashes of single asperities.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub contact_temperature_c: Option<f64>,
     /// `quinn`, `mild_oxidation`: activation energy of the oxidation, J/mol. Required there.
@@ -163,6 +167,9 @@ pub struct WearLaw {
     /// `mild_oxidation`: the constant C of the law, -. Required there.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub oxidation_constant: Option<f64>,
+    /// `oxidation`: speed of the transition from `archard` to `mild_oxidation`, mm/s; 100 if absent.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub transition_speed_mm_s: Option<f64>,
     /// `severe_oxidation`: fraction of the molten oxide that is removed, -. Required there.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub molten_fraction: Option<f64>,

@@ -82,6 +82,7 @@ pub fn summary(summary: &record::Summary, cost: Cost, life: Vec<LifeEntry>) -> S
         motion: None;
         mission: Vec::new();
         contact_resistance_mohm: resistance::of(summary);
+        contact_temperature_c: summary.last.temperature.map(|found| found.contact_temperature_c);
         warnings: summary.warnings.clone();
         initial: document!(Initial of summary.initial; peak_pressure_mpa, contact_half_width_mm);
         accuracy: document!(

@@ -3,7 +3,9 @@
 use ::parquet::file::reader::{FileReader, SerializedFileReader};
 use ::parquet::record::RowAccessor;
 use serde_json::{Value, json};
-use solver::record::{Channel, Channels, CycleReport, Record, ResistanceReport, SideReport};
+use solver::record::{
+    Channel, Channels, CycleReport, Record, ResistanceReport, SideReport, TemperatureReport,
+};
 
 use crate::export::thin::FEWEST_POINTS;
 use crate::export::{csv, history, parquet, pictures, thin};
@@ -59,6 +61,7 @@ impl Found {
             let report = CycleReport {
                 cycle,
                 resistance: self.part.map(|_| ResistanceReport::default()),
+                temperature: self.part.map(|_| TemperatureReport::default()),
                 ..CycleReport::default()
             };
             let mut row = json!(report);
@@ -90,7 +93,12 @@ fn channels() -> Vec<Found> {
         is_required: false,
         ..Found::new(None, "WearHistory")(channel)
     });
-    let contact = contact.chain(resistance);
+    let temperature = TemperatureReport::CHANNELS.iter().map(|channel| Found {
+        part: Some("temperature"),
+        is_required: false,
+        ..Found::new(None, "WearHistory")(channel)
+    });
+    let contact = contact.chain(resistance).chain(temperature);
     sides.into_iter().flatten().chain(contact).collect()
 }
 
@@ -177,10 +185,16 @@ fn every_channel_is_described() {
 }
 
 #[test]
-fn a_run_whose_resistance_is_not_computed_has_no_columns_of_it() {
+fn a_run_whose_resistance_and_heat_are_not_computed_has_no_columns_of_them() {
     let reports = vec![CycleReport::default(); 3];
     let document = json!(history::wear_history(Record::new(&reports, &[])));
-    for channel in ResistanceReport::CHANNELS {
-        assert!(document[channel.name].is_null(), "{}", channel.name);
+    let resistance = ResistanceReport::CHANNELS
+        .iter()
+        .map(|channel| channel.name);
+    let temperature = TemperatureReport::CHANNELS
+        .iter()
+        .map(|channel| channel.name);
+    for name in resistance.chain(temperature) {
+        assert!(document[name].is_null(), "{name}");
     }
 }

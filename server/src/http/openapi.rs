@@ -13,7 +13,7 @@ mod specification;
 use std::sync::OnceLock;
 
 use serde_json::{Value, json};
-use solver::record::{Channels, CycleReport, ResistanceReport, SideReport};
+use solver::record::{Channels, CycleReport, ResistanceReport, SideReport, TemperatureReport};
 
 /// Status and description of the problems of operations with a body, which is always a specification or contains one.
 const BODY_PROBLEMS: [(&str, &str); 5] = [
@@ -75,6 +75,7 @@ fn complete(document: &mut Value) {
     specification::complete(schemas);
     describe_channels::<CycleReport>(&mut schemas["WearHistory"], true);
     describe_channels::<ResistanceReport>(&mut schemas["WearHistory"], false);
+    describe_channels::<TemperatureReport>(&mut schemas["WearHistory"], false);
     describe_channels::<SideReport>(&mut schemas["SideSeries"], true);
     let paths = document["paths"].as_object_mut().into_iter().flatten();
     for (path, methods) in paths {

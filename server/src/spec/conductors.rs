@@ -98,6 +98,7 @@ pub(super) fn resolve(
                 metals,
                 spots: found,
                 frequency_hz: filled.environment.frequency_hz,
+                current_a: filled.environment.current_a,
                 stop_mohm: Vec::new(),
                 life_mohm: Vec::new(),
             }))

@@ -116,10 +116,7 @@ pub(crate) fn warnings(scene: &Scene) -> Vec<Fault> {
         }
         let indicator = decision.indicator?;
         let matters = indicator.value() > indicator.threshold;
-        let is_missed = matches!(
-            decision.effect,
-            Effect::FrictionalHeating | Effect::SkinEffect
-        );
+        let is_missed = decision.effect == Effect::SkinEffect;
         let is_out = decision.verdict == Verdict::ForcedOff && !is_missed
             || decision.verdict == Verdict::Skipped && is_missed;
         (is_out && matters).then(|| Fault {

@@ -4,7 +4,7 @@ use std::ops::RangeInclusive;
 
 use api::spec::{Environment, Material, MaterialProperties, Spec, WearLaw, WearLawName};
 use solver::law::softening::{REFERENCE_C, hardness_ratio};
-use solver::scene::Softening;
+use solver::scene::{Conductor, Softening};
 use solver::sides::Sides;
 
 use crate::spec::diagnostics::Diagnostics;
@@ -17,6 +17,9 @@ const POINTER: &str = "/environment/temperature_c";
 /// °C, from absolute zero to beyond every contact.
 pub(in crate::spec) const TEMPERATURE_C: RangeInclusive<f64> = -273.0..=3_000.0;
 
+/// A, through one contact: from what a meter drives to beyond any connector.
+pub(in crate::spec) const CURRENT_A: RangeInclusive<f64> = 0.0..=1e4;
+
 /// Hz, of the current; from what is direct in all but name to beyond any connector.
 pub(in crate::spec) const FREQUENCY_HZ: RangeInclusive<f64> = 1e-3..=1e12;
 
@@ -26,8 +29,10 @@ pub(super) fn resolve(given: &Environment, diagnostics: &mut Diagnostics) -> Env
     diagnostics.check_range(POINTER, temperature, &TEMPERATURE_C);
     let pointer = "/environment/frequency_hz";
     let frequency_hz = diagnostics.optional(pointer, given.frequency_hz, &FREQUENCY_HZ);
+    let current_a = diagnostics.optional("/environment/current_a", given.current_a, &CURRENT_A);
     Environment {
         temperature_c: Some(temperature),
+        current_a,
         frequency_hz,
     }
 }
@@ -46,10 +51,11 @@ pub(super) fn softening(resolved: &Spec, diagnostics: &mut Diagnostics) -> Sides
         let by_hardness: Vec<_> = surfaces
             .map(|(material, law)| law.filter(|law| wears_by_hardness(law)).map(|_| material))
             .collect();
-        let melting = by_hardness.iter().flatten().filter_map(|m| melting_c(*m));
-        let margin_k = melting
-            .map(|melting| melting - temperature)
-            .reduce(f64::min);
+        let margin = |material: &Option<Option<&Material>>| {
+            let melting = material.and_then(melting_c);
+            melting.map(|melting| melting - temperature)
+        };
+        let margins_k = by_hardness.iter().map(margin).collect();
         let ratios = by_hardness.iter().map(|material| match material {
             None => Some(1.0),
             Some(material) => ratio(temperature, *material, diagnostics),
@@ -60,7 +66,7 @@ pub(super) fn softening(resolved: &Spec, diagnostics: &mut Diagnostics) -> Sides
             } else {
                 ratios.collect()
             },
-            margin_k,
+            margins_k,
         }
     })
 }
@@ -88,10 +94,20 @@ fn melting_c(material: Option<&Material>) -> Option<f64> {
     properties(material)?.melting_temperature_c
 }
 
-/// Conductivities of both materials, W/(m K).
-pub(super) fn conductivities(resolved: &Spec) -> Sides<Option<f64>> {
+/// Both materials as conductors of heat.
+pub(super) fn conductors(resolved: &Spec) -> Sides<Option<Conductor>> {
     let materials = materials::by_side(&resolved.materials);
-    materials.map(|material| properties(material)?.thermal_conductivity_w_mk)
+    materials.map(|material| {
+        let of = properties(material)?;
+        let conductivity_w_mk = of.thermal_conductivity_w_mk?;
+        let capacity_j_m3k = of.density_kg_m3.zip(of.specific_heat_j_kgk);
+        Some(Conductor {
+            conductivity_w_mk,
+            // m^2/s = 1e6 mm^2/s.
+            diffusivity_mm2_s: capacity_j_m3k
+                .map(|(density, heat)| 1e6 * conductivity_w_mk / (density * heat)),
+        })
+    })
 }
 
 /// The laws of the bases.
@@ -123,7 +139,7 @@ fn ratio(
 #[cfg(test)]
 mod tests {
     use solver::effects::{Effect, Verdict, plan};
-    use solver::scene::Scene;
+    use solver::scene::{Scene, SpeedLaw, Temperature, WearLaw};
 
     use crate::spec::Resolved;
     use crate::spec::tests::{accepted, faults};
@@ -183,5 +199,85 @@ mod tests {
             r#"{{"system":{{"kind":"sd_card"}},"environment":{{"temperature_c":85}}{law}}}"#
         );
         assert!(accepted(&bare).scene.receptacle.softening.ratios == [Some(1.0)]);
+    }
+
+    /// Decision, value and reason about an effect of a scene.
+    fn decided(scene: &Scene, effect: Effect) -> (Verdict, f64, String) {
+        let mut decisions = plan(scene).decisions.into_iter();
+        let found = decisions.find(|decision| decision.effect == effect);
+        let found = found.expect("it is decided");
+        let value = found.indicator.map_or(0.0, |indicator| indicator.value());
+        (found.verdict, value, found.reason)
+    }
+
+    #[test]
+    fn fast_sliding_heats_the_contact_and_slow_does_not() {
+        let at = |period: f64| {
+            accepted(&format!(
+                r#"{{"system":{{"kind":"cylinder_on_flat"}},"motion":{{"kind":"reciprocating","amplitude_mm":0.1,"period_s":{period}}}}}"#
+            ))
+        };
+        let (slow, little, _) = decided(&at(1.0).scene, Effect::FrictionalHeating);
+        let (fast, much, reason) = decided(&at(4e-3).scene, Effect::FrictionalHeating);
+        assert_eq!((slow, fast), (Verdict::Skipped, Verdict::Simulated));
+        // 250 times as fast: at most that much warmer, less where the heat does not reach the far face in a period.
+        assert!((100.0..260.0).contains(&(much / little)), "{much} {little}");
+        assert!(reason.contains("K on average"), "{reason}");
+    }
+
+    #[test]
+    fn a_current_heats_the_contact_where_its_force_is_known() {
+        let with = |rest: &str| {
+            let text = format!(
+                r#"{{"system":{{"kind":"sd_card"}},"environment":{{"current_a":10}}{rest}}}"#
+            );
+            let (verdict, _, reason) = decided(&accepted(&text).scene, Effect::JouleHeating);
+            (verdict, reason)
+        };
+        let (known, reason) = with("");
+        assert_eq!(known, Verdict::Simulated, "{reason}");
+        let (unknown, reason) = with(r#","load":{"kind":"line_force","n_per_mm":0.5}"#);
+        assert_eq!(unknown, Verdict::Skipped);
+        assert!(reason.contains("width_mm"), "{reason}");
+        let found = faults(r#"{"system":{"kind":"sd_card"},"environment":{"current_a":-1}}"#);
+        assert_eq!(found[0].pointer, "/environment/current_a");
+    }
+
+    #[test]
+    fn a_law_without_a_temperature_takes_that_of_the_surroundings() {
+        let law = |rest: &str| {
+            let constants = r#""k":1e-4,"hardness_mpa":6865,"oxidation_constant":3.4e-4,"arrhenius_constant_m2_s":1e6,
+                "activation_energy_j_mol":138e3,"critical_film_um":10,"molten_fraction":0.01,"latent_heat_j_m3":2e9,"heat_share":0.5,
+                "oxide_conductivity_w_mk":3.2,"oxide_melting_temperature_c":1487,"diffusion_distance_um":10"#;
+            let text = format!(
+                r#"{{"system":{{"kind":"cylinder_on_flat"}},"environment":{{"temperature_c":50}},"interface":{{"friction":{{"law":"coulomb",
+                "coefficient":0.3}},"wear":{{"slider":null,"receptacle":{{"law":"oxidation",{constants}{rest}}}}}}}}}"#
+            );
+            let resolved = accepted(&text);
+            let again = serde_json::to_string(&resolved.spec).expect("JSON");
+            assert_eq!(accepted(&again).scene, resolved.scene);
+            match resolved.scene.receptacle.wear {
+                Some(WearLaw::OfSpeed(SpeedLaw::Mechanism(law))) => law,
+                other => panic!("{other:?}"),
+            }
+        };
+        let surroundings = law("");
+        assert_eq!(
+            surroundings.mild.temperature,
+            Temperature::OfSurroundings(323.15)
+        );
+        assert!((surroundings.transition_mm_s - 100.0).abs() <= 0.0);
+        let given = law(r#","contact_temperature_c":427,"transition_speed_mm_s":30"#);
+        assert_eq!(given.severe.temperature, Temperature::OfContact(700.15));
+        assert!((given.transition_mm_s - 30.0).abs() <= 0.0);
+        let bare = r#"{"system":{"kind":"cylinder_on_flat"},"interface":{"wear":{"receptacle":{"law":"oxidation"}}}}"#;
+        let pointers: Vec<String> = faults(bare)
+            .into_iter()
+            .map(|fault| fault.pointer)
+            .collect();
+        for field in ["k", "critical_film_um", "latent_heat_j_m3"] {
+            let pointer = format!("/interface/wear/receptacle/{field}");
+            assert!(pointers.contains(&pointer), "{pointers:?}");
+        }
     }
 }

@@ -6,6 +6,7 @@ pub(super) mod coulomb;
 mod dissipated_energy;
 mod frictionless;
 mod load_repetition;
+mod mechanism;
 mod mild_oxidation;
 mod numbers;
 mod oxidation;
@@ -49,7 +50,7 @@ pub(crate) fn resolve(
     given: &Interface,
     materials: &Materials,
     resolved: &Materials,
-    (preset, coverings): (&Preset, Sides<Covering<'_>>),
+    (preset, coverings, surroundings_c): (&Preset, Sides<Covering<'_>>, f64),
     diagnostics: &mut Diagnostics,
 ) -> (Interface, Laws) {
     let (materials, resolved) = (by_side(materials), by_side(resolved));
@@ -65,6 +66,7 @@ pub(crate) fn resolve(
             pointer: format!("/interface/wear/{}", at.name()),
             given: *materials.of(at),
             resolved: *resolved.of(at),
+            surroundings_c,
         };
         let is_base_metal = match coverings.of(at) {
             Covering::Given(_) => {
@@ -221,6 +223,7 @@ pub(super) fn given_wear(
         Some(WearLawName::SevereOxidation) => {
             severe_oxidation::resolve(side, given, friction, diagnostics)
         }
+        Some(WearLawName::Oxidation) => mechanism::resolve(side, given, friction, diagnostics),
         Some(WearLawName::Rhee) => rhee::resolve(side, given, diagnostics),
         Some(WearLawName::LoadRepetition) => load_repetition::resolve(side, given, diagnostics),
         Some(WearLawName::StrainHardening) => strain_hardening::resolve(side, given, diagnostics),

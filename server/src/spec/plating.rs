@@ -3,6 +3,7 @@
 use std::ops::RangeInclusive;
 
 use api::spec::{EnumValue, Material, PlatingLayer, Platings, Provenance, WearLaw, WearLawName};
+use solver::law::softening::REFERENCE_C;
 use solver::scene::{self, Layer, MOST_LAYERS};
 use solver::sides::Sides;
 
@@ -117,6 +118,8 @@ fn layer(
         pointer: format!("{pointer}/wear"),
         given: given.material.as_ref(),
         resolved: material.as_ref(),
+        // Layers wear by laws that do not depend on it.
+        surroundings_c: REFERENCE_C,
     };
     let (wear, law) = wear(&side, given.wear.as_ref(), friction, diagnostics);
     law::check_plated(&side.pointer, law, diagnostics);

@@ -81,6 +81,7 @@ fn numbers() -> Vec<(&'static str, &'static str, RangeInclusive<f64>)> {
         ("PsdPoint", "frequency_hz", motion::FREQUENCY_HZ),
         ("PsdPoint", "g2_per_hz", vibration::G2_PER_HZ),
         ("Environment", "temperature_c", environment::TEMPERATURE_C),
+        ("Environment", "current_a", environment::CURRENT_A),
         ("Environment", "frequency_hz", environment::FREQUENCY_HZ),
         ("Friction", "coefficient", coulomb::RANGE),
         ("Spots", "cluster_diameter_mm", spots::CLUSTER_DIAMETER_MM),
@@ -248,6 +249,7 @@ mod tests {
             | "arrhenius_constant_kg2_m4s"
             | "oxide_density_kg_m3"
             | "oxygen_fraction" => ("quinn", ""),
+            "transition_speed_mm_s" => ("oxidation", ""),
             "molten_fraction"
             | "latent_heat_j_m3"
             | "heat_share"

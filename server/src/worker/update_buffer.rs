@@ -192,6 +192,7 @@ mod tests {
             station_depth_mm: Vec::new(),
             exposed_length_mm: Sides::default(),
             resistance: None,
+            temperature: None,
             load_n_per_mm: 0.0,
             peak_pressure_mpa: 0.0,
             contact_half_width_mm: 0.0,

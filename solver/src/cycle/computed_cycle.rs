@@ -31,6 +31,7 @@ impl Integrator<'_> {
         (until, is_reported): (u64, bool),
     ) -> Result<CycleRecord, CycleError> {
         let (motion, accuracy) = (self.scene.motion, &self.scene.accuracy);
+        self.heat(state)?;
         let stroke = self.stroke(state);
         let mut jump = state.jump.next(accuracy, stroke, until - state.cycle);
         let before = state.clone();
@@ -137,6 +138,7 @@ impl Integrator<'_> {
         let is_even = state.contact.load(interface) <= UNEVEN * state.neutral.load;
         let passes = self.wear.receptacle;
         stroke.is_groove &= is_even && passes.is_none_or(SurfaceWear::is_even);
+        stroke.is_groove &= self.heating.as_ref().is_none_or(|heating| heating.is_even);
         let is_proportional =
             |wear: Option<SurfaceWear>| wear.is_none_or(SurfaceWear::is_proportional);
         if !(is_proportional(self.wear.slider) && is_proportional(self.wear.receptacle)) {

@@ -25,13 +25,22 @@ pub enum CycleError {
         /// Failure of the smallest increment.
         source: ContactError,
     },
+    /// Friction or the current heats the contact beyond the melting temperature of a surface.
+    #[error(
+        "after cycle {cycle}: the contact reaches {temperature_c:.0} °C, at which a surface melts"
+    )]
+    Melts {
+        /// Physical cycles done before.
+        cycle: u64,
+        /// Temperature of the contact, °C.
+        temperature_c: f64,
+    },
 }
 
 impl CycleError {
     /// Whether the cycle can be computed again with wider zones of fine elements.
     pub(crate) fn needs_wider_zones(self) -> bool {
-        let Self::Increment { source, .. } = self;
-        source.needs_wider_zones()
+        matches!(self, Self::Increment { source, .. } if source.needs_wider_zones())
     }
 }
 
@@ -73,6 +82,10 @@ pub struct CycleState {
     pub(crate) loss_of_load: f64,
     /// Skew of the surfaces toward the last pass.
     pub(crate) skew: Skew,
+    /// Mean temperature rise of the contact by friction and current in the last computed cycle, K.
+    pub(crate) temperature_rise_k: f64,
+    /// Resistance of the last contact without that of the bodies, which the current heats, mOhm.
+    pub(crate) constriction_mohm: f64,
     /// Worst residuals so far.
     pub checks: Checks,
 }
@@ -98,6 +111,8 @@ impl CycleState {
             energy_per_cycle: 0.0,
             loss_of_load: 0.0,
             skew: Skew::default(),
+            temperature_rise_k: 0.0,
+            constriction_mohm: 0.0,
             checks: Checks::default(),
         }
     }

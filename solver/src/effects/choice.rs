@@ -7,7 +7,7 @@ use super::reason::{Grounds, reason};
 use super::small_strain;
 
 use crate::law::surface::SurfaceWear;
-use crate::scene::{Body, Conduction, Motion, Scene, Softening, SurfaceEffects};
+use crate::scene::{Body, Conduction, Scene, Softening, SurfaceEffects};
 use crate::sides::Sides;
 
 /// Largest indicator of a skipped effect over the tolerance. Arbitrary: five effects at this limit exceed their budget
@@ -110,11 +110,12 @@ fn is_at_reference(scene: &Scene) -> bool {
     softening.iter().all(|side| side.ratios.is_empty())
 }
 
-fn heating_is_known(scene: &Scene) -> bool {
-    let (slider, receptacle) = (&scene.slider, &scene.receptacle);
-    let conducts = slider.conductivity_w_mk.is_some() && receptacle.conductivity_w_mk.is_some();
-    let melts = slider.softening.margin_k.or(receptacle.softening.margin_k);
-    conducts && melts.is_some()
+/// Whether a temperature of the contact changes a wear rate by what is known.
+fn heat_counts(scene: &Scene) -> bool {
+    let softens = [&scene.slider.softening, &scene.receptacle.softening];
+    let laws = [scene.slider.wear, scene.receptacle.wear];
+    softens.iter().any(|side| side.margin_k().is_some())
+        || laws.into_iter().flatten().any(|law| law.heated(1.0) != law)
 }
 
 /// What the specification lacks of an effect that matters.
@@ -176,15 +177,22 @@ fn nothing_to_simulate(
         Effect::ThermalSoftening if is_at_reference(scene) => {
             Some("the contact is at 20 °C, at which hardnesses are measured")
         }
-        Effect::ThermalSoftening | Effect::FrictionalHeating if !wears() => {
+        Effect::ThermalSoftening | Effect::FrictionalHeating | Effect::JouleHeating if !wears() => {
             Some("nothing wears, so no hardness counts")
         }
-        Effect::FrictionalHeating if matches!(scene.motion, Motion::Continuous { .. }) => {
-            Some("the heat of a continuous motion is not estimated")
-        }
-        Effect::FrictionalHeating if !heating_is_known(scene) => Some(
-            "not estimated: it needs the conductivities of both materials, and the melting temperature of one that wears",
+        Effect::FrictionalHeating | Effect::JouleHeating if !heat_counts(scene) => Some(
+            "no wear law here depends on the temperature, or a hardness on a known `melting_temperature_c`",
         ),
+        Effect::FrictionalHeating if scene.sliding_heat(1.0).is_none() => {
+            Some("not estimated: it needs `thermal_conductivity_w_mk` of both materials")
+        }
+        Effect::JouleHeating => match &scene.conduction {
+            Conduction::Known(electrical) if electrical.current_a.is_none() => {
+                Some("no current is given: `environment.current_a`")
+            }
+            Conduction::Known(_) => None,
+            Conduction::Unknown { missing, .. } => Some(missing),
+        },
         Effect::Relocation if !wears() => Some("nothing wears, so nothing moves the mesh"),
         Effect::SpringFading if scene.spring_n_per_mm2 <= 0.0 => Some("the load is a dead load"),
         Effect::Resistance => match scene.conduction {

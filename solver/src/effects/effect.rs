@@ -65,9 +65,15 @@ effects! {
     ThermalSoftening = "thermal_softening",
         "largest change of a wear rate by the hardness at this temperature, (Tm - T0)/(Tm - T) - 1",
         ["max_depth_mm", "scar_half_width_mm", "worn_area_mm2", "life"];
-    /// Softening by frictional heat; never simulated.
+    /// Temperature of the contact by friction.
     FrictionalHeating = "frictional_heating",
-        "temperature by friction over what is left to the melting temperature, mu P v (ln(d/a) + 1)/(pi (K1 + K2) (Tm - T))",
+        "largest change of a wear rate by the mean temperature of the unworn contact in gross slip, flash and bulk of a line source \
+         of mu P v: dT/(Tm - T - dT) of a hardness, and what laws of the temperature add",
+        ["max_depth_mm", "scar_half_width_mm", "worn_area_mm2", "life"];
+    /// Temperature of the contact by the current.
+    JouleHeating = "joule_heating",
+        "the same by the current through the constriction, sqrt(T^2 + (R I)^2/(4 L)) - T, at first with the most resistive metal of \
+         each side, then with the resistance of the contact",
         ["max_depth_mm", "scar_half_width_mm", "worn_area_mm2", "life"];
     /// Moving mesh and rebuilt stiffness.
     Relocation = "relocation",
@@ -95,10 +101,7 @@ effects! {
 impl Effect {
     /// Whether it can be simulated.
     pub fn is_available(self) -> bool {
-        !matches!(
-            self,
-            Self::GeometricNonlinearity | Self::FrictionalHeating | Self::SkinEffect
-        )
+        !matches!(self, Self::GeometricNonlinearity | Self::SkinEffect)
     }
 
     /// Whether its indicator, if it is skipped, counts as an error of what the tolerance bounds. Effects that are never

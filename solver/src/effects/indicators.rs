@@ -7,16 +7,18 @@ use std::f64::consts::PI;
 
 use super::effect::Effect;
 use super::small_strain;
+use crate::electrical;
 use crate::law::elastic::dundurs_beta;
 use crate::law::friction;
-use crate::law::heating;
+use crate::law::heating::spot;
+use crate::law::resistance::Deformation;
 use crate::law::skin_effect;
 use crate::law::surface::SurfaceWear;
 use crate::law::wear::LocalState;
 use crate::model::resolution::{self, Sizes};
 use crate::model::worn_depth;
 use crate::number::real_cycles;
-use crate::scene::{Drive, Motion, Scene};
+use crate::scene::{ContactHeat, Drive, Motion, Scene};
 use crate::sides::{Side, Sides};
 
 /// Relative change of the outputs without rebuilt stiffness, over the square of the worn part of the height and what is left of it. Measured:
@@ -119,12 +121,8 @@ impl<'a> Indicators<'a> {
                 let (slider, receptacle) = (&self.scene.slider, &self.scene.receptacle);
                 slider.softening.change().max(receptacle.softening.change())
             }
-            Effect::FrictionalHeating => {
-                let (slider, receptacle) = (&self.scene.slider, &self.scene.receptacle);
-                let margins = [slider.softening.margin_k, receptacle.softening.margin_k];
-                let margin = margins.into_iter().flatten().fold(f64::INFINITY, f64::min);
-                self.frictional_heat_k() / margin
-            }
+            Effect::FrictionalHeating => self.change_by_heat(self.frictional_heat_alone().mean_k()),
+            Effect::JouleHeating => self.change_by_heat(self.joule_heat_k()),
             Effect::Relocation => self.relocation(depth),
             Effect::SpringFading => {
                 let Scene {
@@ -167,27 +165,51 @@ impl<'a> Indicators<'a> {
         Sides::from_fn(|side| depth(side).unwrap_or(f64::INFINITY))
     }
 
-    /// Temperature rise of the unworn contact by friction, K; a wider one is cooler.
-    pub(super) fn frictional_heat_k(&self) -> f64 {
+    /// Mean and largest temperature rise of the unworn contact by friction, K; a wider one is cooler.
+    pub(super) fn frictional_heat_k(&self) -> [f64; 2] {
         let blocks = self.blocks.iter().map(Self::frictional_heat_k);
-        if let Some(largest) = blocks.reduce(f64::max) {
-            return largest;
-        }
-        let Scene {
-            slider, receptacle, ..
-        } = &*self.scene;
-        let conductivity = slider.conductivity_w_mk.zip(receptacle.conductivity_w_mk);
-        let (Some((one, other)), Motion::Reciprocating { period_s, .. }) =
-            (conductivity, self.scene.motion)
-        else {
-            return 0.0;
-        };
-        // The largest of a sine.
-        let speed = 2.0 * PI * self.scene.motion.amplitude_mm() / period_s;
-        let distance = slider.shape.height_mm.max(receptacle.shape.height_mm);
+        let hotter = |one: [f64; 2], other: [f64; 2]| [one[0].max(other[0]), one[1].max(other[1])];
+        blocks.reduce(hotter).unwrap_or_else(|| {
+            let heat = self.frictional_heat_alone();
+            [heat.mean_k(), heat.hottest_k()]
+        })
+    }
+
+    fn frictional_heat_alone(&self) -> ContactHeat {
+        let source = self.scene.sliding_heat(self.sizes.hertz_half_width);
         let friction = self.friction * self.scene.load_n_per_mm;
-        let lengths = (distance, self.sizes.hertz_half_width);
-        heating::line_source(friction, speed, lengths, one + other)
+        ContactHeat::new(&self.scene, source.map(|source| (source, friction)), 0.0)
+    }
+
+    /// Largest temperature rise by friction if one spot carried all of the load, K, where the force and the hardnesses are known.
+    pub(super) fn heat_of_one_spot_k(&self) -> Option<f64> {
+        let electrical = self.scene.conduction.known()?;
+        let (slider, receptacle) = (self.scene.slider.thermal?, self.scene.receptacle.thermal?);
+        let force = electrical.width_mm * self.scene.load_n_per_mm;
+        let hardness = Side::BOTH.map(|side| electrical.metals.of(side)[0].hardness_mpa);
+        let radius = Deformation::Plastic.radius_mm(force, hardness[0].min(hardness[1]));
+        let heat_mw = self.friction * force * self.scene.fastest_speed_mm_s();
+        let conductivity = slider.conductivity_w_mk + receptacle.conductivity_w_mk;
+        Some(spot::rise_k(heat_mw, radius, conductivity))
+    }
+
+    /// Temperature rise of the unworn contact by the current, K, at most.
+    pub(super) fn joule_heat_k(&self) -> f64 {
+        let electrical = self.scene.conduction.known();
+        let resistance = electrical
+            .filter(|electrical| electrical.current_a.is_some())
+            .map(|electrical| {
+                electrical::largest_unworn_mohm(electrical, self.scene.load_n_per_mm)
+            });
+        self.scene.joule_rise_k(resistance.unwrap_or_default())
+    }
+
+    /// Largest relative change of a wear rate by a temperature rise in K.
+    pub(super) fn change_by_heat(&self, rise_k: f64) -> f64 {
+        let pace = self.scene.timed_motion().mean();
+        let at = LocalState::mean(self.scene.load_n_per_mm, self.sizes.hertz_half_width, pace);
+        let wear = self.scene.surface_wear_at(None);
+        self.scene.change_by_heat(wear, at, rise_k)
     }
 
     /// Largest part of either body's height that is worn off.

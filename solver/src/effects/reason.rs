@@ -81,14 +81,19 @@ pub(super) fn reason(
             consequence(effect, false)
         );
     }
-    if effect == Effect::FrictionalHeating {
-        let kelvin = indicators.frictional_heat_k();
+    if matches!(effect, Effect::FrictionalHeating | Effect::JouleHeating) {
+        let heat = match effect {
+            Effect::JouleHeating => format!(
+                "the current heats the unworn contact by {:.2e} K at most",
+                indicators.joule_heat_k()
+            ),
+            _ => frictional_heat(indicators),
+        };
         return format!(
-            "{switch}friction heats the unworn contact by {kelvin:.2e} K at most, {} of what is left to the melting temperature, limit \
-             {}: {}",
+            "{switch}{heat}, which changes a wear rate by {}, limit {}: {}",
             percent(unworn),
             percent(threshold),
-            consequence(effect, false)
+            consequence(effect, verdict.is_on())
         );
     }
     let result = consequence(effect, verdict.is_on());
@@ -102,6 +107,19 @@ pub(super) fn reason(
         percent(unworn),
         percent(worn),
         percent(threshold)
+    )
+}
+
+/// Temperatures by friction in words.
+fn frictional_heat(indicators: &Indicators<'_>) -> String {
+    let [mean, most] = indicators.frictional_heat_k();
+    let spot = indicators
+        .heat_of_one_spot_k()
+        .map_or_else(String::new, |kelvin| {
+            format!(", one spot that carried all of the load by {kelvin:.2e} K")
+        });
+    format!(
+        "friction heats the unworn contact by {mean:.2e} K on average, {most:.2e} K at most{spot}"
     )
 }
 
@@ -132,7 +150,12 @@ fn consequence(effect: Effect, is_on: bool) -> &'static str {
         (Effect::Plating, false) => "the outermost layer alone wears",
         (Effect::ThermalSoftening, true) => "surfaces wear by their hardness at this temperature",
         (Effect::ThermalSoftening, false) => "surfaces wear by their hardness at 20 °C",
-        (Effect::FrictionalHeating, _) => "the contact has the temperature of its surroundings",
+        (Effect::FrictionalHeating | Effect::JouleHeating, true) => {
+            "surfaces wear by their hardness and laws at the temperature of the contact"
+        }
+        (Effect::FrictionalHeating | Effect::JouleHeating, false) => {
+            "it leaves the contact as warm as it is"
+        }
         (Effect::Relocation, true) => {
             "the mesh follows the worn surface and the stiffness is rebuilt"
         }

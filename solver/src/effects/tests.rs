@@ -1,6 +1,7 @@
 //! Plans of scenes in different regimes.
 
 use super::*;
+use crate::law::temperature::Temperature;
 use crate::law::wear::WearLaw;
 use crate::model::tests::fuzz_button;
 use crate::scene::{Friction, MildOxidation, Motion, SpeedLaw};
@@ -58,7 +59,7 @@ fn wear_by_time_calls_for_friction_where_wear_by_distance_does_not() {
         constant: 1.0,
         arrhenius_m2_s: 1e-6,
         activation_j_mol: 1e5,
-        temperature_k: 800.0,
+        temperature: Temperature::OfContact(800.0),
         film_um: 10.0,
         hardness_mpa: 427.0,
     })));

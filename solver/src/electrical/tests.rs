@@ -29,6 +29,7 @@ fn electrical(metals: Sides<Vec<Metal>>) -> Electrical {
             deformation: Deformation::Plastic,
         },
         frequency_hz: None,
+        current_a: None,
         stop_mohm: Vec::new(),
         life_mohm: Vec::new(),
     }

@@ -58,6 +58,20 @@ impl Layers {
         layers
     }
 
+    /// The layers with each rate divided by the ratio of its hardness.
+    #[must_use]
+    pub fn softened(mut self, ratio: impl Fn(usize) -> f64) -> Self {
+        for (layer, rate) in self.rate[..=self.count].iter_mut().enumerate() {
+            *rate /= ratio(layer);
+        }
+        self
+    }
+
+    /// Number of layers over the base.
+    pub fn count(&self) -> usize {
+        self.count
+    }
+
     /// The layer of a depth, the upper one at an interface; the number of layers in the base.
     fn at(&self, depth: f64) -> usize {
         let bottoms = self.bottom[..self.count].iter();

@@ -5,6 +5,8 @@
 //! The term of Johnson and Cook (1983) with the exponent 1, extended below T0. Range: below Tm; that of one phase. Limiting cases:
 //! H(T0) at T0, none at Tm. A specific wear rate k/H grows by the inverse.
 
+use super::plating::MOST_LAYERS;
+
 /// Temperature at which hardnesses are measured, °C.
 pub const REFERENCE_C: f64 = 20.0;
 
@@ -19,15 +21,29 @@ pub fn hardness_ratio(temperature_c: f64, melting_c: f64) -> f64 {
 pub struct Softening {
     /// H(T)/H(T0) of each layer from the surface down, then of the base; `None` of an unknown one, whose rate stays. Empty at T0.
     pub ratios: Vec<Option<f64>>,
-    /// Least distance of a surface that wears by its hardness to its melting temperature, K; `None` where that is not known, or none
-    /// does.
-    pub margin_k: Option<f64>,
+    /// Distance to the melting temperature of each layer from the surface down, then of the base, K; `None` where it is not known, or
+    /// the wear does not depend on the hardness.
+    pub margins_k: Vec<Option<f64>>,
 }
 
 impl Softening {
     /// Ratio of a layer from the surface down, or of the base by the number of layers; 1 of an unknown one.
     pub fn ratio(&self, layer: usize) -> f64 {
         self.ratios.get(layer).copied().flatten().unwrap_or(1.0)
+    }
+
+    /// Least distance to a melting temperature, K, if one is known.
+    pub fn margin_k(&self) -> Option<f64> {
+        self.margins_k.iter().copied().flatten().reduce(f64::min)
+    }
+
+    /// Distances to the melting temperatures as far as they count.
+    pub(crate) fn margins(&self) -> Margins {
+        let mut margins = [f64::INFINITY; MOST_LAYERS + 1];
+        for (margin, known) in margins.iter_mut().zip(&self.margins_k) {
+            *margin = known.unwrap_or(f64::INFINITY);
+        }
+        Margins(margins)
     }
 
     /// Whether a ratio is unknown.
@@ -43,6 +59,36 @@ impl Softening {
             .fold(0.0, f64::max)
     }
 }
+
+/// Distance to the melting temperature of each layer from the surface down, then of the base, K; without bound of one whose wear does not
+/// depend on its hardness, or is not known to.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Margins(pub(crate) [f64; MOST_LAYERS + 1]);
+
+impl Margins {
+    /// The hardness of a layer that is warmer by a rise in K over that before, -.
+    pub(crate) fn ratio(&self, layer: usize, rise_k: f64) -> f64 {
+        1.0 - rise_k / self.0[layer]
+    }
+
+    /// Relative change of the wear rate of a layer; the largest number for one that melts.
+    pub(crate) fn change(&self, layer: usize, rise_k: f64) -> f64 {
+        let ratio = self.ratio(layer, rise_k);
+        if ratio > 0.0 {
+            1.0 / ratio - 1.0
+        } else {
+            MOLTEN
+        }
+    }
+
+    /// The least one, K.
+    pub(crate) fn least(&self) -> f64 {
+        self.0.iter().copied().fold(f64::INFINITY, f64::min)
+    }
+}
+
+/// Relative change of the wear rate that stands for one without a bound. Arbitrary: beyond every limit.
+const MOLTEN: f64 = 1e3;
 
 #[cfg(test)]
 mod tests {
@@ -64,7 +110,7 @@ mod tests {
     fn unknown_ratios_leave_the_rates_and_are_named() {
         let softening = Softening {
             ratios: vec![Some(0.5), None],
-            margin_k: None,
+            margins_k: Vec::new(),
         };
         assert!(softening.is_unknown() && (softening.ratio(1) - 1.0).abs() <= 0.0);
         assert!((softening.change() - 1.0).abs() < 1e-15);

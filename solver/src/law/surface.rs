@@ -8,6 +8,7 @@ use std::borrow::Cow;
 use super::dose::DoseCurve;
 use super::pace::Pace;
 use super::plating::{Layer, Layers};
+use super::softening::Margins;
 use super::wear::power::{Exposure, PowerLaw};
 use super::wear::{LocalState, WearLaw};
 
@@ -63,6 +64,49 @@ impl SurfaceWear {
                 law,
                 during: law.exposure(pace, distance_mm),
             },
+        }
+    }
+
+    /// The wear of a contact that is warmer than its surroundings by a rise in K, below the melting temperatures.
+    #[must_use]
+    pub(crate) fn heated(self, margins: &Margins, rise_k: f64) -> Self {
+        let softened = |law: WearLaw| law.softened(margins.ratio(0, rise_k)).heated(rise_k);
+        match self {
+            Self::Law(law) => Self::Law(softened(law)),
+            Self::ByDose(DoseCurve::Layers(layers)) => Self::ByDose(DoseCurve::Layers(
+                layers.softened(|layer| margins.ratio(layer, rise_k)),
+            )),
+            Self::ByDose(DoseCurve::Barwell(law)) => {
+                Self::ByDose(DoseCurve::Barwell(law.softened(margins.ratio(0, rise_k))))
+            }
+            Self::ByPower { law, during } => Self::ByPower {
+                law: law.heated(rise_k),
+                during,
+            },
+        }
+    }
+
+    /// Largest relative change of the rate of a layer, or of the law at a representative state, by a temperature rise in K.
+    pub(crate) fn change_by_heat(self, margins: &Margins, at: LocalState, rise_k: f64) -> f64 {
+        let layers = match self {
+            Self::ByDose(DoseCurve::Layers(layers)) => layers.count(),
+            _ => 0,
+        };
+        let by_hardness = (0..=layers).map(|layer| margins.change(layer, rise_k));
+        let largest = by_hardness.fold(0.0, f64::max);
+        let rate = |law: WearLaw| law.rate(at).value;
+        let by_law = match self {
+            Self::Law(law) => rate(law.heated(rise_k)) / rate(law),
+            Self::ByPower { law, .. } => {
+                law.heated(rise_k).equivalent_rate(at) / law.equivalent_rate(at)
+            }
+            Self::ByDose(_) => 1.0,
+        };
+        let by_law = (by_law - 1.0).abs();
+        if by_law.is_finite() {
+            largest + by_law
+        } else {
+            largest
         }
     }
 

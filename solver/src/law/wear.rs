@@ -10,6 +10,7 @@ mod arrhenius;
 pub mod barwell;
 pub mod dissipated_energy;
 pub mod load_repetition;
+pub mod mechanism;
 pub mod mild_oxidation;
 pub mod power;
 #[cfg(test)]
@@ -109,6 +110,16 @@ impl WearLaw {
         }
     }
 
+    /// The law of a contact that is warmer than its surroundings by a rise in K, at the same hardness.
+    #[must_use]
+    pub fn heated(self, rise_k: f64) -> Self {
+        match self {
+            Self::OfSpeed(law) => Self::OfSpeed(law.heated(rise_k)),
+            Self::Power(law) => Self::Power(law.heated(rise_k)),
+            _ => self,
+        }
+    }
+
     /// The law at another hardness than it was given with; the energy that detaches a volume, and laws
     /// without a hardness, do not depend on it.
     #[must_use]
@@ -174,6 +185,7 @@ mod tests {
     use super::quinn::Quinn;
     use super::severe_oxidation::SevereOxidation;
     use super::*;
+    use crate::law::temperature::Temperature;
 
     const LAWS: [WearLaw; 15] = [
         WearLaw::Archard {
@@ -213,7 +225,7 @@ mod tests {
             asperity_um: 20.0,
             arrhenius_kg2_m4s: 1.5e6,
             activation_j_mol: 208e3,
-            temperature_k: 673.15,
+            temperature: Temperature::OfContact(673.15),
             film_um: 1.0,
             oxide_density_kg_m3: 5_240.0,
             oxygen_fraction: 0.3006,
@@ -223,7 +235,7 @@ mod tests {
             constant: 3.4e-4,
             arrhenius_m2_s: 1e6,
             activation_j_mol: 138e3,
-            temperature_k: 700.0,
+            temperature: Temperature::OfContact(700.0),
             film_um: 10.0,
             hardness_mpa: 6_865.0,
         })),
@@ -233,7 +245,8 @@ mod tests {
             heat_share: 0.5,
             friction: 0.3,
             conductivity_w_mk: 3.2,
-            rise_k: 1_467.0,
+            melting_k: 1_760.15,
+            temperature: Temperature::OfContact(293.15),
             diffusion_um: 10.0,
             hardness_mpa: 6_865.0,
         })),
@@ -260,6 +273,7 @@ mod tests {
             factor: 1e-5,
             pressure_exponent: 2.0,
             measure,
+            thermal: None,
         })
     }
 

@@ -1,6 +1,6 @@
 //! The wear history as a list of named columns of equal length.
 
-use crate::record::{Channels, CycleReport, ResistanceReport};
+use crate::record::{Channels, CycleReport};
 use crate::sides::Side;
 
 /// A layer below the outermost one.
@@ -59,7 +59,7 @@ pub struct Record {
     /// Accumulated imposed sliding distance, mm.
     pub sliding_distance_mm: Vec<f64>,
     /// Worn depth at the stations, then the channels of the receptacle and its exposed layers, the same of the slider, and the
-    /// channels of the contact and of its resistance, if that is computed.
+    /// channels of the contact, of its resistance and of its temperature, if these are computed.
     pub columns: Vec<Column>,
 }
 
@@ -87,7 +87,8 @@ impl Record {
         let receptacle = columns(reports, Some(Side::Receptacle), |report| &report.receptacle);
         let slider = columns(reports, Some(Side::Slider), |report| &report.slider);
         let contact = columns(reports, None, |report| report);
-        let resistance = resistance(reports);
+        let resistance = computed(reports, |report| report.resistance.as_ref());
+        let temperature = computed(reports, |report| report.temperature.as_ref());
         Self {
             cycle: reports.iter().map(|report| report.cycle).collect(),
             jump: reports.iter().map(|report| report.jump).collect(),
@@ -102,6 +103,7 @@ impl Record {
                 .chain(exposed(reports, Side::Slider))
                 .chain(contact)
                 .chain(resistance)
+                .chain(temperature)
                 .collect(),
         }
     }
@@ -129,13 +131,14 @@ fn exposed(reports: &[CycleReport], side: Side) -> impl Iterator<Item = Column> 
     })
 }
 
-/// One column a channel of the resistance; none where it is not computed.
-fn resistance(reports: &[CycleReport]) -> impl Iterator<Item = Column> {
-    let is_computed = reports.iter().any(|report| report.resistance.is_some());
-    let channels = ResistanceReport::CHANNELS
-        .iter()
-        .filter(move |_| is_computed);
-    channels.map(|channel| Column {
+/// One column a channel of a part of the reports; none where it is not computed.
+fn computed<R: Channels>(
+    reports: &[CycleReport],
+    part: fn(&CycleReport) -> Option<&R>,
+) -> impl Iterator<Item = Column> {
+    let is_computed = reports.iter().any(|report| part(report).is_some());
+    let channels = R::CHANNELS.iter().filter(move |_| is_computed);
+    channels.map(move |channel| Column {
         name: channel.name,
         unit: channel.unit,
         side: None,
@@ -144,7 +147,7 @@ fn resistance(reports: &[CycleReport]) -> impl Iterator<Item = Column> {
         curve: channel.curve,
         values: reports
             .iter()
-            .map(|report| report.resistance.as_ref().map_or(0.0, channel.value))
+            .map(|report| part(report).map_or(0.0, channel.value))
             .collect(),
     })
 }
@@ -172,8 +175,8 @@ fn columns<R: Channels>(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::record::SideReport;
     use crate::record::channel::declare_report;
+    use crate::record::{ResistanceReport, SideReport, TemperatureReport};
 
     declare_report! {
         /// A report with one channel more than any other.
@@ -212,6 +215,7 @@ mod tests {
         names_end_with_units::<SideReport>();
         names_end_with_units::<CycleReport>();
         names_end_with_units::<ResistanceReport>();
+        names_end_with_units::<TemperatureReport>();
     }
 
     #[test]

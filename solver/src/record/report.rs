@@ -4,7 +4,7 @@ use crate::cycle::CycleState;
 use crate::electrical::ContactResistance;
 use crate::interpolation;
 use crate::law::plating::bottoms;
-use crate::model::Model;
+use crate::model::{HeatSources, Model};
 use crate::record::channel::declare_report;
 use crate::record::exposure::WornSurface;
 use crate::record::scar;
@@ -57,6 +57,17 @@ declare_report! {
 }
 
 declare_report! {
+    /// Temperature of a contact that friction or current heats.
+    #[derive(Copy)]
+    pub TemperatureReport from rise: &(f64, f64);
+    fields {}
+    channels {
+        /// Mean temperature of the contact over the distance of the last computed cycle, °C.
+        contact_temperature_c ["c"] = rise.0 + rise.1,
+    }
+}
+
+declare_report! {
     /// State after a computed cycle; cycle 0 is the unworn, loaded state.
     pub CycleReport from end: &CycleEnd<'_>;
     fields {
@@ -81,6 +92,9 @@ declare_report! {
         /// Resistance of the contact; `None` where it is not computed.
         #[serde(default)]
         resistance: Option<ResistanceReport> = end.resistance.as_ref().map(ResistanceReport::of),
+        /// Temperature of the contact; `None` where nothing heats it.
+        #[serde(default)]
+        temperature: Option<TemperatureReport> = end.temperature().as_ref().map(TemperatureReport::of),
     }
     channels {
         /// Normal load, which a spring reduces as the bodies wear, N per mm of depth.
@@ -162,13 +176,20 @@ impl<'a> CycleEnd<'a> {
         let rate = wear.and_then(|wear| wear.area_rate(motion.mean()));
         let ideal_area = rate
             .filter(|k| *k > 0.0)
-            .map(|k| k * interface.load * self.state.sliding_distance);
+            .map(|k| k * interface.load * self.state.sliding_distance)
+            .filter(|_| interface.heated_by == HeatSources::default());
         Surface {
             x: body.contact_x(),
             widths: body.contact_widths(),
             depth: self.state.depth.of(side),
             ideal_area: ideal_area.filter(|_| self.scene.spring_n_per_mm2 <= 0.0),
         }
+    }
+
+    /// The temperature of the surroundings, °C, and the rise of the contact, K.
+    fn temperature(&self) -> Option<(f64, f64)> {
+        let is_heated = self.model.interface.heated_by != HeatSources::default();
+        is_heated.then_some((self.scene.temperature_c, self.state.temperature_rise_k))
     }
 
     fn exposed_lengths(&self, side: Side) -> Vec<f64> {

@@ -51,6 +51,8 @@ pub struct Electrical {
     pub spots: Spots,
     /// Frequency of the current, Hz; `None` of a direct one.
     pub frequency_hz: Option<f64>,
+    /// The current, A, if it is known.
+    pub current_a: Option<f64>,
     /// Limits of the resistance that end the run, mOhm.
     pub stop_mohm: Vec<f64>,
     /// Limits whose life is recorded, mOhm.

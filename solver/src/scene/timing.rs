@@ -4,6 +4,7 @@ use std::f64::consts::{FRAC_2_PI, PI};
 
 use super::motion::Motion;
 use crate::law::pace::Pace;
+use crate::number::real;
 
 /// Course of the imposed motion in time.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -62,6 +63,25 @@ impl TimedMotion {
         match self.timing {
             Timing::Sine => self.at_speed(2.0 * PI * self.amplitude_mm / self.period_s),
             Timing::Speed { .. } | Timing::Triangle => self.mean(),
+        }
+    }
+
+    /// Mean of a value that depends on the speed in mm/s, by distance.
+    pub(crate) fn mean_by_distance(&self, at: impl Fn(f64) -> f64) -> f64 {
+        // Midpoints of a quarter of a sine: exact for its first harmonics.
+        const PARTS: usize = 16;
+        match self.timing {
+            Timing::Speed { .. } | Timing::Triangle => at(self.mean().speed()),
+            Timing::Sine => {
+                let fastest = self.fastest().speed();
+                let shares = (0..PARTS).map(|i| (0.5 * PI * (real(i) + 0.5) / real(PARTS)).cos());
+                let (mut sum, mut whole) = (0.0, 0.0);
+                for share in shares {
+                    sum += share * at(share * fastest);
+                    whole += share;
+                }
+                sum / whole
+            }
         }
     }
 

@@ -232,6 +232,7 @@ mod tests {
                 deformation: Deformation::Plastic,
             },
             frequency_hz: None,
+            current_a: None,
             stop_mohm: stop_mohm.to_vec(),
             life_mohm: life_mohm.to_vec(),
         };

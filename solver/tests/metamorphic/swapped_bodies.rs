@@ -50,7 +50,7 @@ fn turned(scene: &Scene, crown: f64) -> Scene {
             elastic: receptacle.elastic,
             wear: receptacle.wear,
             plating: receptacle.plating.clone(),
-            conductivity_w_mk: receptacle.conductivity_w_mk,
+            thermal: receptacle.thermal,
             softening: receptacle.softening.clone(),
         },
         receptacle: Body {
@@ -62,7 +62,7 @@ fn turned(scene: &Scene, crown: f64) -> Scene {
             elastic: slider.elastic,
             wear: slider.wear,
             plating: slider.plating.clone(),
-            conductivity_w_mk: slider.conductivity_w_mk,
+            thermal: slider.thermal,
             softening: slider.softening.clone(),
         },
         ..scene.clone()

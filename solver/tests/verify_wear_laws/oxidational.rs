@@ -6,6 +6,7 @@ use super::{
 use crate::recorder::{largest_distance, solve};
 use crate::verify_resume::resumes_to_the_same_bits;
 use solver::effects::{Effect, Switches};
+use solver::law::temperature::Temperature;
 use solver::scene::{
     MildOxidation, Motion, Quinn, Scene, SevereOxidation, SpeedLaw, Timing, WearLaw,
 };
@@ -20,7 +21,7 @@ fn quinn() -> WearLaw {
         asperity_um: 20.0,
         arrhenius_kg2_m4s: 1.5e6,
         activation_j_mol: 208e3,
-        temperature_k: 673.15,
+        temperature: Temperature::OfContact(673.15),
         film_um: 1.0,
         oxide_density_kg_m3: 5_240.0,
         oxygen_fraction: 0.3006,
@@ -39,7 +40,7 @@ fn mild_oxidation() -> WearLaw {
         constant: 3.4e-4,
         arrhenius_m2_s: 1e6,
         activation_j_mol: 138e3,
-        temperature_k: 700.0,
+        temperature: Temperature::OfContact(700.0),
         film_um: 10.0,
         hardness_mpa: 1_700.0,
     };
@@ -58,7 +59,8 @@ fn severe_oxidation() -> WearLaw {
         heat_share: 0.5,
         friction: 0.3,
         conductivity_w_mk: 3.2,
-        rise_k: 1_467.0,
+        melting_k: 1_760.15,
+        temperature: Temperature::OfContact(293.15),
         diffusion_um: 10.0,
         hardness_mpa: 1_700.0,
     };

@@ -8,6 +8,7 @@ use super::{
 use crate::recorder::{depth_at, solve};
 use crate::scenes::partial_slip;
 use crate::verify_resume::resumes_to_the_same_bits;
+use solver::law::temperature::Temperature;
 use solver::scene::{Friction, LoadRepetition, Motion, Rhee, Scene, StrainHardening, WearLaw};
 use solver::sides::{Side, Sides};
 
@@ -48,7 +49,7 @@ fn strain_hardening() -> WearLaw {
         pressure_exponent: 2.0,
         strain_exponent: exponent,
         activation_k: 1_000.0,
-        temperature_k: 300.0,
+        temperature: Temperature::OfContact(300.0),
         length_mm,
     };
     WearLaw::Power(law.power_law())

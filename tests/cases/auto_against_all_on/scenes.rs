@@ -93,6 +93,8 @@ pub(super) fn all() -> Vec<(String, Value)> {
         add_to(&mut scenes, name, "zif", &json!({"cycles": cycles}));
     }
     add_presets_to(&mut scenes);
+    add_fast_to(&mut scenes);
+    add_currents_to(&mut scenes);
     scenes
 }
 
@@ -160,6 +162,37 @@ fn add_heated_to(scenes: &mut Vec<(String, Value)>) {
     let changes = json!({"environment": {"temperature_c": 85}, "plating": {"receptacle": tin}});
     let name = "cylinder_on_flat, tin at 85 °C".to_owned();
     add_to(scenes, name, "cylinder_on_flat", &changes);
+}
+
+/// Mean speeds over seven orders of magnitude, at which friction heats the contact by nothing up to some hundred kelvin.
+fn add_fast_to(scenes: &mut Vec<(String, Value)>) {
+    const AMPLITUDE_MM: f64 = 0.1;
+    for (kind, speeds) in [
+        ("fuzz_button", &[1e-3, 1.0, 1e2, 1e3, 1e4][..]),
+        ("cylinder_on_flat", &[1e-3, 10.0, 30.0, 100.0, 400.0]),
+    ] {
+        for speed in speeds {
+            let motion = json!({
+                "kind": "reciprocating",
+                "amplitude_mm": AMPLITUDE_MM,
+                "period_s": 4.0 * AMPLITUDE_MM / speed,
+            });
+            let name = format!("{kind}, {speed} mm/s");
+            add_to(scenes, name, kind, &json!({"motion": motion}));
+        }
+    }
+}
+
+/// Currents that heat the contact by nothing up to some hundred kelvin.
+fn add_currents_to(scenes: &mut Vec<(String, Value)>) {
+    for current_a in [0.1, 3.0, 20.0] {
+        let changes = json!({
+            "load": {"kind": "force", "n": 0.5, "width_mm": 0.8},
+            "environment": {"current_a": current_a},
+        });
+        let name = format!("sd_card, {current_a} A");
+        add_to(scenes, name, "sd_card", &changes);
+    }
 }
 
 /// The platings of the presets after few cycles, and one of them until both layers of the slider are through. (That takes up to two

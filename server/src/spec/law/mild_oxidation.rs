@@ -1,19 +1,17 @@
 //! Mild oxidational wear at moderate speeds.
 
 use api::spec::WearLaw;
-use solver::scene::{self, MildOxidation, SpeedLaw};
+use solver::scene::{self, MildOxidation, SpeedLaw, Temperature};
 
 use super::oxidation::{
-    ACTIVATION_ENERGY_J_MOL, ARRHENIUS_CONSTANT, CONSTANT, LENGTH_UM, required, surface,
+    ACTIVATION_ENERGY_J_MOL, ARRHENIUS_CONSTANT, CONSTANT, LENGTH_UM, hardness, required,
+    temperature,
 };
 use crate::spec::diagnostics::Diagnostics;
 use crate::spec::law::wearing_side::WearingSide;
 
-/// The fields of the law.
-const FIELDS: [&str; 7] = [
-    "law",
-    "hardness_mpa",
-    "contact_temperature_c",
+/// The constants of the law.
+pub(super) const CONSTANTS: [&str; 4] = [
     "activation_energy_j_mol",
     "critical_film_um",
     "arrhenius_constant_m2_s",
@@ -26,9 +24,29 @@ pub(super) fn resolve(
     given: &WearLaw,
     diagnostics: &mut Diagnostics,
 ) -> (WearLaw, Option<scene::WearLaw>) {
-    diagnostics.check_fields(&side.pointer, given, &FIELDS, "mild_oxidation");
+    let own = ["law", "hardness_mpa", "contact_temperature_c"];
+    let fields: Vec<&str> = own.iter().chain(&CONSTANTS).copied().collect();
+    diagnostics.check_fields(&side.pointer, given, &fields, "mild_oxidation");
     let mut filled = given.clone();
-    let (hardness, temperature_k) = surface(side, given, &mut filled, diagnostics);
+    let hardness = hardness(side, given, &mut filled, diagnostics);
+    let temperature = temperature(side, given, diagnostics);
+    let law = constants(side, given, temperature, diagnostics);
+    let law = hardness.map(|hardness_mpa| {
+        scene::WearLaw::OfSpeed(SpeedLaw::MildOxidation(MildOxidation {
+            hardness_mpa,
+            ..law
+        }))
+    });
+    (filled, law)
+}
+
+/// The law at a temperature; its hardness belongs to the surface.
+pub(super) fn constants(
+    side: &WearingSide<'_>,
+    given: &WearLaw,
+    temperature: Temperature,
+    diagnostics: &mut Diagnostics,
+) -> MildOxidation {
     let mut constant = |field, value, range| required(side, (field, value), range, diagnostics);
     let c = constant("oxidation_constant", given.oxidation_constant, &CONSTANT);
     let arrhenius_m2_s = constant(
@@ -42,15 +60,12 @@ pub(super) fn resolve(
         &ACTIVATION_ENERGY_J_MOL,
     );
     let film_um = constant("critical_film_um", given.critical_film_um, &LENGTH_UM);
-    let law = hardness.map(|hardness_mpa| {
-        scene::WearLaw::OfSpeed(SpeedLaw::MildOxidation(MildOxidation {
-            constant: c,
-            arrhenius_m2_s,
-            activation_j_mol,
-            temperature_k,
-            film_um,
-            hardness_mpa,
-        }))
-    });
-    (filled, law)
+    MildOxidation {
+        constant: c,
+        arrhenius_m2_s,
+        activation_j_mol,
+        temperature,
+        film_um,
+        hardness_mpa: 0.0,
+    }
 }

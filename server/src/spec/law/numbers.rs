@@ -32,6 +32,7 @@ pub(in crate::spec) fn numbers() -> Vec<(&'static str, RangeInclusive<f64>)> {
         ("oxygen_fraction", oxidation::FRACTION),
         ("arrhenius_constant_m2_s", oxidation::ARRHENIUS_CONSTANT),
         ("oxidation_constant", oxidation::CONSTANT),
+        ("transition_speed_mm_s", oxidation::TRANSITION_SPEED_MM_S),
         ("molten_fraction", oxidation::FRACTION),
         ("latent_heat_j_m3", oxidation::LATENT_HEAT_J_M3),
         ("heat_share", oxidation::FRACTION),

@@ -2,7 +2,8 @@
 
 use std::ops::RangeInclusive;
 
-use api::spec::{Provenance, WearLaw};
+use api::spec::WearLaw;
+use solver::scene::Temperature;
 
 use crate::spec::diagnostics::Diagnostics;
 use crate::spec::law::wear_coefficient;
@@ -21,6 +22,8 @@ pub(in crate::spec) const LENGTH_UM: RangeInclusive<f64> = 1e-3..=1e4;
 pub(in crate::spec) const ARRHENIUS_CONSTANT: RangeInclusive<f64> = 1e-20..=1e20;
 /// kg/m^3, of oxides.
 pub(in crate::spec) const OXIDE_DENSITY_KG_M3: RangeInclusive<f64> = 1e3..=2e4;
+/// mm/s, of the transition from Archard's law: from creep to beyond any sliding contact.
+pub(in crate::spec) const TRANSITION_SPEED_MM_S: RangeInclusive<f64> = 1e-3..=1e6;
 /// Fractions and shares, -.
 pub(in crate::spec) const FRACTION: RangeInclusive<f64> = 1e-6..=1.0;
 /// The constant C, -.
@@ -42,16 +45,31 @@ pub(super) fn required(
     diagnostics.required(&side.field(field), value, range, needs)
 }
 
-/// The hardness, given or the material's, and the temperature of the contact, K.
-pub(super) fn surface(
+/// The hardness, given or the material's.
+pub(super) fn hardness(
     side: &WearingSide<'_>,
     given: &WearLaw,
     filled: &mut WearLaw,
     diagnostics: &mut Diagnostics,
-) -> (Option<f64>, f64) {
+) -> Option<f64> {
     filled.hardness_mpa = wear_coefficient::hardness(side, given, diagnostics);
-    let temperature = ("contact_temperature_c", given.contact_temperature_c);
-    let celsius = required(side, temperature, &CONTACT_TEMPERATURE_C, diagnostics);
-    diagnostics.provenance(side.field("contact_temperature_c"), Provenance::Given);
-    (filled.hardness_mpa, celsius + ZERO_CELSIUS_K)
+    filled.hardness_mpa
+}
+
+/// The temperature of the contact as given, or that of the surroundings, over which friction and current heat it.
+pub(super) fn temperature(
+    side: &WearingSide<'_>,
+    given: &WearLaw,
+    diagnostics: &mut Diagnostics,
+) -> Temperature {
+    let pointer = side.field("contact_temperature_c");
+    let celsius = diagnostics.optional(
+        &pointer,
+        given.contact_temperature_c,
+        &CONTACT_TEMPERATURE_C,
+    );
+    celsius.map_or(
+        Temperature::OfSurroundings(side.surroundings_c + ZERO_CELSIUS_K),
+        |celsius| Temperature::OfContact(celsius + ZERO_CELSIUS_K),
+    )
 }

@@ -5,7 +5,7 @@ use solver::scene::{self, Quinn, SpeedLaw};
 
 use super::oxidation::{
     ACTIVATION_ENERGY_J_MOL, ARRHENIUS_CONSTANT, FRACTION, LENGTH_UM, OXIDE_DENSITY_KG_M3,
-    required, surface,
+    hardness, required, temperature,
 };
 use crate::spec::diagnostics::Diagnostics;
 use crate::spec::law::wearing_side::WearingSide;
@@ -31,7 +31,8 @@ pub(super) fn resolve(
 ) -> (WearLaw, Option<scene::WearLaw>) {
     diagnostics.check_fields(&side.pointer, given, &FIELDS, "quinn");
     let mut filled = given.clone();
-    let (hardness, temperature_k) = surface(side, given, &mut filled, diagnostics);
+    let hardness = hardness(side, given, &mut filled, diagnostics);
+    let temperature = temperature(side, given, diagnostics);
     let mut constant = |field, value, range| required(side, (field, value), range, diagnostics);
     let asperity_um = constant(
         "asperity_diameter_um",
@@ -60,7 +61,7 @@ pub(super) fn resolve(
             asperity_um,
             arrhenius_kg2_m4s,
             activation_j_mol,
-            temperature_k,
+            temperature,
             film_um,
             oxide_density_kg_m3,
             oxygen_fraction,

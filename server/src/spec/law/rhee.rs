@@ -92,7 +92,6 @@ mod tests {
                 "pressure_exponent",
                 "strain_exponent",
                 "activation_temperature_k",
-                "contact_temperature_c",
                 "reference_length_mm"
             ]
         );

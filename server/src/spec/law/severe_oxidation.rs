@@ -1,20 +1,17 @@
 //! Severe oxidational wear at high speeds.
 
 use api::spec::WearLaw;
-use solver::scene::{self, SevereOxidation, SpeedLaw};
+use solver::scene::{self, SevereOxidation, SpeedLaw, Temperature};
 
 use super::oxidation::{
     CONDUCTIVITY_W_MK, CONTACT_TEMPERATURE_C, FRACTION, LATENT_HEAT_J_M3, LENGTH_UM,
-    ZERO_CELSIUS_K, required, surface,
+    ZERO_CELSIUS_K, hardness, required, temperature,
 };
 use crate::spec::diagnostics::Diagnostics;
 use crate::spec::law::wearing_side::WearingSide;
 
-/// The fields of the law.
-const FIELDS: [&str; 9] = [
-    "law",
-    "hardness_mpa",
-    "contact_temperature_c",
+/// The constants of the law.
+pub(super) const CONSTANTS: [&str; 6] = [
     "molten_fraction",
     "latent_heat_j_m3",
     "heat_share",
@@ -30,9 +27,29 @@ pub(super) fn resolve(
     friction: f64,
     diagnostics: &mut Diagnostics,
 ) -> (WearLaw, Option<scene::WearLaw>) {
-    diagnostics.check_fields(&side.pointer, given, &FIELDS, "severe_oxidation");
+    let own = ["law", "hardness_mpa", "contact_temperature_c"];
+    let fields: Vec<&str> = own.iter().chain(&CONSTANTS).copied().collect();
+    diagnostics.check_fields(&side.pointer, given, &fields, "severe_oxidation");
     let mut filled = given.clone();
-    let (hardness, temperature_k) = surface(side, given, &mut filled, diagnostics);
+    let hardness = hardness(side, given, &mut filled, diagnostics);
+    let temperature = temperature(side, given, diagnostics);
+    let law = constants(side, given, (temperature, friction), diagnostics);
+    let law = hardness.map(|hardness_mpa| {
+        scene::WearLaw::OfSpeed(SpeedLaw::SevereOxidation(SevereOxidation {
+            hardness_mpa,
+            ..law
+        }))
+    });
+    (filled, law)
+}
+
+/// The law at a bulk temperature beside a coefficient of friction; its hardness belongs to the surface.
+pub(super) fn constants(
+    side: &WearingSide<'_>,
+    given: &WearLaw,
+    (temperature, friction): (Temperature, f64),
+    diagnostics: &mut Diagnostics,
+) -> SevereOxidation {
     let mut constant = |field, value, range| required(side, (field, value), range, diagnostics);
     let molten_fraction = constant("molten_fraction", given.molten_fraction, &FRACTION);
     let latent_heat_j_m3 = constant(
@@ -56,26 +73,23 @@ pub(super) fn resolve(
         given.diffusion_distance_um,
         &LENGTH_UM,
     );
-    let rise_k = melting_c + ZERO_CELSIUS_K - temperature_k;
-    if let (Some(melting), Some(bulk)) = (
-        given.oxide_melting_temperature_c,
-        given.contact_temperature_c,
-    ) && melting <= bulk
+    let bulk = given.contact_temperature_c.unwrap_or(side.surroundings_c);
+    if given
+        .oxide_melting_temperature_c
+        .is_some_and(|melting| melting <= bulk)
     {
-        let detail = format!("{bulk} is not below the {melting} at which the oxide melts");
+        let detail = format!("{bulk} is not below the {melting_c} at which the oxide melts");
         diagnostics.fault(&side.field("contact_temperature_c"), detail);
     }
-    let law = hardness.map(|hardness_mpa| {
-        scene::WearLaw::OfSpeed(SpeedLaw::SevereOxidation(SevereOxidation {
-            molten_fraction,
-            latent_heat_j_m3,
-            heat_share,
-            friction,
-            conductivity_w_mk,
-            rise_k,
-            diffusion_um,
-            hardness_mpa,
-        }))
-    });
-    (filled, law)
+    SevereOxidation {
+        molten_fraction,
+        latent_heat_j_m3,
+        heat_share,
+        friction,
+        conductivity_w_mk,
+        melting_k: melting_c + ZERO_CELSIUS_K,
+        temperature,
+        diffusion_um,
+        hardness_mpa: 0.0,
+    }
 }

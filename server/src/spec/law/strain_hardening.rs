@@ -3,7 +3,7 @@
 use api::spec::WearLaw;
 use solver::scene::{self, StrainHardening};
 
-use super::oxidation::{CONTACT_TEMPERATURE_C, ZERO_CELSIUS_K};
+use super::oxidation;
 use super::power::{
     ACTIVATION_TEMPERATURE_K, FACTOR, PRESSURE_EXPONENT, REFERENCE_LENGTH_MM, STRAIN_EXPONENT,
     check_exponents, required,
@@ -29,6 +29,7 @@ pub(super) fn resolve(
     diagnostics: &mut Diagnostics,
 ) -> (WearLaw, Option<scene::WearLaw>) {
     diagnostics.check_fields(&side.pointer, given, &FIELDS, "strain_hardening");
+    let temperature = oxidation::temperature(side, given, diagnostics);
     let mut constant = |field, value, range| required(side, (field, value), range, diagnostics);
     let law = StrainHardening {
         factor: constant("wear_factor", given.wear_factor, &FACTOR),
@@ -43,12 +44,7 @@ pub(super) fn resolve(
             given.activation_temperature_k,
             &ACTIVATION_TEMPERATURE_K,
         ),
-        temperature_k: ZERO_CELSIUS_K
-            + constant(
-                "contact_temperature_c",
-                given.contact_temperature_c,
-                &CONTACT_TEMPERATURE_C,
-            ),
+        temperature,
         length_mm: constant(
             "reference_length_mm",
             given.reference_length_mm,

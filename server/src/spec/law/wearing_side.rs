@@ -9,6 +9,8 @@ pub(in crate::spec) struct WearingSide<'a> {
     pub(in crate::spec) pointer: String,
     pub(in crate::spec) given: Option<&'a Material>,
     pub(in crate::spec) resolved: Option<&'a Material>,
+    /// Temperature of the surroundings, °C.
+    pub(in crate::spec) surroundings_c: f64,
 }
 
 impl WearingSide<'_> {

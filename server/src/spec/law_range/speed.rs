@@ -36,6 +36,16 @@ pub(super) fn warnings(spec: &Spec, scene: &Scene) -> Vec<Fault> {
 fn by_speed(scene: &Scene, law: SpeedLaw) -> Option<String> {
     let mean = scene.mean_speed_mm_s();
     let coefficient = match law {
+        SpeedLaw::Mechanism(law) => {
+            let slowest = law.severe.slowest_mm_s();
+            return (slowest <= law.transition_mm_s).then(|| {
+                format!(
+                    "the oxide melts from {slowest:.4} mm/s on, below the transition at {:.4} mm/s: mild oxidational wear is never the \
+                     mechanism",
+                    law.transition_mm_s
+                )
+            });
+        }
         SpeedLaw::Quinn(law) => law.coefficient_at(mean),
         SpeedLaw::MildOxidation(law) => law.coefficient_at(mean),
         SpeedLaw::SevereOxidation(law) => {

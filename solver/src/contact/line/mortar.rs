@@ -220,7 +220,7 @@ fn product(a: &[f64; 2], b: &[f64; 2]) -> f64 {
 mod tests {
     use super::*;
     use crate::condensation::{BodyOperators, Operators};
-    use crate::model::{Interface, Profile, Tangential};
+    use crate::model::{HeatSources, Interface, Profile, Tangential};
     use crate::sides::{Side, Sides};
 
     fn body(x: Vec<f64>, profile: Profile) -> BodyOperators {
@@ -261,6 +261,7 @@ mod tests {
                 load: 1.0,
                 spring: 0.0,
                 modulus: 1.0,
+                heated_by: HeatSources::default(),
             },
         }
     }

@@ -138,6 +138,7 @@ fn of_power(measure: Measure) -> PowerLaw {
         factor: 1e-8,
         pressure_exponent: 1.5,
         measure,
+        thermal: None,
     }
 }
 

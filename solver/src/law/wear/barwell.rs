@@ -93,7 +93,7 @@ impl Barwell {
 
     /// The law at another hardness than it was given with: the same course after a dose in proportion to the hardness.
     #[must_use]
-    pub(super) fn softened(self, ratio: f64) -> Self {
+    pub fn softened(self, ratio: f64) -> Self {
         Self {
             rate_per_mpa: self.rate_per_mpa / ratio,
             dose_mpa_mm: self.dose_mpa_mm * ratio,

@@ -34,6 +34,7 @@ impl LoadRepetition {
             factor: (self.length_mm * self.factor).powf(exponent.recip()),
             pressure_exponent: self.pressure_exponent / exponent,
             measure: Measure::Repetitions,
+            thermal: None,
         }
     }
 }

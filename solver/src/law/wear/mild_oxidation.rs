@@ -12,6 +12,7 @@
 
 use super::arrhenius;
 use crate::law::pace::Pace;
+use crate::law::temperature::Temperature;
 
 /// The law of a surface.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -23,7 +24,7 @@ pub struct MildOxidation {
     /// Activation energy Q0, J/mol.
     pub activation_j_mol: f64,
     /// Flash temperature Tf, K.
-    pub temperature_k: f64,
+    pub temperature: Temperature,
     /// Critical thickness Zc of the oxide, um.
     pub film_um: f64,
     /// Hardness H, MPa.
@@ -36,7 +37,7 @@ impl MildOxidation {
         let growth = self.constant
             * self.constant
             * self.arrhenius_m2_s
-            * arrhenius::factor(self.activation_j_mol, self.temperature_k);
+            * arrhenius::factor(self.activation_j_mol, self.temperature.kelvin());
         growth / (self.film_um * 1e-6) * (1e3 * pace.s_per_mm)
     }
 
@@ -48,6 +49,24 @@ impl MildOxidation {
     /// Specific wear rate at a pace, 1/MPa.
     pub(super) fn rate(&self, pace: Pace) -> f64 {
         self.coefficient(pace) / self.hardness_mpa
+    }
+
+    /// The law at another hardness than it was given with.
+    #[must_use]
+    pub(super) fn softened(self, ratio: f64) -> Self {
+        Self {
+            hardness_mpa: self.hardness_mpa * ratio,
+            ..self
+        }
+    }
+
+    /// The law of a contact that is warmer than its surroundings by a rise in K.
+    #[must_use]
+    pub(super) fn heated(self, rise_k: f64) -> Self {
+        Self {
+            temperature: self.temperature.raised(rise_k),
+            ..self
+        }
     }
 }
 
@@ -62,7 +81,7 @@ mod tests {
             constant: 3.4e-4,
             arrhenius_m2_s: 1e6,
             activation_j_mol: 138e3,
-            temperature_k: 700.0,
+            temperature: Temperature::OfContact(700.0),
             film_um: 10.0,
             hardness_mpa: 6_865.0,
         };

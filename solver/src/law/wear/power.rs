@@ -11,6 +11,7 @@
 
 use super::rate::{LocalState, Rate};
 use crate::law::pace::Pace;
+use crate::law::temperature::Temperature;
 
 /// Measure of the course of wear.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -37,6 +38,24 @@ pub struct PowerLaw {
     pub pressure_exponent: f64,
     /// Measure w of the course.
     pub measure: Measure,
+    /// How the factor depends on the temperature, if it does.
+    pub thermal: Option<Thermal>,
+}
+
+/// A factor exp(-C/T).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Thermal {
+    /// C, K.
+    pub activation_k: f64,
+    /// T.
+    pub temperature: Temperature,
+}
+
+impl Thermal {
+    /// The factor, -.
+    pub fn factor(self) -> f64 {
+        (-self.activation_k / self.temperature.kelvin()).exp()
+    }
 }
 
 /// What adds to y during an increment: f p^m, times the slip in mm where it counts.
@@ -65,6 +84,23 @@ impl Exposure {
 }
 
 impl PowerLaw {
+    /// The law of a contact that is warmer than its surroundings by a rise in K.
+    #[must_use]
+    pub fn heated(self, rise_k: f64) -> Self {
+        let Some(thermal) = self.thermal else {
+            return self;
+        };
+        let heated = Thermal {
+            temperature: thermal.temperature.raised(rise_k),
+            ..thermal
+        };
+        Self {
+            factor: self.factor / thermal.factor() * heated.factor(),
+            thermal: Some(heated),
+            ..self
+        }
+    }
+
     /// Whether it counts repetitions of the load.
     pub fn counts_repetitions(&self) -> bool {
         self.measure == Measure::Repetitions
@@ -161,6 +197,7 @@ mod tests {
             measure: Measure::SlipTime {
                 speed_exponent: 0.5,
             },
+            thermal: None,
         }
     }
 

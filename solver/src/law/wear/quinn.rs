@@ -14,6 +14,7 @@
 
 use super::arrhenius;
 use crate::law::pace::Pace;
+use crate::law::temperature::Temperature;
 
 /// The law of a surface.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -25,7 +26,7 @@ pub struct Quinn {
     /// Activation energy Qp, J/mol.
     pub activation_j_mol: f64,
     /// Temperature T0 of the asperities, K.
-    pub temperature_k: f64,
+    pub temperature: Temperature,
     /// Critical thickness xi of the oxide, um.
     pub film_um: f64,
     /// Density rho of the oxide, kg/m^3.
@@ -40,8 +41,8 @@ impl Quinn {
     /// Wear coefficient K at a pace, -.
     fn coefficient(&self, pace: Pace) -> f64 {
         let oxygen = self.film_um * 1e-6 * self.oxide_density_kg_m3 * self.oxygen_fraction;
-        let growth =
-            self.arrhenius_kg2_m4s * arrhenius::factor(self.activation_j_mol, self.temperature_k);
+        let growth = self.arrhenius_kg2_m4s
+            * arrhenius::factor(self.activation_j_mol, self.temperature.kelvin());
         self.asperity_um * 1e-6 * growth / (oxygen * oxygen) * (1e3 * pace.s_per_mm)
     }
 
@@ -53,6 +54,24 @@ impl Quinn {
     /// Specific wear rate at a pace, 1/MPa.
     pub(super) fn rate(&self, pace: Pace) -> f64 {
         self.coefficient(pace) / self.hardness_mpa
+    }
+
+    /// The law at another hardness than it was given with.
+    #[must_use]
+    pub(super) fn softened(self, ratio: f64) -> Self {
+        Self {
+            hardness_mpa: self.hardness_mpa * ratio,
+            ..self
+        }
+    }
+
+    /// The law of a contact that is warmer than its surroundings by a rise in K.
+    #[must_use]
+    pub(super) fn heated(self, rise_k: f64) -> Self {
+        Self {
+            temperature: self.temperature.raised(rise_k),
+            ..self
+        }
     }
 }
 
@@ -67,7 +86,7 @@ mod tests {
             asperity_um: 20.0,
             arrhenius_kg2_m4s: 1.5e6,
             activation_j_mol: 208e3,
-            temperature_k: 673.15,
+            temperature: Temperature::OfContact(673.15),
             film_um: 1.0,
             oxide_density_kg_m3: 5_240.0,
             oxygen_fraction: 0.3006,

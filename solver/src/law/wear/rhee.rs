@@ -38,6 +38,7 @@ impl Rhee {
             measure: Measure::SlipTime {
                 speed_exponent: b / c,
             },
+            thermal: None,
         }
     }
 }

@@ -13,6 +13,7 @@
 //! k/H = alpha mu fm/L.
 
 use crate::law::pace::Pace;
+use crate::law::temperature::Temperature;
 
 /// The law of a surface.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -27,8 +28,10 @@ pub struct SevereOxidation {
     pub friction: f64,
     /// Thermal conductivity K of the oxide, W/(m K).
     pub conductivity_w_mk: f64,
-    /// Tm - Tb, K.
-    pub rise_k: f64,
+    /// Melting temperature Tm of the oxide, K.
+    pub melting_k: f64,
+    /// Bulk temperature Tb.
+    pub temperature: Temperature,
     /// Diffusion distance lf, um.
     pub diffusion_um: f64,
     /// Hardness H, MPa.
@@ -38,7 +41,9 @@ pub struct SevereOxidation {
 impl SevereOxidation {
     /// Heat that is conducted away over the pressure of the real area of contact, m/s.
     fn conducted(&self) -> f64 {
-        self.conductivity_w_mk * self.rise_k / (self.diffusion_um * 1e-6 * self.hardness_mpa * 1e6)
+        // An oxide that is molten already needs no heat.
+        let rise_k = (self.melting_k - self.temperature.kelvin()).max(0.0);
+        self.conductivity_w_mk * rise_k / (self.diffusion_um * 1e-6 * self.hardness_mpa * 1e6)
     }
 
     /// The speed above which it wears, mm/s; without bound where no friction heats.
@@ -50,6 +55,24 @@ impl SevereOxidation {
     pub(super) fn rate(&self, pace: Pace) -> f64 {
         let melting = self.heat_share * self.friction - self.conducted() * 1e3 * pace.s_per_mm;
         1e6 * self.molten_fraction / self.latent_heat_j_m3 * melting.max(0.0)
+    }
+
+    /// The law at another hardness than it was given with.
+    #[must_use]
+    pub(super) fn softened(self, ratio: f64) -> Self {
+        Self {
+            hardness_mpa: self.hardness_mpa * ratio,
+            ..self
+        }
+    }
+
+    /// The law of a contact that is warmer than its surroundings by a rise in K.
+    #[must_use]
+    pub(super) fn heated(self, rise_k: f64) -> Self {
+        Self {
+            temperature: self.temperature.raised(rise_k),
+            ..self
+        }
     }
 }
 
@@ -66,7 +89,8 @@ mod tests {
             heat_share: 0.5,
             friction: 0.3,
             conductivity_w_mk: 3.2,
-            rise_k: 1_467.0,
+            melting_k: 1_760.15,
+            temperature: Temperature::OfContact(293.15),
             diffusion_um: 10.0,
             hardness_mpa: 6_865.0,
         };

@@ -3,6 +3,7 @@
 //! V is the speed of the imposed motion, the mean of an increment. Where the rate is in proportion to 1/V the law is one of time:
 //! an increment wears by the time that it takes, however the speed changes within it.
 
+use super::mechanism::Mechanism;
 use super::mild_oxidation::MildOxidation;
 use super::quinn::Quinn;
 use super::severe_oxidation::SevereOxidation;
@@ -21,6 +22,8 @@ pub enum SpeedLaw {
     MildOxidation(MildOxidation),
     /// Severe oxidational wear.
     SevereOxidation(SevereOxidation),
+    /// One of these or Archard's, by speed and temperature.
+    Mechanism(Mechanism),
 }
 
 impl SpeedLaw {
@@ -30,6 +33,7 @@ impl SpeedLaw {
             Self::Quinn(law) => law.rate(pace),
             Self::MildOxidation(law) => law.rate(pace),
             Self::SevereOxidation(law) => law.rate(pace),
+            Self::Mechanism(law) => law.rate(pace),
         }
     }
 
@@ -37,7 +41,7 @@ impl SpeedLaw {
     pub fn is_by_time(&self) -> bool {
         match self {
             Self::Quinn(_) | Self::MildOxidation(_) => true,
-            Self::SevereOxidation(_) => false,
+            Self::SevereOxidation(_) | Self::Mechanism(_) => false,
         }
     }
 
@@ -45,18 +49,21 @@ impl SpeedLaw {
     #[must_use]
     pub(super) fn softened(self, ratio: f64) -> Self {
         match self {
-            Self::Quinn(law) => Self::Quinn(Quinn {
-                hardness_mpa: law.hardness_mpa * ratio,
-                ..law
-            }),
-            Self::MildOxidation(law) => Self::MildOxidation(MildOxidation {
-                hardness_mpa: law.hardness_mpa * ratio,
-                ..law
-            }),
-            Self::SevereOxidation(law) => Self::SevereOxidation(SevereOxidation {
-                hardness_mpa: law.hardness_mpa * ratio,
-                ..law
-            }),
+            Self::Quinn(law) => Self::Quinn(law.softened(ratio)),
+            Self::MildOxidation(law) => Self::MildOxidation(law.softened(ratio)),
+            Self::SevereOxidation(law) => Self::SevereOxidation(law.softened(ratio)),
+            Self::Mechanism(law) => Self::Mechanism(law.softened(ratio)),
+        }
+    }
+
+    /// The law of a contact that is warmer than its surroundings by a rise in K.
+    #[must_use]
+    pub(super) fn heated(self, rise_k: f64) -> Self {
+        match self {
+            Self::Quinn(law) => Self::Quinn(law.heated(rise_k)),
+            Self::MildOxidation(law) => Self::MildOxidation(law.heated(rise_k)),
+            Self::SevereOxidation(law) => Self::SevereOxidation(law.heated(rise_k)),
+            Self::Mechanism(law) => Self::Mechanism(law.heated(rise_k)),
         }
     }
 }

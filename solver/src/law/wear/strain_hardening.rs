@@ -8,7 +8,8 @@
 //! e^(1 - C3) adds (`power`), with c = 1/(1 - C3), so that a step is exact where Euler's is not. Range: C3 < 1, since strain would grow
 //! without bound in a finite time; C2 >= 1 and C2 >= 1 - C3. Limiting case: C3 = 0 is a rate that does not depend on the depth.
 
-use super::power::{Measure, PowerLaw};
+use super::power::{Measure, PowerLaw, Thermal};
+use crate::law::temperature::Temperature;
 
 /// The law of a surface.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -21,8 +22,8 @@ pub struct StrainHardening {
     pub strain_exponent: f64,
     /// C4, K.
     pub activation_k: f64,
-    /// T, K.
-    pub temperature_k: f64,
+    /// T.
+    pub temperature: Temperature,
     /// t0, mm.
     pub length_mm: f64,
 }
@@ -31,12 +32,16 @@ impl StrainHardening {
     /// The law in the form in which it adds.
     pub fn power_law(&self) -> PowerLaw {
         let rest = 1.0 - self.strain_exponent;
-        let thermal = (-self.activation_k / self.temperature_k).exp();
+        let thermal = Thermal {
+            activation_k: self.activation_k,
+            temperature: self.temperature,
+        };
         PowerLaw {
             exponent: rest.recip(),
-            factor: rest * self.length_mm.powf(rest) * self.factor * thermal,
+            factor: rest * self.length_mm.powf(rest) * self.factor * thermal.factor(),
             pressure_exponent: self.pressure_exponent,
             measure: Measure::Time,
+            thermal: Some(thermal),
         }
     }
 }
@@ -56,7 +61,7 @@ mod tests {
                 pressure_exponent: 2.0,
                 strain_exponent: -0.5,
                 activation_k: 1_000.0,
-                temperature_k: 300.0,
+                temperature: Temperature::OfContact(300.0),
                 length_mm,
             };
             let law = law.power_law();

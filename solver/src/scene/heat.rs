@@ -1,0 +1,98 @@
+//! The contact of a scene as a source of heat.
+
+use crate::law::heating::{joule, sliding::SlidingHeat};
+use crate::law::softening::Margins;
+use crate::law::surface::SurfaceWear;
+use crate::law::wear::LocalState;
+use crate::scene::{Motion, Scene, TimedMotion};
+use crate::sides::Sides;
+
+/// Heat of a contact in its motion.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct ContactHeat {
+    /// Heat of friction in proportion to the speed; none where it is left out.
+    friction: Option<(SlidingHeat, f64)>,
+    motion: TimedMotion,
+    /// Temperature rise by the current, K.
+    joule_k: f64,
+}
+
+impl ContactHeat {
+    /// The heat of a contact whose friction dissipates an energy per depth and distance, N/mm, and which the current heats by a
+    /// temperature rise in K.
+    pub(crate) fn new(scene: &Scene, friction: Option<(SlidingHeat, f64)>, joule_k: f64) -> Self {
+        Self {
+            friction,
+            motion: scene.timed_motion(),
+            joule_k,
+        }
+    }
+
+    /// Temperature rise at a speed in mm/s, K.
+    pub(crate) fn rise_k(&self, speed_mm_s: f64) -> f64 {
+        let friction = self.friction.map_or(0.0, |(heat, n_per_mm)| {
+            n_per_mm * heat.rise(speed_mm_s, self.motion.mean().speed())
+        });
+        friction + self.joule_k
+    }
+
+    /// Largest temperature rise, K.
+    pub(crate) fn hottest_k(&self) -> f64 {
+        self.rise_k(self.motion.fastest().speed())
+    }
+
+    /// Mean temperature rise over the distance of a cycle, K: that which counts for wear by distance.
+    pub(crate) fn mean_k(&self) -> f64 {
+        self.motion.mean_by_distance(|speed| self.rise_k(speed))
+    }
+}
+
+impl Scene {
+    /// Its contact of a half-width in mm as a source of frictional heat, if both conductivities are known.
+    pub(crate) fn sliding_heat(&self, half_width_mm: f64) -> Option<SlidingHeat> {
+        let (slider, receptacle) = (self.slider.thermal?, self.receptacle.thermal?);
+        let (resting, passed) = match self.motion {
+            Motion::Continuous { .. } => (receptacle, slider),
+            Motion::Reciprocating { .. } => (slider, receptacle),
+        };
+        let (slider, block) = (self.slider.shape, self.receptacle.shape);
+        Some(SlidingHeat {
+            half_width_mm,
+            amplitude_mm: self.motion.amplitude_mm().abs(),
+            period_s: self.motion.period_s().unwrap_or(f64::INFINITY),
+            distance_mm: slider.height_mm.max(block.height_mm),
+            resting,
+            passed,
+        })
+    }
+
+    /// Temperature rise, K, by the current through a resistance of the contact in mOhm.
+    pub(crate) fn joule_rise_k(&self, contact_mohm: f64) -> f64 {
+        let electrical = self.conduction.known();
+        let current_a = electrical.and_then(|electrical| electrical.current_a);
+        current_a.map_or(0.0, |current| {
+            joule::rise_k(1e-3 * contact_mohm * current, self.temperature_c)
+        })
+    }
+
+    /// Distances of both surfaces to the melting temperatures of their layers.
+    pub(crate) fn margins(&self) -> Sides<Margins> {
+        Sides {
+            slider: self.slider.softening.margins(),
+            receptacle: self.receptacle.softening.margins(),
+        }
+    }
+
+    /// Largest relative change of a wear rate by a temperature rise in K.
+    pub(crate) fn change_by_heat(
+        &self,
+        wear: Sides<Option<SurfaceWear>>,
+        at: LocalState,
+        rise_k: f64,
+    ) -> f64 {
+        let changes = wear.zip(self.margins()).map(|(wear, margins)| {
+            wear.map_or(0.0, |wear| wear.change_by_heat(&margins, at, rise_k))
+        });
+        changes.slider.max(changes.receptacle)
+    }
+}
