@@ -83,7 +83,7 @@ impl<'a> Integrator<'a> {
         let constant = scene.timed_motion().constant();
         let at_pace = |wear: SurfaceWear| constant.map_or(wear, |pace| wear.during(pace, 0.0));
         let wear = pair.interface.wear.map(|wear| wear.map(at_pace));
-        let heating = Heating::of(scene, &pair.interface, pair.interface.wear);
+        let heating = Heating::of(scene, &pair.interface, &pair.interface.wear);
         let next = ContactState::untouched(operators, model.interface.slave);
         Self {
             scene,

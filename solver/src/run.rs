@@ -19,6 +19,7 @@ use crate::record::{self, Compared, Initial, Life, Outcome, Resolution, Snapshot
 use crate::scene::Scene;
 use crate::schedule::stops::{self, Progress};
 use crate::sides::Sides;
+use resistance::Consequence;
 
 /// Solves a scene from the unworn bodies to its end.
 ///
@@ -256,44 +257,34 @@ fn integrate(
             let contact = resistance::contact(scene, (model, condensed), state);
             evaluation.update(&mut run.electrical, &contact);
             let resistances = (&electrical_before, &run.electrical);
-            if let Some(sooner) = resistance::passed_limit(scene, cycles, resistances) {
-                run.state = CycleState {
-                    work: state.work,
-                    ..before
-                };
-                (run.electrical, until_limit) = (electrical_before, sooner);
-                continue;
-            }
-            let called_for = plan.crossed_by_current(scene, before.cycle, &run.electrical);
-            if !called_for.is_empty() {
-                run.electrical = electrical_before;
-                run.go_back(before, called_for);
-                return Ok(ControlFlow::Continue(Renewal::Effects));
+            match resistance::consequence(scene, plan, cycles, resistances) {
+                None => {}
+                Some(Consequence::GoTo(sooner)) => {
+                    run.state = CycleState {
+                        work: state.work,
+                        ..before
+                    };
+                    (run.electrical, until_limit) = (electrical_before, sooner);
+                    continue;
+                }
+                Some(Consequence::Effects(called_for)) => {
+                    run.electrical = electrical_before;
+                    run.go_back(before, called_for);
+                    return Ok(ControlFlow::Continue(Renewal::Effects));
+                }
             }
             run.state.constriction_mohm = run.electrical.constriction_mohm();
         }
-        let state = &run.state;
         until_limit = u64::MAX;
-        let report = record::report(scene, model, state, run.electrical.resistance);
+        let report = record::report(scene, model, &run.state, run.electrical.resistance);
         if run.is_comparable(scene) {
             run.compared.push(&report);
         }
-        let resistances = (&electrical_before, &run.electrical);
-        if let Some((limits, resistances)) = resistance::of_life(scene, resistances) {
-            run.life.push_resistance(limits, state.cycle, resistances);
-        }
-        let surface = |side| record::worn_surface(model, state, side);
-        run.life.push(scene, state.cycle, surface);
+        push_life(scene, model, run, &electrical_before);
         if observer.on(Event::Cycle(&report)).is_break() {
             return Ok(STOPPED);
         }
-        let depth = |side, part| surface(side).depth_of_part(part);
-        let rates = state.jump.rates();
-        let now = Progress {
-            exceeds_resistance: resistance::exceeds_limit(scene, &run.electrical),
-            ..progress((model, &spines), state, rates)
-        };
-        let end = stops::end(scene, now, depth);
+        let (state, end) = (&run.state, end(scene, (model, &spines), run));
         if end.is_some() || scene.output.snapshots_at_cycles.contains(&state.cycle) {
             let snapshot = snapshot(scene, model, condensed, state, record)?;
             if observer.on(Event::Snapshot(&snapshot)).is_break() {
@@ -319,14 +310,36 @@ fn next_cycle(
 ) -> Result<CycleRecord, CycleError> {
     let state = &run.state;
     let depth = |side, part| record::worn_surface(model, state, side).depth_of_part(part);
-    let now = Progress {
-        exceeds_resistance: resistance::exceeds_limit(scene, &run.electrical),
-        ..progress((model, spines), state, state.jump.rates())
-    };
+    let now = now(scene, (model, spines), run);
     let next = stops::next(scene, now, depth).min(until_limit);
     let position = run.mission.as_ref().map(|mission| mission.position);
     let until = position.map_or((next, true), |position| position.next_reported(scene, next));
     integrator.compute_cycle(&mut run.state, until)
+}
+
+/// Takes a computed cycle into the life by the criteria of the scene.
+fn push_life(scene: &Scene, model: &Model, run: &mut Checkpoint, before: &ElectricalState) {
+    let cycle = run.state.cycle;
+    if let Some((limits, resistances)) = resistance::of_life(scene, (before, &run.electrical)) {
+        run.life.push_resistance(limits, cycle, resistances);
+    }
+    let surface = |side| record::worn_surface(model, &run.state, side);
+    run.life.push(scene, cycle, surface);
+}
+
+/// The outcome of a run that ends here.
+fn end(scene: &Scene, (model, spines): (&Model, &Spines), run: &Checkpoint) -> Option<Outcome> {
+    let state = &run.state;
+    let depth = |side, part| record::worn_surface(model, state, side).depth_of_part(part);
+    stops::end(scene, now(scene, (model, spines), run), depth)
+}
+
+/// Its progress for its stops.
+fn now(scene: &Scene, (model, spines): (&Model, &Spines), run: &Checkpoint) -> Progress {
+    Progress {
+        exceeds_resistance: resistance::exceeds_limit(scene, &run.electrical),
+        ..progress((model, spines), &run.state, run.state.jump.rates())
+    }
 }
 
 /// Moves on to the next block of a mission.

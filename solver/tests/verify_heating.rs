@@ -233,8 +233,7 @@ fn a_current_heats_the_constriction_by_its_voltage() {
             .worn_area_mm2;
     let expected = 1.0 / (1.0 - (contact - surroundings) / MARGIN);
     println!(
-        "12 A heat the contact to {:.0} K: {ratio:.4} of the cold wear, {expected:.4} by its hardness",
-        contact
+        "12 A heat the contact to {contact:.0} K: {ratio:.4} of the cold wear, {expected:.4} by its hardness"
     );
     assert!(
         (ratio / expected - 1.0).abs() < 5e-3 && ratio > 1.02,

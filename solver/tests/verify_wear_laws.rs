@@ -76,7 +76,7 @@ fn check_refinement(name: &str, scene: &Scene) {
 }
 
 /// Two arcs, which are the same upside down, with a law on each.
-fn arcs((upper, lower): (f64, f64), laws: Sides<WearLaw>) -> Scene {
+fn arcs((upper, lower): (f64, f64), laws: &Sides<WearLaw>) -> Scene {
     let mut scene = Scene {
         cycles: 2_000,
         friction: Friction::Coulomb { coefficient: 0.6 },
@@ -98,13 +98,16 @@ fn arcs((upper, lower): (f64, f64), laws: Sides<WearLaw>) -> Scene {
 }
 
 /// Bodies with a law each wear alike where they are swapped, within twice the tolerance.
-fn check_swap(name: &str, laws: Sides<WearLaw>) {
+fn check_swap(name: &str, laws: &Sides<WearLaw>) {
     let turned = Sides {
         slider: laws.receptacle,
         receptacle: laws.slider,
     };
     let run = |scene: &Scene| solve(scene).expect("the scene can be solved").0;
-    let (here, mut there) = (run(&arcs((6.0, 9.0), laws)), run(&arcs((9.0, 6.0), turned)));
+    let (here, mut there) = (
+        run(&arcs((6.0, 9.0), laws)),
+        run(&arcs((9.0, 6.0), &turned)),
+    );
     let last = &mut there.last;
     std::mem::swap(&mut last.slider, &mut last.receptacle);
     let found = difference(&here, &there);

@@ -138,7 +138,7 @@ fn ratio(
 
 #[cfg(test)]
 mod tests {
-    use solver::effects::{Effect, Verdict, plan};
+    use solver::effects::{Effect, Indicator, Verdict, plan};
     use solver::scene::{Scene, SpeedLaw, Temperature, WearLaw};
 
     use crate::spec::Resolved;
@@ -206,7 +206,7 @@ mod tests {
         let mut decisions = plan(scene).decisions.into_iter();
         let found = decisions.find(|decision| decision.effect == effect);
         let found = found.expect("it is decided");
-        let value = found.indicator.map_or(0.0, |indicator| indicator.value());
+        let value = found.indicator.map_or(0.0, Indicator::value);
         (found.verdict, value, found.reason)
     }
 

@@ -33,13 +33,13 @@ impl Heating {
     pub(super) fn of(
         scene: &Scene,
         interface: &Interface,
-        cold: Sides<Option<SurfaceWear>>,
+        cold: &Sides<Option<SurfaceWear>>,
     ) -> Option<Self> {
         let sources = interface.heated_by;
         (sources != HeatSources::default()).then(|| Self {
             sources,
             margins: scene.margins(),
-            cold,
+            cold: *cold,
             heat: ContactHeat::new(scene, None, 0.0),
             is_even: true,
         })
@@ -66,7 +66,7 @@ impl Heating {
             state.mean_half_width,
             scene.timed_motion().mean(),
         );
-        let change = |rise| scene.change_by_heat(self.cold, at, rise);
+        let change = |rise| scene.change_by_heat(&self.cold, at, rise);
         let mean = self.heat.mean_k();
         let uneven = change(self.heat.hottest_k()) - change(mean);
         self.is_even = uneven <= EVEN_SHARE * scene.accuracy.tolerance;

@@ -209,7 +209,7 @@ impl<'a> Indicators<'a> {
         let pace = self.scene.timed_motion().mean();
         let at = LocalState::mean(self.scene.load_n_per_mm, self.sizes.hertz_half_width, pace);
         let wear = self.scene.surface_wear_at(None);
-        self.scene.change_by_heat(wear, at, rise_k)
+        self.scene.change_by_heat(&wear, at, rise_k)
     }
 
     /// Largest part of either body's height that is worn off.

@@ -2,7 +2,7 @@
 
 use crate::condensation::Condensed;
 use crate::cycle::CycleState;
-use crate::effects::{Effect, EffectsPlan};
+use crate::effects::{Crossing, Effect, EffectsPlan};
 use crate::electrical::{Contact, ElectricalState, Evaluation, Surface};
 use crate::model::Model;
 use crate::number::real_cycles;
@@ -43,15 +43,28 @@ pub(super) fn contact<'a>(
     }
 }
 
-/// The cycle to go to instead where a limit of the resistance was passed in too long a step.
-pub(super) fn passed_limit(
+/// What the resistance after a computed cycle has the run do.
+pub(super) enum Consequence {
+    /// Go to a cycle instead: a limit of the resistance was passed in too long a step.
+    GoTo(u64),
+    /// Simulate effects that were skipped.
+    Effects(Vec<Crossing>),
+}
+
+/// The consequence of the resistances before and after a computed cycle, if there is one.
+pub(super) fn consequence(
     scene: &Scene,
+    plan: &EffectsPlan,
     cycles: (u64, u64),
     (before, after): (&ElectricalState, &ElectricalState),
-) -> Option<u64> {
+) -> Option<Consequence> {
     let electrical = scene.conduction.known()?;
     let resistances = (before.total_mohm()?, after.total_mohm()?);
-    stops::resistance_passed(electrical, cycles, resistances)
+    if let Some(sooner) = stops::resistance_passed(electrical, cycles, resistances) {
+        return Some(Consequence::GoTo(sooner));
+    }
+    let called_for = plan.crossed_by_current(scene, cycles.0, after);
+    (!called_for.is_empty()).then_some(Consequence::Effects(called_for))
 }
 
 /// Limits of the resistance whose life is recorded, mOhm, with the resistances before and after a computed cycle.

@@ -5,7 +5,7 @@ use crate::law::softening::Margins;
 use crate::law::surface::SurfaceWear;
 use crate::law::wear::LocalState;
 use crate::scene::{Motion, Scene, TimedMotion};
-use crate::sides::Sides;
+use crate::sides::{Side, Sides};
 
 /// Heat of a contact in its motion.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -86,13 +86,17 @@ impl Scene {
     /// Largest relative change of a wear rate by a temperature rise in K.
     pub(crate) fn change_by_heat(
         &self,
-        wear: Sides<Option<SurfaceWear>>,
+        wear: &Sides<Option<SurfaceWear>>,
         at: LocalState,
         rise_k: f64,
     ) -> f64 {
-        let changes = wear.zip(self.margins()).map(|(wear, margins)| {
-            wear.map_or(0.0, |wear| wear.change_by_heat(&margins, at, rise_k))
-        });
-        changes.slider.max(changes.receptacle)
+        let margins = self.margins();
+        let change = |side: Side| {
+            let wear = wear.of(side).as_ref();
+            wear.map_or(0.0, |wear| {
+                wear.change_by_heat(margins.of(side), at, rise_k)
+            })
+        };
+        change(Side::Slider).max(change(Side::Receptacle))
     }
 }

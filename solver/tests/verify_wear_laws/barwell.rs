@@ -146,7 +146,7 @@ fn bodies_can_be_swapped_beside_barwells_law() {
             slider: ARCHARD,
             receptacle: law,
         };
-        check_swap(&format!("Barwell, {course}, beside Archard"), laws);
+        check_swap(&format!("Barwell, {course}, beside Archard"), &laws);
     }
 }
 

@@ -186,7 +186,7 @@ fn bodies_can_be_swapped_beside_an_oxidational_law() {
         slider: ARCHARD,
         receptacle: quinn(),
     };
-    check_swap("Quinn, beside Archard", laws);
+    check_swap("Quinn, beside Archard", &laws);
 }
 
 #[test]

@@ -165,7 +165,7 @@ fn bodies_can_be_swapped_beside_power_laws() {
             slider: ARCHARD,
             receptacle: law,
         };
-        check_swap(&format!("{name}, beside Archard"), laws);
+        check_swap(&format!("{name}, beside Archard"), &laws);
     }
 }
 

@@ -31,13 +31,13 @@ struct Worn {
 }
 
 /// Loads the unworn bodies, slides one increment without wear, and then one that stands for so many cycles.
-fn wear(laws: Sides<Option<WearLaw>>, cycles: f64) -> (Operators, Worn) {
+fn wear(laws: &Sides<Option<WearLaw>>, cycles: f64) -> (Operators, Worn) {
     wear_from(laws, cycles, None)
 }
 
 /// The same, the last increment from a start.
 fn wear_from(
-    laws: Sides<Option<WearLaw>>,
+    laws: &Sides<Option<WearLaw>>,
     cycles: f64,
     start: Option<WarmStart<'_>>,
 ) -> (Operators, Worn) {
@@ -102,7 +102,7 @@ fn recession_is_the_rate_at_the_end_of_the_increment() {
             receptacle: Some(power(exponent)),
         };
         let cycles = 4.0;
-        let (operators, worn) = wear(laws, cycles);
+        let (operators, worn) = wear(&laws, cycles);
         let mut deepest = 0.0_f64;
         for (l, (path, depth)) in worn.path.iter().zip(&worn.recession.receptacle).enumerate() {
             let pressure = worn.state.pressure[worn.first.receptacle + l];
@@ -156,7 +156,7 @@ fn a_power_of_the_depth_adds_by_the_pressure_at_the_end_of_the_increment() {
             slider: Some(WearLaw::Power(law)),
             receptacle: Some(WearLaw::Power(law)),
         };
-        let (operators, worn) = wear(laws, 4.0);
+        let (operators, worn) = wear(&laws, 4.0);
         let exposure = law.exposure(Pace::at_speed(1.0), STEP);
         let mut deepest = 0.0_f64;
         for (l, (path, depth)) in worn.path.iter().zip(&worn.recession.receptacle).enumerate() {
@@ -191,8 +191,8 @@ fn a_rate_that_varies_without_exponent_wears_like_a_uniform_one() {
     let archard = WearLaw::Archard {
         k_over_h_per_mpa: K,
     };
-    let (_, uniform) = wear(both(archard), 4.0);
-    let (_, varying) = wear(both(power(0.0)), 4.0);
+    let (_, uniform) = wear(&both(archard), 4.0);
+    let (_, varying) = wear(&both(power(0.0)), 4.0);
     for side in Side::BOTH {
         let deepest = uniform
             .recession
@@ -221,7 +221,7 @@ fn sides_wear_by_their_own_laws() {
             k_over_h_per_mpa: K,
         }),
     };
-    let (operators, worn) = wear(laws, 4.0);
+    let (operators, worn) = wear(&laws, 4.0);
     let expected: f64 = worn
         .path
         .iter()
@@ -250,7 +250,7 @@ fn starts_lead_to_the_same_contact(law: WearLaw) {
         slider: Some(law),
         receptacle: Some(law),
     };
-    let (_, worn) = wear(laws, 4.0);
+    let (_, worn) = wear(&laws, 4.0);
     let (first, end) = worn.state.active_range().expect("the bodies touch");
     let peak = worn.state.peak_pressure();
     // All of a wide contact sticks under a hundredfold pressure, slips backward, or a single node touches.
@@ -264,7 +264,7 @@ fn starts_lead_to_the_same_contact(law: WearLaw) {
             status: &vec![status; nodes],
             pressure: &vec![pressure; nodes],
         };
-        let (_, other) = wear_from(laws, 4.0, Some(start));
+        let (_, other) = wear_from(&laws, 4.0, Some(start));
         let pressures = worn.state.pressure.iter().zip(&other.state.pressure);
         let off = pressures.fold(0.0, |m: f64, (a, b)| m.max((a - b).abs()));
         // The gaps converge to 1e-11 of the indentation, pressures to some hundred times that.

@@ -125,13 +125,15 @@ fn oscillating_sources_have_the_temperatures_of_greens_functions() {
                 });
                 let exact = weighted(|phase| greens(&both, moves, phase));
                 let error = found / exact - 1.0;
-                eprintln!(
-                    "{amplitude} mm, {period} s, moves {moves}: {found:.4e} {exact:.4e} {error:.3}"
+                // An upper limit where the contact is as fast as heat: 16 % where it crosses its width in 2 us.
+                assert!(
+                    (0.0..0.17).contains(&error),
+                    "{amplitude} mm, {period} s, moves: {moves}: {error}"
                 );
-                let at = usize::from(moves);
-                worst[at] = worst[at].max(error.abs());
+                worst = worst.max(if moves { 0.0 } else { error });
             }
         }
     }
-    assert!(worst[0] < 0.1, "{worst:?}");
+    // A body at rest.
+    assert!(worst < 0.03, "{worst}");
 }
