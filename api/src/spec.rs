@@ -26,7 +26,10 @@ use utoipa::ToSchema;
 use crate::enum_value::string_enum;
 pub use crate::enum_value::{EnumValue, StringEnum};
 pub use environment::Environment;
-pub use interface::{Friction, FrictionLaw, Interface, Sides, WearCourse, WearLaw, WearLawName};
+pub use interface::{
+    Friction, FrictionAtCycle, FrictionAtDose, FrictionLaw, Interface, Sides, WearCourse, WearLaw,
+    WearLawName,
+};
 pub use life::{Criterion, CriterionKind, LifeSettings, Part};
 pub use load::{Load, LoadKind};
 pub use materials::{Material, MaterialProperties, Materials};

@@ -7,6 +7,7 @@
 mod accuracy;
 mod blocks;
 mod cause;
+mod changing_friction;
 mod conductors;
 mod covering;
 mod criterion;
@@ -39,7 +40,6 @@ use std::collections::BTreeMap;
 use api::problem::Fault;
 use api::results::BlockExtent;
 use api::spec::{DerivedMotion, ParseError, Spec, SystemKind};
-use solver::law::friction;
 use solver::law::softening::REFERENCE_C;
 use solver::model::Layout;
 use solver::scene::{Body, Conduction, Criterion, Layer, Scene};
@@ -152,7 +152,12 @@ pub fn resolve(spec: &Spec) -> Result<Resolved, Vec<Fault>> {
     warnings.extend(law_range::warnings(&filled, &scene));
     warnings.extend(effects::warnings(&scene));
     warnings.extend(rated_life::warnings(kind, filled.motion.as_ref(), &scene));
-    let sticks = movement.all_derived().filter(|(_, motion)| motion.sticks);
+    let derived = || movement.all_derived();
+    warnings.extend(changing_friction::warnings_of_derived_slip(
+        derived(),
+        &scene,
+    ));
+    let sticks = derived().filter(|(_, motion)| motion.sticks);
     warnings.extend(sticks.map(|(pointer, motion)| Fault::new(&pointer, motion.reason.clone())));
     let blocks = blocks::extents(&filled, &movement);
     filled.provenance = diagnostics.finish()?;
@@ -199,11 +204,12 @@ fn fill(spec: &Spec, kind: SystemKind, diagnostics: &mut Diagnostics) -> Filled 
         diagnostics,
     );
     law::check_plated_sides(&laws, plated, diagnostics);
-    let friction = friction::coefficient(laws.friction);
+    let friction = laws.friction.unworn();
     let (platings, layers) = plating::resolve(coverings, friction, diagnostics);
+    let laws = changing_friction::with_layers(laws, (&platings, &layers), diagnostics);
     let (load, line_load) = load::resolve(spec.load.as_ref(), &preset, &shapes, diagnostics);
     let contact = motion::HeldContact {
-        friction,
+        friction: laws.friction.unworn(),
         force_n: load.n,
     };
     let movement = resolve_movement(spec, &preset, contact, diagnostics);
@@ -231,6 +237,7 @@ fn fill(spec: &Spec, kind: SystemKind, diagnostics: &mut Diagnostics) -> Filled 
         provenance: BTreeMap::new(),
         ..spec.clone()
     };
+    changing_friction::check(&filled, &laws.friction, diagnostics);
     let softening = environment::softening(&filled, diagnostics);
     let thermal = environment::conductors(&filled);
     let bodies = conductors::Bodies {
@@ -263,7 +270,7 @@ fn fill(spec: &Spec, kind: SystemKind, diagnostics: &mut Diagnostics) -> Filled 
             thermal: thermal.receptacle,
             softening: softening.receptacle,
         },
-        friction: laws.friction,
+        friction: laws.friction.until(crate::number::real(cycles)),
         temperature_c: surroundings_c,
         load_n_per_mm: line_load.n_per_mm,
         spring_n_per_mm2: line_load.spring_n_per_mm2,

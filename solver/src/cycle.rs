@@ -13,6 +13,7 @@ mod checks;
 mod computed_cycle;
 mod cycle_record;
 mod extrapolation;
+mod friction;
 mod groove;
 mod heating;
 mod mission_state;
@@ -21,6 +22,7 @@ mod replay;
 mod skew;
 mod state;
 mod step_control;
+mod stroke_wear;
 mod unskewed;
 mod warm_starts;
 mod wear_limit;
@@ -28,7 +30,8 @@ mod wear_limit;
 use crate::ale::Spines;
 use crate::condensation::Operators;
 use crate::contact::{self, ContactError, ContactState, Displacement, Pair, Solver, Surfaces};
-use crate::law::surface::{self, SurfaceWear};
+use crate::law::surface::SurfaceWear;
+use crate::model::friction::ContactFriction;
 use crate::model::{Interface, Model, Tangential, resolution};
 use crate::number::{cycles_at_least, real, real_cycles};
 use crate::scene::{Motion, Scene};
@@ -67,6 +70,9 @@ pub struct Integrator<'a> {
     wear: Sides<Option<SurfaceWear>>,
     /// What heats the contact, if something does.
     heating: Option<Heating>,
+    friction: ContactFriction,
+    /// Coefficients of friction at the nodes of the surfaces that it differs on, from there on too, -.
+    nodal_friction: Sides<Option<Vec<f64>>>,
     spines: Spines,
     /// Cycles until the end of the run, estimated where it stops at a depth.
     expected_cycles: u64,
@@ -92,6 +98,8 @@ impl<'a> Integrator<'a> {
             slope: Sides::default(),
             wear,
             heating,
+            friction: ContactFriction::new(scene, &model.interface.wear, model.surface.plating),
+            nodal_friction: Sides::default(),
             spines: Spines::of(model),
             expected_cycles: resolution::expected_cycles(scene, model.sizes.hertz_half_width),
             next,
@@ -103,7 +111,7 @@ impl<'a> Integrator<'a> {
     /// # Errors
     /// [`CycleError`] if there is no equilibrium.
     pub fn apply_load(&mut self, state: &mut CycleState) -> Result<CycleRecord, CycleError> {
-        self.update_slopes(state);
+        self.update_surfaces(state, 0.0);
         self.increase_load(state)
             .map_err(|source| CycleError::Increment {
                 cycle: 0,
@@ -155,8 +163,23 @@ impl<'a> Integrator<'a> {
         loaded
     }
 
-    fn update_slopes(&mut self, state: &CycleState) {
+    /// Updates what follows from the worn surfaces, and the friction of so many cycles from now.
+    fn update_surfaces(&mut self, state: &CycleState, cycles: f64) {
         self.slope = self.slopes(state);
+        self.update_friction(state, cycles);
+    }
+
+    /// The surfaces as worn in a state, with slopes.
+    fn surfaces<'b>(
+        nodal_friction: &'b Sides<Option<Vec<f64>>>,
+        depth: &'b Sides<Vec<f64>>,
+        slope: &'b Sides<Vec<f64>>,
+    ) -> Surfaces<'b> {
+        Surfaces {
+            depth: depth.as_slices(),
+            slope: slope.as_slices(),
+            friction: nodal_friction.as_ref().map(|nodes| nodes.as_deref()),
+        }
     }
 
     /// Slopes of both surfaces as worn in a state.
@@ -189,7 +212,7 @@ impl<'a> Integrator<'a> {
         state: &mut CycleState,
         from: Motion,
     ) -> Result<(), CycleError> {
-        self.update_slopes(state);
+        self.update_surfaces(state, 0.0);
         let contact = (state.mean_half_width, self.pair.interface.sticks);
         let steps = increments::steps(from, increments::count(from, &self.scene.accuracy, contact));
         for (increment, step) in increments::first_quarter(&steps).iter().enumerate() {
@@ -216,10 +239,11 @@ impl<'a> Integrator<'a> {
         let warm_starts = std::mem::take(&mut state.warm_starts);
         let mut next_starts = WarmStarts::default();
         let (mut half_widths, mut touching, mut done, mut neutral) = (0.0, 0, 0, 0);
+        let friction = self.pair.interface.friction;
         for (increment, step) in steps.iter().enumerate() {
             if increment > 0 && increments::begins_a_stroke(steps, increment) {
                 state.wear_of_strokes[0] = self.wear_per_cycle(state, &before, jump);
-                energy += self.extrapolate(state, extrapolated);
+                energy += self.extrapolate(state, (extrapolated, jump));
                 before.clone_from(&state.depth.receptacle);
             }
             replays.run(state, steps, increment, |state, to, parts| {
@@ -264,6 +288,7 @@ impl<'a> Integrator<'a> {
         };
         self.count(state, cycles);
         state.wear_of_strokes[1] = self.wear_per_cycle(state, &before, cycles);
+        state.friction_per_cycle = 0.5 * (friction + self.pair.interface.friction);
         state.energy_per_cycle = (state.energy - energy) / real_cycles(cycles);
         if touching > 0 {
             state.mean_half_width = half_widths / real(touching);
@@ -272,22 +297,6 @@ impl<'a> Integrator<'a> {
         state.warm_starts = next_starts;
         state.most_increments = state.most_increments.max(steps.len());
         Ok(record)
-    }
-
-    /// Equivalents of the depths of both surfaces, mm.
-    fn equivalents(&self, depth: &Sides<Vec<f64>>) -> Sides<Vec<f64>> {
-        let wear = self.wear;
-        Sides::from_fn(|side| surface::equivalents(*wear.of(side), depth.of(side)).into_owned())
-    }
-
-    /// Wear of the receptacle since these depths, mm, over a number of cycles, as equivalent depth.
-    fn wear_per_cycle(&self, state: &CycleState, before: &[f64], cycles: u64) -> Vec<f64> {
-        let wear = self.wear.receptacle;
-        let [after, before] =
-            [&state.depth.receptacle, before].map(|depth| surface::equivalents(wear, depth));
-        let worn = after.iter().zip(&before[..]);
-        worn.map(|(after, before)| (after - before) / real_cycles(cycles))
-            .collect()
     }
 
     /// Counts cycles done.
@@ -323,10 +332,7 @@ impl<'a> Integrator<'a> {
         state: &mut CycleState,
         to: Displacement<'_>,
     ) -> Result<(), ContactError> {
-        let surfaces = Surfaces {
-            depth: state.depth.as_slices(),
-            slope: self.slope.as_slices(),
-        };
+        let surfaces = Self::surfaces(&self.nodal_friction, &state.depth, &self.slope);
         let last = &state.contact;
         let pace = self
             .scene
@@ -357,9 +363,8 @@ impl<'a> Integrator<'a> {
         checks.complementarity = checks.complementarity.max(done.complementarity);
         checks.friction_cone = checks.friction_cone.max(done.friction_cone);
         std::mem::swap(&mut state.contact, &mut self.next);
-        let friction = self.pair.interface.friction;
-        if friction > 0.0 {
-            let used = state.contact.friction_use(&self.pair.slave().widths) / friction;
+        if state.contact.friction > 0.0 {
+            let used = state.contact.friction_use(&self.pair.slave().widths);
             state.checks.friction_use = state.checks.friction_use.max(used);
         }
         Ok(())
@@ -368,10 +373,7 @@ impl<'a> Integrator<'a> {
     /// The balance of forces with the normals of the surfaces as worn now.
     fn force_balance_with_present_normals(&mut self, state: &CycleState) -> f64 {
         let slope = self.slopes(state);
-        let surfaces = Surfaces {
-            depth: state.depth.as_slices(),
-            slope: slope.as_slices(),
-        };
+        let surfaces = Self::surfaces(&self.nodal_friction, &state.depth, &slope);
         self.solver
             .force_balance_on(&self.pair, &surfaces, &state.contact)
     }

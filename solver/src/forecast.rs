@@ -96,7 +96,7 @@ pub fn forecast(scene: &Scene, layout: &Layout) -> Forecast {
         if is_first {
             scar.change_motion();
         }
-        let (accuracy, stroke) = (&scene.accuracy, scar.stroke(scene));
+        let (accuracy, stroke) = (&scene.accuracy, scar.stroke(scene, cycle));
         let mut step = jump.next(accuracy, stroke, until - cycle);
         if is_first && stroke.is_groove {
             // Nothing to extrapolate from.
@@ -119,7 +119,7 @@ pub fn forecast(scene: &Scene, layout: &Layout) -> Forecast {
         scar.wear(step * together);
         let done = step * together;
         let depths = (before.as_slices(), scar.depth.as_slices());
-        jump.update(scar.widths(), depths, done);
+        jump.update((scar.widths(), 0.0), depths, done);
         cycle += done;
         run.computed_cycles += real_cycles(together);
         // A quarter of a cycle from the last motion to the neutral position, and another one from there.

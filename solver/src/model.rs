@@ -1,6 +1,7 @@
 //! The model: two meshed bodies with their surfaces, materials and supports. Knows both meshes and laws.
 
 pub mod expected_life;
+pub(crate) mod friction;
 pub mod layout;
 pub mod profile;
 pub mod resolution;
@@ -10,7 +11,6 @@ mod zones;
 use crate::effects::{Effect, EffectsPlan};
 use crate::element;
 use crate::law::elastic::{Lame, contact_modulus, plane_strain_compliance};
-use crate::law::friction;
 use crate::law::surface::SurfaceWear;
 use crate::mesh::{ColumnMesh, MeshError};
 use crate::scene::{Drive, Elastic, Scene, SurfaceEffects};
@@ -91,7 +91,7 @@ pub enum Tangential {
 /// Laws and load between the bodies.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Interface {
-    /// Coefficient of friction, -.
+    /// Coefficient of friction, -; the largest where places differ in it. That of the unworn contact until a run changes it.
     pub friction: f64,
     /// How the shear traction and the slip are found.
     pub tangential: Tangential,
@@ -170,7 +170,7 @@ fn interface(scene: &Scene, plan: &EffectsPlan, sizes: &Sizes) -> Interface {
         slave: sizes.slave,
         sticks,
         slope_weights: slope_weights(scene, sticks),
-        friction: friction::coefficient(scene.friction),
+        friction: scene.friction.unworn(),
         tangential,
         wear: Sides {
             slider: (scene.slider.surface_wear(surface, None)).filter(|_| on(Effect::SliderWear)),

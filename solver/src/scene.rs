@@ -24,14 +24,13 @@ pub use tuning::{Power, Tuning};
 use std::borrow::Cow;
 
 use crate::effects::{Effect, Switches};
-use crate::law::friction;
 use crate::law::pace::Pace;
 use crate::law::surface::SurfaceWear;
 use crate::number::count_at_least;
 use crate::sides::{Side, Sides};
 
 pub use crate::law::elastic::Elastic;
-pub use crate::law::friction::Friction;
+pub use crate::law::friction::{Friction, Table};
 pub use crate::law::heating::sliding::Conductor;
 pub use crate::law::plating::{Layer, MOST_LAYERS};
 pub use crate::law::softening::Softening;
@@ -55,7 +54,7 @@ pub struct Scene {
     pub slider: Body<SliderShape>,
     /// The fixed part, below.
     pub receptacle: Body<BlockShape>,
-    /// Friction between both.
+    /// Friction between both; a table by cycle ends with the run.
     pub friction: Friction,
     /// Temperature of the surroundings, °C.
     pub temperature_c: f64,
@@ -91,7 +90,12 @@ pub struct Scene {
 impl Scene {
     /// Whether there is friction between the bodies.
     pub(crate) fn has_friction(&self) -> bool {
-        friction::coefficient(self.friction) > 0.0
+        self.largest_friction() > 0.0
+    }
+
+    /// Largest coefficient of friction that the run can meet, -.
+    pub fn largest_friction(&self) -> f64 {
+        self.friction.largest()
     }
 
     /// The scene of each block of its mission, with the motion of that block and as many cycles as it has in the whole mission;

@@ -76,6 +76,7 @@ impl Bench {
                 slider: &self.slider_slope,
                 receptacle: &self.zero[0],
             },
+            friction: Sides::default(),
         };
         let mut next = last.clone();
         let place = Displacement {

@@ -103,6 +103,7 @@ fn uniform_pressure_passes_through_non_matching_meshes_at_any_position() {
         let surfaces = Surfaces {
             depth: zero.as_slices(),
             slope: zero.as_slices(),
+            friction: Sides::default(),
         };
         let mut last = ContactState::untouched(&operators, slave);
         last.slider_x = slider_x;

@@ -49,7 +49,8 @@ pub(crate) fn vibrated_and_wiped(repeat: u64, slider: Option<f64>) -> Scene {
     scene
 }
 
-fn one_by_one(mut scene: Scene) -> Scene {
+/// The same, no repetitions of which are done together.
+pub(crate) fn one_by_one(mut scene: Scene) -> Scene {
     scene.accuracy.tuning.repetitions_of_done = Power {
         value: 0.0,
         exponent: 0.0,

@@ -39,6 +39,7 @@ fn mirrored_motion_gives_mirrored_tractions() {
             slider: &slider_slope,
             receptacle: &zero[0],
         },
+        friction: Sides::default(),
     };
     let run = |side: f64| {
         let mut solver = Solver::default();

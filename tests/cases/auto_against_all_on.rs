@@ -9,7 +9,6 @@ mod scenes;
 
 use comfy_table::{Table, presets};
 use solver::effects::{self, Effect, EffectsPlan, Switches, Verdict};
-use solver::law::friction;
 use solver::record::Summary;
 use solver::scene::Scene;
 
@@ -121,7 +120,7 @@ fn skipped(plan: &EffectsPlan) -> impl Iterator<Item = Effect> {
 
 /// Every effect that has something to simulate.
 fn all_on(plan: &EffectsPlan, scene: &Scene) -> Switches {
-    let has_friction = friction::coefficient(scene.friction) > 0.0;
+    let has_friction = scene.largest_friction() > 0.0;
     let on = Effect::ALL.iter().filter(|effect| {
         let sticks = **effect == Effect::StickMemory && has_friction;
         let mut decisions = plan.decisions.iter();

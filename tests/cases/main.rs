@@ -13,6 +13,7 @@ mod backup;
 mod bench_against_calculix;
 mod calculix_agrees;
 mod cancel_running_job;
+mod changing_friction;
 mod chaos;
 mod client_commands;
 mod clock_steps;

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Deserializer, Serialize};
 use utoipa::ToSchema;
 
-use super::{Film, Spots};
+use super::{Film, Spots, count};
 use crate::enum_value::{EnumValue, string_enum};
 
 string_enum! {
@@ -76,15 +76,43 @@ pub struct Interface {
     pub films: Vec<Film>,
 }
 
+/// A coefficient of friction after a number of cycles.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct FrictionAtCycle {
+    /// Cycles done.
+    #[serde(deserialize_with = "count::required")]
+    pub cycle: u64,
+    /// Coefficient of friction, -.
+    pub coefficient: f64,
+}
+
+/// A coefficient of friction at a dose.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct FrictionAtDose {
+    /// Dose of a place, the integral of pressure times slip, MPa mm.
+    pub dose_mpa_mm: f64,
+    /// Coefficient of friction of a surface there, -.
+    pub coefficient: f64,
+}
+
 /// Friction.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct Friction {
     /// The law.
     #[schema(value_type = FrictionLaw)]
     pub law: EnumValue<FrictionLaw>,
-    /// `coulomb`: the coefficient of friction, -. Required there.
+    /// `coulomb`: the coefficient of friction, -; or `by_cycle`, or `by_dose`. With layers that have a `friction_coefficient` it is
+    /// that of the bases, and of layers without one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub coefficient: Option<f64>,
+    /// `coulomb`: coefficients over the cycles done, in ascending order; linear between them, constant beyond.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub by_cycle: Option<Vec<FrictionAtCycle>>,
+    /// `coulomb`: coefficients over the dose that a place of a surface has received, in ascending order; linear between them,
+    /// constant beyond. Where both parts wear, the contact has the mean of both surfaces' there; a part that does not wear does not
+    /// count.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub by_dose: Option<Vec<FrictionAtDose>>,
 }
 
 /// Wear of each part: the preset's if absent, none if `null`.

@@ -39,4 +39,8 @@ pub struct PlatingLayer {
     /// Its wear law; that of the library's material if it lists a wear coefficient, required otherwise.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub wear: Option<WearLaw>,
+    /// Coefficient of friction where this layer lies open, -. The contact has the mean of both surfaces' there; a part none of whose
+    /// layers has one does not count.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub friction_coefficient: Option<f64>,
 }

@@ -223,10 +223,7 @@ mod tests {
         .expect("accepted");
         let load = variations[0].resolved.spec.load.as_ref().expect("a load");
         assert_eq!(load.n, Some(0.25));
-        assert!(
-            (solver::law::friction::coefficient(variations[1].resolved.scene.friction) - 0.5).abs()
-                < 1e-15
-        );
+        assert!((variations[1].resolved.scene.friction.unworn() - 0.5).abs() < 1e-15);
         assert_eq!(variations[2].resolved.spec.accuracy.preset, None);
     }
 

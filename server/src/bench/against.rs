@@ -65,7 +65,7 @@ fn compare(folder: &Path, element_um: f64) -> Result<Comparison, BenchError> {
         scene.accuracy.increments_per_cycle = Some(4 * QUARTER);
     })?;
     // mu P, N/mm.
-    let limit = solver::law::friction::coefficient(scene.friction) * scene.load_n_per_mm;
+    let limit = scene.friction.unworn() * scene.load_n_per_mm;
     let (setup_s, (model, condensed)) = set_up(&scene)?;
     let operators = &condensed.operators;
     let (cycle_s, (lowered_mm, forces)) = measured(3, || {

@@ -177,6 +177,9 @@ impl Deck {
         self.line("*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR");
         self.line(format!("{penalty:e}"));
         let friction = model.interface.friction;
+        if scene.friction.changes() {
+            self.line("** the coefficient of friction is that of the unworn contact");
+        }
         if friction > 0.0 {
             self.line(format!(
                 "*FRICTION\n{friction}, {:e}",

@@ -2,8 +2,9 @@
 
 mod archard;
 mod barwell;
-pub(super) mod coulomb;
+mod coulomb;
 mod dissipated_energy;
+pub(super) mod friction_table;
 mod frictionless;
 mod load_repetition;
 mod mechanism;
@@ -38,7 +39,7 @@ use wearing_side::WearingSide;
 const FRICTION: &str = "/interface/friction";
 
 /// The engine's laws.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Laws {
     pub(crate) friction: scene::Friction,
     pub(crate) wear: Sides<Option<scene::WearLaw>>,
@@ -55,7 +56,7 @@ pub(crate) fn resolve(
 ) -> (Interface, Laws) {
     let (materials, resolved) = (by_side(materials), by_side(resolved));
     let (friction, friction_law) = friction(given, materials, (preset, coverings), diagnostics);
-    let coefficient = solver::law::friction::coefficient(friction_law);
+    let coefficient = friction_law.unworn();
     let wear = Sides::from_fn(|at| {
         let law = match at {
             Side::Slider => given.wear.slider.as_ref(),

@@ -89,6 +89,7 @@ fn preset_layer(
         material: Some(Material::Named(material.value.to_owned())),
         thickness_um: Some(thickness_um.value),
         thickness_mm: None,
+        friction_coefficient: None,
         wear: Some(WearLaw {
             k: Some(k.value),
             ..WearLaw::of(WearLawName::Archard)

@@ -8,7 +8,7 @@ use solver::scene::MOST_LAYERS;
 
 use crate::reference::materials::LibraryMaterial;
 use crate::spec::diagnostics::NAME_LIMIT;
-use crate::spec::law::{self, coulomb};
+use crate::spec::law::{self, friction_table};
 use crate::spec::motion::{fourier, insertion, thermal_cycle, vibration};
 use crate::spec::{
     LABEL_LIMIT, LABEL_TEXT_LIMIT, accuracy, criterion, effects, environment, films, life, load,
@@ -83,7 +83,18 @@ fn numbers() -> Vec<(&'static str, &'static str, RangeInclusive<f64>)> {
         ("Environment", "temperature_c", environment::TEMPERATURE_C),
         ("Environment", "current_a", environment::CURRENT_A),
         ("Environment", "frequency_hz", environment::FREQUENCY_HZ),
-        ("Friction", "coefficient", coulomb::RANGE),
+        ("Friction", "coefficient", friction_table::COEFFICIENT_RANGE),
+        (
+            "FrictionAtCycle",
+            "coefficient",
+            friction_table::COEFFICIENT_RANGE,
+        ),
+        (
+            "FrictionAtDose",
+            "coefficient",
+            friction_table::COEFFICIENT_RANGE,
+        ),
+        ("FrictionAtDose", "dose_mpa_mm", friction_table::DOSE_MPA_MM),
         ("Spots", "cluster_diameter_mm", spots::CLUSTER_DIAMETER_MM),
         ("Spots", "asperity_radius_mm", spots::ASPERITY_RADIUS_MM),
         (
@@ -95,6 +106,11 @@ fn numbers() -> Vec<(&'static str, &'static str, RangeInclusive<f64>)> {
         ("Film", "growth_time_h", films::GROWTH_TIME_H),
         ("PlatingLayer", "thickness_um", plating::THICKNESS_UM),
         ("PlatingLayer", "thickness_mm", plating::THICKNESS_MM),
+        (
+            "PlatingLayer",
+            "friction_coefficient",
+            friction_table::COEFFICIENT_RANGE,
+        ),
         ("LifeSettings", "coefficient_of_variation", life::VARIATION),
         ("Criterion", "fraction", criterion::FRACTION),
         ("Criterion", "mm", criterion::WORN_DEPTH_MM),
@@ -115,6 +131,7 @@ fn others() -> Vec<(&'static str, &'static str, Value)> {
     let (cycles, increments) = (counts(&motion::CYCLES), counts(&accuracy::INCREMENTS));
     let mut jump = counts(&motion::CYCLES);
     jump["type"] = json!("integer");
+    let points = json!({"minItems": 2, "maxItems": friction_table::MOST_POINTS});
     let text = json!({"minLength": 1, "maxLength": LABEL_TEXT_LIMIT});
     let labels = json!({
         "maxProperties": LABEL_LIMIT,
@@ -136,6 +153,9 @@ fn others() -> Vec<(&'static str, &'static str, Value)> {
         ("Motion", "contacts", counts(&vibration::CONTACTS)),
         ("Motion", "terms", json!({"maxItems": fourier::TERM_LIMIT})),
         ("FourierTerm", "order", counts(&fourier::ORDER)),
+        ("FrictionAtCycle", "cycle", counts(&friction_table::CYCLE)),
+        ("Friction", "by_cycle", points.clone()),
+        ("Friction", "by_dose", points),
         (
             "Motion",
             "psd",
@@ -314,6 +334,7 @@ mod tests {
                 "/interface/friction",
                 format!(r#""interface":{{"friction":{{"law":"coulomb","{field}":{value}}}}}"#),
             ),
+            "FrictionAtCycle" | "FrictionAtDose" => friction_table((object, field), value),
             "WearLaw" => {
                 let (law, other) = law_with(field);
                 (
@@ -363,6 +384,28 @@ mod tests {
         };
         let text = format!(r#"{{"system":{{"kind":"dimm"}},{rest}}}"#);
         (text, format!("{pointer}/{field}"))
+    }
+
+    /// A table of friction with a value at a field of its first point, and the pointer to that point.
+    fn friction_table((object, field): (&str, &str), value: f64) -> (&'static str, String) {
+        let (pointer, table, other) = match (object, field) {
+            ("FrictionAtCycle", _) => {
+                ("/interface/friction/by_cycle/0", "by_cycle", r#""cycle":0"#)
+            }
+            (_, "coefficient") => (
+                "/interface/friction/by_dose/0",
+                "by_dose",
+                r#""dose_mpa_mm":0"#,
+            ),
+            _ => (
+                "/interface/friction/by_dose/0",
+                "by_dose",
+                r#""coefficient":0"#,
+            ),
+        };
+        let points = format!(r#"[{{"{field}":{value},{other}}}]"#);
+        let text = format!(r#""interface":{{"friction":{{"law":"coulomb","{table}":{points}}}}}"#);
+        (pointer, text)
     }
 
     #[test]

@@ -197,6 +197,7 @@ mod tests {
             peak_pressure_mpa: 0.0,
             contact_half_width_mm: 0.0,
             dissipated_energy_mj_per_mm: 0.0,
+            friction_coefficient: 0.0,
         })
     }
 

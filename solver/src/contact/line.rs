@@ -24,6 +24,7 @@ mod band;
 mod complementarity;
 mod deformation;
 mod error;
+mod friction;
 mod geometry;
 mod increment;
 mod local_slopes;

@@ -11,7 +11,7 @@ use crate::model::resolution::radius;
 use crate::number::real_cycles;
 use crate::schedule::jump::Stroke;
 use crate::schedule::plan::{CyclePlan, Cycles, Followed};
-use crate::sides::Sides;
+use crate::sides::{Side, Sides};
 
 /// Load at a turning point over that at the neutral position from which on a groove is not extrapolated: where a spring has
 /// faded on the floor, all wear is that of the walls, which the rate of a groove under an even load does not describe. Arbitrary:
@@ -44,8 +44,8 @@ impl Integrator<'_> {
             } else {
                 (jump, [0; 2])
             };
-            self.update_slopes(state);
-            self.extrapolate(state, extrapolated[0]);
+            self.update_surfaces(state, real_cycles(computed));
+            self.extrapolate(state, (extrapolated[0], computed));
             let cycles = Cycles {
                 done: state.cycle,
                 jump: computed,
@@ -54,7 +54,9 @@ impl Integrator<'_> {
             let plan = CyclePlan::new(run, self.followed(state), (stroke, cycles), detailed);
             let error = match self.integrate(state, plan, (computed, extrapolated[1]), detailed) {
                 Ok(record) => {
-                    self.measure_jump(state, &before);
+                    if self.measure_jump(state, &before) > 0.0 {
+                        self.correct_extrapolated_energy(state, &before, computed);
+                    }
                     let shorter = self.rejected(state, (stroke, jump));
                     let Some(shorter) = shorter else {
                         return Ok(record);
@@ -85,14 +87,16 @@ impl Integrator<'_> {
     fn rejected(&self, state: &CycleState, (stroke, jump): (Stroke, u64)) -> Option<u64> {
         let wear = self.wear;
         let by_depth = |wear: Option<SurfaceWear>| wear.is_some_and(SurfaceWear::depends_on_depth);
-        if !(by_depth(wear.slider) || by_depth(wear.receptacle)) {
+        let friction = |side| self.scene.friction.follows_wear_of(side);
+        let mut sides = Side::BOTH.into_iter();
+        if !sides.any(|side| by_depth(*wear.of(side)) || friction(side)) {
             return None;
         }
         state.jump.rejected(&self.scene.accuracy, stroke, jump)
     }
 
-    /// Measures what the next jump depends on.
-    fn measure_jump(&self, state: &mut CycleState, before: &CycleState) {
+    /// Measures what the next jump depends on; returns the error by the change of friction.
+    fn measure_jump(&self, state: &mut CycleState, before: &CycleState) -> f64 {
         let done = state.cycle - before.cycle;
         let load = |state: &CycleState| state.contact.load(&self.pair.interface);
         state.loss_of_load = loss_of_load(load(before), load(state), real_cycles(done));
@@ -101,11 +105,16 @@ impl Integrator<'_> {
         let weights = Sides::from_fn(|side| {
             surface::at_relative_rates(*wear.of(side), widths.of(side), state.depth.of(side))
         });
-        let [before, after] = [&before.depth, &state.depth].map(|depth| {
+        let depths = (&before.depth, &state.depth);
+        let [before, after] = [depths.0, depths.1].map(|depth| {
             Sides::from_fn(|side| surface::equivalents(*wear.of(side), depth.of(side)))
         });
         let worn = (as_slices(&before), as_slices(&after));
-        state.jump.update(as_slices(&weights), worn, done);
+        let friction = self.change_of_friction(depths, worn);
+        state
+            .jump
+            .update((as_slices(&weights), friction), worn, done);
+        friction
     }
 
     pub(super) fn followed(&self, state: &CycleState) -> Followed {
@@ -139,6 +148,7 @@ impl Integrator<'_> {
         let passes = self.wear.receptacle;
         stroke.is_groove &= is_even && passes.is_none_or(SurfaceWear::is_even);
         stroke.is_groove &= self.heating.as_ref().is_none_or(|heating| heating.is_even);
+        stroke.limit_change_of_friction(scene, state.cycle);
         let is_proportional =
             |wear: Option<SurfaceWear>| wear.is_none_or(SurfaceWear::is_proportional);
         if !(is_proportional(self.wear.slider) && is_proportional(self.wear.receptacle)) {

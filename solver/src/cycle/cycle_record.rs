@@ -16,6 +16,8 @@ pub struct Neutral {
     pub half_width: f64,
     /// Its middle, mm.
     pub middle: f64,
+    /// Mean coefficient of friction over the contact, -.
+    pub friction: f64,
 }
 
 impl Neutral {
@@ -26,6 +28,7 @@ impl Neutral {
             peak_pressure: contact.peak_pressure(),
             half_width: contact.half_width(x),
             middle: contact.middle(x),
+            friction: contact.friction,
         }
     }
 }

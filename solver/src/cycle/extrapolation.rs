@@ -13,8 +13,13 @@ use crate::number::real_cycles;
 use crate::scene::Spread;
 
 impl Integrator<'_> {
-    /// Wears the receptacle by so many cycles, by fewer where it would be worn through; returns the dissipated energy, mJ/mm.
-    pub(super) fn extrapolate(&mut self, state: &mut CycleState, most: u64) -> f64 {
+    /// Wears the receptacle by so many cycles before so many computed ones, by fewer where it would be worn through; returns the
+    /// dissipated energy, mJ/mm.
+    pub(super) fn extrapolate(
+        &mut self,
+        state: &mut CycleState,
+        (most, computed): (u64, u64),
+    ) -> f64 {
         let body = &self.pair.operators.receptacle;
         let [one, other] = &state.wear_of_strokes;
         if one.len() != body.x.len() || other.len() != body.x.len() {
@@ -55,11 +60,13 @@ impl Integrator<'_> {
                         .zip(&body.widths)
                         .map(|(wear, width)| wear * width);
                     state.worn_area.receptacle += area.sum::<f64>();
-                    let energy = equal * state.energy_per_cycle;
-                    state.energy += energy;
                     state.depth = worn;
+                    let before = state.cycle;
                     self.count(state, cycles);
-                    self.update_slopes(state);
+                    self.update_surfaces(state, real_cycles(computed));
+                    let friction = self.friction_since(before, state);
+                    let energy = equal * state.energy_per_cycle * friction;
+                    state.energy += energy;
                     return energy;
                 }
             }

@@ -51,6 +51,7 @@ impl CycleState {
     /// Another motion has worn the surfaces since the last cycle of this one, so that a groove is extrapolated from new ones.
     fn forget_last_cycle(&mut self) {
         self.wear_of_strokes = Default::default();
+        self.friction_per_cycle = 0.0;
         self.energy_per_cycle = 0.0;
         self.loss_of_load = 0.0;
     }

@@ -76,6 +76,8 @@ pub struct CycleState {
     /// Wear of the receptacle per cycle in both strokes of the last computed one at its contact nodes, mm; none before the
     /// first.
     pub(crate) wear_of_strokes: [Vec<f64>; 2],
+    /// Mean coefficient of friction in the same, -; the largest where places differ in it.
+    pub(crate) friction_per_cycle: f64,
     /// Energy dissipated per cycle in the same, mJ/mm.
     pub(crate) energy_per_cycle: f64,
     /// Relative loss of the load per cycle since the one before.
@@ -108,6 +110,7 @@ impl CycleState {
             work: Work::default(),
             most_increments: 0,
             wear_of_strokes: Default::default(),
+            friction_per_cycle: 0.0,
             energy_per_cycle: 0.0,
             loss_of_load: 0.0,
             skew: Skew::default(),

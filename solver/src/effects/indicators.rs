@@ -9,7 +9,6 @@ use super::effect::Effect;
 use super::small_strain;
 use crate::electrical;
 use crate::law::elastic::dundurs_beta;
-use crate::law::friction;
 use crate::law::heating::spot;
 use crate::law::resistance::Deformation;
 use crate::law::skin_effect;
@@ -35,6 +34,7 @@ pub(super) struct Indicators<'a> {
     /// Wear of the sides that are not switched off, and its rates.
     wear: Sides<Option<SurfaceWear>>,
     rates: Sides<f64>,
+    /// The largest coefficient of the run, -.
     friction: f64,
     radius: f64,
     /// A_c/A.
@@ -58,7 +58,7 @@ impl<'a> Indicators<'a> {
             blocks,
             wear: scene.surface_wear(),
             rates: resolution::wear_rates(&scene, sizes.hertz_half_width),
-            friction: friction::coefficient(scene.friction),
+            friction: scene.largest_friction(),
             radius: resolution::radius(&scene),
             lost_slip: lost_slip(&scene, sizes.hertz_half_width),
             sizes,
@@ -286,6 +286,10 @@ impl<'a> Indicators<'a> {
 
     /// The more it wears beside the other body, the more it changes.
     fn wear(&self, side: Side, depth: Sides<f64>) -> f64 {
+        // Its worn depth decides about the friction.
+        if self.scene.friction.follows_wear_of(side) {
+            return 1.0;
+        }
         let share = |values: Sides<f64>, factor: f64| {
             let (own, other) = (*values.of(side), *values.of(side.other()));
             if own > 0.0 {

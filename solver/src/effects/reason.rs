@@ -6,7 +6,7 @@ use super::indicators::Indicators;
 
 use crate::law::elastic::contact_modulus;
 use crate::scene::Scene;
-use crate::sides::Sides;
+use crate::sides::{Side, Sides};
 
 /// What a decision was made by.
 #[derive(Debug, Clone, Copy)]
@@ -97,6 +97,11 @@ pub(super) fn reason(
         );
     }
     let result = consequence(effect, verdict.is_on());
+    if follows_friction(scene, effect) {
+        return format!(
+            "{switch}the coefficient of friction follows from its worn depth: {result}"
+        );
+    }
     let together = if called_for && verdict == Verdict::Simulated {
         ", and more than half of the tolerance together with all that is left out"
     } else {
@@ -121,6 +126,15 @@ fn frictional_heat(indicators: &Indicators<'_>) -> String {
     format!(
         "friction heats the unworn contact by {mean:.2e} K on average, {most:.2e} K at most{spot}"
     )
+}
+
+/// Whether the coefficient of friction follows from the wear that an effect is.
+fn follows_friction(scene: &Scene, effect: Effect) -> bool {
+    match effect {
+        Effect::SliderWear => scene.friction.follows_wear_of(Side::Slider),
+        Effect::ReceptacleWear => scene.friction.follows_wear_of(Side::Receptacle),
+        _ => false,
+    }
 }
 
 /// The reason of an effect that a run has called for.

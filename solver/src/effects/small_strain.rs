@@ -1,6 +1,5 @@
 //! Error of small-strain elasticity.
 
-use crate::law::friction;
 use crate::model::resolution;
 use crate::scene::Scene;
 
@@ -15,7 +14,7 @@ pub const LIMIT: f64 = 0.01;
 /// 0.17 % at p0/E* = 0.3 % and by 0.55 % at 1 %. Wear only ever widens the contact and lowers this.
 pub fn cost(scene: &Scene) -> f64 {
     let strain = 0.5 * resolution::choose(scene).hertz_half_width / resolution::radius(scene);
-    let friction = friction::coefficient(scene.friction);
+    let friction = scene.largest_friction();
     0.5 * strain * (1.0 + 0.16 * friction * friction)
 }
 

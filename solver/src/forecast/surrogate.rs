@@ -126,7 +126,8 @@ impl Scar {
         }
     }
 
-    pub(super) fn stroke(&self, scene: &Scene) -> Stroke {
+    /// The stroke after so many cycles.
+    pub(super) fn stroke(&self, scene: &Scene, cycle: u64) -> Stroke {
         let mut stroke = Stroke::new(
             &self.tuning,
             self.shares.map(|share| share * self.wear),
@@ -136,6 +137,7 @@ impl Scar {
             self.cycles,
         );
         stroke.is_groove &= self.passes_are_even;
+        stroke.limit_change_of_friction(scene, cycle);
         if self.is_proportional {
             stroke
         } else {

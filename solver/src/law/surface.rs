@@ -152,6 +152,15 @@ impl SurfaceWear {
         }
     }
 
+    /// The rate at which the equivalent grows by the dose, 1/MPa, where it is the same in every state.
+    pub fn dose_rate(self) -> Option<f64> {
+        match self {
+            Self::Law(law) => law.uniform(),
+            Self::ByDose(curve) => Some(curve.initial_rate()),
+            Self::ByPower { .. } => None,
+        }
+    }
+
     /// The curve of its depth over the dose, if it has one.
     pub fn dose_curve(self) -> Option<DoseCurve> {
         match self {

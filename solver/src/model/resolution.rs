@@ -11,7 +11,6 @@
 use super::worn_depth;
 use crate::effects::Effect;
 use crate::law::elastic::contact_modulus;
-use crate::law::friction;
 use crate::law::surface::SurfaceWear;
 use crate::law::wear::LocalState;
 use crate::mesh::grading::Spacing;
@@ -67,8 +66,8 @@ fn strip(height: f64, half_width: f64) -> f64 {
     (2.0 * (4.0 * height / half_width).ln() - 1.0).max(0.0)
 }
 
-/// Imposed displacement at which all of the contact slips, mm: mu P times the compliance of both bodies to a tangential
-/// force on their surfaces. Near the contact it is the normal one, of a strip; a body of height H and half-width w
+/// Imposed displacement at which all of the contact slips, mm: the largest mu P of the run times the compliance of both bodies
+/// to a tangential force on their surfaces. Near the contact it is the normal one, of a strip; a body of height H and half-width w
 /// besides shears and bends like a beam that is held at its far face (Timoshenko), with G = E/(2 (1 + nu)) and E' =
 /// E/(1 - nu^2):
 ///   E' delta / Q = (2 ln(4 min(H, w)/a) - 1) / pi + H^3 / (2 w^3) + 1.2 H / (w (1 - nu)).
@@ -98,7 +97,7 @@ pub(crate) fn gross_slip(scene: &Scene, half_width: f64) -> f64 {
     };
     let half_block = 0.5 * block.shape.length_mm;
     let lower = compliance(block.elastic, block.shape.height_mm, half_block);
-    friction::coefficient(scene.friction) * scene.load_n_per_mm * (upper + lower)
+    scene.largest_friction() * scene.load_n_per_mm * (upper + lower)
 }
 
 /// Whether part of the contact may stick through the whole stroke: the amplitude is below twice the displacement of

@@ -106,6 +106,9 @@ declare_report! {
         contact_half_width_mm ["mm"] = end.state.neutral.half_width,
         /// Accumulated energy dissipated by friction, mJ per mm of depth.
         dissipated_energy_mj_per_mm ["mj_per_mm"] = end.state.energy,
+        /// Mean coefficient of friction over the contact, weighted by its pressure, -: the limit of the tangential force over the load.
+        #[serde(default)]
+        friction_coefficient ["coefficient"] = end.state.neutral.friction,
     }
 }
 

@@ -3,12 +3,13 @@
 //! A computed cycle multiplies its wear by the jump dN, an Euler step in cycles. Its error is half the change of
 //! the wear-rate profiles over the jump: with r = (worn depth of the cycle)/dN,
 //!   e = 1/2 * integral |r_new - r_old| dx / integral r_new dx  over both surfaces,
-//! relative to the wear of the step. The next jump scales with the tolerance over e.
+//! relative to the wear of the step, and that of a coefficient of friction that follows from the wear (`cycle/friction.rs`). The next
+//! jump scales with the tolerance over e. A coefficient of friction by cycle bounds it too, and no jump passes a point of its table.
 
 use serde::{Deserialize, Serialize};
 
 use crate::number::{cycles_at_least, real, real_cycles};
-use crate::scene::{Accuracy, Tuning};
+use crate::scene::{Accuracy, Scene, Tuning};
 use crate::sides::{Side, Sides};
 
 /// A computed cycle wears `jump` passes at once, so that scar and pressure are skewed toward the last pass, the
@@ -29,6 +30,10 @@ const REJECTED: f64 = 3.0;
 /// Shortest jump over the cycles done that is not accepted: a shorter one is no large part of the wear, and nodes that pass an interface
 /// one by one leave an error of their own in jumps of any length. Arbitrary.
 const SHORTEST_REJECTED: f64 = 0.01;
+
+/// Largest relative change of a coefficient of friction by cycle within a jump, over the tolerance. A jump takes the mean of its
+/// cycles, so that energy and wear are exact to the second order in it, and the reported contact is off by half of it.
+const CHANGE_OF_FRICTION: f64 = 1.0;
 
 /// Floor of the error estimate: where nothing changes, or nothing wears, jumps grow as fast as they may. Any value far
 /// below the smallest tolerance does the same.
@@ -51,6 +56,8 @@ pub(crate) struct Stroke {
     pub(crate) skew: f64,
     /// Cycles of the whole run.
     cycles: u64,
+    /// Cycles within which the coefficient of friction changes by as much as it may in a jump.
+    even_friction: f64,
 }
 
 impl Stroke {
@@ -79,6 +86,7 @@ impl Stroke {
             },
             skew: wear * 2.0 * amplitude * modulus / half_width,
             cycles,
+            even_friction: f64::INFINITY,
         }
     }
 
@@ -87,6 +95,11 @@ impl Stroke {
     #[must_use]
     pub(crate) fn of_uneven_wear(self) -> Self {
         Self { both: true, ..self }
+    }
+
+    /// Limits jumps from a number of cycles on by the change of a coefficient of friction by cycle.
+    pub(crate) fn limit_change_of_friction(&mut self, scene: &Scene, done: u64) {
+        self.even_friction = even_friction(scene, done);
     }
 
     /// Largest estimated error of a jump.
@@ -117,8 +130,17 @@ impl Stroke {
             let unskewed = largest_skew(accuracy) / self.skew.max(f64::MIN_POSITIVE);
             (tuning.jump_of_done * done).min(unskewed.max(sufficient))
         };
-        most / accuracy.refinement.cycles
+        most.min(self.even_friction) / accuracy.refinement.cycles
     }
+}
+
+/// Cycles after so many within which a coefficient of friction by cycle changes by as much as it may in a jump.
+pub(crate) fn even_friction(scene: &Scene, done: u64) -> f64 {
+    let part = CHANGE_OF_FRICTION * scene.accuracy.tolerance;
+    let table = scene.friction.by_cycle();
+    table.map_or(f64::INFINITY, |table| {
+        table.distance_of_change(real_cycles(done), part)
+    })
 }
 
 /// State of the jump control.
@@ -134,6 +156,8 @@ pub struct JumpControl {
     unshortened: f64,
     /// Estimated relative error of the last jump.
     pub error: f64,
+    /// That by the change of friction in the last jump, however short.
+    friction: f64,
     /// Sum of error times wear, and of wear: their ratio is the error of the run so far.
     weighted_error: f64,
     worn: f64,
@@ -175,7 +199,8 @@ impl JumpControl {
     /// scene.
     pub(crate) fn rejected(&self, accuracy: &Accuracy, stroke: Stroke, jump: u64) -> Option<u64> {
         let allowed = stroke.largest_error(accuracy) / accuracy.refinement.cycles;
-        let is_rejected = accuracy.cycle_jump.is_none() && self.error > REJECTED * allowed;
+        let error = self.error.max(self.friction);
+        let is_rejected = accuracy.cycle_jump.is_none() && error > REJECTED * allowed;
         let is_long = real_cycles(jump) > SHORTEST_REJECTED * real_cycles(self.done);
         (is_rejected && is_long && jump > 1).then(|| jump.div_ceil(CUT))
     }
@@ -214,16 +239,18 @@ impl JumpControl {
     }
 
     /// Updates the control with the wear of a computed cycle on both surfaces, whose nodes have these weights: its equivalent
-    /// depths before and after it. The widths of the nodes weigh bare surfaces; the rate of the layer there counts as well.
+    /// depths before and after it. The widths of the nodes weigh bare surfaces; the rate of the layer there counts as well. An
+    /// error by the change of friction in it is added.
     pub(crate) fn update(
         &mut self,
-        weights: Sides<&[f64]>,
+        (weights, friction): (Sides<&[f64]>, f64),
         (before, after): (Sides<&[f64]>, Sides<&[f64]>),
         jump: u64,
     ) {
         let dn = real_cycles(jump);
         self.last = jump;
         self.done += jump;
+        self.friction = friction;
         self.most = self.most.saturating_mul(2);
         if dn < SHORT * self.unshortened {
             return;
@@ -244,7 +271,7 @@ impl JumpControl {
         self.error = match (known, total > 0.0) {
             (false, _) => 0.0,
             (true, false) => SMALLEST_ERROR,
-            (true, true) => (0.5 * change / total).max(SMALLEST_ERROR),
+            (true, true) => (0.5 * change / total + friction).max(SMALLEST_ERROR),
         };
         self.weighted_error += self.error * total * dn;
         self.worn += total * dn;

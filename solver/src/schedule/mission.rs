@@ -2,10 +2,12 @@
 //!
 //! A repetition wears little once many are done, so that n1 cycles of the first block, then n2 of the second, m times, wear like
 //! m n1 and then m n2 cycles, up to a change of the scar of the order of what m repetitions wear. Repetitions taken together are a
-//! part of those done, so that their number is a logarithm of the repetitions; they end before a cycle that is hit exactly.
+//! part of those done, so that their number is a logarithm of the repetitions; they end before a cycle that is hit exactly, and change
+//! a coefficient of friction by cycle by no more than a jump may, since each of their blocks meets the coefficients of its own cycles.
 
 use serde::{Deserialize, Serialize};
 
+use super::jump::even_friction;
 use super::stops::{self, Progress};
 use crate::number::{cycles_at_least, real_cycles};
 use crate::scene::{Mission, Scene};
@@ -91,11 +93,13 @@ fn repetitions(
 ) -> u64 {
     let accuracy = &scene.accuracy;
     let share = accuracy.tuning.repetitions_of_done.at(accuracy.tolerance);
-    let most = (share / accuracy.refinement.cycles * real_cycles(done)).floor();
+    let even = even_friction(scene, now.cycle) / real_cycles(mission.cycles());
+    let refinement = accuracy.refinement.cycles;
+    let most = (share / refinement * real_cycles(done)).min(even / refinement);
     // Those before the repetition in which a cycle is hit exactly.
     let until = stops::next(scene, now, depth);
     let before = (until - now.cycle) / mission.cycles();
-    cycles_at_least(most)
+    cycles_at_least(most.floor())
         .min(before.max(1))
         .min(mission.repeat - done)
 }

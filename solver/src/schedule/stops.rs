@@ -41,8 +41,8 @@ pub(crate) struct Progress {
 /// the inverse of the cycles at worst, by an eighth of the square of this part.
 const LIFE_STEP: f64 = 0.01;
 
-/// The next cycle that must be hit exactly, or beyond which a criterion or a body's height would be passed at the present rate;
-/// a criterion of a life may be passed by a small step. `depth` is that of a part of a side's scar, mm.
+/// The next cycle that must be hit exactly, at a snapshot or a point of the friction's table, or beyond which a criterion or a body's
+/// height would be passed at the present rate; a criterion of a life may be passed by a small step. `depth` is that of a part of a side's scar, mm.
 pub(crate) fn next(scene: &Scene, now: Progress, depth: impl Fn(Side, f64) -> f64) -> u64 {
     if now.exceeds_resistance {
         return now.cycle + 1;
@@ -69,6 +69,7 @@ pub(crate) fn next(scene: &Scene, now: Progress, depth: impl Fn(Side, f64) -> f6
     let cycles = cycles.fold(now.cycles_left, f64::min);
     snapshot
         .unwrap_or(scene.cycles)
+        .min(next_point_of_friction(scene, now.cycle))
         .min(scene.cycles)
         .min(now.cycle.saturating_add(cycles_at_least(cycles.floor())))
 }
@@ -93,6 +94,13 @@ pub(crate) fn resistance_passed(
         cycles_at_least(linear).min(done / 2).max(allowed)
     });
     steps.min().map(|step| last + step)
+}
+
+/// The next cycle at which the coefficient of friction begins to change at another rate.
+fn next_point_of_friction(scene: &Scene, cycle: u64) -> u64 {
+    let table = scene.friction.by_cycle();
+    let next = table.and_then(|table| table.next_point(real_cycles(cycle)));
+    next.map_or(u64::MAX, cycles_at_least)
 }
 
 /// How the run ends here, if it does; `depth` is that of a part of a side's scar, mm.

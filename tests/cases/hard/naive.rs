@@ -59,6 +59,7 @@ pub(crate) fn explicit_wear(
                     slider: &slider_slope,
                     receptacle: &slope,
                 },
+                friction: Sides::default(),
             };
             // No cycles: the solve itself is without wear.
             let to = Displacement {

@@ -1,27 +1,53 @@
-//! Coulomb friction: |q| <= mu p.
-
-use std::ops::RangeInclusive;
+//! Coulomb friction: |q| <= mu p, with a coefficient that is constant, or changes by cycle or by dose.
 
 use api::spec::{Friction, FrictionLaw, Provenance};
 use solver::scene;
 
 use crate::spec::diagnostics::Diagnostics;
+use crate::spec::law::friction_table::{self, BY_CYCLE, BY_DOSE, COEFFICIENT_RANGE};
 
 const LAW: &str = "/interface/friction/law";
 const COEFFICIENT: &str = "/interface/friction/coefficient";
 
-/// Coefficient of friction, -; the highest of clean metals in air stay below 2.
-pub(in crate::spec) const RANGE: RangeInclusive<f64> = 0.0..=2.0;
-
 /// Resolves the law of a specification.
 pub(super) fn resolve(given: &Friction, diagnostics: &mut Diagnostics) -> scene::Friction {
-    let Some(coefficient) = given.coefficient else {
-        diagnostics.missing(COEFFICIENT, "`coulomb` needs it");
-        return scene::Friction::Frictionless;
-    };
-    diagnostics.check_range(COEFFICIENT, coefficient, &RANGE);
-    diagnostics.provenance(COEFFICIENT, Provenance::Given);
-    scene::Friction::Coulomb { coefficient }
+    // What stands for a law, or for a table, with faults.
+    let none = scene::Friction::Coulomb { coefficient: 0.0 };
+    let empty = || scene::Table::new(&[(0.0, 0.0)]);
+    match (given.coefficient, &given.by_cycle, &given.by_dose) {
+        (None, None, None) => {
+            diagnostics.missing(
+                COEFFICIENT,
+                "`coulomb` needs it, or `by_cycle`, or `by_dose`",
+            );
+            none
+        }
+        (Some(coefficient), None, None) => {
+            diagnostics.check_range(COEFFICIENT, coefficient, &COEFFICIENT_RANGE);
+            diagnostics.provenance(COEFFICIENT, Provenance::Given);
+            scene::Friction::Coulomb { coefficient }
+        }
+        (None, Some(points), None) => {
+            let table = friction_table::by_cycle(points, diagnostics);
+            scene::Friction::ByCycle(table.unwrap_or_else(empty))
+        }
+        (None, None, Some(points)) => {
+            let table = friction_table::by_dose(points, diagnostics);
+            scene::Friction::ByDose(table.unwrap_or_else(empty))
+        }
+        (Some(_), Some(_), _) => {
+            diagnostics.exclusive_fields(BY_CYCLE, "coefficient");
+            none
+        }
+        (Some(_), None, Some(_)) => {
+            diagnostics.exclusive_fields(BY_DOSE, "coefficient");
+            none
+        }
+        (None, Some(_), Some(_)) => {
+            diagnostics.exclusive_fields(BY_DOSE, "by_cycle");
+            none
+        }
+    }
 }
 
 /// The law with the coefficient of a preset.
@@ -35,6 +61,8 @@ pub(super) fn from_preset(
     let filled = Friction {
         law: FrictionLaw::Coulomb.into(),
         coefficient: Some(coefficient),
+        by_cycle: None,
+        by_dose: None,
     };
     (filled, scene::Friction::Coulomb { coefficient })
 }

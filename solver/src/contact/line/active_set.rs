@@ -56,7 +56,7 @@ fn required_status(
     let (gap_scale, tolerance) = (it.indentation, slack * it.tolerance);
     let slip_scale = it.indentation + problem.step.abs();
     let (p, q, slip, old) = (it.pressure[i], it.shear[i], it.slip[i], it.status[i]);
-    let cone = problem.friction * p;
+    let cone = problem.friction.at(i) * p;
     if old == Status::Open {
         if it.gap[i] >= -tolerance * gap_scale {
             return (Status::Open, 0.0);

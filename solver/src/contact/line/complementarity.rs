@@ -221,7 +221,7 @@ impl Complementarity {
                 *self.matrix.at(right, a) = -jump * scale;
                 *self.matrix.at(left, a) = jump * scale;
             }
-            *self.matrix.at(layout.shear(a)[2], a) = problem.friction;
+            *self.matrix.at(layout.shear(a)[2], a) = problem.friction.at(a);
         }
         let [_, force] = pressure.force(problem);
         *self.matrix.at(layout.height(), a) = -force / mean_width(problem);

@@ -4,6 +4,7 @@ use super::active_window::{candidates, initial_window, undeformed_gaps, widened}
 use super::complementarity::Complementarity;
 use super::deformation::Deformation;
 use super::error::ContactError;
+use super::friction::{self, Coefficient};
 use super::geometry::{Geometry, Setting};
 use super::mortar;
 use super::newton::{Convergence, Newton};
@@ -37,6 +38,8 @@ pub struct Solver {
     /// Undeformed vertical gap at height 0 of every covered node, mm.
     undeformed: Vec<f64>,
     fixed_slip: Vec<f64>,
+    /// Coefficients of friction of the coupled nodes where these differ, -.
+    friction: Vec<f64>,
     recession: Sides<Vec<f64>>,
 }
 
@@ -61,7 +64,12 @@ impl Solver {
             next.clone_from(last);
             return Ok(Increment::NONE);
         }
-        let pairing_x = pairing::position(pair, last, slider_x);
+        let friction = if surfaces.has_uniform_friction() {
+            pair.interface.friction
+        } else {
+            last.friction
+        };
+        let pairing_x = pairing::position(pair, last, (slider_x, friction));
         let covered = mortar::covered(pair, pairing_x);
         if covered.0 == covered.1 || pair.interface.load <= 0.0 {
             // Without a load, or where the stroke has taken the slider off the receptacle and a stop holds its height until
@@ -75,11 +83,13 @@ impl Solver {
         for _ in 0..MOST_EXTENSIONS {
             self.solve_window(pair, surfaces, last, (to, setting), window)?;
             let (geometry, it) = (&self.geometry, &self.iterate);
-            outcome::write(pair, geometry, it, last, setting, next);
+            let friction = Coefficient::of(pair, surfaces, &self.friction);
+            outcome::write(pair, geometry, it, last, (setting, friction), next);
             let touching =
                 self.touching_beside(pair, surfaces, next, setting, (window, covered))?;
             if touching == window {
                 let (geometry, it) = (&self.geometry, &self.iterate);
+                let friction = Coefficient::of(pair, surfaces, &self.friction);
                 let recession = &mut self.recession;
                 let mut work = std::mem::take(&mut self.newton.work);
                 work.increments = 1;
@@ -87,7 +97,7 @@ impl Solver {
                 return Ok(Increment::of(
                     (pair, geometry, it),
                     (&self.wear, recession),
-                    next,
+                    (next, friction),
                     work,
                 ));
             }
@@ -190,6 +200,9 @@ impl Solver {
         let step = slider_x - last.slider_x + to.surface_slip;
         self.assemble_fixed_slip((pair, zones), last, step);
         let geometry = &self.geometry;
+        let (pairing_x, nodes) = (setting.pairing_x, (first, end));
+        friction::interpolate(pair, surfaces, pairing_x, nodes, &mut self.friction);
+        let friction = Coefficient::of(pair, surfaces, &self.friction);
         let problem = Problem {
             pair,
             zones,
@@ -198,7 +211,7 @@ impl Solver {
             width: &pair.slave().widths[first..end],
             slope: &geometry.slopes.interface,
             master_slope: &geometry.slopes.master,
-            friction: acting_friction(interface, step),
+            friction: acting_friction(interface, friction, step),
             tracks_slip,
             load: setting.load,
             spring: setting.spring,
@@ -232,14 +245,14 @@ impl Solver {
         match end {
             Convergence::Converged => {
                 if interface.tangential == Tangential::Omitted && step != 0.0 {
-                    self.iterate.apply_friction(interface.friction);
+                    self.iterate.apply_friction(friction);
                 }
                 Ok(())
             }
-            _ if wall * problem.friction > 1.0 => Err(ContactError::Jammed {
+            _ if wall * problem.friction.largest() > 1.0 => Err(ContactError::Jammed {
                 slider_x_mm: slider_x,
                 slope: wall,
-                limit: interface.friction.recip(),
+                limit: problem.friction.largest().recip(),
             }),
             Convergence::Singular { active } => Err(ContactError::NoEquilibrium {
                 slider_x_mm: slider_x,
@@ -282,11 +295,15 @@ impl Solver {
 }
 
 /// Coefficient of the friction that acts on the bodies in a step of the slider; an imposed slip of zero has no direction.
-fn acting_friction(interface: &Interface, step: f64) -> f64 {
+fn acting_friction<'a>(
+    interface: &Interface,
+    friction: Coefficient<'a>,
+    step: f64,
+) -> Coefficient<'a> {
     match interface.tangential {
-        Tangential::StickSlip => interface.friction,
-        Tangential::ImposedSlip if step != 0.0 => interface.friction,
-        Tangential::ImposedSlip | Tangential::Omitted => 0.0,
+        Tangential::StickSlip => friction,
+        Tangential::ImposedSlip if step != 0.0 => friction,
+        Tangential::ImposedSlip | Tangential::Omitted => Coefficient::Uniform(0.0),
     }
 }
 

@@ -1,5 +1,6 @@
 //! What an increment leaves: the new contact, wear, energy and residuals.
 
+use super::friction::Coefficient;
 use super::geometry::{Geometry, Setting};
 use super::pair::Pair;
 use super::problem::{GAP_TOLERANCE, Iterate};
@@ -7,6 +8,7 @@ use super::state::ContactState;
 use super::status::Status;
 use super::wear_coupling::WearCoupling;
 use super::work::Work;
+use crate::law::friction::weighted_mean;
 use crate::model::Tangential;
 use crate::sides::Sides;
 
@@ -66,7 +68,7 @@ impl<'a> Increment<'a> {
     pub(super) fn of(
         (pair, geometry, it): (&Pair<'_>, &Geometry, &'a Iterate),
         (wear, recession): (&WearCoupling, &'a mut Sides<Vec<f64>>),
-        next: &ContactState,
+        (next, friction): (&ContactState, Coefficient<'_>),
         work: Work,
     ) -> Self {
         let coupling = &geometry.coupling;
@@ -94,7 +96,7 @@ impl<'a> Increment<'a> {
                 it.gap[i].abs()
             };
             complementarity = complementarity.max(violation);
-            cone = cone.max(it.shear[i].abs() - pair.interface.friction * it.pressure[i]);
+            cone = cone.max(it.shear[i].abs() - friction.at(i) * it.pressure[i]);
         }
         Self {
             first: Sides::from_fn(|side| {
@@ -122,7 +124,7 @@ pub(super) fn write(
     geometry: &Geometry,
     it: &Iterate,
     last: &ContactState,
-    setting: Setting,
+    (setting, friction): (Setting, Coefficient<'_>),
     next: &mut ContactState,
 ) {
     let coupling = &geometry.coupling;
@@ -155,4 +157,12 @@ pub(super) fn write(
     let (begin, stop) = coupling.master_range;
     next.set_loaded(slave, coupling.first..coupling.end);
     next.set_loaded(slave.other(), begin..stop);
+    next.friction = match friction {
+        Coefficient::Uniform(coefficient) => coefficient,
+        Coefficient::Nodal(coefficients) => {
+            let widths = &pair.slave().widths[coupling.first..coupling.end];
+            let forces = it.pressure.iter().zip(widths);
+            weighted_mean(coefficients, forces.map(|(p, width)| width * p))
+        }
+    };
 }

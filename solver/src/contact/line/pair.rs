@@ -130,6 +130,15 @@ pub struct Surfaces<'a> {
     pub depth: Sides<&'a [f64]>,
     /// Slope dy/dx.
     pub slope: Sides<&'a [f64]>,
+    /// Coefficients of friction of the surfaces whose places differ in it, -; that of the interface without them.
+    pub friction: Sides<Option<&'a [f64]>>,
+}
+
+impl Surfaces<'_> {
+    /// Whether all places have the coefficient of friction of the interface.
+    pub(super) fn has_uniform_friction(&self) -> bool {
+        self.friction.slider.is_none() && self.friction.receptacle.is_none()
+    }
 }
 
 /// Slopes dy/dx of a body's contact surface that has receded by `depth`: of the unworn shape exactly, of the depth by

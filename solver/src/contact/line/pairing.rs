@@ -15,9 +15,14 @@ use super::state::ContactState;
 use crate::condensation::ZoneOperators;
 use crate::sides::Side;
 
-/// Displacement of the slider at which the surfaces are paired, mm, for its imposed displacement. Stored forces act on
-/// the slider, so that the jump of slider over receptacle is the sum of what they do to both bodies.
-pub(super) fn position(pair: &Pair<'_>, last: &ContactState, slider_x: f64) -> f64 {
+/// Displacement of the slider at which the surfaces are paired, mm, for its imposed displacement, with the mean coefficient of
+/// friction of the contact. Stored forces act on the slider, so that the jump of slider over receptacle is the sum of what they do to
+/// both bodies.
+pub(super) fn position(
+    pair: &Pair<'_>,
+    last: &ContactState,
+    (slider_x, friction): (f64, f64),
+) -> f64 {
     if !pair.interface.sticks {
         return slider_x;
     }
@@ -28,7 +33,7 @@ pub(super) fn position(pair: &Pair<'_>, last: &ContactState, slider_x: f64) -> f
         };
         let (elastic, slipping) = mean_displacements(zone, last.force.of(side));
         lag -= elastic;
-        largest += pair.interface.friction * slipping;
+        largest += friction * slipping;
     }
     let step = slider_x - last.slider_x;
     let lag = if step > 0.0 {

@@ -1,5 +1,6 @@
 //! One increment as a nonlinear problem, and an iterate of its solution.
 
+use super::friction::Coefficient;
 use super::mortar::Coupling;
 use super::pair::{Pair, Zones};
 use super::state::ContactState;
@@ -26,7 +27,7 @@ pub(super) struct Problem<'a> {
     pub(super) slope: &'a [f64],
     pub(super) master_slope: &'a [f64],
     /// Coefficient of the friction that acts on the bodies, -.
-    pub(super) friction: f64,
+    pub(super) friction: Coefficient<'a>,
     /// Whether each node sticks or slips by the deformation; each slips as imposed otherwise.
     pub(super) tracks_slip: bool,
     /// Vertical load at height 0, N/mm, and its increase per mm of height.
@@ -83,10 +84,10 @@ pub(super) struct Iterate {
 
 impl Iterate {
     /// Sets the shears that follow from the pressures of slipping nodes under a coefficient of friction.
-    pub(super) fn apply_friction(&mut self, coefficient: f64) {
+    pub(super) fn apply_friction(&mut self, coefficient: Coefficient<'_>) {
         let nodes = self.shear.iter_mut().zip(&self.pressure).zip(&self.status);
-        for ((shear, pressure), status) in nodes {
-            *shear = status.direction() * coefficient * pressure;
+        for (node, ((shear, pressure), status)) in nodes.enumerate() {
+            *shear = status.direction() * coefficient.at(node) * pressure;
         }
     }
 

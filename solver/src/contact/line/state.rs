@@ -33,6 +33,8 @@ pub struct ContactState {
     pub indentation: f64,
     /// Height of the loaded, unworn contact, the reference of a spring in the load; `None` before the first load.
     pub reference_height: Option<f64>,
+    /// Mean coefficient of friction over the contact, weighted by its pressure, -: the limit of Q/P in gross slip.
+    pub friction: f64,
 }
 
 impl ContactState {
@@ -51,6 +53,7 @@ impl ContactState {
             loaded: Sides::default(),
             indentation: 0.0,
             reference_height: None,
+            friction: 0.0,
         }
     }
 
@@ -61,6 +64,7 @@ impl ContactState {
         self.height = last.height;
         self.indentation = last.indentation;
         self.reference_height = last.reference_height;
+        self.friction = last.friction;
         // Open nodes have no tractions.
         let active = std::mem::take(&mut self.active);
         self.status[active.clone()].fill(Status::Open);
@@ -121,7 +125,8 @@ impl ContactState {
         acting + shears.map(|(q, width)| q * width).sum::<f64>()
     }
 
-    /// |sum of shear forces| over the sum of normal ones, in the frame of the surface; at most mu.
+    /// |sum of shear forces| over the largest that friction allows, the mean coefficient times the sum of normal ones, in the frame
+    /// of the surface; at most 1.
     pub fn friction_use(&self, widths: &[f64]) -> f64 {
         let (mut normal, mut shear) = (0.0, 0.0);
         let (first, end) = self.active_range().unwrap_or_default();
@@ -133,8 +138,8 @@ impl ContactState {
             normal += width * p;
             shear += width * q;
         }
-        if normal > 0.0 {
-            shear.abs() / normal
+        if normal > 0.0 && self.friction > 0.0 {
+            shear.abs() / normal / self.friction
         } else {
             0.0
         }

@@ -55,6 +55,7 @@ fn wear_from(
     let surfaces = Surfaces {
         depth: depth.as_slices(),
         slope: slope.as_slices(),
+        friction: Sides::default(),
     };
     let mut solver = Solver::default();
     let (mut state, mut next) = (

@@ -34,7 +34,10 @@ impl Unknown {
     pub(super) fn force(self, problem: &Problem<'_>) -> [f64; 2] {
         let (width, slope) = (problem.width[self.node()], problem.slope[self.node()]);
         let (normal, tangential) = match self {
-            Self::Pressure(_, status) => (width, -status.direction() * problem.friction * width),
+            Self::Pressure(node, status) => {
+                let friction = problem.friction.at(node);
+                (width, -status.direction() * friction * width)
+            }
             Self::Shear(_) => (0.0, -width),
         };
         [tangential - slope * normal, normal + slope * tangential]

@@ -16,7 +16,7 @@ fn wear(control: &mut JumpControl, before: f64, after: f64, jump: u64) {
         receptacle: &[1.0][..],
     };
     control.update(
-        widths,
+        (widths, 0.0),
         (depth(before).as_slices(), depth(after).as_slices()),
         jump,
     );
@@ -30,6 +30,7 @@ const STROKE: Stroke = Stroke {
     error_factor: 1.0,
     skew: 0.0,
     cycles: 1_000,
+    even_friction: f64::INFINITY,
 };
 
 #[test]
@@ -61,13 +62,17 @@ fn either_surface_controls_the_jump() {
             slider: &of_three[..],
             receptacle: &of_two[..],
         };
-        one.update(widths, (step[0].as_slices(), step[1].as_slices()), 5);
+        one.update((widths, 0.0), (step[0].as_slices(), step[1].as_slices()), 5);
         let widths = Sides {
             slider: &of_two[..],
             receptacle: &of_three[..],
         };
         let swapped = [swap(&step[0]), swap(&step[1])];
-        other.update(widths, (swapped[0].as_slices(), swapped[1].as_slices()), 5);
+        other.update(
+            (widths, 0.0),
+            (swapped[0].as_slices(), swapped[1].as_slices()),
+            5,
+        );
     }
     assert!((one.error - other.error).abs() < 1e-15 && one.error > 0.1);
     assert!((one.fastest_rate().receptacle - 0.8).abs() < 1e-15);

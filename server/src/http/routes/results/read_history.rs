@@ -126,7 +126,7 @@ mod tests {
         );
         assert!(
             header.ends_with(
-                "load_n_per_mm,peak_pressure_mpa,contact_half_width_mm,dissipated_energy_mj_per_mm"
+                "peak_pressure_mpa,contact_half_width_mm,dissipated_energy_mj_per_mm,friction_coefficient"
             ),
             "{header}"
         );

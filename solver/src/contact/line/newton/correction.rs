@@ -92,7 +92,7 @@ impl Correction {
                 },
                 (Unknown::Pressure(..), _) | (_, Status::Stick) => Condition::Free,
                 (Unknown::Shear(_), status) => {
-                    let factor = status.direction() * problem.friction;
+                    let factor = status.direction() * problem.friction.at(node);
                     let change = factor * it.pressure[node] - it.shear[node];
                     Condition::Follows { factor, change }
                 }
@@ -171,7 +171,9 @@ pub(super) fn settle(problem: &Problem<'_>, it: &mut Iterate) {
         match *status {
             Status::Open => (it.pressure[i], it.shear[i]) = (0.0, 0.0),
             Status::Stick => {}
-            slipping => it.shear[i] = slipping.direction() * problem.friction * it.pressure[i],
+            slipping => {
+                it.shear[i] = slipping.direction() * problem.friction.at(i) * it.pressure[i];
+            }
         }
     }
 }
