@@ -6,76 +6,24 @@
 //! of several zones has an operator for each.
 
 mod assembly;
+mod body_operators;
 mod compliance;
 mod near_field;
+mod operator_error;
 mod spreading;
 mod zone_operators;
 
-use crate::linear::{CholeskyFactor, CholeskyPattern, FactorError};
-use crate::model::{BodyModel, Model, Profile, Support, ZoneModel};
+use crate::linear::{CholeskyFactor, CholeskyPattern};
+use crate::model::{BodyModel, Model, Support, ZoneModel};
 use crate::sides::{Side, Sides};
 use assembly::Numbering;
-use std::ops::Range;
 use std::sync::Arc;
 
+pub use body_operators::{BodyOperators, Operators};
 pub use compliance::{Compliance, Response};
+pub use operator_error::OperatorError;
 pub use spreading::Spreading;
 pub use zone_operators::ZoneOperators;
-
-/// Why operators cannot be built.
-#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
-pub enum OperatorError {
-    /// An element is inverted.
-    #[error("element {element} of the {body} is inverted")]
-    Inverted {
-        /// Which body.
-        body: &'static str,
-        /// Its number, columns first.
-        element: usize,
-    },
-    /// The stiffness matrix cannot be factored.
-    #[error("{body}: {source}")]
-    Factor {
-        /// Which body.
-        body: &'static str,
-        /// Why.
-        source: FactorError,
-    },
-}
-
-/// Condensed operators of both bodies.
-pub type Operators = Sides<BodyOperators>;
-
-/// One body seen from its contact surface.
-#[derive(Debug, Clone, PartialEq)]
-pub struct BodyOperators {
-    /// Places of the contact nodes in the body's frame, mm, ascending.
-    pub x: Vec<f64>,
-    /// Length of surface that belongs to each node, projected on x, mm.
-    pub widths: Vec<f64>,
-    /// The unworn surface.
-    pub profile: Profile,
-    /// Responses of the surface, zone by zone.
-    pub zones: Vec<ZoneOperators>,
-}
-
-impl BodyOperators {
-    /// The zone in whose interior a range of contact nodes lies farthest; none if it is wider than each.
-    pub fn zone(&self, range: &Range<usize>) -> Option<&ZoneOperators> {
-        self.zone_number(range).map(|zone| &self.zones[zone])
-    }
-
-    /// Number of the same zone.
-    pub fn zone_number(&self, range: &Range<usize>) -> Option<usize> {
-        let clearances = self.zones.iter().enumerate().filter_map(|(number, zone)| {
-            let clearance = zone.clearance(range, self.x.len())?;
-            Some((clearance, number))
-        });
-        // Of equals the first.
-        let best = clearances.reduce(|best, next| if next.0 > best.0 { next } else { best });
-        best.map(|(_, number)| number)
-    }
-}
 
 /// Condensed operators, and the factors behind them.
 #[derive(Debug)]

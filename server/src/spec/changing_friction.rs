@@ -89,6 +89,7 @@ fn takes_friction(law: WearLawName) -> bool {
             | WearLawName::Saracibar
             | WearLawName::DissipatedEnergy
             | WearLawName::SevereOxidation
+            | WearLawName::Oxidation
     )
 }
 

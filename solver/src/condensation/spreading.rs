@@ -15,7 +15,8 @@ use std::f64::consts::PI;
 use std::sync::Arc;
 
 use super::assembly::{LowerTriangle, compress};
-use super::{BodyOperators, OperatorError};
+use super::body_operators::BodyOperators;
+use super::operator_error::OperatorError;
 use crate::element::{Element, Quad4, Tri3, physical_gradient};
 use crate::linear::{CholeskyPattern, SquareMatrix};
 use crate::mesh::columns::Cell;
