@@ -33,7 +33,7 @@ pub use interface::{
 pub use life::{Criterion, CriterionKind, LifeSettings, Part};
 pub use load::{Load, LoadKind};
 pub use materials::{Material, MaterialProperties, Materials};
-pub use mission::MissionBlock;
+pub use mission::{MissionBlock, MissionOrder};
 pub use motion::{DerivedMotion, Drive, FourierTerm, Motion, MotionKind, PsdPoint, Waveform};
 pub use plating::{PlatingLayer, Platings};
 pub use read::{ParseError, pointer_token};
@@ -105,6 +105,10 @@ pub struct Spec {
         deserialize_with = "count::optional"
     )]
     pub repeat: Option<u64>,
+    /// Order of the cycles of a mission.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schema(value_type = Option<MissionOrder>)]
+    pub order: Option<EnumValue<MissionOrder>>,
     /// Physical effects by name.
     #[serde(
         default,

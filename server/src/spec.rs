@@ -232,6 +232,7 @@ fn fill(spec: &Spec, kind: SystemKind, diagnostics: &mut Diagnostics) -> Filled 
         cycles: movement.cycles,
         mission: movement.mission.clone(),
         repeat: movement.repeat,
+        order: movement.order.map(Into::into),
         accuracy,
         output,
         provenance: BTreeMap::new(),
@@ -306,6 +307,9 @@ fn resolve_movement(
     }
     if spec.repeat.is_some() {
         diagnostics.fault("/repeat", "it repeats a `mission`, which is not given");
+    }
+    if spec.order.is_some() {
+        diagnostics.fault("/order", "it orders a `mission`, which is not given");
     }
     let motion = motion::resolve(spec.motion.as_ref(), preset, contact, diagnostics);
     let cycles = motion::cycles(spec.cycles, &motion, preset, diagnostics);

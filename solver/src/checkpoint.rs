@@ -148,11 +148,11 @@ impl Checkpoint {
         }
     }
 
-    /// Whether the state can be compared with that of another run after as many cycles: one that takes other repetitions of a
+    /// Whether the state can be compared with that of another run after as many cycles: one that takes other rounds of a
     /// mission together has worn its blocks in another order before they are whole.
     pub(crate) fn is_comparable(&self, scene: &Scene) -> bool {
         let (mission, repeated) = (self.mission.as_ref(), scene.mission.as_ref());
-        let repeats = repeated.is_some_and(|mission| mission.repeat > 1);
+        let repeats = repeated.is_some_and(|mission| mission.rounds() > 1);
         mission.is_none_or(|mission| !repeats || mission.is_whole(scene, &self.state))
     }
 

@@ -41,6 +41,19 @@ pub(crate) fn cycles_at_least(value: f64) -> u64 {
     value.clamp(1.0, 9_007_199_254_740_992.0).ceil() as u64
 }
 
+/// The largest whole number of cycles that is not above `value`, which is clamped to 2^53.
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "the value is clamped to a range that fits"
+)]
+pub(crate) fn whole_cycles(value: f64) -> u64 {
+    if value.is_nan() {
+        return 0;
+    }
+    value.clamp(0.0, 9_007_199_254_740_992.0) as u64
+}
+
 /// A count as a number of fixed size.
 pub(crate) fn count(count: usize) -> u64 {
     u64::try_from(count).unwrap_or(u64::MAX)

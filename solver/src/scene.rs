@@ -15,7 +15,7 @@ mod tuning;
 pub use criterion::Criterion;
 pub use electrical::{Conduction, Electrical, MOST_METALS, Metal, Spots};
 pub(crate) use heat::ContactHeat;
-pub use mission::{Block, Mission};
+pub use mission::{Block, Mission, Order};
 pub use motion::Motion;
 pub use timing::Timing;
 pub(crate) use timing::{Spread, TimedMotion};

@@ -29,6 +29,7 @@ mod verify_jumps_in_a_deep_groove;
 mod verify_long_wipe;
 mod verify_mccoll;
 mod verify_mission;
+mod verify_mixed_mission;
 mod verify_moving_line_contact;
 mod verify_plated_life;
 mod verify_plating;

@@ -3,14 +3,16 @@
 use solver::forecast::forecast;
 use solver::model::Layout;
 use solver::record::DepthProfile;
-use solver::scene::{Accuracy, Block, Criterion, Mission, Motion, Power, Scene, Timing, WearLaw};
+use solver::scene::{
+    Accuracy, Block, Criterion, Mission, Motion, Order, Power, Scene, Timing, WearLaw,
+};
 use solver::sides::{Side, Sides};
 
 use crate::recorder::{depth_at, largest_distance, solve};
 use crate::scenes::sprung_contact;
 
 /// k/H of `sprung_contact`, 1/MPa.
-const RATE: f64 = 0.004 / 1_700.0;
+pub(crate) const RATE: f64 = 0.004 / 1_700.0;
 
 pub(crate) fn block(amplitude_mm: f64, cycles: u64) -> Block {
     Block {
@@ -28,6 +30,7 @@ pub(crate) fn with_mission(scene: Scene, blocks: &[Block], repeat: u64) -> Scene
     let mission = Mission {
         blocks: blocks.to_vec(),
         repeat,
+        order: Order::InOrder,
     };
     let cycles = mission.cycles() * repeat;
     let mut scene = Scene {
@@ -58,7 +61,7 @@ pub(crate) fn one_by_one(mut scene: Scene) -> Scene {
     scene
 }
 
-fn last_profiles(scene: &Scene) -> Sides<DepthProfile> {
+pub(crate) fn last_profiles(scene: &Scene) -> Sides<DepthProfile> {
     let (_, record) = solve(scene).expect("the mission can be solved");
     let last = record.snapshots.last().expect("a snapshot at the end");
     Sides {

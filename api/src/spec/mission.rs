@@ -4,6 +4,17 @@ use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
 use super::Motion;
+use crate::enum_value::string_enum;
+
+string_enum! {
+    /// Order of the cycles of a mission.
+    MissionOrder {
+        /// In each repetition one block after the other.
+        InOrder = "in_order",
+        /// The cycles of each block spread evenly over all repetitions.
+        Mixed = "mixed",
+    }
+}
 
 /// A block of a mission.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, ToSchema)]

@@ -17,7 +17,7 @@ pub(super) fn extents(filled: &Spec, movement: &Movement) -> Vec<BlockExtent> {
         cycles: movement.total_cycles,
     }];
     let (blocks, repeat) = match &movement.blocks {
-        Some(Mission { blocks, repeat }) => (&blocks[..], *repeat),
+        Some(Mission { blocks, repeat, .. }) => (&blocks[..], *repeat),
         None => (&single[..], 1),
     };
     let named = filled.mission.iter().zip(&movement.derived_blocks);

@@ -1,11 +1,11 @@
-//! Mission: blocks of motions of any kind but `continuous`, one after the other, repeated.
+//! Mission: blocks of motions of any kind but `continuous`, one after the other or mixed, repeated.
 //!
 //! A block is resolved like a specification of its own that has its motion and cycles. One block, however often repeated, is a
 //! motion with all of its cycles.
 
 use std::ops::RangeInclusive;
 
-use api::spec::{DerivedMotion, MissionBlock, MotionKind, Spec};
+use api::spec::{DerivedMotion, MissionBlock, MissionOrder, MotionKind, Spec};
 use solver::scene;
 
 use super::diagnostics::{Diagnostics, NAME_LIMIT};
@@ -43,9 +43,16 @@ pub(super) fn resolve(
     check_drives(&blocks, diagnostics);
     let repeat = diagnostics.or_default("/repeat", given.repeat, assumed(1));
     diagnostics.check_count("/repeat", repeat, &REPEAT);
+    let order = given.order.as_ref();
+    let order = order.and_then(|order| diagnostics.enum_member("/order", order));
+    let order = diagnostics.or_default("/order", order, assumed(MissionOrder::InOrder));
     let mission = scene::Mission {
         blocks: blocks.iter().map(Block::scene).collect(),
         repeat,
+        order: match order {
+            MissionOrder::InOrder => scene::Order::InOrder,
+            MissionOrder::Mixed => scene::Order::Mixed,
+        },
     };
     let total_cycles = mission.cycles().saturating_mul(repeat);
     if total_cycles > TOTAL_CYCLES {
@@ -57,6 +64,7 @@ pub(super) fn resolve(
         motion: None,
         cycles: None,
         repeat: Some(repeat),
+        order: Some(order),
         drive: blocks[0].motion.drive,
         amplitude_mm: amplitudes.fold(0.0, f64::max),
         scene: match &mission.blocks[..] {

@@ -1,6 +1,6 @@
 //! What moves the contact: one motion for a number of cycles, or a mission.
 
-use api::spec::{DerivedMotion, MissionBlock, Motion};
+use api::spec::{DerivedMotion, MissionBlock, MissionOrder, Motion};
 use solver::scene;
 
 use super::motion::ImposedMotion;
@@ -12,6 +12,7 @@ pub(super) struct Movement {
     pub(super) cycles: Option<u64>,
     pub(super) mission: Vec<MissionBlock>,
     pub(super) repeat: Option<u64>,
+    pub(super) order: Option<MissionOrder>,
     pub(super) drive: scene::Drive,
     /// The motion of the scene, its blocks if there are several, and its cycles.
     pub(super) scene: scene::Motion,
@@ -36,6 +37,7 @@ impl Movement {
             cycles: distance_mm.is_none().then_some(cycles),
             mission: Vec::new(),
             repeat: None,
+            order: None,
             drive: motion.drive,
             scene: motion.scene,
             timing: motion.timing,

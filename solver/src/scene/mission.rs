@@ -1,8 +1,14 @@
-//! Mission: blocks of different reciprocating motions, one after the other, repeated as a whole.
+//! Mission: blocks of different reciprocating motions, repeated as a whole.
+//!
+//! It is done in rounds, in each of which every block has some cycles, one block after the other. In order a round is a repetition.
+//! Mixed, the cycles of all repetitions are spread evenly over R rounds: of n cycles in all a block has done
+//!   floor(r n/R + 1/2)
+//! after r rounds (Bresenham 1965), so that all of them are done after R; a block with fewer cycles than there are rounds is
+//! passed over in some. R is the second largest n: more rounds would leave only the block of the largest in some of them.
 
 use super::motion::Motion;
 use super::timing::Timing;
-use crate::number::real_cycles;
+use crate::number::{real_cycles, whole_cycles};
 
 /// A block of a mission.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -15,13 +21,25 @@ pub struct Block {
     pub cycles: u64,
 }
 
-/// Blocks in their order, repeated.
+/// Order of the cycles of a mission.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub enum Order {
+    /// In each repetition one block after the other.
+    #[default]
+    InOrder,
+    /// The cycles of each block spread evenly over all repetitions.
+    Mixed,
+}
+
+/// Blocks, repeated.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Mission {
     /// The blocks; at least two.
     pub blocks: Vec<Block>,
     /// How often all of them are done; at least once.
     pub repeat: u64,
+    /// The order of their cycles.
+    pub order: Order,
 }
 
 impl Mission {
@@ -29,6 +47,67 @@ impl Mission {
     pub fn cycles(&self) -> u64 {
         let cycles = self.blocks.iter().map(|block| block.cycles);
         cycles.fold(0, u64::saturating_add)
+    }
+
+    /// Number of rounds.
+    pub(crate) fn rounds(&self) -> u64 {
+        match self.order {
+            Order::InOrder => self.repeat,
+            Order::Mixed => {
+                let totals = self.blocks.iter().map(|block| self.total(block));
+                let two = totals.fold((0, 0), |(first, second), total| {
+                    if total > first {
+                        (total, first)
+                    } else {
+                        (first, second.max(total))
+                    }
+                });
+                two.1.max(1)
+            }
+        }
+    }
+
+    /// Cycles of a block in all repetitions.
+    fn total(&self, block: &Block) -> u64 {
+        block.cycles.saturating_mul(self.repeat)
+    }
+
+    /// Cycles of a block in the first so many rounds.
+    pub(crate) fn cycles_of(&self, block: usize, rounds: u64) -> u64 {
+        let block = &self.blocks[block];
+        match self.order {
+            Order::InOrder => block.cycles.saturating_mul(rounds),
+            Order::Mixed => {
+                let all = u128::from(self.rounds());
+                let done = u128::from(rounds) * u128::from(self.total(block));
+                u64::try_from((2 * done + all) / (2 * all)).unwrap_or(u64::MAX)
+            }
+        }
+    }
+
+    /// Cycles of all blocks in the first so many rounds.
+    pub(crate) fn cycles_in(&self, rounds: u64) -> u64 {
+        let cycles = (0..self.blocks.len()).map(|block| self.cycles_of(block, rounds));
+        cycles.fold(0, u64::saturating_add)
+    }
+
+    /// Rounds that are whole after so many cycles.
+    pub(crate) fn rounds_within(&self, cycles: u64) -> u64 {
+        let mean = self.cycles().max(1);
+        if self.order == Order::InOrder {
+            return cycles / mean;
+        }
+        let all = u128::from(mean) * u128::from(self.repeat);
+        let rounds = u128::from(cycles) * u128::from(self.rounds()) / all;
+        let mut rounds = u64::try_from(rounds).unwrap_or(u64::MAX);
+        // Rounding leaves a round or two.
+        while rounds > 0 && self.cycles_in(rounds) > cycles {
+            rounds -= 1;
+        }
+        while rounds < self.rounds() && self.cycles_in(rounds + 1) <= cycles {
+            rounds += 1;
+        }
+        rounds
     }
 
     /// The mean cycle: a section that all blocks wear together is as deep as if every cycle had its amplitude, because the depth
@@ -48,13 +127,13 @@ impl Mission {
 
     /// Sliding distance, mm, and time, s, after a number of cycles.
     pub fn elapsed(&self, cycles: f64) -> (f64, f64) {
-        let in_one = real_cycles(self.cycles());
         let (mut distance, mut time) = (0.0, 0.0);
-        let whole = (cycles / in_one).floor();
-        let mut left = cycles - whole * in_one;
-        for block in &self.blocks {
-            let of_block = real_cycles(block.cycles);
-            let here = whole * of_block + left.min(of_block);
+        let whole = self.rounds_within(whole_cycles(cycles));
+        let mut left = cycles - real_cycles(self.cycles_in(whole));
+        for (number, block) in self.blocks.iter().enumerate() {
+            let before = self.cycles_of(number, whole);
+            let of_block = real_cycles(self.cycles_of(number, whole + 1) - before);
+            let here = real_cycles(before) + left.min(of_block);
             left = (left - of_block).max(0.0);
             distance += here * block.motion.distance_per_cycle_mm();
             time += here * block.motion.period_s().unwrap_or_default();
@@ -80,6 +159,7 @@ mod tests {
         Mission {
             blocks: vec![block(0.01, 1.0, 30), block(0.05, 2.0, 10)],
             repeat: 100,
+            order: Order::InOrder,
         }
     }
 
@@ -98,6 +178,73 @@ mod tests {
         close(35.0, (30.0 * 0.04 + 5.0 * 0.2, 40.0));
         close(4_000.0, (100.0 * (1.2 + 2.0), 5_000.0));
         close(4_010.0, (100.0 * (1.2 + 2.0) + 0.4, 5_010.0));
+    }
+
+    /// Blocks of so many cycles, mixed.
+    fn mixed(cycles: &[u64], repeat: u64) -> Mission {
+        let block = |&cycles: &u64| Block {
+            cycles,
+            ..mission().blocks[0]
+        };
+        Mission {
+            blocks: cycles.iter().map(block).collect(),
+            repeat,
+            order: Order::Mixed,
+        }
+    }
+
+    #[test]
+    fn the_cycles_of_mixed_blocks_are_spread_evenly_and_add_up() {
+        for (cycles, repeat, rounds) in [
+            (&[7, 1_000][..], 1, 7),
+            (&[7, 1_000], 3, 21),
+            (&[1, 1_000, 360], 1, 360),
+            (&[4, 2_000_000_000, 7], 520, 3_640),
+            (&[5, 5], 2, 10),
+            (&[1, 1], 1, 1),
+        ] {
+            let mission = mixed(cycles, repeat);
+            assert_eq!(mission.rounds(), rounds, "{cycles:?}");
+            for (block, cycles) in cycles.iter().enumerate() {
+                let total = cycles * repeat;
+                let done = |round| mission.cycles_of(block, round);
+                assert_eq!((done(0), done(rounds)), (0, total));
+                let mut per_round = (1..=rounds).map(|round| done(round) - done(round - 1));
+                let (least, most) = (total / rounds, total.div_ceil(rounds));
+                assert!(per_round.all(|n| (least..=most).contains(&n)), "{cycles}");
+            }
+        }
+        // A single cycle is in the middle.
+        let single = mixed(&[1, 1_000, 360], 1);
+        assert_eq!([179, 180].map(|round| single.cycles_of(0, round)), [0, 1]);
+    }
+
+    #[test]
+    fn whole_rounds_are_found_from_their_cycles() {
+        for mission in [mixed(&[7, 1_000], 3), mixed(&[1, 1_000, 360], 1), mission()] {
+            for rounds in 0..=mission.rounds() {
+                let cycles = mission.cycles_in(rounds);
+                assert_eq!(mission.rounds_within(cycles), rounds);
+                if let Some(before) = rounds.checked_sub(1) {
+                    assert_eq!(mission.rounds_within(cycles - 1), before);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn mixed_distance_and_time_are_those_of_all_blocks_together() {
+        let mixed = Mission {
+            order: Order::Mixed,
+            ..mission()
+        };
+        // Rounds of three cycles and one.
+        assert_eq!(mixed.rounds(), 1_000);
+        let (distance, time) = mixed.elapsed(4_000.0);
+        assert!((distance - 320.0).abs() < 1e-9 && (time - 5_000.0).abs() < 1e-9);
+        let (distance, time) = mixed.elapsed(5.5);
+        assert!((distance - (4.5 * 0.04 + 0.2)).abs() < 1e-12, "{distance}");
+        assert!((time - 6.5).abs() < 1e-12, "{time}");
     }
 
     #[test]

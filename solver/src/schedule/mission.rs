@@ -1,8 +1,8 @@
-//! Which block of a mission is done next, and how many of its cycles: blocks in their order, several repetitions together.
+//! Which block of a mission is done next, and how many of its cycles: blocks in their order within a round, several rounds together.
 //!
-//! A repetition wears little once many are done, so that n1 cycles of the first block, then n2 of the second, m times, wear like
-//! m n1 and then m n2 cycles, up to a change of the scar of the order of what m repetitions wear. Repetitions taken together are a
-//! part of those done, so that their number is a logarithm of the repetitions; they end before a cycle that is hit exactly, and change
+//! A round wears little once many are done, so that n1 cycles of the first block, then n2 of the second, m times, wear like
+//! m n1 and then m n2 cycles, up to a change of the scar of the order of what m rounds wear. Rounds taken together are a
+//! part of those done, so that their number is a logarithm of the rounds; they end before a cycle that is hit exactly, and change
 //! a coefficient of friction by cycle by no more than a jump may, since each of their blocks meets the coefficients of its own cycles.
 
 use serde::{Deserialize, Serialize};
@@ -20,33 +20,43 @@ pub(crate) struct MissionPosition {
     pub(crate) block: usize,
     /// Cycle of the whole run at which it ends.
     pub(crate) until: u64,
-    /// Repetitions done before the present ones.
+    /// Rounds done before the present ones.
     done: u64,
-    /// Repetitions that are done together.
+    /// Rounds that are done together.
     together: u64,
 }
 
 impl MissionPosition {
-    /// The first block, of one repetition; all cycles without a mission.
+    /// The first block, of one round; all cycles without a mission.
     pub(crate) fn first(scene: &Scene) -> Self {
-        let until = scene.mission.as_ref().map_or(scene.cycles, |mission| {
-            mission.blocks.first().map_or(0, |block| block.cycles)
-        });
-        Self {
+        let mut first = Self {
             block: 0,
-            until: until.min(scene.cycles),
+            until: scene.cycles,
             done: 0,
             together: 1,
+        };
+        if let Some(mission) = &scene.mission {
+            first.block = first.following(mission, 0).unwrap_or_default();
+            first.until = first.cycles(mission, first.block).min(scene.cycles);
         }
+        first
     }
 
-    /// Whether the last block of the present repetitions is under way.
+    /// Cycles of a block in the present rounds.
+    fn cycles(&self, mission: &Mission, block: usize) -> u64 {
+        let rounds = self.done + self.together;
+        mission.cycles_of(block, rounds) - mission.cycles_of(block, self.done)
+    }
+
+    /// The first block from one on that has cycles in the present rounds.
+    fn following(&self, mission: &Mission, from: usize) -> Option<usize> {
+        (from..mission.blocks.len()).find(|block| self.cycles(mission, *block) > 0)
+    }
+
+    /// Whether the last block of the present rounds is under way.
     pub(crate) fn is_last_block(&self, scene: &Scene) -> bool {
-        let blocks = scene
-            .mission
-            .as_ref()
-            .map_or(1, |mission| mission.blocks.len());
-        self.block + 1 >= blocks
+        let mission = scene.mission.as_ref();
+        mission.is_none_or(|mission| self.following(mission, self.block + 1).is_none())
     }
 
     /// The next cycle that must be hit exactly, or the end of the present block before it, and whether what happens until then may be
@@ -71,21 +81,21 @@ impl MissionPosition {
             return self;
         };
         let mut next = self;
-        if self.is_last_block(scene) {
-            next.block = 0;
-            next.done += self.together;
-            next.together = repetitions(scene, mission, (next.done, now), depth);
+        if let Some(block) = self.following(mission, self.block + 1) {
+            next.block = block;
         } else {
-            next.block += 1;
+            next.done += self.together;
+            next.together = rounds(scene, mission, (next.done, now), depth);
+            next.block = next.following(mission, 0).unwrap_or_default();
         }
-        let cycles = mission.blocks[next.block].cycles;
-        next.until = (self.until + cycles.saturating_mul(next.together)).min(scene.cycles);
+        let cycles = next.cycles(mission, next.block);
+        next.until = self.until.saturating_add(cycles).min(scene.cycles);
         next
     }
 }
 
-/// Number of repetitions that are done together after so many.
-fn repetitions(
+/// Number of rounds that are done together after so many.
+fn rounds(
     scene: &Scene,
     mission: &Mission,
     (done, now): (u64, Progress),
@@ -93,13 +103,15 @@ fn repetitions(
 ) -> u64 {
     let accuracy = &scene.accuracy;
     let share = accuracy.tuning.repetitions_of_done.at(accuracy.tolerance);
-    let even = even_friction(scene, now.cycle) / real_cycles(mission.cycles());
+    let cycles_a_round =
+        real_cycles(mission.cycles()) * real_cycles(mission.repeat) / real_cycles(mission.rounds());
+    let even = even_friction(scene, now.cycle) / cycles_a_round;
     let refinement = accuracy.refinement.cycles;
     let most = (share / refinement * real_cycles(done)).min(even / refinement);
-    // Those before the repetition in which a cycle is hit exactly.
+    // Those before the round in which a cycle is hit exactly.
     let until = stops::next(scene, now, depth);
-    let before = (until - now.cycle) / mission.cycles();
+    let before = mission.rounds_within(until).saturating_sub(done);
     cycles_at_least(most.floor())
         .min(before.max(1))
-        .min(mission.repeat - done)
+        .min(mission.rounds() - done)
 }

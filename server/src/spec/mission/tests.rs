@@ -1,7 +1,7 @@
 //! Missions of specifications.
 
 use api::problem::Fault;
-use solver::scene::Motion;
+use solver::scene::{Motion, Order, Timing};
 
 use crate::spec;
 use crate::spec::tests::{accepted, faults};
@@ -85,6 +85,43 @@ fn one_block_is_a_motion_with_all_cycles() {
     let motion = r#""motion":{"kind":"insertion","wipe_mm":1.0},"cycles":100"#;
     assert_eq!(repeated.scene, accepted(&sd_card(motion)).scene);
     assert_eq!(repeated.blocks.len(), 1);
+}
+
+/// The order changes when the cycles are done, not how many; of one block there is only one order.
+#[test]
+fn cycles_are_mixed_where_they_are_asked_to_be() {
+    let blocks = [MATING, RIDE, DAYS].join(",");
+    let of = |order: &str| accepted(&mission(&blocks, &format!(r#","repeat":520{order}"#)));
+    let (in_order, mixed) = (of(""), of(r#","order":"mixed""#));
+    let order = |resolved: &spec::Resolved| resolved.scene.mission.as_ref().map(|m| m.order);
+    assert_eq!(order(&in_order), Some(Order::InOrder));
+    assert_eq!(order(&mixed), Some(Order::Mixed));
+    assert_eq!(of(r#","order":"in_order""#).scene, in_order.scene);
+    assert_eq!(mixed.blocks, in_order.blocks);
+    assert_eq!(mixed.scene.cycles, in_order.scene.cycles);
+    let again = serde_json::to_string(&mixed.spec).expect("JSON");
+    assert!(again.contains(r#""order":"mixed""#), "{again}");
+    assert_eq!(accepted(&again).scene, mixed.scene);
+    let single = |order| accepted(&mission(MATING, &format!(r#","repeat":20{order}"#))).scene;
+    assert_eq!(single(r#","order":"mixed""#), single(""));
+    let found = faults(&mission(&blocks, r#","order":"mixd""#));
+    assert!(at(&found, "/order")[0].contains("mixed"), "{found:?}");
+    let found = faults(&sd_card(r#""order":"mixed""#));
+    assert_eq!(at(&found, "/order").len(), 1, "{found:?}");
+}
+
+/// Each block has the waveform of its own motion.
+#[test]
+fn each_block_has_its_course_in_time() {
+    let blocks = ["sine", "triangle"].map(|waveform| {
+        format!(
+            r#"{{"motion":{{"kind":"reciprocating","waveform":"{waveform}","amplitude_mm":0.01}},"cycles":5}}"#
+        )
+    });
+    let scene = accepted(&mission(&blocks.join(","), "")).scene;
+    let blocks = scene.mission.expect("two blocks").blocks;
+    let timings: Vec<_> = blocks.iter().map(|block| block.timing).collect();
+    assert_eq!(timings, [Timing::Sine, Timing::Triangle]);
 }
 
 #[test]
