@@ -46,6 +46,7 @@ pub use crate::law::wear::rhee::Rhee;
 pub use crate::law::wear::severe_oxidation::SevereOxidation;
 pub use crate::law::wear::speed::SpeedLaw;
 pub use crate::law::wear::strain_hardening::StrainHardening;
+pub use crate::law::wear::surface_state::SurfaceState;
 
 /// A contact system with its loads, motion and numerical settings.
 #[derive(Debug, Clone, PartialEq)]

@@ -9,7 +9,7 @@ use solver::law::resistance::Deformation;
 use solver::record::Summary;
 use solver::scene::{
     Accuracy, Conduction, Conductor, Electrical, Metal, MildOxidation, Motion, Scene, SpeedLaw,
-    Spots, Temperature, Timing, WearLaw,
+    Spots, SurfaceState, Temperature, Timing, WearLaw,
 };
 use solver::sides::Sides;
 
@@ -141,9 +141,11 @@ fn an_oxide_grows_at_the_temperature_of_the_contact() {
             constant: 3.4e-4,
             arrhenius_m2_s: 1e12,
             activation_j_mol: 138e3,
-            temperature,
             film_um: 10.0,
-            hardness_mpa: 6_865.0,
+            surface: SurfaceState {
+                hardness_mpa: 6_865.0,
+                temperature,
+            },
         }))
     };
     let mut scene = fast(Timing::Triangle);

@@ -152,6 +152,9 @@ pub struct WearLaw {
     /// k/H, 1/MPa; instead of `k` and `hardness_mpa`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub k_over_h_per_mpa: Option<f64>,
+    /// Frequency at which the constants of the law were measured, Hz. A motion of another one is warned of.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub measured_at_hz: Option<f64>,
     /// `saracibar`: the coefficient of friction mu0 at which k was measured, -. Required there.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub reference_friction: Option<f64>,

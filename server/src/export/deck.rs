@@ -7,6 +7,7 @@
 
 pub mod cycle;
 
+use solver::effects::Effect;
 use solver::interpolation;
 use solver::law::elastic::Lame;
 use solver::mesh::columns::Cell;
@@ -180,7 +181,9 @@ impl Deck {
         if scene.friction.changes() {
             self.line("** the coefficient of friction is that of the unworn contact");
         }
-        if friction > 0.0 {
+        if scene.effects.of(Effect::Friction) == Some(false) {
+            self.line("** friction is switched off: its traction deforms neither body");
+        } else if friction > 0.0 {
             self.line(format!(
                 "*FRICTION\n{friction}, {:e}",
                 STICK_SLOPE * penalty

@@ -263,12 +263,15 @@ mod tests {
         };
         let surroundings = law("");
         assert_eq!(
-            surroundings.mild.temperature,
+            surroundings.mild.surface.temperature,
             Temperature::OfSurroundings(323.15)
         );
         assert!((surroundings.transition_mm_s - 100.0).abs() <= 0.0);
         let given = law(r#","contact_temperature_c":427,"transition_speed_mm_s":30"#);
-        assert_eq!(given.severe.temperature, Temperature::OfContact(700.15));
+        assert_eq!(
+            given.severe.surface.temperature,
+            Temperature::OfContact(700.15)
+        );
         assert!((given.transition_mm_s - 30.0).abs() <= 0.0);
         let bare = r#"{"system":{"kind":"cylinder_on_flat"},"interface":{"wear":{"receptacle":{"law":"oxidation"}}}}"#;
         let pointers: Vec<String> = faults(bare)

@@ -22,6 +22,8 @@ mod strain_hardening;
 mod wear_coefficient;
 pub(super) mod wearing_side;
 
+use std::ops::RangeInclusive;
+
 use api::spec::{
     Friction, FrictionLaw, Interface, Material, Materials, Provenance, WearLaw, WearLawName,
 };
@@ -35,6 +37,9 @@ use crate::spec::sourced::{Sourced, source};
 use crate::spec::system::{ArchardPreset, Preset};
 pub(super) use numbers::numbers;
 use wearing_side::WearingSide;
+
+/// Hz, of a wear test: from creep to ultrasonic fretting.
+pub(super) const MEASURED_AT_HZ: RangeInclusive<f64> = 1e-6..=1e6;
 
 const FRICTION: &str = "/interface/friction";
 
@@ -204,6 +209,26 @@ pub(super) fn check_continuous(laws: &Laws, plated: Sides<bool>, diagnostics: &m
 
 /// Resolves a wear law as given, beside a coefficient of friction.
 pub(super) fn given_wear(
+    side: &WearingSide<'_>,
+    given: &WearLaw,
+    friction: f64,
+    diagnostics: &mut Diagnostics,
+) -> (WearLaw, Option<scene::WearLaw>) {
+    let pointer = side.field("measured_at_hz");
+    let measured_at_hz = diagnostics.optional(&pointer, given.measured_at_hz, &MEASURED_AT_HZ);
+    let law = WearLaw {
+        measured_at_hz: None,
+        ..given.clone()
+    };
+    let (filled, law) = by_name(side, &law, friction, diagnostics);
+    let filled = WearLaw {
+        measured_at_hz,
+        ..filled
+    };
+    (filled, law)
+}
+
+fn by_name(
     side: &WearingSide<'_>,
     given: &WearLaw,
     friction: f64,

@@ -1,7 +1,8 @@
 //! Warnings where a wear law is used beyond its range. Archard's holds while the contact is elastic as a whole, a mean pressure of
 //! at most a third of the hardness; beyond it the contact flows, and the wear coefficient rises steeply (Archard 1953). Oxidational
-//! laws hold at speeds (`speed`).
+//! laws hold at speeds (`speed`); constants belong to the frequency that they were measured at (`frequency`).
 
+mod frequency;
 mod speed;
 
 use std::f64::consts::PI;
@@ -36,7 +37,11 @@ pub(super) fn warnings(spec: &Spec, scene: &Scene) -> Vec<Fault> {
         let is_beyond = mean > MEAN * hardness && scene.effects.of(effect) != Some(false);
         is_beyond.then(|| warning(pointer, [mean, peak, hardness]))
     });
-    warnings.chain(speed::warnings(spec, scene)).collect()
+    let others = [
+        speed::warnings(spec, scene),
+        frequency::warnings(spec, scene),
+    ];
+    warnings.chain(others.into_iter().flatten()).collect()
 }
 
 /// The law of the surface of a side, with its pointer.

@@ -258,6 +258,7 @@ mod tests {
         match field {
             "hardness_mpa" => ("archard", r#""k":0.1,"#),
             "k" | "k_over_h_per_mpa" => ("archard", ""),
+            "measured_at_hz" => ("archard", r#""k":0.1,"hardness_mpa":1000,"#),
             "reference_friction" => ("saracibar", r#""k":0.1,"#),
             "energy_coefficient_mm3_per_j" => ("dissipated_energy", ""),
             "characteristic_dose_mpa_mm" => ("barwell", ""),

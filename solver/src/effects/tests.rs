@@ -4,7 +4,7 @@ use super::*;
 use crate::law::temperature::Temperature;
 use crate::law::wear::WearLaw;
 use crate::model::tests::fuzz_button;
-use crate::scene::{Friction, MildOxidation, Motion, SpeedLaw};
+use crate::scene::{Friction, MildOxidation, Motion, SpeedLaw, SurfaceState};
 
 fn simulated(scene: &Scene) -> Vec<&'static str> {
     let plan = plan(scene);
@@ -59,9 +59,11 @@ fn wear_by_time_calls_for_friction_where_wear_by_distance_does_not() {
         constant: 1.0,
         arrhenius_m2_s: 1e-6,
         activation_j_mol: 1e5,
-        temperature: Temperature::OfContact(800.0),
         film_um: 10.0,
-        hardness_mpa: 427.0,
+        surface: SurfaceState {
+            hardness_mpa: 427.0,
+            temperature: Temperature::OfContact(800.0),
+        },
     })));
     assert!(has_friction(&scene));
 }

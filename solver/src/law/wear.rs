@@ -23,6 +23,7 @@ pub mod sarkar;
 pub mod severe_oxidation;
 pub mod speed;
 pub mod strain_hardening;
+pub mod surface_state;
 
 use barwell::Barwell;
 use power::PowerLaw;
@@ -114,7 +115,7 @@ impl WearLaw {
     #[must_use]
     pub fn heated(self, rise_k: f64) -> Self {
         match self {
-            Self::OfSpeed(law) => Self::OfSpeed(law.heated(rise_k)),
+            Self::OfSpeed(law) => Self::OfSpeed(law.with_surface(|surface| surface.heated(rise_k))),
             Self::Power(law) => Self::Power(law.heated(rise_k)),
             _ => self,
         }
@@ -146,7 +147,9 @@ impl WearLaw {
             },
             Self::DissipatedEnergy { .. } | Self::Power(_) => self,
             Self::Barwell(law) => Self::Barwell(law.softened(ratio)),
-            Self::OfSpeed(law) => Self::OfSpeed(law.softened(ratio)),
+            Self::OfSpeed(law) => {
+                Self::OfSpeed(law.with_surface(|surface| surface.softened(ratio)))
+            }
             #[cfg(test)]
             Self::PressurePower { .. } => self,
         }
@@ -184,6 +187,7 @@ mod tests {
     use super::power::Measure;
     use super::quinn::Quinn;
     use super::severe_oxidation::SevereOxidation;
+    use super::surface_state::SurfaceState;
     use super::*;
     use crate::law::temperature::Temperature;
 
@@ -225,19 +229,23 @@ mod tests {
             asperity_um: 20.0,
             arrhenius_kg2_m4s: 1.5e6,
             activation_j_mol: 208e3,
-            temperature: Temperature::OfContact(673.15),
             film_um: 1.0,
             oxide_density_kg_m3: 5_240.0,
             oxygen_fraction: 0.3006,
-            hardness_mpa: 6_865.0,
+            surface: SurfaceState {
+                hardness_mpa: 6_865.0,
+                temperature: Temperature::OfContact(673.15),
+            },
         })),
         WearLaw::OfSpeed(SpeedLaw::MildOxidation(MildOxidation {
             constant: 3.4e-4,
             arrhenius_m2_s: 1e6,
             activation_j_mol: 138e3,
-            temperature: Temperature::OfContact(700.0),
             film_um: 10.0,
-            hardness_mpa: 6_865.0,
+            surface: SurfaceState {
+                hardness_mpa: 6_865.0,
+                temperature: Temperature::OfContact(700.0),
+            },
         })),
         WearLaw::OfSpeed(SpeedLaw::SevereOxidation(SevereOxidation {
             molten_fraction: 0.01,
@@ -246,9 +254,11 @@ mod tests {
             friction: 0.3,
             conductivity_w_mk: 3.2,
             melting_k: 1_760.15,
-            temperature: Temperature::OfContact(293.15),
             diffusion_um: 10.0,
-            hardness_mpa: 6_865.0,
+            surface: SurfaceState {
+                hardness_mpa: 6_865.0,
+                temperature: Temperature::OfContact(293.15),
+            },
         })),
         WearLaw::PressurePower {
             k_per_mpa: 2.5761e-5,

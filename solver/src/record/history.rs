@@ -231,7 +231,7 @@ mod tests {
         assert_eq!(headers[1], "receptacle_max_depth_mm");
         assert_eq!(
             headers.last().map(String::as_str),
-            Some("dissipated_energy_mj_per_mm")
+            Some("friction_coefficient")
         );
         assert_eq!(record.cycle, [7]);
         assert!(record.columns.iter().all(|column| column.values.len() == 1));

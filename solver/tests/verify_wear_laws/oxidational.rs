@@ -8,7 +8,7 @@ use crate::verify_resume::resumes_to_the_same_bits;
 use solver::effects::{Effect, Switches};
 use solver::law::temperature::Temperature;
 use solver::scene::{
-    MildOxidation, Motion, Quinn, Scene, SevereOxidation, SpeedLaw, Timing, WearLaw,
+    MildOxidation, Motion, Quinn, Scene, SevereOxidation, SpeedLaw, SurfaceState, Timing, WearLaw,
 };
 use solver::sides::{Side, Sides};
 
@@ -21,13 +21,15 @@ fn quinn() -> WearLaw {
         asperity_um: 20.0,
         arrhenius_kg2_m4s: 1.5e6,
         activation_j_mol: 208e3,
-        temperature: Temperature::OfContact(673.15),
         film_um: 1.0,
         oxide_density_kg_m3: 5_240.0,
         oxygen_fraction: 0.3006,
-        hardness_mpa: 1_700.0,
+        surface: SurfaceState {
+            hardness_mpa: 1_700.0,
+            temperature: Temperature::OfContact(673.15),
+        },
     };
-    let factor = 2e-7 * law.hardness_mpa / law.coefficient_at(SPEED);
+    let factor = 2e-7 * law.surface.hardness_mpa / law.coefficient_at(SPEED);
     WearLaw::OfSpeed(SpeedLaw::Quinn(Quinn {
         arrhenius_kg2_m4s: factor * law.arrhenius_kg2_m4s,
         ..law
@@ -40,11 +42,13 @@ fn mild_oxidation() -> WearLaw {
         constant: 3.4e-4,
         arrhenius_m2_s: 1e6,
         activation_j_mol: 138e3,
-        temperature: Temperature::OfContact(700.0),
         film_um: 10.0,
-        hardness_mpa: 1_700.0,
+        surface: SurfaceState {
+            hardness_mpa: 1_700.0,
+            temperature: Temperature::OfContact(700.0),
+        },
     };
-    let factor = 2e-7 * law.hardness_mpa / law.coefficient_at(SPEED);
+    let factor = 2e-7 * law.surface.hardness_mpa / law.coefficient_at(SPEED);
     WearLaw::OfSpeed(SpeedLaw::MildOxidation(MildOxidation {
         arrhenius_m2_s: factor * law.arrhenius_m2_s,
         ..law
@@ -60,9 +64,11 @@ fn severe_oxidation() -> WearLaw {
         friction: 0.3,
         conductivity_w_mk: 3.2,
         melting_k: 1_760.15,
-        temperature: Temperature::OfContact(293.15),
         diffusion_um: 10.0,
-        hardness_mpa: 1_700.0,
+        surface: SurfaceState {
+            hardness_mpa: 1_700.0,
+            temperature: Temperature::OfContact(293.15),
+        },
     };
     let factor = 0.5 * SPEED / law.slowest_mm_s();
     WearLaw::OfSpeed(SpeedLaw::SevereOxidation(SevereOxidation {

@@ -166,7 +166,7 @@ fn add_heated_to(scenes: &mut Vec<(String, Value)>) {
 
 /// Mean speeds over seven orders of magnitude, at which friction heats the contact by nothing up to some hundred kelvin.
 fn add_fast_to(scenes: &mut Vec<(String, Value)>) {
-    const AMPLITUDE_MM: f64 = 0.1;
+    const AMPLITUDE_MM: f64 = 0.05;
     for (kind, speeds) in [
         ("fuzz_button", &[1e-3, 1.0, 1e2, 1e3, 1e4][..]),
         ("cylinder_on_flat", &[1e-3, 10.0, 30.0, 100.0, 400.0]),

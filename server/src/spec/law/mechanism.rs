@@ -2,7 +2,7 @@
 
 use api::spec::WearLaw;
 use solver::law::wear::speed::SLOWEST_MM_S;
-use solver::scene::{self, Mechanism, MildOxidation, SevereOxidation, SpeedLaw};
+use solver::scene::{self, Mechanism, SpeedLaw, SurfaceState};
 
 use super::oxidation::TRANSITION_SPEED_MM_S;
 use super::{mild_oxidation, oxidation, severe_oxidation, wear_coefficient};
@@ -29,30 +29,25 @@ pub(super) fn resolve(
         .chain(&severe_oxidation::CONSTANTS);
     let fields: Vec<&str> = own.iter().chain(constants).copied().collect();
     diagnostics.check_fields(&side.pointer, given, &fields, "oxidation");
-    let (mut filled, rate) = wear_coefficient::resolve(side, given, diagnostics);
+    let (mut filled, _) = wear_coefficient::resolve(side, given, diagnostics);
     let pointer = side.field("transition_speed_mm_s");
     let transition_mm_s =
         diagnostics.or_default(&pointer, given.transition_speed_mm_s, assumed(SLOWEST_MM_S));
     diagnostics.check_range(&pointer, transition_mm_s, &TRANSITION_SPEED_MM_S);
     filled.transition_speed_mm_s = Some(transition_mm_s);
-    let hardness = filled.hardness_mpa;
+    let mild = mild_oxidation::constants(side, given, diagnostics);
+    let severe = severe_oxidation::constants(side, given, friction, diagnostics);
     let temperature = oxidation::temperature(side, given, diagnostics);
-    let mild = mild_oxidation::constants(side, given, temperature, diagnostics);
-    let severe = severe_oxidation::constants(side, given, (temperature, friction), diagnostics);
-    let law = rate.zip(hardness).map(|(k_over_h_per_mpa, hardness_mpa)| {
-        let mild = MildOxidation {
+    let law = given.k.zip(filled.hardness_mpa).map(|(k, hardness_mpa)| {
+        let surface = SurfaceState {
             hardness_mpa,
-            ..mild
-        };
-        let severe = SevereOxidation {
-            hardness_mpa,
-            ..severe
+            temperature,
         };
         scene::WearLaw::OfSpeed(SpeedLaw::Mechanism(Mechanism {
-            k_over_h_per_mpa,
+            k,
             transition_mm_s,
-            mild,
-            severe,
+            mild: mild(surface),
+            severe: severe(surface),
         }))
     });
     (filled, law)

@@ -1,11 +1,10 @@
 //! Mild oxidational wear at moderate speeds.
 
 use api::spec::WearLaw;
-use solver::scene::{self, MildOxidation, SpeedLaw, Temperature};
+use solver::scene::{self, MildOxidation, SpeedLaw, SurfaceState};
 
 use super::oxidation::{
-    ACTIVATION_ENERGY_J_MOL, ARRHENIUS_CONSTANT, CONSTANT, LENGTH_UM, hardness, required,
-    temperature,
+    ACTIVATION_ENERGY_J_MOL, ARRHENIUS_CONSTANT, CONSTANT, LENGTH_UM, required, surface,
 };
 use crate::spec::diagnostics::Diagnostics;
 use crate::spec::law::wearing_side::WearingSide;
@@ -28,25 +27,18 @@ pub(super) fn resolve(
     let fields: Vec<&str> = own.iter().chain(&CONSTANTS).copied().collect();
     diagnostics.check_fields(&side.pointer, given, &fields, "mild_oxidation");
     let mut filled = given.clone();
-    let hardness = hardness(side, given, &mut filled, diagnostics);
-    let temperature = temperature(side, given, diagnostics);
-    let law = constants(side, given, temperature, diagnostics);
-    let law = hardness.map(|hardness_mpa| {
-        scene::WearLaw::OfSpeed(SpeedLaw::MildOxidation(MildOxidation {
-            hardness_mpa,
-            ..law
-        }))
-    });
+    let surface = surface(side, given, &mut filled, diagnostics);
+    let law = constants(side, given, diagnostics);
+    let law = surface.map(|surface| scene::WearLaw::OfSpeed(SpeedLaw::MildOxidation(law(surface))));
     (filled, law)
 }
 
-/// The law at a temperature; its hardness belongs to the surface.
+/// The law by its surface.
 pub(super) fn constants(
     side: &WearingSide<'_>,
     given: &WearLaw,
-    temperature: Temperature,
     diagnostics: &mut Diagnostics,
-) -> MildOxidation {
+) -> impl Fn(SurfaceState) -> MildOxidation + use<> {
     let mut constant = |field, value, range| required(side, (field, value), range, diagnostics);
     let c = constant("oxidation_constant", given.oxidation_constant, &CONSTANT);
     let arrhenius_m2_s = constant(
@@ -60,12 +52,11 @@ pub(super) fn constants(
         &ACTIVATION_ENERGY_J_MOL,
     );
     let film_um = constant("critical_film_um", given.critical_film_um, &LENGTH_UM);
-    MildOxidation {
+    move |surface| MildOxidation {
         constant: c,
         arrhenius_m2_s,
         activation_j_mol,
-        temperature,
         film_um,
-        hardness_mpa: 0.0,
+        surface,
     }
 }

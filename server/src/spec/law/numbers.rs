@@ -11,6 +11,7 @@ pub(in crate::spec) fn numbers() -> Vec<(&'static str, RangeInclusive<f64>)> {
         ("k", wear_coefficient::K),
         ("k_over_h_per_mpa", wear_coefficient::K_OVER_H_PER_MPA),
         ("hardness_mpa", HARDNESS_MPA),
+        ("measured_at_hz", super::MEASURED_AT_HZ),
         ("reference_friction", saracibar::REFERENCE_FRICTION),
         (
             "energy_coefficient_mm3_per_j",

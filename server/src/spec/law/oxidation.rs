@@ -3,7 +3,7 @@
 use std::ops::RangeInclusive;
 
 use api::spec::WearLaw;
-use solver::scene::Temperature;
+use solver::scene::{SurfaceState, Temperature};
 
 use crate::spec::diagnostics::Diagnostics;
 use crate::spec::law::wear_coefficient;
@@ -45,15 +45,19 @@ pub(super) fn required(
     diagnostics.required(&side.field(field), value, range, needs)
 }
 
-/// The hardness, given or the material's.
-pub(super) fn hardness(
+/// The surface with its hardness, given or the material's, and its temperature; `None` without a hardness.
+pub(super) fn surface(
     side: &WearingSide<'_>,
     given: &WearLaw,
     filled: &mut WearLaw,
     diagnostics: &mut Diagnostics,
-) -> Option<f64> {
+) -> Option<SurfaceState> {
     filled.hardness_mpa = wear_coefficient::hardness(side, given, diagnostics);
-    filled.hardness_mpa
+    let temperature = temperature(side, given, diagnostics);
+    filled.hardness_mpa.map(|hardness_mpa| SurfaceState {
+        hardness_mpa,
+        temperature,
+    })
 }
 
 /// The temperature of the contact as given, or that of the surroundings, over which friction and current heat it.

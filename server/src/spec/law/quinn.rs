@@ -5,7 +5,7 @@ use solver::scene::{self, Quinn, SpeedLaw};
 
 use super::oxidation::{
     ACTIVATION_ENERGY_J_MOL, ARRHENIUS_CONSTANT, FRACTION, LENGTH_UM, OXIDE_DENSITY_KG_M3,
-    hardness, required, temperature,
+    required, surface,
 };
 use crate::spec::diagnostics::Diagnostics;
 use crate::spec::law::wearing_side::WearingSide;
@@ -31,8 +31,7 @@ pub(super) fn resolve(
 ) -> (WearLaw, Option<scene::WearLaw>) {
     diagnostics.check_fields(&side.pointer, given, &FIELDS, "quinn");
     let mut filled = given.clone();
-    let hardness = hardness(side, given, &mut filled, diagnostics);
-    let temperature = temperature(side, given, diagnostics);
+    let surface = surface(side, given, &mut filled, diagnostics);
     let mut constant = |field, value, range| required(side, (field, value), range, diagnostics);
     let asperity_um = constant(
         "asperity_diameter_um",
@@ -56,16 +55,15 @@ pub(super) fn resolve(
         &OXIDE_DENSITY_KG_M3,
     );
     let oxygen_fraction = constant("oxygen_fraction", given.oxygen_fraction, &FRACTION);
-    let law = hardness.map(|hardness_mpa| {
+    let law = surface.map(|surface| {
         scene::WearLaw::OfSpeed(SpeedLaw::Quinn(Quinn {
             asperity_um,
             arrhenius_kg2_m4s,
             activation_j_mol,
-            temperature,
             film_um,
             oxide_density_kg_m3,
             oxygen_fraction,
-            hardness_mpa,
+            surface,
         }))
     });
     (filled, law)

@@ -1,11 +1,11 @@
 //! Severe oxidational wear at high speeds.
 
 use api::spec::WearLaw;
-use solver::scene::{self, SevereOxidation, SpeedLaw, Temperature};
+use solver::scene::{self, SevereOxidation, SpeedLaw, SurfaceState};
 
 use super::oxidation::{
     CONDUCTIVITY_W_MK, CONTACT_TEMPERATURE_C, FRACTION, LATENT_HEAT_J_M3, LENGTH_UM,
-    ZERO_CELSIUS_K, hardness, required, temperature,
+    ZERO_CELSIUS_K, required, surface,
 };
 use crate::spec::diagnostics::Diagnostics;
 use crate::spec::law::wearing_side::WearingSide;
@@ -31,25 +31,20 @@ pub(super) fn resolve(
     let fields: Vec<&str> = own.iter().chain(&CONSTANTS).copied().collect();
     diagnostics.check_fields(&side.pointer, given, &fields, "severe_oxidation");
     let mut filled = given.clone();
-    let hardness = hardness(side, given, &mut filled, diagnostics);
-    let temperature = temperature(side, given, diagnostics);
-    let law = constants(side, given, (temperature, friction), diagnostics);
-    let law = hardness.map(|hardness_mpa| {
-        scene::WearLaw::OfSpeed(SpeedLaw::SevereOxidation(SevereOxidation {
-            hardness_mpa,
-            ..law
-        }))
-    });
+    let surface = surface(side, given, &mut filled, diagnostics);
+    let law = constants(side, given, friction, diagnostics);
+    let law =
+        surface.map(|surface| scene::WearLaw::OfSpeed(SpeedLaw::SevereOxidation(law(surface))));
     (filled, law)
 }
 
-/// The law at a bulk temperature beside a coefficient of friction; its hardness belongs to the surface.
+/// The law by its surface, beside a coefficient of friction.
 pub(super) fn constants(
     side: &WearingSide<'_>,
     given: &WearLaw,
-    (temperature, friction): (Temperature, f64),
+    friction: f64,
     diagnostics: &mut Diagnostics,
-) -> SevereOxidation {
+) -> impl Fn(SurfaceState) -> SevereOxidation + use<> {
     let mut constant = |field, value, range| required(side, (field, value), range, diagnostics);
     let molten_fraction = constant("molten_fraction", given.molten_fraction, &FRACTION);
     let latent_heat_j_m3 = constant(
@@ -81,15 +76,14 @@ pub(super) fn constants(
         let detail = format!("{bulk} is not below the {melting_c} at which the oxide melts");
         diagnostics.fault(&side.field("contact_temperature_c"), detail);
     }
-    SevereOxidation {
+    move |surface| SevereOxidation {
         molten_fraction,
         latent_heat_j_m3,
         heat_share,
         friction,
         conductivity_w_mk,
         melting_k: melting_c + ZERO_CELSIUS_K,
-        temperature,
         diffusion_um,
-        hardness_mpa: 0.0,
+        surface,
     }
 }

@@ -11,8 +11,8 @@
 //! as of Quinn's law.
 
 use super::arrhenius;
+use super::surface_state::SurfaceState;
 use crate::law::pace::Pace;
-use crate::law::temperature::Temperature;
 
 /// The law of a surface.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -23,12 +23,10 @@ pub struct MildOxidation {
     pub arrhenius_m2_s: f64,
     /// Activation energy Q0, J/mol.
     pub activation_j_mol: f64,
-    /// Flash temperature Tf, K.
-    pub temperature: Temperature,
     /// Critical thickness Zc of the oxide, um.
     pub film_um: f64,
-    /// Hardness H, MPa.
-    pub hardness_mpa: f64,
+    /// Hardness H and temperature of the surface.
+    pub surface: SurfaceState,
 }
 
 impl MildOxidation {
@@ -37,7 +35,7 @@ impl MildOxidation {
         let growth = self.constant
             * self.constant
             * self.arrhenius_m2_s
-            * arrhenius::factor(self.activation_j_mol, self.temperature.kelvin());
+            * arrhenius::factor(self.activation_j_mol, self.surface.temperature.kelvin());
         growth / (self.film_um * 1e-6) * (1e3 * pace.s_per_mm)
     }
 
@@ -48,31 +46,14 @@ impl MildOxidation {
 
     /// Specific wear rate at a pace, 1/MPa.
     pub(super) fn rate(&self, pace: Pace) -> f64 {
-        self.coefficient(pace) / self.hardness_mpa
-    }
-
-    /// The law at another hardness than it was given with.
-    #[must_use]
-    pub(super) fn softened(self, ratio: f64) -> Self {
-        Self {
-            hardness_mpa: self.hardness_mpa * ratio,
-            ..self
-        }
-    }
-
-    /// The law of a contact that is warmer than its surroundings by a rise in K.
-    #[must_use]
-    pub(super) fn heated(self, rise_k: f64) -> Self {
-        Self {
-            temperature: self.temperature.raised(rise_k),
-            ..self
-        }
+        self.coefficient(pace) / self.surface.hardness_mpa
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::law::temperature::Temperature;
 
     /// Steel at a flash temperature of 700 K and 1 m/s: K = 5.827372e-7.
     #[test]
@@ -81,9 +62,11 @@ mod tests {
             constant: 3.4e-4,
             arrhenius_m2_s: 1e6,
             activation_j_mol: 138e3,
-            temperature: Temperature::OfContact(700.0),
             film_um: 10.0,
-            hardness_mpa: 6_865.0,
+            surface: SurfaceState {
+                hardness_mpa: 6_865.0,
+                temperature: Temperature::OfContact(700.0),
+            },
         };
         let found = law.coefficient(Pace::at_speed(1e3));
         assert!((found / 5.827_372e-7 - 1.0).abs() < 1e-6, "{found}");

@@ -13,8 +13,8 @@
 //! cases: no wear at absolute zero; fast sliding leaves no time to oxidise.
 
 use super::arrhenius;
+use super::surface_state::SurfaceState;
 use crate::law::pace::Pace;
-use crate::law::temperature::Temperature;
 
 /// The law of a surface.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -25,16 +25,14 @@ pub struct Quinn {
     pub arrhenius_kg2_m4s: f64,
     /// Activation energy Qp, J/mol.
     pub activation_j_mol: f64,
-    /// Temperature T0 of the asperities, K.
-    pub temperature: Temperature,
     /// Critical thickness xi of the oxide, um.
     pub film_um: f64,
     /// Density rho of the oxide, kg/m^3.
     pub oxide_density_kg_m3: f64,
     /// Mass fraction f of oxygen in the oxide, -.
     pub oxygen_fraction: f64,
-    /// Hardness H, MPa.
-    pub hardness_mpa: f64,
+    /// Hardness H and temperature of the surface.
+    pub surface: SurfaceState,
 }
 
 impl Quinn {
@@ -42,7 +40,7 @@ impl Quinn {
     fn coefficient(&self, pace: Pace) -> f64 {
         let oxygen = self.film_um * 1e-6 * self.oxide_density_kg_m3 * self.oxygen_fraction;
         let growth = self.arrhenius_kg2_m4s
-            * arrhenius::factor(self.activation_j_mol, self.temperature.kelvin());
+            * arrhenius::factor(self.activation_j_mol, self.surface.temperature.kelvin());
         self.asperity_um * 1e-6 * growth / (oxygen * oxygen) * (1e3 * pace.s_per_mm)
     }
 
@@ -53,31 +51,14 @@ impl Quinn {
 
     /// Specific wear rate at a pace, 1/MPa.
     pub(super) fn rate(&self, pace: Pace) -> f64 {
-        self.coefficient(pace) / self.hardness_mpa
-    }
-
-    /// The law at another hardness than it was given with.
-    #[must_use]
-    pub(super) fn softened(self, ratio: f64) -> Self {
-        Self {
-            hardness_mpa: self.hardness_mpa * ratio,
-            ..self
-        }
-    }
-
-    /// The law of a contact that is warmer than its surroundings by a rise in K.
-    #[must_use]
-    pub(super) fn heated(self, rise_k: f64) -> Self {
-        Self {
-            temperature: self.temperature.raised(rise_k),
-            ..self
-        }
+        self.coefficient(pace) / self.surface.hardness_mpa
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::law::temperature::Temperature;
 
     /// Steel at 400 °C and 10 mm/s: 1.276179e-11 1/MPa.
     #[test]
@@ -86,11 +67,13 @@ mod tests {
             asperity_um: 20.0,
             arrhenius_kg2_m4s: 1.5e6,
             activation_j_mol: 208e3,
-            temperature: Temperature::OfContact(673.15),
             film_um: 1.0,
             oxide_density_kg_m3: 5_240.0,
             oxygen_fraction: 0.3006,
-            hardness_mpa: 6_865.0,
+            surface: SurfaceState {
+                hardness_mpa: 6_865.0,
+                temperature: Temperature::OfContact(673.15),
+            },
         };
         let rate = |s_per_mm| law.rate(Pace::at_speed(1.0 / s_per_mm));
         assert!(

@@ -12,8 +12,8 @@
 //! Range: speeds above v = K (Tm - Tb)/(alpha mu lf H), below which nothing melts. Limiting case: fast sliding is Archard's law with
 //! k/H = alpha mu fm/L.
 
+use super::surface_state::SurfaceState;
 use crate::law::pace::Pace;
-use crate::law::temperature::Temperature;
 
 /// The law of a surface.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -30,20 +30,19 @@ pub struct SevereOxidation {
     pub conductivity_w_mk: f64,
     /// Melting temperature Tm of the oxide, K.
     pub melting_k: f64,
-    /// Bulk temperature Tb.
-    pub temperature: Temperature,
     /// Diffusion distance lf, um.
     pub diffusion_um: f64,
-    /// Hardness H, MPa.
-    pub hardness_mpa: f64,
+    /// Hardness H and temperature of the surface.
+    pub surface: SurfaceState,
 }
 
 impl SevereOxidation {
     /// Heat that is conducted away over the pressure of the real area of contact, m/s.
     fn conducted(&self) -> f64 {
         // An oxide that is molten already needs no heat.
-        let rise_k = (self.melting_k - self.temperature.kelvin()).max(0.0);
-        self.conductivity_w_mk * rise_k / (self.diffusion_um * 1e-6 * self.hardness_mpa * 1e6)
+        let rise_k = (self.melting_k - self.surface.temperature.kelvin()).max(0.0);
+        self.conductivity_w_mk * rise_k
+            / (self.diffusion_um * 1e-6 * self.surface.hardness_mpa * 1e6)
     }
 
     /// The speed above which it wears, mm/s; without bound where no friction heats.
@@ -56,29 +55,12 @@ impl SevereOxidation {
         let melting = self.heat_share * self.friction - self.conducted() * 1e3 * pace.s_per_mm;
         1e6 * self.molten_fraction / self.latent_heat_j_m3 * melting.max(0.0)
     }
-
-    /// The law at another hardness than it was given with.
-    #[must_use]
-    pub(super) fn softened(self, ratio: f64) -> Self {
-        Self {
-            hardness_mpa: self.hardness_mpa * ratio,
-            ..self
-        }
-    }
-
-    /// The law of a contact that is warmer than its surroundings by a rise in K.
-    #[must_use]
-    pub(super) fn heated(self, rise_k: f64) -> Self {
-        Self {
-            temperature: self.temperature.raised(rise_k),
-            ..self
-        }
-    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::law::temperature::Temperature;
 
     /// p = 150 MPa at 5 m/s wears 1.022428e-4 of the slip; the law begins at 0.45588 m/s.
     #[test]
@@ -90,9 +72,11 @@ mod tests {
             friction: 0.3,
             conductivity_w_mk: 3.2,
             melting_k: 1_760.15,
-            temperature: Temperature::OfContact(293.15),
             diffusion_um: 10.0,
-            hardness_mpa: 6_865.0,
+            surface: SurfaceState {
+                hardness_mpa: 6_865.0,
+                temperature: Temperature::OfContact(293.15),
+            },
         };
         let at = |mm_s: f64| law.rate(Pace::at_speed(mm_s));
         assert!((150.0 * at(5_000.0) / 1.022_428e-4 - 1.0).abs() < 1e-6);

@@ -7,6 +7,7 @@ use super::mechanism::Mechanism;
 use super::mild_oxidation::MildOxidation;
 use super::quinn::Quinn;
 use super::severe_oxidation::SevereOxidation;
+use super::surface_state::SurfaceState;
 use crate::law::pace::Pace;
 
 /// Speed below which friction hardly heats asperities, mm/s, so that Archard's law holds instead of the oxidational ones. The source
@@ -45,25 +46,23 @@ impl SpeedLaw {
         }
     }
 
-    /// The law at another hardness than it was given with.
+    /// The law on the surface that a change makes of its own.
     #[must_use]
-    pub(super) fn softened(self, ratio: f64) -> Self {
+    pub(super) fn with_surface(self, change: impl Fn(SurfaceState) -> SurfaceState) -> Self {
         match self {
-            Self::Quinn(law) => Self::Quinn(law.softened(ratio)),
-            Self::MildOxidation(law) => Self::MildOxidation(law.softened(ratio)),
-            Self::SevereOxidation(law) => Self::SevereOxidation(law.softened(ratio)),
-            Self::Mechanism(law) => Self::Mechanism(law.softened(ratio)),
-        }
-    }
-
-    /// The law of a contact that is warmer than its surroundings by a rise in K.
-    #[must_use]
-    pub(super) fn heated(self, rise_k: f64) -> Self {
-        match self {
-            Self::Quinn(law) => Self::Quinn(law.heated(rise_k)),
-            Self::MildOxidation(law) => Self::MildOxidation(law.heated(rise_k)),
-            Self::SevereOxidation(law) => Self::SevereOxidation(law.heated(rise_k)),
-            Self::Mechanism(law) => Self::Mechanism(law.heated(rise_k)),
+            Self::Quinn(law) => Self::Quinn(Quinn {
+                surface: change(law.surface),
+                ..law
+            }),
+            Self::MildOxidation(law) => Self::MildOxidation(MildOxidation {
+                surface: change(law.surface),
+                ..law
+            }),
+            Self::SevereOxidation(law) => Self::SevereOxidation(SevereOxidation {
+                surface: change(law.surface),
+                ..law
+            }),
+            Self::Mechanism(law) => Self::Mechanism(law.with_surface(change)),
         }
     }
 }
