@@ -204,8 +204,7 @@ fn fill(spec: &Spec, kind: SystemKind, diagnostics: &mut Diagnostics) -> Filled 
         diagnostics,
     );
     law::check_plated_sides(&laws, plated, diagnostics);
-    let friction = laws.friction.unworn();
-    let (platings, layers) = plating::resolve(coverings, friction, diagnostics);
+    let (platings, layers) = plating::resolve(coverings, laws.friction.unworn(), diagnostics);
     let laws = changing_friction::with_layers(laws, (&platings, &layers), diagnostics);
     let (load, line_load) = load::resolve(spec.load.as_ref(), &preset, &shapes, diagnostics);
     let contact = motion::HeldContact {
@@ -248,11 +247,8 @@ fn fill(spec: &Spec, kind: SystemKind, diagnostics: &mut Diagnostics) -> Filled 
         motion: movement.scene,
     };
     let mut conductors = conductors::resolve(&mut filled, bodies, diagnostics);
-    let wears = laws
-        .wear
-        .zip(plated)
-        .map(|(law, plated)| law.is_some() || plated);
-    let surfaces = (&layers, wears);
+    let wears = laws.wear.zip(plated);
+    let surfaces = (&layers, wears.map(|(law, plated)| law.is_some() || plated));
     let (stop, criteria) = limits(spec, &mut filled, surfaces, &mut conductors, diagnostics);
     let scene = Scene {
         slider: Body {
@@ -277,7 +273,7 @@ fn fill(spec: &Spec, kind: SystemKind, diagnostics: &mut Diagnostics) -> Filled 
         spring_n_per_mm2: line_load.spring_n_per_mm2,
         drive: movement.drive,
         motion: movement.scene,
-        timing: movement.timing,
+        timing: movement.timing.clone(),
         cycles,
         mission: movement.blocks.clone(),
         accuracy: numerical,

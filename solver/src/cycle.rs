@@ -34,7 +34,7 @@ use crate::law::surface::SurfaceWear;
 use crate::model::friction::ContactFriction;
 use crate::model::{Interface, Model, Tangential, resolution};
 use crate::number::{cycles_at_least, real, real_cycles};
-use crate::scene::{Motion, Scene};
+use crate::scene::{Motion, Scene, TimedMotion};
 use crate::schedule::increments::{self, Position};
 use crate::schedule::plan::CyclePlan;
 use crate::sides::{Side, Sides};
@@ -76,6 +76,9 @@ pub struct Integrator<'a> {
     spines: Spines,
     /// Cycles until the end of the run, estimated where it stops at a depth.
     expected_cycles: u64,
+    /// The motion in time, and the present stroke of its cycle.
+    timed: TimedMotion,
+    stroke: usize,
     next: ContactState,
 }
 
@@ -86,7 +89,8 @@ impl<'a> Integrator<'a> {
             operators,
             interface: model.interface_of(scene),
         };
-        let constant = scene.timed_motion().constant();
+        let timed = scene.timed_motion();
+        let constant = timed.constant();
         let at_pace = |wear: SurfaceWear| constant.map_or(wear, |pace| wear.during(pace, 0.0));
         let wear = pair.interface.wear.map(|wear| wear.map(at_pace));
         let heating = Heating::of(scene, &pair.interface, &pair.interface.wear);
@@ -102,6 +106,8 @@ impl<'a> Integrator<'a> {
             nodal_friction: Sides::default(),
             spines: Spines::of(model),
             expected_cycles: resolution::expected_cycles(scene, model.sizes.hertz_half_width),
+            timed,
+            stroke: 0,
             next,
         }
     }
@@ -213,6 +219,7 @@ impl<'a> Integrator<'a> {
         from: Motion,
     ) -> Result<(), CycleError> {
         self.update_surfaces(state, 0.0);
+        let from = from.outer();
         let contact = (state.mean_half_width, self.pair.interface.sticks);
         let steps = increments::steps(from, increments::count(from, &self.scene.accuracy, contact));
         for (increment, step) in increments::first_quarter(&steps).iter().enumerate() {
@@ -241,6 +248,7 @@ impl<'a> Integrator<'a> {
         let (mut half_widths, mut touching, mut done, mut neutral) = (0.0, 0, 0, 0);
         let friction = self.pair.interface.friction;
         for (increment, step) in steps.iter().enumerate() {
+            self.stroke = step.stroke;
             if increment > 0 && increments::begins_a_stroke(steps, increment) {
                 state.wear_of_strokes[0] = self.wear_per_cycle(state, &before, jump);
                 energy += self.extrapolate(state, (extrapolated, jump));
@@ -334,10 +342,7 @@ impl<'a> Integrator<'a> {
     ) -> Result<(), ContactError> {
         let surfaces = Self::surfaces(&self.nodal_friction, &state.depth, &self.slope);
         let last = &state.contact;
-        let pace = self
-            .scene
-            .timed_motion()
-            .between(last.slider_x, to.slider_x);
+        let pace = self.timed.between(self.stroke, last.slider_x, to.slider_x);
         let distance = (to.slider_x - last.slider_x).abs() + to.surface_slip.abs();
         let wear = match &self.heating {
             Some(heating) => heating.at_speed(pace.speed()),

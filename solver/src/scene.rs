@@ -9,17 +9,21 @@ mod electrical;
 mod heat;
 mod mission;
 mod motion;
+mod series;
 mod timing;
 mod tuning;
+mod turning_points;
 
 pub use criterion::Criterion;
 pub use electrical::{Conduction, Electrical, MOST_METALS, Metal, Spots};
 pub(crate) use heat::ContactHeat;
 pub use mission::{Block, Mission, Order};
 pub use motion::Motion;
+pub use series::{HIGHEST_ORDER, Series, Term};
 pub use timing::Timing;
 pub(crate) use timing::{Spread, TimedMotion};
 pub use tuning::{Power, Tuning};
+pub use turning_points::{MOST_TURNS, TurningPoints};
 
 use std::borrow::Cow;
 
@@ -108,7 +112,7 @@ impl Scene {
         let blocks = mission.blocks.iter().map(|block| {
             Cow::Owned(Self {
                 motion: block.motion,
-                timing: block.timing,
+                timing: block.timing.clone(),
                 cycles: block.cycles.saturating_mul(mission.repeat),
                 mission: None,
                 ..self.clone()
@@ -150,7 +154,7 @@ impl Scene {
 
     /// The motion with its course in time.
     pub(crate) fn timed_motion(&self) -> TimedMotion {
-        TimedMotion::new(self.motion, self.timing)
+        TimedMotion::new(self.motion, &self.timing)
     }
 
     /// Whether a run may end before its last cycle by a condition of the user.

@@ -6,4 +6,6 @@ pub mod jump;
 pub(crate) mod mission;
 pub mod plan;
 pub mod replay;
+pub(crate) mod step;
 pub mod stops;
+mod turning_steps;

@@ -31,6 +31,7 @@ mod verify_mccoll;
 mod verify_mission;
 mod verify_mixed_mission;
 mod verify_moving_line_contact;
+mod verify_periodic_motion;
 mod verify_plated_life;
 mod verify_plating;
 mod verify_pressure_fields;

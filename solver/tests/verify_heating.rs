@@ -58,7 +58,7 @@ fn verdict(plan: &EffectsPlan, effect: Effect) -> Verdict {
 #[test]
 fn a_contact_that_friction_heats_wears_by_its_temperature() {
     for timing in [Timing::Triangle, Timing::Sine] {
-        let scene = fast(timing);
+        let scene = fast(timing.clone());
         assert_eq!(
             verdict(&plan(&scene), Effect::FrictionalHeating),
             Verdict::Simulated

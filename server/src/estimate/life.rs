@@ -53,7 +53,7 @@ fn life(
         criterion: criterion.clone(),
         side: depth.side.name().to_owned(),
         // The parts of a continuous motion are no cycles of the user.
-        cycles: cycles.filter(|_| matches!(scene.motion, Motion::Reciprocating { .. })),
+        cycles: cycles.filter(|_| !matches!(scene.motion, Motion::Continuous { .. })),
         sliding_distance_mm: cycles.map(|cycles| cycles * scene.motion.distance_per_cycle_mm()),
         rated,
     }

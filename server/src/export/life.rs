@@ -90,7 +90,7 @@ fn entry(
     let Some(cycles) = state.cycles else {
         let share = 100.0 * state.value / state.limit;
         let reason = match scene.motion {
-            Motion::Reciprocating { .. } => {
+            Motion::Reciprocating { .. } | Motion::Periodic { .. } => {
                 format!("{share:.1} % of the limit after {done} cycles")
             }
             Motion::Continuous { step_mm } => {
@@ -111,7 +111,7 @@ fn entry(
     let mission = scene.mission.as_ref();
     // The parts of a continuous motion are no cycles of the user.
     let (counted, measure) = match scene.motion {
-        Motion::Reciprocating { .. } => (Some(cycles), cycles),
+        Motion::Reciprocating { .. } | Motion::Periodic { .. } => (Some(cycles), cycles),
         Motion::Continuous { .. } => (None, distance_mm),
     };
     LifeEntry {

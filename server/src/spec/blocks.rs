@@ -13,7 +13,7 @@ const SECONDS_PER_HOUR: f64 = 3_600.0;
 pub(super) fn extents(filled: &Spec, movement: &Movement) -> Vec<BlockExtent> {
     let single = [Block {
         motion: movement.scene,
-        timing: movement.timing,
+        timing: movement.timing.clone(),
         cycles: movement.total_cycles,
     }];
     let (blocks, repeat) = match &movement.blocks {

@@ -73,7 +73,7 @@ pub(super) fn resolve(
         },
         // The speeds of several blocks differ, whatever their courses.
         timing: match &mission.blocks[..] {
-            [single] => single.timing,
+            [single] => single.timing.clone(),
             _ => scene::Timing::Sine,
         },
         blocks: (mission.blocks.len() > 1).then_some(mission),
@@ -96,7 +96,7 @@ impl Block {
     fn scene(&self) -> scene::Block {
         scene::Block {
             motion: self.motion.scene,
-            timing: self.motion.timing,
+            timing: self.motion.timing.clone(),
             cycles: self.cycles,
         }
     }

@@ -144,6 +144,9 @@ impl Integrator<'_> {
             ),
             self.expected_cycles,
         );
+        if scene.motion.turns_inside() {
+            stroke = stroke.turning_inside(scene.motion);
+        }
         let is_even = state.contact.load(interface) <= UNEVEN * state.neutral.load;
         let passes = self.wear.receptacle;
         stroke.is_groove &= is_even && passes.is_none_or(SurfaceWear::is_even);

@@ -1,8 +1,8 @@
 //! Runs the single-cycle replays of a computed cycle and holds the states that they reach.
 
 use super::CycleState;
-use crate::schedule::increments::{Position, Step};
 use crate::schedule::replay::ReplayPlan;
+use crate::schedule::step::{Position, Step};
 
 /// Replays of one computed cycle.
 #[derive(Debug, Default)]

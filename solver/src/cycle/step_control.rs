@@ -3,7 +3,7 @@
 use super::{CycleError, CycleState, Integrator};
 use crate::contact::{ContactError, Displacement, WarmStart};
 use crate::number::real;
-use crate::schedule::increments::Step;
+use crate::schedule::step::Step;
 
 /// Retries of an increment.
 #[derive(Debug, Clone, Copy)]
@@ -64,6 +64,7 @@ impl Integrator<'_> {
             slider_x: from + (slider_x - from) * real(k) / real(parts),
             surface_slip: 0.0,
             at: None,
+            stroke: 0,
         };
         (1..=parts).all(|k| {
             self.halve_and_retry(state, displacement(&part(k), 1.0), 0, REPLAY_RETRY)

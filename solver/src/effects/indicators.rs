@@ -16,7 +16,7 @@ use crate::law::surface::SurfaceWear;
 use crate::law::wear::LocalState;
 use crate::model::resolution::{self, Sizes};
 use crate::model::worn_depth;
-use crate::number::real_cycles;
+use crate::number::{real, real_cycles};
 use crate::scene::{ContactHeat, Drive, Motion, Scene};
 use crate::sides::{Side, Sides};
 
@@ -312,6 +312,8 @@ fn share_of_time(part: f64) -> f64 {
 fn lost_slip(scene: &Scene, half_width: f64) -> f64 {
     let displacement = match scene.motion {
         Motion::Reciprocating { amplitude_mm, .. } => amplitude_mm.abs(),
+        // As if all strokes had the mean length.
+        Motion::Periodic { turns, .. } => turns.path_mm() / (2.0 * real(turns.as_slice().len())),
         Motion::Continuous { step_mm } => step_mm.abs() * real_cycles(scene.cycles),
     };
     let lost = resolution::gross_slip(scene, half_width);

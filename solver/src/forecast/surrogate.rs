@@ -10,7 +10,7 @@ use crate::law::wear::LocalState;
 use crate::model::{Layout, resolution};
 use crate::number::{real, real_cycles};
 use crate::record::WornSurface;
-use crate::scene::{Scene, Tuning};
+use crate::scene::{Motion, Scene, Tuning};
 use crate::schedule::jump::Stroke;
 use crate::sides::{Side, Sides};
 
@@ -52,6 +52,7 @@ pub(super) struct Scar {
     /// Whether grooves can be extrapolated, and whether wear is in proportion to the load.
     passes_are_even: bool,
     is_proportional: bool,
+    motion: Motion,
     /// Expected cycles of the run.
     cycles: u64,
     /// Rate of the equivalent depths of each side over the mean rate that it wears by.
@@ -80,7 +81,11 @@ impl Scar {
         let wear = rates.slider + rates.receptacle;
         let approach = resolution::approach(scene, hertz, modulus);
         let amplitude = scene.motion.amplitude_mm();
-        let sliding = if amplitude > 0.0 {
+        let sliding = if let Motion::Periodic { turns, .. } = scene.motion {
+            let lost = 2.0 * resolution::gross_slip(scene, hertz);
+            let slip = |(from, to): (f64, f64)| ((to - from).abs() - lost).max(0.0);
+            turns.strokes().map(slip).sum()
+        } else if amplitude > 0.0 {
             4.0 * (amplitude - resolution::gross_slip(scene, hertz)).max(0.0)
         } else {
             scene.motion.distance_per_cycle_mm()
@@ -110,6 +115,7 @@ impl Scar {
                 .surface_wear()
                 .receptacle
                 .is_none_or(SurfaceWear::is_even),
+            motion: scene.motion,
             cycles: resolution::expected_cycles(scene, hertz),
             initial: scene.surface_wear().zip(rates).map(|(wear, rate)| {
                 let equivalent = wear.and_then(|wear| wear.equivalent_rate(at));
@@ -138,6 +144,9 @@ impl Scar {
         );
         stroke.is_groove &= self.passes_are_even;
         stroke.limit_change_of_friction(scene, cycle);
+        if self.motion.turns_inside() {
+            stroke = stroke.turning_inside(self.motion);
+        }
         if self.is_proportional {
             stroke
         } else {

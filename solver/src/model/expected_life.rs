@@ -64,7 +64,7 @@ pub fn cycles(scene: &Scene, criterion: Criterion) -> Option<f64> {
         scene,
         wear: scene.surface_wear(),
         radius: resolution::radius(scene),
-        amplitude: scene.motion.amplitude_mm(),
+        amplitude: scene.motion.equivalent_amplitude_mm(),
     };
     let load_path = contact.load_path(criterion)?;
     (path > 0.0).then(|| load_path / path)

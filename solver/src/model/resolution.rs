@@ -103,8 +103,10 @@ pub(crate) fn gross_slip(scene: &Scene, half_width: f64) -> f64 {
 /// Whether part of the contact may stick through the whole stroke: the amplitude is below twice the displacement of
 /// gross slip.
 pub(crate) fn sticks(scene: &Scene, half_width: f64) -> bool {
-    let Motion::Reciprocating { amplitude_mm, .. } = scene.motion else {
-        return false;
+    let amplitude_mm = match scene.motion {
+        Motion::Reciprocating { amplitude_mm, .. } => amplitude_mm,
+        Motion::Periodic { turns, .. } => 0.5 * turns.shortest_mm(),
+        Motion::Continuous { .. } => return false,
     };
     let is_off = |effect| scene.effects.of(effect) == Some(false);
     if is_off(Effect::Friction) || is_off(Effect::StickMemory) {

@@ -40,7 +40,7 @@ pub(crate) fn after(
             depth.min(height)
         })
     };
-    let amplitude = scene.motion.amplitude_mm();
+    let amplitude = scene.motion.equivalent_amplitude_mm();
     Sides {
         slider: depth(wear.slider, 0.0, scene.slider.shape.height_mm),
         receptacle: depth(wear.receptacle, amplitude, scene.receptacle.shape.height_mm),
@@ -56,7 +56,7 @@ pub(crate) fn expected_cycles(
     let path = scene.load_n_per_mm * scene.motion.distance_per_cycle_mm();
     let amplitudes = Sides {
         slider: 0.0,
-        receptacle: scene.motion.amplitude_mm(),
+        receptacle: scene.motion.equivalent_amplitude_mm(),
     };
     let cycles = |side: Side, depth: f64| {
         let rate = wear.of(side).map_or(0.0, |wear| wear.mean_rate(depth, at));

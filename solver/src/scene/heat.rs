@@ -8,7 +8,7 @@ use crate::scene::{Motion, Scene, TimedMotion};
 use crate::sides::{Side, Sides};
 
 /// Heat of a contact in its motion.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub(crate) struct ContactHeat {
     /// Heat of friction in proportion to the speed; none where it is left out.
     friction: Option<(SlidingHeat, f64)>,
@@ -53,7 +53,7 @@ impl Scene {
         let (slider, receptacle) = (self.slider.thermal?, self.receptacle.thermal?);
         let (resting, passed) = match self.motion {
             Motion::Continuous { .. } => (receptacle, slider),
-            Motion::Reciprocating { .. } => (slider, receptacle),
+            Motion::Reciprocating { .. } | Motion::Periodic { .. } => (slider, receptacle),
         };
         let (slider, block) = (self.slider.shape, self.receptacle.shape);
         Some(SlidingHeat {

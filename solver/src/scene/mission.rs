@@ -1,4 +1,4 @@
-//! Mission: blocks of different reciprocating motions, repeated as a whole.
+//! Mission: blocks of different reciprocating or periodic motions, repeated as a whole.
 //!
 //! It is done in rounds, in each of which every block has some cycles, one block after the other. In order a round is a repetition.
 //! Mixed, the cycles of all repetitions are spread evenly over R rounds: of n cycles in all a block has done
@@ -11,9 +11,9 @@ use super::timing::Timing;
 use crate::number::{real_cycles, whole_cycles};
 
 /// A block of a mission.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Block {
-    /// Its reciprocating motion.
+    /// Its motion, not continuous.
     pub motion: Motion,
     /// The course of that in time.
     pub timing: Timing,
@@ -120,7 +120,7 @@ impl Mission {
             sum / real_cycles(self.cycles())
         };
         Motion::Reciprocating {
-            amplitude_mm: mean(|motion| motion.amplitude_mm().abs()),
+            amplitude_mm: mean(|motion| 0.25 * motion.distance_per_cycle_mm().abs()),
             period_s: mean(|motion| motion.period_s().unwrap_or_default()),
         }
     }
@@ -184,7 +184,7 @@ mod tests {
     fn mixed(cycles: &[u64], repeat: u64) -> Mission {
         let block = |&cycles: &u64| Block {
             cycles,
-            ..mission().blocks[0]
+            ..mission().blocks[0].clone()
         };
         Mission {
             blocks: cycles.iter().map(block).collect(),

@@ -1,5 +1,8 @@
 //! The imposed relative motion.
 
+use super::turning_points::TurningPoints;
+use crate::number::real;
+
 /// Imposed relative motion.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Motion {
@@ -8,6 +11,13 @@ pub enum Motion {
     Reciprocating {
         /// Amplitude, mm.
         amplitude_mm: f64,
+        /// Duration of a cycle, s.
+        period_s: f64,
+    },
+    /// Periodic with turning points between the outermost ones, beginning at the neutral position on its last way to +x in a period.
+    Periodic {
+        /// Its turning points about the neutral position.
+        turns: TurningPoints,
         /// Duration of a cycle, s.
         period_s: f64,
     },
@@ -24,6 +34,7 @@ impl Motion {
     pub fn distance_per_cycle_mm(self) -> f64 {
         match self {
             Self::Reciprocating { amplitude_mm, .. } => 4.0 * amplitude_mm,
+            Self::Periodic { turns, .. } => turns.path_mm(),
             Self::Continuous { step_mm } => step_mm,
         }
     }
@@ -31,7 +42,9 @@ impl Motion {
     /// Duration of a cycle, s; none of a continuous motion.
     pub fn period_s(self) -> Option<f64> {
         match self {
-            Self::Reciprocating { period_s, .. } => Some(period_s),
+            Self::Reciprocating { period_s, .. } | Self::Periodic { period_s, .. } => {
+                Some(period_s)
+            }
             Self::Continuous { .. } => None,
         }
     }
@@ -40,7 +53,33 @@ impl Motion {
     pub fn amplitude_mm(self) -> f64 {
         match self {
             Self::Reciprocating { amplitude_mm, .. } => amplitude_mm,
+            Self::Periodic { turns, .. } => turns.amplitude_mm(),
             Self::Continuous { .. } => 0.0,
+        }
+    }
+
+    /// Whether it turns between its outermost turning points.
+    pub fn turns_inside(self) -> bool {
+        matches!(self, Self::Periodic { .. })
+    }
+
+    /// Amplitude of the reciprocating motion that passes a place as often on the same path as this one passes the place that it
+    /// passes most, mm: its groove is as deep.
+    pub(crate) fn equivalent_amplitude_mm(self) -> f64 {
+        match self {
+            Self::Periodic { turns, .. } => turns.path_mm() / (2.0 * real(turns.most_passes())),
+            Self::Reciprocating { .. } | Self::Continuous { .. } => self.amplitude_mm(),
+        }
+    }
+
+    /// The reciprocating motion between the outermost turning points.
+    pub(crate) fn outer(self) -> Self {
+        match self {
+            Self::Periodic { turns, period_s } => Self::Reciprocating {
+                amplitude_mm: turns.amplitude_mm(),
+                period_s,
+            },
+            Self::Reciprocating { .. } | Self::Continuous { .. } => self,
         }
     }
 }

@@ -1,18 +1,22 @@
 //! Course of the imposed motion in time: nothing in the contact problem depends on it, wear laws of time and speed do.
 
 use std::f64::consts::{FRAC_2_PI, PI};
+use std::sync::Arc;
 
 use super::motion::Motion;
+use super::series::Series;
 use crate::law::pace::Pace;
 use crate::number::real;
 
 /// Course of the imposed motion in time.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub enum Timing {
     /// A sine of the period of a reciprocating motion.
     Sine,
-    /// A constant speed between the turning points of one.
+    /// A constant speed between the turning points of a reciprocating or periodic motion.
     Triangle,
+    /// The series whose turning points those of a periodic motion are.
+    Series(Arc<Series>),
     /// A constant speed of a continuous motion.
     Speed {
         /// The speed, mm/s.
@@ -21,10 +25,12 @@ pub enum Timing {
 }
 
 /// A motion and its course in time.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub(crate) struct TimedMotion {
     /// Amplitude of a reciprocating motion, mm.
     amplitude_mm: f64,
+    /// Distance of a cycle, mm; 0 of a continuous motion.
+    distance_mm: f64,
     /// Its period, s; without bound of a continuous one.
     period_s: f64,
     timing: Timing,
@@ -32,11 +38,15 @@ pub(crate) struct TimedMotion {
 
 impl TimedMotion {
     /// A motion with its course.
-    pub(crate) fn new(motion: Motion, timing: Timing) -> Self {
+    pub(crate) fn new(motion: Motion, timing: &Timing) -> Self {
         Self {
             amplitude_mm: motion.amplitude_mm().abs(),
+            distance_mm: match motion {
+                Motion::Continuous { .. } => 0.0,
+                _ => motion.distance_per_cycle_mm().abs(),
+            },
             period_s: motion.period_s().unwrap_or(f64::INFINITY),
-            timing,
+            timing: timing.clone(),
         }
     }
 
@@ -44,14 +54,14 @@ impl TimedMotion {
     pub(crate) fn mean(&self) -> Pace {
         match self.timing {
             Timing::Speed { mm_s } => self.at_speed(mm_s),
-            Timing::Sine | Timing::Triangle => {
-                self.at_speed(4.0 * self.amplitude_mm / self.period_s)
+            Timing::Sine | Timing::Triangle | Timing::Series(_) => {
+                self.at_speed(self.distance_mm / self.period_s)
             }
         }
     }
 
     fn at_speed(&self, mm_s: f64) -> Pace {
-        let distance = 4.0 * self.amplitude_mm;
+        let distance = self.distance_mm;
         Pace {
             cycles_per_mm: if distance > 0.0 { 1.0 / distance } else { 0.0 },
             ..Pace::at_speed(mm_s)
@@ -60,8 +70,9 @@ impl TimedMotion {
 
     /// Pace at the fastest moment.
     pub(crate) fn fastest(&self) -> Pace {
-        match self.timing {
+        match &self.timing {
             Timing::Sine => self.at_speed(2.0 * PI * self.amplitude_mm / self.period_s),
+            Timing::Series(series) => self.at_speed(series.fastest() / self.period_s),
             Timing::Speed { .. } | Timing::Triangle => self.mean(),
         }
     }
@@ -70,8 +81,16 @@ impl TimedMotion {
     pub(crate) fn mean_by_distance(&self, at: impl Fn(f64) -> f64) -> f64 {
         // Midpoints of a quarter of a sine: exact for its first harmonics.
         const PARTS: usize = 16;
-        match self.timing {
+        match &self.timing {
             Timing::Speed { .. } | Timing::Triangle => at(self.mean().speed()),
+            Timing::Series(series) => {
+                let (mut sum, mut whole) = (0.0, 0.0);
+                for speed in series.speeds() {
+                    sum += speed * at(speed / self.period_s);
+                    whole += speed;
+                }
+                sum / whole
+            }
             Timing::Sine => {
                 let fastest = self.fastest().speed();
                 let shares = (0..PARTS).map(|i| (0.5 * PI * (real(i) + 0.5) / real(PARTS)).cos());
@@ -88,22 +107,25 @@ impl TimedMotion {
     /// The pace, if it is the same all the time.
     pub(crate) fn constant(&self) -> Option<Pace> {
         match self.timing {
-            Timing::Sine => None,
+            Timing::Sine | Timing::Series(_) => None,
             Timing::Speed { .. } | Timing::Triangle => Some(self.mean()),
         }
     }
 
-    /// Mean pace from one displacement of the same stroke to another, mm.
-    pub(crate) fn between(&self, from: f64, to: f64) -> Pace {
-        match self.timing {
-            Timing::Speed { .. } | Timing::Triangle => self.mean(),
+    /// Mean pace from one displacement of a stroke of the cycle to another, mm.
+    pub(crate) fn between(&self, stroke: usize, from: f64, to: f64) -> Pace {
+        let time = match &self.timing {
+            Timing::Speed { .. } | Timing::Triangle => return self.mean(),
             Timing::Sine => {
                 let phase = |x: f64| (x / self.amplitude_mm).clamp(-1.0, 1.0).asin();
-                let distance = (to - from).abs();
-                let time = self.period_s / (2.0 * PI) * (phase(to) - phase(from)).abs();
-                self.at_speed(if time > 0.0 { distance / time } else { 0.0 })
+                self.period_s / (2.0 * PI) * (phase(to) - phase(from)).abs()
             }
-        }
+            Timing::Series(series) => {
+                self.period_s * (series.time(stroke, to) - series.time(stroke, from)).abs()
+            }
+        };
+        let distance = (to - from).abs();
+        self.at_speed(if time > 0.0 { distance / time } else { 0.0 })
     }
 }
 
@@ -138,6 +160,7 @@ mod tests {
 
     const SINE: TimedMotion = TimedMotion {
         amplitude_mm: 0.5,
+        distance_mm: 2.0,
         period_s: 2.0,
         timing: Timing::Sine,
     };
@@ -145,14 +168,14 @@ mod tests {
     #[test]
     fn the_parts_of_a_stroke_take_half_a_period_together() {
         let steps = [-0.5, -0.3, 0.0, 0.1, 0.45, 0.5];
-        let time = |pair: &[f64]| SINE.between(pair[0], pair[1]).s_per_mm * (pair[1] - pair[0]);
+        let time = |pair: &[f64]| SINE.between(0, pair[0], pair[1]).s_per_mm * (pair[1] - pair[0]);
         let all: f64 = steps.windows(2).map(time).sum();
         assert!((all - 1.0).abs() < 1e-15, "{all}");
         assert!((SINE.mean().s_per_mm - 1.0).abs() < 1e-15);
         // The middle of the stroke has the highest speed.
-        let middle = SINE.between(-1e-6, 1e-6).s_per_mm;
+        let middle = SINE.between(0, -1e-6, 1e-6).s_per_mm;
         assert!((middle / SINE.fastest().s_per_mm - 1.0).abs() < 1e-6);
-        assert!(SINE.between(0.1, 0.1).s_per_mm <= 0.0);
+        assert!(SINE.between(0, 0.1, 0.1).s_per_mm <= 0.0);
     }
 
     #[test]

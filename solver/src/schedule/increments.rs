@@ -6,50 +6,46 @@
 //! Nothing in the contact problem depends on time, so steps are equal in displacement whatever the wave. A step
 //! must stay a fraction of the contact's half-width, or its wear would leave ripples.
 
+use super::step::{MOST_STEPS, Named, Step};
+use super::turning_steps;
 use crate::number::{count_at_least, real};
 use crate::scene::{Accuracy, Motion};
 
-/// Named positions of a cycle.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Position {
-    /// Slider at x = 0 on its way to +x.
-    Neutral,
-    /// Slider at its rightmost position.
-    Rightmost,
-    /// Slider at its leftmost position.
-    Leftmost,
-}
+pub use super::step::Position;
 
-/// Most steps a quarter of a cycle: an arbitrary bound on the length of a computed cycle.
-const MOST_STEPS: usize = 50_000;
-
-/// One increment of a cycle.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Step {
-    /// Displacement of the slider at its end, mm.
-    pub(crate) slider_x: f64,
-    /// Additional slip of the slider's surface that does not move the contact, mm.
-    pub(crate) surface_slip: f64,
-    /// The named position at its end, if there is one.
-    pub(crate) at: Option<Position>,
-}
+/// Amplitude over the path of a cycle of a reciprocating motion.
+const QUARTER: f64 = 0.25;
 
 /// Number of increments of one cycle for a contact of a half-width, mm, part of which may stick through the whole stroke.
 pub(crate) fn count(motion: Motion, accuracy: &Accuracy, contact: (f64, bool)) -> usize {
     match motion {
         Motion::Continuous { .. } => 1,
         Motion::Reciprocating { amplitude_mm, .. } => {
-            4 * steps_per_quarter(accuracy, amplitude_mm, contact)
+            4 * steps_per_quarter(accuracy, (amplitude_mm, QUARTER), contact)
+        }
+        Motion::Periodic { turns, .. } => {
+            let amplitude = turns.amplitude_mm().abs();
+            let share = amplitude / turns.path_mm();
+            let quarter = steps_per_quarter(accuracy, (amplitude, share), contact);
+            turning_steps::count(&turns, quarter)
         }
     }
 }
 
-/// Indices of the increments, of so many in a cycle, that end at a named position.
-pub(crate) fn named(count: usize) -> [usize; 3] {
-    [2, 3, 4].map(|quarters| (quarters * (count / 4)).saturating_sub(1))
+/// The leftmost, the neutral and the rightmost position in a cycle of so many increments.
+pub(crate) fn named(motion: Motion, count: usize) -> [Named; 3] {
+    match motion {
+        Motion::Periodic { turns, .. } => turning_steps::named(&turns, count),
+        Motion::Reciprocating { .. } | Motion::Continuous { .. } => {
+            [2, 3, 4].map(|quarters| Named {
+                from: 0,
+                end: (quarters * (count / 4)).saturating_sub(1),
+            })
+        }
+    }
 }
 
-/// The increments of one cycle, so many if the motion reciprocates.
+/// The increments of one cycle, so many if the motion is not continuous.
 pub(crate) fn steps(motion: Motion, count: usize) -> Vec<Step> {
     match motion {
         Motion::Continuous { step_mm } => {
@@ -57,16 +53,18 @@ pub(crate) fn steps(motion: Motion, count: usize) -> Vec<Step> {
                 slider_x: 0.0,
                 surface_slip: step_mm,
                 at: Some(Position::Neutral),
+                stroke: 0,
             }]
         }
         Motion::Reciprocating { amplitude_mm, .. } => there_and_back(amplitude_mm, count / 4),
+        Motion::Periodic { turns, .. } => turning_steps::steps(&turns, count),
     }
 }
 
 /// Whether a step is the first one after a turning point.
 pub(crate) fn begins_a_stroke(steps: &[Step], step: usize) -> bool {
     match step.checked_sub(1) {
-        Some(before) => steps[before].at == Some(Position::Leftmost),
+        Some(before) => steps[before].stroke != steps[step].stroke,
         None => steps.len() > 1,
     }
 }
@@ -87,9 +85,10 @@ pub(crate) fn first_quarter(steps: &[Step]) -> &[Step] {
     &steps[..steps.len() / 4]
 }
 
+/// Steps over the amplitude of a motion, which is a share of its path in a cycle.
 fn steps_per_quarter(
     accuracy: &Accuracy,
-    amplitude: f64,
+    (amplitude, share): (f64, f64),
     (half_width, sticks): (f64, bool),
 ) -> usize {
     let Accuracy {
@@ -105,7 +104,7 @@ fn steps_per_quarter(
     };
     let fewest = fewest.at(*tolerance) * refinement.increments;
     match accuracy.increments_per_cycle {
-        Some(given) => count_at_least(0.25 * refinement.increments * f64::from(given)),
+        Some(given) => count_at_least(share * refinement.increments * f64::from(given)),
         // Without a contact there is nothing to resolve.
         None if half_width <= 0.0 => count_at_least(fewest.round()),
         None => {
@@ -130,6 +129,7 @@ fn there_and_back(amplitude: f64, quarter: usize) -> Vec<Step> {
                 i if i == 4 * quarter => Some(Position::Rightmost),
                 _ => None,
             },
+            stroke: usize::from(i > 2 * quarter),
         })
         .collect()
 }

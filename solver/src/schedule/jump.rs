@@ -9,7 +9,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::number::{cycles_at_least, real, real_cycles};
-use crate::scene::{Accuracy, Scene, Tuning};
+use crate::scene::{Accuracy, Motion, Scene, Tuning};
 use crate::sides::{Side, Sides};
 
 /// A computed cycle wears `jump` passes at once, so that scar and pressure are skewed toward the last pass, the
@@ -18,6 +18,10 @@ fn largest_skew(accuracy: &Accuracy) -> f64 {
     let tuning = &accuracy.tuning;
     tuning.skew.at(accuracy.tolerance).max(tuning.least_skew)
 }
+
+/// The same over the tolerance where the skew is not removed from what is reported. Measured with an inner loop in `McColl`'s scar: the
+/// pressure is off by 9.7 % for 0.29 and by 2.6 % for 0.06.
+const REPORTED_SKEW: f64 = 2.0;
 
 /// A jump without a solution is divided by this; jumps may double again afterwards. Arbitrary: no result depends on it
 /// as long as one of the jumps has a solution.
@@ -39,6 +43,15 @@ const CHANGE_OF_FRICTION: f64 = 1.0;
 /// below the smallest tolerance does the same.
 const SMALLEST_ERROR: f64 = 1e-6;
 
+/// Passes of a cycle.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Passes {
+    /// One to either side.
+    Whole,
+    /// Several of different lengths: no skew of a jump is removed from what is reported.
+    Unequal,
+}
+
 /// Limits of a jump besides its error.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Stroke {
@@ -52,6 +65,7 @@ pub(crate) struct Stroke {
     both: bool,
     /// Factor on the allowed error of a jump.
     error_factor: f64,
+    passes: Passes,
     /// Pressure skew of a single cycle, k s E*/b.
     pub(crate) skew: f64,
     /// Cycles of the whole run.
@@ -84,6 +98,7 @@ impl Stroke {
             } else {
                 tuning.scar_jump_error
             },
+            passes: Passes::Whole,
             skew: wear * 2.0 * amplitude * modulus / half_width,
             cycles,
             even_friction: f64::INFINITY,
@@ -100,6 +115,21 @@ impl Stroke {
     /// Limits jumps from a number of cycles on by the change of a coefficient of friction by cycle.
     pub(crate) fn limit_change_of_friction(&mut self, scene: &Scene, done: u64) {
         self.even_friction = even_friction(scene, done);
+    }
+
+    /// One that turns between its outermost turning points: several passes of different lengths wear the groove, which the
+    /// extrapolation of two whole ones does not describe.
+    #[must_use]
+    pub(crate) fn turning_inside(self, motion: Motion) -> Self {
+        let amplitude = motion.amplitude_mm().abs();
+        Self {
+            // Half of the path is passed to either side.
+            skew: self.skew * motion.distance_per_cycle_mm() / (4.0 * amplitude),
+            smoothing: 0.0,
+            is_groove: false,
+            passes: Passes::Unequal,
+            ..self
+        }
     }
 
     /// Largest estimated error of a jump.
@@ -128,7 +158,13 @@ impl Stroke {
         } else {
             let sufficient = real_cycles(self.cycles) * tolerance / tuning.sufficient_cycles;
             let unskewed = largest_skew(accuracy) / self.skew.max(f64::MIN_POSITIVE);
-            (tuning.jump_of_done * done).min(unskewed.max(sufficient))
+            let tolerated = REPORTED_SKEW * tolerance / self.skew.max(f64::MIN_POSITIVE);
+            let most = if self.passes == Passes::Unequal && tolerated >= 1.0 {
+                tolerated
+            } else {
+                unskewed.max(sufficient)
+            };
+            (tuning.jump_of_done * done).min(most)
         };
         most.min(self.even_friction) / accuracy.refinement.cycles
     }

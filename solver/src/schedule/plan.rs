@@ -7,7 +7,7 @@
 
 use super::increments;
 use super::jump::Stroke;
-use super::replay::ReplayPlan;
+use super::replay::{ReplayPlan, ReplayedCycle};
 use crate::number::{real, real_cycles};
 use crate::scene::{Accuracy, Motion};
 
@@ -76,6 +76,10 @@ impl CyclePlan {
     ) -> Self {
         // A single cycle needs none, and that to the neutral position need not begin before the turning point.
         let amplitude = motion.amplitude_mm().abs();
+        let path = match motion {
+            Motion::Periodic { turns, .. } => turns.path_mm(),
+            Motion::Reciprocating { .. } | Motion::Continuous { .. } => 4.0 * amplitude,
+        };
         let lead_in = if cycles.jump > 1 {
             (accuracy.tuning.lead_in * contact.half_width).min(amplitude)
         } else {
@@ -84,15 +88,15 @@ impl CyclePlan {
         let is_evenly_worn = stroke.skew <= accuracy.tuning.unskewed_to;
         let plan = |half_width, replayed| {
             let steps = increments::count(motion, accuracy, (half_width, contact.sticks));
-            let length = 4.0 * amplitude / real(steps);
-            let is_skewed = is_evenly_worn && !stroke.gross && steps > 1;
+            let length = path / real(steps);
+            let is_skewed = is_evenly_worn && !stroke.gross && steps > 1 && !motion.turns_inside();
             let replays = if replayed {
-                ReplayPlan::new(
-                    (steps, length),
-                    accuracy,
-                    (lead_in, contact.single),
-                    detailed,
-                )
+                let cycle = ReplayedCycle {
+                    named: increments::named(motion, steps),
+                    length,
+                    amplitude: amplitude / path * length * real(steps),
+                };
+                ReplayPlan::new(cycle, accuracy, (lead_in, contact.single), detailed)
             } else {
                 ReplayPlan::default()
             };

@@ -8,9 +8,20 @@
 //! Where the increments of the computed cycle are longer than the contact of a single cycle needs, they leave waves in the
 //! floor. The position is then followed by a smoothing pass: there and back on either side of it.
 
-use crate::number::{count_at_least, real};
+use crate::number::count_at_least;
 use crate::scene::Accuracy;
-use crate::schedule::increments;
+use crate::schedule::step::Named;
+
+/// The steps that replays are taken from.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct ReplayedCycle {
+    /// The leftmost, the neutral and the rightmost position.
+    pub(crate) named: [Named; 3],
+    /// Length of a step, mm.
+    pub(crate) length: f64,
+    /// Amplitude of the stroke, mm.
+    pub(crate) amplitude: f64,
+}
 
 /// Plan of the replays of one computed cycle.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -29,10 +40,10 @@ pub(crate) struct ReplayPlan {
 }
 
 impl ReplayPlan {
-    /// Plans replays that end at the neutral position, or at all named ones, of a cycle of so many steps of a length, for
+    /// Plans replays that end at the neutral position, or at all named ones, of a cycle, for
     /// a lead-in of a length, mm, and the half-width of the contact of a single cycle, mm.
     pub(crate) fn new(
-        (steps, length): (usize, f64),
+        cycle: ReplayedCycle,
         accuracy: &Accuracy,
         (lead_in, single): (f64, f64),
         all: bool,
@@ -40,15 +51,20 @@ impl ReplayPlan {
         if single <= 0.0 {
             return Self::default();
         }
+        let ReplayedCycle {
+            named,
+            length,
+            amplitude,
+        } = cycle;
         let tuning = &accuracy.tuning;
         let count = if lead_in > 0.0 {
             count_at_least(lead_in / length)
         } else {
             0
         };
-        let named = increments::named(steps);
         let ends = if all { &named[..] } else { &named[1..2] };
-        let spans = ends.iter().map(|end| (end.saturating_sub(count), *end));
+        let begin = |named: &Named| named.end.saturating_sub(count).max(named.from);
+        let spans = ends.iter().map(|named| (begin(named), named.end));
         let short_step = accuracy.largest_step(single);
         // Steps divide the stroke evenly.
         let smoothing = if length > (1.0 + 1e-9) * short_step {
@@ -62,7 +78,7 @@ impl ReplayPlan {
             fine: smoothing.min(tuning.fine_pass * single),
             long_step: length,
             short_step,
-            amplitude: 0.25 * length * real(steps),
+            amplitude,
         }
     }
 
@@ -106,7 +122,12 @@ mod tests {
 
     /// Steps of 0.5 over a stroke from -10 to 10 under a contact of half-width 2.
     fn plan(single: f64, all: bool) -> ReplayPlan {
-        ReplayPlan::new((80, 0.5), &ACCURACY, (8.0, single), all)
+        let cycle = ReplayedCycle {
+            named: [39, 59, 79].map(|end| Named { from: 0, end }),
+            length: 0.5,
+            amplitude: 10.0,
+        };
+        ReplayPlan::new(cycle, &ACCURACY, (8.0, single), all)
     }
 
     #[test]

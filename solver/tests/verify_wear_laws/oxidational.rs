@@ -1,5 +1,7 @@
 //! Oxidational laws: the worn area is C P' t with the time t of sliding, or that of Archard's law at a constant speed.
 
+use std::sync::Arc;
+
 use super::{
     ARCHARD, LONG, SHORT, TOLERANCE, check_refinement, check_swap, difference, reports, scene,
 };
@@ -8,7 +10,8 @@ use crate::verify_resume::resumes_to_the_same_bits;
 use solver::effects::{Effect, Switches};
 use solver::law::temperature::Temperature;
 use solver::scene::{
-    MildOxidation, Motion, Quinn, Scene, SevereOxidation, SpeedLaw, SurfaceState, Timing, WearLaw,
+    MildOxidation, Motion, Quinn, Scene, Series, SevereOxidation, SpeedLaw, SurfaceState, Term,
+    Timing, WearLaw,
 };
 use solver::sides::{Side, Sides};
 
@@ -88,12 +91,53 @@ fn at_speed(stroke: (f64, u64), law: WearLaw, sides: &[Side], timing: Timing) ->
     scene
 }
 
+/// A series that turns inside, at the same mean speed: the worn area is in proportion to the time, and a place where the series is
+/// slow wears more than at a constant speed.
+#[test]
+fn laws_of_time_wear_by_the_time_of_a_series() {
+    let term = |order, sine_mm| Term {
+        order,
+        sine_mm,
+        cosine_mm: 0.0,
+    };
+    let series = Series::new(vec![term(1, 0.06), term(3, 0.06)]);
+    let turns = series.turning_points().expect("few turning points");
+    let mut scene = at_speed((0.1, 40), quinn(), &Side::BOTH[1..], Timing::Triangle);
+    scene.motion = Motion::Periodic {
+        turns,
+        period_s: turns.path_mm() / SPEED,
+    };
+    scene.effects = Switches::default().with(Effect::Friction, false);
+    let run = |timing| {
+        let scene = Scene {
+            timing,
+            ..scene.clone()
+        };
+        let (summary, recorder) = solve(&scene).expect("the scene can be solved");
+        let report = summary.last.receptacle;
+        let expected = 2e-7 * scene.load_n_per_mm * summary.last.sliding_distance_mm;
+        (
+            report.worn_area_mm2 / expected - 1.0,
+            recorder.last_profile().clone(),
+        )
+    };
+    let (constant, even) = run(Timing::Triangle);
+    let (varying, uneven) = run(Timing::Series(Arc::new(series)));
+    let apart = largest_distance(&uneven, &even);
+    println!(
+        "Quinn, series: worn area off by {varying:+.1e}, at a constant speed by {constant:+.1e}; profiles {:.0} % apart",
+        100.0 * apart
+    );
+    assert!(constant.abs().max(varying.abs()) < 0.1 * TOLERANCE);
+    assert!(apart > 0.1, "{apart}");
+}
+
 #[test]
 fn laws_of_time_wear_by_the_time_of_sliding() {
     for (name, law) in [("Quinn", quinn()), ("mild oxidation", mild_oxidation())] {
         for (stroke, cycles) in [("short", (0.004, 1_000)), ("long", (0.1, 200))] {
             for timing in [Timing::Sine, Timing::Triangle] {
-                let mut scene = at_speed(cycles, law, &Side::BOTH, timing);
+                let mut scene = at_speed(cycles, law, &Side::BOTH, timing.clone());
                 // The slip that the bodies' shear takes at the turning points would take most of the time there.
                 scene.effects = Switches::default().with(Effect::Friction, false);
                 let summary = solve(&scene).expect("the scene can be solved").0;

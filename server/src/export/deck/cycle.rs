@@ -3,10 +3,10 @@
 //! Under a load alone CalculiX does not find the first contact (its surface-to-surface penalty diverges at the first
 //! increment, whatever its size). The slider's top is therefore lowered by a prescribed displacement, in ten
 //! increments, and then released under the load, which is in equilibrium but for the compliance of the penalty. The top
-//! then moves to +A, to -A and back, in equal increments.
+//! then moves to +A, to -A and back, or to all turning points of a periodic motion, in equal increments.
 
 use solver::model::Model;
-use solver::scene::Scene;
+use solver::scene::{Motion, Scene};
 
 use crate::export::deck::Deck;
 
@@ -47,7 +47,20 @@ pub fn friction_cycle(scene: &Scene, model: &Model, lowered_mm: f64, quarter: u3
         None,
     );
     step(1.0, &["SLIDER_FAR, 1, 1".to_owned()], Some(load));
-    for (to, quarters) in [(amplitude, 1.0), (-amplitude, 2.0), (0.0, 1.0)] {
+    let places = match scene.motion {
+        // From the rightmost position to itself.
+        Motion::Periodic { turns, .. } => {
+            let ends = turns.strokes().map(|(_, end)| end);
+            [amplitude].into_iter().chain(ends).collect()
+        }
+        Motion::Reciprocating { .. } | Motion::Continuous { .. } => {
+            vec![amplitude, -amplitude, 0.0]
+        }
+    };
+    let mut from = 0.0;
+    for to in places {
+        let quarters = ((to - from) / amplitude).abs();
+        from = to;
         let moved = format!("SLIDER_FAR, 1, 1, {to:e}");
         step(quarters * quarter, &[moved], Some(load));
     }

@@ -120,7 +120,7 @@ fn each_block_has_its_course_in_time() {
     });
     let scene = accepted(&mission(&blocks.join(","), "")).scene;
     let blocks = scene.mission.expect("two blocks").blocks;
-    let timings: Vec<_> = blocks.iter().map(|block| block.timing).collect();
+    let timings: Vec<_> = blocks.iter().map(|block| block.timing.clone()).collect();
     assert_eq!(timings, [Timing::Sine, Timing::Triangle]);
 }
 

@@ -1,29 +1,26 @@
 //! Fourier series: u(t) = sum over i of s_i sin(n_i w t) + c_i cos(n_i w t), w = 2 pi/T.
 //!
 //! Quasi-static contact does not depend on how fast the slider moves, only on where it turns. A series that turns twice in a
-//! period is a reciprocating motion between both turning points, about their middle; one that also turns between them is refused,
-//! because blocks of a mission state more clearly what it does.
+//! period is a reciprocating motion between both turning points, about their middle; one that also turns between them is a periodic
+//! motion with these turning points, in the course of time of the series.
 
-use std::f64::consts::TAU;
 use std::ops::RangeInclusive;
+use std::sync::Arc;
 
 use api::spec::{FourierTerm, Motion, MotionKind, Provenance};
+use solver::scene::{self, HIGHEST_ORDER, MOST_TURNS, Series, Term};
 
 use super::contact::Demand;
 use super::imposed::{AMPLITUDE_MM, ImposedMotion, drive, period};
-use crate::number::real;
 use crate::spec::diagnostics::Diagnostics;
 use crate::spec::system::Preset;
 
 /// Most terms.
 pub(in crate::spec) const TERM_LIMIT: usize = 32;
 /// Orders of terms.
-pub(in crate::spec) const ORDER: RangeInclusive<u64> = 1..=64;
-/// Times in a period of the highest order at which the series is evaluated: a turning point between two of them is off by at most
-/// 1 - cos(pi/256), 8e-5 of that term.
-const TIMES: u64 = 256;
-/// Part of the whole range that a motion may turn back without being another turning point: round-off of a flat maximum.
-const FLAT: f64 = 1e-9;
+pub(in crate::spec) const ORDER: RangeInclusive<u64> = 1..=HIGHEST_ORDER;
+/// Part of the whole range that its middle may be off without being named: round-off.
+const CENTRED: f64 = 1e-9;
 
 pub(super) fn resolve(
     given: &Motion,
@@ -41,17 +38,10 @@ pub(super) fn resolve(
         ..Motion::default()
     };
     let period_s = period(given, preset.period_s, &mut spec, diagnostics);
-    let turns = turning_points(terms);
-    let (low, high) = range(&turns);
-    if turns.len() > 2 {
-        let inner = turns.len() - 2;
-        let detail = format!(
-            "the motion turns {inner} more times between {low:.3e} and {high:.3e} mm; give each stroke as a block of a `mission`"
-        );
-        diagnostics.fault("/motion/terms", detail);
-    }
+    let series = series(terms);
+    let (low, high) = series.range_mm();
     let middle = 0.5 * (low + high);
-    let how = if middle.abs() > FLAT * (high - low) {
+    let mut how = if middle.abs() > CENTRED * (high - low) {
         format!(
             "the neutral position is at {:.3} um of the series",
             1e3 * middle
@@ -59,8 +49,37 @@ pub(super) fn resolve(
     } else {
         "half of the range of the series".to_owned()
     };
+    let inner = series.count().saturating_sub(2);
+    if inner > 0 {
+        how = format!("{how}, which turns {inner} more times inside it");
+    }
     let demand = Demand::beyond(0.5 * (high - low), 0.0, 1.0 / period_s);
-    demand.imposed(spec, drive, (None, &how), diagnostics)
+    let outer = demand.imposed(spec, drive, (None, &how), diagnostics);
+    if inner == 0 {
+        return outer;
+    }
+    let Some(turns) = series.turning_points() else {
+        let detail = format!(
+            "the motion turns {} times in a period, at most {MOST_TURNS} are allowed; give its strokes as blocks of a `mission`",
+            series.count()
+        );
+        diagnostics.fault("/motion/terms", detail);
+        return outer;
+    };
+    ImposedMotion {
+        scene: scene::Motion::Periodic { turns, period_s },
+        timing: scene::Timing::Series(Arc::new(series)),
+        ..outer
+    }
+}
+
+fn series(terms: &[FourierTerm]) -> Series {
+    let term = |term: &FourierTerm| Term {
+        order: term.order,
+        sine_mm: term.sine_mm.unwrap_or_default(),
+        cosine_mm: term.cosine_mm.unwrap_or_default(),
+    };
+    Series::new(terms.iter().map(term).collect())
 }
 
 /// The terms, with faults for those outside their limits.
@@ -92,100 +111,10 @@ fn terms<'a>(given: &'a Motion, diagnostics: &mut Diagnostics) -> &'a [FourierTe
     terms
 }
 
-/// Displacement at a part of the period, mm.
-fn displacement(terms: &[FourierTerm], part: f64) -> f64 {
-    terms.iter().fold(0.0, |sum, term| {
-        let (sine, cosine) = (TAU * real(term.order) * part).sin_cos();
-        sum + term.sine_mm.unwrap_or_default() * sine + term.cosine_mm.unwrap_or_default() * cosine
-    })
-}
-
-/// Turning points in one period, mm, in their order: none for a motion without amplitude.
-fn turning_points(terms: &[FourierTerm]) -> Vec<f64> {
-    let highest = terms.iter().map(|term| term.order.min(*ORDER.end())).max();
-    let times = TIMES * highest.unwrap_or(1);
-    let u: Vec<f64> = (0..times)
-        .map(|time| displacement(terms, real(time) / real(times)))
-        .collect();
-    let (low, high) = range(&u);
-    let flat = FLAT * (high - low);
-    if flat <= 0.0 {
-        return Vec::new();
-    }
-    // From the highest point on, each point that the motion goes back from by more than round-off.
-    let start = u.iter().position(|u| *u >= high).unwrap_or_default();
-    let (mut turns, mut turn, mut falling) = (vec![high], high, true);
-    for u in u.iter().cycle().skip(start).take(u.len()) {
-        let advances = if falling { *u < turn } else { *u > turn };
-        if advances {
-            turn = *u;
-        } else if (*u - turn).abs() > flat {
-            turns.push(turn);
-            (turn, falling) = (*u, !falling);
-        }
-    }
-    // The first falling stretch begins at the highest point itself.
-    turns.dedup();
-    turns
-}
-
-/// Least and largest of some values.
-fn range(values: &[f64]) -> (f64, f64) {
-    let low = values.iter().fold(f64::INFINITY, |low, u| low.min(*u));
-    let high = values
-        .iter()
-        .fold(f64::NEG_INFINITY, |high, u| high.max(*u));
-    if low > high { (0.0, 0.0) } else { (low, high) }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::spec::tests::{accepted, faults};
-
-    fn term(order: u64, sine_mm: f64, cosine_mm: f64) -> FourierTerm {
-        FourierTerm {
-            order,
-            sine_mm: Some(sine_mm),
-            cosine_mm: Some(cosine_mm),
-        }
-    }
-
-    #[test]
-    fn a_series_that_turns_twice_is_a_motion_between_its_turning_points() {
-        for (terms, (low, high)) in [
-            (vec![term(1, 0.02, 0.0)], (-0.02, 0.02)),
-            (vec![term(1, 0.03, 0.04)], (-0.05, 0.05)),
-            // A triangle's first two terms.
-            (vec![term(1, 0.9, 0.0), term(3, -0.1, 0.0)], (-1.0, 1.0)),
-            // cos x + 0.2 cos 2x: 1.2 and -0.8.
-            (vec![term(1, 0.0, 1.0), term(2, 0.0, 0.2)], (-0.8, 1.2)),
-        ] {
-            let turns = turning_points(&terms);
-            let (found_low, found_high) = range(&turns);
-            assert_eq!(turns.len(), 2, "{terms:?}: {turns:?}");
-            assert!(
-                (found_low - low).abs() < 1e-4 * (high - low),
-                "{found_low} {low}"
-            );
-            assert!(
-                (found_high - high).abs() < 1e-4 * (high - low),
-                "{found_high} {high}"
-            );
-        }
-        assert!(turning_points(&[term(2, 0.0, 0.0)]).is_empty());
-    }
-
-    #[test]
-    fn inner_turning_points_are_counted() {
-        // sin x + sin 3x turns six times.
-        assert_eq!(
-            turning_points(&[term(1, 1.0, 0.0), term(3, 1.0, 0.0)]).len(),
-            6
-        );
-        // A second order alone is two periods of one reciprocating motion.
-        assert_eq!(turning_points(&[term(2, 1.0, 0.0)]).len(), 4);
-    }
 
     #[test]
     fn one_sine_is_the_reciprocating_motion_of_its_amplitude() {
@@ -199,6 +128,27 @@ mod tests {
         assert_eq!(series.scene.motion.period_s(), sine.scene.motion.period_s());
         let again = serde_json::to_string(&series.spec).expect("JSON");
         assert_eq!(accepted(&again).scene, series.scene);
+    }
+
+    #[test]
+    fn a_series_that_turns_inside_is_a_periodic_motion_in_its_own_time() {
+        let text = r#"{"system":{"kind":"sd_card"},"motion":{"kind":"fourier","period_s":2,
+            "terms":[{"order":1,"sine_mm":0.01},{"order":3,"sine_mm":0.01}]}}"#;
+        let resolved = accepted(text);
+        let scene::Motion::Periodic { turns, period_s } = resolved.scene.motion else {
+            panic!("a periodic motion");
+        };
+        assert_eq!((turns.as_slice().len(), period_s), (6, 2.0));
+        // (8/27)^0.5 of the sum of the amplitudes.
+        let amplitude = 0.02 * (16.0_f64 / 27.0).sqrt();
+        assert!((resolved.scene.motion.amplitude_mm() - amplitude).abs() < 1e-6);
+        // The fastest moment is the passage of the neutral position, 4 w s.
+        let fastest = 4.0 * 0.01 * std::f64::consts::PI;
+        assert!((resolved.scene.fastest_speed_mm_s() - fastest).abs() < 1e-12);
+        let again = serde_json::to_string(&resolved.spec).expect("JSON");
+        assert_eq!(accepted(&again).scene, resolved.scene);
+        let derived = resolved.motion.expect("it is derived").reason;
+        assert!(derived.contains("turns 4 more times"), "{derived}");
     }
 
     #[test]
@@ -221,7 +171,7 @@ mod tests {
         has(r#"[{"order":1,"sine_mm":1e9}]"#, "/motion/terms/0/sine_mm");
         has(r#"[{"order":1}]"#, "/motion/terms/0");
         has(
-            r#"[{"order":1,"sine_mm":0.01},{"order":3,"sine_mm":0.01}]"#,
+            r#"[{"order":1,"sine_mm":0.01},{"order":32,"sine_mm":0.01}]"#,
             "/motion/terms",
         );
     }

@@ -23,6 +23,7 @@ fn wear(control: &mut JumpControl, before: f64, after: f64, jump: u64) {
 }
 
 const STROKE: Stroke = Stroke {
+    passes: Passes::Whole,
     gross: false,
     smoothing: 0.0,
     is_groove: false,
