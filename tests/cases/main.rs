@@ -27,6 +27,7 @@ mod fields_open_in_vtk;
 mod full_disk;
 mod golden_results;
 mod hard;
+mod heated_contact;
 mod hostile_inputs;
 mod load;
 mod main_job;

@@ -110,3 +110,30 @@ fn the_plan_of_a_mission_is_a_table_of_its_blocks() {
         assert!(refused.stderr.contains(pointer), "{}", refused.stderr);
     }
 }
+
+/// Mixed cycles wear as those in order where many of them are done, and all of them are.
+#[test]
+fn a_mixed_mission_does_all_of_its_cycles() {
+    let folder = tempfile::tempdir().expect("a folder can be made");
+    let run = |order: &str| -> Value {
+        let mut spec = weeks();
+        spec["order"] = json!(order);
+        std::fs::write(folder.path().join("weeks.json"), spec.to_string()).expect("a file");
+        let ran = fretwear(folder.path(), &["solve", "weeks.json"]);
+        assert_eq!(ran.code, Some(0), "{}", ran.stderr);
+        serde_json::from_str(&ran.stdout).expect("a summary")
+    };
+    let (mixed, in_order) = (run("mixed"), run("in_order"));
+    assert_eq!(mixed["cycles_done"], in_order["cycles_done"]);
+    let blocks = |summary: &Value| {
+        let done = summary["mission"].as_array().expect("blocks");
+        let cycles: Vec<_> = done.iter().map(|block| block["cycles"].clone()).collect();
+        cycles
+    };
+    assert_eq!(blocks(&mixed), blocks(&in_order));
+    for side in ["slider", "receptacle"] {
+        let area = |summary: &Value| number(&summary[side]["worn_area_mm2"]);
+        let ratio = area(&mixed) / area(&in_order);
+        assert!((ratio - 1.0).abs() < 0.1, "{side}: {ratio}");
+    }
+}
