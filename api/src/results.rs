@@ -17,6 +17,6 @@ pub use snapshot::{
     Loop, Pressure, PressurePosition, Profile, SideProfile, SlidePosition, Snapshot,
 };
 pub use summary::{
-    AccuracyReached, Checks, Cost, EffectCalledFor, EstimatedError, EstimatedErrors, Initial,
-    SideSummary, Summary,
+    AccuracyReached, Checks, ContactTemperature, Cost, EffectCalledFor, EstimatedError,
+    EstimatedErrors, Initial, SideSummary, Summary,
 };

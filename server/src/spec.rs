@@ -243,7 +243,6 @@ fn fill(spec: &Spec, kind: SystemKind, diagnostics: &mut Diagnostics) -> Filled 
     let bodies = conductors::Bodies {
         layers: &layers,
         elastic: &elastic,
-        softening: &softening,
         motion: movement.scene,
     };
     let mut conductors = conductors::resolve(&mut filled, bodies, diagnostics);

@@ -322,13 +322,15 @@ impl<'a> Integrator<'a> {
             return Ok(());
         };
         let (rise_k, wear) = heating.begin_cycle((self.scene, &self.pair.interface), state);
-        if let Some(rise_k) = heating.melts() {
+        if let Some((hottest_k, melting_k)) = heating.melts() {
             return Err(CycleError::Melts {
                 cycle: state.cycle,
-                temperature_c: self.scene.temperature_c + rise_k,
+                temperature_c: self.scene.temperature_c + hottest_k,
+                melting_c: self.scene.temperature_c + melting_k,
             });
         }
         state.temperature_rise_k = rise_k;
+        state.hottest_rise_k = state.hottest_rise_k.max(heating.hottest_k());
         let constant = self.scene.timed_motion().constant();
         self.wear =
             wear.map(|wear| wear.map(|wear| constant.map_or(wear, |pace| wear.during(pace, 0.0))));
@@ -348,7 +350,13 @@ impl<'a> Integrator<'a> {
             Some(heating) => heating.at_speed(pace.speed()),
             None => self.wear,
         };
-        self.pair.interface.wear = wear.map(|wear| wear.map(|wear| wear.during(pace, distance)));
+        let between = (last.slider_x, to.slider_x);
+        self.pair.interface.wear = wear.map(|wear| {
+            wear.map(|wear| {
+                self.timed
+                    .wear_between(wear, self.stroke, between, distance)
+            })
+        });
         let done = self
             .solver
             .advance(&self.pair, &surfaces, last, to, &mut self.next)?;

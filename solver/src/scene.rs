@@ -172,10 +172,11 @@ impl Scene {
         }
     }
 
-    /// Wear of both surfaces with the effects that are switched off left out; at the pace of the motion if that is the same all the
-    /// time.
+    /// Wear of both surfaces over a cycle with the effects that are switched off left out: a law of speed as its mean rate.
     pub(crate) fn surface_wear(&self) -> Sides<Option<SurfaceWear>> {
-        self.surface_wear_at(self.timed_motion().constant())
+        let motion = self.timed_motion();
+        let wear = self.surface_wear_at(motion.constant());
+        wear.map(|wear| wear.map(|wear| motion.mean_wear(wear)))
     }
 
     /// Wear of both surfaces with the effects that are switched off left out, at a pace if one is given.

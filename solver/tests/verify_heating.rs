@@ -127,10 +127,14 @@ fn a_heated_run_resumes_to_the_same_bits() {
 #[test]
 fn a_contact_that_melts_is_reported() {
     let mut scene = fast(Timing::Sine);
-    scene.receptacle.softening.margins_k = vec![Some(30.0)];
+    // The slider melts although it does not wear.
+    scene.slider.softening.to_melting_k = Some(30.0);
     let error = solve(&scene).err().expect("it melts");
     assert!(matches!(error, SolveError::Cycle(_)));
-    assert!(error.to_string().contains("a surface melts"), "{error}");
+    assert!(
+        error.to_string().contains("a material of it melts"),
+        "{error}"
+    );
 }
 
 /// The temperature enters oxidational laws that state none of their own, and no other.

@@ -13,6 +13,7 @@ fn heated(scene: &Scene) -> Scene {
     let softening = Softening {
         ratios: RATIOS.map(Some).to_vec(),
         margins_k: Vec::new(),
+        to_melting_k: None,
     };
     scene.slider.softening = softening.clone();
     scene.receptacle.softening = softening;

@@ -10,6 +10,15 @@ use crate::plan::Decision;
 use crate::results::{BlockSummary, ContactResistance, LifeEntry};
 use crate::spec::DerivedMotion;
 
+/// Temperature at the hottest place of a contact, °C.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct ContactTemperature {
+    /// Its mean over the distance of the last computed cycle; of a mission that of its last block.
+    pub r#final: f64,
+    /// The highest at any moment of the run.
+    pub highest: f64,
+}
+
 /// One side's wear at the end.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct SideSummary {
@@ -178,9 +187,9 @@ pub struct Summary {
     /// Resistance of the contact, mOhm; absent where the force on the contact, a resistivity or a hardness is not known.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub contact_resistance_mohm: Option<ContactResistance>,
-    /// Mean temperature of the contact at the end, °C; absent where neither friction nor the current heats it in the run.
+    /// Temperature of the contact, °C; absent where neither friction nor the current heats it in the run.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub contact_temperature_c: Option<f64>,
+    pub contact_temperature_c: Option<ContactTemperature>,
     /// How the motion was derived from a vibration, a thermal cycle or an insertion.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub motion: Option<DerivedMotion>,

@@ -142,10 +142,10 @@ pub struct WearLaw {
     /// The law.
     #[schema(value_type = WearLawName)]
     pub law: EnumValue<WearLawName>,
-    /// `archard`, `sarkar`, `saracibar`, `barwell` (the initial one): the wear coefficient k, -; together with `hardness_mpa`.
+    /// `archard`, `sarkar`, `saracibar`, `oxidation` (at low speeds), `barwell` (the initial one): the wear coefficient k, -; together with `hardness_mpa`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub k: Option<f64>,
-    /// Beside `k`, and of `quinn`, `mild_oxidation`, `severe_oxidation`: the hardness H of the wearing surface, MPa; that of the material
+    /// Beside `k`, and of the oxidational laws: the hardness H of the wearing surface, MPa; that of the material
     /// if absent.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub hardness_mpa: Option<f64>,
@@ -174,10 +174,10 @@ pub struct WearLaw {
     /// by, which leaves out flashes of single asperities.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub contact_temperature_c: Option<f64>,
-    /// `quinn`, `mild_oxidation`: activation energy of the oxidation, J/mol. Required there.
+    /// `quinn`, `mild_oxidation`, `oxidation`: activation energy of the oxidation, J/mol. Required there.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub activation_energy_j_mol: Option<f64>,
-    /// `quinn`, `mild_oxidation`: thickness at which the oxide breaks off, um. Required there.
+    /// `quinn`, `mild_oxidation`, `oxidation`: thickness at which the oxide breaks off, um. Required there.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub critical_film_um: Option<f64>,
     /// `quinn`: diameter of a touching asperity, um. Required there.
@@ -192,28 +192,28 @@ pub struct WearLaw {
     /// `quinn`: mass fraction of oxygen in the oxide, -. Required there.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub oxygen_fraction: Option<f64>,
-    /// `mild_oxidation`: Arrhenius constant of the oxidation, m^2/s. Required there.
+    /// `mild_oxidation`, `oxidation`: Arrhenius constant of the oxidation, m^2/s. Required there.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub arrhenius_constant_m2_s: Option<f64>,
-    /// `mild_oxidation`: the constant C of the law, -. Required there.
+    /// `mild_oxidation`, `oxidation`: the constant C of the law, -. Required there.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub oxidation_constant: Option<f64>,
     /// `oxidation`: speed of the transition from `archard` to `mild_oxidation`, mm/s; 100 if absent.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub transition_speed_mm_s: Option<f64>,
-    /// `severe_oxidation`: fraction of the molten oxide that is removed, -. Required there.
+    /// `severe_oxidation`, `oxidation`: fraction of the molten oxide that is removed, -. Required there.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub molten_fraction: Option<f64>,
-    /// `severe_oxidation`: latent heat of the oxide, J/m^3. Required there.
+    /// `severe_oxidation`, `oxidation`: latent heat of the oxide, J/m^3. Required there.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub latent_heat_j_m3: Option<f64>,
-    /// `severe_oxidation`: share of the frictional heat that enters the body, -. Required there.
+    /// `severe_oxidation`, `oxidation`: share of the frictional heat that enters the body, -. Required there.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub heat_share: Option<f64>,
-    /// `severe_oxidation`: thermal conductivity of the oxide, W/(m K). Required there.
+    /// `severe_oxidation`, `oxidation`: thermal conductivity of the oxide, W/(m K). Required there.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub oxide_conductivity_w_mk: Option<f64>,
-    /// `severe_oxidation`: melting temperature of the oxide, °C. Required there.
+    /// `severe_oxidation`, `oxidation`: melting temperature of the oxide, °C. Required there.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub oxide_melting_temperature_c: Option<f64>,
     /// `rhee`: the factor K, mm/(MPa^a (mm/s)^b s^c); `load_repetition`: C1, 1/MPa^C2; `strain_hardening`: C1, 1/(MPa^C2 s). Required
@@ -242,7 +242,7 @@ pub struct WearLaw {
     /// determines. Required there.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub reference_length_mm: Option<f64>,
-    /// `severe_oxidation`: distance over which the heat of a flash diffuses, um. Required there.
+    /// `severe_oxidation`, `oxidation`: distance over which the heat of a flash diffuses, um. Required there.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub diffusion_distance_um: Option<f64>,
 }

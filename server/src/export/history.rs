@@ -3,9 +3,9 @@
 use api::job::{Outcome, Phase};
 use api::plan::Decision;
 use api::results::{
-    AccuracyReached, Checks, Cost, EffectCalledFor, EstimatedError, EstimatedErrors, ExposedLayer,
-    Initial, LifeEntry, Loop, Pressure, PressurePosition, Profile, SideProfile, SideSummary,
-    SlidePosition, Snapshot, Station, Summary, WearHistory,
+    AccuracyReached, Checks, ContactTemperature, Cost, EffectCalledFor, EstimatedError,
+    EstimatedErrors, ExposedLayer, Initial, LifeEntry, Loop, Pressure, PressurePosition, Profile,
+    SideProfile, SideSummary, SlidePosition, Snapshot, Station, Summary, WearHistory,
 };
 use solver::effects::{Crossing, Effect, Verdict};
 use solver::observer;
@@ -82,7 +82,10 @@ pub fn summary(summary: &record::Summary, cost: Cost, life: Vec<LifeEntry>) -> S
         motion: None;
         mission: Vec::new();
         contact_resistance_mohm: resistance::of(summary);
-        contact_temperature_c: summary.last.temperature.map(|found| found.contact_temperature_c);
+        contact_temperature_c: summary.last.temperature.map(|found| ContactTemperature {
+            r#final: found.contact_temperature_c,
+            highest: found.highest_temperature_c,
+        });
         warnings: summary.warnings.clone();
         initial: document!(Initial of summary.initial; peak_pressure_mpa, contact_half_width_mm);
         accuracy: document!(

@@ -3,7 +3,8 @@
 use api::spec::{CriterionKind, EnumValue, Material, MaterialProperties, Spec, Switch, WearLaw};
 use solver::law::elastic::contact_modulus;
 use solver::law::plating::bottoms;
-use solver::scene::{Conduction, Elastic, Electrical, Layer, Metal, Motion, Softening};
+use solver::law::softening::REFERENCE_C;
+use solver::scene::{Conduction, Elastic, Electrical, Layer, Metal, Motion};
 use solver::sides::Sides;
 
 use crate::spec::diagnostics::Diagnostics;
@@ -28,7 +29,6 @@ pub(super) struct Conductors {
 pub(super) struct Bodies<'a> {
     pub(super) layers: &'a Sides<Vec<Layer>>,
     pub(super) elastic: &'a Sides<Elastic>,
-    pub(super) softening: &'a Sides<Softening>,
     pub(super) motion: Motion,
 }
 
@@ -47,6 +47,7 @@ pub(super) fn resolve(
         bodies.motion,
         diagnostics,
     );
+    let temperature = filled.environment.temperature_c.unwrap_or(REFERENCE_C);
     let (mut lacks, mut unknown) = (Vec::new(), None);
     let force = filled
         .load
@@ -68,7 +69,8 @@ pub(super) fn resolve(
         let bottoms = bottoms(of_side.1).chain([f64::INFINITY]);
         let metals = pointers.chain([base]).zip(bottoms).enumerate();
         let metals = metals.map(|(number, ((name, material, law), bottom_mm))| {
-            let softening = bodies.softening.of(side).ratio(number);
+            // Whether it wears or not.
+            let softening = environment::ratio(temperature, material).unwrap_or(1.0);
             let (resistivity, hardness) = properties(material, law);
             if resistivity.is_none() {
                 lacks.push(format!("`{name}.resistivity_ohm_m`"));
@@ -129,7 +131,8 @@ fn is_asked_for(filled: &Spec) -> bool {
     };
     let mut criteria = filled.life.criteria.iter().flatten();
     let mut stops = filled.stop.iter().filter_map(|stop| stop.kind.as_ref());
-    filled.interface.spots.is_some()
+    filled.environment.current_a.is_some()
+        || filled.interface.spots.is_some()
         || !filled.interface.films.is_empty()
         || criteria.any(|criterion| is_resistance(&criterion.kind))
         || stops.any(is_resistance)

@@ -5,7 +5,8 @@ use std::collections::BTreeMap;
 use api::problem::Fault;
 use api::spec::{EnumValue, Switch};
 use solver::effects::{Effect, Switches, Verdict, small_strain};
-use solver::scene::Scene;
+use solver::law::softening::MOLTEN;
+use solver::scene::{Friction, Scene};
 
 use crate::spec::diagnostics::{Diagnostics, shortened};
 use crate::spec::suggestion::did_you_mean;
@@ -71,6 +72,7 @@ pub(crate) fn check(
     diagnostics: &mut Diagnostics,
 ) {
     check_forced(given, scene, diagnostics);
+    check_dose(scene, diagnostics);
     if has_small_strains(given, scene) {
         return;
     }
@@ -89,6 +91,20 @@ pub(crate) fn check(
 pub(crate) fn has_small_strains(given: &Given, scene: &Scene) -> bool {
     let accepted = switch(given, Effect::GeometricNonlinearity) == Some(Switch::Off);
     accepted || small_strain::cost(scene) <= small_strain::LIMIT
+}
+
+/// Adds a fault for a friction by dose beside heat that the plan simulates: the worn depth no longer tells the dose of a place.
+fn check_dose(scene: &Scene, diagnostics: &mut Diagnostics) {
+    let plan = solver::effects::plan(scene);
+    let heats = [Effect::FrictionalHeating, Effect::JouleHeating];
+    let heated = heats.into_iter().find(|effect| plan.simulates(*effect));
+    if let (Friction::ByDose(_), Some(effect)) = (&scene.friction, heated) {
+        let name = effect.name();
+        let detail = format!(
+            "the dose of a place follows from its worn depth, which heat changes: write `by_cycle`, or switch `effects.{name}` off"
+        );
+        diagnostics.fault("/interface/friction/by_dose", detail);
+    }
 }
 
 /// Adds a fault for each effect that is switched on and has nothing to simulate in the scene.
@@ -116,6 +132,12 @@ pub(crate) fn warnings(scene: &Scene) -> Vec<Fault> {
         }
         let indicator = decision.indicator?;
         let matters = indicator.value() > indicator.threshold;
+        if decision.verdict.is_on() && indicator.value() >= MOLTEN {
+            return Some(Fault {
+                pointer: "/environment".to_owned(),
+                detail: format!("the contact melts: {}", decision.reason),
+            });
+        }
         let is_missed = decision.effect == Effect::SkinEffect;
         let is_out = decision.verdict == Verdict::ForcedOff && !is_missed
             || decision.verdict == Verdict::Skipped && is_missed;

@@ -48,7 +48,18 @@ pub(super) fn softening(resolved: &Spec, diagnostics: &mut Diagnostics) -> Sides
         let layers = layers.of(side).iter();
         let layers = layers.map(|layer| (layer.material.as_ref(), layer.wear.as_ref()));
         let surfaces = layers.chain([(*materials.of(side), *laws.of(side))]);
+        let surfaces: Vec<_> = surfaces.collect();
+        let melting = surfaces
+            .iter()
+            .filter_map(|(material, _)| melting_c(*material));
+        let to_melting_k = melting
+            .map(|melting| melting - temperature)
+            .reduce(f64::min);
+        for (material, _) in &surfaces {
+            check_melting(temperature, *material, diagnostics);
+        }
         let by_hardness: Vec<_> = surfaces
+            .into_iter()
             .map(|(material, law)| law.filter(|law| wears_by_hardness(law)).map(|_| material))
             .collect();
         let margin = |material: &Option<Option<&Material>>| {
@@ -58,7 +69,7 @@ pub(super) fn softening(resolved: &Spec, diagnostics: &mut Diagnostics) -> Sides
         let margins_k = by_hardness.iter().map(margin).collect();
         let ratios = by_hardness.iter().map(|material| match material {
             None => Some(1.0),
-            Some(material) => ratio(temperature, *material, diagnostics),
+            Some(material) => ratio(temperature, *material),
         });
         Softening {
             ratios: if is_reference {
@@ -67,6 +78,7 @@ pub(super) fn softening(resolved: &Spec, diagnostics: &mut Diagnostics) -> Sides
                 ratios.collect()
             },
             margins_k,
+            to_melting_k,
         }
     })
 }
@@ -119,21 +131,21 @@ pub(super) fn laws(resolved: &Spec) -> Sides<Option<&WearLaw>> {
     }
 }
 
-/// Hardness of a material at a temperature over that at 20 °C; `None` where its melting temperature is not known.
-fn ratio(
-    temperature: f64,
-    material: Option<&Material>,
-    diagnostics: &mut Diagnostics,
-) -> Option<f64> {
+/// Hardness of a material at a temperature over that at 20 °C; `None` where its melting temperature is not known or passed.
+pub(super) fn ratio(temperature: f64, material: Option<&Material>) -> Option<f64> {
     let melting = melting_c(material)?;
-    if temperature >= melting {
-        let name = properties(material).and_then(|properties| properties.name.as_deref());
-        let name = name.unwrap_or("a material");
-        let detail = format!("{temperature} is not below the {melting} at which {name} melts");
-        diagnostics.fault(POINTER, detail);
-        return None;
-    }
-    Some(hardness_ratio(temperature, melting))
+    (temperature < melting).then(|| hardness_ratio(temperature, melting))
+}
+
+/// Adds a fault for a material that melts in its surroundings.
+fn check_melting(temperature: f64, material: Option<&Material>, diagnostics: &mut Diagnostics) {
+    let Some(melting) = melting_c(material).filter(|melting| temperature >= *melting) else {
+        return;
+    };
+    let name = properties(material).and_then(|properties| properties.name.as_deref());
+    let name = name.unwrap_or("a material");
+    let detail = format!("{temperature} is not below the {melting} at which {name} melts");
+    diagnostics.fault(POINTER, detail);
 }
 
 #[cfg(test)]
@@ -282,5 +294,79 @@ mod tests {
             let pointer = format!("/interface/wear/receptacle/{field}");
             assert!(pointers.contains(&pointer), "{pointers:?}");
         }
+    }
+
+    #[test]
+    fn a_current_without_a_resistance_heats_nothing() {
+        let off = r#"{"system":{"kind":"sd_card"},"environment":{"current_a":50},"effects":{"resistance":"off"}}"#;
+        let (verdict, _, reason) = decided(&accepted(off).scene, Effect::JouleHeating);
+        assert_eq!(verdict, Verdict::Skipped);
+        assert!(reason.contains("switched off"), "{reason}");
+        // Without a force the resistance of a contact with a current is asked for in vain.
+        let unknown = r#"{"system":{"kind":"sd_card"},"environment":{"current_a":5},"load":{"kind":"line_force","n_per_mm":0.5}}"#;
+        let warned = accepted(unknown).warnings;
+        assert!(
+            warned
+                .iter()
+                .any(|fault| fault.pointer == "/effects/resistance"),
+            "{warned:?}"
+        );
+    }
+
+    #[test]
+    fn a_part_that_does_not_wear_melts_too() {
+        let with = |rest: &str| {
+            format!(
+                r#"{{"system":{{"kind":"sd_card"}},"materials":{{"slider":"tin","receptacle":"steel"}},"plating":{{"slider":[],"receptacle":[]}},
+                "interface":{{"wear":{{"slider":null,"receptacle":{{"law":"archard","k":1e-4}}}}}},"environment":{{{rest}}}}}"#
+            )
+        };
+        let found = faults(&with(r#""temperature_c":240"#));
+        assert!(found[0].detail.contains("tin melts"), "{}", found[0].detail);
+        let scene = accepted(&with(r#""temperature_c":20"#)).scene;
+        let to_melting = scene.slider.softening.to_melting_k;
+        assert!(
+            to_melting.is_some_and(|margin| (margin - 211.9).abs() < 1.0),
+            "{to_melting:?}"
+        );
+        // Its hardness counts for the spots.
+        let hardness = |rest: &str| {
+            let scene = accepted(&with(rest)).scene;
+            let electrical = scene.conduction.known().expect("all of it is known");
+            electrical.metals.slider[0].hardness_mpa
+        };
+        let ratio = hardness(r#""temperature_c":85"#) / hardness(r#""temperature_c":20"#);
+        assert!((ratio - 146.9 / 211.9).abs() < 1e-3, "{ratio}");
+    }
+
+    #[test]
+    fn a_contact_that_would_melt_is_warned_of() {
+        let text = r#"{"system":{"kind":"cylinder_on_flat"},"motion":{"kind":"reciprocating","amplitude_mm":0.2,"frequency_hz":50000}}"#;
+        let warned = accepted(text).warnings;
+        assert!(
+            warned
+                .iter()
+                .any(|fault| fault.detail.contains("the contact melts")),
+            "{warned:?}"
+        );
+    }
+
+    #[test]
+    fn a_dose_is_not_read_from_a_depth_that_heat_changes() {
+        let with = |frequency: f64| {
+            format!(
+                r#"{{"system":{{"kind":"cylinder_on_flat"}},"motion":{{"kind":"reciprocating","amplitude_mm":0.2,"frequency_hz":{frequency}}},
+                "interface":{{"friction":{{"law":"coulomb","by_dose":[{{"dose_mpa_mm":0,"coefficient":0.1}},
+                {{"dose_mpa_mm":4000,"coefficient":0.5}}]}}}}}}"#
+            )
+        };
+        accepted(&with(1.0));
+        let found = faults(&with(2_000.0));
+        assert_eq!(found[0].pointer, "/interface/friction/by_dose");
+        assert!(
+            found[0].detail.contains("frictional_heating"),
+            "{}",
+            found[0].detail
+        );
     }
 }

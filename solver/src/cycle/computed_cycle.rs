@@ -132,7 +132,10 @@ impl Integrator<'_> {
         let pace = scene.timed_motion().mean();
         let at = LocalState::mean(interface.load, state.mean_half_width, pace);
         let wear = self.wear.zip(state.depth.largest_of_each());
-        let wear = wear.map(|(wear, depth)| wear.map_or(0.0, |wear| wear.largest_rate(depth, at)));
+        let wear = wear.map(|(wear, depth)| {
+            let wear = wear.map(|wear| self.timed.mean_wear(wear));
+            wear.map_or(0.0, |wear| wear.largest_rate(depth, at))
+        });
         let mut stroke = Stroke::new(
             &scene.accuracy.tuning,
             wear,

@@ -21,6 +21,8 @@ const EVEN_SHARE: f64 = 0.2;
 pub(super) struct Heating {
     sources: HeatSources,
     margins: Sides<Margins>,
+    /// Least distance to a melting temperature, K.
+    to_melting_k: Option<f64>,
     /// Wear at the temperature of the surroundings.
     cold: Sides<Option<SurfaceWear>>,
     heat: ContactHeat,
@@ -39,6 +41,7 @@ impl Heating {
         (sources != HeatSources::default()).then(|| Self {
             sources,
             margins: scene.margins(),
+            to_melting_k: scene.to_melting_k(),
             cold: *cold,
             heat: ContactHeat::new(scene, None, 0.0),
             is_even: true,
@@ -73,14 +76,16 @@ impl Heating {
         (mean, self.at(mean))
     }
 
-    /// Largest temperature rise, K, if it is beyond a melting temperature.
-    pub(super) fn melts(&self) -> Option<f64> {
-        let margin = self
-            .margins
-            .slider
-            .least()
-            .min(self.margins.receptacle.least());
-        Some(self.heat.hottest_k()).filter(|hottest| *hottest >= margin)
+    /// Largest temperature rise, K.
+    pub(super) fn hottest_k(&self) -> f64 {
+        self.heat.hottest_k()
+    }
+
+    /// Largest temperature rise and that at which a material melts, K, if it does.
+    pub(super) fn melts(&self) -> Option<(f64, f64)> {
+        self.to_melting_k
+            .map(|margin| (self.heat.hottest_k(), margin))
+            .filter(|(hottest, margin)| hottest >= margin)
     }
 
     /// The wear at a speed in mm/s.
@@ -94,12 +99,14 @@ impl Heating {
     }
 }
 
-/// Energy that friction dissipates per depth and distance, N/mm: that of the last computed cycle, at first of a contact that slips all the
-/// way.
+/// Energy that friction dissipates per depth and distance, N/mm: that of the last computed cycle, at first of gross slip.
 fn friction_per_distance(scene: &Scene, interface: &Interface, state: &CycleState) -> f64 {
     let distance = scene.motion.distance_per_cycle_mm();
     if state.energy_per_cycle > 0.0 && distance > 0.0 {
         state.energy_per_cycle / distance
+    } else if interface.sticks {
+        // How much of the motion slips is not known yet.
+        0.0
     } else {
         interface.friction * state.neutral.load
     }

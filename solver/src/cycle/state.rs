@@ -27,13 +27,15 @@ pub enum CycleError {
     },
     /// Friction or the current heats the contact beyond the melting temperature of a surface.
     #[error(
-        "after cycle {cycle}: the contact reaches {temperature_c:.0} °C, at which a surface melts"
+        "after cycle {cycle}: friction and current heat the contact to {temperature_c:.0} °C; a material of it melts at {melting_c:.0} °C"
     )]
     Melts {
         /// Physical cycles done before.
         cycle: u64,
         /// Temperature of the contact, °C.
         temperature_c: f64,
+        /// Melting temperature, °C.
+        melting_c: f64,
     },
 }
 
@@ -86,6 +88,8 @@ pub struct CycleState {
     pub(crate) skew: Skew,
     /// Mean temperature rise of the contact by friction and current in the last computed cycle, K.
     pub(crate) temperature_rise_k: f64,
+    /// Largest temperature rise at any moment so far, K.
+    pub(crate) hottest_rise_k: f64,
     /// Resistance of the last contact without that of the bodies, which the current heats, mOhm.
     pub(crate) constriction_mohm: f64,
     /// Worst residuals so far.
@@ -115,6 +119,7 @@ impl CycleState {
             loss_of_load: 0.0,
             skew: Skew::default(),
             temperature_rise_k: 0.0,
+            hottest_rise_k: 0.0,
             constriction_mohm: 0.0,
             checks: Checks::default(),
         }

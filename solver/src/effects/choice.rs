@@ -186,6 +186,9 @@ fn nothing_to_simulate(
         Effect::FrictionalHeating if scene.sliding_heat(1.0).is_none() => {
             Some("not estimated: it needs `thermal_conductivity_w_mk` of both materials")
         }
+        Effect::JouleHeating if scene.effects.of(Effect::Resistance) == Some(false) => {
+            Some("the resistance of the contact is switched off, from which it follows")
+        }
         Effect::JouleHeating => match &scene.conduction {
             Conduction::Known(electrical) if electrical.current_a.is_none() => {
                 Some("no current is given: `environment.current_a`")

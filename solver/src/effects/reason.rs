@@ -168,7 +168,7 @@ fn consequence(effect: Effect, is_on: bool) -> &'static str {
             "surfaces wear by their hardness and laws at the temperature of the contact"
         }
         (Effect::FrictionalHeating | Effect::JouleHeating, false) => {
-            "it leaves the contact as warm as it is"
+            "it is left out of the temperature of the contact"
         }
         (Effect::Relocation, true) => {
             "the mesh follows the worn surface and the stiffness is rebuilt"

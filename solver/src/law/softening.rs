@@ -24,6 +24,8 @@ pub struct Softening {
     /// Distance to the melting temperature of each layer from the surface down, then of the base, K; `None` where it is not known, or
     /// the wear does not depend on the hardness.
     pub margins_k: Vec<Option<f64>>,
+    /// Least distance to a melting temperature of all of its materials, whether they wear or not, K, if one is known.
+    pub to_melting_k: Option<f64>,
 }
 
 impl Softening {
@@ -80,15 +82,10 @@ impl Margins {
             MOLTEN
         }
     }
-
-    /// The least one, K.
-    pub(crate) fn least(&self) -> f64 {
-        self.0.iter().copied().fold(f64::INFINITY, f64::min)
-    }
 }
 
 /// Relative change of the wear rate that stands for one without a bound. Arbitrary: beyond every limit.
-const MOLTEN: f64 = 1e3;
+pub const MOLTEN: f64 = 1e3;
 
 #[cfg(test)]
 mod tests {
@@ -111,6 +108,7 @@ mod tests {
         let softening = Softening {
             ratios: vec![Some(0.5), None],
             margins_k: Vec::new(),
+            to_melting_k: None,
         };
         assert!(softening.is_unknown() && (softening.ratio(1) - 1.0).abs() <= 0.0);
         assert!((softening.change() - 1.0).abs() < 1e-15);

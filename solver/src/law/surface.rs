@@ -8,7 +8,7 @@ use std::borrow::Cow;
 use super::dose::DoseCurve;
 use super::pace::Pace;
 use super::plating::{Layer, Layers};
-use super::softening::Margins;
+use super::softening::{MOLTEN, Margins};
 use super::wear::power::{Exposure, PowerLaw};
 use super::wear::{LocalState, WearLaw};
 
@@ -70,6 +70,9 @@ impl SurfaceWear {
     /// The wear of a contact that is warmer than its surroundings by a rise in K, below the melting temperatures.
     #[must_use]
     pub(crate) fn heated(self, margins: &Margins, rise_k: f64) -> Self {
+        if matches!(self, Self::Law(law) if law.has_given_temperature()) {
+            return self;
+        }
         let softened = |law: WearLaw| law.softened(margins.ratio(0, rise_k)).heated(rise_k);
         match self {
             Self::Law(law) => Self::Law(softened(law)),
@@ -86,15 +89,23 @@ impl SurfaceWear {
         }
     }
 
-    /// Largest relative change of the rate of a layer, or of the law at a representative state, by a temperature rise in K.
-    pub(crate) fn change_by_heat(self, margins: &Margins, at: LocalState, rise_k: f64) -> f64 {
+    /// Largest relative change of the rate of a layer, or of the law in a representative state, by a temperature rise in K. `rate` is that
+    /// of a law.
+    pub(crate) fn change_by_heat(
+        self,
+        margins: &Margins,
+        (at, rate): (LocalState, impl Fn(WearLaw) -> f64),
+        rise_k: f64,
+    ) -> f64 {
         let layers = match self {
             Self::ByDose(DoseCurve::Layers(layers)) => layers.count(),
             _ => 0,
         };
+        if matches!(self, Self::Law(law) if law.has_given_temperature()) {
+            return 0.0;
+        }
         let by_hardness = (0..=layers).map(|layer| margins.change(layer, rise_k));
         let largest = by_hardness.fold(0.0, f64::max);
-        let rate = |law: WearLaw| law.rate(at).value;
         let by_law = match self {
             Self::Law(law) => rate(law.heated(rise_k)) / rate(law),
             Self::ByPower { law, .. } => {
@@ -102,12 +113,9 @@ impl SurfaceWear {
             }
             Self::ByDose(_) => 1.0,
         };
-        let by_law = (by_law - 1.0).abs();
-        if by_law.is_finite() {
-            largest + by_law
-        } else {
-            largest
-        }
+        // Of a law that wears nothing before and after.
+        let by_law = if by_law.is_nan() { 1.0 } else { by_law };
+        largest + (by_law - 1.0).abs().min(MOLTEN)
     }
 
     /// Whether the rate depends on the depth.

@@ -111,6 +111,11 @@ impl WearLaw {
         }
     }
 
+    /// Whether its constants hold at a temperature that is given for the contact, which no further heat changes.
+    pub fn has_given_temperature(self) -> bool {
+        matches!(self, Self::OfSpeed(law) if law.has_given_temperature())
+    }
+
     /// The law of a contact that is warmer than its surroundings by a rise in K, at the same hardness.
     #[must_use]
     pub fn heated(self, rise_k: f64) -> Self {

@@ -59,11 +59,13 @@ declare_report! {
 declare_report! {
     /// Temperature of a contact that friction or current heats.
     #[derive(Copy)]
-    pub TemperatureReport from rise: &(f64, f64);
+    pub TemperatureReport from rise: &(f64, [f64; 2]);
     fields {}
     channels {
-        /// Mean temperature of the contact over the distance of the last computed cycle, °C.
-        contact_temperature_c ["c"] = rise.0 + rise.1,
+        /// Temperature at the hottest place of the contact, its mean over the distance of the last computed cycle, °C.
+        contact_temperature_c ["c"] = rise.0 + rise.1[0],
+        /// The highest temperature of the contact at any moment so far, °C.
+        highest_temperature_c ["c"] = rise.0 + rise.1[1],
     }
 }
 
@@ -189,10 +191,12 @@ impl<'a> CycleEnd<'a> {
         }
     }
 
-    /// The temperature of the surroundings, °C, and the rise of the contact, K.
-    fn temperature(&self) -> Option<(f64, f64)> {
+    /// The temperature of the surroundings, °C, and the mean and the largest rise of the contact, K.
+    fn temperature(&self) -> Option<(f64, [f64; 2])> {
         let is_heated = self.model.interface.heated_by != HeatSources::default();
-        is_heated.then_some((self.scene.temperature_c, self.state.temperature_rise_k))
+        let state = self.state;
+        let rises = [state.temperature_rise_k, state.hottest_rise_k];
+        is_heated.then_some((self.scene.temperature_c, rises))
     }
 
     fn exposed_lengths(&self, side: Side) -> Vec<f64> {

@@ -3,7 +3,7 @@
 use crate::law::heating::{joule, sliding::SlidingHeat};
 use crate::law::softening::Margins;
 use crate::law::surface::SurfaceWear;
-use crate::law::wear::LocalState;
+use crate::law::wear::{LocalState, WearLaw};
 use crate::scene::{Motion, Scene, TimedMotion};
 use crate::sides::{Side, Sides};
 
@@ -75,6 +75,13 @@ impl Scene {
         })
     }
 
+    /// Least distance of the surroundings to the melting temperature of a material, K, if one is known.
+    pub(crate) fn to_melting_k(&self) -> Option<f64> {
+        let sides = [&self.slider.softening, &self.receptacle.softening];
+        let known = sides.into_iter().filter_map(|side| side.to_melting_k);
+        known.reduce(f64::min)
+    }
+
     /// Distances of both surfaces to the melting temperatures of their layers.
     pub(crate) fn margins(&self) -> Sides<Margins> {
         Sides {
@@ -90,11 +97,15 @@ impl Scene {
         at: LocalState,
         rise_k: f64,
     ) -> f64 {
-        let margins = self.margins();
+        let (margins, motion) = (self.margins(), self.timed_motion());
+        let rate = |law: WearLaw| {
+            let mean = motion.mean_wear(SurfaceWear::Law(law)).uniform();
+            mean.unwrap_or_else(|| law.rate(at).value)
+        };
         let change = |side: Side| {
             let wear = wear.of(side).as_ref();
             wear.map_or(0.0, |wear| {
-                wear.change_by_heat(margins.of(side), at, rise_k)
+                wear.change_by_heat(margins.of(side), (at, rate), rise_k)
             })
         };
         change(Side::Slider).max(change(Side::Receptacle))

@@ -6,6 +6,8 @@ use std::sync::Arc;
 use super::motion::Motion;
 use super::series::Series;
 use crate::law::pace::Pace;
+use crate::law::surface::SurfaceWear;
+use crate::law::wear::WearLaw;
 use crate::number::real;
 
 /// Course of the imposed motion in time.
@@ -101,6 +103,42 @@ impl TimedMotion {
                 }
                 sum / whole
             }
+        }
+    }
+
+    /// A law of speed as its mean rate over the distance of a cycle; another wear as it is.
+    pub(crate) fn mean_wear(&self, wear: SurfaceWear) -> SurfaceWear {
+        match wear {
+            SurfaceWear::Law(WearLaw::OfSpeed(law)) => SurfaceWear::Law(WearLaw::Archard {
+                k_over_h_per_mpa: self.mean_by_distance(|mm_s| law.rate(Pace::at_speed(mm_s))),
+            }),
+            wear => wear,
+        }
+    }
+
+    /// The wear from one displacement of a stroke to another, mm. A law of speed that is not one of time has the mean rate of the parts of
+    /// the increment: it may begin, or change its mechanism, within.
+    pub(crate) fn wear_between(
+        &self,
+        wear: SurfaceWear,
+        stroke: usize,
+        (from, to): (f64, f64),
+        distance_mm: f64,
+    ) -> SurfaceWear {
+        const PARTS: usize = 16;
+        let pace = self.between(stroke, from, to);
+        match wear {
+            SurfaceWear::Law(WearLaw::OfSpeed(law))
+                if !law.is_by_time() && self.constant().is_none() =>
+            {
+                let at = |part: usize| from + (to - from) * real(part) / real(PARTS);
+                let rates =
+                    (0..PARTS).map(|part| law.rate(self.between(stroke, at(part), at(part + 1))));
+                SurfaceWear::Law(WearLaw::Archard {
+                    k_over_h_per_mpa: rates.sum::<f64>() / real(PARTS),
+                })
+            }
+            wear => wear.during(pace, distance_mm),
         }
     }
 

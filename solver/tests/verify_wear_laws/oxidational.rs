@@ -1,5 +1,6 @@
 //! Oxidational laws: the worn area is C P' t with the time t of sliding, or that of Archard's law at a constant speed.
 
+use std::f64::consts::FRAC_PI_2;
 use std::sync::Arc;
 
 use super::{
@@ -10,8 +11,8 @@ use crate::verify_resume::resumes_to_the_same_bits;
 use solver::effects::{Effect, Switches};
 use solver::law::temperature::Temperature;
 use solver::scene::{
-    MildOxidation, Motion, Quinn, Scene, Series, SevereOxidation, SpeedLaw, SurfaceState, Term,
-    Timing, WearLaw,
+    Accuracy, Mechanism, MildOxidation, Motion, Quinn, Scene, Series, SevereOxidation, SpeedLaw,
+    SurfaceState, Term, Timing, WearLaw,
 };
 use solver::sides::{Side, Sides};
 
@@ -246,4 +247,74 @@ fn runs_by_an_oxidational_law_resume_to_the_same_bits() {
         scene.output.snapshots_at_cycles = vec![stroke.1 / 2, stroke.1];
         resumes_to_the_same_bits(&format!("Quinn, {} mm", stroke.0), &scene, 4);
     }
+}
+
+/// A mechanism that changes within a stroke: hardly any oxide grows above the transition, so that the part of a sine that is slower than it
+/// wears by Archard's law, 1 - sqrt(1 - (V1/V)^2) of the distance.
+#[test]
+fn a_mechanism_that_changes_within_a_stroke_wears_by_its_parts() {
+    const RATE: f64 = 2e-7;
+    let (
+        WearLaw::OfSpeed(SpeedLaw::MildOxidation(mild)),
+        WearLaw::OfSpeed(SpeedLaw::SevereOxidation(severe)),
+    ) = (mild_oxidation(), severe_oxidation())
+    else {
+        panic!("laws of speed");
+    };
+    let fastest = FRAC_PI_2 * SPEED;
+    for share in [0.4, 0.8] {
+        let law = Mechanism {
+            k: RATE * mild.surface.hardness_mpa,
+            transition_mm_s: share * fastest,
+            mild: MildOxidation {
+                arrhenius_m2_s: 1e-9 * mild.arrhenius_m2_s,
+                ..mild
+            },
+            severe: SevereOxidation {
+                conductivity_w_mk: 1e3 * severe.conductivity_w_mk,
+                ..severe
+            },
+        };
+        for tolerance in [0.02, 0.1] {
+            let law = WearLaw::OfSpeed(SpeedLaw::Mechanism(law));
+            let mut scene = at_speed((0.1, 100), law, &[Side::Receptacle], Timing::Sine);
+            scene.accuracy = Accuracy::from_tolerance(tolerance);
+            scene.effects = Switches::default().with(Effect::Friction, false);
+            let summary = solve(&scene).expect("the scene can be solved").0;
+            let all = RATE * scene.load_n_per_mm * summary.last.sliding_distance_mm;
+            let expected = 1.0 - (1.0 - share * share).sqrt();
+            let off = summary.last.receptacle.worn_area_mm2 / (expected * all) - 1.0;
+            println!(
+                "mechanism, transition at {share} of the fastest, {tolerance}: worn area off by {off:+.1e}"
+            );
+            assert!(off.abs() < 0.5 * tolerance, "{off}");
+        }
+    }
+}
+
+/// An oxide that melts only in the fastest part of a sine, whose mean speed is too slow for it.
+#[test]
+fn an_oxide_melts_in_the_fastest_part_of_a_stroke() {
+    let WearLaw::OfSpeed(SpeedLaw::SevereOxidation(severe)) = severe_oxidation() else {
+        panic!("a law of speed");
+    };
+    let slowest = 1.2 * SPEED;
+    let law = SevereOxidation {
+        conductivity_w_mk: severe.conductivity_w_mk * slowest / severe.slowest_mm_s(),
+        ..severe
+    };
+    let law = WearLaw::OfSpeed(SpeedLaw::SevereOxidation(law));
+    let mut scene = at_speed((0.1, 100), law, &[Side::Receptacle], Timing::Sine);
+    scene.effects = Switches::default().with(Effect::Friction, false);
+    let summary = solve(&scene).expect("the scene can be solved").0;
+    // With c = V0/V: int over the faster part of (1 - V0/v) by distance = sqrt(1 - c^2) - c acos(c).
+    let c = slowest / (FRAC_PI_2 * SPEED);
+    let expected = (1.0 - c * c).sqrt() - c * c.acos();
+    let rate = 1e6 * severe.molten_fraction / severe.latent_heat_j_m3
+        * severe.heat_share
+        * severe.friction;
+    let all = rate * scene.load_n_per_mm * summary.last.sliding_distance_mm;
+    let off = summary.last.receptacle.worn_area_mm2 / (expected * all) - 1.0;
+    println!("severe oxidation in a part of a stroke: worn area off by {off:+.1e}");
+    assert!(off.abs() < 0.5 * TOLERANCE, "{off}");
 }

@@ -8,6 +8,9 @@ use solver::sides::Side;
 
 use crate::spec::environment;
 
+/// Wear coefficient below which no wear has been measured; those of lubricated contacts end at 1e-9.
+const SMALLEST: f64 = 1e-12;
+
 /// The warnings of a resolved specification.
 pub(super) fn warnings(spec: &Spec, scene: &Scene) -> Vec<Fault> {
     let laws = [
@@ -36,6 +39,11 @@ pub(super) fn warnings(spec: &Spec, scene: &Scene) -> Vec<Fault> {
 fn by_speed(scene: &Scene, law: SpeedLaw) -> Option<String> {
     let mean = scene.mean_speed_mm_s();
     let coefficient = match law {
+        SpeedLaw::Mechanism(law)
+            if law.mild.coefficient_at(mean.max(law.transition_mm_s)) < SMALLEST =>
+        {
+            law.mild.coefficient_at(mean.max(law.transition_mm_s))
+        }
         SpeedLaw::Mechanism(law) => {
             let slowest = law.severe.slowest_mm_s();
             return (slowest <= law.transition_mm_s).then(|| {
@@ -57,6 +65,12 @@ fn by_speed(scene: &Scene, law: SpeedLaw) -> Option<String> {
             });
         }
     };
+    if coefficient < SMALLEST {
+        return Some(format!(
+            "the law gives a wear coefficient of {coefficient:.0e}, which is no wear: its temperature is that of the surroundings and of \
+             the heat of the contact as a whole unless `contact_temperature_c` states that of the asperities, which flashes heat"
+        ));
+    }
     if coefficient > 1.0 {
         return Some(format!(
             "the law gives {coefficient:.2} particles for each encounter of asperities at {mean:.4} mm/s: at most one can come off"
@@ -123,10 +137,24 @@ mod tests {
         );
         let cold = details(&mild(-50.0), &continuous(1_000.0));
         assert!(
-            cold.len() == 1 && cold[0].contains("surroundings"),
+            cold.len() == 2 && cold[1].contains("surroundings, which"),
             "{cold:?}"
         );
         let hot = details(&mild(2_900.0), &continuous(1e-3));
         assert!(hot.len() == 1 && hot[0].contains("at most one"), "{hot:?}");
+    }
+
+    #[test]
+    fn an_oxide_that_does_not_grow_is_warned_of() {
+        let law = |rest: &str| {
+            format!(
+                r#"{{"law":"mild_oxidation","oxidation_constant":3.4e-4,"arrhenius_constant_m2_s":1e6,"activation_energy_j_mol":138e3,
+                "critical_film_um":10{rest}}}"#
+            )
+        };
+        let motion = r#"{"kind":"reciprocating","amplitude_mm":0.2,"frequency_hz":250}"#;
+        let found = details(&law(""), motion);
+        assert!(found[0].contains("which is no wear"), "{found:?}");
+        assert!(details(&law(r#","contact_temperature_c":427"#), motion).is_empty());
     }
 }

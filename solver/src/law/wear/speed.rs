@@ -9,6 +9,7 @@ use super::quinn::Quinn;
 use super::severe_oxidation::SevereOxidation;
 use super::surface_state::SurfaceState;
 use crate::law::pace::Pace;
+use crate::law::temperature::Temperature;
 
 /// Speed below which friction hardly heats asperities, mm/s, so that Archard's law holds instead of the oxidational ones. The source
 /// says "very low"; 0.1 m/s is the usual figure for steels, general knowledge.
@@ -44,6 +45,17 @@ impl SpeedLaw {
             Self::Quinn(_) | Self::MildOxidation(_) => true,
             Self::SevereOxidation(_) | Self::Mechanism(_) => false,
         }
+    }
+
+    /// Whether the temperature of the contact is given.
+    pub(super) fn has_given_temperature(&self) -> bool {
+        let surface = match self {
+            Self::Quinn(law) => law.surface,
+            Self::MildOxidation(law) => law.surface,
+            Self::SevereOxidation(law) => law.surface,
+            Self::Mechanism(law) => law.mild.surface,
+        };
+        matches!(surface.temperature, Temperature::OfContact(_))
     }
 
     /// The law on the surface that a change makes of its own.
