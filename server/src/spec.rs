@@ -275,6 +275,7 @@ fn fill(spec: &Spec, kind: SystemKind, diagnostics: &mut Diagnostics) -> Filled 
         timing: movement.timing.clone(),
         cycles,
         mission: movement.blocks.clone(),
+        cycles_at_a_time: None,
         accuracy: numerical,
         output: recorded,
         stop,

@@ -78,6 +78,8 @@ pub struct Scene {
     pub cycles: u64,
     /// Blocks of different motions, if there are several.
     pub mission: Option<Mission>,
+    /// Of the scene of a block of a mission: cycles until another block follows.
+    pub cycles_at_a_time: Option<u64>,
     /// Mesh and integration settings.
     pub accuracy: Accuracy,
     /// Recorded output.
@@ -115,6 +117,7 @@ impl Scene {
                 timing: block.timing.clone(),
                 cycles: block.cycles.saturating_mul(mission.repeat),
                 mission: None,
+                cycles_at_a_time: Some(mission.cycles_at_a_time(block)),
                 ..self.clone()
             })
         });

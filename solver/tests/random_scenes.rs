@@ -251,6 +251,7 @@ fn scene(u: &mut Numbers, regime: Regime, worn: Worn) -> Scene {
         timing: Timing::Sine,
         cycles,
         mission: None,
+        cycles_at_a_time: None,
         accuracy: Accuracy::from_tolerance(0.02),
         output: Output {
             stations_mm: Vec::new(),

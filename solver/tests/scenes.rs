@@ -58,6 +58,7 @@ pub(crate) fn mccoll() -> Scene {
         timing: Timing::Sine,
         cycles: 18_000,
         mission: None,
+        cycles_at_a_time: None,
         accuracy: Accuracy::from_tolerance(0.02),
         output: Output {
             stations_mm: vec![0.0, 0.05, 0.1, 0.2],
@@ -112,6 +113,7 @@ pub(crate) fn fuzz_button() -> Scene {
         timing: Timing::Sine,
         cycles: 2_000,
         mission: None,
+        cycles_at_a_time: None,
         accuracy: Accuracy::from_tolerance(0.02),
         output: Output {
             stations_mm: vec![-0.04, -0.02, -0.008, 0.0, 0.008, 0.02, 0.04],

@@ -2,14 +2,15 @@
 
 use crate::recorder::{Recorder, solve};
 use crate::scenes::mccoll;
+use crate::verify_mission::with_mission;
 use crate::verify_resume::resumes_to_the_same_bits;
 use solver::SolveError;
 use solver::effects::{Effect, EffectsPlan, Verdict, plan};
 use solver::law::resistance::Deformation;
 use solver::record::Summary;
 use solver::scene::{
-    Accuracy, Conduction, Conductor, Electrical, Metal, MildOxidation, Motion, Scene, SpeedLaw,
-    Spots, SurfaceState, Temperature, Timing, WearLaw,
+    Accuracy, Block, Conduction, Conductor, Electrical, Metal, MildOxidation, Motion, Scene,
+    SpeedLaw, Spots, SurfaceState, Temperature, Timing, WearLaw,
 };
 use solver::sides::Sides;
 
@@ -113,6 +114,44 @@ fn slow_contacts_stay_cold_and_nothing_of_the_heat_runs() {
     let mut unknown = slow.clone();
     (unknown.slider.thermal, unknown.receptacle.thermal) = (None, None);
     assert_eq!(solved(&slow).1.reports, solved(&unknown).1.reports);
+}
+
+/// A block of some milliseconds is not as warm as a long run, and leaves nothing in the next one.
+#[test]
+fn a_short_block_of_a_mission_is_warmed_by_its_own_time() {
+    let scene = fast(Timing::Triangle);
+    let slow = Motion::Reciprocating {
+        amplitude_mm: 0.025,
+        period_s: 1.0,
+    };
+    let blocks = [scene.motion, slow].map(|motion| Block {
+        motion,
+        timing: Timing::Triangle,
+        cycles: 20,
+    });
+    let run = |repeat| {
+        let mission = with_mission(scene.clone(), &blocks, repeat);
+        let (_, run) = solved(&mission);
+        let temperatures = run.reports[1..].iter().map(|report| {
+            let temperature = report.temperature.expect("it is computed");
+            temperature.contact_temperature_c - scene.temperature_c
+        });
+        temperatures.collect::<Vec<_>>()
+    };
+    let rises = run(3);
+    let warmest = rises.iter().copied().fold(0.0, f64::max);
+    let coldest = rises.iter().copied().fold(f64::INFINITY, f64::min);
+    let long = solved(&scene)
+        .1
+        .reports
+        .last()
+        .and_then(|report| report.temperature);
+    let steady = long.expect("it is computed").contact_temperature_c - scene.temperature_c;
+    println!(
+        "blocks of 4 ms and 20 s: {warmest:.0} and {coldest:.2} K, a run of 0.6 s ends at {steady:.0} K"
+    );
+    assert!(warmest < steady && warmest > 20.0, "{warmest} {steady}");
+    assert!(coldest < 0.2, "{coldest}");
 }
 
 #[test]

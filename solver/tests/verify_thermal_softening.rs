@@ -13,6 +13,7 @@ fn heated(scene: &Scene) -> Scene {
     let softening = Softening {
         ratios: RATIOS.map(Some).to_vec(),
         margins_k: Vec::new(),
+        lacks_melting: false,
         to_melting_k: None,
     };
     scene.slider.softening = softening.clone();

@@ -66,6 +66,9 @@ pub(super) fn softening(resolved: &Spec, diagnostics: &mut Diagnostics) -> Sides
             let melting = material.and_then(melting_c);
             melting.map(|melting| melting - temperature)
         };
+        let lacks_melting = by_hardness
+            .iter()
+            .any(|material| material.is_some_and(|material| melting_c(material).is_none()));
         let margins_k = by_hardness.iter().map(margin).collect();
         let ratios = by_hardness.iter().map(|material| match material {
             None => Some(1.0),
@@ -78,6 +81,7 @@ pub(super) fn softening(resolved: &Spec, diagnostics: &mut Diagnostics) -> Sides
                 ratios.collect()
             },
             margins_k,
+            lacks_melting,
             to_melting_k,
         }
     })
@@ -311,6 +315,33 @@ mod tests {
                 .any(|fault| fault.pointer == "/effects/resistance"),
             "{warned:?}"
         );
+    }
+
+    #[test]
+    fn heat_that_could_matter_asks_for_the_properties_that_it_lacks() {
+        let with = |frequency: f64, rest: &str| {
+            let text = format!(
+                r#"{{"system":{{"kind":"cylinder_on_flat"}},"motion":{{"kind":"reciprocating","amplitude_mm":0.2,"frequency_hz":{frequency}}},
+                "materials":{{"receptacle":{{"youngs_modulus_mpa":2e5,"poisson_ratio":0.3,"hardness_mpa":1700{rest}}}}},
+                "interface":{{"friction":{{"law":"coulomb","coefficient":0.5}},"wear":{{"receptacle":{{"law":"archard","k":1e-5}}}}}}}}"#
+            );
+            let (verdict, _, reason) = decided(&accepted(&text).scene, Effect::FrictionalHeating);
+            (verdict, reason)
+        };
+        let conducts = r#","thermal_conductivity_w_mk":50"#;
+        let melts = r#","melting_temperature_c":1400"#;
+        let (slow, _) = with(0.1, "");
+        assert_eq!(slow, Verdict::Skipped);
+        for (rest, field) in [
+            (melts, "thermal_conductivity_w_mk"),
+            (conducts, "melting_temperature_c"),
+        ] {
+            let (verdict, reason) = with(5_000.0, rest);
+            assert_eq!(verdict, Verdict::InputMissing, "{reason}");
+            assert!(reason.contains(field), "{reason}");
+        }
+        let (known, _) = with(5_000.0, &format!("{conducts}{melts}"));
+        assert_eq!(known, Verdict::Simulated);
     }
 
     #[test]

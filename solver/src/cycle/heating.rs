@@ -9,6 +9,7 @@ use crate::law::softening::Margins;
 use crate::law::surface::SurfaceWear;
 use crate::law::wear::LocalState;
 use crate::model::{HeatSources, Interface};
+use crate::number::real_cycles;
 use crate::scene::{ContactHeat, Scene};
 use crate::sides::Sides;
 
@@ -55,7 +56,7 @@ impl Heating {
         state: &CycleState,
     ) -> (f64, Sides<Option<SurfaceWear>>) {
         let friction = (self.sources.friction && state.mean_half_width > 0.0)
-            .then(|| scene.sliding_heat(state.mean_half_width))
+            .then(|| scene.sliding_heat(state.mean_half_width, real_cycles(state.cycle) + 0.5))
             .flatten()
             .map(|heat| (heat, friction_per_distance(scene, interface, state)));
         let joule = if self.sources.current {

@@ -31,7 +31,9 @@ pub(super) fn decide(
                 .any(|decision| decision.effect == effect && decision.verdict.is_on())
         };
         let nothing = nothing_to_simulate(scene, effect, is_on);
-        let grounds = match (nothing, missing_input(scene, effect)) {
+        let missing =
+            missing_input(scene, effect).or_else(|| missing_heat(scene, indicators, effect));
+        let grounds = match (nothing, missing) {
             (Some(nothing), _) => Grounds::Nothing(nothing),
             (None, Some(missing)) => Grounds::Missing(missing),
             (None, None) => Grounds::Indicator(indicator(scene, indicators, effect)),
@@ -114,7 +116,9 @@ fn is_at_reference(scene: &Scene) -> bool {
 fn heat_counts(scene: &Scene) -> bool {
     let softens = [&scene.slider.softening, &scene.receptacle.softening];
     let laws = [scene.slider.wear, scene.receptacle.wear];
-    softens.iter().any(|side| side.margin_k().is_some())
+    softens
+        .iter()
+        .any(|side| side.margin_k().is_some() || side.lacks_melting)
         || laws.into_iter().flatten().any(|law| law.heated(1.0) != law)
 }
 
@@ -140,6 +144,22 @@ fn missing_input(scene: &Scene, effect: Effect) -> Option<&'static str> {
         },
         _ => None,
     }
+}
+
+/// What a scene lacks of heat that could matter, or is to be simulated.
+fn missing_heat(
+    scene: &Scene,
+    indicators: &Indicators<'_>,
+    effect: Effect,
+) -> Option<&'static str> {
+    let lacks = match effect {
+        Effect::FrictionalHeating => scene.heat_lacks(true)?,
+        Effect::JouleHeating => scene.heat_lacks(false)?,
+        _ => return None,
+    };
+    let could_matter =
+        indicators.possible_change_by_heat(effect) > SHARE * scene.accuracy.tolerance;
+    (could_matter || scene.effects.of(effect) == Some(true)).then_some(lacks)
 }
 
 /// Why there is nothing to simulate, beside the effects that are on already.
@@ -183,9 +203,6 @@ fn nothing_to_simulate(
         Effect::FrictionalHeating | Effect::JouleHeating if !heat_counts(scene) => Some(
             "no wear law here depends on the temperature, or a hardness on a known `melting_temperature_c`",
         ),
-        Effect::FrictionalHeating if scene.sliding_heat(1.0).is_none() => {
-            Some("not estimated: it needs `thermal_conductivity_w_mk` of both materials")
-        }
         Effect::JouleHeating if scene.effects.of(Effect::Resistance) == Some(false) => {
             Some("the resistance of the contact is switched off, from which it follows")
         }

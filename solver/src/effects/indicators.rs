@@ -25,6 +25,9 @@ use crate::sides::{Side, Sides};
 /// under scars of 0.7 and 1 mm), a third of that over its wider tolerance; depths by 0.01 %.
 const CHANGE_PER_LOST_HEIGHT: f64 = 0.0125;
 
+/// Distance of 20 °C to the melting temperature of tin, K.
+const TIN_K: f64 = 211.9;
+
 /// What the indicators of a scene depend on besides its worn depths.
 pub(super) struct Indicators<'a> {
     scene: Cow<'a, Scene>,
@@ -176,7 +179,7 @@ impl<'a> Indicators<'a> {
     }
 
     fn frictional_heat_alone(&self) -> ContactHeat {
-        let source = self.scene.sliding_heat(self.sizes.hertz_half_width);
+        let source = self.scene.mean_sliding_heat(self.sizes.hertz_half_width);
         let friction = self.friction * self.scene.load_n_per_mm;
         ContactHeat::new(&self.scene, source.map(|source| (source, friction)), 0.0)
     }
@@ -202,6 +205,15 @@ impl<'a> Indicators<'a> {
                 electrical::largest_unworn_mohm(electrical, self.scene.load_n_per_mm)
             });
         self.scene.joule_rise_k(resistance.unwrap_or_default())
+    }
+
+    /// Largest change of a wear rate that a source of heat could make by materials that are not known: melting as early as tin.
+    pub(super) fn possible_change_by_heat(&self, effect: Effect) -> f64 {
+        let rise_k = match effect {
+            Effect::JouleHeating => self.joule_heat_k(),
+            _ => self.frictional_heat_k()[0],
+        };
+        (rise_k / TIN_K).max(self.change_by_heat(rise_k))
     }
 
     /// Largest relative change of a wear rate by a temperature rise in K.

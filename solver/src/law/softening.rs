@@ -24,6 +24,8 @@ pub struct Softening {
     /// Distance to the melting temperature of each layer from the surface down, then of the base, K; `None` where it is not known, or
     /// the wear does not depend on the hardness.
     pub margins_k: Vec<Option<f64>>,
+    /// Whether a surface that wears by its hardness has no known melting temperature.
+    pub lacks_melting: bool,
     /// Least distance to a melting temperature of all of its materials, whether they wear or not, K, if one is known.
     pub to_melting_k: Option<f64>,
 }
@@ -108,6 +110,7 @@ mod tests {
         let softening = Softening {
             ratios: vec![Some(0.5), None],
             margins_k: Vec::new(),
+            lacks_melting: true,
             to_melting_k: None,
         };
         assert!(softening.is_unknown() && (softening.ratio(1) - 1.0).abs() <= 0.0);

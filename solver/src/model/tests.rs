@@ -50,6 +50,7 @@ pub(crate) fn fuzz_button() -> Scene {
         timing: Timing::Sine,
         cycles: 2000,
         mission: None,
+        cycles_at_a_time: None,
         accuracy: Accuracy::from_tolerance(0.02),
         output: Output {
             stations_mm: vec![0.0],

@@ -1,11 +1,23 @@
 //! The contact of a scene as a source of heat.
 
+use std::borrow::Cow;
+
 use crate::law::heating::{joule, sliding::SlidingHeat};
 use crate::law::softening::Margins;
 use crate::law::surface::SurfaceWear;
 use crate::law::wear::{LocalState, WearLaw};
-use crate::scene::{Motion, Scene, TimedMotion};
+use crate::number::real_cycles;
+use crate::scene::{Conductor, Motion, Scene, TimedMotion};
 use crate::sides::{Side, Sides};
+
+/// Part 1/e of a time T at which a logarithm of the time has its mean from 0 to T.
+const MEAN_OF_LOGARITHM: f64 = 0.367_879_441_171_442_33;
+
+/// The poorest conductor among metals: less than stainless steels' 16 W/(m K). Arbitrary.
+const POOREST: Conductor = Conductor {
+    conductivity_w_mk: 10.0,
+    diffusivity_mm2_s: None,
+};
 
 /// Heat of a contact in its motion.
 #[derive(Debug, Clone, PartialEq)]
@@ -48,8 +60,9 @@ impl ContactHeat {
 }
 
 impl Scene {
-    /// Its contact of a half-width in mm as a source of frictional heat, if both conductivities are known.
-    pub(crate) fn sliding_heat(&self, half_width_mm: f64) -> Option<SlidingHeat> {
+    /// Its contact of a half-width in mm as a source of frictional heat after so many cycles, if both conductivities are known. Heat of
+    /// other blocks of a mission is left out.
+    pub(crate) fn sliding_heat(&self, half_width_mm: f64, cycles: f64) -> Option<SlidingHeat> {
         let (slider, receptacle) = (self.slider.thermal?, self.receptacle.thermal?);
         let (resting, passed) = match self.motion {
             Motion::Continuous { .. } => (receptacle, slider),
@@ -60,10 +73,39 @@ impl Scene {
             half_width_mm,
             amplitude_mm: self.motion.amplitude_mm().abs(),
             period_s: self.motion.period_s().unwrap_or(f64::INFINITY),
+            duration_s: self.motion.period_s().map_or(f64::INFINITY, |period| {
+                let most = self.cycles_at_a_time.map_or(f64::INFINITY, |cycles| {
+                    MEAN_OF_LOGARITHM * real_cycles(cycles)
+                });
+                period * cycles.min(most)
+            }),
             distance_mm: slider.height_mm.max(block.height_mm),
             resting,
             passed,
         })
+    }
+
+    /// The same for its mean temperature from the beginning to the end of its cycles; an unknown body conducts as the poorest metal.
+    pub(crate) fn mean_sliding_heat(&self, half_width_mm: f64) -> Option<SlidingHeat> {
+        let mut known = Cow::Borrowed(self);
+        if self.slider.thermal.is_none() || self.receptacle.thermal.is_none() {
+            let scene = known.to_mut();
+            scene.slider.thermal.get_or_insert(POOREST);
+            scene.receptacle.thermal.get_or_insert(POOREST);
+        }
+        known.sliding_heat(half_width_mm, MEAN_OF_LOGARITHM * real_cycles(self.cycles))
+    }
+
+    /// What the temperature of the contact, or its effect on the wear, lacks.
+    pub(crate) fn heat_lacks(&self, by_friction: bool) -> Option<&'static str> {
+        let (slider, receptacle) = (&self.slider, &self.receptacle);
+        if by_friction && (slider.thermal.is_none() || receptacle.thermal.is_none()) {
+            return Some(
+                "the conductivities of the parts' materials are not all known: give `thermal_conductivity_w_mk`",
+            );
+        }
+        (slider.softening.lacks_melting || receptacle.softening.lacks_melting)
+            .then_some("the melting temperatures of the parts' materials are not all known: give `melting_temperature_c`")
     }
 
     /// Temperature rise, K, by the current through a resistance of the contact in mOhm.

@@ -49,6 +49,11 @@ impl Mission {
         cycles.fold(0, u64::saturating_add)
     }
 
+    /// Cycles of a block in a round in which it has some.
+    pub(crate) fn cycles_at_a_time(&self, block: &Block) -> u64 {
+        (self.total(block) / self.rounds().max(1)).max(1)
+    }
+
     /// Number of rounds.
     pub(crate) fn rounds(&self) -> u64 {
         match self.order {

@@ -8,6 +8,9 @@
 //! * Body over which the contact moves:   r_flash = the smaller of the same and Jaeger's f(L)/(2 L)/(pi K) (`moving_source`); its
 //!   mean heat is spread over the track, r_bulk = (ln(d/w) + 1 - l/w)/(pi K) where l < w, and as above where l > w.
 //!
+//! Heat that has flowed for a time t has reached d = sqrt(4 kappa t) exp(-gamma/2), gamma Euler's constant: with it the temperature of a line
+//! source at rest, Q'/(2 pi K) E1(r^2/(4 kappa t)), is that of a sink at d.
+//!
 //! a: half-width of the contact; w: amplitude + a; d: distance to where the bodies keep their temperature; K: conductivity; kappa:
 //! diffusivity; a uniform source at rest has (ln(d/a) + 1)/(pi K) at its middle (Jaeger 1942; Carslaw and Jaeger 1959). Without a known
 //! diffusivity a body is taken as fast as it is at rest, l = d: an upper limit.
@@ -18,6 +21,9 @@
 use std::f64::consts::PI;
 
 use super::moving_source;
+
+/// Euler's constant gamma.
+const EULER: f64 = 0.577_215_664_901_532_9;
 
 /// A body as a conductor of heat.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -37,6 +43,8 @@ pub struct SlidingHeat {
     pub amplitude_mm: f64,
     /// Period T, s; without bound of a continuous motion.
     pub period_s: f64,
+    /// Time t for which it has slid, s; without bound of steady heat.
+    pub duration_s: f64,
     /// Distance d to where the bodies keep their temperature, mm.
     pub distance_mm: f64,
     /// The body at which the contact stays.
@@ -67,15 +75,15 @@ impl SlidingHeat {
 
     /// pi K r_bulk at rest.
     fn far(&self, body: Conductor) -> f64 {
-        (self.distance() / self.reach(body)).ln()
+        (self.distance_reached(body) / self.reach(body)).ln()
     }
 
     /// pi K r_bulk of the body over which the contact moves.
     fn far_of_track(&self) -> f64 {
-        let reach = self.reach(self.passed);
-        let track = (self.amplitude_mm + self.half_width_mm).min(self.distance());
+        let (reach, distance) = (self.reach(self.passed), self.distance_reached(self.passed));
+        let track = (self.amplitude_mm + self.half_width_mm).min(distance);
         if reach < track {
-            (self.distance() / track).ln() + 1.0 - reach / track
+            (distance / track).ln() + 1.0 - reach / track
         } else {
             self.far(self.passed)
         }
@@ -84,6 +92,14 @@ impl SlidingHeat {
     /// The distance to the sink; a contact that is wider is as far as its half-width.
     fn distance(&self) -> f64 {
         self.distance_mm.max(self.half_width_mm)
+    }
+
+    /// The same, or what heat has reached in the time of sliding, but not less than in a period.
+    fn distance_reached(&self, body: Conductor) -> f64 {
+        let reached = body.diffusivity_mm2_s.map_or(f64::INFINITY, |kappa| {
+            (4.0 * kappa * self.duration_s).sqrt() * (-0.5 * EULER).exp()
+        });
+        self.distance().min(reached.max(self.reach(body)))
     }
 
     /// l, mm.

@@ -24,6 +24,7 @@ fn heat(amplitude_mm: f64, period_s: f64) -> SlidingHeat {
         half_width_mm: 0.01,
         amplitude_mm,
         period_s,
+        duration_s: f64::INFINITY,
         distance_mm: 1.0,
         resting: body(Some(KAPPA)),
         passed: body(Some(KAPPA)),
@@ -48,12 +49,12 @@ fn weighted(of: impl Fn(f64) -> f64) -> f64 {
 /// d = sqrt(4 kappa s) exp(-gamma/2) a steady source at rest has ln(d/a) + 1. Over a time that holds many periods, the source has its
 /// mean heat, and is anywhere on its track.
 fn greens(heat: &SlidingHeat, moves: bool, phase: f64) -> f64 {
-    const EULER: f64 = 0.577_215_664_901_532_9;
     const STEPS: usize = 1_500;
     const PLACES: usize = 24;
     const PERIODS: f64 = 8.0;
     let (a, omega) = (heat.half_width_mm, TAU / heat.period_s);
-    let last = heat.distance_mm.powi(2) * EULER.exp() / (4.0 * KAPPA);
+    let steady = heat.distance_mm.powi(2) * EULER.exp() / (4.0 * KAPPA);
+    let last = steady.min(heat.duration_s);
     let first = 1e-5 * a * a / KAPPA;
     let place = |phase: f64| {
         if moves {
@@ -102,6 +103,32 @@ fn the_temperature_at_rest_is_that_of_a_uniform_line_source() {
     // Slow sliding has it, too.
     let slow = heat(0.05, 1e3);
     assert!((slow.rise(0.2, 0.1) / (0.2 * exact) - 1.0).abs() < 1e-14);
+}
+
+/// Heat that has flowed for some periods, in a body at rest and in one that the contact moves over.
+#[test]
+fn a_contact_warms_up_with_the_time_of_sliding() {
+    for (periods, moves) in [(1.0, false), (3.0, false), (1.0, true), (3.0, true)] {
+        let warm = SlidingHeat {
+            duration_s: 1e-3 * periods,
+            ..heat(0.02, 1e-3)
+        };
+        let alone = SlidingHeat {
+            resting: if moves { INSULATOR } else { warm.resting },
+            passed: if moves { warm.passed } else { INSULATOR },
+            ..warm
+        };
+        let mean = 4.0 * 0.02 / 1e-3;
+        let found = weighted(|phase| alone.rise(0.5 * PI * mean * phase.cos().abs(), mean) / mean);
+        let exact = weighted(|phase| greens(&warm, moves, phase));
+        let error = found / exact - 1.0;
+        assert!((0.0..0.06).contains(&error), "{periods} {moves}: {error}");
+        let steady = SlidingHeat {
+            duration_s: f64::INFINITY,
+            ..alone
+        };
+        assert!(steady.rise(mean, mean) > 1.02 * alone.rise(mean, mean));
+    }
 }
 
 /// Both kinds of body alone, from quasi-steady to a period in which heat does not cross the contact.
