@@ -11,13 +11,9 @@ use solver::scene::{Friction, Scene};
 use crate::spec::diagnostics::{Diagnostics, shortened};
 use crate::spec::suggestion::did_you_mean;
 
-/// Effects that are planned but not known to the engine yet.
-const PLANNED: [&str; 2] = ["oxidation", "plasticity"];
-
 /// Names of all effects.
 pub(crate) fn names() -> Vec<&'static str> {
-    let names = Effect::ALL.iter().map(|effect| effect.name());
-    names.chain(PLANNED).collect()
+    Effect::ALL.iter().map(|effect| effect.name()).collect()
 }
 
 /// Switches by the name of their effect; an absent one is `auto`.
@@ -30,7 +26,7 @@ pub(crate) fn resolve(given: &Given, diagnostics: &mut Diagnostics) -> Switches 
         let pointer = format!("/effects/{}", api::spec::pointer_token(name));
         let mut effects = Effect::ALL.iter().copied();
         let effect = effects.find(|effect| effect.name() == name);
-        if effect.is_none() && !PLANNED.contains(&name.as_str()) {
+        if effect.is_none() {
             let names = names();
             let detail = format!(
                 "`{}` is no effect; effects are {}{}",
@@ -43,7 +39,7 @@ pub(crate) fn resolve(given: &Given, diagnostics: &mut Diagnostics) -> Switches 
         }
         match (diagnostics.enum_member(&pointer, switch), effect) {
             (Some(Switch::On), effect) if !effect.is_some_and(Effect::is_available) => {
-                diagnostics.fault(&pointer, format!("`{name}` is not available yet"));
+                diagnostics.fault(&pointer, format!("`{name}` is never simulated"));
             }
             (Some(Switch::Off), Some(Effect::Elasticity)) => {
                 diagnostics.fault(

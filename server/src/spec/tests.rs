@@ -171,7 +171,7 @@ fn effects_that_are_not_available_yet_are_refused_by_name() {
         let found = faults(&format!(r#"{{"system":{{"kind":"fuzz_button"}},{part}}}"#));
         assert_eq!(found.len(), 1, "{found:?}");
         assert_eq!(found[0].pointer, pointer);
-        assert!(found[0].detail.contains("not available yet"), "{found:?}");
+        assert!(found[0].detail.contains("is never simulated"), "{found:?}");
     }
 }
 

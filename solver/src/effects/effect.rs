@@ -96,12 +96,56 @@ effects! {
     SkinEffect = "skin_effect",
         "resistance of a round wire as thick as a body over that to direct current, less 1, of the worse body",
         ["contact_resistance_mohm"];
+    /// Plastic flow of the contact as a whole; never simulated.
+    Plasticity = "plasticity",
+        "peak pressure of the unworn contact over the hardness of the softer surface, p0/H",
+        ["peak_pressure_mpa", "contact_half_width_mm", "max_depth_mm"];
+    /// Growth of oxides; part of the oxidational wear laws alone.
+    Oxidation = "oxidation",
+        "none: a wear law states it",
+        ["max_depth_mm", "worn_area_mm2", "life"];
+    /// Loss of the load by stress relaxation of the spring; never simulated.
+    Relaxation = "relaxation",
+        "none: it depends on the alloy, its temper, temperature and time",
+        ["load_n_per_mm", "max_depth_mm", "life"];
+    /// Inertia of the parts; part of the motions that follow from an acceleration alone.
+    Inertia = "inertia",
+        "none: a contact in a run is quasi-static",
+        ["loop"];
+    /// Distribution of the load across the width of the section; never simulated.
+    AcrossWidth = "across_width",
+        "none: the section is in plane strain along its width",
+        ["peak_pressure_mpa", "max_depth_mm", "life"];
+    /// Debris between the surfaces; never simulated.
+    ThirdBody = "third_body",
+        "none: a wear coefficient contains what debris did in its measurement",
+        ["max_depth_mm", "life"];
+    /// Transfer of metal from one surface to the other; never simulated.
+    MetalTransfer = "metal_transfer",
+        "none: wear only removes",
+        ["max_depth_mm", "life"];
+    /// Fatigue of the surfaces; never simulated.
+    Fatigue = "fatigue",
+        "none: no crack grows",
+        ["life"];
 }
 
 impl Effect {
     /// Whether it can be simulated.
     pub fn is_available(self) -> bool {
-        !matches!(self, Self::GeometricNonlinearity | Self::SkinEffect)
+        !matches!(
+            self,
+            Self::GeometricNonlinearity
+                | Self::SkinEffect
+                | Self::Plasticity
+                | Self::Oxidation
+                | Self::Relaxation
+                | Self::Inertia
+                | Self::AcrossWidth
+                | Self::ThirdBody
+                | Self::MetalTransfer
+                | Self::Fatigue
+        )
     }
 
     /// Whether its indicator, if it is skipped, counts as an error of what the tolerance bounds. Effects that are never

@@ -140,6 +140,14 @@ impl<'a> Indicators<'a> {
                 ratios.slider.max(ratios.receptacle) - 1.0
             }
             Effect::GeometricNonlinearity => small_strain::cost(&self.scene),
+            Effect::Plasticity => peak_over_hardness(&self.scene).unwrap_or_default(),
+            Effect::Oxidation
+            | Effect::Relaxation
+            | Effect::Inertia
+            | Effect::AcrossWidth
+            | Effect::ThirdBody
+            | Effect::MetalTransfer
+            | Effect::Fatigue => 0.0,
         }
     }
 
@@ -330,4 +338,13 @@ fn lost_slip(scene: &Scene, half_width: f64) -> f64 {
     };
     let lost = resolution::gross_slip(scene, half_width);
     if lost > 0.0 { lost / displacement } else { 0.0 }
+}
+
+/// Hertz' peak pressure of the unworn contact over the hardness of the softer surface, -, where both are known.
+pub(super) fn peak_over_hardness(scene: &Scene) -> Option<f64> {
+    let electrical = scene.conduction.known()?;
+    let half_width = resolution::choose(scene).hertz_half_width;
+    let peak = 2.0 * scene.load_n_per_mm / (PI * half_width);
+    let hardness = Side::BOTH.map(|side| electrical.metals.of(side)[0].hardness_mpa);
+    Some(peak / hardness[0].min(hardness[1]))
 }

@@ -180,6 +180,17 @@ fn consequence(effect: Effect, is_on: bool) -> &'static str {
         (Effect::Resistance, true) => "the resistance of the worn contact is computed",
         (Effect::Resistance, false) => "the resistance of the contact is not computed",
         (Effect::GeometricNonlinearity, _) => "strains and rotations are taken as small",
+        (Effect::Plasticity, _) => "the bodies are elastic at any pressure",
+        (
+            Effect::Oxidation
+            | Effect::Relaxation
+            | Effect::Inertia
+            | Effect::AcrossWidth
+            | Effect::ThirdBody
+            | Effect::MetalTransfer
+            | Effect::Fatigue,
+            _,
+        ) => "it is left out",
     }
 }
 

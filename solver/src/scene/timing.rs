@@ -106,12 +106,15 @@ impl TimedMotion {
         }
     }
 
-    /// A law of speed as its mean rate over the distance of a cycle; another wear as it is.
+    /// A law of speed as its mean rate over the distance of a cycle; another wear as it is, and a law of time, whose rate at the mean speed it
+    /// is.
     pub(crate) fn mean_wear(&self, wear: SurfaceWear) -> SurfaceWear {
         match wear {
-            SurfaceWear::Law(WearLaw::OfSpeed(law)) => SurfaceWear::Law(WearLaw::Archard {
-                k_over_h_per_mpa: self.mean_by_distance(|mm_s| law.rate(Pace::at_speed(mm_s))),
-            }),
+            SurfaceWear::Law(WearLaw::OfSpeed(law)) if !law.is_by_time() => {
+                SurfaceWear::Law(WearLaw::Archard {
+                    k_over_h_per_mpa: self.mean_by_distance(|mm_s| law.rate(Pace::at_speed(mm_s))),
+                })
+            }
             wear => wear,
         }
     }
