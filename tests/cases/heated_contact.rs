@@ -83,7 +83,7 @@ fn a_periodic_motion_heats_its_contact_too() {
         "{summary}"
     );
     let mut molten = spec;
-    molten["motion"] = json!({"kind": "reciprocating", "amplitude_mm": 0.5, "frequency_hz": 5000});
+    molten["motion"] = json!({"kind": "reciprocating", "amplitude_mm": 0.5, "frequency_hz": 50000});
     std::fs::write(folder.path().join("spec.json"), molten.to_string()).expect("a file");
     let ran = fretwear(folder.path(), &["solve", "spec.json"]);
     assert_eq!(ran.code, Some(1), "{}", ran.stdout);
