@@ -133,16 +133,21 @@ impl EffectsPlan {
     ) -> Vec<Crossing> {
         let indicators = Indicators::of(scene);
         let depth = self.with_skipped_wear(depth, indicators.worn_depth_after(cycle));
-        let skipped = self.decisions.iter().filter_map(|decision| {
-            let indicator = decision.indicator?;
-            let value = indicators.value(decision.effect, depth);
-            (decision.verdict == Verdict::Skipped).then_some((decision.effect, value, indicator))
-        });
+        let could_be_on = |decision: &&Decision| {
+            decision.verdict == Verdict::Skipped && decision.effect.is_available()
+        };
+        let skipped = self
+            .decisions
+            .iter()
+            .filter(could_be_on)
+            .filter_map(|decision| {
+                let indicator = decision.indicator?;
+                let value = indicators.value(decision.effect, depth);
+                Some((decision.effect, value, indicator))
+            });
         let alone = skipped
             .clone()
-            .find(|(effect, value, indicator)| {
-                *value > indicator.threshold && effect.is_available()
-            })
+            .find(|(_, value, indicator)| *value > indicator.threshold)
             .map(|(effect, ..)| effect);
         let counted = skipped
             .clone()

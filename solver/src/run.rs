@@ -232,7 +232,11 @@ fn integrate(
                 return Ok(ControlFlow::Continue(Renewal::Stiffness));
             }
             Err(error) => {
-                let called_for = plan.called_for_by_failure(before.cycle);
+                let called_for = if error.is_of_the_contact() {
+                    plan.called_for_by_failure(before.cycle)
+                } else {
+                    Vec::new()
+                };
                 if called_for.is_empty() {
                     return Err(error.into());
                 }

@@ -1,16 +1,20 @@
 //! Heat of friction and current: wear by the hardness and the laws at the temperature of the contact, which the reports state.
 
+use std::ops::ControlFlow;
+
 use crate::recorder::{Recorder, solve};
 use crate::scenes::mccoll;
 use crate::verify_mission::with_mission;
 use crate::verify_resume::resumes_to_the_same_bits;
 use solver::SolveError;
 use solver::effects::{Effect, EffectsPlan, Verdict, plan};
+use solver::error_control;
 use solver::law::resistance::Deformation;
+use solver::observer::{Event, Observer, Phase};
 use solver::record::Summary;
 use solver::scene::{
-    Accuracy, Block, Conduction, Conductor, Electrical, Metal, MildOxidation, Motion, Scene,
-    SpeedLaw, Spots, SurfaceState, Temperature, Timing, WearLaw,
+    Accuracy, Block, Conduction, Conductor, Electrical, Friction, Metal, MildOxidation, Motion,
+    Scene, SpeedLaw, Spots, SurfaceState, Temperature, Timing, WearLaw,
 };
 use solver::sides::Sides;
 
@@ -162,13 +166,39 @@ fn a_heated_run_resumes_to_the_same_bits() {
     resumes_to_the_same_bits("heated by friction", &scene, 4);
 }
 
-/// A law that melts its surface ends the run with the temperature.
+/// Counts how often a run begins to integrate, at first and after it has gone back.
+#[derive(Default)]
+struct Beginnings(usize);
+
+impl Observer for Beginnings {
+    fn on(&mut self, _: Event<'_>) -> ControlFlow<()> {
+        ControlFlow::Continue(())
+    }
+
+    fn on_phase(&mut self, phase: Phase) {
+        self.0 += usize::from(phase == Phase::Cycles);
+    }
+}
+
+/// A material that melts ends the run with the temperatures.
 #[test]
 fn a_contact_that_melts_is_reported() {
     let mut scene = fast(Timing::Sine);
     // The slider melts although it does not wear.
-    scene.slider.softening.to_melting_k = Some(30.0);
-    let error = solve(&scene).err().expect("it melts");
+    scene.slider.softening.to_melting_k = Some(1.0);
+    // An effect that is skipped would not keep it from melting, so that the run does not go back for one.
+    scene.friction = Friction::Coulomb { coefficient: 0.02 };
+    scene.receptacle.softening.margins_k = vec![Some(2.0)];
+    scene.cycles = 100;
+    let decided = plan(&scene);
+    assert_eq!(verdict(&decided, Effect::Friction), Verdict::Skipped);
+    assert_eq!(
+        verdict(&decided, Effect::FrictionalHeating),
+        Verdict::Simulated
+    );
+    let mut beginnings = Beginnings::default();
+    let error = error_control::solve(&scene, &mut beginnings).expect_err("it melts");
+    assert_eq!(beginnings.0, 1);
     assert!(matches!(error, SolveError::Cycle(_)));
     assert!(
         error.to_string().contains("a material of it melts"),

@@ -25,6 +25,15 @@ static TABLE: LazyLock<Vec<f64>> = LazyLock::new(|| {
         .collect()
 });
 
+/// Euler's constant gamma.
+pub(super) const EULER: f64 = 0.577_215_664_901_532_9;
+
+/// Lower limit of f(L)/(2 L), -, which it approaches for small L: 1 - gamma + ln(2/L), the source at rest in a body as far as diffusion is
+/// ahead of it.
+pub(super) fn least(peclet: f64) -> f64 {
+    1.0 - EULER + (2.0 / peclet).ln()
+}
+
 /// f(L)/(2 L), -; that of the smallest L of the table for smaller ones, which is far beyond any contact's distance to a heat sink.
 pub(super) fn factor(peclet: f64) -> f64 {
     let decade = peclet.max(f64::MIN_POSITIVE).ln() / LN_10;
@@ -105,6 +114,12 @@ mod tests {
             let found = 2.0 * peclet * factor(peclet);
             assert!((found / value - 1.0).abs() < 1e-4, "{peclet}: {found}");
         }
+        // From its lower limit on.
+        for (i, found) in TABLE.iter().enumerate() {
+            let peclet = 10_f64.powf(DECADES.0 + real(i) / real(POINTS_PER_DECADE));
+            assert!(*found >= least(peclet), "{peclet}: {found}");
+        }
+        assert!((TABLE[0] / least(1e-4) - 1.0).abs() < 1e-4, "{}", TABLE[0]);
         for peclet in [3e-4, 0.0234, 0.7, 55.5, 700.0] {
             let found = 2.0 * peclet * factor(peclet) / largest(peclet);
             assert!((found - 1.0).abs() < 5e-4, "{peclet}: {found}");

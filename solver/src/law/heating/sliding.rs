@@ -20,10 +20,7 @@
 
 use std::f64::consts::PI;
 
-use super::moving_source;
-
-/// Euler's constant gamma.
-const EULER: f64 = 0.577_215_664_901_532_9;
+use super::moving_source::{self, EULER};
 
 /// A body as a conductor of heat.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -58,10 +55,13 @@ impl SlidingHeat {
     pub fn rise(&self, speed_mm_s: f64, mean_mm_s: f64) -> f64 {
         let resting = self.near(self.resting) * speed_mm_s + self.far(self.resting) * mean_mm_s;
         let near = self.near(self.passed);
-        let moving = self.passed.diffusivity_mm2_s.map(|diffusivity| {
-            moving_source::factor(0.5 * speed_mm_s * self.half_width_mm / diffusivity)
-        });
-        let near = moving.map_or(near, |moving| moving.min(near));
+        let peclet = self
+            .passed
+            .diffusivity_mm2_s
+            .map(|diffusivity| 0.5 * speed_mm_s * self.half_width_mm / diffusivity);
+        // A source that is slow against diffusion is the one at rest.
+        let fast = peclet.filter(|peclet| moving_source::least(*peclet) < near);
+        let near = fast.map_or(near, |peclet| moving_source::factor(peclet).min(near));
         let passed = near * speed_mm_s + self.far_of_track() * mean_mm_s;
         // N/mm mm/s = W/m.
         let conductance = |of: f64, body: Conductor| PI * body.conductivity_w_mk / of;
