@@ -16,6 +16,7 @@ mod extrapolation;
 mod friction;
 mod groove;
 mod heating;
+mod increment;
 mod mission_state;
 mod motion_history;
 mod replay;
@@ -37,7 +38,7 @@ use crate::number::{cycles_at_least, real, real_cycles};
 use crate::scene::{Motion, Scene, TimedMotion};
 use crate::schedule::increments::{self, Position};
 use crate::schedule::plan::CyclePlan;
-use crate::sides::{Side, Sides};
+use crate::sides::Sides;
 
 pub use checks::Checks;
 pub use cycle_record::{CycleRecord, FrictionLoop, Neutral};
@@ -311,84 +312,6 @@ impl<'a> Integrator<'a> {
     fn count(&self, state: &mut CycleState, cycles: u64) {
         state.cycle += cycles;
         state.sliding_distance += self.scene.motion.distance_per_cycle_mm() * real_cycles(cycles);
-    }
-
-    /// Takes the temperature that the contact has in the next computed cycle.
-    ///
-    /// # Errors
-    /// [`CycleError::Melts`] if it is beyond the melting temperature of a surface.
-    fn heat(&mut self, state: &mut CycleState) -> Result<(), CycleError> {
-        let Some(heating) = &mut self.heating else {
-            return Ok(());
-        };
-        let (rise_k, wear) = heating.begin_cycle((self.scene, &self.pair.interface), state);
-        if let Some((hottest_k, melting_k)) = heating.melts() {
-            return Err(CycleError::Melts {
-                cycle: state.cycle,
-                temperature_c: self.scene.temperature_c + hottest_k,
-                melting_c: self.scene.temperature_c + melting_k,
-            });
-        }
-        state.temperature_rise_k = rise_k;
-        state.hottest_rise_k = state.hottest_rise_k.max(heating.hottest_k());
-        let constant = self.scene.timed_motion().constant();
-        self.wear =
-            wear.map(|wear| wear.map(|wear| constant.map_or(wear, |pace| wear.during(pace, 0.0))));
-        Ok(())
-    }
-
-    fn increment(
-        &mut self,
-        state: &mut CycleState,
-        to: Displacement<'_>,
-    ) -> Result<(), ContactError> {
-        let surfaces = Self::surfaces(&self.nodal_friction, &state.depth, &self.slope);
-        let last = &state.contact;
-        let pace = self.timed.between(self.stroke, last.slider_x, to.slider_x);
-        let distance = (to.slider_x - last.slider_x).abs() + to.surface_slip.abs();
-        let wear = match &self.heating {
-            Some(heating) => heating.at_speed(pace.speed()),
-            None => self.wear,
-        };
-        let between = (last.slider_x, to.slider_x);
-        self.pair.interface.wear = wear.map(|wear| {
-            wear.map(|wear| {
-                self.timed
-                    .wear_between(wear, self.stroke, between, distance)
-            })
-        });
-        let done = self
-            .solver
-            .advance(&self.pair, &surfaces, last, to, &mut self.next)?;
-        let limit = self.scene.accuracy.largest_wear_mm;
-        wear_limit::check(&self.spines, &state.depth, to.slider_x, &done, limit)?;
-        for side in Side::BOTH {
-            *state.worn_area.of_mut(side) += done.worn_area.of(side);
-            let depths = &mut state.depth.of_mut(side)[*done.first.of(side)..];
-            for (depth, recession) in depths.iter_mut().zip(*done.recession.of(side)) {
-                *depth += recession;
-            }
-        }
-        state.energy += to.cycles * done.energy;
-        state.work += done.work;
-        let checks = &mut state.checks;
-        checks.force_balance = checks.force_balance.max(done.force_balance);
-        checks.complementarity = checks.complementarity.max(done.complementarity);
-        checks.friction_cone = checks.friction_cone.max(done.friction_cone);
-        std::mem::swap(&mut state.contact, &mut self.next);
-        if state.contact.friction > 0.0 {
-            let used = state.contact.friction_use(&self.pair.slave().widths);
-            state.checks.friction_use = state.checks.friction_use.max(used);
-        }
-        Ok(())
-    }
-
-    /// The balance of forces with the normals of the surfaces as worn now.
-    fn force_balance_with_present_normals(&mut self, state: &CycleState) -> f64 {
-        let slope = self.slopes(state);
-        let surfaces = Self::surfaces(&self.nodal_friction, &state.depth, &slope);
-        self.solver
-            .force_balance_on(&self.pair, &surfaces, &state.contact)
     }
 
     fn record(

@@ -1,6 +1,8 @@
 //! The run: integrate until the geometry has drifted or the contact has outgrown its mesh, relocate, condense again.
 
+mod progress;
 mod resistance;
+mod summary;
 
 use std::ops::ControlFlow;
 
@@ -9,17 +11,17 @@ use crate::ale::{self, Spines};
 use crate::checkpoint::{Checkpoint, Earlier};
 use crate::condensation::{self, Condensed};
 use crate::cycle::{CycleError, CycleRecord, CycleState, Integrator, MissionState};
-use crate::effects::{self, EffectsPlan};
+use crate::effects::{self, Crossing, EffectsPlan};
 use crate::electrical::ElectricalState;
 use crate::fields;
-use crate::law::surface;
 use crate::model::{self, Model};
 use crate::observer::{Event, Observer, Phase};
-use crate::record::{self, Compared, Initial, Life, Outcome, Resolution, Snapshot, Summary};
+use crate::record::{self, Compared, Initial, Life, Outcome, Snapshot, Summary};
 use crate::scene::Scene;
-use crate::schedule::stops::{self, Progress};
-use crate::sides::Sides;
+use crate::schedule::stops;
+use progress::{end, now, progress, push_life};
 use resistance::Consequence;
+use summary::summary;
 
 /// Solves a scene from the unworn bodies to its end.
 ///
@@ -232,11 +234,7 @@ fn integrate(
                 return Ok(ControlFlow::Continue(Renewal::Stiffness));
             }
             Err(error) => {
-                let called_for = if error.is_of_the_contact() {
-                    plan.called_for_by_failure(before.cycle)
-                } else {
-                    Vec::new()
-                };
+                let called_for = called_for_by(error, plan, before.cycle);
                 if called_for.is_empty() {
                     return Err(error.into());
                 }
@@ -305,6 +303,14 @@ fn integrate(
     Ok(ControlFlow::Break(Outcome::Completed))
 }
 
+/// The skipped effects that an error after so many cycles calls for: those that a contact without a solution may have one with.
+fn called_for_by(error: CycleError, plan: &EffectsPlan, cycle: u64) -> Vec<Crossing> {
+    match error {
+        CycleError::Increment { .. } => plan.called_for_by_failure(cycle),
+        CycleError::Melts { .. } => Vec::new(),
+    }
+}
+
 /// The next computed cycle, within the present block of a mission and up to a cycle.
 fn next_cycle(
     scene: &Scene,
@@ -319,31 +325,6 @@ fn next_cycle(
     let position = run.mission.as_ref().map(|mission| mission.position);
     let until = position.map_or((next, true), |position| position.next_reported(scene, next));
     integrator.compute_cycle(&mut run.state, until)
-}
-
-/// Takes a computed cycle into the life by the criteria of the scene.
-fn push_life(scene: &Scene, model: &Model, run: &mut Checkpoint, before: &ElectricalState) {
-    let cycle = run.state.cycle;
-    if let Some((limits, resistances)) = resistance::of_life(scene, (before, &run.electrical)) {
-        run.life.push_resistance(limits, cycle, resistances);
-    }
-    let surface = |side| record::worn_surface(model, &run.state, side);
-    run.life.push(scene, cycle, surface);
-}
-
-/// The outcome of a run that ends here.
-fn end(scene: &Scene, (model, spines): (&Model, &Spines), run: &Checkpoint) -> Option<Outcome> {
-    let state = &run.state;
-    let depth = |side, part| record::worn_surface(model, state, side).depth_of_part(part);
-    stops::end(scene, now(scene, (model, spines), run), depth)
-}
-
-/// Its progress for its stops.
-fn now(scene: &Scene, (model, spines): (&Model, &Spines), run: &Checkpoint) -> Progress {
-    Progress {
-        exceeds_resistance: resistance::exceeds_limit(scene, &run.electrical),
-        ..progress((model, spines), &run.state, run.state.jump.rates())
-    }
 }
 
 /// Moves on to the next block of a mission.
@@ -361,25 +342,6 @@ fn next_block(scene: &Scene, model: &Model, run: &mut Checkpoint) {
     );
 }
 
-/// Progress of the run for its stops, at rates of the contact nodes as equivalent depths, mm a cycle.
-fn progress(
-    (model, spines): (&Model, &Spines),
-    state: &CycleState,
-    equivalent: Sides<&[f64]>,
-) -> Progress {
-    let wear = model.interface.wear;
-    let rates = Sides::from_fn(|side| {
-        surface::at_relative_rates(*wear.of(side), equivalent.of(side), state.depth.of(side))
-    });
-    Progress {
-        cycle: state.cycle,
-        cycles_left: spines.cycles_left(&state.depth, rates.as_ref().map(|rates| &rates[..])),
-        fastest_rate: equivalent.map(|rates| rates.iter().fold(0.0, |m: f64, rate| m.max(*rate))),
-        worn_through: spines.are_worn_through(&state.depth),
-        exceeds_resistance: false,
-    }
-}
-
 fn snapshot(
     scene: &Scene,
     model: &Model,
@@ -393,48 +355,6 @@ fn snapshot(
         Vec::new()
     };
     Ok(record::snapshot(model, state, record, fields))
-}
-
-fn summary(
-    scene: &Scene,
-    (plan, model): (&EffectsPlan, &Model),
-    run: &Checkpoint,
-    outcome: Outcome,
-) -> Summary {
-    let state = &run.state;
-    let last = record::report(scene, model, state, run.electrical.resistance);
-    let mut checks = state.checks;
-    checks.worn_area = record::worn_area_residual(state, &last);
-    let mut compared = run.compared.clone();
-    compared.skipped_change = plan.skipped_change();
-    Summary {
-        outcome,
-        initial: run.initial,
-        resolution: Resolution {
-            contact_element_mm: model.sizes.contact_element,
-            contact_elements: model.bodies.receptacle.contact_x().len() - 1,
-            increments_per_cycle: u32::try_from(state.most_increments).unwrap_or(u32::MAX),
-            computed_cycles: state.computed_cycles,
-            work: state.work,
-            dofs: model.bodies.slider.dofs() + model.bodies.receptacle.dofs(),
-            relocations: run.relocations,
-            estimated_relative_error: match &run.mission {
-                Some(mission) => mission.mean_error(state),
-                None => state.jump.mean_error(),
-            },
-        },
-        last,
-        checks,
-        errors: None,
-        warnings: Vec::new(),
-        compared,
-        effects: plan.verdicts(),
-        crossings: run.crossings.clone(),
-        life: run.life.clone(),
-        blocks: run.mission.as_ref().map_or_else(Vec::new, |mission| {
-            mission.wear(state, &model.interface.wear)
-        }),
-    }
 }
 
 #[cfg(test)]

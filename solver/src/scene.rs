@@ -4,6 +4,8 @@
 //! direction with its origin at the neutral position, y points up. A scene is plain data, validated
 //! where it is created; the engine does not check it again.
 
+mod accuracy;
+mod body;
 mod criterion;
 mod electrical;
 mod heat;
@@ -14,6 +16,8 @@ mod timing;
 mod tuning;
 mod turning_points;
 
+pub use accuracy::{Accuracy, Refinement};
+pub use body::{BlockShape, Body, SliderShape, SurfaceEffects};
 pub use criterion::Criterion;
 pub use electrical::{Conduction, Electrical, MOST_METALS, Metal, Spots};
 pub(crate) use heat::ContactHeat;
@@ -30,7 +34,6 @@ use std::borrow::Cow;
 use crate::effects::{Effect, Switches};
 use crate::law::pace::Pace;
 use crate::law::surface::SurfaceWear;
-use crate::number::count_at_least;
 use crate::sides::{Side, Sides};
 
 pub use crate::law::elastic::Elastic;
@@ -201,97 +204,6 @@ impl Scene {
     }
 }
 
-/// Effects on the wear of a surface that are simulated.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct SurfaceEffects {
-    /// Layers below the outermost one.
-    pub plating: bool,
-    /// Change of the hardness with the temperature.
-    pub softening: bool,
-}
-
-/// A deformable body: shape, elasticity, wear.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Body<S> {
-    /// Its geometry.
-    pub shape: S,
-    /// Its elastic constants.
-    pub elastic: Elastic,
-    /// Wear law of its surface, below the plating if there is one; `None` does not wear.
-    pub wear: Option<WearLaw>,
-    /// Layers over the base, from the surface down; at most [`MOST_LAYERS`].
-    pub plating: Vec<Layer>,
-    /// The body as a conductor of heat, if its conductivity is known.
-    pub thermal: Option<Conductor>,
-    /// Its hardnesses at the temperature of the contact.
-    pub softening: Softening,
-}
-
-impl<S> Body<S> {
-    /// Wear of its surface by the surface effects that are simulated: with all of its layers or with the outermost one at every
-    /// depth, at the temperature of the contact or at that of the measured hardness; at a pace that is the same all the time.
-    pub(crate) fn surface_wear(
-        &self,
-        on: SurfaceEffects,
-        pace: Option<Pace>,
-    ) -> Option<SurfaceWear> {
-        let ratio = |layer| {
-            if on.softening {
-                self.softening.ratio(layer)
-            } else {
-                1.0
-            }
-        };
-        let softened = |(number, layer): (usize, &Layer)| Layer {
-            rate_per_mpa: layer.rate_per_mpa / ratio(number),
-            ..*layer
-        };
-        let layers = self.plating.iter().enumerate().map(softened);
-        let layers: Vec<Layer> = layers.collect();
-        match layers.first() {
-            Some(outer) if !on.plating => Some(SurfaceWear::Law(WearLaw::Archard {
-                k_over_h_per_mpa: outer.rate_per_mpa,
-            })),
-            _ => {
-                let base = self.wear.map(|law| law.softened(ratio(layers.len())));
-                let base = base.map(|law| pace.map_or(law, |pace| law.at_pace(pace)));
-                SurfaceWear::new(&layers, base)
-            }
-        }
-    }
-
-    /// Specific wear rate of its outermost layer, or of the bare body, 1/MPa, if it is the same in every state.
-    pub fn outer_rate(&self) -> Option<f64> {
-        let bare = SurfaceEffects {
-            plating: false,
-            softening: true,
-        };
-        self.surface_wear(bare, None).and_then(SurfaceWear::uniform)
-    }
-}
-
-/// The slider: a circular arc around x = 0 whose lowest point touches y = 0, under a flat top face.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct SliderShape {
-    /// Radius of the arc, mm.
-    pub radius_mm: f64,
-    /// Half the modelled width, mm; the radius itself for a half-round.
-    pub half_width_mm: f64,
-    /// Height of the top face over the contact point, mm.
-    pub height_mm: f64,
-}
-
-/// The receptacle: a block centred on x = 0, its top face flat at y = 0 or crowned with its highest point there.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct BlockShape {
-    /// Length along x, mm.
-    pub length_mm: f64,
-    /// Height in the middle, mm.
-    pub height_mm: f64,
-    /// Radius of a convex top face, mm; flat if absent.
-    pub crown_radius_mm: Option<f64>,
-}
-
 /// Boundary conditions of the slider: load and motion.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Drive {
@@ -300,101 +212,6 @@ pub enum Drive {
     Handle,
     /// The thesis' drive: `u_x` of every slider node prescribed, `u_y` free, pressure on the top face.
     WholeBody,
-}
-
-/// Mesh and integration settings.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Accuracy {
-    /// Requested relative accuracy of worn depth and scar width.
-    pub tolerance: f64,
-    /// Surface element size under the contact, mm; chosen from the tolerance if absent.
-    pub contact_element_mm: Option<f64>,
-    /// Increments a computed cycle; chosen from the contact width if absent.
-    pub increments_per_cycle: Option<u32>,
-    /// Physical cycles per computed cycle; chosen from the tolerance if absent.
-    pub cycle_jump: Option<u64>,
-    /// Most wear of a point in an increment, mm; no limit if absent (`cycle/wear_limit.rs`).
-    pub largest_wear_mm: Option<f64>,
-    /// Constants by which the tolerance chooses these.
-    pub tuning: Tuning,
-    /// Factors on what is given or chosen.
-    pub refinement: Refinement,
-    /// Whether companions estimate the error and choose the refinement (`error_control`).
-    pub estimate_errors: bool,
-}
-
-/// Factors by which mesh, increments and jumps are finer than the tolerance chooses them or the user gives them.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Refinement {
-    /// Factor on the number of elements everywhere: every size, and every growth from one element to the next, is
-    /// divided by it.
-    pub mesh: f64,
-    /// Factor on the number of increments a cycle.
-    pub increments: f64,
-    /// Factor on the number of computed cycles: jumps, and what bounds them, are divided by it.
-    pub cycles: f64,
-}
-
-impl Refinement {
-    /// As chosen or given.
-    pub const NONE: Self = Self {
-        mesh: 1.0,
-        increments: 1.0,
-        cycles: 1.0,
-    };
-}
-
-/// Most increments in which the load is applied: the error is far below any tolerance. Arbitrary.
-const MOST_LOAD_STEPS: f64 = 200.0;
-
-impl Accuracy {
-    /// Everything chosen from a tolerance, without an estimate of errors.
-    pub const fn from_tolerance(tolerance: f64) -> Self {
-        Self {
-            tolerance,
-            contact_element_mm: None,
-            increments_per_cycle: None,
-            cycle_jump: None,
-            largest_wear_mm: None,
-            tuning: Tuning::FITTED,
-            refinement: Refinement::NONE,
-            estimate_errors: false,
-        }
-    }
-
-    /// Largest displacement of an increment for a contact of a half-width, mm.
-    pub(crate) fn largest_step(&self, half_width: f64) -> f64 {
-        self.step_over_half_width() * half_width / self.refinement.increments
-    }
-
-    /// Displacement of an increment over the half-width of the contact that it is chosen for, before any refinement.
-    pub(crate) fn step_over_half_width(&self) -> f64 {
-        let Tuning {
-            step, loose_step, ..
-        } = &self.tuning;
-        let step = if self.tolerance > 0.02 {
-            loose_step
-        } else {
-            step
-        };
-        step.at(self.tolerance)
-    }
-
-    /// The stiffness is rebuilt when a spine has lost this part of its length since it was last built.
-    pub(crate) fn drift_share(&self) -> f64 {
-        let (least, most) = self.tuning.drift_bounds;
-        (self.tuning.drift.at(self.tolerance) / self.refinement.mesh).clamp(least, most)
-    }
-
-    /// Number of increments in which the load is applied.
-    pub(crate) fn load_steps(&self) -> usize {
-        let steps = self
-            .tuning
-            .load_steps
-            .at(self.tolerance)
-            .min(MOST_LOAD_STEPS);
-        count_at_least(steps * self.refinement.increments)
-    }
 }
 
 /// Recorded output.

@@ -40,11 +40,6 @@ pub enum CycleError {
 }
 
 impl CycleError {
-    /// Whether the contact has no solution, which it may have with other effects.
-    pub(crate) fn is_of_the_contact(self) -> bool {
-        matches!(self, Self::Increment { .. })
-    }
-
     /// Whether the cycle can be computed again with wider zones of fine elements.
     pub(crate) fn needs_wider_zones(self) -> bool {
         matches!(self, Self::Increment { source, .. } if source.needs_wider_zones())

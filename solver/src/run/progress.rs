@@ -1,0 +1,66 @@
+//! What a run has reached: its life, its end, its progress for its stops.
+
+use super::resistance;
+use crate::ale::Spines;
+use crate::checkpoint::Checkpoint;
+use crate::cycle::CycleState;
+use crate::electrical::ElectricalState;
+use crate::law::surface;
+use crate::model::Model;
+use crate::record::{self, Outcome};
+use crate::scene::Scene;
+use crate::schedule::stops::{self, Progress};
+use crate::sides::Sides;
+
+/// Takes a computed cycle into the life by the criteria of the scene.
+pub(super) fn push_life(
+    scene: &Scene,
+    model: &Model,
+    run: &mut Checkpoint,
+    before: &ElectricalState,
+) {
+    let cycle = run.state.cycle;
+    if let Some((limits, resistances)) = resistance::of_life(scene, (before, &run.electrical)) {
+        run.life.push_resistance(limits, cycle, resistances);
+    }
+    let surface = |side| record::worn_surface(model, &run.state, side);
+    run.life.push(scene, cycle, surface);
+}
+
+/// The outcome of a run that ends here.
+pub(super) fn end(
+    scene: &Scene,
+    (model, spines): (&Model, &Spines),
+    run: &Checkpoint,
+) -> Option<Outcome> {
+    let state = &run.state;
+    let depth = |side, part| record::worn_surface(model, state, side).depth_of_part(part);
+    stops::end(scene, now(scene, (model, spines), run), depth)
+}
+
+/// Its progress for its stops.
+pub(super) fn now(scene: &Scene, (model, spines): (&Model, &Spines), run: &Checkpoint) -> Progress {
+    Progress {
+        exceeds_resistance: resistance::exceeds_limit(scene, &run.electrical),
+        ..progress((model, spines), &run.state, run.state.jump.rates())
+    }
+}
+
+/// Progress of the run for its stops, at rates of the contact nodes as equivalent depths, mm a cycle.
+pub(super) fn progress(
+    (model, spines): (&Model, &Spines),
+    state: &CycleState,
+    equivalent: Sides<&[f64]>,
+) -> Progress {
+    let wear = model.interface.wear;
+    let rates = Sides::from_fn(|side| {
+        surface::at_relative_rates(*wear.of(side), equivalent.of(side), state.depth.of(side))
+    });
+    Progress {
+        cycle: state.cycle,
+        cycles_left: spines.cycles_left(&state.depth, rates.as_ref().map(|rates| &rates[..])),
+        fastest_rate: equivalent.map(|rates| rates.iter().fold(0.0, |m: f64, rate| m.max(*rate))),
+        worn_through: spines.are_worn_through(&state.depth),
+        exceeds_resistance: false,
+    }
+}
