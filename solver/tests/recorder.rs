@@ -76,3 +76,18 @@ pub(crate) fn area_between(a: &DepthProfile, b: &DepthProfile) -> f64 {
     }
     between / below
 }
+
+/// Asserts that the largest depth of a run of a tolerance of 2 % is within it, and within the error that the run states.
+pub(crate) fn check_stated_error(name: &str, done: &Summary, fine: &Summary) {
+    let errors = done.errors.expect("errors are estimated");
+    let off = (done.last.receptacle.max_depth_mm / fine.last.receptacle.max_depth_mm - 1.0).abs();
+    println!(
+        "{name}: depth {:.3} % off, stated {:?}",
+        100.0 * off,
+        errors.worn_depth
+    );
+    assert!(
+        off < 0.02 && off <= errors.worn_depth.relative,
+        "{off} {errors:?}"
+    );
+}

@@ -8,7 +8,7 @@ use solver::scene::{
 };
 use solver::sides::{Side, Sides};
 
-use crate::recorder::{depth_at, largest_distance, solve};
+use crate::recorder::{check_stated_error, depth_at, largest_distance, solve};
 use crate::scenes::sprung_contact;
 
 /// k/H of `sprung_contact`, 1/MPa.
@@ -234,20 +234,10 @@ fn a_mission_states_its_error() {
         ..Accuracy::from_tolerance(0.02)
     };
     let (done, _) = solve(&scene).expect("the mission can be solved");
-    let errors = done.errors.expect("errors are estimated");
     let mut fine = vibrated_and_wiped(40, None);
     fine.accuracy = Accuracy::from_tolerance(0.002);
     let (fine, _) = solve(&fine).expect("the mission can be solved");
-    let off = (done.last.receptacle.max_depth_mm / fine.last.receptacle.max_depth_mm - 1.0).abs();
-    println!(
-        "mission: depth {:.3} % off, stated {:?}",
-        100.0 * off,
-        errors.worn_depth
-    );
-    assert!(
-        off < 0.02 && off <= errors.worn_depth.relative,
-        "{off} {errors:?}"
-    );
+    check_stated_error("mission", &done, &fine);
 }
 
 /// The cost model follows the blocks of a mission.

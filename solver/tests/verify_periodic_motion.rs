@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use crate::recorder::{depth_at, largest_distance, solve};
+use crate::recorder::{check_stated_error, depth_at, largest_distance, solve};
 use crate::scenes::{mccoll, partial_slip, sprung_contact};
 use crate::verify_mission::{RATE, block, last_profiles, with_mission};
 use crate::verify_resume::resumes_to_the_same_bits;
@@ -322,17 +322,7 @@ fn a_periodic_run_states_its_error() {
         ..Accuracy::from_tolerance(0.02)
     });
     let fine = of(Accuracy::from_tolerance(0.004));
-    let errors = done.errors.expect("errors are estimated");
-    let off = (done.last.receptacle.max_depth_mm / fine.last.receptacle.max_depth_mm - 1.0).abs();
-    println!(
-        "periodic: depth {:.3} % off, stated {:?}",
-        100.0 * off,
-        errors.worn_depth
-    );
-    assert!(
-        off < 0.02 && off <= errors.worn_depth.relative,
-        "{off} {errors:?}"
-    );
+    check_stated_error("periodic", &done, &fine);
 }
 
 /// The cost model follows the strokes of a periodic motion.

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use api::problem::Fault;
 use api::spec::{EnumValue, Switch};
-use solver::effects::{Effect, Switches, Verdict, small_strain};
+use solver::effects::{Effect, EffectsPlan, Switches, Verdict, small_strain};
 use solver::law::softening::MOLTEN;
 use solver::scene::{Friction, Scene};
 
@@ -67,8 +67,9 @@ pub(crate) fn check(
     cause: impl FnOnce() -> String,
     diagnostics: &mut Diagnostics,
 ) {
-    check_forced(given, scene, diagnostics);
-    check_dose(scene, diagnostics);
+    let plan = solver::effects::plan(scene);
+    check_dose(scene, &plan, diagnostics);
+    check_forced(given, plan, diagnostics);
     if has_small_strains(given, scene) {
         return;
     }
@@ -90,8 +91,7 @@ pub(crate) fn has_small_strains(given: &Given, scene: &Scene) -> bool {
 }
 
 /// Adds a fault for a friction by dose beside heat that the plan simulates: the worn depth no longer tells the dose of a place.
-fn check_dose(scene: &Scene, diagnostics: &mut Diagnostics) {
-    let plan = solver::effects::plan(scene);
+fn check_dose(scene: &Scene, plan: &EffectsPlan, diagnostics: &mut Diagnostics) {
     let heats = [Effect::FrictionalHeating, Effect::JouleHeating];
     let heated = heats.into_iter().find(|effect| plan.simulates(*effect));
     if let (Friction::ByDose(_), Some(effect)) = (&scene.friction, heated) {
@@ -104,8 +104,8 @@ fn check_dose(scene: &Scene, diagnostics: &mut Diagnostics) {
 }
 
 /// Adds a fault for each effect that is switched on and has nothing to simulate in the scene.
-fn check_forced(given: &Given, scene: &Scene, diagnostics: &mut Diagnostics) {
-    for decision in solver::effects::plan(scene).decisions {
+fn check_forced(given: &Given, plan: EffectsPlan, diagnostics: &mut Diagnostics) {
+    for decision in plan.decisions {
         let name = decision.effect.name();
         let forced = switch(given, decision.effect) == Some(Switch::On);
         let is_out = matches!(decision.verdict, Verdict::Skipped | Verdict::InputMissing);

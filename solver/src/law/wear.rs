@@ -188,10 +188,8 @@ impl WearLaw {
 #[cfg(test)]
 mod tests {
     use super::barwell::Course;
-    use super::mild_oxidation::MildOxidation;
     use super::power::Measure;
     use super::quinn::Quinn;
-    use super::severe_oxidation::SevereOxidation;
     use super::surface_state::SurfaceState;
     use super::*;
     use crate::law::temperature::Temperature;
@@ -242,29 +240,8 @@ mod tests {
                 temperature: Temperature::OfContact(673.15),
             },
         })),
-        WearLaw::OfSpeed(SpeedLaw::MildOxidation(MildOxidation {
-            constant: 3.4e-4,
-            arrhenius_m2_s: 1e6,
-            activation_j_mol: 138e3,
-            film_um: 10.0,
-            surface: SurfaceState {
-                hardness_mpa: 6_865.0,
-                temperature: Temperature::OfContact(700.0),
-            },
-        })),
-        WearLaw::OfSpeed(SpeedLaw::SevereOxidation(SevereOxidation {
-            molten_fraction: 0.01,
-            latent_heat_j_m3: 2e9,
-            heat_share: 0.5,
-            friction: 0.3,
-            conductivity_w_mk: 3.2,
-            melting_k: 1_760.15,
-            diffusion_um: 10.0,
-            surface: SurfaceState {
-                hardness_mpa: 6_865.0,
-                temperature: Temperature::OfContact(293.15),
-            },
-        })),
+        WearLaw::OfSpeed(SpeedLaw::MildOxidation(mild_oxidation::STEEL)),
+        WearLaw::OfSpeed(SpeedLaw::SevereOxidation(severe_oxidation::STEEL)),
         WearLaw::PressurePower {
             k_per_mpa: 2.5761e-5,
             reference_mpa: 100.0,

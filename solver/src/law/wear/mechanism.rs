@@ -56,34 +56,20 @@ impl Mechanism {
 mod tests {
     use super::*;
     use crate::law::temperature::Temperature;
+    use crate::law::wear::{mild_oxidation, severe_oxidation};
 
     /// Steel of the tests of both laws.
     fn steel(temperature: Temperature) -> Mechanism {
         Mechanism {
             k: 6.865e-4,
             transition_mm_s: 100.0,
-            mild: MildOxidation {
-                constant: 3.4e-4,
-                arrhenius_m2_s: 1e6,
-                activation_j_mol: 138e3,
-                film_um: 10.0,
-                surface: SurfaceState {
-                    hardness_mpa: 6_865.0,
-                    temperature: Temperature::OfContact(700.0),
-                },
-            },
+            mild: mild_oxidation::STEEL,
             severe: SevereOxidation {
-                molten_fraction: 0.01,
-                latent_heat_j_m3: 2e9,
-                heat_share: 0.5,
-                friction: 0.3,
-                conductivity_w_mk: 3.2,
-                melting_k: 1_760.15,
-                diffusion_um: 10.0,
                 surface: SurfaceState {
-                    hardness_mpa: 6_865.0,
                     temperature,
+                    ..severe_oxidation::STEEL.surface
                 },
+                ..severe_oxidation::STEEL
             },
         }
     }

@@ -50,24 +50,27 @@ impl MildOxidation {
     }
 }
 
+/// A steel, at the constants of the reference value below.
+#[cfg(test)]
+pub(super) const STEEL: MildOxidation = MildOxidation {
+    constant: 3.4e-4,
+    arrhenius_m2_s: 1e6,
+    activation_j_mol: 138e3,
+    film_um: 10.0,
+    surface: SurfaceState {
+        hardness_mpa: 6_865.0,
+        temperature: crate::law::temperature::Temperature::OfContact(700.0),
+    },
+};
+
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::law::temperature::Temperature;
 
     /// Steel at a flash temperature of 700 K and 1 m/s: K = 5.827372e-7.
     #[test]
     fn steel_at_a_metre_per_second_oxidises_mildly() {
-        let law = MildOxidation {
-            constant: 3.4e-4,
-            arrhenius_m2_s: 1e6,
-            activation_j_mol: 138e3,
-            film_um: 10.0,
-            surface: SurfaceState {
-                hardness_mpa: 6_865.0,
-                temperature: Temperature::OfContact(700.0),
-            },
-        };
+        let law = STEEL;
         let found = law.coefficient(Pace::at_speed(1e3));
         assert!((found / 5.827_372e-7 - 1.0).abs() < 1e-6, "{found}");
     }

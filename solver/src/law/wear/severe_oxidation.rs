@@ -57,27 +57,30 @@ impl SevereOxidation {
     }
 }
 
+/// A steel, at the constants of the reference value below.
+#[cfg(test)]
+pub(super) const STEEL: SevereOxidation = SevereOxidation {
+    molten_fraction: 0.01,
+    latent_heat_j_m3: 2e9,
+    heat_share: 0.5,
+    friction: 0.3,
+    conductivity_w_mk: 3.2,
+    melting_k: 1_760.15,
+    diffusion_um: 10.0,
+    surface: SurfaceState {
+        hardness_mpa: 6_865.0,
+        temperature: crate::law::temperature::Temperature::OfContact(293.15),
+    },
+};
+
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::law::temperature::Temperature;
 
     /// p = 150 MPa at 5 m/s wears 1.022428e-4 of the slip; the law begins at 0.45588 m/s.
     #[test]
     fn steel_melts_its_oxide_above_a_speed() {
-        let law = SevereOxidation {
-            molten_fraction: 0.01,
-            latent_heat_j_m3: 2e9,
-            heat_share: 0.5,
-            friction: 0.3,
-            conductivity_w_mk: 3.2,
-            melting_k: 1_760.15,
-            diffusion_um: 10.0,
-            surface: SurfaceState {
-                hardness_mpa: 6_865.0,
-                temperature: Temperature::OfContact(293.15),
-            },
-        };
+        let law = STEEL;
         let at = |mm_s: f64| law.rate(Pace::at_speed(mm_s));
         assert!((150.0 * at(5_000.0) / 1.022_428e-4 - 1.0).abs() < 1e-6);
         assert!(
