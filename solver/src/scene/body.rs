@@ -26,7 +26,7 @@ pub struct Body<S> {
     pub elastic: Elastic,
     /// Wear law of its surface, below the plating if there is one; `None` does not wear.
     pub wear: Option<WearLaw>,
-    /// Layers over the base, from the surface down; at most [`MOST_LAYERS`].
+    /// Layers over the base, from the surface down; at most [`MOST_LAYERS`](super::MOST_LAYERS).
     pub plating: Vec<Layer>,
     /// The body as a conductor of heat, if its conductivity is known.
     pub thermal: Option<Conductor>,
