@@ -105,6 +105,9 @@ pub struct PlannedLife {
     /// Cycles of the motion until it is reached, whatever the run's cycles are; null for a continuous motion, and where it
     /// is never reached.
     pub cycles: Option<f64>,
+    /// Repetitions of a mission until then; absent without a mission.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub repetitions: Option<f64>,
     /// Imposed sliding distance until then, mm.
     pub sliding_distance_mm: Option<f64>,
     /// The same beside the rated matings. Absent for a worn depth, where no rating is published, and where it is never reached.

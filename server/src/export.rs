@@ -4,6 +4,7 @@ pub mod columns;
 pub mod csv;
 pub mod deck;
 pub mod documents;
+mod earlier;
 pub mod files;
 pub mod history;
 pub mod life;

@@ -27,6 +27,7 @@ mod output;
 mod plating;
 mod rated_life;
 mod repair;
+mod resistance_range;
 pub(crate) mod schema;
 mod sourced;
 mod spots;
@@ -150,6 +151,7 @@ pub fn resolve(spec: &Spec) -> Result<Resolved, Vec<Fault>> {
     };
     let mut warnings = diagnostics.warnings().to_vec();
     warnings.extend(law_range::warnings(&filled, &scene));
+    warnings.extend(resistance_range::warnings(spec, &scene));
     warnings.extend(effects::warnings(&scene));
     warnings.extend(rated_life::warnings(kind, filled.motion.as_ref(), &scene));
     let derived = || movement.all_derived();

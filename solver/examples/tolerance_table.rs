@@ -47,6 +47,12 @@ struct Row {
 }
 
 const COLUMNS: [&str; 4] = ["depth", "width", "area", "peak"];
+const QUANTITIES: [Quantity; 4] = [
+    Quantity::WornDepth,
+    Quantity::ScarHalfWidth,
+    Quantity::WornArea,
+    Quantity::PeakPressure,
+];
 
 fn main() {
     let tolerance: f64 = argument(1, 0.02);
@@ -151,7 +157,7 @@ fn relative(found: f64, exact: f64) -> f64 {
 
 /// The estimated errors of depth, width, area and peak pressure; NaN if they are not estimated.
 fn estimates(summary: &Summary) -> [f64; 4] {
-    let of = |errors: Errors| Quantity::ALL.map(|quantity| errors.parts(quantity).relative);
+    let of = |errors: Errors| QUANTITIES.map(|quantity| errors.parts(quantity).relative);
     summary.errors.map_or([f64::NAN; 4], of)
 }
 
@@ -196,7 +202,7 @@ fn print_summary(name: &str, rows: &[&Row], tolerance: f64) {
         "estimated beyond"
     );
     for (column, title) in COLUMNS.iter().enumerate() {
-        let asked = Quantity::ALL[column].allowed(tolerance);
+        let asked = QUANTITIES[column].allowed(tolerance);
         let errors = sorted(rows.iter().map(|row| row.errors[column]));
         let [median, most, nearly_all, worst] =
             [0.5, 0.9, 0.95, 1.0].map(|part| 100.0 * quantile(&errors, part));

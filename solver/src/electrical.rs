@@ -11,6 +11,7 @@
 
 mod constriction;
 mod patches;
+mod unworn;
 
 use std::f64::consts::PI;
 
@@ -22,6 +23,8 @@ use crate::sides::{Side, Sides};
 use constriction::{Constriction, Spreading};
 pub(crate) use patches::Surface;
 use patches::{Patch, patches};
+pub(crate) use unworn::largest_mohm as largest_unworn_mohm;
+pub use unworn::{Unworn, of as unworn};
 
 /// mOhm in an ohm, um in a mm.
 const MILLI: f64 = 1e3;
@@ -197,34 +200,6 @@ impl<'a> Evaluation<'a> {
             film.at_age(state.time_s - since.unwrap_or(state.time_s))
         })
     }
-}
-
-/// Resistance of the unworn contact under a load in N/mm with each side all of its most resistive metal, without films, mOhm: an upper
-/// limit that costs no layers.
-pub(crate) fn largest_unworn_mohm(electrical: &Electrical, load_n_per_mm: f64) -> f64 {
-    let metals = electrical.metals.as_ref().map(|metals| {
-        let resistivities = metals.iter().map(|metal| metal.resistivity_ohm_m);
-        let largest = resistivities.fold(0.0, f64::max);
-        let outer = metals.iter().take(1);
-        let alone = outer.map(|metal| Metal {
-            bottom_mm: f64::INFINITY,
-            resistivity_ohm_m: largest,
-            ..*metal
-        });
-        alone.collect::<Vec<_>>()
-    });
-    let alike = Electrical {
-        metals,
-        ..electrical.clone()
-    };
-    let patch = Patch {
-        metal: Sides::default(),
-        depth: Sides::default(),
-        share: 1.0,
-    };
-    let spreading = Spreading::of(&electrical.spots);
-    let found = spreading.of_patch(&alike, electrical.width_mm * load_n_per_mm, &patch);
-    found.mohm.slider + found.mohm.receptacle
 }
 
 /// An open contact: its resistance is that of the gap.

@@ -23,6 +23,7 @@ use crate::observer::{Event, Observer, Phase};
 use crate::record::{Compared, Errors, Outcome, Quantity, Summary};
 use crate::run;
 use crate::scene::{Refinement, Scene};
+use estimate::Estimate;
 use std::ops::ControlFlow;
 
 /// Solves a scene from the unworn bodies to its end, with an estimate of the error.
@@ -145,7 +146,7 @@ impl Runs<'_> {
             return NEXT;
         };
         let mut done = finished.into_summary();
-        state_errors(&mut done, errors, self.scene.accuracy.tolerance);
+        self.state_first_errors(&mut done);
         if !errors.is_some_and(|errors| balance::is_worth_a_restart(self.scene, &errors)) {
             return Ok(ControlFlow::Break(done));
         }
@@ -168,8 +169,8 @@ impl Runs<'_> {
         match self.solve(&companions::refined(self.scene, refinement)) {
             Ok(mut done) => {
                 if done.outcome != Outcome::Stopped {
-                    let errors = self.errors(&done.compared, refinement);
-                    state_errors(&mut done, errors, self.scene.accuracy.tolerance);
+                    let compared = std::mem::take(&mut done.compared);
+                    self.state_errors(&mut done, (&compared, refinement));
                 }
                 return Ok(ControlFlow::Break(done));
             }
@@ -187,10 +188,9 @@ impl Runs<'_> {
 
     /// The first run again, whose results were discarded for the finer one's.
     fn first_again(&mut self) -> Result<Summary, SolveError> {
-        let errors = self.first_errors();
         let mut done = self.solve(self.scene)?;
         if done.outcome != Outcome::Stopped {
-            state_errors(&mut done, errors, self.scene.accuracy.tolerance);
+            self.state_first_errors(&mut done);
             done.warnings.push("a finer run has no solution".to_owned());
         }
         Ok(done)
@@ -203,11 +203,29 @@ impl Runs<'_> {
 
     fn first_errors(&self) -> Option<Errors> {
         let first = self.earlier.runs.first()?.as_ref()?;
-        self.errors(first, Refinement::NONE)
+        self.estimate(first, Refinement::NONE).errors()
     }
 
-    fn errors(&self, run: &Compared, refinement: Refinement) -> Option<Errors> {
-        estimate::errors(self.scene, &self.earlier.runs[1..], run, refinement)
+    /// States the errors of the run with the settings of the tolerance.
+    fn state_first_errors(&self, done: &mut Summary) {
+        if let Some(Some(first)) = self.earlier.runs.first() {
+            self.state_errors(done, (first, Refinement::NONE));
+        }
+    }
+
+    fn state_errors(&self, done: &mut Summary, (run, refinement): (&Compared, Refinement)) {
+        let estimate = self.estimate(run, refinement);
+        done.life.state_errors(estimate.errors_of_lives());
+        state_errors(done, estimate.errors(), self.scene.accuracy.tolerance);
+    }
+
+    fn estimate<'a>(&'a self, run: &'a Compared, refinement: Refinement) -> Estimate<'a> {
+        Estimate {
+            scene: self.scene,
+            companions: &self.earlier.runs[1..],
+            run,
+            refinement,
+        }
     }
 }
 
@@ -238,6 +256,7 @@ fn state_errors(done: &mut Summary, errors: Option<Errors>, tolerance: f64) {
             Quantity::ScarHalfWidth => "scar width",
             Quantity::WornArea => "worn area",
             Quantity::PeakPressure => "peak pressure",
+            Quantity::ContactResistance => "contact resistance",
         };
         let error = errors.parts(quantity).relative;
         let allowed = quantity.allowed(tolerance);

@@ -187,3 +187,42 @@ fn the_resistance_changes_no_wear() {
         assert!(without.reports[0].resistance.is_none());
     }
 }
+
+/// What is left of the gold beside the film carries the current: the resistance magnifies every error of the width of the contact.
+#[test]
+fn a_resistance_and_its_life_state_their_errors() {
+    let (clean, covered) = clean_and_covered();
+    let limit = 0.5 * covered;
+    let at = |tolerance: f64, estimate_errors: bool| {
+        let scene = Scene {
+            accuracy: Accuracy {
+                estimate_errors,
+                ..Accuracy::from_tolerance(tolerance)
+            },
+            cycles: 10_000,
+            ..filmed(AMPLITUDES[0], None)
+        };
+        let (summary, _) = solve(&limited(scene, &[], &[limit])).expect("the scene can be solved");
+        let resistance = resistance(&summary.last).contact_resistance_mohm;
+        let life = summary.life.resistance[0];
+        (summary.errors, resistance, life)
+    };
+    let (_, exact, exact_life) = at(0.005, false);
+    let exact_life = exact_life.cycles.expect("it is reached");
+    assert!(exact > limit && limit > clean, "{exact}");
+    let (errors, found, life) = at(0.02, true);
+    let stated = errors.and_then(|errors| errors.contact_resistance);
+    let stated = stated.expect("it is estimated").relative;
+    let error = (found / exact - 1.0).abs();
+    let of_life = (life.cycles.expect("it is reached") / exact_life - 1.0).abs();
+    let stated_of_life = life.error.expect("it is estimated");
+    println!(
+        "at 2 %: resistance {:.2} % off, {:.2} % stated; its life {:.2} % off, {:.2} % stated",
+        100.0 * error,
+        100.0 * stated,
+        100.0 * of_life,
+        100.0 * stated_of_life
+    );
+    assert!(error <= stated && of_life <= stated_of_life);
+    assert!(stated_of_life < 0.2, "{stated_of_life}");
+}

@@ -42,6 +42,8 @@ fn values(summary: &Summary, quantity: Quantity) -> Vec<f64> {
         Quantity::ScarHalfWidth => wearing.map(|s| s.scar_half_width_mm).collect(),
         Quantity::WornArea => wearing.map(|s| s.worn_area_mm2).collect(),
         Quantity::PeakPressure => vec![last.peak_pressure_mpa],
+        // No current flows in these scenes.
+        Quantity::ContactResistance => Vec::new(),
     }
 }
 

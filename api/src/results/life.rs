@@ -36,6 +36,10 @@ pub struct LifeEntry {
     pub sliding_distance_mm: Option<f64>,
     /// Duration until then, h; null for a continuous motion.
     pub duration_h: Option<f64>,
+    /// Estimated relative error of the computation in these cycles, which is no part of `band`; null where errors are not estimated, or a
+    /// coarse companion has not reached the criterion.
+    #[serde(default)]
+    pub estimated_relative_error: Option<f64>,
     /// Scatter of these cycles, of a continuous motion that of the distance in mm; null where it was not reached.
     pub band: Option<LifeBand>,
     /// What the criterion compares, at the end of the run: a worn depth in mm, a part of the scar or a resistance in mOhm.

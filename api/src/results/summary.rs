@@ -68,6 +68,9 @@ pub struct EstimatedErrors {
     pub worn_area: EstimatedError,
     /// Of the highest contact pressure.
     pub peak_pressure: EstimatedError,
+    /// Of the resistance of the contact; null where it is not computed.
+    #[serde(default)]
+    pub contact_resistance: Option<EstimatedError>,
 }
 
 /// Accuracy that was reached, and the resolution that the settings led to.
@@ -151,7 +154,8 @@ pub struct Checks {
 /// Summary of the result.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct Summary {
-    /// Physical cycles done.
+    /// Physical cycles done; of a continuous motion the parts of its distance, a hundred thousandth each, as in the column `cycle` of its
+    /// histories.
     pub cycles_done: u64,
     /// Accumulated imposed sliding distance, mm.
     pub sliding_distance_mm: f64,

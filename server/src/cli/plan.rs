@@ -128,11 +128,12 @@ fn lives(plan: &Plan) -> Table {
         "expected life until",
         "side",
         "cycles",
+        "repetitions",
         "matings",
         "rated",
         "matings/rated",
     ];
-    let mut table = markdown::table(header, 4);
+    let mut table = markdown::table(header, 5);
     for life in &plan.life {
         let of_rated = |value: fn(&RatedLife) -> f64| {
             let rated = life.rated.as_ref();
@@ -143,6 +144,7 @@ fn lives(plan: &Plan) -> Table {
             life.side.clone(),
             life.cycles
                 .map_or_else(String::new, |cycles| format!("{cycles:.0}")),
+            life.repetitions.map_or_else(String::new, number),
             of_rated(|rated| rated.matings.round()),
             of_rated(|rated| rated.rated_matings),
             of_rated(|rated| rated.matings_over_rated),

@@ -5,6 +5,7 @@ use api::spec::{Criterion, CriterionKind, EnumValue};
 use solver::model::expected_life;
 use solver::scene::{self, Motion, Scene};
 
+use crate::number::real;
 use crate::spec::{RatedMatings, Resolved};
 
 /// The lives of a resolved specification, by the criteria of its `life`.
@@ -54,6 +55,9 @@ fn life(
         side: depth.side.name().to_owned(),
         // The parts of a continuous motion are no cycles of the user.
         cycles: cycles.filter(|_| !matches!(scene.motion, Motion::Continuous { .. })),
+        repetitions: cycles
+            .zip(scene.mission.as_ref())
+            .map(|(cycles, mission)| cycles / real(mission.cycles())),
         sliding_distance_mm: cycles.map(|cycles| cycles * scene.motion.distance_per_cycle_mm()),
         rated,
     }

@@ -11,6 +11,7 @@ use sha2::{Digest, Sha256};
 
 use crate::export::documents;
 use crate::export::documents::{DocumentError, Results};
+use crate::export::earlier;
 use crate::solve::FieldsFile;
 
 /// Why a file was not written.
@@ -29,7 +30,8 @@ pub enum FilesError {
     Document(#[from] DocumentError),
 }
 
-/// Writes all results into a folder, which is created if it is missing.
+/// Writes all results into a folder, which is created if it is missing, and removes those of an earlier run that this one does not
+/// replace.
 ///
 /// # Errors
 /// [`FilesError`] naming the file.
@@ -46,13 +48,20 @@ pub fn write(
         let path = folder.join(name);
         std::fs::write(&path, bytes).map_err(|cause| FilesError::Write { path, cause })
     };
-    for document in documents::all(results)? {
+    let documents = documents::all(results)?;
+    for document in &documents {
         file(&document.name, &document.bytes)?;
     }
     for fields in fields {
         file(&fields.name, &fields.bytes)?;
     }
-    Ok(())
+    let names = documents.iter().map(|document| document.name.as_str());
+    let fields = fields.iter().map(|fields| fields.name.as_str());
+    let present: Vec<&str> = names.chain(fields).collect();
+    earlier::remove(folder, &present).map_err(|cause| FilesError::Write {
+        path: folder.to_owned(),
+        cause,
+    })
 }
 
 /// Writes a file atomically, also with respect to a crash: to a temporary name, synced, then renamed. The temporary

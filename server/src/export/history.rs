@@ -155,6 +155,7 @@ fn estimated_errors(errors: &record::Errors) -> EstimatedErrors {
         scar_half_width: parts(errors.scar_half_width),
         worn_area: parts(errors.worn_area),
         peak_pressure: parts(errors.peak_pressure),
+        contact_resistance: errors.contact_resistance.map(parts),
     }
 }
 

@@ -69,6 +69,7 @@ fn empty(criterion: &Criterion, status: LifeStatus) -> LifeEntry {
         repetitions: None,
         sliding_distance_mm: None,
         duration_h: None,
+        estimated_relative_error: None,
         band: None,
         value: None,
         limit: None,
@@ -119,6 +120,7 @@ fn entry(
         repetitions: mission.map(|mission| cycles / real(mission.cycles())),
         sliding_distance_mm: Some(distance_mm),
         duration_h: seconds.map(|seconds| seconds / SECONDS_PER_HOUR),
+        estimated_relative_error: state.error,
         band: by_wear.then(|| {
             band(
                 measure,

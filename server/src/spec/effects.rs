@@ -128,7 +128,11 @@ pub(crate) fn warnings(scene: &Scene) -> Vec<Fault> {
         }
         let indicator = decision.indicator?;
         let matters = indicator.value() > indicator.threshold;
-        if decision.verdict.is_on() && indicator.value() >= MOLTEN {
+        let heats = matches!(
+            decision.effect,
+            Effect::FrictionalHeating | Effect::JouleHeating
+        );
+        if heats && decision.verdict.is_on() && indicator.value() >= MOLTEN {
             return Some(Fault {
                 pointer: "/environment".to_owned(),
                 detail: format!("the contact melts: {}", decision.reason),

@@ -3,7 +3,7 @@
 use std::ops::ControlFlow;
 
 use crate::observer::{Event, Observer};
-use crate::scene::{Accuracy, Conduction, Electrical, Refinement, Scene};
+use crate::scene::{Accuracy, Refinement, Scene};
 
 /// Settings of the first companion over those of the tolerance, and those of the coarser ones. Finer companions cost
 /// more than a quarter of the run; coarser ones have less than an element in the half-width of a contact in gross
@@ -30,11 +30,6 @@ pub(super) fn scene(scene: &Scene, refinement: Refinement) -> Scene {
     companion.output.snapshots_at_cycles.clear();
     companion.output.fields = false;
     companion.accuracy.estimate_errors = false;
-    // A derived effect: only a limit that ends the run needs it.
-    let is_limited = |electrical: &Electrical| !electrical.stop_mohm.is_empty();
-    if !companion.conduction.known().is_some_and(is_limited) {
-        companion.conduction = Conduction::default();
-    }
     companion
 }
 

@@ -14,6 +14,8 @@
 //!   rider's shape, so that w^2 = 2 R h, h = G_s(D) + p G_r(q D). For short strokes both bodies have one scar, q = p = 1; on a long one a
 //!   floor has the dose P' s/(2 A), and p = 0. Between them q = 1/(1 + 2 A D/(P' s)), which for one layer is 1/(1 + 1.5 A/w), and
 //!   p = exp(-2.3 A/w)/q. The receptacle's own life is that of a groove as long as 2 A + (4/3) w.
+//! * Blocks of a mission: each stroke takes its part f_i of the path, and the parts of dose and depth above are the means of those of the
+//!   strokes, q = sum f_i q_i, p q = sum f_i p_i q_i. Where one side wears alone, 1/(P' s) = sum f_i/(P' s)_i.
 //!
 //! The forms, and 2.3, are fitted to rigid bodies (SD card, 10 % tolerance). Equal rates of one layer, R of 0.1 and 0.4 mm, A/w from 0.03
 //! to 4: the rider's cycles are met within 3 %, the receptacle's within 6 %. Gold over nickel on both (`tests/cases/plated_presets.rs`):
@@ -26,7 +28,8 @@
 use super::{resolution, worn_depth};
 use crate::law::plating::bottoms;
 use crate::law::surface::SurfaceWear;
-use crate::scene::{Criterion, Scene};
+use crate::number::real_cycles;
+use crate::scene::{Criterion, Motion, Scene};
 use crate::sides::{Side, Sides};
 
 /// A point of the depth over the dose.
@@ -43,7 +46,16 @@ struct Contact<'a> {
     scene: &'a Scene,
     wear: Sides<Option<SurfaceWear>>,
     radius: f64,
+    strokes: Vec<Stroke>,
+}
+
+/// A motion of the path.
+#[derive(Debug, Clone, Copy)]
+struct Stroke {
+    /// mm.
     amplitude: f64,
+    /// Its part of the path, -.
+    share: f64,
 }
 
 /// Decay with A/w of the receptacle's depth that follows the rider's shape, -. Fitted, see above: 2.0 and 2.6 are off by 4 %.
@@ -64,10 +76,30 @@ pub fn cycles(scene: &Scene, criterion: Criterion) -> Option<f64> {
         scene,
         wear: scene.surface_wear(),
         radius: resolution::radius(scene),
-        amplitude: scene.motion.equivalent_amplitude_mm(),
+        strokes: strokes(scene),
     };
     let load_path = contact.load_path(criterion)?;
     (path > 0.0).then(|| load_path / path)
+}
+
+/// The motion of a scene, or those of the blocks of its mission that move the contact.
+fn strokes(scene: &Scene) -> Vec<Stroke> {
+    let of_motion = |motion: Motion, path: f64| Stroke {
+        amplitude: motion.equivalent_amplitude_mm(),
+        share: path,
+    };
+    let Some(mission) = &scene.mission else {
+        return vec![of_motion(scene.motion, 1.0)];
+    };
+    let paths = mission.blocks.iter().map(|block| {
+        let path = real_cycles(block.cycles) * block.motion.distance_per_cycle_mm().abs();
+        (block.motion, path)
+    });
+    let all: f64 = paths.clone().map(|(_, path)| path).sum();
+    let moving = paths.filter(|(_, path)| *path > 0.0);
+    moving
+        .map(|(motion, path)| of_motion(motion, path / all))
+        .collect()
 }
 
 /// What a rider and a receptacle that both wear have in common.
@@ -97,15 +129,25 @@ impl Contact<'_> {
             Side::Slider if other_wears => self.both(dose),
             Side::Slider => self.section(&[(side, 1.0, 1.0)], dose, self.arc(depth)),
             Side::Receptacle if other_wears => self.groove(dose),
-            Side::Receptacle if self.amplitude > 0.0 && self.arc(depth) <= self.amplitude => {
-                // Every place of the floor receives 2 P' in a cycle, of the path 4 A.
-                Some(2.0 * self.amplitude * self.dose(side, depth_mm)?)
-            }
-            Side::Receptacle => {
-                let half_width = 0.5 * self.amplitude + self.arc(depth);
-                self.section(&[(side, 1.0, 1.0)], dose, half_width)
-            }
+            Side::Receptacle => self.alone(side, (depth, depth_mm)),
         }
+    }
+
+    /// P' s at which a receptacle whose rider does not wear has a depth at its deepest place, or at the edge of the part that a criterion
+    /// is about, mm.
+    fn alone(&self, side: Side, (deepest, depth): (f64, f64)) -> Option<f64> {
+        let (dose, arc) = (self.dose(side, deepest)?, self.arc(deepest));
+        let floor = self.dose(side, depth)?;
+        let inverse = self.strokes.iter().map(|Stroke { amplitude, share }| {
+            let load_path = if *amplitude > 0.0 && arc <= *amplitude {
+                // Every place of the floor receives 2 P' in a cycle, of the path 4 A.
+                2.0 * amplitude * floor
+            } else {
+                self.section(&[(side, 1.0, 1.0)], dose, 0.5 * amplitude + arc)?
+            };
+            Some(share / load_path)
+        });
+        inverse.sum::<Option<f64>>().map(f64::recip)
     }
 
     /// Half-width of an arc of a height, mm.
@@ -129,12 +171,17 @@ impl Contact<'_> {
         let sum = self.section(&[(Side::Slider, 1.0, 1.0)], dose, 1.0);
         let sum = sum.map_or(UNIFORM, |sum| sum / dose);
         let at = |half_width: f64| {
-            let strokes = self.amplitude / half_width;
-            let share = 1.0 / (1.0 + 2.0 * strokes / sum);
+            let mean = |of: fn(f64, f64) -> f64| -> f64 {
+                let strokes = self.strokes.iter();
+                strokes
+                    .map(|stroke| stroke.share * of(stroke.amplitude / half_width, sum))
+                    .sum()
+            };
+            let dose = mean(|strokes, sum| 1.0 / (1.0 + 2.0 * strokes / sum));
             Shared {
                 half_width,
-                dose: share,
-                depth: (-SHARED_DEPTH * strokes).exp() / share,
+                dose,
+                depth: mean(|strokes, _| (-SHARED_DEPTH * strokes).exp()) / dose,
             }
         };
         let slider = self.depth(Side::Slider, dose);
@@ -160,7 +207,13 @@ impl Contact<'_> {
 
     /// P' s at which the deepest place of the receptacle below a rider that wears has a dose.
     fn groove(&self, dose: f64) -> Option<f64> {
-        let length = |half_width: f64| 2.0 * self.amplitude + 4.0 / 3.0 * half_width;
+        // Path over the dose of the deepest place.
+        let length = |half_width: f64| {
+            let of_strokes = self.strokes.iter().map(|Stroke { amplitude, share }| {
+                share / (2.0 * amplitude + 4.0 / 3.0 * half_width)
+            });
+            of_strokes.sum::<f64>().recip()
+        };
         let at = |depth: f64| {
             let rider = self.dose(Side::Slider, depth)?;
             Some((self.both(rider)?, self.shared(rider).half_width))

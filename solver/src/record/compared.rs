@@ -17,15 +17,18 @@ pub enum Quantity {
     WornArea,
     /// Highest contact pressure at the neutral position.
     PeakPressure,
+    /// Resistance of the contact at the neutral position, where it is computed.
+    ContactResistance,
 }
 
 impl Quantity {
     /// All of them.
-    pub const ALL: [Self; 4] = [
+    pub const ALL: [Self; 5] = [
         Self::WornDepth,
         Self::ScarHalfWidth,
         Self::WornArea,
         Self::PeakPressure,
+        Self::ContactResistance,
     ];
 
     /// The values that it stands for: that of the receptacle and that of the slider, or that of the contact.
@@ -38,6 +41,10 @@ impl Quantity {
             Self::ScarHalfWidth => [receptacle.scar_half_width_mm, slider.scar_half_width_mm],
             Self::WornArea => [receptacle.worn_area_mm2, slider.worn_area_mm2],
             Self::PeakPressure => [report.peak_pressure_mpa; 2],
+            Self::ContactResistance => {
+                let found = report.resistance;
+                [found.map_or(0.0, |found| found.contact_resistance_mohm); 2]
+            }
         }
     }
 }
@@ -60,6 +67,8 @@ pub struct Compared {
     values: [Vec<f64>; 2 * Quantity::ALL.len()],
     /// Relative change of the outputs by the effects that were skipped to the end.
     pub(crate) skipped_change: f64,
+    /// Cycles at which the criteria of the life were reached, those of the resistance last.
+    pub(crate) lives: Vec<Option<f64>>,
 }
 
 impl Compared {
@@ -96,6 +105,20 @@ impl Compared {
                 }
             })
             .fold(0.0, f64::max)
+    }
+
+    /// Whether the resistance of the contact is among the quantities.
+    pub(crate) fn has_resistance(&self) -> bool {
+        let last = self.values.last().and_then(|column| column.last());
+        last.is_some_and(|found| *found > 0.0)
+    }
+
+    /// Relative difference of another run's life by a criterion from this one's; `None` where one of them has not reached it.
+    pub(crate) fn difference_of_life(&self, other: &Self, criterion: usize) -> Option<f64> {
+        let of = |run: &Self| run.lives.get(criterion).copied().flatten();
+        let (here, there) = (of(self)?, of(other)?);
+        let least = here.max(1.0);
+        Some(((there - here) / least).abs().min(LARGEST))
     }
 }
 

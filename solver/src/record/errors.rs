@@ -30,29 +30,33 @@ pub struct Errors {
     pub worn_area: ErrorParts,
     /// Of the highest contact pressure.
     pub peak_pressure: ErrorParts,
+    /// Of the resistance of the contact; `None` where it is not computed.
+    pub contact_resistance: Option<ErrorParts>,
 }
 
-/// Tolerance of pressures over that of depth, width and area.
+/// Tolerance of pressures, and of the resistance that follows from them, over that of depth, width and area.
 pub const PRESSURE_TOLERANCES: f64 = 3.0;
 
 impl Errors {
-    /// The errors of each quantity.
-    pub(crate) fn of(parts: impl Fn(Quantity) -> ErrorParts) -> Self {
+    /// The errors of each quantity of a run, which may have a resistance of the contact.
+    pub(crate) fn of(has_resistance: bool, parts: impl Fn(Quantity) -> ErrorParts) -> Self {
         Self {
             worn_depth: parts(Quantity::WornDepth),
             scar_half_width: parts(Quantity::ScarHalfWidth),
             worn_area: parts(Quantity::WornArea),
             peak_pressure: parts(Quantity::PeakPressure),
+            contact_resistance: has_resistance.then(|| parts(Quantity::ContactResistance)),
         }
     }
 
-    /// The error of a quantity.
+    /// The error of a quantity; 0 for one that is not computed.
     pub fn parts(&self, quantity: Quantity) -> ErrorParts {
         match quantity {
             Quantity::WornDepth => self.worn_depth,
             Quantity::ScarHalfWidth => self.scar_half_width,
             Quantity::WornArea => self.worn_area,
             Quantity::PeakPressure => self.peak_pressure,
+            Quantity::ContactResistance => self.contact_resistance.unwrap_or_default(),
         }
     }
 
@@ -68,7 +72,7 @@ impl Quantity {
     /// The error that a tolerance allows it.
     pub fn allowed(self, tolerance: f64) -> f64 {
         match self {
-            Self::PeakPressure => PRESSURE_TOLERANCES * tolerance,
+            Self::PeakPressure | Self::ContactResistance => PRESSURE_TOLERANCES * tolerance,
             Self::WornDepth | Self::ScarHalfWidth | Self::WornArea => tolerance,
         }
     }

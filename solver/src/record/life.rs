@@ -35,9 +35,29 @@ pub struct CriterionState {
     equivalent: f64,
     /// Its increase per cycle in the last computed one, mm.
     rate: f64,
+    /// Estimated relative error of the cycles; `None` without companions that have reached it.
+    pub error: Option<f64>,
 }
 
 impl Life {
+    /// The criteria and the limits of the resistance, in this order.
+    fn all(&self) -> impl Iterator<Item = &CriterionState> {
+        self.criteria.iter().chain(&self.resistance)
+    }
+
+    /// Cycles at which each was reached.
+    pub(crate) fn cycles(&self) -> Vec<Option<f64>> {
+        self.all().map(|state| state.cycles).collect()
+    }
+
+    /// States the estimated errors of [`Life::cycles`].
+    pub(crate) fn state_errors(&mut self, errors: impl IntoIterator<Item = Option<f64>>) {
+        let states = self.criteria.iter_mut().chain(&mut self.resistance);
+        for (state, error) in states.zip(errors) {
+            state.error = error;
+        }
+    }
+
     /// Takes the resistances before and after the next computed cycle, mOhm; before the states of its wear.
     pub(crate) fn push_resistance(
         &mut self,

@@ -19,6 +19,7 @@ pub(super) fn summary(
     checks.worn_area = record::worn_area_residual(state, &last);
     let mut compared = run.compared.clone();
     compared.skipped_change = plan.skipped_change();
+    compared.lives = run.life.cycles();
     Summary {
         outcome,
         initial: run.initial,

@@ -224,6 +224,19 @@ fn a_contact_that_would_melt_is_warned_of() {
     );
 }
 
+/// On the walls of the fuzz button's groove the indicator of friction has no bound.
+#[test]
+fn only_heat_melts_a_contact() {
+    let text = include_str!("../../../examples/fuzz_button.json");
+    let long = text.replace("0.033868", "0.06");
+    assert_ne!(long, text);
+    for text in [text, &long] {
+        let warned = accepted(text).warnings;
+        let melts = warned.iter().filter(|fault| fault.detail.contains("melts"));
+        assert_eq!(melts.count(), 0, "{warned:?}");
+    }
+}
+
 #[test]
 fn a_dose_is_not_read_from_a_depth_that_heat_changes() {
     let with = |frequency: f64| {

@@ -1,6 +1,6 @@
 use super::*;
 use crate::model::tests::fuzz_button;
-use crate::scene::{Layer, Motion, WearLaw};
+use crate::scene::{Block, Layer, Mission, Motion, Order, Timing, WearLaw};
 
 const GOLD_MM: f64 = 0.76e-3;
 const NICKEL_MM: f64 = 1.27e-3;
@@ -210,4 +210,67 @@ fn lives_of_two_bodies_are_those_of_runs() {
         let found = life(&scene, Side::Receptacle, GOLD_MM) / floor;
         assert!(is_close(found, pad, 0.06), "{amplitude_um} um: pad {found}");
     }
+}
+
+/// A card that meets strokes of these amplitudes, mm, in blocks of so many cycles.
+fn card_of_mission(blocks: &[(f64, u64)], rates: Sides<f64>) -> Scene {
+    let blocks = blocks.iter().map(|(amplitude_mm, cycles)| Block {
+        motion: Motion::Reciprocating {
+            amplitude_mm: *amplitude_mm,
+            period_s: 1.0,
+        },
+        timing: Timing::Sine,
+        cycles: *cycles,
+    });
+    let mission = Mission {
+        blocks: blocks.collect(),
+        repeat: 1_000,
+        order: Order::InOrder,
+    };
+    Scene {
+        motion: mission.mean_motion(),
+        mission: Some(mission),
+        ..card(0.75, rates)
+    }
+}
+
+#[test]
+fn blocks_of_one_motion_are_that_motion_and_blocks_at_rest_only_count() {
+    let alone = card(0.02, both(1e-8));
+    let divided = card_of_mission(&[(0.02, 30), (0.02, 10)], both(1e-8));
+    let resting = card_of_mission(&[(0.02, 30), (0.0, 10)], both(1e-8));
+    for side in Side::BOTH {
+        let [alone, divided, resting] =
+            [&alone, &divided, &resting].map(|scene| life(scene, side, GOLD_MM));
+        assert!(is_close(divided, alone, 1e-12), "{divided} {alone}");
+        assert!(
+            is_close(resting, 40.0 / 30.0 * alone, 1e-12),
+            "{resting} {alone}"
+        );
+    }
+}
+
+/// A floor that all strokes pass twice a cycle receives 2 P' of each, whatever its length.
+#[test]
+fn passes_of_all_blocks_wear_a_floor() {
+    let pad_alone = Sides {
+        slider: 0.0,
+        receptacle: 1e-8,
+    };
+    let mission = card_of_mission(&[(0.75, 4), (0.1, 16)], pad_alone);
+    let found = life(&mission, Side::Receptacle, GOLD_MM);
+    let expected = GOLD_MM / (2e-8 * 0.625);
+    assert!(is_close(found, expected, 1e-12), "{found} {expected}");
+}
+
+/// `tests/specs/sd_card_ten_years.json`: 4 matings of +-500 um and 2 000 cycles of +-1.605 um a week, with 7 cycles at rest. A run of it at
+/// 2 % exposes the tip's nickel after 687 770 cycles, and has worn 57.5 % of the pad's gold after 1 045 720.
+#[test]
+fn lives_of_a_mission_are_those_of_a_run() {
+    let blocks = [(0.5, 4), (1.605e-3, 2_000), (0.0, 7)];
+    let scene = card_of_mission(&blocks, both(6e-9));
+    let tip = life(&scene, Side::Slider, GOLD_MM);
+    assert!(is_close(tip, 687_770.0, 0.2), "{tip}");
+    let pad = life(&scene, Side::Receptacle, 0.575 * GOLD_MM);
+    assert!(is_close(pad, 1_045_720.0, 0.2), "{pad}");
 }
