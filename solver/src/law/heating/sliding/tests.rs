@@ -105,6 +105,45 @@ fn the_temperature_at_rest_is_that_of_a_uniform_line_source() {
     assert!((slow.rise(0.2, 0.1) / (0.2 * exact) - 1.0).abs() < 1e-14);
 }
 
+/// Sources at rest, composed of uniform ones: the mean under a uniform source, ln(d/2b) + 3/2, and the middle of one in proportion to Hertz'
+/// pressure, ln(2d/b) + 1/2. The temperature of the middle of a uniform one lies between them.
+#[test]
+fn a_uniform_source_at_rest_lies_between_its_mean_and_that_of_hertz_pressure() {
+    const PARTS: usize = 20_000;
+    let (half_width, distance) = (0.01, 1.0);
+    // pi K T/Q' in the middle of a uniform source.
+    let middle = |half_width_mm: f64| {
+        let alone = SlidingHeat {
+            half_width_mm,
+            passed: INSULATOR,
+            resting: body(None),
+            ..heat(0.0, 1.0)
+        };
+        PI * CONDUCTIVITY * alone.rise(1.0, 1.0)
+    };
+    let parts = || (0..PARTS).map(|i| (real(i) + 0.5) / real(PARTS));
+    // A place divides a source into halves of two that have it in their middle.
+    let at = |x: f64| {
+        0.5 * ((1.0 + x) * middle(half_width * (1.0 + x))
+            + (1.0 - x) * middle(half_width * (1.0 - x)))
+    };
+    let mean = parts().map(at).sum::<f64>() / real(PARTS);
+    // Uniform sources of the half-widths b sin(t) with the heats (4/pi) sin(t)^2 dt.
+    let of_hertz = |part: f64| {
+        let sine = (0.5 * PI * part).sin();
+        2.0 * sine * sine * middle(half_width * sine)
+    };
+    let hertz = parts().map(of_hertz).sum::<f64>() / real(PARTS);
+    let ratio = distance / half_width;
+    for (found, exact) in [
+        (mean, (0.5 * ratio).ln() + 1.5),
+        (hertz, (2.0 * ratio).ln() + 0.5),
+    ] {
+        assert!((found / exact - 1.0).abs() < 1e-6, "{found} {exact}");
+    }
+    assert!(mean < middle(half_width) && middle(half_width) < hertz);
+}
+
 /// Heat that has flowed for some periods, in a body at rest and in one that the contact moves over.
 #[test]
 fn a_contact_warms_up_with_the_time_of_sliding() {
