@@ -6,8 +6,6 @@
 //! last run has reached the criterion after the rated cycles within the tolerance. How the coefficients of layers and
 //! bodies relate is not known from one rating: their ratios stay as given.
 
-mod coefficients;
-
 use std::ops::{ControlFlow, RangeInclusive};
 
 use api::job::Outcome;
@@ -18,11 +16,10 @@ use api::spec::{Criterion, LifeSettings, Spec, Stop};
 use solver::model::resolution;
 use solver::scene::Scene;
 
-use crate::export::life;
 use crate::number::real;
 use crate::solve;
 use crate::solve::{Failure, Line};
-use crate::spec::{self, Refused, Resolved};
+use crate::spec::{self, Refused, Resolved, coefficients, scatter};
 
 /// Cycles that a contact may be rated for.
 pub const RATED_CYCLES: RangeInclusive<u64> = 1..=100_000_000;
@@ -91,7 +88,7 @@ pub fn coefficients(
     on_progress: &mut dyn FnMut(&str),
 ) -> Result<Rating, RatingError> {
     let settings = &request.resolved.spec.life;
-    let median_cycles = life::median(real(request.cycles), request.failing, settings);
+    let median_cycles = scatter::median(real(request.cycles), request.failing, settings);
     let given = until_criterion(request, median_cycles)?;
     let tolerance = given.scene.accuracy.tolerance;
     let endless = Scene {

@@ -8,6 +8,7 @@ mod accuracy;
 mod blocks;
 mod cause;
 mod changing_friction;
+pub(crate) mod coefficients;
 mod conductors;
 mod covering;
 mod criterion;
@@ -28,6 +29,7 @@ mod plating;
 mod rated_life;
 mod repair;
 mod resistance_range;
+pub(crate) mod scatter;
 pub(crate) mod schema;
 mod sourced;
 mod spots;
@@ -125,7 +127,7 @@ pub fn resolve(spec: &Spec) -> Result<Resolved, Vec<Fault>> {
     };
     let Filled {
         spec: mut filled,
-        scene,
+        mut scene,
         movement,
         resistance_lacks,
     } = fill(spec, kind, &mut diagnostics);
@@ -161,6 +163,7 @@ pub fn resolve(spec: &Spec) -> Result<Resolved, Vec<Fault>> {
     ));
     let sticks = derived().filter(|(_, motion)| motion.sticks);
     warnings.extend(sticks.map(|(pointer, motion)| Fault::new(&pointer, motion.reason.clone())));
+    scene.scattered = scatter::scenes(&filled, &scene, |spec| scene_of(spec, kind));
     let blocks = blocks::extents(&filled, &movement);
     filled.provenance = diagnostics.finish()?;
     Ok(Resolved {
@@ -284,6 +287,7 @@ fn fill(spec: &Spec, kind: SystemKind, diagnostics: &mut Diagnostics) -> Filled 
         life: criteria,
         conduction: conductors.conduction,
         effects,
+        scattered: Vec::new(),
     };
     Filled {
         spec: filled,

@@ -116,11 +116,10 @@ impl Runs<'_> {
         if self.earlier.finished.is_some() {
             self.observer.on_phase(Phase::Companions);
         }
-        while let Some(refinement) = companions::refinement(self.earlier.runs.len() - 1) {
+        while let Some(companion) = companions::companion(self.scene, self.earlier.runs.len() - 1) {
             if self.earlier.runs.get(1) == Some(&None) {
                 break;
             }
-            let companion = companions::scene(self.scene, refinement);
             let observer = &mut companions::Quiet {
                 observer: self.observer,
             };
@@ -160,7 +159,7 @@ impl Runs<'_> {
 
     /// The finer run, which may have no solution.
     fn finer(&mut self) -> Stage {
-        if self.earlier.runs.len() > 1 + companions::COUNT {
+        if self.earlier.runs.len() > 1 + companions::count(self.scene) {
             return NEXT;
         }
         let refinement = self.first_errors().map_or(Refinement::NONE, |errors| {
@@ -216,6 +215,7 @@ impl Runs<'_> {
     fn state_errors(&self, done: &mut Summary, (run, refinement): (&Compared, Refinement)) {
         let estimate = self.estimate(run, refinement);
         done.life.state_errors(estimate.errors_of_lives());
+        done.life.scattered = estimate.scattered_lives();
         state_errors(done, estimate.errors(), self.scene.accuracy.tolerance);
     }
 

@@ -95,6 +95,9 @@ pub struct Scene {
     pub conduction: Conduction,
     /// Effects that are switched on or off.
     pub effects: Switches,
+    /// The scene with other wear coefficients, whose lives are compared with those of this one on coarse settings: where they do not go
+    /// with the inverse of the coefficients.
+    pub scattered: Vec<Scene>,
 }
 
 impl Scene {

@@ -262,6 +262,7 @@ fn scene(u: &mut Numbers, regime: Regime, worn: Worn) -> Scene {
         life: Vec::new(),
         conduction: Conduction::default(),
         effects: Switches::default(),
+        scattered: Vec::new(),
     }
 }
 

@@ -69,6 +69,7 @@ pub(crate) fn mccoll() -> Scene {
         life: Vec::new(),
         conduction: Conduction::default(),
         effects: Switches::default(),
+        scattered: Vec::new(),
     }
 }
 
@@ -124,6 +125,7 @@ pub(crate) fn fuzz_button() -> Scene {
         life: Vec::new(),
         conduction: Conduction::default(),
         effects: Switches::default(),
+        scattered: Vec::new(),
     }
 }
 

@@ -9,7 +9,7 @@ use crate::verify_plating::{THICKNESS, plated};
 use crate::verify_resume::resumes_to_the_same_bits;
 use solver::law::resistance::{Deformation, Film, Growth};
 use solver::record::{CycleReport, Outcome, ResistanceReport};
-use solver::scene::{Accuracy, Conduction, Electrical, Metal, Scene, Spots};
+use solver::scene::{Accuracy, Conduction, Electrical, Metal, Scene, Spots, WearLaw};
 use solver::sides::{Side, Sides};
 
 const GOLD: f64 = 2.21e-8;
@@ -225,4 +225,52 @@ fn a_resistance_and_its_life_state_their_errors() {
     );
     assert!(error <= stated && of_life <= stated_of_life);
     assert!(stated_of_life < 0.2, "{stated_of_life}");
+}
+
+/// Twice the cycles with half of all wear coefficients.
+fn slower(mut scene: Scene) -> Scene {
+    for body in [&mut scene.receptacle.plating, &mut scene.slider.plating] {
+        for layer in body {
+            layer.rate_per_mpa *= 0.5;
+        }
+    }
+    if let Some(WearLaw::Archard { k_over_h_per_mpa }) = &mut scene.receptacle.wear {
+        *k_over_h_per_mpa *= 0.5;
+    }
+    scene.cycles *= 2;
+    scene
+}
+
+/// The film grows by the time of the run, so that half of the wear does not double the life.
+#[test]
+fn the_scatter_of_a_life_is_that_of_runs_where_films_grow() {
+    let (_, covered) = clean_and_covered();
+    let growth = Growth {
+        exponent: 1.0,
+        time_s: 3_000.0,
+    };
+    let mut scene = limited(filmed(AMPLITUDES[0], Some(growth)), &[], &[2.0 * covered]);
+    scene.cycles = 14_000;
+    let slower = slower(scene.clone());
+    let life = |scene: &Scene| {
+        let (summary, _) = solve(scene).expect("the scene can be solved");
+        let found = summary.life.resistance[0].cycles;
+        (found.expect("it is reached"), summary.life.scattered)
+    };
+    let exact = life(&slower).0 / life(&scene).0;
+    let with_scatter = Scene {
+        accuracy: Accuracy {
+            estimate_errors: true,
+            ..scene.accuracy
+        },
+        scattered: vec![slower],
+        ..scene
+    };
+    let (_, scattered) = life(&with_scatter);
+    let found = scattered[0][0].expect("it is reached");
+    println!("half of the wear: {exact:.3} times the life, {found:.3} on coarse settings");
+    assert!(
+        exact < 1.8 && (found / exact - 1.0).abs() < 0.05,
+        "{found} {exact}"
+    );
 }

@@ -40,7 +40,8 @@ pub struct LifeEntry {
     /// coarse companion has not reached the criterion.
     #[serde(default)]
     pub estimated_relative_error: Option<f64>,
-    /// Scatter of these cycles, of a continuous motion that of the distance in mm; null where it was not reached.
+    /// Scatter of these cycles, of a continuous motion that of the distance in mm; null where it was not reached, and where `reason`
+    /// says that none is known.
     pub band: Option<LifeBand>,
     /// What the criterion compares, at the end of the run: a worn depth in mm, a part of the scar or a resistance in mOhm.
     pub value: Option<f64>,

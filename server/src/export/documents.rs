@@ -9,6 +9,7 @@ use crate::export::csv::CsvError;
 use crate::export::parquet;
 use crate::export::parquet::ParquetError;
 use crate::export::pictures;
+use crate::export::pictures::life::Follow;
 use crate::export::pictures::{Picture, PlotError};
 
 /// Media type of JSON.
@@ -122,8 +123,14 @@ pub fn all(results: &Results<'_>) -> Result<Vec<Document>, DocumentError> {
 /// The picture of the life, with its file name.
 fn life(name: &str, spec: &Spec, record: &Record) -> Option<(&'static str, Picture)> {
     let grows = |film: &Film| film.growth_exponent.is_some();
-    let film_grows = spec.interface.films.iter().any(grows);
+    let friction = spec.interface.friction.as_ref();
+    let depths =
+        friction.is_none_or(|friction| friction.by_cycle.is_none() && friction.by_dose.is_none());
+    let follow = Follow {
+        depths,
+        resistance: depths && !spec.interface.films.iter().any(grows),
+    };
     let settings = (&spec.life, spec.cycles.is_none());
-    let drawn = pictures::life::picture(name, settings, film_grows, record)?;
+    let drawn = pictures::life::picture(name, settings, follow, record)?;
     Some(("life", drawn))
 }

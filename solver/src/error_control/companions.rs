@@ -11,21 +11,46 @@ use crate::scene::{Accuracy, Refinement, Scene};
 pub(super) const COARSE: f64 = 0.35;
 pub(super) const COARSER: f64 = 0.25;
 
-/// Number of companions: the coarse one, and one more for each of mesh, increments and jumps.
+/// Number of companions that the errors are estimated by: the coarse one, and one more for each of mesh, increments and jumps. Those of
+/// other wear coefficients follow, on the settings of the first.
 pub(super) const COUNT: usize = 4;
 
-/// The settings of a companion; `None` beyond the last. Each differs from the one before in one of them.
-pub(super) fn refinement(companion: usize) -> Option<Refinement> {
-    let of = |part: usize| if companion > part { COARSER } else { COARSE };
-    (companion < COUNT).then(|| Refinement {
+/// The settings of a companion. Each differs from the one before in one of them.
+fn refinement(companion: usize) -> Refinement {
+    let of = |part: usize| {
+        if companion > part && companion < COUNT {
+            COARSER
+        } else {
+            COARSE
+        }
+    };
+    Refinement {
         mesh: of(0),
         increments: of(1),
         cycles: of(2),
-    })
+    }
 }
 
-/// The scene of a companion: no snapshots, no fields.
-pub(super) fn scene(scene: &Scene, refinement: Refinement) -> Scene {
+/// Number of the companions of a scene.
+pub(super) fn count(of: &Scene) -> usize {
+    if of.accuracy.estimate_errors {
+        COUNT + of.scattered.len()
+    } else {
+        0
+    }
+}
+
+/// The scene of a companion; `None` beyond the last.
+pub(super) fn companion(of: &Scene, number: usize) -> Option<Scene> {
+    let same = (number < count(of)).then_some(of)?;
+    let solved = number
+        .checked_sub(COUNT)
+        .map_or(Some(same), |scattered| of.scattered.get(scattered));
+    Some(coarse(solved?, refinement(number)))
+}
+
+/// A scene on coarse settings: no snapshots, no fields.
+fn coarse(scene: &Scene, refinement: Refinement) -> Scene {
     let mut companion = refined(scene, refinement);
     companion.output.snapshots_at_cycles.clear();
     companion.output.fields = false;
@@ -35,14 +60,8 @@ pub(super) fn scene(scene: &Scene, refinement: Refinement) -> Scene {
 
 /// The scenes that are solved beside a scene whose errors are estimated.
 pub fn companion_scenes(of: &Scene) -> Vec<Scene> {
-    let count = if of.accuracy.estimate_errors {
-        COUNT
-    } else {
-        0
-    };
-    let refinements = (0..count).filter_map(refinement);
-    refinements
-        .map(|refinement| scene(of, refinement))
+    (0..count(of))
+        .filter_map(|number| companion(of, number))
         .collect()
 }
 

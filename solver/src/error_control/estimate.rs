@@ -100,6 +100,25 @@ impl Estimate<'_> {
         (0..self.run.lives.len()).map(error).collect()
     }
 
+    /// Lives with the wear coefficients of each scattered scene over those with the given ones, on the settings of the first companion;
+    /// `None` for one that either has not reached.
+    pub(super) fn scattered_lives(self) -> Vec<Vec<Option<f64>>> {
+        let Some(Some(median)) = self.companions.first() else {
+            return Vec::new();
+        };
+        let scattered = self.companions.get(COUNT..).unwrap_or_default();
+        let scattered = scattered.iter().take(self.scene.scattered.len());
+        let ratios = scattered.map(|run| {
+            let lives = run
+                .iter()
+                .flat_map(|run| run.lives.iter().zip(&median.lives));
+            lives
+                .map(|(here, there)| Some((*here)? / (*there)?))
+                .collect()
+        });
+        ratios.collect()
+    }
+
     /// The error of a quantity by which two runs differ. The companions follow the plan of the run, so that they do not show
     /// what skipped effects change.
     fn error(

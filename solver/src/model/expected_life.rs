@@ -15,7 +15,8 @@
 //!   floor has the dose P' s/(2 A), and p = 0. Between them q = 1/(1 + 2 A D/(P' s)), which for one layer is 1/(1 + 1.5 A/w), and
 //!   p = exp(-2.3 A/w)/q. The receptacle's own life is that of a groove as long as 2 A + (4/3) w.
 //! * Blocks of a mission: each stroke takes its part f_i of the path, and the parts of dose and depth above are the means of those of the
-//!   strokes, q = sum f_i q_i, p q = sum f_i p_i q_i. Where one side wears alone, 1/(P' s) = sum f_i/(P' s)_i.
+//!   strokes, q = sum f_i q_i, p q = sum f_i p_i q_i. Where one side wears alone, 1/(P' s) = sum f_i/(P' s)_i. A mission of matings
+//!   and vibration has 16 % more cycles than its run at the tip, 26 % fewer at a depth of 0.44 um of the pad.
 //!
 //! The forms, and 2.3, are fitted to rigid bodies (SD card, 10 % tolerance). Equal rates of one layer, R of 0.1 and 0.4 mm, A/w from 0.03
 //! to 4: the rider's cycles are met within 3 %, the receptacle's within 6 %. Gold over nickel on both (`tests/cases/plated_presets.rs`):

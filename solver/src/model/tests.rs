@@ -63,6 +63,7 @@ pub(crate) fn fuzz_button() -> Scene {
         life: Vec::new(),
         conduction: Conduction::default(),
         effects: Switches::default(),
+        scattered: Vec::new(),
     }
 }
 

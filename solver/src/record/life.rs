@@ -18,6 +18,8 @@ pub struct Life {
     pub criteria: Vec<CriterionState>,
     /// One entry a limit of the contact resistance.
     pub resistance: Vec<CriterionState>,
+    /// Lives with other wear coefficients over these, criteria first, for each of the scene's scattered ones.
+    pub scattered: Vec<Vec<Option<f64>>>,
     /// Cycle of the last computed one.
     cycle: u64,
 }

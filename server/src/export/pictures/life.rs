@@ -7,20 +7,29 @@
 use api::spec::{CriterionKind, EnumValue, LifeSettings};
 use solver::record::{Column, Layer, Record, Side};
 
-use crate::export::life;
 use crate::export::pictures::{
     Axis, AxisRange, COLOURS, Colour, Mark, Panel, Picture, Scale, Series,
 };
 use crate::number::real;
+use crate::spec::scatter::Ratios;
 
 /// Colour of limits.
 const GREY: Colour = [90, 90, 90];
+
+/// What depends on coefficient and cycles by their product.
+#[derive(Debug, Clone, Copy)]
+pub struct Follow {
+    /// Depths.
+    pub depths: bool,
+    /// The resistance.
+    pub resistance: bool,
+}
 
 /// The picture of a run; `None` where nothing is exposed and no criterion is about the resistance.
 pub fn picture(
     name: &str,
     (settings, is_continuous): (&LifeSettings, bool),
-    film_grows: bool,
+    follow_product: Follow,
     record: &Record,
 ) -> Option<Picture> {
     if record.cycle.len() < 2 {
@@ -37,12 +46,15 @@ pub fn picture(
             values: record.cycle.iter().map(|cycle| real(*cycle)).collect(),
         }
     };
-    let scatter = life::scatter(settings);
-    let exposed = exposed(settings, &done, scatter, record);
+    let scatter = |follows: bool| {
+        let Ratios { b10, b90, .. } = Ratios::of(settings);
+        (follows && b10 < b90).then_some([b10, b90])
+    };
+    let exposed = exposed(settings, &done, scatter(follow_product.depths), record);
     let limits = limits(settings, CriterionKind::Resistance);
     let is_drawn = exposed.is_some() || !limits.is_empty();
     let resistance = is_drawn.then(|| {
-        let scatter = scatter.filter(|_| !film_grows);
+        let scatter = scatter(follow_product.resistance);
         resistance(&limits, &done, scatter, record)
     });
     let panels: Vec<Panel> = exposed
@@ -203,6 +215,11 @@ mod tests {
     use solver::sides::Sides;
 
     use super::*;
+
+    const FOLLOW: Follow = Follow {
+        depths: true,
+        resistance: true,
+    };
     use crate::export::pictures::svg;
 
     /// A tip with a layer, of which half is through after 20 cycles.
@@ -238,7 +255,7 @@ mod tests {
     #[test]
     fn a_life_has_its_exposed_part_and_its_resistance_with_band_and_limits() {
         let given = settings(LIMITS);
-        let picture = picture("a tip", (&given, false), false, &history()).expect("a picture");
+        let picture = picture("a tip", (&given, false), FOLLOW, &history()).expect("a picture");
         let [exposed, resistance] = &picture.panels[..] else {
             panic!("two panels");
         };
@@ -273,7 +290,11 @@ mod tests {
     #[test]
     fn a_film_that_grows_or_certain_coefficients_have_no_band() {
         let given = settings(LIMITS);
-        let grows = picture("", (&given, false), true, &history()).expect("a picture");
+        let grows = Follow {
+            resistance: false,
+            ..FOLLOW
+        };
+        let grows = picture("", (&given, false), grows, &history()).expect("a picture");
         assert_eq!(
             (grows.panels[0].series.len(), grows.panels[1].series.len()),
             (4, 2)
@@ -282,7 +303,7 @@ mod tests {
             coefficient_of_variation: Some(0.0),
             ..given
         };
-        let drawn = picture("", (&certain, false), false, &history()).expect("a picture");
+        let drawn = picture("", (&certain, false), FOLLOW, &history()).expect("a picture");
         assert_eq!(drawn.panels[0].series.len(), 2);
     }
 
@@ -294,11 +315,11 @@ mod tests {
             ..CycleReport::default()
         });
         let record = Record::new(&reports, &[]);
-        assert_eq!(picture("", (&settings(""), false), false, &record), None);
-        let limited = picture("", (&settings(LIMITS), true), false, &record);
+        assert_eq!(picture("", (&settings(""), false), FOLLOW, &record), None);
+        let limited = picture("", (&settings(LIMITS), true), FOLLOW, &record);
         assert_eq!(limited.map(|drawn| drawn.panels.len()), Some(1));
         assert_eq!(
-            picture("", (&settings(LIMITS), false), false, &Record::default()),
+            picture("", (&settings(LIMITS), false), FOLLOW, &Record::default()),
             None
         );
     }

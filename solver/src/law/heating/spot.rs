@@ -41,7 +41,7 @@ mod tests {
         let mean = sum(&|r| 2.0 * r * uniform(r));
         let hertz = sum(&|t| 3.0 * t * t * at(0.0, t));
         for (found, exact) in [
-            (uniform(0.0), 0.318_309_886),
+            (uniform(0.0), std::f64::consts::FRAC_1_PI),
             (mean, 0.270_190),
             (hertz, 0.375),
         ] {

@@ -4,7 +4,7 @@ use api::rating::Coefficient;
 use api::spec::{Material, PlatingLayer, Spec, WearLaw};
 
 /// Multiplies all of them by a factor; returns them with their values before and after.
-pub(super) fn scale(spec: &mut Spec, factor: f64) -> Vec<Coefficient> {
+pub(crate) fn scale(spec: &mut Spec, factor: f64) -> Vec<Coefficient> {
     let mut scaled = Vec::new();
     let materials = spec.materials.clone();
     let wear = &mut spec.interface.wear;
