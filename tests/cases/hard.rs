@@ -1,6 +1,7 @@
 //! The hard cases: scenes on which a naive code fails. One file a case, each with the requirement, its source and the
 //! failure of a naive code; all of them assert one list of invariants.
 
+mod additions;
 mod change_of_wear;
 mod conforming;
 mod corner_contact;

@@ -5,31 +5,33 @@ use std::f64::consts::{FRAC_PI_4, PI};
 
 use serde_json::{Value, json};
 
+use super::additions::{self, Contact};
+
 /// Largest number of random numbers that a specification uses.
-pub(crate) const NUMBERS: usize = 48;
+pub(crate) const NUMBERS: usize = 112;
 
 /// Random numbers not yet used.
-struct Numbers<'a>(std::slice::Iter<'a, f64>);
+pub(super) struct Numbers<'a>(std::slice::Iter<'a, f64>);
 
 impl Numbers<'_> {
     fn next(&mut self) -> f64 {
         *self.0.next().expect("there are enough numbers")
     }
 
-    fn within(&mut self, from: f64, to: f64) -> f64 {
+    pub(super) fn within(&mut self, from: f64, to: f64) -> f64 {
         from + (to - from) * self.next()
     }
 
-    fn log(&mut self, from: f64, to: f64) -> f64 {
+    pub(super) fn log(&mut self, from: f64, to: f64) -> f64 {
         from * (to / from).powf(self.next())
     }
 
-    fn chance(&mut self, probability: f64) -> bool {
+    pub(super) fn chance(&mut self, probability: f64) -> bool {
         self.next() < probability
     }
 
     /// A whole number, by its logarithm.
-    fn count(&mut self, from: f64, to: f64) -> Value {
+    pub(super) fn count(&mut self, from: f64, to: f64) -> Value {
         let text = format!("{:.0}", self.log(from, to).floor());
         text.parse::<u64>().expect("it is a whole number").into()
     }
@@ -76,7 +78,7 @@ pub(crate) fn specification(numbers: &[f64]) -> Value {
         let spring = load / lengths.height * u.log(1e-3, 1e2);
         line["spring_n_per_mm"] = json!(spring.min(1e9));
     }
-    json!({
+    let mut spec = json!({
         "system": system,
         "materials": materials,
         "interface": {"friction": friction, "wear": wear},
@@ -84,7 +86,15 @@ pub(crate) fn specification(numbers: &[f64]) -> Value {
         "motion": {"kind": "reciprocating", "amplitude_mm": amplitude, "drive": drive},
         "cycles": cycles,
         "accuracy": {"preset": "draft", "overrides": overrides(&mut u, &lengths, total)},
-    })
+    });
+    let contact = Contact {
+        load,
+        cycles: total,
+        amplitude,
+        depth: u.log(1e-6, 1.0) * lengths.height.min(lengths.radius),
+    };
+    additions::add(&mut u, &mut spec, &contact);
+    spec
 }
 
 fn materials(u: &mut Numbers<'_>) -> (Value, f64) {
