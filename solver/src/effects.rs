@@ -4,6 +4,7 @@
 //! estimated end, and again after every computed cycle. An effect is skipped if its indicator is at most a fifth of the
 //! tolerance and those of all skipped effects add up to at most half of it; otherwise the largest is simulated too.
 
+mod across_width;
 mod choice;
 mod decision;
 mod effect;

@@ -234,6 +234,12 @@ fn nothing_to_simulate(
         Effect::Plasticity if indicators::peak_over_hardness(scene).is_none() => Some(
             "never simulated, and not estimated: the hardness of a surface or the force is not known",
         ),
+        Effect::AcrossWidth if !wears() => {
+            Some("never simulated; nothing wears, so that no life depends on it")
+        }
+        Effect::AcrossWidth if scene.conduction.known().is_none() => Some(
+            "never simulated: a dimple or a crown across the width carries the load on less of it and may wear through many times sooner",
+        ),
         _ => never_simulated(scene, effect),
     }
 }
@@ -252,9 +258,6 @@ fn never_simulated(scene: &Scene, effect: Effect) -> Option<&'static str> {
         ),
         Effect::Inertia => Some(
             "never simulated in a run; the slip of a `vibration` is derived with the mass before it",
-        ),
-        Effect::AcrossWidth => Some(
-            "never simulated: a dimple or a crown across the width carries the load on less of it and may wear through many times sooner",
         ),
         Effect::ThirdBody => {
             Some("never simulated: the coefficient of wear contains the debris of its measurement")

@@ -114,7 +114,7 @@ effects! {
         ["loop"];
     /// Distribution of the load across the width of the section; never simulated.
     AcrossWidth = "across_width",
-        "none: the section is in plane strain along its width",
+        "1 less the life of a ball of the section's radius over that of the section until the outermost layer of the tip, or else the final depth, is worn: 1.67 sqrt(R h)/w",
         ["peak_pressure_mpa", "max_depth_mm", "life"];
     /// Debris between the surfaces; never simulated.
     ThirdBody = "third_body",

@@ -5,6 +5,7 @@
 use std::borrow::Cow;
 use std::f64::consts::PI;
 
+use super::across_width;
 use super::effect::Effect;
 use super::small_strain;
 use crate::electrical;
@@ -141,14 +142,33 @@ impl<'a> Indicators<'a> {
             }
             Effect::GeometricNonlinearity => small_strain::cost(&self.scene),
             Effect::Plasticity => peak_over_hardness(&self.scene).unwrap_or_default(),
+            Effect::AcrossWidth => 1.0 - self.life_of_ball(depth),
             Effect::Oxidation
             | Effect::Relaxation
             | Effect::Inertia
-            | Effect::AcrossWidth
             | Effect::ThirdBody
             | Effect::MetalTransfer
             | Effect::Fatigue => 0.0,
         }
+    }
+
+    /// Life of a ball over that of the section, at these depths if the tip is not plated; 1 where the width is not known.
+    pub(super) fn life_of_ball(&self, depth: Sides<f64>) -> f64 {
+        let known = self.scene.conduction.known();
+        known.map_or(1.0, |known| {
+            across_width::life_of_ball(known.width_mm, self.radius, self.depth_of_life(depth))
+        })
+    }
+
+    /// Thickness of the outermost layer of the tip, or of the pad beside one that does not wear; these depths of bare parts, mm.
+    pub(super) fn depth_of_life(&self, depth: Sides<f64>) -> f64 {
+        let side = if self.wear.slider.is_some() {
+            Side::Slider
+        } else {
+            Side::Receptacle
+        };
+        let outermost = self.scene.plating(side).first();
+        outermost.map_or(*depth.of(side), |layer| layer.thickness_mm)
     }
 
     /// Half of the smaller dimension of each body over the skin depth of its base; 0 for a direct current.

@@ -96,6 +96,16 @@ pub(super) fn reason(
             consequence(effect, verdict.is_on())
         );
     }
+    if effect == Effect::AcrossWidth {
+        let depth = indicators.worn_depth_at_end();
+        return format!(
+            "{switch}a tip as round across the width as along the section would be worn to {:.2e} mm {:.0} times sooner, one with a crown \
+             between both: {}",
+            indicators.depth_of_life(depth),
+            1.0 / indicators.life_of_ball(depth),
+            consequence(effect, false)
+        );
+    }
     let result = consequence(effect, verdict.is_on());
     if follows_friction(scene, effect) {
         return format!(
@@ -181,11 +191,11 @@ fn consequence(effect: Effect, is_on: bool) -> &'static str {
         (Effect::Resistance, false) => "the resistance of the contact is not computed",
         (Effect::GeometricNonlinearity, _) => "strains and rotations are taken as small",
         (Effect::Plasticity, _) => "the bodies are elastic at any pressure",
+        (Effect::AcrossWidth, _) => "the load is even across the width",
         (
             Effect::Oxidation
             | Effect::Relaxation
             | Effect::Inertia
-            | Effect::AcrossWidth
             | Effect::ThirdBody
             | Effect::MetalTransfer
             | Effect::Fatigue,
