@@ -1,5 +1,6 @@
 //! The model: two meshed bodies with their surfaces, materials and supports. Knows both meshes and laws.
 
+mod constraint_side;
 pub mod expected_life;
 pub(crate) mod friction;
 pub mod layout;

@@ -8,7 +8,7 @@
 //! * flat of a slider in a long stroke: the circular segment that it has lost, by the same formula with W = k_s P s;
 //! * ends of the groove of a long stroke 2 A, W/(2 A) deep: the slider's arc reaches b = sqrt(R W / A) up them.
 
-use super::worn_depth;
+use super::{constraint_side, worn_depth};
 use crate::effects::Effect;
 use crate::law::elastic::contact_modulus;
 use crate::law::surface::SurfaceWear;
@@ -153,44 +153,6 @@ pub fn expected_end(scene: &Scene) -> u64 {
 pub(crate) fn expected_cycles(scene: &Scene, half_width: f64) -> u64 {
     let at = LocalState::mean(scene.load_n_per_mm, half_width, scene.timed_motion().mean());
     worn_depth::expected_cycles(scene, (radius(scene), at), &scene.surface_wear())
-}
-
-/// The body whose nodes carry the contact constraints, for elements of a size, increments of a slip, and a path of all cycles, mm.
-///
-/// It is not one that is nearly rigid: only the other one would deform under a pressure that alternates from node to
-/// node, and between its own nodes not even that. Wear levels such a pressure as soon as it removes as much in an
-/// increment as the other body deforms; a receptacle is worn by many cycles in each increment, at most by all of them.
-fn slave(
-    scene: &Scene,
-    rates: Sides<f64>,
-    gross: bool,
-    (element, slip, sliding): (f64, f64, f64),
-) -> Side {
-    let tuning = &scene.accuracy.tuning;
-    let moduli = Sides {
-        slider: scene.slider.elastic.youngs_modulus_mpa,
-        receptacle: scene.receptacle.elastic.youngs_modulus_mpa,
-    };
-    let is_rigid = |side: Side, slip: f64| {
-        let softer = *moduli.of(side.other());
-        softer < tuning.rigid_body * moduli.of(side) && rates.of(side) * slip < element / softer
-    };
-    let wears = if gross {
-        rates.slider >= tuning.slider_constraints_gross * rates.receptacle
-    } else {
-        rates.slider > tuning.slider_constraints * rates.receptacle
-    };
-    if wears && rates.slider > 0.0 {
-        if is_rigid(Side::Slider, slip) {
-            Side::Receptacle
-        } else {
-            Side::Slider
-        }
-    } else if is_rigid(Side::Receptacle, sliding) {
-        Side::Slider
-    } else {
-        Side::Receptacle
-    }
 }
 
 /// Chooses the spacing of a scene's meshes: of a mission the finest and widest that one of its blocks needs.
@@ -342,7 +304,7 @@ fn of_motion(scene: &Scene, hertz: f64, rates: Sides<f64>, sliding: f64) -> Size
         hertz_half_width: hertz,
         final_half_width: last,
         sticks,
-        slave: slave(scene, rates, gross, (element, slip, sliding)),
+        slave: constraint_side::choose(scene, rates, gross, (element, slip, sliding)),
         contact_element: element,
         layer_growth: 1.0 + layer_growth.at(*tolerance) / finer,
         spacing: Sides {

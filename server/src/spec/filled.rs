@@ -1,0 +1,179 @@
+//! A specification with every default filled in, and its scene.
+
+use std::collections::BTreeMap;
+
+use api::spec::{Spec, SystemKind};
+use solver::law::softening::REFERENCE_C;
+use solver::scene::{Body, Conduction, Criterion, Layer, Scene};
+use solver::sides::Sides;
+
+use crate::spec::conductors::{self, Conductors};
+use crate::spec::diagnostics::Diagnostics;
+use crate::spec::movement::Movement;
+use crate::spec::system::{self, Preset};
+use crate::spec::{
+    accuracy, changing_friction, covering, criterion, effects, environment, law, life, load,
+    materials, mission, motion, output, plating, stop,
+};
+
+/// A specification with its defaults.
+pub(super) struct Filled {
+    pub(super) spec: Spec,
+    pub(super) scene: Scene,
+    pub(super) movement: Movement,
+    pub(super) resistance_lacks: Vec<String>,
+}
+
+/// The scene of a specification without faults.
+pub(super) fn scene_of(spec: &Spec, kind: SystemKind) -> Option<Scene> {
+    let mut diagnostics = Diagnostics::default();
+    let Filled { scene, .. } = fill(spec, kind, &mut diagnostics);
+    diagnostics.is_clean().then_some(scene)
+}
+
+/// The specification with every default filled in, and its scene.
+pub(super) fn fill(spec: &Spec, kind: SystemKind, diagnostics: &mut Diagnostics) -> Filled {
+    let preset = covering::preset_for_motion(spec, (system::definition(kind).preset)());
+    let (system, shapes) = system::resolve(kind, &spec.system, diagnostics);
+    let (materials, elastic) = materials::resolve(&spec.materials, &preset, diagnostics);
+    let coverings = covering::resolve(spec, &preset);
+    let plated = coverings.map(|covering| covering.is_plated());
+    let surroundings_c = spec.environment.temperature_c.unwrap_or(REFERENCE_C);
+    let (interface, laws) = law::resolve(
+        &spec.interface,
+        &spec.materials,
+        &materials,
+        (&preset, coverings, surroundings_c),
+        diagnostics,
+    );
+    law::check_plated_sides(&laws, plated, diagnostics);
+    let (platings, layers) = plating::resolve(coverings, laws.friction.unworn(), diagnostics);
+    let laws = changing_friction::with_layers(laws, (&platings, &layers), diagnostics);
+    let (load, line_load) = load::resolve(spec.load.as_ref(), &preset, &shapes, diagnostics);
+    let contact = motion::HeldContact {
+        friction: laws.friction.unworn(),
+        force_n: load.n,
+    };
+    let movement = resolve_movement(spec, &preset, contact, diagnostics);
+    let cycles = movement.total_cycles;
+    if movement.distance_mm.is_some() {
+        law::check_continuous(&laws, plated, diagnostics);
+    }
+    let (accuracy, numerical) = accuracy::resolve(&spec.accuracy, &shapes, cycles, diagnostics);
+    let (output, recorded) = output::resolve(&spec.output, &movement, &shapes, diagnostics);
+    let effects = effects::resolve(&spec.effects, diagnostics);
+    let environment = environment::resolve(&spec.environment, diagnostics);
+    let mut filled = Spec {
+        system,
+        materials,
+        interface,
+        plating: platings,
+        load: Some(load),
+        environment,
+        motion: movement.motion.clone(),
+        cycles: movement.cycles,
+        mission: movement.mission.clone(),
+        repeat: movement.repeat,
+        order: movement.order.map(Into::into),
+        accuracy,
+        output,
+        provenance: BTreeMap::new(),
+        ..spec.clone()
+    };
+    changing_friction::check(&filled, &laws.friction, diagnostics);
+    let softening = environment::softening(&filled, diagnostics);
+    let thermal = environment::conductors(&filled);
+    let bodies = conductors::Bodies {
+        layers: &layers,
+        elastic: &elastic,
+        motion: movement.scene,
+    };
+    let mut conductors = conductors::resolve(&mut filled, bodies, diagnostics);
+    let wears = laws.wear.zip(plated);
+    let surfaces = (&layers, wears.map(|(law, plated)| law.is_some() || plated));
+    let (stop, criteria) = limits(spec, &mut filled, surfaces, &mut conductors, diagnostics);
+    let scene = Scene {
+        slider: Body {
+            shape: shapes.slider,
+            elastic: elastic.slider,
+            wear: laws.wear.slider,
+            plating: layers.slider,
+            thermal: thermal.slider,
+            softening: softening.slider,
+        },
+        receptacle: Body {
+            shape: shapes.block,
+            elastic: elastic.receptacle,
+            wear: laws.wear.receptacle,
+            plating: layers.receptacle,
+            thermal: thermal.receptacle,
+            softening: softening.receptacle,
+        },
+        friction: laws.friction.until(crate::number::real(cycles)),
+        temperature_c: surroundings_c,
+        load_n_per_mm: line_load.n_per_mm,
+        spring_n_per_mm2: line_load.spring_n_per_mm2,
+        drive: movement.drive,
+        motion: movement.scene,
+        timing: movement.timing.clone(),
+        cycles,
+        mission: movement.blocks.clone(),
+        cycles_at_a_time: None,
+        accuracy: numerical,
+        output: recorded,
+        stop,
+        life: criteria,
+        conduction: conductors.conduction,
+        effects,
+        scattered: Vec::new(),
+    };
+    Filled {
+        spec: filled,
+        scene,
+        movement,
+        resistance_lacks: conductors.lacks,
+    }
+}
+
+/// The motion or the mission.
+fn resolve_movement(
+    spec: &Spec,
+    preset: &Preset,
+    contact: motion::HeldContact,
+    diagnostics: &mut Diagnostics,
+) -> Movement {
+    if !spec.mission.is_empty() {
+        return mission::resolve(spec, preset, contact, diagnostics);
+    }
+    if spec.repeat.is_some() {
+        diagnostics.fault("/repeat", "it repeats a `mission`, which is not given");
+    }
+    if spec.order.is_some() {
+        diagnostics.fault("/order", "it orders a `mission`, which is not given");
+    }
+    let motion = motion::resolve(spec.motion.as_ref(), preset, contact, diagnostics);
+    let cycles = motion::cycles(spec.cycles, &motion, preset, diagnostics);
+    Movement::single(motion, cycles)
+}
+
+/// Criteria that end the run, and those whose life is recorded; limits of the resistance belong to what conducts.
+fn limits(
+    spec: &Spec,
+    filled: &mut Spec,
+    (plating, wears): (&Sides<Vec<Layer>>, Sides<bool>),
+    conductors: &mut Conductors,
+    diagnostics: &mut Diagnostics,
+) -> (Vec<Criterion>, Vec<Criterion>) {
+    let surfaces = criterion::Surfaces {
+        plating,
+        wears,
+        resistance_lacks: &conductors.lacks,
+    };
+    let (stop, stop_mohm) = stop::resolve(&spec.stop, surfaces, diagnostics);
+    let (life, criteria, life_mohm) = life::resolve(&spec.life, surfaces, diagnostics);
+    filled.life = life;
+    if let Conduction::Known(electrical) = &mut conductors.conduction {
+        (electrical.stop_mohm, electrical.life_mohm) = (stop_mohm, life_mohm);
+    }
+    (stop, criteria)
+}
