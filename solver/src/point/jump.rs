@@ -11,9 +11,15 @@
 
 use crate::number::{cycles_at_least, real_cycles, whole_cycles};
 
-/// Largest step over indentation of a jump, at a tolerance of 2 %; it grows with the root of the tolerance.
-const LARGEST_STEP: f64 = 0.2;
+/// Largest step over indentation of a jump from a tolerance of 2 % on; below, it falls with the root of the tolerance. A sphere on a flat
+/// that alone wears by 2.6 um in 20 000 cycles of 0.2 of the unworn half-length, against jumps of a tenth of the tolerance: with 0.4 and
+/// 2, 52 and 49 cycles, peak pressures 1.3 and 20 % off, depths 0.02 %.
+const LARGEST_STEP: f64 = 0.4;
 const AT_TOLERANCE: f64 = 0.02;
+
+/// Estimated error of a jump over the tolerance: the volume is exact, and the depth of a scar follows from it. At 2 % depths were at most
+/// 0.6 % off those of jumps by a fifth of the tolerance or less, where both bodies wear, and 0.1 % where one does.
+const ALLOWED_ERROR: f64 = 2.0;
 
 /// Change of a jump from one computed cycle to the next. Arbitrary.
 const MOST_GROWTH: f64 = 2.0;
@@ -40,7 +46,7 @@ impl JumpControl {
         if done == 0 || self.last <= 0.0 {
             return remaining.min(1);
         }
-        let target = self.last * tolerance / self.error;
+        let target = self.last * ALLOWED_ERROR * tolerance / self.error;
         let target = target.clamp(LEAST_GROWTH * self.last, MOST_GROWTH * self.last);
         let by_step = largest_step(tolerance) / step.max(f64::MIN_POSITIVE);
         let target = target.min(by_step).min(real_cycles(done)).max(1.0);
@@ -71,12 +77,12 @@ impl JumpControl {
 
 /// The jump to repeat a computed cycle with, if its error is too large.
 pub(super) fn rejected(tolerance: f64, done: u64, jump: u64, error: f64) -> Option<u64> {
-    let is_large = error > REJECTED * tolerance && done > 1;
+    let is_large = error > REJECTED * ALLOWED_ERROR * tolerance && done > 1;
     (is_large && jump > 1).then(|| jump.div_ceil(CUT))
 }
 
 fn largest_step(tolerance: f64) -> f64 {
-    LARGEST_STEP * (tolerance / AT_TOLERANCE).sqrt()
+    LARGEST_STEP * (tolerance / AT_TOLERANCE).sqrt().min(1.0)
 }
 
 /// Jump of a fixed number of cycles.

@@ -17,7 +17,7 @@ pub struct PointCycle {
     pub worn_volume_mm3: Sides<f64>,
     /// Force times path times the specific wear rate k F s, mm^3; `None` for rates that depend on the depth.
     pub ideal_volume_mm3: Sides<Option<f64>>,
-    /// Peak pressure at the neutral position in the last pass, MPa.
+    /// Peak pressure at the neutral position, MPa; without the skew of the jump, unless single cycles are skewed that much too.
     pub peak_pressure_mpa: f64,
     /// Half-length of that contact along the sliding direction, mm.
     pub half_length_along_mm: f64,
@@ -70,7 +70,7 @@ pub struct PointSummary {
     pub solves: (usize, usize),
     /// Worn depths at the end.
     pub depth: Sides<DepthMap>,
-    /// Pressure at the neutral position in the last pass, MPa, on the window of the contact.
+    /// Pressure of the contact at the neutral position, MPa, on its window.
     pub pressure_mpa: Vec<f64>,
     /// That window.
     pub window: Cells,

@@ -3,7 +3,9 @@
 use std::ops::ControlFlow;
 
 use super::error::PointError;
+use super::field::Field;
 use super::jump::{JumpControl, fixed, rejected};
+use super::lattice::Lattice;
 use super::record::{DepthMap, PointCycle, PointOutcome, PointSummary, half_lengths};
 use super::scene::PointScene;
 use super::sliding::Sliding;
@@ -12,7 +14,11 @@ use crate::law::surface::SurfaceWear;
 use crate::number::real_cycles;
 use crate::sides::{Side, Sides};
 
-/// The contact at the neutral position in the last pass.
+/// Largest step over indentation of a single cycle whose contact is reported without a step, where only one body wears; otherwise its
+/// pressure in the last pass is reported, with the step of the jump. As for line contacts (`Tuning::unskewed_to`).
+const UNSKEWED_TO: f64 = 0.1;
+
+/// The contact at the neutral position.
 struct Neutral {
     peak_pressure_mpa: f64,
     half_lengths_mm: (f64, f64),
@@ -70,7 +76,7 @@ impl<'a> Run<'a> {
         let sliding = Sliding::new(scene)?;
         Ok(Self {
             scene,
-            neutral: Neutral::of(&sliding),
+            neutral: Neutral::of(&sliding.state.pressure, &sliding.state.lattice),
             sliding,
             control: JumpControl::default(),
             done: 0,
@@ -116,16 +122,23 @@ impl<'a> Run<'a> {
         }
         if n == 0 {
             self.sliding.wear_in_place(jump)?;
-            self.neutral = Neutral::of(&self.sliding);
+            self.neutral = self.present();
         } else {
             let (start, end) = match self.sliding.state.position {
                 0 => (0, 2 * n),
                 other => (other, 0),
             };
-            for target in [end, start] {
-                self.sliding.half_pass(n, jump)?;
-                self.neutral = Neutral::of(&self.sliding);
-                self.sliding.half_pass(target, jump)?;
+            self.sliding.half_pass(n, jump)?;
+            self.sliding.half_pass(end, jump)?;
+            for side in Side::BOTH {
+                self.sliding.state.surfaces.of_mut(side).turn();
+            }
+            self.sliding.half_pass(n, jump)?;
+            self.neutral = self.present();
+            self.sliding.half_pass(start, jump)?;
+            if self.wears_once() && self.step() < UNSKEWED_TO {
+                let (pressure, lattice) = self.sliding.unskewed(jump)?;
+                self.neutral = Neutral::of(&pressure, &lattice);
             }
         }
         let (mut change, mut total) = (0.0, 0.0);
@@ -155,6 +168,19 @@ impl<'a> Run<'a> {
             self.sliding.state.surfaces.of(side).largest_rate() * length
         });
         (steps[0] + steps[1]) * self.scene.modulus() / half_length
+    }
+
+    /// Whether only one body wears: where both do, their surfaces without the compliance of the wear differ by what increments leave, and
+    /// the pressure of the pass is the better one.
+    fn wears_once(&self) -> bool {
+        let wear = self.scene.bodies.as_ref().map(|body| body.wear.is_some());
+        wear.slider != wear.receptacle
+    }
+
+    /// The contact at the present position.
+    fn present(&self) -> Neutral {
+        let state = &self.sliding.state;
+        Neutral::of(&state.pressure, &state.lattice)
     }
 
     fn at_cycle(&self, error: PointError) -> PointError {
@@ -211,9 +237,8 @@ impl<'a> Run<'a> {
 }
 
 impl Neutral {
-    fn of(sliding: &Sliding<'_>) -> Self {
-        let pressure = &sliding.state.pressure;
-        let window = sliding.state.lattice.cells();
+    fn of(pressure: &Field, lattice: &Lattice) -> Self {
+        let window = lattice.cells();
         let (along, across) = half_lengths(pressure);
         Self {
             peak_pressure_mpa: pressure.values.iter().fold(0.0, |most, p| p.max(most)),

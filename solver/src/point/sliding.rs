@@ -98,6 +98,19 @@ impl<'a> Sliding<'a> {
         }
     }
 
+    /// The contact at the neutral position without the skew of a jump, which is solved for without wear and changes nothing: its pressure and
+    /// its lattice.
+    pub(super) fn unskewed(&mut self, jump: f64) -> Result<(Field, Lattice), PointError> {
+        let state = self.state.clone();
+        for side in Side::BOTH {
+            self.state.surfaces.of_mut(side).unskew(jump);
+        }
+        let solved = self.slide(self.state.lattice.amplitude, 0.0, 0.0);
+        let found = (self.state.pressure.clone(), self.state.lattice);
+        self.restore(state);
+        solved.map(|()| found)
+    }
+
     /// The whole path of cycles in place, where the amplitude is not resolved.
     pub(super) fn wear_in_place(&mut self, cycles: f64) -> Result<(), PointError> {
         self.slide(0, 4.0 * self.scene.amplitude_mm.abs(), cycles)

@@ -15,8 +15,9 @@ pub(super) struct Surface {
     rate: f64,
     /// Dose of each cell, MPa mm.
     pub(super) dose: Field,
-    /// That before the present computed cycle.
+    /// That before the present computed cycle, and between its passes.
     before: Field,
+    between: Field,
     /// Dose per cycle in the last computed one, MPa mm.
     pace: Field,
 }
@@ -29,6 +30,7 @@ impl Surface {
             rate: wear.and_then(SurfaceWear::dose_rate).unwrap_or(0.0),
             dose: Field::zero(half),
             before: Field::zero(half),
+            between: Field::zero(half),
             pace: Field::zero(half),
         }
     }
@@ -93,6 +95,22 @@ impl Surface {
         self.before.values.copy_from_slice(&self.dose.values);
     }
 
+    /// Notes the surface between both passes.
+    pub(super) fn turn(&mut self) {
+        self.between.values.copy_from_slice(&self.dose.values);
+    }
+
+    /// Removes the skew toward the last pass that a jump has more of than single cycles (`cycle/skew.rs`): half of
+    /// (D_0 + D_R)/2 - D_L, with the doses before, after and between the passes.
+    pub(super) fn unskew(&mut self, jump: f64) {
+        let part = 0.5 * (1.0 - 1.0 / jump);
+        let earlier = self.before.values.iter().zip(&self.between.values);
+        for (dose, (before, between)) in self.dose.values.iter_mut().zip(earlier) {
+            let skew = 0.5 * (before + *dose) - between;
+            *dose = (*dose - part * skew).max(0.0);
+        }
+    }
+
     /// Ends a computed cycle of a jump: the sums over all cells of the change of the wear per cycle from the last one, and of that wear, as
     /// equivalent depth.
     pub(super) fn end_cycle(&mut self, jump: f64) -> (f64, f64) {
@@ -118,7 +136,13 @@ impl Surface {
     }
 
     fn change(&mut self, change: impl Fn(&Field) -> Field) {
-        for field in [&mut self.dose, &mut self.before, &mut self.pace] {
+        let fields = [
+            &mut self.dose,
+            &mut self.before,
+            &mut self.between,
+            &mut self.pace,
+        ];
+        for field in fields {
             *field = change(field);
         }
     }
