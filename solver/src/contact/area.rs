@@ -10,10 +10,14 @@ mod convolution;
 mod kernel;
 mod normal;
 mod preconditioner;
+mod tangential;
 
 pub use cells::Cells;
-pub use convolution::Convolution;
-pub use kernel::normal_influence;
+pub use convolution::{Convolution, Parity};
+pub use kernel::{ShearCompliance, normal_influence};
 pub use normal::{
     AreaError, MOST_ITERATIONS, NormalContact, NormalProblem, NormalSolution, RESIDUAL_TOLERANCE,
+};
+pub use tangential::{
+    MOST_TANGENTIAL_ITERATIONS, SHEAR_TOLERANCE, Shear, Slip, TangentialContact, TangentialError,
 };

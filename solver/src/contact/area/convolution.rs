@@ -1,9 +1,9 @@
-//! Convolution of a field on a grid with an even kernel, by a Fourier transform with zero padding.
+//! Convolution of a field on a grid with a kernel that is even along both axes or odd along both, by a Fourier transform with zero padding.
 //!
-//!   u_ij = sum over k, l of K(|i - k|, |j - l|) p_kl,  K(i, j) = K(-i, j) = K(i, -j).
+//!   u_ij = sum over k, l of K(i - k, j - l) p_kl,  K(i, j) = K(-i, j) = K(i, -j) or -K(-i, j) = -K(i, -j).
 //!
 //! Padded to at least 2 n - 1 cells along either direction, the cyclic convolution of the transform is that of the infinite
-//! plane; without padding it is periodic. The kernel is even, its spectrum is real. Only rows that hold cells are
+//! plane; without padding it is periodic. The spectrum of such a kernel is real. Only rows that hold cells are
 //! transformed along z, back and forth. All memory is allocated once.
 //!
 //! The transforms are those of `realfft` and `rustfft` without their SIMD features: on one thread, in an order of operations
@@ -11,6 +11,7 @@
 //! multiply-adds would change the last bits from machine to machine. The sine and cosine of the twiddle factors are those of
 //! the platform's library.
 
+use std::cmp::Ordering;
 use std::sync::Arc;
 
 use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
@@ -22,7 +23,16 @@ use crate::number::real;
 
 type Transform = Arc<dyn rustfft::Fft<f64>>;
 
-/// A convolution with an even kernel on a grid.
+/// Symmetry of a kernel along both axes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Parity {
+    /// The same value on either side.
+    Even,
+    /// The opposite value on the other side.
+    Odd,
+}
+
+/// A convolution with a kernel of one parity along both axes.
 pub struct Convolution {
     /// Cells along x and z.
     cells: (usize, usize),
@@ -52,8 +62,8 @@ struct Scratch {
 }
 
 impl Convolution {
-    /// The convolution of the infinite plane with a kernel by the offset in cells.
-    pub fn new(cells: &Cells, kernel: impl Fn(usize, usize) -> f64) -> Self {
+    /// The convolution of the infinite plane with a kernel of a parity, given by the offset in cells.
+    pub fn new(cells: &Cells, parity: Parity, kernel: impl Fn(usize, usize) -> f64) -> Self {
         let padded = (
             even_length(2 * cells.along_x),
             even_length(2 * cells.along_z),
@@ -62,9 +72,16 @@ impl Convolution {
         let wave_numbers = padded.1 / 2 + 1;
         let mut columns = vec![Complex::zero(); wave_numbers * padded.0];
         let distance = |i: usize, n: usize| i.min(n - i);
+        // The middle of the padding lies on both sides; no pair of cells is as far apart.
+        let sign = |i: usize, n: usize| match (parity, (2 * i).cmp(&n)) {
+            (Parity::Even, _) | (Parity::Odd, Ordering::Less) => 1.0,
+            (Parity::Odd, Ordering::Equal) => 0.0,
+            (Parity::Odd, Ordering::Greater) => -1.0,
+        };
         for i in 0..padded.0 {
             for (j, value) in convolution.scratch.row.iter_mut().enumerate() {
-                *value = kernel(distance(i, padded.0), distance(j, padded.1));
+                let value_there = kernel(distance(i, padded.0), distance(j, padded.1));
+                *value = sign(i, padded.0) * sign(j, padded.1) * value_there;
             }
             convolution.transform_row();
             let spectrum = &convolution.scratch.row_spectrum;
@@ -265,7 +282,7 @@ mod tests {
         let kernel = |i: usize, j: usize| 1.0 / (1.0 + real(i * i + 3 * j));
         let field = field();
         let mut out = vec![0.0; CELLS.count()];
-        Convolution::new(&CELLS, kernel).apply(&field, &mut out);
+        Convolution::new(&CELLS, Parity::Even, kernel).apply(&field, &mut out);
         let cell = |index: usize| (index / CELLS.along_z, index % CELLS.along_z);
         for (at, found) in out.iter().enumerate() {
             let (i, j) = cell(at);
@@ -279,15 +296,29 @@ mod tests {
     }
 
     #[test]
+    fn an_odd_kernel_changes_its_sign_on_the_other_side() {
+        let kernel = |i: usize, j: usize| real(i * j) / (1.0 + real(i * i + 3 * j));
+        let mut field = vec![0.0; CELLS.count()];
+        // At (3, 2).
+        field[3 * CELLS.along_z + 2] = 1.0;
+        let mut out = vec![0.0; CELLS.count()];
+        Convolution::new(&CELLS, Parity::Odd, kernel).apply(&field, &mut out);
+        let at = |i: usize, j: usize| out[i * CELLS.along_z + j];
+        assert!((at(5, 3) - kernel(2, 1)).abs() < 1e-14);
+        assert!((at(1, 3) + kernel(2, 1)).abs() < 1e-14);
+        assert!((at(1, 0) - kernel(2, 2)).abs() < 1e-14);
+    }
+
+    #[test]
     fn the_same_field_gives_the_same_bits() {
         let kernel = |i: usize, j: usize| 1.0 / (1.0 + real(i + j));
-        let mut convolution = Convolution::new(&CELLS, kernel);
+        let mut convolution = Convolution::new(&CELLS, Parity::Even, kernel);
         let mut outs = [vec![0.0; CELLS.count()], vec![0.0; CELLS.count()]];
         for out in &mut outs {
             convolution.apply(&field(), out);
         }
         let mut other = vec![0.0; CELLS.count()];
-        Convolution::new(&CELLS, kernel).apply(&field(), &mut other);
+        Convolution::new(&CELLS, Parity::Even, kernel).apply(&field(), &mut other);
         assert_eq!(outs[0], outs[1]);
         assert_eq!(outs[0], other);
     }

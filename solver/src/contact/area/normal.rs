@@ -17,7 +17,7 @@
 //! The residual is the larger of sum p |g|/sum p and of the deepest overlap, over the mean displacement sum p (C + d) p/sum p.
 
 use super::cells::Cells;
-use super::convolution::Convolution;
+use super::convolution::{Convolution, Parity};
 use super::kernel::normal_influence;
 use super::preconditioner::Preconditioner;
 use crate::number::real;
@@ -108,7 +108,7 @@ impl NormalContact {
     /// The contact of half-spaces of a contact modulus in MPa on a grid.
     pub fn new(cells: Cells, modulus: f64) -> Self {
         let size = (cells.dx_mm, cells.dz_mm);
-        let compliance = Convolution::new(&cells, |i, j| {
+        let compliance = Convolution::new(&cells, Parity::Even, |i, j| {
             normal_influence((size.0 * real(i), size.1 * real(j)), size, modulus)
         });
         let field = || vec![0.0; cells.count()];
