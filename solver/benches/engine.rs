@@ -7,6 +7,7 @@ mod scenes;
 
 use divan::Bencher;
 use solver::condensation::condense;
+use solver::contact::area::{Cells, NormalContact, NormalProblem};
 use solver::cycle::{CycleState, Integrator};
 use solver::model;
 use solver::scene::Scene;
@@ -80,4 +81,65 @@ impl solver::observer::Observer for Silent {
     fn on(&mut self, _: solver::observer::Event<'_>) -> std::ops::ControlFlow<()> {
         std::ops::ControlFlow::Continue(())
     }
+}
+
+/// Hertz' contact of a sphere of steel of 10 mm under 100 N on 2.8 half-lengths.
+fn sphere(count: u32) -> (NormalContact, Vec<f64>) {
+    let size = 2.8 * 0.189_686 / f64::from(count);
+    let along = usize::try_from(count).expect("it fits");
+    let cells = Cells {
+        along_x: along,
+        along_z: along,
+        dx_mm: size,
+        dz_mm: size,
+    };
+    let gap = cells.map(|x, z| (x * x + z * z) / 20.0);
+    (NormalContact::new(cells, 109_890.0), gap)
+}
+
+#[divan::bench(args = [32, 64, 128])]
+fn point_contact_cold(bencher: Bencher<'_, '_>, count: u32) {
+    let (mut contact, gap) = sphere(count);
+    let wear = vec![0.0; gap.len()];
+    let problem = NormalProblem {
+        gap_mm: &gap,
+        wear_mm_per_mpa: &wear,
+        force_n: 100.0,
+    };
+    bencher.bench_local(|| {
+        let mut pressure = vec![0.0; gap.len()];
+        contact
+            .solve(&problem, &mut pressure)
+            .expect("it is solved")
+    });
+}
+
+/// An increment: the surfaces have lost a per cent of the approach, and wear as much again.
+#[divan::bench(args = [32, 64, 128])]
+fn point_contact_warm(bencher: Bencher<'_, '_>, count: u32) {
+    let (mut contact, gap) = sphere(count);
+    let wear = vec![2.7e-8; gap.len()];
+    let unworn = NormalProblem {
+        gap_mm: &gap,
+        wear_mm_per_mpa: &wear,
+        force_n: 100.0,
+    };
+    let mut start = vec![0.0; gap.len()];
+    contact.solve(&unworn, &mut start).expect("it is solved");
+    let worn: Vec<f64> = gap
+        .iter()
+        .zip(&start)
+        .map(|(h, p)| h + 2.7e-8 * p)
+        .collect();
+    let problem = NormalProblem {
+        gap_mm: &worn,
+        ..unworn
+    };
+    bencher
+        .with_inputs(|| start.clone())
+        .bench_local_values(|mut pressure| {
+            contact
+                .solve(&problem, &mut pressure)
+                .expect("it is solved")
+        });
 }

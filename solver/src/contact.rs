@@ -1,5 +1,6 @@
 //! Frictional contact between two condensed bodies. Contact knows operators, not meshes.
 
+pub mod area;
 pub mod line;
 
 pub use line::{

@@ -19,6 +19,7 @@ pub mod mesh;
 pub mod model;
 mod number;
 pub mod observer;
+pub mod point;
 pub mod record;
 pub mod run;
 pub mod scene;

@@ -58,3 +58,16 @@ pub(crate) fn whole_cycles(value: f64) -> u64 {
 pub(crate) fn count(count: usize) -> u64 {
     u64::try_from(count).unwrap_or(u64::MAX)
 }
+
+/// The nearest count to `value`, the larger one in the middle; `value` is clamped to 2^31.
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "the value is clamped to a range that fits"
+)]
+pub(crate) fn nearest(value: f64) -> usize {
+    if value.is_nan() {
+        return 0;
+    }
+    value.clamp(0.0, 2_147_483_648.0).round() as usize
+}

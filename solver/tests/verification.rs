@@ -34,6 +34,7 @@ mod verify_moving_line_contact;
 mod verify_periodic_motion;
 mod verify_plated_life;
 mod verify_plating;
+mod verify_point_contact;
 mod verify_pressure_fields;
 mod verify_pressure_history;
 mod verify_repeatability;

@@ -1,0 +1,350 @@
+//! Convolution of a field on a grid with a kernel that is even along both axes or odd along both, by a Fourier transform with zero padding.
+//!
+//!   u_ij = sum over k, l of K(i - k, j - l) p_kl,  K(i, j) = K(-i, j) = K(i, -j) or -K(-i, j) = -K(i, -j).
+//!
+//! Padded to at least 2 n - 1 cells along either direction, the cyclic convolution of the transform is that of the infinite
+//! plane; without padding it is periodic. The spectrum of such a kernel is real. Only rows that hold cells are
+//! transformed along z, back and forth. All memory is allocated once.
+//!
+//! The transforms are those of `realfft` and `rustfft` without their SIMD features: on one thread, in an order of operations
+//! that depends on the size alone. With these features the planner would choose the instructions by the processor, and fused
+//! multiply-adds would change the last bits from machine to machine. The sine and cosine of the twiddle factors are those of
+//! the platform's library.
+
+use std::cmp::Ordering;
+use std::sync::Arc;
+
+use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
+use rustfft::num_complex::Complex;
+use rustfft::num_traits::Zero;
+
+use super::cells::Cells;
+use crate::number::real;
+
+type Transform = Arc<dyn rustfft::Fft<f64>>;
+
+/// Symmetry of a kernel along both axes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Parity {
+    /// The same value on either side.
+    Even,
+    /// The opposite value on the other side.
+    Odd,
+}
+
+/// A convolution with a kernel of one parity along both axes.
+pub struct Convolution {
+    /// Cells along x and z.
+    cells: (usize, usize),
+    /// The same with the padding.
+    padded: (usize, usize),
+    /// Spectrum of the kernel over the number of padded cells, by the wave number along z and then along x.
+    spectrum: Vec<f64>,
+    transforms: Transforms,
+    scratch: Scratch,
+}
+
+struct Transforms {
+    rows: Arc<dyn RealToComplex<f64>>,
+    rows_back: Arc<dyn ComplexToReal<f64>>,
+    columns: Transform,
+    columns_back: Transform,
+}
+
+struct Scratch {
+    /// A padded row along z, and its spectrum.
+    row: Vec<f64>,
+    row_spectrum: Vec<Complex<f64>>,
+    /// Spectra of all rows, transposed.
+    columns: Vec<Complex<f64>>,
+    /// Of the transforms.
+    inner: Vec<Complex<f64>>,
+}
+
+impl Convolution {
+    /// The convolution of the infinite plane with a kernel of a parity, given by the offset in cells.
+    pub fn new(cells: &Cells, parity: Parity, kernel: impl Fn(usize, usize) -> f64) -> Self {
+        let padded = (
+            even_length(2 * cells.along_x),
+            even_length(2 * cells.along_z),
+        );
+        let mut convolution = Self::with_length(cells, padded);
+        let wave_numbers = padded.1 / 2 + 1;
+        let mut columns = vec![Complex::zero(); wave_numbers * padded.0];
+        let distance = |i: usize, n: usize| i.min(n - i);
+        // The middle of the padding lies on both sides; no pair of cells is as far apart.
+        let sign = |i: usize, n: usize| match (parity, (2 * i).cmp(&n)) {
+            (Parity::Even, _) | (Parity::Odd, Ordering::Less) => 1.0,
+            (Parity::Odd, Ordering::Equal) => 0.0,
+            (Parity::Odd, Ordering::Greater) => -1.0,
+        };
+        for i in 0..padded.0 {
+            for (j, value) in convolution.scratch.row.iter_mut().enumerate() {
+                let value_there = kernel(distance(i, padded.0), distance(j, padded.1));
+                *value = sign(i, padded.0) * sign(j, padded.1) * value_there;
+            }
+            convolution.transform_row();
+            let spectrum = &convolution.scratch.row_spectrum;
+            for (column, value) in columns.chunks_exact_mut(padded.0).zip(spectrum) {
+                column[i] = *value;
+            }
+        }
+        convolution
+            .transforms
+            .columns
+            .process_with_scratch(&mut columns, &mut convolution.scratch.inner);
+        let norm = 1.0 / (real(padded.0) * real(padded.1));
+        convolution.spectrum = columns.iter().map(|value| norm * value.re).collect();
+        convolution
+    }
+
+    /// A periodic filter by its response to the wave numbers along x and z, 1/mm.
+    pub fn periodic(cells: &Cells, response: impl Fn(f64, f64) -> f64) -> Self {
+        let length = (cells.along_x, cells.along_z);
+        let mut convolution = Self::with_length(cells, length);
+        convolution.set_response(cells, response);
+        convolution
+    }
+
+    /// Replaces the response of a periodic filter.
+    pub fn set_response(&mut self, cells: &Cells, response: impl Fn(f64, f64) -> f64) {
+        let (nx, nz) = self.padded;
+        let wave = |i: usize, n: usize, step: f64| {
+            2.0 * std::f64::consts::PI * real(i.min(n - i)) / (real(n) * step)
+        };
+        let norm = 1.0 / (real(nx) * real(nz));
+        self.spectrum.clear();
+        for j in 0..=nz / 2 {
+            let across = wave(j, nz, cells.dz_mm);
+            let along = (0..nx).map(|i| norm * response(wave(i, nx, cells.dx_mm), across));
+            self.spectrum.extend(along);
+        }
+    }
+
+    fn with_length(cells: &Cells, padded: (usize, usize)) -> Self {
+        let mut planner = RealFftPlanner::new();
+        let mut complex = rustfft::FftPlanner::new();
+        let transforms = Transforms {
+            rows: planner.plan_fft_forward(padded.1),
+            rows_back: planner.plan_fft_inverse(padded.1),
+            columns: complex.plan_fft_forward(padded.0),
+            columns_back: complex.plan_fft_inverse(padded.0),
+        };
+        let inner = transforms.scratch_length();
+        let wave_numbers = padded.1 / 2 + 1;
+        Self {
+            cells: (cells.along_x, cells.along_z),
+            padded,
+            spectrum: Vec::new(),
+            transforms,
+            scratch: Scratch {
+                row: vec![0.0; padded.1],
+                row_spectrum: vec![Complex::zero(); wave_numbers],
+                columns: vec![Complex::zero(); wave_numbers * padded.0],
+                inner: vec![Complex::zero(); inner],
+            },
+        }
+    }
+
+    /// Writes the convolution of a field into another one; both have a value for each cell.
+    pub fn apply(&mut self, field: &[f64], out: &mut [f64]) {
+        let ((_, nz), (length, _)) = (self.cells, self.padded);
+        self.scratch.columns.fill(Complex::zero());
+        for (i, values) in field.chunks_exact(nz).enumerate() {
+            // A row without pressure has no spectrum.
+            if values.iter().all(|value| *value == 0.0) {
+                continue;
+            }
+            self.scratch.row[..nz].copy_from_slice(values);
+            self.scratch.row[nz..].fill(0.0);
+            self.transform_row();
+            let Scratch {
+                columns,
+                row_spectrum,
+                ..
+            } = &mut self.scratch;
+            for (column, value) in columns.chunks_exact_mut(length).zip(row_spectrum) {
+                column[i] = *value;
+            }
+        }
+        self.filter();
+        for (i, values) in out.chunks_exact_mut(nz).enumerate() {
+            self.transform_back(i);
+            values.copy_from_slice(&self.scratch.row[..nz]);
+        }
+    }
+
+    /// Multiplies the spectra of the rows with that of the kernel.
+    fn filter(&mut self) {
+        let Scratch { columns, inner, .. } = &mut self.scratch;
+        self.transforms.columns.process_with_scratch(columns, inner);
+        for (value, factor) in columns.iter_mut().zip(&self.spectrum) {
+            *value *= *factor;
+        }
+        self.transforms
+            .columns_back
+            .process_with_scratch(columns, inner);
+    }
+
+    /// Transforms the row in the scratch into its spectrum, and destroys it.
+    fn transform_row(&mut self) {
+        let Scratch {
+            row,
+            row_spectrum,
+            inner,
+            ..
+        } = &mut self.scratch;
+        let result = self
+            .transforms
+            .rows
+            .process_with_scratch(row, row_spectrum, inner);
+        debug_assert!(result.is_ok(), "rows have the planned length");
+    }
+
+    /// Transforms the spectra at a row back.
+    fn transform_back(&mut self, i: usize) {
+        let Scratch {
+            row,
+            row_spectrum,
+            columns,
+            inner,
+        } = &mut self.scratch;
+        for (value, column) in row_spectrum
+            .iter_mut()
+            .zip(columns.chunks_exact(self.padded.0))
+        {
+            *value = column[i];
+        }
+        // Those of a real row are real up to round-off at both ends.
+        row_spectrum[0].im = 0.0;
+        if self.padded.1.is_multiple_of(2)
+            && let Some(last) = row_spectrum.last_mut()
+        {
+            last.im = 0.0;
+        }
+        let result = self
+            .transforms
+            .rows_back
+            .process_with_scratch(row_spectrum, row, inner);
+        debug_assert!(result.is_ok(), "rows have the planned length");
+    }
+}
+
+impl Transforms {
+    fn scratch_length(&self) -> usize {
+        let lengths = [
+            self.rows.get_scratch_len(),
+            self.rows_back.get_scratch_len(),
+            self.columns.get_inplace_scratch_len(),
+            self.columns_back.get_inplace_scratch_len(),
+        ];
+        lengths.into_iter().fold(0, usize::max)
+    }
+}
+
+/// The smallest even number from a length on that has no other prime factors than 2, 3 and 5, for which transforms are fast.
+pub(super) fn even_length(least: usize) -> usize {
+    let is_smooth = |length: &usize| {
+        let mut rest = *length;
+        for factor in [2, 3, 5] {
+            while rest.is_multiple_of(factor) {
+                rest /= factor;
+            }
+        }
+        rest == 1
+    };
+    let least = least.max(2);
+    let even = (least.div_ceil(2)..).map(|half| 2 * half);
+    // A power of two ends the search.
+    even.into_iter().find(is_smooth).unwrap_or(least)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const CELLS: Cells = Cells {
+        along_x: 7,
+        along_z: 5,
+        dx_mm: 0.1,
+        dz_mm: 0.2,
+    };
+
+    /// A field without symmetry.
+    fn field() -> Vec<f64> {
+        (0..CELLS.count())
+            .map(|i| (1.0 + real(i)).sqrt() % 1.0)
+            .collect()
+    }
+
+    #[test]
+    fn a_convolution_is_the_sum_that_it_stands_for() {
+        let kernel = |i: usize, j: usize| 1.0 / (1.0 + real(i * i + 3 * j));
+        let field = field();
+        let mut out = vec![0.0; CELLS.count()];
+        Convolution::new(&CELLS, Parity::Even, kernel).apply(&field, &mut out);
+        let cell = |index: usize| (index / CELLS.along_z, index % CELLS.along_z);
+        for (at, found) in out.iter().enumerate() {
+            let (i, j) = cell(at);
+            let terms = field.iter().enumerate().map(|(from, value)| {
+                let (k, l) = cell(from);
+                kernel(i.abs_diff(k), j.abs_diff(l)) * value
+            });
+            let sum: f64 = terms.sum();
+            assert!((found - sum).abs() < 1e-14, "{at}: {found} {sum}");
+        }
+    }
+
+    #[test]
+    fn an_odd_kernel_changes_its_sign_on_the_other_side() {
+        let kernel = |i: usize, j: usize| real(i * j) / (1.0 + real(i * i + 3 * j));
+        let mut field = vec![0.0; CELLS.count()];
+        // At (3, 2).
+        field[3 * CELLS.along_z + 2] = 1.0;
+        let mut out = vec![0.0; CELLS.count()];
+        Convolution::new(&CELLS, Parity::Odd, kernel).apply(&field, &mut out);
+        let at = |i: usize, j: usize| out[i * CELLS.along_z + j];
+        assert!((at(5, 3) - kernel(2, 1)).abs() < 1e-14);
+        assert!((at(1, 3) + kernel(2, 1)).abs() < 1e-14);
+        assert!((at(1, 0) - kernel(2, 2)).abs() < 1e-14);
+    }
+
+    #[test]
+    fn the_same_field_gives_the_same_bits() {
+        let kernel = |i: usize, j: usize| 1.0 / (1.0 + real(i + j));
+        let mut convolution = Convolution::new(&CELLS, Parity::Even, kernel);
+        let mut outs = [vec![0.0; CELLS.count()], vec![0.0; CELLS.count()]];
+        for out in &mut outs {
+            convolution.apply(&field(), out);
+        }
+        let mut other = vec![0.0; CELLS.count()];
+        Convolution::new(&CELLS, Parity::Even, kernel).apply(&field(), &mut other);
+        assert_eq!(outs[0], outs[1]);
+        assert_eq!(outs[0], other);
+    }
+
+    #[test]
+    fn a_periodic_filter_scales_a_wave_by_its_response() {
+        let cells = Cells {
+            along_x: 12,
+            along_z: 10,
+            ..CELLS
+        };
+        let kappa = 2.0 * std::f64::consts::PI / 1.2;
+        let wave = cells.map(|x, _| (kappa * x).cos());
+        let mut out = vec![0.0; cells.count()];
+        Convolution::periodic(&cells, |along, across| along + 100.0 * across)
+            .apply(&wave, &mut out);
+        for (found, wave) in out.iter().zip(&wave) {
+            assert!((found - kappa * wave).abs() < 1e-12);
+        }
+    }
+
+    #[test]
+    fn lengths_are_even_and_smooth() {
+        assert_eq!(
+            [1, 14, 22, 128, 254].map(even_length),
+            [2, 16, 24, 128, 256]
+        );
+    }
+}

@@ -1,0 +1,114 @@
+//! Number of physical cycles that the next computed one represents.
+//!
+//! As for line contacts (`schedule/jump.rs`), the error of a jump is half the change of the wear per cycle,
+//!   e = 1/2 sum |r_new - r_old|/sum r_new over the cells of both surfaces,
+//! and the next jump is the last one times the tolerance over e, at most twice and at least half of it, and no longer than the cycles
+//! done.
+//!
+//! Each pass wears the whole jump, so that the contact rests on the leading-edge step that the pass leaves: over a body of the specific
+//! wear rate k on which the contact travels by the length s, at most its own one 2 b, k jump s E*/b is the step over the
+//! indentation. It skews the pressure by about a third of itself, and bounds the jump.
+
+use crate::number::{cycles_at_least, real_cycles, whole_cycles};
+
+/// Largest step over indentation of a jump from a tolerance of 2 % on; below, it falls with the root of the tolerance. A sphere on a flat
+/// that alone wears by 2.6 um in 20 000 cycles of 0.2 of the unworn half-length, against jumps of a tenth of the tolerance: with 0.4 and
+/// 2, 52 and 49 cycles, peak pressures 1.3 and 20 % off, depths 0.02 %.
+const LARGEST_STEP: f64 = 0.4;
+const AT_TOLERANCE: f64 = 0.02;
+
+/// Estimated error of a jump over the tolerance: the volume is exact, and the depth of a scar follows from it. At 2 % depths were at most
+/// 0.6 % off those of jumps by a fifth of the tolerance or less, where both bodies wear, and 0.1 % where one does.
+const ALLOWED_ERROR: f64 = 2.0;
+
+/// Change of a jump from one computed cycle to the next. Arbitrary.
+const MOST_GROWTH: f64 = 2.0;
+const LEAST_GROWTH: f64 = 0.5;
+
+/// Estimated error over the tolerance from which on a jump is repeated, with a quarter of its cycles.
+const REJECTED: f64 = 3.0;
+const CUT: u64 = 4;
+
+/// Floor of the estimate, far below any tolerance.
+const SMALLEST_ERROR: f64 = 1e-9;
+
+/// The last jump and its error.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub(super) struct JumpControl {
+    last: f64,
+    error: f64,
+    most: u64,
+}
+
+impl JumpControl {
+    /// The next jump, for a step over the indentation of a jump of one cycle.
+    pub(super) fn next(self, tolerance: f64, (done, remaining): (u64, u64), step: f64) -> u64 {
+        if done == 0 || self.last <= 0.0 {
+            return remaining.min(1);
+        }
+        let target = self.last * ALLOWED_ERROR * tolerance / self.error;
+        let target = target.clamp(LEAST_GROWTH * self.last, MOST_GROWTH * self.last);
+        let by_step = largest_step(tolerance) / step.max(f64::MIN_POSITIVE);
+        let target = target.min(by_step).min(real_cycles(done)).max(1.0);
+        let target = if self.most > 0 {
+            target.min(real_cycles(self.most))
+        } else {
+            target
+        };
+        // Equal shares of what remains, so that the last jump is no short one.
+        let shares = cycles_at_least(real_cycles(remaining) / target);
+        remaining.div_ceil(shares)
+    }
+
+    /// Bounds the next jump after one that was rejected.
+    pub(super) fn limit(&mut self, most: u64) {
+        self.most = most;
+    }
+
+    /// Takes the jump and the error of a computed cycle.
+    pub(super) fn update(&mut self, jump: u64, error: f64) {
+        *self = Self {
+            last: real_cycles(jump),
+            error: error.max(SMALLEST_ERROR),
+            most: 0,
+        };
+    }
+}
+
+/// The jump to repeat a computed cycle with, if its error is too large.
+pub(super) fn rejected(tolerance: f64, done: u64, jump: u64, error: f64) -> Option<u64> {
+    let is_large = error > REJECTED * ALLOWED_ERROR * tolerance && done > 1;
+    (is_large && jump > 1).then(|| jump.div_ceil(CUT))
+}
+
+fn largest_step(tolerance: f64) -> f64 {
+    LARGEST_STEP * (tolerance / AT_TOLERANCE).sqrt().min(1.0)
+}
+
+/// Jump of a fixed number of cycles.
+pub(super) fn fixed(jump: u64, remaining: u64) -> u64 {
+    whole_cycles(real_cycles(jump)).clamp(1, remaining.max(1))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn jumps_grow_while_the_wear_changes_little() {
+        let mut control = JumpControl::default();
+        assert_eq!(control.next(0.02, (0, 1_000), 1e-9), 1);
+        control.update(10, 1e-4);
+        assert_eq!(control.next(0.02, (500, 1_000), 1e-9), 20);
+        control.update(20, 0.03);
+        let next = control.next(0.02, (520, 980), 1e-9);
+        assert!((13..=14).contains(&next), "{next}");
+    }
+
+    #[test]
+    fn the_leading_edge_step_bounds_a_jump() {
+        let mut control = JumpControl::default();
+        control.update(100, 1e-6);
+        assert_eq!(control.next(0.02, (10_000, 900), 1e-2), 20);
+    }
+}

@@ -1,0 +1,139 @@
+//! What a run of a point contact is computed from.
+
+use super::error::PointError;
+use crate::law::elastic::{Elastic, contact_modulus};
+use crate::law::surface::SurfaceWear;
+use crate::sides::{Side, Sides};
+
+/// A body: its shape at the contact, its material and its surface.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PointBody {
+    /// Radius in the plane of the sliding direction, mm; `None` is straight.
+    pub radius_along_mm: Option<f64>,
+    /// Radius in the plane across it, mm; `None` is straight.
+    pub radius_across_mm: Option<f64>,
+    /// Its elastic constants.
+    pub elastic: Elastic,
+    /// Wear of its surface by the dose, with its layers; `None` does not wear.
+    pub wear: Option<SurfaceWear>,
+}
+
+/// A point contact in gross reciprocating sliding.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PointScene {
+    /// Both bodies; the receptacle is at rest.
+    pub bodies: Sides<PointBody>,
+    /// Normal force F, N.
+    pub force_n: f64,
+    /// Coefficient of friction mu of gross slip, -.
+    pub friction: f64,
+    /// Amplitude A of the slider, mm: a cycle goes from -A to A and back; one below 0 begins on the other side.
+    pub amplitude_mm: f64,
+    /// Cycles to simulate.
+    pub cycles: u64,
+    /// Worn depth of either side that ends the run, mm.
+    pub stop_depth_mm: Option<f64>,
+    /// Grid and integration.
+    pub accuracy: PointAccuracy,
+}
+
+/// Grid and integration settings.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PointAccuracy {
+    /// Largest estimated relative error of the wear of a jump.
+    pub tolerance: f64,
+    /// Cells along each half-length of the unworn contact; the grid coarsens as the contact grows.
+    pub cells_per_half_length: f64,
+    /// Displacement of an increment over the half-length of the contact.
+    pub step_over_half_length: f64,
+    /// Cycles of a computed one; chosen from the tolerance if absent.
+    pub cycle_jump: Option<u64>,
+}
+
+impl PointAccuracy {
+    /// Grid and steps that suffice for a tolerance of 2 %, with jumps by a tolerance.
+    pub const fn from_tolerance(tolerance: f64) -> Self {
+        Self {
+            tolerance,
+            cells_per_half_length: 12.0,
+            step_over_half_length: 0.25,
+            cycle_jump: None,
+        }
+    }
+}
+
+impl PointBody {
+    /// Curvatures along and across the sliding direction, 1/mm.
+    pub(super) fn curvature(&self) -> (f64, f64) {
+        let curvature = |radius: Option<f64>| radius.map_or(0.0, |radius| 1.0 / radius);
+        (
+            curvature(self.radius_along_mm),
+            curvature(self.radius_across_mm),
+        )
+    }
+}
+
+impl PointScene {
+    /// Contact modulus E*, MPa.
+    pub fn modulus(&self) -> f64 {
+        contact_modulus(self.bodies.slider.elastic, self.bodies.receptacle.elastic)
+    }
+
+    /// Sum of the curvatures of both bodies along and across the sliding direction, 1/mm.
+    pub(super) fn curvature(&self) -> (f64, f64) {
+        let (slider, receptacle) = (
+            self.bodies.slider.curvature(),
+            self.bodies.receptacle.curvature(),
+        );
+        (slider.0 + receptacle.0, slider.1 + receptacle.1)
+    }
+
+    /// Half-lengths of the unworn contact along and across the sliding direction, mm, by the approximation for ellipses that are not
+    /// slender (Johnson, Contact Mechanics, 1985, section 4.2): sqrt(ab) = (3 F R_e/(4 E*))^(1/3), b/a = (R_b/R_a)^(2/3);
+    /// a tenth off at an aspect of 10. It only sizes the grid.
+    pub(super) fn half_lengths_mm(&self) -> (f64, f64) {
+        let (along, across) = self.curvature();
+        let equivalent_radius = 1.0 / (along * across).sqrt();
+        let mean = (0.75 * self.force_n * equivalent_radius / self.modulus()).cbrt();
+        let root_of_aspect = (along / across).cbrt();
+        (mean / root_of_aspect, mean * root_of_aspect)
+    }
+
+    /// Part of the slider's displacement by which the contact travels over the receptacle.
+    pub(super) fn travel_over_receptacle(&self) -> f64 {
+        self.bodies.slider.curvature().0 / self.curvature().0
+    }
+
+    /// Checks the scene.
+    ///
+    /// # Errors
+    /// A value outside of its range, a contact that is no point, a law that is none by dose.
+    pub(super) fn check(&self) -> Result<(), PointError> {
+        let (along, across) = self.curvature();
+        let positive = [
+            ("normal force in N", self.force_n),
+            ("curvature along the sliding direction in 1/mm", along),
+            ("curvature across the sliding direction in 1/mm", across),
+            ("contact modulus in MPa", self.modulus()),
+            ("tolerance", self.accuracy.tolerance),
+            (
+                "cells along a half-length",
+                self.accuracy.cells_per_half_length,
+            ),
+            ("step over half-length", self.accuracy.step_over_half_length),
+            ("magnitude of the amplitude in mm", self.amplitude_mm.abs()),
+        ];
+        for (name, value) in positive {
+            if !(value > 0.0 && value.is_finite()) {
+                return Err(PointError::Value { name, value });
+            }
+        }
+        for side in Side::BOTH {
+            let wear = self.bodies.of(side).wear;
+            if wear.is_some_and(|wear| wear.dose_rate().is_none()) {
+                return Err(PointError::Law { side: side.name() });
+            }
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,172 @@
+//! The worn surface of a body: the dose of each cell, from which its depth follows.
+//!
+//! The dose D = int p |ds| of a place, MPa mm, adds where depths of layers do not; its depth is h = G(D) (`law::dose`), k D for
+//! a law of one rate. An increment of a dose dD recedes the surface by G(D + dD) - G(D), in the contact solve by the mean rate of that
+//! dose.
+
+use super::field::{Axis, Field};
+use crate::law::surface::SurfaceWear;
+
+/// A worn surface.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Surface {
+    wear: Option<SurfaceWear>,
+    /// Rate at which the equivalent depth grows by the dose, 1/MPa.
+    rate: f64,
+    /// Dose of each cell, MPa mm.
+    pub(super) dose: Field,
+    /// That before the present computed cycle, and between its passes.
+    before: Field,
+    between: Field,
+    /// Dose per cycle in the last computed one, MPa mm.
+    pace: Field,
+}
+
+impl Surface {
+    /// An unworn one.
+    pub(super) fn new(wear: Option<SurfaceWear>, half: (usize, usize)) -> Self {
+        Self {
+            wear,
+            rate: wear.and_then(SurfaceWear::dose_rate).unwrap_or(0.0),
+            dose: Field::zero(half),
+            before: Field::zero(half),
+            between: Field::zero(half),
+            pace: Field::zero(half),
+        }
+    }
+
+    /// Whether the rate is the same at every depth.
+    pub(super) fn is_linear(&self) -> bool {
+        self.wear.is_none_or(|wear| !wear.depends_on_depth())
+    }
+
+    /// Depth of a dose, mm.
+    pub(super) fn depth_mm(&self, dose: f64) -> f64 {
+        let equivalent = self.rate * dose;
+        self.wear.map_or(0.0, |wear| wear.depth(equivalent))
+    }
+
+    /// Mean specific wear rate of a place of a dose over another one that is added, 1/MPa; that at its depth where none is.
+    pub(super) fn mean_rate(&self, dose: f64, added: f64) -> f64 {
+        if self.is_linear() {
+            return self.rate;
+        }
+        let depth = self.depth_mm(dose);
+        if added > 1e-9 * dose.max(f64::MIN_POSITIVE) {
+            (self.depth_mm(dose + added) - depth) / added
+        } else {
+            let relative = self.wear.map_or(0.0, |wear| wear.relative_rate(depth));
+            self.rate * relative
+        }
+    }
+
+    /// Depths of all cells, mm.
+    pub(super) fn depths_mm(&self) -> Vec<f64> {
+        let doses = self.dose.values.iter();
+        doses.map(|dose| self.depth_mm(*dose)).collect()
+    }
+
+    /// Largest specific wear rate down to the deepest place, 1/MPa.
+    pub(super) fn largest_rate(&self) -> f64 {
+        let deepest = self
+            .dose
+            .values
+            .iter()
+            .fold(0.0, |most: f64, dose| most.max(*dose));
+        let state = crate::law::wear::LocalState::default();
+        self.wear
+            .map_or(0.0, |wear| wear.largest_rate(self.depth_mm(deepest), state))
+    }
+
+    /// Adds the dose of a pressure in MPa over a path in mm, as an even part at each of the windows that begin with these rows.
+    pub(super) fn add_dose(&mut self, pressure: &[f64], path_mm: f64, rows: &[usize]) {
+        let part = path_mm / crate::number::real(rows.len());
+        let count = pressure.len() / self.dose.width();
+        for row in rows {
+            let doses = self.dose.rows_mut(*row, count).iter_mut();
+            for (dose, pressure) in doses.zip(pressure) {
+                *dose += part * pressure;
+            }
+        }
+    }
+
+    /// Begins a computed cycle.
+    pub(super) fn begin_cycle(&mut self) {
+        self.before.values.copy_from_slice(&self.dose.values);
+    }
+
+    /// Notes the surface between both passes.
+    pub(super) fn turn(&mut self) {
+        self.between.values.copy_from_slice(&self.dose.values);
+    }
+
+    /// Removes the skew toward the last pass that a jump has more of than single cycles (`cycle/skew.rs`): half of
+    /// (D_0 + D_R)/2 - D_L, with the doses before, after and between the passes.
+    pub(super) fn unskew(&mut self, jump: f64) {
+        let part = 0.5 * (1.0 - 1.0 / jump);
+        let earlier = self.before.values.iter().zip(&self.between.values);
+        for (dose, (before, between)) in self.dose.values.iter_mut().zip(earlier) {
+            let skew = 0.5 * (before + *dose) - between;
+            *dose = (*dose - part * skew).max(0.0);
+        }
+    }
+
+    /// Ends a computed cycle of a jump: the sums over all cells of the change of the wear per cycle from the last one, and of that wear, as
+    /// equivalent depth.
+    pub(super) fn end_cycle(&mut self, jump: f64) -> (f64, f64) {
+        let (mut change, mut total) = (0.0, 0.0);
+        let doses = self.dose.values.iter().zip(&self.before.values);
+        for (pace, (after, before)) in self.pace.values.iter_mut().zip(doses) {
+            let new = (after - before) / jump;
+            change += self.rate * (new - *pace).abs();
+            total += self.rate * new;
+            *pace = new;
+        }
+        (change, total)
+    }
+
+    /// The surface on a grid of another size.
+    pub(super) fn resize(&mut self, half: (usize, usize)) {
+        self.change(|field| field.resized(half));
+    }
+
+    /// The surface on cells of twice the size along an axis, with a grid of this size.
+    pub(super) fn merge(&mut self, axis: Axis, half: (usize, usize)) {
+        self.change(|field| field.merged(axis).resized(half));
+    }
+
+    fn change(&mut self, change: impl Fn(&Field) -> Field) {
+        let fields = [
+            &mut self.dose,
+            &mut self.before,
+            &mut self.between,
+            &mut self.pace,
+        ];
+        for field in fields {
+            *field = change(field);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::law::plating::Layer;
+    use crate::law::wear::WearLaw;
+
+    #[test]
+    fn increments_through_a_layer_wear_by_the_mean_rate_of_their_dose() {
+        let layer = Layer {
+            thickness_mm: 1e-3,
+            rate_per_mpa: 1e-8,
+        };
+        let base = WearLaw::Archard {
+            k_over_h_per_mpa: 4e-8,
+        };
+        let surface = Surface::new(SurfaceWear::new(&[layer], Some(base)), (1, 1));
+        // 1e5 MPa mm wear the layer, as many more 4 um of the base.
+        assert!((surface.mean_rate(0.0, 2e5) - 2.5e-8).abs() < 1e-20);
+        assert!((surface.mean_rate(2e5, 0.0) - 4e-8).abs() < 1e-20);
+        assert!((surface.depth_mm(2e5) - 5e-3).abs() < 1e-15);
+    }
+}

@@ -1,0 +1,166 @@
+//! Point contacts: Hertz' ellipse, and the wear that follows from the shape of the slider alone.
+//!
+//! ```text
+//!          | F             V = k F s on either side
+//!        .-v-.             cap of a worn sphere:          V = pi h^2 R
+//!       ( R_x )  <- A ->   groove of a sphere:            V/(2 A) = 4/3 h sqrt(2 R h)
+//!   _____`-.-'_______      two like bodies, short stroke: each loses half of the cap of both
+//!            R_z across
+//! ```
+//! Hertz' figures for an ellipse of radii 1 and 36.5 mm, E = 117 GPa, nu = 0.34, 5 N: p0 = 644.07 MPa, half-lengths 19.258 um and 9.994 times
+//! that (Johnson, Contact Mechanics, 1985, section 4.2).
+
+use std::f64::consts::PI;
+use std::ops::ControlFlow;
+
+use solver::law::elastic::Elastic;
+use solver::law::surface::SurfaceWear;
+use solver::law::wear::WearLaw;
+use solver::point::{PointAccuracy, PointBody, PointScene, PointSummary, run};
+use solver::sides::Sides;
+
+const COPPER: Elastic = Elastic {
+    youngs_modulus_mpa: 117e3,
+    poisson_ratio: 0.34,
+};
+
+fn archard(k: f64) -> Option<SurfaceWear> {
+    let law = WearLaw::Archard {
+        k_over_h_per_mpa: k,
+    };
+    (k > 0.0)
+        .then(|| SurfaceWear::new(&[], Some(law)))
+        .flatten()
+}
+
+/// A slider of these radii on a flat, both of copper, that wear by k in 1/MPa.
+fn scene((along, across): (f64, f64), k: Sides<f64>, amplitude_mm: f64, cycles: u64) -> PointScene {
+    PointScene {
+        bodies: Sides {
+            slider: PointBody {
+                radius_along_mm: Some(along),
+                radius_across_mm: Some(across),
+                elastic: COPPER,
+                wear: archard(k.slider),
+            },
+            receptacle: PointBody {
+                radius_along_mm: None,
+                radius_across_mm: None,
+                elastic: COPPER,
+                wear: archard(k.receptacle),
+            },
+        },
+        force_n: 5.0,
+        friction: 0.3,
+        amplitude_mm,
+        cycles,
+        stop_depth_mm: None,
+        accuracy: PointAccuracy::from_tolerance(0.02),
+    }
+}
+
+fn solved(scene: &PointScene) -> PointSummary {
+    run(scene, |_| ControlFlow::Continue(())).expect("the scene can be solved")
+}
+
+#[test]
+fn an_unworn_ellipse_meets_hertz() {
+    for (radii, aspect) in [((1.0, 36.5), 9.994), ((36.5, 1.0), 1.0 / 9.994)] {
+        let k = Sides {
+            slider: 0.0,
+            receptacle: 1e-9,
+        };
+        let found = solved(&scene(radii, k, 0.05, 0)).initial;
+        let short = found.half_length_along_mm.min(found.half_length_across_mm);
+        let ratio = found.half_length_across_mm / found.half_length_along_mm;
+        println!(
+            "point contact, radii {radii:?}: p0 {:.2} MPa, short half-length {:.3} um, aspect {ratio:.3}",
+            found.peak_pressure_mpa,
+            1e3 * short
+        );
+        assert!((found.peak_pressure_mpa / 644.07 - 1.0).abs() < 0.01);
+        assert!((short / 19.258e-3 - 1.0).abs() < 0.015);
+        assert!((ratio / aspect - 1.0).abs() < 0.015);
+    }
+}
+
+#[test]
+fn a_worn_slider_loses_the_cap_of_its_volume() {
+    let k = Sides {
+        slider: 2e-8,
+        receptacle: 0.0,
+    };
+    let summary = solved(&scene((2.0, 2.0), k, 0.5, 200_000));
+    let volume = 2e-8 * 5.0 * 4.0 * 0.5 * 2e5;
+    let depth = (volume / (PI * 2.0)).sqrt();
+    let found = summary.last;
+    println!(
+        "point contact, slider worn: {:.4} um, cap {:.4} um, {} computed cycles",
+        1e3 * found.max_depth_mm.slider,
+        1e3 * depth,
+        summary.computed_cycles
+    );
+    assert!((found.worn_volume_mm3.slider / volume - 1.0).abs() < 1e-10);
+    assert!((found.max_depth_mm.slider / depth - 1.0).abs() < 0.02);
+}
+
+#[test]
+fn a_long_stroke_digs_a_groove_of_the_sliders_section() {
+    let k = Sides {
+        slider: 0.0,
+        receptacle: 2e-8,
+    };
+    let summary = solved(&scene((2.0, 1.0), k, 0.25, 2_000));
+    let map = &summary.depth.receptacle;
+    let width = map.z_mm.len();
+    let row = &map.depth_mm[(map.x_mm.len() / 2) * width..][..width];
+    let section: f64 = row.iter().sum::<f64>() * (map.z_mm[1] - map.z_mm[0]);
+    let deepest = row.iter().fold(0.0, |most: f64, depth| most.max(*depth));
+    let segment = (0.75 * section / 2.0_f64.sqrt()).powf(2.0 / 3.0);
+    let volume = 2e-8 * 5.0 * 4.0 * 0.25 * 2e3;
+    println!(
+        "point contact, groove: {:.4} um, segment of its section {:.4} um; section {:.3e} of {:.3e} mm^2; {} cycles, {:?} solves",
+        1e3 * deepest,
+        1e3 * segment,
+        section,
+        volume / 0.5,
+        summary.computed_cycles,
+        summary.solves
+    );
+    assert!((summary.last.worn_volume_mm3.receptacle / volume - 1.0).abs() < 1e-10);
+    assert!((deepest / segment - 1.0).abs() < 0.03);
+    // The ends of the groove take about what the contact does not wear at the turning points.
+    assert!(section < 1.1 * volume / 0.5 && section > 0.9 * volume / 0.5);
+}
+
+/// Finer cells, increments and jumps hardly change what wears.
+#[test]
+fn a_scar_on_both_sides_converges() {
+    let k = Sides {
+        slider: 2e-8,
+        receptacle: 2e-8,
+    };
+    let coarse = scene((1.0, 4.0), k, 0.02, 1_000);
+    let mut fine = coarse.clone();
+    fine.accuracy = PointAccuracy {
+        cells_per_half_length: 20.0,
+        step_over_half_length: 0.125,
+        ..PointAccuracy::from_tolerance(0.01)
+    };
+    let (coarse, fine) = (solved(&coarse), solved(&fine));
+    for (name, of) in [("coarse", &coarse), ("fine", &fine)] {
+        println!(
+            "point contact, both worn, {name}: {:.4} and {:.4} um, peak {:.1} MPa, {:.2} x {:.2} um, {} cycles, {:?} solves",
+            1e3 * of.last.max_depth_mm.slider,
+            1e3 * of.last.max_depth_mm.receptacle,
+            of.last.peak_pressure_mpa,
+            1e3 * of.last.half_length_along_mm,
+            1e3 * of.last.half_length_across_mm,
+            of.computed_cycles,
+            of.solves
+        );
+    }
+    let (a, b) = (coarse.last.max_depth_mm, fine.last.max_depth_mm);
+    assert!((a.slider / b.slider - 1.0).abs() < 0.02);
+    assert!((a.receptacle / b.receptacle - 1.0).abs() < 0.02);
+}
