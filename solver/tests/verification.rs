@@ -39,6 +39,7 @@ mod verify_pressure_fields;
 mod verify_pressure_history;
 mod verify_repeatability;
 mod verify_resume;
+mod verify_section_and_ball;
 mod verify_short_stroke_scar;
 mod verify_spreading;
 mod verify_spring_load;

@@ -1,0 +1,106 @@
+//! What plane strain misses: an SD card's tip as a section of 0.8 mm width and as a ball, under 0.5 N, on a pad of gold.
+//!
+//! ```text
+//!   section: (4/3) h sqrt(2 R h) w = k F s          ball: pi R h^2 = k F s
+//! ```
+//! The plan states the ratio of both lives (`effects::across_width`).
+
+use std::ops::ControlFlow;
+
+use solver::law::elastic::Elastic;
+use solver::law::surface::SurfaceWear;
+use solver::point::{PointAccuracy, PointBody, PointScene, run};
+use solver::scene::{Accuracy, Criterion, Motion, Scene, WearLaw};
+use solver::sides::{Side, Sides};
+
+use crate::recorder::solve;
+use crate::scenes::sprung_contact;
+
+const RADIUS: f64 = 0.4;
+const WIDTH: f64 = 0.8;
+const FORCE: f64 = 0.5;
+const AMPLITUDE: f64 = 0.1;
+/// 30 microinches of gold.
+const DEPTH: f64 = 0.76e-3;
+const LAW: WearLaw = WearLaw::Archard {
+    k_over_h_per_mpa: 6e-8,
+};
+
+fn section(elastic: Sides<Elastic>) -> Scene {
+    let mut scene = sprung_contact();
+    scene.spring_n_per_mm2 = 0.0;
+    scene.load_n_per_mm = FORCE / WIDTH;
+    scene.slider.shape.radius_mm = RADIUS;
+    scene.slider.shape.half_width_mm = 0.3;
+    scene.slider.shape.height_mm = RADIUS;
+    scene.receptacle.shape.length_mm = 2.0;
+    scene.receptacle.shape.height_mm = 0.3;
+    scene.receptacle.shape.crown_radius_mm = None;
+    (scene.slider.elastic, scene.receptacle.elastic) = (elastic.slider, elastic.receptacle);
+    (scene.slider.wear, scene.receptacle.wear) = (Some(LAW), None);
+    scene.motion = Motion::Reciprocating {
+        amplitude_mm: AMPLITUDE,
+        period_s: 1.0,
+    };
+    scene.cycles = 200_000;
+    scene.accuracy = Accuracy::from_tolerance(0.05);
+    scene.stop = vec![Criterion::deepest(Side::Slider, DEPTH)];
+    scene
+}
+
+fn ball(elastic: Sides<Elastic>) -> PointScene {
+    let body = |side: Side| {
+        let slides = side == Side::Slider;
+        PointBody {
+            radius_along_mm: slides.then_some(RADIUS),
+            radius_across_mm: slides.then_some(RADIUS),
+            elastic: *elastic.of(side),
+            wear: slides.then(|| SurfaceWear::new(&[], Some(LAW))).flatten(),
+        }
+    };
+    PointScene {
+        bodies: Sides::from_fn(body),
+        force_n: FORCE,
+        friction: 0.3,
+        amplitude_mm: AMPLITUDE,
+        cycles: 1_000_000,
+        stop_depth_mm: Some(DEPTH),
+        accuracy: PointAccuracy::from_tolerance(0.02),
+    }
+}
+
+#[test]
+fn a_ball_is_worn_sooner_than_a_section_as_the_plan_says() {
+    let elastic = Sides {
+        slider: Elastic {
+            youngs_modulus_mpa: 131e3,
+            poisson_ratio: 0.3,
+        },
+        receptacle: Elastic {
+            youngs_modulus_mpa: 117e3,
+            poisson_ratio: 0.34,
+        },
+    };
+    let plane = section(elastic);
+    let (summary, _) = solve(&plane).expect("the section can be solved");
+    let mut before = 0;
+    let (mut of_ball, mut depth_before) = (0.0, 0.0);
+    let real = |count: u64| f64::from(u32::try_from(count).expect("it is small"));
+    run(&ball(elastic), |cycle| {
+        let depth = cycle.max_depth_mm.slider;
+        if depth >= DEPTH && of_ball <= 0.0 {
+            let part = (DEPTH - depth_before) / (depth - depth_before);
+            of_ball = real(before) + part * real(cycle.cycle - before);
+        }
+        (before, depth_before) = (cycle.cycle, depth);
+        ControlFlow::Continue(())
+    })
+    .expect("the ball can be solved");
+    let of_section = real(summary.last.cycle);
+    let closed = WIDTH / (0.75 * std::f64::consts::PI / 2.0_f64.sqrt() * (RADIUS * DEPTH).sqrt());
+    println!(
+        "section {of_section} cycles, ball {of_ball:.0}: {:.2} times sooner, closed {closed:.2}",
+        of_section / of_ball
+    );
+    assert!((of_section / of_ball / closed - 1.0).abs() < 0.1);
+}
