@@ -5,6 +5,10 @@ use crate::law::elastic::{Elastic, contact_modulus};
 use crate::law::surface::SurfaceWear;
 use crate::sides::{Side, Sides};
 
+/// Largest amplitude over the half-length of a contact whose surfaces wear in place: what they are displaced over each other by is then
+/// small against the scar. Arbitrary.
+const LARGEST_PARTIAL: f64 = 0.1;
+
 /// A body: its shape at the contact, its material and its surface.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PointBody {
@@ -18,15 +22,26 @@ pub struct PointBody {
     pub wear: Option<SurfaceWear>,
 }
 
-/// A point contact in gross reciprocating sliding.
+/// How the contact slips.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum SlipRegime {
+    /// All of it, by the whole displacement.
+    Gross,
+    /// By Coulomb's law at each place: a part may stick. The surfaces wear in place, so that the amplitude must be small against the contact.
+    Partial,
+}
+
+/// A point contact in reciprocating sliding.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PointScene {
     /// Both bodies; the receptacle is at rest.
     pub bodies: Sides<PointBody>,
     /// Normal force F, N.
     pub force_n: f64,
-    /// Coefficient of friction mu of gross slip, -.
+    /// Coefficient of friction mu, -.
     pub friction: f64,
+    /// How it slips.
+    pub slip: SlipRegime,
     /// Amplitude A of the slider, mm: a cycle goes from -A to A and back; one below 0 begins on the other side.
     pub amplitude_mm: f64,
     /// Cycles to simulate.
@@ -104,6 +119,14 @@ impl PointScene {
         self.bodies.slider.curvature().0 / self.curvature().0
     }
 
+    /// Largest amplitude in mm for which surfaces wear in place, if a part of the contact may stick.
+    fn largest_amplitude_mm(&self) -> f64 {
+        match self.slip {
+            SlipRegime::Gross => f64::INFINITY,
+            SlipRegime::Partial => LARGEST_PARTIAL * self.half_lengths_mm().0,
+        }
+    }
+
     /// Checks the scene.
     ///
     /// # Errors
@@ -127,6 +150,13 @@ impl PointScene {
             if !(value > 0.0 && value.is_finite()) {
                 return Err(PointError::Value { name, value });
             }
+        }
+        let (amplitude_mm, most_mm) = (self.amplitude_mm.abs(), self.largest_amplitude_mm());
+        if amplitude_mm > most_mm {
+            return Err(PointError::Amplitude {
+                amplitude_mm,
+                most_mm,
+            });
         }
         for side in Side::BOTH {
             let wear = self.bodies.of(side).wear;
