@@ -1,7 +1,7 @@
 //! What a run of a point contact is computed from.
 
 use super::error::PointError;
-use crate::law::elastic::{Elastic, contact_modulus};
+use crate::law::elastic::{Elastic, Lame, contact_modulus};
 use crate::law::surface::SurfaceWear;
 use crate::sides::{Side, Sides};
 
@@ -112,6 +112,19 @@ impl PointScene {
         let mean = (0.75 * self.force_n * equivalent_radius / self.modulus()).cbrt();
         let root_of_aspect = (along / across).cbrt();
         (mean / root_of_aspect, mean * root_of_aspect)
+    }
+
+    /// Displacement at which the unworn contact begins to slip as a whole, mm: 3 mu F/(16 a) times the sum of (2 - nu)/G over both bodies
+    /// for a circle of the half-length a (Johnson 1985, eq. 7.42), here the mean sqrt(ab) of an ellipse. Amplitudes that are not well
+    /// beyond it are in partial slip.
+    pub fn onset_of_gross_slip_mm(&self) -> f64 {
+        let (along, across) = self.half_lengths_mm();
+        let compliances = self.bodies.as_ref().map(|body| {
+            let elastic = body.elastic;
+            (2.0 - elastic.poisson_ratio) / Lame::from(elastic).mu
+        });
+        let compliance = compliances.slider + compliances.receptacle;
+        3.0 * self.friction * self.force_n * compliance / (16.0 * (along * across).sqrt())
     }
 
     /// Part of the slider's displacement by which the contact travels over the receptacle.

@@ -255,6 +255,14 @@ fn partly_slipping(k: Sides<f64>, cycles: u64) -> PointScene {
 }
 
 #[test]
+fn gross_slip_begins_at_mindlins_displacement() {
+    // c/a = 0.5^(1/3) at 9.7004e-4 mm: 1 - 0.5^(2/3) of the whole.
+    let onset = partly_slipping(sides(0.0, 0.0), 1).onset_of_gross_slip_mm();
+    let exact = 9.700_4e-4 / (1.0 - 0.5_f64.powf(2.0 / 3.0));
+    assert!((onset / exact - 1.0).abs() < 1e-4, "{onset} {exact}");
+}
+
+#[test]
 fn the_first_cycle_in_partial_slip_dissipates_mindlins_loop() {
     let k = 1e-12;
     let mut scene = partly_slipping(sides(k, 0.0), 1);
