@@ -1,12 +1,15 @@
-//! Wear of a point contact in gross reciprocating sliding: two convex bodies of finite radii in both directions, as half-spaces.
+//! Wear of a point contact in reciprocating sliding: two bodies of finite relative radii in both directions, as half-spaces.
 //!
 //! `contact::area` solves for the pressure of each increment on a window that follows the contact (`sliding`), with the wear of the
 //! increment inside the solve. The bodies' surfaces are grids of their own (`surface`); the slider's moves by whole cells (`lattice`).
 //! A computed cycle stands for a jump of cycles (`jump`, `run`).
 //!
-//! x is the sliding direction, z lies across it; lengths are mm, forces N, pressures MPa. Friction only dissipates: mu F acts along x
-//! and does not change the pressure, which is exact for like bodies. Limiting cases: Hertz' contact without wear; the worn volume is k F s on either
-//! side.
+//! In gross slip the whole contact slips by the displacement (`SlipRegime::Gross`). Where a part of it may stick (`Partial`), the slip of
+//! each cell follows from Coulomb's law in the plane (`stick`), and surfaces wear in place.
+//!
+//! x is the sliding direction, z lies across it; lengths are mm, forces N, pressures MPa. Shear does not change the pressure, which is
+//! exact for like bodies. Limiting cases: Hertz' contact without wear; in gross slip the worn volume is k F s on either side; Mindlin's
+//! loop in partial slip.
 
 mod error;
 mod field;
@@ -16,9 +19,11 @@ mod record;
 mod run;
 mod scene;
 mod sliding;
+mod state;
+mod stick;
 mod surface;
 
 pub use error::PointError;
 pub use record::{DepthMap, PointCycle, PointOutcome, PointSummary};
 pub use run::run;
-pub use scene::{PointAccuracy, PointBody, PointScene};
+pub use scene::{PointAccuracy, PointBody, PointScene, SlipRegime};

@@ -16,7 +16,7 @@ use std::ops::ControlFlow;
 use solver::law::elastic::Elastic;
 use solver::law::surface::SurfaceWear;
 use solver::law::wear::WearLaw;
-use solver::point::{PointAccuracy, PointBody, PointScene, PointSummary, run};
+use solver::point::{PointAccuracy, PointBody, PointScene, PointSummary, SlipRegime, run};
 use solver::sides::Sides;
 
 const COPPER: Elastic = Elastic {
@@ -52,6 +52,7 @@ fn scene((along, across): (f64, f64), k: Sides<f64>, amplitude_mm: f64, cycles: 
         },
         force_n: 5.0,
         friction: 0.3,
+        slip: SlipRegime::Gross,
         amplitude_mm,
         cycles,
         stop_depth_mm: None,
@@ -163,4 +164,42 @@ fn a_scar_on_both_sides_converges() {
     let (a, b) = (coarse.last.max_depth_mm, fine.last.max_depth_mm);
     assert!((a.slider / b.slider - 1.0).abs() < 0.02);
     assert!((a.receptacle / b.receptacle - 1.0).abs() < 0.02);
+}
+
+/// Partial slip of a sphere between like bodies under a displacement of +-D (Mindlin 1949; Johnson 1985, section 7.2): with
+/// delta = 3 mu F (2 - nu)/(8 G a) of both bodies and D = delta (1 - t^2), t the stick radius over a, Q = mu F (1 - t^3), and a loop of
+/// Q between both turning points dissipates
+///   W = 9 mu^2 F^2 (2 - nu)/(10 a) 1/G* {1 - (1 - Q/(mu F))^(5/3) - 5 Q/(6 mu F) [1 + (1 - Q/(mu F))^(2/3)]}, 1/G* = 2/G for both bodies.
+#[test]
+fn the_first_cycle_in_partial_slip_wears_by_mindlins_loop() {
+    let k = 1e-12;
+    let rates = Sides {
+        slider: k,
+        receptacle: k,
+    };
+    let mut scene = scene((2.0, 2.0), rates, 1.0, 1);
+    let shear_modulus = COPPER.youngs_modulus_mpa / (2.0 * (1.0 + COPPER.poisson_ratio));
+    let limit = scene.friction * scene.force_n;
+    let half_length = (0.75 * scene.force_n * 2.0 / scene.modulus()).cbrt();
+    let compliance = (2.0 - COPPER.poisson_ratio) / (shear_modulus * half_length);
+    for part in [0.3_f64, 0.6, 0.9] {
+        let root = (1.0 - part).powf(2.0 / 3.0);
+        scene.slip = SlipRegime::Partial;
+        scene.amplitude_mm = 0.375 * limit * compliance * (1.0 - root);
+        let found = solved(&scene).last;
+        let bracket = 1.0 - (1.0 - part) * root - 5.0 / 6.0 * part * (1.0 + root);
+        let energy = 1.8 * limit * limit * compliance * bracket;
+        println!(
+            "point contact, partial slip at {part} mu F: {:.4e} mJ, Mindlin {energy:.4e} mJ",
+            found.dissipated_energy_mj
+        );
+        assert!((found.dissipated_energy_mj / energy - 1.0).abs() < 0.02);
+        for volume in [
+            found.worn_volume_mm3.slider,
+            found.worn_volume_mm3.receptacle,
+        ] {
+            let exact = k / scene.friction * found.dissipated_energy_mj;
+            assert!((volume / exact - 1.0).abs() < 1e-9);
+        }
+    }
 }

@@ -1,6 +1,6 @@
 //! What can end a run of a point contact without a result.
 
-use crate::contact::area::AreaError;
+use crate::contact::area::{AreaError, TangentialError};
 
 /// Why a run failed.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
@@ -12,6 +12,16 @@ pub enum PointError {
         name: &'static str,
         /// It.
         value: f64,
+    },
+    /// A contact of which a part may stick moves too far.
+    #[error(
+        "amplitude is {amplitude_mm} mm, at most {most_mm:.3e} mm where a part of the contact may stick"
+    )]
+    Amplitude {
+        /// Its amplitude, mm.
+        amplitude_mm: f64,
+        /// The largest one, mm.
+        most_mm: f64,
     },
     /// Wear that depends on more than the dose.
     #[error("the wear law of the {side} depends on more than the dose of a place")]
@@ -27,6 +37,14 @@ pub enum PointError {
         /// Why.
         error: AreaError,
     },
+    /// Stick and slip have no solution.
+    #[error("cycle {cycle}: {error}")]
+    Friction {
+        /// Cycles done.
+        cycle: u64,
+        /// Why.
+        error: TangentialError,
+    },
     /// The contact has outgrown the largest window.
     #[error("the contact needs a window of {cells} cells, at most {most} are solved for")]
     Window {
@@ -35,4 +53,15 @@ pub enum PointError {
         /// Most cells.
         most: usize,
     },
+}
+
+impl PointError {
+    /// The error with the cycles done before it.
+    pub(super) fn at(self, cycle: u64) -> Self {
+        match self {
+            Self::Contact { error, .. } => Self::Contact { cycle, error },
+            Self::Friction { error, .. } => Self::Friction { cycle, error },
+            other => other,
+        }
+    }
 }

@@ -7,7 +7,7 @@
 //! neglects the travel A against the length of the contact.
 
 use super::field::Axis;
-use super::scene::PointScene;
+use super::scene::{PointScene, SlipRegime};
 use crate::contact::area::Cells;
 use crate::number::{count_at_least, nearest, real};
 use crate::sides::Side;
@@ -38,7 +38,8 @@ impl Lattice {
         let travel = scene.travel_over_receptacle();
         // A slider that wears alone on a plane has the same contact everywhere.
         let is_steady = scene.bodies.receptacle.wear.is_none() && travel >= 1.0;
-        let amplitude = if is_steady || amplitude_mm < 0.5 * target {
+        let in_place = is_steady || scene.slip == SlipRegime::Partial;
+        let amplitude = if in_place || amplitude_mm < 0.5 * target {
             0
         } else {
             often_even(count_at_least(amplitude_mm / target))

@@ -15,7 +15,7 @@ pub struct PointCycle {
     pub max_depth_mm: Sides<f64>,
     /// Worn volume, mm^3.
     pub worn_volume_mm3: Sides<f64>,
-    /// Force times path times the specific wear rate k F s, mm^3; `None` for rates that depend on the depth.
+    /// Specific wear rate times sliding work, k F s in gross slip, mm^3; `None` for rates that depend on the depth.
     pub ideal_volume_mm3: Sides<Option<f64>>,
     /// Peak pressure at the neutral position, MPa; without the skew of the jump, unless single cycles are skewed that much too.
     pub peak_pressure_mpa: f64,
@@ -23,7 +23,7 @@ pub struct PointCycle {
     pub half_length_along_mm: f64,
     /// Half-length of that contact across it, mm.
     pub half_length_across_mm: f64,
-    /// Energy dissipated since the run began, mu F s, mJ (N mm).
+    /// Energy dissipated since the run began, mu F s in gross slip, mJ (N mm).
     pub dissipated_energy_mj: f64,
     /// Estimated relative error of the wear of the jump.
     pub jump_error: f64,

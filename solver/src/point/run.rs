@@ -7,7 +7,7 @@ use super::field::Field;
 use super::jump::{JumpControl, fixed, rejected};
 use super::lattice::Lattice;
 use super::record::{DepthMap, PointCycle, PointOutcome, PointSummary, half_lengths};
-use super::scene::PointScene;
+use super::scene::{PointScene, SlipRegime};
 use super::sliding::Sliding;
 use crate::contact::area::Cells;
 use crate::law::surface::SurfaceWear;
@@ -17,6 +17,10 @@ use crate::sides::{Side, Sides};
 /// Largest step over indentation of a single cycle whose contact is reported without a step, where only one body wears; otherwise its
 /// pressure in the last pass is reported, with the step of the jump. As for line contacts (`Tuning::unskewed_to`).
 const UNSKEWED_TO: f64 = 0.1;
+
+/// Increments of each pass where a part of the contact may stick: under the same pressure the first one would do, since slip grows
+/// with the displacement without turning.
+const PARTIAL_INCREMENTS: u32 = 2;
 
 /// The contact at the neutral position.
 struct Neutral {
@@ -73,7 +77,11 @@ fn deepest(cycle: &PointCycle) -> f64 {
 
 impl<'a> Run<'a> {
     fn start(scene: &'a PointScene) -> Result<Self, PointError> {
-        let sliding = Sliding::new(scene)?;
+        let mut sliding = Sliding::new(scene)?;
+        if scene.slip == SlipRegime::Partial {
+            // To the turning point where the first pass begins, without wear.
+            sliding.slip_partly(-scene.amplitude_mm, 0.0)?;
+        }
         Ok(Self {
             scene,
             neutral: Neutral::of(&sliding.state.pressure, &sliding.state.lattice),
@@ -99,7 +107,7 @@ impl<'a> Run<'a> {
             let before = self.sliding.state.clone();
             let error = self
                 .pass_both(real_cycles(jump))
-                .map_err(|error| self.at_cycle(error))?;
+                .map_err(|error| error.at(self.done))?;
             let shorter = rejected(tolerance, self.done, jump, error);
             let is_chosen = self.scene.accuracy.cycle_jump.is_none();
             if let Some(shorter) = shorter.filter(|_| is_chosen) {
@@ -120,7 +128,10 @@ impl<'a> Run<'a> {
         for side in Side::BOTH {
             self.sliding.state.surfaces.of_mut(side).begin_cycle();
         }
-        if n == 0 {
+        if self.scene.slip == SlipRegime::Partial {
+            self.slip_both_ways(jump)?;
+            self.neutral = self.present();
+        } else if n == 0 {
             self.sliding.wear_in_place(jump)?;
             self.neutral = self.present();
         } else {
@@ -154,6 +165,18 @@ impl<'a> Run<'a> {
         })
     }
 
+    /// A cycle from turning point to turning point where a part of the contact may stick.
+    fn slip_both_ways(&mut self, jump: f64) -> Result<(), PointError> {
+        let amplitude = self.scene.amplitude_mm;
+        for direction in [1.0, -1.0] {
+            for _ in 0..PARTIAL_INCREMENTS {
+                let part = 2.0 * amplitude / f64::from(PARTIAL_INCREMENTS);
+                self.sliding.slip_partly(direction * part, jump)?;
+            }
+        }
+        Ok(())
+    }
+
     /// Leading-edge step over the indentation that a cycle leaves.
     fn step(&self) -> f64 {
         if self.sliding.state.lattice.amplitude == 0 {
@@ -183,20 +206,10 @@ impl<'a> Run<'a> {
         Neutral::of(&state.pressure, &state.lattice)
     }
 
-    fn at_cycle(&self, error: PointError) -> PointError {
-        match error {
-            PointError::Contact { error, .. } => PointError::Contact {
-                cycle: self.done,
-                error,
-            },
-            other => other,
-        }
-    }
-
     fn report(&self, jump: u64, jump_error: f64, work: (usize, usize)) -> PointCycle {
         let state = &self.sliding.state;
         let area = state.lattice.cells().area_mm2();
-        let sliding_work = self.scene.force_n * state.path_mm;
+        let sliding_work = state.sliding_work;
         let depths = Sides::from_fn(|side| state.surfaces.of(side).depths_mm());
         PointCycle {
             cycle: self.done,

@@ -1,9 +1,13 @@
 //! What a run of a point contact is computed from.
 
 use super::error::PointError;
-use crate::law::elastic::{Elastic, contact_modulus};
+use crate::law::elastic::{Elastic, Lame, contact_modulus};
 use crate::law::surface::SurfaceWear;
 use crate::sides::{Side, Sides};
+
+/// Largest amplitude over the half-length of a contact whose surfaces wear in place: what they are displaced over each other by is then
+/// small against the scar. Arbitrary.
+const LARGEST_PARTIAL: f64 = 0.1;
 
 /// A body: its shape at the contact, its material and its surface.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -18,15 +22,26 @@ pub struct PointBody {
     pub wear: Option<SurfaceWear>,
 }
 
-/// A point contact in gross reciprocating sliding.
+/// How the contact slips.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum SlipRegime {
+    /// All of it, by the whole displacement.
+    Gross,
+    /// By Coulomb's law at each place: a part may stick. The surfaces wear in place, so that the amplitude must be small against the contact.
+    Partial,
+}
+
+/// A point contact in reciprocating sliding.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PointScene {
     /// Both bodies; the receptacle is at rest.
     pub bodies: Sides<PointBody>,
     /// Normal force F, N.
     pub force_n: f64,
-    /// Coefficient of friction mu of gross slip, -.
+    /// Coefficient of friction mu, -.
     pub friction: f64,
+    /// How it slips.
+    pub slip: SlipRegime,
     /// Amplitude A of the slider, mm: a cycle goes from -A to A and back; one below 0 begins on the other side.
     pub amplitude_mm: f64,
     /// Cycles to simulate.
@@ -99,9 +114,30 @@ impl PointScene {
         (mean / root_of_aspect, mean * root_of_aspect)
     }
 
+    /// Displacement at which the unworn contact begins to slip as a whole, mm: 3 mu F/(16 a) times the sum of (2 - nu)/G over both bodies
+    /// for a circle of the half-length a (Johnson 1985, eq. 7.42), here the mean sqrt(ab) of an ellipse. Amplitudes that are not well
+    /// beyond it are in partial slip.
+    pub fn onset_of_gross_slip_mm(&self) -> f64 {
+        let (along, across) = self.half_lengths_mm();
+        let compliances = self.bodies.as_ref().map(|body| {
+            let elastic = body.elastic;
+            (2.0 - elastic.poisson_ratio) / Lame::from(elastic).mu
+        });
+        let compliance = compliances.slider + compliances.receptacle;
+        3.0 * self.friction * self.force_n * compliance / (16.0 * (along * across).sqrt())
+    }
+
     /// Part of the slider's displacement by which the contact travels over the receptacle.
     pub(super) fn travel_over_receptacle(&self) -> f64 {
         self.bodies.slider.curvature().0 / self.curvature().0
+    }
+
+    /// Largest amplitude in mm for which surfaces wear in place, if a part of the contact may stick.
+    fn largest_amplitude_mm(&self) -> f64 {
+        match self.slip {
+            SlipRegime::Gross => f64::INFINITY,
+            SlipRegime::Partial => LARGEST_PARTIAL * self.half_lengths_mm().0,
+        }
     }
 
     /// Checks the scene.
@@ -127,6 +163,13 @@ impl PointScene {
             if !(value > 0.0 && value.is_finite()) {
                 return Err(PointError::Value { name, value });
             }
+        }
+        let (amplitude_mm, most_mm) = (self.amplitude_mm.abs(), self.largest_amplitude_mm());
+        if amplitude_mm > most_mm {
+            return Err(PointError::Amplitude {
+                amplitude_mm,
+                most_mm,
+            });
         }
         for side in Side::BOTH {
             let wear = self.bodies.of(side).wear;

@@ -11,7 +11,8 @@ use super::field::{Axis, Field};
 use super::lattice::Lattice;
 use super::record::half_lengths;
 use super::scene::PointScene;
-use super::surface::Surface;
+use super::state::State;
+use super::stick::StickSlip;
 use crate::contact::area::{AreaError, NormalContact, NormalProblem};
 use crate::number::{nearest, real};
 use crate::sides::{Side, Sides};
@@ -27,24 +28,12 @@ const COARSENED: f64 = 2.2;
 const MOST_REPETITIONS: usize = 6;
 const PRESSURE_TOLERANCE: f64 = 1e-4;
 
-/// State between increments.
-#[derive(Debug, Clone, PartialEq)]
-pub(super) struct State {
-    pub(super) lattice: Lattice,
-    pub(super) surfaces: Sides<Surface>,
-    /// On the window, MPa.
-    pub(super) pressure: Field,
-    /// Position of the slider, cells from its leftmost one.
-    pub(super) position: usize,
-    /// Path since the run began, mm.
-    pub(super) path_mm: f64,
-}
-
 /// A point contact that slides.
 pub(super) struct Sliding<'a> {
     scene: &'a PointScene,
     pub(super) state: State,
     contact: NormalContact,
+    friction: StickSlip,
     /// Gap and wear on the window.
     gap: Vec<f64>,
     wear: Vec<f64>,
@@ -57,29 +46,21 @@ pub(super) struct Sliding<'a> {
 struct Increment {
     to: usize,
     worn_path_mm: f64,
+    /// Cycles that it represents.
+    cycles: f64,
+    /// Whether it wears by the slip of each cell.
+    is_partial: bool,
 }
 
 impl<'a> Sliding<'a> {
     /// The unworn contact, loaded where the first pass begins.
     pub(super) fn new(scene: &'a PointScene) -> Result<Self, PointError> {
-        let lattice = Lattice::of(scene);
-        let position = if scene.amplitude_mm < 0.0 {
-            2 * lattice.amplitude
-        } else {
-            0
-        };
-        let surfaces =
-            Sides::from_fn(|side| Surface::new(scene.bodies.of(side).wear, lattice.half(side)));
-        let state = State {
-            lattice,
-            surfaces,
-            pressure: Field::zero(lattice.window()),
-            position,
-            path_mm: 0.0,
-        };
+        let state = State::unworn(scene);
+        let position = state.position;
         let mut sliding = Self {
             scene,
-            contact: NormalContact::new(lattice.cells(), scene.modulus()),
+            contact: NormalContact::new(state.lattice.cells(), scene.modulus()),
+            friction: StickSlip::default(),
             gap: Vec::new(),
             wear: Vec::new(),
             state,
@@ -137,29 +118,68 @@ impl<'a> Sliding<'a> {
         Ok(())
     }
 
+    /// Displaces the slider by a length in mm, of a number of cycles, where a part of the contact may stick: stick and slip under the
+    /// pressure before the increment, then the pressure with the wear by the slip of each cell.
+    pub(super) fn slip_partly(
+        &mut self,
+        displacement_mm: f64,
+        cycles: f64,
+    ) -> Result<(), PointError> {
+        self.friction
+            .advance(self.scene, &mut self.state, displacement_mm)?;
+        let increment = Increment {
+            to: self.state.position,
+            worn_path_mm: 0.0,
+            cycles,
+            is_partial: true,
+        };
+        self.solve_widening(increment)?;
+        let State {
+            pressure,
+            slip,
+            surfaces,
+            lattice,
+            ..
+        } = &mut self.state;
+        let doses = pressure.values.iter().zip(&slip.values);
+        let doses: Vec<f64> = doses
+            .map(|(pressure, slip)| cycles * pressure * slip)
+            .collect();
+        for side in Side::BOTH {
+            surfaces.of_mut(side).add(&doses);
+        }
+        self.state.sliding_work += lattice.cells().integral(&doses);
+        Ok(())
+    }
+
     /// One increment to a position over a path in mm, of a number of cycles.
     fn slide(&mut self, to: usize, path_mm: f64, cycles: f64) -> Result<(), PointError> {
         let increment = Increment {
             to,
             worn_path_mm: path_mm * cycles,
+            cycles,
+            is_partial: false,
         };
-        loop {
-            match self.solve(increment) {
-                Ok(()) => break,
-                Err(AreaError::ReachesEdge { .. }) => self.widen()?,
-                Err(error) => {
-                    return Err(PointError::Contact { cycle: 0, error });
-                }
-            }
-        }
+        self.solve_widening(increment)?;
         for side in Side::BOTH {
             let rows = self.rows_passed(side, increment);
             let surface = self.state.surfaces.of_mut(side);
             surface.add_dose(&self.state.pressure.values, increment.worn_path_mm, &rows);
         }
         self.state.position = to;
-        self.state.path_mm += increment.worn_path_mm;
+        self.state.sliding_work += self.scene.force_n * increment.worn_path_mm;
         Ok(())
+    }
+
+    /// Solves for the pressure at the end of an increment, on a window that holds the contact.
+    fn solve_widening(&mut self, increment: Increment) -> Result<(), PointError> {
+        loop {
+            match self.solve(increment) {
+                Ok(()) => return Ok(()),
+                Err(AreaError::ReachesEdge { .. }) => self.widen()?,
+                Err(error) => return Err(PointError::Contact { cycle: 0, error }),
+            }
+        }
     }
 
     /// First rows of the windows on a body that the contact moves through, without the first of them.
@@ -180,7 +200,7 @@ impl<'a> Sliding<'a> {
     fn solve(&mut self, increment: Increment) -> Result<(), AreaError> {
         self.update_gap(increment.to);
         let is_linear = Side::BOTH.map(|side| self.state.surfaces.of(side).is_linear());
-        let repetitions = if is_linear == [true, true] || increment.worn_path_mm <= 0.0 {
+        let repetitions = if is_linear == [true, true] || increment.cycles <= 0.0 {
             1
         } else {
             MOST_REPETITIONS
@@ -239,9 +259,9 @@ impl<'a> Sliding<'a> {
             lattice,
             surfaces,
             pressure,
+            slip,
             ..
         } = &self.state;
-        let path = increment.worn_path_mm;
         self.wear.clear();
         self.wear.resize(pressure.values.len(), 0.0);
         let rows = 2 * lattice.window().0;
@@ -250,8 +270,13 @@ impl<'a> Sliding<'a> {
             let doses = surface
                 .dose
                 .rows(lattice.first_row(side, increment.to), rows);
-            let places = doses.iter().zip(&pressure.values);
-            for (wear, (dose, pressure)) in self.wear.iter_mut().zip(places) {
+            let places = doses.iter().zip(&pressure.values).zip(&slip.values);
+            for (wear, ((dose, pressure), slip)) in self.wear.iter_mut().zip(places) {
+                let path = if increment.is_partial {
+                    increment.cycles * slip
+                } else {
+                    increment.worn_path_mm
+                };
                 *wear += path * surface.mean_rate(*dose, path * pressure);
             }
         }
@@ -276,11 +301,7 @@ impl<'a> Sliding<'a> {
                 most: MOST_CELLS,
             });
         }
-        for side in Side::BOTH {
-            self.state.surfaces.of_mut(side).resize(lattice.half(side));
-        }
-        self.state.pressure = self.state.pressure.resized(lattice.window());
-        self.state.lattice = lattice;
+        self.state.resize(lattice);
         self.rebuild();
         Ok(())
     }
@@ -297,21 +318,13 @@ impl<'a> Sliding<'a> {
             let Some(lattice) = self.state.lattice.coarsened(axis).filter(|_| is_long) else {
                 continue;
             };
-            for side in Side::BOTH {
-                let surface = self.state.surfaces.of_mut(side);
-                surface.merge(axis, lattice.half(side));
-            }
-            self.state.pressure = self.state.pressure.merged(axis).resized(lattice.window());
-            if axis == Axis::Along {
-                // At a turning point.
-                self.state.position = (self.state.position / 2).min(2 * lattice.amplitude);
-            }
-            self.state.lattice = lattice;
+            self.state.merge(axis, lattice);
             self.rebuild();
         }
     }
 
     fn rebuild(&mut self) {
+        self.friction = StickSlip::default();
         self.contact = NormalContact::new(self.state.lattice.cells(), self.scene.modulus());
     }
 }

@@ -90,6 +90,13 @@ impl Surface {
         }
     }
 
+    /// Adds a dose at the cells of a window of the whole grid.
+    pub(super) fn add(&mut self, added: &[f64]) {
+        for (dose, added) in self.dose.values.iter_mut().zip(added) {
+            *dose += added;
+        }
+    }
+
     /// Begins a computed cycle.
     pub(super) fn begin_cycle(&mut self) {
         self.before.values.copy_from_slice(&self.dose.values);

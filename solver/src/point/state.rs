@@ -1,0 +1,76 @@
+//! State of a point contact between increments: worn surfaces, pressure, shear, and the grids that they are on.
+
+use super::field::{Axis, Field};
+use super::lattice::Lattice;
+use super::scene::PointScene;
+use super::surface::Surface;
+use crate::sides::{Side, Sides};
+
+/// State between increments.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct State {
+    pub(super) lattice: Lattice,
+    pub(super) surfaces: Sides<Surface>,
+    /// On the window, MPa.
+    pub(super) pressure: Field,
+    /// Position of the slider, cells from its leftmost one.
+    pub(super) position: usize,
+    /// Sliding work since the run began, the integral of p |ds| over the contact, N mm: F s in gross slip.
+    pub(super) sliding_work: f64,
+    /// Shear along and across the sliding direction where a part may stick, MPa.
+    pub(super) shear: (Field, Field),
+    /// Path of each cell in the increment, mm.
+    pub(super) slip: Field,
+}
+
+impl State {
+    /// The unworn contact without load, where the first pass begins.
+    pub(super) fn unworn(scene: &PointScene) -> Self {
+        let lattice = Lattice::of(scene);
+        let window = || Field::zero(lattice.window());
+        Self {
+            lattice,
+            surfaces: Sides::from_fn(|side| {
+                Surface::new(scene.bodies.of(side).wear, lattice.half(side))
+            }),
+            pressure: window(),
+            position: if scene.amplitude_mm < 0.0 {
+                2 * lattice.amplitude
+            } else {
+                0
+            },
+            sliding_work: 0.0,
+            shear: (window(), window()),
+            slip: window(),
+        }
+    }
+
+    /// Moves everything to grids of another size.
+    pub(super) fn resize(&mut self, lattice: Lattice) {
+        for side in Side::BOTH {
+            self.surfaces.of_mut(side).resize(lattice.half(side));
+        }
+        self.change_window(|field| field.resized(lattice.window()));
+        self.lattice = lattice;
+    }
+
+    /// Moves everything to cells of twice the size along an axis, at a turning point.
+    pub(super) fn merge(&mut self, axis: Axis, lattice: Lattice) {
+        for side in Side::BOTH {
+            self.surfaces.of_mut(side).merge(axis, lattice.half(side));
+        }
+        self.change_window(|field| field.merged(axis).resized(lattice.window()));
+        if axis == Axis::Along {
+            self.position = (self.position / 2).min(2 * lattice.amplitude);
+        }
+        self.lattice = lattice;
+    }
+
+    /// Changes the fields of the window.
+    fn change_window(&mut self, change: impl Fn(&Field) -> Field) {
+        let (along, across) = &mut self.shear;
+        for field in [&mut self.pressure, along, across, &mut self.slip] {
+            *field = change(field);
+        }
+    }
+}

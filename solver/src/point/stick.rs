@@ -1,0 +1,46 @@
+//! Stick and slip of a point contact whose surfaces wear in place: the shear that an increment of displacement leaves, and the slip of
+//! each cell, by the bounds mu p under the pressure before the increment.
+
+use super::error::PointError;
+use super::scene::PointScene;
+use super::state::State;
+use crate::contact::area::{Shear, ShearCompliance, TangentialContact};
+
+/// The contact in shear; built for a lattice when it is first needed.
+#[derive(Default)]
+pub(super) struct StickSlip {
+    contact: Option<TangentialContact>,
+}
+
+impl StickSlip {
+    /// Advances shear and slip by a displacement of the slider in mm.
+    pub(super) fn advance(
+        &mut self,
+        scene: &PointScene,
+        state: &mut State,
+        displacement_mm: f64,
+    ) -> Result<(), PointError> {
+        let elastic = scene.bodies.as_ref().map(|body| body.elastic);
+        let cells = state.lattice.cells();
+        let contact = self.contact.get_or_insert_with(|| {
+            let compliance = ShearCompliance::new([elastic.slider, elastic.receptacle]);
+            TangentialContact::new(cells, compliance)
+        });
+        let bounds = state.pressure.values.iter().map(|p| scene.friction * p);
+        let bounds: Vec<f64> = bounds.collect();
+        let mut shear = Shear {
+            along: std::mem::take(&mut state.shear.0.values),
+            across: std::mem::take(&mut state.shear.1.values),
+        };
+        let found = contact.advance((displacement_mm, 0.0), &bounds, &mut shear);
+        (state.shear.0.values, state.shear.1.values) = (shear.along, shear.across);
+        let slip = found
+            .map_err(|error| PointError::Friction { cycle: 0, error })?
+            .slip_mm;
+        let slips = slip.along.iter().zip(&slip.across);
+        for (path, (along, across)) in state.slip.values.iter_mut().zip(slips) {
+            *path = along.hypot(*across);
+        }
+        Ok(())
+    }
+}
