@@ -9,7 +9,7 @@ use std::ops::ControlFlow;
 
 use solver::law::elastic::Elastic;
 use solver::law::surface::SurfaceWear;
-use solver::point::{PointAccuracy, PointBody, PointScene, run};
+use solver::point::{PointAccuracy, PointBody, PointScene, SlipRegime, run};
 use solver::scene::{Accuracy, Criterion, Motion, Scene, WearLaw};
 use solver::sides::{Side, Sides};
 
@@ -62,6 +62,7 @@ fn ball(elastic: Sides<Elastic>) -> PointScene {
         bodies: Sides::from_fn(body),
         force_n: FORCE,
         friction: 0.3,
+        slip: SlipRegime::Gross,
         amplitude_mm: AMPLITUDE,
         cycles: 1_000_000,
         stop_depth_mm: Some(DEPTH),
