@@ -72,7 +72,7 @@ const SEVERAL_PATHS: [&str; 9] = [
     "server/src/http/routes/operation/serve_pages.rs",
 ];
 
-const RULES: [(&str, Rule); 15] = [
+const RULES: [(&str, Rule); 16] = [
     (
         "laws know no mesh",
         MustNotName(
@@ -89,6 +89,19 @@ const RULES: [(&str, Rule); 15] = [
         MustNotName(
             &["solver/src/contact"],
             &["solver/src/mesh", "solver/src/element", "solver/src/ale"],
+        ),
+    ),
+    (
+        "contacts of half-spaces know neither meshes nor contacts of lines, and share laws with them",
+        MustNotName(
+            &["solver/src/point", "solver/src/contact/area"],
+            &[
+                "solver/src/mesh",
+                "solver/src/model",
+                "solver/src/condensation",
+                "solver/src/cycle",
+                "solver/src/contact/line",
+            ],
         ),
     ),
     (
