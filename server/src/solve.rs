@@ -17,6 +17,7 @@ use solver::scene::Scene;
 
 use crate::export::{history, life, mission, vtu};
 use crate::spec::Resolved;
+use crate::spec::scatter::FollowsProduct;
 use checkpoint::{Checkpoint, CheckpointPolicy, EncodedCheckpoint};
 use cost::Stopwatch;
 pub use cost::{children_cpu_s, cpu_s, thread_cpu_s};
@@ -35,6 +36,8 @@ pub struct Case<'a> {
     pub blocks: &'a [BlockExtent],
     /// What a criterion of the contact resistance lacks; nothing if it is modelled.
     pub resistance_lacks: &'a [String],
+    /// What depends on wear coefficients and cycles by their product.
+    pub(crate) follows_product: FollowsProduct,
 }
 
 impl<'a> From<&'a Resolved> for Case<'a> {
@@ -45,6 +48,7 @@ impl<'a> From<&'a Resolved> for Case<'a> {
             motion: resolved.motion.as_ref(),
             blocks: &resolved.blocks,
             resistance_lacks: &resolved.resistance_lacks,
+            follows_product: FollowsProduct::of(&resolved.spec.interface),
         }
     }
 }
@@ -72,6 +76,7 @@ pub fn run_from(
         motion,
         blocks,
         resistance_lacks,
+        follows_product,
     }: Case<'_>,
     from: Option<Checkpoint>,
     policy: &CheckpointPolicy,
@@ -94,7 +99,7 @@ pub fn run_from(
         ended = error_control::solve(scene, &mut recorder);
     }
     let summary = ended?;
-    let settings = (life, resistance_lacks);
+    let settings = (life, follows_product, resistance_lacks);
     let life = life::entries(settings, scene, &summary.life, summary.last.cycle);
     Ok(Summary {
         motion: motion.cloned(),

@@ -103,5 +103,6 @@ fn a_ball_is_worn_sooner_than_a_section_as_the_plan_says() {
         "section {of_section} cycles, ball {of_ball:.0}: {:.2} times sooner, closed {closed:.2}",
         of_section / of_ball
     );
+    // The ball is pressed in by half of that depth, which the closed form leaves out: 8 % of its life.
     assert!((of_section / of_ball / closed - 1.0).abs() < 0.1);
 }

@@ -13,6 +13,7 @@ use crate::bench::{BenchError, Row, measured};
 use crate::number::real;
 use crate::solve;
 use crate::spec;
+use crate::spec::scatter::FollowsProduct;
 
 pub(super) const MCCOLL: &str = include_str!("../../examples/mccoll.json");
 pub(super) const FUZZ_BUTTON: &str = include_str!("../../examples/fuzz_button.json");
@@ -189,6 +190,7 @@ fn solved(what: impl Into<String>, size: &str, scene: &Scene) -> Result<Row, Ben
             motion: None,
             blocks: &[],
             resistance_lacks: &[],
+            follows_product: FollowsProduct::ALL,
         },
         &mut |_| ControlFlow::Continue(()),
     )?;

@@ -1,7 +1,7 @@
 //! Result documents of a run: the same for `solve --out` and for a job of the service.
 
 use api::results::{Snapshot, Summary};
-use api::spec::{Film, Spec};
+use api::spec::Spec;
 use solver::record::{CycleReport, Record};
 
 use crate::export::csv;
@@ -9,8 +9,8 @@ use crate::export::csv::CsvError;
 use crate::export::parquet;
 use crate::export::parquet::ParquetError;
 use crate::export::pictures;
-use crate::export::pictures::life::Follow;
 use crate::export::pictures::{Picture, PlotError};
+use crate::spec::scatter::FollowsProduct;
 
 /// Media type of JSON.
 pub const JSON: &str = "application/json";
@@ -122,15 +122,8 @@ pub fn all(results: &Results<'_>) -> Result<Vec<Document>, DocumentError> {
 
 /// The picture of the life, with its file name.
 fn life(name: &str, spec: &Spec, record: &Record) -> Option<(&'static str, Picture)> {
-    let grows = |film: &Film| film.growth_exponent.is_some();
-    let friction = spec.interface.friction.as_ref();
-    let depths =
-        friction.is_none_or(|friction| friction.by_cycle.is_none() && friction.by_dose.is_none());
-    let follow = Follow {
-        depths,
-        resistance: depths && !spec.interface.films.iter().any(grows),
-    };
+    let follows = FollowsProduct::of(&spec.interface);
     let settings = (&spec.life, spec.cycles.is_none());
-    let drawn = pictures::life::picture(name, settings, follow, record)?;
+    let drawn = pictures::life::picture(name, settings, follows, record)?;
     Some(("life", drawn))
 }

@@ -6,16 +6,16 @@ use solver::record::{CriterionState, Life};
 use solver::scene::{Motion, Scene};
 
 use crate::number::real;
-use crate::spec::scatter::{self, Ratios};
+use crate::spec::scatter::{FollowsProduct, Ratios};
 
 const SECONDS_PER_HOUR: f64 = 3_600.0;
 
-const NO_BAND: &str = "no band: the life depends on more than the product of coefficient and cycles, and the runs with other coefficients are \
-                       without errors to estimate, or have not reached it";
+const NO_BAND: &str = "no band: the life does not follow the product of coefficient and cycles, and errors are not estimated, or a contact of \
+                       the band has not reached the criterion";
 
 /// Life by the criteria of resolved settings. A criterion of the resistance is not modelled where something is lacking.
 pub(crate) fn entries(
-    (settings, resistance_lacks): (&LifeSettings, &[String]),
+    (settings, follows, resistance_lacks): (&LifeSettings, FollowsProduct, &[String]),
     scene: &Scene,
     life: &Life,
     done: u64,
@@ -33,7 +33,7 @@ pub(crate) fn entries(
             };
             match state {
                 Some((number, state)) => {
-                    let ratios = ratios(settings, scene, criterion, || {
+                    let ratios = ratios((settings, follows), criterion, || {
                         let of_scenes = life.scattered.iter();
                         of_scenes
                             .map(|lives| lives.get(number).copied().flatten())
@@ -57,16 +57,15 @@ fn numbered(
 
 /// Lives over that of the median contact: by the product of coefficient and cycles where that decides, or those that were solved for.
 fn ratios(
-    settings: &LifeSettings,
-    scene: &Scene,
+    (settings, follows): (&LifeSettings, FollowsProduct),
     criterion: &Criterion,
     solved: impl Fn() -> Option<Vec<f64>>,
 ) -> Option<Ratios> {
     let is_resistance = criterion.kind == EnumValue::Known(CriterionKind::Resistance);
     let follows = if is_resistance {
-        scatter::resistance_follows_product(scene)
+        follows.resistance
     } else {
-        scatter::depths_follow_product(scene)
+        follows.depths
     };
     if follows
         || settings

@@ -9,8 +9,8 @@
 //! The product does not decide where the friction changes by cycle or by dose, nor a resistance where films grow with the time. There the
 //! run is solved with the coefficients of these contacts, too, on the settings of its first companion (`solver::error_control`).
 
-use api::spec::{LifeSettings, Spec};
-use solver::scene::{Friction, Scene};
+use api::spec::{Friction, Interface, LifeSettings, Spec};
+use solver::scene::Scene;
 use statrs::distribution::{ContinuousCDF, Normal};
 
 use crate::number::{real, whole};
@@ -72,18 +72,31 @@ fn lognormal(variation: f64, part: f64) -> f64 {
     (s * Normal::standard().inverse_cdf(part)).exp()
 }
 
-/// Whether depths depend on coefficient and cycles by their product.
-pub(crate) fn depths_follow_product(scene: &Scene) -> bool {
-    !matches!(scene.friction, Friction::ByCycle(_) | Friction::ByDose(_))
+/// What depends on coefficient and cycles by their product.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct FollowsProduct {
+    pub(crate) depths: bool,
+    pub(crate) resistance: bool,
 }
 
-/// Whether the resistance does, too.
-pub(crate) fn resistance_follows_product(scene: &Scene) -> bool {
-    let electrical = scene.conduction.known().into_iter();
-    let mut metals =
-        electrical.flat_map(|known| known.metals.slider.iter().chain(&known.metals.receptacle));
-    let grows = metals.any(|metal| metal.film.is_some_and(|film| film.growth.is_some()));
-    depths_follow_product(scene) && !grows
+impl FollowsProduct {
+    /// With a constant friction, without films that grow.
+    pub(crate) const ALL: Self = Self {
+        depths: true,
+        resistance: true,
+    };
+
+    /// What does in a contact.
+    pub(crate) fn of(interface: &Interface) -> Self {
+        let changes =
+            |friction: &Friction| friction.by_cycle.is_some() || friction.by_dose.is_some();
+        let depths = !interface.friction.as_ref().is_some_and(changes);
+        let mut films = interface.films.iter();
+        Self {
+            depths,
+            resistance: depths && films.all(|film| film.growth_exponent.is_none()),
+        }
+    }
 }
 
 /// The scenes of the contacts at the ends of the band; none where the product decides. `scene_of` makes a scene of a specification.
@@ -94,8 +107,8 @@ pub(super) fn scenes(
 ) -> Vec<Scene> {
     let limits = scene.conduction.known();
     let has_limits = limits.is_some_and(|known| !known.life_mohm.is_empty());
-    let follows = (scene.life.is_empty() || depths_follow_product(scene))
-        && (!has_limits || resistance_follows_product(scene));
+    let follows = FollowsProduct::of(&filled.interface);
+    let follows = (scene.life.is_empty() || follows.depths) && (!has_limits || follows.resistance);
     let variation = filled.life.coefficient_of_variation.unwrap_or_default();
     if follows || variation <= 0.0 || !scene.accuracy.estimate_errors {
         return Vec::new();

@@ -7,6 +7,7 @@
 
 mod cells;
 mod convolution;
+mod error;
 mod kernel;
 mod normal;
 mod preconditioner;
@@ -14,9 +15,10 @@ mod tangential;
 
 pub use cells::Cells;
 pub use convolution::{Convolution, Parity};
+pub use error::AreaError;
 pub use kernel::{ShearCompliance, normal_influence};
 pub use normal::{
-    AreaError, MOST_ITERATIONS, NormalContact, NormalProblem, NormalSolution, RESIDUAL_TOLERANCE,
+    MOST_ITERATIONS, NormalContact, NormalProblem, NormalSolution, RESIDUAL_TOLERANCE,
 };
 pub use tangential::{
     MOST_TANGENTIAL_ITERATIONS, SHEAR_TOLERANCE, Shear, Slip, TangentialContact, TangentialError,

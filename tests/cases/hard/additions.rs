@@ -31,7 +31,7 @@ pub(super) fn add(u: &mut Numbers<'_>, spec: &mut Value, contact: &Contact) {
     if changes && spec["interface"]["friction"]["law"] == "coulomb" {
         let [first, last] = coefficients;
         spec["interface"]["friction"] = if by_dose {
-            // MPa mm that all cycles give a place that has half of the load in a tenth of the depth's width: of any order.
+            // N/mm: of the order of the dose, MPa mm, of a contact as wide as the path of a cycle.
             let dose = end * contact.load * contact.cycles;
             json!({"law": "coulomb", "by_dose": [{"dose_mpa_mm": 0, "coefficient": first},
                 {"dose_mpa_mm": dose, "coefficient": last}]})

@@ -11,25 +11,16 @@ use crate::export::pictures::{
     Axis, AxisRange, COLOURS, Colour, Mark, Panel, Picture, Scale, Series,
 };
 use crate::number::real;
-use crate::spec::scatter::Ratios;
+use crate::spec::scatter::{FollowsProduct, Ratios};
 
 /// Colour of limits.
 const GREY: Colour = [90, 90, 90];
 
-/// What depends on coefficient and cycles by their product.
-#[derive(Debug, Clone, Copy)]
-pub struct Follow {
-    /// Depths.
-    pub depths: bool,
-    /// The resistance.
-    pub resistance: bool,
-}
-
 /// The picture of a run; `None` where nothing is exposed and no criterion is about the resistance.
-pub fn picture(
+pub(crate) fn picture(
     name: &str,
     (settings, is_continuous): (&LifeSettings, bool),
-    follow_product: Follow,
+    follows: FollowsProduct,
     record: &Record,
 ) -> Option<Picture> {
     if record.cycle.len() < 2 {
@@ -50,11 +41,11 @@ pub fn picture(
         let Ratios { b10, b90, .. } = Ratios::of(settings);
         (follows && b10 < b90).then_some([b10, b90])
     };
-    let exposed = exposed(settings, &done, scatter(follow_product.depths), record);
+    let exposed = exposed(settings, &done, scatter(follows.depths), record);
     let limits = limits(settings, CriterionKind::Resistance);
     let is_drawn = exposed.is_some() || !limits.is_empty();
     let resistance = is_drawn.then(|| {
-        let scatter = scatter(follow_product.resistance);
+        let scatter = scatter(follows.resistance);
         resistance(&limits, &done, scatter, record)
     });
     let panels: Vec<Panel> = exposed
@@ -216,10 +207,6 @@ mod tests {
 
     use super::*;
 
-    const FOLLOW: Follow = Follow {
-        depths: true,
-        resistance: true,
-    };
     use crate::export::pictures::svg;
 
     /// A tip with a layer, of which half is through after 20 cycles.
@@ -255,7 +242,8 @@ mod tests {
     #[test]
     fn a_life_has_its_exposed_part_and_its_resistance_with_band_and_limits() {
         let given = settings(LIMITS);
-        let picture = picture("a tip", (&given, false), FOLLOW, &history()).expect("a picture");
+        let picture =
+            picture("a tip", (&given, false), FollowsProduct::ALL, &history()).expect("a picture");
         let [exposed, resistance] = &picture.panels[..] else {
             panic!("two panels");
         };
@@ -290,9 +278,9 @@ mod tests {
     #[test]
     fn a_film_that_grows_or_certain_coefficients_have_no_band() {
         let given = settings(LIMITS);
-        let grows = Follow {
+        let grows = FollowsProduct {
             resistance: false,
-            ..FOLLOW
+            ..FollowsProduct::ALL
         };
         let grows = picture("", (&given, false), grows, &history()).expect("a picture");
         assert_eq!(
@@ -303,7 +291,8 @@ mod tests {
             coefficient_of_variation: Some(0.0),
             ..given
         };
-        let drawn = picture("", (&certain, false), FOLLOW, &history()).expect("a picture");
+        let drawn =
+            picture("", (&certain, false), FollowsProduct::ALL, &history()).expect("a picture");
         assert_eq!(drawn.panels[0].series.len(), 2);
     }
 
@@ -315,11 +304,19 @@ mod tests {
             ..CycleReport::default()
         });
         let record = Record::new(&reports, &[]);
-        assert_eq!(picture("", (&settings(""), false), FOLLOW, &record), None);
-        let limited = picture("", (&settings(LIMITS), true), FOLLOW, &record);
+        assert_eq!(
+            picture("", (&settings(""), false), FollowsProduct::ALL, &record),
+            None
+        );
+        let limited = picture("", (&settings(LIMITS), true), FollowsProduct::ALL, &record);
         assert_eq!(limited.map(|drawn| drawn.panels.len()), Some(1));
         assert_eq!(
-            picture("", (&settings(LIMITS), false), FOLLOW, &Record::default()),
+            picture(
+                "",
+                (&settings(LIMITS), false),
+                FollowsProduct::ALL,
+                &Record::default()
+            ),
             None
         );
     }

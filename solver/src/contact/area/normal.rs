@@ -18,6 +18,7 @@
 
 use super::cells::Cells;
 use super::convolution::{Convolution, Parity};
+use super::error::AreaError;
 use super::kernel::normal_influence;
 use super::preconditioner::Preconditioner;
 use crate::number::real;
@@ -28,37 +29,6 @@ pub const MOST_ITERATIONS: usize = 1_000;
 /// Largest residual: pressures of Hertz' sphere are then within 4e-6 of their peak with 32 to 128 cells along the window (1.3e-4 with
 /// 1e-6), far below the error of the grid, for two more iterations.
 pub const RESIDUAL_TOLERANCE: f64 = 1e-8;
-
-/// Why a contact has no solution.
-#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
-pub enum AreaError {
-    /// The iteration did not converge.
-    #[error(
-        "no contact pressure after {iterations} iterations: residual {residual:.2e}, tolerance {tolerance:.2e}"
-    )]
-    NotConverged {
-        /// Iterations made.
-        iterations: usize,
-        /// Residual of the last one.
-        residual: f64,
-        /// Largest residual.
-        tolerance: f64,
-    },
-    /// The contact is larger than the grid.
-    #[error("the contact reaches the edge of its window of {along_x} x {along_z} cells")]
-    ReachesEdge {
-        /// Cells along x.
-        along_x: usize,
-        /// Cells along z.
-        along_z: usize,
-    },
-    /// The force does not press the bodies together.
-    #[error("normal force is {force_n} N, must be positive")]
-    Force {
-        /// It.
-        force_n: f64,
-    },
-}
 
 /// A contact to be solved.
 #[derive(Debug, Clone, Copy)]
