@@ -1,5 +1,6 @@
 //! Result documents.
 
+mod depth_map;
 mod history;
 mod life;
 mod manifest;
@@ -8,6 +9,7 @@ mod resistance;
 mod snapshot;
 mod summary;
 
+pub use depth_map::{ContactMaps, DepthMap, PressureMap};
 pub use history::{Columns, ExposedLayer, SideSeries, Station, WearHistory};
 pub use life::{LifeBand, LifeEntry, LifeStatus};
 pub use manifest::{Manifest, ResultFile};
@@ -17,6 +19,6 @@ pub use snapshot::{
     Loop, Pressure, PressurePosition, Profile, SideProfile, SlidePosition, Snapshot,
 };
 pub use summary::{
-    AccuracyReached, Checks, ContactTemperature, Cost, EffectCalledFor, EstimatedError,
-    EstimatedErrors, Initial, SideSummary, Summary,
+    AccuracyReached, Checks, ContactExtent, ContactTemperature, Cost, EffectCalledFor,
+    EstimatedError, EstimatedErrors, Initial, SideSummary, Summary,
 };

@@ -10,6 +10,7 @@ mod life;
 mod load;
 mod materials;
 mod mission;
+mod model;
 mod motion;
 mod plating;
 mod read;
@@ -34,6 +35,7 @@ pub use life::{Criterion, CriterionKind, LifeSettings, Part};
 pub use load::{Load, LoadKind};
 pub use materials::{Material, MaterialProperties, Materials};
 pub use mission::{MissionBlock, MissionOrder};
+pub use model::{Dimension, Model};
 pub use motion::{DerivedMotion, Drive, FourierTerm, Motion, MotionKind, PsdPoint, Waveform};
 pub use plating::{PlatingLayer, Platings};
 pub use read::{ParseError, pointer_token};
@@ -70,6 +72,9 @@ pub struct Spec {
     pub labels: BTreeMap<String, String>,
     /// The contact system and its dimensions.
     pub system: System,
+    /// Which dimensions of the contact are simulated.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub model: Option<Model>,
     /// Materials of both parts.
     #[serde(default)]
     pub materials: Materials,

@@ -25,9 +25,9 @@ impl Estimate {
     /// Estimates the solve of a resolved specification; takes up to 10 ms.
     pub fn of(resolved: &Resolved) -> Self {
         let Resolved { scene, layout, .. } = resolved;
-        let workload = Workload::of(scene, layout);
+        let workload = Workload::of(scene, layout.as_ref());
         Self {
-            footprint: Footprint::of(scene, layout, &workload),
+            footprint: Footprint::of(scene, layout.as_ref(), &workload),
             workload,
         }
     }

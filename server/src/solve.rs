@@ -10,12 +10,14 @@ use std::ops::ControlFlow;
 use api::results::{BlockExtent, Cost, Summary};
 use api::spec::{DerivedMotion, LifeSettings};
 use solver::SolveError;
+use solver::checkpoint::Resumable;
 use solver::error_control;
 use solver::observer::{self, Event, Observer};
-use solver::record::PlacedFields;
+use solver::record::{AreaMaps, PlacedFields};
 use solver::scene::Scene;
 
-use crate::export::{history, life, mission, vtu};
+use crate::export::documents::{JSON, VTU};
+use crate::export::{history, life, maps, mission, vtu};
 use crate::spec::Resolved;
 use crate::spec::scatter::FollowsProduct;
 use checkpoint::{Checkpoint, CheckpointPolicy, EncodedCheckpoint};
@@ -123,13 +125,13 @@ impl Recorder<'_> {
     }
 
     /// Emits a checkpoint if one is due, and stops the run if it is asked to.
-    fn checkpoint(&mut self, run: &solver::checkpoint::Checkpoint) -> ControlFlow<()> {
+    fn checkpoint(&mut self, run: Resumable<'_>) -> ControlFlow<()> {
         if !self.policy.is_due() {
             return ControlFlow::Continue(());
         }
         let checkpoint = Checkpoint {
             cost: self.watch.cost(),
-            run: run.clone(),
+            run: run.checkpoint(),
         };
         let flow = match checkpoint.encode() {
             Ok(state) => (self.on)(Line::Checkpoint(EncodedCheckpoint {
@@ -151,9 +153,30 @@ impl Recorder<'_> {
     fn fields(&mut self, cycle: u64, fields: &PlacedFields) -> ControlFlow<()> {
         let name = vtu::file_name(cycle, fields.position);
         match vtu::bytes(fields) {
-            Ok(bytes) => (self.on)(Line::Fields(FieldsFile { name, cycle, bytes })),
+            Ok(bytes) => (self.on)(Line::Fields(FieldsFile {
+                name,
+                cycle,
+                media_type: VTU,
+                bytes,
+            })),
             Err(error) => {
                 tracing::error!(%error, name, "fields were not written");
+                ControlFlow::Continue(())
+            }
+        }
+    }
+
+    fn maps(&mut self, cycle: u64, maps: &AreaMaps) -> ControlFlow<()> {
+        let name = maps::file_name(cycle);
+        match serde_json::to_vec(&maps::document(cycle, maps)) {
+            Ok(bytes) => (self.on)(Line::Fields(FieldsFile {
+                name,
+                cycle,
+                media_type: JSON,
+                bytes,
+            })),
+            Err(error) => {
+                tracing::error!(%error, name, "maps were not written");
                 ControlFlow::Continue(())
             }
         }
@@ -166,10 +189,13 @@ impl Observer for Recorder<'_> {
             return ControlFlow::Break(());
         }
         let line = match event {
-            Event::Cycle(report) => Line::Cycle(report.clone()),
+            Event::Cycle(report) => Line::Cycle(Box::new(report.clone())),
             Event::Snapshot(snapshot) => {
                 for fields in &snapshot.fields {
                     self.fields(snapshot.cycle, fields)?;
+                }
+                if let Some(maps) = &snapshot.area {
+                    self.maps(snapshot.cycle, maps)?;
                 }
                 Line::Snapshot(Box::new(history::snapshot(snapshot)))
             }

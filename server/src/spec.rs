@@ -23,6 +23,7 @@ mod life;
 mod load;
 mod materials;
 mod mission;
+mod model;
 mod motion;
 mod movement;
 mod names;
@@ -64,8 +65,8 @@ pub struct Resolved {
     pub kind: SystemKind,
     /// The scene.
     pub scene: Scene,
-    /// Its mesh lines, which show that it can be meshed.
-    pub layout: Layout,
+    /// Its mesh lines, which show that it can be meshed; none of a point contact.
+    pub layout: Option<Layout>,
     /// How its motion was derived from a vibration, a thermal cycle or an insertion.
     pub motion: Option<DerivedMotion>,
     /// The blocks of its mission.
@@ -133,8 +134,10 @@ pub fn resolve(spec: &Spec) -> Result<Resolved, Vec<Fault>> {
         })
     };
     effects::check(&spec.effects, &scene, strains_cause, &mut diagnostics);
+    let is_point = scene.dimension.point().is_some();
     let layout = match Layout::of(&scene) {
-        Ok(layout) => layout,
+        _ if is_point => None,
+        Ok(layout) => Some(layout),
         Err(error) => {
             let pointer = cause::of_fault(spec, kind, "/system", |spec| {
                 scene_of(spec, kind).is_some_and(|scene| Layout::of(&scene).is_ok())
@@ -146,6 +149,7 @@ pub fn resolve(spec: &Spec) -> Result<Resolved, Vec<Fault>> {
     let mut warnings = diagnostics.warnings().to_vec();
     warnings.extend(law_range::warnings(&filled, &scene));
     warnings.extend(resistance_range::warnings(spec, &scene));
+    warnings.extend(model::warnings(&scene));
     warnings.extend(effects::warnings(&scene));
     warnings.extend(rated_life::warnings(kind, filled.motion.as_ref(), &scene));
     let derived = || movement.all_derived();

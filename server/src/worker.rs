@@ -29,7 +29,8 @@ const POLL_INTERVAL: Duration = Duration::from_secs(1);
 /// Claims and supervises jobs until the service stops. A panic ends it; its job is then reclaimed when the lease ends.
 pub async fn work(store: Arc<Store>, config: Arc<WorkerConfig>, stopping: CancellationToken) {
     while !stopping.is_cancelled() {
-        match next(&store, &config, &stopping).await {
+        // Summaries make it too large for the stack of a task.
+        match Box::pin(next(&store, &config, &stopping)).await {
             Ok(true) => {}
             Ok(false) => {
                 tokio::select! {

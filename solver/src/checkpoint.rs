@@ -1,208 +1,70 @@
 //! Checkpoints: everything that the rest of a run depends on besides its scene.
-//!
-//! Meshes and operators are not part of it. The mesh of a run is the unworn one with its surfaces moved to the depths
-//! at which the operators were last built, and the operators follow from the mesh; building both again from these
-//! depths gives the same bits, so a resumed run gives the same bits as an undisturbed one.
+
+mod earlier;
+mod misfit;
+mod point;
+mod section;
 
 use serde::{Deserialize, Serialize};
 
-use crate::ale;
-use crate::cycle::{CycleState, MissionState};
-use crate::effects::Crossing;
-use crate::electrical::ElectricalState;
-use crate::mesh::MeshError;
-use crate::model::Model;
-use crate::record::{Compared, Initial, Life, Summary};
-use crate::scene::Scene;
-use crate::sides::{Side, Sides};
+pub use earlier::Earlier;
+pub(crate) use earlier::Finished;
+pub use misfit::Misfit;
+pub use point::PointRun;
+pub use section::SectionRun;
 
 /// A run between two computed cycles. It survives serialisation bit for bit in any format that preserves `f64`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Checkpoint {
-    pub(crate) state: CycleState,
-    /// State of its mission, if it has one.
-    pub(crate) mission: Option<MissionState>,
-    pub(crate) initial: Initial,
-    /// Worn depths at which the operators were last rebuilt, mm.
-    pub(crate) built: Option<Sides<Vec<f64>>>,
-    pub(crate) relocations: u64,
-    /// Factor by which zones of fine elements are wider than the scene's.
-    pub(crate) widened: f64,
-    /// Skipped effects that the run has called for.
-    pub(crate) crossings: Vec<Crossing>,
-    /// Histories that the run's error is estimated by.
-    pub(crate) compared: Compared,
-    /// Life by the criteria of the scene.
-    pub(crate) life: Life,
-    /// Resistance of the contact, and what the next one depends on.
-    pub(crate) electrical: ElectricalState,
-    /// What error control knows from the runs of this scene before this one.
-    pub(crate) earlier: Earlier,
+pub enum Checkpoint {
+    /// Of a section.
+    Section(Box<SectionRun>),
+    /// Of a point contact.
+    Point(Box<PointRun>),
 }
 
-/// Runs of a scene before the present one.
-#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
-pub struct Earlier {
-    /// Histories that the error is estimated by; `None` for a run without a solution.
-    pub(crate) runs: Vec<Option<Compared>>,
-    /// The delivered run, while its companions are solved.
-    pub(crate) finished: Option<Box<Finished>>,
+/// A run that a checkpoint can be taken of.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Resumable<'a> {
+    /// Of a section.
+    Section(&'a SectionRun),
+    /// Of a point contact.
+    Point(&'a PointRun),
 }
 
-/// A run that has ended.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub(crate) struct Finished {
-    summary: Summary,
-    /// Those of its last report, which are not stored with it.
-    ideal_area_mm2: Sides<Option<f64>>,
-}
+impl Resumable<'_> {
+    /// Physical cycles whose results were delivered.
+    pub fn cycle(self) -> u64 {
+        let (earlier, cycle) = match self {
+            Self::Section(run) => (&run.earlier, run.state.cycle),
+            Self::Point(run) => (&run.earlier, run.state.cycle()),
+        };
+        let finished = earlier.finished.as_ref();
+        finished.map_or(cycle, |finished| finished.summary.last.cycle)
+    }
 
-impl Finished {
-    pub(crate) fn new(summary: Summary) -> Self {
-        let last = &summary.last;
-        Self {
-            ideal_area_mm2: Sides {
-                slider: last.slider.ideal_area_mm2,
-                receptacle: last.receptacle.ideal_area_mm2,
-            },
-            summary,
+    /// The checkpoint of the run.
+    pub fn checkpoint(self) -> Checkpoint {
+        match self {
+            Self::Section(run) => Checkpoint::Section(Box::new(run.clone())),
+            Self::Point(run) => Checkpoint::Point(Box::new(run.clone())),
         }
     }
-
-    pub(crate) fn into_summary(self) -> Summary {
-        let mut summary = self.summary;
-        summary.last.slider.ideal_area_mm2 = self.ideal_area_mm2.slider;
-        summary.last.receptacle.ideal_area_mm2 = self.ideal_area_mm2.receptacle;
-        summary
-    }
-}
-
-/// Mismatch between a checkpoint and a scene.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
-pub enum Misfit {
-    /// The scene has another mesh.
-    #[error("it has {found} values for the {nodes} contact nodes of the {body}")]
-    Nodes {
-        /// Which body.
-        body: &'static str,
-        /// Values in the checkpoint.
-        found: usize,
-        /// Nodes of the scene.
-        nodes: usize,
-    },
-    /// The scene ends before it.
-    #[error("it is at cycle {cycle} of {cycles}")]
-    Beyond {
-        /// Cycle of the checkpoint.
-        cycle: u64,
-        /// Cycles of the scene.
-        cycles: u64,
-    },
 }
 
 impl Checkpoint {
     /// Physical cycles whose results were delivered.
     pub fn cycle(&self) -> u64 {
-        match &self.earlier.finished {
-            Some(finished) => finished.summary.last.cycle,
-            None => self.state.cycle,
+        match self {
+            Self::Section(run) => Resumable::Section(run).cycle(),
+            Self::Point(run) => Resumable::Point(run).cycle(),
         }
     }
 
-    /// The model at this checkpoint, from an earlier one.
-    pub(crate) fn model(&self, earlier: &Model) -> Result<Model, MeshError> {
-        let model = match &self.built {
-            None => earlier.clone(),
-            Some(depth) => ale::relocate(earlier, depth)?,
-        };
-        model.with_zones_widened(self.widened)
-    }
-
-    /// Goes back to an earlier state for effects that were skipped.
-    pub(crate) fn go_back(&mut self, to: CycleState, called_for: Vec<Crossing>) {
-        self.state = to;
-        self.crossings.extend(called_for);
-    }
-
-    /// The present block of its mission; the first one without a mission.
-    pub(crate) fn block(&self) -> usize {
-        let mission = self.mission.as_ref();
-        mission.map_or(0, |mission| mission.position.block)
-    }
-
-    /// The block whose motion the slider has to leave before the next cycle.
-    pub(crate) fn block_left(&self) -> Option<usize> {
-        self.mission.as_ref().and_then(|mission| mission.left)
-    }
-
-    /// Whether the present block of its mission is done.
-    pub(crate) fn is_block_done(&self) -> bool {
-        let mission = self.mission.as_ref();
-        mission.is_some_and(|mission| mission.is_block_done(&self.state))
-    }
-
-    /// Records that the slider is where the cycles of the present block begin.
-    pub(crate) fn motion_changed(&mut self) {
-        if let Some(mission) = &mut self.mission {
-            mission.left = None;
+    /// The runs before it.
+    pub(crate) fn earlier(&self) -> &Earlier {
+        match self {
+            Self::Section(run) => &run.earlier,
+            Self::Point(run) => &run.earlier,
         }
     }
-
-    /// Whether the state can be compared with that of another run after as many cycles: one that takes other rounds of a
-    /// mission together has worn its blocks in another order before they are whole.
-    pub(crate) fn is_comparable(&self, scene: &Scene) -> bool {
-        let (mission, repeated) = (self.mission.as_ref(), scene.mission.as_ref());
-        let repeats = repeated.is_some_and(|mission| mission.rounds() > 1);
-        mission.is_none_or(|mission| !repeats || mission.is_whole(scene, &self.state))
-    }
-
-    /// Records that zones must be wider.
-    pub(crate) fn widen(&mut self) {
-        self.widened *= 2.0;
-    }
-
-    /// Records that the operators are rebuilt at the present depths.
-    pub(crate) fn relocated(&mut self) {
-        self.built = Some(self.state.depth.clone());
-        self.relocations += 1;
-    }
-
-    /// Checks that it belongs to a run of this many cycles on this unworn model.
-    pub(crate) fn check(&self, unworn: &Model, cycles: u64) -> Result<(), Misfit> {
-        if self.state.cycle > cycles {
-            return Err(Misfit::Beyond {
-                cycle: self.state.cycle,
-                cycles,
-            });
-        }
-        let contact = &self.state.contact;
-        let nodes = |side| unworn.bodies.of(side).contact_x().len();
-        let slave = unworn.interface.slave;
-        for found in [
-            contact.status.len(),
-            contact.pressure.len(),
-            contact.shear.len(),
-        ] {
-            check_nodes(slave, found, nodes(slave))?;
-        }
-        for side in Side::BOTH {
-            let built = self.built.as_ref();
-            for found in [
-                contact.force.of(side).len() / 2,
-                self.state.depth.of(side).len(),
-                built.map_or(nodes(side), |depth| depth.of(side).len()),
-            ] {
-                check_nodes(side, found, nodes(side))?;
-            }
-        }
-        Ok(())
-    }
-}
-
-fn check_nodes(side: Side, found: usize, nodes: usize) -> Result<(), Misfit> {
-    if found == nodes {
-        return Ok(());
-    }
-    let body = side.name();
-    Err(Misfit::Nodes { body, found, nodes })
 }

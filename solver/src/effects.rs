@@ -9,6 +9,7 @@ mod choice;
 mod decision;
 mod effect;
 mod indicators;
+mod point;
 mod reason;
 pub mod small_strain;
 mod switches;
@@ -18,7 +19,7 @@ pub use effect::Effect;
 pub use switches::Switches;
 
 use crate::electrical::ElectricalState;
-use crate::scene::Scene;
+use crate::scene::{Scene, SurfaceEffects};
 use crate::sides::Sides;
 use indicators::Indicators;
 use serde::{Deserialize, Serialize};
@@ -59,7 +60,12 @@ pub fn plan(scene: &Scene) -> EffectsPlan {
 
 /// The skipped effect with the largest indicator if those of all skipped ones exceed their budget.
 fn beyond_budget(decisions: &[Decision], tolerance: f64) -> Option<Effect> {
-    largest_beyond(counted(decisions), BUDGET * tolerance)
+    let available = |effect| {
+        let mut decisions = decisions.iter();
+        decisions.any(|decision| decision.effect == effect && decision.is_available)
+    };
+    let counted = counted(decisions).filter(|(effect, _)| available(*effect));
+    largest_beyond(counted, BUDGET * tolerance)
 }
 
 /// Skipped effects that count, with their indicators.
@@ -94,6 +100,14 @@ impl EffectsPlan {
     pub fn simulates(&self, effect: Effect) -> bool {
         let decision = self.decision(effect);
         decision.is_some_and(|decision| decision.verdict.is_on())
+    }
+
+    /// What changes the wear of surfaces, as far as it is simulated.
+    pub(crate) fn surface_effects(&self) -> SurfaceEffects {
+        SurfaceEffects {
+            plating: self.simulates(Effect::Plating),
+            softening: self.simulates(Effect::ThermalSoftening),
+        }
     }
 
     /// The decisions without their numbers.
@@ -134,9 +148,8 @@ impl EffectsPlan {
     ) -> Vec<Crossing> {
         let indicators = Indicators::of(scene);
         let depth = self.with_skipped_wear(depth, indicators.worn_depth_after(cycle));
-        let could_be_on = |decision: &&Decision| {
-            decision.verdict == Verdict::Skipped && decision.effect.is_available()
-        };
+        let could_be_on =
+            |decision: &&Decision| decision.verdict == Verdict::Skipped && decision.is_available;
         let skipped = self
             .decisions
             .iter()
@@ -170,7 +183,8 @@ impl EffectsPlan {
         electrical: &ElectricalState,
     ) -> Vec<Crossing> {
         let decision = self.decision(Effect::JouleHeating);
-        let skipped = decision.filter(|decision| decision.verdict == Verdict::Skipped);
+        let skipped = decision
+            .filter(|decision| decision.verdict == Verdict::Skipped && decision.is_available);
         let Some(indicator) = skipped.and_then(|decision| decision.indicator) else {
             return Vec::new();
         };

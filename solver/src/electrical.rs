@@ -2,7 +2,7 @@
 //!
 //! The contact is divided into patches on which each side shows one metal (`patches`). A patch has the resistance that the whole contact
 //! would have if all of it were like this patch (`constriction`, and the films of both metals over the area of all spots), and takes the
-//! part of the spots that it has of the length of the contact, so that
+//! part of the spots that it has of the length of the contact, or of the area of a point contact, so that
 //!   1/R = sum of share_i/R_i.
 //! Its parts are by the power that is dissipated in them, sum of share_i (R/R_i)^2 R_ik, and add up to R. Limiting case: one patch, the
 //! sum of its constrictions and films. The way through the bodies is in series (`condensation::Spreading`), by the resistivity of the
@@ -22,7 +22,7 @@ use crate::scene::{Electrical, Metal};
 use crate::sides::{Side, Sides};
 use constriction::{Constriction, Spreading};
 pub(crate) use patches::Surface;
-use patches::{Patch, patches};
+use patches::{Patch, patches, patches_of_cells};
 pub(crate) use unworn::largest_mohm as largest_unworn_mohm;
 pub use unworn::{Unworn, of as unworn};
 
@@ -62,6 +62,17 @@ pub(crate) struct Contact<'a> {
     pub(crate) time_s: f64,
     /// Resistance of each body times the depth of the section over its resistivity, -.
     pub(crate) spreading: Sides<f64>,
+}
+
+/// The contact of half-spaces at the neutral position.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct AreaContact {
+    /// Force on it, N.
+    pub(crate) force_n: f64,
+    /// Worn depths of both sides at each cell in contact, mm.
+    pub(crate) depths_mm: Vec<Sides<f64>>,
+    /// Time since the run began, s.
+    pub(crate) time_s: f64,
 }
 
 /// What the next resistance depends on.
@@ -114,7 +125,23 @@ impl<'a> Evaluation<'a> {
         } = self.electrical;
         let force_n = width_mm * contact.load_n_per_mm;
         let found = patches(contact.span, contact.surfaces, metals);
-        note_exposure(state, &found, metals, contact.time_s);
+        self.update_patches(state, (force_n, found), (contact.time_s, contact.spreading));
+    }
+
+    /// Takes the next contact of half-spaces into the state: the current spreads in them from the spots on.
+    pub(crate) fn update_area(&self, state: &mut ElectricalState, contact: &AreaContact) {
+        let found = patches_of_cells(&contact.depths_mm, &self.electrical.metals);
+        let spreading = Sides::default();
+        self.update_patches(state, (contact.force_n, found), (contact.time_s, spreading));
+    }
+
+    fn update_patches(
+        &self,
+        state: &mut ElectricalState,
+        (force_n, found): (f64, Vec<Patch>),
+        (time_s, spreading): (f64, Sides<f64>),
+    ) {
+        note_exposure(state, &found, &self.electrical.metals, time_s);
         if force_n <= 0.0 {
             *state = ElectricalState {
                 resistance: Some(open()),
@@ -135,16 +162,16 @@ impl<'a> Evaluation<'a> {
             });
             (state.patches, state.force_n) = (constrictions.collect(), force_n);
         }
-        state.resistance = Some(self.with_bulk(self.parallel(state), contact));
+        state.resistance = Some(self.with_bulk(self.parallel(state), spreading));
     }
 
     /// The contact with the way of the current through both bodies.
-    fn with_bulk(&self, contact: ContactResistance, at: &Contact<'_>) -> ContactResistance {
+    fn with_bulk(&self, contact: ContactResistance, spreading: Sides<f64>) -> ContactResistance {
         let bulk_mohm = Sides::from_fn(|side| {
             let base = self.electrical.metals.of(side).last();
             let resistivity = base.map_or(0.0, |base| base.resistivity_ohm_m);
             // ohm m over mm is 1e3 ohm.
-            MILLI * MILLI * resistivity / self.electrical.width_mm * at.spreading.of(side)
+            MILLI * MILLI * resistivity / self.electrical.width_mm * spreading.of(side)
         });
         let total = contact.total_mohm + bulk_mohm.slider + bulk_mohm.receptacle;
         ContactResistance {

@@ -4,6 +4,7 @@ use crate::checkpoint::Misfit;
 use crate::condensation::OperatorError;
 use crate::cycle::CycleError;
 use crate::mesh::MeshError;
+use crate::point::PointError;
 
 /// Why a solve failed.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -17,6 +18,9 @@ pub enum SolveError {
     /// A cycle could not be integrated.
     #[error("cycle: {0}")]
     Cycle(#[from] CycleError),
+    /// A point contact could not be integrated.
+    #[error("point contact: {0}")]
+    Point(#[from] PointError),
     /// A checkpoint is not one of this scene.
     #[error("checkpoint: {0}")]
     Checkpoint(#[from] Misfit),

@@ -57,7 +57,7 @@ fn control(
         plan: effects::plan(scene),
         earlier: from
             .as_ref()
-            .map_or_else(Earlier::default, |from| from.earlier.clone()),
+            .map_or_else(Earlier::default, |from| from.earlier().clone()),
         from,
         observer,
     };

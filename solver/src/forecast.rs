@@ -14,6 +14,7 @@
 //! one pass, sqrt(2 R k P jump) deep into the floor, to which its half-width adds by a share (`scene::Tuning`).
 
 mod blocks;
+mod point;
 mod surrogate;
 
 use crate::model::Layout;
@@ -25,6 +26,7 @@ use crate::schedule::stops;
 use crate::sides::Sides;
 
 use blocks::{Block, WornBlocks};
+pub use point::{PointForecast, point_forecast};
 use surrogate::Scar;
 
 /// Computed cycles that are forecast one by one; the rest is extrapolated from the last.

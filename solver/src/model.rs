@@ -6,6 +6,7 @@ pub(crate) mod friction;
 pub mod layout;
 pub mod profile;
 pub mod resolution;
+pub(crate) mod worn_cap;
 pub(crate) mod worn_depth;
 mod zones;
 
@@ -144,22 +145,14 @@ pub fn build(scene: &Scene, plan: &EffectsPlan) -> Result<Model, MeshError> {
         interface,
         relocates: plan.simulates(Effect::Relocation),
         conducts: scene.conduction.known().is_some() && plan.simulates(Effect::Resistance),
-        surface: surface_effects(plan),
+        surface: plan.surface_effects(),
         sizes: layout.sizes,
     })
 }
 
-/// The effects on the wear of a surface that a plan simulates.
-fn surface_effects(plan: &EffectsPlan) -> SurfaceEffects {
-    SurfaceEffects {
-        plating: plan.simulates(Effect::Plating),
-        softening: plan.simulates(Effect::ThermalSoftening),
-    }
-}
-
 /// The interface of a scene with the laws of simulated effects only.
 fn interface(scene: &Scene, plan: &EffectsPlan, sizes: &Sizes) -> Interface {
-    let surface = surface_effects(plan);
+    let surface = plan.surface_effects();
     let on = |effect| plan.simulates(effect);
     let tangential = match (on(Effect::Friction), on(Effect::StickMemory)) {
         (true, true) => Tangential::StickSlip,
@@ -332,7 +325,7 @@ impl Model {
     pub(crate) fn follow(&mut self, scene: &Scene, plan: &EffectsPlan) {
         self.interface = interface(scene, plan, &self.sizes);
         self.relocates = plan.simulates(Effect::Relocation);
-        self.surface = surface_effects(plan);
+        self.surface = plan.surface_effects();
     }
 
     /// The interface in a block of a mission, in which nothing may stick although it may in others.

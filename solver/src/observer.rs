@@ -2,7 +2,7 @@
 
 use std::ops::ControlFlow;
 
-use crate::checkpoint::Checkpoint;
+use crate::checkpoint::Resumable;
 use crate::record::{CycleReport, Snapshot};
 
 /// Receives a run's events, in order. The only dynamic dispatch of the engine.
@@ -23,7 +23,7 @@ pub enum Event<'a> {
     /// A requested snapshot.
     Snapshot(&'a Snapshot),
     /// A state that the run can be resumed from; every event up to its cycle was delivered before.
-    Checkpoint(&'a Checkpoint),
+    Checkpoint(Resumable<'a>),
     /// The run restarts at cycle 0, for this reason; what was delivered before is to be discarded.
     Restart(&'a str),
 }

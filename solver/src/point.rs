@@ -2,7 +2,7 @@
 //!
 //! `contact::area` solves for the pressure of each increment on a window that follows the contact (`sliding`), with the wear of the
 //! increment inside the solve. The bodies' surfaces are grids of their own (`surface`); the slider's moves by whole cells (`lattice`).
-//! A computed cycle stands for a jump of cycles (`jump`, `run`).
+//! A computed cycle stands for a jump of cycles (`jump`, `integrator`).
 //!
 //! In gross slip the whole contact slips by the displacement (`SlipRegime::Gross`). Where a part of it may stick (`Partial`), the slip of
 //! each cell follows from Coulomb's law in the plane (`stick`), and surfaces wear in place.
@@ -13,17 +13,24 @@
 
 mod error;
 mod field;
+mod integrator;
 mod jump;
 mod lattice;
 mod record;
 mod run;
 mod scene;
+mod section;
 mod sliding;
 mod state;
 mod stick;
 mod surface;
 
 pub use error::PointError;
+pub use integrator::PointState;
+pub(crate) use integrator::{Placed, PointIntegrator};
+pub(crate) use jump::JumpForecast;
 pub use record::{DepthMap, PointCycle, PointOutcome, PointSummary};
 pub use run::run;
-pub use scene::{PointAccuracy, PointBody, PointScene, SlipRegime};
+pub use scene::{
+    PointAccuracy, PointBody, PointScene, SlipRegime, cell_mm, middle_line_load_n_per_mm,
+};

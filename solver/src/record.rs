@@ -14,6 +14,7 @@ mod report;
 mod scar;
 mod snapshot;
 mod summary;
+mod worn_area;
 
 pub use crate::cycle::{BlockWear, Checks, FrictionLoop};
 pub use crate::fields::PlacedFields;
@@ -23,11 +24,14 @@ pub use crate::sides::Side;
 pub use channel::{Channel, Channels};
 pub use compared::{Compared, Quantity};
 pub use errors::{ErrorParts, Errors, PRESSURE_TOLERANCES};
-pub(crate) use exposure::WornSurface;
+pub(crate) use exposure::{Exposed, WornSurface};
 pub use history::{Column, Layer, Record};
 pub use life::{CriterionState, Life};
-pub(crate) use report::worn_surface;
-pub use report::{CycleReport, ResistanceReport, SideReport, TemperatureReport, report};
-pub use snapshot::{DepthProfile, Snapshot, TractionField, snapshot};
+pub use report::{
+    CycleReport, ExtentReport, ResistanceReport, SideReport, TemperatureReport, report,
+};
+pub(crate) use report::{PointEnd, point_report, worn_surface};
+pub use snapshot::{AreaMaps, DepthProfile, PressureMap, Snapshot, TractionField, snapshot};
 pub(crate) use summary::worn_area_residual;
 pub use summary::{Initial, Resolution, Summary};
+pub(crate) use worn_area::WornArea;

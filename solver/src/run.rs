@@ -1,5 +1,6 @@
 //! The run: integrate until the geometry has drifted or the contact has outgrown its mesh, relocate, condense again.
 
+mod point;
 mod progress;
 mod resistance;
 mod summary;
@@ -8,7 +9,7 @@ use std::ops::ControlFlow;
 
 use crate::SolveError;
 use crate::ale::{self, Spines};
-use crate::checkpoint::{Checkpoint, Earlier};
+use crate::checkpoint::{Checkpoint, Earlier, Misfit, Resumable, SectionRun};
 use crate::condensation::{self, Condensed};
 use crate::cycle::{CycleError, CycleRecord, CycleState, Integrator, MissionState};
 use crate::effects::{self, Crossing, EffectsPlan};
@@ -16,7 +17,7 @@ use crate::electrical::ElectricalState;
 use crate::fields;
 use crate::model::{self, Model};
 use crate::observer::{Event, Observer, Phase};
-use crate::record::{self, Compared, Initial, Life, Outcome, Snapshot, Summary};
+use crate::record::{self, Compared, Exposed, Initial, Life, Outcome, Snapshot, Summary};
 use crate::scene::Scene;
 use crate::schedule::stops;
 use progress::{end, now, progress, push_life};
@@ -38,6 +39,9 @@ pub(crate) fn begin(
     earlier: Earlier,
     observer: &mut dyn Observer,
 ) -> Result<Summary, SolveError> {
+    if scene.dimension.point().is_some() {
+        return point::begin(scene, plan, earlier, observer);
+    }
     observer.on_phase(Phase::Mesh);
     let (mut plan, mut model) = (plan.clone(), model::build(scene, plan)?);
     observer.on_phase(Phase::Condense);
@@ -87,6 +91,12 @@ pub(crate) fn proceed(
     run: Checkpoint,
     observer: &mut dyn Observer,
 ) -> Result<Summary, SolveError> {
+    let is_point = scene.dimension.point().is_some();
+    let run = match run {
+        Checkpoint::Point(run) if is_point => return point::proceed(scene, plan, *run, observer),
+        Checkpoint::Section(run) if !is_point => *run,
+        _ => return Err(Misfit::Dimension.into()),
+    };
     observer.on_phase(Phase::Mesh);
     let plan = plan.after(&run.crossings);
     let unworn = model::build(scene, &plan)?;
@@ -102,7 +112,7 @@ fn advance(
     scene: &Scene,
     (mut plan, mut model): (EffectsPlan, Model),
     mut condensed: Condensed,
-    mut run: Checkpoint,
+    mut run: SectionRun,
     observer: &mut dyn Observer,
 ) -> Result<Summary, SolveError> {
     loop {
@@ -138,7 +148,7 @@ fn load(
     (plan, model): (&EffectsPlan, &Model),
     condensed: &Condensed,
     observer: &mut dyn Observer,
-) -> Result<(Checkpoint, ControlFlow<()>), SolveError> {
+) -> Result<(SectionRun, ControlFlow<()>), SolveError> {
     let mut state = CycleState::start(&condensed.operators, model.interface.slave);
     let blocks = scene.blocks();
     let mut integrator = Integrator::new(&blocks[0], model, &condensed.operators);
@@ -168,7 +178,7 @@ fn load(
         contact_resistance_mohm: electrical.total_mohm(),
     };
     let mission = scene.mission.as_ref();
-    let run = Checkpoint {
+    let run = SectionRun {
         mission: mission.map(|mission| MissionState::new(scene, mission, &state)),
         state,
         initial,
@@ -199,7 +209,7 @@ fn integrate(
     scene: &Scene,
     (plan, model): (&EffectsPlan, &Model),
     condensed: &Condensed,
-    run: &mut Checkpoint,
+    run: &mut SectionRun,
     observer: &mut dyn Observer,
 ) -> Result<ControlFlow<Outcome, Renewal>, SolveError> {
     const STOPPED: ControlFlow<Outcome, Renewal> = ControlFlow::Break(Outcome::Stopped);
@@ -296,11 +306,16 @@ fn integrate(
         if let Some(outcome) = end {
             return Ok(ControlFlow::Break(outcome));
         }
-        if observer.on(Event::Checkpoint(run)).is_break() {
+        if observer.on(checkpoint(run)).is_break() {
             return Ok(STOPPED);
         }
     }
     Ok(ControlFlow::Break(Outcome::Completed))
+}
+
+/// The event of a state that the run can be resumed from.
+fn checkpoint(run: &SectionRun) -> Event<'_> {
+    Event::Checkpoint(Resumable::Section(run))
 }
 
 /// The skipped effects that an error after so many cycles calls for: those that a contact without a solution may have one with.
@@ -316,7 +331,7 @@ fn next_cycle(
     scene: &Scene,
     model: &Model,
     (integrator, spines): (&mut Integrator<'_>, &Spines),
-    (run, until_limit): (&mut Checkpoint, u64),
+    (run, until_limit): (&mut SectionRun, u64),
 ) -> Result<CycleRecord, CycleError> {
     let state = &run.state;
     let depth = |side, part| record::worn_surface(model, state, side).depth_of_part(part);
@@ -328,7 +343,7 @@ fn next_cycle(
 }
 
 /// Moves on to the next block of a mission.
-fn next_block(scene: &Scene, model: &Model, run: &mut Checkpoint) {
+fn next_block(scene: &Scene, model: &Model, run: &mut SectionRun) {
     let spines = Spines::of(model);
     let Some(mission) = &mut run.mission else {
         return;

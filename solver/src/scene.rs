@@ -7,6 +7,7 @@
 mod accuracy;
 mod body;
 mod criterion;
+mod dimension;
 mod electrical;
 mod heat;
 mod mission;
@@ -19,6 +20,7 @@ mod turning_points;
 pub use accuracy::{Accuracy, Refinement};
 pub use body::{BlockShape, Body, SliderShape, SurfaceEffects};
 pub use criterion::Criterion;
+pub use dimension::{Dimension, Point};
 pub use electrical::{Conduction, Electrical, MOST_METALS, Metal, Spots};
 pub(crate) use heat::ContactHeat;
 pub use mission::{Block, Mission, Order};
@@ -58,6 +60,8 @@ pub use crate::law::wear::surface_state::SurfaceState;
 /// A contact system with its loads, motion and numerical settings.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Scene {
+    /// Which dimensions of the contact are simulated.
+    pub dimension: Dimension,
     /// The sprung or vibrating part, above.
     pub slider: Body<SliderShape>,
     /// The fixed part, below.
@@ -66,7 +70,7 @@ pub struct Scene {
     pub friction: Friction,
     /// Temperature of the surroundings, °C.
     pub temperature_c: f64,
-    /// Normal load on the unworn contact, N per mm of depth.
+    /// Normal load on the unworn contact, N per mm of depth; of a point contact that of its middle section.
     pub load_n_per_mm: f64,
     /// Stiffness of the spring that applies the load, which decreases as the slider sinks, N/mm per mm of depth; 0 for
     /// a dead load.
@@ -182,7 +186,7 @@ impl Scene {
     }
 
     /// Wear of both surfaces over a cycle with the effects that are switched off left out: a law of speed as its mean rate.
-    pub(crate) fn surface_wear(&self) -> Sides<Option<SurfaceWear>> {
+    pub fn surface_wear(&self) -> Sides<Option<SurfaceWear>> {
         let motion = self.timed_motion();
         let wear = self.surface_wear_at(motion.constant());
         wear.map(|wear| wear.map(|wear| motion.mean_wear(wear)))

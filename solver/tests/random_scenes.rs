@@ -15,8 +15,8 @@ use fastrand::Rng;
 use solver::effects::Switches;
 use solver::model::Layout;
 use solver::scene::{
-    Accuracy, Body, Conduction, Drive, Friction, Layer, Motion, Output, Scene, Softening, Timing,
-    WearLaw,
+    Accuracy, Body, Conduction, Dimension, Drive, Friction, Layer, Motion, Output, Scene,
+    Softening, Timing, WearLaw,
 };
 use solver::sides::Sides;
 
@@ -263,6 +263,7 @@ fn scene(u: &mut Numbers, regime: Regime, worn: Worn) -> Scene {
         conduction: Conduction::default(),
         effects: Switches::default(),
         scattered: Vec::new(),
+        dimension: Dimension::PlaneStrain,
     }
 }
 

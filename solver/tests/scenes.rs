@@ -2,8 +2,8 @@
 
 use solver::effects::Switches;
 use solver::scene::{
-    Accuracy, BlockShape, Body, Conduction, Drive, Elastic, Friction, Motion, Output, Scene,
-    SliderShape, Softening, Timing, WearLaw,
+    Accuracy, BlockShape, Body, Conduction, Dimension, Drive, Elastic, Friction, Motion, Output,
+    Scene, SliderShape, Softening, Timing, WearLaw,
 };
 
 const STEEL: Elastic = Elastic {
@@ -70,6 +70,7 @@ pub(crate) fn mccoll() -> Scene {
         conduction: Conduction::default(),
         effects: Switches::default(),
         scattered: Vec::new(),
+        dimension: Dimension::PlaneStrain,
     }
 }
 
@@ -126,6 +127,7 @@ pub(crate) fn fuzz_button() -> Scene {
         conduction: Conduction::default(),
         effects: Switches::default(),
         scattered: Vec::new(),
+        dimension: Dimension::PlaneStrain,
     }
 }
 

@@ -112,7 +112,7 @@ struct Delivered {
 impl Observer for Delivered {
     fn on(&mut self, event: Event<'_>) -> ControlFlow<()> {
         match event {
-            Event::Checkpoint(checkpoint) => self.checkpoints.push(checkpoint.clone()),
+            Event::Checkpoint(checkpoint) => self.checkpoints.push(checkpoint.checkpoint()),
             Event::Restart(reason) => self.restarts.push(reason.to_owned()),
             Event::Cycle(_) | Event::Snapshot(_) => {}
         }

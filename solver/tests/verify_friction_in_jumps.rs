@@ -30,7 +30,7 @@ impl Observer for CheckpointAt {
         if let Event::Checkpoint(checkpoint) = event
             && checkpoint.cycle() == self.0
         {
-            self.1 = Some(checkpoint.clone());
+            self.1 = Some(checkpoint.checkpoint());
             return ControlFlow::Break(());
         }
         ControlFlow::Continue(())

@@ -55,7 +55,7 @@ fn scene((along, across): (f64, f64), k: Sides<f64>, amplitude_mm: f64, cycles: 
         slip: SlipRegime::Gross,
         amplitude_mm,
         cycles,
-        stop_depth_mm: None,
+        spring_n_per_mm: 0.0,
         accuracy: PointAccuracy::from_tolerance(0.02),
     }
 }

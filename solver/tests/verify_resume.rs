@@ -24,7 +24,7 @@ pub(crate) struct CheckpointRecorder {
 impl Observer for CheckpointRecorder {
     fn on(&mut self, event: Event<'_>) -> ControlFlow<()> {
         if let Event::Checkpoint(checkpoint) = event {
-            self.checkpoints.push(checkpoint.clone());
+            self.checkpoints.push(checkpoint.checkpoint());
         }
         self.recorder.on(event)
     }
@@ -197,7 +197,7 @@ impl Observer for FullDisk {
             Event::Snapshot(snapshot) if snapshot.cycle == self.refused_cycle => {
                 return ControlFlow::Break(());
             }
-            Event::Checkpoint(checkpoint) => self.checkpoints.push(checkpoint.clone()),
+            Event::Checkpoint(checkpoint) => self.checkpoints.push(checkpoint.checkpoint()),
             _ => {}
         }
         self.recorder.on(event)
@@ -245,7 +245,7 @@ impl Observer for StopAt {
             return ControlFlow::Break(());
         }
         if let Event::Checkpoint(checkpoint) = event {
-            self.last = Some(checkpoint.clone());
+            self.last = Some(checkpoint.checkpoint());
         }
         self.recorder.on(event)
     }

@@ -30,6 +30,24 @@ pub struct SideSummary {
     pub ideal_area_mm2: Option<f64>,
     /// Half the width of the scar, mm.
     pub scar_half_width_mm: f64,
+    /// Worn volume, mm^3; absent of a section.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub worn_volume_mm3: Option<f64>,
+    /// Specific wear rate times the sliding work, k F `s_total` in gross slip, mm^3; absent of a section, and where the law has no
+    /// such identity.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub ideal_volume_mm3: Option<f64>,
+}
+
+/// A contact of finite extent across the sliding direction, at the end.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct ContactExtent {
+    /// Normal force, N.
+    pub load_n: f64,
+    /// Half the length of the contact across the sliding direction, mm.
+    pub contact_half_length_across_mm: f64,
+    /// Accumulated energy dissipated by friction in the whole contact, mJ.
+    pub dissipated_energy_mj: f64,
 }
 
 /// The unworn, loaded state.
@@ -173,6 +191,9 @@ pub struct Summary {
     pub initial: Initial,
     /// Accumulated energy dissipated by friction, mJ per mm of depth.
     pub dissipated_energy_mj_per_mm: f64,
+    /// The whole contact, of which everything else per mm of depth is that of its middle section; absent of a section.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub extent: Option<ContactExtent>,
     /// Resolution that the accuracy settings led to.
     pub accuracy: AccuracyReached,
     /// Cost of the run.

@@ -14,7 +14,6 @@ use signal_hook::consts::SIGTERM;
 
 use crate::cli::arguments::ChildArguments;
 use crate::cli::terminal::{Ended, failed, refused, write_err};
-use crate::export::documents::VTU;
 use crate::export::files;
 use crate::export::files::FilesError;
 use crate::solve;
@@ -92,7 +91,12 @@ fn end_with_supervisor() {
 /// is full, the write is retried until the process is asked to stop; after any other error the process exits without an
 /// outcome, and the job is attempted again.
 fn store(folder: &Path, fields: &FieldsFile, stop: &AtomicBool) -> ControlFlow<()> {
-    let FieldsFile { name, cycle, bytes } = fields;
+    let FieldsFile {
+        name,
+        cycle,
+        media_type,
+        bytes,
+    } = fields;
     let mut logged = false;
     while let Err(error) = files::write_atomically(folder, name, bytes) {
         if !logged {
@@ -111,7 +115,7 @@ fn store(folder: &Path, fields: &FieldsFile, stop: &AtomicBool) -> ControlFlow<(
     write(&Line::File(files::manifest_entry(
         name,
         Some(*cycle),
-        VTU,
+        media_type,
         bytes,
     )))
 }

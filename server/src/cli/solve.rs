@@ -61,7 +61,7 @@ fn record(line: Line, recorded: &mut Recorded, bar: &ProgressBar) {
         Line::Phase(phase) => bar.set_message(phase.as_str()),
         Line::Cycle(row) => {
             bar.set_position(row.cycle);
-            recorded.rows.push(row);
+            recorded.rows.push(*row);
         }
         Line::Snapshot(snapshot) => recorded.snapshots.push(*snapshot),
         Line::Fields(file) => recorded.fields.push(file),

@@ -11,6 +11,7 @@ use solver::scene::Scene;
 
 use crate::estimate::workload::Workload;
 use crate::number::real;
+use solver::point::cell_mm as point_cell_mm;
 
 /// Memory of the process without a model, MB.
 const MEMORY_BASE_MB: f64 = 9.5;
@@ -28,6 +29,11 @@ const SNAPSHOT_ELEMENT_BYTES: f64 = 200.0;
 const CYCLE_BYTES: f64 = 1000.0;
 const STATION_BYTES: f64 = 60.0;
 
+/// A point contact: memory per cell of its window and of the surfaces of both bodies, MB, and bytes of a cell of its maps.
+const MEMORY_CELL_MB: f64 = 4e-4;
+const MEMORY_SURFACE_MB: f64 = 2e-4;
+const MAP_CELL_BYTES: f64 = 40.0;
+
 /// Estimated size of a solve.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Footprint {
@@ -43,7 +49,29 @@ pub struct Footprint {
 
 impl Footprint {
     /// Estimates the footprint of a scene from its mesh lines and its workload.
-    pub(crate) fn of(scene: &Scene, layout: &Layout, workload: &Workload) -> Self {
+    pub(crate) fn of(scene: &Scene, layout: Option<&Layout>, workload: &Workload) -> Self {
+        match layout {
+            Some(layout) => Self::of_section(scene, layout, workload),
+            None => Self::of_point(scene, workload),
+        }
+    }
+
+    /// That of a point contact: the transforms of its window, and copies of the grids of both bodies.
+    fn of_point(scene: &Scene, workload: &Workload) -> Self {
+        let (window, surfaces) = workload.cells;
+        let snapshots = real(scene.output.snapshots_at_cycles.len());
+        let stations = real(scene.output.stations_mm.len());
+        let bytes = snapshots * MAP_CELL_BYTES * (window + surfaces)
+            + workload.computed_cycles * (CYCLE_BYTES + STATION_BYTES * stations);
+        Self {
+            contact_element_mm: point_cell_mm(scene),
+            dofs: window,
+            memory_mb: MEMORY_BASE_MB + MEMORY_CELL_MB * window + MEMORY_SURFACE_MB * surfaces,
+            output_mb: 1e-6 * bytes,
+        }
+    }
+
+    fn of_section(scene: &Scene, layout: &Layout, workload: &Workload) -> Self {
         let dofs = real(layout.bodies.slider.dofs() + layout.bodies.receptacle.dofs());
         let elements = real(layout.bodies.receptacle.contact_x().len());
         let largest = layout.bodies.as_ref().map(BodyLayout::largest_zone);

@@ -1,12 +1,11 @@
 //! The plan of a resolved specification: effects with reasons, closed-form results for the unworn contact, and the
 //! estimated cost of the solve.
 
-use std::f64::consts::PI;
-
 use api::plan::{MachineFigures, Plan, PlannedEffect, Warning};
 use api::problem::Fault;
 use solver::effects::{self, Indicator};
 use solver::model::resolution;
+use solver::point::{PointScene, SlipRegime};
 use solver::scene::Scene;
 
 use crate::estimate::{Estimate, life, machine, notes};
@@ -56,6 +55,7 @@ fn planned(decision: effects::Decision) -> PlannedEffect {
         verdict,
         indicator,
         reason,
+        ..
     } = decision;
     PlannedEffect {
         effect: effect.name().to_owned(),
@@ -79,14 +79,22 @@ fn planned(decision: effects::Decision) -> PlannedEffect {
 /// p0 = 2 P / (pi a); and the depth worn by one full pass after Archard's law: (k/H) P per crossed point.
 fn unworn_contact(scene: &Scene) -> Vec<(&'static str, f64)> {
     let load = scene.load_n_per_mm;
-    let half_width = resolution::choose(scene).hertz_half_width;
+    let half_width = resolution::hertz_half_width(scene);
     let distance = scene.motion.distance_per_cycle_mm();
     let mut estimates = vec![
         ("line_load_n_per_mm", load),
         ("hertz_half_width_mm", half_width),
-        ("hertz_peak_pressure_mpa", 2.0 * load / (PI * half_width)),
+        (
+            "hertz_peak_pressure_mpa",
+            resolution::hertz_peak_pressure(scene),
+        ),
         ("sliding_distance_per_cycle_mm", distance),
     ];
+    if let Some(contact) = PointScene::of(scene, SlipRegime::Gross) {
+        let (_, across) = contact.half_lengths_mm();
+        estimates.push(("hertz_half_length_across_mm", across));
+        estimates.push(("force_n", contact.force_n));
+    }
     if let Some(rate) = scene.slider.outer_rate() {
         let area = rate * load * distance;
         estimates.push(("slider_ideal_area_per_cycle_mm2", area));

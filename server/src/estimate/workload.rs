@@ -4,7 +4,7 @@
 use std::collections::BTreeMap;
 
 use solver::error_control::companion_scenes;
-use solver::forecast::forecast;
+use solver::forecast::{forecast, point_forecast};
 use solver::model::{BodyLayout, Layout};
 use solver::scene::Scene;
 use solver::sides::Sides;
@@ -22,6 +22,10 @@ pub struct Workload {
     pub increments: Vec<(f64, f64)>,
     /// Condensations of the slider and of the receptacle.
     pub condensations: [Condensations; 2],
+    /// Iterations of area contacts times the cells of their windows.
+    pub cell_iterations: f64,
+    /// Cells of the windows and of the surfaces of a point contact at most.
+    pub cells: (f64, f64),
     /// Work of the coarse companions that the run's error is estimated by.
     pub companions: Vec<Workload>,
 }
@@ -39,7 +43,28 @@ pub struct Condensations {
 
 impl Workload {
     /// Estimates the workload of a scene from its mesh lines.
-    pub(crate) fn of(scene: &Scene, layout: &Layout) -> Self {
+    pub(crate) fn of(scene: &Scene, layout: Option<&Layout>) -> Self {
+        match layout {
+            Some(layout) => Self::of_section(scene, layout),
+            None => Self::of_point(scene),
+        }
+    }
+
+    /// That of a point contact, which condenses nothing.
+    fn of_point(scene: &Scene) -> Self {
+        let forecast = point_forecast(scene).unwrap_or_default();
+        Self {
+            computed_cycles: forecast.computed_cycles,
+            most_increments: u32::try_from(forecast.most_increments).unwrap_or(u32::MAX),
+            increments: vec![(0.0, forecast.increments)],
+            condensations: [Condensations::NONE; 2],
+            cell_iterations: forecast.cell_iterations,
+            cells: (real(forecast.most_cells), real(forecast.surface_cells)),
+            companions: companions(scene),
+        }
+    }
+
+    fn of_section(scene: &Scene, layout: &Layout) -> Self {
         let forecast = forecast(scene, layout);
         let mut increments = BTreeMap::new();
         for segment in &forecast.segments {
@@ -58,6 +83,8 @@ impl Workload {
                 condensations(slider, &layout.bodies.slider),
                 condensations(receptacle, &layout.bodies.receptacle),
             ],
+            cell_iterations: 0.0,
+            cells: (0.0, 0.0),
             companions: companions(scene),
         }
     }
@@ -83,10 +110,22 @@ fn companions(scene: &Scene) -> Vec<Workload> {
     let scenes = companion_scenes(scene).into_iter();
     scenes
         .filter_map(|companion| {
+            if companion.dimension.point().is_some() {
+                return Some(Workload::of(&companion, None));
+            }
             let layout = Layout::of(&companion).ok()?;
-            Some(Workload::of(&companion, &layout))
+            Some(Workload::of(&companion, Some(&layout)))
         })
         .collect()
+}
+
+impl Condensations {
+    /// None at all.
+    const NONE: Self = Self {
+        count: 0.0,
+        dofs: 0.0,
+        surface_nodes: 0.0,
+    };
 }
 
 fn condensations(times: u32, body: &BodyLayout) -> Condensations {

@@ -85,15 +85,24 @@ pub fn pressure(pressure: &Pressure) -> Result<Vec<u8>, CsvError> {
     write(header, rows)
 }
 
-/// A friction loop: displacement, force.
+/// A friction loop: displacement, force per mm, and that of the whole contact where it is not a section.
 ///
 /// # Errors
 /// [`CsvError`] if the writer fails.
 pub fn friction_loop(friction_loop: &Loop) -> Result<Vec<u8>, CsvError> {
-    let forces = &friction_loop.tangential_force_n_per_mm;
-    let points = friction_loop.displacement_mm.iter().zip(forces);
-    let rows = points.map(|(x, force)| [x.to_string(), force.to_string()]);
-    write(["displacement_mm", "tangential_force_n_per_mm"], rows)
+    let whole = &friction_loop.tangential_force_n;
+    let whole = (!whole.is_empty()).then_some(("tangential_force_n", whole));
+    let columns = [
+        ("displacement_mm", &friction_loop.displacement_mm),
+        (
+            "tangential_force_n_per_mm",
+            &friction_loop.tangential_force_n_per_mm,
+        ),
+    ];
+    let (header, columns): (Vec<_>, Vec<_>) = columns.into_iter().chain(whole).unzip();
+    let rows = friction_loop.displacement_mm.len();
+    let cells = |row: usize| columns.iter().map(move |values| values[row].to_string());
+    write(header, (0..rows).map(cells))
 }
 
 /// A study, one line per run; values that a run does not have are empty cells.

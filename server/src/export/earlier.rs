@@ -3,7 +3,8 @@
 use std::path::Path;
 
 /// Documents with a part of this name for each snapshot, and their extension.
-const OF_SNAPSHOTS: [(&str, &str); 4] = [
+const OF_SNAPSHOTS: [(&str, &str); 5] = [
+    ("maps", "json"),
     ("profile", "csv"),
     ("pressure", "csv"),
     ("loop", "csv"),

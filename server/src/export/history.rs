@@ -3,9 +3,10 @@
 use api::job::{Outcome, Phase};
 use api::plan::Decision;
 use api::results::{
-    AccuracyReached, Checks, ContactTemperature, Cost, EffectCalledFor, EstimatedError,
-    EstimatedErrors, ExposedLayer, Initial, LifeEntry, Loop, Pressure, PressurePosition, Profile,
-    SideProfile, SideSummary, SlidePosition, Snapshot, Station, Summary, WearHistory,
+    AccuracyReached, Checks, ContactExtent, ContactTemperature, Cost, EffectCalledFor,
+    EstimatedError, EstimatedErrors, ExposedLayer, Initial, LifeEntry, Loop, Pressure,
+    PressurePosition, Profile, SideProfile, SideSummary, SlidePosition, Snapshot, Station, Summary,
+    WearHistory,
 };
 use solver::effects::{Crossing, Effect, Verdict};
 use solver::observer;
@@ -49,7 +50,8 @@ pub fn snapshot(snapshot: &record::Snapshot) -> Snapshot {
             positions: snapshot.positions.iter().map(position).collect(),
         },
         friction_loop: document!(
-            Loop of &snapshot.friction_loop; displacement_mm, tangential_force_n_per_mm; cycle: cycle
+            Loop of &snapshot.friction_loop;
+            displacement_mm, tangential_force_n_per_mm, tangential_force_n; cycle: cycle
         ),
     }
 }
@@ -68,7 +70,8 @@ pub fn summary(summary: &record::Summary, cost: Cost, life: Vec<LifeEntry>) -> S
     let (last, resolution) = (&summary.last, &summary.resolution);
     let side = |side: &SideReport| {
         document!(
-            SideSummary of side; max_depth_mm, worn_area_mm2, ideal_area_mm2, scar_half_width_mm
+            SideSummary of side;
+            max_depth_mm, worn_area_mm2, ideal_area_mm2, scar_half_width_mm, worn_volume_mm3, ideal_volume_mm3
         )
     };
     document!(
@@ -79,6 +82,9 @@ pub fn summary(summary: &record::Summary, cost: Cost, life: Vec<LifeEntry>) -> S
         receptacle: side(&last.receptacle);
         slider: side(&last.slider);
         life: life;
+        extent: last.extent.map(|extent| document!(
+            ContactExtent of extent; load_n, contact_half_length_across_mm, dissipated_energy_mj
+        ));
         motion: None;
         mission: Vec::new();
         contact_resistance_mohm: resistance::of(summary);

@@ -65,7 +65,12 @@ pub fn friction_loop(mut friction_loop: Loop, points: usize) -> Loop {
         &mut friction_loop.tangential_force_n_per_mm,
     );
     let mut increments = (0..u32::MAX).take(x.len()).map(f64::from).collect();
-    curves(&mut increments, [x, force], points);
+    let whole = &mut friction_loop.tangential_force_n;
+    if whole.is_empty() {
+        curves(&mut increments, [x, force], points);
+    } else {
+        curves(&mut increments, [x, force, whole], points);
+    }
     friction_loop
 }
 

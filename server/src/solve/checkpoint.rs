@@ -12,7 +12,7 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 /// Format number, raised whenever the fields of a checkpoint or the results computed from them change: runs do not
 /// resume from an older format.
-const FORMAT: u32 = 26;
+const FORMAT: u32 = 27;
 
 /// The state of a run between two cycles.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -131,7 +131,7 @@ mod tests {
     impl Observer for Last {
         fn on(&mut self, event: Event<'_>) -> ControlFlow<()> {
             if let Event::Checkpoint(checkpoint) = event {
-                self.0 = Some(checkpoint.clone());
+                self.0 = Some(checkpoint.checkpoint());
             }
             ControlFlow::Continue(())
         }

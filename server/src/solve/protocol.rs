@@ -27,10 +27,10 @@ pub enum Line {
     /// The next phase starts.
     Phase(Phase),
     /// A computed cycle.
-    Cycle(CycleReport),
+    Cycle(Box<CycleReport>),
     /// A requested snapshot.
     Snapshot(Box<Snapshot>),
-    /// Fields inside the bodies at one position of a snapshot; written by the solving process, never sent.
+    /// Fields inside the bodies at one position of a snapshot, or maps of the contact; written by the solving process, never sent.
     #[serde(skip)]
     Fields(FieldsFile),
     /// A file in the attempt's folder.
@@ -55,14 +55,16 @@ impl Line {
     }
 }
 
-/// Fields as a file.
+/// Fields or maps as a file.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FieldsFile {
     /// File name.
     pub name: String,
     /// Cycle of the fields.
     pub cycle: u64,
-    /// Content, VTU.
+    /// Media type.
+    pub media_type: &'static str,
+    /// Content.
     pub bytes: Vec<u8>,
 }
 

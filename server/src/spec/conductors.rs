@@ -1,6 +1,8 @@
 //! The contact as an electrical conductor: force, resistivities, hardnesses, spots and films.
 
-use api::spec::{CriterionKind, EnumValue, Material, MaterialProperties, Spec, Switch, WearLaw};
+use api::spec::{
+    CriterionKind, EnumValue, Material, MaterialProperties, Model, Spec, Switch, WearLaw,
+};
 use solver::law::elastic::contact_modulus;
 use solver::law::plating::bottoms;
 use solver::law::softening::REFERENCE_C;
@@ -49,10 +51,12 @@ pub(super) fn resolve(
     );
     let temperature = filled.environment.temperature_c.unwrap_or(REFERENCE_C);
     let (mut lacks, mut unknown) = (Vec::new(), None);
-    let force = filled
-        .load
-        .as_ref()
-        .and_then(|load| load.n.zip(load.width_mm));
+    // The width of a point contact follows from its force.
+    let is_point = filled.model.as_ref().is_some_and(Model::is_point);
+    let force = filled.load.as_ref().and_then(|load| {
+        let width = if is_point { Some(1.0) } else { load.width_mm };
+        load.n.zip(width)
+    });
     if force.is_none() {
         lacks.push("a load of the kind `force` with its `width_mm`".to_owned());
         unknown = Some(NO_FORCE);

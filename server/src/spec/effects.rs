@@ -78,7 +78,7 @@ pub(crate) fn check(
          {:.0} %), and finite strains are not available; lower the load or enlarge the radius, or accept it with \
          `effects.{}`: `off`",
         100.0 * small_strain::cost(scene),
-        100.0 * small_strain::LIMIT,
+        100.0 * small_strain::limit(scene),
         Effect::GeometricNonlinearity.name()
     );
     diagnostics.fault(&cause(), detail);
@@ -87,7 +87,7 @@ pub(crate) fn check(
 /// Whether the strains of the contact are within the range of small-strain theory, or accepted by `off`.
 pub(crate) fn has_small_strains(given: &Given, scene: &Scene) -> bool {
     let accepted = switch(given, Effect::GeometricNonlinearity) == Some(Switch::Off);
-    accepted || small_strain::cost(scene) <= small_strain::LIMIT
+    accepted || small_strain::cost(scene) <= small_strain::limit(scene)
 }
 
 /// Adds a fault for a friction by dose beside heat that the plan simulates: the worn depth no longer tells the dose of a place.

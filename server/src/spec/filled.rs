@@ -2,18 +2,21 @@
 
 use std::collections::BTreeMap;
 
-use api::spec::{Spec, SystemKind};
+use api::spec::{Load, Spec, SystemKind};
 use solver::law::softening::REFERENCE_C;
-use solver::scene::{Body, Conduction, Criterion, Layer, Scene};
+use solver::scene::{
+    self, Body, Conduction, Conductor, Criterion, Elastic, Layer, Scene, Softening, WearLaw,
+};
 use solver::sides::Sides;
 
 use crate::spec::conductors::{self, Conductors};
 use crate::spec::diagnostics::Diagnostics;
+use crate::spec::load::LineLoad;
 use crate::spec::movement::Movement;
 use crate::spec::system::{self, Preset};
 use crate::spec::{
     accuracy, changing_friction, covering, criterion, effects, environment, law, life, load,
-    materials, mission, motion, output, plating, stop,
+    materials, mission, model, motion, output, plating, stop,
 };
 
 /// A specification with its defaults.
@@ -49,7 +52,8 @@ pub(super) fn fill(spec: &Spec, kind: SystemKind, diagnostics: &mut Diagnostics)
     law::check_plated_sides(&laws, plated, diagnostics);
     let (platings, layers) = plating::resolve(coverings, laws.friction.unworn(), diagnostics);
     let laws = changing_friction::with_layers(laws, (&platings, &layers), diagnostics);
-    let (load, line_load) = load::resolve(spec.load.as_ref(), &preset, &shapes, diagnostics);
+    let (model, dimension) = model::resolve(spec.model.as_ref(), &shapes, diagnostics);
+    let (load, line_load) = resolve_load(spec, (&preset, dimension), &shapes, diagnostics);
     let contact = motion::HeldContact {
         friction: laws.friction.unworn(),
         force_n: load.n,
@@ -63,8 +67,10 @@ pub(super) fn fill(spec: &Spec, kind: SystemKind, diagnostics: &mut Diagnostics)
     let (output, recorded) = output::resolve(&spec.output, &movement, &shapes, diagnostics);
     let effects = effects::resolve(&spec.effects, diagnostics);
     let environment = environment::resolve(&spec.environment, diagnostics);
+    let force_n = load.n;
     let mut filled = Spec {
         system,
+        model: Some(model),
         materials,
         interface,
         plating: platings,
@@ -80,6 +86,7 @@ pub(super) fn fill(spec: &Spec, kind: SystemKind, diagnostics: &mut Diagnostics)
         provenance: BTreeMap::new(),
         ..spec.clone()
     };
+    model::check(&filled, (dimension, movement.scene), diagnostics);
     changing_friction::check(&filled, &laws.friction, diagnostics);
     let softening = environment::softening(&filled, diagnostics);
     let thermal = environment::conductors(&filled);
@@ -92,23 +99,16 @@ pub(super) fn fill(spec: &Spec, kind: SystemKind, diagnostics: &mut Diagnostics)
     let wears = laws.wear.zip(plated);
     let surfaces = (&layers, wears.map(|(law, plated)| law.is_some() || plated));
     let (stop, criteria) = limits(spec, &mut filled, surfaces, &mut conductors, diagnostics);
+    let bodies = layers
+        .zip(elastic)
+        .zip(laws.wear)
+        .zip(thermal.zip(softening));
+    let slider = body(shapes.slider, bodies.slider);
+    let receptacle = body(shapes.block, bodies.receptacle);
     let scene = Scene {
-        slider: Body {
-            shape: shapes.slider,
-            elastic: elastic.slider,
-            wear: laws.wear.slider,
-            plating: layers.slider,
-            thermal: thermal.slider,
-            softening: softening.slider,
-        },
-        receptacle: Body {
-            shape: shapes.block,
-            elastic: elastic.receptacle,
-            wear: laws.wear.receptacle,
-            plating: layers.receptacle,
-            thermal: thermal.receptacle,
-            softening: softening.receptacle,
-        },
+        dimension: scene::Dimension::PlaneStrain,
+        slider,
+        receptacle,
         friction: laws.friction.until(crate::number::real(cycles)),
         temperature_c: surroundings_c,
         load_n_per_mm: line_load.n_per_mm,
@@ -127,11 +127,42 @@ pub(super) fn fill(spec: &Spec, kind: SystemKind, diagnostics: &mut Diagnostics)
         effects,
         scattered: Vec::new(),
     };
+    let scene = model::with_dimension(scene, (dimension, force_n), diagnostics);
     Filled {
         spec: filled,
         scene,
         movement,
         resistance_lacks: conductors.lacks,
+    }
+}
+
+/// The load, whose force needs no width where the model has one.
+fn resolve_load(
+    spec: &Spec,
+    (preset, dimension): (&Preset, model::Resolved),
+    shapes: &system::Shapes,
+    diagnostics: &mut Diagnostics,
+) -> (Load, LineLoad) {
+    let preset = (preset, !dimension.is_point());
+    load::resolve(spec.load.as_ref(), preset, shapes, diagnostics)
+}
+
+/// Layers, elastic constants, wear, conductor and softening of a body.
+type Parts = (
+    ((Vec<Layer>, Elastic), Option<WearLaw>),
+    (Option<Conductor>, Softening),
+);
+
+/// A body of a shape.
+fn body<S>(shape: S, (surface, (thermal, softening)): Parts) -> Body<S> {
+    let ((plating, elastic), wear) = surface;
+    Body {
+        shape,
+        elastic,
+        wear,
+        plating,
+        thermal,
+        softening,
     }
 }
 

@@ -30,16 +30,25 @@ pub(crate) struct LineLoad {
     pub(crate) spring_n_per_mm2: f64,
 }
 
-/// Resolves the load.
+/// The load of a preset; a force needs no width where the model has one.
+fn of_preset(preset: &Preset, with_width: bool) -> Load {
+    let load = preset.load.value.clone();
+    Load {
+        width_mm: load.width_mm.filter(|_| with_width),
+        ..load
+    }
+}
+
+/// Resolves the load. `with_width` is whether the model has no width of its own, so that a force needs one.
 pub(crate) fn resolve(
     given: Option<&Load>,
-    preset: &Preset,
+    (preset, with_width): (&Preset, bool),
     shapes: &Shapes,
     diagnostics: &mut Diagnostics,
 ) -> (Load, LineLoad) {
     let (load, provenance) = match given {
         Some(load) => (load.clone(), Provenance::Given),
-        None => (preset.load.value.clone(), preset.load.provenance),
+        None => (of_preset(preset, with_width), preset.load.provenance),
     };
     diagnostics.provenance("/load/kind", provenance);
     let Some(kind) = diagnostics.enum_member("/load/kind", &load.kind) else {
@@ -73,7 +82,12 @@ pub(crate) fn resolve(
         ),
         LoadKind::Force => (
             &["kind", "n", "width_mm", "spring_n_per_mm"],
-            required("n", load.n, FORCE_N) / required("width_mm", load.width_mm, WIDTH_MM),
+            required("n", load.n, FORCE_N)
+                / if with_width {
+                    required("width_mm", load.width_mm, WIDTH_MM)
+                } else {
+                    1.0
+                },
         ),
     };
     diagnostics.check_fields("/load", &load, fields, kind.as_str());
@@ -82,8 +96,8 @@ pub(crate) fn resolve(
         diagnostics.check_range("/load/spring_n_per_mm", spring, &SPRING_N_PER_MM)
     });
     let depth = match kind {
-        LoadKind::Force => load.width_mm.unwrap_or(1.0),
-        LoadKind::Pressure | LoadKind::LineForce => 1.0,
+        LoadKind::Force if with_width => load.width_mm.unwrap_or(1.0),
+        LoadKind::Force | LoadKind::Pressure | LoadKind::LineForce => 1.0,
     };
     let line_load = LineLoad {
         n_per_mm,

@@ -50,6 +50,7 @@ fn numbers() -> Vec<(&'static str, &'static str, RangeInclusive<f64>)> {
     let materials =
         materials.map(|(field, _)| ("MaterialProperties", field, materials::range(field)));
     let others = [
+        ("Model", "radius_z_mm", system::LENGTH_MM),
         ("Load", "mpa", load::PRESSURE_MPA),
         ("Load", "n_per_mm", load::LINE_FORCE_N_PER_MM),
         ("Load", "n", load::FORCE_N),
@@ -364,6 +365,10 @@ mod tests {
                     r#"{PLATED},"life":{{"criteria":[{}]}}"#,
                     criterion(field, value)
                 ),
+            ),
+            "Model" => (
+                "/model",
+                format!(r#""model":{{"dimension":"point","{field}":{value}}}"#),
             ),
             "Accuracy" => ("/accuracy", format!(r#""accuracy":{{"{field}":{value}}}"#)),
             "Overrides" => (

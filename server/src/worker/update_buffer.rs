@@ -77,8 +77,8 @@ impl UpdateBuffer {
             Line::Cycle(row) => {
                 self.progress.cycle = row.cycle;
                 self.progress.fraction = fraction(row.cycle, self.progress.cycles);
-                self.update.rows.push(row.clone());
-                self.newest = Some(row);
+                self.update.rows.push((*row).clone());
+                self.newest = Some(*row);
             }
             Line::Snapshot(snapshot) => self.update.snapshots.push(*snapshot),
             Line::File(file) => self.update.files.push(NewFile {
@@ -182,7 +182,7 @@ mod tests {
     use crate::solve::checkpoint::EncodedCheckpoint;
 
     fn row(cycle: u64) -> Line {
-        Line::Cycle(CycleReport {
+        Line::Cycle(Box::new(CycleReport {
             cycle,
             jump: 1,
             jump_error: 0.0,
@@ -193,12 +193,13 @@ mod tests {
             exposed_length_mm: Sides::default(),
             resistance: None,
             temperature: None,
+            extent: None,
             load_n_per_mm: 0.0,
             peak_pressure_mpa: 0.0,
             contact_half_width_mm: 0.0,
             dissipated_energy_mj_per_mm: 0.0,
             friction_coefficient: 0.0,
-        })
+        }))
     }
 
     #[test]

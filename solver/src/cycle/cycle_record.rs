@@ -40,6 +40,8 @@ pub struct FrictionLoop {
     pub displacement_mm: Vec<f64>,
     /// Force of the slider on the receptacle along x, N/mm.
     pub tangential_force_n_per_mm: Vec<f64>,
+    /// That of the whole contact, N; nothing of a section.
+    pub tangential_force_n: Vec<f64>,
 }
 
 impl FrictionLoop {

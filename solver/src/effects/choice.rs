@@ -3,6 +3,7 @@
 use super::decision::{Decision, Indicator, Verdict};
 use super::effect::Effect;
 use super::indicators::{self, Indicators};
+use super::point::can_simulate;
 use super::reason::{Grounds, reason};
 use super::small_strain;
 
@@ -43,6 +44,7 @@ pub(super) fn decide(
             effect,
             verdict,
             indicator: grounds.indicator(),
+            is_available: can_simulate(scene, effect),
             reason: reason(
                 scene,
                 indicators,
@@ -67,7 +69,7 @@ fn verdict(scene: &Scene, effect: Effect, grounds: Grounds, called_for: bool) ->
     match switch {
         Some(true) => Verdict::ForcedOn,
         Some(false) => Verdict::ForcedOff,
-        None if !effect.is_available() => Verdict::Skipped,
+        None if !can_simulate(scene, effect) => Verdict::Skipped,
         None if called_for || needed || indicator.value() > indicator.threshold => {
             Verdict::Simulated
         }
@@ -82,7 +84,8 @@ fn indicator(scene: &Scene, indicators: &Indicators<'_>, effect: Effect) -> Indi
         worn: indicators.value(effect, indicators.worn_depth_at_end()),
         threshold: match effect {
             Effect::Elasticity | Effect::Resistance => 0.0,
-            Effect::GeometricNonlinearity => small_strain::LIMIT,
+            Effect::AcrossWidth if is_point(scene) => 0.0,
+            Effect::GeometricNonlinearity => small_strain::limit(scene),
             Effect::Plasticity => 1.0,
             Effect::Plating => LAYER_SHARE,
             _ => SHARE * accuracy.tolerance,
@@ -102,6 +105,10 @@ fn wears_by_law<S>(scene: &Scene, body: &Body<S>) -> bool {
         softening: true,
     };
     body.surface_wear(all, motion.constant()).is_some_and(wears)
+}
+
+fn is_point(scene: &Scene) -> bool {
+    scene.dimension.point().is_some()
 }
 
 fn is_plated(scene: &Scene) -> bool {
@@ -182,7 +189,7 @@ fn nothing_to_simulate(
         {
             Some("there is no friction in the scene")
         }
-        Effect::StickMemory if !is_on(Effect::Friction) => {
+        Effect::StickMemory if !is_on(Effect::Friction) && !is_point(scene) => {
             Some("friction acts on neither body, so that nothing sticks")
         }
         Effect::ReceptacleWear => wear(
@@ -214,6 +221,7 @@ fn nothing_to_simulate(
             Conduction::Known(_) => None,
             Conduction::Unknown { missing, .. } => Some(missing),
         },
+        Effect::Relocation if is_point(scene) => Some("half-spaces keep their stiffness"),
         Effect::Relocation if !wears() => Some("nothing wears, so nothing moves the mesh"),
         Effect::SpringFading if scene.spring_n_per_mm2 <= 0.0 => Some("the load is a dead load"),
         Effect::Resistance => match scene.conduction {
@@ -234,6 +242,7 @@ fn nothing_to_simulate(
         Effect::Plasticity if indicators::peak_over_hardness(scene).is_none() => Some(
             "never simulated, and not estimated: the hardness of a surface or the force is not known",
         ),
+        Effect::AcrossWidth if is_point(scene) => None,
         Effect::AcrossWidth if !wears() => {
             Some("never simulated; nothing wears, so that no life depends on it")
         }

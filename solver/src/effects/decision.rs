@@ -12,6 +12,8 @@ pub struct Decision {
     pub verdict: Verdict,
     /// Its indicator; `None` where there is nothing to decide.
     pub indicator: Option<Indicator>,
+    /// Whether it can be simulated in the scene.
+    pub is_available: bool,
     /// Reason, with the numbers that decided.
     pub reason: String,
 }

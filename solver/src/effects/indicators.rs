@@ -7,6 +7,7 @@ use std::f64::consts::PI;
 
 use super::across_width;
 use super::effect::Effect;
+use super::point;
 use super::small_strain;
 use crate::electrical;
 use crate::law::elastic::dundurs_beta;
@@ -16,7 +17,6 @@ use crate::law::skin_effect;
 use crate::law::surface::SurfaceWear;
 use crate::law::wear::LocalState;
 use crate::model::resolution::{self, Sizes};
-use crate::model::worn_depth;
 use crate::number::{real, real_cycles};
 use crate::scene::{ContactHeat, Drive, Motion, Scene};
 use crate::sides::{Side, Sides};
@@ -72,12 +72,8 @@ impl<'a> Indicators<'a> {
 
     /// Estimated largest worn depths after so many cycles, mm.
     pub(super) fn worn_depth_after(&self, cycles: u64) -> Sides<f64> {
-        let at = LocalState::mean(
-            self.scene.load_n_per_mm,
-            self.sizes.hertz_half_width,
-            self.scene.timed_motion().mean(),
-        );
-        worn_depth::after(&self.scene, (self.radius, at), &self.wear, cycles)
+        let state = (self.sizes.hertz_half_width, &self.wear);
+        resolution::worn_depth_after(&self.scene, state, cycles)
     }
 
     /// Those at the end.
@@ -99,6 +95,9 @@ impl<'a> Indicators<'a> {
     }
 
     fn value_alone(&self, effect: Effect, depth: Sides<f64>) -> f64 {
+        if let Some(value) = point::value(&self.scene, effect) {
+            return value;
+        }
         match effect {
             Effect::Elasticity | Effect::Resistance => 1.0,
             Effect::Friction => self.friction(depth),
@@ -363,8 +362,7 @@ fn lost_slip(scene: &Scene, half_width: f64) -> f64 {
 /// Hertz' peak pressure of the unworn contact over the hardness of the softer surface, -, where both are known.
 pub(super) fn peak_over_hardness(scene: &Scene) -> Option<f64> {
     let electrical = scene.conduction.known()?;
-    let half_width = resolution::choose(scene).hertz_half_width;
-    let peak = 2.0 * scene.load_n_per_mm / (PI * half_width);
+    let peak = resolution::hertz_peak_pressure(scene);
     let hardness = Side::BOTH.map(|side| electrical.metals.of(side)[0].hardness_mpa);
     Some(peak / hardness[0].min(hardness[1]))
 }

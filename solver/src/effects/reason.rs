@@ -3,6 +3,7 @@
 use super::decision::{Indicator, Verdict};
 use super::effect::Effect;
 use super::indicators::Indicators;
+use super::point::can_simulate;
 
 use crate::law::elastic::contact_modulus;
 use crate::scene::Scene;
@@ -96,6 +97,12 @@ pub(super) fn reason(
             consequence(effect, verdict.is_on())
         );
     }
+    if effect == Effect::AcrossWidth && scene.dimension.point().is_some() {
+        return format!(
+            "{switch}the contact of both curvatures is solved for, {:.2e} mm along the sliding direction",
+            indicators.hertz_half_width()
+        );
+    }
     if effect == Effect::AcrossWidth {
         let depth = indicators.worn_depth_at_end();
         return format!(
@@ -112,13 +119,18 @@ pub(super) fn reason(
             "{switch}the coefficient of friction follows from its worn depth: {result}"
         );
     }
+    let unavailable = if indicator.value() > threshold && !can_simulate(scene, effect) {
+        "; it cannot be simulated here, and its change is part of the stated errors"
+    } else {
+        ""
+    };
     let together = if called_for && verdict == Verdict::Simulated {
         ", and more than half of the tolerance together with all that is left out"
     } else {
         ""
     };
     format!(
-        "{switch}{} unworn, {} at the estimated end, limit {}{together}: {result}",
+        "{switch}{} unworn, {} at the estimated end, limit {}{together}: {result}{unavailable}",
         percent(unworn),
         percent(worn),
         percent(threshold)

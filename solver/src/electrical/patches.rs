@@ -13,12 +13,12 @@ pub(crate) struct Surface<'a> {
     pub(crate) depth: &'a [f64],
 }
 
-/// All of the contact's length on which the sides show these metals.
+/// All of the contact on which the sides show these metals.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub(super) struct Patch {
     /// The metal that each side shows, from the surface down.
     pub(super) metal: Sides<usize>,
-    /// Part of the contact's length, -.
+    /// Part of the contact's length or area, -.
     pub(super) share: f64,
     /// Mean depth of each side, mm.
     pub(super) depth: Sides<f64>,
@@ -48,18 +48,33 @@ pub(super) fn patches(
         }
         let middle = 0.5 * (ends[0] + ends[1]);
         let depth = surfaces.map(|surface| interpolation::linear(surface.x, surface.depth, middle));
-        let metal = Sides::from_fn(|side| exposed(metals.of(side), *depth.of(side)));
-        let known = found.iter_mut().find(|patch| patch.metal == metal);
-        match known {
-            Some(patch) => patch.add(share, depth),
-            None => found.push(Patch {
-                metal,
-                share,
-                depth,
-            }),
-        }
+        add(&mut found, metals, (share, depth));
     }
     found
+}
+
+/// The patches of cells in contact by the worn depths of both sides, mm.
+pub(super) fn patches_of_cells(depths_mm: &[Sides<f64>], metals: &Sides<Vec<Metal>>) -> Vec<Patch> {
+    let share = 1.0 / crate::number::real(depths_mm.len());
+    let mut found = Vec::new();
+    for depth in depths_mm {
+        add(&mut found, metals, (share, *depth));
+    }
+    found
+}
+
+/// Adds a part of the contact to the patch of its metals.
+fn add(found: &mut Vec<Patch>, metals: &Sides<Vec<Metal>>, (share, depth): (f64, Sides<f64>)) {
+    let metal = Sides::from_fn(|side| exposed(metals.of(side), *depth.of(side)));
+    let known = found.iter_mut().find(|patch| patch.metal == metal);
+    match known {
+        Some(patch) => patch.add(share, depth),
+        None => found.push(Patch {
+            metal,
+            share,
+            depth,
+        }),
+    }
 }
 
 impl Patch {

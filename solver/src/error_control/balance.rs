@@ -69,8 +69,14 @@ pub(super) fn finer(scene: &Scene, errors: &Errors) -> Refinement {
     }
 }
 
+/// Factor up to which the cells of a point contact may be more along each axis.
+const MORE_CELLS: f64 = 2.0;
+
 /// Unknowns are in proportion to the square of the refinement.
 fn largest_mesh_factor(scene: &Scene) -> f64 {
+    if scene.dimension.point().is_some() {
+        return MORE_CELLS;
+    }
     let unknowns = Layout::of(scene).map_or(f64::INFINITY, |layout| {
         real(layout.bodies.slider.dofs() + layout.bodies.receptacle.dofs())
     });
@@ -86,7 +92,8 @@ pub(super) fn is_worth_a_restart(scene: &Scene, errors: &Errors) -> bool {
         cycles,
     } = refinement;
     let changes = mesh.max(increments).max(cycles) > LEAST_CHANGE;
-    changes && Layout::of(&companions::refined(scene, refinement)).is_ok()
+    let has_mesh = || Layout::of(&companions::refined(scene, refinement)).is_ok();
+    changes && (scene.dimension.point().is_some() || has_mesh())
 }
 
 /// Whether the error of a quantity decides about the refinement. The width of a scar is read between nodes, so that

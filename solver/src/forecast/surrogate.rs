@@ -9,7 +9,7 @@ use crate::law::surface::SurfaceWear;
 use crate::law::wear::LocalState;
 use crate::model::{Layout, resolution};
 use crate::number::{real, real_cycles};
-use crate::record::WornSurface;
+use crate::record::{Exposed, WornSurface};
 use crate::scene::{Motion, Scene, Tuning};
 use crate::schedule::jump::Stroke;
 use crate::sides::{Side, Sides};

@@ -26,6 +26,7 @@
 //! Range: laws whose rate is the same in every state, a load that does not change, gross slip (a place that sticks wears later), no
 //! movement of the contact over a crown. Limiting case: one layer, Archard's law.
 
+use super::worn_cap::WornCap;
 use super::{resolution, worn_depth};
 use crate::law::plating::bottoms;
 use crate::law::surface::SurfaceWear;
@@ -72,6 +73,9 @@ const SMALLEST_DEPTH: f64 = 1e-9;
 /// Cycles of the scene's motion until a criterion is reached, as if its run did not end before; `None` where the side never wears so
 /// deep, or wears by a law of state.
 pub fn cycles(scene: &Scene, criterion: Criterion) -> Option<f64> {
+    if let Some(point) = scene.dimension.point() {
+        return WornCap::of(scene, point).cycles(criterion);
+    }
     let path = scene.load_n_per_mm * scene.motion.distance_per_cycle_mm();
     let contact = Contact {
         scene,

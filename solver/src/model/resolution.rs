@@ -8,6 +8,7 @@
 //! * flat of a slider in a long stroke: the circular segment that it has lost, by the same formula with W = k_s P s;
 //! * ends of the groove of a long stroke 2 A, W/(2 A) deep: the slider's arc reaches b = sqrt(R W / A) up them.
 
+use super::worn_cap::WornCap;
 use super::{constraint_side, worn_depth};
 use crate::effects::Effect;
 use crate::law::elastic::contact_modulus;
@@ -15,6 +16,7 @@ use crate::law::surface::SurfaceWear;
 use crate::law::wear::LocalState;
 use crate::mesh::grading::Spacing;
 use crate::number::real_cycles;
+use crate::point::{PointScene, SlipRegime};
 use crate::scene::{Accuracy, Drive, Elastic, Motion, Refinement, Scene, SliderShape};
 use crate::sides::{Side, Sides};
 use std::f64::consts::PI;
@@ -136,7 +138,7 @@ pub(crate) fn wear_rates(scene: &Scene, half_width: f64) -> Sides<f64> {
     let by_depth = |wear: Option<SurfaceWear>| wear.is_some_and(SurfaceWear::depends_on_depth);
     let depth = if by_depth(wear.slider) || by_depth(wear.receptacle) {
         let cycles = expected_cycles(scene, half_width);
-        worn_depth::after(scene, (radius(scene), at), &wear, cycles)
+        worn_depth_after(scene, (half_width, &wear), cycles)
     } else {
         Sides::default()
     };
@@ -151,14 +153,58 @@ pub fn expected_end(scene: &Scene) -> u64 {
 
 /// The same for a Hertz half-width, mm.
 pub(crate) fn expected_cycles(scene: &Scene, half_width: f64) -> u64 {
+    if let Some(point) = scene.dimension.point() {
+        return WornCap::of(scene, point).expected_cycles();
+    }
     let at = LocalState::mean(scene.load_n_per_mm, half_width, scene.timed_motion().mean());
     worn_depth::expected_cycles(scene, (radius(scene), at), &scene.surface_wear())
 }
 
+/// Estimated largest worn depths after so many cycles, mm, in a contact of a half-width with this wear of both surfaces.
+pub(crate) fn worn_depth_after(
+    scene: &Scene,
+    (half_width, wear): (f64, &Sides<Option<SurfaceWear>>),
+    cycles: u64,
+) -> Sides<f64> {
+    if let Some(point) = scene.dimension.point() {
+        return WornCap::of(scene, point).depth_after(cycles);
+    }
+    let at = LocalState::mean(scene.load_n_per_mm, half_width, scene.timed_motion().mean());
+    worn_depth::after(scene, (radius(scene), at), wear, cycles)
+}
+
+/// Half-width of the unworn contact, mm: Hertz' of a section, the half-length along the sliding direction of a point contact.
+pub fn hertz_half_width(scene: &Scene) -> f64 {
+    if let Some(contact) = PointScene::of(scene, SlipRegime::Gross) {
+        return contact.half_lengths_mm().0;
+    }
+    let modulus = contact_modulus(scene.slider.elastic, scene.receptacle.elastic);
+    (4.0 * scene.load_n_per_mm * radius(scene) / (PI * modulus)).sqrt()
+}
+
+/// Estimated half-length of a contact along the sliding direction at the end of its run, mm: the arc that has worn off, or Hertz'.
+pub fn worn_contact_half_length_mm(scene: &Scene) -> f64 {
+    let hertz = hertz_half_width(scene);
+    let cycles = expected_cycles(scene, hertz);
+    let depth = worn_depth_after(scene, (hertz, &scene.surface_wear()), cycles);
+    let arc = 2.0 * radius(scene) * depth.slider.max(depth.receptacle);
+    arc.sqrt().max(hertz)
+}
+
+/// Hertz' peak pressure of the unworn contact, MPa: 2 P/(pi a) of a section, 3 F/(2 pi a b) of a point contact.
+pub fn hertz_peak_pressure(scene: &Scene) -> f64 {
+    match PointScene::of(scene, SlipRegime::Gross) {
+        Some(contact) => {
+            let (along, across) = contact.half_lengths_mm();
+            1.5 * contact.force_n / (PI * along * across)
+        }
+        None => 2.0 * scene.load_n_per_mm / (PI * hertz_half_width(scene)),
+    }
+}
+
 /// Chooses the spacing of a scene's meshes: of a mission the finest and widest that one of its blocks needs.
 pub fn choose(scene: &Scene) -> Sizes {
-    let modulus = contact_modulus(scene.slider.elastic, scene.receptacle.elastic);
-    let hertz = (4.0 * scene.load_n_per_mm * radius(scene) / (PI * modulus)).sqrt();
+    let hertz = hertz_half_width(scene);
     let rates = wear_rates(scene, hertz);
     let expected = expected_cycles(scene, hertz).saturating_mul(EXPECTED_MARGIN);
     let expected = expected.min(scene.cycles);

@@ -1,5 +1,6 @@
 use super::*;
 use crate::effects::Switches;
+use crate::scene::Dimension;
 use crate::scene::{
     Accuracy, BlockShape, Body, Conduction, Criterion, Friction, Motion, Output, SliderShape,
     Softening, Timing, WearLaw,
@@ -64,6 +65,7 @@ pub(crate) fn fuzz_button() -> Scene {
         conduction: Conduction::default(),
         effects: Switches::default(),
         scattered: Vec::new(),
+        dimension: Dimension::PlaneStrain,
     }
 }
 

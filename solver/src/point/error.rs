@@ -5,6 +5,9 @@ use crate::contact::area::{AreaError, TangentialError};
 /// Why a run failed.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum PointError {
+    /// The scene has another dimension.
+    #[error("the scene is no point contact")]
+    Dimension,
     /// A value of the scene is outside of its range.
     #[error("{name} is {value}, must be positive")]
     Value {

@@ -1,5 +1,7 @@
 //! Values on a grid of cells about a middle: they can be moved to a larger grid or to cells of twice the size.
 
+use serde::{Deserialize, Serialize};
+
 use crate::contact::area::Cells;
 
 /// A direction of a grid.
@@ -12,7 +14,7 @@ pub(super) enum Axis {
 }
 
 /// A value for each cell of a grid about a middle, which lies between cells.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub(super) struct Field {
     /// Cells on either side of the middle, along and across.
     half: (usize, usize),

@@ -9,6 +9,10 @@
 //! wear rate k on which the contact travels by the length s, at most its own one 2 b, k jump s E*/b is the step over the
 //! indentation. It skews the pressure by about a third of itself, and bounds the jump.
 
+use serde::{Deserialize, Serialize};
+
+use super::scene::PointScene;
+use crate::law::surface::SurfaceWear;
 use crate::number::{cycles_at_least, real_cycles};
 
 /// Largest step over indentation of a jump from a tolerance of 2 % on; below, it falls with the root of the tolerance. A sphere on a flat
@@ -33,7 +37,7 @@ const CUT: u64 = 4;
 const SMALLEST_ERROR: f64 = 1e-9;
 
 /// The last jump and its error.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 pub(super) struct JumpControl {
     last: f64,
     error: f64,
@@ -42,14 +46,22 @@ pub(super) struct JumpControl {
 
 impl JumpControl {
     /// The next jump, for a step over the indentation of a jump of one cycle.
-    pub(super) fn next(self, tolerance: f64, (done, remaining): (u64, u64), step: f64) -> u64 {
+    /// `refinement` divides what bounds it.
+    pub(super) fn next(
+        self,
+        (tolerance, refinement): (f64, f64),
+        (done, remaining): (u64, u64),
+        step: f64,
+    ) -> u64 {
         if done == 0 || self.last <= 0.0 {
             return remaining.min(1);
         }
-        let target = self.last * ALLOWED_ERROR * tolerance / self.error;
+        let allowed = ALLOWED_ERROR * tolerance / refinement;
+        let target = self.last * allowed / self.error;
         let target = target.clamp(LEAST_GROWTH * self.last, MOST_GROWTH * self.last);
-        let by_step = largest_step(tolerance) / step.max(f64::MIN_POSITIVE);
-        let target = target.min(by_step).min(real_cycles(done)).max(1.0);
+        let by_step = largest_step(tolerance) / (refinement * step.max(f64::MIN_POSITIVE));
+        let by_growth = real_cycles(done) / refinement;
+        let target = target.min(by_step).min(by_growth).max(1.0);
         let target = if self.most > 0 {
             target.min(real_cycles(self.most))
         } else {
@@ -75,9 +87,45 @@ impl JumpControl {
     }
 }
 
-/// The jump to repeat a computed cycle with, if its error is too large.
-pub(super) fn rejected(tolerance: f64, done: u64, jump: u64, error: f64) -> Option<u64> {
-    let is_large = error > REJECTED * ALLOWED_ERROR * tolerance && done > 1;
+/// The jumps of a run that is not computed.
+pub(crate) struct JumpForecast<'a> {
+    scene: &'a PointScene,
+    control: JumpControl,
+}
+
+impl<'a> JumpForecast<'a> {
+    /// Of the run of a point contact.
+    pub(crate) fn of(scene: &'a PointScene) -> Self {
+        Self {
+            scene,
+            control: JumpControl::default(),
+        }
+    }
+
+    /// The next jump of a contact of a half-length in mm.
+    pub(crate) fn next(&self, done: (u64, u64), half_length: f64) -> u64 {
+        let accuracy = &self.scene.accuracy;
+        if let Some(jump) = accuracy.cycle_jump {
+            return fixed(jump, done.1);
+        }
+        let rates = self.scene.bodies.as_ref().map(|body| {
+            let wear = body.wear.and_then(SurfaceWear::dose_rate);
+            wear.unwrap_or_default()
+        });
+        let step = self.scene.step_over_indentation(rates, half_length);
+        let settings = (accuracy.tolerance, accuracy.cycles_refinement);
+        self.control.next(settings, done, step)
+    }
+
+    /// Takes the jump and its error.
+    pub(crate) fn update(&mut self, jump: u64, error: f64) {
+        self.control.update(jump, error);
+    }
+}
+
+/// The jump to repeat a computed cycle with, if its error is too large beside the tolerance over the refinement.
+pub(super) fn rejected(allowed: f64, done: u64, jump: u64, error: f64) -> Option<u64> {
+    let is_large = error > REJECTED * ALLOWED_ERROR * allowed && done > 1;
     (is_large && jump > 1).then(|| jump.div_ceil(CUT))
 }
 
@@ -97,17 +145,17 @@ mod tests {
     #[test]
     fn jumps_grow_while_the_wear_changes_little() {
         let mut control = JumpControl::default();
-        assert_eq!(control.next(0.02, (0, 1_000), 1e-9), 1);
+        assert_eq!(control.next((0.02, 1.0), (0, 1_000), 1e-9), 1);
         control.update(10, 1e-4);
-        assert_eq!(control.next(0.02, (500, 1_000), 1e-9), 20);
+        assert_eq!(control.next((0.02, 1.0), (500, 1_000), 1e-9), 20);
         control.update(20, 0.03);
-        assert_eq!(control.next(0.02, (520, 980), 1e-9), 27);
+        assert_eq!(control.next((0.02, 1.0), (520, 980), 1e-9), 27);
     }
 
     #[test]
     fn the_leading_edge_step_bounds_a_jump() {
         let mut control = JumpControl::default();
         control.update(100, 1e-6);
-        assert_eq!(control.next(0.02, (10_000, 900), 1e-2), 40);
+        assert_eq!(control.next((0.02, 1.0), (10_000, 900), 1e-2), 40);
     }
 }

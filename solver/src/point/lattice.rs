@@ -6,6 +6,8 @@
 //! moves over the slider for the rest. Amplitudes below half a cell are not resolved (n = 0): both surfaces wear in place, which
 //! neglects the travel A against the length of the contact.
 
+use serde::{Deserialize, Serialize};
+
 use super::field::Axis;
 use super::scene::{PointScene, SlipRegime};
 use crate::contact::area::Cells;
@@ -16,7 +18,7 @@ use crate::sides::Side;
 const MARGIN: f64 = 1.4;
 
 /// Numbers and sizes of cells.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub(super) struct Lattice {
     /// Length and width of a cell, mm.
     pub(super) size_mm: (f64, f64),

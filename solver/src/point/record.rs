@@ -1,11 +1,13 @@
 //! What a run reports of a point contact.
 
-use super::field::Field;
+use serde::{Deserialize, Serialize};
+
+use super::section::section;
 use crate::contact::area::Cells;
 use crate::sides::Sides;
 
 /// A computed cycle.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 pub struct PointCycle {
     /// Cycles done.
     pub cycle: u64,
@@ -17,6 +19,12 @@ pub struct PointCycle {
     pub worn_volume_mm3: Sides<f64>,
     /// Specific wear rate times sliding work, k F s in gross slip, mm^3; `None` for rates that depend on the depth.
     pub ideal_volume_mm3: Sides<Option<f64>>,
+    /// Specific wear rate times the sliding work of the middle section, z = 0, mm^2; `None` for rates that depend on the depth.
+    pub ideal_area_mm2: Sides<Option<f64>>,
+    /// Normal force at the neutral position, N, which a spring reduces as the bodies wear.
+    pub force_n: f64,
+    /// Line load of the middle section there, N/mm.
+    pub line_load_n_per_mm: f64,
     /// Peak pressure at the neutral position, MPa; without the skew of the jump, unless single cycles are skewed that much too.
     pub peak_pressure_mpa: f64,
     /// Half-length of that contact along the sliding direction, mm.
@@ -25,6 +33,8 @@ pub struct PointCycle {
     pub half_length_across_mm: f64,
     /// Energy dissipated since the run began, mu F s in gross slip, mJ (N mm).
     pub dissipated_energy_mj: f64,
+    /// The same per mm of depth of the middle section, mJ/mm.
+    pub dissipated_energy_mj_per_mm: f64,
     /// Estimated relative error of the wear of the jump.
     pub jump_error: f64,
     /// Contact solves of the computed cycle.
@@ -49,8 +59,6 @@ pub struct DepthMap {
 pub enum PointOutcome {
     /// All cycles are done.
     Completed,
-    /// The depth that ends it was reached.
-    StopDepth,
     /// The receiver of its cycles ended it.
     Stopped,
 }
@@ -77,66 +85,29 @@ pub struct PointSummary {
 }
 
 impl DepthMap {
+    /// Depths along the middle section, z = 0, mm.
+    pub fn section(&self) -> Vec<f64> {
+        section(self.z_mm.len(), &self.depth_mm).collect()
+    }
+
+    /// Area of a cell, mm^2.
+    pub fn cell_area_mm2(&self) -> f64 {
+        self.cell_mm().0 * self.cell_mm().1
+    }
+
+    /// Length and width of a cell, mm.
+    pub fn cell_mm(&self) -> (f64, f64) {
+        (self.x_mm[1] - self.x_mm[0], self.z_mm[1] - self.z_mm[0])
+    }
+}
+
+impl DepthMap {
     /// The map of depths on cells.
     pub(super) fn new(cells: &Cells, depth_mm: Vec<f64>) -> Self {
         Self {
             x_mm: (0..cells.along_x).map(|i| cells.x_mm(i)).collect(),
             z_mm: (0..cells.along_z).map(|j| cells.z_mm(j)).collect(),
             depth_mm,
-        }
-    }
-}
-
-/// Half-lengths of a contact along and across, in cells: to where the line load of the pressure, extended from the two outermost rows
-/// on either side, vanishes, at most a row further. Exact for Hertz' ellipse, whose line load is a parabola, to the second order.
-pub(super) fn half_lengths(pressure: &Field) -> (f64, f64) {
-    let width = pressure.width();
-    let along: Vec<f64> = pressure
-        .values
-        .chunks_exact(width)
-        .map(|row| row.iter().sum())
-        .collect();
-    let mut across = vec![0.0; width];
-    for row in pressure.values.chunks_exact(width) {
-        for (sum, pressure) in across.iter_mut().zip(row) {
-            *sum += pressure;
-        }
-    }
-    (half_length(&along), half_length(&across))
-}
-
-fn half_length(load: &[f64]) -> f64 {
-    let first = load.iter().position(|load| *load > 0.0);
-    let last = load.iter().rposition(|load| *load > 0.0);
-    let (Some(first), Some(last)) = (first, last) else {
-        return 0.0;
-    };
-    if last - first < 2 {
-        return 0.5 * crate::number::real(last - first + 1);
-    }
-    let beyond = |outer: f64, inner: f64| {
-        if inner > outer {
-            (outer / (inner - outer)).min(1.0)
-        } else {
-            1.0
-        }
-    };
-    let ends = beyond(load[first], load[first + 1]) + beyond(load[last], load[last - 1]);
-    0.5 * (crate::number::real(last - first) + ends)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_half_length_of_a_parabola_is_found_between_cells() {
-        for edge in [8.2_f64, 8.5, 8.9] {
-            let load: Vec<f64> = (0..24)
-                .map(|i| (1.0 - ((f64::from(i) - 11.5) / edge).powi(2)).max(0.0))
-                .collect();
-            let found = half_length(&load);
-            assert!((found / edge - 1.0).abs() < 0.012, "{edge}: {found}");
         }
     }
 }

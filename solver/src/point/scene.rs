@@ -3,6 +3,7 @@
 use super::error::PointError;
 use crate::law::elastic::{Elastic, Lame, contact_modulus};
 use crate::law::surface::SurfaceWear;
+use crate::scene::Scene;
 use crate::sides::{Side, Sides};
 
 /// Largest amplitude over the half-length of a contact whose surfaces wear in place: what they are displaced over each other by is then
@@ -38,6 +39,8 @@ pub struct PointScene {
     pub bodies: Sides<PointBody>,
     /// Normal force F, N.
     pub force_n: f64,
+    /// Stiffness of the spring that applies it, which relaxes as the slider sinks, N/mm; 0 for a dead load.
+    pub spring_n_per_mm: f64,
     /// Coefficient of friction mu, -.
     pub friction: f64,
     /// How it slips.
@@ -46,8 +49,6 @@ pub struct PointScene {
     pub amplitude_mm: f64,
     /// Cycles to simulate.
     pub cycles: u64,
-    /// Worn depth of either side that ends the run, mm.
-    pub stop_depth_mm: Option<f64>,
     /// Grid and integration.
     pub accuracy: PointAccuracy,
 }
@@ -63,6 +64,16 @@ pub struct PointAccuracy {
     pub step_over_half_length: f64,
     /// Cycles of a computed one; chosen from the tolerance if absent.
     pub cycle_jump: Option<u64>,
+    /// Factor on the number of computed cycles: jumps, and what bounds them, are divided by it.
+    pub cycles_refinement: f64,
+}
+
+/// Line load of the middle section of the unworn point contact of a scene, N/mm: pi/2 p0 a = 3 F/(4 b), 0 for another scene.
+pub fn middle_line_load_n_per_mm(scene: &Scene) -> f64 {
+    PointScene::of(scene, SlipRegime::Gross).map_or(0.0, |contact| {
+        let (_, across) = contact.half_lengths_mm();
+        0.75 * contact.force_n / across
+    })
 }
 
 impl PointAccuracy {
@@ -73,6 +84,37 @@ impl PointAccuracy {
             cells_per_half_length: 12.0,
             step_over_half_length: 0.25,
             cycle_jump: None,
+            cycles_refinement: 1.0,
+        }
+    }
+}
+
+/// Length of a cell of the unworn point contact of a scene, mm; 0 for another scene.
+pub fn cell_mm(scene: &Scene) -> f64 {
+    PointScene::of(scene, SlipRegime::Gross).map_or(0.0, |contact| {
+        contact.half_lengths_mm().0 / contact.accuracy.cells_per_half_length
+    })
+}
+
+impl PointAccuracy {
+    /// Grid and steps for the tolerance of a scene whose contact has a half-length in mm, with what the user gives, and refined.
+    fn of(scene: &Scene, along: f64) -> Self {
+        let accuracy = &scene.accuracy;
+        let chosen = Self::from_tolerance(accuracy.tolerance);
+        let refinement = accuracy.refinement;
+        let given = accuracy.contact_element_mm.map(|cell| along / cell);
+        let cells = given.unwrap_or(chosen.cells_per_half_length);
+        let path = scene.motion.distance_per_cycle_mm();
+        let given = accuracy
+            .increments_per_cycle
+            .map(|count| path / (f64::from(count) * along));
+        let step = given.unwrap_or(chosen.step_over_half_length);
+        Self {
+            cells_per_half_length: cells * refinement.mesh,
+            step_over_half_length: step / refinement.increments,
+            cycle_jump: accuracy.cycle_jump,
+            cycles_refinement: refinement.cycles,
+            ..chosen
         }
     }
 }
@@ -89,6 +131,41 @@ impl PointBody {
 }
 
 impl PointScene {
+    /// The point contact of a scene with the wear of its surfaces, if it is one: the slider first goes to +x.
+    pub fn of(scene: &Scene, slip: SlipRegime) -> Option<Self> {
+        let point = scene.dimension.point()?;
+        let wear = scene.surface_wear();
+        let across = point.radius_across_mm;
+        let (slider, block) = (&scene.slider, &scene.receptacle);
+        let mut contact = Self {
+            bodies: Sides {
+                slider: PointBody {
+                    radius_along_mm: Some(slider.shape.radius_mm),
+                    radius_across_mm: across.slider,
+                    elastic: slider.elastic,
+                    wear: wear.slider,
+                },
+                receptacle: PointBody {
+                    radius_along_mm: block.shape.crown_radius_mm,
+                    radius_across_mm: across.receptacle,
+                    elastic: block.elastic,
+                    wear: wear.receptacle,
+                },
+            },
+            force_n: point.force_n,
+            // A spring per mm of depth acts on the load per mm of depth.
+            spring_n_per_mm: scene.spring_n_per_mm2 * point.force_n / scene.load_n_per_mm,
+            friction: scene.friction.unworn(),
+            slip,
+            // Passes begin at the turning point on the side of -A.
+            amplitude_mm: -scene.motion.amplitude_mm(),
+            cycles: scene.cycles,
+            accuracy: PointAccuracy::from_tolerance(scene.accuracy.tolerance),
+        };
+        contact.accuracy = PointAccuracy::of(scene, contact.half_lengths_mm().0);
+        Some(contact)
+    }
+
     /// Contact modulus E*, MPa.
     pub fn modulus(&self) -> f64 {
         contact_modulus(self.bodies.slider.elastic, self.bodies.receptacle.elastic)
@@ -106,7 +183,7 @@ impl PointScene {
     /// Half-lengths of the unworn contact along and across the sliding direction, mm, by the approximation for ellipses that are not
     /// slender (Johnson, Contact Mechanics, 1985, section 4.2): sqrt(ab) = (3 F R_e/(4 E*))^(1/3), b/a = (R_b/R_a)^(2/3);
     /// a tenth off at an aspect of 10. It only sizes the grid.
-    pub(super) fn half_lengths_mm(&self) -> (f64, f64) {
+    pub fn half_lengths_mm(&self) -> (f64, f64) {
         let (along, across) = self.curvature();
         let equivalent_radius = 1.0 / (along * across).sqrt();
         let mean = (0.75 * self.force_n * equivalent_radius / self.modulus()).cbrt();
@@ -127,9 +204,23 @@ impl PointScene {
         3.0 * self.friction * self.force_n * compliance / (16.0 * (along * across).sqrt())
     }
 
+    /// Leading-edge step over the indentation that a cycle leaves by specific wear rates in 1/MPa, under a contact of a half-length in mm.
+    pub(super) fn step_over_indentation(&self, rates: Sides<f64>, half_length: f64) -> f64 {
+        let stroke = 2.0 * self.amplitude_mm.abs();
+        let travel = self.travel_over_receptacle();
+        let step = |rate: f64, part: f64| rate * (part * stroke).min(2.0 * half_length);
+        let steps = step(rates.slider, 1.0 - travel) + step(rates.receptacle, travel);
+        steps * self.modulus() / half_length
+    }
+
     /// Part of the slider's displacement by which the contact travels over the receptacle.
     pub(super) fn travel_over_receptacle(&self) -> f64 {
         self.bodies.slider.curvature().0 / self.curvature().0
+    }
+
+    /// Whether a part of the contact may stick: the amplitude is small against the contact.
+    pub(crate) fn may_stick(&self) -> bool {
+        self.amplitude_mm.abs() <= LARGEST_PARTIAL * self.half_lengths_mm().0
     }
 
     /// Largest amplitude in mm for which surfaces wear in place, if a part of the contact may stick.
@@ -157,7 +248,6 @@ impl PointScene {
                 self.accuracy.cells_per_half_length,
             ),
             ("step over half-length", self.accuracy.step_over_half_length),
-            ("magnitude of the amplitude in mm", self.amplitude_mm.abs()),
         ];
         for (name, value) in positive {
             if !(value > 0.0 && value.is_finite()) {
@@ -165,7 +255,7 @@ impl PointScene {
             }
         }
         let (amplitude_mm, most_mm) = (self.amplitude_mm.abs(), self.largest_amplitude_mm());
-        if amplitude_mm > most_mm {
+        if amplitude_mm.is_nan() || amplitude_mm > most_mm {
             return Err(PointError::Amplitude {
                 amplitude_mm,
                 most_mm,

@@ -4,13 +4,17 @@
 //! end wears both by p |ds| (backward Euler). The dose is spread evenly over the positions that the contact has moved through, on either
 //! body, so that no ripples of the length of an increment remain. The mean rates of layers are found by repeating the solve.
 //!
+//! A spring loses load as the slider sinks: F = F_0 - k (delta - delta_0), with the approach of the increment before.
+//!
 //! Shapes are parabolas, as Hertz': a circle of depth h is deeper by the part h/(2 R).
 
+use std::cmp::Ordering;
+use std::ops::Range;
+
 use super::error::PointError;
-use super::field::{Axis, Field};
-use super::lattice::Lattice;
-use super::record::half_lengths;
+use super::field::Axis;
 use super::scene::PointScene;
+use super::section::{half_lengths, section_integral};
 use super::state::State;
 use super::stick::StickSlip;
 use crate::contact::area::{AreaError, NormalContact, NormalProblem};
@@ -28,17 +32,18 @@ const COARSENED: f64 = 2.2;
 const MOST_REPETITIONS: usize = 6;
 const PRESSURE_TOLERANCE: f64 = 1e-4;
 
-/// A point contact that slides.
+/// Smallest part of the load that a spring keeps: a contact without load has no solution.
+const LEAST_LOAD: f64 = 1e-4;
+
+/// Solves the increments of a point contact that slides.
 pub(super) struct Sliding<'a> {
     scene: &'a PointScene,
-    pub(super) state: State,
     contact: NormalContact,
     friction: StickSlip,
-    /// Gap and wear on the window.
+    /// Gap, wear and dose on the window.
     gap: Vec<f64>,
     wear: Vec<f64>,
-    /// Contact solves and their iterations.
-    pub(super) work: (usize, usize),
+    dose: Vec<f64>,
 }
 
 /// An increment: where it ends, and the path that it wears by in mm, of all cycles that it represents.
@@ -53,56 +58,56 @@ struct Increment {
 }
 
 impl<'a> Sliding<'a> {
-    /// The unworn contact, loaded where the first pass begins.
-    pub(super) fn new(scene: &'a PointScene) -> Result<Self, PointError> {
-        let state = State::unworn(scene);
-        let position = state.position;
-        let mut sliding = Self {
+    /// For a contact in a state.
+    pub(super) fn new(scene: &'a PointScene, state: &State) -> Self {
+        Self {
             scene,
             contact: NormalContact::new(state.lattice.cells(), scene.modulus()),
             friction: StickSlip::default(),
             gap: Vec::new(),
             wear: Vec::new(),
-            state,
-            work: (0, 0),
-        };
-        sliding.slide(position, 0.0, 0.0)?;
-        Ok(sliding)
-    }
-
-    /// Returns to an earlier state.
-    pub(super) fn restore(&mut self, state: State) {
-        let is_other = state.lattice != self.state.lattice;
-        self.state = state;
-        if is_other {
-            self.rebuild();
+            dose: Vec::new(),
         }
     }
 
-    /// The contact at the neutral position without the skew of a jump, which is solved for without wear and changes nothing: its pressure and
-    /// its lattice.
-    pub(super) fn unskewed(&mut self, jump: f64) -> Result<(Field, Lattice), PointError> {
-        let state = self.state.clone();
+    /// Loads the unworn contact where the first pass begins.
+    pub(super) fn load(&mut self, state: &mut State) -> Result<(), PointError> {
+        self.slide(state, state.position, 0.0, 0.0)?;
+        state.unworn_approach_mm = Some(state.approach_mm);
+        Ok(())
+    }
+
+    /// The contact at the neutral position without the skew of a jump, which is solved for without wear and changes nothing.
+    pub(super) fn unskewed(&mut self, state: &State, jump: f64) -> Result<State, PointError> {
+        let mut state = state.clone();
         for side in Side::BOTH {
-            self.state.surfaces.of_mut(side).unskew(jump);
+            state.surfaces.of_mut(side).unskew(jump);
         }
-        let solved = self.slide(self.state.lattice.amplitude, 0.0, 0.0);
-        let found = (self.state.pressure.clone(), self.state.lattice);
-        self.restore(state);
-        solved.map(|()| found)
+        let neutral = state.lattice.amplitude;
+        self.slide(&mut state, neutral, 0.0, 0.0)?;
+        Ok(state)
     }
 
     /// The whole path of cycles in place, where the amplitude is not resolved.
-    pub(super) fn wear_in_place(&mut self, cycles: f64) -> Result<(), PointError> {
-        self.slide(0, 4.0 * self.scene.amplitude_mm.abs(), cycles)
+    pub(super) fn wear_in_place(
+        &mut self,
+        state: &mut State,
+        cycles: f64,
+    ) -> Result<(), PointError> {
+        self.slide(state, 0, 4.0 * self.scene.amplitude_mm.abs(), cycles)
     }
 
     /// Half of a pass, between a turning point and the neutral position, of a number of cycles.
-    pub(super) fn half_pass(&mut self, to: usize, cycles: f64) -> Result<(), PointError> {
-        let from = self.state.position;
+    pub(super) fn half_pass(
+        &mut self,
+        state: &mut State,
+        to: usize,
+        cycles: f64,
+    ) -> Result<(), PointError> {
+        let from = state.position;
         let cells = from.abs_diff(to);
         let length = self.scene.amplitude_mm.abs();
-        let (along, _) = half_lengths(&self.state.pressure);
+        let (along, _) = half_lengths(&state.pressure);
         let step = nearest((self.scene.accuracy.step_over_half_length * along).floor()).max(1);
         let count = cells.div_ceil(step).max(1);
         let path = length / real(count);
@@ -113,7 +118,7 @@ impl<'a> Sliding<'a> {
             } else {
                 from - moved
             };
-            self.slide(next, path, cycles)?;
+            self.slide(state, next, path, cycles)?;
         }
         Ok(())
     }
@@ -122,101 +127,118 @@ impl<'a> Sliding<'a> {
     /// pressure before the increment, then the pressure with the wear by the slip of each cell.
     pub(super) fn slip_partly(
         &mut self,
+        state: &mut State,
         displacement_mm: f64,
         cycles: f64,
     ) -> Result<(), PointError> {
-        self.friction
-            .advance(self.scene, &mut self.state, displacement_mm)?;
+        self.fit(state);
+        self.friction.advance(self.scene, state, displacement_mm)?;
         let increment = Increment {
-            to: self.state.position,
+            to: state.position,
             worn_path_mm: 0.0,
             cycles,
             is_partial: true,
         };
-        self.solve_widening(increment)?;
-        let State {
-            pressure,
-            slip,
-            surfaces,
-            lattice,
-            ..
-        } = &mut self.state;
-        let doses = pressure.values.iter().zip(&slip.values);
-        let doses: Vec<f64> = doses
-            .map(|(pressure, slip)| cycles * pressure * slip)
-            .collect();
+        self.solve_widening(state, increment)?;
+        self.dose.clear();
+        let doses = state.pressure.values.iter().zip(&state.slip.values);
+        self.dose
+            .extend(doses.map(|(pressure, slip)| cycles * pressure * slip));
         for side in Side::BOTH {
-            surfaces.of_mut(side).add(&doses);
+            state.surfaces.of_mut(side).add(&self.dose);
         }
-        self.state.sliding_work += lattice.cells().integral(&doses);
+        let cells = state.lattice.cells();
+        state.sliding_work += cells.integral(&self.dose);
+        state.section_work += section_integral(&cells, &self.dose);
         Ok(())
     }
 
     /// One increment to a position over a path in mm, of a number of cycles.
-    fn slide(&mut self, to: usize, path_mm: f64, cycles: f64) -> Result<(), PointError> {
+    fn slide(
+        &mut self,
+        state: &mut State,
+        to: usize,
+        path_mm: f64,
+        cycles: f64,
+    ) -> Result<(), PointError> {
         let increment = Increment {
             to,
             worn_path_mm: path_mm * cycles,
             cycles,
             is_partial: false,
         };
-        self.solve_widening(increment)?;
+        self.solve_widening(state, increment)?;
         for side in Side::BOTH {
-            let rows = self.rows_passed(side, increment);
-            let surface = self.state.surfaces.of_mut(side);
-            surface.add_dose(&self.state.pressure.values, increment.worn_path_mm, &rows);
+            let rows = rows_passed(state, side, increment);
+            let surface = state.surfaces.of_mut(side);
+            surface.add_dose(&state.pressure.values, increment.worn_path_mm, rows);
         }
-        self.state.position = to;
-        self.state.sliding_work += self.scene.force_n * increment.worn_path_mm;
+        state.position = to;
+        let line_load = section_integral(&state.lattice.cells(), &state.pressure.values);
+        state.sliding_work += state.force_n * increment.worn_path_mm;
+        state.section_work += line_load * increment.worn_path_mm;
+        self.relax_spring(state);
         Ok(())
     }
 
+    /// The load of the next increment: a spring loses what the slider has sunk since it was loaded.
+    fn relax_spring(&self, state: &mut State) {
+        let unworn = state.unworn_approach_mm.unwrap_or(state.approach_mm);
+        let lost = self.scene.spring_n_per_mm * (state.approach_mm - unworn);
+        state.force_n = (self.scene.force_n - lost).max(LEAST_LOAD * self.scene.force_n);
+    }
+
     /// Solves for the pressure at the end of an increment, on a window that holds the contact.
-    fn solve_widening(&mut self, increment: Increment) -> Result<(), PointError> {
+    fn solve_widening(
+        &mut self,
+        state: &mut State,
+        increment: Increment,
+    ) -> Result<(), PointError> {
         loop {
-            match self.solve(increment) {
+            match self.solve(state, increment) {
                 Ok(()) => return Ok(()),
-                Err(AreaError::ReachesEdge { .. }) => self.widen()?,
+                Err(AreaError::ReachesEdge { .. }) => widen(state)?,
                 Err(error) => return Err(PointError::Contact { cycle: 0, error }),
             }
         }
     }
 
-    /// First rows of the windows on a body that the contact moves through, without the first of them.
-    fn rows_passed(&self, side: Side, increment: Increment) -> Vec<usize> {
-        let State {
-            lattice, position, ..
-        } = &self.state;
-        let last = lattice.first_row(side, increment.to);
-        let first = lattice.first_row(side, *position);
-        match first.cmp(&last) {
-            std::cmp::Ordering::Less => (first + 1..=last).collect(),
-            std::cmp::Ordering::Equal => vec![last],
-            std::cmp::Ordering::Greater => (last..first).collect(),
+    /// Builds the operators anew where the grid has changed.
+    fn fit(&mut self, state: &State) {
+        let cells = state.lattice.cells();
+        if *self.contact.cells() != cells {
+            self.friction = StickSlip::default();
+            self.contact = NormalContact::new(cells, self.scene.modulus());
         }
     }
 
     /// Solves for the pressure at the end of an increment.
-    fn solve(&mut self, increment: Increment) -> Result<(), AreaError> {
-        self.update_gap(increment.to);
-        let is_linear = Side::BOTH.map(|side| self.state.surfaces.of(side).is_linear());
+    fn solve(&mut self, state: &mut State, increment: Increment) -> Result<(), AreaError> {
+        let cells = state.lattice.cells();
+        self.fit(state);
+        self.update_gap(state, increment.to);
+        let is_linear = Side::BOTH.map(|side| state.surfaces.of(side).is_linear());
         let repetitions = if is_linear == [true, true] || increment.cycles <= 0.0 {
             1
         } else {
             MOST_REPETITIONS
         };
         for _ in 0..repetitions {
-            self.update_wear(increment);
+            self.update_wear(state, increment);
             let problem = NormalProblem {
                 gap_mm: &self.gap,
                 wear_mm_per_mpa: &self.wear,
-                force_n: self.scene.force_n,
+                force_n: state.force_n,
             };
-            let pressure = &mut self.state.pressure.values;
+            let pressure = &mut state.pressure.values;
             let before = (repetitions > 1).then(|| pressure.clone());
             let found = self.contact.solve(&problem, pressure)?;
-            self.work.0 += 1;
-            self.work.1 += found.iterations;
+            state.approach_mm = found.approach_mm;
+            state.work.0 += 1;
+            state.work.1 += found.iterations;
+            let force = (cells.integral(pressure) / state.force_n - 1.0).abs();
+            let worst = &mut state.worst_residuals;
+            *worst = (worst.0.max(force), worst.1.max(found.residual));
             if before.is_some_and(|before| change(&before, pressure) < PRESSURE_TOLERANCE) {
                 break;
             }
@@ -225,10 +247,10 @@ impl<'a> Sliding<'a> {
     }
 
     /// Gap of the undeformed surfaces at a position of the slider.
-    fn update_gap(&mut self, position: usize) {
+    fn update_gap(&mut self, state: &State, position: usize) {
         let State {
             lattice, surfaces, ..
-        } = &self.state;
+        } = state;
         let curvatures = self
             .scene
             .bodies
@@ -254,14 +276,14 @@ impl<'a> Sliding<'a> {
     }
 
     /// Wear of both surfaces per pressure in an increment, by the mean rates under the present pressure.
-    fn update_wear(&mut self, increment: Increment) {
+    fn update_wear(&mut self, state: &State, increment: Increment) {
         let State {
             lattice,
             surfaces,
             pressure,
             slip,
             ..
-        } = &self.state;
+        } = state;
         self.wear.clear();
         self.wear.resize(pressure.values.len(), 0.0);
         let rows = 2 * lattice.window().0;
@@ -282,51 +304,51 @@ impl<'a> Sliding<'a> {
         }
     }
 
-    /// Widens the window where the contact reaches its edge.
-    fn widen(&mut self) -> Result<(), PointError> {
-        let (rows, width) = (
-            self.state.lattice.cells().along_x,
-            self.state.pressure.width(),
-        );
-        let has_load = |values: &[f64]| values.iter().any(|pressure| *pressure > 0.0);
-        let pressure = &self.state.pressure;
-        let along = has_load(pressure.rows(0, 1)) || has_load(pressure.rows(rows - 1, 1));
-        let mut columns = pressure.values.chunks_exact(width);
-        let across = columns.any(|row| row[0] > 0.0 || row[width - 1] > 0.0);
-        let lattice = self.state.lattice.widened((along, across));
-        let cells = lattice.cells().count();
-        if cells > MOST_CELLS {
-            return Err(PointError::Window {
-                cells,
-                most: MOST_CELLS,
-            });
-        }
-        self.state.resize(lattice);
-        self.rebuild();
-        Ok(())
-    }
-
     /// Coarsens the grids along axes on which the contact has become long.
-    pub(super) fn coarsen(&mut self) {
+    pub(super) fn coarsen(&self, state: &mut State) {
         for axis in [Axis::Along, Axis::Across] {
-            let (along, across) = half_lengths(&self.state.pressure);
+            let (along, across) = half_lengths(&state.pressure);
             let cells = match axis {
                 Axis::Along => along,
                 Axis::Across => across,
             };
             let is_long = cells > COARSENED * self.scene.accuracy.cells_per_half_length;
-            let Some(lattice) = self.state.lattice.coarsened(axis).filter(|_| is_long) else {
-                continue;
-            };
-            self.state.merge(axis, lattice);
-            self.rebuild();
+            if let Some(lattice) = state.lattice.coarsened(axis).filter(|_| is_long) {
+                state.merge(axis, lattice);
+            }
         }
     }
+}
 
-    fn rebuild(&mut self) {
-        self.friction = StickSlip::default();
-        self.contact = NormalContact::new(self.state.lattice.cells(), self.scene.modulus());
+/// First rows of the windows on a body that the contact moves through in an increment, without the one where it is.
+fn rows_passed(state: &State, side: Side, increment: Increment) -> Range<usize> {
+    let last = state.lattice.first_row(side, increment.to);
+    let first = state.lattice.first_row(side, state.position);
+    match first.cmp(&last) {
+        Ordering::Less => first + 1..last + 1,
+        Ordering::Equal => last..last + 1,
+        Ordering::Greater => last..first,
     }
+}
+
+/// Widens the window where the contact reaches its edge.
+fn widen(state: &mut State) -> Result<(), PointError> {
+    let (rows, width) = (state.lattice.cells().along_x, state.pressure.width());
+    let has_load = |values: &[f64]| values.iter().any(|pressure| *pressure > 0.0);
+    let pressure = &state.pressure;
+    let along = has_load(pressure.rows(0, 1)) || has_load(pressure.rows(rows - 1, 1));
+    let mut columns = pressure.values.chunks_exact(width);
+    let across = columns.any(|row| row[0] > 0.0 || row[width - 1] > 0.0);
+    let lattice = state.lattice.widened((along, across));
+    let cells = lattice.cells().count();
+    if cells > MOST_CELLS {
+        return Err(PointError::Window {
+            cells,
+            most: MOST_CELLS,
+        });
+    }
+    state.resize(lattice);
+    Ok(())
 }
 
 /// Sum of the changes of a pressure over its sum.

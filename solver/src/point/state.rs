@@ -1,5 +1,7 @@
 //! State of a point contact between increments: worn surfaces, pressure, shear, and the grids that they are on.
 
+use serde::{Deserialize, Serialize};
+
 use super::field::{Axis, Field};
 use super::lattice::Lattice;
 use super::scene::PointScene;
@@ -7,7 +9,7 @@ use super::surface::Surface;
 use crate::sides::{Side, Sides};
 
 /// State between increments.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(super) struct State {
     pub(super) lattice: Lattice,
     pub(super) surfaces: Sides<Surface>,
@@ -17,6 +19,17 @@ pub(super) struct State {
     pub(super) position: usize,
     /// Sliding work since the run began, the integral of p |ds| over the contact, N mm: F s in gross slip.
     pub(super) sliding_work: f64,
+    /// The same per mm of depth of the middle section, N.
+    pub(super) section_work: f64,
+    /// Normal force, N, which a spring reduces as the slider sinks.
+    pub(super) force_n: f64,
+    /// Approach of the bodies by deformation and wear, and that of the unworn contact, mm.
+    pub(super) approach_mm: f64,
+    pub(super) unworn_approach_mm: Option<f64>,
+    /// Worst residuals of the normal force and of the contact, relative.
+    pub(super) worst_residuals: (f64, f64),
+    /// Contact solves and their iterations.
+    pub(super) work: (usize, usize),
     /// Shear along and across the sliding direction where a part may stick, MPa.
     pub(super) shear: (Field, Field),
     /// Path of each cell in the increment, mm.
@@ -40,6 +53,12 @@ impl State {
                 0
             },
             sliding_work: 0.0,
+            section_work: 0.0,
+            force_n: scene.force_n,
+            approach_mm: 0.0,
+            unworn_approach_mm: None,
+            worst_residuals: (0.0, 0.0),
+            work: (0, 0),
             shear: (window(), window()),
             slip: window(),
         }

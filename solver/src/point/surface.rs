@@ -4,12 +4,18 @@
 //! a law of one rate. An increment of a dose dD recedes the surface by G(D + dD) - G(D), in the contact solve by the mean rate of that
 //! dose.
 
+use std::ops::Range;
+
+use serde::{Deserialize, Serialize};
+
 use super::field::{Axis, Field};
 use crate::law::surface::SurfaceWear;
 
 /// A worn surface.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(super) struct Surface {
+    /// Its law, which a checkpoint has no copy of.
+    #[serde(skip)]
     wear: Option<SurfaceWear>,
     /// Rate at which the equivalent depth grows by the dose, 1/MPa.
     rate: f64,
@@ -33,6 +39,11 @@ impl Surface {
             between: Field::zero(half),
             pace: Field::zero(half),
         }
+    }
+
+    /// Gives a surface of a checkpoint its law.
+    pub(super) fn resume(&mut self, wear: Option<SurfaceWear>) {
+        self.wear = wear;
     }
 
     /// Whether the rate is the same at every depth.
@@ -78,12 +89,18 @@ impl Surface {
             .map_or(0.0, |wear| wear.largest_rate(self.depth_mm(deepest), state))
     }
 
+    /// Largest growth of the equivalent depth of a place per cycle in the last computed one, mm.
+    pub(super) fn fastest_rate(&self) -> f64 {
+        let fastest = self.pace.values.iter();
+        self.rate * fastest.fold(0.0, |most: f64, pace| most.max(*pace))
+    }
+
     /// Adds the dose of a pressure in MPa over a path in mm, as an even part at each of the windows that begin with these rows.
-    pub(super) fn add_dose(&mut self, pressure: &[f64], path_mm: f64, rows: &[usize]) {
+    pub(super) fn add_dose(&mut self, pressure: &[f64], path_mm: f64, rows: Range<usize>) {
         let part = path_mm / crate::number::real(rows.len());
         let count = pressure.len() / self.dose.width();
         for row in rows {
-            let doses = self.dose.rows_mut(*row, count).iter_mut();
+            let doses = self.dose.rows_mut(row, count).iter_mut();
             for (dose, pressure) in doses.zip(pressure) {
                 *dose += part * pressure;
             }

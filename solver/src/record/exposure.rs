@@ -5,6 +5,15 @@ use super::scar;
 /// Halvings of the interval that holds a depth.
 const HALVINGS: usize = 50;
 
+/// A surface of which parts are worn to a depth.
+pub(crate) trait Exposed {
+    /// Depth that a part of the scar has at least, mm; that of its deepest point for a part of 0.
+    fn depth_of_part(&self, part: f64) -> f64;
+
+    /// The part of the scar that is at least as deep as a limit above 0, mm.
+    fn exposed_part(&self, limit: f64) -> f64;
+}
+
 /// A worn contact surface: its nodes in ascending order and their depths, mm.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct WornSurface<'a> {
@@ -20,8 +29,14 @@ impl WornSurface<'_> {
             .sum()
     }
 
-    /// That length over that of the scar.
-    pub(crate) fn exposed_part(self, limit: f64) -> f64 {
+    /// Length of the scar, mm.
+    fn scar(self) -> f64 {
+        2.0 * scar::half_width(self.x, self.depth)
+    }
+}
+
+impl Exposed for WornSurface<'_> {
+    fn exposed_part(&self, limit: f64) -> f64 {
         let length = self.exposed_length(limit);
         if length > 0.0 {
             length / self.scar()
@@ -30,8 +45,7 @@ impl WornSurface<'_> {
         }
     }
 
-    /// Depth that a part of the scar has at least, mm; that of its deepest point for a part of 0.
-    pub(crate) fn depth_of_part(self, part: f64) -> f64 {
+    fn depth_of_part(&self, part: f64) -> f64 {
         let deepest = self.depth.iter().fold(0.0, |most: f64, d| most.max(*d));
         if part <= 0.0 {
             return deepest;
@@ -51,11 +65,6 @@ impl WornSurface<'_> {
             }
         }
         low
-    }
-
-    /// Length of the scar, mm.
-    fn scar(self) -> f64 {
-        2.0 * scar::half_width(self.x, self.depth)
     }
 }
 

@@ -59,7 +59,7 @@ pub struct Record {
     /// Accumulated imposed sliding distance, mm.
     pub sliding_distance_mm: Vec<f64>,
     /// Worn depth at the stations, then the channels of the receptacle and its exposed layers, the same of the slider, and the
-    /// channels of the contact, of its resistance and of its temperature, if these are computed.
+    /// channels of the contact, of its resistance, of its temperature and of its extent across, if these are computed.
     pub columns: Vec<Column>,
 }
 
@@ -89,6 +89,7 @@ impl Record {
         let contact = columns(reports, None, |report| report);
         let resistance = computed(reports, |report| report.resistance.as_ref());
         let temperature = computed(reports, |report| report.temperature.as_ref());
+        let extent = computed(reports, |report| report.extent.as_ref());
         Self {
             cycle: reports.iter().map(|report| report.cycle).collect(),
             jump: reports.iter().map(|report| report.jump).collect(),
@@ -98,15 +99,35 @@ impl Record {
                 .collect(),
             columns: stations
                 .chain(receptacle)
+                .chain(volume(reports, Side::Receptacle))
                 .chain(exposed(reports, Side::Receptacle))
                 .chain(slider)
+                .chain(volume(reports, Side::Slider))
                 .chain(exposed(reports, Side::Slider))
                 .chain(contact)
                 .chain(resistance)
                 .chain(temperature)
+                .chain(extent)
                 .collect(),
         }
     }
+}
+
+/// The worn volume of a side; none of a section.
+fn volume(reports: &[CycleReport], side: Side) -> Option<Column> {
+    let volumes = reports
+        .iter()
+        .map(|report| report.side(side).worn_volume_mm3);
+    let is_known = volumes.clone().any(|volume| volume.is_some());
+    is_known.then(|| Column {
+        name: "worn_volume_mm3",
+        unit: "mm3",
+        side: Some(side),
+        place_mm: None,
+        layer: None,
+        curve: "",
+        values: volumes.map(Option::unwrap_or_default).collect(),
+    })
 }
 
 /// One column a layer of a side below its outermost one.
@@ -176,7 +197,7 @@ fn columns<R: Channels>(
 mod tests {
     use super::*;
     use crate::record::channel::declare_report;
-    use crate::record::{ResistanceReport, SideReport, TemperatureReport};
+    use crate::record::{ExtentReport, ResistanceReport, SideReport, TemperatureReport};
 
     declare_report! {
         /// A report with one channel more than any other.
@@ -216,6 +237,7 @@ mod tests {
         names_end_with_units::<CycleReport>();
         names_end_with_units::<ResistanceReport>();
         names_end_with_units::<TemperatureReport>();
+        names_end_with_units::<ExtentReport>();
     }
 
     #[test]

@@ -6,7 +6,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::WornSurface;
+use super::Exposed;
 use crate::number::real_cycles;
 use crate::scene::{Criterion, Scene};
 use crate::sides::Side;
@@ -84,17 +84,17 @@ impl Life {
     }
 
     /// Takes the state after the next computed cycle, which is the given one.
-    pub(crate) fn push<'a>(
+    pub(crate) fn push<S: Exposed>(
         &mut self,
         scene: &Scene,
         cycle: u64,
-        surface: impl Fn(Side) -> WornSurface<'a>,
+        surface: impl Fn(Side) -> S,
     ) {
         self.criteria
             .resize(scene.life.len(), CriterionState::default());
         for (state, criterion) in self.criteria.iter_mut().zip(&scene.life) {
             let worn = surface(criterion.side);
-            state.follow(scene, *criterion, worn, (self.cycle, cycle));
+            state.follow(scene, *criterion, &worn, (self.cycle, cycle));
         }
         self.cycle = cycle;
     }
@@ -105,7 +105,7 @@ impl CriterionState {
         &mut self,
         scene: &Scene,
         criterion: Criterion,
-        worn: WornSurface<'_>,
+        worn: &impl Exposed,
         (last, cycle): (u64, u64),
     ) {
         let Criterion {
@@ -139,6 +139,7 @@ impl CriterionState {
 mod tests {
     use super::*;
     use crate::model::tests::fuzz_button;
+    use crate::record::WornSurface;
     use crate::scene::{Layer, WearLaw};
 
     /// A triangular scar of this depth on the receptacle, and an unworn slider.

@@ -1,15 +1,19 @@
 //! The report of a computed cycle: every scalar of it is one line of a table here.
 
+mod point;
+
 use crate::cycle::CycleState;
 use crate::electrical::ContactResistance;
 use crate::interpolation;
 use crate::law::plating::bottoms;
 use crate::model::{HeatSources, Model};
+use crate::point::PointCycle;
 use crate::record::channel::declare_report;
 use crate::record::exposure::WornSurface;
 use crate::record::scar;
 use crate::scene::Scene;
 use crate::sides::{Side, Sides};
+pub(crate) use point::{PointEnd, point_report};
 
 declare_report! {
     /// Wear of one body.
@@ -20,6 +24,13 @@ declare_report! {
         /// changes the load. Part of the summary, not of the history.
         #[serde(skip)]
         ideal_area_mm2: Option<f64> = surface.ideal_area,
+        /// Worn volume, mm^3; `None` of a section.
+        #[serde(default)]
+        worn_volume_mm3: Option<f64> = None,
+        /// Specific wear rate times the sliding work, k F s in gross slip, mm^3; `None` of a section, and where the law has no such
+        /// identity.
+        #[serde(default)]
+        ideal_volume_mm3: Option<f64> = None,
     }
     channels {
         /// Largest worn depth, mm.
@@ -70,6 +81,21 @@ declare_report! {
 }
 
 declare_report! {
+    /// A contact of finite extent across the sliding direction. Quantities per mm of depth beside it are those of its middle section.
+    #[derive(Copy)]
+    pub ExtentReport from cycle: &PointCycle;
+    fields {}
+    channels {
+        /// Normal force, which a spring reduces as the bodies wear, N.
+        load_n ["n"] = cycle.force_n,
+        /// Half the length of the contact across the sliding direction, mm.
+        contact_half_length_across_mm ["mm"] = cycle.half_length_across_mm,
+        /// Accumulated energy dissipated by friction in the whole contact, mJ.
+        dissipated_energy_mj ["mj"] = cycle.dissipated_energy_mj,
+    }
+}
+
+declare_report! {
     /// State after a computed cycle; cycle 0 is the unworn, loaded state.
     pub CycleReport from end: &CycleEnd<'_>;
     fields {
@@ -97,6 +123,9 @@ declare_report! {
         /// Temperature of the contact; `None` where nothing heats it.
         #[serde(default)]
         temperature: Option<TemperatureReport> = end.temperature().as_ref().map(TemperatureReport::of),
+        /// The contact beyond its middle section; `None` of a section.
+        #[serde(default)]
+        extent: Option<ExtentReport> = None,
     }
     channels {
         /// Normal load, which a spring reduces as the bodies wear, N per mm of depth.

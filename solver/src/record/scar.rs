@@ -1,7 +1,7 @@
 //! Half-width of a wear scar.
 
 /// The scar ends where the depth falls below this part of the largest, or a little further out.
-const SCAR_EDGE: f64 = 0.02;
+pub(super) const SCAR_EDGE: f64 = 0.02;
 
 /// A scar that runs out flat is extended by the line through its depths of `SCAR_EDGE` and of this part of the largest.
 const SLOPE_FROM: f64 = 0.1;

@@ -4,8 +4,9 @@ use crate::contact::ContactState;
 use crate::cycle::{CycleRecord, CycleState, FrictionLoop};
 use crate::fields::PlacedFields;
 use crate::model::Model;
+use crate::point::DepthMap;
 use crate::schedule::increments::Position;
-use crate::sides::Side;
+use crate::sides::{Side, Sides};
 
 /// Profiles, pressures and the friction loop at one cycle.
 #[derive(Debug, Clone, PartialEq)]
@@ -22,6 +23,28 @@ pub struct Snapshot {
     pub friction_loop: FrictionLoop,
     /// Fields inside the bodies at the same positions, if the scene asks for them.
     pub fields: Vec<PlacedFields>,
+    /// The whole contact, of which profiles and tractions are those of the middle section; `None` of a section.
+    pub area: Option<AreaMaps>,
+}
+
+/// A point contact over its cells.
+#[derive(Debug, Clone, PartialEq)]
+pub struct AreaMaps {
+    /// Worn depths, each in the frame of its body.
+    pub depth: Sides<DepthMap>,
+    /// Pressure at the neutral position.
+    pub pressure: PressureMap,
+}
+
+/// Pressure over the cells of a contact.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct PressureMap {
+    /// Centres of the cells along the sliding direction on the receptacle, mm.
+    pub x_mm: Vec<f64>,
+    /// Centres of the cells across it, mm.
+    pub z_mm: Vec<f64>,
+    /// Pressure at (i, j), with the index i times the number of z plus j, MPa.
+    pub pressure_mpa: Vec<f64>,
 }
 
 /// Worn depth along a surface.
@@ -72,6 +95,7 @@ pub fn snapshot(
         positions: record.contacts.iter().map(at).collect(),
         friction_loop: record.friction_loop,
         fields,
+        area: None,
     }
 }
 

@@ -2,12 +2,12 @@
 
 use super::resistance;
 use crate::ale::Spines;
-use crate::checkpoint::Checkpoint;
+use crate::checkpoint::SectionRun;
 use crate::cycle::CycleState;
 use crate::electrical::ElectricalState;
 use crate::law::surface;
 use crate::model::Model;
-use crate::record::{self, Outcome};
+use crate::record::{self, Exposed, Outcome};
 use crate::scene::Scene;
 use crate::schedule::stops::{self, Progress};
 use crate::sides::Sides;
@@ -16,7 +16,7 @@ use crate::sides::Sides;
 pub(super) fn push_life(
     scene: &Scene,
     model: &Model,
-    run: &mut Checkpoint,
+    run: &mut SectionRun,
     before: &ElectricalState,
 ) {
     let cycle = run.state.cycle;
@@ -31,7 +31,7 @@ pub(super) fn push_life(
 pub(super) fn end(
     scene: &Scene,
     (model, spines): (&Model, &Spines),
-    run: &Checkpoint,
+    run: &SectionRun,
 ) -> Option<Outcome> {
     let state = &run.state;
     let depth = |side, part| record::worn_surface(model, state, side).depth_of_part(part);
@@ -39,7 +39,7 @@ pub(super) fn end(
 }
 
 /// Its progress for its stops.
-pub(super) fn now(scene: &Scene, (model, spines): (&Model, &Spines), run: &Checkpoint) -> Progress {
+pub(super) fn now(scene: &Scene, (model, spines): (&Model, &Spines), run: &SectionRun) -> Progress {
     Progress {
         exceeds_resistance: resistance::exceeds_limit(scene, &run.electrical),
         ..progress((model, spines), &run.state, run.state.jump.rates())

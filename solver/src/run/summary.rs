@@ -1,6 +1,6 @@
 //! The summary of a run.
 
-use crate::checkpoint::Checkpoint;
+use crate::checkpoint::SectionRun;
 use crate::effects::EffectsPlan;
 use crate::model::Model;
 use crate::record::{self, Outcome, Resolution, Summary};
@@ -10,7 +10,7 @@ use crate::scene::Scene;
 pub(super) fn summary(
     scene: &Scene,
     (plan, model): (&EffectsPlan, &Model),
-    run: &Checkpoint,
+    run: &SectionRun,
     outcome: Outcome,
 ) -> Summary {
     let state = &run.state;

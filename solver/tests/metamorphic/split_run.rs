@@ -24,7 +24,7 @@ impl Observer for StopAt {
     fn on(&mut self, event: Event<'_>) -> ControlFlow<()> {
         match event {
             Event::Checkpoint(checkpoint) if checkpoint.cycle() >= self.cycle => {
-                self.checkpoint = Some(checkpoint.clone());
+                self.checkpoint = Some(checkpoint.checkpoint());
                 ControlFlow::Break(())
             }
             _ => ControlFlow::Continue(()),

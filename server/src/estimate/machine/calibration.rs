@@ -206,6 +206,8 @@ mod tests {
                 most_increments: 1,
                 increments: vec![(nodes, 7.0)],
                 condensations: [body, Condensations { count: 0.0, ..body }],
+                cell_iterations: 0.0,
+                cells: (0.0, 0.0),
                 companions: Vec::new(),
             },
             increment_s,

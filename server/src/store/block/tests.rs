@@ -18,6 +18,7 @@ fn snapshot(cycle: u64) -> Snapshot {
             cycle,
             displacement_mm: vec![0.1, 1.0 / 3.0],
             tangential_force_n_per_mm: vec![f64::MIN_POSITIVE, -1e300],
+            tangential_force_n: Vec::new(),
         },
     }
 }

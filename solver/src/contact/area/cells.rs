@@ -1,9 +1,11 @@
 //! A regular grid of rectangular cells.
 
+use serde::{Deserialize, Serialize};
+
 use crate::number::real;
 
 /// A regular grid of rectangular cells; the one at (i, j) along x and z has the index i along_z + j.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 pub struct Cells {
     /// Number along the sliding direction x.
     pub along_x: usize,

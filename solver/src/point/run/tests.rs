@@ -3,9 +3,14 @@ use std::f64::consts::PI;
 use super::*;
 use crate::law::elastic::Elastic;
 use crate::law::plating::Layer;
+use crate::law::surface::SurfaceWear;
 use crate::law::wear::WearLaw;
 use crate::number::real;
+use crate::number::real_cycles;
 use crate::point::scene::{PointAccuracy, PointBody, SlipRegime};
+use crate::point::sliding::Sliding;
+use crate::point::state::State;
+use crate::sides::Side;
 
 /// Hertz' half-length in mm and peak pressure in MPa of a sphere of 10 mm of steel on steel under 100 N.
 const HERTZ: (f64, f64) = (0.189_686, 1_327.0);
@@ -39,7 +44,7 @@ fn sphere_on_flat(k: Sides<f64>, amplitude_mm: f64, cycles: u64) -> PointScene {
         slip: SlipRegime::Gross,
         amplitude_mm,
         cycles,
-        stop_depth_mm: None,
+        spring_n_per_mm: 0.0,
         accuracy: PointAccuracy::from_tolerance(0.02),
     }
 }
@@ -57,13 +62,15 @@ fn one_pass_of_a_sphere_leaves_the_track_of_its_line_loads() {
     let k = 1e-9;
     let mut scene = sphere_on_flat(sides(0.0, k), 0.8, 1);
     scene.accuracy.cells_per_half_length = 20.0;
-    let mut sliding = Sliding::new(&scene).expect("it can be loaded");
-    let n = sliding.state.lattice.amplitude;
+    let mut state = State::unworn(&scene);
+    let mut sliding = Sliding::new(&scene, &state);
+    sliding.load(&mut state).expect("it can be loaded");
+    let n = state.lattice.amplitude;
     for to in [n, 2 * n] {
-        sliding.half_pass(to, 1.0).expect("it slides");
+        sliding.half_pass(&mut state, to, 1.0).expect("it slides");
     }
-    let surface = &sliding.state.surfaces.receptacle;
-    let cells = surface.dose.cells(sliding.state.lattice.size_mm);
+    let surface = &state.surfaces.receptacle;
+    let cells = surface.dose.cells(state.lattice.size_mm);
     let (a, p0) = HERTZ;
     let depth = surface.depths_mm();
     let middle = &depth[(cells.along_x / 2) * cells.along_z..][..cells.along_z];
@@ -224,16 +231,39 @@ fn wear_through_a_layer_keeps_the_dose() {
 }
 
 #[test]
-fn a_run_ends_at_its_depth_or_where_it_is_stopped() {
-    let mut scene = sphere_on_flat(sides(0.0, 1e-8), 0.1, 100_000);
-    scene.stop_depth_mm = Some(1e-4);
-    let summary = solved(&scene);
-    assert_eq!(summary.outcome, PointOutcome::StopDepth);
-    assert!(summary.last.max_depth_mm.receptacle >= 1e-4);
+fn a_run_ends_where_it_is_stopped() {
+    let scene = sphere_on_flat(sides(0.0, 1e-8), 0.1, 100_000);
     let stopped = run(&scene, |_| ControlFlow::Break(())).expect("it starts");
     assert_eq!(
         (stopped.outcome, stopped.last.cycle),
         (PointOutcome::Stopped, 1)
+    );
+}
+
+/// A cap of a rigid sphere, V = pi R h^2, below a spring: dV/ds = k (F_0 - c h), integrated by Simpson's rule over h:
+/// s = (2 pi R/k) int h/(F_0 - c h) dh.
+#[test]
+fn a_spring_loses_its_load_as_the_slider_sinks() {
+    let (k, force, spring) = (1e-7, 10.0, 50.0);
+    let mut scene = sphere_on_flat(sides(k, 0.0), 1.0, 100_000);
+    (scene.force_n, scene.spring_n_per_mm) = (force, spring);
+    let last = solved(&scene).last;
+    let depth = last.max_depth_mm.slider;
+    let parts = 1_000;
+    let step = depth / real(parts);
+    let at = |h: f64| h / (force - spring * h);
+    let simpson = |i: usize| {
+        let from = step * real(i);
+        step / 6.0 * (at(from) + 4.0 * at(from + 0.5 * step) + at(from + step))
+    };
+    let path = 2.0 * PI * 10.0 / k * (0..parts).map(simpson).sum::<f64>();
+    // The sphere is elastic, its cap 3 % off without a spring; the depth goes with the root of the path.
+    assert!((path / 4e5 - 1.0).abs() < 0.06, "{path}");
+    let expected = force - spring * depth;
+    assert!(expected < 0.7 * force, "{expected}");
+    assert!(
+        (last.force_n / expected - 1.0).abs() < 0.02,
+        "{last:?} {expected}"
     );
 }
 

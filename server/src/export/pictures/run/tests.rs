@@ -44,6 +44,7 @@ fn snapshot(cycle: u64, depth_mm: f64) -> Snapshot {
             cycle,
             displacement_mm: vec![0.01, -0.01],
             tangential_force_n_per_mm: vec![1.0, -1.0],
+            tangential_force_n: Vec::new(),
         },
     }
 }

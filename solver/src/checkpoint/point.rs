@@ -1,0 +1,28 @@
+//! Checkpoints of the run of a point contact: its grids are part of its state, and what is computed from them is computed anew.
+
+use serde::{Deserialize, Serialize};
+
+use super::earlier::Earlier;
+use crate::effects::Crossing;
+use crate::electrical::ElectricalState;
+use crate::point::{PointCycle, PointState};
+use crate::record::{Compared, Initial, Life};
+
+/// A run of a point contact between two computed cycles.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct PointRun {
+    pub(crate) state: PointState,
+    pub(crate) initial: Initial,
+    /// The unworn, loaded contact.
+    pub(crate) unworn: PointCycle,
+    /// Skipped effects that the run has called for.
+    pub(crate) crossings: Vec<Crossing>,
+    /// Histories that the run's error is estimated by.
+    pub(crate) compared: Compared,
+    /// Life by the criteria of the scene.
+    pub(crate) life: Life,
+    /// Resistance of the contact, and what the next one depends on.
+    pub(crate) electrical: ElectricalState,
+    /// What error control knows from the runs of this scene before this one.
+    pub(crate) earlier: Earlier,
+}
