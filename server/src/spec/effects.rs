@@ -109,9 +109,14 @@ fn check_forced(given: &Given, plan: EffectsPlan, diagnostics: &mut Diagnostics)
         let name = decision.effect.name();
         let forced = switch(given, decision.effect) == Some(Switch::On);
         let is_out = matches!(decision.verdict, Verdict::Skipped | Verdict::InputMissing);
-        if forced && is_out {
-            let detail = format!("cannot be on: {}", decision.reason);
-            diagnostics.fault(&format!("/effects/{name}"), detail);
+        let pointer = format!("/effects/{name}");
+        if forced && !decision.is_available {
+            diagnostics.fault(
+                &pointer,
+                "cannot be on: a point contact is simulated without it",
+            );
+        } else if forced && is_out {
+            diagnostics.fault(&pointer, format!("cannot be on: {}", decision.reason));
         }
     }
 }

@@ -11,7 +11,7 @@ use api::problem::Fault;
 use api::spec::{Spec, WearLaw};
 use solver::effects::Effect;
 use solver::model::resolution;
-use solver::scene::Scene;
+use solver::scene::{Dimension, Scene};
 use solver::sides::Side;
 
 use crate::spec::{environment, plating};
@@ -22,11 +22,12 @@ const MEAN: f64 = 1.0 / 3.0;
 /// The warnings of a resolved specification, for the unworn contact: wear only lowers its pressure. Of a plated side the law
 /// is that of the outermost layer. A law that states k/H alone has no hardness to compare with.
 pub(super) fn warnings(spec: &Spec, scene: &Scene) -> Vec<Fault> {
-    let half_width = resolution::choose(scene).hertz_half_width;
-    let load = scene.load_n_per_mm;
-    let mean = load / (2.0 * half_width);
     // Hertz.
-    let peak = 2.0 * load / (PI * half_width);
+    let peak = resolution::hertz_peak_pressure(scene);
+    let mean = match scene.dimension {
+        Dimension::PlaneStrain => 0.25 * PI * peak,
+        Dimension::Point(_) => 2.0 / 3.0 * peak,
+    };
     let warnings = Side::BOTH.into_iter().filter_map(|side| {
         let (pointer, law) = outer_law(spec, side)?;
         let hardness = law.hardness_mpa?;

@@ -191,3 +191,6 @@ pub(super) fn warnings(scene: &Scene) -> Vec<Fault> {
         .map(|detail| Fault::new("/model/dimension", detail))
         .collect()
 }
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,151 @@
+use api::spec::{Dimension as Named, EnumValue, Provenance};
+use solver::scene::Dimension;
+
+use crate::spec::{Refused, Resolved, read};
+
+fn accepted(text: &str) -> Resolved {
+    read(text.as_bytes()).expect("accepted")
+}
+
+fn pointers(text: &str) -> Vec<String> {
+    match read(text.as_bytes()) {
+        Err(Refused::Faults(faults)) => faults.into_iter().map(|fault| fault.pointer).collect(),
+        other => panic!("{text}: {:?}", other.map(|resolved| resolved.warnings)),
+    }
+}
+
+/// A memory card's ball with further fields.
+fn ball(rest: &str) -> String {
+    format!(r#"{{"system":{{"kind":"sd_card"}},"model":{{"dimension":"point"}}{rest}}}"#)
+}
+
+#[test]
+fn plane_strain_is_the_default_and_a_ball_that_of_a_point_contact() {
+    let plane = accepted(r#"{"system":{"kind":"sd_card"}}"#);
+    let model = plane.spec.model.expect("it is filled in");
+    assert_eq!(model.dimension, EnumValue::Known(Named::PlaneStrain));
+    assert_eq!(plane.scene.dimension, Dimension::PlaneStrain);
+    let point = accepted(&ball(""));
+    let provenance = |pointer| point.spec.provenance.get(pointer);
+    assert_eq!(provenance("/model/radius_z_mm"), Some(&Provenance::Assumed));
+    let model = point.spec.model.as_ref().expect("it is filled in");
+    assert_eq!(model.radius_z_mm, Some(0.4));
+    assert!(point.layout.is_none());
+    // The force of the preset, without its width.
+    let load = point.spec.load.as_ref().expect("it has a load");
+    assert_eq!((load.n, load.width_mm), (Some(0.5), None));
+    let Dimension::Point(found) = point.scene.dimension else {
+        panic!("{:?}", point.scene.dimension);
+    };
+    assert!((found.force_n - 0.5).abs() < 1e-15);
+    assert_eq!(found.radius_across_mm.slider, Some(0.4));
+    // Resolved, it is the same again.
+    let text = serde_json::to_string(&point.spec).expect("JSON");
+    assert_eq!(accepted(&text).scene, point.scene);
+}
+
+/// Hertz: a = (3 F R/(4 E*))^(1/3), p0 = 3 F/(2 pi a^2), the middle carries pi a p0/2.
+#[test]
+fn the_section_of_a_ball_carries_the_line_load_of_its_middle() {
+    let point = accepted(&ball(
+        r#","load":{"kind":"force","n":0.5,"spring_n_per_mm":2.0}"#,
+    ));
+    let scene = &point.scene;
+    let a = (0.75_f64 * 0.5 * 0.4 / 68_939.0).cbrt();
+    let exact = 0.75 * 0.5 / a;
+    assert!(
+        (scene.load_n_per_mm / exact - 1.0).abs() < 1e-4,
+        "{}",
+        scene.load_n_per_mm
+    );
+    let spring = scene.spring_n_per_mm2 / scene.load_n_per_mm;
+    assert!((spring - 4.0).abs() < 1e-12, "{spring}");
+    let known = scene.conduction.known().expect("it conducts");
+    assert!((known.width_mm * scene.load_n_per_mm - 0.5).abs() < 1e-12);
+}
+
+#[test]
+fn fields_that_mean_nothing_in_a_dimension_are_refused() {
+    let plane =
+        r#"{"system":{"kind":"sd_card"},"model":{"dimension":"plane_strain","radius_z_mm":1}}"#;
+    assert_eq!(pointers(plane), ["/model/radius_z_mm"]);
+    let other = r#"{"system":{"kind":"sd_card"},"model":{"dimension":"sphere"}}"#;
+    assert_eq!(pointers(other), ["/model/dimension"]);
+    for (rest, expected) in [
+        (
+            r#","load":{"kind":"force","n":1,"width_mm":0.8}"#,
+            "/load/width_mm",
+        ),
+        (
+            r#","load":{"kind":"line_force","n_per_mm":1}"#,
+            "/load/kind",
+        ),
+        (r#","load":{"kind":"pressure","mpa":1}"#, "/load/kind"),
+        (r#","output":{"fields":true}"#, "/output/fields"),
+        (
+            r#","accuracy":{"overrides":{"largest_wear_mm":1e-6}}"#,
+            "/accuracy/overrides/largest_wear_mm",
+        ),
+        (
+            r#","motion":{"kind":"continuous","distance_mm":10}"#,
+            "/motion/kind",
+        ),
+        (
+            r#","mission":[{"motion":{"kind":"reciprocating"},"cycles":1},{"motion":{"kind":"reciprocating","amplitude_mm":0.1},"cycles":1}]"#,
+            "/mission",
+        ),
+        (
+            r#","interface":{"friction":{"law":"coulomb","by_cycle":[{"cycle":0,"coefficient":0.2},{"cycle":9,"coefficient":0.4}]}}"#,
+            "/interface/friction",
+        ),
+        (r#","effects":{"friction":"on"}"#, "/effects/friction"),
+        (r#","effects":{"relocation":"on"}"#, "/effects/relocation"),
+        (
+            r#","effects":{"stick_memory":"on"}"#,
+            "/effects/stick_memory",
+        ),
+    ] {
+        let found = pointers(&ball(rest));
+        assert!(
+            found.iter().any(|pointer| pointer == expected),
+            "{rest}: {found:?}"
+        );
+    }
+}
+
+#[test]
+fn a_law_of_state_is_refused() {
+    let law = r#""law":"archard_pressure_power","k":1e-9,"exponent":1.5"#;
+    let text = ball(&format!(
+        r#","plating":{{"slider":[],"receptacle":[]}},"interface":{{"wear":{{"slider":null,"receptacle":{{{law}}}}}}}"#
+    ));
+    let found = pointers(&text);
+    assert!(
+        found
+            .iter()
+            .any(|pointer| pointer.starts_with("/interface/wear/receptacle")),
+        "{found:?}"
+    );
+}
+
+#[test]
+fn a_system_without_a_force_asks_for_one() {
+    let text = r#"{"system":{"kind":"cylinder_on_flat"},"model":{"dimension":"point"}}"#;
+    assert_eq!(pointers(text), ["/load/kind"]);
+}
+
+#[test]
+fn contacts_that_are_none_of_half_spaces_are_warned_of() {
+    let warned = |text: &str| {
+        let warnings = accepted(text).warnings.into_iter();
+        warnings
+            .filter(|warning| warning.pointer == "/model/dimension")
+            .count()
+    };
+    assert_eq!(warned(&ball("")), 0);
+    let thin =
+        r#"{"system":{"kind":"sd_card","pad_height_mm":0.05},"model":{"dimension":"point"}}"#;
+    assert_eq!(warned(thin), 1);
+    let edge = ball(r#","cycles":10,"motion":{"kind":"reciprocating","amplitude_mm":0.99}"#);
+    assert_eq!(warned(&edge), 1);
+}
