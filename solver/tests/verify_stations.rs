@@ -182,6 +182,35 @@ fn volume_of_a_ring_is_that_of_the_sliding_work() {
     }
 }
 
+/// Each side loses what its own rate wears. The slider's wear stays in its section. The master's worn area is that of the slave's nodes carried
+/// over: round-off, 1e-10.
+#[test]
+fn both_sides_of_a_ring_wear_by_their_rates() {
+    let mut scene = ring(Top::Rigid, 5, 12);
+    scene.section.accuracy.tolerance = 0.1;
+    scene.section.slider.wear = Some(WearLaw::Archard {
+        k_over_h_per_mpa: 0.1 * COPPER_WEAR,
+    });
+    let last = solved(&scene).last;
+    for (worn, work) in [
+        (
+            last.worn_volume_mm3.slider,
+            last.sliding_work_volume_mm3.slider,
+        ),
+        (
+            last.worn_volume_mm3.receptacle,
+            last.sliding_work_volume_mm3.receptacle,
+        ),
+    ] {
+        println!(
+            "ring, both sides: volume over the sliding work {:.4}",
+            worn / work
+        );
+        assert!((worn / work - 1.0).abs() < 1e-10);
+    }
+    assert!(last.stations.iter().all(|s| s.max_depth_mm.slider > 0.0));
+}
+
 /// 43 um would be worn at 90 degrees: the groove becomes deeper than the radius of the wire, 25.4 um, before.
 #[test]
 fn groove_as_deep_as_the_wire_ends_the_run() {

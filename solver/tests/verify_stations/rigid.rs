@@ -3,10 +3,13 @@
 //! A floor that the contact passes twice a cycle sinks by 2 k P'/cos(theta), so that P' is in proportion to cos(theta):
 //!   P' = (pi/2) (F/L) cos(theta),  2 k P'/cos(theta) = pi k F/(2 pi R) = k F/(2 R).
 
-use super::{FORCE, RADIUS, floor_nm, ring, solved};
+use super::{FORCE, RADIUS, floor_nm, plane, ring, solved};
+use crate::recorder::solve;
 use crate::scenes::COPPER_WEAR;
-use solver::station::Top;
+use solver::station::{StationScene, Top, run};
 use std::f64::consts::PI;
+use std::ops::ControlFlow;
+use std::time::Instant;
 
 /// Near 90 degrees the contact does not leave its own width, and takes a part of the load until the floor has sunk by some of its
 /// indentations: 5 % of the rate, as a prototype of this model had (21.5 nm).
@@ -60,4 +63,59 @@ fn depth_of_the_rigid_ring() {
         found.computed_cycles, found.solves
     );
     assert!(depth > 15.0 && depth < 18.0);
+}
+
+/// The figures of the README: the thesis' ring with 17 stations at 2 %, and the plane contact under the same line load, one after the other.
+#[test]
+#[ignore = "takes minutes; run it by name"]
+fn cost_of_the_rigid_ring_against_the_plane_contact() {
+    let scene = ring(Top::Rigid, StationScene::stations_for(0.02), 2_000);
+    let started = Instant::now();
+    let (summary, recorder) = solve(&plane(&scene, 1.0)).expect("the scene can be solved");
+    println!(
+        "plane contact: {:.1} s, {:.2} um after 2 000 cycles, {} increments",
+        started.elapsed().as_secs_f64(),
+        1e3 * recorder.at(2_000).receptacle.max_depth_mm,
+        summary.resolution.work.increments
+    );
+    let started = Instant::now();
+    let mut reported = 0;
+    let found = run(&scene, |cycle| {
+        if cycle.cycle >= reported {
+            let depth = |station: usize| 1e3 * cycle.stations[station].max_depth_mm.receptacle;
+            println!(
+                "ring, rigid: {:.2}, {:.2}, {:.2} um at 0, 45, 90 deg after {} cycles, {:.0} s",
+                depth(0),
+                depth(4),
+                depth(8),
+                cycle.cycle,
+                started.elapsed().as_secs_f64()
+            );
+            reported = cycle.cycle + 200;
+        }
+        ControlFlow::Continue(())
+    });
+    let found = found.expect("the scene can be solved");
+    let worn = found.last.worn_volume_mm3.receptacle;
+    let ideal = found
+        .last
+        .ideal_volume_mm3
+        .receptacle
+        .max(f64::MIN_POSITIVE);
+    println!(
+        "ring, rigid: {:?}, {:.1} s, {} computed cycles, {:?} increments and iterations, {} sections condensed again, volume over k F s {:.4}",
+        found.outcome,
+        started.elapsed().as_secs_f64(),
+        found.computed_cycles,
+        found.solves,
+        found.relocations,
+        worn / ideal
+    );
+    // As deep everywhere, but for the elastic approach.
+    let depths = found.last.stations.iter();
+    let depths = depths.map(|station| station.max_depth_mm.receptacle);
+    let (least, most) = depths.fold((f64::INFINITY, 0.0), |(least, most): (f64, f64), depth| {
+        (least.min(depth), most.max(depth))
+    });
+    assert!(most / least - 1.0 < 0.01);
 }
