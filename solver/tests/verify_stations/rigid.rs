@@ -68,6 +68,10 @@ fn depth_of_the_rigid_ring() {
 /// The figures of the README: the thesis' ring with 17 stations at 2 %, and the plane contact under the same line load, one after the other.
 #[test]
 #[ignore = "takes minutes; run it by name"]
+#[expect(
+    clippy::disallowed_methods,
+    reason = "the test measures time; the engine knows no clock"
+)]
 fn cost_of_the_rigid_ring_against_the_plane_contact() {
     let scene = ring(Top::Rigid, StationScene::stations_for(0.02), 2_000);
     let started = Instant::now();
