@@ -61,7 +61,7 @@ pub enum StationOutcome {
         /// Its number.
         station: usize,
     },
-    /// The groove of a station is as deep as the slider's radius: no graph over its plane describes what follows.
+    /// The groove of a station is as deep below an end of its surface as the slider's radius: no graph describes walls that overhang.
     DeeperThanRadius {
         /// Its number.
         station: usize,

@@ -228,7 +228,7 @@ impl<'a> Run<'a> {
             if station.is_worn_through() {
                 return Some(StationOutcome::WornThrough { station: number });
             }
-            if depth.receptacle >= self.plane.slider.shape.radius_mm {
+            if station.groove_mm() >= self.plane.slider.shape.radius_mm {
                 return Some(StationOutcome::DeeperThanRadius { station: number });
             }
             let stop = self.scene.stop_depth_mm;

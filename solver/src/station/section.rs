@@ -274,6 +274,14 @@ impl Station {
         })
     }
 
+    /// Depth of the receptacle's groove below the higher one of its ends, mm.
+    pub(super) fn groove_mm(&self) -> f64 {
+        let depth = &self.state.depth.receptacle;
+        let ends = depth.first().zip(depth.last());
+        let rim = ends.map_or(0.0, |(first, last)| first.min(*last));
+        depth.iter().fold(0.0, |most: f64, depth| most.max(*depth)) - rim
+    }
+
     /// Whether a body is nearly consumed.
     pub(super) fn is_worn_through(&self) -> bool {
         self.spines.are_worn_through(&self.state.depth)

@@ -51,7 +51,8 @@ fn rigid_ring_sinks_alike_everywhere() {
     assert!((last.force_n / FORCE - 1.0).abs() < 1e-8);
 }
 
-/// Without wear of inclined walls 15.8 um at 1 000 cycles were found with 9 stations.
+/// A prototype that did not wear more on inclined walls found 15.8 um at 1 000 cycles with 9 stations. On those walls a section wears more
+/// than k P' s, by 6 % of the area across the motion and 21 % at 45 degrees in plane scenes at 2 000 cycles: at most a tenth more here.
 #[test]
 fn depth_of_the_rigid_ring() {
     let mut scene = ring(Top::Rigid, 9, 1_000);
@@ -62,7 +63,7 @@ fn depth_of_the_rigid_ring() {
         "ring, rigid, draft: {depth:.2} um after 1 000 cycles, {} computed cycles, {:?} increments and iterations",
         found.computed_cycles, found.solves
     );
-    assert!(depth > 15.0 && depth < 18.0);
+    assert!(depth > 15.8 && depth < 1.1 * 15.8);
 }
 
 /// The figures of the README: the thesis' ring with 17 stations at 2 %, and the plane contact under the same line load, one after the other.
@@ -107,8 +108,9 @@ fn cost_of_the_rigid_ring_against_the_plane_contact() {
         .receptacle
         .max(f64::MIN_POSITIVE);
     println!(
-        "ring, rigid: {:?}, {:.1} s, {} computed cycles, {:?} increments and iterations, {} sections condensed again, volume over k F s {:.4}",
+        "ring, rigid: {:?} after {} cycles, {:.1} s, {} computed cycles, {:?} increments and iterations, {} sections condensed again, volume over k F s {:.4}",
         found.outcome,
+        found.last.cycle,
         started.elapsed().as_secs_f64(),
         found.computed_cycles,
         found.solves,
