@@ -136,7 +136,7 @@ fn oblique_station_is_the_plane_contact_with_its_part_of_the_motion() {
 }
 
 /// The first cycle of a contact on flat ground is not yet the rest: rates are those of cycles 5 to 20. 2 % are the ripples of increments;
-/// reached: 0.5 %. At 90 degrees the contact fills its trough, and the area is exact but for the slope of its walls.
+/// reached: 0.1 %. At 90 degrees the contact fills its trough, and the area is exact but for the slope of its walls.
 #[test]
 fn even_ring_wears_by_the_slip_over_each_place() {
     let floors = |cycles| {
