@@ -22,11 +22,11 @@ mod motion_history;
 mod replay;
 mod skew;
 mod state;
-mod step_control;
+pub(crate) mod step_control;
 mod stroke_wear;
 mod unskewed;
 mod warm_starts;
-mod wear_limit;
+pub(crate) mod wear_limit;
 
 use crate::ale::Spines;
 use crate::condensation::Operators;
@@ -55,6 +55,9 @@ pub use warm_starts::WarmStarts;
 const FIRST_LOAD: Displacement<'_> = Displacement {
     slider_x: 0.0,
     surface_slip: 0.0,
+    along: 0.0,
+    height: None,
+    repeated: false,
     cycles: 0.0,
     lemke: true,
     start: None,

@@ -25,5 +25,6 @@ pub mod run;
 pub mod scene;
 pub mod schedule;
 pub mod sides;
+pub mod station;
 
 pub use error::SolveError;

@@ -44,6 +44,7 @@ mod verify_section_and_ball;
 mod verify_short_stroke_scar;
 mod verify_spreading;
 mod verify_spring_load;
+mod verify_stations;
 mod verify_stick_zone;
 mod verify_symmetry;
 mod verify_thermal_softening;

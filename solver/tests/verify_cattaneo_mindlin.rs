@@ -82,6 +82,9 @@ impl Bench {
         let place = Displacement {
             slider_x,
             surface_slip: 0.0,
+            along: 0.0,
+            height: None,
+            repeated: false,
             cycles: 0.0,
             lemke: true,
             start: None,

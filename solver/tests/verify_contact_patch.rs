@@ -116,6 +116,9 @@ fn uniform_pressure_passes_through_non_matching_meshes_at_any_position() {
                 Displacement {
                     slider_x,
                     surface_slip: 0.0,
+                    along: 0.0,
+                    height: None,
+                    repeated: false,
                     cycles: 0.0,
                     lemke: true,
                     start: None,

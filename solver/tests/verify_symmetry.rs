@@ -49,6 +49,9 @@ fn mirrored_motion_gives_mirrored_tractions() {
             let to = Displacement {
                 slider_x: side * place,
                 surface_slip: 0.0,
+                along: 0.0,
+                height: None,
+                repeated: false,
                 cycles: 0.0,
                 lemke: true,
                 start: None,

@@ -7,14 +7,15 @@ use crate::schedule::step::Step;
 
 /// Retries of an increment.
 #[derive(Debug, Clone, Copy)]
-struct RetryPolicy {
+pub(crate) struct RetryPolicy {
     /// Most halvings before the increment fails.
-    halvings: u32,
+    pub(crate) halvings: u32,
     /// From this many halvings on, Lemke's method is tried where Newton's method does not converge.
-    lemke_from: u32,
+    pub(crate) lemke_from: u32,
 }
 
-const RETRY: RetryPolicy = RetryPolicy {
+/// Of an increment that has to be solved.
+pub(crate) const RETRY: RetryPolicy = RetryPolicy {
     halvings: 8,
     lemke_from: 2,
 };
@@ -133,6 +134,9 @@ fn displacement(step: &Step, cycles: f64) -> Displacement<'static> {
     Displacement {
         slider_x: step.slider_x,
         surface_slip: step.surface_slip,
+        along: 0.0,
+        height: None,
+        repeated: false,
         cycles,
         lemke: false,
         start: None,

@@ -71,6 +71,9 @@ impl Integrator<'_> {
         let to = Displacement {
             slider_x: found.slider_x - last_step,
             surface_slip: 0.0,
+            along: 0.0,
+            height: None,
+            repeated: false,
             cycles: 1.0,
             lemke: false,
             start: Some(WarmStart {

@@ -15,7 +15,7 @@ pub struct WarmStarts {
 
 impl WarmStarts {
     /// Appends the contact at the end of the next increment.
-    pub(super) fn push(&mut self, contact: &ContactState) {
+    pub(crate) fn push(&mut self, contact: &ContactState) {
         let (first, end) = contact.active_range().unwrap_or_default();
         self.status.extend_from_slice(&contact.status[first..end]);
         self.pressure
@@ -24,7 +24,7 @@ impl WarmStarts {
     }
 
     /// Start of an increment of the next cycle, if that has as many.
-    pub(super) fn of(&self, increment: usize, increments: usize) -> Option<WarmStart<'_>> {
+    pub(crate) fn of(&self, increment: usize, increments: usize) -> Option<WarmStart<'_>> {
         if increments != self.increments.len() {
             return None;
         }

@@ -18,7 +18,7 @@ const LARGEST_SHARE: f64 = 0.9;
 ///
 /// # Errors
 /// [`ContactError::TooMuchWear`], [`ContactError::BeyondWearLimit`].
-pub(super) fn check(
+pub(crate) fn check(
     spines: &Spines,
     depth: &Sides<Vec<f64>>,
     slider_x: f64,

@@ -241,6 +241,12 @@ impl JumpControl {
         (is_rejected && is_long && jump > 1).then(|| jump.div_ceil(CUT))
     }
 
+    /// Records that the next jump is that of several controls, which a longer one of this control does not count for: its error is
+    /// estimated whatever it would have chosen alone.
+    pub(crate) fn share(&mut self, jump: u64) {
+        self.unshortened = self.unshortened.min(real_cycles(jump));
+    }
+
     /// Limits the next jump.
     pub(crate) fn limit(&mut self, most: u64) {
         self.most = most;

@@ -72,7 +72,7 @@ const SEVERAL_PATHS: [&str; 9] = [
     "server/src/http/routes/operation/serve_pages.rs",
 ];
 
-const RULES: [(&str, Rule); 16] = [
+const RULES: [(&str, Rule); 18] = [
     (
         "laws know no mesh",
         MustNotName(
@@ -102,6 +102,34 @@ const RULES: [(&str, Rule); 16] = [
                 "solver/src/cycle",
                 "solver/src/contact/line",
             ],
+        ),
+    ),
+    (
+        "stations know the plane contact and its schedule, but not the run of a plane scene or what it reports",
+        MustNotName(
+            &["solver/src/station"],
+            &[
+                "solver/src/checkpoint",
+                "solver/src/forecast",
+                "solver/src/point",
+                "solver/src/record",
+                "solver/src/run",
+            ],
+        ),
+    ),
+    (
+        "the plane contact does not know stations",
+        MustNotName(
+            &[
+                "solver/src/condensation",
+                "solver/src/contact",
+                "solver/src/cycle",
+                "solver/src/model",
+                "solver/src/record",
+                "solver/src/run",
+                "solver/src/schedule",
+            ],
+            &["solver/src/station"],
         ),
     ),
     (

@@ -65,6 +65,9 @@ pub(crate) fn explicit_wear(
             let to = Displacement {
                 slider_x,
                 surface_slip: 0.0,
+                along: 0.0,
+                height: None,
+                repeated: false,
                 cycles: 0.0,
                 lemke: true,
                 start: None,

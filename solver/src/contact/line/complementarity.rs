@@ -98,7 +98,7 @@ impl Complementarity {
                 continue;
             }
             self.warm_start(it);
-            end = newton.solve(problem, response, wear, it, ITERATIONS_AFTER);
+            end = newton.solve(problem, response, wear, it, (ITERATIONS_AFTER, false));
             if matches!(end, Convergence::Converged) {
                 return end;
             }
@@ -112,7 +112,7 @@ impl Complementarity {
         self.pressure.clear();
         self.pressure.resize(n, 0.0);
         self.slip.clear();
-        self.slip.resize(n, problem.step.abs());
+        self.slip.resize(n, problem.imposed_slip());
         self.status.clear();
         self.status.resize(n, Status::Open);
     }
@@ -151,7 +151,7 @@ impl Complementarity {
             self.slip[i] = if layout.sheared {
                 gamma * layout.length
             } else {
-                problem.step.abs()
+                problem.imposed_slip()
             };
             // Both shears are in the basis only where both slips are zero.
             let stuck = layout.sheared && (gamma <= 0.0 || (a > 0.0 && b > 0.0));
@@ -224,7 +224,7 @@ impl Complementarity {
             *self.matrix.at(layout.shear(a)[2], a) = problem.friction.at(a);
         }
         let [_, force] = pressure.force(problem);
-        *self.matrix.at(layout.height(), a) = -force / mean_width(problem);
+        *self.matrix.at(layout.height(), a) = -problem.force_weight() * force / mean_width(problem);
     }
 
     fn shear_columns(
@@ -240,7 +240,7 @@ impl Complementarity {
         let (gaps, jumps) = response.column(shear);
         let [a, b, gamma] = layout.shear(k);
         let [_, force] = shear.force(problem);
-        let lean = -force / mean_width(problem);
+        let lean = -problem.force_weight() * force / mean_width(problem);
         for (sign, place) in [(1.0, a), (-1.0, b)] {
             for (i, (gap, jump)) in gaps.iter().zip(jumps).enumerate() {
                 let [right, left, _] = layout.shear(i);

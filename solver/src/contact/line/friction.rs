@@ -2,14 +2,25 @@
 //!
 //! It is one value, or one at each node of the slave: the mean of what both surfaces have there (`law::friction`), the master's
 //! interpolated at the position of the increment. It does not change within the increment, so that Newton's Jacobian is exact.
+//!
+//! Friction opposes the slip in the tangent plane, |q| = mu p: with slip along the line besides, which is imposed, its part across the
+//! line is that of the imposed direction.
 
 use super::pair::{Pair, Surfaces};
-use crate::law::friction::of_both;
+use crate::law::friction::{of_both, weighted_mean};
 use crate::sides::Sides;
 
 /// Coefficient of friction at the coupled nodes, -.
 #[derive(Debug, Clone, Copy)]
-pub(super) enum Coefficient<'a> {
+pub(super) struct Coefficient<'a> {
+    nodes: Nodes<'a>,
+    /// Components of the direction of friction across the line and along it, -.
+    direction: [f64; 2],
+}
+
+/// The coefficients of the nodes, -.
+#[derive(Debug, Clone, Copy)]
+enum Nodes<'a> {
     /// The same at all of them.
     Uniform(f64),
     /// That of each, from the first coupled node on.
@@ -17,29 +28,63 @@ pub(super) enum Coefficient<'a> {
 }
 
 impl<'a> Coefficient<'a> {
-    /// The law's, from the coefficients of [`interpolate`] where these differ.
-    pub(super) fn of(pair: &Pair<'_>, surfaces: &Surfaces<'_>, nodal: &'a [f64]) -> Self {
-        if surfaces.has_uniform_friction() {
-            Self::Uniform(pair.interface.friction)
+    /// No friction.
+    pub(super) const NONE: Self = Self {
+        nodes: Nodes::Uniform(0.0),
+        direction: [1.0, 0.0],
+    };
+
+    /// The law's in a direction, from the coefficients of [`interpolate`] where these differ.
+    pub(super) fn of(
+        pair: &Pair<'_>,
+        surfaces: &Surfaces<'_>,
+        nodal: &'a [f64],
+        direction: [f64; 2],
+    ) -> Self {
+        let nodes = if surfaces.has_uniform_friction() {
+            Nodes::Uniform(pair.interface.friction)
         } else {
-            Self::Nodal(nodal)
-        }
+            Nodes::Nodal(nodal)
+        };
+        Self { nodes, direction }
     }
 
-    /// That of a coupled node.
+    /// Friction across the line over the pressure of a coupled node.
     #[inline]
     pub(super) fn at(self, node: usize) -> f64 {
+        self.direction[0] * self.nodes.at(node)
+    }
+
+    /// Friction along the line over the pressure of a coupled node.
+    pub(super) fn along(self, node: usize) -> f64 {
+        self.direction[1] * self.nodes.at(node)
+    }
+
+    /// The largest friction across the line over the pressure of all coupled nodes.
+    pub(super) fn largest(self) -> f64 {
+        let largest = match self.nodes {
+            Nodes::Uniform(coefficient) => coefficient,
+            Nodes::Nodal(coefficients) => coefficients.iter().fold(0.0, |most, mu| mu.max(most)),
+        };
+        self.direction[0] * largest
+    }
+
+    /// The mean friction across the line over the pressure, weighted by normal forces.
+    pub(super) fn mean(self, forces: impl Iterator<Item = f64>) -> f64 {
+        let mean = match self.nodes {
+            Nodes::Uniform(coefficient) => coefficient,
+            Nodes::Nodal(coefficients) => weighted_mean(coefficients, forces),
+        };
+        self.direction[0] * mean
+    }
+}
+
+impl Nodes<'_> {
+    #[inline]
+    fn at(self, node: usize) -> f64 {
         match self {
             Self::Uniform(coefficient) => coefficient,
             Self::Nodal(coefficients) => coefficients[node],
-        }
-    }
-
-    /// The largest of all coupled nodes.
-    pub(super) fn largest(self) -> f64 {
-        match self {
-            Self::Uniform(coefficient) => coefficient,
-            Self::Nodal(coefficients) => coefficients.iter().fold(0.0, |most, mu| mu.max(most)),
         }
     }
 }

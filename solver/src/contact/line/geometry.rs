@@ -9,7 +9,7 @@ use super::state::ContactState;
 use crate::model::Interface;
 use crate::sides::Side;
 
-/// Position of the slider, and the load at height 0 with its increase per mm of height.
+/// Position of the slider, and the vertical load at height 0 with its increase per mm of height.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Setting {
     /// Imposed displacement, mm.
@@ -23,12 +23,22 @@ pub(super) struct Setting {
 }
 
 impl Setting {
-    /// At a position (imposed, of the pairing), after a contact.
+    /// At a position (imposed, of the pairing), after a contact. A given height is the reference of a spring of the contact's modulus
+    /// that nothing else loads.
     pub(super) fn new(
         interface: &Interface,
         last: &ContactState,
         (slider_x, pairing_x): (f64, f64),
+        height: Option<f64>,
     ) -> Self {
+        if let Some(height) = height {
+            return Self {
+                slider_x,
+                pairing_x,
+                load: -interface.modulus * height,
+                spring: interface.modulus,
+            };
+        }
         // Before the first load the spring has no reference height.
         let (spring, reference) = last
             .reference_height

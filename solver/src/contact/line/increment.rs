@@ -41,6 +41,8 @@ pub struct Solver {
     /// Coefficients of friction of the coupled nodes where these differ, -.
     friction: Vec<f64>,
     recession: Sides<Vec<f64>>,
+    /// The window that these buffers are assembled for.
+    assembled: Option<(usize, usize)>,
 }
 
 impl Solver {
@@ -77,19 +79,23 @@ impl Solver {
             next.reset_open(last, (slider_x, slider_x));
             return Ok(Increment::NONE);
         }
-        undeformed_gaps(pair, surfaces, pairing_x, covered, &mut self.undeformed);
-        let setting = Setting::new(&pair.interface, last, (slider_x, pairing_x));
-        let mut window = initial_window(pair, last, pairing_x, covered, &self.undeformed);
+        self.assembled = self.assembled.filter(|_| to.repeated);
+        let setting = Setting::new(&pair.interface, last, (slider_x, pairing_x), to.height);
+        let direction = to.direction(last.slider_x);
+        let mut window = self.assembled.unwrap_or_else(|| {
+            undeformed_gaps(pair, surfaces, pairing_x, covered, &mut self.undeformed);
+            initial_window(pair, last, pairing_x, covered, &self.undeformed)
+        });
         for _ in 0..MOST_EXTENSIONS {
             self.solve_window(pair, surfaces, last, (to, setting), window)?;
             let (geometry, it) = (&self.geometry, &self.iterate);
-            let friction = Coefficient::of(pair, surfaces, &self.friction);
+            let friction = Coefficient::of(pair, surfaces, &self.friction, direction);
             outcome::write(pair, geometry, it, last, (setting, friction), next);
             let touching =
                 self.touching_beside(pair, surfaces, next, setting, (window, covered))?;
             if touching == window {
                 let (geometry, it) = (&self.geometry, &self.iterate);
-                let friction = Coefficient::of(pair, surfaces, &self.friction);
+                let friction = Coefficient::of(pair, surfaces, &self.friction, direction);
                 let recession = &mut self.recession;
                 let mut work = std::mem::take(&mut self.newton.work);
                 work.increments = 1;
@@ -98,6 +104,7 @@ impl Solver {
                     (pair, geometry, it),
                     (&self.wear, recession),
                     (next, friction),
+                    (to, self.newton.response_to_height()),
                     work,
                 ));
             }
@@ -124,7 +131,7 @@ impl Solver {
             return 0.0;
         };
         let at = (contact.slider_x, contact.pairing_x);
-        let setting = Setting::new(&pair.interface, contact, at);
+        let setting = Setting::new(&pair.interface, contact, at, None);
         self.flank.place(pair, surfaces, setting, first..end);
         let slopes = &self.flank.slopes.interface;
         let vertical: f64 = (first..end)
@@ -187,22 +194,28 @@ impl Solver {
     ) -> Result<(), ContactError> {
         let (slider_x, cycles) = (to.slider_x, to.cycles);
         let interface = &pair.interface;
-        let geometry = &mut self.geometry;
-        geometry.place(pair, surfaces, setting, first..end);
-        let (begin, stop) = geometry.coupling.master_range;
-        let zones = pair.zones(last, first..end, begin..stop)?;
-        geometry.measure((pair, zones), surfaces, setting);
         let tracks_slip = interface.tangential == Tangential::StickSlip;
-        self.response.reset(geometry.coupling.len(), tracks_slip);
+        let step = to.across(last.slider_x);
         let wear = interface.wear.map(|wear| wear.filter(|_| cycles > 0.0));
-        let worn = (wear, surfaces.depth);
-        self.wear.assemble(&geometry.coupling, pair, worn, cycles);
-        let step = slider_x - last.slider_x + to.surface_slip;
-        self.assemble_fixed_slip((pair, zones), last, step);
+        let is_assembled = self.assembled == Some((first, end));
+        if !is_assembled {
+            self.geometry.place(pair, surfaces, setting, first..end);
+        }
+        let (begin, stop) = self.geometry.coupling.master_range;
+        let zones = pair.zones(last, first..end, begin..stop)?;
+        if !is_assembled {
+            let geometry = &mut self.geometry;
+            geometry.measure((pair, zones), surfaces, setting);
+            self.response.reset(geometry.coupling.len(), tracks_slip);
+            let worn = (wear, surfaces.depth);
+            self.wear.assemble(&geometry.coupling, pair, worn, cycles);
+            self.assemble_fixed_slip((pair, zones), last, step);
+            self.assembled = Some((first, end));
+        }
         let geometry = &self.geometry;
         let (pairing_x, nodes) = (setting.pairing_x, (first, end));
         friction::interpolate(pair, surfaces, pairing_x, nodes, &mut self.friction);
-        let friction = Coefficient::of(pair, surfaces, &self.friction);
+        let friction = Coefficient::of(pair, surfaces, &self.friction, to.direction(last.slider_x));
         let problem = Problem {
             pair,
             zones,
@@ -221,6 +234,8 @@ impl Solver {
             travel: pair.travel(last, setting.pairing_x),
             first_load: last.reference_height.is_none(),
             step,
+            along: to.along,
+            height: to.height,
         };
         let wall = problem.mean_slope_ahead(last);
         predict(&mut self.iterate, pair, last, &problem);
@@ -236,7 +251,7 @@ impl Solver {
             0
         };
         let most = MOST_ITERATIONS + single_changes;
-        let mut end = newton.solve(&problem, response, wear, it, most);
+        let mut end = newton.solve(&problem, response, wear, it, (most, is_assembled));
         if to.lemke && !matches!(end, Convergence::Converged) {
             end = self
                 .complementarity
@@ -244,6 +259,9 @@ impl Solver {
         }
         match end {
             Convergence::Converged => {
+                if to.height.is_some() {
+                    self.newton.respond_to_height(&problem, &self.iterate);
+                }
                 if interface.tangential == Tangential::Omitted && step != 0.0 {
                     self.iterate.apply_friction(friction);
                 }
@@ -303,12 +321,12 @@ fn acting_friction<'a>(
     match interface.tangential {
         Tangential::StickSlip => friction,
         Tangential::ImposedSlip if step != 0.0 => friction,
-        Tangential::ImposedSlip | Tangential::Omitted => Coefficient::Uniform(0.0),
+        Tangential::ImposedSlip | Tangential::Omitted => Coefficient::NONE,
     }
 }
 
 /// Whether a loaded contact does not move: another solve would only change its round-off.
 fn is_at_rest(last: &ContactState, to: Displacement<'_>) -> bool {
-    let distance = (to.slider_x - last.slider_x).abs() + to.surface_slip.abs();
-    last.reference_height.is_some() && distance <= 0.0
+    let distance = (to.slider_x - last.slider_x).abs() + to.surface_slip.abs() + to.along.abs();
+    last.reference_height.is_some() && to.height.is_none() && distance <= 0.0
 }

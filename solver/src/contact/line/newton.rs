@@ -23,6 +23,7 @@ use super::active_set;
 use super::problem::{Iterate, Problem};
 use super::response::Response;
 use super::status::Status;
+use super::unknown::Unknown;
 use super::wear_coupling::WearCoupling;
 use super::work::Work;
 use crate::linear::CondensedSystem;
@@ -52,6 +53,18 @@ pub(super) struct Newton {
     evaluation: Evaluation,
     /// Factorizations, and unknowns of their systems, since the last reset.
     pub(super) work: Work,
+    /// Change of the pressure of each node per height, MPa/mm, and of the vertical force, N/mm per mm.
+    pressure_per_height: Vec<f64>,
+    force_per_height: f64,
+}
+
+/// Change of the contact with a given height.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct HeightResponse<'a> {
+    /// That of the pressures of the coupled nodes, MPa/mm.
+    pub(super) pressure: &'a [f64],
+    /// That of the vertical force, N/mm per mm.
+    pub(super) force: f64,
 }
 
 /// A residual within so many tolerances that another iteration did not halve, without a change of status, is the
@@ -71,17 +84,25 @@ const SLOW: f64 = 0.1;
 const EXACT_FROM: usize = 12;
 
 impl Newton {
-    /// Iterates from the statuses and pressures of `it` until they converge.
+    /// Iterates from the statuses and pressures of `it` until they converge, at most so many times; with the factors of the last
+    /// solution if this problem is a repeated one.
     pub(super) fn solve(
         &mut self,
         problem: &Problem<'_>,
         response: &mut Response,
         wear: &mut WearCoupling,
         it: &mut Iterate,
-        most_iterations: usize,
+        (most_iterations, repeated): (usize, bool),
     ) -> Convergence {
         let (mut residual, mut changes) = (f64::INFINITY, usize::MAX);
         let mut renew = true;
+        if repeated {
+            settle(problem, it);
+            if self.partition.admits(it) {
+                residual = self.evaluate(problem, response, wear, it);
+                renew = false;
+            }
+        }
         for iteration in 0..most_iterations {
             let renewed = renew || !self.partition.admits(it);
             if renewed {
@@ -112,6 +133,31 @@ impl Newton {
             renew = slow || iteration + 1 >= EXACT_FROM;
         }
         Convergence::NotConverged { residual, changes }
+    }
+
+    /// Determines the change of a converged contact with the height that it is given, by the last linearisation.
+    pub(super) fn respond_to_height(&mut self, problem: &Problem<'_>, it: &Iterate) {
+        let pressures = &mut self.pressure_per_height;
+        pressures.clear();
+        pressures.resize(it.status.len(), 0.0);
+        self.force_per_height = 0.0;
+        let partition = &self.partition;
+        let system = &mut self.system;
+        let changes = self.correction.per_height(problem, partition, system, it);
+        for (unknown, change) in partition.unknowns.iter().zip(changes) {
+            if let Unknown::Pressure(node, _) = *unknown {
+                pressures[node] = *change;
+            }
+            self.force_per_height += change * unknown.force(problem)[1];
+        }
+    }
+
+    /// The change that was last determined; of no increment whose height was not given.
+    pub(super) fn response_to_height(&self) -> HeightResponse<'_> {
+        HeightResponse {
+            pressure: &self.pressure_per_height,
+            force: self.force_per_height,
+        }
     }
 
     /// Chooses the unknowns for the statuses of an iterate and linearises about it; returns its residual.

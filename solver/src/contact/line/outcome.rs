@@ -2,13 +2,13 @@
 
 use super::friction::Coefficient;
 use super::geometry::{Geometry, Setting};
-use super::pair::Pair;
+use super::newton::HeightResponse;
+use super::pair::{Displacement, Pair};
 use super::problem::{GAP_TOLERANCE, Iterate};
 use super::state::ContactState;
 use super::status::Status;
 use super::wear_coupling::WearCoupling;
 use super::work::Work;
-use crate::law::friction::weighted_mean;
 use crate::model::Tangential;
 use crate::sides::Sides;
 
@@ -25,7 +25,13 @@ pub struct Increment<'a> {
     pub worn_area: Sides<f64>,
     /// Energy dissipated by friction, N/mm mm.
     pub energy: f64,
-    /// |sum of vertical forces - load| over the load on the unworn contact.
+    /// Vertical force on the slider, N/mm.
+    pub vertical_force: f64,
+    /// Where the height is given: change of the pressures of the slave's nodes from the first coupled one on per height, MPa/mm.
+    pub pressure_per_height: &'a [f64],
+    /// Change of the vertical force with them, N/mm per mm.
+    pub force_per_height: f64,
+    /// |sum of vertical forces - load| over the load on the unworn contact; 0 where the height is given.
     pub force_balance: f64,
     /// Largest gap of a closed node or penetration of an open one, over the indentation (or the round-off of longer
     /// lengths).
@@ -53,6 +59,9 @@ impl<'a> Increment<'a> {
             receptacle: 0.0,
         },
         energy: 0.0,
+        vertical_force: 0.0,
+        pressure_per_height: &[],
+        force_per_height: 0.0,
         force_balance: 0.0,
         complementarity: 0.0,
         friction_cone: 0.0,
@@ -69,19 +78,26 @@ impl<'a> Increment<'a> {
         (pair, geometry, it): (&Pair<'_>, &Geometry, &'a Iterate),
         (wear, recession): (&WearCoupling, &'a mut Sides<Vec<f64>>),
         (next, friction): (&ContactState, Coefficient<'_>),
+        (to, response): (Displacement<'_>, HeightResponse<'a>),
         work: Work,
     ) -> Self {
         let coupling = &geometry.coupling;
         let slave = pair.interface.slave;
         let widths = &pair.slave().widths[coupling.first..coupling.end];
         let worn_area = wear.recession(coupling, pair, &it.path, recession);
-        let energy = widths
+        let slipping = widths
             .iter()
             .zip(it.shear.iter().zip(&it.slip))
             .zip(&it.status)
-            .filter(|(_, status)| status.direction() != 0.0)
+            .filter(|(_, status)| status.direction() != 0.0);
+        let mut energy = slipping
             .map(|((d, (q, slip)), _)| d * (q * slip).abs())
             .sum();
+        if to.along != 0.0 {
+            for (i, (d, pressure)) in widths.iter().zip(&it.pressure).enumerate() {
+                energy += d * friction.along(i) * pressure * to.along.abs();
+            }
+        }
         let forces = &next.force.of(slave)[2 * coupling.first..2 * coupling.end];
         let vertical: f64 = forces.iter().skip(1).step_by(2).sum();
         let load = next.equilibrium_load(&pair.interface);
@@ -110,7 +126,22 @@ impl<'a> Increment<'a> {
             recession: recession.as_slices(),
             worn_area,
             energy,
-            force_balance: (vertical - load).abs() / pair.interface.load,
+            vertical_force: vertical,
+            pressure_per_height: if to.height.is_some() {
+                response.pressure
+            } else {
+                &[]
+            },
+            force_per_height: if to.height.is_some() {
+                response.force
+            } else {
+                0.0
+            },
+            force_balance: if to.height.is_some() {
+                0.0
+            } else {
+                (vertical - load).abs() / pair.interface.load
+            },
             complementarity: complementarity / scale,
             friction_cone: cone / peak,
             work,
@@ -157,12 +188,7 @@ pub(super) fn write(
     let (begin, stop) = coupling.master_range;
     next.set_loaded(slave, coupling.first..coupling.end);
     next.set_loaded(slave.other(), begin..stop);
-    next.friction = match friction {
-        Coefficient::Uniform(coefficient) => coefficient,
-        Coefficient::Nodal(coefficients) => {
-            let widths = &pair.slave().widths[coupling.first..coupling.end];
-            let forces = it.pressure.iter().zip(widths);
-            weighted_mean(coefficients, forces.map(|(p, width)| width * p))
-        }
-    };
+    let widths = &pair.slave().widths[coupling.first..coupling.end];
+    let forces = it.pressure.iter().zip(widths);
+    next.friction = friction.mean(forces.map(|(p, width)| width * p));
 }

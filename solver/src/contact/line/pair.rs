@@ -114,6 +114,12 @@ pub struct Displacement<'a> {
     pub slider_x: f64,
     /// Additional slip of the slider's surface that does not move the contact, mm.
     pub surface_slip: f64,
+    /// Slip of the slider's surface along the line, mm; only where slip is imposed.
+    pub along: f64,
+    /// Rigid height of the slider, mm, under a far face that is held; that at which its load is carried if absent.
+    pub height: Option<f64>,
+    /// Whether only the height and the start differ from the last increment of the same solver: what that has assembled is used again.
+    pub repeated: bool,
     /// Number of equal slips that each slip represents in the wear.
     pub cycles: f64,
     /// Whether Lemke's method is tried where Newton's method does not converge: reliable, but far more expensive than
@@ -121,6 +127,23 @@ pub struct Displacement<'a> {
     pub lemke: bool,
     /// Where the iteration starts; the last contact, moved with the slider, if it is absent.
     pub start: Option<WarmStart<'a>>,
+}
+
+impl Displacement<'_> {
+    /// Slip across the line that is imposed from a displacement of the slider on, mm.
+    pub(super) fn across(&self, last_x: f64) -> f64 {
+        self.slider_x - last_x + self.surface_slip
+    }
+
+    /// Components of the direction of the imposed slip across the line and along it, -: the friction of a slipping node opposes it.
+    pub(super) fn direction(&self, last_x: f64) -> [f64; 2] {
+        let across = self.across(last_x);
+        if self.along == 0.0 {
+            return [1.0, 0.0];
+        }
+        let length = (across * across + self.along * self.along).sqrt();
+        [across.abs() / length, self.along.abs() / length]
+    }
 }
 
 /// Worn surfaces, at the contact nodes.

@@ -17,7 +17,8 @@ pub(super) fn predict(
     let n = end - first;
     // Every field is set: the result must depend on the state only, not on the last solve.
     it.indentation = last.indentation;
-    it.height = last.height;
+    it.height = problem.height.unwrap_or(last.height);
+    it.along = problem.along;
     it.tolerance = GAP_TOLERANCE;
     it.status.clear();
     it.pressure.clear();

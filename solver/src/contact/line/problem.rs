@@ -45,9 +45,23 @@ pub(super) struct Problem<'a> {
     pub(super) first_load: bool,
     /// Imposed slip: the displacement and the additional slip of the slider's surface, mm.
     pub(super) step: f64,
+    /// Imposed slip along the line, mm.
+    pub(super) along: f64,
+    /// The height of the slider if it is given, mm: `spring` times it less the height is then the vertical residual.
+    pub(super) height: Option<f64>,
 }
 
 impl Problem<'_> {
+    /// Weight of the vertical forces in the equation for the height, which does not depend on them where it is given.
+    pub(super) fn force_weight(&self) -> f64 {
+        if self.height.is_some() { 0.0 } else { 1.0 }
+    }
+
+    /// Magnitude of the imposed slip, mm.
+    pub(super) fn imposed_slip(&self) -> f64 {
+        magnitude(self.step.abs(), self.along)
+    }
+
     /// Mean slope under the last load, positive where the slider climbs it.
     pub(super) fn mean_slope_ahead(&self, last: &ContactState) -> f64 {
         let (mut load, mut moment) = (0.0, 0.0);
@@ -80,6 +94,8 @@ pub(super) struct Iterate {
     pub(super) indentation: f64,
     /// Gap residual over the indentation at which the iteration has converged.
     pub(super) tolerance: f64,
+    /// Imposed slip along the line, mm.
+    pub(super) along: f64,
 }
 
 impl Iterate {
@@ -91,12 +107,35 @@ impl Iterate {
         }
     }
 
-    /// Pressure and slip of a node as a wear law takes them: no slip against the direction of its status.
-    pub(super) fn local_state(&self, node: usize) -> LocalState {
+    /// Pressure and slip of a node in a status as a wear law takes them: no slip across the line against the direction of its status.
+    pub(super) fn local_state(&self, node: usize, status: Status) -> LocalState {
+        let across = (status.direction() * self.slip[node]).max(0.0);
         LocalState {
             pressure: self.pressure[node],
-            slip: (self.status[node].direction() * self.slip[node]).max(0.0),
+            slip: match status {
+                Status::Open | Status::Stick => 0.0,
+                Status::SlipRight | Status::SlipLeft => magnitude(across, self.along),
+            },
             ..LocalState::default()
         }
+    }
+
+    /// Change of the magnitude of a node's slip in a status per slip across the line.
+    pub(super) fn slip_direction(&self, node: usize, status: Status) -> f64 {
+        let direction = status.direction();
+        if self.along == 0.0 {
+            return direction;
+        }
+        let across = (direction * self.slip[node]).max(0.0);
+        direction * across / magnitude(across, self.along)
+    }
+}
+
+/// Magnitude of a slip by its component across the line, which is not negative, and that along it.
+fn magnitude(across: f64, along: f64) -> f64 {
+    if along == 0.0 {
+        across
+    } else {
+        (across * across + along * along).sqrt()
     }
 }

@@ -66,6 +66,9 @@ fn wear_from(
         let to = Displacement {
             slider_x,
             surface_slip: 0.0,
+            along: 0.0,
+            height: None,
+            repeated: false,
             cycles,
             lemke: false,
             start: start.filter(|_| cycles > 0.0),

@@ -70,6 +70,30 @@ impl Correction {
         true
     }
 
+    /// Changes of all unknowns per height, if that is given: its equation is the last one. No changes if the system has no finite
+    /// solution.
+    pub(super) fn per_height(
+        &mut self,
+        problem: &Problem<'_>,
+        partition: &Partition,
+        system: &mut CondensedSystem,
+        it: &Iterate,
+    ) -> &[f64] {
+        let unknowns = partition.unknowns.len();
+        self.change.clear();
+        self.change.resize(unknowns, 0.0);
+        self.change
+            .push(-problem.spring / problem.pair.interface.modulus);
+        system.eliminate(&mut self.change);
+        self.set_conditions(problem, partition, it);
+        self.factor_border(system);
+        if !self.solve_border(partition.core, system) {
+            return &[];
+        }
+        system.substitute(&mut self.change);
+        &self.change[..unknowns]
+    }
+
     fn write_residuals(&mut self, problem: &Problem<'_>, partition: &Partition, it: &Iterate) {
         self.change.clear();
         let residuals = partition.unknowns.iter().map(|unknown| match *unknown {

@@ -36,8 +36,13 @@ impl Evaluation {
             if problem.tracks_slip {
                 it.slip[i] += self.slip[i];
             }
-            let slips = it.status[i].direction() * it.slip[i];
-            it.path[i] = (it.pressure[i] * slips).max(0.0);
+            it.path[i] = if problem.along == 0.0 {
+                let slips = it.status[i].direction() * it.slip[i];
+                (it.pressure[i] * slips).max(0.0)
+            } else {
+                let at = it.local_state(i, it.status[i]);
+                (at.pressure * at.slip).max(0.0)
+            };
             if it.status[i] != Status::Open {
                 indentation = indentation.max(self.gap[i].abs());
             }
@@ -46,7 +51,7 @@ impl Evaluation {
         it.gap.clear();
         it.gap.resize(n, 0.0);
         if problem.wears {
-            let states = (0..n).map(|l| it.local_state(l));
+            let states = (0..n).map(|l| it.local_state(l, it.status[l]));
             wear.linearise(problem.coupling, problem.pair, &states);
             wear.opening().add_product(&(0..n), &it.path, &mut it.gap);
             if let Some(other) = wear.other_opening() {

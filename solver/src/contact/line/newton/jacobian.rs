@@ -9,7 +9,6 @@ use super::super::response::Response;
 use super::super::unknown::Unknown;
 use super::super::wear_coupling::WearCoupling;
 use super::partition::Partition;
-use crate::law::wear::LocalState;
 use crate::linear::SquareMatrix;
 use std::ops::Range;
 
@@ -41,14 +40,11 @@ impl Jacobian {
         let modulus = problem.pair.interface.modulus;
         self.gap.resize(n, 0.0);
         self.slip.resize(n, 0.0);
-        let local = |node: usize| LocalState {
-            pressure: it.pressure[node],
-            slip: (partition.status(it, node).direction() * it.slip[node]).max(0.0),
-            ..LocalState::default()
-        };
+        let local = |node: usize| it.local_state(node, partition.status(it, node));
+        let direction = |node: usize| it.slip_direction(node, partition.status(it, node));
         if problem.wears {
             wear.linearise(problem.coupling, problem.pair, &(0..n).map(local));
-            let per_slip = |l: usize| partition.status(it, l).direction() * it.pressure[l];
+            let per_slip = |l: usize| direction(l) * it.pressure[l];
             wear.per_slip()
                 .combine(per_slip, |_| 0.0, &mut self.opening);
             if lumped {
@@ -57,7 +53,6 @@ impl Jacobian {
         }
         let other = wear.other_opening().filter(|_| problem.wears);
         if let Some(other) = other {
-            let direction = |l: usize| partition.status(it, l).direction();
             let per_slip = &mut self.other_opening;
             other.per_slip.combine(direction, |_| 0.0, per_slip);
             if lumped {
@@ -78,7 +73,7 @@ impl Jacobian {
             if other.is_some() && problem.tracks_slip {
                 self.other_opening.add_product(&span, slip, &mut self.gap);
             }
-            let balance = unknown.force(problem)[1];
+            let balance = problem.force_weight() * unknown.force(problem)[1];
             write_column(
                 unknowns,
                 &self.gap,

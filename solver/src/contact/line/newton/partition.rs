@@ -76,9 +76,10 @@ impl Partition {
     /// The load less the vertical forces of the unknowns, N/mm.
     pub(super) fn balance(&self, problem: &Problem<'_>, it: &Iterate) -> f64 {
         let load = problem.load + problem.spring * it.height;
+        let weight = problem.force_weight();
         let forces = self.unknowns.iter();
         forces.fold(load, |balance, unknown| {
-            balance - unknown.force(problem)[1] * unknown.value(it)
+            balance - weight * unknown.force(problem)[1] * unknown.value(it)
         })
     }
 

@@ -1,0 +1,151 @@
+//! Where a station lies on the line, and how its section moves.
+
+use std::f64::consts::PI;
+
+use super::scene::LineShape;
+use crate::number::real;
+
+/// A station on its line.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Place {
+    /// Angle from the direction of motion on a ring, rad; distance from the middle of a straight line, mm.
+    pub(super) at: f64,
+    /// Length of the line that it stands for, mm.
+    pub(super) weight_mm: f64,
+    /// Height of the slider's unworn surface over that of the lowest station, mm.
+    pub(super) raised_mm: f64,
+    /// Cosine and sine of the direction of motion against the section.
+    direction: [f64; 2],
+    /// Radius of a ring, mm.
+    radius_mm: Option<f64>,
+}
+
+/// Imposed displacement of a section.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Displaced {
+    /// Position of the slider's section, mm.
+    pub(super) slider_x: f64,
+    /// Slip across the line beyond its displacement, mm.
+    pub(super) surface_slip: f64,
+    /// Slip along the line, mm.
+    pub(super) along: f64,
+}
+
+/// Evenly spaced places: a half ring, which stands for both, or a straight line.
+pub(super) fn places(line: LineShape, stations: usize) -> Vec<Place> {
+    let spacings = real(stations - 1);
+    let share = |j: usize| {
+        if j == 0 || j == stations - 1 {
+            0.5
+        } else {
+            1.0
+        }
+    };
+    match line {
+        LineShape::Ring { radius_mm } => (0..stations)
+            .map(|j| {
+                let theta = PI * real(j) / spacings;
+                Place {
+                    at: theta,
+                    weight_mm: share(j) * line.length_mm() / spacings,
+                    raised_mm: 0.0,
+                    direction: [theta.cos(), theta.sin()],
+                    radius_mm: Some(radius_mm),
+                }
+            })
+            .collect(),
+        LineShape::Straight {
+            width_mm,
+            crown_radius_mm,
+            tilt_mrad,
+        } => {
+            let z = |j: usize| width_mm * (real(j) / spacings - 0.5);
+            let height = |z: f64| {
+                let crown = crown_radius_mm.map_or(0.0, |radius| z * z / (2.0 * radius));
+                crown + 1e-3 * tilt_mrad * z
+            };
+            let heights = (0..stations).map(|j| height(z(j)));
+            let lowest = heights.fold(f64::INFINITY, f64::min);
+            (0..stations)
+                .map(|j| Place {
+                    at: z(j),
+                    weight_mm: share(j) * width_mm / spacings,
+                    raised_mm: height(z(j)) - lowest,
+                    direction: [1.0, 0.0],
+                    radius_mm: None,
+                })
+                .collect()
+        }
+    }
+}
+
+impl Place {
+    /// Position of the slider's section as the slider is displaced by u, mm.
+    pub(super) fn position(&self, u: f64) -> f64 {
+        let [cos, sin] = self.direction;
+        let recedes = self.radius_mm.map_or(0.0, |radius| {
+            let half_chord = u * sin;
+            // sqrt(R^2 - c^2) - R without cancellation.
+            half_chord * half_chord
+                / (radius + (radius * radius - half_chord * half_chord).max(0.0).sqrt())
+        });
+        u * cos - recedes
+    }
+
+    /// Displacement of the section as that of the slider changes, mm.
+    pub(super) fn displaced(&self, from: f64, to: f64) -> Displaced {
+        let [cos, sin] = self.direction;
+        let slider_x = self.position(to);
+        Displaced {
+            slider_x,
+            surface_slip: (to - from) * cos - (slider_x - self.position(from)),
+            along: (to - from) * sin,
+        }
+    }
+
+    /// Amplitude of the section's motion across the line for that of the slider, mm.
+    pub(super) fn amplitude_mm(&self, amplitude: f64) -> f64 {
+        let (right, left) = (self.position(amplitude), self.position(-amplitude));
+        0.5 * (right.max(left).max(0.0) - right.min(left).min(0.0))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_ring_crosses_the_radial_sections_where_two_circles_meet() {
+        let (radius_mm, u) = (0.4826, 0.033_868);
+        for place in places(LineShape::Ring { radius_mm }, 9) {
+            // A point of the displaced circle at this distance from the centre of the resting one.
+            let distance = radius_mm + place.position(u);
+            let (x, y) = (distance * place.at.cos() - u, distance * place.at.sin());
+            assert!(((x * x + y * y).sqrt() - radius_mm).abs() < 1e-15);
+        }
+    }
+
+    #[test]
+    fn slip_has_the_length_of_the_displacement() {
+        for place in places(LineShape::Ring { radius_mm: 0.5 }, 7) {
+            let moved = place.displaced(-0.01, 0.02);
+            let across = moved.slider_x - place.position(-0.01) + moved.surface_slip;
+            assert!((across.hypot(moved.along) - 0.03).abs() < 1e-15);
+        }
+    }
+
+    #[test]
+    fn weights_add_up_to_the_length() {
+        let line = LineShape::Straight {
+            width_mm: 2.0,
+            crown_radius_mm: Some(10.0),
+            tilt_mrad: 1.0,
+        };
+        for line in [line, LineShape::Ring { radius_mm: 0.5 }] {
+            let places = places(line, 9);
+            let sum: f64 = places.iter().map(|place| place.weight_mm).sum();
+            assert!((sum - line.length_mm()).abs() < 1e-14);
+            assert!(places.iter().all(|place| place.raised_mm >= 0.0));
+        }
+    }
+}

@@ -1,0 +1,180 @@
+//! What carries the sections: one increment of all stations.
+//!
+//! Under an even load each section is solved alone. Under a rigid top the common height v follows from
+//!   r(v) = sum_j w_j P_j(v + g_j) - F = 0
+//! by Newton's method with dr/dv = sum_j w_j dP_j/dv. Under a given height a section's contact is linear in its pressures and the height as
+//! long as its active set stays, so that the predictor p + dp/dv dv is mostly its solution, and few iterations are needed. r falls with
+//! v: a step that leaves the interval in which its sign changes is replaced by a bisection, which also finds a contact that no section has.
+
+use super::scene::Top;
+use super::section::{Increment, Station};
+use super::threads::for_each;
+use crate::contact::ContactError;
+
+/// Imbalance over the force at which the height has converged: well above the round-off that sections leave in their forces, 1e-11 of
+/// an indentation, and far below any tolerance.
+const BALANCED: f64 = 1e-9;
+
+/// Most iterations for the height. Arbitrary: 2 to 6 are needed.
+const MOST_ITERATIONS: usize = 40;
+
+/// Height over the lowest known one by which the search for an upper bound begins, over the length of a contact's indentation.
+const FIRST_STEP: f64 = 1.0;
+
+/// Why an increment of all stations has no solution.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Unsolved {
+    /// A section has none.
+    Section {
+        /// Its number.
+        station: usize,
+        /// Why.
+        source: ContactError,
+    },
+    /// No height carries the force.
+    Height {
+        /// Force of the last iteration, N.
+        found_n: f64,
+        /// Iterations.
+        iterations: usize,
+    },
+}
+
+/// The common height of a rigid top.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Height {
+    /// It, mm; that of the lowest station.
+    pub(super) mm: f64,
+    /// Its change in the last increment, mm, and the cycles that this stood for.
+    change: f64,
+    cycles: f64,
+}
+
+/// The carrier of the sections.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Carrier {
+    pub(super) top: Top,
+    pub(super) force_n: f64,
+    pub(super) threads: usize,
+}
+
+impl Carrier {
+    /// Solves an increment of all stations and makes it part of their states; returns the number of iterations.
+    ///
+    /// # Errors
+    /// [`Unsolved`]; the states are then those before.
+    pub(super) fn advance(
+        &self,
+        stations: &mut [Station],
+        height: &mut Height,
+        increment: Increment,
+    ) -> Result<usize, Unsolved> {
+        let iterations = match self.top {
+            Top::Even => {
+                self.solve(stations, |station| station.solve(increment, None, None))?;
+                1
+            }
+            Top::Rigid => {
+                let (found, iterations) = self.common_height(stations, height, increment)?;
+                *height = Height {
+                    mm: found,
+                    change: found - height.mm,
+                    cycles: increment.cycles,
+                };
+                iterations
+            }
+        };
+        for station in stations {
+            station.accept();
+        }
+        Ok(iterations)
+    }
+
+    fn solve(
+        &self,
+        stations: &mut [Station],
+        work: impl Fn(&mut Station) -> Result<(), ContactError> + Sync,
+    ) -> Result<(), Unsolved> {
+        for_each(stations, self.threads, work)
+            .map_err(|(station, source)| Unsolved::Section { station, source })
+    }
+
+    /// The height that carries the force, and the number of iterations.
+    fn common_height(
+        &self,
+        stations: &mut [Station],
+        last: &Height,
+        increment: Increment,
+    ) -> Result<(f64, usize), Unsolved> {
+        let mut v = last.predicted(increment.cycles);
+        let (mut low, mut high) = (f64::NEG_INFINITY, f64::INFINITY);
+        let (mut raised, mut found_n, mut beyond) = (None, 0.0, 0.0);
+        for iteration in 1..=MOST_ITERATIONS {
+            self.solve(stations, |station| {
+                station.solve(increment, Some(v + station.place.raised_mm), raised)
+            })?;
+            let (mut force, mut per_height) = (0.0, 0.0);
+            for station in stations.iter() {
+                force += station.place.weight_mm * station.attempt.line_load;
+                per_height += station.place.weight_mm * station.attempt.load_per_height;
+            }
+            found_n = force;
+            let imbalance = force - self.force_n;
+            if imbalance.abs() <= BALANCED * self.force_n {
+                return Ok((v, iteration));
+            }
+            if imbalance > 0.0 {
+                low = v;
+            } else {
+                high = v;
+            }
+            let next = v - imbalance / per_height;
+            let next = if per_height < 0.0 && next > low && next < high {
+                next
+            } else if low.is_finite() && high.is_finite() {
+                0.5 * (low + high)
+            } else {
+                // Twice as far each time, downward from a height at which nothing touches.
+                beyond = 2.0 * beyond + FIRST_STEP * indentation(stations);
+                if low.is_finite() {
+                    low + beyond
+                } else {
+                    high - beyond
+                }
+            };
+            raised = Some(next - v);
+            v = next;
+        }
+        Err(Unsolved::Height {
+            found_n,
+            iterations: MOST_ITERATIONS,
+        })
+    }
+}
+
+/// Largest indentation of the sections in their last increment, mm.
+fn indentation(stations: &[Station]) -> f64 {
+    let indentations = stations
+        .iter()
+        .map(|station| station.state.contact.indentation);
+    indentations.fold(f64::MIN_POSITIVE, f64::max)
+}
+
+impl Height {
+    /// The height of an unloaded top.
+    pub(super) fn at(mm: f64) -> Self {
+        Self {
+            mm,
+            ..Self::default()
+        }
+    }
+
+    /// The height after an increment like the last one.
+    fn predicted(&self, cycles: f64) -> f64 {
+        if self.cycles > 0.0 {
+            self.mm + self.change * cycles / self.cycles
+        } else {
+            self.mm
+        }
+    }
+}
