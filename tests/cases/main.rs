@@ -36,6 +36,7 @@ mod mission;
 mod pages_in_a_browser;
 mod plated_contact;
 mod plated_presets;
+mod point_contact;
 mod predicted_cost;
 mod readme_commands;
 mod refused_specifications;
