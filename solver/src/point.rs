@@ -13,6 +13,7 @@
 
 mod error;
 mod field;
+mod hertz;
 mod integrator;
 mod jump;
 mod lattice;

@@ -20,7 +20,7 @@ pub use coefficients::MachineError;
 const BASE_S: f64 = 0.01;
 
 /// Processor time of an iteration of an area contact and a cell over that of an increment with 30 solved nodes. Measured.
-const CELL_INCREMENTS: f64 = 1e-3;
+const CELL_INCREMENTS: f64 = 1.6e-3;
 
 /// Processor seconds of a workload on a machine.
 pub fn cpu_s(machine: &MachineFigures, workload: &Workload) -> f64 {

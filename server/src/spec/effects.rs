@@ -111,10 +111,13 @@ fn check_forced(given: &Given, plan: EffectsPlan, diagnostics: &mut Diagnostics)
         let is_out = matches!(decision.verdict, Verdict::Skipped | Verdict::InputMissing);
         let pointer = format!("/effects/{name}");
         if forced && !decision.is_available {
-            diagnostics.fault(
-                &pointer,
-                "cannot be on: a point contact is simulated without it",
-            );
+            let detail = match decision.effect {
+                Effect::StickMemory => {
+                    "cannot be on: a point contact sticks in part up to amplitudes of a tenth of its half-length"
+                }
+                _ => "cannot be on: a point contact is simulated without it",
+            };
+            diagnostics.fault(&pointer, detail);
         } else if forced && is_out {
             diagnostics.fault(&pointer, format!("cannot be on: {}", decision.reason));
         }

@@ -2,7 +2,8 @@
 
 use api::problem::Fault;
 use api::spec::{Dimension, LoadKind, Model, Spec};
-use solver::model::resolution::worn_contact_half_length_mm;
+use solver::effects::Effect;
+use solver::model::resolution::{hertz_half_width, worn_contact_half_length_mm};
 use solver::point;
 use solver::scene::{self, Conduction, Friction, Motion, Point, Scene};
 use solver::sides::{Side, Sides};
@@ -14,6 +15,8 @@ use crate::spec::unit;
 
 /// Largest half-length of a contact over the height of a body that is taken as a half-space: its compliance is then a few per cent lower.
 const LARGEST_IN_HALF_SPACE: f64 = 0.2;
+/// Fewest cells along a half-length of the unworn contact.
+const FEWEST_CELLS: f64 = 3.0;
 /// Distance of a contact to the edge of the receptacle over its half-length, from which on the edge does not count.
 const FROM_EDGE: f64 = 2.0;
 
@@ -134,11 +137,36 @@ pub(super) fn with_dimension(
     // Springs were resolved per unit of width.
     let spring_n_per_mm = scene.spring_n_per_mm2;
     scene.load_n_per_mm = point::middle_line_load_n_per_mm(&scene);
+    check_size(&scene, diagnostics);
     scene.spring_n_per_mm2 = spring_n_per_mm * scene.load_n_per_mm / force_n;
     if let Conduction::Known(electrical) = &mut scene.conduction {
         electrical.width_mm = force_n / scene.load_n_per_mm;
     }
     scene
+}
+
+/// Cells that resolve the contact, and a contact that stays on the receptacle.
+fn check_size(scene: &Scene, diagnostics: &mut Diagnostics) {
+    let half_length = hertz_half_width(scene);
+    if let Some(cell) = scene.accuracy.contact_element_mm {
+        let most = half_length / FEWEST_CELLS;
+        if cell > most {
+            let detail = format!(
+                "{cell} is above {most:.2e}, a third of the half-length of the unworn contact"
+            );
+            diagnostics.fault("/accuracy/overrides/contact_element_mm", detail);
+        }
+    }
+    let (amplitude, half_block) = (
+        scene.motion.amplitude_mm(),
+        0.5 * scene.receptacle.shape.length_mm,
+    );
+    if amplitude + half_length > half_block {
+        let detail = format!(
+            "the contact of {half_length:.2e} mm leaves the receptacle, {half_block} mm to either side, by an amplitude of {amplitude} mm"
+        );
+        diagnostics.fault("/motion", detail);
+    }
 }
 
 /// Wear by the dose alone, and one coefficient of friction.
@@ -181,15 +209,27 @@ pub(super) fn warnings(scene: &Scene) -> Vec<Fault> {
     }
     if to_edge < FROM_EDGE * half_length {
         warnings.push(format!(
-            "the bodies are simulated as half-spaces, and the contact of {half_length:.2e} mm comes as near as {:.2e} mm to the edge of \
-             the receptacle",
-            to_edge.max(0.0)
+            "the bodies are simulated as half-spaces, and the contact of {half_length:.2e} mm ends {to_edge:.3} mm from the edge of the \
+             receptacle"
         ));
     }
     let warnings = warnings.into_iter();
-    warnings
-        .map(|detail| Fault::new("/model/dimension", detail))
-        .collect()
+    let warnings = warnings.map(|detail| Fault::new("/model/dimension", detail));
+    warnings.chain(yields(scene)).collect()
+}
+
+/// A warning of a peak pressure beyond the hardness of the softer surface, whether it wears or not.
+fn yields(scene: &Scene) -> Option<Fault> {
+    let mut decisions = solver::effects::plan(scene).decisions.into_iter();
+    let plasticity = decisions.find(|decision| decision.effect == Effect::Plasticity)?;
+    let ratio = plasticity.indicator?.unworn;
+    (ratio > 1.0).then(|| {
+        let detail = format!(
+            "the peak pressure of the unworn contact is {ratio:.2} times the hardness of the softer surface: it yields, and is simulated \
+             as elastic"
+        );
+        Fault::new("/load", detail)
+    })
 }
 
 #[cfg(test)]

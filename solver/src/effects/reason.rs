@@ -119,7 +119,8 @@ pub(super) fn reason(
             "{switch}the coefficient of friction follows from its worn depth: {result}"
         );
     }
-    let unavailable = if indicator.value() > threshold && !can_simulate(scene, effect) {
+    let is_missed = effect.is_counted() && !can_simulate(scene, effect);
+    let unavailable = if indicator.value() > threshold && is_missed {
         "; it cannot be simulated here, and its change is part of the stated errors"
     } else {
         ""

@@ -1,15 +1,17 @@
 //! Cost model of the run of a point contact, before anything is solved: its schedule on worn shapes of closed form.
 //!
-//! The jump control of the run is applied to a contact whose half-length b grows as the arc that has worn off, b^2 = a^2 + 2 R h. The
-//! wear per cycle of a contact that grows from b_0 to b_1 changes by the part 1 - (b_0/b_1)^2 of it, of which the run's estimate is a
-//! share.
+//! The jump control of the run is applied to a contact of the half-lengths b along and c across the sliding direction, which grow as the
+//! arcs that have worn off, b^2 = a^2 + 2 R_x (h_s + h_r exp(-2.3 A/a)) and c^2 = a_z^2 + 2 R_z (h_s + h_r): a groove is followed along
+//! by short strokes alone. The wear per cycle changes by the part 1 - b_0 c_0/(b_1 c_1) of it, of which the run's estimate is a share.
 
+use crate::effects::{self, Effect};
 use crate::law::surface::SurfaceWear;
+use crate::law::wear::LocalState;
 use crate::model::resolution::{self, worn_depth_after};
 use crate::number::{count_at_least, real, real_cycles};
 use crate::point::{JumpForecast, PointScene, SlipRegime};
 use crate::scene::Scene;
-use crate::sides::Side;
+use crate::sides::{Side, Sides};
 
 /// Estimated work of the run of a point contact.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -29,26 +31,50 @@ pub struct PointForecast {
 }
 
 /// Share of the change of the wear per cycle in the estimate of the run. Fitted to runs of `sd_card` and of a ball of steel.
-const SHARE: f64 = 0.25;
+const SHARE: f64 = 0.5;
 /// Half-length of the window over that of the contact; mean over a run of windows that widen by thirds.
 const WINDOW: f64 = 1.6;
-/// Iterations of a solve: about 12 of an unworn contact, 6 where it wears.
-const ITERATIONS: f64 = 7.0;
+/// Iterations of a solve: about 12 of an unworn contact, 3 to 8 where it wears.
+const ITERATIONS: f64 = 5.0;
+/// Solves of a cycle in which a part sticks, and iterations of each with its stick and slip.
+const STICKING_SOLVES: usize = 4;
+const STICKING_ITERATIONS: f64 = 150.0;
+/// Decay with A/a of the groove that is followed along, as of sections (`model::expected_life`).
+const SHARED_DEPTH: f64 = 2.3;
 /// Solves of an increment through layers.
 const REPETITIONS: f64 = 2.5;
 /// Cells along a half-length from which on they are merged, over the chosen ones.
 const MERGED: f64 = 2.2;
 
+/// A contact as it is worn.
+struct Worn {
+    /// Half-lengths, mm.
+    along: f64,
+    across: f64,
+    /// Largest specific wear rates down to the worn depths, 1/MPa.
+    rates: Sides<f64>,
+}
+
 /// Forecasts the run of a scene; `None` for one that is no point contact.
 pub fn point_forecast(scene: &Scene) -> Option<PointForecast> {
     let contact = PointScene::of(scene, SlipRegime::Gross)?;
     let (along, across) = contact.half_lengths_mm();
-    let radius = resolution::radius(scene);
+    let amplitude = scene.motion.amplitude_mm();
+    let followed = (-SHARED_DEPTH * amplitude / along).exp();
+    let radii = contact.radii_mm();
     let cycles = resolution::expected_cycles(scene, along);
     let wear = scene.surface_wear();
-    let half_length = |done: u64| {
+    let state = |done: u64| {
         let depth = worn_depth_after(scene, (along, &wear), done);
-        (along * along + 2.0 * radius * depth.slider.max(depth.receptacle)).sqrt()
+        let grown = |half: f64, radius: f64, worn: f64| (half * half + 2.0 * radius * worn).sqrt();
+        let rates = wear.zip(depth).map(|(wear, depth)| {
+            wear.map_or(0.0, |wear| wear.largest_rate(depth, LocalState::default()))
+        });
+        Worn {
+            along: grown(along, radii.0, depth.slider + followed * depth.receptacle),
+            across: grown(across, radii.1, depth.slider + depth.receptacle),
+            rates,
+        }
     };
     let layered = Side::BOTH.map(|side| wear.of(side).is_some_and(SurfaceWear::depends_on_depth));
     let repetitions = if layered.contains(&true) {
@@ -56,25 +82,31 @@ pub fn point_forecast(scene: &Scene) -> Option<PointForecast> {
     } else {
         1.0
     };
-    let amplitude = scene.motion.amplitude_mm();
+    let sticks = effects::plan(scene).simulates(Effect::StickMemory);
     let (mut forecast, mut jumps) = (PointForecast::default(), JumpForecast::of(&contact));
-    let (mut done, mut length) = (0, along);
+    let (mut done, mut worn) = (0, state(0));
     while done < cycles {
-        let jump = jumps.next((done, cycles - done), length);
-        let grown = half_length(done + jump);
-        jumps.update(jump, SHARE * (1.0 - (length / grown).powi(2)));
-        (done, length) = (done + jump, grown);
-        let solves = solves(&contact, amplitude, length);
-        let cells_along = contact.accuracy.cells_per_half_length * coarsened(length / along);
-        let cells = (2.0 * WINDOW * cells_along).powi(2);
+        let jump = jumps.next((done, cycles - done), worn.rates, worn.along);
+        let next = state(done + jump);
+        let ratio = worn.along * worn.across / (next.along * next.across);
+        jumps.update(jump, SHARE * (1.0 - ratio));
+        (done, worn) = (done + jump, next);
+        let (solves, iterations) = if sticks {
+            (STICKING_SOLVES, STICKING_ITERATIONS)
+        } else {
+            (solves(&contact, amplitude, worn.along), ITERATIONS)
+        };
+        let per_half = contact.accuracy.cells_per_half_length;
+        let along = 2.0 * WINDOW * per_half * coarsened(worn.along / along);
+        let cells = along * 2.0 * WINDOW * per_half * coarsened(worn.across / across);
         forecast.computed_cycles += 1.0;
         forecast.most_increments = forecast.most_increments.max(solves);
         forecast.increments += repetitions * real(solves);
-        forecast.cell_iterations += repetitions * real(solves) * ITERATIONS * cells;
+        forecast.cell_iterations += repetitions * real(solves) * iterations * cells;
         forecast.most_cells = forecast.most_cells.max(count_at_least(cells));
-        let strip = (amplitude / length + WINDOW) / WINDOW;
-        let both = 2.0 * cells * strip * (across / along).max(1.0);
-        forecast.surface_cells = forecast.surface_cells.max(count_at_least(both));
+        let strip = (amplitude / worn.along + WINDOW) / WINDOW;
+        let both = count_at_least((1.0 + strip) * cells);
+        forecast.surface_cells = forecast.surface_cells.max(both);
         if forecast.computed_cycles >= MOST_CYCLES {
             let rest = real_cycles(cycles) / real_cycles(done);
             forecast.computed_cycles *= rest;

@@ -152,14 +152,15 @@ impl PointState {
                 (0.0, forth),
             ];
         }
-        let (line, whole) = self.neutral.tangential;
-        let (forth, back) = ((line, whole), (-line, -whole));
+        let forth = self.neutral.tangential;
+        let reversed = |(line, whole): (f64, f64)| (-line, -whole);
+        let [end, start] = self.turning.each_ref().map(|at| at.tangential);
         vec![
             (0.0, forth),
-            (a, forth),
-            (a, back),
-            (-a, back),
-            (-a, forth),
+            (a, start),
+            (a, reversed(start)),
+            (-a, end),
+            (-a, reversed(end)),
             (0.0, forth),
         ]
     }
@@ -205,7 +206,9 @@ impl<'a> PointIntegrator<'a> {
             // To the turning point where the first pass begins, without wear.
             sliding.slip_partly(&mut state, -scene.amplitude_mm, 0.0)?;
         }
-        let neutral = Placed::of(scene, &state, 0.0);
+        // Without wear there is no skew.
+        let at_neutral = sliding.unskewed(&state, (1.0, scene.force_n))?;
+        let neutral = Placed::of(scene, &at_neutral, 0.0);
         let mut state = PointState {
             control: JumpControl::default(),
             turning: [neutral.clone(), neutral.clone()],
@@ -321,7 +324,8 @@ impl<'a> PointIntegrator<'a> {
             sliding.half_pass(present, start, jump)?;
             turning[1] = Placed::of(scene, present, last);
             if self.wears_once() && self.step(state) < UNSKEWED_TO {
-                let unskewed = self.sliding.unskewed(&state.sliding, jump)?;
+                let at = (jump, state.neutral.force_n);
+                let unskewed = self.sliding.unskewed(&state.sliding, at)?;
                 state.neutral = Placed::of(self.scene, &unskewed, last);
             }
         }

@@ -12,8 +12,8 @@
 use serde::{Deserialize, Serialize};
 
 use super::scene::PointScene;
-use crate::law::surface::SurfaceWear;
 use crate::number::{cycles_at_least, real_cycles};
+use crate::sides::Sides;
 
 /// Largest step over indentation of a jump from a tolerance of 2 % on; below, it falls with the root of the tolerance. A sphere on a flat
 /// that alone wears by 2.6 um in 20 000 cycles of 0.3 of the unworn half-length, against jumps of a tenth of the tolerance: with 0.4 and
@@ -102,16 +102,12 @@ impl<'a> JumpForecast<'a> {
         }
     }
 
-    /// The next jump of a contact of a half-length in mm.
-    pub(crate) fn next(&self, done: (u64, u64), half_length: f64) -> u64 {
+    /// The next jump of a contact of a half-length in mm whose bodies wear by rates in 1/MPa.
+    pub(crate) fn next(&self, done: (u64, u64), rates: Sides<f64>, half_length: f64) -> u64 {
         let accuracy = &self.scene.accuracy;
         if let Some(jump) = accuracy.cycle_jump {
             return fixed(jump, done.1);
         }
-        let rates = self.scene.bodies.as_ref().map(|body| {
-            let wear = body.wear.and_then(SurfaceWear::dose_rate);
-            wear.unwrap_or_default()
-        });
         let step = self.scene.step_over_indentation(rates, half_length);
         let settings = (accuracy.tolerance, accuracy.cycles_refinement);
         self.control.next(settings, done, step)

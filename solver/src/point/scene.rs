@@ -1,6 +1,7 @@
 //! What a run of a point contact is computed from.
 
 use super::error::PointError;
+use super::hertz;
 use crate::law::elastic::{Elastic, Lame, contact_modulus};
 use crate::law::surface::SurfaceWear;
 use crate::scene::Scene;
@@ -9,6 +10,10 @@ use crate::sides::{Side, Sides};
 /// Largest amplitude over the half-length of a contact whose surfaces wear in place: what they are displaced over each other by is then
 /// small against the scar. Arbitrary.
 const LARGEST_PARTIAL: f64 = 0.1;
+
+/// Tolerance that a grid of 12 cells and steps of a quarter suffice for. The powers below it are arbitrary: errors are stated, and grids that
+/// are too coarse refined.
+const SUFFICIENT_FOR: f64 = 0.02;
 
 /// A body: its shape at the contact, its material and its surface.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -77,12 +82,14 @@ pub fn middle_line_load_n_per_mm(scene: &Scene) -> f64 {
 }
 
 impl PointAccuracy {
-    /// Grid and steps that suffice for a tolerance of 2 %, with jumps by a tolerance.
-    pub const fn from_tolerance(tolerance: f64) -> Self {
+    /// Grid and steps for a tolerance: those that suffice for 2 %, and finer ones below. Coarser grids leave their companions too few
+    /// cells.
+    pub fn from_tolerance(tolerance: f64) -> Self {
+        let finer = (SUFFICIENT_FOR / tolerance).max(1.0);
         Self {
             tolerance,
-            cells_per_half_length: 12.0,
-            step_over_half_length: 0.25,
+            cells_per_half_length: 12.0 * finer.powf(0.25),
+            step_over_half_length: 0.25 * finer.powf(-0.2),
             cycle_jump: None,
             cycles_refinement: 1.0,
         }
@@ -180,15 +187,15 @@ impl PointScene {
         (slider.0 + receptacle.0, slider.1 + receptacle.1)
     }
 
-    /// Half-lengths of the unworn contact along and across the sliding direction, mm, by the approximation for ellipses that are not
-    /// slender (Johnson, Contact Mechanics, 1985, section 4.2): sqrt(ab) = (3 F R_e/(4 E*))^(1/3), b/a = (R_b/R_a)^(2/3);
-    /// a tenth off at an aspect of 10. It only sizes the grid.
-    pub fn half_lengths_mm(&self) -> (f64, f64) {
+    /// Radii of the relative curvature along and across the sliding direction, mm.
+    pub(crate) fn radii_mm(&self) -> (f64, f64) {
         let (along, across) = self.curvature();
-        let equivalent_radius = 1.0 / (along * across).sqrt();
-        let mean = (0.75 * self.force_n * equivalent_radius / self.modulus()).cbrt();
-        let root_of_aspect = (along / across).cbrt();
-        (mean / root_of_aspect, mean * root_of_aspect)
+        (along.recip(), across.recip())
+    }
+
+    /// Hertz' half-lengths of the unworn contact along and across the sliding direction, mm.
+    pub fn half_lengths_mm(&self) -> (f64, f64) {
+        hertz::half_lengths(self.radii_mm(), self.modulus(), self.force_n)
     }
 
     /// Displacement at which the unworn contact begins to slip as a whole, mm: 3 mu F/(16 a) times the sum of (2 - nu)/G over both bodies

@@ -78,8 +78,16 @@ impl<'a> Sliding<'a> {
     }
 
     /// The contact at the neutral position without the skew of a jump, which is solved for without wear and changes nothing.
-    pub(super) fn unskewed(&mut self, state: &State, jump: f64) -> Result<State, PointError> {
-        let mut state = state.clone();
+    /// `force_n` is the load there.
+    pub(super) fn unskewed(
+        &mut self,
+        state: &State,
+        (jump, force_n): (f64, f64),
+    ) -> Result<State, PointError> {
+        let mut state = State {
+            force_n,
+            ..state.clone()
+        };
         for side in Side::BOTH {
             state.surfaces.of_mut(side).unskew(jump);
         }
@@ -150,6 +158,7 @@ impl<'a> Sliding<'a> {
         let cells = state.lattice.cells();
         state.sliding_work += cells.integral(&self.dose);
         state.section_work += section_integral(&cells, &self.dose);
+        self.relax_spring(state);
         Ok(())
     }
 
@@ -181,11 +190,22 @@ impl<'a> Sliding<'a> {
         Ok(())
     }
 
-    /// The load of the next increment: a spring loses what the slider has sunk since it was loaded.
+    /// The load of the next increment: a spring loses what the slider has sunk since it was loaded. The contact gives way to a change of
+    /// the load by its own stiffness, 2 E* sqrt(a b), so that the change converges for a spring that is stiffer.
     fn relax_spring(&self, state: &mut State) {
+        let spring = self.scene.spring_n_per_mm;
+        if spring <= 0.0 {
+            return;
+        }
         let unworn = state.unworn_approach_mm.unwrap_or(state.approach_mm);
-        let lost = self.scene.spring_n_per_mm * (state.approach_mm - unworn);
-        state.force_n = (self.scene.force_n - lost).max(LEAST_LOAD * self.scene.force_n);
+        let (along, across) = half_lengths(&state.pressure);
+        let cells = state.lattice.cells();
+        let half_length = (along * cells.dx_mm * across * cells.dz_mm).sqrt();
+        let stiffness = 2.0 * self.scene.modulus() * half_length;
+        let lost = spring * (state.approach_mm - unworn);
+        let change = (self.scene.force_n - lost - state.force_n) / (1.0 + spring / stiffness);
+        let least = LEAST_LOAD * self.scene.force_n;
+        state.force_n = (state.force_n + change).clamp(least, self.scene.force_n);
     }
 
     /// Solves for the pressure at the end of an increment, on a window that holds the contact.

@@ -146,6 +146,6 @@ fn contacts_that_are_none_of_half_spaces_are_warned_of() {
     let thin =
         r#"{"system":{"kind":"sd_card","pad_height_mm":0.05},"model":{"dimension":"point"}}"#;
     assert_eq!(warned(thin), 1);
-    let edge = ball(r#","cycles":10,"motion":{"kind":"reciprocating","amplitude_mm":0.99}"#);
+    let edge = ball(r#","cycles":10,"motion":{"kind":"reciprocating","amplitude_mm":0.97}"#);
     assert_eq!(warned(&edge), 1);
 }
