@@ -17,19 +17,23 @@ mod hertz;
 mod integrator;
 mod jump;
 mod lattice;
+mod placed;
+mod point_state;
 mod record;
 mod run;
 mod scene;
 mod section;
 mod sliding;
+mod spring;
 mod state;
 mod stick;
 mod surface;
 
 pub use error::PointError;
-pub use integrator::PointState;
-pub(crate) use integrator::{Placed, PointIntegrator};
+pub(crate) use integrator::PointIntegrator;
 pub(crate) use jump::JumpForecast;
+pub(crate) use placed::Placed;
+pub use point_state::PointState;
 pub use record::{DepthMap, PointCycle, PointOutcome, PointSummary};
 pub use run::run;
 pub use scene::{

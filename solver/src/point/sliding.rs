@@ -4,8 +4,6 @@
 //! end wears both by p |ds| (backward Euler). The dose is spread evenly over the positions that the contact has moved through, on either
 //! body, so that no ripples of the length of an increment remain. The mean rates of layers are found by repeating the solve.
 //!
-//! A spring loses load as the slider sinks: F = F_0 - k (delta - delta_0), with the approach of the increment before.
-//!
 //! Shapes are parabolas, as Hertz': a circle of depth h is deeper by the part h/(2 R).
 
 use std::cmp::Ordering;
@@ -15,6 +13,7 @@ use super::error::PointError;
 use super::field::Axis;
 use super::scene::PointScene;
 use super::section::{half_lengths, section_integral};
+use super::spring;
 use super::state::State;
 use super::stick::StickSlip;
 use crate::contact::area::{AreaError, NormalContact, NormalProblem};
@@ -31,9 +30,6 @@ const COARSENED: f64 = 2.2;
 /// Most solves of an increment through layers, and change of the pressure over its sum at which they end.
 const MOST_REPETITIONS: usize = 6;
 const PRESSURE_TOLERANCE: f64 = 1e-4;
-
-/// Smallest part of the load that a spring keeps: a contact without load has no solution.
-const LEAST_LOAD: f64 = 1e-4;
 
 /// Solves the increments of a point contact that slides.
 pub(super) struct Sliding<'a> {
@@ -158,7 +154,7 @@ impl<'a> Sliding<'a> {
         let cells = state.lattice.cells();
         state.sliding_work += cells.integral(&self.dose);
         state.section_work += section_integral(&cells, &self.dose);
-        self.relax_spring(state);
+        state.force_n = spring::next_force_n(self.scene, state);
         Ok(())
     }
 
@@ -186,26 +182,8 @@ impl<'a> Sliding<'a> {
         let line_load = section_integral(&state.lattice.cells(), &state.pressure.values);
         state.sliding_work += state.force_n * increment.worn_path_mm;
         state.section_work += line_load * increment.worn_path_mm;
-        self.relax_spring(state);
+        state.force_n = spring::next_force_n(self.scene, state);
         Ok(())
-    }
-
-    /// The load of the next increment: a spring loses what the slider has sunk since it was loaded. The contact gives way to a change of
-    /// the load by its own stiffness, 2 E* sqrt(a b), so that the change converges for a spring that is stiffer.
-    fn relax_spring(&self, state: &mut State) {
-        let spring = self.scene.spring_n_per_mm;
-        if spring <= 0.0 {
-            return;
-        }
-        let unworn = state.unworn_approach_mm.unwrap_or(state.approach_mm);
-        let (along, across) = half_lengths(&state.pressure);
-        let cells = state.lattice.cells();
-        let half_length = (along * cells.dx_mm * across * cells.dz_mm).sqrt();
-        let stiffness = 2.0 * self.scene.modulus() * half_length;
-        let lost = spring * (state.approach_mm - unworn);
-        let change = (self.scene.force_n - lost - state.force_n) / (1.0 + spring / stiffness);
-        let least = LEAST_LOAD * self.scene.force_n;
-        state.force_n = (state.force_n + change).clamp(least, self.scene.force_n);
     }
 
     /// Solves for the pressure at the end of an increment, on a window that holds the contact.

@@ -1,0 +1,64 @@
+//! The contact at a position of the slider: its pressure and shear, where they are, and what they add up to.
+
+use serde::{Deserialize, Serialize};
+
+use super::scene::{PointScene, SlipRegime};
+use super::section::{half_lengths, section, section_integral};
+use super::state::State;
+use crate::contact::area::Cells;
+use crate::sides::Sides;
+
+/// The contact at a position of the slider.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Placed {
+    pub(super) peak_pressure_mpa: f64,
+    pub(super) half_lengths_mm: (f64, f64),
+    pub(super) line_load_n_per_mm: f64,
+    pub(super) force_n: f64,
+    /// Middle of the window on each body, mm.
+    pub(super) middle_mm: Sides<f64>,
+    pub(crate) cells: Cells,
+    pub(crate) pressure_mpa: Vec<f64>,
+    /// Shear on the receptacle along the middle section, MPa.
+    pub(crate) shear_mpa: Vec<f64>,
+    /// Its line load, N/mm, and the tangential force of the whole contact, N.
+    pub(super) tangential: (f64, f64),
+}
+
+impl Placed {
+    /// Centres of the rows of cells on the receptacle, mm.
+    pub(crate) fn x_on_receptacle(&self) -> Vec<f64> {
+        let rows = 0..self.cells.along_x;
+        rows.map(|row| self.middle_mm.receptacle + self.cells.x_mm(row))
+            .collect()
+    }
+
+    /// Pressure along the middle section, MPa.
+    pub(crate) fn section_pressure(&self) -> Vec<f64> {
+        section(self.cells.along_z, &self.pressure_mpa).collect()
+    }
+
+    /// The contact in a state of a scene, slipping into a direction.
+    pub(super) fn of(scene: &PointScene, state: &State, direction: f64) -> Self {
+        let (window, pressure) = (state.lattice.cells(), &state.pressure);
+        let shear = match scene.slip {
+            SlipRegime::Gross => {
+                let shear = pressure.values.iter();
+                shear.map(|p| direction * scene.friction * p).collect()
+            }
+            SlipRegime::Partial => state.shear.0.values.clone(),
+        };
+        let (along, across) = half_lengths(pressure);
+        Self {
+            peak_pressure_mpa: pressure.values.iter().fold(0.0, |most, p| p.max(most)),
+            half_lengths_mm: (along * window.dx_mm, across * window.dz_mm),
+            line_load_n_per_mm: section_integral(&window, &pressure.values),
+            force_n: window.integral(&pressure.values),
+            middle_mm: Sides::from_fn(|side| state.lattice.offset_mm(side, state.position)),
+            cells: window,
+            pressure_mpa: pressure.values.clone(),
+            shear_mpa: section(window.along_z, &shear).collect(),
+            tangential: (section_integral(&window, &shear), window.integral(&shear)),
+        }
+    }
+}

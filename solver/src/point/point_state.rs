@@ -1,0 +1,161 @@
+//! State of a run of a point contact between two computed cycles, and what is read from it.
+
+use serde::{Deserialize, Serialize};
+
+use super::jump::JumpControl;
+use super::placed::Placed;
+use super::record::{DepthMap, PointCycle};
+use super::scene::PointScene;
+use super::state::State;
+use crate::number::real_cycles;
+use crate::sides::{Side, Sides};
+
+/// State of a run between two computed cycles.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct PointState {
+    pub(super) sliding: State,
+    pub(super) control: JumpControl,
+    /// The contact at the neutral position, and at both turning points of the last cycle.
+    pub(super) neutral: Placed,
+    pub(super) turning: [Placed; 2],
+    pub(super) done: u64,
+    pub(super) computed: usize,
+    /// Most contact solves of a cycle.
+    pub(super) most_increments: usize,
+    pub(super) last: PointCycle,
+    /// Sum of the errors of all jumps, each times its cycles.
+    pub(super) error_sum: f64,
+    /// Line load in N/mm and force in N along x at the ends of the increments of the last cycle, where a part may stick.
+    pub(super) increments: Vec<(f64, f64)>,
+}
+
+/// Worst residuals of a run, relative.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub(crate) struct Residuals {
+    /// Of the normal force.
+    pub(crate) force: f64,
+    /// Of the complementarity of gap and pressure.
+    pub(crate) contact: f64,
+    /// Tangential over mu times the normal force.
+    pub(crate) friction_use: f64,
+}
+
+impl PointState {
+    /// Cycles done.
+    pub(crate) fn cycle(&self) -> u64 {
+        self.done
+    }
+
+    /// The last computed cycle.
+    pub(crate) fn last(&self) -> &PointCycle {
+        &self.last
+    }
+
+    /// Worn depths of a side.
+    pub(crate) fn depth(&self, side: Side) -> DepthMap {
+        let surface = self.sliding.surfaces.of(side);
+        let cells = surface.dose.cells(self.sliding.lattice.size_mm);
+        DepthMap::new(&cells, surface.depths_mm())
+    }
+
+    /// Largest wear of a place of each side per cycle in the last computed one, as equivalent depth, mm.
+    pub(crate) fn fastest_rate(&self) -> Sides<f64> {
+        Sides::from_fn(|side| self.sliding.surfaces.of(side).fastest_rate())
+    }
+
+    /// Worn depths of both sides at each cell of the contact at the neutral position, mm.
+    pub(crate) fn depths_in_contact(&self) -> Vec<Sides<f64>> {
+        let (cells, lattice) = (self.neutral.cells, &self.sliding.lattice);
+        // The window may have been widened since.
+        let widened = lattice.window().0 - cells.along_x / 2;
+        let first = Sides::from_fn(|side| {
+            let row = lattice.first_row(side, lattice.amplitude) + widened;
+            (row, lattice.half(side).1 - cells.along_z / 2)
+        });
+        let loaded = self.neutral.pressure_mpa.iter().enumerate();
+        let loaded = loaded.filter(|(_, pressure)| **pressure > 0.0);
+        let depths = loaded.map(|(index, _)| {
+            let (row, column) = (index / cells.along_z, index % cells.along_z);
+            Sides::from_fn(|side| {
+                let surface = self.sliding.surfaces.of(side);
+                let (first_row, first_column) = *first.of(side);
+                let dose = surface.dose.rows(first_row + row, 1)[first_column + column];
+                surface.depth_mm(dose)
+            })
+        });
+        depths.collect()
+    }
+
+    /// Cells of the window, their length in mm, and the contact solves and iterations so far.
+    pub(crate) fn size(&self) -> (usize, f64, (usize, usize)) {
+        let cells = self.sliding.lattice.cells();
+        (cells.count(), cells.dx_mm, self.sliding.work)
+    }
+
+    /// Computed cycles, and the most contact solves of one.
+    pub(crate) fn computed(&self) -> (usize, usize) {
+        (self.computed, self.most_increments)
+    }
+
+    /// The contact at the neutral position.
+    pub(crate) fn neutral(&self) -> &Placed {
+        &self.neutral
+    }
+
+    /// The contact at the ends of both passes of the last cycle.
+    pub(crate) fn turning(&self) -> &[Placed; 2] {
+        &self.turning
+    }
+
+    /// The friction loop of the last cycle from the neutral position on: displacements in mm with line loads of the middle section in
+    /// N/mm and forces in N. Of gross slip a rectangle.
+    pub(crate) fn friction_loop(&self, scene: &PointScene) -> Vec<(f64, (f64, f64))> {
+        let a = -scene.amplitude_mm;
+        if let [back, end, forth, start] = self.increments[..] {
+            return vec![
+                (0.0, forth),
+                (a, start),
+                (0.0, back),
+                (-a, end),
+                (0.0, forth),
+            ];
+        }
+        let forth = self.neutral.tangential;
+        let reversed = |(line, whole): (f64, f64)| (-line, -whole);
+        let [end, start] = self.turning.each_ref().map(|at| at.tangential);
+        vec![
+            (0.0, forth),
+            (a, start),
+            (a, reversed(start)),
+            (-a, end),
+            (-a, reversed(end)),
+            (0.0, forth),
+        ]
+    }
+
+    /// Worst residuals so far.
+    pub(crate) fn residuals(&self, scene: &PointScene) -> Residuals {
+        let (force, contact) = self.sliding.worst_residuals;
+        let forces = self.friction_loop(scene).into_iter();
+        let most = forces.fold(0.0, |most: f64, (_, (_, whole))| most.max(whole.abs()));
+        let limit = scene.friction * self.neutral.force_n;
+        Residuals {
+            force,
+            contact,
+            friction_use: if limit > 0.0 { most / limit } else { 0.0 },
+        }
+    }
+
+    /// Mean error of the jumps, weighted with their cycles.
+    pub(crate) fn mean_jump_error(&self) -> f64 {
+        self.error_sum / real_cycles(self.done.max(1))
+    }
+
+    /// Gives a state of a checkpoint the laws of its scene.
+    pub(crate) fn resume(&mut self, scene: &PointScene) {
+        for side in Side::BOTH {
+            let wear = scene.bodies.of(side).wear;
+            self.sliding.surfaces.of_mut(side).resume(wear);
+        }
+    }
+}
