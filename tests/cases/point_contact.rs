@@ -135,3 +135,22 @@ fn plane_strain_overrates_the_life_of_a_dimple_twenty_times() {
         }
     }
 }
+
+/// The deck of its section would be another contact.
+#[test]
+fn a_dimple_has_no_deck_of_a_section() {
+    let folder = tempfile::tempdir().expect("a folder can be made");
+    std::fs::write(folder.path().join("spec.json"), dimple().to_string()).expect("a file");
+    let ran = fretwear(folder.path(), &["export", "spec.json"]);
+    assert_eq!(
+        (ran.code, ran.stdout.as_str()),
+        (Some(1), ""),
+        "{}",
+        ran.stderr
+    );
+    assert!(
+        ran.stderr.contains("a point contact has no mesh"),
+        "{}",
+        ran.stderr
+    );
+}

@@ -15,6 +15,11 @@ use crate::export::deck;
 
 pub(super) fn run(spec: &Path, cycle: u64) -> Ended {
     let scene = specification(spec)?.scene;
+    if scene.dimension.point().is_some() {
+        return Err(failed(
+            "a point contact has no mesh that could be exported; write `plane_strain` for its section",
+        ));
+    }
     if cycle > scene.cycles {
         return Err(failed(format_args!(
             "cycle {cycle} exceeds the number of cycles, {}",

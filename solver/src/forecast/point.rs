@@ -108,18 +108,19 @@ pub fn point_forecast(scene: &Scene) -> Option<PointForecast> {
         let both = count_at_least((1.0 + strip) * cells);
         forecast.surface_cells = forecast.surface_cells.max(both);
         if forecast.computed_cycles >= MOST_CYCLES {
-            let rest = real_cycles(cycles) / real_cycles(done);
-            forecast.computed_cycles *= rest;
-            forecast.increments *= rest;
-            forecast.cell_iterations *= rest;
+            // With the last jump.
+            let rest = real_cycles(cycles - done) / real_cycles(jump);
+            forecast.computed_cycles += rest;
+            forecast.increments += rest * repetitions * real(solves);
+            forecast.cell_iterations += rest * repetitions * real(solves) * iterations * cells;
             break;
         }
     }
     Some(forecast)
 }
 
-/// Computed cycles that are forecast one by one; the rest is extrapolated from them.
-const MOST_CYCLES: f64 = 3_000.0;
+/// Computed cycles that are forecast one by one; the rest is extrapolated from the last.
+const MOST_CYCLES: f64 = 300.0;
 
 /// Contact solves of a cycle of a contact of a half-length, mm.
 fn solves(contact: &PointScene, amplitude: f64, length: f64) -> usize {

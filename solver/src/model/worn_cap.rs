@@ -28,7 +28,7 @@ use crate::scene::{Criterion, Point, Scene};
 use crate::sides::{Side, Sides};
 
 /// Halvings of the interval that holds a depth, and steps of an integral over the slider's depth: far below the forms' precision.
-const HALVINGS: usize = 50;
+const HALVINGS: usize = 30;
 const STEPS: u32 = 200;
 /// First depth of the slider in these steps over the one that is sought.
 const SMALLEST_PART: f64 = 1e-6;
