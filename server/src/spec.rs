@@ -135,9 +135,8 @@ pub fn resolve(spec: &Spec) -> Result<Resolved, Vec<Fault>> {
     };
     effects::check(&spec.effects, &scene, strains_cause, &mut diagnostics);
     let is_point = scene.dimension.point().is_some();
-    let layout = match Layout::of(&scene) {
-        _ if is_point => None,
-        Ok(layout) => Some(layout),
+    let layout = match (!is_point).then(|| Layout::of(&scene)).transpose() {
+        Ok(layout) => layout,
         Err(error) => {
             let pointer = cause::of_fault(spec, kind, "/system", |spec| {
                 scene_of(spec, kind).is_some_and(|scene| Layout::of(&scene).is_ok())

@@ -60,17 +60,15 @@ pub fn plan(scene: &Scene) -> EffectsPlan {
 
 /// The skipped effect with the largest indicator if those of all skipped ones exceed their budget.
 fn beyond_budget(decisions: &[Decision], tolerance: f64) -> Option<Effect> {
-    let available = |effect| {
-        let mut decisions = decisions.iter();
-        decisions.any(|decision| decision.effect == effect && decision.is_available)
-    };
-    let counted = counted(decisions).filter(|(effect, _)| available(*effect));
-    largest_beyond(counted, BUDGET * tolerance)
+    let available = decisions.iter().filter(|decision| decision.is_available);
+    largest_beyond(counted(available), BUDGET * tolerance)
 }
 
 /// Skipped effects that count, with their indicators.
-fn counted(decisions: &[Decision]) -> impl Iterator<Item = (Effect, f64)> {
-    decisions.iter().filter_map(|decision| {
+fn counted<'a>(
+    decisions: impl Iterator<Item = &'a Decision>,
+) -> impl Iterator<Item = (Effect, f64)> {
+    decisions.filter_map(|decision| {
         let indicator = decision.indicator?;
         let counts = decision.verdict == Verdict::Skipped && decision.effect.is_counted();
         counts.then_some((decision.effect, indicator.value()))
@@ -120,7 +118,7 @@ impl EffectsPlan {
 
     /// Relative change of the outputs by all skipped effects.
     pub fn skipped_change(&self) -> f64 {
-        counted(&self.decisions).fold(0.0, |sum, (_, value)| sum + value)
+        counted(self.decisions.iter()).fold(0.0, |sum, (_, value)| sum + value)
     }
 
     /// The plan with the effects that a run has called for.

@@ -31,7 +31,7 @@ mod surface;
 
 pub use error::PointError;
 pub(crate) use integrator::PointIntegrator;
-pub(crate) use jump::JumpForecast;
+pub(crate) use jump::JumpControl;
 pub(crate) use placed::Placed;
 pub use point_state::PointState;
 pub use record::{DepthMap, PointCycle, PointOutcome, PointSummary};

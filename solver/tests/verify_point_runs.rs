@@ -5,14 +5,13 @@
 use solver::effects::{self, Effect};
 use solver::point::middle_line_load_n_per_mm;
 use solver::record::{Outcome, Quantity, Summary};
-use solver::scene::{
-    Accuracy, Criterion, Dimension, Layer, Motion, Point, Refinement, Scene, WearLaw,
-};
-use solver::sides::{Side, Sides};
+use solver::scene::{Accuracy, Criterion, Layer, Motion, Refinement, Scene, WearLaw};
+use solver::sides::Side;
 
 use crate::recorder::{check_stated_error, solve};
 use crate::scenes::sprung_contact;
 use crate::verify_resume::resumes_to_the_same_bits;
+use crate::verify_section_and_ball::as_ball;
 
 const FORCE: f64 = 0.5;
 const RADIUS: f64 = 0.4;
@@ -34,14 +33,7 @@ pub(crate) fn ball(slider: f64, receptacle: f64, amplitude_mm: f64, cycles: u64)
     scene.output.snapshots_at_cycles = vec![cycles];
     scene.accuracy = Accuracy::from_tolerance(0.02);
     scene.spring_n_per_mm2 = 0.0;
-    scene.dimension = Dimension::Point(Point {
-        force_n: FORCE,
-        radius_across_mm: Sides {
-            slider: Some(RADIUS),
-            receptacle: None,
-        },
-    });
-    scene.load_n_per_mm = middle_line_load_n_per_mm(&scene);
+    as_ball(&mut scene, FORCE, RADIUS);
     scene
 }
 
@@ -62,6 +54,8 @@ fn a_resumed_point_contact_reaches_the_bits_of_the_undisturbed_run() {
     scene.output.snapshots_at_cycles = vec![300, 2_000];
     let (summary, _) = resumes_to_the_same_bits("plated ball", &scene, 5);
     assert!(summary.life.criteria[0].cycles.is_some());
+    // Doses through layers, whose depths have no rate in common: round-off of some thousand increments.
+    assert!(summary.checks.worn_area < 1e-10, "{:?}", summary.checks);
     let stuck = ball(GOLD, GOLD, 2e-4, 500);
     assert!(effects::plan(&stuck).simulates(Effect::StickMemory));
     resumes_to_the_same_bits("sticking ball", &stuck, 3);
@@ -181,7 +175,12 @@ fn the_plan_decides_whether_a_ball_may_stick() {
         "ball at 0.2 um: {:.1} % of the energy of gross slip",
         100.0 * energy / whole
     );
+    // Mindlin's loop at 0.65 of the onset has about a third; wear has the annulus slip less.
     assert!(energy > 0.0 && energy < 0.7 * whole, "{energy} {whole}");
+    println!(
+        "ball at 0.2 um: shear beyond mu p {:.1e} of the peak",
+        loose.checks.friction_cone
+    );
 }
 
 /// Springs of a ball on a flat that wears, against a solution of the same contact that shares no code with the engine: 2.3197e-7 and 2.1348e-7
@@ -204,7 +203,7 @@ fn springs_of_a_ball_lose_the_load_of_an_independent_solution() {
             "spring of {spring} N/mm: {worn:.4e} mm^3, {:.4} N",
             extent.load_n
         );
-        // The load of an increment is that of the approach before it.
+        // The load of an increment is that of the approach before it, which moves the load at a place by what it changes in an increment.
         assert!((worn / volume - 1.0).abs() < 3e-3, "{worn}");
         assert!((extent.load_n / load - 1.0).abs() < 1e-2, "{extent:?}");
     }

@@ -46,17 +46,22 @@ fn section(elastic: Sides<Elastic>) -> Scene {
     scene
 }
 
-/// The same tip as a ball under the same force.
-fn ball(section: &Scene) -> Scene {
-    let mut scene = section.clone();
+/// Makes a section that of a body of this radius across the sliding direction, mm, on a flat under a force in N.
+pub(crate) fn as_ball(scene: &mut Scene, force_n: f64, radius_across_mm: f64) {
     scene.dimension = Dimension::Point(Point {
-        force_n: FORCE,
+        force_n,
         radius_across_mm: Sides {
-            slider: Some(RADIUS),
+            slider: Some(radius_across_mm),
             receptacle: None,
         },
     });
-    scene.load_n_per_mm = middle_line_load_n_per_mm(&scene);
+    scene.load_n_per_mm = middle_line_load_n_per_mm(scene);
+}
+
+/// The same tip as a ball under the same force.
+fn ball(section: &Scene) -> Scene {
+    let mut scene = section.clone();
+    as_ball(&mut scene, FORCE, RADIUS);
     scene.accuracy = Accuracy::from_tolerance(0.02);
     scene
 }

@@ -50,7 +50,7 @@ async fn a_dimple_is_a_job_with_volumes_and_maps() {
     let summary = &job["summary"];
     let cycles = number(&summary["cycles_done"]);
     assert_eq!(summary["life"][0]["status"], "reached");
-    // k F s of hard gold.
+    // k F s of hard gold; the last jump has worn some of the nickel below, too.
     let slider = &summary["slider"];
     let volume = 1e-5 / 1_700.0 * 0.5 * 0.08 * cycles;
     assert!(
@@ -130,6 +130,7 @@ fn plane_strain_overrates_the_life_of_a_dimple_twenty_times() {
         assert!(point > before && point < plane);
         before = point;
         if radius < 1.0 {
+            // 27.5 of rigid bodies; 20.3 at 2 %, 5 % of either life.
             let sooner = plane / point;
             assert!((18.0..24.0).contains(&sooner), "{sooner}");
         }

@@ -123,10 +123,10 @@ pub(super) fn with_dimension(
     if !model.is_point() {
         return scene;
     }
+    check_laws(&scene, diagnostics);
     let Some(force_n) = force_n.filter(|force| *force > 0.0) else {
         return scene;
     };
-    check_laws(&scene, diagnostics);
     scene.dimension = scene::Dimension::Point(Point {
         force_n,
         radius_across_mm: Sides {

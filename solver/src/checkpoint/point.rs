@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::earlier::Earlier;
 use crate::effects::Crossing;
 use crate::electrical::ElectricalState;
-use crate::point::{PointCycle, PointState};
+use crate::point::PointState;
 use crate::record::{Compared, Initial, Life};
 
 /// A run of a point contact between two computed cycles.
@@ -13,8 +13,6 @@ use crate::record::{Compared, Initial, Life};
 pub struct PointRun {
     pub(crate) state: PointState,
     pub(crate) initial: Initial,
-    /// The unworn, loaded contact.
-    pub(crate) unworn: PointCycle,
     /// Skipped effects that the run has called for.
     pub(crate) crossings: Vec<Crossing>,
     /// Histories that the run's error is estimated by.

@@ -9,7 +9,7 @@ use crate::law::surface::SurfaceWear;
 use crate::law::wear::LocalState;
 use crate::model::resolution::{self, worn_depth_after};
 use crate::number::{count_at_least, real, real_cycles};
-use crate::point::{JumpForecast, PointScene, SlipRegime};
+use crate::point::{JumpControl, PointScene, SlipRegime};
 use crate::scene::Scene;
 use crate::sides::{Side, Sides};
 
@@ -83,10 +83,11 @@ pub fn point_forecast(scene: &Scene) -> Option<PointForecast> {
         1.0
     };
     let sticks = effects::plan(scene).simulates(Effect::StickMemory);
-    let (mut forecast, mut jumps) = (PointForecast::default(), JumpForecast::of(&contact));
+    let (mut forecast, mut jumps) = (PointForecast::default(), JumpControl::default());
     let (mut done, mut worn) = (0, state(0));
     while done < cycles {
-        let jump = jumps.next((done, cycles - done), worn.rates, worn.along);
+        let step = contact.step_over_indentation(worn.rates, worn.along);
+        let jump = jumps.next(&contact.accuracy, (done, cycles - done), step);
         let next = state(done + jump);
         let ratio = worn.along * worn.across / (next.along * next.across);
         jumps.update(jump, SHARE * (1.0 - ratio));

@@ -1,7 +1,7 @@
 //! Computed cycles of a point contact: each stands for a jump, whose wear both of its passes do at once.
 
 use super::error::PointError;
-use super::jump::{JumpControl, fixed, rejected};
+use super::jump::{JumpControl, rejected};
 use super::placed::Placed;
 use super::point_state::PointState;
 use super::record::PointCycle;
@@ -77,23 +77,15 @@ impl<'a> PointIntegrator<'a> {
         let accuracy = self.scene.accuracy;
         self.sliding.coarsen(&mut state.sliding);
         let work = state.sliding.work;
-        let allowed = accuracy.tolerance / accuracy.cycles_refinement;
         loop {
             let remaining = until.max(state.done + 1) - state.done;
-            let jump = match accuracy.cycle_jump {
-                Some(jump) => fixed(jump, remaining),
-                None => state.control.next(
-                    (accuracy.tolerance, accuracy.cycles_refinement),
-                    (state.done, remaining),
-                    self.step(state),
-                ),
-            };
+            let cycles = (state.done, remaining);
+            let jump = state.control.next(&accuracy, cycles, self.step(state));
             let before = state.sliding.clone();
             let error = self
                 .pass_both(state, real_cycles(jump))
                 .map_err(|error| error.at(state.done))?;
-            let shorter = rejected(allowed, state.done, jump, error);
-            if let Some(shorter) = shorter.filter(|_| accuracy.cycle_jump.is_none()) {
+            if let Some(shorter) = rejected(&accuracy, state.done, (jump, error)) {
                 let work = state.sliding.work;
                 state.sliding = State { work, ..before };
                 state.control.limit(shorter);

@@ -11,9 +11,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::scene::PointScene;
+use super::scene::PointAccuracy;
 use crate::number::{cycles_at_least, real_cycles};
-use crate::sides::Sides;
 
 /// Largest step over indentation of a jump from a tolerance of 2 % on; below, it falls with the root of the tolerance. A sphere on a flat
 /// that alone wears by 2.6 um in 20 000 cycles of 0.3 of the unworn half-length, against jumps of a tenth of the tolerance: with 0.4 and
@@ -38,7 +37,7 @@ const SMALLEST_ERROR: f64 = 1e-9;
 
 /// The last jump and its error.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
-pub(super) struct JumpControl {
+pub(crate) struct JumpControl {
     last: f64,
     error: f64,
     most: u64,
@@ -46,20 +45,22 @@ pub(super) struct JumpControl {
 
 impl JumpControl {
     /// The next jump, for a step over the indentation of a jump of one cycle.
-    /// `refinement` divides what bounds it.
-    pub(super) fn next(
+    pub(crate) fn next(
         self,
-        (tolerance, refinement): (f64, f64),
+        accuracy: &PointAccuracy,
         (done, remaining): (u64, u64),
         step: f64,
     ) -> u64 {
+        if let Some(jump) = accuracy.cycle_jump {
+            return jump.clamp(1, remaining.max(1));
+        }
         if done == 0 || self.last <= 0.0 {
             return remaining.min(1);
         }
-        let allowed = ALLOWED_ERROR * tolerance / refinement;
-        let target = self.last * allowed / self.error;
+        let refinement = accuracy.cycles_refinement;
+        let target = self.last * allowed_error(accuracy) / self.error;
         let target = target.clamp(LEAST_GROWTH * self.last, MOST_GROWTH * self.last);
-        let by_step = largest_step(tolerance) / (refinement * step.max(f64::MIN_POSITIVE));
+        let by_step = largest_step(accuracy.tolerance) / (refinement * step.max(f64::MIN_POSITIVE));
         let by_growth = real_cycles(done) / refinement;
         let target = target.min(by_step).min(by_growth).max(1.0);
         let target = if self.most > 0 {
@@ -78,7 +79,7 @@ impl JumpControl {
     }
 
     /// Takes the jump and the error of a computed cycle.
-    pub(super) fn update(&mut self, jump: u64, error: f64) {
+    pub(crate) fn update(&mut self, jump: u64, error: f64) {
         *self = Self {
             last: real_cycles(jump),
             error: error.max(SMALLEST_ERROR),
@@ -87,51 +88,22 @@ impl JumpControl {
     }
 }
 
-/// The jumps of a run that is not computed.
-pub(crate) struct JumpForecast<'a> {
-    scene: &'a PointScene,
-    control: JumpControl,
+/// The jump to repeat a computed cycle with, if its error is too large and its jump not given.
+pub(super) fn rejected(
+    accuracy: &PointAccuracy,
+    done: u64,
+    (jump, error): (u64, f64),
+) -> Option<u64> {
+    let is_large = error > REJECTED * allowed_error(accuracy) && done > 1;
+    (is_large && jump > 1 && accuracy.cycle_jump.is_none()).then(|| jump.div_ceil(CUT))
 }
 
-impl<'a> JumpForecast<'a> {
-    /// Of the run of a point contact.
-    pub(crate) fn of(scene: &'a PointScene) -> Self {
-        Self {
-            scene,
-            control: JumpControl::default(),
-        }
-    }
-
-    /// The next jump of a contact of a half-length in mm whose bodies wear by rates in 1/MPa.
-    pub(crate) fn next(&self, done: (u64, u64), rates: Sides<f64>, half_length: f64) -> u64 {
-        let accuracy = &self.scene.accuracy;
-        if let Some(jump) = accuracy.cycle_jump {
-            return fixed(jump, done.1);
-        }
-        let step = self.scene.step_over_indentation(rates, half_length);
-        let settings = (accuracy.tolerance, accuracy.cycles_refinement);
-        self.control.next(settings, done, step)
-    }
-
-    /// Takes the jump and its error.
-    pub(crate) fn update(&mut self, jump: u64, error: f64) {
-        self.control.update(jump, error);
-    }
-}
-
-/// The jump to repeat a computed cycle with, if its error is too large beside the tolerance over the refinement.
-pub(super) fn rejected(allowed: f64, done: u64, jump: u64, error: f64) -> Option<u64> {
-    let is_large = error > REJECTED * ALLOWED_ERROR * allowed && done > 1;
-    (is_large && jump > 1).then(|| jump.div_ceil(CUT))
+fn allowed_error(accuracy: &PointAccuracy) -> f64 {
+    ALLOWED_ERROR * accuracy.tolerance / accuracy.cycles_refinement
 }
 
 fn largest_step(tolerance: f64) -> f64 {
     LARGEST_STEP * (tolerance / AT_TOLERANCE).sqrt().min(1.0)
-}
-
-/// Jump of a fixed number of cycles.
-pub(super) fn fixed(jump: u64, remaining: u64) -> u64 {
-    jump.clamp(1, remaining.max(1))
 }
 
 #[cfg(test)]
@@ -140,18 +112,20 @@ mod tests {
 
     #[test]
     fn jumps_grow_while_the_wear_changes_little() {
+        let accuracy = PointAccuracy::from_tolerance(0.02);
         let mut control = JumpControl::default();
-        assert_eq!(control.next((0.02, 1.0), (0, 1_000), 1e-9), 1);
+        assert_eq!(control.next(&accuracy, (0, 1_000), 1e-9), 1);
         control.update(10, 1e-4);
-        assert_eq!(control.next((0.02, 1.0), (500, 1_000), 1e-9), 20);
+        assert_eq!(control.next(&accuracy, (500, 1_000), 1e-9), 20);
         control.update(20, 0.03);
-        assert_eq!(control.next((0.02, 1.0), (520, 980), 1e-9), 27);
+        assert_eq!(control.next(&accuracy, (520, 980), 1e-9), 27);
     }
 
     #[test]
     fn the_leading_edge_step_bounds_a_jump() {
+        let accuracy = PointAccuracy::from_tolerance(0.02);
         let mut control = JumpControl::default();
         control.update(100, 1e-6);
-        assert_eq!(control.next((0.02, 1.0), (10_000, 900), 1e-2), 40);
+        assert_eq!(control.next(&accuracy, (10_000, 900), 1e-2), 40);
     }
 }

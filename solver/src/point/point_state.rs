@@ -34,6 +34,10 @@ pub struct PointState {
 pub(crate) struct Residuals {
     /// Of the normal force.
     pub(crate) force: f64,
+    /// Of the dose of either body beside the sliding work.
+    pub(crate) dose: f64,
+    /// Shear beyond mu p over the peak pressure.
+    pub(crate) friction_cone: f64,
     /// Of the complementarity of gap and pressure.
     pub(crate) contact: f64,
     /// Tangential over mu times the normal force.
@@ -141,9 +145,40 @@ impl PointState {
         let limit = scene.friction * self.neutral.force_n;
         Residuals {
             force,
+            dose: self.dose_residual(),
+            friction_cone: self.friction_cone(scene.friction),
             contact,
             friction_use: if limit > 0.0 { most / limit } else { 0.0 },
         }
+    }
+
+    /// |integral of the dose over a body - sliding work| over the latter, of the worse body.
+    fn dose_residual(&self) -> f64 {
+        let state = &self.sliding;
+        let cells = state.lattice.cells();
+        let residual = |dose: &[f64]| {
+            if state.sliding_work > 0.0 {
+                (cells.integral(dose) / state.sliding_work - 1.0).abs()
+            } else {
+                0.0
+            }
+        };
+        let residuals = Side::BOTH.map(|side| residual(&state.surfaces.of(side).dose.values));
+        residuals[0].max(residuals[1])
+    }
+
+    /// Largest shear beyond mu p where a part may stick, over the peak pressure. In gross slip the shear is mu p.
+    fn friction_cone(&self, friction: f64) -> f64 {
+        let (along, across) = &self.sliding.shear;
+        let pressure = &self.sliding.pressure.values;
+        let shear = along.values.iter().zip(&across.values);
+        let beyond = shear
+            .zip(pressure)
+            .map(|((x, z), p)| x.hypot(*z) - friction * p);
+        let peak = pressure
+            .iter()
+            .fold(f64::MIN_POSITIVE, |most, p| p.max(most));
+        beyond.fold(0.0, f64::max) / peak
     }
 
     /// Mean error of the jumps, weighted with their cycles.

@@ -212,7 +212,7 @@ impl PointScene {
     }
 
     /// Leading-edge step over the indentation that a cycle leaves by specific wear rates in 1/MPa, under a contact of a half-length in mm.
-    pub(super) fn step_over_indentation(&self, rates: Sides<f64>, half_length: f64) -> f64 {
+    pub(crate) fn step_over_indentation(&self, rates: Sides<f64>, half_length: f64) -> f64 {
         let stroke = 2.0 * self.amplitude_mm.abs();
         let travel = self.travel_over_receptacle();
         let step = |rate: f64, part: f64| rate * (part * stroke).min(2.0 * half_length);

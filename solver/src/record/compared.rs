@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::interpolation;
 use crate::number::real_cycles;
-use crate::record::CycleReport;
+use crate::record::{CycleReport, Life};
 
 /// A quantity whose error is estimated.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -83,6 +83,15 @@ impl Compared {
             for (column, value) in columns.iter_mut().zip(quantity.values(report)) {
                 column.push(value);
             }
+        }
+    }
+
+    /// The histories of a run that has ended.
+    pub(crate) fn ended(&self, skipped_change: f64, life: &Life) -> Self {
+        Self {
+            skipped_change,
+            lives: life.cycles(),
+            ..self.clone()
         }
     }
 

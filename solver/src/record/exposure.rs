@@ -14,6 +14,16 @@ pub(crate) trait Exposed {
     fn exposed_part(&self, limit: f64) -> f64;
 }
 
+impl<T: Exposed> Exposed for &T {
+    fn depth_of_part(&self, part: f64) -> f64 {
+        (**self).depth_of_part(part)
+    }
+
+    fn exposed_part(&self, limit: f64) -> f64 {
+        (**self).exposed_part(limit)
+    }
+}
+
 /// A worn contact surface: its nodes in ascending order and their depths, mm.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct WornSurface<'a> {

@@ -33,7 +33,7 @@ pub(super) fn begin(
     let (_, state) = PointIntegrator::start(&contact)?;
     let mut electrical = ElectricalState::default();
     update_resistance((scene, plan), &mut electrical, &state);
-    let unworn = *state.last();
+    let unworn = state.last();
     let initial = Initial {
         peak_pressure_mpa: unworn.peak_pressure_mpa,
         contact_half_width_mm: unworn.half_length_along_mm,
@@ -42,7 +42,6 @@ pub(super) fn begin(
     let mut run = PointRun {
         state,
         initial,
-        unworn,
         crossings: Vec::new(),
         compared: Compared::default(),
         life: Life::default(),
@@ -67,7 +66,7 @@ pub(super) fn begin(
 pub(super) fn proceed(
     scene: &Scene,
     plan: &EffectsPlan,
-    mut run: PointRun,
+    run: PointRun,
     observer: &mut dyn Observer,
 ) -> Result<Summary, SolveError> {
     if run.state.cycle() > scene.cycles {
@@ -76,7 +75,6 @@ pub(super) fn proceed(
     }
     observer.on_phase(Phase::Cycles);
     let plan = plan.after(&run.crossings);
-    run.state.resume(&contact_of(scene, &plan)?);
     advance(scene, plan, run, observer)
 }
 
@@ -110,12 +108,11 @@ fn integrate(
     let mut integrator = PointIntegrator::resume(contact, &run.state);
     // Where a limit of the resistance was passed by too much.
     let mut until_limit = u64::MAX;
-    let mut depth = depths(&run.state);
+    let mut scars = scars(&depths(&run.state));
     while run.state.cycle() < scene.cycles {
         let before = run.state.clone();
-        let areas = depth.as_ref().map(|map| WornArea::new(&map.depth_mm));
         let now = progress(scene, run);
-        let until = stops::next(scene, now, |side, part| areas.of(side).depth_of_part(part));
+        let until = stops::next(scene, now, |side, part| scars.of(side).depth_of_part(part));
         integrator.compute_cycle(&mut run.state, until.min(until_limit))?;
         let cycles = (before.cycle(), run.state.cycle());
         let called_for = plan.crossed(scene, cycles, run.state.last().max_depth_mm);
@@ -135,21 +132,24 @@ fn integrate(
             continue;
         }
         until_limit = u64::MAX;
-        depth = depths(&run.state);
+        let depth = depths(&run.state);
+        scars = self::scars(&depth);
         let report = report(scene, run, &depth);
         run.compared.push(&report);
-        push_life(scene, run, (&electrical_before, &depth));
+        push_life(scene, run, (&electrical_before, &scars));
         if observer.on(Event::Cycle(&report)).is_break() {
             return Ok(STOPPED);
         }
-        let end = end(scene, run, &depth);
+        let end = stops::end(scene, progress(scene, run), |side, part| {
+            scars.of(side).depth_of_part(part)
+        });
         if end.is_some()
             || scene
                 .output
                 .snapshots_at_cycles
                 .contains(&run.state.cycle())
         {
-            let snapshot = snapshot((scene, contact), &run.state, depth.clone());
+            let snapshot = snapshot((scene, contact), &run.state, depth);
             if observer.on(Event::Snapshot(&snapshot)).is_break() {
                 return Ok(STOPPED);
             }
@@ -194,6 +194,10 @@ fn depths(state: &PointState) -> Sides<DepthMap> {
     Sides::from_fn(|side| state.depth(side))
 }
 
+fn scars(depth: &Sides<DepthMap>) -> Sides<WornArea> {
+    depth.as_ref().map(|map| WornArea::new(&map.depth_mm))
+}
+
 fn report(scene: &Scene, run: &PointRun, depth: &Sides<DepthMap>) -> CycleReport {
     record::point_report(&PointEnd {
         scene,
@@ -226,14 +230,13 @@ fn update_resistance(
 fn push_life(
     scene: &Scene,
     run: &mut PointRun,
-    (before, depth): (&ElectricalState, &Sides<DepthMap>),
+    (before, scars): (&ElectricalState, &Sides<WornArea>),
 ) {
     let cycle = run.state.cycle();
     if let Some((limits, resistances)) = resistance::of_life(scene, (before, &run.electrical)) {
         run.life.push_resistance(limits, cycle, resistances);
     }
-    let surface = |side| WornArea::new(&depth.of(side).depth_mm);
-    run.life.push(scene, cycle, surface);
+    run.life.push(scene, cycle, |side| scars.of(side));
 }
 
 /// Its progress for its stops: half-spaces are never worn through.
@@ -247,14 +250,6 @@ fn progress(scene: &Scene, run: &PointRun) -> Progress {
     }
 }
 
-/// The outcome of a run that ends here.
-fn end(scene: &Scene, run: &PointRun, depth: &Sides<DepthMap>) -> Option<Outcome> {
-    let areas = depth.as_ref().map(|map| WornArea::new(&map.depth_mm));
-    stops::end(scene, progress(scene, run), |side, part| {
-        areas.of(side).depth_of_part(part)
-    })
-}
-
 /// The summary of a run with its outcome.
 fn summary(
     (scene, plan, contact): (&Scene, &EffectsPlan, &PointScene),
@@ -264,9 +259,6 @@ fn summary(
     let last = report(scene, run, &depths(&run.state));
     let (cells, cell_mm, (solves, iterations)) = run.state.size();
     let (computed, most_increments) = run.state.computed();
-    let mut compared = run.compared.clone();
-    compared.skipped_change = plan.skipped_change();
-    compared.lives = run.life.cycles();
     Summary {
         outcome,
         initial: run.initial,
@@ -285,11 +277,11 @@ fn summary(
             relocations: 0,
             estimated_relative_error: run.state.mean_jump_error(),
         },
-        checks: checks(contact, run, &last),
+        checks: checks(contact, run),
         last,
         errors: None,
         warnings: Vec::new(),
-        compared,
+        compared: run.compared.ended(plan.skipped_change(), &run.life),
         effects: plan.verdicts(),
         crossings: run.crossings.clone(),
         life: run.life.clone(),
@@ -297,19 +289,15 @@ fn summary(
     }
 }
 
-/// Residuals of the last cycle.
-fn checks(contact: &PointScene, run: &PointRun, last: &CycleReport) -> Checks {
-    let side = |side: &record::SideReport| match (side.worn_volume_mm3, side.ideal_volume_mm3) {
-        (Some(volume), Some(ideal)) => (volume / ideal - 1.0).abs(),
-        _ => 0.0,
-    };
+/// Worst residuals so far. The area is that of the doses, which every law has: layers have no rate of their own.
+fn checks(contact: &PointScene, run: &PointRun) -> Checks {
     let residuals = run.state.residuals(contact);
     Checks {
         force_balance: residuals.force,
         force_balance_present_normals: residuals.force,
-        worn_area: side(&last.slider).max(side(&last.receptacle)),
+        worn_area: residuals.dose,
         complementarity: residuals.contact,
-        friction_cone: 0.0,
+        friction_cone: residuals.friction_cone,
         friction_use: residuals.friction_use,
     }
 }

@@ -17,9 +17,6 @@ pub(super) fn summary(
     let last = record::report(scene, model, state, run.electrical.resistance);
     let mut checks = state.checks;
     checks.worn_area = record::worn_area_residual(state, &last);
-    let mut compared = run.compared.clone();
-    compared.skipped_change = plan.skipped_change();
-    compared.lives = run.life.cycles();
     Summary {
         outcome,
         initial: run.initial,
@@ -40,7 +37,7 @@ pub(super) fn summary(
         checks,
         errors: None,
         warnings: Vec::new(),
-        compared,
+        compared: run.compared.ended(plan.skipped_change(), &run.life),
         effects: plan.verdicts(),
         crossings: run.crossings.clone(),
         life: run.life.clone(),
