@@ -13,6 +13,8 @@ string_enum! {
         StopCondition = "stop_condition",
         /// A body was worn through almost completely.
         WornThrough = "worn_through",
+        /// A groove along a line was as deep as the slider's radius: its walls would overhang.
+        DeeperThanRadius = "deeper_than_radius",
         /// Stopped by a request.
         Stopped = "stopped",
         /// The solver did not converge; `status_reason` contains its numbers.

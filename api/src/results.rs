@@ -3,6 +3,7 @@
 mod depth_map;
 mod history;
 mod life;
+mod line;
 mod manifest;
 mod mission;
 mod resistance;
@@ -12,6 +13,7 @@ mod summary;
 pub use depth_map::{ContactMaps, DepthMap, PressureMap};
 pub use history::{Columns, ExposedLayer, SideSeries, Station, WearHistory};
 pub use life::{LifeBand, LifeEntry, LifeStatus};
+pub use line::{LineProfile, LineProfiles, LineSeries, LineStation, SectionSide};
 pub use manifest::{Manifest, ResultFile};
 pub use mission::{BlockExtent, BlockSide, BlockSummary};
 pub use resistance::{ContactResistance, ResistanceParts};

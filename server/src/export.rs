@@ -8,6 +8,7 @@ mod earlier;
 pub mod files;
 pub mod history;
 pub mod life;
+pub mod line;
 pub mod maps;
 pub(crate) mod markdown;
 pub(crate) mod mission;

@@ -9,15 +9,16 @@ use std::ops::ControlFlow;
 
 use api::results::{BlockExtent, Cost, Summary};
 use api::spec::{DerivedMotion, LifeSettings};
+use serde::Serialize;
 use solver::SolveError;
 use solver::checkpoint::Resumable;
 use solver::error_control;
 use solver::observer::{self, Event, Observer};
-use solver::record::{AreaMaps, PlacedFields};
+use solver::record::PlacedFields;
 use solver::scene::Scene;
 
 use crate::export::documents::{JSON, VTU};
-use crate::export::{history, life, maps, mission, vtu};
+use crate::export::{history, life, line, maps, mission, vtu};
 use crate::spec::Resolved;
 use crate::spec::scatter::FollowsProduct;
 use checkpoint::{Checkpoint, CheckpointPolicy, EncodedCheckpoint};
@@ -166,9 +167,13 @@ impl Recorder<'_> {
         }
     }
 
-    fn maps(&mut self, cycle: u64, maps: &AreaMaps) -> ControlFlow<()> {
-        let name = maps::file_name(cycle);
-        match serde_json::to_vec(&maps::document(cycle, maps)) {
+    /// Emits a document of a snapshot as a file.
+    fn document(
+        &mut self,
+        (name, cycle): (String, u64),
+        document: &impl Serialize,
+    ) -> ControlFlow<()> {
+        match serde_json::to_vec(document) {
             Ok(bytes) => (self.on)(Line::Fields(FieldsFile {
                 name,
                 cycle,
@@ -176,7 +181,7 @@ impl Recorder<'_> {
                 bytes,
             })),
             Err(error) => {
-                tracing::error!(%error, name, "maps were not written");
+                tracing::error!(%error, name, "a document of a snapshot was not written");
                 ControlFlow::Continue(())
             }
         }
@@ -194,8 +199,14 @@ impl Observer for Recorder<'_> {
                 for fields in &snapshot.fields {
                     self.fields(snapshot.cycle, fields)?;
                 }
+                let cycle = snapshot.cycle;
                 if let Some(maps) = &snapshot.area {
-                    self.maps(snapshot.cycle, maps)?;
+                    let name = (maps::file_name(cycle), cycle);
+                    self.document(name, &maps::document(cycle, maps))?;
+                }
+                if !snapshot.stations.is_empty() {
+                    let name = (line::file_name(cycle), cycle);
+                    self.document(name, &line::document(snapshot))?;
                 }
                 Line::Snapshot(Box::new(history::snapshot(snapshot)))
             }

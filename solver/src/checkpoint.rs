@@ -1,16 +1,16 @@
 //! Checkpoints: everything that the rest of a run depends on besides its scene.
 
 mod earlier;
+mod finite;
 mod misfit;
-mod point;
 mod section;
 
 use serde::{Deserialize, Serialize};
 
 pub use earlier::Earlier;
 pub(crate) use earlier::Finished;
+pub use finite::{FiniteRun, LineRun, PointRun};
 pub use misfit::Misfit;
-pub use point::PointRun;
 pub use section::SectionRun;
 
 /// A run between two computed cycles. It survives serialisation bit for bit in any format that preserves `f64`.
@@ -20,6 +20,8 @@ pub enum Checkpoint {
     Section(Box<SectionRun>),
     /// Of a point contact.
     Point(Box<PointRun>),
+    /// Of a contact along a line.
+    Line(Box<LineRun>),
 }
 
 /// A run that a checkpoint can be taken of.
@@ -29,6 +31,8 @@ pub enum Resumable<'a> {
     Section(&'a SectionRun),
     /// Of a point contact.
     Point(&'a PointRun),
+    /// Of a contact along a line.
+    Line(&'a LineRun),
 }
 
 impl Resumable<'_> {
@@ -37,6 +41,7 @@ impl Resumable<'_> {
         let (earlier, cycle) = match self {
             Self::Section(run) => (&run.earlier, run.state.cycle),
             Self::Point(run) => (&run.earlier, run.state.cycle()),
+            Self::Line(run) => (&run.earlier, run.state.cycle()),
         };
         let finished = earlier.finished.as_ref();
         finished.map_or(cycle, |finished| finished.summary.last.cycle)
@@ -47,6 +52,7 @@ impl Resumable<'_> {
         match self {
             Self::Section(run) => Checkpoint::Section(Box::new(run.clone())),
             Self::Point(run) => Checkpoint::Point(Box::new(run.clone())),
+            Self::Line(run) => Checkpoint::Line(Box::new(run.clone())),
         }
     }
 }
@@ -57,6 +63,7 @@ impl Checkpoint {
         match self {
             Self::Section(run) => Resumable::Section(run).cycle(),
             Self::Point(run) => Resumable::Point(run).cycle(),
+            Self::Line(run) => Resumable::Line(run).cycle(),
         }
     }
 
@@ -65,6 +72,7 @@ impl Checkpoint {
         match self {
             Self::Section(run) => &run.earlier,
             Self::Point(run) => &run.earlier,
+            Self::Line(run) => &run.earlier,
         }
     }
 }

@@ -7,8 +7,10 @@
 mod across_width;
 mod choice;
 mod decision;
+mod dimension;
 mod effect;
 mod indicators;
+mod line;
 mod point;
 mod reason;
 pub mod small_strain;

@@ -5,6 +5,7 @@ use crate::condensation::OperatorError;
 use crate::cycle::CycleError;
 use crate::mesh::MeshError;
 use crate::point::PointError;
+use crate::station::StationError;
 
 /// Why a solve failed.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -21,6 +22,9 @@ pub enum SolveError {
     /// A point contact could not be integrated.
     #[error("point contact: {0}")]
     Point(#[from] PointError),
+    /// A contact along a line could not be integrated.
+    #[error("line: {0}")]
+    Line(#[from] StationError),
     /// A checkpoint is not one of this scene.
     #[error("checkpoint: {0}")]
     Checkpoint(#[from] Misfit),

@@ -14,6 +14,7 @@
 //! one pass, sqrt(2 R k P jump) deep into the floor, to which its half-width adds by a share (`scene::Tuning`).
 
 mod blocks;
+mod line;
 mod point;
 mod surrogate;
 
@@ -26,6 +27,7 @@ use crate::schedule::stops;
 use crate::sides::Sides;
 
 use blocks::{Block, WornBlocks};
+pub use line::{LineForecast, line_forecast};
 pub use point::{PointForecast, point_forecast};
 use surrogate::Scar;
 

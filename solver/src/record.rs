@@ -25,13 +25,16 @@ pub use channel::{Channel, Channels};
 pub use compared::{Compared, Quantity};
 pub use errors::{ErrorParts, Errors, PRESSURE_TOLERANCES};
 pub(crate) use exposure::{Exposed, WornSurface};
-pub use history::{Column, Layer, Record};
+pub use history::{Column, Layer, LineColumns, Record};
 pub use life::{CriterionState, Life};
 pub use report::{
     CycleReport, ExtentReport, ResistanceReport, SideReport, TemperatureReport, report,
 };
-pub(crate) use report::{PointEnd, point_report, worn_surface};
-pub use snapshot::{AreaMaps, DepthProfile, PressureMap, Snapshot, TractionField, snapshot};
+pub(crate) use report::{LineEnd, PointEnd, line_report, point_report, worn_surface};
+pub(crate) use snapshot::tractions;
+pub use snapshot::{
+    AreaMaps, DepthProfile, PressureMap, Snapshot, StationSnapshot, TractionField, snapshot,
+};
 pub(crate) use summary::worn_area_residual;
 pub use summary::{Initial, Resolution, Summary};
 pub(crate) use worn_area::WornArea;

@@ -1,6 +1,6 @@
 //! The run: integrate until the geometry has drifted or the contact has outgrown its mesh, relocate, condense again.
 
-mod point;
+mod finite;
 mod progress;
 mod resistance;
 mod summary;
@@ -18,7 +18,7 @@ use crate::fields;
 use crate::model::{self, Model};
 use crate::observer::{Event, Observer, Phase};
 use crate::record::{self, Compared, Exposed, Initial, Life, Outcome, Snapshot, Summary};
-use crate::scene::Scene;
+use crate::scene::{Dimension, Scene};
 use crate::schedule::stops;
 use progress::{end, now, progress, push_life};
 use resistance::Consequence;
@@ -39,8 +39,8 @@ pub(crate) fn begin(
     earlier: Earlier,
     observer: &mut dyn Observer,
 ) -> Result<Summary, SolveError> {
-    if scene.dimension.point().is_some() {
-        return point::begin(scene, plan, earlier, observer);
+    if scene.dimension.is_finite() {
+        return finite::begin(scene, plan, earlier, observer);
     }
     observer.on_phase(Phase::Mesh);
     let (mut plan, mut model) = (plan.clone(), model::build(scene, plan)?);
@@ -91,10 +91,14 @@ pub(crate) fn proceed(
     run: Checkpoint,
     observer: &mut dyn Observer,
 ) -> Result<Summary, SolveError> {
-    let is_point = scene.dimension.point().is_some();
-    let run = match run {
-        Checkpoint::Point(run) if is_point => return point::proceed(scene, plan, *run, observer),
-        Checkpoint::Section(run) if !is_point => *run,
+    let run = match (run, scene.dimension) {
+        (Checkpoint::Section(run), Dimension::PlaneStrain) => *run,
+        (Checkpoint::Point(run), Dimension::Point(_)) => {
+            return finite::proceed_point(scene, plan, *run, observer);
+        }
+        (Checkpoint::Line(run), Dimension::Line(_)) => {
+            return finite::proceed_line(scene, plan, *run, observer);
+        }
         _ => return Err(Misfit::Dimension.into()),
     };
     observer.on_phase(Phase::Mesh);

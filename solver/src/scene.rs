@@ -20,7 +20,7 @@ mod turning_points;
 pub use accuracy::{Accuracy, Refinement};
 pub use body::{BlockShape, Body, SliderShape, SurfaceEffects};
 pub use criterion::Criterion;
-pub use dimension::{Dimension, Point};
+pub use dimension::{Dimension, Line, LineShape, Point, Top};
 pub use electrical::{Conduction, Electrical, MOST_METALS, Metal, Spots};
 pub(crate) use heat::ContactHeat;
 pub use mission::{Block, Mission, Order};
@@ -70,7 +70,7 @@ pub struct Scene {
     pub friction: Friction,
     /// Temperature of the surroundings, °C.
     pub temperature_c: f64,
-    /// Normal load on the unworn contact, N per mm of depth; of a point contact that of its middle section.
+    /// Normal load on the unworn contact, N per mm of depth; of a point contact that of its middle section, along a line the mean.
     pub load_n_per_mm: f64,
     /// Stiffness of the spring that applies the load, which decreases as the slider sinks, N/mm per mm of depth; 0 for
     /// a dead load.

@@ -22,15 +22,21 @@
 
 mod cycle;
 mod error;
+mod integrator;
 mod place;
 mod record;
 mod run;
 mod scene;
 mod section;
+mod state;
 mod threads;
 mod top;
 
 pub use error::StationError;
-pub use record::{StationCycle, StationOutcome, StationProfile, StationReport, StationSummary};
+pub(crate) use integrator::{Ending, LineIntegrator};
+pub use record::{
+    Along, StationCycle, StationOutcome, StationProfile, StationReport, StationSummary,
+};
 pub use run::run;
-pub use scene::{LineShape, StationScene, Top};
+pub use scene::{StationScene, stations_for, stations_of};
+pub use state::LineState;

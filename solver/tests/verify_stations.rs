@@ -22,9 +22,8 @@ use crate::scenes::{COPPER_WEAR, fuzz_button};
 use solver::effects::{Effect, Switches};
 use solver::record::DepthProfile;
 use solver::scene::{Friction, Motion, Scene, WearLaw};
-use solver::station::{
-    LineShape, StationOutcome, StationProfile, StationScene, StationSummary, Top, run,
-};
+use solver::scene::{LineShape, Top};
+use solver::station::{StationOutcome, StationProfile, StationScene, StationSummary, run};
 
 const RADIUS: f64 = 0.4826;
 const FORCE: f64 = 0.834;
@@ -42,7 +41,6 @@ fn ring(top: Top, stations: usize, cycles: u64) -> StationScene {
         force_n: FORCE,
         stations,
         threads: 2,
-        stop_depth_mm: None,
     }
 }
 
@@ -173,8 +171,8 @@ fn volume_of_a_ring_is_that_of_the_sliding_work() {
         scene.section.accuracy.tolerance = 0.1;
         let last = solved(&scene).last;
         let worn = last.worn_volume_mm3.receptacle;
-        let balance = worn / last.sliding_work_volume_mm3.receptacle - 1.0;
-        let ideal = worn / last.ideal_volume_mm3.receptacle - 1.0;
+        let balance = worn / last.sliding_work_volume_mm3.receptacle.expect("a rate") - 1.0;
+        let ideal = worn / last.ideal_volume_mm3.receptacle.expect("a rate") - 1.0;
         println!(
             "ring, {top:?}: volume off the sliding work by {balance:.1e}, off k F s by {ideal:.4}"
         );
@@ -195,11 +193,11 @@ fn both_sides_of_a_ring_wear_by_their_rates() {
     for (worn, work) in [
         (
             last.worn_volume_mm3.slider,
-            last.sliding_work_volume_mm3.slider,
+            last.sliding_work_volume_mm3.slider.expect("a rate"),
         ),
         (
             last.worn_volume_mm3.receptacle,
-            last.sliding_work_volume_mm3.receptacle,
+            last.sliding_work_volume_mm3.receptacle.expect("a rate"),
         ),
     ] {
         println!(

@@ -5,6 +5,8 @@ use indexmap::IndexMap;
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
+use crate::results::LineSeries;
+
 /// Columns by name, in order, one value a computed cycle.
 pub type Columns = IndexMap<String, Vec<f64>>;
 
@@ -53,6 +55,9 @@ pub struct WearHistory {
     /// Exposed layers of platings.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub exposed: Vec<ExposedLayer>,
+    /// The sections along a line, in their order; absent of another contact.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub line_stations: Vec<LineSeries>,
     /// The receptacle's wear.
     pub receptacle: SideSeries,
     /// The slider's wear.

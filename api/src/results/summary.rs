@@ -7,7 +7,7 @@ use utoipa::ToSchema;
 
 use crate::outcome::{Outcome, Phase};
 use crate::plan::Decision;
-use crate::results::{BlockSummary, ContactResistance, LifeEntry};
+use crate::results::{BlockSummary, ContactResistance, LifeEntry, LineStation};
 use crate::spec::DerivedMotion;
 
 /// Temperature at the hottest place of a contact, °C.
@@ -191,9 +191,13 @@ pub struct Summary {
     pub initial: Initial,
     /// Accumulated energy dissipated by friction, mJ per mm of depth.
     pub dissipated_energy_mj_per_mm: f64,
-    /// The whole contact, of which everything else per mm of depth is that of its middle section; absent of a section.
+    /// The whole contact; absent of a section. What is else per mm of depth is that of the middle section of a point contact, and the mean
+    /// along a line.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub extent: Option<ContactExtent>,
+    /// The sections along a line at the end, in their order; absent of another contact.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub stations: Vec<LineStation>,
     /// Resolution that the accuracy settings led to.
     pub accuracy: AccuracyReached,
     /// Cost of the run.

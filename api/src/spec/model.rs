@@ -12,6 +12,20 @@ string_enum! {
         PlaneStrain = "plane_strain",
         /// A contact that is small in both directions: a ball, a dimple or a crowned spring on a pad.
         Point = "point",
+        /// A contact along a straight line across the motion, with a crown or a tilt.
+        Line = "line",
+        /// A wire bent to a ring that vibrates in the plane of the ring.
+        Ring = "ring",
+    }
+}
+
+string_enum! {
+    /// What carries the sections of a slider along a line.
+    Top {
+        /// A rigid body that does not rotate: the same height everywhere.
+        Rigid = "rigid",
+        /// The same line load everywhere.
+        Even = "even",
     }
 }
 
@@ -24,11 +38,27 @@ pub struct Model {
     /// `point`: radius of the slider in the plane across the sliding direction, mm; that of the section if absent, as of a ball.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub radius_z_mm: Option<f64>,
+    /// `ring`: outer diameter of the ring of wire, mm.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub outer_diameter_mm: Option<f64>,
+    /// `line`: its length across the motion, mm.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub width_mm: Option<f64>,
+    /// `line`: radius by which the slider's surface recedes from the middle of the line to its ends, mm; straight if absent.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub crown_radius_mm: Option<f64>,
+    /// `line`: tilt of the slider about the direction of motion, mrad; 0 if absent.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub tilt_mrad: Option<f64>,
+    /// `line`, `ring`: what carries the sections of the slider; a rigid body if absent.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schema(value_type = Option<Top>)]
+    pub top: Option<EnumValue<Top>>,
 }
 
 impl Model {
-    /// Whether the contact is small in both directions.
-    pub fn is_point(&self) -> bool {
-        matches!(self.dimension, EnumValue::Known(Dimension::Point))
+    /// Whether it has an extent of its own across the sliding direction, so that a force needs no width.
+    pub fn has_width(&self) -> bool {
+        !matches!(self.dimension, EnumValue::Known(Dimension::PlaneStrain))
     }
 }

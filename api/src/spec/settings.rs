@@ -71,6 +71,13 @@ pub struct Overrides {
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schema(value_type = Option<serde_json::Value>)]
     pub cycle_jump: Option<CycleJump>,
+    /// `line`, `ring`: sections along the line, with both ends; of a ring those of its half.
+    #[serde(
+        default,
+        skip_serializing_if = "Option::is_none",
+        deserialize_with = "count::optional"
+    )]
+    pub stations: Option<u32>,
     /// Most wear of a point in an increment, mm, as explicit schemes limit it; for comparison with them, the implicit solve needs none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub largest_wear_mm: Option<f64>,

@@ -123,6 +123,9 @@ pub(super) struct ChildArguments {
     /// Interval of checkpoints.
     #[arg(long)]
     pub(super) checkpoint_every_ms: u64,
+    /// Threads that sections along a line are solved in; results do not depend on it.
+    #[arg(long, default_value_t = 1)]
+    pub(super) threads: usize,
     /// Limit of writable memory.
     #[arg(long)]
     pub(super) memory_limit_mb: Option<u64>,

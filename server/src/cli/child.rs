@@ -29,7 +29,7 @@ pub(super) fn run(arguments: &ChildArguments) -> Ended {
     let stop = Arc::new(AtomicBool::new(false));
     prepare(arguments, &stop).map_err(failed)?;
     let input = Input::read(std::io::stdin().lock()).map_err(failed)?;
-    let resolved = match spec::read(input.spec.as_bytes()) {
+    let mut resolved = match spec::read(input.spec.as_bytes()) {
         Ok(resolved) => resolved,
         Err(error) => {
             report(&Line::Failed(Failure {
@@ -39,6 +39,7 @@ pub(super) fn run(arguments: &ChildArguments) -> Ended {
             return Err(refused(&error));
         }
     };
+    resolved.scene.dimension.set_threads(arguments.threads);
     std::thread::spawn(end_with_supervisor);
     let from = match input.checkpoint() {
         Ok(from) => from,

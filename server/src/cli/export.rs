@@ -15,9 +15,9 @@ use crate::export::deck;
 
 pub(super) fn run(spec: &Path, cycle: u64) -> Ended {
     let scene = specification(spec)?.scene;
-    if scene.dimension.point().is_some() {
+    if scene.dimension.is_finite() {
         return Err(failed(
-            "a point contact has no mesh that could be exported; write `plane_strain` for its section",
+            "only a section has a mesh that can be exported; write `plane_strain` for that of this contact",
         ));
     }
     if cycle > scene.cycles {

@@ -61,6 +61,7 @@ impl WorkOptions {
         WorkerConfig {
             lease: self.lease_s.max(Duration::from_millis(100)),
             checkpoint_every: self.checkpoint_every_s,
+            threads: crate::cli::runtime::processors() / self.workers().max(1),
             grace: self.grace_s,
             memory_mb: self.memory_mb.unwrap_or(config.memory_mb),
             job_memory_mb: self.job_memory_mb,

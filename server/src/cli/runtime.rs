@@ -6,10 +6,12 @@ use crate::cli::terminal::failed;
 
 /// Number of jobs solved at once; one per processor unless given.
 pub(super) fn workers(given: Option<u16>) -> usize {
-    given.map_or_else(
-        || std::thread::available_parallelism().map_or(1, usize::from),
-        usize::from,
-    )
+    given.map_or_else(processors, usize::from)
+}
+
+/// Processors of this machine that the process may use.
+pub(super) fn processors() -> usize {
+    std::thread::available_parallelism().map_or(1, usize::from)
 }
 
 /// Runs a future on a multi-threaded runtime.

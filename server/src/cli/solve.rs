@@ -9,6 +9,7 @@ use api::results::{Snapshot, Summary};
 use indicatif::ProgressBar;
 use solver::record::CycleReport;
 
+use crate::cli::runtime::processors;
 use crate::cli::terminal::{Ended, bar, failed, specification_for, write_err, write_json};
 use crate::export::documents::Results;
 use crate::export::files;
@@ -17,7 +18,8 @@ use crate::solve::{Failure, FieldsFile, Line};
 use crate::spec::Resolved;
 
 pub(super) fn run(spec: &Path, out: Option<&Path>) -> Ended {
-    let resolved = specification_for(spec, out)?;
+    let mut resolved = specification_for(spec, out)?;
+    resolved.scene.dimension.set_threads(processors());
     let mut recorded = Recorded::default();
     let solved = solve(&resolved, &mut recorded);
     if let Some(folder) = out {

@@ -21,6 +21,8 @@ const MEMORY_DOF_MB: f64 = 1.0e-3;
 const MEMORY_PAIR_MB: f64 = 2.4e-4;
 /// Memory per pair of nodes of one of several zones: a block of its compliance, MB.
 const STORED_PAIR_MB: f64 = 32e-6;
+/// Memory of the operators of a further section along a line, per pair of nodes of its larger surface, MB.
+const OPERATOR_PAIR_MB: f64 = 3.2e-5;
 /// Fields at one position: bytes per unknown.
 const FIELDS_DOF_BYTES: f64 = 101.0;
 /// A snapshot: bytes per surface element, as rows and as documents.
@@ -86,16 +88,19 @@ impl Footprint {
         } else {
             0.0
         };
+        // Sections along a line have operators of their own once they have worn.
+        let sections = real(workload.stations);
         let bytes = fields * FIELDS_DOF_BYTES * dofs
-            + snapshots * SNAPSHOT_ELEMENT_BYTES * elements
-            + workload.computed_cycles * (CYCLE_BYTES + STATION_BYTES * stations);
+            + snapshots * SNAPSHOT_ELEMENT_BYTES * elements * sections
+            + workload.computed_cycles * (CYCLE_BYTES * sections + STATION_BYTES * stations);
         Self {
             contact_element_mm: layout.sizes.contact_element,
-            dofs,
+            dofs: sections * dofs,
             memory_mb: MEMORY_BASE_MB
                 + MEMORY_DOF_MB * dofs
                 + MEMORY_PAIR_MB * surface * surface
-                + STORED_PAIR_MB * stored,
+                + STORED_PAIR_MB * stored
+                + (sections - 1.0) * OPERATOR_PAIR_MB * surface * surface,
             output_mb: 1e-6 * bytes,
         }
     }

@@ -92,6 +92,7 @@ mod tests {
             condensations: [body, Condensations { count: 0.0, ..body }],
             cell_iterations: 0.0,
             cells: (0.0, 0.0),
+            stations: 1,
             companions: Vec::new(),
         };
         // 0.1 s and 0.2 s of increments, 2 x (0.1 + 1) s of condensations.

@@ -4,7 +4,7 @@
 use std::collections::BTreeMap;
 
 use solver::error_control::companion_scenes;
-use solver::forecast::{forecast, point_forecast};
+use solver::forecast::{LineForecast, forecast, line_forecast, point_forecast};
 use solver::model::{BodyLayout, Layout};
 use solver::scene::Scene;
 use solver::sides::Sides;
@@ -26,6 +26,8 @@ pub struct Workload {
     pub cell_iterations: f64,
     /// Cells of the windows and of the surfaces of a point contact at most.
     pub cells: (f64, f64),
+    /// Sections along a line; 1 of a section.
+    pub stations: usize,
     /// Work of the coarse companions that the run's error is estimated by.
     pub companions: Vec<Workload>,
 }
@@ -44,9 +46,36 @@ pub struct Condensations {
 impl Workload {
     /// Estimates the workload of a scene from its mesh lines.
     pub(crate) fn of(scene: &Scene, layout: Option<&Layout>) -> Self {
-        match layout {
-            Some(layout) => Self::of_section(scene, layout),
-            None => Self::of_point(scene),
+        let line = layout.and_then(|layout| line_forecast(scene, layout).zip(Some(layout)));
+        match (line, layout) {
+            (Some((forecast, layout)), _) => Self::of_line(scene, layout, &forecast),
+            (None, Some(layout)) => Self::of_section(scene, layout),
+            (None, None) => Self::of_point(scene),
+        }
+    }
+
+    /// That of sections along a line.
+    fn of_line(scene: &Scene, layout: &Layout, forecast: &LineForecast) -> Self {
+        let mut increments = BTreeMap::new();
+        for (nodes, count) in &forecast.solves {
+            *increments.entry(*nodes).or_insert(0.0) += count;
+        }
+        let increments = increments.into_iter();
+        let bodies = &layout.bodies;
+        Self {
+            computed_cycles: forecast.computed_cycles,
+            most_increments: u32::try_from(forecast.most_increments).unwrap_or(u32::MAX),
+            increments: increments
+                .map(|(nodes, count)| (real(nodes), count))
+                .collect(),
+            condensations: [
+                condensations(forecast.condensations.slider, &bodies.slider),
+                condensations(forecast.condensations.receptacle, &bodies.receptacle),
+            ],
+            cell_iterations: 0.0,
+            cells: (0.0, 0.0),
+            stations: forecast.stations,
+            companions: companions(scene),
         }
     }
 
@@ -60,6 +89,7 @@ impl Workload {
             condensations: [Condensations::NONE; 2],
             cell_iterations: forecast.cell_iterations,
             cells: (real(forecast.most_cells), real(forecast.surface_cells)),
+            stations: 1,
             companions: companions(scene),
         }
     }
@@ -80,11 +110,12 @@ impl Workload {
                 .map(|(nodes, increments)| (real(nodes), increments))
                 .collect(),
             condensations: [
-                condensations(slider, &layout.bodies.slider),
-                condensations(receptacle, &layout.bodies.receptacle),
+                condensations(f64::from(slider), &layout.bodies.slider),
+                condensations(f64::from(receptacle), &layout.bodies.receptacle),
             ],
             cell_iterations: 0.0,
             cells: (0.0, 0.0),
+            stations: 1,
             companions: companions(scene),
         }
     }
@@ -128,9 +159,9 @@ impl Condensations {
     };
 }
 
-fn condensations(times: u32, body: &BodyLayout) -> Condensations {
+fn condensations(times: f64, body: &BodyLayout) -> Condensations {
     Condensations {
-        count: f64::from(times) * real(body.zones.len()),
+        count: times * real(body.zones.len()),
         dofs: real(body.dofs()),
         surface_nodes: real(body.largest_zone()),
     }

@@ -1,6 +1,6 @@
 //! The columns of a wear history under their headers: common to its tables (CSV, Parquet) and to thinning.
 
-use solver::record::Record;
+use solver::record::{LineColumns, Record};
 
 /// The values of a column.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -26,5 +26,7 @@ pub fn of(record: &Record) -> Vec<(String, Values<'_>)> {
         .columns
         .iter()
         .map(|column| (column.header(), Values::Numbers(&column.values)));
-    located.into_iter().chain(channels).collect()
+    let line = record.line.iter().flat_map(LineColumns::named);
+    let line = line.map(|(name, values)| (name, Values::Numbers(values)));
+    located.into_iter().chain(channels).chain(line).collect()
 }

@@ -3,8 +3,9 @@
 use std::path::Path;
 
 /// Documents with a part of this name for each snapshot, and their extension.
-const OF_SNAPSHOTS: [(&str, &str); 5] = [
+const OF_SNAPSHOTS: [(&str, &str); 6] = [
     ("maps", "json"),
+    ("stations", "json"),
     ("profile", "csv"),
     ("pressure", "csv"),
     ("loop", "csv"),

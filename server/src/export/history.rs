@@ -12,7 +12,7 @@ use solver::effects::{Crossing, Effect, Verdict};
 use solver::observer;
 use solver::record::{self, Layer, Record, Side, SideReport};
 
-use crate::export::resistance;
+use crate::export::{line, resistance};
 
 /// The phase of a job.
 pub fn phase(phase: observer::Phase) -> Phase {
@@ -56,7 +56,7 @@ pub fn snapshot(snapshot: &record::Snapshot) -> Snapshot {
     }
 }
 
-fn position(field: &record::TractionField) -> PressurePosition {
+pub(super) fn position(field: &record::TractionField) -> PressurePosition {
     let phase = match field.position {
         record::Position::Neutral => SlidePosition::Neutral,
         record::Position::Rightmost => SlidePosition::Rightmost,
@@ -85,6 +85,7 @@ pub fn summary(summary: &record::Summary, cost: Cost, life: Vec<LifeEntry>) -> S
         extent: last.extent.map(|extent| document!(
             ContactExtent of extent; load_n, contact_half_length_across_mm, dissipated_energy_mj
         ));
+        stations: last.stations.iter().map(line::station).collect();
         motion: None;
         mission: Vec::new();
         contact_resistance_mohm: resistance::of(summary);
@@ -171,6 +172,7 @@ fn outcome(outcome: record::Outcome) -> Outcome {
         record::Outcome::OutsideTolerance => Outcome::OutsideTolerance,
         record::Outcome::StopCondition => Outcome::StopCondition,
         record::Outcome::WornThrough => Outcome::WornThrough,
+        record::Outcome::DeeperThanRadius => Outcome::DeeperThanRadius,
         record::Outcome::Stopped => Outcome::Stopped,
     }
 }
@@ -186,6 +188,7 @@ pub fn wear_history(record: Record) -> WearHistory {
         cycle: record.cycle,
         jump: record.jump,
         sliding_distance_mm: record.sliding_distance_mm,
+        line_stations: record.line.into_iter().map(line::series).collect(),
         ..WearHistory::default()
     };
     for column in record.columns {

@@ -49,6 +49,8 @@ pub(crate) struct SolveCommand<'a> {
     pub(crate) checkpoint: Option<&'a EncodedCheckpoint>,
     /// Time between two checkpoints.
     pub(crate) checkpoint_every: Duration,
+    /// Threads that sections along a line are solved in.
+    pub(crate) threads: usize,
     /// Memory limit, MB.
     pub(crate) memory_limit_mb: Option<i64>,
     /// Whether it gets a process group of its own; otherwise the signals of a terminal reach it too.
@@ -125,6 +127,7 @@ impl SolveCommand<'_> {
         let every_ms = self.checkpoint_every.as_millis().to_string();
         let mut command = Command::new(self.program);
         command.args(["solve-child", "--checkpoint-every-ms", &every_ms]);
+        command.args(["--threads", &self.threads.to_string()]);
         if let Some(limit) = self.memory_limit_mb {
             command.args(["--memory-limit-mb", &limit.to_string()]);
         }

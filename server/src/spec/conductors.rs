@@ -51,10 +51,10 @@ pub(super) fn resolve(
     );
     let temperature = filled.environment.temperature_c.unwrap_or(REFERENCE_C);
     let (mut lacks, mut unknown) = (Vec::new(), None);
-    // The width of a point contact follows from its force.
-    let is_point = filled.model.as_ref().is_some_and(Model::is_point);
+    // The model gives a contact of finite extent its width.
+    let has_width = filled.model.as_ref().is_some_and(Model::has_width);
     let force = filled.load.as_ref().and_then(|load| {
-        let width = if is_point { Some(1.0) } else { load.width_mm };
+        let width = if has_width { Some(1.0) } else { load.width_mm };
         load.n.zip(width)
     });
     if force.is_none() {

@@ -52,7 +52,7 @@ pub(super) fn fill(spec: &Spec, kind: SystemKind, diagnostics: &mut Diagnostics)
     law::check_plated_sides(&laws, plated, diagnostics);
     let (platings, layers) = plating::resolve(coverings, laws.friction.unworn(), diagnostics);
     let laws = changing_friction::with_layers(laws, (&platings, &layers), diagnostics);
-    let (model, dimension) = model::resolve(spec.model.as_ref(), &shapes, diagnostics);
+    let (model, dimension) = model::resolve(spec.model.as_ref(), (&shapes, kind), diagnostics);
     let (load, line_load) = resolve_load(spec, (&preset, dimension), &shapes, diagnostics);
     let contact = motion::HeldContact {
         friction: laws.friction.unworn(),
@@ -67,7 +67,6 @@ pub(super) fn fill(spec: &Spec, kind: SystemKind, diagnostics: &mut Diagnostics)
     let (output, recorded) = output::resolve(&spec.output, &movement, &shapes, diagnostics);
     let effects = effects::resolve(&spec.effects, diagnostics);
     let environment = environment::resolve(&spec.environment, diagnostics);
-    let force_n = load.n;
     let mut filled = Spec {
         system,
         model: Some(model),
@@ -127,7 +126,7 @@ pub(super) fn fill(spec: &Spec, kind: SystemKind, diagnostics: &mut Diagnostics)
         effects,
         scattered: Vec::new(),
     };
-    let scene = model::with_dimension(scene, (dimension, force_n), diagnostics);
+    let scene = model::with_dimension(scene, (dimension, &filled), diagnostics);
     Filled {
         spec: filled,
         scene,
@@ -143,7 +142,7 @@ fn resolve_load(
     shapes: &system::Shapes,
     diagnostics: &mut Diagnostics,
 ) -> (Load, LineLoad) {
-    let preset = (preset, !dimension.is_point());
+    let preset = (preset, !dimension.has_width());
     load::resolve(spec.load.as_ref(), preset, shapes, diagnostics)
 }
 

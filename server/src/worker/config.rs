@@ -27,6 +27,8 @@ pub struct WorkerConfig {
     pub lease: Duration,
     /// Time between two checkpoints of a solving process.
     pub checkpoint_every: Duration,
+    /// Threads of a solving process, which solves sections along a line in them.
+    pub threads: usize,
     /// Time for the last checkpoint of a solving process before it is killed.
     pub grace: Duration,
     /// Largest estimated peak memory of all running jobs together, MB.
@@ -47,6 +49,7 @@ impl WorkerConfig {
             program,
             lease: Duration::from_secs(10),
             checkpoint_every: Duration::from_secs(5),
+            threads: 1,
             grace: Duration::from_secs(5),
             memory_mb: machine_memory_mb(),
             job_memory_mb: None,

@@ -104,6 +104,7 @@ fn start(attempt: Attempt<'_>) -> std::io::Result<SolveProcess> {
         spec: &claim.spec,
         checkpoint: claim.checkpoint.as_ref(),
         checkpoint_every: config.checkpoint_every,
+        threads: config.threads,
         memory_limit_mb: Some(config.memory_limit_mb(claim.memory_mb)),
         own_group: true,
     }

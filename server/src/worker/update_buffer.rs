@@ -194,6 +194,7 @@ mod tests {
             resistance: None,
             temperature: None,
             extent: None,
+            stations: Vec::new(),
             load_n_per_mm: 0.0,
             peak_pressure_mpa: 0.0,
             contact_half_width_mm: 0.0,

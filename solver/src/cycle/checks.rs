@@ -19,3 +19,19 @@ pub struct Checks {
     /// Largest |sum of shear forces| over mu times the sum of normal ones; 1 in gross slip.
     pub friction_use: f64,
 }
+
+impl Checks {
+    /// The larger ones of two runs or places.
+    pub(crate) fn worse_of(self, other: Self) -> Self {
+        Self {
+            force_balance: self.force_balance.max(other.force_balance),
+            force_balance_present_normals: self
+                .force_balance_present_normals
+                .max(other.force_balance_present_normals),
+            worn_area: self.worn_area.max(other.worn_area),
+            complementarity: self.complementarity.max(other.complementarity),
+            friction_cone: self.friction_cone.max(other.friction_cone),
+            friction_use: self.friction_use.max(other.friction_use),
+        }
+    }
+}

@@ -21,7 +21,7 @@ pub struct Neutral {
 }
 
 impl Neutral {
-    pub(super) fn of(contact: &ContactState, pair: &Pair<'_>) -> Self {
+    pub(crate) fn of(contact: &ContactState, pair: &Pair<'_>) -> Self {
         let x = &pair.slave().x;
         Self {
             load: contact.load(&pair.interface),
@@ -54,7 +54,7 @@ impl FrictionLoop {
     }
 
     /// Rotates the closed loop to begin after its first `points`.
-    pub(super) fn begin_at(&mut self, points: usize) {
+    pub(crate) fn begin_at(&mut self, points: usize) {
         self.displacement_mm.rotate_left(points);
         self.tangential_force_n_per_mm.rotate_left(points);
     }

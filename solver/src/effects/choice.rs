@@ -1,9 +1,9 @@
 //! The decision about each effect: nothing to simulate, the user's switch, what the run has called for, its indicator.
 
 use super::decision::{Decision, Indicator, Verdict};
+use super::dimension::can_simulate;
 use super::effect::Effect;
 use super::indicators::{self, Indicators};
-use super::point::can_simulate;
 use super::reason::{Grounds, reason};
 use super::small_strain;
 
@@ -84,7 +84,7 @@ fn indicator(scene: &Scene, indicators: &Indicators<'_>, effect: Effect) -> Indi
         worn: indicators.value(effect, indicators.worn_depth_at_end()),
         threshold: match effect {
             Effect::Elasticity | Effect::Resistance => 0.0,
-            Effect::AcrossWidth if is_point(scene) => 0.0,
+            Effect::AcrossWidth if scene.dimension.is_finite() => 0.0,
             Effect::GeometricNonlinearity => small_strain::limit(scene),
             Effect::Plasticity => 1.0,
             Effect::Plating => LAYER_SHARE,
@@ -224,6 +224,9 @@ fn nothing_to_simulate(
         Effect::Relocation if is_point(scene) => Some("half-spaces keep their stiffness"),
         Effect::Relocation if !wears() => Some("nothing wears, so nothing moves the mesh"),
         Effect::SpringFading if scene.spring_n_per_mm2 <= 0.0 => Some("the load is a dead load"),
+        Effect::Resistance if scene.dimension.line().is_some() => {
+            Some("the resistance of a contact along a line is not computed")
+        }
         Effect::Resistance => match scene.conduction {
             Conduction::Unknown {
                 missing,
@@ -242,7 +245,7 @@ fn nothing_to_simulate(
         Effect::Plasticity if indicators::peak_over_hardness(scene).is_none() => Some(
             "never simulated, and not estimated: the hardness of a surface or the force is not known",
         ),
-        Effect::AcrossWidth if is_point(scene) => None,
+        Effect::AcrossWidth if scene.dimension.is_finite() => None,
         Effect::AcrossWidth if !wears() => {
             Some("never simulated; nothing wears, so that no life depends on it")
         }

@@ -6,8 +6,8 @@ use std::borrow::Cow;
 use std::f64::consts::PI;
 
 use super::across_width;
+use super::dimension;
 use super::effect::Effect;
-use super::point;
 use super::small_strain;
 use crate::electrical;
 use crate::law::elastic::dundurs_beta;
@@ -95,7 +95,7 @@ impl<'a> Indicators<'a> {
     }
 
     fn value_alone(&self, effect: Effect, depth: Sides<f64>) -> f64 {
-        if let Some(value) = point::value(&self.scene, effect) {
+        if let Some(value) = dimension::value(&self.scene, effect) {
             return value;
         }
         match effect {

@@ -36,11 +36,8 @@ pub(super) fn value(scene: &Scene, effect: Effect) -> Option<f64> {
     }
 }
 
-/// Whether an effect can be simulated in a scene.
+/// Whether an effect can be simulated in a point contact.
 pub(super) fn can_simulate(scene: &Scene, effect: Effect) -> bool {
-    if scene.dimension.point().is_none() {
-        return effect.is_available();
-    }
     match effect {
         Effect::Elasticity
         | Effect::ReceptacleWear

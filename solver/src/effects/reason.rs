@@ -1,9 +1,9 @@
 //! Reasons of decisions, in words with their numbers.
 
 use super::decision::{Indicator, Verdict};
+use super::dimension::can_simulate;
 use super::effect::Effect;
 use super::indicators::Indicators;
-use super::point::can_simulate;
 
 use crate::law::elastic::contact_modulus;
 use crate::scene::Scene;
@@ -101,6 +101,11 @@ pub(super) fn reason(
         return format!(
             "{switch}the contact of both curvatures is solved for, {:.2e} mm along the sliding direction",
             indicators.hertz_half_width()
+        );
+    }
+    if effect == Effect::AcrossWidth && scene.dimension.line().is_some() {
+        return format!(
+            "{switch}the contact is solved for in sections along its line, which only their forces couple"
         );
     }
     if effect == Effect::AcrossWidth {

@@ -18,17 +18,17 @@ use crate::sides::{Side, Sides};
 const UNSKEWED_TO: f64 = 0.1;
 
 /// Computes the cycles of a point contact.
-pub(crate) struct PointIntegrator<'a> {
-    scene: &'a PointScene,
-    sliding: Sliding<'a>,
+pub(crate) struct PointIntegrator {
+    scene: PointScene,
+    sliding: Sliding,
 }
 
-impl<'a> PointIntegrator<'a> {
+impl PointIntegrator {
     /// The loaded contact before any wear.
     ///
     /// # Errors
     /// A scene that is no point contact, a contact without a solution.
-    pub(crate) fn start(scene: &'a PointScene) -> Result<(Self, PointState), PointError> {
+    pub(crate) fn start(scene: &PointScene) -> Result<(Self, PointState), PointError> {
         scene.check()?;
         let mut state = State::unworn(scene);
         let mut sliding = Sliding::new(scene, &state);
@@ -52,16 +52,19 @@ impl<'a> PointIntegrator<'a> {
             increments: Vec::new(),
             sliding: state,
         };
-        let integrator = Self { scene, sliding };
+        let integrator = Self {
+            scene: *scene,
+            sliding,
+        };
         state.last = integrator.report(&state, (0, 0.0), state.sliding.work);
         Ok((integrator, state))
     }
 
     /// For a state of a checkpoint.
-    pub(crate) fn resume(scene: &'a PointScene, state: &PointState) -> Self {
+    pub(crate) fn resume(scene: &PointScene, state: &PointState) -> Self {
         Self {
             sliding: Sliding::new(scene, &state.sliding),
-            scene,
+            scene: *scene,
         }
     }
 
@@ -103,7 +106,7 @@ impl<'a> PointIntegrator<'a> {
 
     /// Both passes of a computed cycle of a jump; returns the estimated error of its wear.
     fn pass_both(&mut self, state: &mut PointState, jump: f64) -> Result<f64, PointError> {
-        let (scene, sliding) = (self.scene, &mut self.sliding);
+        let (scene, sliding) = (&self.scene, &mut self.sliding);
         // The last pass goes from -A to A or back as the amplitude says; so does the one through the neutral position.
         let last = -scene.amplitude_mm.signum();
         let PointState {
@@ -149,7 +152,7 @@ impl<'a> PointIntegrator<'a> {
             if self.wears_once() && self.step(state) < UNSKEWED_TO {
                 let at = (jump, state.neutral.force_n);
                 let unskewed = self.sliding.unskewed(&state.sliding, at)?;
-                state.neutral = Placed::of(self.scene, &unskewed, last);
+                state.neutral = Placed::of(&self.scene, &unskewed, last);
             }
         }
         let (mut change, mut total) = (0.0, 0.0);
@@ -181,6 +184,11 @@ impl<'a> PointIntegrator<'a> {
     fn wears_once(&self) -> bool {
         let wear = self.scene.bodies.as_ref().map(|body| body.wear.is_some());
         wear.slider != wear.receptacle
+    }
+
+    /// What the contact is computed from.
+    pub(crate) fn scene(&self) -> &PointScene {
+        &self.scene
     }
 
     fn report(

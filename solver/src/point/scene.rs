@@ -38,7 +38,7 @@ pub enum SlipRegime {
 }
 
 /// A point contact in reciprocating sliding.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PointScene {
     /// Both bodies; the receptacle is at rest.
     pub bodies: Sides<PointBody>,

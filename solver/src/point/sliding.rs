@@ -32,8 +32,8 @@ const MOST_REPETITIONS: usize = 6;
 const PRESSURE_TOLERANCE: f64 = 1e-4;
 
 /// Solves the increments of a point contact that slides.
-pub(super) struct Sliding<'a> {
-    scene: &'a PointScene,
+pub(super) struct Sliding {
+    scene: PointScene,
     contact: NormalContact,
     friction: StickSlip,
     /// Gap, wear and dose on the window.
@@ -53,11 +53,11 @@ struct Increment {
     is_partial: bool,
 }
 
-impl<'a> Sliding<'a> {
+impl Sliding {
     /// For a contact in a state.
-    pub(super) fn new(scene: &'a PointScene, state: &State) -> Self {
+    pub(super) fn new(scene: &PointScene, state: &State) -> Self {
         Self {
-            scene,
+            scene: *scene,
             contact: NormalContact::new(state.lattice.cells(), scene.modulus()),
             friction: StickSlip::default(),
             gap: Vec::new(),
@@ -136,7 +136,7 @@ impl<'a> Sliding<'a> {
         cycles: f64,
     ) -> Result<(), PointError> {
         self.fit(state);
-        self.friction.advance(self.scene, state, displacement_mm)?;
+        self.friction.advance(&self.scene, state, displacement_mm)?;
         let increment = Increment {
             to: state.position,
             worn_path_mm: 0.0,
@@ -154,7 +154,7 @@ impl<'a> Sliding<'a> {
         let cells = state.lattice.cells();
         state.sliding_work += cells.integral(&self.dose);
         state.section_work += section_integral(&cells, &self.dose);
-        state.force_n = spring::next_force_n(self.scene, state);
+        state.force_n = spring::next_force_n(&self.scene, state);
         Ok(())
     }
 
@@ -182,7 +182,7 @@ impl<'a> Sliding<'a> {
         let line_load = section_integral(&state.lattice.cells(), &state.pressure.values);
         state.sliding_work += state.force_n * increment.worn_path_mm;
         state.section_work += line_load * increment.worn_path_mm;
-        state.force_n = spring::next_force_n(self.scene, state);
+        state.force_n = spring::next_force_n(&self.scene, state);
         Ok(())
     }
 

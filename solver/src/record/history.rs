@@ -1,7 +1,8 @@
 //! The wear history as a list of named columns of equal length.
 
 use crate::record::{Channels, CycleReport};
-use crate::sides::Side;
+use crate::sides::{Side, Sides};
+use crate::station::{Along, StationReport};
 
 /// A layer below the outermost one.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -61,6 +62,43 @@ pub struct Record {
     /// Worn depth at the stations, then the channels of the receptacle and its exposed layers, the same of the slider, and the
     /// channels of the contact, of its resistance, of its temperature and of its extent across, if these are computed.
     pub columns: Vec<Column>,
+    /// The sections along a line, in their order; none of another contact.
+    pub line: Vec<LineColumns>,
+}
+
+/// Histories of a section along a line, one value a report.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LineColumns {
+    /// Where it is.
+    pub at: Along,
+    /// Line load, N/mm.
+    pub line_load_n_per_mm: Vec<f64>,
+    /// Largest worn depth of each side, mm.
+    pub max_depth_mm: Sides<Vec<f64>>,
+}
+
+impl LineColumns {
+    /// The columns under their headers: `line_load_at_22.5_deg_n_per_mm`, `receptacle_max_depth_at_z_-0.2_mm_mm`.
+    pub fn named(&self) -> [(String, &[f64]); 3] {
+        let at = match self.at {
+            Along::AngleDeg(theta) => format!("at_{theta}_deg"),
+            Along::DistanceMm(z) => format!("at_z_{z}_mm"),
+        };
+        [
+            (
+                format!("line_load_{at}_n_per_mm"),
+                &self.line_load_n_per_mm[..],
+            ),
+            (
+                format!("receptacle_max_depth_{at}_mm"),
+                &self.max_depth_mm.receptacle,
+            ),
+            (
+                format!("slider_max_depth_{at}_mm"),
+                &self.max_depth_mm.slider,
+            ),
+        ]
+    }
 }
 
 impl Record {
@@ -109,8 +147,32 @@ impl Record {
                 .chain(temperature)
                 .chain(extent)
                 .collect(),
+            line: line(reports),
         }
     }
+}
+
+/// The sections along a line.
+fn line(reports: &[CycleReport]) -> Vec<LineColumns> {
+    let stations = reports
+        .first()
+        .map_or(&[][..], |report| &report.stations[..]);
+    let column = |number: usize, of: &dyn Fn(&StationReport) -> f64| {
+        let found = reports
+            .iter()
+            .map(|report| report.stations.get(number).map_or(0.0, of));
+        found.collect()
+    };
+    let stations = stations.iter().enumerate();
+    stations
+        .map(|(number, station)| LineColumns {
+            at: station.at,
+            line_load_n_per_mm: column(number, &|station| station.line_load_n_per_mm),
+            max_depth_mm: Sides::from_fn(|side| {
+                column(number, &|station| *station.max_depth_mm.of(side))
+            }),
+        })
+        .collect()
 }
 
 /// The worn volume of a side; none of a section.

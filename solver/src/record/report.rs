@@ -1,5 +1,6 @@
 //! The report of a computed cycle: every scalar of it is one line of a table here.
 
+mod line;
 mod point;
 
 use crate::cycle::CycleState;
@@ -13,6 +14,8 @@ use crate::record::exposure::WornSurface;
 use crate::record::scar;
 use crate::scene::Scene;
 use crate::sides::{Side, Sides};
+use crate::station::StationReport;
+pub(crate) use line::{LineEnd, line_report};
 pub(crate) use point::{PointEnd, point_report};
 
 declare_report! {
@@ -126,6 +129,9 @@ declare_report! {
         /// The contact beyond its middle section; `None` of a section.
         #[serde(default)]
         extent: Option<ExtentReport> = None,
+        /// The sections along a line, in their order; none of another contact.
+        #[serde(default)]
+        stations: Vec<StationReport> = Vec::new(),
     }
     channels {
         /// Normal load, which a spring reduces as the bodies wear, N per mm of depth.

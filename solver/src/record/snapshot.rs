@@ -7,6 +7,7 @@ use crate::model::Model;
 use crate::point::DepthMap;
 use crate::schedule::increments::Position;
 use crate::sides::{Side, Sides};
+use crate::station::StationReport;
 
 /// Profiles, pressures and the friction loop at one cycle.
 #[derive(Debug, Clone, PartialEq)]
@@ -25,6 +26,22 @@ pub struct Snapshot {
     pub fields: Vec<PlacedFields>,
     /// The whole contact, of which profiles and tractions are those of the middle section; `None` of a section.
     pub area: Option<AreaMaps>,
+    /// The sections along a line, of which profiles and tractions are those of the one across the motion or in the middle; none of
+    /// another contact.
+    pub stations: Vec<StationSnapshot>,
+}
+
+/// A section along a line at one cycle.
+#[derive(Debug, Clone, PartialEq)]
+pub struct StationSnapshot {
+    /// Where it is, and what it carries.
+    pub report: StationReport,
+    /// Worn depth over the receptacle's surface.
+    pub receptacle: DepthProfile,
+    /// Worn depth over the slider's surface, x in the slider's own frame.
+    pub slider: DepthProfile,
+    /// Tractions at the named positions of the cycle.
+    pub positions: Vec<TractionField>,
 }
 
 /// A point contact over its cells.
@@ -96,11 +113,17 @@ pub fn snapshot(
         friction_loop: record.friction_loop,
         fields,
         area: None,
+        stations: Vec::new(),
     }
 }
 
 /// Tractions of the present contact, with one unloaded node at either end.
-fn tractions(position: Position, slave: Side, x: &[f64], contact: &ContactState) -> TractionField {
+pub(crate) fn tractions(
+    position: Position,
+    slave: Side,
+    x: &[f64],
+    contact: &ContactState,
+) -> TractionField {
     let shift = match slave {
         Side::Slider => contact.pairing_x,
         Side::Receptacle => 0.0,

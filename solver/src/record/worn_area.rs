@@ -1,12 +1,11 @@
 //! Exposure of a worn area: the part of a scar that is at least as deep as a limit, of the cells of a map.
 //!
-//! The cells of the scar, those deeper than a fiftieth of the deepest, are taken in descending order; the k-th of N has the part
-//! (k - 1/2)/N of the scar above it, and between these the part is linear in the depth.
+//! The cells of the scar, those deeper than a fiftieth of the deepest, are taken in descending order; each has the part of those before it and
+//! half of its own above it, and between these the part is linear in the depth.
 
 use super::exposure::Exposed;
 use super::scar::SCAR_EDGE;
 use crate::interpolation;
-use crate::number::real;
 
 /// Depths of the cells of a scar.
 pub(crate) struct WornArea {
@@ -19,15 +18,24 @@ pub(crate) struct WornArea {
 impl WornArea {
     /// The scar of a map of depths, mm.
     pub(crate) fn new(map: &[f64]) -> Self {
-        let deepest = map.iter().fold(0.0, |most: f64, depth| most.max(*depth));
-        let cells = map.iter().copied();
-        let mut depth: Vec<f64> = cells.filter(|d| *d > SCAR_EDGE * deepest).collect();
-        depth.sort_by(f64::total_cmp);
-        let count = real(depth.len());
-        let part = (0..depth.len()).map(|k| (count - real(k) - 0.5) / count);
+        Self::of_cells(map.iter().map(|depth| (*depth, 1.0)))
+    }
+
+    /// The scar of cells of depths, mm, and areas in any unit.
+    pub(crate) fn of_cells(cells: impl Iterator<Item = (f64, f64)> + Clone) -> Self {
+        let deepest = cells.clone().fold(0.0, |most: f64, cell| most.max(cell.0));
+        let mut cells: Vec<(f64, f64)> =
+            cells.filter(|cell| cell.0 > SCAR_EDGE * deepest).collect();
+        cells.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let area: f64 = cells.iter().map(|cell| cell.1).sum();
+        let mut above = area;
+        let part = cells.iter().map(|cell| {
+            above -= cell.1;
+            (above + 0.5 * cell.1) / area
+        });
         Self {
             part: part.collect(),
-            depth,
+            depth: cells.iter().map(|cell| cell.0).collect(),
         }
     }
 }

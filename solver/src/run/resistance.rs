@@ -35,12 +35,14 @@ pub(super) fn contact<'a>(
             x: model.bodies.of(side).contact_x(),
             depth: state.depth.of(side),
         }),
-        time_s: scene
-            .elapsed(real_cycles(state.cycle))
-            .1
-            .unwrap_or_default(),
+        time_s: elapsed_s(scene, state.cycle),
         spreading: condensed.spreading_ratios(span),
     }
+}
+
+/// Time after a number of cycles, s; 0 of a continuous motion.
+pub(super) fn elapsed_s(scene: &Scene, cycles: u64) -> f64 {
+    scene.elapsed(real_cycles(cycles)).1.unwrap_or_default()
 }
 
 /// What the resistance after a computed cycle has the run do.

@@ -10,6 +10,8 @@ pub enum Dimension {
     PlaneStrain,
     /// A point contact of half-spaces, of which the scene's shapes are the section in the plane of the sliding direction.
     Point(Point),
+    /// A contact along a line of plane sections, of which the scene's shapes are one.
+    Line(Line),
 }
 
 /// What a point contact has beyond its section.
@@ -21,12 +23,85 @@ pub struct Point {
     pub radius_across_mm: Sides<Option<f64>>,
 }
 
+/// What a contact along a line has beyond its section.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Line {
+    /// Shape of the line.
+    pub shape: LineShape,
+    /// What carries the sections of the slider.
+    pub top: Top,
+    /// Normal force F on the whole line, N.
+    pub force_n: f64,
+    /// Number of sections along the half ring or the width, with both ends; chosen from the tolerance if absent.
+    pub stations: Option<usize>,
+    /// Threads that the sections are solved in; results do not depend on it.
+    pub threads: usize,
+}
+
+/// Line of a contact.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum LineShape {
+    /// A circle in the plane of the motion.
+    Ring {
+        /// Radius of its centre line, mm.
+        radius_mm: f64,
+    },
+    /// A straight line across the motion.
+    Straight {
+        /// Its length, mm.
+        width_mm: f64,
+        /// Radius by which the slider's surface recedes from the middle of the line to its ends, mm; straight if absent.
+        crown_radius_mm: Option<f64>,
+        /// Tilt of the slider about the direction of motion, mrad.
+        tilt_mrad: f64,
+    },
+}
+
+/// What carries the sections of the slider.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Top {
+    /// The same line load everywhere.
+    Even,
+    /// A rigid body that does not rotate: the same height everywhere.
+    Rigid,
+}
+
 impl Dimension {
     /// What a point contact has beyond its section, if it is one.
     pub fn point(&self) -> Option<&Point> {
         match self {
-            Self::PlaneStrain => None,
             Self::Point(point) => Some(point),
+            Self::PlaneStrain | Self::Line(_) => None,
+        }
+    }
+
+    /// What a contact along a line has beyond its section, if it is one.
+    pub fn line(&self) -> Option<&Line> {
+        match self {
+            Self::Line(line) => Some(line),
+            Self::PlaneStrain | Self::Point(_) => None,
+        }
+    }
+
+    /// Sets the threads that sections along a line are solved in.
+    pub fn set_threads(&mut self, threads: usize) {
+        if let Self::Line(line) = self {
+            line.threads = threads.max(1);
+        }
+    }
+
+    /// Whether it has a finite extent across the sliding direction.
+    pub fn is_finite(&self) -> bool {
+        *self != Self::PlaneStrain
+    }
+}
+
+impl LineShape {
+    /// Length L of the line, mm.
+    pub fn length_mm(self) -> f64 {
+        match self {
+            Self::Ring { radius_mm } => 2.0 * std::f64::consts::PI * radius_mm,
+            Self::Straight { width_mm, .. } => width_mm,
         }
     }
 }

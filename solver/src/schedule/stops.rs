@@ -18,6 +18,8 @@ pub enum Outcome {
     StopCondition,
     /// A body was nearly consumed.
     WornThrough,
+    /// A groove along a line was as deep as the slider's radius: no graph describes walls that overhang.
+    DeeperThanRadius,
     /// The observer asked to stop.
     Stopped,
 }

@@ -1,46 +1,65 @@
 //! Increments of a computed cycle: all stations take the same ones, and halve them together.
 
 use super::section::{Increment, Station};
+use super::state::{Common, StationState};
 use super::top::{Carrier, Height, Unsolved};
-use crate::cycle::WarmStarts;
+use crate::contact::ContactState;
 use crate::cycle::step_control::RETRY;
+use crate::cycle::{FrictionLoop, Neutral, WarmStarts};
 use crate::number::real;
-use crate::schedule::step::Step;
-
-/// Work of a run.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-pub(super) struct Work {
-    /// Increments of all stations together.
-    pub(super) increments: usize,
-    /// Iterations for the common height.
-    pub(super) iterations: usize,
-}
+use crate::schedule::replay::ReplayPlan;
+use crate::schedule::step::{Position, Step};
 
 /// The stations on their carrier, with the slider at a place.
 pub(super) struct Line {
     pub(super) carrier: Carrier,
     pub(super) stations: Vec<Station>,
-    pub(super) height: Height,
-    /// Displacement of the slider, mm.
+    pub(super) common: Common,
+}
+
+/// Contacts of all stations at a named position.
+pub(super) struct Placed {
+    pub(super) position: Position,
     pub(super) slider_x: f64,
-    pub(super) work: Work,
+    pub(super) contacts: Vec<ContactState>,
+    /// Their loads, pressures and widths.
+    pub(super) found: Vec<Neutral>,
+    /// |sum of vertical forces with the normals as worn there - force| over the force.
+    pub(super) imbalance: f64,
+}
+
+/// Record of a computed cycle besides the state.
+#[derive(Default)]
+pub(super) struct LineRecord {
+    /// Force of the slider along the motion, N, and that over the length of the line.
+    pub(super) friction_loop: FrictionLoop,
+    pub(super) placed: Vec<Placed>,
 }
 
 impl Line {
-    /// Takes steps, each of which stands for so many cycles.
+    /// Takes the steps of a cycle, each of which stands for so many cycles, with replays of single ones.
     ///
     /// # Errors
     /// The number of halvings and [`Unsolved`].
-    pub(super) fn slide(&mut self, steps: &[Step], cycles: f64) -> Result<(), (u32, Unsolved)> {
-        let mut starts = vec![WarmStarts::default(); self.stations.len()];
-        let (mut half_widths, mut touching) =
-            (vec![0.0; self.stations.len()], vec![0; self.stations.len()]);
+    pub(super) fn slide(
+        &mut self,
+        steps: &[Step],
+        cycles: f64,
+        replays: &ReplayPlan,
+    ) -> Result<LineRecord, (u32, Unsolved)> {
+        let count = self.stations.len();
+        let mut starts = vec![WarmStarts::default(); count];
+        let (mut half_widths, mut touching) = (vec![0.0; count], vec![0; count]);
+        let (mut record, mut replayed) = (LineRecord::default(), Vec::new());
         for station in &mut self.stations {
             station.update_slopes();
         }
         for (number, step) in steps.iter().enumerate() {
+            for &(_, end) in replays.spans.iter().filter(|span| span.0 == number) {
+                replayed.extend(self.replay(&steps[number..=end], replays));
+            }
             let increment = Increment {
-                from: self.slider_x,
+                from: self.common.slider_x,
                 to: step.slider_x,
                 cycles,
                 lemke: false,
@@ -55,20 +74,63 @@ impl Line {
                     touching[j] += 1;
                 }
             }
+            record.push((step.slider_x, self.tangential_force_n()), self.length_mm());
+            if let Some(position) = step.at {
+                let found = replayed
+                    .iter()
+                    .position(|placed: &Placed| placed.position == position);
+                let placed = found.map(|found| replayed.swap_remove(found));
+                let placed = placed.unwrap_or_else(|| self.placed(position));
+                let worst = &mut self.common.imbalance;
+                *worst = worst.max(placed.imbalance);
+                record.placed.push(placed);
+            }
         }
-        for (j, station) in self.stations.iter_mut().enumerate() {
-            if cycles > 0.0 {
+        if cycles > 0.0 {
+            for (j, station) in self.stations.iter_mut().enumerate() {
                 station.state.warm_starts = std::mem::take(&mut starts[j]);
                 if touching[j] > 0 {
                     station.state.mean_half_width = half_widths[j] / real(touching[j]);
                 }
             }
         }
-        Ok(())
+        Ok(record)
+    }
+
+    /// The contacts at the end of steps that wear as a single cycle, from a copy of the state; nothing where one has no solution.
+    fn replay(&mut self, steps: &[Step], plan: &ReplayPlan) -> Option<Placed> {
+        let before = self.snapshot();
+        let last = steps.last()?;
+        let position = last.at?;
+        let direction = (last.slider_x - self.common.slider_x).signum();
+        let smoothing = plan.smoothing(last.slider_x, direction);
+        let lead_in = steps.iter().map(|step| (step.slider_x, 1));
+        let mut parts = lead_in.chain(smoothing);
+        let replayed = parts.all(|(to, count)| self.replay_to(to, count));
+        let placed = replayed.then(|| self.placed(position));
+        let (increments, iterations) = (self.common.increments, self.common.iterations);
+        self.restore(&before);
+        (self.common.increments, self.common.iterations) = (increments, iterations);
+        placed
+    }
+
+    /// Slides to a place in equal parts with the wear of a single cycle; returns whether all have a solution.
+    fn replay_to(&mut self, to: f64, parts: usize) -> bool {
+        let from = self.common.slider_x;
+        (1..=parts).all(|part| {
+            let increment = Increment {
+                from: self.common.slider_x,
+                to: from + (to - from) * real(part) / real(parts),
+                cycles: 1.0,
+                lemke: false,
+                like: None,
+            };
+            self.halve_and_retry(increment, 0).is_ok()
+        })
     }
 
     /// Takes an increment, in halves if it fails as a whole.
-    pub(super) fn halve_and_retry(
+    fn halve_and_retry(
         &mut self,
         increment: Increment,
         halvings: u32,
@@ -77,14 +139,15 @@ impl Line {
             lemke: increment.lemke || halvings >= RETRY.lemke_from,
             ..increment
         };
-        let error = match self
+        let common = &mut self.common;
+        let solved = self
             .carrier
-            .advance(&mut self.stations, &mut self.height, increment)
-        {
+            .advance(&mut self.stations, &mut common.height, increment);
+        let error = match solved {
             Ok(iterations) => {
-                self.slider_x = increment.to;
-                self.work.increments += 1;
-                self.work.iterations += iterations;
+                common.slider_x = increment.to;
+                common.increments += 1;
+                common.iterations += iterations;
                 return Ok(());
             }
             Err(error) => error,
@@ -104,6 +167,68 @@ impl Line {
             self.halve_and_retry(half, halvings + 1)?;
         }
         Ok(())
+    }
+
+    /// The contacts of the present increment.
+    pub(super) fn placed(&mut self, position: Position) -> Placed {
+        let stations = self.stations.iter_mut();
+        let forces =
+            stations.map(|station| station.place.weight_mm * station.force_with_present_normals());
+        let force_n: f64 = forces.sum();
+        let expected_n = self.carrier.present_n(&self.common.height);
+        let stations = self.stations.iter();
+        Placed {
+            position,
+            slider_x: self.common.slider_x,
+            contacts: stations
+                .clone()
+                .map(|station| station.state.contact.clone())
+                .collect(),
+            found: stations.map(Station::present).collect(),
+            imbalance: (force_n - expected_n).abs() / self.carrier.force_n,
+        }
+    }
+
+    /// Force of the slider on the receptacle along the motion, N.
+    fn tangential_force_n(&self) -> f64 {
+        let stations = self.stations.iter();
+        stations
+            .map(|station| station.place.weight_mm * station.force_along_motion())
+            .sum()
+    }
+
+    /// Length of the line, mm.
+    pub(super) fn length_mm(&self) -> f64 {
+        let stations = self.stations.iter();
+        stations.map(|station| station.place.weight_mm).sum()
+    }
+
+    /// A copy of what increments change.
+    pub(super) fn snapshot(&self) -> (Vec<StationState>, Height, f64) {
+        let states = self.stations.iter().map(|station| station.state.clone());
+        (states.collect(), self.common.height, self.common.slider_x)
+    }
+
+    /// Goes back to a copy, with the jump controls and the work as they are.
+    pub(super) fn restore(&mut self, before: &(Vec<StationState>, Height, f64)) {
+        for (station, state) in self.stations.iter_mut().zip(&before.0) {
+            let jump = std::mem::take(&mut station.state.jump);
+            station.state = StationState {
+                jump,
+                work: station.state.work,
+                ..state.clone()
+            };
+        }
+        (self.common.height, self.common.slider_x) = (before.1, before.2);
+    }
+}
+
+impl LineRecord {
+    fn push(&mut self, (displacement, force_n): (f64, f64), length_mm: f64) {
+        let found = &mut self.friction_loop;
+        found.displacement_mm.push(displacement);
+        found.tangential_force_n_per_mm.push(force_n / length_mm);
+        found.tangential_force_n.push(force_n);
     }
 }
 

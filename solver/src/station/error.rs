@@ -47,13 +47,10 @@ pub enum StationError {
     /// Friction that changes.
     #[error("stations have one coefficient of friction")]
     FrictionLaw,
-    /// The load of stations does not change as the slider sinks.
-    #[error("the load of stations is no spring's")]
-    Spring,
     /// A rigid top that is no rigid handle of each section.
     #[error("under a rigid top the sections are driven by their rigid top face")]
     Drive,
-    /// A wear rate that depends on the state or on the depth.
+    /// A wear rate that depends on the state.
     #[error("the wear rate of the {side} is not the same in every state")]
     Law {
         /// The body.

@@ -2,14 +2,14 @@
 
 use std::f64::consts::PI;
 
-use super::scene::LineShape;
+use super::record::Along;
 use crate::number::real;
+use crate::scene::LineShape;
 
 /// A station on its line.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Place {
-    /// Angle from the direction of motion on a ring, rad; distance from the middle of a straight line, mm.
-    pub(super) at: f64,
+    pub(super) at: Along,
     /// Length of the line that it stands for, mm.
     pub(super) weight_mm: f64,
     /// Height of the slider's unworn surface over that of the lowest station, mm.
@@ -46,7 +46,7 @@ pub(super) fn places(line: LineShape, stations: usize) -> Vec<Place> {
             .map(|j| {
                 let theta = PI * real(j) / spacings;
                 Place {
-                    at: theta,
+                    at: Along::AngleDeg(180.0 * real(j) / spacings),
                     weight_mm: share(j) * line.length_mm() / spacings,
                     raised_mm: 0.0,
                     direction: [theta.cos(), theta.sin()],
@@ -68,7 +68,7 @@ pub(super) fn places(line: LineShape, stations: usize) -> Vec<Place> {
             let lowest = heights.fold(f64::INFINITY, f64::min);
             (0..stations)
                 .map(|j| Place {
-                    at: z(j),
+                    at: Along::DistanceMm(z(j)),
                     weight_mm: share(j) * width_mm / spacings,
                     raised_mm: height(z(j)) - lowest,
                     direction: [1.0, 0.0],
@@ -103,6 +103,11 @@ impl Place {
         }
     }
 
+    /// Cosine and sine of the direction of motion against the section.
+    pub(super) fn direction(&self) -> [f64; 2] {
+        self.direction
+    }
+
     /// Amplitude of the section's motion across the line for that of the slider, mm.
     pub(super) fn amplitude_mm(&self, amplitude: f64) -> f64 {
         let (right, left) = (self.position(amplitude), self.position(-amplitude));
@@ -120,7 +125,8 @@ mod tests {
         for place in places(LineShape::Ring { radius_mm }, 9) {
             // A point of the displaced circle at this distance from the centre of the resting one.
             let distance = radius_mm + place.position(u);
-            let (x, y) = (distance * place.at.cos() - u, distance * place.at.sin());
+            let [cos, sin] = place.direction;
+            let (x, y) = (distance * cos - u, distance * sin);
             assert!(((x * x + y * y).sqrt() - radius_mm).abs() < 1e-15);
         }
     }

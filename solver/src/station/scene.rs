@@ -2,36 +2,10 @@
 
 use super::error::StationError;
 use crate::effects::Effect;
-use crate::scene::{Drive, Friction, Motion, Scene};
+use crate::model::resolution;
+use crate::number::{count_at_least, real};
+use crate::scene::{Accuracy, Dimension, Drive, Friction, Line, LineShape, Motion, Scene, Top};
 use crate::sides::Side;
-
-/// Line of the contact.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum LineShape {
-    /// A circle in the plane of the motion.
-    Ring {
-        /// Radius of its centre line, mm.
-        radius_mm: f64,
-    },
-    /// A straight line across the motion.
-    Straight {
-        /// Its length, mm.
-        width_mm: f64,
-        /// Radius by which the slider's surface recedes from the middle of the line to its ends, mm; straight if absent.
-        crown_radius_mm: Option<f64>,
-        /// Tilt of the slider about the direction of motion, mrad.
-        tilt_mrad: f64,
-    },
-}
-
-/// What carries the sections of the slider.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Top {
-    /// The same line load everywhere.
-    Even,
-    /// A rigid body that does not rotate: the same height everywhere.
-    Rigid,
-}
 
 /// A contact along a line.
 #[derive(Debug, Clone, PartialEq)]
@@ -48,29 +22,49 @@ pub struct StationScene {
     pub stations: usize,
     /// Threads that the stations are solved in; results do not depend on it.
     pub threads: usize,
-    /// Worn depth of either side that ends the run, mm.
-    pub stop_depth_mm: Option<f64>,
 }
 
-impl LineShape {
-    /// Length L of the line, mm.
-    pub fn length_mm(self) -> f64 {
-        match self {
-            Self::Ring { radius_mm } => 2.0 * std::f64::consts::PI * radius_mm,
-            Self::Straight { width_mm, .. } => width_mm,
-        }
+/// Stations that suffice for a tolerance: under a rigid top depths at 1 000 cycles of the thesis' ring are 15.81, 15.93 and 15.97 um with
+/// 9, 17 and 33 of them.
+pub fn stations_for(tolerance: f64) -> usize {
+    match tolerance {
+        coarse if coarse > 0.03 => 9,
+        medium if medium > 0.01 => 17,
+        _ => 33,
     }
 }
 
+/// Fewest stations: those at the ends and in the middle.
+const FEWEST: usize = 3;
+
+/// Stations of a line of a scene: given or by its tolerance, and refined with its mesh to an odd number, which has one in the middle.
+pub fn stations_of(line: &Line, accuracy: &Accuracy) -> usize {
+    let chosen = line
+        .stations
+        .unwrap_or_else(|| stations_for(accuracy.tolerance));
+    let refinement = accuracy.refinement.mesh;
+    if refinement == 1.0 {
+        return chosen;
+    }
+    let half = 0.5 * real(chosen.saturating_sub(1)) * refinement;
+    (2 * count_at_least(half.round()) + 1).max(FEWEST)
+}
+
 impl StationScene {
-    /// Stations that suffice for a tolerance: under a rigid top depths at 1 000 cycles of the thesis' ring are 15.81, 15.93 and 15.97 um with
-    /// 9, 17 and 33 of them.
-    pub fn stations_for(tolerance: f64) -> usize {
-        match tolerance {
-            coarse if coarse > 0.03 => 9,
-            medium if medium > 0.01 => 17,
-            _ => 33,
-        }
+    /// The contact along a line of a scene; `None` for another one.
+    pub fn of(scene: &Scene) -> Option<Self> {
+        let line = scene.dimension.line()?;
+        Some(Self {
+            stations: stations_of(line, &scene.accuracy),
+            section: Scene {
+                dimension: Dimension::PlaneStrain,
+                ..scene.clone()
+            },
+            line: line.shape,
+            top: line.top,
+            force_n: line.force_n,
+            threads: line.threads,
+        })
     }
 
     /// Mean line load F/L, N/mm.
@@ -94,6 +88,15 @@ impl StationScene {
             Motion::Reciprocating { amplitude_mm, .. } => Some(amplitude_mm),
             Motion::Periodic { .. } | Motion::Continuous { .. } => None,
         }
+    }
+
+    /// Checks the scene, and that all of a contact of a half-width in mm slips in each stroke.
+    ///
+    /// # Errors
+    /// A value outside of its range, a law or a motion that stations do not have, a contact that may stick.
+    pub fn check_all(&self, half_width: f64) -> Result<(), StationError> {
+        self.check()?;
+        self.check_slip(&self.plane(), half_width)
     }
 
     /// Checks the scene.
@@ -141,14 +144,26 @@ impl StationScene {
         if self.top == Top::Rigid && self.section.drive != Drive::Handle {
             return Err(StationError::Drive);
         }
-        if self.section.spring_n_per_mm2 != 0.0 {
-            return Err(StationError::Spring);
-        }
         let wear = self.section.surface_wear();
         for side in Side::BOTH {
-            if wear.of(side).is_some_and(|wear| wear.uniform().is_none()) {
+            if wear.of(side).is_some_and(|wear| wear.dose_rate().is_none()) {
                 return Err(StationError::Law { side: side.name() });
             }
+        }
+        Ok(())
+    }
+
+    /// Checks that all of the contact slips in each stroke.
+    pub(super) fn check_slip(&self, plane: &Scene, half_width: f64) -> Result<(), StationError> {
+        let free = Scene {
+            effects: self.section.effects.clone(),
+            ..plane.clone()
+        };
+        if resolution::sticks(&free, half_width) {
+            return Err(StationError::Sticks {
+                amplitude_mm: plane.motion.amplitude_mm().abs(),
+                least_mm: 2.0 * resolution::gross_slip(&free, half_width),
+            });
         }
         Ok(())
     }

@@ -1,18 +1,21 @@
 //! A station: the plane contact of its section, and what that has worn.
 
+use std::borrow::Cow;
 use std::sync::Arc;
 
 use super::error::StationError;
 use super::place::Place;
+use super::state::StationState;
 use crate::ale::{self, Spines};
 use crate::condensation::{self, Condensed};
 use crate::contact::{
     self, ContactError, ContactState, Displacement, Pair, Solver, Surfaces, WarmStart,
 };
-use crate::cycle::{WarmStarts, wear_limit};
+use crate::cycle::{Neutral, wear_limit};
+use crate::law::surface::{self, SurfaceWear};
+use crate::law::wear::LocalState;
 use crate::model::{Interface, Model};
 use crate::scene::Accuracy;
-use crate::schedule::jump::JumpControl;
 use crate::sides::{Side, Sides};
 
 /// Factor by which zones become wider where a contact has outgrown them.
@@ -22,24 +25,44 @@ const WIDER: f64 = 2.0;
 pub(super) struct Section {
     pub(super) model: Model,
     pub(super) condensed: Condensed,
+    /// Worn depths that it was meshed at, mm, and the width of its zones over that of the layout.
+    built: Option<Sides<Vec<f64>>>,
+    widened: f64,
 }
 
-/// Everything that the next cycle of a station depends on.
-#[derive(Debug, Clone)]
-pub(super) struct StationState {
-    pub(super) contact: ContactState,
-    /// Vertical worn depth at the contact nodes, mm.
-    pub(super) depth: Sides<Vec<f64>>,
-    /// Integrals of the wear rates, mm^2.
-    pub(super) worn_area: Sides<f64>,
-    /// Integral of p |slip| over contact and cycles, N/mm mm.
-    pub(super) path: f64,
-    /// Energy dissipated by friction, mJ/mm.
-    pub(super) energy: f64,
-    /// Mean half-width of the contact over the last computed cycle, mm.
-    pub(super) mean_half_width: f64,
-    pub(super) jump: JumpControl,
-    pub(super) warm_starts: WarmStarts,
+impl Section {
+    /// The unworn section.
+    ///
+    /// # Errors
+    /// [`StationError`] if it cannot be condensed.
+    pub(super) fn unworn(model: Model) -> Result<Self, StationError> {
+        Ok(Self {
+            condensed: condensation::condense(&model)?,
+            model,
+            built: None,
+            widened: 1.0,
+        })
+    }
+
+    /// The section at the geometry that a state was computed with, from the unworn one.
+    fn of(unworn: &Model, state: &StationState) -> Result<Self, StationError> {
+        let model = match &state.built {
+            None => unworn.clone(),
+            Some(depth) => ale::relocate(unworn, depth)?,
+        };
+        let model = model.with_zones_widened(state.widened)?;
+        Ok(Self {
+            condensed: condensation::condense(&model)?,
+            model,
+            built: state.built.clone(),
+            widened: state.widened,
+        })
+    }
+
+    /// Whether it is at the geometry that a state was computed with.
+    fn is_of(&self, state: &StationState) -> bool {
+        self.built == state.built && self.widened.to_bits() == state.widened.to_bits()
+    }
 }
 
 /// A solved increment that is not part of the state yet.
@@ -57,6 +80,10 @@ pub(super) struct Attempt {
     worn_area: Sides<f64>,
     path: f64,
     energy: f64,
+    /// Friction along the line, as a force along the motion, N/mm.
+    friction_along: f64,
+    /// Of the balance of forces, of complementarity and of the friction cone.
+    residuals: [f64; 3],
 }
 
 /// One increment of all stations.
@@ -80,8 +107,6 @@ pub(super) struct Station {
     pub(super) state: StationState,
     pub(super) attempt: Attempt,
     spines: Spines,
-    /// Width of the zones over that of the layout.
-    widened: f64,
     interface: Interface,
     slope: Sides<Vec<f64>>,
     solver: Solver,
@@ -89,30 +114,19 @@ pub(super) struct Station {
 }
 
 impl Station {
-    /// An unloaded, unworn station.
-    pub(super) fn new(place: Place, section: &Arc<Section>) -> Self {
-        let (model, operators) = (&section.model, &section.condensed.operators);
-        let contact = ContactState::untouched(operators, model.interface.slave);
+    /// A station in a state, on the unworn section.
+    pub(super) fn new(place: Place, section: &Arc<Section>, state: StationState) -> Self {
+        let model = &section.model;
         let mut station = Self {
             place,
             section: Arc::clone(section),
             spines: Spines::of(model),
-            widened: 1.0,
             interface: model.interface,
-            state: StationState {
-                contact: contact.clone(),
-                depth: operators.as_ref().map(|body| vec![0.0; body.x.len()]),
-                worn_area: Sides::default(),
-                path: 0.0,
-                energy: 0.0,
-                mean_half_width: 0.0,
-                jump: JumpControl::default(),
-                warm_starts: WarmStarts::default(),
-            },
             attempt: Attempt::default(),
             slope: Sides::default(),
             solver: Solver::default(),
-            next: contact,
+            next: ContactState::untouched(&section.condensed.operators, model.interface.slave),
+            state,
         };
         station.update_slopes();
         station
@@ -210,8 +224,10 @@ impl Station {
             self.solver
                 .advance(&pair, &surfaces, &self.state.contact, to, &mut self.next)?;
         wear_limit::check(&self.spines, &self.state.depth, to.slider_x, &done, None)?;
+        self.state.work += done.work;
         let attempt = &mut self.attempt;
         let slave = self.interface.slave;
+        attempt.residuals = [done.force_balance, done.complementarity, done.friction_cone];
         attempt.line_load = done.vertical_force;
         attempt.load_per_height = done.force_per_height;
         attempt.first_pressure = *done.first.of(slave);
@@ -224,6 +240,13 @@ impl Station {
         let widths = &pair.slave().widths[*done.first.of(slave)..];
         let path: f64 = done.path.iter().zip(widths).map(|(e, d)| e * d).sum();
         attempt.path = increment.cycles * path;
+        let moved = increment.to - increment.from;
+        let [_, sin] = self.place.direction();
+        attempt.friction_along = if moved == 0.0 {
+            0.0
+        } else {
+            self.interface.friction * sin * sin * path / moved
+        };
         attempt.energy = increment.cycles * done.energy;
         for side in Side::BOTH {
             let recession = attempt.recession.of_mut(side);
@@ -245,7 +268,22 @@ impl Station {
         }
         state.path += attempt.path;
         state.energy += attempt.energy;
+        let [force_balance, complementarity, friction_cone] = attempt.residuals;
+        let checks = &mut state.checks;
+        checks.force_balance = checks.force_balance.max(force_balance);
+        checks.complementarity = checks.complementarity.max(complementarity);
+        checks.friction_cone = checks.friction_cone.max(friction_cone);
         std::mem::swap(&mut state.contact, &mut self.next);
+        if state.contact.friction > 0.0 {
+            let widths = &self
+                .section
+                .condensed
+                .operators
+                .of(self.interface.slave)
+                .widths;
+            let used = state.contact.friction_use(widths);
+            state.checks.friction_use = state.checks.friction_use.max(used);
+        }
     }
 
     /// Height of the slider in the last attempt, mm.
@@ -258,6 +296,44 @@ impl Station {
         let contact = &mut self.state.contact;
         contact.reference_height = Some(contact.height);
         self.state.mean_half_width = self.half_width();
+        self.state.unworn_half_width = self.state.mean_half_width;
+        self.state.neutral = self.present();
+    }
+
+    /// The contact of the present increment.
+    pub(super) fn present(&self) -> Neutral {
+        Neutral {
+            load: self.attempt.line_load,
+            ..Neutral::of(&self.state.contact, &self.pair())
+        }
+    }
+
+    /// Force of the slider on the receptacle along the motion in the present increment, N/mm.
+    pub(super) fn force_along_motion(&self) -> f64 {
+        let widths = &self.pair().slave().widths;
+        let across = self.state.contact.tangential_force(&self.interface, widths);
+        let [cos, _] = self.place.direction();
+        cos * across + self.attempt.friction_along
+    }
+
+    /// Vertical force on the slider of the present contact with the normals of the surfaces as worn now, N/mm.
+    pub(super) fn force_with_present_normals(&mut self) -> f64 {
+        let section = Arc::clone(&self.section);
+        let operators = &section.condensed.operators;
+        let depth = &self.state.depth;
+        let slope =
+            Sides::from_fn(|side| contact::slopes(operators.of(side), depth.of(side), side));
+        let surfaces = Surfaces {
+            depth: depth.as_slices(),
+            slope: slope.as_slices(),
+            friction: Sides::default(),
+        };
+        let pair = Pair {
+            operators,
+            interface: self.interface,
+        };
+        self.solver
+            .vertical_force_on(&pair, &surfaces, &self.state.contact)
     }
 
     /// Half-width of the present contact, mm.
@@ -274,6 +350,19 @@ impl Station {
         })
     }
 
+    /// |worn area of the profile - integral of the wear rate| over the latter, of the worse side.
+    pub(super) fn worn_area_residual(&self) -> f64 {
+        let worn = self.worn_section().zip(self.state.worn_area);
+        let residual = worn.map(|(area, expected)| {
+            if expected > 0.0 {
+                (area / expected - 1.0).abs()
+            } else {
+                0.0
+            }
+        });
+        residual.slider.max(residual.receptacle)
+    }
+
     /// Depth of the receptacle's groove below the higher one of its ends, mm.
     pub(super) fn groove_mm(&self) -> f64 {
         let depth = &self.state.depth.receptacle;
@@ -287,31 +376,78 @@ impl Station {
         self.spines.are_worn_through(&self.state.depth)
     }
 
-    /// Condenses the section again if it has drifted from the geometry of its operators.
+    /// Cycles until a body is nearly consumed, at the present rate.
+    pub(super) fn cycles_left(&self) -> f64 {
+        let (wear, equivalent) = (&self.interface.wear, self.state.jump.rates());
+        let rates = Sides::from_fn(|side| {
+            let depth = self.state.depth.of(side);
+            surface::at_relative_rates(*wear.of(side), equivalent.of(side), depth)
+        });
+        let rates = rates.as_ref().map(|rates| &rates[..]);
+        self.spines.cycles_left(&self.state.depth, rates)
+    }
+
+    /// Largest wear rates from the surfaces down to the worn depths, 1/MPa.
+    pub(super) fn rates(&self) -> Sides<f64> {
+        let wear = self.interface.wear.zip(self.state.depth.largest_of_each());
+        wear.map(|(wear, depth)| {
+            wear.map_or(0.0, |wear| wear.largest_rate(depth, LocalState::default()))
+        })
+    }
+
+    /// Whether a rate depends on the worn depth.
+    pub(super) fn wears_by_depth(&self) -> bool {
+        let wear = self.interface.wear;
+        let by_depth = |side| wear.of(side).is_some_and(SurfaceWear::depends_on_depth);
+        Side::BOTH.into_iter().any(by_depth)
+    }
+
+    /// Measures what the next jump depends on, after one from these depths that all stations share.
+    pub(super) fn measure_jump(&mut self, before: &Sides<Vec<f64>>, jump: u64) {
+        let (wear, operators) = (self.interface.wear, &self.section.condensed.operators);
+        let after = &self.state.depth;
+        let weights = Sides::from_fn(|side| {
+            let widths = &operators.of(side).widths[..];
+            surface::at_relative_rates(*wear.of(side), widths, after.of(side))
+        });
+        let [before, after] = [before, after].map(|depth| {
+            Sides::from_fn(|side| surface::equivalents(*wear.of(side), depth.of(side)))
+        });
+        let slices = (slices(&before), slices(&after));
+        let control = &mut self.state.jump;
+        control.share(jump);
+        control.update((self::slices(&weights), 0.0), slices, jump);
+    }
+
+    /// Whether the section has drifted from the geometry of its operators; these are then those of the present depths.
+    pub(super) fn drifts(&mut self, accuracy: &Accuracy) -> bool {
+        let model = &self.section.model;
+        let drifted = model.relocates && ale::has_drifted(model, &self.state.depth, accuracy);
+        if drifted {
+            self.state.built = Some(self.state.depth.clone());
+        }
+        drifted
+    }
+
+    /// Records that the zones of fine elements must be wider.
+    pub(super) fn widen(&mut self) {
+        self.state.widened *= WIDER;
+    }
+
+    /// Meshes and condenses the section where it is not at the geometry of the state.
     ///
     /// # Errors
     /// [`StationError`] if it cannot be meshed or condensed.
-    pub(super) fn follow_wear(&mut self, accuracy: &Accuracy) -> Result<(), StationError> {
-        let model = &self.section.model;
-        if model.relocates && ale::has_drifted(model, &self.state.depth, accuracy) {
-            self.rebuild(ale::relocate(model, &self.state.depth)?)?;
+    pub(super) fn follow_state(&mut self, unworn: &Arc<Section>) -> Result<(), StationError> {
+        if unworn.is_of(&self.state) {
+            self.section = Arc::clone(unworn);
+        } else if !self.section.is_of(&self.state) {
+            self.section = Arc::new(Section::of(&unworn.model, &self.state)?);
         }
         Ok(())
     }
+}
 
-    /// Gives the section wider zones of fine elements.
-    ///
-    /// # Errors
-    /// [`StationError`] if it cannot be meshed or condensed.
-    pub(super) fn widen(&mut self) -> Result<(), StationError> {
-        self.widened *= WIDER;
-        let model = self.section.model.clone();
-        self.rebuild(model.with_zones_widened(self.widened)?)
-    }
-
-    fn rebuild(&mut self, model: Model) -> Result<(), StationError> {
-        let condensed = condensation::condense(&model)?;
-        self.section = Arc::new(Section { model, condensed });
-        Ok(())
-    }
+fn slices<'a>(values: &'a Sides<Cow<'_, [f64]>>) -> Sides<&'a [f64]> {
+    values.as_ref().map(|values| &values[..])
 }

@@ -1,36 +1,47 @@
-//! Stations in threads: each is solved alone, and results are gathered in the order of the stations, so that they do not depend on the
+//! Stations in threads: each is solved alone, and errors are those of the first station that has one, so that results do not depend on the
 //! number of threads.
 
-use super::section::Station;
-use crate::contact::ContactError;
+use rayon::iter::{IndexedParallelIterator, IntoParallelRefMutIterator, ParallelIterator};
+use rayon::{ThreadPool, ThreadPoolBuilder};
 
-/// Does the same with all stations.
+use super::section::Station;
+
+/// The threads of a run: none besides the caller's own where no others were asked for or could be started.
+#[derive(Default)]
+pub(super) struct Threads(Option<ThreadPool>);
+
+impl Threads {
+    pub(super) fn new(count: usize) -> Self {
+        let others = (count > 1).then(|| ThreadPoolBuilder::new().num_threads(count).build());
+        Self(others.and_then(Result::ok))
+    }
+
+    /// Does work in which stations are shared among the threads.
+    pub(super) fn within<R: Send>(&self, work: impl FnOnce() -> R + Send) -> R {
+        match &self.0 {
+            Some(pool) => pool.install(work),
+            None => work(),
+        }
+    }
+}
+
+/// Does the same with all stations, in the threads that the caller is one of.
 ///
 /// # Errors
 /// The error of the first station that has one, with its number.
-pub(super) fn for_each(
+pub(super) fn for_each<E: Send>(
     stations: &mut [Station],
-    threads: usize,
-    work: impl Fn(&mut Station) -> Result<(), ContactError> + Sync,
-) -> Result<(), (usize, ContactError)> {
-    let share = stations.len().div_ceil(threads.max(1));
-    let in_order = |first: usize, stations: &mut [Station]| {
-        for (j, station) in stations.iter_mut().enumerate() {
-            work(station).map_err(|error| (first + j, error))?;
-        }
-        Ok(())
+    work: impl Fn(&mut Station) -> Result<(), E> + Sync + Send,
+) -> Result<(), (usize, E)> {
+    let failed = if rayon::current_thread_index().is_none() {
+        // One after the other, without a pool.
+        let mut stations = stations.iter_mut().enumerate();
+        stations.find_map(|(number, station)| Some((number, work(station).err()?)))
+    } else {
+        let stations = stations.par_iter_mut().with_max_len(1).enumerate();
+        stations
+            .filter_map(|(number, station)| Some((number, work(station).err()?)))
+            .reduce_with(|one, other| if one.0 < other.0 { one } else { other })
     };
-    let mut results = vec![Ok(()); stations.len().div_ceil(share)];
-    std::thread::scope(|scope| {
-        let mut parts = stations.chunks_mut(share).zip(&mut results).enumerate();
-        let own = parts.next();
-        for (part, (stations, result)) in parts {
-            let in_order = &in_order;
-            scope.spawn(move || *result = in_order(part * share, stations));
-        }
-        if let Some((_, (stations, result))) = own {
-            *result = in_order(0, stations);
-        }
-    });
-    results.into_iter().collect()
+    failed.map_or(Ok(()), Err)
 }

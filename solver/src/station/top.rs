@@ -1,15 +1,17 @@
 //! What carries the sections: one increment of all stations.
 //!
 //! Under an even load each section is solved alone. Under a rigid top the common height v follows from
-//!   r(v) = sum_j w_j P_j(v + g_j) - F = 0
-//! by Newton's method with dr/dv = sum_j w_j dP_j/dv. Under a given height a section's contact is linear in its pressures and the height as
+//!   r(v) = sum_j w_j P_j(v + g_j) - F + K (v_0 - v) = 0
+//! by Newton's method with dr/dv = sum_j w_j dP_j/dv - K, K the stiffness of a spring that applies F. Under a given height a section's contact is linear in its pressures and the height as
 //! long as its active set stays, so that the predictor p + dp/dv dv is mostly its solution, and few iterations are needed. r falls with
 //! v: a step that leaves the interval in which its sign changes is replaced by a bisection, which also finds a contact that no section has.
 
-use super::scene::Top;
+use serde::{Deserialize, Serialize};
+
 use super::section::{Increment, Station};
 use super::threads::for_each;
 use crate::contact::ContactError;
+use crate::scene::Top;
 
 /// Imbalance over the force at which the height has converged: well above the round-off that sections leave in their forces, 1e-11 of
 /// an indentation, and far below any tolerance.
@@ -41,13 +43,25 @@ pub(super) enum Unsolved {
 }
 
 /// The common height of a rigid top.
-#[derive(Debug, Clone, Copy, Default)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 pub(super) struct Height {
     /// It, mm; that of the lowest station.
     pub(super) mm: f64,
     /// Its change in the last increment, mm, and the cycles that this stood for.
     change: f64,
     cycles: f64,
+    /// That of the loaded, unworn contact, mm; `None` before the first load.
+    reference: Option<f64>,
+    /// Largest imbalance of forces so far, over the force.
+    pub(super) imbalance: f64,
+}
+
+/// A height that carries the force.
+struct Found {
+    mm: f64,
+    /// Of the forces, over the force.
+    imbalance: f64,
+    iterations: usize,
 }
 
 /// The carrier of the sections.
@@ -55,7 +69,8 @@ pub(super) struct Height {
 pub(super) struct Carrier {
     pub(super) top: Top,
     pub(super) force_n: f64,
-    pub(super) threads: usize,
+    /// Stiffness of the spring that applies the force to a rigid top, N/mm.
+    pub(super) spring_n_per_mm: f64,
 }
 
 impl Carrier {
@@ -71,17 +86,19 @@ impl Carrier {
     ) -> Result<usize, Unsolved> {
         let iterations = match self.top {
             Top::Even => {
-                self.solve(stations, |station| station.solve(increment, None, None))?;
+                solve(stations, |station| station.solve(increment, None, None))?;
                 1
             }
             Top::Rigid => {
-                let (found, iterations) = self.common_height(stations, height, increment)?;
+                let found = self.common_height(stations, height, increment)?;
                 *height = Height {
-                    mm: found,
-                    change: found - height.mm,
+                    mm: found.mm,
+                    change: found.mm - height.mm,
                     cycles: increment.cycles,
+                    imbalance: height.imbalance.max(found.imbalance),
+                    ..*height
                 };
-                iterations
+                found.iterations
             }
         };
         for station in stations {
@@ -90,13 +107,15 @@ impl Carrier {
         Ok(iterations)
     }
 
-    fn solve(
-        &self,
-        stations: &mut [Station],
-        work: impl Fn(&mut Station) -> Result<(), ContactError> + Sync,
-    ) -> Result<(), Unsolved> {
-        for_each(stations, self.threads, work)
-            .map_err(|(station, source)| Unsolved::Section { station, source })
+    /// The force that the stations carry now, N.
+    pub(super) fn present_n(&self, height: &Height) -> f64 {
+        self.force_at(height, height.mm)
+    }
+
+    /// Force on a rigid top at a height, which a spring reduces as the top sinks, N.
+    fn force_at(&self, last: &Height, mm: f64) -> f64 {
+        let sunk = last.reference.map_or(0.0, |reference| reference - mm);
+        self.force_n - self.spring_n_per_mm * sunk
     }
 
     /// The height that carries the force, and the number of iterations.
@@ -105,12 +124,12 @@ impl Carrier {
         stations: &mut [Station],
         last: &Height,
         increment: Increment,
-    ) -> Result<(f64, usize), Unsolved> {
+    ) -> Result<Found, Unsolved> {
         let mut v = last.predicted(increment.cycles);
         let (mut low, mut high) = (f64::NEG_INFINITY, f64::INFINITY);
         let (mut raised, mut found_n, mut beyond) = (None, 0.0, 0.0);
         for iteration in 1..=MOST_ITERATIONS {
-            self.solve(stations, |station| {
+            solve(stations, |station| {
                 station.solve(increment, Some(v + station.place.raised_mm), raised)
             })?;
             let (mut force, mut per_height) = (0.0, 0.0);
@@ -119,9 +138,14 @@ impl Carrier {
                 per_height += station.place.weight_mm * station.attempt.load_per_height;
             }
             found_n = force;
-            let imbalance = force - self.force_n;
+            let imbalance = force - self.force_at(last, v);
+            per_height -= last.reference.map_or(0.0, |_| self.spring_n_per_mm);
             if imbalance.abs() <= BALANCED * self.force_n {
-                return Ok((v, iteration));
+                return Ok(Found {
+                    mm: v,
+                    imbalance: imbalance.abs() / self.force_n,
+                    iterations: iteration,
+                });
             }
             if imbalance > 0.0 {
                 low = v;
@@ -152,6 +176,13 @@ impl Carrier {
     }
 }
 
+fn solve(
+    stations: &mut [Station],
+    work: impl Fn(&mut Station) -> Result<(), ContactError> + Sync + Send,
+) -> Result<(), Unsolved> {
+    for_each(stations, work).map_err(|(station, source)| Unsolved::Section { station, source })
+}
+
 /// Largest indentation of the sections in their last increment, mm.
 fn indentation(stations: &[Station]) -> f64 {
     let indentations = stations
@@ -167,6 +198,11 @@ impl Height {
             mm,
             ..Self::default()
         }
+    }
+
+    /// Records that the first load is applied.
+    pub(super) fn loaded(&mut self) {
+        self.reference = Some(self.mm);
     }
 
     /// The height after an increment like the last one.

@@ -6,7 +6,8 @@
 use super::{FORCE, RADIUS, floor_nm, plane, ring, solved};
 use crate::recorder::solve;
 use crate::scenes::COPPER_WEAR;
-use solver::station::{StationScene, Top, run};
+use solver::scene::Top;
+use solver::station::{run, stations_for};
 use std::f64::consts::PI;
 use std::ops::ControlFlow;
 use std::time::Instant;
@@ -74,7 +75,7 @@ fn depth_of_the_rigid_ring() {
     reason = "the test measures time; the engine knows no clock"
 )]
 fn cost_of_the_rigid_ring_against_the_plane_contact() {
-    let scene = ring(Top::Rigid, StationScene::stations_for(0.02), 2_000);
+    let scene = ring(Top::Rigid, stations_for(0.02), 2_000);
     let started = Instant::now();
     let (summary, recorder) = solve(&plane(&scene, 1.0)).expect("the scene can be solved");
     println!(
@@ -106,6 +107,7 @@ fn cost_of_the_rigid_ring_against_the_plane_contact() {
         .last
         .ideal_volume_mm3
         .receptacle
+        .unwrap_or_default()
         .max(f64::MIN_POSITIVE);
     println!(
         "ring, rigid: {:?} after {} cycles, {:.1} s, {} computed cycles, {:?} increments and iterations, {} sections condensed again, volume over k F s {:.4}",

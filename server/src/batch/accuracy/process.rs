@@ -40,6 +40,7 @@ async fn run(program: &Path, spec: &str) -> Result<Result<Found, String>, LineEr
         spec,
         checkpoint: None,
         checkpoint_every: NO_CHECKPOINTS,
+        threads: 1,
         memory_limit_mb: None,
         own_group: false,
     };

@@ -127,6 +127,20 @@ impl Solver {
         surfaces: &Surfaces<'_>,
         contact: &ContactState,
     ) -> f64 {
+        if contact.active_range().is_none() {
+            return 0.0;
+        }
+        let vertical = self.vertical_force_on(pair, surfaces, contact);
+        (vertical - contact.equilibrium_load(&pair.interface)).abs() / pair.interface.load
+    }
+
+    /// Sum of the vertical forces on the slider, N/mm, with the normals of other surfaces than the contact was solved with.
+    pub(crate) fn vertical_force_on(
+        &mut self,
+        pair: &Pair<'_>,
+        surfaces: &Surfaces<'_>,
+        contact: &ContactState,
+    ) -> f64 {
         let Some((first, end)) = contact.active_range() else {
             return 0.0;
         };
@@ -134,7 +148,7 @@ impl Solver {
         let setting = Setting::new(&pair.interface, contact, at, None);
         self.flank.place(pair, surfaces, setting, first..end);
         let slopes = &self.flank.slopes.interface;
-        let vertical: f64 = (first..end)
+        (first..end)
             .zip(slopes)
             .map(|(i, slope)| {
                 let shear = match pair.interface.tangential {
@@ -143,8 +157,7 @@ impl Solver {
                 };
                 pair.slave().widths[i] * (contact.pressure[i] - shear * slope)
             })
-            .sum();
-        (vertical - contact.equilibrium_load(&pair.interface)).abs() / pair.interface.load
+            .sum()
     }
 
     /// The window with the candidates beside it that the bodies' deformation lets touch.

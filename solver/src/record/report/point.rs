@@ -59,6 +59,7 @@ pub(crate) fn point_report(end: &PointEnd<'_>) -> CycleReport {
         resistance: end.resistance.map(ResistanceReport::of),
         temperature: None,
         extent: Some(ExtentReport::of(cycle)),
+        stations: Vec::new(),
         load_n_per_mm: cycle.line_load_n_per_mm,
         peak_pressure_mpa: cycle.peak_pressure_mpa,
         contact_half_width_mm: cycle.half_length_along_mm,

@@ -1,4 +1,5 @@
-//! Checkpoints of the run of a point contact: its grids are part of its state, and what is computed from them is computed anew.
+//! Checkpoints of the run of a contact of finite extent across the sliding direction: what is computed from its state, operators among it,
+//! is computed anew.
 
 use serde::{Deserialize, Serialize};
 
@@ -7,11 +8,12 @@ use crate::effects::Crossing;
 use crate::electrical::ElectricalState;
 use crate::point::PointState;
 use crate::record::{Compared, Initial, Life};
+use crate::station::LineState;
 
-/// A run of a point contact between two computed cycles.
+/// A run of a contact of finite extent between two computed cycles.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct PointRun {
-    pub(crate) state: PointState,
+pub struct FiniteRun<S> {
+    pub(crate) state: S,
     pub(crate) initial: Initial,
     /// Skipped effects that the run has called for.
     pub(crate) crossings: Vec<Crossing>,
@@ -24,3 +26,9 @@ pub struct PointRun {
     /// What error control knows from the runs of this scene before this one.
     pub(crate) earlier: Earlier,
 }
+
+/// A run of a point contact.
+pub type PointRun = FiniteRun<PointState>;
+
+/// A run of a contact along a line.
+pub type LineRun = FiniteRun<LineState>;

@@ -1,0 +1,229 @@
+//! Contacts along a line, a ring or a straight one: their shape, and what they need of the rest of a specification.
+
+use api::problem::Fault;
+use api::spec::{Dimension, Model, Spec, SystemKind, Top};
+use solver::model::resolution::hertz_half_width;
+use solver::scene::{self, Conduction, LineShape, Scene};
+use solver::station::{StationError, StationScene};
+
+use super::length;
+use crate::spec::diagnostics::Diagnostics;
+use crate::spec::sourced::assumed;
+use crate::spec::system::{LENGTH_MM, Shapes};
+use crate::spec::unit;
+
+/// Outer diameter of a fuzz button's ring, mm: its circumference is the source's length of 3.192 mm. The source gives the ring itself no
+/// dimensions.
+const FUZZ_BUTTON_MM: f64 = 1.016;
+/// mrad.
+const TILT_MRAD: std::ops::RangeInclusive<f64> = -100.0..=100.0;
+/// Fewest and most sections.
+const STATIONS: std::ops::RangeInclusive<u64> = 3..=257;
+/// Width of a straight line over that of its contact, below which its ends count: sections have none.
+const WIDE: f64 = 5.0;
+
+/// A line without its force.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(in crate::spec) struct Line {
+    shape: LineShape,
+    top: scene::Top,
+}
+
+/// Fields of a model of a dimension.
+pub(super) fn fields(dimension: Dimension) -> &'static [&'static str] {
+    match dimension {
+        Dimension::Ring => &["dimension", "outer_diameter_mm", "top"],
+        _ => &[
+            "dimension",
+            "width_mm",
+            "crown_radius_mm",
+            "tilt_mrad",
+            "top",
+        ],
+    }
+}
+
+/// Resolves the line of a model.
+pub(super) fn resolve(
+    (dimension, given): (Dimension, &Model),
+    (shapes, kind): (&Shapes, SystemKind),
+    diagnostics: &mut Diagnostics,
+) -> (Model, Line) {
+    let named = given.top.as_ref();
+    let named = named.and_then(|top| diagnostics.enum_member("/model/top", top));
+    let top = diagnostics.or_default("/model/top", named, assumed(Top::Rigid));
+    let filled = Model {
+        top: Some(top.into()),
+        ..Model::default()
+    };
+    let top = match top {
+        Top::Rigid => scene::Top::Rigid,
+        Top::Even => scene::Top::Even,
+    };
+    let (filled, shape) = if dimension == Dimension::Ring {
+        ring(given, filled, (shapes, kind), diagnostics)
+    } else {
+        straight(given, filled, diagnostics)
+    };
+    (filled, Line { shape, top })
+}
+
+fn ring(
+    given: &Model,
+    filled: Model,
+    (shapes, kind): (&Shapes, SystemKind),
+    diagnostics: &mut Diagnostics,
+) -> (Model, LineShape) {
+    const POINTER: &str = "/model/outer_diameter_mm";
+    let radius = shapes.slider.radius_mm;
+    let diameter = if kind == SystemKind::FuzzButton || given.outer_diameter_mm.is_some() {
+        let default = assumed(FUZZ_BUTTON_MM);
+        length((POINTER, given.outer_diameter_mm), default, diagnostics)
+    } else {
+        diagnostics.missing(POINTER, "`ring` needs it");
+        FUZZ_BUTTON_MM
+    };
+    let radius_mm = 0.5 * diameter - radius;
+    if radius_mm <= radius {
+        let detail = format!(
+            "{diameter} is the outer diameter of a ring of wire whose section has a radius of {radius} mm: it must exceed four times that"
+        );
+        diagnostics.fault(POINTER, detail);
+    }
+    let filled = Model {
+        outer_diameter_mm: Some(diameter),
+        ..filled
+    };
+    (filled, LineShape::Ring { radius_mm })
+}
+
+fn straight(given: &Model, filled: Model, diagnostics: &mut Diagnostics) -> (Model, LineShape) {
+    let mut width_mm = 1.0;
+    match given.width_mm {
+        None => diagnostics.missing("/model/width_mm", "`line` needs it"),
+        Some(_) => {
+            width_mm = length(
+                ("/model/width_mm", given.width_mm),
+                assumed(1.0),
+                diagnostics,
+            );
+        }
+    }
+    let crown = given.crown_radius_mm.map(|crown| {
+        const POINTER: &str = "/model/crown_radius_mm";
+        diagnostics.check_unit(POINTER, Some(crown), &unit::length_mm(width_mm));
+        diagnostics.provenance(POINTER, api::spec::Provenance::Given);
+        diagnostics.check_range(POINTER, crown, &LENGTH_MM)
+    });
+    let tilt = diagnostics.or_default("/model/tilt_mrad", given.tilt_mrad, assumed(0.0));
+    let tilt_mrad = diagnostics.check_range("/model/tilt_mrad", tilt, &TILT_MRAD);
+    let filled = Model {
+        width_mm: Some(width_mm),
+        crown_radius_mm: crown,
+        tilt_mrad: Some(tilt_mrad),
+        ..filled
+    };
+    let shape = LineShape::Straight {
+        width_mm,
+        crown_radius_mm: crown,
+        tilt_mrad,
+    };
+    (filled, shape)
+}
+
+/// Checks that the sections of a line are given of no other dimension.
+pub(super) fn check_overrides_of_others(filled: &Spec, diagnostics: &mut Diagnostics) {
+    let overrides = filled.accuracy.overrides.as_ref();
+    if overrides.is_some_and(|overrides| overrides.stations.is_some()) {
+        diagnostics.fault(
+            "/accuracy/overrides/stations",
+            "a `line` or a `ring` has sections along it, no other dimension",
+        );
+    }
+}
+
+impl Line {
+    /// Name of its dimension.
+    pub(super) fn name(&self) -> &'static str {
+        match self.shape {
+            LineShape::Ring { .. } => "ring",
+            LineShape::Straight { .. } => "line",
+        }
+    }
+
+    /// Makes a scene with its section one along the line. A force, and its spring, are those of the whole line; other loads act on each mm
+    /// of it.
+    pub(super) fn with_dimension(
+        &self,
+        (mut scene, is_force): (Scene, bool),
+        spec: &Spec,
+        diagnostics: &mut Diagnostics,
+    ) -> Scene {
+        let length = self.shape.length_mm();
+        if is_force {
+            scene.load_n_per_mm /= length;
+            scene.spring_n_per_mm2 /= length;
+        }
+        if let Conduction::Known(electrical) = &mut scene.conduction {
+            electrical.width_mm = length;
+        }
+        scene.dimension = scene::Dimension::Line(scene::Line {
+            shape: self.shape,
+            top: self.top,
+            force_n: scene.load_n_per_mm * length,
+            stations: stations(spec, diagnostics),
+            threads: 1,
+        });
+        if diagnostics.is_clean() {
+            self.check(&scene, diagnostics);
+        }
+        scene
+    }
+
+    /// Checks what sections along a line cannot simulate.
+    fn check(&self, scene: &Scene, diagnostics: &mut Diagnostics) {
+        let Some(line) = StationScene::of(scene) else {
+            return;
+        };
+        let Err(error) = line.check_all(hertz_half_width(scene)) else {
+            return;
+        };
+        let pointer = match error {
+            StationError::Sticks { .. } | StationError::Amplitude { .. } | StationError::Motion => {
+                "/motion"
+            }
+            StationError::Drive => "/motion/drive",
+            StationError::FrictionLaw => "/interface/friction",
+            StationError::Law { .. } => "/interface/wear",
+            _ => "/model",
+        };
+        diagnostics.fault(pointer, error.to_string());
+    }
+}
+
+/// The number of sections that is given.
+fn stations(spec: &Spec, diagnostics: &mut Diagnostics) -> Option<usize> {
+    const POINTER: &str = "/accuracy/overrides/stations";
+    let overrides = spec.accuracy.overrides.as_ref()?;
+    let count = overrides.stations?;
+    diagnostics.provenance(POINTER, api::spec::Provenance::Given);
+    let count = diagnostics.check_count(POINTER, count, &STATIONS);
+    usize::try_from(count).ok()
+}
+
+/// A warning of a straight line whose ends count.
+pub(super) fn warnings(scene: &Scene) -> Vec<Fault> {
+    let Some(LineShape::Straight { width_mm, .. }) = scene.dimension.line().map(|line| line.shape)
+    else {
+        return Vec::new();
+    };
+    let contact = 2.0 * hertz_half_width(scene);
+    if width_mm >= WIDE * contact {
+        return Vec::new();
+    }
+    let detail = format!(
+        "sections along a line have no ends, and {width_mm} mm are less than {WIDE} times the unworn contact of {contact:.2e} mm along the \
+         sliding direction: such a contact is a `point`"
+    );
+    vec![Fault::new("/model/width_mm", detail)]
+}

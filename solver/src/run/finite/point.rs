@@ -1,0 +1,230 @@
+//! The run of a point contact: what its reports and snapshots are made of. Profiles and tractions are those of its middle section; maps are
+//! of the whole contact.
+
+use super::Contact;
+use crate::SolveError;
+use crate::checkpoint::{PointRun, Resumable};
+use crate::contact::Work;
+use crate::effects::{Effect, EffectsPlan};
+use crate::electrical::{AreaContact, ContactResistance};
+use crate::number::count;
+use crate::point::{
+    DepthMap, Placed, PointError, PointIntegrator, PointScene, PointState, SlipRegime,
+};
+use crate::record::{
+    self, AreaMaps, Checks, CycleReport, DepthProfile, FrictionLoop, Outcome, PointEnd, Position,
+    PressureMap, Resolution, Snapshot, TractionField, WornArea,
+};
+use crate::scene::Scene;
+use crate::sides::{Side, Sides};
+
+impl Contact for PointIntegrator {
+    type State = PointState;
+    type Worn = Sides<DepthMap>;
+    type Scar = WornArea;
+
+    fn start(scene: &Scene, plan: &EffectsPlan) -> Result<(Self, PointState), SolveError> {
+        Ok(Self::start(&contact_of(scene, plan)?)?)
+    }
+
+    fn resume(
+        scene: &Scene,
+        plan: &EffectsPlan,
+        state: &mut PointState,
+    ) -> Result<Self, SolveError> {
+        let contact = contact_of(scene, plan)?;
+        state.resume(&contact);
+        Ok(Self::resume(&contact, state))
+    }
+
+    fn compute_cycle(&mut self, state: &mut PointState, until: u64) -> Result<(), SolveError> {
+        self.compute_cycle(state, until)?;
+        Ok(())
+    }
+
+    fn cycle(state: &PointState) -> u64 {
+        state.cycle()
+    }
+
+    fn max_depth_mm(state: &PointState) -> Sides<f64> {
+        state.last().max_depth_mm
+    }
+
+    fn fastest_rate(state: &PointState) -> Sides<f64> {
+        state.fastest_rate()
+    }
+
+    /// Half-spaces are never worn through.
+    fn cycles_left(&self) -> (f64, bool) {
+        (f64::INFINITY, false)
+    }
+
+    fn ending(&self) -> Option<Outcome> {
+        None
+    }
+
+    fn area(state: &PointState, time_s: f64) -> Option<AreaContact> {
+        Some(AreaContact {
+            force_n: state.last().force_n,
+            depths_mm: state.depths_in_contact(),
+            time_s,
+        })
+    }
+
+    fn worn(&self, state: &PointState) -> Sides<DepthMap> {
+        Sides::from_fn(|side| state.depth(side))
+    }
+
+    fn scars(worn: &Sides<DepthMap>) -> Sides<WornArea> {
+        worn.as_ref().map(|map| WornArea::new(&map.depth_mm))
+    }
+
+    fn report(
+        &self,
+        scene: &Scene,
+        state: &PointState,
+        worn: &Sides<DepthMap>,
+        resistance: Option<&ContactResistance>,
+    ) -> CycleReport {
+        record::point_report(&PointEnd {
+            scene,
+            cycle: state.last(),
+            depth: worn,
+            resistance,
+        })
+    }
+
+    fn snapshot(&self, scene: &Scene, state: &PointState, worn: Sides<DepthMap>) -> Snapshot {
+        snapshot((scene, self.scene()), state, worn)
+    }
+
+    fn resolution(&self, state: &PointState) -> Resolution {
+        let (cells, cell_mm, (solves, iterations)) = state.size();
+        let (computed, most_increments) = state.computed();
+        Resolution {
+            contact_element_mm: cell_mm,
+            contact_elements: cells,
+            increments_per_cycle: u32::try_from(most_increments).unwrap_or(u32::MAX),
+            computed_cycles: count(computed),
+            work: Work {
+                increments: count(solves),
+                factorizations: 0,
+                unknowns: count(iterations).saturating_mul(count(cells)),
+                response_entries: 0,
+            },
+            dofs: cells,
+            relocations: 0,
+            estimated_relative_error: state.mean_jump_error(),
+        }
+    }
+
+    /// The area is that of the doses, which every law has: layers have no rate of their own.
+    fn checks(&self, state: &PointState) -> Checks {
+        let residuals = state.residuals(self.scene());
+        Checks {
+            force_balance: residuals.force,
+            force_balance_present_normals: residuals.force,
+            worn_area: residuals.dose,
+            complementarity: residuals.contact,
+            friction_cone: residuals.friction_cone,
+            friction_use: residuals.friction_use,
+        }
+    }
+
+    fn resumable(run: &PointRun) -> Resumable<'_> {
+        Resumable::Point(run)
+    }
+}
+
+/// The contact with what the plan simulates.
+fn contact_of(scene: &Scene, plan: &EffectsPlan) -> Result<PointScene, PointError> {
+    let slip = if plan.simulates(Effect::StickMemory) {
+        SlipRegime::Partial
+    } else {
+        SlipRegime::Gross
+    };
+    let mut contact = PointScene::of(scene, slip).ok_or(PointError::Dimension)?;
+    let (slider, receptacle) = (&scene.slider, &scene.receptacle);
+    let motion = scene.timed_motion().constant();
+    let on = plan.surface_effects();
+    contact.bodies.slider.wear = slider
+        .surface_wear(on, motion)
+        .filter(|_| plan.simulates(Effect::SliderWear));
+    contact.bodies.receptacle.wear = receptacle
+        .surface_wear(on, motion)
+        .filter(|_| plan.simulates(Effect::ReceptacleWear));
+    if !plan.simulates(Effect::SpringFading) {
+        contact.spring_n_per_mm = 0.0;
+    }
+    Ok(contact)
+}
+
+/// The snapshot of the present state.
+fn snapshot(
+    (scene, contact): (&Scene, &PointScene),
+    state: &PointState,
+    depth: Sides<DepthMap>,
+) -> Snapshot {
+    let profile = |side| {
+        let map: &DepthMap = depth.of(side);
+        DepthProfile {
+            x_mm: map.x_mm.clone(),
+            depth_mm: map.section(),
+        }
+    };
+    let amplitude = scene.motion.amplitude_mm();
+    // Cycles begin at the right turning point.
+    let [left, right] = state.turning();
+    let placed = [
+        (Position::Neutral, 0.0, state.neutral()),
+        (Position::Rightmost, amplitude, right),
+        (Position::Leftmost, -amplitude, left),
+    ];
+    // Before the first cycle there are no turning points.
+    let count = if state.cycle() == 0 { 1 } else { placed.len() };
+    Snapshot {
+        cycle: state.cycle(),
+        receptacle: profile(Side::Receptacle),
+        slider: profile(Side::Slider),
+        positions: placed[..count].iter().map(tractions).collect(),
+        friction_loop: friction_loop(contact, state),
+        fields: Vec::new(),
+        area: Some(AreaMaps {
+            pressure: pressure_map(state.neutral()),
+            depth,
+        }),
+        stations: Vec::new(),
+    }
+}
+
+fn tractions(&(position, slider_x_mm, placed): &(Position, f64, &Placed)) -> TractionField {
+    TractionField {
+        position,
+        slider_x_mm,
+        x_mm: placed.x_on_receptacle(),
+        pressure_mpa: placed.section_pressure(),
+        shear_mpa: placed.shear_mpa.clone(),
+    }
+}
+
+fn pressure_map(placed: &Placed) -> PressureMap {
+    let cells = placed.cells;
+    PressureMap {
+        x_mm: placed.x_on_receptacle(),
+        z_mm: (0..cells.along_z)
+            .map(|column| cells.z_mm(column))
+            .collect(),
+        pressure_mpa: placed.pressure_mpa.clone(),
+    }
+}
+
+/// The loop of the last cycle.
+fn friction_loop(contact: &PointScene, state: &PointState) -> FrictionLoop {
+    let mut found = FrictionLoop::default();
+    for (displacement, (line, whole)) in state.friction_loop(contact) {
+        found.displacement_mm.push(displacement);
+        found.tangential_force_n_per_mm.push(line);
+        found.tangential_force_n.push(whole);
+    }
+    found
+}

@@ -1,0 +1,315 @@
+//! Computed cycles of a line: each stands for a jump, which the worst station decides.
+
+mod plan;
+mod report;
+
+use std::sync::Arc;
+
+use super::cycle::{Line, LineRecord};
+use super::error::StationError;
+use super::place::places;
+use super::scene::StationScene;
+use super::section::{Increment, Section, Station};
+use super::state::{Common, LineState, StationState};
+use super::threads::{Threads, for_each};
+use super::top::{Carrier, Height, Unsolved};
+use crate::contact::ContactState;
+use crate::effects::EffectsPlan;
+use crate::model;
+use crate::number::real_cycles;
+use crate::scene::{Scene, Top};
+use crate::schedule::increments;
+use crate::schedule::plan::Cycles;
+use crate::schedule::replay::ReplayPlan;
+use crate::schedule::step::Position;
+pub(crate) use report::Ending;
+
+/// The load at the neutral position, without sliding.
+const FIRST_LOAD: Increment = Increment {
+    from: 0.0,
+    to: 0.0,
+    cycles: 0.0,
+    lemke: true,
+    like: None,
+};
+
+/// Computes the cycles of a contact along a line.
+pub(crate) struct LineIntegrator {
+    scene: StationScene,
+    /// The plane section under the mean line load.
+    plane: Scene,
+    amplitude_mm: f64,
+    unworn: Arc<Section>,
+    line: Line,
+    /// What the last computed cycle has recorded.
+    record: LineRecord,
+    threads: Arc<Threads>,
+}
+
+impl LineIntegrator {
+    /// The loaded contact before any wear, by a plan.
+    ///
+    /// # Errors
+    /// A scene that stations do not describe, a section that cannot be meshed, a contact without a solution.
+    pub(crate) fn start(
+        scene: &StationScene,
+        plan: &EffectsPlan,
+    ) -> Result<(Self, LineState), StationError> {
+        let mut integrator = Self::unloaded(scene, plan)?;
+        let threads = Arc::clone(&integrator.threads);
+        threads.within(|| integrator.apply_load())?;
+        integrator.record.placed = vec![integrator.line.placed(Position::Neutral)];
+        integrator.line.common.last = integrator.report(0, &integrator.paths(), (0, 0));
+        let state = integrator.state();
+        Ok((integrator, state))
+    }
+
+    /// For a state of a checkpoint, to the same bits as without it.
+    ///
+    /// # Errors
+    /// As [`Self::start`].
+    pub(crate) fn resume(
+        scene: &StationScene,
+        plan: &EffectsPlan,
+        state: &LineState,
+    ) -> Result<Self, StationError> {
+        let mut integrator = Self::unloaded(scene, plan)?;
+        if state.stations.len() != integrator.line.stations.len() {
+            return Err(StationError::Stations {
+                stations: state.stations.len(),
+            });
+        }
+        let threads = Arc::clone(&integrator.threads);
+        threads.within(|| integrator.enter(state))?;
+        Ok(integrator)
+    }
+
+    /// The unworn sections without load.
+    fn unloaded(scene: &StationScene, plan: &EffectsPlan) -> Result<Self, StationError> {
+        scene.check()?;
+        let plane = scene.plane();
+        let amplitude_mm = scene.amplitude_mm().ok_or(StationError::Motion)?;
+        let built = model::build(&plane, plan)?;
+        scene.check_slip(&plane, built.sizes.hertz_half_width)?;
+        let (spring, slave) = (built.interface.spring, built.interface.slave);
+        let unworn = Arc::new(Section::unworn(built)?);
+        let untouched = ContactState::untouched(&unworn.condensed.operators, slave);
+        let places = places(scene.line, scene.stations).into_iter();
+        let stations = places.map(|place| {
+            let state = StationState::unworn(untouched.clone(), &unworn.model);
+            Station::new(place, &unworn, state)
+        });
+        Ok(Self {
+            line: Line {
+                carrier: Carrier {
+                    top: scene.top,
+                    force_n: scene.force_n,
+                    spring_n_per_mm: spring * scene.line.length_mm(),
+                },
+                stations: stations.collect(),
+                common: Common::default(),
+            },
+            scene: scene.clone(),
+            plane,
+            amplitude_mm,
+            unworn,
+            record: LineRecord::default(),
+            threads: Arc::new(Threads::new(scene.threads)),
+        })
+    }
+
+    /// Applies the load without sliding. The height under the mean line load is the first one of a rigid top.
+    fn apply_load(&mut self) -> Result<(), StationError> {
+        let line = &mut self.line;
+        if self.scene.top == Top::Rigid {
+            let first = &mut line.stations[0];
+            first
+                .solve(FIRST_LOAD, None, None)
+                .map_err(|source| StationError::Contact {
+                    cycle: 0,
+                    station: 0,
+                    halvings: 0,
+                    source,
+                })?;
+            line.common.height = Height::at(first.attempted_height());
+        }
+        line.carrier
+            .advance(&mut line.stations, &mut line.common.height, FIRST_LOAD)
+            .map_err(|error| self.failure(0, error))?;
+        self.line.common.height.loaded();
+        for station in &mut self.line.stations {
+            station.loaded();
+        }
+        Ok(())
+    }
+
+    /// Slides to the turning point where cycles begin, without wear.
+    fn initial_quarter(&mut self) -> Result<(), StationError> {
+        let count = self.largest(|run, j| {
+            let contact = (run.line.stations[j].state.mean_half_width, false);
+            increments::count(run.motion(j), &run.plane.accuracy, contact)
+        });
+        let steps = increments::steps(self.plane.motion, count);
+        let quarter = increments::initial_quarter(&steps);
+        let slid = self.line.slide(quarter, 0.0, &ReplayPlan::default());
+        slid.map(|_| ())
+            .map_err(|(halvings, error)| self.failure(halvings, error))
+    }
+
+    /// Computes the next cycle up to a number of them, with shorter jumps until it has a solution.
+    ///
+    /// # Errors
+    /// A contact without a solution, a section that cannot be meshed; the state is then as before.
+    pub(crate) fn compute_cycle(
+        &mut self,
+        state: &mut LineState,
+        until: u64,
+    ) -> Result<(), StationError> {
+        let threads = Arc::clone(&self.threads);
+        threads.within(|| self.compute_cycle_within(state, until))
+    }
+
+    fn compute_cycle_within(
+        &mut self,
+        state: &mut LineState,
+        until: u64,
+    ) -> Result<(), StationError> {
+        self.enter(state)?;
+        if self.line.common.computed == 0 {
+            self.initial_quarter()?;
+        }
+        self.follow_wear()?;
+        let paths = self.paths();
+        let work = (self.line.common.increments, self.line.common.iterations);
+        let jump = self.take_jump(until)?;
+        let common = &mut self.line.common;
+        common.done += jump;
+        common.computed += 1;
+        self.line.common.last = self.report(jump, &paths, work);
+        *state = self.state();
+        Ok(())
+    }
+
+    /// Computes a cycle of the longest jump that has a solution and an error that is accepted.
+    fn take_jump(&mut self, until: u64) -> Result<u64, StationError> {
+        let done = self.line.common.done;
+        let remaining = until.max(done + 1) - done;
+        let mut jump = self.next_jump(remaining);
+        let mut before = self.line.snapshot();
+        loop {
+            let plan = self.cycle_plan(Cycles { done, jump });
+            let steps = increments::steps(self.plane.motion, plan.steps);
+            let slid = self.line.slide(&steps, real_cycles(jump), &plan.replays);
+            let (halvings, error) = match slid {
+                Ok(record) => {
+                    self.measure_jump(&before.0, jump);
+                    let Some(shorter) = self.rejected(jump) else {
+                        let most = &mut self.line.common.most_increments;
+                        *most = (*most).max(steps.len());
+                        self.take_record(record);
+                        return Ok(jump);
+                    };
+                    // Back to the controls before the jump as well.
+                    for (station, state) in self.line.stations.iter_mut().zip(&before.0) {
+                        station.state.jump = state.jump.clone();
+                        station.state.jump.limit(shorter);
+                    }
+                    self.line.restore(&before);
+                    jump = shorter;
+                    continue;
+                }
+                Err(failed) => failed,
+            };
+            self.line.restore(&before);
+            if let Some(station) = error.station_to_widen() {
+                self.line.stations[station].widen();
+                self.follow_states()?;
+                before = self.line.snapshot();
+                continue;
+            }
+            let mut shorter = None;
+            for station in &mut self.line.stations {
+                shorter = station.state.jump.cut(jump);
+            }
+            jump = shorter.ok_or_else(|| self.failure(halvings, error))?;
+        }
+    }
+
+    /// Takes the record of a cycle, with the contacts of its neutral position.
+    fn take_record(&mut self, record: LineRecord) {
+        let neutral = record
+            .placed
+            .iter()
+            .find(|placed| placed.position == Position::Neutral);
+        if let Some(placed) = neutral {
+            for (station, found) in self.line.stations.iter_mut().zip(&placed.found) {
+                station.state.neutral = *found;
+            }
+        }
+        self.record = record;
+    }
+
+    /// Takes the state that the next cycle begins with.
+    fn enter(&mut self, state: &LineState) -> Result<(), StationError> {
+        for (station, state) in self.line.stations.iter_mut().zip(&state.stations) {
+            station.state = state.clone();
+        }
+        self.line.common = state.common.clone();
+        self.build()
+    }
+
+    /// The state after the last cycle.
+    fn state(&self) -> LineState {
+        let stations = self.line.stations.iter();
+        LineState {
+            stations: stations.map(|station| station.state.clone()).collect(),
+            common: self.line.common.clone(),
+        }
+    }
+
+    /// Condenses sections again that have drifted from the geometry of their operators.
+    fn follow_wear(&mut self) -> Result<(), StationError> {
+        let mut drifted = 0;
+        for station in &mut self.line.stations {
+            drifted += u64::from(station.drifts(&self.plane.accuracy));
+        }
+        self.line.common.relocations += drifted;
+        self.build()
+    }
+
+    fn follow_states(&mut self) -> Result<(), StationError> {
+        self.line.common.relocations += 1;
+        self.build()
+    }
+
+    /// Builds the sections of the present states.
+    fn build(&mut self) -> Result<(), StationError> {
+        let unworn = &self.unworn;
+        for_each(&mut self.line.stations, |station| {
+            station.follow_state(unworn)
+        })
+        .map_err(|(_, error)| error)
+    }
+
+    fn failure(&self, halvings: u32, error: Unsolved) -> StationError {
+        let cycle = self.line.common.done;
+        match error {
+            Unsolved::Section { station, source } => StationError::Contact {
+                cycle,
+                station,
+                halvings,
+                source,
+            },
+            Unsolved::Height {
+                found_n,
+                iterations,
+            } => StationError::Height {
+                cycle,
+                found_n,
+                force_n: self.scene.force_n,
+                iterations,
+                halvings,
+            },
+        }
+    }
+}

@@ -1,0 +1,92 @@
+//! What the schedule of a run is chosen from: the jump that the worst station allows, and the increments that the finest one needs.
+
+use super::LineIntegrator;
+use crate::law::elastic::contact_modulus;
+use crate::scene::Motion;
+use crate::schedule::jump::Stroke;
+use crate::schedule::plan::{CyclePlan, Cycles, Followed};
+use crate::station::state::StationState;
+
+impl LineIntegrator {
+    /// The motion of a section across the line.
+    pub(super) fn motion(&self, station: usize) -> Motion {
+        let place = &self.line.stations[station].place;
+        Motion::Reciprocating {
+            amplitude_mm: place.amplitude_mm(self.amplitude_mm.abs()),
+            period_s: self.plane.motion.period_s().unwrap_or(1.0),
+        }
+    }
+
+    pub(super) fn largest(&self, of: impl Fn(&Self, usize) -> usize) -> usize {
+        let numbers = (0..self.line.stations.len()).map(|j| of(self, j));
+        numbers.fold(1, usize::max)
+    }
+
+    /// The jump that all stations allow.
+    pub(super) fn next_jump(&mut self, remaining: u64) -> u64 {
+        let mut jump = remaining;
+        for j in 0..self.line.stations.len() {
+            let stroke = self.stroke(j);
+            let control = &mut self.line.stations[j].state.jump;
+            jump = jump.min(control.next(&self.plane.accuracy, stroke, remaining));
+        }
+        jump
+    }
+
+    /// Measures what the next jump depends on, after one from these states.
+    pub(super) fn measure_jump(&mut self, before: &[StationState], jump: u64) {
+        for (station, before) in self.line.stations.iter_mut().zip(before) {
+            station.measure_jump(&before.depth, jump);
+        }
+    }
+
+    /// A shorter jump where the estimated error of a station whose rate depends on its depth far exceeds what it may be.
+    pub(super) fn rejected(&self, jump: u64) -> Option<u64> {
+        let stations = self.line.stations.iter().enumerate();
+        let shorter = stations.filter(|(_, station)| station.wears_by_depth());
+        let shorter = shorter.filter_map(|(j, station)| {
+            let control = &station.state.jump;
+            control.rejected(&self.plane.accuracy, self.stroke(j), jump)
+        });
+        shorter.min()
+    }
+
+    /// Increments and replays of a cycle: those of the station that needs most.
+    pub(super) fn cycle_plan(&self, cycles: Cycles) -> CyclePlan {
+        let plans = (0..self.line.stations.len()).map(|j| self.plan_of(j, cycles));
+        plans
+            .reduce(|most, plan| if plan.steps > most.steps { plan } else { most })
+            .unwrap_or_else(|| self.plan_of(0, cycles))
+    }
+
+    /// Limits of a station's jump besides its error. Every jump wears in the increments of one cycle: nothing is extrapolated in a groove.
+    fn stroke(&self, station: usize) -> Stroke {
+        let found = &self.line.stations[station];
+        let state = &found.state;
+        let amplitude = self.motion(station).amplitude_mm();
+        let half_width = state.mean_half_width.max(state.unworn_half_width);
+        let (slider, receptacle) = (self.plane.slider.elastic, self.plane.receptacle.elastic);
+        let mut stroke = Stroke::new(
+            &self.plane.accuracy.tuning,
+            found.rates(),
+            contact_modulus(slider, receptacle),
+            (amplitude, half_width.max(f64::MIN_POSITIVE)),
+            (1.0, false),
+            self.plane.cycles,
+        );
+        stroke.is_groove = false;
+        stroke
+    }
+
+    /// Increments and replays of a cycle for a station.
+    fn plan_of(&self, station: usize, cycles: Cycles) -> CyclePlan {
+        let state = &self.line.stations[station].state;
+        let followed = Followed {
+            half_width: state.mean_half_width,
+            single: state.unworn_half_width,
+            sticks: false,
+        };
+        let run = (self.motion(station), &self.plane.accuracy);
+        CyclePlan::new(run, followed, (self.stroke(station), cycles), false)
+    }
+}

@@ -1,0 +1,150 @@
+//! State of a run along a line between two computed cycles.
+
+use serde::{Deserialize, Serialize};
+
+use super::record::StationCycle;
+use super::top::Height;
+use crate::contact::{ContactState, Work};
+use crate::cycle::{Checks, Neutral, WarmStarts};
+use crate::model::Model;
+use crate::schedule::jump::JumpControl;
+use crate::sides::Sides;
+
+/// Everything that the next cycle of a station depends on.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub(super) struct StationState {
+    pub(super) contact: ContactState,
+    /// Vertical worn depth at the contact nodes, mm.
+    pub(super) depth: Sides<Vec<f64>>,
+    /// Integrals of the wear rates, mm^2.
+    pub(super) worn_area: Sides<f64>,
+    /// Integral of p |slip| over contact and cycles, N/mm mm.
+    pub(super) path: f64,
+    /// Energy dissipated by friction, mJ/mm.
+    pub(super) energy: f64,
+    /// Half-width of the unworn contact, and its mean over the last computed cycle, mm.
+    pub(super) unworn_half_width: f64,
+    pub(super) mean_half_width: f64,
+    /// The contact at the last passage of the neutral position.
+    pub(super) neutral: Neutral,
+    pub(super) jump: JumpControl,
+    pub(super) warm_starts: WarmStarts,
+    /// Worn depths at which its operators were last built, mm; `None` of the unworn section.
+    pub(super) built: Option<Sides<Vec<f64>>>,
+    /// Width of its zones over that of the layout.
+    pub(super) widened: f64,
+    /// Worst residuals so far.
+    pub(super) checks: Checks,
+    /// Work of its contact solves.
+    pub(super) work: Work,
+}
+
+/// What all stations share.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub(super) struct Common {
+    /// Height of a rigid top.
+    pub(super) height: Height,
+    /// Displacement of the slider, mm.
+    pub(super) slider_x: f64,
+    /// Cycles done.
+    pub(super) done: u64,
+    pub(super) computed: u64,
+    /// Increments of the run, and iterations for the common height in these.
+    pub(super) increments: usize,
+    pub(super) iterations: usize,
+    /// Most increments of a cycle.
+    pub(super) most_increments: usize,
+    /// Worst imbalance of forces with the normals of the surfaces as worn, over the force.
+    pub(super) imbalance: f64,
+    /// Times that sections were condensed again.
+    pub(super) relocations: u64,
+    /// The last computed cycle.
+    pub(super) last: StationCycle,
+}
+
+/// State of a run along a line between two computed cycles.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct LineState {
+    pub(super) stations: Vec<StationState>,
+    pub(super) common: Common,
+}
+
+impl StationState {
+    /// An unworn, unloaded station.
+    pub(super) fn unworn(contact: ContactState, model: &Model) -> Self {
+        let nodes = model.bodies.as_ref().map(|body| body.contact_x().len());
+        Self {
+            contact,
+            depth: nodes.map(|nodes| vec![0.0; nodes]),
+            worn_area: Sides::default(),
+            path: 0.0,
+            energy: 0.0,
+            unworn_half_width: 0.0,
+            mean_half_width: 0.0,
+            neutral: Neutral::default(),
+            jump: JumpControl::default(),
+            warm_starts: WarmStarts::default(),
+            built: None,
+            widened: 1.0,
+            checks: Checks::default(),
+            work: Work::default(),
+        }
+    }
+}
+
+impl LineState {
+    /// Cycles done.
+    pub(crate) fn cycle(&self) -> u64 {
+        self.common.done
+    }
+
+    /// The last computed cycle.
+    pub(crate) fn last(&self) -> &StationCycle {
+        &self.common.last
+    }
+
+    /// Largest wear of a place of each side per cycle in the last computed one, as equivalent depth, mm.
+    pub(crate) fn fastest_rate(&self) -> Sides<f64> {
+        let rates = self
+            .stations
+            .iter()
+            .map(|station| station.jump.fastest_rate());
+        rates.fold(Sides::default(), |most, rate| {
+            most.zip(rate)
+                .map(|(most, rate): (f64, f64)| most.max(rate))
+        })
+    }
+
+    /// Computed cycles, and the most increments of one.
+    pub(crate) fn computed(&self) -> (u64, usize) {
+        (self.common.computed, self.common.most_increments)
+    }
+
+    /// Increments of the run, and iterations for the common height in these.
+    pub(crate) fn solves(&self) -> (usize, usize) {
+        (self.common.increments, self.common.iterations)
+    }
+
+    /// Times that sections were condensed again.
+    pub(crate) fn relocations(&self) -> u64 {
+        self.common.relocations
+    }
+
+    /// Work of all contact solves.
+    pub(crate) fn work(&self) -> Work {
+        let mut work = Work::default();
+        for station in &self.stations {
+            work += station.work;
+        }
+        work
+    }
+
+    /// Estimated relative error of the worn depth by the jumps so far: that of the worst station.
+    pub(crate) fn mean_jump_error(&self) -> f64 {
+        let errors = self
+            .stations
+            .iter()
+            .map(|station| station.jump.mean_error());
+        errors.fold(0.0, f64::max)
+    }
+}
