@@ -61,6 +61,8 @@ pub(crate) use system::definition as system_definition;
 pub struct Resolved {
     /// The complete specification, with the provenance of each value.
     pub spec: Spec,
+    /// The dimension that was chosen for it, with the reason; nothing where it is given.
+    pub chosen: Option<String>,
     /// The kind of its system.
     pub kind: SystemKind,
     /// The scene.
@@ -121,6 +123,7 @@ pub fn resolve(spec: &Spec) -> Result<Resolved, Vec<Fault>> {
     let Filled {
         spec: mut filled,
         mut scene,
+        chosen,
         movement,
         resistance_lacks,
     } = fill(spec, kind, &mut diagnostics);
@@ -163,6 +166,7 @@ pub fn resolve(spec: &Spec) -> Result<Resolved, Vec<Fault>> {
     filled.provenance = diagnostics.finish()?;
     Ok(Resolved {
         spec: filled,
+        chosen,
         kind,
         scene,
         layout,

@@ -9,6 +9,7 @@ mod choice;
 mod decision;
 mod dimension;
 mod effect;
+pub mod extent;
 mod indicators;
 mod line;
 mod point;

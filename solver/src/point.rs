@@ -37,5 +37,6 @@ pub use point_state::PointState;
 pub use record::{DepthMap, PointCycle, PointOutcome, PointSummary};
 pub use run::run;
 pub use scene::{
-    PointAccuracy, PointBody, PointScene, SlipRegime, cell_mm, middle_line_load_n_per_mm,
+    PointAccuracy, PointBody, PointScene, SlipRegime, cell_mm, half_lengths_mm,
+    middle_line_load_n_per_mm,
 };

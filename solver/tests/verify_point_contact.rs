@@ -142,7 +142,7 @@ fn a_scar_on_both_sides_converges() {
         receptacle: 2e-8,
     };
     let coarse = scene((1.0, 4.0), k, 0.02, 1_000);
-    let mut fine = coarse.clone();
+    let mut fine = coarse;
     fine.accuracy = PointAccuracy {
         cells_per_half_length: 20.0,
         step_over_half_length: 0.125,

@@ -16,6 +16,8 @@ string_enum! {
         Line = "line",
         /// A wire bent to a ring that vibrates in the plane of the ring.
         Ring = "ring",
+        /// `plane_strain`, `line` or `point`, whichever a slider of a width with a crown or a tilt calls for.
+        Auto = "auto",
     }
 }
 
@@ -41,19 +43,23 @@ pub struct Model {
     /// `ring`: outer diameter of the ring of wire, mm.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub outer_diameter_mm: Option<f64>,
-    /// `line`: its length across the motion, mm.
+    /// `line`, `auto`: its length across the motion, mm.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub width_mm: Option<f64>,
-    /// `line`: radius by which the slider's surface recedes from the middle of the line to its ends, mm; straight if absent.
+    /// `line`, `auto`: radius by which the slider's surface recedes from the middle of the line to its ends, mm; straight if absent.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub crown_radius_mm: Option<f64>,
-    /// `line`: tilt of the slider about the direction of motion, mrad; 0 if absent.
+    /// `line`, `auto`: tilt of the slider about the direction of motion, mrad; 0 if absent.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub tilt_mrad: Option<f64>,
-    /// `line`, `ring`: what carries the sections of the slider; a rigid body if absent.
+    /// `line`, `ring`, `auto`: what carries the sections of the slider; a rigid body if absent.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schema(value_type = Option<Top>)]
     pub top: Option<EnumValue<Top>>,
+    /// `auto`: the dimension that was chosen; written by the service.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schema(value_type = Option<Dimension>)]
+    pub chosen: Option<EnumValue<Dimension>>,
 }
 
 impl Model {

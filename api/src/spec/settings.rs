@@ -71,7 +71,7 @@ pub struct Overrides {
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schema(value_type = Option<serde_json::Value>)]
     pub cycle_jump: Option<CycleJump>,
-    /// `line`, `ring`: sections along the line, with both ends; of a ring those of its half.
+    /// `line`, `ring`: sections along the line with both ends: those of half of it, or of all of a line with a tilt.
     #[serde(
         default,
         skip_serializing_if = "Option::is_none",

@@ -2,6 +2,7 @@
 
 use api::spec::{EnumValue, LoadKind, Preset, SystemKind, WearLaw};
 use solver::model::resolution;
+use solver::scene::LineShape;
 
 use crate::spec::Resolved;
 
@@ -21,7 +22,8 @@ const HARDNESSES: [(f64, &str); 2] = [
 
 /// The notes of a resolved specification.
 pub(crate) fn notes(resolved: &Resolved) -> Vec<String> {
-    let mut notes = hardnesses(resolved);
+    let mut notes: Vec<String> = resolved.chosen.iter().cloned().collect();
+    notes.extend(hardnesses(resolved));
     if resolved.kind == SystemKind::FuzzButton {
         notes.extend(fuzz_button(resolved));
     }
@@ -60,6 +62,15 @@ fn fuzz_button(resolved: &Resolved) -> Vec<String> {
          the top face for the contact pressure"
             .to_owned(),
     ];
+    if let Some(LineShape::Ring { radius_mm }) =
+        resolved.scene.dimension.line().map(|line| line.shape)
+    {
+        notes.push(format!(
+            "the source gives its rings no dimensions, tops or directions: the centre line of the wire has a radius of {radius_mm:.4} mm here (an \
+             outer circumference of 3.192 mm, the length of its extruded model, if no other diameter is given), the ring vibrates in its \
+             plane, and half of it stands for both"
+        ));
+    }
     let load = resolved.spec.load.as_ref();
     let is_pressure = load.is_some_and(|load| load.kind == EnumValue::from(LoadKind::Pressure));
     if is_pressure {

@@ -22,6 +22,8 @@ use crate::spec::{
 /// A specification with its defaults.
 pub(super) struct Filled {
     pub(super) spec: Spec,
+    /// The dimension that was chosen, with the reason.
+    pub(super) chosen: Option<String>,
     pub(super) scene: Scene,
     pub(super) movement: Movement,
     pub(super) resistance_lacks: Vec<String>,
@@ -126,8 +128,9 @@ pub(super) fn fill(spec: &Spec, kind: SystemKind, diagnostics: &mut Diagnostics)
         effects,
         scattered: Vec::new(),
     };
-    let scene = model::with_dimension(scene, (dimension, &filled), diagnostics);
+    let (scene, chosen) = model::with_dimension(scene, (dimension, &mut filled), diagnostics);
     Filled {
+        chosen,
         spec: filled,
         scene,
         movement,

@@ -1,5 +1,6 @@
 //! The dimension of the model, and what it needs of the rest of a specification.
 
+mod auto;
 mod line;
 mod point;
 
@@ -23,6 +24,8 @@ pub(super) enum Resolved {
     Point { radius_across_mm: f64 },
     /// A contact along a line.
     Line(Line),
+    /// What a slider of this width calls for.
+    Auto(Line),
 }
 
 impl Resolved {
@@ -65,17 +68,18 @@ pub(super) fn resolve(
             };
             (&["dimension", "radius_z_mm"], filled, resolved)
         }
-        Dimension::Line | Dimension::Ring => {
+        Dimension::Line | Dimension::Ring | Dimension::Auto => {
             let (filled, line) = line::resolve((dimension, &model), (shapes, kind), diagnostics);
-            let fields = line::fields(dimension);
-            (
-                fields,
-                Model {
-                    dimension: dimension.into(),
-                    ..filled
-                },
-                Resolved::Line(line),
-            )
+            let filled = Model {
+                dimension: dimension.into(),
+                ..filled
+            };
+            let resolved = if dimension == Dimension::Auto {
+                Resolved::Auto(line)
+            } else {
+                Resolved::Line(line)
+            };
+            (line::fields(dimension), filled, resolved)
         }
     };
     diagnostics.check_fields("/model", &model, fields, dimension.as_str());
@@ -98,22 +102,29 @@ pub(super) fn check(
     (model, motion): (Resolved, Motion),
     diagnostics: &mut Diagnostics,
 ) {
+    if !matches!(model, Resolved::Line(_) | Resolved::Auto(_)) {
+        line::check_overrides_of_others(filled, diagnostics);
+    }
     let name = match model {
-        Resolved::PlaneStrain => {
-            line::check_overrides_of_others(filled, diagnostics);
-            return;
-        }
+        Resolved::PlaneStrain => return,
         Resolved::Point { .. } => {
-            line::check_overrides_of_others(filled, diagnostics);
             point::check(filled, diagnostics);
             "point"
         }
         Resolved::Line(line) => line.name(),
+        Resolved::Auto(_) => "auto",
     };
     let load = filled.load.as_ref();
     if load.is_some_and(|load| load.width_mm.is_some()) {
         diagnostics.foreign_field("/load", "width_mm", name);
     }
+    if name != "auto" {
+        check_rest(filled, (name, motion), diagnostics);
+    }
+}
+
+/// Checks that a specification has nothing that only a section has.
+fn check_rest(filled: &Spec, (name, motion): (&str, Motion), diagnostics: &mut Diagnostics) {
     if !filled.mission.is_empty() {
         diagnostics.fault("/mission", "missions are simulated in `plane_strain` alone");
     } else if !matches!(motion, Motion::Reciprocating { .. }) {
@@ -134,15 +145,16 @@ pub(super) fn check(
     }
 }
 
-/// Makes a scene with its section one of its dimension, and checks its laws.
+/// Makes a scene with its section one of its dimension, and checks its laws; with the dimension that was chosen and the reason.
 pub(super) fn with_dimension(
     scene: Scene,
-    (model, spec): (Resolved, &Spec),
+    (model, spec): (Resolved, &mut Spec),
     diagnostics: &mut Diagnostics,
-) -> Scene {
+) -> (Scene, Option<String>) {
     let load = spec.load.as_ref();
     let force_n = load.and_then(|load| load.n).filter(|force| *force > 0.0);
-    match model {
+    let is_force = load.is_some_and(|load| load.kind == LoadKind::Force.into());
+    let scene = match model {
         Resolved::PlaneStrain => scene,
         Resolved::Point { radius_across_mm } => {
             check_laws(&scene, "point contact", diagnostics);
@@ -156,10 +168,18 @@ pub(super) fn with_dimension(
         }
         Resolved::Line(line) => {
             check_laws(&scene, "contact along a line", diagnostics);
-            let is_force = load.is_some_and(|load| load.kind == LoadKind::Force.into());
             line.with_dimension((scene, is_force), spec, diagnostics)
         }
-    }
+        Resolved::Auto(line) => {
+            let chosen = auto::choose((scene, line, is_force), spec, diagnostics);
+            if let Some(model) = &mut spec.model {
+                model.chosen = Some(chosen.dimension.into());
+            }
+            let reason = format!("model `{}`: {}", chosen.dimension.as_str(), chosen.reason);
+            return (chosen.scene, Some(reason));
+        }
+    };
+    (scene, None)
 }
 
 /// Wear by the dose alone, and one coefficient of friction.

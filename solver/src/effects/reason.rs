@@ -6,7 +6,7 @@ use super::effect::Effect;
 use super::indicators::Indicators;
 
 use crate::law::elastic::contact_modulus;
-use crate::scene::Scene;
+use crate::scene::{Dimension, Scene};
 use crate::sides::{Side, Sides};
 
 /// What a decision was made by.
@@ -97,26 +97,8 @@ pub(super) fn reason(
             consequence(effect, verdict.is_on())
         );
     }
-    if effect == Effect::AcrossWidth && scene.dimension.point().is_some() {
-        return format!(
-            "{switch}the contact of both curvatures is solved for, {:.2e} mm along the sliding direction",
-            indicators.hertz_half_width()
-        );
-    }
-    if effect == Effect::AcrossWidth && scene.dimension.line().is_some() {
-        return format!(
-            "{switch}the contact is solved for in sections along its line, which only their forces couple"
-        );
-    }
     if effect == Effect::AcrossWidth {
-        let depth = indicators.worn_depth_at_end();
-        return format!(
-            "{switch}a tip as round across the width as along the section would be worn to {:.2e} mm {:.0} times sooner, one with a crown \
-             between both: {}",
-            indicators.depth_of_life(depth),
-            1.0 / indicators.life_of_ball(depth),
-            consequence(effect, false)
-        );
+        return format!("{switch}{}", across_width(scene, indicators));
     }
     let result = consequence(effect, verdict.is_on());
     if follows_friction(scene, effect) {
@@ -141,6 +123,30 @@ pub(super) fn reason(
         percent(worn),
         percent(threshold)
     )
+}
+
+/// What the distribution of the load across the width is in a dimension.
+fn across_width(scene: &Scene, indicators: &Indicators<'_>) -> String {
+    match scene.dimension {
+        Dimension::Point(_) => format!(
+            "the contact of both curvatures is solved for, {:.2e} mm along the sliding direction",
+            indicators.hertz_half_width()
+        ),
+        Dimension::Line(_) => {
+            "the contact is solved for in sections along its line, which only their forces couple"
+                .to_owned()
+        }
+        Dimension::PlaneStrain => {
+            let depth = indicators.worn_depth_at_end();
+            format!(
+                "a tip as round across the width as along the section would be worn to {:.2e} mm {:.0} times sooner, one with a crown \
+                 between both: {}",
+                indicators.depth_of_life(depth),
+                1.0 / indicators.life_of_ball(depth),
+                consequence(Effect::AcrossWidth, false)
+            )
+        }
+    }
 }
 
 /// Temperatures by friction in words.

@@ -52,6 +52,10 @@ struct Section {
 /// Forecasts a run of a scene from the layout of its section; `None` for one that is not along a line.
 pub fn line_forecast(scene: &Scene, layout: &Layout) -> Option<LineForecast> {
     let line = StationScene::of(scene)?;
+    let scene = &Scene {
+        accuracy: line.plane().accuracy,
+        ..scene.clone()
+    };
     let mut sections = followed(scene, &line, layout);
     let x = layout.bodies.of(layout.sizes.slave).contact_x();
     let share = real(line.stations) / real(sections.len());

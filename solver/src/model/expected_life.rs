@@ -26,7 +26,6 @@
 //! Range: laws whose rate is the same in every state, a load that does not change, gross slip (a place that sticks wears later), no
 //! movement of the contact over a crown. Limiting case: one layer, Archard's law.
 
-use super::worn_cap::WornCap;
 use super::{resolution, worn_depth};
 use crate::law::plating::bottoms;
 use crate::law::surface::SurfaceWear;
@@ -73,8 +72,9 @@ const SMALLEST_DEPTH: f64 = 1e-9;
 /// Cycles of the scene's motion until a criterion is reached, as if its run did not end before; `None` where the side never wears so
 /// deep, or wears by a law of state.
 pub fn cycles(scene: &Scene, criterion: Criterion) -> Option<f64> {
-    if let Some(point) = scene.dimension.point() {
-        return WornCap::of(scene, point).cycles(criterion);
+    let of_cap = resolution::cap(scene).map(|cap| cap.cycles(criterion));
+    if let (Some(cycles), Some(_)) = (of_cap, scene.dimension.point()) {
+        return cycles;
     }
     let path = scene.load_n_per_mm * scene.motion.distance_per_cycle_mm();
     let contact = Contact {
@@ -83,8 +83,11 @@ pub fn cycles(scene: &Scene, criterion: Criterion) -> Option<f64> {
         radius: resolution::radius(scene),
         strokes: strokes(scene),
     };
-    let load_path = contact.load_path(criterion)?;
-    (path > 0.0).then(|| load_path / path)
+    let of_section = contact.load_path(criterion).filter(|_| path > 0.0);
+    let of_section = of_section.map(|load_path| load_path / path);
+    // A crown is worn sooner, until it touches over all of its width.
+    let lives = of_cap.flatten().into_iter().chain(of_section);
+    lives.reduce(f64::min)
 }
 
 /// The motion of a scene, or those of the blocks of its mission that move the contact.

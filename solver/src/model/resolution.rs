@@ -17,7 +17,10 @@ use crate::law::wear::LocalState;
 use crate::mesh::grading::Spacing;
 use crate::number::real_cycles;
 use crate::point::{PointScene, SlipRegime};
-use crate::scene::{Accuracy, Drive, Elastic, Motion, Refinement, Scene, SliderShape};
+use crate::scene::{
+    Accuracy, Dimension, Drive, Elastic, Line, LineShape, Motion, Point, Refinement, Scene,
+    SliderShape,
+};
 use crate::sides::{Side, Sides};
 use std::f64::consts::PI;
 
@@ -153,11 +156,37 @@ pub fn expected_end(scene: &Scene) -> u64 {
 
 /// The same for a Hertz half-width, mm.
 pub(crate) fn expected_cycles(scene: &Scene, half_width: f64) -> u64 {
-    if let Some(point) = scene.dimension.point() {
-        return WornCap::of(scene, point).expected_cycles();
+    let of_cap = cap(scene).map(|cap| cap.expected_cycles());
+    if let (Some(cycles), Some(_)) = (of_cap, scene.dimension.point()) {
+        return cycles;
     }
     let at = LocalState::mean(scene.load_n_per_mm, half_width, scene.timed_motion().mean());
-    worn_depth::expected_cycles(scene, (radius(scene), at), &scene.surface_wear())
+    let of_section = worn_depth::expected_cycles(scene, (radius(scene), at), &scene.surface_wear());
+    of_cap.map_or(of_section, |cycles| cycles.min(of_section))
+}
+
+/// The cap that a point contact wears, or a crowned line until it touches over all of its width.
+pub(super) fn cap(scene: &Scene) -> Option<WornCap<'_>> {
+    let crown = |line: &Line| match line.shape {
+        LineShape::Straight {
+            crown_radius_mm, ..
+        } => crown_radius_mm,
+        LineShape::Ring { .. } => None,
+    };
+    match &scene.dimension {
+        Dimension::PlaneStrain => None,
+        Dimension::Point(point) => Some(WornCap::of(scene, point)),
+        Dimension::Line(line) => crown(line).map(|radius| {
+            let point = Point {
+                force_n: line.force_n,
+                radius_across_mm: Sides {
+                    slider: Some(radius),
+                    receptacle: None,
+                },
+            };
+            WornCap::of(scene, &point)
+        }),
+    }
 }
 
 /// Estimated largest worn depths after so many cycles, mm, in a contact of a half-width with this wear of both surfaces.
@@ -166,11 +195,18 @@ pub(crate) fn worn_depth_after(
     (half_width, wear): (f64, &Sides<Option<SurfaceWear>>),
     cycles: u64,
 ) -> Sides<f64> {
-    if let Some(point) = scene.dimension.point() {
-        return WornCap::of(scene, point).depth_after(cycles);
+    let of_cap = cap(scene).map(|cap| cap.depth_after(cycles));
+    if let (Some(depth), Some(_)) = (of_cap, scene.dimension.point()) {
+        return depth;
     }
     let at = LocalState::mean(scene.load_n_per_mm, half_width, scene.timed_motion().mean());
-    worn_depth::after(scene, (radius(scene), at), wear, cycles)
+    let of_section = worn_depth::after(scene, (radius(scene), at), wear, cycles);
+    // A cap is deeper until it reaches the ends of the width.
+    of_cap.map_or(of_section, |depth| {
+        depth
+            .zip(of_section)
+            .map(|(of_cap, of_section)| of_cap.max(of_section))
+    })
 }
 
 /// Half-width of the unworn contact, mm: Hertz' of a section, the half-length along the sliding direction of a point contact.

@@ -36,6 +36,7 @@ const SMALLEST_PART: f64 = 1e-6;
 const SHARED_DEPTH: f64 = 2.3;
 
 /// A point contact whose surfaces wear by the dose.
+#[derive(Clone, Copy)]
 pub(crate) struct WornCap<'a> {
     scene: &'a Scene,
     wear: Sides<Option<SurfaceWear>>,

@@ -96,6 +96,11 @@ impl PointAccuracy {
     }
 }
 
+/// Half-lengths along and across the sliding direction of the unworn point contact of a scene, mm; `None` for another scene.
+pub fn half_lengths_mm(scene: &Scene) -> Option<(f64, f64)> {
+    PointScene::of(scene, SlipRegime::Gross).map(|contact| contact.half_lengths_mm())
+}
+
 /// Length of a cell of the unworn point contact of a scene, mm; 0 for another scene.
 pub fn cell_mm(scene: &Scene) -> f64 {
     PointScene::of(scene, SlipRegime::Gross).map_or(0.0, |contact| {

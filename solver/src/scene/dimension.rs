@@ -32,7 +32,8 @@ pub struct Line {
     pub top: Top,
     /// Normal force F on the whole line, N.
     pub force_n: f64,
-    /// Number of sections along the half ring or the width, with both ends; chosen from the tolerance if absent.
+    /// Number of sections along the half ring, the half of a straight line or all of one with a tilt, with both ends; chosen from the
+    /// tolerance if absent.
     pub stations: Option<usize>,
     /// Threads that the sections are solved in; results do not depend on it.
     pub threads: usize,
@@ -102,6 +103,18 @@ impl LineShape {
         match self {
             Self::Ring { radius_mm } => 2.0 * std::f64::consts::PI * radius_mm,
             Self::Straight { width_mm, .. } => width_mm,
+        }
+    }
+
+    /// Whether all sections move alike and touch at once.
+    pub fn is_even(self) -> bool {
+        match self {
+            Self::Ring { .. } => false,
+            Self::Straight {
+                crown_radius_mm,
+                tilt_mrad,
+                ..
+            } => crown_radius_mm.is_none() && tilt_mrad == 0.0,
         }
     }
 }

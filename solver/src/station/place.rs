@@ -31,7 +31,7 @@ pub(super) struct Displaced {
     pub(super) along: f64,
 }
 
-/// Evenly spaced places: a half ring, which stands for both, or a straight line.
+/// Evenly spaced places: a half ring, which stands for both, or a straight line, of which a half stands for both without a tilt.
 pub(super) fn places(line: LineShape, stations: usize) -> Vec<Place> {
     let spacings = real(stations - 1);
     let share = |j: usize| {
@@ -59,7 +59,13 @@ pub(super) fn places(line: LineShape, stations: usize) -> Vec<Place> {
             crown_radius_mm,
             tilt_mrad,
         } => {
-            let z = |j: usize| width_mm * (real(j) / spacings - 0.5);
+            // Half of a symmetric line stands for both halves.
+            let (first, part) = if tilt_mrad == 0.0 {
+                (0.0, 0.5)
+            } else {
+                (-0.5, 1.0)
+            };
+            let z = |j: usize| width_mm * (first + part * real(j) / spacings);
             let height = |z: f64| {
                 let crown = crown_radius_mm.map_or(0.0, |radius| z * z / (2.0 * radius));
                 crown + 1e-3 * tilt_mrad * z
@@ -147,7 +153,12 @@ mod tests {
             crown_radius_mm: Some(10.0),
             tilt_mrad: 1.0,
         };
-        for line in [line, LineShape::Ring { radius_mm: 0.5 }] {
+        let straight = LineShape::Straight {
+            width_mm: 2.0,
+            crown_radius_mm: None,
+            tilt_mrad: 0.0,
+        };
+        for line in [line, straight, LineShape::Ring { radius_mm: 0.5 }] {
             let places = places(line, 9);
             let sum: f64 = places.iter().map(|place| place.weight_mm).sum();
             assert!((sum - line.length_mm()).abs() < 1e-14);

@@ -15,7 +15,7 @@ use crate::scene::Top;
 
 /// Imbalance over the force at which the height has converged: well above the round-off that sections leave in their forces, 1e-11 of
 /// an indentation, and far below any tolerance.
-const BALANCED: f64 = 1e-9;
+const BALANCED: f64 = 1e-7;
 
 /// Most iterations for the height. Arbitrary: 2 to 6 are needed.
 const MOST_ITERATIONS: usize = 40;

@@ -16,7 +16,7 @@ use solver::station::{StationScene, StationSummary};
 const CROWN: f64 = 36.5;
 const LINE_LOAD: f64 = 19.484;
 
-/// A crowned cylinder with bodies of a height, mm, on so many stations over 0.48 mm.
+/// A crowned cylinder with bodies of a height, mm, on so many stations over 0.48 mm, or half of that without a tilt.
 fn crowned(height_mm: f64, stations: usize, tilt_mrad: f64) -> StationScene {
     let mut section = sprung_contact();
     section.slider.shape = SliderShape {
@@ -80,15 +80,15 @@ fn section_under_the_line_load_of_an_ellipse_has_its_pressure() {
 fn crowned_line_carries_its_force_in_the_middle() {
     let mut middles = Vec::new();
     for height in [0.118, 0.25, 0.5] {
-        let found = solved(&crowned(height, 65, 0.0));
+        let found = solved(&crowned(height, 33, 0.0));
         let loads = loads(&found);
-        let middle = loads[32];
+        let middle = loads[0];
         println!(
-            "straight line, bodies of {height} mm: {middle:.3} N/mm in the middle, ellipse {LINE_LOAD}, {} stations of 65 touch",
+            "straight line, bodies of {height} mm: {middle:.3} N/mm in the middle, ellipse {LINE_LOAD}, {} stations of 33 touch",
             loads.iter().filter(|load| **load > 0.0).count()
         );
         assert!((found.initial.force_n / 5.0 - 1.0).abs() < 1e-8);
-        assert!(loads[0] <= 0.0 && loads[64] <= 0.0);
+        assert!(loads[32] <= 0.0);
         middles.push(middle);
     }
     assert!(middles[0] > LINE_LOAD && LINE_LOAD > middles[2]);
@@ -98,7 +98,9 @@ fn crowned_line_carries_its_force_in_the_middle() {
 #[test]
 fn tilt_moves_the_contact_along_the_crown() {
     let spacing = 0.48 / 64.0;
-    let straight = loads(&solved(&crowned(0.25, 65, 0.0)));
+    let half = loads(&solved(&crowned(0.25, 33, 0.0)));
+    let mirrored = half[1..].iter().rev();
+    let straight: Vec<f64> = mirrored.chain(&half).copied().collect();
     let tilted = loads(&solved(&crowned(0.25, 65, -1e3 * spacing / CROWN)));
     let largest = straight.iter().fold(0.0, |m: f64, load| m.max(*load));
     for (straight, tilted) in straight.iter().zip(&tilted[1..]) {
@@ -109,7 +111,7 @@ fn tilt_moves_the_contact_along_the_crown() {
 /// Stations at the ends come into contact one after the other as the middle wears; nothing of the wear is lost.
 #[test]
 fn worn_crown_spreads_along_the_line() {
-    let mut scene = crowned(0.25, 17, 0.0);
+    let mut scene = crowned(0.25, 9, 0.0);
     scene.section.cycles = 400;
     scene.section.accuracy.tolerance = 0.1;
     let found = solved(&scene);
@@ -125,7 +127,7 @@ fn worn_crown_spreads_along_the_line() {
     let ideal = worn / last.ideal_volume_mm3.receptacle.expect("a rate");
     // Two passes over the middle: 2 k P' in each cycle.
     println!(
-        "straight line: {first} of 17 stations touch at first, {end} after 400 cycles; volume over k F s {ideal:.4}"
+        "straight line: {first} of 9 stations touch at first, {end} after 400 cycles; volume over k F s {ideal:.4}"
     );
     assert!(end > first);
     assert!((worn / last.sliding_work_volume_mm3.receptacle.expect("a rate") - 1.0).abs() < 1e-10);

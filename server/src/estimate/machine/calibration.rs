@@ -208,6 +208,7 @@ mod tests {
                 condensations: [body, Condensations { count: 0.0, ..body }],
                 cell_iterations: 0.0,
                 cells: (0.0, 0.0),
+                stations: 1,
                 companions: Vec::new(),
             },
             increment_s,

@@ -19,6 +19,8 @@ const FUZZ_BUTTON_MM: f64 = 1.016;
 const TILT_MRAD: std::ops::RangeInclusive<f64> = -100.0..=100.0;
 /// Fewest and most sections.
 const STATIONS: std::ops::RangeInclusive<u64> = 3..=257;
+/// Crown of a contact spring, mm.
+const TYPICAL_CROWN_MM: f64 = 10.0;
 /// Width of a straight line over that of its contact, below which its ends count: sections have none.
 const WIDE: f64 = 5.0;
 
@@ -63,7 +65,7 @@ pub(super) fn resolve(
     let (filled, shape) = if dimension == Dimension::Ring {
         ring(given, filled, (shapes, kind), diagnostics)
     } else {
-        straight(given, filled, diagnostics)
+        straight((dimension, given), filled, diagnostics)
     };
     (filled, Line { shape, top })
 }
@@ -97,10 +99,17 @@ fn ring(
     (filled, LineShape::Ring { radius_mm })
 }
 
-fn straight(given: &Model, filled: Model, diagnostics: &mut Diagnostics) -> (Model, LineShape) {
+fn straight(
+    (dimension, given): (Dimension, &Model),
+    filled: Model,
+    diagnostics: &mut Diagnostics,
+) -> (Model, LineShape) {
     let mut width_mm = 1.0;
     match given.width_mm {
-        None => diagnostics.missing("/model/width_mm", "`line` needs it"),
+        None => diagnostics.missing(
+            "/model/width_mm",
+            &format!("`{}` needs it", dimension.as_str()),
+        ),
         Some(_) => {
             width_mm = length(
                 ("/model/width_mm", given.width_mm),
@@ -111,7 +120,7 @@ fn straight(given: &Model, filled: Model, diagnostics: &mut Diagnostics) -> (Mod
     }
     let crown = given.crown_radius_mm.map(|crown| {
         const POINTER: &str = "/model/crown_radius_mm";
-        diagnostics.check_unit(POINTER, Some(crown), &unit::length_mm(width_mm));
+        diagnostics.check_unit(POINTER, Some(crown), &unit::length_mm(TYPICAL_CROWN_MM));
         diagnostics.provenance(POINTER, api::spec::Provenance::Given);
         diagnostics.check_range(POINTER, crown, &LENGTH_MM)
     });
@@ -143,6 +152,18 @@ pub(super) fn check_overrides_of_others(filled: &Spec, diagnostics: &mut Diagnos
 }
 
 impl Line {
+    pub(super) fn shape(&self) -> LineShape {
+        self.shape
+    }
+
+    /// A section under the load of a mm of its width.
+    pub(super) fn section(&self, mut plane: Scene) -> Scene {
+        if let Conduction::Known(electrical) = &mut plane.conduction {
+            electrical.width_mm = self.shape.length_mm();
+        }
+        plane
+    }
+
     /// Name of its dimension.
     pub(super) fn name(&self) -> &'static str {
         match self.shape {
@@ -175,13 +196,13 @@ impl Line {
             threads: 1,
         });
         if diagnostics.is_clean() {
-            self.check(&scene, diagnostics);
+            Self::check(&scene, diagnostics);
         }
         scene
     }
 
     /// Checks what sections along a line cannot simulate.
-    fn check(&self, scene: &Scene, diagnostics: &mut Diagnostics) {
+    fn check(scene: &Scene, diagnostics: &mut Diagnostics) {
         let Some(line) = StationScene::of(scene) else {
             return;
         };

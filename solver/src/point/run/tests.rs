@@ -110,7 +110,7 @@ fn mirrored_motion_wears_the_mirrored_map() {
     let scene = sphere_on_flat(sides(2e-8, 2e-8), 0.1, 20);
     let mirrored = PointScene {
         amplitude_mm: -0.1,
-        ..scene.clone()
+        ..scene
     };
     let (one, other) = (solved(&scene), solved(&mirrored));
     for side in Side::BOTH {

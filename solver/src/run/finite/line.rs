@@ -149,8 +149,8 @@ fn line_of(scene: &Scene) -> Result<StationScene, StationError> {
 /// The station whose section is reported where one is: across the motion on a ring, in the middle of a straight line.
 fn reference(scene: &Scene, stations: usize) -> usize {
     match scene.dimension.line().map(|line| line.shape) {
-        Some(LineShape::Straight { .. }) => stations / 2,
-        Some(LineShape::Ring { .. }) | None => 0,
+        Some(LineShape::Straight { tilt_mrad, .. }) if tilt_mrad != 0.0 => stations / 2,
+        Some(LineShape::Straight { .. } | LineShape::Ring { .. }) | None => 0,
     }
 }
 

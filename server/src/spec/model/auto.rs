@@ -1,0 +1,86 @@
+//! The dimension that a contact calls for: plane strain where its sections are alike, a line of sections where it is long against its
+//! width along the sliding direction, else a point.
+
+use api::spec::{Dimension, Spec};
+use solver::effects::extent::{self, Extent};
+use solver::scene::{LineShape, Scene};
+
+use super::line::Line;
+use super::{check_laws, check_rest, point};
+use crate::spec::diagnostics::Diagnostics;
+
+/// A scene of the dimension that was chosen.
+pub(super) struct Chosen {
+    pub(super) scene: Scene,
+    pub(super) dimension: Dimension,
+    pub(super) reason: String,
+}
+
+/// Chooses the dimension of a contact of a width, from its section under the load of the specification.
+pub(super) fn choose(
+    (section, line, is_force): (Scene, Line, bool),
+    spec: &Spec,
+    diagnostics: &mut Diagnostics,
+) -> Chosen {
+    let LineShape::Straight {
+        width_mm,
+        crown_radius_mm,
+        tilt_mrad,
+    } = line.shape()
+    else {
+        unreachable!("`auto` resolves a straight line");
+    };
+    let per_mm = |value: f64| if is_force { value / width_mm } else { value };
+    let plane = Scene {
+        load_n_per_mm: per_mm(section.load_n_per_mm),
+        spring_n_per_mm2: per_mm(section.spring_n_per_mm2),
+        ..section.clone()
+    };
+    if let Some(reason) = lacks(&plane, spec) {
+        return Chosen {
+            scene: line.section(plane),
+            dimension: Dimension::PlaneStrain,
+            reason,
+        };
+    }
+    let force_n = plane.load_n_per_mm * width_mm;
+    let whole = Scene {
+        spring_n_per_mm2: plane.spring_n_per_mm2 * width_mm,
+        ..section.clone()
+    };
+    let as_point = crown_radius_mm.map(|crown| {
+        let mut of_candidate = Diagnostics::default();
+        point::with_dimension(whole.clone(), (Some(crown), force_n), &mut of_candidate)
+    });
+    let extent = Extent {
+        width_mm,
+        crown_radius_mm,
+        tilt_mrad,
+    };
+    let (dimension, reason) = match extent::choose(&plane, as_point.as_ref(), extent) {
+        (extent::Choice::PlaneStrain, reason) => (Dimension::PlaneStrain, reason),
+        (extent::Choice::Line, reason) => (Dimension::Line, reason),
+        (extent::Choice::Point, reason) => (Dimension::Point, reason),
+    };
+    let scene = match (dimension, crown_radius_mm) {
+        (Dimension::Line, _) => line.with_dimension((section, is_force), spec, diagnostics),
+        (Dimension::Point, Some(crown)) => {
+            point::with_dimension(whole, (Some(crown), force_n), diagnostics)
+        }
+        _ => line.section(plane),
+    };
+    Chosen {
+        scene,
+        dimension,
+        reason,
+    }
+}
+
+/// Why the contact can be simulated in plane strain alone.
+fn lacks(plane: &Scene, spec: &Spec) -> Option<String> {
+    let mut of_candidate = Diagnostics::default();
+    check_rest(spec, ("line", plane.motion), &mut of_candidate);
+    check_laws(plane, "contact of finite width", &mut of_candidate);
+    let fault = of_candidate.into_faults().into_iter().next()?;
+    Some(format!("{}: {}", fault.pointer, fault.detail))
+}
