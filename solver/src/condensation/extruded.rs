@@ -81,19 +81,19 @@ impl ExtrudedOperators {
     }
 }
 
-/// Condenses both bodies, whose section in each plane is a model. A body whose sections are those of earlier models keeps its operators, one
-/// of the same mesh lines its patterns.
+/// Condenses both bodies, whose section in each plane is a model. A body whose sections are those of earlier models keeps its responses,
+/// one of the same mesh lines its patterns.
 ///
 /// # Errors
 /// [`OperatorError`] if an element is inverted or a body is not held.
 pub fn condense_extruded(
     models: &[Model],
     (planes, ends): (&NodePlanes, Ends),
-    earlier: Option<(&[Model], ExtrudedOperators)>,
+    earlier: Option<(&[Model], Sides<Vec<PrismZone>>)>,
 ) -> Result<ExtrudedOperators, OperatorError> {
     let sections = Sides::from_fn(|side| section_of(models[0].bodies.of(side)));
     let (before, mut known) = match earlier {
-        Some((before, operators)) => (before, operators.zones.map(Some)),
+        Some((before, zones)) => (before, zones.map(Some)),
         None => (&[][..], Sides::default()),
     };
     let zones = Sides::from_fn(|side| {
@@ -221,12 +221,13 @@ fn equalise(compliance: &mut Compliance, widths: &[f64], sections: usize) {
                 }
             }
         }
-        // Alike but for round-off where the sections are.
-        for j in 0..n {
-            for i in 0..j {
-                let mean = 0.5 * (line.get(2 * i, 2 * j) + line.get(2 * j, 2 * i));
-                *line.at(2 * i, 2 * j) = mean;
-                *line.at(2 * j, 2 * i) = mean;
+        // Between free ends the sections respond unlike, so that it is not symmetric.
+        for (j, i) in (0..n).flat_map(|j| (0..j).map(move |i| (j, i))) {
+            for d in 0..2 {
+                let (one, other) = (2 * i + d, 2 * j + d);
+                let mean = 0.5 * (line.get(one, other) + line.get(other, one));
+                *line.at(one, other) = mean;
+                *line.at(other, one) = mean;
             }
         }
         let mut near = line.clone();

@@ -164,7 +164,7 @@ fn sections_have_surfaces_of_their_own() {
     };
     let unworn = [own(&first, 0), own(&first, 1)];
     let slider = entry(&first.zones.slider[0], (0, 1), (1, 3));
-    let then = condense_extruded(&models, (&planes, Ends::Free), Some((&before, first)))
+    let then = condense_extruded(&models, (&planes, Ends::Free), Some((&before, first.zones)))
         .expect("the worn body can be condensed");
     let anew = condense_extruded(&models, (&planes, Ends::Free), None).expect("likewise");
     let stiffer = [0, 1].map(|k| 1.0 - own(&then, k) / unworn[k]);

@@ -1,0 +1,27 @@
+//! Contact of extruded bodies: the plane contact in each of several sections, coupled by the compliance of the bodies.
+//!
+//! The node planes of both bodies coincide, so that each has the mortar pairing of `contact::line` and its own worn surfaces. All of the contact
+//! slips along x as imposed. With the height v of the slider, which does not tilt, the unknowns are the pressures p of the closed nodes of all
+//! planes and v:
+//!
+//!   g_ki + v + sum_lj R_ki,lj p_lj + (W_k e_k)_i = 0 for each closed node i of each plane k,  e = p |sigma|,
+//!   sum_k w_k/W sum_i d_i (1 - q_ki/p_ki s_ki) p_ki = P',
+//!
+//! with the response R of both bodies to the line forces of a pressure and its friction q = mu p, the wear coupling W_k and the slopes s_k of
+//! each plane, the lengths w_k that the planes stand for, their sum W and the mean line load P'. Everything is linear but e, through the
+//! slip sigma that the height changes on a slope.
+//!
+//! One semi-smooth Newton iteration runs over all planes (`newton`). Iterating plane by plane instead, with the deformation by the other planes
+//! as a change of the gap, would converge only as the coupling fades: the ratio of C_kl to C_kk is 0.4 to 0.6 for the two planes of the thesis
+//! and tends to 1 where layers are thinner than the contact is wide, so that such an iteration needs tens of rounds for the accuracy of one.
+//!
+//! Limits: slip is imposed and along x; nothing slips or wears along z, and the slope of a worn surface along z is left out of its normal.
+
+mod bodies;
+mod increment;
+mod newton;
+mod problem;
+mod response;
+
+pub use bodies::{Extruded, Slide};
+pub use increment::{ExtrudedSolver, PlaneWear};
