@@ -133,6 +133,46 @@ const RULES: [(&str, Rule); 18] = [
         ),
     ),
     (
+        "extruded bodies know the contact of node planes and its schedule, but not the run of a plane scene or what it reports",
+        MustNotName(
+            &["solver/src/extruded"],
+            &[
+                "solver/src/checkpoint",
+                "solver/src/forecast",
+                "solver/src/point",
+                "solver/src/record",
+                "solver/src/run",
+                "solver/src/station",
+            ],
+        ),
+    ),
+    (
+        "the plane contact knows neither extruded bodies nor the contact of their planes",
+        MustNotName(
+            &[
+                "solver/src/contact/line",
+                "solver/src/cycle",
+                "solver/src/model",
+                "solver/src/record",
+                "solver/src/run",
+                "solver/src/schedule",
+                "solver/src/station",
+            ],
+            &[
+                "solver/src/condensation/extruded",
+                "solver/src/contact/planes",
+                "solver/src/extruded",
+            ],
+        ),
+    ),
+    (
+        "operators and the contact of node planes do not know the run of extruded bodies",
+        MustNotName(
+            &["solver/src/condensation", "solver/src/contact"],
+            &["solver/src/extruded"],
+        ),
+    ),
+    (
         "only `error_control` knows `run`, and nothing knows `error_control`",
         MustNotName(
             &["solver/src"],
