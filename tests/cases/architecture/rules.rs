@@ -72,7 +72,7 @@ const SEVERAL_PATHS: [&str; 9] = [
     "server/src/http/routes/operation/serve_pages.rs",
 ];
 
-const RULES: [(&str, Rule); 18] = [
+const RULES: [(&str, Rule); 21] = [
     (
         "laws know no mesh",
         MustNotName(
