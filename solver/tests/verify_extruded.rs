@@ -9,6 +9,7 @@
 //! Held ends are plane strain; free ends are softer. Where the contact leaves its own width, it wears a floor by 2 k P' a cycle, whatever the
 //! ends.
 
+mod cost;
 mod ends;
 mod limits;
 mod wear;

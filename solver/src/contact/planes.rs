@@ -11,9 +11,10 @@
 //! each plane, the lengths w_k that the planes stand for, their sum W and the mean line load P'. Everything is linear but e, through the
 //! slip sigma that the height changes on a slope.
 //!
-//! One semi-smooth Newton iteration runs over all planes (`newton`). Iterating plane by plane instead, with the deformation by the other planes
-//! as a change of the gap, would converge only as the coupling fades: the ratio of C_kl to C_kk is 0.4 to 0.6 for the two planes of the thesis
-//! and tends to 1 where layers are thinner than the contact is wide, so that such an iteration needs tens of rounds for the accuracy of one.
+//! One semi-smooth Newton iteration runs over all planes (`newton`): 1.5 to 2.5 iterations an increment of single cycles, 4 of long jumps.
+//! Iterating plane by plane instead, with the deformation by the other planes as a change of the gap, takes 13 to 25 rounds to 1e-10 for 2
+//! to 7 planes of the thesis' fuzz button, at a given height, with closed nodes that are known (each round leaves 0.15 to 0.6 of the error): the
+//! planes couple almost as much as the nodes of one of them.
 //!
 //! Limits: slip is imposed and along x; nothing slips or wears along z, and the slope of a worn surface along z is left out of its normal.
 
