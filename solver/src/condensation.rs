@@ -8,8 +8,10 @@
 mod assembly;
 mod body_operators;
 mod compliance;
+mod extruded;
 mod near_field;
 mod operator_error;
+mod prism_assembly;
 mod spreading;
 mod zone_operators;
 
@@ -21,6 +23,7 @@ use std::sync::Arc;
 
 pub use body_operators::{BodyOperators, Operators};
 pub use compliance::{Compliance, Response};
+pub use extruded::{ExtrudedOperators, PrismZone, condense_extruded};
 pub use operator_error::OperatorError;
 pub use spreading::Spreading;
 pub use zone_operators::ZoneOperators;

@@ -2,6 +2,7 @@
 
 pub mod area;
 pub mod line;
+pub mod planes;
 
 pub use line::{
     ContactError, ContactState, Displacement, GAP_TOLERANCE, Increment, MOST_ITERATIONS, Pair,

@@ -1,76 +1,83 @@
 //! Finite elements of linear elasticity: an element is its data plus one function.
 
+pub mod hex8;
 pub mod incompatible;
 pub mod quad4;
 pub mod tri3;
+pub mod wedge6;
 
 use crate::law::elastic::Lame;
-use nalgebra::Matrix2;
+use nalgebra::SMatrix;
 
-pub use incompatible::quad_stiffness;
+pub use hex8::Hex8;
+pub use incompatible::{hex_stiffness, quad_stiffness};
 pub use quad4::Quad4;
 pub use tri3::Tri3;
+pub use wedge6::Wedge6;
 
 /// Above this Poisson's ratio the volumetric part is taken at its mean over the element (B-bar): from here on
 /// lambda > 9 mu, and a fully integrated quadrilateral begins to lock.
 pub const B_BAR_FROM_POISSON_RATIO: f64 = 0.45;
 
-/// A plane element with `N` nodes.
-pub trait Element<const N: usize> {
+/// An element with `N` nodes in `D` dimensions, plane strain in two.
+pub trait Element<const N: usize, const D: usize> {
     /// Places of the nodes on the reference element.
-    const CORNERS: [[f64; 2]; N];
+    const CORNERS: [[f64; D]; N];
 
     /// Quadrature points and weights on the reference element.
-    const QUADRATURE: &'static [([f64; 2], f64)];
+    const QUADRATURE: &'static [([f64; D], f64)];
 
     /// Shape functions at a reference point.
-    fn shape(xi: [f64; 2]) -> [f64; N];
+    fn shape(xi: [f64; D]) -> [f64; N];
 
     /// Derivatives of the shape functions with respect to the reference coordinates.
-    fn gradient(xi: [f64; 2]) -> [[f64; 2]; N];
+    fn gradient(xi: [f64; D]) -> [[f64; D]; N];
 }
 
-/// Stiffness of an element, N/mm per mm of depth: 2x2 blocks K_ab between nodes a and b, or `None` if the
-/// element is inverted somewhere.
+/// Blocks K_ab between the nodes a and b of an element.
+pub type Stiffness<const N: usize, const D: usize> = [[SMatrix<f64, D, D>; N]; N];
+
+/// Stiffness of an element, N/mm (in two dimensions per mm of depth), or `None` if the element is inverted somewhere.
 ///
 /// `K_ab[i][j]` = integral of lambda d_i N_a d_j N_b + mu (d_j N_a d_i N_b + delta_ij grad N_a . grad N_b).
-pub fn stiffness<E: Element<N>, const N: usize>(
-    nodes: &[[f64; 2]; N],
+pub fn stiffness<E: Element<N, D>, const N: usize, const D: usize>(
+    nodes: &[[f64; D]; N],
     lame: Lame,
     b_bar: bool,
-) -> Option<[[Matrix2<f64>; N]; N]> {
-    let mut k = [[Matrix2::zeros(); N]; N];
-    let mut mean = [[0.0; 2]; N];
-    let mut area = 0.0;
+) -> Option<Stiffness<N, D>> {
+    let mut k = [[SMatrix::zeros(); N]; N];
+    let mut mean = [[0.0; D]; N];
+    let mut volume = 0.0;
     for &(xi, weight) in E::QUADRATURE {
         let (g, det) = physical_gradient(nodes, &E::gradient(xi))?;
         let dv = det * weight;
-        area += dv;
+        volume += dv;
         let lambda = if b_bar { 0.0 } else { lame.lambda };
         add_point(&mut k, &g, lambda * dv, lame.mu * dv);
         for (m, gradient) in mean.iter_mut().zip(&g) {
-            m[0] += gradient[0] * dv;
-            m[1] += gradient[1] * dv;
+            for (m, g) in m.iter_mut().zip(gradient) {
+                *m += g * dv;
+            }
         }
     }
     if b_bar {
-        let mean = mean.map(|m| [m[0] / area, m[1] / area]);
-        add_point(&mut k, &mean, lame.lambda * area, 0.0);
+        let mean = mean.map(|m| m.map(|m| m / volume));
+        add_point(&mut k, &mean, lame.lambda * volume, 0.0);
     }
     Some(k)
 }
 
-fn add_point<const N: usize>(
-    k: &mut [[Matrix2<f64>; N]; N],
-    g: &[[f64; 2]; N],
+fn add_point<const N: usize, const D: usize>(
+    k: &mut Stiffness<N, D>,
+    g: &[[f64; D]; N],
     lambda: f64,
     mu: f64,
 ) {
     for a in 0..N {
         for b in 0..N {
-            let dot = g[a][0] * g[b][0] + g[a][1] * g[b][1];
-            for i in 0..2 {
-                for j in 0..2 {
+            let dot = dot(&g[a], &g[b]);
+            for i in 0..D {
+                for j in 0..D {
                     let shear = g[a][j] * g[b][i] + if i == j { dot } else { 0.0 };
                     k[a][b][(i, j)] += lambda * g[a][i] * g[b][j] + mu * shear;
                 }
@@ -79,30 +86,49 @@ fn add_point<const N: usize>(
     }
 }
 
+fn dot<const D: usize>(a: &[f64; D], b: &[f64; D]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
 /// Gradients in physical coordinates and the determinant of the Jacobian; `None` if it is not positive.
-pub fn physical_gradient<const N: usize>(
-    nodes: &[[f64; 2]; N],
-    reference: &[[f64; 2]; N],
-) -> Option<([[f64; 2]; N], f64)> {
-    let mut jacobian = [[0.0; 2]; 2];
+pub fn physical_gradient<const N: usize, const D: usize>(
+    nodes: &[[f64; D]; N],
+    reference: &[[f64; D]; N],
+) -> Option<([[f64; D]; N], f64)> {
+    let mut jacobian = [[0.0; D]; D];
     for (node, g) in nodes.iter().zip(reference) {
-        for i in 0..2 {
-            for j in 0..2 {
+        for i in 0..D {
+            for j in 0..D {
                 jacobian[i][j] += node[i] * g[j];
             }
         }
     }
-    let det = jacobian[0][0] * jacobian[1][1] - jacobian[0][1] * jacobian[1][0];
+    let cofactors = cofactors(&jacobian);
+    let det = dot(&jacobian[0], &cofactors[0]);
     if det.is_nan() || det <= 0.0 {
         return None;
     }
-    let gradients = reference.map(|g| {
-        [
-            (g[0] * jacobian[1][1] - g[1] * jacobian[1][0]) / det,
-            (g[1] * jacobian[0][0] - g[0] * jacobian[0][1]) / det,
-        ]
-    });
+    let gradients = reference.map(|g| std::array::from_fn(|i| dot(&g, &cofactors[i]) / det));
     Some((gradients, det))
+}
+
+/// Cofactors of a matrix of two or three rows: its inverse is their transpose over the determinant.
+fn cofactors<const D: usize>(m: &[[f64; D]; D]) -> [[f64; D]; D] {
+    debug_assert!(D == 2 || D == 3, "elements are plane or solid");
+    let mut cofactors = [[0.0; D]; D];
+    for i in 0..D {
+        for j in 0..D {
+            cofactors[i][j] = if D == 2 {
+                let minor = m[1 - i][1 - j];
+                if i == j { minor } else { -minor }
+            } else {
+                let (k, l) = ((i + 1) % D, (i + 2) % D);
+                let (p, q) = ((j + 1) % D, (j + 2) % D);
+                m[k][p] * m[l][q] - m[k][q] * m[l][p]
+            };
+        }
+    }
+    cofactors
 }
 
 #[cfg(test)]

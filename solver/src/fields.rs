@@ -144,7 +144,10 @@ pub fn recover(
                 let modes = incompatible::amplitudes(&places, model.lame, model.b_bar, &u);
                 let modes = modes.unwrap_or_default();
                 add::<Quad4, 4>(&mut sums, n, (&places, &u), model.lame, |corner, det| {
-                    Some((modes, incompatible::mode_gradients(&places, corner, det)?))
+                    Some((
+                        modes,
+                        incompatible::mode_gradients::<Quad4, 4, 2>(&places, corner, det)?,
+                    ))
                 });
             }
             Cell::Tri(n) => {
@@ -175,7 +178,7 @@ pub fn recover(
 type Modes = ([[f64; 2]; 2], [[f64; 2]; 2]);
 
 /// Adds an element's corner stresses to the sums of its nodes, weighted by the Jacobian there.
-fn add<E: Element<N>, const N: usize>(
+fn add<E: Element<N, 2>, const N: usize>(
     sums: &mut [(Stress, f64)],
     cell: &[usize; N],
     (places, u): (&[[f64; 2]; N], &[[f64; 2]; N]),

@@ -10,6 +10,7 @@ pub mod electrical;
 pub mod element;
 mod error;
 pub mod error_control;
+pub mod extruded;
 pub mod fields;
 pub mod forecast;
 pub mod interpolation;

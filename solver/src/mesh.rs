@@ -1,10 +1,12 @@
 //! Structured meshes: columns of quadrilaterals hanging on straight spines, with triangles where a column
-//! shrinks to a point. A mesh knows no law.
+//! shrinks to a point; prisms over such meshes. A mesh knows no law.
 
 pub mod columns;
 pub mod grading;
+pub mod prisms;
 
 pub use columns::{ColumnMesh, Quality};
+pub use prisms::{NodePlanes, Prism, PrismMesh};
 
 /// Why a mesh cannot be built or moved.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]

@@ -14,7 +14,7 @@ use crate::effects::{Effect, EffectsPlan};
 use crate::element;
 use crate::law::elastic::{Lame, contact_modulus, plane_strain_compliance};
 use crate::law::surface::SurfaceWear;
-use crate::mesh::{ColumnMesh, MeshError};
+use crate::mesh::{ColumnMesh, MeshError, grading};
 use crate::scene::{Drive, Elastic, Scene, SurfaceEffects};
 use crate::sides::{Side, Sides};
 
@@ -76,6 +76,15 @@ pub enum Support {
     /// `u_x` of every node is zero; one far node is grounded in y, which carries nothing at equilibrium; the load
     /// is an even pressure on the far face.
     GuidedUnderPressure,
+}
+
+/// What holds the ends of extruded bodies.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Ends {
+    /// `u_z` of every node is zero: plane strain.
+    Held,
+    /// Nothing.
+    Free,
 }
 
 /// How the shear traction and the slip of a contact are found.
@@ -313,10 +322,7 @@ impl BodyModel {
 
     /// Length of surface that belongs to each contact node, projected on x, mm.
     pub fn contact_widths(&self) -> Vec<f64> {
-        let x = self.contact_x();
-        (0..x.len())
-            .map(|i| 0.5 * (x[(i + 1).min(x.len() - 1)] - x[i.saturating_sub(1)]))
-            .collect()
+        grading::tributary(self.contact_x())
     }
 }
 

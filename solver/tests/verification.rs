@@ -18,6 +18,7 @@ mod verify_constraint_side;
 mod verify_contact_patch;
 mod verify_contact_resistance;
 mod verify_error_control;
+mod verify_extruded;
 mod verify_first_load;
 mod verify_friction_in_jumps;
 mod verify_fuzz_button_groove;

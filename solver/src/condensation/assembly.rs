@@ -8,7 +8,7 @@ use crate::model::{Support, ZoneModel};
 use nalgebra::Matrix2;
 
 /// Marks a constrained displacement, which is zero.
-const HELD: usize = usize::MAX;
+pub(super) const HELD: usize = usize::MAX;
 
 /// Numbering of the unknowns; those of the contact surface are last.
 #[derive(Debug)]
@@ -136,7 +136,7 @@ pub(super) fn assemble(zone: &ZoneModel, numbering: &Numbering) -> Result<LowerT
                 scatter(&mut entries, numbering, n, &k.ok_or_else(inverted)?);
             }
             Cell::Tri(n) => {
-                let k = stiffness::<Tri3, 3>(&n.map(|n| nodes[n]), zone.lame, false);
+                let k = stiffness::<Tri3, 3, 2>(&n.map(|n| nodes[n]), zone.lame, false);
                 scatter(&mut entries, numbering, n, &k.ok_or_else(inverted)?);
             }
         }

@@ -150,7 +150,7 @@ fn assemble(zone: &ZoneModel, unknown: &[usize], order: usize) -> Result<LowerTr
 }
 
 /// Conductance of an element of unit conductivity and depth: integral of grad `N_a` . grad `N_b`.
-fn conductance<E: Element<N>, const N: usize>(nodes: &[[f64; 2]; N]) -> Option<[[f64; N]; N]> {
+fn conductance<E: Element<N, 2>, const N: usize>(nodes: &[[f64; 2]; N]) -> Option<[[f64; N]; N]> {
     let mut k = [[0.0; N]; N];
     for &(xi, weight) in E::QUADRATURE {
         let (g, det) = physical_gradient(nodes, &E::gradient(xi))?;

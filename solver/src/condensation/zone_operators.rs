@@ -51,16 +51,24 @@ impl ZoneOperators {
 
     /// Nodes between a range and the nearer end of the zone; none if it is not within the zone.
     pub(super) fn clearance(&self, range: &Range<usize>, surface: usize) -> Option<usize> {
-        let nodes = self.nodes();
-        let left = range.start.checked_sub(nodes.start)?;
-        let right = nodes.end.checked_sub(range.end)?;
-        // Beyond the end of the surface nothing is missing.
-        let left = if nodes.start == 0 { usize::MAX } else { left };
-        let right = if nodes.end == surface {
-            usize::MAX
-        } else {
-            right
-        };
-        Some(left.min(right))
+        clearance(&self.nodes(), range, surface)
     }
+}
+
+/// Nodes between a range and the nearer end of a zone of these nodes, on a surface of so many; none if it is not within the zone.
+pub(super) fn clearance(
+    nodes: &Range<usize>,
+    range: &Range<usize>,
+    surface: usize,
+) -> Option<usize> {
+    let left = range.start.checked_sub(nodes.start)?;
+    let right = nodes.end.checked_sub(range.end)?;
+    // Beyond the end of the surface nothing is missing.
+    let left = if nodes.start == 0 { usize::MAX } else { left };
+    let right = if nodes.end == surface {
+        usize::MAX
+    } else {
+        right
+    };
+    Some(left.min(right))
 }

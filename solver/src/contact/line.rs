@@ -19,16 +19,16 @@
 //! jump = (Mhat C_m Mhat^T + C_s) F with the condensed compliances of master and slave.
 
 mod active_set;
-mod active_window;
-mod band;
+pub(super) mod active_window;
+pub(super) mod band;
 mod complementarity;
 mod deformation;
 mod error;
 mod friction;
 mod geometry;
 mod increment;
-mod local_slopes;
-mod mortar;
+pub(super) mod local_slopes;
+pub(super) mod mortar;
 mod newton;
 mod outcome;
 mod pair;
@@ -39,7 +39,7 @@ mod response;
 mod state;
 mod status;
 mod unknown;
-mod wear_coupling;
+pub(super) mod wear_coupling;
 mod work;
 
 pub(crate) use active_window::CANDIDATE_GAP;

@@ -40,11 +40,24 @@ pub(crate) fn check(
             });
         }
     }
+    leaves_part(spines, depth, slider_x, (done.first, done.recession))
+}
+
+/// Checks that recessions, mm, from a first node of each side on leave part of both bodies.
+///
+/// # Errors
+/// [`ContactError::TooMuchWear`].
+pub(crate) fn leaves_part(
+    spines: &Spines,
+    depth: &Sides<Vec<f64>>,
+    slider_x: f64,
+    (first, recession): (Sides<usize>, Sides<&[f64]>),
+) -> Result<(), ContactError> {
     for side in [Side::Receptacle, Side::Slider] {
-        let first = *done.first.of(side);
+        let first = *first.of(side);
         let (lengths, depths) = (spines.lengths(), depth.of(side));
         let left = lengths.of(side)[first..].iter().zip(&depths[first..]);
-        for ((length, depth), recession) in left.zip(*done.recession.of(side)) {
+        for ((length, depth), recession) in left.zip(*recession.of(side)) {
             let share = recession / (length - depth);
             if share.is_nan() || share > LARGEST_SHARE {
                 return Err(ContactError::TooMuchWear {

@@ -9,7 +9,7 @@ pub struct Quad4;
 /// 1/sqrt(3): two-point Gauss rule.
 const G: f64 = 0.577_350_269_189_625_8;
 
-impl Element<4> for Quad4 {
+impl Element<4, 2> for Quad4 {
     const CORNERS: [[f64; 2]; 4] = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
     const QUADRATURE: &'static [([f64; 2], f64)] = &[
         ([-G, -G], 1.0),

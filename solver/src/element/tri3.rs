@@ -6,7 +6,7 @@ use super::Element;
 #[derive(Debug, Clone, Copy)]
 pub struct Tri3;
 
-impl Element<3> for Tri3 {
+impl Element<3, 2> for Tri3 {
     const CORNERS: [[f64; 2]; 3] = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]];
     const QUADRATURE: &'static [([f64; 2], f64)] = &[([1.0 / 3.0, 1.0 / 3.0], 0.5)];
 

@@ -184,8 +184,8 @@ impl ColumnMesh {
         let nodes = self.coordinates();
         let scaled = |(element, cell): (usize, &Cell)| {
             let (scaled, corner) = match cell {
-                Cell::Quad(n) => (scaled_jacobian::<Quad4, 4>(&n.map(|n| nodes[n])), n[0]),
-                Cell::Tri(n) => (scaled_jacobian::<Tri3, 3>(&n.map(|n| nodes[n])), n[0]),
+                Cell::Quad(n) => (scaled_jacobian::<Quad4, 4, 2>(&n.map(|n| nodes[n])), n[0]),
+                Cell::Tri(n) => (scaled_jacobian::<Tri3, 3, 2>(&n.map(|n| nodes[n])), n[0]),
             };
             scaled.ok_or(MeshError::Inverted {
                 element,
@@ -204,7 +204,9 @@ fn ordered(nodes: [usize; 3], counter_clockwise: bool) -> [usize; 3] {
     }
 }
 
-fn scaled_jacobian<E: Element<N>, const N: usize>(nodes: &[[f64; 2]; N]) -> Option<f64> {
+pub(super) fn scaled_jacobian<E: Element<N, D>, const N: usize, const D: usize>(
+    nodes: &[[f64; D]; N],
+) -> Option<f64> {
     let (mut smallest, mut sum) = (f64::INFINITY, 0.0);
     for &(xi, _) in E::QUADRATURE {
         let (_, det) = physical_gradient(nodes, &E::gradient(xi))?;

@@ -75,6 +75,13 @@ pub fn symmetric(half: f64, spacing: &Spacing) -> Vec<f64> {
         .collect()
 }
 
+/// Length that belongs to each of several places, ascending: half of the distances to its neighbours.
+pub fn tributary(x: &[f64]) -> Vec<f64> {
+    (0..x.len())
+        .map(|i| 0.5 * (x[(i + 1).min(x.len() - 1)] - x[i.saturating_sub(1)]))
+        .collect()
+}
+
 /// Fractions 0 = surface .. 1 = far face of layers that begin with `first` of a height 1 and grow by about `growth`.
 pub fn layers(first: f64, growth: f64) -> Vec<f64> {
     let first = first.clamp(1e-9, 1.0);

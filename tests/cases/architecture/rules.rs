@@ -72,7 +72,7 @@ const SEVERAL_PATHS: [&str; 9] = [
     "server/src/http/routes/operation/serve_pages.rs",
 ];
 
-const RULES: [(&str, Rule); 18] = [
+const RULES: [(&str, Rule); 21] = [
     (
         "laws know no mesh",
         MustNotName(
@@ -130,6 +130,46 @@ const RULES: [(&str, Rule); 18] = [
                 "solver/src/schedule",
             ],
             &["solver/src/station"],
+        ),
+    ),
+    (
+        "extruded bodies know the contact of node planes and its schedule, but not the run of a plane scene or what it reports",
+        MustNotName(
+            &["solver/src/extruded"],
+            &[
+                "solver/src/checkpoint",
+                "solver/src/forecast",
+                "solver/src/point",
+                "solver/src/record",
+                "solver/src/run",
+                "solver/src/station",
+            ],
+        ),
+    ),
+    (
+        "the plane contact knows neither extruded bodies nor the contact of their planes",
+        MustNotName(
+            &[
+                "solver/src/contact/line",
+                "solver/src/cycle",
+                "solver/src/model",
+                "solver/src/record",
+                "solver/src/run",
+                "solver/src/schedule",
+                "solver/src/station",
+            ],
+            &[
+                "solver/src/condensation/extruded",
+                "solver/src/contact/planes",
+                "solver/src/extruded",
+            ],
+        ),
+    ),
+    (
+        "operators and the contact of node planes do not know the run of extruded bodies",
+        MustNotName(
+            &["solver/src/condensation", "solver/src/contact"],
+            &["solver/src/extruded"],
         ),
     ),
     (

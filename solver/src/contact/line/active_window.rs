@@ -40,7 +40,7 @@ pub(super) fn initial_window(
 }
 
 /// Undeformed vertical gap of the covered nodes at height 0, mm: exact shapes, worn depths interpolated.
-pub(super) fn undeformed_gaps(
+pub(in crate::contact) fn undeformed_gaps(
     pair: &Pair<'_>,
     surfaces: &Surfaces<'_>,
     pairing_x: f64,
@@ -75,7 +75,7 @@ pub(super) fn undeformed_gaps(
 }
 
 /// Candidate nodes at a height, the gaps beginning at node `offset`: first and one past the last.
-pub(super) fn candidates(
+pub(in crate::contact) fn candidates(
     undeformed: &[f64],
     offset: usize,
     indentation: f64,
@@ -93,7 +93,10 @@ pub(super) fn candidates(
 }
 
 /// The window with its margin, within the covered nodes.
-pub(super) fn widened((first, end): (usize, usize), covered: (usize, usize)) -> (usize, usize) {
+pub(in crate::contact) fn widened(
+    (first, end): (usize, usize),
+    covered: (usize, usize),
+) -> (usize, usize) {
     let margin = MARGIN_NODES + (end - first) / MARGIN_SHARE;
     (
         first.saturating_sub(margin).max(covered.0),

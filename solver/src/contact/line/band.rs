@@ -4,7 +4,7 @@ use std::ops::Range;
 
 /// A square matrix with equally many diagonals on both sides of the main one.
 #[derive(Debug, Default)]
-pub(super) struct Band {
+pub(in crate::contact) struct Band {
     nodes: usize,
     /// Number of diagonals on each side of the main one.
     bandwidth: usize,
@@ -14,7 +14,7 @@ pub(super) struct Band {
 
 impl Band {
     /// Resets to a zero matrix of an order and a bandwidth.
-    pub(super) fn reset(&mut self, nodes: usize, bandwidth: usize) {
+    pub(in crate::contact) fn reset(&mut self, nodes: usize, bandwidth: usize) {
         self.nodes = nodes;
         self.bandwidth = bandwidth;
         self.diagonals.clear();
@@ -22,12 +22,12 @@ impl Band {
     }
 
     /// Entry (i, l), which must lie within the band.
-    pub(super) fn at(&mut self, i: usize, l: usize) -> &mut f64 {
+    pub(in crate::contact) fn at(&mut self, i: usize, l: usize) -> &mut f64 {
         &mut self.diagonals[(l + self.bandwidth - i) * self.nodes + i]
     }
 
     /// Writes this matrix with every column multiplied by a factor, and a diagonal added to it.
-    pub(super) fn combine(
+    pub(in crate::contact) fn combine(
         &self,
         factor: impl Fn(usize) -> f64,
         diagonal: impl Fn(usize) -> f64,
@@ -48,7 +48,7 @@ impl Band {
     }
 
     /// Replaces this matrix by the diagonal one of its row sums.
-    pub(super) fn lump(&mut self) {
+    pub(in crate::contact) fn lump(&mut self) {
         let (n, bandwidth) = (self.nodes, self.bandwidth);
         for d in (0..=2 * bandwidth).filter(|d| *d != bandwidth) {
             for i in self.rows(d, &(0..n)) {
@@ -61,12 +61,22 @@ impl Band {
     }
 
     /// Adds the product with the values at the nodes of a span.
-    pub(super) fn add_product(&self, span: &Range<usize>, values: &[f64], sum: &mut [f64]) {
+    pub(in crate::contact) fn add_product(
+        &self,
+        span: &Range<usize>,
+        values: &[f64],
+        sum: &mut [f64],
+    ) {
         self.for_each_term(span, values, sum, |sum, term| *sum += term);
     }
 
     /// Subtracts the product with the values at the nodes of a span.
-    pub(super) fn subtract_product(&self, span: &Range<usize>, values: &[f64], sum: &mut [f64]) {
+    pub(in crate::contact) fn subtract_product(
+        &self,
+        span: &Range<usize>,
+        values: &[f64],
+        sum: &mut [f64],
+    ) {
         self.for_each_term(span, values, sum, |sum, term| *sum -= term);
     }
 
@@ -93,7 +103,7 @@ impl Band {
     }
 
     /// Adds, at the nodes of a span, a multiple of one column.
-    pub(super) fn add_column(
+    pub(in crate::contact) fn add_column(
         &self,
         span: &Range<usize>,
         column: usize,

@@ -5,16 +5,16 @@ use super::pair::{Pair, Surfaces};
 
 /// Slopes at the coupled nodes, -.
 #[derive(Debug, Default)]
-pub(super) struct LocalSlopes {
+pub(in crate::contact) struct LocalSlopes {
     /// The interface, between both surfaces: N = (-s, 1), T = (1, s).
-    pub(super) interface: Vec<f64>,
+    pub(in crate::contact) interface: Vec<f64>,
     /// The master's surface.
-    pub(super) master: Vec<f64>,
+    pub(in crate::contact) master: Vec<f64>,
 }
 
 impl LocalSlopes {
     /// Reads the slave's slopes at its nodes and averages the master's over them.
-    pub(super) fn assemble(
+    pub(in crate::contact) fn assemble(
         &mut self,
         pair: &Pair<'_>,
         coupling: &Coupling,

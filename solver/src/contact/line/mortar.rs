@@ -20,13 +20,13 @@ const ROUND_OFF: f64 = 1e-10;
 
 /// Coupling of the slave nodes `first..end` with the master at one position.
 #[derive(Debug, Default)]
-pub(super) struct Coupling {
+pub(in crate::contact) struct Coupling {
     /// First slave node.
-    pub(super) first: usize,
+    pub(in crate::contact) first: usize,
     /// One past the last slave node.
-    pub(super) end: usize,
+    pub(in crate::contact) end: usize,
     /// First master node that any row touches, and one past the last.
-    pub(super) master_range: (usize, usize),
+    pub(in crate::contact) master_range: (usize, usize),
     /// For each slave node: first master node of its row, and where its weights begin.
     rows: Vec<(usize, usize)>,
     /// Mhat_ij.
@@ -34,11 +34,11 @@ pub(super) struct Coupling {
     /// integral phi_i phi_j, mm.
     standard: Vec<f64>,
     /// Average of the unworn gap at height 0, mm.
-    pub(super) gap: Vec<f64>,
+    pub(in crate::contact) gap: Vec<f64>,
 }
 
 /// Slave nodes whose whole support faces the master: first and one past the last.
-pub(super) fn covered(pair: &Pair<'_>, pairing_x: f64) -> (usize, usize) {
+pub(in crate::contact) fn covered(pair: &Pair<'_>, pairing_x: f64) -> (usize, usize) {
     let (slave, master) = (&pair.slave().x, &pair.master().x);
     let offset = pair.offset(pairing_x);
     let round_off = ROUND_OFF * (master[master.len() - 1] - master[0]);
@@ -57,7 +57,13 @@ pub(super) fn covered(pair: &Pair<'_>, pairing_x: f64) -> (usize, usize) {
 
 impl Coupling {
     /// Integrates the coupling of the slave nodes `first..end`, which must be covered.
-    pub(super) fn integrate(&mut self, pair: &Pair<'_>, pairing_x: f64, first: usize, end: usize) {
+    pub(in crate::contact) fn integrate(
+        &mut self,
+        pair: &Pair<'_>,
+        pairing_x: f64,
+        first: usize,
+        end: usize,
+    ) {
         let slave = pair.slave();
         let offset = pair.offset(pairing_x);
         (self.first, self.end) = (first, end);
@@ -175,24 +181,24 @@ impl Coupling {
     }
 
     /// Number of coupled slave nodes.
-    pub(super) fn len(&self) -> usize {
+    pub(in crate::contact) fn len(&self) -> usize {
         self.end - self.first
     }
 
     /// Averaging row of slave node `i`: its first master node and the weights Mhat_ij.
-    pub(super) fn dual_row(&self, i: usize) -> (usize, &[f64]) {
+    pub(in crate::contact) fn dual_row(&self, i: usize) -> (usize, &[f64]) {
         (self.rows[i - self.first].0, &self.dual[self.row_span(i)])
     }
 
     /// The averaging rows of all coupled slave nodes.
-    pub(super) fn dual_rows(&self) -> impl Iterator<Item = (usize, &[f64])> {
+    pub(in crate::contact) fn dual_rows(&self) -> impl Iterator<Item = (usize, &[f64])> {
         self.rows
             .windows(2)
             .map(|rows| (rows[0].0, &self.dual[rows[0].1..rows[1].1]))
     }
 
     /// Transfer row of slave node `i`: its first master node and the integrals of phi_i phi_j, mm.
-    pub(super) fn standard_row(&self, i: usize) -> (usize, &[f64]) {
+    pub(in crate::contact) fn standard_row(&self, i: usize) -> (usize, &[f64]) {
         (
             self.rows[i - self.first].0,
             &self.standard[self.row_span(i)],

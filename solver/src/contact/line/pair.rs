@@ -31,7 +31,7 @@ impl<'a> Pair<'a> {
     }
 
     /// The other body.
-    pub(super) fn master(&self) -> &'a BodyOperators {
+    pub(in crate::contact) fn master(&self) -> &'a BodyOperators {
         self.operators.of(self.interface.slave.other())
     }
 
@@ -82,7 +82,7 @@ impl<'a> Pair<'a> {
     }
 
     /// Displacement of a contact that moves with the slider over the slave, mm.
-    pub(super) fn travel(&self, last: &ContactState, pairing_x: f64) -> f64 {
+    pub(in crate::contact) fn travel(&self, last: &ContactState, pairing_x: f64) -> f64 {
         match self.interface.slave {
             Side::Receptacle => pairing_x - last.pairing_x,
             Side::Slider => 0.0,

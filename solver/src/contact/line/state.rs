@@ -58,7 +58,11 @@ impl ContactState {
     }
 
     /// Resets to an open contact with the slider at a position.
-    pub(super) fn reset_open(&mut self, last: &Self, (slider_x, pairing_x): (f64, f64)) {
+    pub(in crate::contact) fn reset_open(
+        &mut self,
+        last: &Self,
+        (slider_x, pairing_x): (f64, f64),
+    ) {
         self.slider_x = slider_x;
         self.pairing_x = pairing_x;
         self.height = last.height;

@@ -17,7 +17,7 @@ pub enum Status {
 
 impl Status {
     /// Direction of slip, 0 without slip.
-    pub(super) fn direction(self) -> f64 {
+    pub(in crate::contact) fn direction(self) -> f64 {
         match self {
             Self::Open | Self::Stick => 0.0,
             Self::SlipRight => 1.0,
@@ -26,7 +26,7 @@ impl Status {
     }
 
     /// Slip in the direction of a number.
-    pub(super) fn slip(sign: f64) -> Self {
+    pub(in crate::contact) fn slip(sign: f64) -> Self {
         if sign < 0.0 {
             Self::SlipLeft
         } else {

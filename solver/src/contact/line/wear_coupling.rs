@@ -26,7 +26,7 @@ use transfer::{assemble_transfer, transfer_path};
 
 /// Gap opening of an increment, and its derivatives.
 #[derive(Debug, Default)]
-pub(super) struct WearCoupling {
+pub(in crate::contact) struct WearCoupling {
     wear: Sides<Option<SurfaceWear>>,
     cycles: f64,
     /// Depths of the slave's coupled nodes and of the master's nodes in the coupled range before the increment, mm.
@@ -50,7 +50,7 @@ pub(super) struct WearCoupling {
 impl WearCoupling {
     /// Assembles the matrices for the wear of both surfaces, worn to these depths at their contact nodes, and a number of cycles.
     /// Rates that vary are evaluated by [`Self::linearise`].
-    pub(super) fn assemble(
+    pub(in crate::contact) fn assemble(
         &mut self,
         coupling: &Coupling,
         pair: &Pair<'_>,
@@ -102,7 +102,7 @@ impl WearCoupling {
     }
 
     /// Adds the gaps that a pressure at a node opens, over its slip.
-    pub(super) fn open_by_pressure(
+    pub(in crate::contact) fn open_by_pressure(
         &self,
         span: &Range<usize>,
         node: usize,
@@ -225,7 +225,7 @@ impl WearCoupling {
     }
 
     /// W: gap opened per path p |sigma|, 1/MPa.
-    pub(super) fn opening(&self) -> &Band {
+    pub(in crate::contact) fn opening(&self) -> &Band {
         &self.opening
     }
 
@@ -249,7 +249,7 @@ impl WearCoupling {
 
     /// Writes the recession of both surfaces, mm, the slave's at the coupled nodes and the master's at its nodes in the
     /// coupled range; returns the worn areas as the integrals of the rates over the nodes that they belong to, mm^2.
-    pub(super) fn recession(
+    pub(in crate::contact) fn recession(
         &self,
         coupling: &Coupling,
         pair: &Pair<'_>,

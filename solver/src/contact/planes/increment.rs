@@ -1,0 +1,338 @@
+//! One increment of sliding in all planes: the active window, the solve, and what it wears.
+
+use super::super::line::active_window::{candidates, undeformed_gaps, widened};
+use super::super::line::mortar;
+use super::super::line::{
+    ContactError, ContactState, GAP_TOLERANCE, Pair, Status, Surfaces, WarmStart,
+};
+use super::bodies::{Extruded, Slide};
+use super::newton::{Convergence, Iterate, Newton};
+use super::problem::{Problem, Zones};
+use super::response::Response;
+use crate::sides::{Side, Sides};
+
+/// Most extensions of the active window within one increment.
+const MOST_EXTENSIONS: usize = 60;
+
+/// What an increment wears in one plane; arrays begin at the first coupled node of their side.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct PlaneWear {
+    /// First coupled node of each side.
+    pub first: Sides<usize>,
+    /// Vertical recession at the nodes from there on, mm.
+    pub recession: Sides<Vec<f64>>,
+    /// Integral of the wear rate over the contact, mm^2.
+    pub worn_area: Sides<f64>,
+    /// Integral of p |sigma| over the contact, N/mm mm.
+    pub path: f64,
+    /// Energy dissipated by friction, N/mm mm.
+    pub energy: f64,
+    /// Vertical force on the slider, N/mm.
+    pub vertical_force: f64,
+}
+
+/// Solves increments; its buffers are reused from one to the next.
+#[derive(Debug, Default)]
+pub struct ExtrudedSolver {
+    problem: Problem,
+    response: Response,
+    newton: Newton,
+    iterate: Iterate,
+    /// Undeformed vertical gap at height 0 of every covered node of each plane, mm.
+    undeformed: Vec<Vec<f64>>,
+    path: Vec<f64>,
+}
+
+impl ExtrudedSolver {
+    /// Solves the increment to a displacement from starts for each plane, or from the last contacts moved with the slider; writes the new
+    /// contacts to `next` and what they wear to `worn`. Returns the number of iterations.
+    ///
+    /// # Errors
+    /// [`ContactError`]; `next` and `worn` are then undefined.
+    pub fn advance(
+        &mut self,
+        bodies: &Extruded<'_>,
+        surfaces: &[Surfaces<'_>],
+        (last, starts): (&[ContactState], Option<&[WarmStart<'_>]>),
+        to: Slide,
+        (next, worn): (&mut [ContactState], &mut [PlaneWear]),
+    ) -> Result<usize, ContactError> {
+        let pair = &Pair {
+            operators: &bodies.operators.sections,
+            interface: bodies.interface,
+        };
+        self.newton.iterations = 0;
+        let covered = mortar::covered(pair, to.slider_x);
+        if covered.0 == covered.1 {
+            // A stop holds the height of a slider that its stroke has taken off the receptacle.
+            for ((next, last), worn) in next.iter_mut().zip(last).zip(worn) {
+                next.reset_open(last, (to.slider_x, to.slider_x));
+                *worn = PlaneWear::default();
+            }
+            return Ok(0);
+        }
+        self.undeformed.resize_with(surfaces.len(), Vec::new);
+        for (surfaces, gaps) in surfaces.iter().zip(&mut self.undeformed) {
+            undeformed_gaps(pair, surfaces, to.slider_x, covered, gaps);
+        }
+        let mut window = self.first_window(pair, last, to, covered);
+        let mut earlier: Option<(usize, usize)> = None;
+        for _ in 0..MOST_EXTENSIONS {
+            self.problem
+                .assemble((bodies, pair), surfaces, last, to, window);
+            match earlier {
+                Some(earlier) => self.extend(earlier, window, surfaces.len()),
+                None => self.predict(pair, last, starts, to),
+            }
+            self.solve(bodies, last, to)?;
+            let it = &self.iterate;
+            let needed = self.candidates(it.indentation, it.height, covered);
+            if needed.0 >= window.0 && needed.1 <= window.1 {
+                self.write(pair, last, to, (next, worn));
+                return Ok(self.newton.iterations);
+            }
+            earlier = Some(window);
+            let all = (needed.0.min(window.0), needed.1.max(window.1));
+            window = widened(all, covered);
+        }
+        Err(ContactError::NotConverged {
+            slider_x_mm: to.slider_x,
+            iterations: self.newton.iterations,
+            residual: f64::INFINITY,
+            tolerance: GAP_TOLERANCE,
+            changes: window.1 - window.0,
+        })
+    }
+
+    /// Nodes that may touch in a plane: first and one past the last; empty ranges are reversed.
+    fn candidates(&self, indentation: f64, height: f64, covered: (usize, usize)) -> (usize, usize) {
+        let planes = self.undeformed.iter();
+        let planes = planes.map(|gaps| candidates(gaps, covered.0, indentation, height));
+        planes.fold((usize::MAX, 0), |all, own| {
+            (all.0.min(own.0), all.1.max(own.1))
+        })
+    }
+
+    /// The first window: the last contacts, moved with the slider over the receptacle, and the candidates at the last height.
+    fn first_window(
+        &self,
+        pair: &Pair<'_>,
+        last: &[ContactState],
+        to: Slide,
+        covered: (usize, usize),
+    ) -> (usize, usize) {
+        let x = &pair.slave().x;
+        let travel = pair.travel(&last[0], to.slider_x);
+        let mut window = (usize::MAX, 0);
+        for contact in last {
+            let Some((first, end)) = contact.active_range() else {
+                continue;
+            };
+            let begin = x.partition_point(|&at| at < x[first] + travel);
+            let stop = x.partition_point(|&at| at <= x[end - 1] + travel);
+            let begin = begin.clamp(covered.0, covered.1 - 1);
+            let stop = stop.clamp(begin + 1, covered.1);
+            window = (window.0.min(begin), window.1.max(stop));
+        }
+        if window.0 < window.1 {
+            let near = self.candidates(last[0].indentation, last[0].height, covered);
+            window = (window.0.min(near.0), window.1.max(near.1));
+        } else {
+            let gaps = self
+                .undeformed
+                .iter()
+                .flat_map(|gaps| gaps.iter().enumerate());
+            let lowest = gaps.fold(
+                (0, f64::INFINITY),
+                |m, (i, g)| if *g < m.1 { (i, *g) } else { m },
+            );
+            window = (covered.0 + lowest.0, covered.0 + lowest.0 + 1);
+        }
+        widened(window, covered)
+    }
+
+    /// Writes the predictor of the iteration.
+    fn predict(
+        &mut self,
+        pair: &Pair<'_>,
+        last: &[ContactState],
+        starts: Option<&[WarmStart<'_>]>,
+        to: Slide,
+    ) {
+        let (first, n) = (self.problem.coupling.first, self.problem.nodes());
+        let it = &mut self.iterate;
+        it.reset(self.problem.len(), last[0].height);
+        for (plane, contact) in last.iter().enumerate() {
+            let range = plane * n..(plane + 1) * n;
+            let own = (&mut it.is_closed[range.clone()], &mut it.pressure[range]);
+            match starts.map(|starts| starts[plane]) {
+                Some(start) => start_from(own, first, start),
+                None => moved((pair, contact), own, first, to),
+            }
+        }
+        if it.is_closed.iter().all(|closed| !closed) {
+            it.is_closed.fill(true);
+        }
+    }
+
+    /// Widens the last iterate to another window: the nodes that are new are open.
+    fn extend(&mut self, from: (usize, usize), to: (usize, usize), planes: usize) {
+        let (before, after) = (from.1 - from.0, to.1 - to.0);
+        let it = &mut self.iterate;
+        let closed = std::mem::take(&mut it.is_closed);
+        let pressure = std::mem::take(&mut it.pressure);
+        it.reset(planes * after, it.height);
+        for plane in 0..planes {
+            let begin = plane * after + from.0 - to.0;
+            let (old, new) = (plane * before..(plane + 1) * before, begin..begin + before);
+            it.is_closed[new.clone()].copy_from_slice(&closed[old.clone()]);
+            it.pressure[new].copy_from_slice(&pressure[old]);
+        }
+    }
+
+    fn solve(
+        &mut self,
+        bodies: &Extruded<'_>,
+        last: &[ContactState],
+        to: Slide,
+    ) -> Result<(), ContactError> {
+        let (interface, coupling) = (&bodies.interface, &self.problem.coupling);
+        let zone = |side: Side, (first, end): (usize, usize)| {
+            let zone = bodies.operators.zone(side, &(first..end));
+            zone.ok_or_else(|| ContactError::WiderThanZone {
+                slider_x_mm: to.slider_x,
+                nodes: end - first,
+                body: side.name(),
+                zone: (bodies.operators.zones.of(side).iter())
+                    .map(|zone| zone.nodes().len())
+                    .max()
+                    .unwrap_or(0),
+            })
+        };
+        let zones = Zones {
+            slave: zone(interface.slave, (coupling.first, coupling.end))?,
+            master: zone(interface.slave.other(), coupling.master_range)?,
+        };
+        self.problem.sag(zones, interface.slave);
+        self.response.reset(self.problem.len());
+        let is_first_load = last[0].reference_height.is_none();
+        let wall = self.problem.mean_slope_ahead(&self.iterate.pressure) * interface.friction;
+        let (problem, it) = (&self.problem, &mut self.iterate);
+        let (newton, response) = (&mut self.newton, &mut self.response);
+        match newton.solve(problem, zones, response, it, is_first_load) {
+            Convergence::Converged => Ok(()),
+            _ if wall > 1.0 => Err(ContactError::Jammed {
+                slider_x_mm: to.slider_x,
+                slope: wall / interface.friction,
+                limit: interface.friction.recip(),
+            }),
+            Convergence::Singular { active } => Err(ContactError::NoEquilibrium {
+                slider_x_mm: to.slider_x,
+                active,
+            }),
+            Convergence::NotConverged { residual, changes } => Err(ContactError::NotConverged {
+                slider_x_mm: to.slider_x,
+                iterations: newton.iterations,
+                residual,
+                tolerance: it.tolerance,
+                changes,
+            }),
+        }
+    }
+
+    /// Writes the solution to the contacts of the planes, and what it wears.
+    fn write(
+        &mut self,
+        pair: &Pair<'_>,
+        last: &[ContactState],
+        to: Slide,
+        (next, worn): (&mut [ContactState], &mut [PlaneWear]),
+    ) {
+        let (problem, it) = (&self.problem, &self.iterate);
+        let (coupling, n) = (&problem.coupling, problem.nodes());
+        let slave = pair.interface.slave;
+        let slipping = Status::slip(problem.direction);
+        let friction = problem.direction * pair.interface.friction;
+        let widths = &pair.slave().widths[coupling.first..coupling.end];
+        let planes = next.iter_mut().zip(last).zip(worn).enumerate();
+        for (k, ((next, last), worn)) in planes {
+            next.reset_open(last, (to.slider_x, to.slider_x));
+            next.height = it.height;
+            next.indentation = it.indentation;
+            next.friction = pair.interface.friction;
+            let own = k * n..(k + 1) * n;
+            let status = |closed: &bool| if *closed { slipping } else { Status::Open };
+            let statuses: Vec<Status> = it.is_closed[own.clone()].iter().map(status).collect();
+            next.set_statuses(coupling.first, &statuses);
+            let pressure = &it.pressure[own.clone()];
+            next.pressure[coupling.first..coupling.end].copy_from_slice(pressure);
+            for (shear, p) in next.shear[coupling.first..].iter_mut().zip(pressure) {
+                *shear = friction * p;
+            }
+            self.path.clear();
+            self.path.extend_from_slice(&it.path[own.clone()]);
+            worn.first = Sides::from_fn(|side| {
+                if side == slave {
+                    coupling.first
+                } else {
+                    coupling.master_range.0
+                }
+            });
+            worn.worn_area =
+                problem
+                    .wear
+                    .recession(coupling, pair, &self.path, &mut worn.recession);
+            worn.path = self.path.iter().zip(widths).map(|(e, d)| e * d).sum();
+            worn.energy = friction.abs() * worn.path;
+            let forces = pressure.iter().zip(&problem.force[own]);
+            worn.vertical_force = forces.map(|(p, force)| p * force[1]).sum();
+        }
+    }
+}
+
+impl Iterate {
+    /// Resets to an open contact of so many nodes at a height.
+    fn reset(&mut self, nodes: usize, height: f64) {
+        self.is_closed.clear();
+        self.is_closed.resize(nodes, false);
+        self.pressure.clear();
+        self.pressure.resize(nodes, 0.0);
+        self.height = height;
+    }
+}
+
+/// Writes statuses and pressures of a start to the nodes of a plane from `first` on.
+fn start_from((closed, pressure): (&mut [bool], &mut [f64]), first: usize, start: WarmStart<'_>) {
+    let nodes = (start.first..).zip(start.status.iter().zip(start.pressure));
+    for (node, (status, p)) in nodes {
+        let Some(at) = node.checked_sub(first).filter(|at| *at < closed.len()) else {
+            continue;
+        };
+        closed[at] = *status != Status::Open;
+        pressure[at] = *p;
+    }
+}
+
+/// Writes the last contact, moved with the slider, to the nodes of a plane from `first` on.
+fn moved(
+    (pair, last): (&Pair<'_>, &ContactState),
+    (closed, pressure): (&mut [bool], &mut [f64]),
+    first: usize,
+    to: Slide,
+) {
+    let Some((begin, end)) = last.active_range() else {
+        return;
+    };
+    let x = &pair.slave().x;
+    let travel = pair.travel(last, to.slider_x);
+    for (i, (closed, pressure)) in (first..).zip(closed.iter_mut().zip(pressure)) {
+        let from = x[i] - travel;
+        if from < x[begin] || from > x[end - 1] {
+            continue;
+        }
+        let next = x.partition_point(|&at| at < from).max(1);
+        let t = ((from - x[next - 1]) / (x[next] - x[next - 1])).clamp(0.0, 1.0);
+        *closed = true;
+        *pressure = (1.0 - t) * last.pressure[next - 1] + t * last.pressure[next];
+    }
+}

@@ -1,0 +1,165 @@
+//! One increment over the coupled nodes of all planes: what does not depend on the tractions.
+//!
+//! Node i of plane k is number k n + i of the coupled ones, n in each plane.
+
+use super::super::line::local_slopes::LocalSlopes;
+use super::super::line::mortar::Coupling;
+use super::super::line::wear_coupling::WearCoupling;
+use super::super::line::{ContactState, Pair, Surfaces};
+use super::bodies::{Extruded, Slide};
+use crate::condensation::PrismZone;
+use crate::model::Tangential;
+use crate::sides::Side;
+
+/// The zones of both bodies in which a contact lies.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Zones<'a> {
+    pub(super) slave: &'a PrismZone,
+    pub(super) master: &'a PrismZone,
+}
+
+/// Geometry, friction and wear of an increment. Buffers are reused.
+#[derive(Debug, Default)]
+pub(super) struct Problem {
+    /// The pairing, which all planes have.
+    pub(super) coupling: Coupling,
+    pub(super) wear: WearCoupling,
+    pub(super) wears: bool,
+    /// Gap of the worn bodies at height 0 under the far-face load, mm.
+    pub(super) gap: Vec<f64>,
+    /// Slopes of the interface and of the master's surface.
+    pub(super) slope: Vec<f64>,
+    pub(super) master_slope: Vec<f64>,
+    /// Slip at height 0, mm.
+    pub(super) fixed_slip: Vec<f64>,
+    /// Line force on the slider (x, y) per pressure, mm.
+    pub(super) force: Vec<[f64; 2]>,
+    /// Share of each plane in the width.
+    pub(super) shares: Vec<f64>,
+    /// Direction of the imposed slip; 0 without one.
+    pub(super) direction: f64,
+    /// Mean line load, N/mm, and the contact modulus, MPa.
+    pub(super) load: f64,
+    pub(super) modulus: f64,
+    slopes: LocalSlopes,
+}
+
+impl Problem {
+    /// Assembles the increment over the nodes `first..end` of the slave.
+    pub(super) fn assemble(
+        &mut self,
+        (bodies, pair): (&Extruded<'_>, &Pair<'_>),
+        surfaces: &[Surfaces<'_>],
+        last: &[ContactState],
+        to: Slide,
+        (first, end): (usize, usize),
+    ) {
+        let interface = &bodies.interface;
+        self.coupling.integrate(pair, to.slider_x, first, end);
+        let wear = interface.wear.map(|wear| wear.filter(|_| to.cycles > 0.0));
+        self.wears = wear.slider.is_some() || wear.receptacle.is_some();
+        let worn = (wear, surfaces[0].depth);
+        self.wear.assemble(&self.coupling, pair, worn, to.cycles);
+        let step = to.slider_x - last[0].slider_x;
+        self.direction = if step == 0.0 { 0.0 } else { step.signum() };
+        self.load = interface.load;
+        self.modulus = interface.modulus;
+        self.shares.clear();
+        self.shares.extend_from_slice(bodies.shares);
+        let height = last[0].height;
+        for values in [
+            &mut self.slope,
+            &mut self.master_slope,
+            &mut self.fixed_slip,
+        ] {
+            values.clear();
+        }
+        self.gap.clear();
+        self.force.clear();
+        let friction = match interface.tangential {
+            Tangential::Omitted => 0.0,
+            Tangential::ImposedSlip | Tangential::StickSlip => self.direction * interface.friction,
+        };
+        let widths = &pair.slave().widths[first..end];
+        for surfaces in surfaces {
+            self.slopes.assemble(pair, &self.coupling, surfaces);
+            let slopes = &self.slopes.interface;
+            self.slope.extend_from_slice(slopes);
+            self.master_slope.extend_from_slice(&self.slopes.master);
+            self.fixed_slip
+                .extend(slopes.iter().map(|s| step - s * height));
+            // p N - q T over the width of the node, with N = (-s, 1), T = (1, s) and q = mu p in the direction of the slip.
+            let forces = slopes.iter().zip(widths);
+            self.force.extend(forces.map(|(slope, width)| {
+                let tangential = -friction * width;
+                [tangential - slope * width, width + slope * tangential]
+            }));
+            self.measure(pair, surfaces);
+        }
+    }
+
+    /// Appends the gaps of a plane.
+    fn measure(&mut self, pair: &Pair<'_>, surfaces: &Surfaces<'_>) {
+        let slave = pair.interface.slave;
+        let (own, other) = (surfaces.depth.of(slave), surfaces.depth.of(slave.other()));
+        let coupling = &self.coupling;
+        for i in coupling.first..coupling.end {
+            let (from, weights) = coupling.dual_row(i);
+            let worn = weights.iter().zip(&other[from..]);
+            let worn: f64 = worn.map(|(weight, depth)| weight * depth).sum();
+            self.gap
+                .push(coupling.gap[i - coupling.first] + own[i] + worn);
+        }
+    }
+
+    /// Adds the gaps that the slider opens by its far-face load.
+    pub(super) fn sag(&mut self, zones: Zones<'_>, slave: Side) {
+        let coupling = &self.coupling;
+        for k in 0..self.shares.len() {
+            for i in coupling.first..coupling.end {
+                let at = k * coupling.len() + i - coupling.first;
+                let slope = self.master_slope[at];
+                let moved_by = |zone: &PrismZone, j: usize| {
+                    let [x, y] = zone.under_load(k, j);
+                    y - slope * x
+                };
+                let moved = match slave {
+                    Side::Slider => moved_by(zones.slave, i),
+                    Side::Receptacle => {
+                        let (from, weights) = coupling.dual_row(i);
+                        let nodes = (from..).zip(weights);
+                        nodes
+                            .map(|(j, weight)| weight * moved_by(zones.master, j))
+                            .sum()
+                    }
+                };
+                self.gap[at] += self.load * moved;
+            }
+        }
+    }
+
+    /// Coupled nodes of a plane.
+    pub(super) fn nodes(&self) -> usize {
+        self.coupling.len()
+    }
+
+    /// Coupled nodes of all planes.
+    pub(super) fn len(&self) -> usize {
+        self.gap.len()
+    }
+
+    /// Mean slope under the last pressures, positive where the slider climbs it.
+    pub(super) fn mean_slope_ahead(&self, pressure: &[f64]) -> f64 {
+        let (mut load, mut moment) = (0.0, 0.0);
+        for (at, p) in pressure.iter().enumerate() {
+            let share = self.shares[at / self.nodes()] * p;
+            load += share;
+            moment += share * self.slope[at];
+        }
+        if load > 0.0 {
+            self.direction * moment / load
+        } else {
+            0.0
+        }
+    }
+}

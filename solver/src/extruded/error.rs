@@ -1,0 +1,77 @@
+//! What can end a run of extruded bodies without a result.
+
+use crate::condensation::OperatorError;
+use crate::contact::ContactError;
+use crate::mesh::MeshError;
+
+/// Why a run failed.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum ExtrudedError {
+    /// A value of the scene is outside of its range.
+    #[error("{name} is {value}, must be positive")]
+    Value {
+        /// Its name and unit.
+        name: &'static str,
+        /// It.
+        value: f64,
+    },
+    /// No node plane would lie in the middle of the width.
+    #[error("{layers} layers over the width, must be an even number from 2")]
+    Layers {
+        /// Their number.
+        layers: usize,
+    },
+    /// A motion with turning points inside, or without any.
+    #[error("extruded bodies slide to and fro between two turning points")]
+    Motion,
+    /// Part of the contact may stick through the whole stroke.
+    #[error(
+        "a part of the contact may stick: amplitude is {amplitude_mm} mm, twice the displacement at which all of it slips is {least_mm:.3e} mm"
+    )]
+    Sticks {
+        /// Its amplitude, mm.
+        amplitude_mm: f64,
+        /// The least one, mm.
+        least_mm: f64,
+    },
+    /// Friction that changes.
+    #[error("extruded bodies have one coefficient of friction")]
+    FrictionLaw,
+    /// A load that changes as the slider sinks.
+    #[error("the load of extruded bodies is no spring's")]
+    Spring,
+    /// A wear rate that depends on the state or on the depth.
+    #[error("the wear rate of the {side} is not the same in every state")]
+    Law {
+        /// The body.
+        side: &'static str,
+    },
+    /// The condensed compliance would be larger than the engine takes.
+    #[error(
+        "{nodes} contact nodes of all planes in a zone of the {side} are more than the limit of {limit}: fewer layers or coarser elements are needed"
+    )]
+    TooLarge {
+        /// Nodes of all planes.
+        nodes: usize,
+        /// The body.
+        side: &'static str,
+        /// The limit.
+        limit: usize,
+    },
+    /// A contact has no solution.
+    #[error("cycle {cycle}: {source}; the increment was halved {halvings} times")]
+    Contact {
+        /// Cycles done.
+        cycle: u64,
+        /// Number of halvings.
+        halvings: u32,
+        /// Why.
+        source: ContactError,
+    },
+    /// A body cannot be meshed.
+    #[error(transparent)]
+    Mesh(#[from] MeshError),
+    /// A body cannot be condensed.
+    #[error(transparent)]
+    Operator(#[from] OperatorError),
+}
