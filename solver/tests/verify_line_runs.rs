@@ -101,6 +101,7 @@ fn a_resumed_line_reaches_the_bits_of_the_undisturbed_run() {
     assert!(summary.life.criteria[0].cycles.is_some());
     assert!(summary.checks.worn_area < 1e-10, "{:?}", summary.checks);
     let mut worn = ring(150);
+    worn.receptacle.shape.height_mm = 0.004;
     worn.effects = worn.effects.with(Effect::Relocation, true);
     let (summary, _) = resumes_to_the_same_bits("ring", &worn, 4);
     assert!(summary.resolution.relocations > 0);
