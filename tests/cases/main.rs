@@ -29,6 +29,7 @@ mod golden_results;
 mod hard;
 mod heated_contact;
 mod hostile_inputs;
+mod line_contact;
 mod load;
 mod main_job;
 mod many_jobs;

@@ -33,15 +33,18 @@ pub(in crate::spec) struct Line {
 
 /// Fields of a model of a dimension.
 pub(super) fn fields(dimension: Dimension) -> &'static [&'static str] {
+    const AUTO: [&str; 6] = [
+        "dimension",
+        "width_mm",
+        "crown_radius_mm",
+        "tilt_mrad",
+        "top",
+        "chosen",
+    ];
     match dimension {
         Dimension::Ring => &["dimension", "outer_diameter_mm", "top"],
-        _ => &[
-            "dimension",
-            "width_mm",
-            "crown_radius_mm",
-            "tilt_mrad",
-            "top",
-        ],
+        Dimension::Auto => &AUTO,
+        _ => &AUTO[..5],
     }
 }
 

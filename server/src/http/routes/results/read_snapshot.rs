@@ -2,7 +2,7 @@
 //! CSV.
 
 use api::problem::Problem;
-use api::results::{Loop, Pressure, Profile};
+use api::results::{LineProfile, LineProfiles, Loop, Pressure, Profile};
 use axum::Json;
 use axum::extract::State;
 use axum::http::header;
@@ -14,12 +14,38 @@ use uuid::Uuid;
 
 use crate::export::csv::CsvError;
 use crate::export::documents::{CSV, JSON};
-use crate::export::{csv, thin};
+use crate::export::{csv, line, thin};
 use crate::http::app::App;
 use crate::http::extract::{JobId, Params};
 use crate::http::problem::{ProblemResponse, ProblemType, RouteError};
 use crate::http::routes::results::max_points;
-use crate::store::SnapshotPart;
+use crate::store::{Content, SnapshotPart};
+
+/// Error of a section that a job does not have.
+#[derive(Debug, thiserror::Error)]
+#[error("job {id} has {stations} sections along a line at cycle {cycle}, no number {station}")]
+struct NoStationError {
+    id: Uuid,
+    cycle: u64,
+    stations: usize,
+    station: usize,
+}
+
+impl RouteError for NoStationError {
+    const TYPE: ProblemType = ProblemType::NO_SUCH_RESULT;
+}
+
+/// Error of a file of sections that cannot be read.
+#[derive(Debug, thiserror::Error)]
+#[error("the sections of job {id} cannot be read: {cause}")]
+struct UnreadError {
+    id: Uuid,
+    cause: std::io::Error,
+}
+
+impl RouteError for UnreadError {
+    const TYPE: ProblemType = ProblemType::INTERNAL;
+}
 
 /// Error of a job without a stored snapshot.
 #[derive(Debug, thiserror::Error)]
@@ -54,6 +80,8 @@ pub(crate) struct SnapshotQuery {
     /// Maximum number of points of each curve; extrema are preserved.
     #[param(minimum = 16, maximum = 100_000)]
     max_points: Option<usize>,
+    /// Number of a section along a `line` or a `ring`, from 0 on. Default: that in the middle of the line, or across the motion of the ring.
+    station: Option<usize>,
 }
 
 /// Worn depth along both surfaces, at the stored cycle nearest to the requested one.
@@ -72,8 +100,17 @@ pub(crate) async fn profile(
     JobId(id): JobId,
     Params(query): Params<SnapshotQuery>,
 ) -> Result<Response, ProblemResponse> {
-    let part = SnapshotPart::Profile;
-    read_part(&app, id, query, part, csv::profile, thin::profile).await
+    let read = Read {
+        part: SnapshotPart::Profile,
+        write: csv::profile,
+        thin: thin::profile,
+        of_station: Some(|cycle, found| Profile {
+            cycle,
+            receptacle: found.receptacle_profile,
+            slider: found.slider_profile,
+        }),
+    };
+    read_part(&app, id, query, read).await
 }
 
 /// Contact pressure and shear stress, at the stored cycle nearest to the requested one.
@@ -92,8 +129,16 @@ pub(crate) async fn pressure(
     JobId(id): JobId,
     Params(query): Params<SnapshotQuery>,
 ) -> Result<Response, ProblemResponse> {
-    let part = SnapshotPart::Pressure;
-    read_part(&app, id, query, part, csv::pressure, thin::pressure).await
+    let read = Read {
+        part: SnapshotPart::Pressure,
+        write: csv::pressure,
+        thin: thin::pressure,
+        of_station: Some(|cycle, found| Pressure {
+            cycle,
+            positions: found.positions,
+        }),
+    };
+    read_part(&app, id, query, read).await
 }
 
 /// Friction loop: tangential force over displacement, at the stored cycle nearest to the requested one.
@@ -112,47 +157,93 @@ pub(crate) async fn friction_loop(
     JobId(id): JobId,
     Params(query): Params<SnapshotQuery>,
 ) -> Result<Response, ProblemResponse> {
-    let part = SnapshotPart::Loop;
-    read_part(
-        &app,
-        id,
-        query,
-        part,
-        csv::friction_loop,
-        thin::friction_loop,
-    )
-    .await
+    let read = Read {
+        part: SnapshotPart::Loop,
+        write: csv::friction_loop,
+        thin: thin::friction_loop,
+        of_station: None,
+    };
+    read_part(&app, id, query, read).await
 }
 
-/// Returns a part of the stored snapshot nearest to the requested cycle. `write` writes it as CSV, `thin` reduces its
-/// number of points.
+/// How a part of a snapshot is read.
+struct Read<T> {
+    part: SnapshotPart,
+    /// Writes it as CSV.
+    write: fn(&T) -> Result<Vec<u8>, CsvError>,
+    /// Reduces its number of points.
+    thin: fn(T, usize) -> T,
+    /// That of a section along a line at a cycle; the loop is that of the whole line.
+    of_station: Option<fn(u64, LineProfile) -> T>,
+}
+
+/// Returns a part of the stored snapshot nearest to the requested cycle.
 async fn read_part<T: DeserializeOwned + Serialize>(
     app: &App,
     id: Uuid,
     query: SnapshotQuery,
-    part: SnapshotPart,
-    write: fn(&T) -> Result<Vec<u8>, CsvError>,
-    thin: fn(T, usize) -> T,
+    read: Read<T>,
 ) -> Result<Response, ProblemResponse> {
     max_points::check(query.max_points)?;
-    let Some(json) = app.store.snapshot(id, part, query.cycle).await? else {
+    let Some(json) = app.store.snapshot(id, read.part, query.cycle).await? else {
         app.job(id).await?;
         return Err(NoSnapshotError(id).into());
     };
-    if (query.format, query.max_points) == (Format::Json, None) {
+    let of_station = query.station.zip(read.of_station);
+    if (query.format, query.max_points, of_station) == (Format::Json, None, None) {
         return Ok(([(header::CONTENT_TYPE, JSON)], json).into_response());
     }
-    let mut document: T = serde_json::from_str(&json)?;
+    let mut document: T = match of_station {
+        Some((station, part)) => {
+            let At { cycle } = serde_json::from_str(&json)?;
+            part(cycle, section(app, id, (cycle, station)).await?)
+        }
+        None => serde_json::from_str(&json)?,
+    };
     if let Some(points) = query.max_points {
-        document = thin(document, points);
+        document = (read.thin)(document, points);
     }
     Ok(match query.format {
         Format::Json => Json(document).into_response(),
         Format::Csv => {
-            let table = write(&document)?;
+            let table = (read.write)(&document)?;
             ([(header::CONTENT_TYPE, CSV)], table).into_response()
         }
     })
+}
+
+/// The cycle of a document.
+#[derive(Deserialize)]
+struct At {
+    cycle: u64,
+}
+
+/// A section along a line at a stored cycle.
+async fn section(
+    app: &App,
+    id: Uuid,
+    (cycle, station): (u64, usize),
+) -> Result<LineProfile, ProblemResponse> {
+    let missing = |stations| NoStationError {
+        id,
+        cycle,
+        stations,
+        station,
+    };
+    let Some(file) = app.verified_file(id, &line::file_name(cycle)).await? else {
+        return Err(missing(0).into());
+    };
+    let bytes = match file.content {
+        Content::Inline(bytes) => bytes,
+        Content::File(path) => tokio::fs::read(path)
+            .await
+            .map_err(|cause| UnreadError { id, cause })?,
+    };
+    let mut found: LineProfiles = serde_json::from_slice(&bytes)?;
+    if station >= found.stations.len() {
+        return Err(missing(found.stations.len()).into());
+    }
+    Ok(found.stations.swap_remove(station))
 }
 
 #[cfg(test)]

@@ -1,0 +1,164 @@
+//! Requirement: a contact along a line, a ring or a crowned spring, is a job like any other. It reports its sections, their profiles and
+//! their histories, and `auto` chooses it where a contact calls for it.
+
+use serde_json::{Value, json};
+use tests::{Server, fretwear, spec};
+
+fn document(name: &str) -> Value {
+    let text = std::fs::read(spec(name)).expect("the specification is there");
+    serde_json::from_slice(&text).expect("JSON")
+}
+
+fn number(value: &Value) -> f64 {
+    value.as_f64().expect("a number")
+}
+
+fn numbers(value: &Value) -> Vec<f64> {
+    value
+        .as_array()
+        .expect("a list")
+        .iter()
+        .map(number)
+        .collect()
+}
+
+/// The ring on few sections, coarse and short.
+fn ring() -> Value {
+    let mut ring = document("fuzz_button_ring.json");
+    ring["cycles"] = json!(40);
+    ring["accuracy"] = json!({"preset": "draft", "overrides": {"stations": 5}});
+    ring["output"] = json!({"stations_mm": [0.0], "snapshots_at_cycles": [10, 40]});
+    ring
+}
+
+#[tokio::test]
+async fn a_ring_is_a_job_with_sections() {
+    let folder = tempfile::tempdir().expect("a folder can be made");
+    let server = Server::start(folder.path());
+    let (status, job) = server.submit(ring().to_string()).await;
+    assert_eq!(status, 202, "{job}");
+    let id = job["id"].as_str().expect("a job has an id").to_owned();
+    let job = server
+        .job_when(&id, |job| job["finished_at"].is_string())
+        .await;
+    assert_eq!(job["outcome"], "completed", "{job}");
+    let summary = &job["summary"];
+    // Under a rigid top all places sink alike, by k F/(2 R) a cycle but for the first ones, and the force is balanced.
+    let stations = summary["stations"].as_array().expect("sections");
+    let depths: Vec<f64> = stations
+        .iter()
+        .map(|station| number(&station["receptacle"]["max_depth_mm"]))
+        .collect();
+    assert_eq!(depths.len(), 5);
+    let sunk = 40.0 * 0.011 / 427.0 * 0.834 / (2.0 * 0.4826);
+    for depth in &depths {
+        // The elastic approach differs by some 10 nm, of 0.9 um.
+        assert!((depth / depths[0] - 1.0).abs() < 0.04, "{depths:?}");
+        assert!((depth / sunk - 1.0).abs() < 0.1, "{depths:?} {sunk}");
+    }
+    let carried: f64 = stations
+        .iter()
+        .map(|station| number(&station["length_mm"]))
+        .sum();
+    assert!((carried - 2.0 * std::f64::consts::PI * 0.4826).abs() < 1e-9);
+    assert!((number(&summary["extent"]["load_n"]) - 0.834).abs() < 1e-6);
+    assert!(number(&summary["checks"]["force_balance"]) < 1e-6);
+    // mu F over 4 A a cycle.
+    let energy = number(&summary["extent"]["dissipated_energy_mj"]);
+    let work = 1.21 * 0.834 * 4.0 * 0.033_868 * 40.0;
+    assert!((energy / work - 1.0).abs() < 0.02, "{energy} {work}");
+
+    let results = format!("/v1/jobs/{id}/results");
+    let history = server.get(&format!("{results}/wear-history")).await.1;
+    let series = history["line_stations"].as_array().expect("sections");
+    assert_eq!(series.len(), 5);
+    let last = numbers(&series[2]["receptacle_max_depth_mm"]);
+    assert!((last[last.len() - 1] / depths[2] - 1.0).abs() < 1e-12);
+    assert!((number(&series[2]["theta_deg"]) - 90.0).abs() < 1e-12);
+
+    // Profiles of a section: that across the motion if none is named.
+    let own = server
+        .get_in_the_end(&format!("{results}/profile?cycle=40"))
+        .await
+        .1;
+    let first = server
+        .get(&format!("{results}/profile?cycle=40&station=0"))
+        .await
+        .1;
+    assert_eq!(own["receptacle"], first["receptacle"]);
+    let beside = server
+        .get(&format!("{results}/profile?cycle=40&station=2"))
+        .await
+        .1;
+    let deepest = numbers(&beside["receptacle"]["depth_mm"])
+        .into_iter()
+        .fold(0.0, f64::max);
+    assert!((deepest / depths[2] - 1.0).abs() < 1e-12);
+    let pressure = server.get(&format!("{results}/pressure?station=2")).await.1;
+    assert_eq!(
+        pressure["positions"].as_array().map(Vec::len),
+        Some(3),
+        "{pressure}"
+    );
+    let (status, missing) = server.get(&format!("{results}/profile?station=5")).await;
+    assert_eq!(
+        (status, &missing["type"]),
+        (404, &json!("/problems/no-such-result"))
+    );
+    assert!(
+        missing["detail"]
+            .as_str()
+            .is_some_and(|detail| detail.contains("5 sections")),
+        "{missing}"
+    );
+}
+
+/// Walls that would overhang are no graph: the run ends with what it has, and says so.
+#[test]
+fn a_groove_as_deep_as_the_wire_ends_a_ring() {
+    let folder = tempfile::tempdir().expect("a folder can be made");
+    let mut spec = ring();
+    // So soft that it takes 40 cycles to the radius of the wire.
+    spec["interface"]["wear"]["receptacle"] =
+        json!({"law": "archard", "k": 0.4, "hardness_mpa": 427});
+    spec["cycles"] = json!(400);
+    spec["accuracy"]["estimate_errors"] = json!(false);
+    std::fs::write(folder.path().join("spec.json"), spec.to_string()).expect("a file");
+    let ran = fretwear(folder.path(), &["solve", "spec.json", "--out", "out"]);
+    let summary: Value = serde_json::from_str(&ran.stdout).expect("a summary");
+    assert_eq!(summary["outcome"], "deeper_than_radius", "{}", ran.stderr);
+    let cycles = number(&summary["cycles_done"]);
+    assert!(cycles > 10.0 && cycles < 100.0, "{cycles}");
+    let file = folder.path().join(format!("out/stations-{cycles}.json"));
+    let found: Value = serde_json::from_slice(&std::fs::read(file).expect("a file")).expect("JSON");
+    assert_eq!(found["stations"].as_array().map(Vec::len), Some(5));
+}
+
+/// A crown that is eight times as long as wide is worn as a line of sections.
+#[test]
+fn auto_simulates_a_crowned_spring_as_a_line() {
+    let folder = tempfile::tempdir().expect("a folder can be made");
+    let mut spec = document("sd_card_crown.json");
+    spec["cycles"] = json!(300);
+    spec["accuracy"] = json!({"preset": "draft", "estimate_errors": false});
+    std::fs::write(folder.path().join("spec.json"), spec.to_string()).expect("a file");
+    let plan = fretwear(folder.path(), &["plan", "spec.json"]);
+    assert!(
+        plan.stdout
+            .contains("model `line`: the unworn contact is 7.9 times"),
+        "{}",
+        plan.stdout
+    );
+    let ran = fretwear(folder.path(), &["solve", "spec.json"]);
+    assert_eq!(ran.code, Some(0), "{}", ran.stderr);
+    let summary: Value = serde_json::from_str(&ran.stdout).expect("a summary");
+    let loads: Vec<f64> = summary["stations"]
+        .as_array()
+        .expect("sections")
+        .iter()
+        .map(|station| number(&station["line_load_n_per_mm"]))
+        .collect();
+    // The middle carries most, the ends nothing.
+    assert!(loads.windows(2).all(|pair| pair[0] >= pair[1]), "{loads:?}");
+    assert!(loads[0] > 3.0 && loads[loads.len() - 1] <= 0.0, "{loads:?}");
+}
