@@ -16,6 +16,7 @@ pub mod parquet;
 pub mod pictures;
 pub(crate) mod resistance;
 pub mod thin;
+pub mod tractions;
 pub mod vtu;
 
 #[cfg(test)]

@@ -22,6 +22,7 @@
 
 mod cycle;
 mod error;
+mod height;
 mod integrator;
 mod place;
 mod record;

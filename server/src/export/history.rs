@@ -5,14 +5,13 @@ use api::plan::Decision;
 use api::results::{
     AccuracyReached, Checks, ContactExtent, ContactTemperature, Cost, EffectCalledFor,
     EstimatedError, EstimatedErrors, ExposedLayer, Initial, LifeEntry, Loop, Pressure,
-    PressurePosition, Profile, SideProfile, SideSummary, SlidePosition, Snapshot, Station, Summary,
-    WearHistory,
+    Profile, SideProfile, SideSummary, Snapshot, Station, Summary, WearHistory,
 };
 use solver::effects::{Crossing, Effect, Verdict};
 use solver::observer;
 use solver::record::{self, Layer, Record, Side, SideReport};
 
-use crate::export::{line, resistance};
+use crate::export::{line, resistance, tractions};
 
 /// The phase of a job.
 pub fn phase(phase: observer::Phase) -> Phase {
@@ -47,22 +46,13 @@ pub fn snapshot(snapshot: &record::Snapshot) -> Snapshot {
         },
         pressure: Pressure {
             cycle,
-            positions: snapshot.positions.iter().map(position).collect(),
+            positions: snapshot.positions.iter().map(tractions::position).collect(),
         },
         friction_loop: document!(
             Loop of &snapshot.friction_loop;
             displacement_mm, tangential_force_n_per_mm, tangential_force_n; cycle: cycle
         ),
     }
-}
-
-pub(super) fn position(field: &record::TractionField) -> PressurePosition {
-    let phase = match field.position {
-        record::Position::Neutral => SlidePosition::Neutral,
-        record::Position::Rightmost => SlidePosition::Rightmost,
-        record::Position::Leftmost => SlidePosition::Leftmost,
-    };
-    document!(PressurePosition of field; slider_x_mm, x_mm, pressure_mpa, shear_mpa; phase: phase)
 }
 
 /// The summary document. `cost` was measured outside of the engine, which knows no clock; only its `dofs` are set here.

@@ -5,7 +5,7 @@ use solver::record::{DepthProfile, LineColumns, Snapshot};
 use solver::sides::Side;
 use solver::station::{Along, StationReport};
 
-use crate::export::history;
+use crate::export::tractions;
 
 /// The section of a report.
 pub fn station(report: &StationReport) -> LineStation {
@@ -36,7 +36,7 @@ pub fn document(snapshot: &Snapshot) -> LineProfiles {
         station: station(&found.report),
         receptacle_profile: profile(&found.receptacle),
         slider_profile: profile(&found.slider),
-        positions: found.positions.iter().map(history::position).collect(),
+        positions: found.positions.iter().map(tractions::position).collect(),
     });
     LineProfiles {
         cycle: snapshot.cycle,

@@ -1,18 +1,19 @@
 //! The dimension of the model, and what it needs of the rest of a specification.
 
 mod auto;
+mod length;
 mod line;
 mod point;
+mod section_only;
 
 use api::problem::Fault;
 use api::spec::{Dimension, LoadKind, Model, Spec, SystemKind};
-use solver::scene::{Friction, Motion, Scene};
-use solver::sides::Side;
+use solver::scene::{Motion, Scene};
 
 use crate::spec::diagnostics::Diagnostics;
-use crate::spec::sourced::{Sourced, assumed};
-use crate::spec::system::{LENGTH_MM, Shapes};
-use crate::spec::unit;
+use crate::spec::sourced::assumed;
+use crate::spec::system::Shapes;
+use length::length;
 use line::Line;
 
 /// The dimension and what it has beyond the section, without its force.
@@ -86,16 +87,6 @@ pub(super) fn resolve(
     (filled, resolved)
 }
 
-fn length(
-    (pointer, given): (&str, Option<f64>),
-    default: Sourced<f64>,
-    diagnostics: &mut Diagnostics,
-) -> f64 {
-    diagnostics.check_unit(pointer, given, &unit::length_mm(default.value));
-    let value = diagnostics.or_default(pointer, given, default);
-    diagnostics.check_range(pointer, value, &LENGTH_MM)
-}
-
 /// Checks that a specification asks for nothing that its dimension does not have.
 pub(super) fn check(
     filled: &Spec,
@@ -119,29 +110,7 @@ pub(super) fn check(
         diagnostics.foreign_field("/load", "width_mm", name);
     }
     if name != "auto" {
-        check_rest(filled, (name, motion), diagnostics);
-    }
-}
-
-/// Checks that a specification has nothing that only a section has.
-fn check_rest(filled: &Spec, (name, motion): (&str, Motion), diagnostics: &mut Diagnostics) {
-    if !filled.mission.is_empty() {
-        diagnostics.fault("/mission", "missions are simulated in `plane_strain` alone");
-    } else if !matches!(motion, Motion::Reciprocating { .. }) {
-        let detail = format!(
-            "the contact of a `{name}` reciprocates between two turning points; other motions are simulated in `plane_strain` alone"
-        );
-        diagnostics.fault("/motion/kind", detail);
-    }
-    if filled.output.fields == Some(true) {
-        diagnostics.fault(
-            "/output/fields",
-            "fields inside the bodies are those of a section",
-        );
-    }
-    let overrides = filled.accuracy.overrides.as_ref();
-    if overrides.is_some_and(|overrides| overrides.largest_wear_mm.is_some()) {
-        diagnostics.foreign_field("/accuracy/overrides", "largest_wear_mm", name);
+        section_only::check(filled, (name, motion), diagnostics);
     }
 }
 
@@ -157,7 +126,7 @@ pub(super) fn with_dimension(
     let scene = match model {
         Resolved::PlaneStrain => scene,
         Resolved::Point { radius_across_mm } => {
-            check_laws(&scene, "point contact", diagnostics);
+            section_only::check_laws(&scene, "point contact", diagnostics);
             match force_n {
                 None => scene,
                 Some(force_n) => {
@@ -167,7 +136,7 @@ pub(super) fn with_dimension(
             }
         }
         Resolved::Line(line) => {
-            check_laws(&scene, "contact along a line", diagnostics);
+            section_only::check_laws(&scene, "contact along a line", diagnostics);
             line.with_dimension((scene, is_force), spec, diagnostics)
         }
         Resolved::Auto(line) => {
@@ -180,29 +149,6 @@ pub(super) fn with_dimension(
         }
     };
     (scene, None)
-}
-
-/// Wear by the dose alone, and one coefficient of friction.
-fn check_laws(scene: &Scene, contact: &str, diagnostics: &mut Diagnostics) {
-    let wear = scene.surface_wear();
-    for side in Side::BOTH {
-        if wear.of(side).is_some_and(|wear| wear.dose_rate().is_none()) {
-            let pointer = format!("/interface/wear/{}/law", side.name());
-            let detail = format!(
-                "a {contact} wears by the dose alone: write `archard`, `sarkar` or layers of a plating, or simulate it in `plane_strain`"
-            );
-            diagnostics.fault(&pointer, detail);
-        }
-    }
-    if !matches!(
-        scene.friction,
-        Friction::Frictionless | Friction::Coulomb { .. }
-    ) {
-        let detail = format!(
-            "a {contact} has one coefficient of friction; one that changes is simulated in `plane_strain` alone"
-        );
-        diagnostics.fault("/interface/friction", detail);
-    }
 }
 
 /// Warnings of a contact that is none of its dimension.

@@ -1,8 +1,9 @@
 //! Increments of a computed cycle: all stations take the same ones, and halve them together.
 
+use super::height::Height;
 use super::section::{Increment, Station};
 use super::state::{Common, StationState};
-use super::top::{Carrier, Height, Unsolved};
+use super::top::{Carrier, Unsolved};
 use crate::contact::ContactState;
 use crate::cycle::step_control::RETRY;
 use crate::cycle::{FrictionLoop, Neutral, WarmStarts};

@@ -7,12 +7,13 @@ use std::sync::Arc;
 
 use super::cycle::{Line, LineRecord};
 use super::error::StationError;
+use super::height::Height;
 use super::place::places;
 use super::scene::StationScene;
 use super::section::{Increment, Section, Station};
 use super::state::{Common, LineState, StationState};
 use super::threads::{Threads, for_each};
-use super::top::{Carrier, Height, Unsolved};
+use super::top::{Carrier, Unsolved};
 use crate::contact::ContactState;
 use crate::effects::EffectsPlan;
 use crate::model;

@@ -2,8 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::height::Height;
 use super::record::StationCycle;
-use super::top::Height;
 use crate::contact::{ContactState, Work};
 use crate::cycle::{Checks, Neutral, WarmStarts};
 use crate::model::Model;

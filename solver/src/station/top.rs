@@ -6,8 +6,7 @@
 //! long as its active set stays, so that the predictor p + dp/dv dv is mostly its solution, and few iterations are needed. r falls with
 //! v: a step that leaves the interval in which its sign changes is replaced by a bisection, which also finds a contact that no section has.
 
-use serde::{Deserialize, Serialize};
-
+use super::height::Height;
 use super::section::{Increment, Station};
 use super::threads::for_each;
 use crate::contact::ContactError;
@@ -40,20 +39,6 @@ pub(super) enum Unsolved {
         /// Iterations.
         iterations: usize,
     },
-}
-
-/// The common height of a rigid top.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
-pub(super) struct Height {
-    /// It, mm; that of the lowest station.
-    pub(super) mm: f64,
-    /// Its change in the last increment, mm, and the cycles that this stood for.
-    change: f64,
-    cycles: f64,
-    /// That of the loaded, unworn contact, mm; `None` before the first load.
-    reference: Option<f64>,
-    /// Largest imbalance of forces so far, over the force.
-    pub(super) imbalance: f64,
 }
 
 /// A height that carries the force.
@@ -189,28 +174,4 @@ fn indentation(stations: &[Station]) -> f64 {
         .iter()
         .map(|station| station.state.contact.indentation);
     indentations.fold(f64::MIN_POSITIVE, f64::max)
-}
-
-impl Height {
-    /// The height of an unloaded top.
-    pub(super) fn at(mm: f64) -> Self {
-        Self {
-            mm,
-            ..Self::default()
-        }
-    }
-
-    /// Records that the first load is applied.
-    pub(super) fn loaded(&mut self) {
-        self.reference = Some(self.mm);
-    }
-
-    /// The height after an increment like the last one.
-    fn predicted(&self, cycles: f64) -> f64 {
-        if self.cycles > 0.0 {
-            self.mm + self.change * cycles / self.cycles
-        } else {
-            self.mm
-        }
-    }
 }

@@ -6,7 +6,7 @@ use solver::effects::extent::{self, Extent};
 use solver::scene::{LineShape, Scene};
 
 use super::line::Line;
-use super::{check_laws, check_rest, point};
+use super::{point, section_only};
 use crate::spec::diagnostics::Diagnostics;
 
 /// A scene of the dimension that was chosen.
@@ -79,8 +79,8 @@ pub(super) fn choose(
 /// Why the contact can be simulated in plane strain alone.
 fn lacks(plane: &Scene, spec: &Spec) -> Option<String> {
     let mut of_candidate = Diagnostics::default();
-    check_rest(spec, ("line", plane.motion), &mut of_candidate);
-    check_laws(plane, "contact of finite width", &mut of_candidate);
+    section_only::check(spec, ("line", plane.motion), &mut of_candidate);
+    section_only::check_laws(plane, "contact of finite width", &mut of_candidate);
     let fault = of_candidate.into_faults().into_iter().next()?;
     Some(format!("{}: {}", fault.pointer, fault.detail))
 }

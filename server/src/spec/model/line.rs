@@ -6,7 +6,7 @@ use solver::model::resolution::hertz_half_width;
 use solver::scene::{self, Conduction, LineShape, Scene};
 use solver::station::{StationError, StationScene};
 
-use super::length;
+use super::length::length;
 use crate::spec::diagnostics::Diagnostics;
 use crate::spec::sourced::assumed;
 use crate::spec::system::{LENGTH_MM, Shapes};

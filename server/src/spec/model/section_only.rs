@@ -1,0 +1,52 @@
+//! What only a section has: other contacts refuse it.
+
+use api::spec::Spec;
+use solver::scene::{Friction, Motion, Scene};
+use solver::sides::Side;
+
+use crate::spec::diagnostics::Diagnostics;
+
+/// Checks that a specification has nothing that only a section has.
+pub(super) fn check(filled: &Spec, (name, motion): (&str, Motion), diagnostics: &mut Diagnostics) {
+    if !filled.mission.is_empty() {
+        diagnostics.fault("/mission", "missions are simulated in `plane_strain` alone");
+    } else if !matches!(motion, Motion::Reciprocating { .. }) {
+        let detail = format!(
+            "the contact of a `{name}` reciprocates between two turning points; other motions are simulated in `plane_strain` alone"
+        );
+        diagnostics.fault("/motion/kind", detail);
+    }
+    if filled.output.fields == Some(true) {
+        diagnostics.fault(
+            "/output/fields",
+            "fields inside the bodies are those of a section",
+        );
+    }
+    let overrides = filled.accuracy.overrides.as_ref();
+    if overrides.is_some_and(|overrides| overrides.largest_wear_mm.is_some()) {
+        diagnostics.foreign_field("/accuracy/overrides", "largest_wear_mm", name);
+    }
+}
+
+/// Wear by the dose alone, and one coefficient of friction.
+pub(super) fn check_laws(scene: &Scene, contact: &str, diagnostics: &mut Diagnostics) {
+    let wear = scene.surface_wear();
+    for side in Side::BOTH {
+        if wear.of(side).is_some_and(|wear| wear.dose_rate().is_none()) {
+            let pointer = format!("/interface/wear/{}/law", side.name());
+            let detail = format!(
+                "a {contact} wears by the dose alone: write `archard`, `sarkar` or layers of a plating, or simulate it in `plane_strain`"
+            );
+            diagnostics.fault(&pointer, detail);
+        }
+    }
+    if !matches!(
+        scene.friction,
+        Friction::Frictionless | Friction::Coulomb { .. }
+    ) {
+        let detail = format!(
+            "a {contact} has one coefficient of friction; one that changes is simulated in `plane_strain` alone"
+        );
+        diagnostics.fault("/interface/friction", detail);
+    }
+}
