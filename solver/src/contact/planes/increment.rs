@@ -32,7 +32,7 @@ pub struct PlaneWear {
 }
 
 /// Solves increments; its buffers are reused from one to the next.
-#[derive(Debug, Default)]
+#[derive(Default)]
 pub struct ExtrudedSolver {
     problem: Problem,
     response: Response,
