@@ -20,6 +20,7 @@
 
 mod bodies;
 mod increment;
+mod iterate;
 mod newton;
 mod problem;
 mod response;

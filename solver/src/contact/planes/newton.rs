@@ -7,6 +7,7 @@
 mod correction;
 mod partition;
 
+use super::iterate::Iterate;
 use super::problem::{Problem, Zones};
 use super::response::Response;
 use crate::contact::line::GAP_TOLERANCE;
@@ -28,21 +29,6 @@ const STALLED_WITHIN: f64 = 10.0;
 const BALANCE_TOLERANCE: f64 = 1e-9;
 /// Round-off of a gap over the largest length in its sum.
 const ROUND_OFF: f64 = 16.0 * f64::EPSILON;
-
-/// Tractions and height.
-#[derive(Debug, Default)]
-pub(super) struct Iterate {
-    pub(super) is_closed: Vec<bool>,
-    pub(super) pressure: Vec<f64>,
-    /// Magnitude of the slip, mm, and p |sigma|, MPa mm.
-    pub(super) slip: Vec<f64>,
-    pub(super) path: Vec<f64>,
-    pub(super) gap: Vec<f64>,
-    pub(super) height: f64,
-    /// Largest indentation, mm: the scale of gaps; and the residual over it at which the iteration has converged.
-    pub(super) indentation: f64,
-    pub(super) tolerance: f64,
-}
 
 /// How the iteration ended.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -98,7 +84,7 @@ impl Newton {
             let unbalanced = BALANCE_TOLERANCE * problem.load;
             if changes == 0
                 && (residual <= it.tolerance || (stalled && is_even))
-                && balance(problem, it).abs() <= unbalanced
+                && it.balance(problem).abs() <= unbalanced
             {
                 return Convergence::Converged;
             }
@@ -172,15 +158,6 @@ impl Newton {
         it.tolerance = GAP_TOLERANCE.max(ROUND_OFF * largest / scale);
         residual / scale
     }
-}
-
-/// The load less the vertical forces, N/mm.
-fn balance(problem: &Problem, it: &Iterate) -> f64 {
-    let n = problem.nodes();
-    let forces = it.pressure.iter().zip(&problem.force).enumerate();
-    forces.fold(problem.load, |balance, (node, (p, force))| {
-        balance - problem.shares[node / n] * force[1] * p
-    })
 }
 
 /// Slips and paths of all nodes.

@@ -3,10 +3,10 @@
 //! A closed node has a vanishing gap, the pressure of an open one is corrected to zero. The vertical balance is divided by the contact modulus:
 //! as a length, like the gaps beside it.
 
+use super::super::iterate::Iterate;
 use super::super::problem::Problem;
 use super::super::response::Response;
 use super::partition::Partition;
-use super::{Iterate, balance};
 use crate::linear::{CondensedSystem, DenseLu};
 
 /// Buffers of the correction.
@@ -80,7 +80,7 @@ impl Correction {
         self.change.clear();
         self.change
             .extend(unknowns.iter().map(|node| -it.gap[*node]));
-        self.change.push(balance(problem, it) / problem.modulus);
+        self.change.push(it.balance(problem) / problem.modulus);
         self.system.eliminate(&mut self.change);
         if changed {
             self.factor_border(partition, it);
