@@ -17,7 +17,7 @@
 //! load of the section times the width.
 //!
 //! Limits: the slip is imposed, no part of the contact sticks; wear rates are the same in every state; dead load; no checkpoints, no heat, no
-//! estimate of errors but that of jumps. The gap at free ends is resolved as finely as the layers there. Limiting cases: Poisson's ratio 0 makes free
+//! estimate of errors but that of jumps. The pressure falls toward a free end as far as the layers there resolve it. Limiting cases: Poisson's ratio 0 makes free
 //! ends plane strain; a width of many heights is plane strain in the middle.
 
 mod bodies;

@@ -1,12 +1,12 @@
 //! Wear of extruded bodies in gross sliding: volumes are those of the sliding work, floors those of the line load, whatever the ends.
 
-use super::{TWO, button, difference, solved};
+use super::{TWO, WIDTH, button, difference, solved};
 use crate::recorder::solve;
-use crate::scenes::COPPER_WEAR;
+use crate::scenes::{COPPER_WEAR, groove, pin, scar, sprung_contact};
 use solver::effects::{Effect, Switches};
-use solver::extruded::{Ends, ExtrudedScene, ExtrudedSummary};
+use solver::extruded::{Ends, ExtrudedOutcome, ExtrudedScene, ExtrudedSummary};
 use solver::interpolation;
-use solver::scene::{Motion, WearLaw};
+use solver::scene::{Accuracy, Drive, Friction, Motion, WearLaw};
 use solver::sides::{Side, Sides};
 
 fn wear(factor: f64) -> Option<WearLaw> {
@@ -34,44 +34,43 @@ fn floors_nm(summary: &ExtrudedSummary) -> Vec<f64> {
 /// for the walls at the ends of the stroke, 1 %. The forces of all nodes carry the load, and friction dissipates mu F s, but for the walls.
 #[test]
 fn volumes_are_those_of_the_sliding_work() {
-    for (name, slider, receptacle, layers) in [
-        ("receptacle", 0.0, 1.0, (4, 1.5)),
-        ("slider", 0.1, 0.0, TWO),
-        ("both", 0.1, 1.0, TWO),
+    for (name, [slider, receptacle], layers, jump) in [
+        ("receptacle", [0.0, 1.0], (4, 1.5), Some(1)),
+        ("receptacle", [0.0, 1.0], (4, 1.5), None),
+        ("slider", [0.1, 0.0], TWO, Some(1)),
+        ("both", [0.1, 1.0], TWO, Some(1)),
     ] {
-        for jump in [Some(1), None] {
-            let mut scene = button(Ends::Free, layers, 6);
-            scene.section.accuracy.cycle_jump = jump;
-            scene.section.slider.wear = wear(slider);
-            scene.section.receptacle.wear = wear(receptacle);
-            let last = solved(&scene).last;
-            for side in Side::BOTH {
-                let worn = *last.worn_volume_mm3.of(side);
-                if worn <= 0.0 {
-                    continue;
-                }
-                let balance = worn / last.sliding_work_volume_mm3.of(side) - 1.0;
-                let ideal = worn / last.ideal_volume_mm3.of(side) - 1.0;
-                println!(
-                    "extruded, free, {name} worn, jump {jump:?}: volume of the {} off the sliding work by {balance:.1e}, off k F s by {ideal:.4}",
-                    side.name()
-                );
-                assert!(balance.abs() < 1e-10 && ideal.abs() < 0.01);
+        let mut scene = button(Ends::Free, layers, 6);
+        scene.section.accuracy.cycle_jump = jump;
+        scene.section.slider.wear = wear(slider);
+        scene.section.receptacle.wear = wear(receptacle);
+        let last = solved(&scene).last;
+        for side in Side::BOTH {
+            let worn = *last.worn_volume_mm3.of(side);
+            if worn <= 0.0 {
+                continue;
             }
-            assert!((last.force_n / scene.force_n() - 1.0).abs() < 1e-9);
-            let slid = 6.0 * scene.section.motion.distance_per_cycle_mm();
-            let friction = last.dissipated_energy_mj / (1.21 * scene.force_n() * slid);
-            assert!((friction - 1.0).abs() < 0.01, "{friction}");
+            let balance = worn / last.sliding_work_volume_mm3.of(side) - 1.0;
+            let ideal = worn / last.ideal_volume_mm3.of(side) - 1.0;
+            println!(
+                "extruded, free, {name} worn, jump {jump:?}: volume of the {} off the sliding work by {balance:.1e}, off k F s by {ideal:.4}",
+                side.name()
+            );
+            assert!(balance.abs() < 1e-10 && ideal.abs() < 0.01);
         }
+        assert!((last.force_n / scene.force_n() - 1.0).abs() < 1e-9);
+        let slid = 6.0 * scene.section.motion.distance_per_cycle_mm();
+        let friction = last.dissipated_energy_mj / (1.21 * scene.force_n() * slid);
+        assert!((friction - 1.0).abs() < 0.01, "{friction}");
     }
 }
 
 /// A floor that the contact passes twice a cycle sinks by 2 k P', as soon as it has sunk by some of the differences of the approach: from cycle
-/// 5 to 20, 2 %, which are ripples of increments. The line load of the unworn end is 45 % too small.
+/// 5 to 20, 2 %, which are ripples of increments. The line load of the unworn end is up to 29 % too small.
 #[test]
 fn floors_sink_by_the_line_load_whatever_the_ends() {
     let ideal = 2e6 * COPPER_WEAR * 0.508;
-    for (ends, layers) in [(Ends::Held, TWO), (Ends::Free, TWO), (Ends::Free, (8, 2.0))] {
+    for (ends, layers) in [(Ends::Held, TWO), (Ends::Free, TWO), (Ends::Free, (6, 3.0))] {
         let run = |cycles| solved(&in_single_cycles(button(ends, layers, cycles)));
         let (early, late) = (run(5), run(20));
         let rates: Vec<f64> = (floors_nm(&late).iter().zip(floors_nm(&early)))
@@ -81,11 +80,57 @@ fn floors_sink_by_the_line_load_whatever_the_ends() {
             .map(|plane| plane.line_load_n_per_mm / 0.508)
             .collect();
         println!(
-            "extruded, {ends:?}, {layers:?} layers: {rates:.2?} nm a cycle, 2 k P' {ideal:.2} nm; unworn line loads {loads:.2?}"
+            "extruded, {ends:?}, {layers:?} layers: {rates:.2?} nm a cycle, 2 k P' {ideal:.2} nm; unworn line loads {loads:.2?}; {:?} increments and iterations",
+            late.solves
         );
         for rate in rates {
             assert!((rate / ideal - 1.0).abs() < 0.02);
         }
+    }
+}
+
+/// Other sections of the suite between free ends, in jumps: a sprung contact and a pin of 0.2 mm, McColl's scar of 5 mm, a crowned block, the
+/// thesis' drive, a wall at its friction angle. Volumes and forces as above; k F s but for walls, 5 %. The end wears less where the stroke is shorter
+/// than the contact, because nothing evens the pressure out but wear.
+#[test]
+fn sections_of_the_suite_run_between_free_ends() {
+    let mut crown = groove();
+    crown.receptacle.shape.crown_radius_mm = Some(0.2);
+    let mut guided = groove();
+    guided.drive = Drive::WholeBody;
+    let mut steep = groove();
+    steep.friction = Friction::Coulomb { coefficient: 1.5 };
+    steep.cycles = 300;
+    for (name, section, width_mm) in [
+        ("sprung contact", sprung_contact(), 0.2),
+        ("pin", pin(), 0.2),
+        ("scar", scar(), 5.0),
+        ("crown", crown, WIDTH),
+        ("whole slider driven", guided, WIDTH),
+        ("steep wall", steep, WIDTH),
+    ] {
+        let mut scene = button(Ends::Free, TWO, 0);
+        scene.section = section;
+        scene.section.accuracy = Accuracy::from_tolerance(0.1);
+        scene.width_mm = width_mm;
+        let found = solved(&scene);
+        let last = &found.last;
+        let worn = last.worn_volume_mm3.receptacle;
+        let balance = worn / last.sliding_work_volume_mm3.receptacle - 1.0;
+        let ideal = worn / last.ideal_volume_mm3.receptacle - 1.0;
+        let depths = last
+            .planes
+            .iter()
+            .map(|plane| 1e3 * plane.max_depth_mm.receptacle);
+        println!(
+            "extruded, free, {name}: {:.4?} um, volume off the sliding work by {balance:.1e}, off k F s by {ideal:.4}, {} computed cycles",
+            depths.collect::<Vec<f64>>(),
+            found.computed_cycles
+        );
+        assert_eq!(found.outcome, ExtrudedOutcome::Completed);
+        assert!(balance.abs() < 1e-10 && ideal.abs() < 0.05);
+        assert!((last.force_n / scene.force_n() - 1.0).abs() < 1e-9);
+        assert!(last.planes[0].max_depth_mm.receptacle < last.planes[1].max_depth_mm.receptacle);
     }
 }
 

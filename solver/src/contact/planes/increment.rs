@@ -6,7 +6,8 @@ use super::super::line::{
     ContactError, ContactState, GAP_TOLERANCE, Pair, Status, Surfaces, WarmStart,
 };
 use super::bodies::{Extruded, Slide};
-use super::newton::{Convergence, Iterate, Newton};
+use super::iterate::Iterate;
+use super::newton::{Convergence, Newton};
 use super::problem::{Problem, Zones};
 use super::response::Response;
 use crate::sides::{Side, Sides};
@@ -32,7 +33,7 @@ pub struct PlaneWear {
 }
 
 /// Solves increments; its buffers are reused from one to the next.
-#[derive(Debug, Default)]
+#[derive(Default)]
 pub struct ExtrudedSolver {
     problem: Problem,
     response: Response,
@@ -287,17 +288,6 @@ impl ExtrudedSolver {
             let forces = pressure.iter().zip(&problem.force[own]);
             worn.vertical_force = forces.map(|(p, force)| p * force[1]).sum();
         }
-    }
-}
-
-impl Iterate {
-    /// Resets to an open contact of so many nodes at a height.
-    fn reset(&mut self, nodes: usize, height: f64) {
-        self.is_closed.clear();
-        self.is_closed.resize(nodes, false);
-        self.pressure.clear();
-        self.pressure.resize(nodes, 0.0);
-        self.height = height;
     }
 }
 

@@ -1,42 +1,34 @@
 //! Semi-smooth Newton iteration over the closed nodes of all planes and the common height.
 //!
 //! Statuses follow from the signs of the last iterate, as in the primal-dual active set of `contact::line`: a closed node under tension opens, an
-//! open node that penetrates closes. Only the path p |sigma| is not linear, weakly, so that the factors of the first iteration with these
-//! statuses serve the next ones, mostly one more.
+//! open node that penetrates closes. Only the path p |sigma| is not linear, weakly, so that one factorisation serves most increments:
+//! the system is condensed onto the nodes at the edges of the contacts, which may open and close without another one.
 
+mod correction;
+mod partition;
+
+use super::iterate::Iterate;
 use super::problem::{Problem, Zones};
 use super::response::Response;
 use crate::contact::line::GAP_TOLERANCE;
-use crate::linear::DenseLu;
 use crate::linear::vector::{add_scaled, vectorized};
+use correction::Correction;
+use partition::Partition;
 
 /// Most iterations, besides one for each node of a first load.
 const MOST_ITERATIONS: usize = 60;
 /// From this iteration on only the node that violates its status most changes it, as in Murty's pivoting: all at once can cycle.
 const SINGLE_CHANGE_FROM: usize = 20;
-/// Factors are renewed where an iteration leaves more than this part of the residual.
+/// Factors are renewed where an iteration without a change of status leaves more than this part of the residual.
 const SLOW: f64 = 0.1;
+/// From this iteration on factors are renewed in each.
+const EXACT_FROM: usize = 12;
 /// A residual within so many tolerances that another iteration did not halve is round-off.
 const STALLED_WITHIN: f64 = 10.0;
 /// Largest imbalance of the vertical forces over the load.
 const BALANCE_TOLERANCE: f64 = 1e-9;
 /// Round-off of a gap over the largest length in its sum.
 const ROUND_OFF: f64 = 16.0 * f64::EPSILON;
-
-/// Tractions and height.
-#[derive(Debug, Default)]
-pub(super) struct Iterate {
-    pub(super) is_closed: Vec<bool>,
-    pub(super) pressure: Vec<f64>,
-    /// Magnitude of the slip, mm, and p |sigma|, MPa mm.
-    pub(super) slip: Vec<f64>,
-    pub(super) path: Vec<f64>,
-    pub(super) gap: Vec<f64>,
-    pub(super) height: f64,
-    /// Largest indentation, mm: the scale of gaps; and the residual over it at which the iteration has converged.
-    pub(super) indentation: f64,
-    pub(super) tolerance: f64,
-}
 
 /// How the iteration ended.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -50,14 +42,12 @@ pub(super) enum Convergence {
 }
 
 /// Buffers of the iteration.
-#[derive(Debug, Default)]
+#[derive(Default)]
 pub(super) struct Newton {
-    lu: DenseLu,
-    closed: Vec<usize>,
-    rhs: Vec<f64>,
-    /// Gaps by deformation, and a column of the system.
+    partition: Partition,
+    correction: Correction,
+    /// Gaps by deformation.
     deformed: Vec<f64>,
-    column: Vec<f64>,
     /// Iterations since the last reset.
     pub(super) iterations: usize,
 }
@@ -76,105 +66,57 @@ impl Newton {
         let (mut residual, mut changes, mut renew) = (f64::INFINITY, usize::MAX, true);
         for iteration in 0..most {
             self.iterations += 1;
-            let changed = changes;
-            if renew {
-                self.factor(problem, zones, response, it);
-                residual = self.evaluate(problem, response, it);
+            let renewed = renew || !self.partition.admits(&it.is_closed);
+            if renewed {
+                residual = self.linearise(problem, zones, response, it);
             }
-            if !self.correct(problem, it) {
+            let last = (residual, changes);
+            let changed = renewed || changes > 0;
+            if !self.correction.apply(problem, &self.partition, it, changed) {
                 return Convergence::Singular {
-                    active: self.closed.len(),
+                    active: self.partition.nodes.len(),
                 };
             }
-            let before = residual;
             residual = self.evaluate(problem, response, it);
             changes = update_statuses(it, iteration >= SINGLE_CHANGE_FROM);
-            let stalled = residual <= STALLED_WITHIN * it.tolerance && 2.0 * residual > before;
+            let is_even = changes == 0 && last.1 == 0;
+            let stalled = residual <= STALLED_WITHIN * it.tolerance && 2.0 * residual > last.0;
             let unbalanced = BALANCE_TOLERANCE * problem.load;
             if changes == 0
-                && (residual <= it.tolerance || (stalled && changed == 0))
-                && balance(problem, it).abs() <= unbalanced
+                && (residual <= it.tolerance || (stalled && is_even))
+                && it.balance(problem).abs() <= unbalanced
             {
                 return Convergence::Converged;
             }
             if it.is_closed.iter().all(|closed| !closed) {
                 return Convergence::Singular { active: 0 };
             }
-            renew = changes > 0 || residual > SLOW * before;
+            renew = (is_even && residual > SLOW * last.0) || iteration + 1 >= EXACT_FROM;
         }
         Convergence::NotConverged { residual, changes }
     }
 
-    /// Factors the derivatives of the gaps of closed nodes and of the vertical balance.
-    fn factor(
+    /// Chooses the unknowns for the statuses of an iterate and linearises about it; returns its residual.
+    fn linearise(
         &mut self,
         problem: &Problem,
         zones: Zones<'_>,
         response: &mut Response,
         it: &mut Iterate,
-    ) {
-        self.closed.clear();
-        let closed = it
-            .is_closed
-            .iter()
-            .enumerate()
-            .filter(|(_, closed)| **closed);
-        self.closed.extend(closed.map(|(node, _)| node));
-        for &node in &self.closed {
+    ) -> f64 {
+        self.partition.choose(&it.is_closed, problem.nodes());
+        for &node in &self.partition.nodes {
             response.compute(problem, zones, node);
         }
-        slide(problem, it);
-        let (n, m) = (problem.nodes(), self.closed.len());
-        let matrix = self.lu.matrix(m + 1);
-        for (j, &node) in self.closed.iter().enumerate() {
-            self.column.clear();
-            self.column.extend_from_slice(response.column(node));
-            if problem.wears {
-                let plane = node / n;
-                let own = &mut self.column[plane * n..(plane + 1) * n];
-                let wear = &problem.wear;
-                wear.open_by_pressure(&(0..n), node % n, it.slip[node], own);
-            }
-            let target = matrix.column_mut(j).iter_mut();
-            for (entry, row) in target.zip(&self.closed) {
-                *entry = self.column[*row];
-            }
-            *matrix.at(m, j) = problem.shares[node / n] * problem.force[node][1] / problem.modulus;
-        }
-        self.column.clear();
-        self.column.resize(problem.len(), 1.0);
-        if problem.wears {
-            for &node in self.closed.iter().filter(|node| it.slip[**node] > 0.0) {
-                let plane = node / n;
-                let own = &mut self.column[plane * n..(plane + 1) * n];
-                let per_height = problem.direction * problem.slope[node] * it.pressure[node];
-                problem
-                    .wear
-                    .open_by_pressure(&(0..n), node % n, per_height, own);
+        for (pressure, closed) in it.pressure.iter_mut().zip(&it.is_closed) {
+            if !closed {
+                *pressure = 0.0;
             }
         }
-        let target = matrix.column_mut(m).iter_mut();
-        for (entry, row) in target.zip(&self.closed) {
-            *entry = self.column[*row];
-        }
-        *matrix.at(m, m) = 0.0;
-        self.lu.factor();
-    }
-
-    /// Corrects pressures and height by the residuals; `false` if the system has no finite solution.
-    fn correct(&mut self, problem: &Problem, it: &mut Iterate) -> bool {
-        self.rhs.clear();
-        self.rhs
-            .extend(self.closed.iter().map(|node| -it.gap[*node]));
-        self.rhs.push(balance(problem, it) / problem.modulus);
-        if !self.lu.solve(&mut self.rhs) {
-            return false;
-        }
-        for (node, change) in self.closed.iter().zip(&self.rhs) {
-            it.pressure[*node] += change;
-        }
-        it.height += self.rhs[self.closed.len()];
-        true
+        let residual = self.evaluate(problem, response, it);
+        self.correction
+            .assemble(problem, &self.partition, response, it);
+        residual
     }
 
     /// Slips, paths and gaps of an iterate; returns the largest gap of a closed node over the indentation.
@@ -186,8 +128,10 @@ impl Newton {
         vectorized(
             #[inline(always)]
             || {
-                for &node in &self.closed {
-                    add_scaled(deformed, pressure[node], response.column(node));
+                for &node in &self.partition.nodes {
+                    if pressure[node] != 0.0 {
+                        add_scaled(deformed, pressure[node], response.column(node));
+                    }
                 }
             },
         );
@@ -216,23 +160,11 @@ impl Newton {
     }
 }
 
-/// The load less the vertical forces, N/mm.
-fn balance(problem: &Problem, it: &Iterate) -> f64 {
-    let n = problem.nodes();
-    let forces = it.pressure.iter().zip(&problem.force).enumerate();
-    forces.fold(problem.load, |balance, (node, (p, force))| {
-        balance - problem.shares[node / n] * force[1] * p
-    })
-}
-
-/// Slips and paths of all nodes; no pressures at open ones.
+/// Slips and paths of all nodes.
 fn slide(problem: &Problem, it: &mut Iterate) {
     it.slip.clear();
     it.path.clear();
     for (node, fixed) in problem.fixed_slip.iter().enumerate() {
-        if !it.is_closed[node] {
-            it.pressure[node] = 0.0;
-        }
         let slip = problem.direction * (fixed + problem.slope[node] * it.height);
         it.slip.push(slip.max(0.0));
         it.path.push((it.pressure[node] * slip).max(0.0));
