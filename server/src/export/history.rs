@@ -4,8 +4,8 @@ use api::job::{Outcome, Phase};
 use api::plan::Decision;
 use api::results::{
     AccuracyReached, Checks, ContactExtent, ContactTemperature, Cost, EffectCalledFor,
-    EstimatedError, EstimatedErrors, ExposedLayer, Initial, LifeEntry, Loop, Pressure,
-    Profile, SideProfile, SideSummary, Snapshot, Station, Summary, WearHistory,
+    EstimatedError, EstimatedErrors, ExposedLayer, Initial, LifeEntry, Loop, Pressure, Profile,
+    SideProfile, SideSummary, Snapshot, Station, Summary, WearHistory,
 };
 use solver::effects::{Crossing, Effect, Verdict};
 use solver::observer;
