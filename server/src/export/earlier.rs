@@ -13,7 +13,14 @@ const OF_SNAPSHOTS: [(&str, &str); 6] = [
 ];
 
 /// Pictures of which a run may draw none.
-const PICTURES: [&str; 5] = ["wear-history", "profiles", "pressure", "loops", "life"];
+const PICTURES: [&str; 6] = [
+    "wear-history",
+    "profiles",
+    "pressure",
+    "loops",
+    "sections",
+    "life",
+];
 
 /// Removes the results in a folder that are not among those of the present run. Other files stay.
 ///

@@ -1,7 +1,7 @@
 //! Plots: panels of curves and markers, drawn as SVG; the PNG is rasterised from the SVG.
 //!
 //! Text is measured and rasterised with an embedded font, so that no system font is needed and the same data give the
-//! same picture on every machine. Apart from `run` and `life`, nothing here knows the meaning of the numbers.
+//! same picture on every machine. Apart from `run`, `line` and `life`, nothing here knows the meaning of the numbers.
 
 mod axis;
 mod canvas;
@@ -10,6 +10,7 @@ mod raster;
 mod ticks;
 
 pub mod life;
+mod line;
 pub mod run;
 
 use plotters::drawing::DrawingAreaErrorKind;

@@ -3,6 +3,7 @@
 use api::results::{PressurePosition, SideProfile, SlidePosition, Snapshot};
 use solver::record::{Column, Record, Side};
 
+use crate::export::pictures::line::{self, Drawn};
 use crate::export::pictures::{
     Axis, AxisRange, COLOURS, Colour, Mark, Panel, Picture, Scale, Series, ramp,
 };
@@ -34,6 +35,11 @@ pub fn pictures(
             tractions(&shown),
         ),
         ("loops", "Friction loops", loops(&shown)),
+        (
+            "sections",
+            "Sections along the line",
+            sections(record, &shown),
+        ),
     ];
     let drawn = pictures
         .into_iter()
@@ -71,7 +77,7 @@ fn largest<'a>(values: impl IntoIterator<Item = &'a f64>) -> f64 {
     sizes.fold(0.0, f64::max)
 }
 
-fn line(label: impl Into<String>, colour: Colour, x: &[f64], y: &[f64]) -> Series {
+fn curve_of(label: impl Into<String>, colour: Colour, x: &[f64], y: &[f64]) -> Series {
     Series {
         label: label.into(),
         mark: Mark::Line,
@@ -93,6 +99,19 @@ fn depth_axis(unit: &str) -> Axis {
     axis.with_range(AxisRange::DataAndZero)
 }
 
+/// Line load and deepest wear along the line; nothing of another contact.
+fn sections(record: &Record, shown: &[Shown<'_>]) -> Vec<Panel> {
+    let drawn: Vec<Drawn<'_>> = shown
+        .iter()
+        .map(|shown| Drawn {
+            cycle: shown.snapshot.profile.cycle,
+            label: &shown.label,
+            colour: shown.colour,
+        })
+        .collect();
+    line::panels(record, &drawn)
+}
+
 /// Depth over cycles: the stations, and the channels that have a curve, of each side that wears.
 fn wear_history(record: &Record) -> Vec<Panel> {
     if record.cycle.len() < 2 {
@@ -108,7 +127,7 @@ fn wear_history(record: &Record) -> Vec<Panel> {
     let (depth_unit, depth) = unit(largest(depths));
     let cycles: Vec<f64> = record.cycle.iter().map(|cycle| real(*cycle)).collect();
     let curve = |label: String, colour, column: &Column| {
-        line(label, colour, &cycles, &scaled(&column.values, depth))
+        curve_of(label, colour, &cycles, &scaled(&column.values, depth))
     };
     let stations: Vec<_> = record
         .columns
@@ -164,7 +183,7 @@ fn profile_panel(
             scaled(&profile.x_mm, place),
             scaled(&profile.depth_mm, depth),
         );
-        let mut curve = line(&*shown.label, shown.colour, &x, &y);
+        let mut curve = curve_of(&*shown.label, shown.colour, &x, &y);
         let shown_extent = 1.15 * place * extent;
         curve.points.retain(|point| point[0].abs() <= shown_extent);
         curve
@@ -212,7 +231,7 @@ fn tractions(shown: &[Shown<'_>]) -> Vec<Panel> {
         y: Axis::new(title, Scale::Linear).with_range(AxisRange::DataAndZero),
         series: fields
             .iter()
-            .map(|(label, colour, at)| line(*label, *colour, &scaled(&at.x_mm, place), of(at)))
+            .map(|(label, colour, at)| curve_of(*label, *colour, &scaled(&at.x_mm, place), of(at)))
             .collect(),
     };
     let mut panels = Vec::new();
@@ -240,7 +259,7 @@ fn loops(shown: &[Shown<'_>]) -> Vec<Panel> {
         let friction_loop = &shown.snapshot.friction_loop;
         let x = scaled(&friction_loop.displacement_mm, place);
         let force = &friction_loop.tangential_force_n_per_mm;
-        let mut curve = line(&*shown.label, shown.colour, &x, force);
+        let mut curve = curve_of(&*shown.label, shown.colour, &x, force);
         // Closes the loop.
         curve.points.extend(curve.points.first().copied());
         curve
