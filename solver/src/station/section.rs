@@ -376,15 +376,22 @@ impl Station {
         self.spines.are_worn_through(&self.state.depth)
     }
 
-    /// Cycles until a body is nearly consumed, at the present rate.
-    pub(super) fn cycles_left(&self) -> f64 {
+    /// Cycles until a body is nearly consumed or the groove is as deep as a radius in mm, at the present rate.
+    pub(super) fn cycles_left(&self, radius_mm: f64) -> f64 {
         let (wear, equivalent) = (&self.interface.wear, self.state.jump.rates());
         let rates = Sides::from_fn(|side| {
             let depth = self.state.depth.of(side);
             surface::at_relative_rates(*wear.of(side), equivalent.of(side), depth)
         });
+        let fastest = rates
+            .receptacle
+            .iter()
+            .fold(f64::MIN_POSITIVE, |most, rate| rate.max(most));
+        let groove = (radius_mm - self.groove_mm()) / fastest;
         let rates = rates.as_ref().map(|rates| &rates[..]);
-        self.spines.cycles_left(&self.state.depth, rates)
+        self.spines
+            .cycles_left(&self.state.depth, rates)
+            .min(groove.max(0.0))
     }
 
     /// Largest wear rates from the surfaces down to the worn depths, 1/MPa.

@@ -85,11 +85,12 @@ impl LineIntegrator {
         endings.next()
     }
 
-    /// Cycles until a body is nearly consumed, at the present rates.
+    /// Cycles until the run ends by the depth of a station, at the present rates.
     pub(crate) fn cycles_left(&self) -> f64 {
+        let radius = self.plane.slider.shape.radius_mm;
         let stations = self.line.stations.iter();
         stations
-            .map(Station::cycles_left)
+            .map(|station| station.cycles_left(radius))
             .fold(f64::INFINITY, f64::min)
     }
 
