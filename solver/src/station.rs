@@ -13,11 +13,11 @@
 //! Straight line: sections at z across a width, with the gaps of a crown z^2/(2 R_c) and of a tilt.
 //!
 //! Top: what carries the sections. `Even`: each has the mean line load F/L. `Rigid`: all have one height v, from
-//!   sum_j w_j P_j(v + g_j) = F
+//!   sum_j w_j P_j(v + g_j) = F, which a spring lowers as the top sinks,
 //! by Newton's method, with the section forces P_j and their derivatives from the sections' own solutions (`top`).
 //!
-//! Limits: the slip is imposed, no part of a contact sticks; a wear rate is the same in every state; stations have no ends, and the
-//! wear of a slider stays in its section. Limiting cases: a station of a ring at theta = 0 is the plane contact; under a rigid
+//! Limits: the slip is imposed, no part of a contact sticks; surfaces wear by the dose; stations have no ends, and the wear of a slider stays in
+//! its section. Limiting cases: a station of a ring at theta = 0 is the plane contact; under a rigid
 //! top a ring with a flat floor wears by k F/(2 R) a cycle everywhere.
 
 mod cycle;
