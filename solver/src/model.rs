@@ -4,6 +4,7 @@ mod constraint_side;
 pub mod expected_life;
 pub(crate) mod friction;
 pub mod layout;
+pub mod line_contact;
 pub mod profile;
 pub mod resolution;
 pub(crate) mod worn_cap;

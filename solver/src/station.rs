@@ -29,6 +29,7 @@ mod record;
 mod run;
 mod scene;
 mod section;
+mod spacing;
 mod state;
 mod threads;
 mod top;

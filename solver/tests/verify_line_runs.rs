@@ -154,7 +154,7 @@ fn a_straight_line_is_the_plane_contact() {
 }
 
 /// Two theories of one contact, 7.9 times as long as wide: sections in plane strain and half-spaces. 5 %: sections know the height of their
-/// bodies, half-spaces have none, and each has a tolerance of its own. Reached: 1 %.
+/// bodies, half-spaces have none, and each has a tolerance of its own. Reached: 2.4 %.
 #[test]
 fn a_crowned_line_wears_like_the_point_contact_of_its_radii() {
     let mut line = spring(Some(CROWN), (GOLD, GOLD), 4_000);

@@ -134,21 +134,34 @@ fn a_groove_as_deep_as_the_wire_ends_a_ring() {
     assert_eq!(found["stations"].as_array().map(Vec::len), Some(5));
 }
 
-/// A crown that is eight times as long as wide is worn as a line of sections.
+/// A crown whose contact grows to the ends of the width is worn as a line of sections, others as a point.
 #[test]
-fn auto_simulates_a_crowned_spring_as_a_line() {
+fn auto_simulates_what_a_crown_calls_for() {
     let folder = tempfile::tempdir().expect("a folder can be made");
     let mut spec = document("sd_card_crown.json");
-    spec["cycles"] = json!(300);
-    spec["accuracy"] = json!({"preset": "draft", "estimate_errors": false});
+    spec["model"]["dimension"] = json!("auto");
     std::fs::write(folder.path().join("spec.json"), spec.to_string()).expect("a file");
     let plan = fretwear(folder.path(), &["plan", "spec.json"]);
     assert!(
         plan.stdout
-            .contains("model `line`: the unworn contact is 7.9 times"),
+            .contains("model `point`: the contact, 7.9 times"),
         "{}",
         plan.stdout
     );
+    let crown = json!({"dimension": "line", "width_mm": 0.8, "crown_radius_mm": 10});
+    spec["model"] = json!({"dimension": "auto", "width_mm": 0.8, "crown_radius_mm": 1000});
+    std::fs::write(folder.path().join("spec.json"), spec.to_string()).expect("a file");
+    let plan = fretwear(folder.path(), &["plan", "spec.json"]);
+    assert!(
+        plan.stdout
+            .contains("model `line`: the contact is expected to grow"),
+        "{}",
+        plan.stdout
+    );
+    spec["model"] = crown;
+    spec["cycles"] = json!(300);
+    spec["accuracy"] = json!({"preset": "draft", "estimate_errors": false});
+    std::fs::write(folder.path().join("spec.json"), spec.to_string()).expect("a file");
     let ran = fretwear(folder.path(), &["solve", "spec.json"]);
     assert_eq!(ran.code, Some(0), "{}", ran.stderr);
     let summary: Value = serde_json::from_str(&ran.stdout).expect("a summary");

@@ -5,6 +5,7 @@ mod length;
 mod line;
 mod point;
 mod section_only;
+mod yielding;
 
 use api::problem::Fault;
 use api::spec::{Dimension, LoadKind, Model, Spec, SystemKind};
@@ -153,10 +154,11 @@ pub(super) fn with_dimension(
 
 /// Warnings of a contact that is none of its dimension.
 pub(super) fn warnings(scene: &Scene) -> Vec<Fault> {
-    if scene.dimension.line().is_some() {
-        return line::warnings(scene);
+    match scene.dimension {
+        solver::scene::Dimension::PlaneStrain => Vec::new(),
+        solver::scene::Dimension::Point(_) => point::warnings(scene),
+        solver::scene::Dimension::Line(_) => line::warnings(scene),
     }
-    point::warnings(scene)
 }
 
 #[cfg(test)]

@@ -4,16 +4,17 @@
 //! large against the height g = (w/2)^2/(2 R_z) + |tilt| w that recedes: its sections are then alike, and plane strain describes it
 //! where g is below a fifth of the tolerance times h.
 //!
-//! Hertz' unworn contact has the half-lengths a along and c across the sliding direction. Sections in plane strain describe it within 1.6 %
-//! of its peak pressure from c/a = 5 on, within 0.6 % from 10 on (measured against the ellipse). Below that it is a point contact
-//! unless it grows to the ends of the width, sqrt(c^2 + 2 R_z h) > w/2, which half-spaces do not have.
+//! A crown whose contact stays within the width is a point contact of half-spaces, however slender: sections in plane strain do not know what
+//! the places beside them carry. Their unworn peak pressure is 10 % low at half-lengths c/a = 8 (measured; by the logarithm of the height of the
+//! bodies), their depth 16 % low after 200 cycles, 6 % after 2 000 and 0.5 % after 20 000. A contact that grows to the ends of the width,
+//! sqrt(c^2 + 2 R_z h) > w/2, which half-spaces do not have, is a line of sections; so is a tilted one.
+//!
+//! a, c: Hertz' half-lengths along and across the sliding direction.
 
 use crate::model::resolution::{expected_cycles, hertz_half_width, worn_depth_after};
 use crate::point::half_lengths_mm;
 use crate::scene::Scene;
 
-/// Least c/a of sections along a line.
-const SLENDER: f64 = 5.0;
 /// Largest height that recedes over the worn depth and the tolerance.
 const SHARE: f64 = 0.2;
 
@@ -80,12 +81,6 @@ pub fn choose(plane: &Scene, as_point: Option<&Scene>, extent: Extent) -> (Choic
     if tilt_mrad != 0.0 {
         let reason = "sections across a tilted width touch one after the other";
         (Choice::Line, reason.to_owned())
-    } else if aspect >= SLENDER {
-        let reason = format!(
-            "the unworn contact is {aspect:.1} times as long across the sliding direction as along it, at least {SLENDER}: its sections deform \
-             in plane strain"
-        );
-        (Choice::Line, reason)
     } else if worn > half {
         let reason = format!(
             "the contact is expected to grow to {worn:.2e} mm to either side, beyond the ends of the width at {half:.2e} mm, which half-spaces \
@@ -94,8 +89,8 @@ pub fn choose(plane: &Scene, as_point: Option<&Scene>, extent: Extent) -> (Choic
         (Choice::Line, reason)
     } else {
         let reason = format!(
-            "the unworn contact is {aspect:.1} times as long across the sliding direction as along it, below {SLENDER}: it is a contact of \
-             half-spaces"
+            "the contact, {aspect:.1} times as long across the sliding direction as along it before any wear, is expected to stay within the width \
+             ({worn:.2e} of {half:.2e} mm to either side): it is one of half-spaces"
         );
         (Choice::Point, reason)
     }

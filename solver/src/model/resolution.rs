@@ -8,6 +8,7 @@
 //! * flat of a slider in a long stroke: the circular segment that it has lost, by the same formula with W = k_s P s;
 //! * ends of the groove of a long stroke 2 A, W/(2 A) deep: the slider's arc reaches b = sqrt(R W / A) up them.
 
+use super::line_contact;
 use super::worn_cap::WornCap;
 use super::{constraint_side, worn_depth};
 use crate::effects::Effect;
@@ -227,15 +228,47 @@ pub fn worn_contact_half_length_mm(scene: &Scene) -> f64 {
     arc.sqrt().max(hertz)
 }
 
-/// Hertz' peak pressure of the unworn contact, MPa: 2 P/(pi a) of a section, 3 F/(2 pi a b) of a point contact.
+/// Half-lengths of the contact of a crowned line, unworn and at the estimated end, mm: the arc that has worn off; `None` of another contact.
+pub fn crown_half_lengths_mm(scene: &Scene) -> Option<(f64, f64)> {
+    let line = scene.dimension.line()?;
+    let LineShape::Straight {
+        crown_radius_mm: Some(radius),
+        ..
+    } = line.shape
+    else {
+        return None;
+    };
+    let modulus = contact_modulus(scene.slider.elastic, scene.receptacle.elastic);
+    let unworn = line_contact::touch(line.shape, line.force_n, modulus).length_mm;
+    let hertz = hertz_half_width(scene);
+    let cycles = expected_cycles(scene, hertz);
+    let depth = worn_depth_after(scene, (hertz, &scene.surface_wear()), cycles);
+    let arc = 2.0 * radius * (depth.slider + depth.receptacle);
+    Some((unworn, (unworn * unworn + arc).sqrt()))
+}
+
+/// Hertz' peak pressure of the unworn contact, MPa: 2 P/(pi a) of a section, and of the most loaded one along a line; 3 F/(2 pi a b) of a
+/// point contact.
 pub fn hertz_peak_pressure(scene: &Scene) -> f64 {
     match PointScene::of(scene, SlipRegime::Gross) {
         Some(contact) => {
             let (along, across) = contact.half_lengths_mm();
             1.5 * contact.force_n / (PI * along * across)
         }
-        None => 2.0 * scene.load_n_per_mm / (PI * hertz_half_width(scene)),
+        None => {
+            let mean = 2.0 * scene.load_n_per_mm / (PI * hertz_half_width(scene));
+            // It goes with the root of the load.
+            mean * (largest_line_load(scene) / scene.load_n_per_mm).sqrt()
+        }
     }
+}
+
+/// Largest line load of the unworn contact, N/mm.
+fn largest_line_load(scene: &Scene) -> f64 {
+    scene.dimension.line().map_or(scene.load_n_per_mm, |line| {
+        let modulus = contact_modulus(scene.slider.elastic, scene.receptacle.elastic);
+        line_contact::touch(line.shape, line.force_n, modulus).line_load
+    })
 }
 
 /// Chooses the spacing of a scene's meshes: of a mission the finest and widest that one of its blocks needs.

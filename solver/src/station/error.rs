@@ -31,6 +31,26 @@ pub enum StationError {
         /// Their number.
         stations: usize,
     },
+    /// Too few stations in the unworn contact of a crown or a tilt.
+    #[error(
+        "{stations} stations, the unworn contact of the crown or the tilt needs at least {least}"
+    )]
+    Spacing {
+        /// Their number.
+        stations: usize,
+        /// The least one.
+        least: usize,
+    },
+    /// The contact leaves the receptacle.
+    #[error(
+        "amplitude is {amplitude_mm} mm, must be below half of the receptacle's length of {half_block_mm} mm"
+    )]
+    LeavesReceptacle {
+        /// Its amplitude, mm.
+        amplitude_mm: f64,
+        /// Half of the length, mm.
+        half_block_mm: f64,
+    },
     /// A motion with turning points inside, or without any.
     #[error("stations slide to and fro between two turning points")]
     Motion,

@@ -9,7 +9,7 @@ use super::cycle::{Line, LineRecord};
 use super::error::StationError;
 use super::height::Height;
 use super::place::places;
-use super::scene::StationScene;
+use super::scene::{StationScene, intervals_within};
 use super::section::{Increment, Section, Station};
 use super::state::{Common, LineState, StationState};
 use super::threads::{Threads, for_each};
@@ -91,11 +91,12 @@ impl LineIntegrator {
         let plane = scene.plane();
         let amplitude_mm = scene.amplitude_mm().ok_or(StationError::Motion)?;
         let built = model::build(&plane, plan)?;
-        scene.check_slip(&plane, built.sizes.hertz_half_width)?;
+        scene.check_slip(&plane)?;
         let (spring, slave) = (built.interface.spring, built.interface.slave);
         let unworn = Arc::new(Section::unworn(built)?);
         let untouched = ContactState::untouched(&unworn.condensed.operators, slave);
-        let places = places(scene.line, scene.stations).into_iter();
+        let spaced = (scene.touch(), intervals_within(&scene.section.accuracy));
+        let places = places(scene.line, scene.stations, spaced).into_iter();
         let stations = places.map(|place| {
             let state = StationState::unworn(untouched.clone(), &unworn.model);
             Station::new(place, &unworn, state)
@@ -119,8 +120,34 @@ impl LineIntegrator {
         })
     }
 
-    /// Applies the load without sliding. The height under the mean line load is the first one of a rigid top.
+    /// Applies the load, with wider zones where the contact of a section needs them.
     fn apply_load(&mut self) -> Result<(), StationError> {
+        loop {
+            let Err(error) = self.apply_load_once() else {
+                return Ok(());
+            };
+            self.widen_or(error)?;
+        }
+    }
+
+    /// Widens the zones of the station that needs it, with all others as they are.
+    ///
+    /// # Errors
+    /// The error, if wider zones are no help.
+    fn widen_or(&mut self, error: StationError) -> Result<(), StationError> {
+        match error {
+            StationError::Contact {
+                station, source, ..
+            } if source.needs_wider_zones() => {
+                self.line.stations[station].widen();
+                self.follow_states()
+            }
+            other => Err(other),
+        }
+    }
+
+    /// Applies the load without sliding. The height under the mean line load is the first one of a rigid top.
+    fn apply_load_once(&mut self) -> Result<(), StationError> {
         let line = &mut self.line;
         if self.scene.top == Top::Rigid {
             let first = &mut line.stations[0];
@@ -152,9 +179,15 @@ impl LineIntegrator {
         });
         let steps = increments::steps(self.plane.motion, count);
         let quarter = increments::initial_quarter(&steps);
-        let slid = self.line.slide(quarter, 0.0, &ReplayPlan::default());
-        slid.map(|_| ())
-            .map_err(|(halvings, error)| self.failure(halvings, error))
+        loop {
+            let before = self.line.snapshot();
+            let slid = self.line.slide(quarter, 0.0, &ReplayPlan::default());
+            let Err((halvings, error)) = slid else {
+                return Ok(());
+            };
+            self.line.restore(&before);
+            self.widen_or(self.failure(halvings, error))?;
+        }
     }
 
     /// Computes the next cycle up to a number of them, with shorter jumps until it has a solution.

@@ -3,8 +3,14 @@
 use std::f64::consts::PI;
 
 use super::record::Along;
+use super::scene::sides;
+use super::spacing;
+use crate::model::line_contact::Touch;
 use crate::number::real;
 use crate::scene::LineShape;
+
+/// Places are multiples of its inverse, mm: far below any spacing.
+const PER_MM: f64 = 1e12;
 
 /// A station on its line.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -32,7 +38,13 @@ pub(super) struct Displaced {
 }
 
 /// Evenly spaced places: a half ring, which stands for both, or a straight line, of which a half stands for both without a tilt.
-pub(super) fn places(line: LineShape, stations: usize) -> Vec<Place> {
+/// The sections of a straight line are evenly spaced in the unworn contact, which reaches from the place that touches first as far as `touch` says
+/// and has so many intervals, and farther apart beyond.
+pub(super) fn places(
+    line: LineShape,
+    stations: usize,
+    (touch, within): (Touch, usize),
+) -> Vec<Place> {
     let spacings = real(stations - 1);
     let share = |j: usize| {
         if j == 0 || j == stations - 1 {
@@ -55,17 +67,28 @@ pub(super) fn places(line: LineShape, stations: usize) -> Vec<Place> {
             })
             .collect(),
         LineShape::Straight {
-            width_mm,
             crown_radius_mm,
             tilt_mrad,
+            ..
         } => {
+            let (left, right) = sides(line, touch.at_mm);
+            let count = spacing::divided(stations - 1, (left, right));
+            let from = |length, count| spacing::places(length, touch.length_mm, (within, count));
+            let before = from(left, count.0).into_iter().skip(1).rev();
+            let after = from(right, count.1);
+            let at: Vec<f64> = before
+                .filter(|_| left > 0.0)
+                .map(|distance| touch.at_mm - distance)
+                .chain(after.into_iter().map(|distance| touch.at_mm + distance))
+                .map(rounded)
+                .collect();
             // Half of a symmetric line stands for both halves.
-            let (first, part) = if tilt_mrad == 0.0 {
-                (0.0, 0.5)
-            } else {
-                (-0.5, 1.0)
+            let both = if left > 0.0 { 1.0 } else { 2.0 };
+            let z = |j: usize| at[j];
+            let weight = |j: usize| {
+                let last = stations - 1;
+                0.5 * both * (at[(j + 1).min(last)] - at[j.saturating_sub(1)])
             };
-            let z = |j: usize| width_mm * (first + part * real(j) / spacings);
             let height = |z: f64| {
                 let crown = crown_radius_mm.map_or(0.0, |radius| z * z / (2.0 * radius));
                 crown + 1e-3 * tilt_mrad * z
@@ -75,7 +98,7 @@ pub(super) fn places(line: LineShape, stations: usize) -> Vec<Place> {
             (0..stations)
                 .map(|j| Place {
                     at: Along::DistanceMm(z(j)),
-                    weight_mm: share(j) * width_mm / spacings,
+                    weight_mm: weight(j),
                     raised_mm: height(z(j)) - lowest,
                     direction: [1.0, 0.0],
                     radius_mm: None,
@@ -83,6 +106,11 @@ pub(super) fn places(line: LineShape, stations: usize) -> Vec<Place> {
                 .collect()
         }
     }
+}
+
+/// A place without the round-off in its last digits, mm.
+fn rounded(mm: f64) -> f64 {
+    (mm * PER_MM).round() / PER_MM
 }
 
 impl Place {
@@ -124,11 +152,16 @@ impl Place {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::model::line_contact::touch;
+
+    fn placed(line: LineShape, stations: usize) -> Vec<Place> {
+        places(line, stations, (touch(line, 0.1, 1e5), 4))
+    }
 
     #[test]
     fn a_ring_crosses_the_radial_sections_where_two_circles_meet() {
         let (radius_mm, u) = (0.4826, 0.033_868);
-        for place in places(LineShape::Ring { radius_mm }, 9) {
+        for place in placed(LineShape::Ring { radius_mm }, 9) {
             // A point of the displaced circle at this distance from the centre of the resting one.
             let distance = radius_mm + place.position(u);
             let [cos, sin] = place.direction;
@@ -139,7 +172,7 @@ mod tests {
 
     #[test]
     fn slip_has_the_length_of_the_displacement() {
-        for place in places(LineShape::Ring { radius_mm: 0.5 }, 7) {
+        for place in placed(LineShape::Ring { radius_mm: 0.5 }, 7) {
             let moved = place.displaced(-0.01, 0.02);
             let across = moved.slider_x - place.position(-0.01) + moved.surface_slip;
             assert!((across.hypot(moved.along) - 0.03).abs() < 1e-15);
@@ -159,9 +192,9 @@ mod tests {
             tilt_mrad: 0.0,
         };
         for line in [line, straight, LineShape::Ring { radius_mm: 0.5 }] {
-            let places = places(line, 9);
+            let places = placed(line, 9);
             let sum: f64 = places.iter().map(|place| place.weight_mm).sum();
-            assert!((sum - line.length_mm()).abs() < 1e-14);
+            assert!((sum - line.length_mm()).abs() < 1e-11);
             assert!(places.iter().all(|place| place.raised_mm >= 0.0));
         }
     }

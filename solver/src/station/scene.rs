@@ -1,7 +1,10 @@
 //! What a run of stations is computed from.
 
 use super::error::StationError;
+use super::spacing;
 use crate::effects::Effect;
+use crate::law::elastic::contact_modulus;
+use crate::model::line_contact::{Touch, touch};
 use crate::model::resolution;
 use crate::number::{nearest, real};
 use crate::scene::{Accuracy, Dimension, Drive, Friction, Line, LineShape, Motion, Scene, Top};
@@ -37,9 +40,19 @@ pub fn stations_for(tolerance: f64) -> usize {
 /// Fewest stations of a line whose sections differ, and of one whose sections are all alike.
 const FEWEST: usize = 3;
 const ALIKE: usize = 2;
+/// Fewest intervals along the unworn contact of a crown or a tilt from where it touches first, whatever the tolerance: of four the trapezoidal
+/// sum of a parabola is 1 % low, of two 6 %.
+const FEWEST_WITHIN: usize = 2;
+
+/// Intervals along the unworn contact of a crown or a tilt from where it touches first.
+pub(super) fn intervals_within(accuracy: &Accuracy) -> usize {
+    let chosen = stations_for(accuracy.tolerance) / 2;
+    nearest(accuracy.refinement.mesh * real(chosen)).max(FEWEST_WITHIN)
+}
 
 /// Stations of a line of a scene: given or by its tolerance, and refined with its mesh to an odd number, which has one in the middle.
-pub fn stations_of(line: &Line, accuracy: &Accuracy) -> usize {
+pub fn stations_of(scene: &Scene, line: &Line) -> usize {
+    let accuracy = &scene.accuracy;
     if line.stations.is_none() && line.shape.is_even() {
         return ALIKE;
     }
@@ -48,10 +61,36 @@ pub fn stations_of(line: &Line, accuracy: &Accuracy) -> usize {
         .unwrap_or_else(|| stations_for(accuracy.tolerance));
     let half = 0.5 * real(chosen.saturating_sub(1));
     let [unrefined, refined] = [half, accuracy.refinement.mesh * half].map(nearest);
-    if refined == unrefined {
+    let chosen = if refined == unrefined {
+        chosen
+    } else {
+        (2 * refined + 1).max(FEWEST)
+    };
+    if line.stations.is_some() {
         return chosen;
     }
-    (2 * refined + 1).max(FEWEST)
+    chosen.max(needed(scene, line, intervals_within(accuracy)))
+}
+
+/// Stations that a straight line needs so that so many intervals lie in its unworn contact; 0 of a ring.
+fn needed(scene: &Scene, line: &Line, within: usize) -> usize {
+    let LineShape::Straight { .. } = line.shape else {
+        return 0;
+    };
+    let modulus = contact_modulus(scene.slider.elastic, scene.receptacle.elastic);
+    let touch = touch(line.shape, line.force_n, modulus);
+    let (left, right) = sides(line.shape, touch.at_mm);
+    let sides = [left, right].map(|length| spacing::intervals(length, touch.length_mm, within));
+    sides[0] + sides[1] + 1
+}
+
+/// Lengths of a straight line to either side of where it touches first, mm; of half of it where that stands for both.
+pub(super) fn sides(shape: LineShape, at_mm: f64) -> (f64, f64) {
+    let half = 0.5 * shape.length_mm();
+    match shape {
+        LineShape::Straight { tilt_mrad, .. } if tilt_mrad != 0.0 => (half + at_mm, half - at_mm),
+        LineShape::Straight { .. } | LineShape::Ring { .. } => (0.0, half),
+    }
 }
 
 /// `Tuning::sufficient_cycles` of sections: the jumps of one that slides mostly along the line, or whose scar is about as wide as its stroke,
@@ -59,12 +98,16 @@ pub fn stations_of(line: &Line, accuracy: &Accuracy) -> usize {
 /// depth differs by 0.3 %, the volume by 0.4 and 0.8 %.
 const SUFFICIENT_CYCLES: f64 = 1.0;
 
+/// Least load that meshes are chosen for over the largest one of the unworn contact. Arbitrary: of a contact that has grown to ten times its
+/// length.
+const PART_OF_LARGEST: f64 = 0.1;
+
 impl StationScene {
     /// The contact along a line of a scene; `None` for another one.
     pub fn of(scene: &Scene) -> Option<Self> {
         let line = scene.dimension.line()?;
         Some(Self {
-            stations: stations_of(line, &scene.accuracy),
+            stations: stations_of(scene, line),
             section: Scene {
                 dimension: Dimension::PlaneStrain,
                 ..scene.clone()
@@ -76,17 +119,32 @@ impl StationScene {
         })
     }
 
+    /// The unworn contact.
+    pub(super) fn touch(&self) -> Touch {
+        let (slider, receptacle) = (self.section.slider.elastic, self.section.receptacle.elastic);
+        touch(self.line, self.force_n, contact_modulus(slider, receptacle))
+    }
+
     /// Mean line load F/L, N/mm.
     pub fn mean_line_load(&self) -> f64 {
         self.force_n / self.line.length_mm()
     }
 
-    /// The plane scene under the mean line load, without sticking and with nothing that a section of a line does not have.
+    /// The line load that meshes are chosen for, N/mm: the mean, or, where a short contact carries far more under a rigid top, a part of that.
+    fn meshed_line_load(&self) -> f64 {
+        let mean = self.mean_line_load();
+        match self.top {
+            Top::Even => mean,
+            Top::Rigid => mean.max(PART_OF_LARGEST * self.touch().line_load),
+        }
+    }
+
+    /// The plane scene under about the mean line load, without sticking and with nothing that a section of a line does not have.
     pub(crate) fn plane(&self) -> Scene {
         let mut section = self.section.clone();
         section.accuracy.tuning.sufficient_cycles = SUFFICIENT_CYCLES;
         Scene {
-            load_n_per_mm: self.mean_line_load(),
+            load_n_per_mm: self.meshed_line_load(),
             effects: section.effects.clone().with(Effect::StickMemory, false),
             ..section
         }
@@ -100,13 +158,27 @@ impl StationScene {
         }
     }
 
-    /// Checks the scene, and that all of a contact of a half-width in mm slips in each stroke.
+    /// Checks the scene, and that all of its contact slips in each stroke.
     ///
     /// # Errors
     /// A value outside of its range, a law or a motion that stations do not have, a contact that may stick.
-    pub fn check_all(&self, half_width: f64) -> Result<(), StationError> {
+    pub fn check_all(&self) -> Result<(), StationError> {
         self.check()?;
-        self.check_slip(&self.plane(), half_width)
+        let line = Line {
+            shape: self.line,
+            top: self.top,
+            force_n: self.force_n,
+            stations: None,
+            threads: 1,
+        };
+        let least = needed(&self.section, &line, FEWEST_WITHIN);
+        if self.stations < least && !self.line.is_even() {
+            return Err(StationError::Spacing {
+                stations: self.stations,
+                least,
+            });
+        }
+        self.check_slip(&self.plane())
     }
 
     /// Checks the scene.
@@ -146,6 +218,13 @@ impl StationScene {
                 radius_mm,
             });
         }
+        let half_block = 0.5 * self.section.receptacle.shape.length_mm;
+        if amplitude.abs() >= half_block {
+            return Err(StationError::LeavesReceptacle {
+                amplitude_mm: amplitude.abs(),
+                half_block_mm: half_block,
+            });
+        }
         if self.stations < 2 {
             return Err(StationError::Stations {
                 stations: self.stations,
@@ -164,11 +243,18 @@ impl StationScene {
     }
 
     /// Checks that all of the contact slips in each stroke.
-    pub(super) fn check_slip(&self, plane: &Scene, half_width: f64) -> Result<(), StationError> {
+    pub(super) fn check_slip(&self, plane: &Scene) -> Result<(), StationError> {
+        // The most loaded section sticks longest.
+        let line_load = match self.top {
+            Top::Even => self.mean_line_load(),
+            Top::Rigid => self.touch().line_load,
+        };
         let free = Scene {
             effects: self.section.effects.clone(),
+            load_n_per_mm: line_load,
             ..plane.clone()
         };
+        let half_width = resolution::hertz_half_width(&free);
         if resolution::sticks(&free, half_width) {
             return Err(StationError::Sticks {
                 amplitude_mm: plane.motion.amplitude_mm().abs(),

@@ -2,11 +2,12 @@
 
 use api::problem::Fault;
 use api::spec::{Dimension, Model, Spec, SystemKind, Top};
-use solver::model::resolution::hertz_half_width;
+use solver::model::resolution::{crown_half_lengths_mm, hertz_half_width};
 use solver::scene::{self, Conduction, LineShape, Scene};
 use solver::station::{StationError, StationScene};
 
 use super::length::length;
+use super::yielding::yields;
 use crate::spec::diagnostics::Diagnostics;
 use crate::spec::sourced::assumed;
 use crate::spec::system::{LENGTH_MM, Shapes};
@@ -81,7 +82,8 @@ fn ring(
 ) -> (Model, LineShape) {
     const POINTER: &str = "/model/outer_diameter_mm";
     let radius = shapes.slider.radius_mm;
-    let diameter = if kind == SystemKind::FuzzButton || given.outer_diameter_mm.is_some() {
+    let is_known = kind == SystemKind::FuzzButton || given.outer_diameter_mm.is_some();
+    let diameter = if is_known {
         let default = assumed(FUZZ_BUTTON_MM);
         length((POINTER, given.outer_diameter_mm), default, diagnostics)
     } else {
@@ -89,7 +91,7 @@ fn ring(
         FUZZ_BUTTON_MM
     };
     let radius_mm = 0.5 * diameter - radius;
-    if radius_mm <= radius {
+    if is_known && radius_mm <= radius {
         let detail = format!(
             "{diameter} is the outer diameter of a ring of wire whose section has a radius of {radius} mm: it must exceed four times that"
         );
@@ -209,13 +211,15 @@ impl Line {
         let Some(line) = StationScene::of(scene) else {
             return;
         };
-        let Err(error) = line.check_all(hertz_half_width(scene)) else {
+        let Err(error) = line.check_all() else {
             return;
         };
         let pointer = match error {
             StationError::Sticks { .. } | StationError::Amplitude { .. } | StationError::Motion => {
                 "/motion"
             }
+            StationError::LeavesReceptacle { .. } => "/motion",
+            StationError::Spacing { .. } => "/accuracy/overrides/stations",
             StationError::Drive => "/motion/drive",
             StationError::FrictionLaw => "/interface/friction",
             StationError::Law { .. } => "/interface/wear",
@@ -235,19 +239,43 @@ fn stations(spec: &Spec, diagnostics: &mut Diagnostics) -> Option<usize> {
     usize::try_from(count).ok()
 }
 
-/// A warning of a straight line whose ends count.
+/// Warnings of a straight line whose ends count, and of a contact that yields.
 pub(super) fn warnings(scene: &Scene) -> Vec<Fault> {
-    let Some(LineShape::Straight { width_mm, .. }) = scene.dimension.line().map(|line| line.shape)
+    let warnings = short(scene).into_iter().chain(round(scene));
+    warnings.chain(yields(scene)).collect()
+}
+
+/// A warning of a crown whose contact stays within the width.
+fn round(scene: &Scene) -> Option<Fault> {
+    let LineShape::Straight {
+        width_mm,
+        tilt_mrad,
+        ..
+    } = scene.dimension.line()?.shape
     else {
-        return Vec::new();
+        return None;
+    };
+    let (unworn, worn) = crown_half_lengths_mm(scene)?;
+    (tilt_mrad == 0.0 && worn < 0.5 * width_mm).then(|| {
+        let detail = format!(
+            "the contact of the crown, {unworn:.2e} mm to either side and {worn:.2e} mm at the expected end, stays within the width of {width_mm} \
+             mm: sections do not know what the places beside them carry, and rate its unworn pressure a tenth and more too low; a \
+             `point` does not"
+        );
+        Fault::new("/model/crown_radius_mm", detail)
+    })
+}
+
+fn short(scene: &Scene) -> Option<Fault> {
+    let LineShape::Straight { width_mm, .. } = scene.dimension.line()?.shape else {
+        return None;
     };
     let contact = 2.0 * hertz_half_width(scene);
-    if width_mm >= WIDE * contact {
-        return Vec::new();
-    }
-    let detail = format!(
-        "sections along a line have no ends, and {width_mm} mm are less than {WIDE} times the unworn contact of {contact:.2e} mm along the \
-         sliding direction: such a contact is a `point`"
-    );
-    vec![Fault::new("/model/width_mm", detail)]
+    (width_mm < WIDE * contact).then(|| {
+        let detail = format!(
+            "sections along a line have no ends, and {width_mm} mm are less than {WIDE} times the unworn contact of {contact:.2e} mm along the \
+             sliding direction: such a contact is a `point`"
+        );
+        Fault::new("/model/width_mm", detail)
+    })
 }

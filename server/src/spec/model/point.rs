@@ -2,12 +2,12 @@
 
 use api::problem::Fault;
 use api::spec::{LoadKind, Spec};
-use solver::effects::Effect;
 use solver::model::resolution::{hertz_half_width, worn_contact_half_length_mm};
 use solver::point;
 use solver::scene::{self, Conduction, Point, Scene};
 use solver::sides::Sides;
 
+use super::yielding::yields;
 use crate::spec::diagnostics::Diagnostics;
 
 /// Largest half-length of a contact over the height of a body that is taken as a half-space: its compliance is then a few per cent lower.
@@ -78,9 +78,6 @@ fn check_size(scene: &Scene, diagnostics: &mut Diagnostics) {
 
 /// Warnings of a point contact that is no contact of half-spaces, or runs to an edge.
 pub(super) fn warnings(scene: &Scene) -> Vec<Fault> {
-    if scene.dimension.point().is_none() {
-        return Vec::new();
-    }
     let half_length = worn_contact_half_length_mm(scene);
     let (slider, block) = (&scene.slider.shape, &scene.receptacle.shape);
     let height = slider.height_mm.min(block.height_mm);
@@ -101,18 +98,4 @@ pub(super) fn warnings(scene: &Scene) -> Vec<Fault> {
     let warnings = warnings.into_iter();
     let warnings = warnings.map(|detail| Fault::new("/model/dimension", detail));
     warnings.chain(yields(scene)).collect()
-}
-
-/// A warning of a peak pressure beyond the hardness of the softer surface, whether it wears or not.
-fn yields(scene: &Scene) -> Option<Fault> {
-    let mut decisions = solver::effects::plan(scene).decisions.into_iter();
-    let plasticity = decisions.find(|decision| decision.effect == Effect::Plasticity)?;
-    let ratio = plasticity.indicator?.unworn;
-    (ratio > 1.0).then(|| {
-        let detail = format!(
-            "the peak pressure of the unworn contact is {ratio:.2} times the hardness of the softer surface: it yields, and is simulated \
-             as elastic"
-        );
-        Fault::new("/load", detail)
-    })
 }

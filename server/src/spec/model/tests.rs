@@ -221,6 +221,20 @@ fn fields_that_mean_nothing_along_a_line_are_refused() {
             ring(r#","accuracy":{"overrides":{"stations":2}}"#),
             "/accuracy/overrides/stations",
         ),
+        (
+            line(r#","crown_radius_mm":10"#, r#","accuracy":{"overrides":{"stations":3}}"#),
+            "/accuracy/overrides/stations",
+        ),
+        // The middle of a crown sticks longest.
+        (
+            line(r#","crown_radius_mm":10"#, r#","motion":{"kind":"reciprocating","amplitude_mm":1e-4}"#),
+            "/motion",
+        ),
+        // Off the board.
+        (
+            ring(r#","motion":{"kind":"reciprocating","amplitude_mm":0.06}"#),
+            "/motion",
+        ),
         // The whole contact sticks.
         (
             ring(r#","motion":{"kind":"reciprocating","amplitude_mm":1e-6}"#),
@@ -294,7 +308,9 @@ fn auto_chooses_by_numbers() {
     assert_eq!(chosen("", ""), Named::PlaneStrain);
     assert_eq!(chosen(r#","crown_radius_mm":0.4"#, ""), Named::Point);
     assert_eq!(chosen(r#","crown_radius_mm":3"#, ""), Named::Point);
-    assert_eq!(chosen(r#","crown_radius_mm":10"#, ""), Named::Line);
+    assert_eq!(chosen(r#","crown_radius_mm":10"#, ""), Named::Point);
+    // It grows to the ends of the width.
+    assert_eq!(chosen(r#","crown_radius_mm":1000"#, ""), Named::Line);
     assert_eq!(chosen(r#","tilt_mrad":1"#, ""), Named::Line);
     // So flat that it is worn alike, of which 4e-9 mm are no part.
     assert_eq!(chosen(r#","tilt_mrad":5e-6"#, ""), Named::PlaneStrain);
@@ -303,4 +319,24 @@ fn auto_chooses_by_numbers() {
         chosen(r#","crown_radius_mm":10"#, r#","output":{"fields":true}"#),
         Named::PlaneStrain
     );
+}
+
+/// A crown whose contact stays within the width is a point, whatever its aspect; and the most loaded section yields first.
+#[test]
+fn crowned_lines_are_warned_of() {
+    let warned = |text: &str, pointer: &str| {
+        let warnings = accepted(text).warnings.into_iter();
+        warnings.filter(|fault| fault.pointer == pointer).count()
+    };
+    let crown = line(r#","crown_radius_mm":10"#, "");
+    assert_eq!(warned(&crown, "/model/crown_radius_mm"), 1);
+    let flat = line(r#","crown_radius_mm":1000"#, "");
+    assert_eq!(warned(&flat, "/model/crown_radius_mm"), 0);
+    let copper = r#","materials":{"slider":"copper","receptacle":"copper"},"plating":{"slider":[],"receptacle":[]},
+        "interface":{"wear":{"slider":null,"receptacle":{"law":"archard","k":1e-5,"hardness_mpa":427}}}"#;
+    assert_eq!(
+        warned(&line(r#","crown_radius_mm":10"#, copper), "/load"),
+        1
+    );
+    assert_eq!(warned(&line("", copper), "/load"), 0);
 }

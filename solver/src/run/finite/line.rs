@@ -1,5 +1,5 @@
-//! The run of a contact along a line: what its reports and snapshots are made of. Profiles and tractions are those of the section across
-//! the motion, and of each station besides.
+//! The run of a contact along a line: what its reports and snapshots are made of. Profiles and tractions are those of the section
+//! that touches first, and of each station besides.
 
 use super::Contact;
 use crate::SolveError;
@@ -10,7 +10,7 @@ use crate::record::{
     self, Checks, CycleReport, DepthProfile, LineEnd, Outcome, Resolution, Snapshot,
     StationSnapshot, TractionField, WornArea, tractions,
 };
-use crate::scene::{LineShape, Scene};
+use crate::scene::Scene;
 use crate::sides::{Side, Sides};
 use crate::station::{
     Ending, LineIntegrator, LineState, StationError, StationProfile, StationScene,
@@ -89,11 +89,11 @@ impl Contact for LineIntegrator {
             scene,
             cycle: state.last(),
             profiles: worn,
-            reference: reference(scene, worn.len()),
+            reference: self.reference(),
         })
     }
 
-    fn snapshot(&self, scene: &Scene, state: &LineState, worn: Vec<StationProfile>) -> Snapshot {
+    fn snapshot(&self, _: &Scene, state: &LineState, worn: Vec<StationProfile>) -> Snapshot {
         let reports = state.last().stations.iter();
         let stations: Vec<StationSnapshot> = reports
             .zip(worn)
@@ -105,7 +105,7 @@ impl Contact for LineIntegrator {
                 positions: placed(self, (number, &profile)),
             })
             .collect();
-        let reference = &stations[reference(scene, stations.len())];
+        let reference = &stations[self.reference()];
         Snapshot {
             cycle: state.cycle(),
             receptacle: reference.receptacle.clone(),
@@ -144,14 +144,6 @@ impl Contact for LineIntegrator {
 
 fn line_of(scene: &Scene) -> Result<StationScene, StationError> {
     StationScene::of(scene).ok_or(StationError::Motion)
-}
-
-/// The station whose section is reported where one is: across the motion on a ring, in the middle of a straight line.
-fn reference(scene: &Scene, stations: usize) -> usize {
-    match scene.dimension.line().map(|line| line.shape) {
-        Some(LineShape::Straight { tilt_mrad, .. }) if tilt_mrad != 0.0 => stations / 2,
-        Some(LineShape::Straight { .. } | LineShape::Ring { .. }) | None => 0,
-    }
 }
 
 fn depths(profile: &StationProfile, side: Side) -> DepthProfile {

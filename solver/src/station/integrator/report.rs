@@ -94,6 +94,19 @@ impl LineIntegrator {
             .fold(f64::INFINITY, f64::min)
     }
 
+    /// The station that touches first: across the motion on a ring, in the middle of a crown, at the lower end of a tilt.
+    pub(crate) fn reference(&self) -> usize {
+        let raised = self
+            .line
+            .stations
+            .iter()
+            .map(|station| station.place.raised_mm);
+        let lowest = raised
+            .enumerate()
+            .reduce(|lowest, next| if next.1 < lowest.1 { next } else { lowest });
+        lowest.map_or(0, |(number, _)| number)
+    }
+
     /// The friction loop of the last computed cycle, which begins at its turning point.
     pub(crate) fn friction_loop(&self) -> &FrictionLoop {
         &self.record.friction_loop

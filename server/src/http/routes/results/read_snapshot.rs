@@ -35,6 +35,15 @@ impl RouteError for NoStationError {
     const TYPE: ProblemType = ProblemType::NO_SUCH_RESULT;
 }
 
+/// Error of a section's loop.
+#[derive(Debug, thiserror::Error)]
+#[error("the friction loop is that of the whole line; sections have a profile and a pressure")]
+struct WholeLineError;
+
+impl RouteError for WholeLineError {
+    const TYPE: ProblemType = ProblemType::NO_SUCH_RESULT;
+}
+
 /// Error of a file of sections that cannot be read.
 #[derive(Debug, thiserror::Error)]
 #[error("the sections of job {id} cannot be read: {cause}")]
@@ -185,6 +194,10 @@ async fn read_part<T: DeserializeOwned + Serialize>(
     read: Read<T>,
 ) -> Result<Response, ProblemResponse> {
     max_points::check(query.max_points)?;
+    if query.station.is_some() && read.of_station.is_none() {
+        app.job(id).await?;
+        return Err(WholeLineError.into());
+    }
     let Some(json) = app.store.snapshot(id, read.part, query.cycle).await? else {
         app.job(id).await?;
         return Err(NoSnapshotError(id).into());
