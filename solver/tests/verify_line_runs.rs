@@ -183,6 +183,10 @@ fn a_crowned_line_wears_like_the_point_contact_of_its_radii() {
         );
         assert!(off.abs() < 0.05 && volumes.abs() < 0.02);
     }
+    println!(
+        "unworn peaks: {:.0} and {:.0} MPa",
+        line.initial.peak_pressure_mpa, point.initial.peak_pressure_mpa
+    );
     let across = |summary: &Summary| {
         let extent = summary.last.extent.expect("an extent");
         extent.contact_half_length_across_mm

@@ -45,26 +45,23 @@ pub fn touch(shape: LineShape, force: f64, modulus: f64) -> Touch {
     let stiffness = LOAD_PER_APPROACH * modulus;
     let lowest = crown_radius_mm.map(|radius| -tilt * radius);
     let inside = lowest.filter(|lowest| lowest.abs() < half);
-    let found = match (inside, crown_radius_mm) {
-        (Some(at_mm), Some(radius)) => {
-            let length_mm = (1.5 * force * radius / stiffness).cbrt();
-            Touch {
-                at_mm,
-                length_mm,
-                line_load: 0.75 * force / length_mm,
-            }
+    let found = if let (Some(at_mm), Some(radius)) = (inside, crown_radius_mm) {
+        let length_mm = (1.5 * force * radius / stiffness).cbrt();
+        Touch {
+            at_mm,
+            length_mm,
+            line_load: 0.75 * force / length_mm,
         }
-        _ => {
-            let slope = tilt.abs() - crown_radius_mm.map_or(0.0, |radius| half / radius);
-            if slope <= 0.0 {
-                return even;
-            }
-            let length_mm = (2.0 * force / (stiffness * slope)).sqrt();
-            Touch {
-                at_mm: -half * tilt.signum(),
-                length_mm,
-                line_load: 2.0 * force / length_mm,
-            }
+    } else {
+        let slope = tilt.abs() - crown_radius_mm.map_or(0.0, |radius| half / radius);
+        if slope <= 0.0 {
+            return even;
+        }
+        let length_mm = (2.0 * force / (stiffness * slope)).sqrt();
+        Touch {
+            at_mm: -half * tilt.signum(),
+            length_mm,
+            line_load: 2.0 * force / length_mm,
         }
     };
     if found.line_load > even.line_load {

@@ -250,17 +250,13 @@ pub fn crown_half_lengths_mm(scene: &Scene) -> Option<(f64, f64)> {
 /// Hertz' peak pressure of the unworn contact, MPa: 2 P/(pi a) of a section, and of the most loaded one along a line; 3 F/(2 pi a b) of a
 /// point contact.
 pub fn hertz_peak_pressure(scene: &Scene) -> f64 {
-    match PointScene::of(scene, SlipRegime::Gross) {
-        Some(contact) => {
-            let (along, across) = contact.half_lengths_mm();
-            1.5 * contact.force_n / (PI * along * across)
-        }
-        None => {
-            let mean = 2.0 * scene.load_n_per_mm / (PI * hertz_half_width(scene));
-            // It goes with the root of the load.
-            mean * (largest_line_load(scene) / scene.load_n_per_mm).sqrt()
-        }
+    if let Some(contact) = PointScene::of(scene, SlipRegime::Gross) {
+        let (along, across) = contact.half_lengths_mm();
+        return 1.5 * contact.force_n / (PI * along * across);
     }
+    let mean = 2.0 * scene.load_n_per_mm / (PI * hertz_half_width(scene));
+    // It goes with the root of the load.
+    mean * (largest_line_load(scene) / scene.load_n_per_mm).sqrt()
 }
 
 /// Largest line load of the unworn contact, N/mm.

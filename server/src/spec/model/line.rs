@@ -215,10 +215,10 @@ impl Line {
             return;
         };
         let pointer = match error {
-            StationError::Sticks { .. } | StationError::Amplitude { .. } | StationError::Motion => {
-                "/motion"
-            }
-            StationError::LeavesReceptacle { .. } => "/motion",
+            StationError::Sticks { .. }
+            | StationError::Amplitude { .. }
+            | StationError::LeavesReceptacle { .. }
+            | StationError::Motion => "/motion",
             StationError::Spacing { .. } => "/accuracy/overrides/stations",
             StationError::Drive => "/motion/drive",
             StationError::FrictionLaw => "/interface/friction",
