@@ -150,7 +150,7 @@ fn a_dimple_has_no_deck_of_a_section() {
         ran.stderr
     );
     assert!(
-        ran.stderr.contains("a point contact has no mesh"),
+        ran.stderr.contains("only a section has a mesh"),
         "{}",
         ran.stderr
     );
