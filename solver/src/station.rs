@@ -24,6 +24,7 @@ mod cycle;
 mod error;
 mod height;
 mod integrator;
+mod meshed;
 mod place;
 mod record;
 mod run;
@@ -40,5 +41,5 @@ pub use record::{
     Along, StationCycle, StationOutcome, StationProfile, StationReport, StationSummary,
 };
 pub use run::run;
-pub use scene::{StationScene, stations_for, stations_of};
+pub use scene::{StationScene, stations_for};
 pub use state::LineState;

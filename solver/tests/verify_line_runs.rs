@@ -133,7 +133,8 @@ fn companions_and_threads_of_a_line_have_the_same_bits() {
     assert!(!alone.contains("NaN"));
 }
 
-/// Sections that are all alike: the plane contact, whose jumps extrapolate a groove while those of a line wear it at once.
+/// Sections that are all alike: the plane contact, whose jumps extrapolate a groove while those of a line wear it at once. 5 % is the tolerance of
+/// either run; reached: 0.8 %.
 #[test]
 fn a_straight_line_is_the_plane_contact() {
     for (name, rates) in [
@@ -217,7 +218,9 @@ fn stated_errors_hold_along_lines() {
     check_stated_error("crowned line", &done(&scene), &done(&fine));
 }
 
-/// The spring of a straight line is that of its section: F falls as both bodies recede.
+/// The spring of a straight line is that of its section: F falls as both bodies recede. A thousandth of the load is a hundredth of its loss here,
+/// a tenth of the tolerance. Under an even top each section has its own spring, which the balance of the forces counts: it would be
+/// off by their loss of load otherwise, a tenth, and 1 % is far from that.
 #[test]
 fn a_spring_relaxes_as_a_rigid_top_sinks() {
     let mut line = spring(None, (GOLD, GOLD), 10_000);
@@ -225,6 +228,7 @@ fn a_spring_relaxes_as_a_rigid_top_sinks() {
     line.spring_n_per_mm2 = 200.0 / WIDTH;
     let mut plane = line.clone();
     plane.dimension = Dimension::PlaneStrain;
+    let mut even = line.clone();
     let (line, plane) = (done(&line).last, done(&plane).last);
     println!(
         "line, spring: {:.4} N/mm, plane contact {:.4} N/mm",
@@ -233,6 +237,14 @@ fn a_spring_relaxes_as_a_rigid_top_sinks() {
     assert!(plane.load_n_per_mm < 0.95 * FORCE / WIDTH);
     assert!((line.load_n_per_mm / plane.load_n_per_mm - 1.0).abs() < 1e-3);
     assert_eq!(line.slider.ideal_volume_mm3, None);
+    if let Dimension::Line(own) = &mut even.dimension {
+        own.top = Top::Even;
+    }
+    let even = done(&even);
+    assert!((even.last.load_n_per_mm / plane.load_n_per_mm - 1.0).abs() < 1e-3);
+    let balance = even.checks.force_balance_present_normals;
+    println!("line, even top: forces out of balance by {balance:.1e}");
+    assert!(balance < 0.01);
 }
 
 /// Swapping the sign of the tilt mirrors the sections; to the balance of the forces.
@@ -263,7 +275,7 @@ fn a_mirrored_tilt_mirrors_the_sections() {
     assert!(loads.iter().any(|load| *load <= 0.0), "{loads:?}");
 }
 
-/// A tenth and ten times the force: depth goes with the volume, as for a cap and a groove, and nothing fails.
+/// A tenth and ten times the force. The volume is k F s but for the walls of the groove, which are flat: 1 %; reached: 1e-7.
 #[test]
 fn the_volume_of_a_line_goes_with_its_force() {
     let volumes = [0.1, 1.0, 10.0].map(|factor| {
@@ -282,7 +294,8 @@ fn the_volume_of_a_line_goes_with_its_force() {
     }
 }
 
-/// The life by a depth is the cycle at which a run stops at it, and half of the scar is through later than its deepest place.
+/// The life by a depth is the cycle at which a run stops at it, within the last jump before it, a hundredth. Half of the scar is through later than
+/// its deepest place.
 #[test]
 fn the_life_of_a_line_is_where_its_run_stops() {
     let mut scene = spring(Some(CROWN), (GOLD, GOLD), 1_500);

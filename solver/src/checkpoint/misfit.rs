@@ -13,6 +13,14 @@ pub enum Misfit {
         /// Nodes of the scene.
         nodes: usize,
     },
+    /// The scene has another number of sections along its line.
+    #[error("it has {found} sections along the line of {stations}")]
+    Stations {
+        /// Sections in the checkpoint.
+        found: usize,
+        /// Sections of the scene.
+        stations: usize,
+    },
     /// The scene has another dimension.
     #[error("it is of a contact of another dimension")]
     Dimension,

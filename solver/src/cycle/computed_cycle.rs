@@ -1,17 +1,16 @@
 //! A computed cycle: its jump, its plan, and its retry with a smaller jump where an increment fails.
 
-use std::borrow::Cow;
-
 use super::extrapolation::loss_of_load;
 use super::{CycleError, CycleRecord, CycleState, Integrator};
 use crate::law::elastic::contact_modulus;
-use crate::law::surface::{self, SurfaceWear};
+use crate::law::surface::SurfaceWear;
 use crate::law::wear::LocalState;
 use crate::model::resolution::radius;
 use crate::number::real_cycles;
+use crate::schedule::equivalent_wear::EquivalentWear;
 use crate::schedule::jump::Stroke;
 use crate::schedule::plan::{CyclePlan, Cycles, Followed};
-use crate::sides::{Side, Sides};
+use crate::sides::Side;
 
 /// Load at a turning point over that at the neutral position from which on a groove is not extrapolated: where a spring has
 /// faded on the floor, all wear is that of the walls, which the rate of a groove under an even load does not describe. Arbitrary:
@@ -100,20 +99,13 @@ impl Integrator<'_> {
         let done = state.cycle - before.cycle;
         let load = |state: &CycleState| state.contact.load(&self.pair.interface);
         state.loss_of_load = loss_of_load(load(before), load(state), real_cycles(done));
-        let wear = self.wear;
         let widths = self.pair.operators.as_ref().map(|body| &body.widths[..]);
-        let weights = Sides::from_fn(|side| {
-            surface::at_relative_rates(*wear.of(side), widths.of(side), state.depth.of(side))
-        });
         let depths = (&before.depth, &state.depth);
-        let [before, after] = [depths.0, depths.1].map(|depth| {
-            Sides::from_fn(|side| surface::equivalents(*wear.of(side), depth.of(side)))
-        });
-        let worn = (as_slices(&before), as_slices(&after));
-        let friction = self.change_of_friction(depths, worn);
+        let worn = EquivalentWear::new(&self.wear, widths, depths);
+        let friction = self.change_of_friction(depths, worn.depths());
         state
             .jump
-            .update((as_slices(&weights), friction), worn, done);
+            .update((worn.weights(), friction), worn.depths(), done);
         friction
     }
 
@@ -162,10 +154,6 @@ impl Integrator<'_> {
         }
         stroke
     }
-}
-
-fn as_slices<'a>(values: &'a Sides<Cow<'_, [f64]>>) -> Sides<&'a [f64]> {
-    values.as_ref().map(|values| &values[..])
 }
 
 /// Cycles that are extrapolated before a computed cycle, and between its strokes: half of them at either turning point,

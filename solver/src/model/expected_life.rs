@@ -26,6 +26,7 @@
 //! Range: laws whose rate is the same in every state, a load that does not change, gross slip (a place that sticks wears later), no
 //! movement of the contact over a crown. Limiting case: one layer, Archard's law.
 
+use super::worn_cap::WornCap;
 use super::{resolution, worn_depth};
 use crate::law::plating::bottoms;
 use crate::law::surface::SurfaceWear;
@@ -72,7 +73,7 @@ const SMALLEST_DEPTH: f64 = 1e-9;
 /// Cycles of the scene's motion until a criterion is reached, as if its run did not end before; `None` where the side never wears so
 /// deep, or wears by a law of state.
 pub fn cycles(scene: &Scene, criterion: Criterion) -> Option<f64> {
-    let of_cap = resolution::cap(scene).map(|cap| cap.cycles(criterion));
+    let of_cap = WornCap::of_scene(scene).map(|cap| cap.cycles(criterion));
     if let (Some(cycles), Some(_)) = (of_cap, scene.dimension.point()) {
         return cycles;
     }

@@ -9,7 +9,8 @@
 //!
 //! l: length of the contact from the lowest place on, mm. Limiting case: l at least the width, P' = F/w.
 
-use crate::scene::LineShape;
+use crate::law::elastic::contact_modulus;
+use crate::scene::{Line, LineShape, Scene};
 
 /// c, -.
 const LOAD_PER_APPROACH: f64 = 0.6;
@@ -23,6 +24,18 @@ pub struct Touch {
     pub length_mm: f64,
     /// Largest line load, N/mm.
     pub line_load: f64,
+}
+
+/// The contact of a line of a scene.
+pub(crate) fn touch_of(scene: &Scene, line: &Line) -> Touch {
+    let modulus = contact_modulus(scene.slider.elastic, scene.receptacle.elastic);
+    touch(line.shape, line.force_n, modulus)
+}
+
+/// Largest line load of the unworn contact of a scene, N/mm: its own of a section.
+pub(super) fn largest_line_load(scene: &Scene) -> f64 {
+    let line = scene.dimension.line();
+    line.map_or(scene.load_n_per_mm, |line| touch_of(scene, line).line_load)
 }
 
 /// The contact of a line under a force in N, of bodies with a contact modulus in MPa.

@@ -18,10 +18,7 @@ use crate::law::wear::LocalState;
 use crate::mesh::grading::Spacing;
 use crate::number::real_cycles;
 use crate::point::{PointScene, SlipRegime};
-use crate::scene::{
-    Accuracy, Dimension, Drive, Elastic, Line, LineShape, Motion, Point, Refinement, Scene,
-    SliderShape,
-};
+use crate::scene::{Accuracy, Drive, Elastic, LineShape, Motion, Refinement, Scene, SliderShape};
 use crate::sides::{Side, Sides};
 use std::f64::consts::PI;
 
@@ -157,7 +154,7 @@ pub fn expected_end(scene: &Scene) -> u64 {
 
 /// The same for a Hertz half-width, mm.
 pub(crate) fn expected_cycles(scene: &Scene, half_width: f64) -> u64 {
-    let of_cap = cap(scene).map(|cap| cap.expected_cycles());
+    let of_cap = WornCap::of_scene(scene).map(|cap| cap.expected_cycles());
     if let (Some(cycles), Some(_)) = (of_cap, scene.dimension.point()) {
         return cycles;
     }
@@ -166,37 +163,13 @@ pub(crate) fn expected_cycles(scene: &Scene, half_width: f64) -> u64 {
     of_cap.map_or(of_section, |cycles| cycles.min(of_section))
 }
 
-/// The cap that a point contact wears, or a crowned line until it touches over all of its width.
-pub(super) fn cap(scene: &Scene) -> Option<WornCap<'_>> {
-    let crown = |line: &Line| match line.shape {
-        LineShape::Straight {
-            crown_radius_mm, ..
-        } => crown_radius_mm,
-        LineShape::Ring { .. } => None,
-    };
-    match &scene.dimension {
-        Dimension::PlaneStrain => None,
-        Dimension::Point(point) => Some(WornCap::of(scene, point)),
-        Dimension::Line(line) => crown(line).map(|radius| {
-            let point = Point {
-                force_n: line.force_n,
-                radius_across_mm: Sides {
-                    slider: Some(radius),
-                    receptacle: None,
-                },
-            };
-            WornCap::of(scene, &point)
-        }),
-    }
-}
-
 /// Estimated largest worn depths after so many cycles, mm, in a contact of a half-width with this wear of both surfaces.
 pub(crate) fn worn_depth_after(
     scene: &Scene,
     (half_width, wear): (f64, &Sides<Option<SurfaceWear>>),
     cycles: u64,
 ) -> Sides<f64> {
-    let of_cap = cap(scene).map(|cap| cap.depth_after(cycles));
+    let of_cap = WornCap::of_scene(scene).map(|cap| cap.depth_after(cycles));
     if let (Some(depth), Some(_)) = (of_cap, scene.dimension.point()) {
         return depth;
     }
@@ -238,8 +211,7 @@ pub fn crown_half_lengths_mm(scene: &Scene) -> Option<(f64, f64)> {
     else {
         return None;
     };
-    let modulus = contact_modulus(scene.slider.elastic, scene.receptacle.elastic);
-    let unworn = line_contact::touch(line.shape, line.force_n, modulus).length_mm;
+    let unworn = line_contact::touch_of(scene, line).length_mm;
     let hertz = hertz_half_width(scene);
     let cycles = expected_cycles(scene, hertz);
     let depth = worn_depth_after(scene, (hertz, &scene.surface_wear()), cycles);
@@ -256,15 +228,7 @@ pub fn hertz_peak_pressure(scene: &Scene) -> f64 {
     }
     let mean = 2.0 * scene.load_n_per_mm / (PI * hertz_half_width(scene));
     // It goes with the root of the load.
-    mean * (largest_line_load(scene) / scene.load_n_per_mm).sqrt()
-}
-
-/// Largest line load of the unworn contact, N/mm.
-fn largest_line_load(scene: &Scene) -> f64 {
-    scene.dimension.line().map_or(scene.load_n_per_mm, |line| {
-        let modulus = contact_modulus(scene.slider.elastic, scene.receptacle.elastic);
-        line_contact::touch(line.shape, line.force_n, modulus).line_load
-    })
+    mean * (line_contact::largest_line_load(scene) / scene.load_n_per_mm).sqrt()
 }
 
 /// Chooses the spacing of a scene's meshes: of a mission the finest and widest that one of its blocks needs.

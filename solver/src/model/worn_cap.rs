@@ -24,7 +24,7 @@ use super::worn_depth::MOST_EXPOSED;
 use crate::law::plating::bottoms;
 use crate::law::surface::SurfaceWear;
 use crate::number::{cycles_at_least, real_cycles};
-use crate::scene::{Criterion, Point, Scene};
+use crate::scene::{Criterion, Dimension, LineShape, Point, Scene};
 use crate::sides::{Side, Sides};
 
 /// Halvings of the interval that holds a depth, and steps of an integral over the slider's depth: far below the forms' precision.
@@ -62,6 +62,28 @@ impl<'a> WornCap<'a> {
             radius_across: (curvature(across.slider) + curvature(across.receptacle)).recip(),
             scene,
         }
+    }
+
+    /// The cap that a point contact wears, or a crowned line until it touches over all of its width.
+    pub(super) fn of_scene(scene: &'a Scene) -> Option<Self> {
+        let Dimension::Line(line) = &scene.dimension else {
+            return scene.dimension.point().map(|point| Self::of(scene, point));
+        };
+        let LineShape::Straight {
+            crown_radius_mm: Some(radius),
+            ..
+        } = line.shape
+        else {
+            return None;
+        };
+        let point = Point {
+            force_n: line.force_n,
+            radius_across_mm: Sides {
+                slider: Some(radius),
+                receptacle: None,
+            },
+        };
+        Some(Self::of(scene, &point))
     }
 
     /// Largest worn depths after so many cycles, mm, each against an unworn body.

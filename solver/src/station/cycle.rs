@@ -176,7 +176,7 @@ impl Line {
         let forces =
             stations.map(|station| station.place.weight_mm * station.force_with_present_normals());
         let force_n: f64 = forces.sum();
-        let expected_n = self.carrier.present_n(&self.common.height);
+        let expected_n = self.carrier.present_n(&self.stations, &self.common.height);
         let stations = self.stations.iter();
         Placed {
             position,

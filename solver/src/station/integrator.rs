@@ -8,9 +8,10 @@ use std::sync::Arc;
 use super::cycle::{Line, LineRecord};
 use super::error::StationError;
 use super::height::Height;
+use super::meshed::Section;
 use super::place::places;
 use super::scene::{StationScene, intervals_within};
-use super::section::{Increment, Section, Station};
+use super::section::{Increment, Station};
 use super::state::{Common, LineState, StationState};
 use super::threads::{Threads, for_each};
 use super::top::{Carrier, Unsolved};
@@ -75,11 +76,11 @@ impl LineIntegrator {
         state: &LineState,
     ) -> Result<Self, StationError> {
         let mut integrator = Self::unloaded(scene, plan)?;
-        if state.stations.len() != integrator.line.stations.len() {
-            return Err(StationError::Stations {
-                stations: state.stations.len(),
-            });
-        }
+        debug_assert_eq!(
+            state.stations.len(),
+            integrator.line.stations.len(),
+            "the state is one of this scene"
+        );
         let threads = Arc::clone(&integrator.threads);
         threads.within(|| integrator.enter(state))?;
         Ok(integrator)

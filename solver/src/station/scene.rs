@@ -27,8 +27,8 @@ pub struct StationScene {
     pub threads: usize,
 }
 
-/// Stations along half of a line that suffice for a tolerance: under a rigid top depths at 1 000 cycles of the thesis' ring are 15.81, 15.93 and 15.97 um with
-/// 9, 17 and 33 of them.
+/// Stations along half of a line that suffice for a tolerance: under a rigid top depths at 1 000 cycles of the thesis' ring are 15.81, 15.93
+/// and 15.97 um with 9, 17 and 33 of them.
 pub fn stations_for(tolerance: f64) -> usize {
     match tolerance {
         coarse if coarse > 0.03 => 9,
@@ -50,9 +50,8 @@ pub(super) fn intervals_within(accuracy: &Accuracy) -> usize {
     nearest(accuracy.refinement.mesh * real(chosen)).max(FEWEST_WITHIN)
 }
 
-/// Stations of a line of a scene: given or by its tolerance, and refined with its mesh to an odd number, which has one in the middle.
-pub fn stations_of(scene: &Scene, line: &Line) -> usize {
-    let accuracy = &scene.accuracy;
+/// Stations of a line with an unworn contact: given or by the tolerance, and refined with the mesh to an odd number, which has one in the middle.
+fn stations_of(line: &Line, touch: Touch, accuracy: &Accuracy) -> usize {
     if line.stations.is_none() && line.shape.is_even() {
         return ALIKE;
     }
@@ -69,17 +68,15 @@ pub fn stations_of(scene: &Scene, line: &Line) -> usize {
     if line.stations.is_some() {
         return chosen;
     }
-    chosen.max(needed(scene, line, intervals_within(accuracy)))
+    chosen.max(needed(line.shape, touch, intervals_within(accuracy)))
 }
 
 /// Stations that a straight line needs so that so many intervals lie in its unworn contact; 0 of a ring.
-fn needed(scene: &Scene, line: &Line, within: usize) -> usize {
-    let LineShape::Straight { .. } = line.shape else {
+fn needed(shape: LineShape, touch: Touch, within: usize) -> usize {
+    let LineShape::Straight { .. } = shape else {
         return 0;
     };
-    let modulus = contact_modulus(scene.slider.elastic, scene.receptacle.elastic);
-    let touch = touch(line.shape, line.force_n, modulus);
-    let (left, right) = sides(line.shape, touch.at_mm);
+    let (left, right) = sides(shape, touch.at_mm);
     let sides = [left, right].map(|length| spacing::intervals(length, touch.length_mm, within));
     sides[0] + sides[1] + 1
 }
@@ -106,8 +103,8 @@ impl StationScene {
     /// The contact along a line of a scene; `None` for another one.
     pub fn of(scene: &Scene) -> Option<Self> {
         let line = scene.dimension.line()?;
-        Some(Self {
-            stations: stations_of(scene, line),
+        let mut own = Self {
+            stations: 0,
             section: Scene {
                 dimension: Dimension::PlaneStrain,
                 ..scene.clone()
@@ -116,7 +113,9 @@ impl StationScene {
             top: line.top,
             force_n: line.force_n,
             threads: line.threads,
-        })
+        };
+        own.stations = stations_of(line, own.touch(), &scene.accuracy);
+        Some(own)
     }
 
     /// The unworn contact.
@@ -164,14 +163,7 @@ impl StationScene {
     /// A value outside of its range, a law or a motion that stations do not have, a contact that may stick.
     pub fn check_all(&self) -> Result<(), StationError> {
         self.check()?;
-        let line = Line {
-            shape: self.line,
-            top: self.top,
-            force_n: self.force_n,
-            stations: None,
-            threads: 1,
-        };
-        let least = needed(&self.section, &line, FEWEST_WITHIN);
+        let least = needed(self.line, self.touch(), FEWEST_WITHIN);
         if self.stations < least && !self.line.is_even() {
             return Err(StationError::Spacing {
                 stations: self.stations,

@@ -1,69 +1,20 @@
 //! A station: the plane contact of its section, and what that has worn.
 
-use std::borrow::Cow;
+mod worn;
+
 use std::sync::Arc;
 
-use super::error::StationError;
+use super::meshed::Section;
 use super::place::Place;
 use super::state::StationState;
-use crate::ale::{self, Spines};
-use crate::condensation::{self, Condensed};
+use crate::ale::Spines;
+use crate::condensation::Operators;
 use crate::contact::{
     self, ContactError, ContactState, Displacement, Pair, Solver, Surfaces, WarmStart,
 };
 use crate::cycle::{Neutral, wear_limit};
-use crate::law::surface::{self, SurfaceWear};
-use crate::law::wear::LocalState;
-use crate::model::{Interface, Model};
-use crate::scene::Accuracy;
+use crate::model::Interface;
 use crate::sides::{Side, Sides};
-
-/// Factor by which zones become wider where a contact has outgrown them.
-const WIDER: f64 = 2.0;
-
-/// A meshed section with its operators.
-pub(super) struct Section {
-    pub(super) model: Model,
-    pub(super) condensed: Condensed,
-    /// Worn depths that it was meshed at, mm, and the width of its zones over that of the layout.
-    built: Option<Sides<Vec<f64>>>,
-    widened: f64,
-}
-
-impl Section {
-    /// The unworn section.
-    ///
-    /// # Errors
-    /// [`StationError`] if it cannot be condensed.
-    pub(super) fn unworn(model: Model) -> Result<Self, StationError> {
-        Ok(Self {
-            condensed: condensation::condense(&model)?,
-            model,
-            built: None,
-            widened: 1.0,
-        })
-    }
-
-    /// The section at the geometry that a state was computed with, from the unworn one.
-    fn of(unworn: &Model, state: &StationState) -> Result<Self, StationError> {
-        let model = match &state.built {
-            None => unworn.clone(),
-            Some(depth) => ale::relocate(unworn, depth)?,
-        };
-        let model = model.with_zones_widened(state.widened)?;
-        Ok(Self {
-            condensed: condensation::condense(&model)?,
-            model,
-            built: state.built.clone(),
-            widened: state.widened,
-        })
-    }
-
-    /// Whether it is at the geometry that a state was computed with.
-    fn is_of(&self, state: &StationState) -> bool {
-        self.built == state.built && self.widened.to_bits() == state.widened.to_bits()
-    }
-}
 
 /// A solved increment that is not part of the state yet.
 #[derive(Debug, Default)]
@@ -141,10 +92,7 @@ impl Station {
 
     /// Takes the normals of the surfaces as worn now.
     pub(super) fn update_slopes(&mut self) {
-        let operators = &self.section.condensed.operators;
-        let depth = &self.state.depth;
-        self.slope =
-            Sides::from_fn(|side| contact::slopes(operators.of(side), depth.of(side), side));
+        self.slope = slopes(&self.section.condensed.operators, &self.state.depth);
     }
 
     /// Solves an increment from the state, under the load of the section or at a height in mm. After another one of the same
@@ -275,12 +223,8 @@ impl Station {
         checks.friction_cone = checks.friction_cone.max(friction_cone);
         std::mem::swap(&mut state.contact, &mut self.next);
         if state.contact.friction > 0.0 {
-            let widths = &self
-                .section
-                .condensed
-                .operators
-                .of(self.interface.slave)
-                .widths;
+            let operators = &self.section.condensed.operators;
+            let widths = &operators.of(self.interface.slave).widths;
             let used = state.contact.friction_use(widths);
             state.checks.friction_use = state.checks.friction_use.max(used);
         }
@@ -308,6 +252,11 @@ impl Station {
         }
     }
 
+    /// Normal load of the present contact under an even top, which a spring reduces, N/mm.
+    pub(super) fn load(&self) -> f64 {
+        self.state.contact.load(&self.interface)
+    }
+
     /// Force of the slider on the receptacle along the motion in the present increment, N/mm.
     pub(super) fn force_along_motion(&self) -> f64 {
         let widths = &self.pair().slave().widths;
@@ -321,8 +270,7 @@ impl Station {
         let section = Arc::clone(&self.section);
         let operators = &section.condensed.operators;
         let depth = &self.state.depth;
-        let slope =
-            Sides::from_fn(|side| contact::slopes(operators.of(side), depth.of(side), side));
+        let slope = slopes(operators, depth);
         let surfaces = Surfaces {
             depth: depth.as_slices(),
             slope: slope.as_slices(),
@@ -340,121 +288,9 @@ impl Station {
     pub(super) fn half_width(&self) -> f64 {
         self.state.contact.half_width(&self.pair().slave().x)
     }
-
-    /// Integrals of the worn depths, mm^2.
-    pub(super) fn worn_section(&self) -> Sides<f64> {
-        Sides::from_fn(|side| {
-            let widths = &self.section.condensed.operators.of(side).widths;
-            let nodes = self.state.depth.of(side).iter().zip(widths);
-            nodes.map(|(depth, width)| depth * width).sum()
-        })
-    }
-
-    /// |worn area of the profile - integral of the wear rate| over the latter, of the worse side.
-    pub(super) fn worn_area_residual(&self) -> f64 {
-        let worn = self.worn_section().zip(self.state.worn_area);
-        let residual = worn.map(|(area, expected)| {
-            if expected > 0.0 {
-                (area / expected - 1.0).abs()
-            } else {
-                0.0
-            }
-        });
-        residual.slider.max(residual.receptacle)
-    }
-
-    /// Depth of the receptacle's groove below the higher one of its ends, mm.
-    pub(super) fn groove_mm(&self) -> f64 {
-        let depth = &self.state.depth.receptacle;
-        let ends = depth.first().zip(depth.last());
-        let rim = ends.map_or(0.0, |(first, last)| first.min(*last));
-        depth.iter().fold(0.0, |most: f64, depth| most.max(*depth)) - rim
-    }
-
-    /// Whether a body is nearly consumed.
-    pub(super) fn is_worn_through(&self) -> bool {
-        self.spines.are_worn_through(&self.state.depth)
-    }
-
-    /// Cycles until a body is nearly consumed or the groove is as deep as a radius in mm, at the present rate.
-    pub(super) fn cycles_left(&self, radius_mm: f64) -> f64 {
-        let (wear, equivalent) = (&self.interface.wear, self.state.jump.rates());
-        let rates = Sides::from_fn(|side| {
-            let depth = self.state.depth.of(side);
-            surface::at_relative_rates(*wear.of(side), equivalent.of(side), depth)
-        });
-        let fastest = rates
-            .receptacle
-            .iter()
-            .fold(f64::MIN_POSITIVE, |most, rate| rate.max(most));
-        let groove = (radius_mm - self.groove_mm()) / fastest;
-        let rates = rates.as_ref().map(|rates| &rates[..]);
-        self.spines
-            .cycles_left(&self.state.depth, rates)
-            .min(groove.max(0.0))
-    }
-
-    /// Largest wear rates from the surfaces down to the worn depths, 1/MPa.
-    pub(super) fn rates(&self) -> Sides<f64> {
-        let wear = self.interface.wear.zip(self.state.depth.largest_of_each());
-        wear.map(|(wear, depth)| {
-            wear.map_or(0.0, |wear| wear.largest_rate(depth, LocalState::default()))
-        })
-    }
-
-    /// Whether a rate depends on the worn depth.
-    pub(super) fn wears_by_depth(&self) -> bool {
-        let wear = self.interface.wear;
-        let by_depth = |side| wear.of(side).is_some_and(SurfaceWear::depends_on_depth);
-        Side::BOTH.into_iter().any(by_depth)
-    }
-
-    /// Measures what the next jump depends on, after one from these depths that all stations share.
-    pub(super) fn measure_jump(&mut self, before: &Sides<Vec<f64>>, jump: u64) {
-        let (wear, operators) = (self.interface.wear, &self.section.condensed.operators);
-        let after = &self.state.depth;
-        let weights = Sides::from_fn(|side| {
-            let widths = &operators.of(side).widths[..];
-            surface::at_relative_rates(*wear.of(side), widths, after.of(side))
-        });
-        let [before, after] = [before, after].map(|depth| {
-            Sides::from_fn(|side| surface::equivalents(*wear.of(side), depth.of(side)))
-        });
-        let slices = (slices(&before), slices(&after));
-        let control = &mut self.state.jump;
-        control.share(jump);
-        control.update((self::slices(&weights), 0.0), slices, jump);
-    }
-
-    /// Whether the section has drifted from the geometry of its operators; these are then those of the present depths.
-    pub(super) fn drifts(&mut self, accuracy: &Accuracy) -> bool {
-        let model = &self.section.model;
-        let drifted = model.relocates && ale::has_drifted(model, &self.state.depth, accuracy);
-        if drifted {
-            self.state.built = Some(self.state.depth.clone());
-        }
-        drifted
-    }
-
-    /// Records that the zones of fine elements must be wider.
-    pub(super) fn widen(&mut self) {
-        self.state.widened *= WIDER;
-    }
-
-    /// Meshes and condenses the section where it is not at the geometry of the state.
-    ///
-    /// # Errors
-    /// [`StationError`] if it cannot be meshed or condensed.
-    pub(super) fn follow_state(&mut self, unworn: &Arc<Section>) -> Result<(), StationError> {
-        if unworn.is_of(&self.state) {
-            self.section = Arc::clone(unworn);
-        } else if !self.section.is_of(&self.state) {
-            self.section = Arc::new(Section::of(&unworn.model, &self.state)?);
-        }
-        Ok(())
-    }
 }
 
-fn slices<'a>(values: &'a Sides<Cow<'_, [f64]>>) -> Sides<&'a [f64]> {
-    values.as_ref().map(|values| &values[..])
+/// Slopes of both surfaces as worn to these depths, mm.
+fn slopes(operators: &Operators, depth: &Sides<Vec<f64>>) -> Sides<Vec<f64>> {
+    Sides::from_fn(|side| contact::slopes(operators.of(side), depth.of(side), side))
 }

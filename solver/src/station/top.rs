@@ -92,9 +92,15 @@ impl Carrier {
         Ok(iterations)
     }
 
-    /// The force that the stations carry now, N.
-    pub(super) fn present_n(&self, height: &Height) -> f64 {
-        self.force_at(height, height.mm)
+    /// The force that acts on the stations now, N.
+    pub(super) fn present_n(&self, stations: &[Station], height: &Height) -> f64 {
+        match self.top {
+            Top::Even => stations
+                .iter()
+                .map(|station| station.place.weight_mm * station.load())
+                .sum(),
+            Top::Rigid => self.force_at(height, height.mm),
+        }
     }
 
     /// Force on a rigid top at a height, which a spring reduces as the top sinks, N.

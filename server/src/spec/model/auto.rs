@@ -1,9 +1,9 @@
-//! The dimension that a contact calls for: plane strain where its sections are alike, a line of sections where it is long against its
-//! width along the sliding direction, else a point.
+//! The dimension that a contact calls for: plane strain where its sections wear alike, a point where the contact of a crown stays within the
+//! width, else a line of sections (`solver::effects::extent`).
 
 use api::spec::{Dimension, Spec};
 use solver::effects::extent::{self, Extent};
-use solver::scene::{LineShape, Scene};
+use solver::scene::Scene;
 
 use super::line::Line;
 use super::{point, section_only};
@@ -22,23 +22,15 @@ pub(super) fn choose(
     spec: &Spec,
     diagnostics: &mut Diagnostics,
 ) -> Chosen {
-    let LineShape::Straight {
+    let Extent {
         width_mm,
         crown_radius_mm,
-        tilt_mrad,
-    } = line.shape()
-    else {
-        unreachable!("`auto` resolves a straight line");
-    };
-    let per_mm = |value: f64| if is_force { value / width_mm } else { value };
-    let plane = Scene {
-        load_n_per_mm: per_mm(section.load_n_per_mm),
-        spring_n_per_mm2: per_mm(section.spring_n_per_mm2),
-        ..section.clone()
-    };
+        ..
+    } = line.extent();
+    let plane = line.section((section.clone(), is_force));
     if let Some(reason) = lacks(&plane, spec) {
         return Chosen {
-            scene: line.section(plane),
+            scene: plane,
             dimension: Dimension::PlaneStrain,
             reason,
         };
@@ -52,12 +44,7 @@ pub(super) fn choose(
         let mut of_candidate = Diagnostics::default();
         point::with_dimension(whole.clone(), (Some(crown), force_n), &mut of_candidate)
     });
-    let extent = Extent {
-        width_mm,
-        crown_radius_mm,
-        tilt_mrad,
-    };
-    let (dimension, reason) = match extent::choose(&plane, as_point.as_ref(), extent) {
+    let (dimension, reason) = match extent::choose(&plane, as_point.as_ref(), line.extent()) {
         (extent::Choice::PlaneStrain, reason) => (Dimension::PlaneStrain, reason),
         (extent::Choice::Line, reason) => (Dimension::Line, reason),
         (extent::Choice::Point, reason) => (Dimension::Point, reason),
@@ -67,7 +54,7 @@ pub(super) fn choose(
         (Dimension::Point, Some(crown)) => {
             point::with_dimension(whole, (Some(crown), force_n), diagnostics)
         }
-        _ => line.section(plane),
+        _ => plane,
     };
     Chosen {
         scene,

@@ -2,6 +2,7 @@
 
 use api::problem::Fault;
 use api::spec::{Dimension, Model, Spec, SystemKind, Top};
+use solver::effects::extent::Extent;
 use solver::model::resolution::{crown_half_lengths_mm, hertz_half_width};
 use solver::scene::{self, Conduction, LineShape, Scene};
 use solver::station::{StationError, StationScene};
@@ -145,7 +146,7 @@ fn straight(
     (filled, shape)
 }
 
-/// Checks that the sections of a line are given of no other dimension.
+/// Refuses a number of sections in a dimension that has none along a line.
 pub(super) fn check_overrides_of_others(filled: &Spec, diagnostics: &mut Diagnostics) {
     let overrides = filled.accuracy.overrides.as_ref();
     if overrides.is_some_and(|overrides| overrides.stations.is_some()) {
@@ -157,16 +158,38 @@ pub(super) fn check_overrides_of_others(filled: &Spec, diagnostics: &mut Diagnos
 }
 
 impl Line {
-    pub(super) fn shape(&self) -> LineShape {
-        self.shape
+    /// Its extent across the motion.
+    pub(super) fn extent(&self) -> Extent {
+        let width_mm = self.shape.length_mm();
+        match self.shape {
+            LineShape::Ring { .. } => Extent {
+                width_mm,
+                crown_radius_mm: None,
+                tilt_mrad: 0.0,
+            },
+            LineShape::Straight {
+                crown_radius_mm,
+                tilt_mrad,
+                ..
+            } => Extent {
+                width_mm,
+                crown_radius_mm,
+                tilt_mrad,
+            },
+        }
     }
 
-    /// A section under the load of a mm of its width.
-    pub(super) fn section(&self, mut plane: Scene) -> Scene {
-        if let Conduction::Known(electrical) = &mut plane.conduction {
-            electrical.width_mm = self.shape.length_mm();
+    /// A section under the load of a mm. A force, and its spring, are those of the whole line; other loads act on each mm of it.
+    pub(super) fn section(&self, (mut scene, is_force): (Scene, bool)) -> Scene {
+        let length = self.shape.length_mm();
+        if is_force {
+            scene.load_n_per_mm /= length;
+            scene.spring_n_per_mm2 /= length;
         }
-        plane
+        if let Conduction::Known(electrical) = &mut scene.conduction {
+            electrical.width_mm = length;
+        }
+        scene
     }
 
     /// Name of its dimension.
@@ -177,26 +200,18 @@ impl Line {
         }
     }
 
-    /// Makes a scene with its section one along the line. A force, and its spring, are those of the whole line; other loads act on each mm
-    /// of it.
+    /// Makes a scene with its section one along the line.
     pub(super) fn with_dimension(
         &self,
-        (mut scene, is_force): (Scene, bool),
+        loaded: (Scene, bool),
         spec: &Spec,
         diagnostics: &mut Diagnostics,
     ) -> Scene {
-        let length = self.shape.length_mm();
-        if is_force {
-            scene.load_n_per_mm /= length;
-            scene.spring_n_per_mm2 /= length;
-        }
-        if let Conduction::Known(electrical) = &mut scene.conduction {
-            electrical.width_mm = length;
-        }
+        let mut scene = self.section(loaded);
         scene.dimension = scene::Dimension::Line(scene::Line {
             shape: self.shape,
             top: self.top,
-            force_n: scene.load_n_per_mm * length,
+            force_n: scene.load_n_per_mm * self.shape.length_mm(),
             stations: stations(spec, diagnostics),
             threads: 1,
         });
@@ -266,6 +281,7 @@ fn round(scene: &Scene) -> Option<Fault> {
     })
 }
 
+/// A warning of a line that is short against its contact.
 fn short(scene: &Scene) -> Option<Fault> {
     let LineShape::Straight { width_mm, .. } = scene.dimension.line()?.shape else {
         return None;

@@ -3,7 +3,7 @@
 
 use super::Contact;
 use crate::SolveError;
-use crate::checkpoint::{LineRun, Resumable};
+use crate::checkpoint::{LineRun, Misfit, Resumable};
 use crate::effects::EffectsPlan;
 use crate::electrical::{AreaContact, ContactResistance};
 use crate::record::{
@@ -30,7 +30,12 @@ impl Contact for LineIntegrator {
         plan: &EffectsPlan,
         state: &mut LineState,
     ) -> Result<Self, SolveError> {
-        Ok(Self::resume(&line_of(scene)?, plan, state)?)
+        let line = line_of(scene)?;
+        let (found, stations) = (state.last().stations.len(), line.stations);
+        if found != stations {
+            return Err(Misfit::Stations { found, stations }.into());
+        }
+        Ok(Self::resume(&line, plan, state)?)
     }
 
     fn compute_cycle(&mut self, state: &mut LineState, until: u64) -> Result<(), SolveError> {
