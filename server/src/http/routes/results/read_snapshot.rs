@@ -28,7 +28,7 @@ struct NoStationError {
     id: Uuid,
     cycle: u64,
     stations: usize,
-    station: usize,
+    station: u32,
 }
 
 impl RouteError for NoStationError {
@@ -90,7 +90,8 @@ pub(crate) struct SnapshotQuery {
     #[param(minimum = 16, maximum = 100_000)]
     max_points: Option<usize>,
     /// Number of a section along a `line` or a `ring`, from 0 on. Default: that in the middle of the line, or across the motion of the ring.
-    station: Option<usize>,
+    #[param(maximum = 4_294_967_295_i64)]
+    station: Option<u32>,
 }
 
 /// Worn depth along both surfaces, at the stored cycle nearest to the requested one.
@@ -235,7 +236,7 @@ struct At {
 async fn section(
     app: &App,
     id: Uuid,
-    (cycle, station): (u64, usize),
+    (cycle, station): (u64, u32),
 ) -> Result<LineProfile, ProblemResponse> {
     let missing = |stations| NoStationError {
         id,
@@ -252,11 +253,12 @@ async fn section(
             .await
             .map_err(|cause| UnreadError { id, cause })?,
     };
-    let mut found: LineProfiles = serde_json::from_slice(&bytes)?;
-    if station >= found.stations.len() {
-        return Err(missing(found.stations.len()).into());
-    }
-    Ok(found.stations.swap_remove(station))
+    let found: LineProfiles = serde_json::from_slice(&bytes)?;
+    let stations = found.stations.len();
+    let of_number = usize::try_from(station)
+        .ok()
+        .and_then(|number| found.stations.into_iter().nth(number));
+    of_number.ok_or_else(|| missing(stations).into())
 }
 
 #[cfg(test)]
