@@ -148,6 +148,12 @@ pub fn resolve(spec: &Spec) -> Result<Resolved, Vec<Fault>> {
             return Err(diagnostics.into_faults());
         }
     };
+    if let Some(layout) = &layout {
+        model::check_size(&scene, layout, &mut diagnostics);
+    }
+    if !diagnostics.is_clean() {
+        return Err(diagnostics.into_faults());
+    }
     let mut warnings = diagnostics.warnings().to_vec();
     warnings.extend(law_range::warnings(&filled, &scene));
     warnings.extend(resistance_range::warnings(spec, &scene));

@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 
 pub use earlier::Earlier;
 pub(crate) use earlier::Finished;
-pub use finite::{FiniteRun, LineRun, PointRun};
+pub use finite::{ExtrudedRun, FiniteRun, LineRun, PointRun};
 pub use misfit::Misfit;
 pub use section::SectionRun;
 
@@ -22,6 +22,8 @@ pub enum Checkpoint {
     Point(Box<PointRun>),
     /// Of a contact along a line.
     Line(Box<LineRun>),
+    /// Of extruded bodies.
+    Extruded(Box<ExtrudedRun>),
 }
 
 /// A run that a checkpoint can be taken of.
@@ -33,6 +35,8 @@ pub enum Resumable<'a> {
     Point(&'a PointRun),
     /// Of a contact along a line.
     Line(&'a LineRun),
+    /// Of extruded bodies.
+    Extruded(&'a ExtrudedRun),
 }
 
 impl Resumable<'_> {
@@ -42,6 +46,7 @@ impl Resumable<'_> {
             Self::Section(run) => (&run.earlier, run.state.cycle),
             Self::Point(run) => (&run.earlier, run.state.cycle()),
             Self::Line(run) => (&run.earlier, run.state.cycle()),
+            Self::Extruded(run) => (&run.earlier, run.state.cycle()),
         };
         let finished = earlier.finished.as_ref();
         finished.map_or(cycle, |finished| finished.summary.last.cycle)
@@ -53,6 +58,7 @@ impl Resumable<'_> {
             Self::Section(run) => Checkpoint::Section(Box::new(run.clone())),
             Self::Point(run) => Checkpoint::Point(Box::new(run.clone())),
             Self::Line(run) => Checkpoint::Line(Box::new(run.clone())),
+            Self::Extruded(run) => Checkpoint::Extruded(Box::new(run.clone())),
         }
     }
 }
@@ -64,6 +70,7 @@ impl Checkpoint {
             Self::Section(run) => Resumable::Section(run).cycle(),
             Self::Point(run) => Resumable::Point(run).cycle(),
             Self::Line(run) => Resumable::Line(run).cycle(),
+            Self::Extruded(run) => Resumable::Extruded(run).cycle(),
         }
     }
 
@@ -73,6 +80,7 @@ impl Checkpoint {
             Self::Section(run) => &run.earlier,
             Self::Point(run) => &run.earlier,
             Self::Line(run) => &run.earlier,
+            Self::Extruded(run) => &run.earlier,
         }
     }
 }

@@ -3,6 +3,7 @@
 use crate::checkpoint::Misfit;
 use crate::condensation::OperatorError;
 use crate::cycle::CycleError;
+use crate::extruded::ExtrudedError;
 use crate::mesh::MeshError;
 use crate::point::PointError;
 use crate::station::StationError;
@@ -25,6 +26,9 @@ pub enum SolveError {
     /// A contact along a line could not be integrated.
     #[error("line: {0}")]
     Line(#[from] StationError),
+    /// Extruded bodies could not be integrated.
+    #[error("extruded: {0}")]
+    Extruded(#[from] ExtrudedError),
     /// A checkpoint is not one of this scene.
     #[error("checkpoint: {0}")]
     Checkpoint(#[from] Misfit),

@@ -16,20 +16,22 @@
 //! does not tilt, and couple through the compliance of the bodies (`condensation::extruded`, `contact::planes`). The load is the mean line
 //! load of the section times the width.
 //!
-//! Limits: the slip is imposed, no part of the contact sticks; wear rates are the same in every state; dead load; no checkpoints, no heat, no
-//! estimate of errors but that of jumps. The pressure falls toward a free end as far as the layers there resolve it. Limiting cases: Poisson's ratio 0 makes free
+//! Limits: the slip is imposed, no part of the contact sticks; wear rates are the same in every state; no heat. The pressure falls toward a free end as far as the layers there resolve it. Limiting cases: Poisson's ratio 0 makes free
 //! ends plane strain; a width of many heights is plane strain in the middle.
 
 mod bodies;
 mod cycle;
 mod error;
+mod integrator;
+mod placed;
 mod record;
 mod run;
 mod scene;
+mod state;
 
 pub use error::ExtrudedError;
-pub use record::{ExtrudedCycle, ExtrudedOutcome, ExtrudedSummary, PlaneProfile, PlaneReport};
+pub(crate) use integrator::{Ending, ExtrudedIntegrator};
+pub use record::{ExtrudedOutcome, ExtrudedSummary};
 pub use run::run;
 pub use scene::ExtrudedScene;
-
-pub use crate::model::Ends;
+pub use state::ExtrudedState;

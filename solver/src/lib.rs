@@ -1,6 +1,7 @@
 #![doc = include_str!("../README.md")]
 
 pub mod ale;
+pub mod along_line;
 pub mod checkpoint;
 pub mod condensation;
 pub mod contact;

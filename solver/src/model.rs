@@ -79,15 +79,6 @@ pub enum Support {
     GuidedUnderPressure,
 }
 
-/// What holds the ends of extruded bodies.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Ends {
-    /// `u_z` of every node is zero: plane strain.
-    Held,
-    /// Nothing.
-    Free,
-}
-
 /// How the shear traction and the slip of a contact are found.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Tangential {

@@ -99,6 +99,9 @@ pub(crate) fn proceed(
         (Checkpoint::Line(run), Dimension::Line(_)) => {
             return finite::proceed_line(scene, plan, *run, observer);
         }
+        (Checkpoint::Extruded(run), Dimension::Extruded(_)) => {
+            return finite::proceed_extruded(scene, plan, *run, observer);
+        }
         _ => return Err(Misfit::Dimension.into()),
     };
     observer.on_phase(Phase::Mesh);

@@ -37,9 +37,7 @@ mod top;
 
 pub use error::StationError;
 pub(crate) use integrator::{Ending, LineIntegrator};
-pub use record::{
-    Along, StationCycle, StationOutcome, StationProfile, StationReport, StationSummary,
-};
+pub use record::{StationOutcome, StationSummary};
 pub use run::run;
 pub use scene::{StationScene, stations_for};
 pub use state::LineState;

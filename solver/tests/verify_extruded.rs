@@ -12,6 +12,7 @@
 mod cost;
 mod ends;
 mod limits;
+mod runs;
 mod wear;
 
 use std::ops::ControlFlow;
@@ -19,8 +20,8 @@ use std::ops::ControlFlow;
 use crate::scenes::fuzz_button;
 use solver::contact::ContactState;
 use solver::cycle::{CycleState, Integrator};
-use solver::extruded::{Ends, ExtrudedScene, ExtrudedSummary, run};
-use solver::scene::{Accuracy, Friction, Scene};
+use solver::extruded::{ExtrudedScene, ExtrudedSummary, run};
+use solver::scene::{Accuracy, Ends, Friction, Scene};
 use solver::sides::Sides;
 use solver::{condensation, effects, model};
 
@@ -41,7 +42,6 @@ fn button(ends: Ends, (layers, growth): (usize, f64), cycles: u64) -> ExtrudedSc
         layers,
         growth,
         ends,
-        stop_depth_mm: None,
     }
 }
 
@@ -73,10 +73,11 @@ fn loaded_plane(section: &Scene) -> ContactState {
 
 /// Approach, peak pressures of all planes from the end to the middle, and line loads, over those of the plane contact.
 fn over_plane(scene: &ExtrudedScene) -> (f64, Vec<f64>, Vec<f64>) {
-    let (found, plane) = (solved(scene).initial, loaded_plane(&scene.section));
-    let planes = found.planes.iter();
+    let (summary, plane) = (solved(scene), loaded_plane(&scene.section));
+    let found = &summary.initial;
+    let planes = found.stations.iter();
     (
-        found.approach_mm / -plane.height,
+        summary.approach_mm / -plane.height,
         (planes.clone())
             .map(|p| p.peak_pressure_mpa / plane.peak_pressure())
             .collect(),

@@ -19,11 +19,12 @@ use std::ops::ControlFlow;
 
 use crate::recorder::{depth_at, solve};
 use crate::scenes::{COPPER_WEAR, fuzz_button};
+use solver::along_line::StationProfile;
 use solver::effects::{Effect, Switches};
 use solver::record::DepthProfile;
 use solver::scene::{Friction, Motion, Scene, WearLaw};
 use solver::scene::{LineShape, Top};
-use solver::station::{StationOutcome, StationProfile, StationScene, StationSummary, run};
+use solver::station::{StationOutcome, StationScene, StationSummary, run};
 
 const RADIUS: f64 = 0.4826;
 const FORCE: f64 = 0.834;

@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
+use super::count;
 use crate::enum_value::{EnumValue, string_enum};
 
 string_enum! {
@@ -16,6 +17,8 @@ string_enum! {
         Line = "line",
         /// A wire bent to a ring that vibrates in the plane of the ring.
         Ring = "ring",
+        /// Bodies of a width whose ends are free or held, in layers of solid elements.
+        Extruded = "extruded",
         /// `plane_strain`, `line` or `point`, whichever a slider of a width with a crown or a tilt calls for.
         Auto = "auto",
     }
@@ -31,19 +34,44 @@ string_enum! {
     }
 }
 
+string_enum! {
+    /// What holds the ends of extruded bodies.
+    Ends {
+        /// Nothing.
+        Free = "free",
+        /// Walls that they slide along: plane strain.
+        Held = "held",
+    }
+}
+
+string_enum! {
+    /// Named models of a `fuzz_button`.
+    ModelPreset {
+        /// The source's extruded half of a wire: 0.01058 mm wide, in two layers.
+        SourceExtruded = "source_extruded",
+        /// The source's ring of wire, which it gives no dimensions.
+        SourceRing = "source_ring",
+    }
+}
+
 /// Which dimensions of the contact are simulated. Which fields belong to it depends on its dimension.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct Model {
-    /// Its dimension.
-    #[schema(value_type = Dimension)]
-    pub dimension: EnumValue<Dimension>,
+    /// `fuzz_button`: a named model; other fields may differ from it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schema(value_type = Option<ModelPreset>)]
+    pub preset: Option<EnumValue<ModelPreset>>,
+    /// Its dimension; that of the preset if absent, else `plane_strain`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schema(value_type = Option<Dimension>)]
+    pub dimension: Option<EnumValue<Dimension>>,
     /// `point`: radius of the slider in the plane across the sliding direction, mm; that of the section if absent, as of a ball.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub radius_z_mm: Option<f64>,
     /// `ring`: outer diameter of the ring of wire, mm.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub outer_diameter_mm: Option<f64>,
-    /// `line`, `auto`: its length across the motion, mm.
+    /// `line`, `auto`: its length across the motion; `extruded`: the width of both bodies, mm.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub width_mm: Option<f64>,
     /// `line`, `auto`: radius by which the slider's surface recedes from the middle of the line to its ends, mm; straight if absent.
@@ -56,6 +84,20 @@ pub struct Model {
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schema(value_type = Option<Top>)]
     pub top: Option<EnumValue<Top>>,
+    /// `extruded`: layers of elements over the width, an even number; 2 if absent.
+    #[serde(
+        default,
+        skip_serializing_if = "Option::is_none",
+        deserialize_with = "count::optional"
+    )]
+    pub layers: Option<u32>,
+    /// `extruded`: length of a layer over that of its neighbour toward the end; 1 if absent.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub layer_growth: Option<f64>,
+    /// `extruded`: what holds the ends; nothing if absent.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schema(value_type = Option<Ends>)]
+    pub ends: Option<EnumValue<Ends>>,
     /// `auto`: the dimension that was chosen; written by the service.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schema(value_type = Option<Dimension>)]
@@ -65,6 +107,10 @@ pub struct Model {
 impl Model {
     /// Whether it has an extent of its own across the sliding direction, so that a force needs no width.
     pub fn has_width(&self) -> bool {
-        !matches!(self.dimension, EnumValue::Known(Dimension::PlaneStrain))
+        match self.dimension {
+            None => self.preset.is_some(),
+            Some(EnumValue::Known(dimension)) => dimension != Dimension::PlaneStrain,
+            Some(_) => true,
+        }
     }
 }

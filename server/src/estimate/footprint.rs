@@ -88,8 +88,9 @@ impl Footprint {
         } else {
             0.0
         };
-        // Sections along a line have operators of their own once they have worn.
-        let sections = real(workload.stations);
+        // Sections along a line have operators of their own once they have worn, node planes have them together.
+        let (sections, planes) = (real(workload.stations), real(workload.planes));
+        let (joint, own) = (planes * surface, sections - planes);
         let bytes = fields * FIELDS_DOF_BYTES * dofs
             + snapshots * SNAPSHOT_ELEMENT_BYTES * elements * sections
             + workload.computed_cycles * (CYCLE_BYTES * sections + STATION_BYTES * stations);
@@ -97,10 +98,10 @@ impl Footprint {
             contact_element_mm: layout.sizes.contact_element,
             dofs: sections * dofs,
             memory_mb: MEMORY_BASE_MB
-                + MEMORY_DOF_MB * dofs
-                + MEMORY_PAIR_MB * surface * surface
-                + STORED_PAIR_MB * stored
-                + (sections - 1.0) * OPERATOR_PAIR_MB * surface * surface,
+                + MEMORY_DOF_MB * dofs * planes * planes
+                + MEMORY_PAIR_MB * joint * joint
+                + STORED_PAIR_MB * stored * planes * planes
+                + own * OPERATOR_PAIR_MB * surface * surface,
             output_mb: 1e-6 * bytes,
         }
     }

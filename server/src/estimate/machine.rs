@@ -93,6 +93,7 @@ mod tests {
             cell_iterations: 0.0,
             cells: (0.0, 0.0),
             stations: 1,
+            planes: 1,
             companions: Vec::new(),
         };
         // 0.1 s and 0.2 s of increments, 2 x (0.1 + 1) s of condensations.

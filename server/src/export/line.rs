@@ -1,9 +1,9 @@
 //! Sections along the line of a contact as documents.
 
 use api::results::{LineProfile, LineProfiles, LineSeries, LineStation, SectionSide, SideProfile};
+use solver::along_line::{Along, StationReport};
 use solver::record::{DepthProfile, LineColumns, Snapshot};
 use solver::sides::Side;
-use solver::station::{Along, StationReport};
 
 use crate::export::tractions;
 

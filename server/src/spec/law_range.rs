@@ -25,7 +25,7 @@ pub(super) fn warnings(spec: &Spec, scene: &Scene) -> Vec<Fault> {
     // Hertz.
     let peak = resolution::hertz_peak_pressure(scene);
     let mean = match scene.dimension {
-        Dimension::PlaneStrain | Dimension::Line(_) => 0.25 * PI * peak,
+        Dimension::PlaneStrain | Dimension::Line(_) | Dimension::Extruded(_) => 0.25 * PI * peak,
         Dimension::Point(_) => 2.0 / 3.0 * peak,
     };
     let warnings = Side::BOTH.into_iter().filter_map(|side| {

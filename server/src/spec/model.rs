@@ -1,15 +1,18 @@
 //! The dimension of the model, and what it needs of the rest of a specification.
 
 mod auto;
+mod extruded;
 mod length;
 mod line;
 mod point;
+mod preset;
 mod section_only;
 mod yielding;
 
 use api::problem::Fault;
 use api::spec::{Dimension, LoadKind, Model, Spec, SystemKind};
-use solver::scene::{Motion, Scene};
+use solver::model::{BodyLayout, Layout};
+use solver::scene::{Extruded, Motion, Scene};
 
 use crate::spec::diagnostics::Diagnostics;
 use crate::spec::sourced::assumed;
@@ -26,6 +29,8 @@ pub(super) enum Resolved {
     Point { radius_across_mm: f64 },
     /// A contact along a line.
     Line(Line),
+    /// Extruded bodies.
+    Extruded(Extruded),
     /// What a slider of this width calls for.
     Auto(Line),
 }
@@ -44,16 +49,23 @@ pub(super) fn resolve(
     diagnostics: &mut Diagnostics,
 ) -> (Model, Resolved) {
     let model = given.cloned().unwrap_or_default();
-    let named =
-        given.and_then(|model| diagnostics.enum_member("/model/dimension", &model.dimension));
-    let default = assumed(Dimension::PlaneStrain);
-    let dimension = diagnostics.or_default("/model/dimension", named, default);
+    let dimension = preset::dimension(&model, kind, diagnostics);
     let own = Model {
-        dimension: dimension.into(),
+        preset: model.preset.clone(),
+        dimension: Some(dimension.into()),
         ..Model::default()
     };
     let (fields, filled, resolved): (&[&str], _, _) = match dimension {
         Dimension::PlaneStrain => (&["dimension"], own, Resolved::PlaneStrain),
+        Dimension::Extruded => {
+            let (filled, extruded) = extruded::resolve(&model, kind, diagnostics);
+            let filled = Model {
+                preset: own.preset,
+                dimension: own.dimension,
+                ..filled
+            };
+            (extruded::FIELDS, filled, Resolved::Extruded(extruded))
+        }
         Dimension::Point => {
             let default = assumed(shapes.slider.radius_mm);
             let radius = length(
@@ -73,7 +85,8 @@ pub(super) fn resolve(
         Dimension::Line | Dimension::Ring | Dimension::Auto => {
             let (filled, line) = line::resolve((dimension, &model), (shapes, kind), diagnostics);
             let filled = Model {
-                dimension: dimension.into(),
+                preset: own.preset,
+                dimension: own.dimension,
                 ..filled
             };
             let resolved = if dimension == Dimension::Auto {
@@ -104,6 +117,7 @@ pub(super) fn check(
             "point"
         }
         Resolved::Line(line) => line.name(),
+        Resolved::Extruded(_) => "extruded",
         Resolved::Auto(_) => "auto",
     };
     let load = filled.load.as_ref();
@@ -140,6 +154,10 @@ pub(super) fn with_dimension(
             section_only::check_laws(&scene, "contact along a line", diagnostics);
             line.with_dimension((scene, is_force), spec, diagnostics)
         }
+        Resolved::Extruded(extruded) => {
+            section_only::check_laws(&scene, "contact of extruded bodies", diagnostics);
+            extruded::with_dimension(scene, (extruded, is_force), diagnostics)
+        }
         Resolved::Auto(line) => {
             let chosen = auto::choose((scene, line, is_force), spec, diagnostics);
             if let Some(model) = &mut spec.model {
@@ -158,7 +176,14 @@ pub(super) fn warnings(scene: &Scene) -> Vec<Fault> {
         solver::scene::Dimension::PlaneStrain => Vec::new(),
         solver::scene::Dimension::Point(_) => point::warnings(scene),
         solver::scene::Dimension::Line(_) => line::warnings(scene),
+        solver::scene::Dimension::Extruded(_) => extruded::warnings(scene),
     }
+}
+
+/// Checks the size of what a meshed scene is condensed to.
+pub(super) fn check_size(scene: &Scene, layout: &Layout, diagnostics: &mut Diagnostics) {
+    let zones = layout.bodies.as_ref().map(BodyLayout::largest_zone);
+    extruded::check_size(scene, zones, diagnostics);
 }
 
 #[cfg(test)]

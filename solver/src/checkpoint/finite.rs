@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 use super::earlier::Earlier;
 use crate::effects::Crossing;
 use crate::electrical::ElectricalState;
+use crate::extruded::ExtrudedState;
 use crate::point::PointState;
 use crate::record::{Compared, Initial, Life};
 use crate::station::LineState;
@@ -32,3 +33,6 @@ pub type PointRun = FiniteRun<PointState>;
 
 /// A run of a contact along a line.
 pub type LineRun = FiniteRun<LineState>;
+
+/// A run of extruded bodies.
+pub type ExtrudedRun = FiniteRun<ExtrudedState>;

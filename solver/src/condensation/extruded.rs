@@ -17,7 +17,8 @@ use super::{
 };
 use crate::linear::{CholeskyPattern, SquareMatrix};
 use crate::mesh::{NodePlanes, PrismMesh};
-use crate::model::{BodyModel, Ends, Model, Support};
+use crate::model::{BodyModel, Model, Support};
+use crate::scene::Ends;
 use crate::sides::{Side, Sides};
 
 /// Condensed extruded bodies.

@@ -6,7 +6,8 @@ use super::assembly::{HELD, LowerTriangle};
 use crate::element::{Wedge6, hex_stiffness, stiffness};
 use crate::law::elastic::Lame;
 use crate::mesh::{Prism, PrismMesh};
-use crate::model::{Ends, Support};
+use crate::model::Support;
+use crate::scene::Ends;
 
 /// Numbering of the unknowns: those of the contact surface in its plane are last, section by section.
 #[derive(Debug)]

@@ -9,7 +9,7 @@
 //!
 //! with the response R of both bodies to the line forces of a pressure and its friction q = mu p, the wear coupling W_k and the slopes s_k of
 //! each plane, the lengths w_k that the planes stand for, their sum W and the mean line load P'. Everything is linear but e, through the
-//! slip sigma that the height changes on a slope.
+//! slip sigma that the height changes on a slope. A spring of the stiffness K per width that applies the load makes it P' + K (v - v_0).
 //!
 //! One semi-smooth Newton iteration runs over all planes (`newton`): 1.8 iterations an increment of single cycles, 4 of long jumps.
 //! Iterating plane by plane instead, with the deformation by the other planes as a change of the gap, takes 13 to 25 rounds to 1e-10 for 2
@@ -24,6 +24,7 @@ mod iterate;
 mod newton;
 mod problem;
 mod response;
+mod wear;
 
 pub use bodies::{Extruded, Slide};
-pub use increment::{ExtrudedSolver, PlaneWear};
+pub use increment::{ExtrudedSolver, PlaneWear, Solved};

@@ -224,8 +224,8 @@ fn nothing_to_simulate(
         Effect::Relocation if is_point(scene) => Some("half-spaces keep their stiffness"),
         Effect::Relocation if !wears() => Some("nothing wears, so nothing moves the mesh"),
         Effect::SpringFading if scene.spring_n_per_mm2 <= 0.0 => Some("the load is a dead load"),
-        Effect::Resistance if scene.dimension.line().is_some() => {
-            Some("the resistance of a contact along a line is not computed")
+        Effect::Resistance if scene.dimension.has_sections() => {
+            Some("the resistance of sections along a line is not computed")
         }
         Effect::Resistance => match scene.conduction {
             Conduction::Unknown {

@@ -9,7 +9,9 @@ pub(super) fn value(scene: &Scene, effect: Effect) -> Option<f64> {
     match scene.dimension {
         Dimension::PlaneStrain => None,
         Dimension::Point(_) => point::value(scene, effect),
-        Dimension::Line(_) => (effect == Effect::AcrossWidth).then_some(1.0),
+        Dimension::Line(_) | Dimension::Extruded(_) => {
+            (effect == Effect::AcrossWidth).then_some(1.0)
+        }
     }
 }
 
@@ -18,6 +20,6 @@ pub(super) fn can_simulate(scene: &Scene, effect: Effect) -> bool {
     match scene.dimension {
         Dimension::PlaneStrain => effect.is_available(),
         Dimension::Point(_) => point::can_simulate(scene, effect),
-        Dimension::Line(_) => line::can_simulate(effect),
+        Dimension::Line(_) | Dimension::Extruded(_) => line::can_simulate(effect),
     }
 }

@@ -106,7 +106,7 @@ impl<'a> Indicators<'a> {
         match effect {
             Effect::Elasticity | Effect::Resistance => 1.0,
             Effect::Friction => self.friction(depth),
-            Effect::StickMemory if self.scene.dimension.line().is_some() => {
+            Effect::StickMemory if self.scene.dimension.has_sections() => {
                 self.lost_slip(depth).min(LOST_AT_WALLS * self.lost_slip)
             }
             Effect::StickMemory => self.lost_slip(depth),

@@ -136,6 +136,9 @@ fn across_width(scene: &Scene, indicators: &Indicators<'_>) -> String {
             "the contact is solved for in sections along its line, which only their forces couple"
                 .to_owned()
         }
+        Dimension::Extruded(_) => {
+            "the bodies are solved for over their width, node plane by node plane".to_owned()
+        }
         Dimension::PlaneStrain => {
             let depth = indicators.worn_depth_at_end();
             format!(

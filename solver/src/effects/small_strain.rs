@@ -13,7 +13,7 @@ const LIMIT_OF_POINT: f64 = 0.02;
 /// Largest accepted error in a scene.
 pub fn limit(scene: &Scene) -> f64 {
     match scene.dimension {
-        Dimension::PlaneStrain | Dimension::Line(_) => LIMIT,
+        Dimension::PlaneStrain | Dimension::Line(_) | Dimension::Extruded(_) => LIMIT,
         Dimension::Point(_) => LIMIT_OF_POINT,
     }
 }

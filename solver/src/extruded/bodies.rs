@@ -2,30 +2,26 @@
 
 use super::error::ExtrudedError;
 use super::scene::ExtrudedScene;
+use super::state::Common;
 use crate::ale;
 use crate::condensation::{ExtrudedOperators, condense_extruded};
 use crate::mesh::{NodePlanes, PrismMesh};
-use crate::model::{Ends, Model};
+use crate::model::{BodyModel, Model};
 use crate::scene::Accuracy;
 use crate::sides::{Side, Sides};
-
-/// More contact nodes than this in a zone of a body are refused: its dense compliance takes (2 n)^2 x 8 bytes, 288 MB, and condensation
-/// holds three such matrices for a moment.
-const MOST_NODES: usize = 3_000;
-
-/// Factor by which zones become wider where a contact has outgrown them.
-const WIDER: f64 = 2.0;
 
 /// Meshed and condensed bodies.
 pub(super) struct Bodies {
     pub(super) planes: NodePlanes,
-    ends: Ends,
+    scene: ExtrudedScene,
+    unworn: Model,
     /// The section in each plane, worn as when the operators were built.
     models: Vec<Model>,
     pub(super) operators: ExtrudedOperators,
     pub(super) shares: Vec<f64>,
-    /// Width of the zones over that of the layout.
-    widened: f64,
+    /// What the operators were built for.
+    built: Vec<Sides<Vec<f64>>>,
+    widenings: u32,
 }
 
 impl Bodies {
@@ -35,75 +31,87 @@ impl Bodies {
     /// [`ExtrudedError`] if it cannot be meshed or condensed.
     pub(super) fn new(scene: &ExtrudedScene, section: Model) -> Result<Self, ExtrudedError> {
         let planes = scene.planes();
-        let models = vec![section; planes.count()];
-        check(&models, &planes)?;
+        let models = vec![section.clone(); planes.count()];
+        check(scene, &models, &planes)?;
         Ok(Self {
             operators: condense_extruded(&models, (&planes, scene.ends), None)?,
             shares: planes.shares(),
-            ends: scene.ends,
-            widened: 1.0,
+            scene: scene.clone(),
+            unworn: section,
+            built: Vec::new(),
+            widenings: 0,
             models,
             planes,
         })
     }
 
-    /// The section as it was last meshed in the first plane.
-    pub(super) fn model(&self) -> &Model {
-        &self.models[0]
+    /// The unworn section.
+    pub(super) fn unworn(&self) -> &Model {
+        &self.unworn
     }
 
-    /// Condenses again what has drifted from the geometry of the operators, for worn depths of each plane in mm; returns whether something
-    /// has.
+    /// Degrees of freedom of both meshes.
+    pub(super) fn dofs(&self) -> usize {
+        let bodies = &self.unworn.bodies;
+        let section = bodies.slider.dofs() + bodies.receptacle.dofs();
+        // Three displacements of a node instead of two.
+        3 * (section / 2) * self.planes.count()
+    }
+
+    /// Whether a plane has drifted from the geometry of the operators, for worn depths of each plane in mm.
+    pub(super) fn have_drifted<'a>(
+        &self,
+        depths: impl IntoIterator<Item = &'a Sides<Vec<f64>>>,
+        accuracy: &Accuracy,
+    ) -> bool {
+        let mut planes = self.models.iter().zip(depths);
+        self.unworn.relocates
+            && planes.any(|(model, depth)| ale::has_drifted(model, depth, accuracy))
+    }
+
+    /// Meshes and condenses again what is not at the geometry of a state.
     ///
     /// # Errors
     /// [`ExtrudedError`] if it cannot be meshed or condensed.
-    pub(super) fn follow_wear(
-        &mut self,
-        depths: &[&Sides<Vec<f64>>],
-        accuracy: &Accuracy,
-    ) -> Result<bool, ExtrudedError> {
-        let planes = || self.models.iter().zip(depths);
-        let has_drifted = planes().any(|(model, depth)| ale::has_drifted(model, depth, accuracy));
-        if !self.model().relocates || !has_drifted {
-            return Ok(false);
+    pub(super) fn follow(&mut self, common: &Common) -> Result<(), ExtrudedError> {
+        if self.built == common.built && self.widenings == common.widenings {
+            return Ok(());
         }
-        let moved = planes().map(|(model, depth)| ale::relocate(model, depth));
-        self.rebuild(moved.collect::<Result<_, _>>()?)?;
-        Ok(true)
-    }
-
-    /// Gives the bodies wider zones of fine elements.
-    ///
-    /// # Errors
-    /// [`ExtrudedError`] if they cannot be meshed or condensed.
-    pub(super) fn widen(&mut self) -> Result<(), ExtrudedError> {
-        self.widened *= WIDER;
-        let models = self.models.iter().cloned();
-        let models = models.map(|model| model.with_zones_widened(self.widened));
-        self.rebuild(models.collect::<Result<_, _>>()?)
-    }
-
-    fn rebuild(&mut self, models: Vec<Model>) -> Result<(), ExtrudedError> {
-        check(&models, &self.planes)?;
+        let widened = f64::from(1_u32 << common.widenings.min(31));
+        let model_of = |plane: usize| {
+            let model = match common.built.get(plane) {
+                None => self.unworn.clone(),
+                Some(depth) => ale::relocate(&self.unworn, depth)?,
+            };
+            model.with_zones_widened(widened)
+        };
+        let models = (0..self.planes.count()).map(model_of);
+        let models: Vec<Model> = models.collect::<Result<_, _>>()?;
+        check(&self.scene, &models, &self.planes)?;
         let earlier = (&self.models[..], std::mem::take(&mut self.operators.zones));
-        self.operators = condense_extruded(&models, (&self.planes, self.ends), Some(earlier))?;
+        self.operators =
+            condense_extruded(&models, (&self.planes, self.scene.ends), Some(earlier))?;
         self.models = models;
+        self.built.clone_from(&common.built);
+        self.widenings = common.widenings;
         Ok(())
     }
 }
 
 /// Checks sizes and elements.
-fn check(models: &[Model], planes: &NodePlanes) -> Result<(), ExtrudedError> {
+fn check(
+    scene: &ExtrudedScene,
+    models: &[Model],
+    planes: &NodePlanes,
+) -> Result<(), ExtrudedError> {
+    let bodies = &models[0].bodies;
+    let largest = |body: &BodyModel| {
+        let zones = body.zones.iter().map(|zone| zone.zone.nodes());
+        zones.fold(0, usize::max)
+    };
+    scene.check_size(bodies.as_ref().map(largest))?;
     for side in Side::BOTH {
-        for (number, zone) in models[0].bodies.of(side).zones.iter().enumerate() {
-            let nodes = zone.zone.nodes() * planes.count();
-            if nodes > MOST_NODES {
-                return Err(ExtrudedError::TooLarge {
-                    nodes,
-                    side: side.name(),
-                    limit: MOST_NODES,
-                });
-            }
+        for number in 0..bodies.of(side).zones.len() {
             let sections = models
                 .iter()
                 .map(|model| &model.bodies.of(side).zones[number].mesh);

@@ -1,55 +1,32 @@
 //! Increments of a computed cycle: all planes take them together.
 
 use super::bodies::Bodies;
+use super::placed::{CycleRecord, Placed};
+use super::state::{Effort, PlaneState, Planes};
 use crate::ale::Spines;
-use crate::contact::planes::{Extruded, ExtrudedSolver, PlaneWear, Slide};
-use crate::contact::{self, ContactError, ContactState, Surfaces, WarmStart};
+use crate::contact::planes::{Extruded, ExtrudedSolver, PlaneWear, Slide, Solved};
+use crate::contact::{self, ContactError, ContactState, Pair, Solver, Surfaces, WarmStart, Work};
 use crate::cycle::step_control::RETRY;
-use crate::cycle::{WarmStarts, wear_limit};
+use crate::cycle::{Neutral, WarmStarts, wear_limit};
 use crate::model::Interface;
-use crate::number::real;
-use crate::schedule::step::Step;
+use crate::number::{count, real};
+use crate::schedule::replay::ReplayPlan;
+use crate::schedule::step::{Position, Step};
 use crate::sides::{Side, Sides};
-
-/// Work of a run.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-pub(super) struct Work {
-    pub(super) increments: usize,
-    pub(super) iterations: usize,
-}
-
-/// Everything that the next cycle of a plane depends on.
-#[derive(Debug, Clone)]
-pub(super) struct PlaneState {
-    /// Vertical worn depth at the contact nodes, mm.
-    pub(super) depth: Sides<Vec<f64>>,
-    /// Integral of p |slip| over contact and cycles, N/mm mm.
-    pub(super) path: f64,
-    /// Energy dissipated by friction, mJ/mm.
-    pub(super) energy: f64,
-    /// Vertical force at the end of the last increment, N/mm.
-    pub(super) line_load: f64,
-    warm_starts: WarmStarts,
-}
 
 /// Both bodies in contact.
 pub(super) struct Contact {
     pub(super) interface: Interface,
-    pub(super) states: Vec<PlaneState>,
-    /// Contact of each plane.
-    pub(super) contacts: Vec<ContactState>,
-    /// Mean half-width over the last computed cycle, mm, of planes in contact, weighted by their lengths.
-    pub(super) mean_half_width: f64,
-    pub(super) work: Work,
-    spines: Spines,
+    pub(super) spines: Spines,
+    pub(super) planes: Planes,
+    pub(super) effort: Effort,
     slopes: Vec<Sides<Vec<f64>>>,
     solver: ExtrudedSolver,
+    /// Evaluates forces with the present normals, plane by plane.
+    of_plane: Solver,
     next: Vec<ContactState>,
     worn: Vec<PlaneWear>,
 }
-
-/// What a cycle is repeated from.
-pub(super) type Snapshot = (Vec<PlaneState>, Vec<ContactState>);
 
 /// An increment from the last place of the slider.
 #[derive(Debug, Clone, Copy)]
@@ -62,26 +39,31 @@ struct Increment {
 
 impl Contact {
     /// Unloaded, unworn bodies.
-    pub(super) fn new(bodies: &Bodies, interface: &Interface) -> Self {
-        let sections = &bodies.operators.sections;
+    pub(super) fn new(bodies: &Bodies) -> Self {
+        let (sections, interface) = (&bodies.operators.sections, bodies.unworn().interface);
         let planes = bodies.shares.len();
         let contact = ContactState::untouched(sections, interface.slave);
         let state = PlaneState {
             depth: sections.as_ref().map(|body| vec![0.0; body.x.len()]),
+            worn_area: Sides::default(),
             path: 0.0,
             energy: 0.0,
             line_load: 0.0,
+            neutral: Neutral::default(),
             warm_starts: WarmStarts::default(),
         };
         Self {
-            interface: *interface,
-            spines: Spines::of(bodies.model()),
-            states: vec![state; planes],
-            contacts: vec![contact.clone(); planes],
-            mean_half_width: 0.0,
-            work: Work::default(),
+            interface,
+            spines: Spines::of(bodies.unworn()),
+            planes: Planes {
+                states: vec![state; planes],
+                contacts: vec![contact.clone(); planes],
+                mean_half_width: 0.0,
+            },
+            effort: Effort::default(),
             slopes: Vec::new(),
             solver: ExtrudedSolver::default(),
+            of_plane: Solver::default(),
             next: vec![contact; planes],
             worn: vec![PlaneWear::default(); planes],
         }
@@ -93,22 +75,20 @@ impl Contact {
     /// [`ContactError`] if there is no equilibrium.
     pub(super) fn apply_load(&mut self, bodies: &Bodies) -> Result<(), ContactError> {
         self.update_slopes(bodies);
-        self.advance(
-            bodies,
-            Increment {
-                to: 0.0,
-                cycles: 0.0,
-                like: None,
-            },
-        )?;
-        for contact in &mut self.contacts {
+        let first = Increment {
+            to: 0.0,
+            cycles: 0.0,
+            like: None,
+        };
+        self.advance(bodies, first)?;
+        for contact in &mut self.planes.contacts {
             contact.reference_height = Some(contact.height);
         }
-        self.mean_half_width = self.half_width(bodies);
+        self.planes.mean_half_width = self.half_width(bodies);
         Ok(())
     }
 
-    /// Takes steps, each of which stands for so many cycles.
+    /// Takes steps, each of which stands for so many cycles, with replays of single ones.
     ///
     /// # Errors
     /// The number of halvings and the last error.
@@ -116,19 +96,23 @@ impl Contact {
         &mut self,
         bodies: &Bodies,
         steps: &[Step],
-        cycles: f64,
-    ) -> Result<(), (u32, ContactError)> {
+        (cycles, replays): (f64, &ReplayPlan),
+    ) -> Result<CycleRecord, (u32, ContactError)> {
         self.update_slopes(bodies);
-        let mut starts = vec![WarmStarts::default(); self.states.len()];
+        let mut starts = vec![WarmStarts::default(); self.planes.states.len()];
         let (mut half_widths, mut touching) = (0.0, 0);
+        let (mut record, mut replayed) = (CycleRecord::default(), Vec::new());
         for (number, step) in steps.iter().enumerate() {
+            for &(_, end) in replays.spans.iter().filter(|span| span.0 == number) {
+                replayed.extend(self.replay(bodies, &steps[number..=end], replays));
+            }
             let increment = Increment {
                 to: step.slider_x,
                 cycles,
                 like: (cycles > 0.0).then_some((number, steps.len())),
             };
             self.halve_and_retry(bodies, increment, 0)?;
-            for (starts, contact) in starts.iter_mut().zip(&self.contacts) {
+            for (starts, contact) in starts.iter_mut().zip(&self.planes.contacts) {
                 starts.push(contact);
             }
             let half_width = self.half_width(bodies);
@@ -136,23 +120,114 @@ impl Contact {
                 half_widths += half_width;
                 touching += 1;
             }
+            record.push(step.slider_x, self.tangential_force(bodies), bodies);
+            if let Some(position) = step.at {
+                let found = replayed
+                    .iter()
+                    .position(|placed: &Placed| placed.position == position);
+                let placed = found.map(|found| replayed.swap_remove(found));
+                let placed = placed.unwrap_or_else(|| self.placed(bodies, position));
+                let worst = &mut self.effort.checks.force_balance_present_normals;
+                *worst = worst.max(placed.imbalance);
+                record.placed.push(placed);
+            }
         }
         if cycles > 0.0 {
-            for (state, starts) in self.states.iter_mut().zip(starts) {
+            for (state, starts) in self.planes.states.iter_mut().zip(starts) {
                 state.warm_starts = starts;
             }
             if touching > 0 {
-                self.mean_half_width = half_widths / real(touching);
+                self.planes.mean_half_width = half_widths / real(touching);
             }
         }
-        Ok(())
+        Ok(record)
+    }
+
+    /// The contacts at the end of steps that wear as a single cycle, from a copy of the state; nothing where one has no solution.
+    fn replay(&mut self, bodies: &Bodies, steps: &[Step], plan: &ReplayPlan) -> Option<Placed> {
+        let (before, effort) = (self.planes.clone(), self.effort);
+        let last = steps.last()?;
+        let position = last.at?;
+        let direction = (last.slider_x - self.slider_x()).signum();
+        let smoothing = plan.smoothing(last.slider_x, direction);
+        let lead_in = steps.iter().map(|step| (step.slider_x, 1));
+        let mut parts = lead_in.chain(smoothing);
+        let replayed = parts.all(|(to, count)| self.replay_to(bodies, to, count));
+        let placed = replayed.then(|| self.placed(bodies, position));
+        self.planes = before;
+        // Replays count as work, and not as increments of the cycle.
+        self.effort = Effort {
+            work: self.effort.work,
+            ..effort
+        };
+        placed
+    }
+
+    /// Slides to a place in equal parts with the wear of a single cycle; returns whether all have a solution.
+    fn replay_to(&mut self, bodies: &Bodies, to: f64, parts: usize) -> bool {
+        let from = self.slider_x();
+        (1..=parts).all(|part| {
+            let increment = Increment {
+                to: from + (to - from) * real(part) / real(parts),
+                cycles: 1.0,
+                like: None,
+            };
+            self.halve_and_retry(bodies, increment, 0).is_ok()
+        })
+    }
+
+    /// The contacts of the present increment.
+    pub(super) fn placed(&mut self, bodies: &Bodies, position: Position) -> Placed {
+        let pair = &Pair {
+            operators: &bodies.operators.sections,
+            interface: self.interface,
+        };
+        let (mut force, mut found) = (0.0, Vec::new());
+        let planes = self.planes.states.iter().zip(&self.planes.contacts);
+        for ((state, contact), share) in planes.zip(&bodies.shares) {
+            let sections = &bodies.operators.sections;
+            let slope = Sides::from_fn(|side| {
+                contact::slopes(sections.of(side), state.depth.of(side), side)
+            });
+            let surfaces = Surfaces {
+                depth: state.depth.as_slices(),
+                slope: slope.as_slices(),
+                friction: Sides::default(),
+            };
+            force += share * self.of_plane.vertical_force_on(pair, &surfaces, contact);
+            found.push(Neutral {
+                load: state.line_load,
+                ..Neutral::of(contact, pair)
+            });
+        }
+        let load = self.planes.contacts[0].load(&self.interface);
+        Placed {
+            position,
+            slider_x: self.slider_x(),
+            contacts: self.planes.contacts.clone(),
+            found,
+            imbalance: (force - load).abs() / self.interface.load,
+        }
+    }
+
+    /// Force of the slider on the receptacle along the motion, mean over the width, N/mm.
+    fn tangential_force(&self, bodies: &Bodies) -> f64 {
+        let widths = &bodies.operators.sections.of(self.interface.slave).widths;
+        let planes = self.planes.contacts.iter().zip(&bodies.shares);
+        planes
+            .map(|(contact, share)| share * contact.tangential_force(&self.interface, widths))
+            .sum()
+    }
+
+    pub(super) fn slider_x(&self) -> f64 {
+        self.planes.contacts[0].slider_x
     }
 
     /// Mean half-width of the planes in contact, weighted by their lengths, mm.
     pub(super) fn half_width(&self, bodies: &Bodies) -> f64 {
         let x = &bodies.operators.sections.of(self.interface.slave).x;
         let (mut sum, mut length) = (0.0, 0.0);
-        for (contact, share) in self.contacts.iter().zip(&bodies.shares) {
+        for (contact, share) in self.planes.contacts.iter().zip(&bodies.shares) {
             let half_width = contact.half_width(x);
             if half_width > 0.0 {
                 sum += share * half_width;
@@ -162,27 +237,13 @@ impl Contact {
         if length > 0.0 { sum / length } else { 0.0 }
     }
 
-    /// Whether a body is nearly consumed in a plane.
-    pub(super) fn is_worn_through(&self, plane: usize) -> bool {
-        self.spines.are_worn_through(&self.states[plane].depth)
-    }
-
-    pub(super) fn snapshot(&self) -> Snapshot {
-        (self.states.clone(), self.contacts.clone())
-    }
-
-    pub(super) fn restore(&mut self, before: &Snapshot) {
-        self.states.clone_from(&before.0);
-        self.contacts.clone_from(&before.1);
-    }
-
     /// Takes the normals of the surfaces as worn now.
     fn update_slopes(&mut self, bodies: &Bodies) {
         let sections = &bodies.operators.sections;
         let of_plane = |state: &PlaneState| {
             Sides::from_fn(|side| contact::slopes(sections.of(side), state.depth.of(side), side))
         };
-        self.slopes = self.states.iter().map(of_plane).collect();
+        self.slopes = self.planes.states.iter().map(of_plane).collect();
     }
 
     /// Takes an increment, from the last contact if it fails from another start, and in halves if it fails as a whole.
@@ -205,7 +266,7 @@ impl Contact {
         if halvings == RETRY.halvings || error.needs_wider_zones() {
             return Err((halvings, error));
         }
-        let to = 0.5 * (self.contacts[0].slider_x + increment.to);
+        let to = 0.5 * (self.slider_x() + increment.to);
         self.halve_and_retry(bodies, Increment { to, ..cold }, halvings + 1)?;
         self.halve_and_retry(bodies, cold, halvings + 1)
     }
@@ -213,7 +274,7 @@ impl Contact {
     /// Solves an increment and makes it part of the state.
     fn advance(&mut self, bodies: &Bodies, increment: Increment) -> Result<(), ContactError> {
         let Increment { to, cycles, like } = increment;
-        let pairs = self.states.iter().zip(&self.slopes);
+        let pairs = self.planes.states.iter().zip(&self.slopes);
         let surfaces: Vec<Surfaces<'_>> = pairs
             .map(|(state, slope)| Surfaces {
                 depth: state.depth.as_slices(),
@@ -222,7 +283,7 @@ impl Contact {
             })
             .collect();
         let starts: Option<Vec<WarmStart<'_>>> = like.and_then(|(number, count)| {
-            let states = self.states.iter();
+            let states = self.planes.states.iter();
             states
                 .map(|state| state.warm_starts.of(number, count))
                 .collect()
@@ -236,20 +297,24 @@ impl Contact {
             slider_x: to,
             cycles,
         };
-        let from = (&self.contacts[..], starts.as_deref());
-        let iterations = self.solver.advance(
-            &extruded,
-            &surfaces,
-            from,
-            slide,
-            (&mut self.next, &mut self.worn),
-        )?;
-        for (state, worn) in self.states.iter().zip(&self.worn) {
+        let from = (&self.planes.contacts[..], starts.as_deref());
+        let into = (&mut self.next[..], &mut self.worn[..]);
+        let solved = self
+            .solver
+            .advance(&extruded, &surfaces, from, slide, into)?;
+        for (state, worn) in self.planes.states.iter().zip(&self.worn) {
             let worn = (worn.first, worn.recession.as_slices());
             wear_limit::leaves_part(&self.spines, &state.depth, to, worn)?;
         }
-        for (state, worn) in self.states.iter_mut().zip(&self.worn) {
+        self.accept(bodies, solved, cycles);
+        Ok(())
+    }
+
+    /// Makes a solved increment part of the state.
+    fn accept(&mut self, bodies: &Bodies, solved: Solved, cycles: f64) {
+        for (state, worn) in self.planes.states.iter_mut().zip(&self.worn) {
             for side in Side::BOTH {
+                *state.worn_area.of_mut(side) += worn.worn_area.of(side);
                 let depths = &mut state.depth.of_mut(side)[*worn.first.of(side)..];
                 for (depth, recession) in depths.iter_mut().zip(worn.recession.of(side)) {
                     *depth += recession;
@@ -259,9 +324,22 @@ impl Contact {
             state.energy += cycles * worn.energy;
             state.line_load = worn.vertical_force;
         }
-        std::mem::swap(&mut self.contacts, &mut self.next);
-        self.work.increments += 1;
-        self.work.iterations += iterations;
-        Ok(())
+        std::mem::swap(&mut self.planes.contacts, &mut self.next);
+        let widths = &bodies.operators.sections.of(self.interface.slave).widths;
+        let effort = &mut self.effort;
+        effort.increments += 1;
+        effort.iterations += solved.iterations;
+        effort.work += Work {
+            increments: 1,
+            factorizations: count(solved.iterations),
+            unknowns: count(solved.iterations * solved.unknowns),
+            response_entries: count(solved.unknowns * solved.unknowns),
+        };
+        let checks = &mut effort.checks;
+        checks.force_balance = checks.force_balance.max(solved.imbalance);
+        checks.complementarity = checks.complementarity.max(solved.residual);
+        for contact in &self.planes.contacts {
+            checks.friction_use = checks.friction_use.max(contact.friction_use(widths));
+        }
     }
 }

@@ -16,7 +16,7 @@ pub enum ExtrudedError {
         value: f64,
     },
     /// No node plane would lie in the middle of the width.
-    #[error("{layers} layers over the width, must be an even number from 2")]
+    #[error("{layers} layers over the width, must be an even number from 2 to 200")]
     Layers {
         /// Their number.
         layers: usize,
@@ -37,9 +37,16 @@ pub enum ExtrudedError {
     /// Friction that changes.
     #[error("extruded bodies have one coefficient of friction")]
     FrictionLaw,
-    /// A load that changes as the slider sinks.
-    #[error("the load of extruded bodies is no spring's")]
-    Spring,
+    /// The contact leaves the receptacle.
+    #[error(
+        "amplitude is {amplitude_mm} mm, must be below half of the receptacle's length of {half_block_mm} mm"
+    )]
+    LeavesReceptacle {
+        /// Its amplitude, mm.
+        amplitude_mm: f64,
+        /// Half of the length, mm.
+        half_block_mm: f64,
+    },
     /// A wear rate that depends on the state or on the depth.
     #[error("the wear rate of the {side} is not the same in every state")]
     Law {

@@ -3,9 +3,9 @@
 use super::error::ExtrudedError;
 use crate::effects::Effect;
 use crate::mesh::NodePlanes;
-use crate::model::Ends;
-use crate::scene::{Friction, Motion, Scene};
-use crate::sides::Side;
+use crate::model::resolution;
+use crate::scene::{Dimension, Ends, Friction, Motion, Scene};
+use crate::sides::{Side, Sides};
 
 /// A plane section drawn out over a width.
 #[derive(Debug, Clone, PartialEq)]
@@ -20,11 +20,36 @@ pub struct ExtrudedScene {
     pub growth: f64,
     /// What holds the ends.
     pub ends: Ends,
-    /// Worn depth of either body that ends the run, mm.
-    pub stop_depth_mm: Option<f64>,
 }
 
+/// More contact nodes than this in a zone of a body are refused: its dense compliance takes (2 n)^2 x 8 bytes, 288 MB, and condensation
+/// holds three such matrices for a moment.
+const MOST_NODES: usize = 3_000;
+
+/// Most layers: node planes multiply the nodes of a section.
+const MOST_LAYERS: usize = 200;
+
 impl ExtrudedScene {
+    /// The extruded bodies of a scene; `None` for another one.
+    pub fn of(scene: &Scene) -> Option<Self> {
+        let extruded = scene.dimension.extruded()?;
+        Some(Self {
+            section: Scene {
+                dimension: Dimension::PlaneStrain,
+                ..scene.clone()
+            },
+            width_mm: extruded.width_mm,
+            layers: extruded.layers,
+            growth: extruded.layer_growth,
+            ends: extruded.ends,
+        })
+    }
+
+    /// Node planes over half of the width.
+    pub fn node_planes(&self) -> usize {
+        self.layers / 2 + 1
+    }
+
     /// Normal force on the whole width, N.
     pub fn force_n(&self) -> f64 {
         self.section.load_n_per_mm * self.width_mm
@@ -36,7 +61,7 @@ impl ExtrudedScene {
     }
 
     /// The plane scene without sticking, in which the first stroke goes to the right.
-    pub(super) fn plane(&self) -> Scene {
+    pub(crate) fn plane(&self) -> Scene {
         let section = self.section.clone();
         let motion = match section.motion {
             Motion::Reciprocating {
@@ -63,6 +88,50 @@ impl ExtrudedScene {
         }
     }
 
+    /// Checks the scene, and that all of its contact slips in each stroke.
+    ///
+    /// # Errors
+    /// A value outside of its range, a law or a motion that extruded bodies do not have, a contact that may stick.
+    pub fn check_all(&self) -> Result<(), ExtrudedError> {
+        self.check()?;
+        self.check_slip()
+    }
+
+    /// Checks that the operators are not larger than the engine takes, for nodes of the largest zone of each body.
+    ///
+    /// # Errors
+    /// [`ExtrudedError::TooLarge`].
+    pub fn check_size(&self, zones: Sides<usize>) -> Result<(), ExtrudedError> {
+        for side in Side::BOTH {
+            let nodes = zones.of(side) * self.node_planes();
+            if nodes > MOST_NODES {
+                return Err(ExtrudedError::TooLarge {
+                    nodes,
+                    side: side.name(),
+                    limit: MOST_NODES,
+                });
+            }
+        }
+        Ok(())
+    }
+
+    /// Checks that all of the contact slips in each stroke.
+    pub(super) fn check_slip(&self) -> Result<(), ExtrudedError> {
+        let plane = self.plane();
+        let half_width = resolution::hertz_half_width(&plane);
+        let free = Scene {
+            effects: self.section.effects.clone(),
+            ..plane
+        };
+        if resolution::sticks(&free, half_width) {
+            return Err(ExtrudedError::Sticks {
+                amplitude_mm: free.motion.amplitude_mm().abs(),
+                least_mm: 2.0 * resolution::gross_slip(&free, half_width),
+            });
+        }
+        Ok(())
+    }
+
     /// Checks the scene.
     ///
     /// # Errors
@@ -85,17 +154,21 @@ impl ExtrudedScene {
                 return Err(ExtrudedError::Value { name, value });
             }
         }
-        if self.layers < 2 || !self.layers.is_multiple_of(2) {
+        if !(2..=MOST_LAYERS).contains(&self.layers) || !self.layers.is_multiple_of(2) {
             return Err(ExtrudedError::Layers {
                 layers: self.layers,
             });
         }
-        if self.section.spring_n_per_mm2 != 0.0 {
-            return Err(ExtrudedError::Spring);
+        let half_block = 0.5 * self.section.receptacle.shape.length_mm;
+        if amplitude.abs() >= half_block {
+            return Err(ExtrudedError::LeavesReceptacle {
+                amplitude_mm: amplitude.abs(),
+                half_block_mm: half_block,
+            });
         }
         let wear = self.section.surface_wear();
         for side in Side::BOTH {
-            if wear.of(side).is_some_and(|wear| wear.uniform().is_none()) {
+            if wear.of(side).is_some_and(|wear| wear.dose_rate().is_none()) {
                 return Err(ExtrudedError::Law { side: side.name() });
             }
         }

@@ -1,8 +1,8 @@
 //! The wear history as a list of named columns of equal length.
 
+use crate::along_line::{Along, StationReport};
 use crate::record::{Channels, CycleReport};
 use crate::sides::{Side, Sides};
-use crate::station::{Along, StationReport};
 
 /// A layer below the outermost one.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -3,6 +3,7 @@
 mod line;
 mod point;
 
+use crate::along_line::StationReport;
 use crate::cycle::CycleState;
 use crate::electrical::ContactResistance;
 use crate::interpolation;
@@ -14,7 +15,6 @@ use crate::record::exposure::WornSurface;
 use crate::record::scar;
 use crate::scene::Scene;
 use crate::sides::{Side, Sides};
-use crate::station::StationReport;
 pub(crate) use line::{LineEnd, line_report};
 pub(crate) use point::{PointEnd, point_report};
 

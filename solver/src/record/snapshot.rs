@@ -1,5 +1,6 @@
 //! Snapshots: profiles, tractions, the friction loop and fields at one cycle.
 
+use crate::along_line::StationReport;
 use crate::contact::ContactState;
 use crate::cycle::{CycleRecord, CycleState, FrictionLoop};
 use crate::fields::PlacedFields;
@@ -7,7 +8,6 @@ use crate::model::Model;
 use crate::point::DepthMap;
 use crate::schedule::increments::Position;
 use crate::sides::{Side, Sides};
-use crate::station::StationReport;
 
 /// Profiles, pressures and the friction loop at one cycle.
 #[derive(Debug, Clone, PartialEq)]

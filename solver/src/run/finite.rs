@@ -1,22 +1,25 @@
-//! The run of a contact of finite extent across the sliding direction, a point or a line: cycles until it ends, with the events of the
+//! The run of a contact of finite extent across the sliding direction, a point, a line or extruded bodies: cycles until it ends, with the events of the
 //! run of a section. What its bodies are computed by is behind a trait.
 
+mod extruded;
 mod line;
 mod point;
+mod sections;
 
 use std::ops::ControlFlow;
 
 use super::resistance::{self, Consequence};
 use crate::SolveError;
-use crate::checkpoint::{Earlier, FiniteRun, LineRun, Misfit, PointRun, Resumable};
+use crate::checkpoint::{Earlier, ExtrudedRun, FiniteRun, LineRun, Misfit, PointRun, Resumable};
 use crate::effects::EffectsPlan;
 use crate::electrical::{AreaContact, ContactResistance, ElectricalState};
+use crate::extruded::ExtrudedIntegrator;
 use crate::observer::{Event, Observer, Phase};
 use crate::point::PointIntegrator;
 use crate::record::{
     Checks, Compared, CycleReport, Exposed, Initial, Life, Outcome, Resolution, Snapshot, Summary,
 };
-use crate::scene::Scene;
+use crate::scene::{Dimension, Scene};
 use crate::schedule::stops::{self, Progress};
 use crate::sides::{Side, Sides};
 use crate::station::LineIntegrator;
@@ -77,10 +80,14 @@ pub(super) fn begin(
     earlier: Earlier,
     observer: &mut dyn Observer,
 ) -> Result<Summary, SolveError> {
-    if scene.dimension.line().is_some() {
-        begin_contact::<LineIntegrator>(scene, plan, earlier, observer)
-    } else {
-        begin_contact::<PointIntegrator>(scene, plan, earlier, observer)
+    match scene.dimension {
+        Dimension::Line(_) => begin_contact::<LineIntegrator>(scene, plan, earlier, observer),
+        Dimension::Extruded(_) => {
+            begin_contact::<ExtrudedIntegrator>(scene, plan, earlier, observer)
+        }
+        Dimension::Point(_) | Dimension::PlaneStrain => {
+            begin_contact::<PointIntegrator>(scene, plan, earlier, observer)
+        }
     }
 }
 
@@ -102,6 +109,16 @@ pub(super) fn proceed_line(
     observer: &mut dyn Observer,
 ) -> Result<Summary, SolveError> {
     proceed::<LineIntegrator>(scene, plan, run, observer)
+}
+
+/// Solves extruded bodies by a plan from a checkpoint to their end.
+pub(super) fn proceed_extruded(
+    scene: &Scene,
+    plan: &EffectsPlan,
+    run: ExtrudedRun,
+    observer: &mut dyn Observer,
+) -> Result<Summary, SolveError> {
+    proceed::<ExtrudedIntegrator>(scene, plan, run, observer)
 }
 
 fn begin_contact<C: Contact>(

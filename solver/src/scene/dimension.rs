@@ -12,6 +12,8 @@ pub enum Dimension {
     Point(Point),
     /// A contact along a line of plane sections, of which the scene's shapes are one.
     Line(Line),
+    /// Bodies of a width, of which the scene's shapes are the section; its line load is the mean over the width.
+    Extruded(Extruded),
 }
 
 /// What a point contact has beyond its section.
@@ -37,6 +39,28 @@ pub struct Line {
     pub stations: Option<usize>,
     /// Threads that the sections are solved in; results do not depend on it.
     pub threads: usize,
+}
+
+/// What bodies drawn out over a width have beyond their section.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Extruded {
+    /// Width w of both bodies, mm.
+    pub width_mm: f64,
+    /// Layers of elements over the width; even, because the middle is a node plane.
+    pub layers: usize,
+    /// Length of a layer over that of its neighbour toward the end; 1 for even layers.
+    pub layer_growth: f64,
+    /// What holds the ends.
+    pub ends: Ends,
+}
+
+/// What holds the ends of extruded bodies.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Ends {
+    /// `u_z` of every node is zero: plane strain.
+    Held,
+    /// Nothing.
+    Free,
 }
 
 /// Line of a contact.
@@ -72,7 +96,7 @@ impl Dimension {
     pub fn point(&self) -> Option<&Point> {
         match self {
             Self::Point(point) => Some(point),
-            Self::PlaneStrain | Self::Line(_) => None,
+            Self::PlaneStrain | Self::Line(_) | Self::Extruded(_) => None,
         }
     }
 
@@ -80,8 +104,21 @@ impl Dimension {
     pub fn line(&self) -> Option<&Line> {
         match self {
             Self::Line(line) => Some(line),
-            Self::PlaneStrain | Self::Point(_) => None,
+            Self::PlaneStrain | Self::Point(_) | Self::Extruded(_) => None,
         }
+    }
+
+    /// What bodies drawn out over a width have beyond their section, if it is these.
+    pub fn extruded(&self) -> Option<&Extruded> {
+        match self {
+            Self::Extruded(extruded) => Some(extruded),
+            Self::PlaneStrain | Self::Point(_) | Self::Line(_) => None,
+        }
+    }
+
+    /// Whether it consists of sections along a line, all of which slip as imposed.
+    pub fn has_sections(&self) -> bool {
+        matches!(self, Self::Line(_) | Self::Extruded(_))
     }
 
     /// Sets the threads that sections along a line are solved in.

@@ -2,9 +2,9 @@
 
 use std::f64::consts::PI;
 
-use super::record::Along;
 use super::scene::sides;
 use super::spacing;
+use crate::along_line::Along;
 use crate::model::line_contact::Touch;
 use crate::number::real;
 use crate::scene::LineShape;

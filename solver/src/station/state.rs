@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::height::Height;
-use super::record::StationCycle;
+use crate::along_line::StationCycle;
 use crate::contact::{ContactState, Work};
 use crate::cycle::{Checks, Neutral, WarmStarts};
 use crate::model::Model;

@@ -6,8 +6,8 @@ use std::time::Instant;
 use super::{TWO, button};
 use crate::recorder::solve;
 use solver::effects::{Effect, Switches};
-use solver::extruded::{Ends, run};
-use solver::scene::Accuracy;
+use solver::extruded::run;
+use solver::scene::{Accuracy, Ends};
 
 /// The figures of the README: the thesis' free model over 2 000 cycles, and the plane contact, one after the other.
 #[test]
@@ -41,7 +41,7 @@ fn cost_of_extruded_bodies_against_the_plane_contact() {
         let all = started.elapsed().as_secs_f64();
         println!(
             "extruded, {layers:?} layers at {tolerance}: {all:.2} s, of which {condensing:.2} s to the first cycle ({begun:?}); {:.2} um, {} computed cycles, {:?} increments and iterations, {} condensed again; {:.1} times the plane contact without",
-            1e3 * found.last.planes[0].max_depth_mm.receptacle,
+            1e3 * found.last.stations[0].max_depth_mm.receptacle,
             found.computed_cycles,
             found.solves,
             found.relocations,

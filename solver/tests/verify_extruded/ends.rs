@@ -3,9 +3,9 @@
 use super::{TWO, button, difference, loaded, loaded_plane, over_plane, solved};
 use crate::recorder::solve;
 use crate::scenes::{COPPER_WEAR, mccoll};
+use crate::verify_plating::layer;
 use solver::effects::{Effect, Switches};
-use solver::extruded::Ends;
-use solver::scene::{Accuracy, Drive, Scene, WearLaw};
+use solver::scene::{Accuracy, Drive, Ends, Friction, Scene, WearLaw};
 use solver::sides::Sides;
 
 /// The unworn contact, node by node: round-off of another factorisation and of converged gaps, 1e-9 of the peak pressure and of the approach.
@@ -18,10 +18,10 @@ fn held_ends_are_the_plane_contact_under_load() {
             scene.section.slider.elastic.poisson_ratio = poisson_ratio;
             scene.section.receptacle.elastic.poisson_ratio = poisson_ratio;
             let (found, plane) = (solved(&scene), loaded_plane(&scene.section));
-            let approach = found.initial.approach_mm / -plane.height - 1.0;
+            let approach = found.approach_mm / -plane.height - 1.0;
             let mut pressure = 0.0_f64;
-            for profile in &found.profiles {
-                for (own, plane) in profile.pressure_mpa.iter().zip(&plane.pressure) {
+            for of_plane in &found.pressures_mpa {
+                for (own, plane) in of_plane.iter().zip(&plane.pressure) {
                     pressure = pressure.max((own - plane).abs());
                 }
             }
@@ -71,6 +71,20 @@ fn worn_sections() -> Vec<(&'static str, Scene)> {
     slider.receptacle.wear = None;
     let mut guided = groove.clone();
     guided.drive = Drive::WholeBody;
+    // Loses a tenth of its load in the three cycles. Without friction: between unlike bodies the plane contact locks shear in as it is first
+    // loaded, extruded ones do not, and the height from which the spring unloads differs (depths by 2e-7).
+    let spring = |section: &Scene| Scene {
+        spring_n_per_mm2: 650.0,
+        friction: Friction::Frictionless,
+        ..section.clone()
+    };
+    let (sprung, guided_by_spring) = (spring(&groove), spring(&guided));
+    // Worn through in the second cycle.
+    let mut layered = groove.clone();
+    layered.receptacle.plating = vec![
+        layer(3e-5, 0.5 * COPPER_WEAR),
+        layer(1e-3, 2.0 * COPPER_WEAR),
+    ];
     let mut scar = mccoll();
     scar.accuracy = Accuracy::from_tolerance(0.1);
     scar.cycles = 2_000;
@@ -82,6 +96,9 @@ fn worn_sections() -> Vec<(&'static str, Scene)> {
         ("both bodies worn", both),
         ("slider worn", slider),
         ("whole slider driven", guided),
+        ("spring", sprung),
+        ("whole slider driven, spring", guided_by_spring),
+        ("layers", layered),
         ("scar", scar),
     ]
 }
@@ -103,7 +120,7 @@ fn held_ends_wear_as_the_plane_contact() {
             found.computed_cycles, found.relocations
         );
         assert!(off < 1e-9, "{name}");
-        for plane in &found.last.planes {
+        for plane in &found.last.stations {
             for (own, plane) in [
                 (plane.worn_area_mm2.slider, area.slider),
                 (plane.worn_area_mm2.receptacle, area.receptacle),

@@ -2,8 +2,8 @@
 
 use super::{TWO, button, difference, loaded, loaded_plane, over_plane, solved};
 use solver::effects::Effect;
-use solver::extruded::{Ends, ExtrudedError, ExtrudedScene, run};
-use solver::scene::{Friction, Motion, WearLaw};
+use solver::extruded::{ExtrudedError, ExtrudedScene, run};
+use solver::scene::{Ends, Friction, Motion, WearLaw};
 use std::ops::ControlFlow;
 
 /// The ends concern lengths of some heights, whatever the width: what they take off the load, and what they add to the approach and to the load in
@@ -38,7 +38,8 @@ fn wide_bodies_are_plane_strain_in_the_middle() {
 fn thin_bodies_are_in_plane_stress() {
     let mut scene = loaded(Ends::Free, TWO);
     scene.width_mm = 1e-5;
-    let found = solved(&scene).initial;
+    let summary = solved(&scene);
+    let found = &summary.initial;
     let mut section = scene.section.clone();
     for elastic in [&mut section.slider.elastic, &mut section.receptacle.elastic] {
         let nu = elastic.poisson_ratio;
@@ -48,9 +49,9 @@ fn thin_bodies_are_in_plane_stress() {
     // The mesh of the thin body.
     section.accuracy.contact_element_mm = scene.section.accuracy.contact_element_mm;
     let plane = loaded_plane(&section);
-    let approach = found.approach_mm / -plane.height - 1.0;
+    let approach = summary.approach_mm / -plane.height - 1.0;
     println!("extruded, free, thin: approach off plane stress by {approach:.4}");
-    for report in &found.planes {
+    for report in &found.stations {
         let peak = report.peak_pressure_mpa / plane.peak_pressure() - 1.0;
         println!("extruded, free, thin: peak pressure off plane stress by {peak:.4}");
         assert!(peak.abs() < 0.01);
@@ -114,7 +115,7 @@ fn volumes_follow_the_load_and_the_rate_of_either_body() {
         scene.section.receptacle.wear = Some(law).filter(|_| !slider);
         let found = solved(&scene);
         let volume = found.last.worn_volume_mm3;
-        let end = found.initial.planes[0].line_load_n_per_mm / scene.section.load_n_per_mm;
+        let end = found.initial.stations[0].line_load_n_per_mm / scene.section.load_n_per_mm;
         (volume.slider + volume.receptacle, end)
     };
     let (reference, end) = volume(1.0, false);
@@ -148,10 +149,6 @@ fn scenes_that_extruded_bodies_do_not_describe_are_refused() {
     );
     let width = refused(&|scene| scene.width_mm = 0.0);
     assert_eq!(width.to_string(), "width in mm is 0, must be positive");
-    assert_eq!(
-        refused(&|scene| scene.section.spring_n_per_mm2 = 1.0),
-        ExtrudedError::Spring
-    );
     let sticks = refused(&|scene| {
         scene.section.motion = Motion::Reciprocating {
             amplitude_mm: 1e-5,

@@ -115,7 +115,7 @@ fn worn_crown_spreads_along_the_line() {
     scene.section.cycles = 400;
     scene.section.accuracy.tolerance = 0.1;
     let found = solved(&scene);
-    let touching = |cycle: &solver::station::StationCycle| {
+    let touching = |cycle: &solver::along_line::StationCycle| {
         let stations = cycle.stations.iter();
         stations
             .filter(|station| station.line_load_n_per_mm > 0.0)

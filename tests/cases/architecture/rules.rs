@@ -152,7 +152,6 @@ const RULES: [(&str, Rule); 21] = [
                 "solver/src/cycle",
                 "solver/src/model",
                 "solver/src/record",
-                "solver/src/run",
                 "solver/src/schedule",
                 "solver/src/station",
             ],

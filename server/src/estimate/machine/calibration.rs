@@ -209,6 +209,7 @@ mod tests {
                 cell_iterations: 0.0,
                 cells: (0.0, 0.0),
                 stations: 1,
+                planes: 1,
                 companions: Vec::new(),
             },
             increment_s,

@@ -1,7 +1,7 @@
 //! Pictures of a contact along a line: line load and deepest worn depth of its sections at stored cycles.
 
+use solver::along_line::Along;
 use solver::record::{LineColumns, Record, Side};
-use solver::station::Along;
 
 use crate::export::pictures::{Axis, AxisRange, Colour, Mark, Panel, Scale, Series};
 

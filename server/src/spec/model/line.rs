@@ -44,7 +44,7 @@ pub(super) fn fields(dimension: Dimension) -> &'static [&'static str] {
         "chosen",
     ];
     match dimension {
-        Dimension::Ring => &["dimension", "outer_diameter_mm", "top"],
+        Dimension::Ring => &["preset", "dimension", "outer_diameter_mm", "top"],
         Dimension::Auto => &AUTO,
         _ => &AUTO[..5],
     }

@@ -116,7 +116,7 @@ impl WearCoupling {
     }
 
     /// Adds the gaps that the magnitude of a slip at a node opens, over its pressure.
-    pub(super) fn open_by_slip(
+    pub(in crate::contact) fn open_by_slip(
         &self,
         span: &Range<usize>,
         node: usize,
@@ -130,7 +130,7 @@ impl WearCoupling {
     }
 
     /// Linearises rates that vary about the pressures and slips of the coupled nodes.
-    pub(super) fn linearise(
+    pub(in crate::contact) fn linearise(
         &mut self,
         coupling: &Coupling,
         pair: &Pair<'_>,

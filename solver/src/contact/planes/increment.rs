@@ -10,6 +10,7 @@ use super::iterate::Iterate;
 use super::newton::{Convergence, Newton};
 use super::problem::{Problem, Zones};
 use super::response::Response;
+use super::wear::PlanesWear;
 use crate::sides::{Side, Sides};
 
 /// Most extensions of the active window within one increment.
@@ -32,10 +33,24 @@ pub struct PlaneWear {
     pub vertical_force: f64,
 }
 
+/// How an increment was solved.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Solved {
+    /// Newton iterations.
+    pub iterations: usize,
+    /// Factorised equations: closed nodes of all planes and the height.
+    pub unknowns: usize,
+    /// |load - vertical force| over the load.
+    pub imbalance: f64,
+    /// Largest gap of a closed node over the indentation.
+    pub residual: f64,
+}
+
 /// Solves increments; its buffers are reused from one to the next.
 #[derive(Default)]
 pub struct ExtrudedSolver {
     problem: Problem,
+    wear: PlanesWear,
     response: Response,
     newton: Newton,
     iterate: Iterate,
@@ -46,7 +61,7 @@ pub struct ExtrudedSolver {
 
 impl ExtrudedSolver {
     /// Solves the increment to a displacement from starts for each plane, or from the last contacts moved with the slider; writes the new
-    /// contacts to `next` and what they wear to `worn`. Returns the number of iterations.
+    /// contacts to `next` and what they wear to `worn`.
     ///
     /// # Errors
     /// [`ContactError`]; `next` and `worn` are then undefined.
@@ -57,7 +72,7 @@ impl ExtrudedSolver {
         (last, starts): (&[ContactState], Option<&[WarmStart<'_>]>),
         to: Slide,
         (next, worn): (&mut [ContactState], &mut [PlaneWear]),
-    ) -> Result<usize, ContactError> {
+    ) -> Result<Solved, ContactError> {
         let pair = &Pair {
             operators: &bodies.operators.sections,
             interface: bodies.interface,
@@ -70,7 +85,7 @@ impl ExtrudedSolver {
                 next.reset_open(last, (to.slider_x, to.slider_x));
                 *worn = PlaneWear::default();
             }
-            return Ok(0);
+            return Ok(Solved::default());
         }
         self.undeformed.resize_with(surfaces.len(), Vec::new);
         for (surfaces, gaps) in surfaces.iter().zip(&mut self.undeformed) {
@@ -80,17 +95,23 @@ impl ExtrudedSolver {
         let mut earlier: Option<(usize, usize)> = None;
         for _ in 0..MOST_EXTENSIONS {
             self.problem
-                .assemble((bodies, pair), surfaces, last, to, window);
+                .assemble((bodies, pair), surfaces, last, to, (window, &mut self.wear));
             match earlier {
                 Some(earlier) => self.extend(earlier, window, surfaces.len()),
                 None => self.predict(pair, last, starts, to),
             }
-            self.solve(bodies, last, to)?;
+            self.solve((bodies, pair), last, to)?;
             let it = &self.iterate;
             let needed = self.candidates(it.indentation, it.height, covered);
             if needed.0 >= window.0 && needed.1 <= window.1 {
                 self.write(pair, last, to, (next, worn));
-                return Ok(self.newton.iterations);
+                let it = &self.iterate;
+                return Ok(Solved {
+                    iterations: self.newton.iterations,
+                    unknowns: it.is_closed.iter().filter(|closed| **closed).count() + 1,
+                    imbalance: it.balance(&self.problem).abs() / self.problem.full_load,
+                    residual: it.residual,
+                });
             }
             earlier = Some(window);
             let all = (needed.0.min(window.0), needed.1.max(window.1));
@@ -193,7 +214,7 @@ impl ExtrudedSolver {
 
     fn solve(
         &mut self,
-        bodies: &Extruded<'_>,
+        (bodies, pair): (&Extruded<'_>, &Pair<'_>),
         last: &[ContactState],
         to: Slide,
     ) -> Result<(), ContactError> {
@@ -220,7 +241,8 @@ impl ExtrudedSolver {
         let wall = self.problem.mean_slope_ahead(&self.iterate.pressure) * interface.friction;
         let (problem, it) = (&self.problem, &mut self.iterate);
         let (newton, response) = (&mut self.newton, &mut self.response);
-        match newton.solve(problem, zones, response, it, is_first_load) {
+        let wear = (&mut self.wear, pair);
+        match newton.solve(problem, (zones, response), wear, it, is_first_load) {
             Convergence::Converged => Ok(()),
             _ if wall > 1.0 => Err(ContactError::Jammed {
                 slider_x_mm: to.slider_x,
@@ -280,8 +302,8 @@ impl ExtrudedSolver {
                 }
             });
             worn.worn_area =
-                problem
-                    .wear
+                self.wear
+                    .of(k)
                     .recession(coupling, pair, &self.path, &mut worn.recession);
             worn.path = self.path.iter().zip(widths).map(|(e, d)| e * d).sum();
             worn.energy = friction.abs() * worn.path;

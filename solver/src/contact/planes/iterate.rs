@@ -15,6 +15,8 @@ pub(super) struct Iterate {
     /// Largest indentation, mm: the scale of gaps; and the residual over it at which the iteration has converged.
     pub(super) indentation: f64,
     pub(super) tolerance: f64,
+    /// The residual of the solution.
+    pub(super) residual: f64,
 }
 
 impl Iterate {
@@ -27,11 +29,12 @@ impl Iterate {
         self.height = height;
     }
 
-    /// The load less the vertical forces, N/mm.
+    /// The load at the height less the vertical forces, N/mm.
     pub(super) fn balance(&self, problem: &Problem) -> f64 {
         let n = problem.nodes();
         let forces = self.pressure.iter().zip(&problem.force).enumerate();
-        forces.fold(problem.load, |balance, (node, (p, force))| {
+        let load = problem.load + problem.spring * self.height;
+        forces.fold(load, |balance, (node, (p, force))| {
             balance - problem.shares[node / n] * force[1] * p
         })
     }

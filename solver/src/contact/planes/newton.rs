@@ -10,7 +10,8 @@ mod partition;
 use super::iterate::Iterate;
 use super::problem::{Problem, Zones};
 use super::response::Response;
-use crate::contact::line::GAP_TOLERANCE;
+use super::wear::PlanesWear;
+use crate::contact::line::{GAP_TOLERANCE, Pair};
 use crate::linear::vector::{add_scaled, vectorized};
 use correction::Correction;
 use partition::Partition;
@@ -57,8 +58,8 @@ impl Newton {
     pub(super) fn solve(
         &mut self,
         problem: &Problem,
-        zones: Zones<'_>,
-        response: &mut Response,
+        (zones, response): (Zones<'_>, &mut Response),
+        (wear, pair): (&mut PlanesWear, &Pair<'_>),
         it: &mut Iterate,
         is_first_load: bool,
     ) -> Convergence {
@@ -68,7 +69,7 @@ impl Newton {
             self.iterations += 1;
             let renewed = renew || !self.partition.admits(&it.is_closed);
             if renewed {
-                residual = self.linearise(problem, zones, response, it);
+                residual = self.linearise(problem, (zones, response), (wear, pair), it);
             }
             let last = (residual, changes);
             let changed = renewed || changes > 0;
@@ -77,18 +78,20 @@ impl Newton {
                     active: self.partition.nodes.len(),
                 };
             }
-            residual = self.evaluate(problem, response, it);
+            residual = self.evaluate(problem, response, (wear, pair), it);
             changes = update_statuses(it, iteration >= SINGLE_CHANGE_FROM);
             let is_even = changes == 0 && last.1 == 0;
             let stalled = residual <= STALLED_WITHIN * it.tolerance && 2.0 * residual > last.0;
-            let unbalanced = BALANCE_TOLERANCE * problem.load;
+            let unbalanced = BALANCE_TOLERANCE * problem.full_load;
             if changes == 0
                 && (residual <= it.tolerance || (stalled && is_even))
                 && it.balance(problem).abs() <= unbalanced
             {
+                it.residual = residual;
                 return Convergence::Converged;
             }
-            if it.is_closed.iter().all(|closed| !closed) {
+            // Without a contact only a spring that has lost its force is in equilibrium.
+            if problem.spring <= 0.0 && it.is_closed.iter().all(|closed| !closed) {
                 return Convergence::Singular { active: 0 };
             }
             renew = (is_even && residual > SLOW * last.0) || iteration + 1 >= EXACT_FROM;
@@ -100,8 +103,8 @@ impl Newton {
     fn linearise(
         &mut self,
         problem: &Problem,
-        zones: Zones<'_>,
-        response: &mut Response,
+        (zones, response): (Zones<'_>, &mut Response),
+        (wear, pair): (&mut PlanesWear, &Pair<'_>),
         it: &mut Iterate,
     ) -> f64 {
         self.partition.choose(&it.is_closed, problem.nodes());
@@ -113,14 +116,20 @@ impl Newton {
                 *pressure = 0.0;
             }
         }
-        let residual = self.evaluate(problem, response, it);
+        let residual = self.evaluate(problem, response, (wear, pair), it);
         self.correction
-            .assemble(problem, &self.partition, response, it);
+            .assemble(problem, (&self.partition, wear), response, it);
         residual
     }
 
     /// Slips, paths and gaps of an iterate; returns the largest gap of a closed node over the indentation.
-    fn evaluate(&mut self, problem: &Problem, response: &Response, it: &mut Iterate) -> f64 {
+    fn evaluate(
+        &mut self,
+        problem: &Problem,
+        response: &Response,
+        (wear, pair): (&mut PlanesWear, &Pair<'_>),
+        it: &mut Iterate,
+    ) -> f64 {
         slide(problem, it);
         self.deformed.clear();
         self.deformed.resize(problem.len(), 0.0);
@@ -139,14 +148,19 @@ impl Newton {
         it.gap.resize(problem.len(), 0.0);
         let n = problem.nodes();
         if problem.wears {
-            for (opened, path) in it.gap.chunks_exact_mut(n).zip(it.path.chunks_exact(n)) {
-                problem.wear.opening().add_product(&(0..n), path, opened);
+            let tractions = (&it.pressure[..], &it.slip[..]);
+            wear.linearise((&problem.coupling, pair), n, tractions);
+            let planes = it.gap.chunks_exact_mut(n).zip(it.path.chunks_exact(n));
+            for (plane, (opened, path)) in planes.enumerate() {
+                let own = wear.of(plane);
+                own.opening().add_product(&(0..n), path, opened);
             }
         }
         let (mut indentation, mut residual, mut largest) = (0.0_f64, 0.0_f64, 0.0_f64);
         for (node, jump) in self.deformed.iter().enumerate() {
             let worn = it.gap[node];
-            it.gap[node] = problem.gap[node] + it.height + jump + worn;
+            let lifted = problem.per_height[node] * it.height;
+            it.gap[node] = problem.gap[node] + lifted + jump + worn;
             if it.is_closed[node] {
                 indentation = indentation.max(jump.abs()).max(worn);
                 residual = residual.max(it.gap[node].abs());

@@ -4,9 +4,9 @@
 
 use super::super::line::local_slopes::LocalSlopes;
 use super::super::line::mortar::Coupling;
-use super::super::line::wear_coupling::WearCoupling;
 use super::super::line::{ContactState, Pair, Surfaces};
 use super::bodies::{Extruded, Slide};
+use super::wear::PlanesWear;
 use crate::condensation::PrismZone;
 use crate::model::Tangential;
 use crate::sides::Side;
@@ -23,7 +23,6 @@ pub(super) struct Zones<'a> {
 pub(super) struct Problem {
     /// The pairing, which all planes have.
     pub(super) coupling: Coupling,
-    pub(super) wear: WearCoupling,
     pub(super) wears: bool,
     /// Gap of the worn bodies at height 0 under the far-face load, mm.
     pub(super) gap: Vec<f64>,
@@ -38,31 +37,40 @@ pub(super) struct Problem {
     pub(super) shares: Vec<f64>,
     /// Direction of the imposed slip; 0 without one.
     pub(super) direction: f64,
-    /// Mean line load, N/mm, and the contact modulus, MPa.
+    /// Mean line load that is asked for and that at height 0, N/mm, what the spring that applies it adds per height, N/mm per mm, and the contact
+    /// modulus, MPa.
+    pub(super) full_load: f64,
     pub(super) load: f64,
+    pub(super) spring: f64,
     pub(super) modulus: f64,
+    /// Change of the gaps per height: 1, and what the far-face load of the spring opens.
+    pub(super) per_height: Vec<f64>,
     slopes: LocalSlopes,
 }
 
 impl Problem {
-    /// Assembles the increment over the nodes `first..end` of the slave.
+    /// Assembles the increment over the nodes `first..end` of the slave, with its wear.
     pub(super) fn assemble(
         &mut self,
         (bodies, pair): (&Extruded<'_>, &Pair<'_>),
         surfaces: &[Surfaces<'_>],
         last: &[ContactState],
         to: Slide,
-        (first, end): (usize, usize),
+        ((first, end), worn): ((usize, usize), &mut PlanesWear),
     ) {
         let interface = &bodies.interface;
         self.coupling.integrate(pair, to.slider_x, first, end);
         let wear = interface.wear.map(|wear| wear.filter(|_| to.cycles > 0.0));
         self.wears = wear.slider.is_some() || wear.receptacle.is_some();
-        let worn = (wear, surfaces[0].depth);
-        self.wear.assemble(&self.coupling, pair, worn, to.cycles);
+        worn.assemble((&self.coupling, pair), &wear, surfaces, to.cycles);
         let step = to.slider_x - last[0].slider_x;
         self.direction = if step == 0.0 { 0.0 } else { step.signum() };
-        self.load = interface.load;
+        self.full_load = interface.load;
+        // Before the first load the spring has no reference height.
+        let (spring, reference) = last[0]
+            .reference_height
+            .map_or((0.0, 0.0), |height| (interface.spring, height));
+        (self.load, self.spring) = (interface.load - spring * reference, spring);
         self.modulus = interface.modulus;
         self.shares.clear();
         self.shares.extend_from_slice(bodies.shares);
@@ -115,6 +123,7 @@ impl Problem {
     /// Adds the gaps that the slider opens by its far-face load.
     pub(super) fn sag(&mut self, zones: Zones<'_>, slave: Side) {
         let coupling = &self.coupling;
+        self.per_height.clear();
         for k in 0..self.shares.len() {
             for i in coupling.first..coupling.end {
                 let at = k * coupling.len() + i - coupling.first;
@@ -134,6 +143,7 @@ impl Problem {
                     }
                 };
                 self.gap[at] += self.load * moved;
+                self.per_height.push(1.0 + self.spring * moved);
             }
         }
     }

@@ -2,13 +2,13 @@
 //! widths are the largest of all stations.
 
 use super::{CycleReport, ExtentReport, SideReport};
+use crate::along_line::{StationCycle, StationProfile, StationReport};
 use crate::interpolation;
 use crate::law::plating::bottoms;
 use crate::number::real_cycles;
 use crate::record::{WornSurface, scar};
 use crate::scene::Scene;
 use crate::sides::{Side, Sides};
-use crate::station::{StationCycle, StationProfile, StationReport};
 
 /// What a report of a contact along a line is made from.
 pub(crate) struct LineEnd<'a> {

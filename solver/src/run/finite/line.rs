@@ -1,20 +1,41 @@
-//! The run of a contact along a line: what its reports and snapshots are made of. Profiles and tractions are those of the section
-//! that touches first, and of each station besides.
+//! The run of a contact along a line: its reference section is the one that touches first.
 
 use super::Contact;
+use super::sections::{self, Sections};
 use crate::SolveError;
+use crate::along_line::StationProfile;
 use crate::checkpoint::{LineRun, Misfit, Resumable};
+use crate::contact::ContactState;
+use crate::cycle::FrictionLoop;
 use crate::effects::EffectsPlan;
 use crate::electrical::{AreaContact, ContactResistance};
-use crate::record::{
-    self, Checks, CycleReport, DepthProfile, LineEnd, Outcome, Resolution, Snapshot,
-    StationSnapshot, TractionField, WornArea, tractions,
-};
+use crate::record::{Checks, CycleReport, Outcome, Resolution, Snapshot, WornArea};
 use crate::scene::Scene;
+use crate::schedule::step::Position;
 use crate::sides::{Side, Sides};
-use crate::station::{
-    Ending, LineIntegrator, LineState, StationError, StationProfile, StationScene,
-};
+use crate::station::{Ending, LineIntegrator, LineState, StationError, StationScene};
+
+impl Sections for LineIntegrator {
+    fn profile(&self, section: usize) -> StationProfile {
+        self.profile(section)
+    }
+
+    fn contacts(&self, section: usize) -> impl Iterator<Item = (Position, f64, &ContactState)> {
+        self.contacts(section)
+    }
+
+    fn slave(&self) -> Side {
+        self.slave()
+    }
+
+    fn reference(&self) -> usize {
+        self.reference()
+    }
+
+    fn friction_loop(&self) -> &FrictionLoop {
+        self.friction_loop()
+    }
+}
 
 impl Contact for LineIntegrator {
     type State = LineState;
@@ -71,16 +92,11 @@ impl Contact for LineIntegrator {
     }
 
     fn worn(&self, state: &LineState) -> Vec<StationProfile> {
-        let stations = 0..state.last().stations.len();
-        stations.map(|station| self.profile(station)).collect()
+        sections::worn(self, state.last().stations.len())
     }
 
-    /// The scar over the whole line.
     fn scars(worn: &Vec<StationProfile>) -> Sides<WornArea> {
-        Sides::from_fn(|side| {
-            let cells = worn.iter().flat_map(|station| station.cells(side));
-            WornArea::of_cells(cells)
-        })
+        sections::scars(worn)
     }
 
     fn report(
@@ -90,37 +106,11 @@ impl Contact for LineIntegrator {
         worn: &Vec<StationProfile>,
         _: Option<&ContactResistance>,
     ) -> CycleReport {
-        record::line_report(&LineEnd {
-            scene,
-            cycle: state.last(),
-            profiles: worn,
-            reference: self.reference(),
-        })
+        sections::report(self, scene, (state.last(), worn))
     }
 
     fn snapshot(&self, _: &Scene, state: &LineState, worn: Vec<StationProfile>) -> Snapshot {
-        let reports = state.last().stations.iter();
-        let stations: Vec<StationSnapshot> = reports
-            .zip(worn)
-            .enumerate()
-            .map(|(number, (report, profile))| StationSnapshot {
-                report: *report,
-                receptacle: depths(&profile, Side::Receptacle),
-                slider: depths(&profile, Side::Slider),
-                positions: placed(self, (number, &profile)),
-            })
-            .collect();
-        let reference = &stations[self.reference()];
-        Snapshot {
-            cycle: state.cycle(),
-            receptacle: reference.receptacle.clone(),
-            slider: reference.slider.clone(),
-            positions: reference.positions.clone(),
-            friction_loop: self.friction_loop().clone(),
-            fields: Vec::new(),
-            area: None,
-            stations,
-        }
+        sections::snapshot(self, state.last(), worn)
     }
 
     fn resolution(&self, state: &LineState) -> Resolution {
@@ -149,26 +139,4 @@ impl Contact for LineIntegrator {
 
 fn line_of(scene: &Scene) -> Result<StationScene, StationError> {
     StationScene::of(scene).ok_or(StationError::Motion)
-}
-
-fn depths(profile: &StationProfile, side: Side) -> DepthProfile {
-    DepthProfile {
-        x_mm: profile.x_mm.of(side).clone(),
-        depth_mm: profile.depth_mm.of(side).clone(),
-    }
-}
-
-/// Tractions of a station at the named positions of the last computed cycle.
-fn placed(
-    line: &LineIntegrator,
-    (number, profile): (usize, &StationProfile),
-) -> Vec<TractionField> {
-    let nodes = profile.x_mm.of(line.slave());
-    let contacts = line.contacts(number);
-    contacts
-        .map(|(position, slider_x_mm, contact)| TractionField {
-            slider_x_mm,
-            ..tractions(position, line.slave(), nodes, contact)
-        })
-        .collect()
 }

@@ -1,13 +1,13 @@
 //! Reports of a run: the last computed cycle, its contacts, and what the stations have worn.
 
 use super::LineIntegrator;
+use crate::along_line::{StationCycle, StationProfile, StationReport};
 use crate::contact::ContactState;
 use crate::cycle::{Checks, FrictionLoop};
 use crate::law::surface::SurfaceWear;
 use crate::number::real_cycles;
 use crate::schedule::step::Position;
 use crate::sides::{Side, Sides};
-use crate::station::record::{StationCycle, StationProfile, StationReport};
 use crate::station::section::Station;
 
 /// Why a line cannot be worn on.

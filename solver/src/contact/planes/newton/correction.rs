@@ -6,6 +6,7 @@
 use super::super::iterate::Iterate;
 use super::super::problem::Problem;
 use super::super::response::Response;
+use super::super::wear::PlanesWear;
 use super::partition::Partition;
 use crate::linear::{CondensedSystem, DenseLu};
 
@@ -28,7 +29,7 @@ impl Correction {
     pub(super) fn assemble(
         &mut self,
         problem: &Problem,
-        partition: &Partition,
+        (partition, wear): (&Partition, &PlanesWear),
         response: &Response,
         it: &Iterate,
     ) {
@@ -41,7 +42,7 @@ impl Correction {
             if problem.wears {
                 let plane = node / n;
                 let own = &mut self.column[plane * n..(plane + 1) * n];
-                let wear = &problem.wear;
+                let wear = wear.of(plane);
                 wear.open_by_pressure(&(0..n), node % n, it.slip[node], own);
             }
             for (entry, row) in matrix.column_mut(j).iter_mut().zip(unknowns) {
@@ -49,21 +50,20 @@ impl Correction {
             }
             *matrix.at(m, j) = problem.shares[node / n] * problem.force[node][1] / problem.modulus;
         }
-        self.column.clear();
-        self.column.resize(problem.len(), 1.0);
+        self.column.clone_from(&problem.per_height);
         if problem.wears {
             for &node in unknowns.iter().filter(|node| it.slip[**node] > 0.0) {
                 let plane = node / n;
                 let own = &mut self.column[plane * n..(plane + 1) * n];
                 let per_height = problem.direction * problem.slope[node] * it.pressure[node];
-                let wear = &problem.wear;
-                wear.open_by_pressure(&(0..n), node % n, per_height, own);
+                let wear = wear.of(plane);
+                wear.open_by_slip(&(0..n), node % n, per_height, own);
             }
         }
         for (entry, row) in matrix.column_mut(m).iter_mut().zip(unknowns) {
             *entry = self.column[*row];
         }
-        *matrix.at(m, m) = 0.0;
+        *matrix.at(m, m) = -problem.spring / problem.modulus;
         self.system.condense(partition.core);
     }
 

@@ -1,0 +1,235 @@
+//! Computed cycles of extruded bodies: each stands for a jump.
+
+mod plan;
+mod report;
+
+use super::bodies::Bodies;
+use super::cycle::Contact;
+use super::error::ExtrudedError;
+use super::placed::CycleRecord;
+use super::scene::ExtrudedScene;
+use super::state::{Common, ExtrudedState};
+use crate::contact::ContactError;
+use crate::effects::EffectsPlan;
+use crate::model;
+use crate::number::real_cycles;
+use crate::scene::Scene;
+use crate::schedule::increments;
+use crate::schedule::plan::Cycles;
+use crate::schedule::replay::ReplayPlan;
+use crate::schedule::step::Position;
+pub(crate) use report::Ending;
+
+/// Computes the cycles of extruded bodies.
+pub(crate) struct ExtrudedIntegrator {
+    scene: ExtrudedScene,
+    /// The plane section.
+    plane: Scene,
+    bodies: Bodies,
+    contact: Contact,
+    common: Common,
+    /// What the last computed cycle has recorded.
+    record: CycleRecord,
+}
+
+impl ExtrudedIntegrator {
+    /// The loaded contact before any wear, by a plan.
+    ///
+    /// # Errors
+    /// A scene that extruded bodies do not describe, a body that cannot be meshed or condensed, a contact without a solution.
+    pub(crate) fn start(
+        scene: &ExtrudedScene,
+        plan: &EffectsPlan,
+    ) -> Result<(Self, ExtrudedState), ExtrudedError> {
+        let mut run = Self::unloaded(scene, plan)?;
+        while let Err(source) = run.contact.apply_load(&run.bodies) {
+            run.widen_or(0, source)?;
+        }
+        run.common.unworn_half_width = run.contact.planes.mean_half_width;
+        run.take_record(|contact, bodies| CycleRecord {
+            placed: vec![contact.placed(bodies, Position::Neutral)],
+            ..CycleRecord::default()
+        });
+        run.common.last = run.report(0, &run.paths(), (0, 0));
+        let state = run.state();
+        Ok((run, state))
+    }
+
+    /// For a state of a checkpoint, to the same bits as without it.
+    ///
+    /// # Errors
+    /// As [`Self::start`].
+    pub(crate) fn resume(
+        scene: &ExtrudedScene,
+        plan: &EffectsPlan,
+        state: &ExtrudedState,
+    ) -> Result<Self, ExtrudedError> {
+        let mut run = Self::unloaded(scene, plan)?;
+        run.enter(state)?;
+        Ok(run)
+    }
+
+    /// The unworn bodies without load.
+    fn unloaded(scene: &ExtrudedScene, plan: &EffectsPlan) -> Result<Self, ExtrudedError> {
+        scene.check()?;
+        let plane = scene.plane();
+        let built = model::build(&plane, plan)?;
+        if plane.cycles > 0 {
+            scene.check_slip()?;
+        }
+        let bodies = Bodies::new(scene, built)?;
+        Ok(Self {
+            scene: scene.clone(),
+            plane,
+            contact: Contact::new(&bodies),
+            bodies,
+            common: Common::default(),
+            record: CycleRecord::default(),
+        })
+    }
+
+    /// Slides to the turning point where cycles begin, without wear.
+    fn initial_quarter(&mut self) -> Result<(), ExtrudedError> {
+        let contact = (self.contact.planes.mean_half_width, false);
+        let count = increments::count(self.plane.motion, &self.plane.accuracy, contact);
+        let steps = increments::steps(self.scene.section.motion, count);
+        let quarter = increments::initial_quarter(&steps);
+        loop {
+            let before = self.contact.planes.clone();
+            let slid = self
+                .contact
+                .slide(&self.bodies, quarter, (0.0, &ReplayPlan::default()));
+            let Err((halvings, error)) = slid else {
+                return Ok(());
+            };
+            self.contact.planes = before;
+            self.widen_or(halvings, error)?;
+        }
+    }
+
+    /// Computes the next cycle up to a number of them, with shorter jumps until it has a solution.
+    ///
+    /// # Errors
+    /// A contact without a solution, a body that cannot be meshed or condensed; the state is then as before.
+    pub(crate) fn compute_cycle(
+        &mut self,
+        state: &mut ExtrudedState,
+        until: u64,
+    ) -> Result<(), ExtrudedError> {
+        self.enter(state)?;
+        if self.common.computed == 0 {
+            self.initial_quarter()?;
+        }
+        self.follow_wear()?;
+        let before = self.contact.planes.clone();
+        let (paths, solves) = (self.paths(), self.state_of_solves());
+        let done = self.common.done;
+        let mut jump = self.next_jump(until.max(done + 1) - done);
+        loop {
+            let plan = self.cycle_plan(Cycles { done, jump });
+            let steps = increments::steps(self.scene.section.motion, plan.steps);
+            let wear = (real_cycles(jump), &plan.replays);
+            let failed = match self.contact.slide(&self.bodies, &steps, wear) {
+                Ok(record) => {
+                    let control = self.common.jump.clone();
+                    self.measure_jump(&before, jump);
+                    if let Some(shorter) = self.rejected(jump) {
+                        // Back to the control before the jump as well.
+                        self.common.jump = control;
+                        self.common.jump.limit(shorter);
+                        self.contact.planes.clone_from(&before);
+                        jump = shorter;
+                        continue;
+                    }
+                    let most = &mut self.common.most_increments;
+                    *most = (*most).max(steps.len());
+                    self.take_record(|_, _| record);
+                    break;
+                }
+                Err(failed) => failed,
+            };
+            self.contact.planes.clone_from(&before);
+            let (halvings, error) = failed;
+            if error.needs_wider_zones() {
+                self.widen_or(halvings, error)?;
+                continue;
+            }
+            let shorter = self.common.jump.cut(jump);
+            jump = shorter.ok_or_else(|| self.failure(halvings, error))?;
+        }
+        self.common.done += jump;
+        self.common.computed += 1;
+        self.common.last = self.report(jump, &paths, solves);
+        *state = self.state();
+        Ok(())
+    }
+
+    /// Takes a record, with the contacts of its neutral position.
+    fn take_record(&mut self, record: impl FnOnce(&mut Contact, &Bodies) -> CycleRecord) {
+        let record = record(&mut self.contact, &self.bodies);
+        let mut placed = record.placed.iter();
+        let neutral = placed.find(|placed| placed.position == Position::Neutral);
+        if let Some(placed) = neutral {
+            let states = self.contact.planes.states.iter_mut();
+            for (state, found) in states.zip(&placed.found) {
+                state.neutral = *found;
+            }
+        }
+        self.record = record;
+    }
+
+    /// Takes the state that the next cycle begins with.
+    fn enter(&mut self, state: &ExtrudedState) -> Result<(), ExtrudedError> {
+        self.contact.planes.clone_from(&state.planes);
+        self.contact.effort = state.effort;
+        self.common.clone_from(&state.common);
+        self.bodies.follow(&self.common)
+    }
+
+    /// The state after the last cycle.
+    fn state(&self) -> ExtrudedState {
+        ExtrudedState {
+            planes: self.contact.planes.clone(),
+            common: self.common.clone(),
+            effort: self.contact.effort,
+        }
+    }
+
+    /// Condenses again what has drifted from the geometry of the operators.
+    fn follow_wear(&mut self) -> Result<(), ExtrudedError> {
+        let states = &self.contact.planes.states;
+        let depths = || states.iter().map(|state| &state.depth);
+        if !self.bodies.have_drifted(depths(), &self.plane.accuracy) {
+            return Ok(());
+        }
+        self.common.built = depths().cloned().collect();
+        self.common.relocations += 1;
+        self.bodies.follow(&self.common)
+    }
+
+    /// Gives the bodies wider zones of fine elements.
+    ///
+    /// # Errors
+    /// The error, if wider zones are no help.
+    fn widen_or(&mut self, halvings: u32, error: ContactError) -> Result<(), ExtrudedError> {
+        if !error.needs_wider_zones() {
+            return Err(self.failure(halvings, error));
+        }
+        self.common.widenings += 1;
+        self.common.relocations += 1;
+        self.bodies.follow(&self.common)
+    }
+
+    fn state_of_solves(&self) -> (usize, usize) {
+        let effort = &self.contact.effort;
+        (effort.increments, effort.iterations)
+    }
+
+    fn failure(&self, halvings: u32, source: ContactError) -> ExtrudedError {
+        ExtrudedError::Contact {
+            cycle: self.common.done,
+            halvings,
+            source,
+        }
+    }
+}

@@ -1,0 +1,93 @@
+//! What the schedule of a run is chosen from: one jump and one series of increments for all planes.
+
+use super::ExtrudedIntegrator;
+use crate::extruded::state::Planes;
+use crate::law::surface::SurfaceWear;
+use crate::law::wear::LocalState;
+use crate::schedule::equivalent_wear::EquivalentWear;
+use crate::schedule::jump::Stroke;
+use crate::schedule::plan::{CyclePlan, Cycles, Followed};
+use crate::sides::{Side, Sides};
+
+impl ExtrudedIntegrator {
+    /// Largest wear rates from the surfaces down to the worn depths, 1/MPa.
+    fn rates(&self) -> Sides<f64> {
+        let states = self.contact.planes.states.iter();
+        let depths = states.map(|state| state.depth.largest_of_each());
+        let depth = depths.fold(Sides::default(), |most: Sides<f64>, depth| {
+            most.zip(depth).map(|(most, depth)| most.max(depth))
+        });
+        let wear = self.contact.interface.wear.zip(depth);
+        wear.map(|(wear, depth)| {
+            wear.map_or(0.0, |wear| wear.largest_rate(depth, LocalState::default()))
+        })
+    }
+
+    /// A shorter jump where a rate depends on the depth and the estimated error far exceeds what it may be.
+    pub(super) fn rejected(&self, jump: u64) -> Option<u64> {
+        let wear = self.contact.interface.wear;
+        let by_depth = |side| wear.of(side).is_some_and(SurfaceWear::depends_on_depth);
+        if !Side::BOTH.into_iter().any(by_depth) {
+            return None;
+        }
+        let control = &self.common.jump;
+        control.rejected(&self.plane.accuracy, self.stroke(), jump)
+    }
+
+    /// The next jump.
+    pub(super) fn next_jump(&mut self, remaining: u64) -> u64 {
+        let stroke = self.stroke();
+        self.common
+            .jump
+            .next(&self.plane.accuracy, stroke, remaining)
+    }
+
+    /// Measures what the next jump depends on. Its error is that of the volume: nodes weigh by their width and by the length of their plane.
+    pub(super) fn measure_jump(&mut self, before: &Planes, jump: u64) {
+        let shares = &self.bodies.shares;
+        let widths = self.bodies.operators.sections.as_ref().map(|section| {
+            let planes = shares.iter();
+            let planes =
+                planes.flat_map(|share| section.widths.iter().map(move |width| share * width));
+            planes.collect::<Vec<f64>>()
+        });
+        let depths = |planes: &Planes| {
+            Sides::from_fn(|side| {
+                let depths = planes.states.iter().flat_map(|state| state.depth.of(side));
+                depths.copied().collect::<Vec<f64>>()
+            })
+        };
+        let (before, after) = (depths(before), depths(&self.contact.planes));
+        let wear = &self.contact.interface.wear;
+        let worn = EquivalentWear::new(wear, widths.as_slices(), (&before, &after));
+        let control = &mut self.common.jump;
+        control.update((worn.weights(), 0.0), worn.depths(), jump);
+    }
+
+    /// Limits of the jump besides its error. Every jump wears in the increments of one cycle: nothing is extrapolated in a groove.
+    fn stroke(&self) -> Stroke {
+        let amplitude = self.plane.motion.amplitude_mm().abs();
+        let half_width = self.contact.planes.mean_half_width;
+        let mut stroke = Stroke::new(
+            &self.plane.accuracy.tuning,
+            self.rates(),
+            self.contact.interface.modulus,
+            (amplitude, half_width.max(self.common.unworn_half_width)),
+            (1.0, false),
+            self.plane.cycles,
+        );
+        stroke.is_groove = false;
+        stroke
+    }
+
+    /// Increments and replays of a cycle.
+    pub(super) fn cycle_plan(&self, cycles: Cycles) -> CyclePlan {
+        let followed = Followed {
+            half_width: self.contact.planes.mean_half_width,
+            single: self.common.unworn_half_width,
+            sticks: false,
+        };
+        let run = (self.plane.motion, &self.plane.accuracy);
+        CyclePlan::new(run, followed, (self.stroke(), cycles), false)
+    }
+}

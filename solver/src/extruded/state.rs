@@ -1,0 +1,122 @@
+//! State of a run of extruded bodies between two computed cycles.
+
+use serde::{Deserialize, Serialize};
+
+use crate::along_line::StationCycle;
+use crate::contact::{ContactState, Work};
+use crate::cycle::{Checks, Neutral, WarmStarts};
+use crate::schedule::jump::JumpControl;
+use crate::sides::Sides;
+
+/// Everything that the next cycle of a node plane depends on, besides its contact.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub(super) struct PlaneState {
+    /// Vertical worn depth at the contact nodes, mm.
+    pub(super) depth: Sides<Vec<f64>>,
+    /// Integrals of the wear rates, mm^2.
+    pub(super) worn_area: Sides<f64>,
+    /// Integral of p |slip| over contact and cycles, N/mm mm.
+    pub(super) path: f64,
+    /// Energy dissipated by friction, mJ/mm.
+    pub(super) energy: f64,
+    /// Vertical force at the end of the last increment, N/mm.
+    pub(super) line_load: f64,
+    /// The contact at the last passage of the neutral position.
+    pub(super) neutral: Neutral,
+    pub(super) warm_starts: WarmStarts,
+}
+
+/// What increments change.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub(super) struct Planes {
+    pub(super) states: Vec<PlaneState>,
+    /// Contact of each plane.
+    pub(super) contacts: Vec<ContactState>,
+    /// Mean half-width over the last computed cycle, mm, of planes in contact, weighted by their lengths.
+    pub(super) mean_half_width: f64,
+}
+
+/// What all planes share between two cycles.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub(super) struct Common {
+    /// Half-width of the unworn contact, mm.
+    pub(super) unworn_half_width: f64,
+    pub(super) jump: JumpControl,
+    /// Cycles done.
+    pub(super) done: u64,
+    pub(super) computed: u64,
+    /// Most increments of a cycle.
+    pub(super) most_increments: usize,
+    /// Times that bodies were condensed again.
+    pub(super) relocations: u64,
+    /// Worn depths of each plane at which the operators were last built, mm; none of the unworn bodies.
+    pub(super) built: Vec<Sides<Vec<f64>>>,
+    /// Width of the zones over that of the layout, in powers of 2.
+    pub(super) widenings: u32,
+    /// The last computed cycle.
+    pub(super) last: StationCycle,
+}
+
+/// Effort and worst residuals of the increments so far.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+pub(super) struct Effort {
+    pub(super) increments: usize,
+    pub(super) iterations: usize,
+    pub(super) work: Work,
+    pub(super) checks: Checks,
+}
+
+/// State of a run of extruded bodies between two computed cycles.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct ExtrudedState {
+    pub(super) planes: Planes,
+    pub(super) common: Common,
+    pub(super) effort: Effort,
+}
+
+impl ExtrudedState {
+    /// Cycles done.
+    pub(crate) fn cycle(&self) -> u64 {
+        self.common.done
+    }
+
+    /// The last computed cycle.
+    pub(crate) fn last(&self) -> &StationCycle {
+        &self.common.last
+    }
+
+    /// Number of node planes.
+    pub(crate) fn planes(&self) -> usize {
+        self.planes.states.len()
+    }
+
+    /// Largest wear of a node of each side per cycle in the last computed one, mm.
+    pub(crate) fn fastest_rate(&self) -> Sides<f64> {
+        self.common.jump.fastest_rate()
+    }
+
+    /// Computed cycles, and the most increments of one.
+    pub(crate) fn computed(&self) -> (u64, usize) {
+        (self.common.computed, self.common.most_increments)
+    }
+
+    /// Increments of the run, and Newton iterations in these.
+    pub(crate) fn solves(&self) -> (usize, usize) {
+        (self.effort.increments, self.effort.iterations)
+    }
+
+    /// Times that bodies were condensed again.
+    pub(crate) fn relocations(&self) -> u64 {
+        self.common.relocations
+    }
+
+    /// Work of all contact solves.
+    pub(crate) fn work(&self) -> Work {
+        self.effort.work
+    }
+
+    /// Estimated relative error of the worn depth by the jumps so far.
+    pub(crate) fn mean_jump_error(&self) -> f64 {
+        self.common.jump.mean_error()
+    }
+}
