@@ -21,6 +21,7 @@ mod command_line;
 mod contact_resistance;
 mod docker_files;
 mod every_system_from_its_kind_alone;
+mod extruded_contact;
 mod failing_log;
 mod fault_injection;
 mod fields_open_in_vtk;

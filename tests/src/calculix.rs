@@ -37,6 +37,15 @@ pub fn nanometres(x: f64) -> String {
 /// # Panics
 /// If there are no results.
 pub fn contact_pressures(folder: &Path) -> BTreeMap<String, f64> {
+    let all = placed_pressures(folder).into_iter();
+    all.map(|((x, _), p)| (x, p)).collect()
+}
+
+/// Contact pressures of the last increment by the node's x and z, where y = 0.
+///
+/// # Panics
+/// If there are no results.
+pub fn placed_pressures(folder: &Path) -> BTreeMap<(String, String), f64> {
     let text = std::fs::read_to_string(folder.join("deck.frd")).expect("ccx wrote its results");
     let (mut block, mut places, mut pressures) = ("", BTreeMap::new(), BTreeMap::new());
     for line in text.lines() {
@@ -53,12 +62,13 @@ pub fn contact_pressures(folder: &Path) -> BTreeMap<String, f64> {
                 };
                 let node = line[3..13].trim().to_owned();
                 if block == "nodes" {
-                    places.insert(node, (value(0), value(1)));
-                } else if let (Some((Some(x), Some(y))), Some(p)) = (places.get(&node), value(3))
+                    places.insert(node, (value(0), value(1), value(2)));
+                } else if let (Some((Some(x), Some(y), z)), Some(p)) = (places.get(&node), value(3))
                     && y.abs() < 1e-9
                     && p > 0.0
                 {
-                    pressures.insert(nanometres(*x), p);
+                    let z = nanometres(z.unwrap_or(0.0));
+                    pressures.insert((nanometres(*x), z), p);
                 }
             }
             _ => {}

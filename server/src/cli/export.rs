@@ -3,9 +3,10 @@
 use std::ops::ControlFlow;
 use std::path::Path;
 
+use solver::extruded::ExtrudedScene;
 use solver::model::{self, Model};
 use solver::observer::{Event, Observer};
-use solver::record::Snapshot;
+use solver::record::{DepthProfile, Snapshot};
 use solver::scene::Scene;
 use solver::sides::Sides;
 use solver::{SolveError, ale};
@@ -15,9 +16,10 @@ use crate::export::deck;
 
 pub(super) fn run(spec: &Path, cycle: u64) -> Ended {
     let scene = specification(spec)?.scene;
-    if scene.dimension.is_finite() {
+    let extruded = ExtrudedScene::of(&scene);
+    if scene.dimension.is_finite() && extruded.is_none() {
         return Err(failed(
-            "only a section has a mesh that can be exported; write `plane_strain` for that of this contact",
+            "only a section and extruded bodies have a mesh that can be exported; write `plane_strain` for that of this contact",
         ));
     }
     if cycle > scene.cycles {
@@ -26,15 +28,20 @@ pub(super) fn run(spec: &Path, cycle: u64) -> Ended {
             scene.cycles
         )));
     }
-    let model = worn(&scene, cycle).map_err(failed)?;
-    write_out(deck::inp(&scene, &model).trim_end())
+    let models = worn(&scene, cycle).map_err(failed)?;
+    let deck = match &extruded {
+        None => deck::inp(&scene, &models[0]),
+        Some(bodies) => deck::extruded::inp(bodies, &models),
+    };
+    write_out(deck.trim_end())
 }
 
-/// Returns the model at a cycle; the unworn one needs no solve.
-fn worn(scene: &Scene, cycle: u64) -> Result<Model, SolveError> {
+/// Returns the model at a cycle, that of each node plane of extruded bodies; the unworn one needs no solve.
+fn worn(scene: &Scene, cycle: u64) -> Result<Vec<Model>, SolveError> {
     let model = model::build(scene, &solver::effects::plan(scene))?;
+    let planes = ExtrudedScene::of(scene).map_or(1, |bodies| bodies.node_planes());
     if cycle == 0 {
-        return Ok(model);
+        return Ok(vec![model; planes]);
     }
     let mut short = Scene {
         cycles: cycle,
@@ -45,13 +52,22 @@ fn worn(scene: &Scene, cycle: u64) -> Result<Model, SolveError> {
     let mut last = Last::default();
     solver::run::solve(&short, &mut last)?;
     let Some(snapshot) = last.0 else {
-        return Ok(model);
+        return Ok(vec![model; planes]);
     };
-    let depth = Sides {
-        slider: snapshot.slider.depth_mm,
-        receptacle: snapshot.receptacle.depth_mm,
+    let of_plane = |(slider, receptacle): (DepthProfile, DepthProfile)| {
+        let depth = Sides {
+            slider: slider.depth_mm,
+            receptacle: receptacle.depth_mm,
+        };
+        Ok(ale::relocate(&model, &depth)?)
     };
-    Ok(ale::relocate(&model, &depth)?)
+    if snapshot.stations.is_empty() {
+        return Ok(vec![of_plane((snapshot.slider, snapshot.receptacle))?]);
+    }
+    let stations = snapshot.stations.into_iter();
+    stations
+        .map(|station| of_plane((station.slider, station.receptacle)))
+        .collect()
 }
 
 /// Stores the last snapshot.

@@ -6,6 +6,7 @@
 //! Units: mm, N, MPa, one mm of depth.
 
 pub mod cycle;
+pub mod extruded;
 
 use solver::effects::Effect;
 use solver::interpolation;
@@ -39,7 +40,7 @@ CDIS, CSTR
 pub fn inp(scene: &Scene, model: &Model) -> String {
     let mut deck = Deck::default();
     let slider = deck.bodies_and_contact(scene, model, PENALTY);
-    deck.load_step(scene, &slider);
+    deck.load_step(scene.load_n_per_mm, &slider);
     let amplitude = scene.largest_amplitude_mm();
     if amplitude > 0.0 {
         deck.motion_step(amplitude);
@@ -110,11 +111,7 @@ impl Deck {
         let first_element = self.elements + 1;
         let cells = model.mesh.cells();
         self.cells(name, &cells, first_node);
-        let (modulus, ratio) = (elastic.youngs_modulus_mpa, elastic.poisson_ratio);
-        self.line(format!(
-            "*MATERIAL, NAME={name}\n*ELASTIC\n{modulus:e}, {ratio}"
-        ));
-        self.line(format!("*SOLID SECTION, ELSET={name}, MATERIAL={name}\n1."));
+        self.material(name, elastic, "\n1.");
         self.surface(name, model, &cells, first_element);
         let spines = model.mesh.spines();
         let far: Vec<usize> = (0..spines)
@@ -130,6 +127,17 @@ impl Deck {
             control_node: far[spines / 2],
             far,
         }
+    }
+
+    /// The material of a body, whose section may have a thickness.
+    fn material(&mut self, name: &str, elastic: Elastic, thickness: &str) {
+        let (modulus, ratio) = (elastic.youngs_modulus_mpa, elastic.poisson_ratio);
+        self.line(format!(
+            "*MATERIAL, NAME={name}\n*ELASTIC\n{modulus:e}, {ratio}"
+        ));
+        self.line(format!(
+            "*SOLID SECTION, ELSET={name}, MATERIAL={name}{thickness}"
+        ));
     }
 
     fn cells(&mut self, name: &str, cells: &[Cell], first_node: usize) {
@@ -201,10 +209,11 @@ impl Deck {
         self.line("*BOUNDARY\nRECEPTACLE_FAR, 1, 2\nSLIDER_FAR, 1, 1");
     }
 
-    fn load_step(&mut self, scene: &Scene, slider: &Part) {
+    /// The step that applies a load in N, or in N per mm of depth.
+    fn load_step(&mut self, load: f64, slider: &Part) {
         self.line("*STEP, INC=1000\n*STATIC\n0.05, 1., 1e-6, 0.25\n*CLOAD");
-        let (node, load) = (slider.control_node, -scene.load_n_per_mm);
-        self.line(format!("{node}, 2, {load:e}"));
+        let node = slider.control_node;
+        self.line(format!("{node}, 2, {:e}", -load));
         self.line(OUTPUT);
     }
 

@@ -56,7 +56,7 @@ impl ExtrudedScene {
     }
 
     /// The node planes of the half width.
-    pub(super) fn planes(&self) -> NodePlanes {
+    pub fn planes(&self) -> NodePlanes {
         NodePlanes::new(self.width_mm, self.layers, self.growth)
     }
 

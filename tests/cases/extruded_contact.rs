@@ -1,0 +1,136 @@
+//! Requirement: extruded bodies are a job like any other, with their node planes as sections, and their exported deck is solved by
+//! CalculiX to the same pressures.
+
+use serde_json::{Value, json};
+use solver::extruded::{ExtrudedScene, run};
+use std::ops::ControlFlow;
+use tests::{Server, calculix, fretwear, spec};
+
+/// A cylinder on a flat between free ends, 0.2 mm wide, with a stroke that hardly moves it.
+const CYLINDER: &str = r#"{
+  "system": {"kind": "cylinder_on_flat"},
+  "model": {"dimension": "extruded", "width_mm": 0.2, "layers": 2},
+  "interface": {"friction": {"law": "frictionless"}},
+  "load": {"kind": "line_force", "n_per_mm": 18.5},
+  "motion": {"kind": "reciprocating", "amplitude_mm": 1e-5},
+  "accuracy": {"preset": "draft", "overrides": {"contact_element_mm": 0.005}}
+}"#;
+
+fn number(value: &Value) -> f64 {
+    value.as_f64().expect("a number")
+}
+
+#[tokio::test]
+async fn the_source_s_extruded_wire_is_a_job_with_node_planes() {
+    let folder = tempfile::tempdir().expect("a folder can be made");
+    let server = Server::start(folder.path());
+    let text = std::fs::read(spec("fuzz_button_extruded.json")).expect("it is there");
+    let mut wire: Value = serde_json::from_slice(&text).expect("JSON");
+    wire["cycles"] = json!(40);
+    wire["accuracy"] = json!({"preset": "draft"});
+    wire["output"] = json!({"stations_mm": [0.0], "snapshots_at_cycles": [10, 40]});
+    let (status, job) = server.submit(wire.to_string()).await;
+    assert_eq!(status, 202, "{job}");
+    let id = job["id"].as_str().expect("a job has an id").to_owned();
+    let job = server
+        .job_when(&id, |job| job["finished_at"].is_string())
+        .await;
+    assert_eq!(job["outcome"], "completed", "{job}");
+    let summary = &job["summary"];
+    let planes = summary["stations"].as_array().expect("node planes");
+    assert_eq!(planes.len(), 2);
+    // 2 k P' a cycle but for the first ones, whatever the ends; the width shares the force.
+    let sunk = 40.0 * 2.0 * 0.011 / 427.0 * 0.508;
+    for plane in planes {
+        let depth = number(&plane["receptacle"]["max_depth_mm"]);
+        assert!((depth / sunk - 1.0).abs() < 0.05, "{depth} {sunk}");
+    }
+    assert!((number(&planes[0]["z_mm"]) - 0.005_29).abs() < 1e-12);
+    let force = number(&summary["extent"]["load_n"]);
+    assert!((force - 0.508 * 0.010_58).abs() < 1e-9, "{force}");
+    let results = format!("/v1/jobs/{id}/results");
+    let end = server
+        .get_in_the_end(&format!("{results}/profile?cycle=40&station=0"))
+        .await
+        .1;
+    let middle = server.get(&format!("{results}/profile?cycle=40")).await.1;
+    assert_ne!(end["receptacle"], middle["receptacle"]);
+    let last = server
+        .get(&format!("{results}/profile?cycle=40&station=1"))
+        .await
+        .1;
+    assert_eq!(last["receptacle"], middle["receptacle"]);
+}
+
+/// The first step of a deck with the slider's top lowered by an approach in mm, because CalculiX does not find the first contact under a load.
+fn lowered(deck: &str, approach_mm: f64) -> String {
+    let second = deck.rfind("*STEP").expect("it has two steps");
+    let (before, load) = deck[..second].split_once("*CLOAD\n").expect("a load");
+    let (load, after) = load.split_once('\n').expect("further lines");
+    let node = load.split(',').next().expect("the control node");
+    let before = before.replace("0.05, 1., 1e-6, 0.25", "0.1, 1., 1e-6, 0.1");
+    format!(
+        "{before}*BOUNDARY\n{node}, 2, 2, {:.6e}\n{after}",
+        -approach_mm
+    )
+}
+
+/// Pressures of all node planes under our approach, relative to the peak, but for the last three nodes at the edges, where the penalty of CalculiX
+/// alternates: the elements are twice as long as those of the plane deck.
+#[test]
+#[cfg_attr(not(has_ccx), ignore = "needs the program ccx of CalculiX")]
+fn pressures_of_all_planes_agree_with_calculix() {
+    let folder = tempfile::tempdir().expect("a folder can be made");
+    let scene = server::spec::read(CYLINDER.as_bytes())
+        .expect("the specification is sound")
+        .scene;
+    let mut bodies = ExtrudedScene::of(&scene).expect("it is extruded");
+    bodies.section.cycles = 0;
+    let ours = run(&bodies, |_| ControlFlow::Continue(())).expect("it can be solved");
+    let deck = calculix::deck(folder.path(), CYLINDER);
+    calculix::run(folder.path(), &lowered(&deck, ours.approach_mm));
+    let theirs = calculix::placed_pressures(folder.path());
+    let peak = ours.pressures_mpa.iter().flatten();
+    let peak = peak.fold(0.0, |m: f64, p| m.max(*p));
+    let half_width = ours.initial.stations[0].half_width_mm;
+    let z = bodies.planes().z().to_vec();
+    let nodes = &ours.profiles[0].x_mm.receptacle;
+    let (mut compared, mut largest) = (0, 0.0_f64);
+    for (node, x) in nodes.iter().enumerate() {
+        if x.abs() > 0.55 * half_width {
+            continue;
+        }
+        let [end, middle] = [0, 1].map(|plane: usize| {
+            let place = (calculix::nanometres(*x), calculix::nanometres(z[plane]));
+            *theirs.get(&place).expect("the same node")
+        });
+        // Its pressures are linear along z; ours are nodal forces over the lengths of the planes.
+        let lumped = [(2.0 * end + middle) / 3.0, (end + 2.0 * middle) / 3.0];
+        for (own, theirs) in ours.pressures_mpa.iter().zip(lumped) {
+            largest = largest.max((own[node] - theirs).abs() / peak);
+            compared += 1;
+        }
+    }
+    println!("extruded against CalculiX: {compared} nodes within {largest:.4} of the peak");
+    assert!(compared > 20, "{compared} nodes");
+    assert!(largest < 0.02, "{largest}");
+}
+
+#[test]
+fn a_worn_deck_has_the_depths_of_each_plane() {
+    let folder = tempfile::tempdir().expect("a folder can be made");
+    let text = r#"{"system":{"kind":"fuzz_button"},"model":{"preset":"source_extruded"},"accuracy":{"preset":"draft"},"cycles":3}"#;
+    std::fs::write(folder.path().join("wire.json"), text).expect("a file can be written");
+    let deck = |cycle: &str| {
+        let deck = fretwear(
+            folder.path(),
+            &["export", "wire.json", "--format", "inp", "--cycle", cycle],
+        );
+        assert_eq!(deck.code, Some(0), "{}", deck.stderr);
+        deck.stdout
+    };
+    let (unworn, worn) = (deck("0"), deck("3"));
+    assert!(unworn.contains("TYPE=C3D8I"));
+    assert_eq!(unworn.lines().count(), worn.lines().count());
+    assert_ne!(unworn, worn);
+}
