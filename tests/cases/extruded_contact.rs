@@ -112,7 +112,7 @@ fn pressures_of_all_planes_agree_with_calculix() {
         }
     }
     println!("extruded against CalculiX: {compared} nodes within {largest:.4} of the peak");
-    assert!(compared > 20, "{compared} nodes");
+    assert!(compared > 15, "{compared} nodes");
     assert!(largest < 0.02, "{largest}");
 }
 
