@@ -26,8 +26,7 @@ const BESIDE: f64 = 0.5;
 /// Iterations for the common height of a rigid top, as solves of a section alone. Measured: 3.6 iterations, most of them from the
 /// last one's contact.
 const RIGID_SOLVES: f64 = 2.2;
-/// Iterations for the nodes of all planes, as solves of a plane contact of so many nodes. Measured: 1.8 to 4 iterations, and 1.8 times the
-/// increments where the slider wears.
+/// Iterations for the nodes of all planes, as solves of a plane contact of so many nodes. Measured: 1.8 to 4 iterations.
 const EXTRUDED_SOLVES: f64 = 2.0;
 
 /// Estimated work of the run of a contact along a line.

@@ -80,11 +80,21 @@ impl ExtrudedIntegrator {
         stroke
     }
 
+    /// Mean half-width of the contact of a single cycle, mm: planes take the load from each other.
+    fn single_cycle_half_width(&self) -> f64 {
+        let states = self.contact.planes.states.iter();
+        let planes = states.zip(&self.bodies.shares);
+        let mean: f64 = planes
+            .map(|(state, share)| share * state.neutral.half_width)
+            .sum();
+        mean.max(self.common.unworn_half_width)
+    }
+
     /// Increments and replays of a cycle.
     pub(super) fn cycle_plan(&self, cycles: Cycles) -> CyclePlan {
         let followed = Followed {
             half_width: self.contact.planes.mean_half_width,
-            single: self.common.unworn_half_width,
+            single: self.single_cycle_half_width(),
             sticks: false,
         };
         let run = (self.plane.motion, &self.plane.accuracy);
