@@ -150,7 +150,8 @@ fn a_dimple_has_no_deck_of_a_section() {
         ran.stderr
     );
     assert!(
-        ran.stderr.contains("only a section has a mesh"),
+        ran.stderr
+            .contains("only a section and extruded bodies have a mesh"),
         "{}",
         ran.stderr
     );
