@@ -1,9 +1,12 @@
 //! Sections along a line: where they lie, and what runs report of them. Of a line of stations they are its stations, of extruded bodies their
 //! node planes.
 
+mod record;
+
 use serde::{Deserialize, Serialize};
 
 use crate::sides::{Side, Sides};
+pub(crate) use record::{LineRecord, Placed};
 
 /// Where a section lies on its line.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -94,4 +97,32 @@ impl StationProfile {
             (*depth, width * self.weight_mm)
         })
     }
+}
+
+/// Why sections along a line cannot be worn on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Ending {
+    /// A body is nearly consumed in the section of this number.
+    WornThrough(usize),
+    /// The groove of the section of this number is as deep below an end of its surface as the slider's radius.
+    DeeperThanRadius(usize),
+}
+
+/// Depth of a groove below the higher one of the ends of its surface, mm.
+pub(crate) fn groove_mm(depth: &[f64]) -> f64 {
+    let ends = depth.first().zip(depth.last());
+    let rim = ends.map_or(0.0, |(first, last)| first.min(*last));
+    depth.iter().fold(0.0, |most: f64, depth| most.max(*depth)) - rim
+}
+
+/// |worn area of a profile - integral of the wear rate| over the latter, of the worse side.
+pub(crate) fn worn_area_residual(worn: Sides<f64>, expected: Sides<f64>) -> f64 {
+    let residual = worn.zip(expected).map(|(area, expected)| {
+        if expected > 0.0 {
+            (area / expected - 1.0).abs()
+        } else {
+            0.0
+        }
+    });
+    residual.slider.max(residual.receptacle)
 }

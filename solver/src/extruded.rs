@@ -23,15 +23,14 @@ mod bodies;
 mod cycle;
 mod error;
 mod integrator;
-mod placed;
 mod record;
 mod run;
 mod scene;
 mod state;
 
 pub use error::ExtrudedError;
-pub(crate) use integrator::{Ending, ExtrudedIntegrator};
+pub(crate) use integrator::ExtrudedIntegrator;
 pub use record::{ExtrudedOutcome, ExtrudedSummary};
 pub use run::run;
-pub use scene::ExtrudedScene;
+pub use scene::{ExtrudedScene, MOST_LAYERS};
 pub use state::ExtrudedState;

@@ -36,7 +36,7 @@ mod threads;
 mod top;
 
 pub use error::StationError;
-pub(crate) use integrator::{Ending, LineIntegrator};
+pub(crate) use integrator::LineIntegrator;
 pub use record::{StationOutcome, StationSummary};
 pub use run::run;
 pub use scene::{StationScene, stations_for};

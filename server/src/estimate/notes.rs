@@ -71,6 +71,13 @@ fn fuzz_button(resolved: &Resolved) -> Vec<String> {
              plane, and half of it stands for both"
         ));
     }
+    if resolved.scene.dimension.extruded().is_some() {
+        notes.push(
+            "the source holds the top of its extruded wire along z and the bottom of the block, and says nothing of their ends: they are \
+             free here if `ends` is not given, and `held` ends are plane strain; it gives the layers no lengths, even ones are taken"
+                .to_owned(),
+        );
+    }
     let load = resolved.spec.load.as_ref();
     let is_pressure = load.is_some_and(|load| load.kind == EnumValue::from(LoadKind::Pressure));
     if is_pressure {
@@ -97,6 +104,14 @@ mod tests {
         let base = of(r#"{"system":{"kind":"fuzz_button"}}"#);
         assert_eq!(base.len(), 4, "{base:?}");
         assert!(base[0].starts_with("427 MPa"));
+        let ends = |model: &str| {
+            let notes = of(&format!(
+                r#"{{"system":{{"kind":"fuzz_button"}},"model":{model}}}"#
+            ));
+            notes.iter().any(|note| note.contains("`held` ends"))
+        };
+        assert!(ends(r#"{"preset":"source_extruded"}"#));
+        assert!(!ends(r#"{"preset":"source_ring"}"#));
         // The copper below its plating.
         let plated = of(r#"{"system":{"kind":"sd_card"}}"#);
         assert!(plated.len() == 1 && plated[0].starts_with("427 MPa"));

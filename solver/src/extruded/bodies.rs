@@ -50,6 +50,11 @@ impl Bodies {
         &self.unworn
     }
 
+    /// Width of both bodies, mm.
+    pub(super) fn width_mm(&self) -> f64 {
+        self.scene.width_mm
+    }
+
     /// Degrees of freedom of both meshes.
     pub(super) fn dofs(&self) -> usize {
         let bodies = &self.unworn.bodies;

@@ -1,9 +1,9 @@
 //! Increments of a computed cycle: all planes take them together.
 
 use super::bodies::Bodies;
-use super::placed::{CycleRecord, Placed};
 use super::state::{Effort, PlaneState, Planes};
 use crate::ale::Spines;
+use crate::along_line::{LineRecord, Placed};
 use crate::contact::planes::{Extruded, ExtrudedSolver, PlaneWear, Slide, Solved};
 use crate::contact::{self, ContactError, ContactState, Pair, Solver, Surfaces, WarmStart, Work};
 use crate::cycle::step_control::RETRY;
@@ -97,11 +97,11 @@ impl Contact {
         bodies: &Bodies,
         steps: &[Step],
         (cycles, replays): (f64, &ReplayPlan),
-    ) -> Result<CycleRecord, (u32, ContactError)> {
+    ) -> Result<LineRecord, (u32, ContactError)> {
         self.update_slopes(bodies);
         let mut starts = vec![WarmStarts::default(); self.planes.states.len()];
         let (mut half_widths, mut touching) = (0.0, 0);
-        let (mut record, mut replayed) = (CycleRecord::default(), Vec::new());
+        let (mut record, mut replayed) = (LineRecord::default(), Vec::new());
         for (number, step) in steps.iter().enumerate() {
             for &(_, end) in replays.spans.iter().filter(|span| span.0 == number) {
                 replayed.extend(self.replay(bodies, &steps[number..=end], replays));
@@ -120,7 +120,8 @@ impl Contact {
                 half_widths += half_width;
                 touching += 1;
             }
-            record.push(step.slider_x, self.tangential_force(bodies), bodies);
+            let force_n = bodies.width_mm() * self.tangential_force(bodies);
+            record.push((step.slider_x, force_n), bodies.width_mm());
             if let Some(position) = step.at {
                 let found = replayed
                     .iter()

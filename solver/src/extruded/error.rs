@@ -16,10 +16,12 @@ pub enum ExtrudedError {
         value: f64,
     },
     /// No node plane would lie in the middle of the width.
-    #[error("{layers} layers over the width, must be an even number from 2 to 200")]
+    #[error("{layers} layers over the width, must be an even number from 2 to {limit}")]
     Layers {
         /// Their number.
         layers: usize,
+        /// The largest one.
+        limit: u32,
     },
     /// A motion with turning points inside, or without any.
     #[error("extruded bodies slide to and fro between two turning points")]
@@ -47,7 +49,7 @@ pub enum ExtrudedError {
         /// Half of the length, mm.
         half_block_mm: f64,
     },
-    /// A wear rate that depends on the state or on the depth.
+    /// A wear rate that depends on the state.
     #[error("the wear rate of the {side} is not the same in every state")]
     Law {
         /// The body.

@@ -6,9 +6,9 @@ mod report;
 use super::bodies::Bodies;
 use super::cycle::Contact;
 use super::error::ExtrudedError;
-use super::placed::CycleRecord;
 use super::scene::ExtrudedScene;
 use super::state::{Common, ExtrudedState};
+use crate::along_line::LineRecord;
 use crate::contact::ContactError;
 use crate::effects::EffectsPlan;
 use crate::model;
@@ -18,7 +18,6 @@ use crate::schedule::increments;
 use crate::schedule::plan::Cycles;
 use crate::schedule::replay::ReplayPlan;
 use crate::schedule::step::Position;
-pub(crate) use report::Ending;
 
 /// Computes the cycles of extruded bodies.
 pub(crate) struct ExtrudedIntegrator {
@@ -29,7 +28,7 @@ pub(crate) struct ExtrudedIntegrator {
     contact: Contact,
     common: Common,
     /// What the last computed cycle has recorded.
-    record: CycleRecord,
+    record: LineRecord,
 }
 
 impl ExtrudedIntegrator {
@@ -46,9 +45,10 @@ impl ExtrudedIntegrator {
             run.widen_or(0, source)?;
         }
         run.common.unworn_half_width = run.contact.planes.mean_half_width;
-        run.take_record(|contact, bodies| CycleRecord {
-            placed: vec![contact.placed(bodies, Position::Neutral)],
-            ..CycleRecord::default()
+        let placed = vec![run.contact.placed(&run.bodies, Position::Neutral)];
+        run.take_record(LineRecord {
+            placed,
+            ..LineRecord::default()
         });
         run.common.last = run.report(0, &run.paths(), (0, 0));
         let state = run.state();
@@ -84,7 +84,7 @@ impl ExtrudedIntegrator {
             contact: Contact::new(&bodies),
             bodies,
             common: Common::default(),
-            record: CycleRecord::default(),
+            record: LineRecord::default(),
         })
     }
 
@@ -122,7 +122,7 @@ impl ExtrudedIntegrator {
         }
         self.follow_wear()?;
         let before = self.contact.planes.clone();
-        let (paths, solves) = (self.paths(), self.state_of_solves());
+        let (paths, solves) = (self.paths(), self.solves());
         let done = self.common.done;
         let mut jump = self.next_jump(until.max(done + 1) - done);
         loop {
@@ -143,7 +143,7 @@ impl ExtrudedIntegrator {
                     }
                     let most = &mut self.common.most_increments;
                     *most = (*most).max(steps.len());
-                    self.take_record(|_, _| record);
+                    self.take_record(record);
                     break;
                 }
                 Err(failed) => failed,
@@ -165,15 +165,10 @@ impl ExtrudedIntegrator {
     }
 
     /// Takes a record, with the contacts of its neutral position.
-    fn take_record(&mut self, record: impl FnOnce(&mut Contact, &Bodies) -> CycleRecord) {
-        let record = record(&mut self.contact, &self.bodies);
-        let mut placed = record.placed.iter();
-        let neutral = placed.find(|placed| placed.position == Position::Neutral);
-        if let Some(placed) = neutral {
-            let states = self.contact.planes.states.iter_mut();
-            for (state, found) in states.zip(&placed.found) {
-                state.neutral = *found;
-            }
+    fn take_record(&mut self, record: LineRecord) {
+        let states = self.contact.planes.states.iter_mut();
+        for (state, found) in states.zip(record.neutral()) {
+            state.neutral = *found;
         }
         self.record = record;
     }
@@ -220,7 +215,7 @@ impl ExtrudedIntegrator {
         self.bodies.follow(&self.common)
     }
 
-    fn state_of_solves(&self) -> (usize, usize) {
+    fn solves(&self) -> (usize, usize) {
         let effort = &self.contact.effort;
         (effort.increments, effort.iterations)
     }

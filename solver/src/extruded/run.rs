@@ -3,10 +3,10 @@
 use std::ops::ControlFlow;
 
 use super::error::ExtrudedError;
-use super::integrator::{Ending, ExtrudedIntegrator};
+use super::integrator::ExtrudedIntegrator;
 use super::record::{ExtrudedOutcome, ExtrudedSummary};
 use super::scene::ExtrudedScene;
-use crate::along_line::StationCycle;
+use crate::along_line::{Ending, StationCycle};
 use crate::effects;
 
 /// Simulates extruded bodies. Cycles are delivered as they are computed; `Break` ends the run after that cycle.

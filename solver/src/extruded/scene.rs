@@ -27,7 +27,7 @@ pub struct ExtrudedScene {
 const MOST_NODES: usize = 3_000;
 
 /// Most layers: node planes multiply the nodes of a section.
-const MOST_LAYERS: usize = 200;
+pub const MOST_LAYERS: u32 = 200;
 
 impl ExtrudedScene {
     /// The extruded bodies of a scene; `None` for another one.
@@ -154,8 +154,11 @@ impl ExtrudedScene {
                 return Err(ExtrudedError::Value { name, value });
             }
         }
-        if !(2..=MOST_LAYERS).contains(&self.layers) || !self.layers.is_multiple_of(2) {
+        let is_counted =
+            u32::try_from(self.layers).is_ok_and(|layers| (2..=MOST_LAYERS).contains(&layers));
+        if !is_counted || !self.layers.is_multiple_of(2) {
             return Err(ExtrudedError::Layers {
+                limit: MOST_LAYERS,
                 layers: self.layers,
             });
         }

@@ -4,9 +4,9 @@ use super::height::Height;
 use super::section::{Increment, Station};
 use super::state::{Common, StationState};
 use super::top::{Carrier, Unsolved};
-use crate::contact::ContactState;
+use crate::along_line::{LineRecord, Placed};
+use crate::cycle::WarmStarts;
 use crate::cycle::step_control::RETRY;
-use crate::cycle::{FrictionLoop, Neutral, WarmStarts};
 use crate::number::real;
 use crate::schedule::replay::ReplayPlan;
 use crate::schedule::step::{Position, Step};
@@ -16,25 +16,6 @@ pub(super) struct Line {
     pub(super) carrier: Carrier,
     pub(super) stations: Vec<Station>,
     pub(super) common: Common,
-}
-
-/// Contacts of all stations at a named position.
-pub(super) struct Placed {
-    pub(super) position: Position,
-    pub(super) slider_x: f64,
-    pub(super) contacts: Vec<ContactState>,
-    /// Their loads, pressures and widths.
-    pub(super) found: Vec<Neutral>,
-    /// |sum of vertical forces with the normals as worn there - force| over the force.
-    pub(super) imbalance: f64,
-}
-
-/// Record of a computed cycle besides the state.
-#[derive(Default)]
-pub(super) struct LineRecord {
-    /// Force of the slider along the motion, N, and that over the length of the line.
-    pub(super) friction_loop: FrictionLoop,
-    pub(super) placed: Vec<Placed>,
 }
 
 impl Line {
@@ -221,15 +202,6 @@ impl Line {
             };
         }
         (self.common.height, self.common.slider_x) = (before.1, before.2);
-    }
-}
-
-impl LineRecord {
-    fn push(&mut self, (displacement, force_n): (f64, f64), length_mm: f64) {
-        let found = &mut self.friction_loop;
-        found.displacement_mm.push(displacement);
-        found.tangential_force_n_per_mm.push(force_n / length_mm);
-        found.tangential_force_n.push(force_n);
     }
 }
 

@@ -5,7 +5,7 @@ mod report;
 
 use std::sync::Arc;
 
-use super::cycle::{Line, LineRecord};
+use super::cycle::Line;
 use super::error::StationError;
 use super::height::Height;
 use super::meshed::Section;
@@ -15,6 +15,7 @@ use super::section::{Increment, Station};
 use super::state::{Common, LineState, StationState};
 use super::threads::{Threads, for_each};
 use super::top::{Carrier, Unsolved};
+use crate::along_line::LineRecord;
 use crate::contact::ContactState;
 use crate::effects::EffectsPlan;
 use crate::model;
@@ -24,7 +25,6 @@ use crate::schedule::increments;
 use crate::schedule::plan::Cycles;
 use crate::schedule::replay::ReplayPlan;
 use crate::schedule::step::Position;
-pub(crate) use report::Ending;
 
 /// The load at the neutral position, without sliding.
 const FIRST_LOAD: Increment = Increment {
@@ -272,14 +272,8 @@ impl LineIntegrator {
 
     /// Takes the record of a cycle, with the contacts of its neutral position.
     fn take_record(&mut self, record: LineRecord) {
-        let neutral = record
-            .placed
-            .iter()
-            .find(|placed| placed.position == Position::Neutral);
-        if let Some(placed) = neutral {
-            for (station, found) in self.line.stations.iter_mut().zip(&placed.found) {
-                station.state.neutral = *found;
-            }
+        for (station, found) in self.line.stations.iter_mut().zip(record.neutral()) {
+            station.state.neutral = *found;
         }
         self.record = record;
     }

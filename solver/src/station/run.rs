@@ -3,10 +3,10 @@
 use std::ops::ControlFlow;
 
 use super::error::StationError;
-use super::integrator::{Ending, LineIntegrator};
+use super::integrator::LineIntegrator;
 use super::record::{StationOutcome, StationSummary};
 use super::scene::StationScene;
-use crate::along_line::StationCycle;
+use crate::along_line::{Ending, StationCycle};
 use crate::effects;
 
 /// Simulates a contact along a line. Its cycles are delivered as they are computed; `Break` ends the run after that cycle.

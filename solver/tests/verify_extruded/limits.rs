@@ -2,7 +2,7 @@
 
 use super::{TWO, button, difference, loaded, loaded_plane, over_plane, solved};
 use solver::effects::Effect;
-use solver::extruded::{ExtrudedError, ExtrudedScene, run};
+use solver::extruded::{ExtrudedError, ExtrudedScene, MOST_LAYERS, run};
 use solver::scene::{Ends, Friction, Motion, WearLaw};
 use std::ops::ControlFlow;
 
@@ -145,7 +145,10 @@ fn scenes_that_extruded_bodies_do_not_describe_are_refused() {
     };
     assert_eq!(
         refused(&|scene| scene.layers = 3),
-        ExtrudedError::Layers { layers: 3 }
+        ExtrudedError::Layers {
+            layers: 3,
+            limit: MOST_LAYERS
+        }
     );
     let width = refused(&|scene| scene.width_mm = 0.0);
     assert_eq!(width.to_string(), "width in mm is 0, must be positive");

@@ -49,9 +49,9 @@ fn a_resumed_run_of_extruded_bodies_reaches_the_bits_of_the_undisturbed_one() {
     assert!(summary.resolution.relocations > 0);
 }
 
-/// The run of a scene between held ends is that of the section, with its errors.
+/// The run of a scene between held ends is that of the section within the errors that both state.
 #[test]
-fn held_ends_state_the_errors_of_the_section() {
+fn held_ends_wear_as_the_section_within_their_stated_errors() {
     let mut scene = extruded(2, Ends::Held, 40);
     scene.accuracy.estimate_errors = true;
     let (held, _) = solve(&scene).expect("it can be solved");
@@ -60,12 +60,15 @@ fn held_ends_state_the_errors_of_the_section() {
     let (plane, _) = solve(&scene).expect("it can be solved");
     let depth = |summary: &solver::record::Summary| summary.last.receptacle.max_depth_mm;
     let (held_mm, plane_mm) = (depth(&held), depth(&plane));
-    println!(
-        "held ends {held_mm:.6e} mm, the section {plane_mm:.6e} mm; stated {:?} and {:?}",
-        held.errors, plane.errors
-    );
-    // The section extrapolates its groove between two computed cycles.
-    assert!((held_mm / plane_mm - 1.0).abs() < 0.01);
+    let stated = [&held, &plane].map(|summary| {
+        let errors = summary.errors.expect("errors are estimated");
+        errors.worn_depth.relative
+    });
+    println!("held ends {held_mm:.6e} mm, the section {plane_mm:.6e} mm; stated {stated:?}");
+    // They differ by their jumps: the section extrapolates its groove between two computed cycles.
+    let off = (held_mm / plane_mm - 1.0).abs();
+    assert!(off < 0.01);
+    assert!(off <= stated[0] + stated[1], "{off} {stated:?}");
 }
 
 /// Free ends against a finer run.

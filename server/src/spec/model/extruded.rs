@@ -2,7 +2,7 @@
 
 use api::problem::Fault;
 use api::spec::{Ends, Model, SystemKind};
-use solver::extruded::{ExtrudedError, ExtrudedScene};
+use solver::extruded::{ExtrudedError, ExtrudedScene, MOST_LAYERS};
 use solver::scene::{self, Conduction, Extruded, Scene};
 use solver::sides::Sides;
 
@@ -14,8 +14,6 @@ use crate::spec::sourced::{Sourced, assumed, source};
 /// Width of the source's extruded fuzz button, mm, and its layers.
 const FUZZ_BUTTON_MM: f64 = 0.010_58;
 const LAYERS: u32 = 2;
-/// Fewest and most layers.
-const MOST_LAYERS: std::ops::RangeInclusive<u64> = 2..=200;
 /// Length of a layer over that of its neighbour toward the end.
 const GROWTH: std::ops::RangeInclusive<f64> = 1.0..=5.0;
 
@@ -75,7 +73,7 @@ pub(super) fn resolve(
 fn layers(given: Option<u32>, default: Sourced<u32>, diagnostics: &mut Diagnostics) -> u32 {
     const POINTER: &str = "/model/layers";
     let layers = diagnostics.or_default(POINTER, given, default);
-    let layers = diagnostics.check_count(POINTER, layers, &MOST_LAYERS);
+    let layers = diagnostics.check_count(POINTER, layers, &(2..=u64::from(MOST_LAYERS)));
     if !layers.is_multiple_of(2) {
         let detail = format!("{layers} is odd: the middle of the width is a node plane");
         diagnostics.fault(POINTER, detail);

@@ -1,22 +1,13 @@
 //! Reports of a run: the last computed cycle, its contacts, and what the planes have worn.
 
 use super::ExtrudedIntegrator;
-use crate::along_line::{Along, StationCycle, StationProfile, StationReport};
+use crate::along_line::{self, Along, Ending, StationCycle, StationProfile, StationReport};
 use crate::contact::ContactState;
 use crate::cycle::{Checks, FrictionLoop};
 use crate::law::surface::{self, SurfaceWear};
 use crate::number::real_cycles;
 use crate::schedule::step::Position;
 use crate::sides::{Side, Sides};
-
-/// Why extruded bodies cannot be worn on.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Ending {
-    /// A body is nearly consumed in a node plane.
-    WornThrough(usize),
-    /// The groove of a node plane is as deep below an end of its surface as the slider's radius.
-    DeeperThanRadius(usize),
-}
 
 impl ExtrudedIntegrator {
     /// Integral of p |slip| of each plane so far, N/mm mm.
@@ -96,13 +87,6 @@ impl ExtrudedIntegrator {
         })
     }
 
-    /// Depth of the groove of a plane below the higher one of its ends, mm.
-    fn groove_mm(depth: &[f64]) -> f64 {
-        let ends = depth.first().zip(depth.last());
-        let rim = ends.map_or(0.0, |(first, last)| first.min(*last));
-        depth.iter().fold(0.0, |most: f64, depth| most.max(*depth)) - rim
-    }
-
     /// Why the run ends here, if it does.
     pub(crate) fn ending(&self) -> Option<Ending> {
         let radius = self.plane.slider.shape.radius_mm;
@@ -111,7 +95,7 @@ impl ExtrudedIntegrator {
             if self.contact.spines.are_worn_through(&state.depth) {
                 Some(Ending::WornThrough(plane))
             } else {
-                let groove = Self::groove_mm(&state.depth.receptacle);
+                let groove = along_line::groove_mm(&state.depth.receptacle);
                 (groove >= radius).then_some(Ending::DeeperThanRadius(plane))
             }
         });
@@ -137,7 +121,7 @@ impl ExtrudedIntegrator {
                 .iter()
                 .copied()
                 .fold(f64::MIN_POSITIVE, f64::max);
-            let groove = (radius - Self::groove_mm(&state.depth.receptacle)) / fastest;
+            let groove = (radius - along_line::groove_mm(&state.depth.receptacle)) / fastest;
             let spines = self.contact.spines.cycles_left(&state.depth, own);
             left = left.min(spines).min(groove.max(0.0));
         }
@@ -191,18 +175,10 @@ impl ExtrudedIntegrator {
 
     /// Worst residuals so far, with those of the present worn areas.
     pub(crate) fn residuals(&self) -> Checks {
-        let residual = |worn: f64, expected: f64| {
-            if expected > 0.0 {
-                (worn / expected - 1.0).abs()
-            } else {
-                0.0
-            }
-        };
         let planes = self.contact.planes.states.iter();
         let areas = planes.map(|state| {
-            let worn = self.worn_section(&state.depth).zip(state.worn_area);
-            let both = worn.map(|(worn, expected)| residual(worn, expected));
-            both.slider.max(both.receptacle)
+            let worn = self.worn_section(&state.depth);
+            along_line::worn_area_residual(worn, state.worn_area)
         });
         Checks {
             worn_area: areas.fold(0.0, f64::max),

@@ -1,21 +1,50 @@
 //! The run of extruded bodies: its sections are the node planes of half the width, the reference is the one in the middle.
 
-use super::Contact;
-use super::sections::{self, Sections};
+use super::sections::{Sections, State};
 use crate::SolveError;
-use crate::along_line::StationProfile;
+use crate::along_line::{Ending, StationCycle, StationProfile};
 use crate::checkpoint::{ExtrudedRun, Misfit, Resumable};
-use crate::contact::ContactState;
+use crate::contact::{ContactState, Work};
 use crate::cycle::FrictionLoop;
 use crate::effects::EffectsPlan;
-use crate::electrical::{AreaContact, ContactResistance};
-use crate::extruded::{Ending, ExtrudedError, ExtrudedIntegrator, ExtrudedScene, ExtrudedState};
-use crate::record::{Checks, CycleReport, Outcome, Resolution, Snapshot, WornArea};
+use crate::extruded::{ExtrudedError, ExtrudedIntegrator, ExtrudedScene, ExtrudedState};
+use crate::record::Checks;
 use crate::scene::Scene;
 use crate::schedule::step::Position;
 use crate::sides::{Side, Sides};
 
 impl Sections for ExtrudedIntegrator {
+    type State = ExtrudedState;
+
+    fn start(scene: &Scene, plan: &EffectsPlan) -> Result<(Self, ExtrudedState), SolveError> {
+        Ok(Self::start(&bodies_of(scene)?, plan)?)
+    }
+
+    fn resume(
+        scene: &Scene,
+        plan: &EffectsPlan,
+        state: &ExtrudedState,
+    ) -> Result<Self, SolveError> {
+        let bodies = bodies_of(scene)?;
+        let (found, stations) = (state.last().stations.len(), bodies.node_planes());
+        if found != stations {
+            return Err(Misfit::Stations { found, stations }.into());
+        }
+        Ok(Self::resume(&bodies, plan, state)?)
+    }
+
+    fn compute_cycle(&mut self, state: &mut ExtrudedState, until: u64) -> Result<(), SolveError> {
+        Ok(self.compute_cycle(state, until)?)
+    }
+
+    fn cycles_left(&self) -> f64 {
+        self.cycles_left()
+    }
+
+    fn ending(&self) -> Option<Ending> {
+        self.ending()
+    }
+
     fn profile(&self, section: usize) -> StationProfile {
         self.profile(section)
     }
@@ -35,105 +64,43 @@ impl Sections for ExtrudedIntegrator {
     fn friction_loop(&self) -> &FrictionLoop {
         self.friction_loop()
     }
-}
 
-impl Contact for ExtrudedIntegrator {
-    type State = ExtrudedState;
-    type Worn = Vec<StationProfile>;
-    type Scar = WornArea;
-
-    fn start(scene: &Scene, plan: &EffectsPlan) -> Result<(Self, ExtrudedState), SolveError> {
-        Ok(Self::start(&bodies_of(scene)?, plan)?)
-    }
-
-    fn resume(
-        scene: &Scene,
-        plan: &EffectsPlan,
-        state: &mut ExtrudedState,
-    ) -> Result<Self, SolveError> {
-        let bodies = bodies_of(scene)?;
-        let (found, stations) = (state.planes(), bodies.node_planes());
-        if found != stations {
-            return Err(Misfit::Stations { found, stations }.into());
-        }
-        Ok(Self::resume(&bodies, plan, state)?)
-    }
-
-    fn compute_cycle(&mut self, state: &mut ExtrudedState, until: u64) -> Result<(), SolveError> {
-        Ok(self.compute_cycle(state, until)?)
-    }
-
-    fn cycle(state: &ExtrudedState) -> u64 {
-        state.cycle()
-    }
-
-    fn max_depth_mm(state: &ExtrudedState) -> Sides<f64> {
-        state.last().max_depth_mm()
-    }
-
-    fn fastest_rate(state: &ExtrudedState) -> Sides<f64> {
-        state.fastest_rate()
-    }
-
-    fn cycles_left(&self) -> (f64, bool) {
-        let worn_through = matches!(self.ending(), Some(Ending::WornThrough(_)));
-        (self.cycles_left(), worn_through)
-    }
-
-    fn ending(&self) -> Option<Outcome> {
-        self.ending().map(|ending| match ending {
-            Ending::WornThrough(_) => Outcome::WornThrough,
-            Ending::DeeperThanRadius(_) => Outcome::DeeperThanRadius,
-        })
-    }
-
-    fn area(_: &ExtrudedState, _: f64) -> Option<AreaContact> {
-        None
-    }
-
-    fn worn(&self, state: &ExtrudedState) -> Vec<StationProfile> {
-        sections::worn(self, state.planes())
-    }
-
-    fn scars(worn: &Vec<StationProfile>) -> Sides<WornArea> {
-        sections::scars(worn)
-    }
-
-    fn report(
-        &self,
-        scene: &Scene,
-        state: &ExtrudedState,
-        worn: &Vec<StationProfile>,
-        _: Option<&ContactResistance>,
-    ) -> CycleReport {
-        sections::report(self, scene, (state.last(), worn))
-    }
-
-    fn snapshot(&self, _: &Scene, state: &ExtrudedState, worn: Vec<StationProfile>) -> Snapshot {
-        sections::snapshot(self, state.last(), worn)
-    }
-
-    fn resolution(&self, state: &ExtrudedState) -> Resolution {
-        let (dofs, contact_elements, contact_element_mm) = self.size();
-        let (computed_cycles, most_increments) = state.computed();
-        Resolution {
-            contact_element_mm,
-            contact_elements,
-            increments_per_cycle: u32::try_from(most_increments).unwrap_or(u32::MAX),
-            computed_cycles,
-            work: state.work(),
-            dofs,
-            relocations: state.relocations(),
-            estimated_relative_error: state.mean_jump_error(),
-        }
-    }
-
-    fn checks(&self, _: &ExtrudedState) -> Checks {
+    fn residuals(&self) -> Checks {
         self.residuals()
+    }
+
+    fn size(&self) -> (usize, usize, f64) {
+        self.size()
     }
 
     fn resumable(run: &ExtrudedRun) -> Resumable<'_> {
         Resumable::Extruded(run)
+    }
+}
+
+impl State for ExtrudedState {
+    fn last(&self) -> &StationCycle {
+        self.last()
+    }
+
+    fn fastest_rate(&self) -> Sides<f64> {
+        self.fastest_rate()
+    }
+
+    fn computed(&self) -> (u64, usize) {
+        self.computed()
+    }
+
+    fn work(&self) -> Work {
+        self.work()
+    }
+
+    fn relocations(&self) -> u64 {
+        self.relocations()
+    }
+
+    fn mean_jump_error(&self) -> f64 {
+        self.mean_jump_error()
     }
 }
 

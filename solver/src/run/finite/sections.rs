@@ -1,18 +1,38 @@
-//! What runs of sections along a line share: reports and snapshots are those of the reference section, and of each section besides.
+//! The run of sections along a line, stations or node planes: reports and snapshots are those of the reference section, and of each section
+//! besides.
 
-use crate::along_line::{StationCycle, StationProfile};
-use crate::contact::ContactState;
+use super::Contact;
+use crate::SolveError;
+use crate::along_line::{Ending, StationCycle, StationProfile};
+use crate::checkpoint::{FiniteRun, Resumable};
+use crate::contact::{ContactState, Work};
 use crate::cycle::FrictionLoop;
+use crate::effects::EffectsPlan;
+use crate::electrical::{AreaContact, ContactResistance};
 use crate::record::{
-    self, CycleReport, DepthProfile, LineEnd, Snapshot, StationSnapshot, TractionField, WornArea,
-    tractions,
+    self, Checks, CycleReport, DepthProfile, LineEnd, Outcome, Resolution, Snapshot,
+    StationSnapshot, TractionField, WornArea, tractions,
 };
 use crate::scene::Scene;
 use crate::schedule::step::Position;
 use crate::sides::{Side, Sides};
 
-/// Sections along a line after a computed cycle.
-pub(super) trait Sections {
+/// What computes the cycles of sections along a line.
+pub(super) trait Sections: Sized {
+    /// State between two computed cycles.
+    type State: State;
+
+    /// The loaded contact before any wear.
+    fn start(scene: &Scene, plan: &EffectsPlan) -> Result<(Self, Self::State), SolveError>;
+    /// For a state of the same sections.
+    fn resume(scene: &Scene, plan: &EffectsPlan, state: &Self::State) -> Result<Self, SolveError>;
+    /// Computes the next cycle up to a number of them.
+    fn compute_cycle(&mut self, state: &mut Self::State, until: u64) -> Result<(), SolveError>;
+    /// Cycles until the run ends by the depth of a section, at the present rates.
+    fn cycles_left(&self) -> f64;
+    /// Why it cannot be worn on.
+    fn ending(&self) -> Option<Ending>;
+
     /// Worn depths of a section.
     fn profile(&self, section: usize) -> StationProfile;
     /// Contacts of a section at the named positions of the cycle, with the displacement of the slider, mm.
@@ -23,43 +43,134 @@ pub(super) trait Sections {
     fn reference(&self) -> usize;
     /// The friction loop of the cycle.
     fn friction_loop(&self) -> &FrictionLoop;
+    /// Worst residuals so far.
+    fn residuals(&self) -> Checks;
+    /// Degrees of freedom, contact elements of the receptacle, and their size in mm.
+    fn size(&self) -> (usize, usize, f64);
+
+    /// The run as that of a checkpoint.
+    fn resumable(run: &FiniteRun<Self::State>) -> Resumable<'_>;
 }
 
-/// Worn depths of all sections.
-pub(super) fn worn(sections: &impl Sections, count: usize) -> Vec<StationProfile> {
-    (0..count)
-        .map(|section| sections.profile(section))
-        .collect()
+/// What a run reads of the state of its sections.
+pub(super) trait State: Clone {
+    /// The last computed cycle.
+    fn last(&self) -> &StationCycle;
+    /// Largest wear of a place of each side per cycle in it, mm.
+    fn fastest_rate(&self) -> Sides<f64>;
+    /// Computed cycles, and the most increments of one.
+    fn computed(&self) -> (u64, usize);
+    /// Work of all contact solves.
+    fn work(&self) -> Work;
+    /// Times that sections were condensed again.
+    fn relocations(&self) -> u64;
+    /// Estimated relative error of the worn depth by the jumps so far.
+    fn mean_jump_error(&self) -> f64;
 }
 
-/// The scar over the whole line.
-pub(super) fn scars(worn: &[StationProfile]) -> Sides<WornArea> {
-    Sides::from_fn(|side| {
-        let cells = worn.iter().flat_map(|station| station.cells(side));
-        WornArea::of_cells(cells)
-    })
-}
+impl<S: Sections> Contact for S {
+    type State = S::State;
+    type Worn = Vec<StationProfile>;
+    type Scar = WornArea;
 
-/// The report of a cycle.
-pub(super) fn report(
-    sections: &impl Sections,
-    scene: &Scene,
-    (cycle, profiles): (&StationCycle, &[StationProfile]),
-) -> CycleReport {
-    record::line_report(&LineEnd {
-        scene,
-        cycle,
-        profiles,
-        reference: sections.reference(),
-    })
+    fn start(scene: &Scene, plan: &EffectsPlan) -> Result<(Self, S::State), SolveError> {
+        S::start(scene, plan)
+    }
+
+    fn resume(scene: &Scene, plan: &EffectsPlan, state: &mut S::State) -> Result<Self, SolveError> {
+        S::resume(scene, plan, state)
+    }
+
+    fn compute_cycle(&mut self, state: &mut S::State, until: u64) -> Result<(), SolveError> {
+        Sections::compute_cycle(self, state, until)
+    }
+
+    fn cycle(state: &S::State) -> u64 {
+        state.last().cycle
+    }
+
+    fn max_depth_mm(state: &S::State) -> Sides<f64> {
+        state.last().max_depth_mm()
+    }
+
+    fn fastest_rate(state: &S::State) -> Sides<f64> {
+        state.fastest_rate()
+    }
+
+    fn cycles_left(&self) -> (f64, bool) {
+        let worn_through = matches!(Sections::ending(self), Some(Ending::WornThrough(_)));
+        (Sections::cycles_left(self), worn_through)
+    }
+
+    fn ending(&self) -> Option<Outcome> {
+        Sections::ending(self).map(|ending| match ending {
+            Ending::WornThrough(_) => Outcome::WornThrough,
+            Ending::DeeperThanRadius(_) => Outcome::DeeperThanRadius,
+        })
+    }
+
+    fn area(_: &S::State, _: f64) -> Option<AreaContact> {
+        None
+    }
+
+    fn worn(&self, state: &S::State) -> Vec<StationProfile> {
+        let sections = 0..state.last().stations.len();
+        sections.map(|section| self.profile(section)).collect()
+    }
+
+    /// The scar over the whole line.
+    fn scars(worn: &Vec<StationProfile>) -> Sides<WornArea> {
+        Sides::from_fn(|side| {
+            let cells = worn.iter().flat_map(|station| station.cells(side));
+            WornArea::of_cells(cells)
+        })
+    }
+
+    fn report(
+        &self,
+        scene: &Scene,
+        state: &S::State,
+        worn: &Vec<StationProfile>,
+        _: Option<&ContactResistance>,
+    ) -> CycleReport {
+        record::line_report(&LineEnd {
+            scene,
+            cycle: state.last(),
+            profiles: worn,
+            reference: self.reference(),
+        })
+    }
+
+    fn snapshot(&self, _: &Scene, state: &S::State, worn: Vec<StationProfile>) -> Snapshot {
+        snapshot(self, state.last(), worn)
+    }
+
+    fn resolution(&self, state: &S::State) -> Resolution {
+        let (dofs, contact_elements, contact_element_mm) = self.size();
+        let (computed_cycles, most_increments) = state.computed();
+        Resolution {
+            contact_element_mm,
+            contact_elements,
+            increments_per_cycle: u32::try_from(most_increments).unwrap_or(u32::MAX),
+            computed_cycles,
+            work: state.work(),
+            dofs,
+            relocations: state.relocations(),
+            estimated_relative_error: state.mean_jump_error(),
+        }
+    }
+
+    fn checks(&self, _: &S::State) -> Checks {
+        self.residuals()
+    }
+
+    fn resumable(run: &FiniteRun<S::State>) -> Resumable<'_> {
+        S::resumable(run)
+    }
 }
 
 /// The snapshot of a cycle.
-pub(super) fn snapshot(
-    sections: &impl Sections,
-    cycle: &StationCycle,
-    worn: Vec<StationProfile>,
-) -> Snapshot {
+fn snapshot(sections: &impl Sections, cycle: &StationCycle, worn: Vec<StationProfile>) -> Snapshot {
     let reports = cycle.stations.iter();
     let stations: Vec<StationSnapshot> = reports
         .zip(worn)

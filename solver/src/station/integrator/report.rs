@@ -1,7 +1,7 @@
 //! Reports of a run: the last computed cycle, its contacts, and what the stations have worn.
 
 use super::LineIntegrator;
-use crate::along_line::{StationCycle, StationProfile, StationReport};
+use crate::along_line::{Ending, StationCycle, StationProfile, StationReport};
 use crate::contact::ContactState;
 use crate::cycle::{Checks, FrictionLoop};
 use crate::law::surface::SurfaceWear;
@@ -9,15 +9,6 @@ use crate::number::real_cycles;
 use crate::schedule::step::Position;
 use crate::sides::{Side, Sides};
 use crate::station::section::Station;
-
-/// Why a line cannot be worn on.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Ending {
-    /// A body is nearly consumed under a station.
-    WornThrough(usize),
-    /// The groove of a station is as deep below an end of its surface as the slider's radius.
-    DeeperThanRadius(usize),
-}
 
 impl LineIntegrator {
     /// Integral of p |slip| of each station so far, N/mm mm.

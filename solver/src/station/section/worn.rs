@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use super::Station;
 use crate::ale;
+use crate::along_line;
 use crate::law::surface::{self, SurfaceWear};
 use crate::law::wear::LocalState;
 use crate::scene::Accuracy;
@@ -27,23 +28,12 @@ impl Station {
 
     /// |worn area of the profile - integral of the wear rate| over the latter, of the worse side.
     pub(in crate::station) fn worn_area_residual(&self) -> f64 {
-        let worn = self.worn_section().zip(self.state.worn_area);
-        let residual = worn.map(|(area, expected)| {
-            if expected > 0.0 {
-                (area / expected - 1.0).abs()
-            } else {
-                0.0
-            }
-        });
-        residual.slider.max(residual.receptacle)
+        along_line::worn_area_residual(self.worn_section(), self.state.worn_area)
     }
 
     /// Depth of the receptacle's groove below the higher one of its ends, mm.
     pub(in crate::station) fn groove_mm(&self) -> f64 {
-        let depth = &self.state.depth.receptacle;
-        let ends = depth.first().zip(depth.last());
-        let rim = ends.map_or(0.0, |(first, last)| first.min(*last));
-        depth.iter().fold(0.0, |most: f64, depth| most.max(*depth)) - rim
+        along_line::groove_mm(&self.state.depth.receptacle)
     }
 
     /// Whether a body is nearly consumed.

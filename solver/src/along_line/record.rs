@@ -1,0 +1,42 @@
+//! What a computed cycle of sections along a line records besides its state: contacts at named positions and the friction loop.
+
+use crate::contact::ContactState;
+use crate::cycle::{FrictionLoop, Neutral};
+use crate::schedule::step::Position;
+
+/// Contacts of all sections at a named position.
+#[derive(Debug, Clone)]
+pub(crate) struct Placed {
+    pub(crate) position: Position,
+    pub(crate) slider_x: f64,
+    pub(crate) contacts: Vec<ContactState>,
+    /// Their loads, pressures and widths.
+    pub(crate) found: Vec<Neutral>,
+    /// |sum of vertical forces with the normals as worn there - force| over the force.
+    pub(crate) imbalance: f64,
+}
+
+/// Record of a computed cycle.
+#[derive(Debug, Default)]
+pub(crate) struct LineRecord {
+    /// Force of the slider along the motion, N, and that over the length of the line.
+    pub(crate) friction_loop: FrictionLoop,
+    pub(crate) placed: Vec<Placed>,
+}
+
+impl LineRecord {
+    /// Appends a point of the loop.
+    pub(crate) fn push(&mut self, (displacement, force_n): (f64, f64), length_mm: f64) {
+        let found = &mut self.friction_loop;
+        found.displacement_mm.push(displacement);
+        found.tangential_force_n_per_mm.push(force_n / length_mm);
+        found.tangential_force_n.push(force_n);
+    }
+
+    /// The contacts at the neutral position of each section, where it was passed.
+    pub(crate) fn neutral(&self) -> &[Neutral] {
+        let mut placed = self.placed.iter();
+        let neutral = placed.find(|placed| placed.position == Position::Neutral);
+        neutral.map_or(&[], |placed| &placed.found)
+    }
+}
