@@ -35,7 +35,7 @@ pub use life::{Criterion, CriterionKind, LifeSettings, Part};
 pub use load::{Load, LoadKind};
 pub use materials::{Material, MaterialProperties, Materials};
 pub use mission::{MissionBlock, MissionOrder};
-pub use model::{Dimension, Ends, Model, ModelPreset, Top};
+pub use model::{Dimension, Ends, Model, ModelPreset, RingMotion, Top};
 pub use motion::{DerivedMotion, Drive, FourierTerm, Motion, MotionKind, PsdPoint, Waveform};
 pub use plating::{PlatingLayer, Platings};
 pub use read::{ParseError, pointer_token};

@@ -9,6 +9,7 @@ mod assembly;
 mod body_operators;
 mod compliance;
 mod extruded;
+pub mod harmonic;
 mod near_field;
 mod operator_error;
 mod prism_assembly;

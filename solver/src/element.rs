@@ -1,5 +1,6 @@
 //! Finite elements of linear elasticity: an element is its data plus one function.
 
+pub mod harmonic;
 pub mod hex8;
 pub mod incompatible;
 pub mod quad4;

@@ -20,7 +20,7 @@ mod turning_points;
 pub use accuracy::{Accuracy, Refinement};
 pub use body::{BlockShape, Body, SliderShape, SurfaceEffects};
 pub use criterion::Criterion;
-pub use dimension::{Dimension, Ends, Extruded, Line, LineShape, Point, Top};
+pub use dimension::{Dimension, Ends, Extruded, Line, LineShape, Point, RingMotion, Top};
 pub use electrical::{Conduction, Electrical, MOST_METALS, Metal, Spots};
 pub(crate) use heat::ContactHeat;
 pub use mission::{Block, Mission, Order};

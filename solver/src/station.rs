@@ -1,4 +1,4 @@
-//! Contact along a line in plane sections, the stations, that only their section forces couple.
+//! Contact along a line in plane sections, the stations, that are coupled by their section forces.
 //!
 //! Bodies that are long against the width of their contact deform in plane strain at each place along it. A station is the plane
 //! section there: the contact of `contact::line` on operators that all stations share until they are worn unlike. What differs along the
@@ -14,12 +14,15 @@
 //!
 //! Top: what carries the sections. `Even`: each has the mean line load F/L. `Rigid`: all have one height v, from
 //!   sum_j w_j P_j(v + g_j) = F, which a spring lowers as the top sinks,
-//! by Newton's method, with the section forces P_j and their derivatives from the sections' own solutions (`top`).
+//! by Newton's method, with the section forces P_j and their derivatives from the sections' own solutions (`top`). `Pressure`: each is
+//! lifted besides as the slider bends. So are the sections of crowns and tilts, by what the places beside them carry (`coupling`, `coupled`).
 //!
-//! Limits: the slip is imposed, no part of a contact sticks; surfaces wear by the dose; stations have no ends, and the wear of a slider stays in
-//! its section. Limiting cases: a station of a ring at theta = 0 is the plane contact; under a rigid
+//! Limits: the slip is imposed, no part of a contact sticks; surfaces wear by the dose; the ends of a line are those of its mirror images, and the
+//! wear of a slider stays in its section. Limiting cases: a station of a ring at theta = 0 is the plane contact; under a rigid
 //! top a ring with a flat floor wears by k F/(2 R) a cycle everywhere.
 
+mod coupled;
+mod coupling;
 mod cycle;
 mod error;
 mod height;

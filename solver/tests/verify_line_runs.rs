@@ -6,7 +6,8 @@ use solver::along_line::Along;
 use solver::effects::Effect;
 use solver::record::{Outcome, Summary};
 use solver::scene::{
-    Accuracy, Criterion, Dimension, Layer, Line, LineShape, Motion, Refinement, Scene, Top, WearLaw,
+    Accuracy, Criterion, Dimension, Layer, Line, LineShape, Motion, Refinement, RingMotion, Scene,
+    Top, WearLaw,
 };
 use solver::sides::Side;
 
@@ -77,7 +78,10 @@ fn ring(cycles: u64) -> Scene {
     scene.cycles = cycles;
     scene.accuracy = Accuracy::from_tolerance(0.1);
     scene.output.snapshots_at_cycles = vec![cycles];
-    let shape = LineShape::Ring { radius_mm: 0.4826 };
+    let shape = LineShape::Ring {
+        radius_mm: 0.4826,
+        motion: RingMotion::InPlane,
+    };
     scene.load_n_per_mm = 0.834 / shape.length_mm();
     scene.dimension = Dimension::Line(Line {
         shape,
@@ -163,42 +167,51 @@ fn a_straight_line_is_the_plane_contact() {
     }
 }
 
-/// Two theories of one contact, 7.9 times as long as wide: sections in plane strain and half-spaces. 5 %: sections know the height of their
-/// bodies, half-spaces have none, and each has a tolerance of its own. Reached: 2.4 %.
+/// Two theories of one contact: coupled sections in plane strain, and half-spaces. They share neither meshes nor operators. Of the crown of
+/// 10 mm the contact is 7.9 times as long as wide, of 2 mm 2.8 times; the bounds are twice what was found.
 #[test]
 fn a_crowned_line_wears_like_the_point_contact_of_its_radii() {
-    let mut line = spring(Some(CROWN), (GOLD, GOLD), 4_000);
-    line.accuracy = Accuracy::from_tolerance(0.1);
-    let mut point = line.clone();
-    as_ball(&mut point, FORCE, CROWN);
-    let (line, point) = (done(&line), done(&point));
-    for side in Side::BOTH {
-        let off = line.last.side(side).max_depth_mm / point.last.side(side).max_depth_mm - 1.0;
-        let volume = |summary: &Summary| summary.last.side(side).worn_volume_mm3.expect("a volume");
-        let volumes = volume(&line) / volume(&point) - 1.0;
+    for (crown, cycles, of_depth, of_peak) in [
+        (CROWN, 4_000, 0.03, 0.01),
+        (CROWN, 200, 0.01, 0.01),
+        (2.0, 200, 0.06, 0.04),
+    ] {
+        let mut line = spring(Some(crown), (GOLD, GOLD), cycles);
+        line.accuracy = Accuracy::from_tolerance(0.1);
+        let mut point = line.clone();
+        as_ball(&mut point, FORCE, crown);
+        let (line, point) = (done(&line), done(&point));
+        for side in Side::BOTH {
+            let off = line.last.side(side).max_depth_mm / point.last.side(side).max_depth_mm - 1.0;
+            let volume =
+                |summary: &Summary| summary.last.side(side).worn_volume_mm3.expect("a volume");
+            let volumes = volume(&line) / volume(&point) - 1.0;
+            println!(
+                "crown of {crown} mm, {cycles} cycles, {}: depth {:.2} %, volume {:.2} % off the point contact",
+                side.name(),
+                100.0 * off,
+                100.0 * volumes
+            );
+            assert!(off.abs() < of_depth && volumes.abs() < 0.02);
+        }
+        let peaks = [&line, &point].map(|summary| summary.initial.peak_pressure_mpa);
         println!(
-            "crowned line, {}: depth {:.2} %, volume {:.2} % off the point contact",
-            side.name(),
-            100.0 * off,
-            100.0 * volumes
+            "crown of {crown} mm: unworn peaks {:.0} and {:.0} MPa",
+            peaks[0], peaks[1]
         );
-        assert!(off.abs() < 0.05 && volumes.abs() < 0.02);
+        assert!((peaks[0] / peaks[1] - 1.0).abs() < of_peak);
+        let across = |summary: &Summary| {
+            let extent = summary.last.extent.expect("an extent");
+            extent.contact_half_length_across_mm
+        };
+        println!(
+            "half-lengths across: {:.4} and {:.4} mm",
+            across(&line),
+            across(&point)
+        );
+        // A spacing of stations.
+        assert!((across(&line) - across(&point)).abs() < 0.5 * WIDTH / 8.0);
     }
-    println!(
-        "unworn peaks: {:.0} and {:.0} MPa",
-        line.initial.peak_pressure_mpa, point.initial.peak_pressure_mpa
-    );
-    let across = |summary: &Summary| {
-        let extent = summary.last.extent.expect("an extent");
-        extent.contact_half_length_across_mm
-    };
-    println!(
-        "half-lengths across: {:.4} and {:.4} mm",
-        across(&line),
-        across(&point)
-    );
-    // A spacing of stations.
-    assert!((across(&line) - across(&point)).abs() < 0.5 * WIDTH / 8.0);
 }
 
 /// Depth within its tolerance and its stated error; the reference has 1.5 times the elements, increments and sections, and a third of the

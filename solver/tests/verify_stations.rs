@@ -11,6 +11,7 @@
 //! Under the same line load P' everywhere a flat floor, that the contact passes twice a cycle with the slip 1/cos(theta) per
 //! displacement across, sinks by 2 k P'/cos(theta) a cycle. Where the wire slides along itself, a section wears by k P' s.
 
+mod pressure;
 mod rigid;
 mod straight;
 
@@ -23,7 +24,7 @@ use solver::along_line::StationProfile;
 use solver::effects::{Effect, Switches};
 use solver::record::DepthProfile;
 use solver::scene::{Friction, Motion, Scene, WearLaw};
-use solver::scene::{LineShape, Top};
+use solver::scene::{LineShape, RingMotion, Top};
 use solver::station::{StationOutcome, StationScene, StationSummary, run};
 
 const RADIUS: f64 = 0.4826;
@@ -37,7 +38,10 @@ fn ring(top: Top, stations: usize, cycles: u64) -> StationScene {
     section.output.snapshots_at_cycles = vec![cycles];
     StationScene {
         section,
-        line: LineShape::Ring { radius_mm: RADIUS },
+        line: LineShape::Ring {
+            radius_mm: RADIUS,
+            motion: RingMotion::InPlane,
+        },
         top,
         force_n: FORCE,
         stations,
@@ -118,7 +122,10 @@ fn station_across_the_motion_is_the_plane_contact() {
 #[test]
 fn oblique_station_is_the_plane_contact_with_its_part_of_the_motion() {
     let mut scene = in_single_cycles(ring(Top::Even, 7, 4));
-    scene.line = LineShape::Ring { radius_mm: 1e4 };
+    scene.line = LineShape::Ring {
+        radius_mm: 1e4,
+        motion: RingMotion::InPlane,
+    };
     scene.force_n = 0.275 * scene.line.length_mm();
     let found = solved(&scene);
     for (station, cos) in [(1, 0.75_f64.sqrt()), (2, 0.5)] {
@@ -208,6 +215,44 @@ fn both_sides_of_a_ring_wear_by_their_rates() {
         assert!((worn / work - 1.0).abs() < 1e-10);
     }
     assert!(last.stations.iter().all(|s| s.max_depth_mm.slider > 0.0));
+}
+
+/// A ring that turns about its axis slides along itself everywhere: its wire wears itself into a groove of its own section, of the area k P' s,
+/// (r^2/2)(phi - sin phi) for the depth r (1 - cos(phi/2)). A motion in the plane of the ring is that at 90 degrees.
+#[test]
+fn turned_ring_sinks_into_a_segment_of_its_wire() {
+    const WIRE: f64 = 0.0254;
+    let of = |motion, stations| {
+        let mut scene = ring(Top::Even, stations, 300);
+        scene.line = LineShape::Ring {
+            radius_mm: RADIUS,
+            motion,
+        };
+        solved(&scene)
+    };
+    let found = of(RingMotion::Torsion, 2);
+    let [one, other] = found.last.stations[..] else {
+        panic!("{} stations", found.last.stations.len());
+    };
+    assert_eq!(one.max_depth_mm, other.max_depth_mm);
+    let area = one.worn_area_mm2.receptacle;
+    let ideal = COPPER_WEAR * FORCE / (2.0 * PI * RADIUS) * 4.0 * AMPLITUDE * 300.0;
+    let depth = one.max_depth_mm.receptacle;
+    let phi = 2.0 * (1.0 - depth / WIRE).acos();
+    let segment = 0.5 * WIRE * WIRE * (phi - phi.sin());
+    println!(
+        "ring, torsion: area over k P' s {:.6}, segment of its depth over that {:.4}",
+        area / ideal,
+        segment / area
+    );
+    assert!((area / ideal - 1.0).abs() < 1e-5);
+    assert!((segment / area - 1.0).abs() < 0.01);
+    let energy = found.last.dissipated_energy_mj / (1.21 * FORCE * 4.0 * AMPLITUDE * 300.0);
+    assert!((energy - 1.0).abs() < 1e-3, "{energy}");
+    let in_plane = of(RingMotion::InPlane, 5).last.stations[2];
+    let differs = in_plane.worn_area_mm2.receptacle / area - 1.0;
+    println!("ring, in the plane, 90 deg: area off that of torsion by {differs:.4}");
+    assert!(differs.abs() < 0.03);
 }
 
 /// 43 um would be worn at 90 degrees: the groove becomes deeper than the radius of the wire, 25.4 um, before.

@@ -31,6 +31,18 @@ string_enum! {
         Rigid = "rigid",
         /// The same line load everywhere.
         Even = "even",
+        /// `ring`: an even pressure on the wire, whose stiffness holds back what would sink farther than its neighbours.
+        Pressure = "pressure",
+    }
+}
+
+string_enum! {
+    /// How a ring moves on another one.
+    RingMotion {
+        /// Along a diameter.
+        InPlane = "in_plane",
+        /// About its axis; the amplitude is the length of the arc of its centre line.
+        Torsion = "torsion",
     }
 }
 
@@ -84,6 +96,10 @@ pub struct Model {
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schema(value_type = Option<Top>)]
     pub top: Option<EnumValue<Top>>,
+    /// `ring`: how it moves on the other one; along a diameter if absent.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schema(value_type = Option<RingMotion>)]
+    pub motion: Option<EnumValue<RingMotion>>,
     /// `extruded`: layers of elements over the width, an even number; 2 if absent.
     #[serde(
         default,

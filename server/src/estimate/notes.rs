@@ -62,7 +62,7 @@ fn fuzz_button(resolved: &Resolved) -> Vec<String> {
          the top face for the contact pressure"
             .to_owned(),
     ];
-    if let Some(LineShape::Ring { radius_mm }) =
+    if let Some(LineShape::Ring { radius_mm, .. }) =
         resolved.scene.dimension.line().map(|line| line.shape)
     {
         notes.push(format!(

@@ -4,9 +4,8 @@
 //! large against the height g = (w/2)^2/(2 R_z) + |tilt| w that recedes: its sections are then alike, and plane strain describes it
 //! where g is below a fifth of the tolerance times h.
 //!
-//! A crown whose contact stays within the width is a point contact of half-spaces, however slender: sections in plane strain do not know what
-//! the places beside them carry. Their unworn peak pressure is 10 % low at half-lengths c/a = 8 (measured; by the logarithm of the height of the
-//! bodies), their depth 16 % low after 200 cycles, 6 % after 2 000 and 0.5 % after 20 000. A contact that grows to the ends of the width,
+//! A crown whose contact stays within the width is a point contact of half-spaces: sections along the width have the same wear where it is
+//! long (depths within 0.5 % at half-lengths c/a = 8, 2 % at 2.8), at ten times the cost. A contact that grows to the ends of the width,
 //! sqrt(c^2 + 2 R_z h) > w/2, which half-spaces do not have, is a line of sections; so is a tilted one.
 //!
 //! a, c: Hertz' half-lengths along and across the sliding direction.

@@ -8,9 +8,9 @@
 use super::solved;
 use super::surrogate::Scar;
 use crate::extruded::ExtrudedScene;
-use crate::model::Layout;
+use crate::model::{Layout, resolution};
 use crate::number::{real, real_cycles};
-use crate::scene::{Dimension, LineShape, Motion, Scene, Top};
+use crate::scene::{Dimension, LineShape, Motion, RingMotion, Scene, Top};
 use crate::schedule::jump::JumpControl;
 use crate::schedule::plan::{CyclePlan, Cycles, Followed};
 use crate::schedule::stops::{self, Progress};
@@ -75,9 +75,9 @@ pub fn line_forecast(scene: &Scene, layout: &Layout) -> Option<LineForecast> {
             ..scene.clone()
         };
         let sections = followed(scene, &line, layout);
-        let share = real(line.stations) / real(sections.len());
+        let share = real(touching(scene, &line)) / real(sections.len());
         let each = match line.top {
-            Top::Rigid => RIGID_SOLVES,
+            Top::Rigid | Top::Pressure => RIGID_SOLVES,
             Top::Even => 1.0,
         };
         let solves = Solves {
@@ -154,25 +154,51 @@ fn forecast(
     forecast
 }
 
+/// Line load over the mean one of the section that decides on the schedule of a crown, between its contact before and after the run.
+fn leading_load(scene: &Scene, line: &StationScene) -> f64 {
+    let lengths = resolution::crown_half_lengths_mm(scene);
+    let length = lengths.map(|(unworn, worn)| (unworn + worn).min(line.line.length_mm()));
+    // A load that falls from the middle with the square of the place has 1.5 times its mean there.
+    length.map_or(1.0, |length| {
+        (1.5 * line.line.length_mm() / length).max(1.0)
+    })
+}
+
+/// Stations that touch, about, over a run: those of a crown within the mean of its contact before and after it.
+fn touching(scene: &Scene, line: &StationScene) -> usize {
+    match resolution::crown_half_lengths_mm(scene) {
+        Some((unworn, worn)) => line.stations_within(0.5 * (unworn + worn)).max(1),
+        None => line.stations,
+    }
+}
+
 /// The followed sections.
 fn followed(scene: &Scene, line: &StationScene, layout: &Layout) -> Vec<Section> {
     let angles: &[f64] = match line.line {
-        LineShape::Ring { .. } => &ANGLES,
+        LineShape::Ring {
+            motion: RingMotion::InPlane,
+            ..
+        } => &ANGLES,
+        LineShape::Ring { .. } => &ANGLES[2..],
         LineShape::Straight { .. } => &ANGLES[..1],
     };
-    let is_rigid_ring = angles.len() > 1 && line.top == Top::Rigid;
+    let is_rigid_ring = angles.len() > 1 && line.top != Top::Even;
+    let leading = leading_load(scene, line);
     let whole = Scar::new(scene, layout, false).area_per_cycle;
     let sections = angles.iter().map(|angle| {
         let (sin, cos) = angle.to_radians().sin_cos();
         let load = match (is_rigid_ring, *angle < 90.0) {
-            (false, _) => 1.0,
+            (false, _) => leading,
             (true, true) => std::f64::consts::FRAC_PI_2 * cos,
             (true, false) => BESIDE,
         };
         let amplitude = scene.motion.amplitude_mm().abs();
         let recedes = match line.line {
-            LineShape::Ring { radius_mm } => 0.25 * (amplitude * sin).powi(2) / radius_mm,
-            LineShape::Straight { .. } => 0.0,
+            LineShape::Ring {
+                radius_mm,
+                motion: RingMotion::InPlane,
+            } => 0.25 * (amplitude * sin).powi(2) / radius_mm,
+            LineShape::Ring { .. } | LineShape::Straight { .. } => 0.0,
         };
         let motion = Motion::Reciprocating {
             amplitude_mm: (amplitude * cos).max(recedes),

@@ -219,6 +219,13 @@ pub fn crown_half_lengths_mm(scene: &Scene) -> Option<(f64, f64)> {
     Some((unworn, (unworn * unworn + arc).sqrt()))
 }
 
+/// Hertz' half-width of the most loaded section along a line, mm.
+pub fn largest_half_width(scene: &Scene) -> f64 {
+    // It goes with the root of the load.
+    let most = line_contact::largest_line_load(scene) / scene.load_n_per_mm;
+    hertz_half_width(scene) * most.sqrt()
+}
+
 /// Hertz' peak pressure of the unworn contact, MPa: 2 P/(pi a) of a section, and of the most loaded one along a line; 3 F/(2 pi a b) of a
 /// point contact.
 pub fn hertz_peak_pressure(scene: &Scene) -> f64 {

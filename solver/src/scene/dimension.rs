@@ -66,10 +66,12 @@ pub enum Ends {
 /// Line of a contact.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum LineShape {
-    /// A circle in the plane of the motion.
+    /// A circle.
     Ring {
         /// Radius of its centre line, mm.
         radius_mm: f64,
+        /// How the slider moves on it.
+        motion: RingMotion,
     },
     /// A straight line across the motion.
     Straight {
@@ -82,6 +84,15 @@ pub enum LineShape {
     },
 }
 
+/// How a ring moves on another one.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum RingMotion {
+    /// Along a diameter.
+    InPlane,
+    /// About its axis: displacements are those of its centre line.
+    Torsion,
+}
+
 /// What carries the sections of the slider.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Top {
@@ -89,6 +100,8 @@ pub enum Top {
     Even,
     /// A rigid body that does not rotate: the same height everywhere.
     Rigid,
+    /// An even pressure on a body of finite stiffness, which does not tilt and whose top keeps its places in the plane of the motion.
+    Pressure,
 }
 
 impl Dimension {
@@ -138,7 +151,7 @@ impl LineShape {
     /// Length L of the line, mm.
     pub fn length_mm(self) -> f64 {
         match self {
-            Self::Ring { radius_mm } => 2.0 * std::f64::consts::PI * radius_mm,
+            Self::Ring { radius_mm, .. } => 2.0 * std::f64::consts::PI * radius_mm,
             Self::Straight { width_mm, .. } => width_mm,
         }
     }
@@ -146,7 +159,7 @@ impl LineShape {
     /// Whether all sections move alike and touch at once.
     pub fn is_even(self) -> bool {
         match self {
-            Self::Ring { .. } => false,
+            Self::Ring { motion, .. } => motion == RingMotion::Torsion,
             Self::Straight {
                 crown_radius_mm,
                 tilt_mrad,

@@ -188,7 +188,11 @@ impl Line {
     /// A copy of what increments change.
     pub(super) fn snapshot(&self) -> (Vec<StationState>, Height, f64) {
         let states = self.stations.iter().map(|station| station.state.clone());
-        (states.collect(), self.common.height, self.common.slider_x)
+        (
+            states.collect(),
+            self.common.height.clone(),
+            self.common.slider_x,
+        )
     }
 
     /// Goes back to a copy, with the jump controls and the work as they are.
@@ -201,7 +205,7 @@ impl Line {
                 ..state.clone()
             };
         }
-        (self.common.height, self.common.slider_x) = (before.1, before.2);
+        (self.common.height, self.common.slider_x) = (before.1.clone(), before.2);
     }
 }
 

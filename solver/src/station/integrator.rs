@@ -5,6 +5,7 @@ mod report;
 
 use std::sync::Arc;
 
+use super::coupling::Coupling;
 use super::cycle::Line;
 use super::error::StationError;
 use super::height::Height;
@@ -97,8 +98,9 @@ impl LineIntegrator {
         let unworn = Arc::new(Section::unworn(built)?);
         let untouched = ContactState::untouched(&unworn.condensed.operators, slave);
         let spaced = (scene.touch(), intervals_within(&scene.section.accuracy));
-        let places = places(scene.line, scene.stations, spaced).into_iter();
-        let stations = places.map(|place| {
+        let places = places(scene.line, scene.stations, spaced);
+        let coupling = Coupling::of(scene, (&plane, plan), &places)?;
+        let stations = places.into_iter().map(|place| {
             let state = StationState::unworn(untouched.clone(), &unworn.model);
             Station::new(place, &unworn, state)
         });
@@ -106,6 +108,7 @@ impl LineIntegrator {
             line: Line {
                 carrier: Carrier {
                     top: scene.top,
+                    coupling,
                     force_n: scene.force_n,
                     spring_n_per_mm: spring * scene.line.length_mm(),
                 },
@@ -150,7 +153,7 @@ impl LineIntegrator {
     /// Applies the load without sliding. The height under the mean line load is the first one of a rigid top.
     fn apply_load_once(&mut self) -> Result<(), StationError> {
         let line = &mut self.line;
-        if self.scene.top == Top::Rigid {
+        if self.scene.top != Top::Even {
             let first = &mut line.stations[0];
             first
                 .solve(FIRST_LOAD, None, None)
@@ -314,7 +317,7 @@ impl LineIntegrator {
     /// Builds the sections of the present states.
     fn build(&mut self) -> Result<(), StationError> {
         let unworn = &self.unworn;
-        for_each(&mut self.line.stations, |station| {
+        for_each(&mut self.line.stations, |_, station| {
             station.follow_state(unworn)
         })
         .map_err(|(_, error)| error)

@@ -2,12 +2,11 @@
 
 use std::f64::consts::PI;
 
-use super::scene::sides;
 use super::spacing;
 use crate::along_line::Along;
 use crate::model::line_contact::Touch;
 use crate::number::real;
-use crate::scene::LineShape;
+use crate::scene::{LineShape, RingMotion};
 
 /// Places are multiples of its inverse, mm: far below any spacing.
 const PER_MM: f64 = 1e12;
@@ -22,7 +21,7 @@ pub(super) struct Place {
     pub(super) raised_mm: f64,
     /// Cosine and sine of the direction of motion against the section.
     direction: [f64; 2],
-    /// Radius of a ring, mm.
+    /// Radius of a ring that moves in its plane, mm.
     radius_mm: Option<f64>,
 }
 
@@ -54,15 +53,19 @@ pub(super) fn places(
         }
     };
     match line {
-        LineShape::Ring { radius_mm } => (0..stations)
+        LineShape::Ring { radius_mm, motion } => (0..stations)
             .map(|j| {
                 let theta = PI * real(j) / spacings;
+                let (direction, radius_mm) = match motion {
+                    RingMotion::InPlane => ([theta.cos(), theta.sin()], Some(radius_mm)),
+                    RingMotion::Torsion => ([0.0, 1.0], None),
+                };
                 Place {
                     at: Along::AngleDeg(180.0 * real(j) / spacings),
                     weight_mm: share(j) * line.length_mm() / spacings,
                     raised_mm: 0.0,
-                    direction: [theta.cos(), theta.sin()],
-                    radius_mm: Some(radius_mm),
+                    direction,
+                    radius_mm,
                 }
             })
             .collect(),
@@ -71,7 +74,7 @@ pub(super) fn places(
             tilt_mrad,
             ..
         } => {
-            let (left, right) = sides(line, touch.at_mm);
+            let (left, right) = spacing::sides(line, touch.at_mm);
             let count = spacing::divided(stations - 1, (left, right));
             let from = |length, count| spacing::places(length, touch.length_mm, (within, count));
             let before = from(left, count.0).into_iter().skip(1).rev();
@@ -114,6 +117,14 @@ fn rounded(mm: f64) -> f64 {
 }
 
 impl Place {
+    /// Distance along the line, mm.
+    pub(super) fn along_mm(&self) -> f64 {
+        match self.at {
+            Along::AngleDeg(degrees) => self.radius_mm.unwrap_or_default() * degrees.to_radians(),
+            Along::DistanceMm(z) => z,
+        }
+    }
+
     /// Position of the slider's section as the slider is displaced by u, mm.
     pub(super) fn position(&self, u: f64) -> f64 {
         let [cos, sin] = self.direction;
@@ -161,7 +172,13 @@ mod tests {
     #[test]
     fn a_ring_crosses_the_radial_sections_where_two_circles_meet() {
         let (radius_mm, u) = (0.4826, 0.033_868);
-        for place in placed(LineShape::Ring { radius_mm }, 9) {
+        for place in placed(
+            LineShape::Ring {
+                radius_mm,
+                motion: RingMotion::InPlane,
+            },
+            9,
+        ) {
             // A point of the displaced circle at this distance from the centre of the resting one.
             let distance = radius_mm + place.position(u);
             let [cos, sin] = place.direction;
@@ -172,7 +189,13 @@ mod tests {
 
     #[test]
     fn slip_has_the_length_of_the_displacement() {
-        for place in placed(LineShape::Ring { radius_mm: 0.5 }, 7) {
+        for place in placed(
+            LineShape::Ring {
+                radius_mm: 0.5,
+                motion: RingMotion::InPlane,
+            },
+            7,
+        ) {
             let moved = place.displaced(-0.01, 0.02);
             let across = moved.slider_x - place.position(-0.01) + moved.surface_slip;
             assert!((across.hypot(moved.along) - 0.03).abs() < 1e-15);
@@ -191,7 +214,14 @@ mod tests {
             crown_radius_mm: None,
             tilt_mrad: 0.0,
         };
-        for line in [line, straight, LineShape::Ring { radius_mm: 0.5 }] {
+        for line in [
+            line,
+            straight,
+            LineShape::Ring {
+                radius_mm: 0.5,
+                motion: RingMotion::InPlane,
+            },
+        ] {
             let places = placed(line, 9);
             let sum: f64 = places.iter().map(|place| place.weight_mm).sum();
             assert!((sum - line.length_mm()).abs() < 1e-11);

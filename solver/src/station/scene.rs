@@ -1,6 +1,7 @@
 //! What a run of stations is computed from.
 
 use super::error::StationError;
+use super::place::places;
 use super::spacing;
 use crate::effects::Effect;
 use crate::law::elastic::contact_modulus;
@@ -76,18 +77,9 @@ fn needed(shape: LineShape, touch: Touch, within: usize) -> usize {
     let LineShape::Straight { .. } = shape else {
         return 0;
     };
-    let (left, right) = sides(shape, touch.at_mm);
+    let (left, right) = spacing::sides(shape, touch.at_mm);
     let sides = [left, right].map(|length| spacing::intervals(length, touch.length_mm, within));
     sides[0] + sides[1] + 1
-}
-
-/// Lengths of a straight line to either side of where it touches first, mm; of half of it where that stands for both.
-pub(super) fn sides(shape: LineShape, at_mm: f64) -> (f64, f64) {
-    let half = 0.5 * shape.length_mm();
-    match shape {
-        LineShape::Straight { tilt_mrad, .. } if tilt_mrad != 0.0 => (half + at_mm, half - at_mm),
-        LineShape::Straight { .. } | LineShape::Ring { .. } => (0.0, half),
-    }
 }
 
 /// `Tuning::sufficient_cycles` of sections: the jumps of one that slides mostly along the line, or whose scar is about as wide as its stroke,
@@ -124,6 +116,25 @@ impl StationScene {
         touch(self.line, self.force_n, contact_modulus(slider, receptacle))
     }
 
+    /// Whether line loads that differ along the line change the heights of its sections against each other. Of a ring under a rigid top
+    /// they do by a part that nothing would show: 1e-6 of its depth.
+    pub(super) fn is_coupled(&self) -> bool {
+        match self.top {
+            Top::Even => false,
+            Top::Rigid => matches!(self.line, LineShape::Straight { .. }) && !self.line.is_even(),
+            Top::Pressure => true,
+        }
+    }
+
+    /// Number of stations within a distance in mm from the place that touches first.
+    pub(crate) fn stations_within(&self, mm: f64) -> usize {
+        let touch = self.touch();
+        let spaced = (touch, intervals_within(&self.section.accuracy));
+        let places = places(self.line, self.stations, spaced).into_iter();
+        let along = places.map(|place| place.along_mm());
+        along.filter(|z| (z - touch.at_mm).abs() <= mm).count()
+    }
+
     /// Mean line load F/L, N/mm.
     pub fn mean_line_load(&self) -> f64 {
         self.force_n / self.line.length_mm()
@@ -134,7 +145,7 @@ impl StationScene {
         let mean = self.mean_line_load();
         match self.top {
             Top::Even => mean,
-            Top::Rigid => mean.max(PART_OF_LARGEST * self.touch().line_load),
+            Top::Rigid | Top::Pressure => mean.max(PART_OF_LARGEST * self.touch().line_load),
         }
     }
 
@@ -186,7 +197,7 @@ impl StationScene {
             return Err(StationError::FrictionLaw);
         }
         let size = match self.line {
-            LineShape::Ring { radius_mm } => radius_mm,
+            LineShape::Ring { radius_mm, .. } => radius_mm,
             LineShape::Straight {
                 width_mm,
                 crown_radius_mm,
@@ -202,7 +213,7 @@ impl StationScene {
                 return Err(StationError::Value { name, value });
             }
         }
-        if let LineShape::Ring { radius_mm } = self.line
+        if let LineShape::Ring { radius_mm, .. } = self.line
             && amplitude.abs() >= radius_mm
         {
             return Err(StationError::Amplitude {
@@ -222,7 +233,7 @@ impl StationScene {
                 stations: self.stations,
             });
         }
-        if self.top == Top::Rigid && self.section.drive != Drive::Handle {
+        if self.top != Top::Even && self.section.drive != Drive::Handle {
             return Err(StationError::Drive);
         }
         let wear = self.section.surface_wear();
@@ -239,7 +250,7 @@ impl StationScene {
         // The most loaded section sticks longest.
         let line_load = match self.top {
             Top::Even => self.mean_line_load(),
-            Top::Rigid => self.touch().line_load,
+            Top::Rigid | Top::Pressure => self.touch().line_load,
         };
         let free = Scene {
             effects: self.section.effects.clone(),

@@ -235,6 +235,11 @@ impl Station {
         self.next.height
     }
 
+    /// Indentation of the last attempt, mm.
+    pub(super) fn attempted_indentation(&self) -> f64 {
+        self.next.indentation
+    }
+
     /// Records that the first load is applied.
     pub(super) fn loaded(&mut self) {
         let contact = &mut self.state.contact;

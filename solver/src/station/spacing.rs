@@ -2,11 +2,21 @@
 //! contact reaches, and farther apart beyond, each spacing larger than the one before by a common factor.
 
 use crate::number::{count_at_least, nearest, real};
+use crate::scene::LineShape;
 
 /// Largest factor from one spacing to the next. Arbitrary: a contact that has grown to a place there has some spacings across.
 const LARGEST_GROWTH: f64 = 1.5;
 /// Halvings of the interval that holds the factor.
 const HALVINGS: usize = 60;
+
+/// Lengths of a straight line to either side of where it touches first, mm; of half of it where that stands for both.
+pub(super) fn sides(shape: LineShape, at_mm: f64) -> (f64, f64) {
+    let half = 0.5 * shape.length_mm();
+    match shape {
+        LineShape::Straight { tilt_mrad, .. } if tilt_mrad != 0.0 => (half + at_mm, half - at_mm),
+        LineShape::Straight { .. } | LineShape::Ring { .. } => (0.0, half),
+    }
+}
 
 /// Number of intervals that a length needs, from its beginning on, of which the first are a part of the unworn contact.
 pub(super) fn intervals(length: f64, contact: f64, within: usize) -> usize {

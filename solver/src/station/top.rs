@@ -6,7 +6,8 @@
 //! long as its active set stays, so that the predictor p + dp/dv dv is mostly its solution, and few iterations are needed. r falls with
 //! v: a step that leaves the interval in which its sign changes is replaced by a bisection, which also finds a contact that no section has.
 
-use super::height::Height;
+use super::coupling::Coupling;
+use super::height::{Found, Height};
 use super::section::{Increment, Station};
 use super::threads::for_each;
 use crate::contact::ContactError;
@@ -14,10 +15,10 @@ use crate::scene::Top;
 
 /// Imbalance over the force at which the height has converged: well above the round-off that sections leave in their forces, 1e-11 of
 /// an indentation, and far below any tolerance.
-const BALANCED: f64 = 1e-7;
+pub(super) const BALANCED: f64 = 1e-5;
 
 /// Most iterations for the height. Arbitrary: 2 to 6 are needed.
-const MOST_ITERATIONS: usize = 40;
+pub(super) const MOST_ITERATIONS: usize = 40;
 
 /// Height over the lowest known one by which the search for an upper bound begins, over the length of a contact's indentation.
 const FIRST_STEP: f64 = 1.0;
@@ -41,18 +42,12 @@ pub(super) enum Unsolved {
     },
 }
 
-/// A height that carries the force.
-struct Found {
-    mm: f64,
-    /// Of the forces, over the force.
-    imbalance: f64,
-    iterations: usize,
-}
-
 /// The carrier of the sections.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug)]
 pub(super) struct Carrier {
     pub(super) top: Top,
+    /// Coupling of the sections; `None` where each is solved alone at the common height.
+    pub(super) coupling: Option<Coupling>,
     pub(super) force_n: f64,
     /// Stiffness of the spring that applies the force to a rigid top, N/mm.
     pub(super) spring_n_per_mm: f64,
@@ -71,19 +66,23 @@ impl Carrier {
     ) -> Result<usize, Unsolved> {
         let iterations = match self.top {
             Top::Even => {
-                solve(stations, |station| station.solve(increment, None, None))?;
+                solve(stations, |_, station| station.solve(increment, None, None))?;
                 1
             }
-            Top::Rigid => {
-                let found = self.common_height(stations, height, increment)?;
-                *height = Height {
-                    mm: found.mm,
-                    change: found.mm - height.mm,
-                    cycles: increment.cycles,
-                    imbalance: height.imbalance.max(found.imbalance),
-                    ..*height
+            Top::Rigid | Top::Pressure => {
+                let found = match &self.coupling {
+                    Some(coupling) => {
+                        if height.reference.is_none() {
+                            let alone = self.common_height(stations, height, increment)?;
+                            height.mm = alone.mm;
+                        }
+                        self.coupled_heights(coupling, (stations, height), increment)?
+                    }
+                    None => self.common_height(stations, height, increment)?,
                 };
-                found.iterations
+                let iterations = found.iterations;
+                height.take(found, increment.cycles);
+                iterations
             }
         };
         for station in stations {
@@ -99,18 +98,18 @@ impl Carrier {
                 .iter()
                 .map(|station| station.place.weight_mm * station.load())
                 .sum(),
-            Top::Rigid => self.force_at(height, height.mm),
+            Top::Rigid | Top::Pressure => self.force_at(height, height.mm),
         }
     }
 
     /// Force on a rigid top at a height, which a spring reduces as the top sinks, N.
-    fn force_at(&self, last: &Height, mm: f64) -> f64 {
+    pub(super) fn force_at(&self, last: &Height, mm: f64) -> f64 {
         let sunk = last.reference.map_or(0.0, |reference| reference - mm);
         self.force_n - self.spring_n_per_mm * sunk
     }
 
     /// The height that carries the force, and the number of iterations.
-    fn common_height(
+    pub(super) fn common_height(
         &self,
         stations: &mut [Station],
         last: &Height,
@@ -120,7 +119,7 @@ impl Carrier {
         let (mut low, mut high) = (f64::NEG_INFINITY, f64::INFINITY);
         let (mut raised, mut found_n, mut beyond) = (None, 0.0, 0.0);
         for iteration in 1..=MOST_ITERATIONS {
-            solve(stations, |station| {
+            solve(stations, |_, station| {
                 station.solve(increment, Some(v + station.place.raised_mm), raised)
             })?;
             let (mut force, mut per_height) = (0.0, 0.0);
@@ -134,6 +133,7 @@ impl Carrier {
             if imbalance.abs() <= BALANCED * self.force_n {
                 return Ok(Found {
                     mm: v,
+                    lifts: Vec::new(),
                     imbalance: imbalance.abs() / self.force_n,
                     iterations: iteration,
                 });
@@ -167,15 +167,15 @@ impl Carrier {
     }
 }
 
-fn solve(
+pub(super) fn solve(
     stations: &mut [Station],
-    work: impl Fn(&mut Station) -> Result<(), ContactError> + Sync + Send,
+    work: impl Fn(usize, &mut Station) -> Result<(), ContactError> + Sync + Send,
 ) -> Result<(), Unsolved> {
     for_each(stations, work).map_err(|(station, source)| Unsolved::Section { station, source })
 }
 
 /// Largest indentation of the sections in their last increment, mm.
-fn indentation(stations: &[Station]) -> f64 {
+pub(super) fn indentation(stations: &[Station]) -> f64 {
     let indentations = stations
         .iter()
         .map(|station| station.state.contact.indentation);

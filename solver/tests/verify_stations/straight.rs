@@ -3,8 +3,8 @@
 //! Radii of 1 and 36.5 mm, E = 117 GPa, nu = 0.34, 5 N: half-lengths of 19.258 um and 9.994 times that, p0 = 644.07 MPa, line load in the middle
 //! (pi/2) p0 a = 19.484 N/mm (Johnson, Contact Mechanics, 1985, section 4.2).
 //!
-//! Sections are coupled by their approach alone. In plane strain that depends on the logarithm of the height of the bodies, while
-//! the approach of an ellipse does not: the unworn line load is that of the ellipse for bodies of one height only. Once the contact has
+//! In plane strain the approach depends on the logarithm of the height of the bodies, while that of an ellipse does not. Sections alone have
+//! 21.1, 19.0 and 17.5 N/mm in the middle with bodies of 0.118, 0.25 and 0.5 mm; their coupling makes up for it. Once the contact has
 //! worn, the depth decides and not the approach.
 
 use super::solved;
@@ -74,27 +74,37 @@ fn section_under_the_line_load_of_an_ellipse_has_its_pressure() {
     assert!((found.half_width_mm / 0.019_258 - 1.0).abs() < 0.01);
 }
 
-/// The sections carry the force, and where they do not touch they carry nothing. The line load of the ellipse lies between those of bodies
-/// of 0.6 and of 2.6 times its half-length.
+/// The line load in the middle is that of the ellipse for bodies of any height above the length of the contact: within 2.6 %, of which 2 %
+/// remain on finer meshes and with more sections. They are of the order (a/b)^2 ln(b/a), which a line load leaves out.
 #[test]
-fn crowned_line_carries_its_force_in_the_middle() {
-    let mut middles = Vec::new();
-    for height in [0.118, 0.25, 0.5] {
-        let found = solved(&crowned(height, 33, 0.0));
+fn crowned_line_has_the_line_load_of_its_ellipse() {
+    for (height, mesh, stations) in [
+        (0.25, 1.0, 33),
+        (0.5, 1.0, 33),
+        (1.0, 1.0, 33),
+        (0.5, 2.0, 33),
+        (0.5, 1.0, 17),
+    ] {
+        let mut scene = crowned(height, stations, 0.0);
+        scene.section.accuracy.refinement.mesh = mesh;
+        let found = solved(&scene);
         let loads = loads(&found);
-        let middle = loads[0];
+        let touching = loads.iter().filter(|load| **load > 0.0).count();
         println!(
-            "straight line, bodies of {height} mm: {middle:.3} N/mm in the middle, ellipse {LINE_LOAD}, {} stations of 33 touch",
-            loads.iter().filter(|load| **load > 0.0).count()
+            "straight line, bodies of {height} mm, mesh {mesh}, {stations} stations: {:.3} N/mm in the middle, ellipse {LINE_LOAD}, {touching} touch",
+            loads[0]
         );
-        assert!((found.initial.force_n / 5.0 - 1.0).abs() < 1e-8);
-        assert!(loads[32] <= 0.0);
-        middles.push(middle);
+        assert!((loads[0] / LINE_LOAD - 1.0).abs() < 0.03);
+        // Half-length 192.5 um.
+        let half_length = 0.24 * (touching as f64) / (stations as f64 - 1.0);
+        assert!((half_length / 0.1925 - 1.0).abs() < 0.06, "{half_length}");
+        assert!((found.initial.force_n / 5.0 - 1.0).abs() < 1e-6);
+        assert!(loads[loads.len() - 1] <= 0.0);
     }
-    assert!(middles[0] > LINE_LOAD && LINE_LOAD > middles[2]);
 }
 
-/// A tilt moves the lowest point of a crown by R_c times it: by one station here. Sections are the same then, to the balance of 1e-9.
+/// A tilt moves the lowest point of a crown by R_c times it: by one station here. Sections are the same then, but for the ends of the line,
+/// which are nearer on one side: the waves of their coupling are those of the mirror images beyond.
 #[test]
 fn tilt_moves_the_contact_along_the_crown() {
     let spacing = 0.48 / 64.0;
@@ -104,7 +114,7 @@ fn tilt_moves_the_contact_along_the_crown() {
     let tilted = loads(&solved(&crowned(0.25, 65, -1e3 * spacing / CROWN)));
     let largest = straight.iter().fold(0.0, |m: f64, load| m.max(*load));
     for (straight, tilted) in straight.iter().zip(&tilted[1..]) {
-        assert!((straight - tilted).abs() < 1e-7 * largest);
+        assert!((straight - tilted).abs() < 0.01 * largest);
     }
 }
 

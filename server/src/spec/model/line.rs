@@ -1,9 +1,9 @@
 //! Contacts along a line, a ring or a straight one: their shape, and what they need of the rest of a specification.
 
 use api::problem::Fault;
-use api::spec::{Dimension, Model, Spec, SystemKind, Top};
+use api::spec::{Dimension, Model, RingMotion, Spec, SystemKind, Top};
 use solver::effects::extent::Extent;
-use solver::model::resolution::{crown_half_lengths_mm, hertz_half_width};
+use solver::model::resolution::{crown_half_lengths_mm, hertz_half_width, largest_half_width};
 use solver::scene::{self, Conduction, LineShape, Scene};
 use solver::station::{StationError, StationScene};
 
@@ -25,6 +25,9 @@ const STATIONS: std::ops::RangeInclusive<u64> = 3..=257;
 const TYPICAL_CROWN_MM: f64 = 10.0;
 /// Width of a straight line over that of its contact, below which its ends count: sections have none.
 const WIDE: f64 = 5.0;
+/// Half-length of a crown's contact over its half-width below which sections rate its unworn pressure too low: by 2 % at 2.8, 6 % at 1.8 and
+/// 16 % at 1 (`solver/tests/verify_line_runs.rs`).
+const LONG: f64 = 3.0;
 
 /// A line without its force.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -44,7 +47,7 @@ pub(super) fn fields(dimension: Dimension) -> &'static [&'static str] {
         "chosen",
     ];
     match dimension {
-        Dimension::Ring => &["preset", "dimension", "outer_diameter_mm", "top"],
+        Dimension::Ring => &["preset", "dimension", "outer_diameter_mm", "top", "motion"],
         Dimension::Auto => &AUTO,
         _ => &AUTO[..5],
     }
@@ -66,6 +69,16 @@ pub(super) fn resolve(
     let top = match top {
         Top::Rigid => scene::Top::Rigid,
         Top::Even => scene::Top::Even,
+        Top::Pressure => {
+            if dimension != Dimension::Ring {
+                let detail = format!(
+                    "`pressure` bends a wire: a `{}` has a `rigid` or an `even` top",
+                    dimension.as_str()
+                );
+                diagnostics.fault("/model/top", detail);
+            }
+            scene::Top::Pressure
+        }
     };
     let (filled, shape) = if dimension == Dimension::Ring {
         ring(given, filled, (shapes, kind), diagnostics)
@@ -98,11 +111,19 @@ fn ring(
         );
         diagnostics.fault(POINTER, detail);
     }
+    let named = given.motion.as_ref();
+    let named = named.and_then(|motion| diagnostics.enum_member("/model/motion", motion));
+    let motion = diagnostics.or_default("/model/motion", named, assumed(RingMotion::InPlane));
     let filled = Model {
         outer_diameter_mm: Some(diameter),
+        motion: Some(motion.into()),
         ..filled
     };
-    (filled, LineShape::Ring { radius_mm })
+    let motion = match motion {
+        RingMotion::InPlane => scene::RingMotion::InPlane,
+        RingMotion::Torsion => scene::RingMotion::Torsion,
+    };
+    (filled, LineShape::Ring { radius_mm, motion })
 }
 
 fn straight(
@@ -260,22 +281,14 @@ pub(super) fn warnings(scene: &Scene) -> Vec<Fault> {
     warnings.chain(yields(scene)).collect()
 }
 
-/// A warning of a crown whose contact stays within the width.
+/// A warning of a crown whose contact is about as long as wide.
 fn round(scene: &Scene) -> Option<Fault> {
-    let LineShape::Straight {
-        width_mm,
-        tilt_mrad,
-        ..
-    } = scene.dimension.line()?.shape
-    else {
-        return None;
-    };
-    let (unworn, worn) = crown_half_lengths_mm(scene)?;
-    (tilt_mrad == 0.0 && worn < 0.5 * width_mm).then(|| {
+    let (half_length, _) = crown_half_lengths_mm(scene)?;
+    let half_width = largest_half_width(scene);
+    (half_length < LONG * half_width).then(|| {
         let detail = format!(
-            "the contact of the crown, {unworn:.2e} mm to either side and {worn:.2e} mm at the expected end, stays within the width of {width_mm} \
-             mm: sections do not know what the places beside them carry, and rate its unworn pressure a tenth and more too low; a \
-             `point` does not"
+            "the contact of the crown, {half_length:.2e} mm to either side across the sliding direction and {half_width:.2e} mm along it, is less than \
+             {LONG} times as long as wide: sections rate its unworn pressure 2 % and more too low; a `point` does not"
         );
         Fault::new("/model/crown_radius_mm", detail)
     })

@@ -1,5 +1,5 @@
 use api::spec::{Dimension as Named, EnumValue, Provenance};
-use solver::scene::{Dimension, Ends, LineShape, Top};
+use solver::scene::{Dimension, Ends, LineShape, RingMotion, Top};
 
 use crate::spec::{Refused, Resolved, read};
 
@@ -168,7 +168,7 @@ fn a_ring_carries_the_load_of_its_section_along_its_centre_line() {
     let Dimension::Line(own) = found.scene.dimension else {
         panic!("{:?}", found.scene.dimension);
     };
-    let LineShape::Ring { radius_mm } = own.shape else {
+    let LineShape::Ring { radius_mm, .. } = own.shape else {
         panic!("{:?}", own.shape);
     };
     assert!((radius_mm - 0.4826).abs() < 1e-12);
@@ -180,6 +180,27 @@ fn a_ring_carries_the_load_of_its_section_along_its_centre_line() {
     let text = serde_json::to_string(&found.spec).expect("JSON");
     assert_eq!(accepted(&text).scene, found.scene);
     assert!(found.layout.is_some());
+}
+
+/// A motion about the axis of the ring, and an even pressure on its wire.
+#[test]
+fn a_ring_turns_and_is_pressed_where_its_model_says_so() {
+    let of = |own: &str| {
+        let text =
+            format!(r#"{{"system":{{"kind":"fuzz_button"}},"model":{{"dimension":"ring"{own}}}}}"#);
+        *accepted(&text).scene.dimension.line().expect("a line")
+    };
+    let motion = |line: solver::scene::Line| match line.shape {
+        LineShape::Ring { motion, .. } => motion,
+        LineShape::Straight { .. } => panic!("{:?}", line.shape),
+    };
+    assert_eq!(motion(of("")), RingMotion::InPlane);
+    assert_eq!(motion(of(r#","motion":"torsion""#)), RingMotion::Torsion);
+    assert_eq!(of(r#","top":"pressure""#).top, Top::Pressure);
+    let bent = line(r#","top":"pressure""#, "");
+    assert_eq!(pointers(&bent), ["/model/top"]);
+    let turned = line(r#","motion":"torsion""#, "");
+    assert_eq!(pointers(&turned), ["/model/motion"]);
 }
 
 /// The spring and the force are those of the whole line.
@@ -322,17 +343,17 @@ fn auto_chooses_by_numbers() {
     );
 }
 
-/// A crown whose contact stays within the width is a point, whatever its aspect; and the most loaded section yields first.
+/// A crown whose contact is about round is a point; and the most loaded section yields first.
 #[test]
 fn crowned_lines_are_warned_of() {
     let warned = |text: &str, pointer: &str| {
         let warnings = accepted(text).warnings.into_iter();
         warnings.filter(|fault| fault.pointer == pointer).count()
     };
-    let crown = line(r#","crown_radius_mm":10"#, "");
-    assert_eq!(warned(&crown, "/model/crown_radius_mm"), 1);
-    let flat = line(r#","crown_radius_mm":1000"#, "");
-    assert_eq!(warned(&flat, "/model/crown_radius_mm"), 0);
+    for (crown, expected) in [("1", 1), ("10", 0), ("1000", 0)] {
+        let text = line(&format!(r#","crown_radius_mm":{crown}"#), "");
+        assert_eq!(warned(&text, "/model/crown_radius_mm"), expected, "{crown}");
+    }
     let copper = r#","materials":{"slider":"copper","receptacle":"copper"},"plating":{"slider":[],"receptacle":[]},
         "interface":{"wear":{"slider":null,"receptacle":{"law":"archard","k":1e-5,"hardness_mpa":427}}}"#;
     assert_eq!(
