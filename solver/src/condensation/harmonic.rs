@@ -137,7 +137,9 @@ fn load(zone: &ZoneModel, (unknown, side): (&[[usize; 3]], Side), half_width: f6
     let mut shares: Vec<f64> = (0..x.len()).map(|i| pressure(x[i]) * width(i)).collect();
     let sum: f64 = shares.iter().sum();
     if sum > 0.0 {
-        shares.iter_mut().for_each(|share| *share /= sum);
+        for share in &mut shares {
+            *share /= sum;
+        }
     } else {
         let middle = x.partition_point(|x| *x < 0.0).min(x.len() - 1);
         shares[middle] = 1.0;
