@@ -9,6 +9,7 @@ pub mod files;
 pub mod history;
 pub mod life;
 pub mod line;
+pub mod line_maps;
 pub mod maps;
 pub(crate) mod markdown;
 pub(crate) mod mission;

@@ -7,18 +7,19 @@ pub(crate) mod protocol;
 
 use std::ops::ControlFlow;
 
-use api::results::{BlockExtent, Cost, Summary};
+use api::results::{BlockExtent, ContactMaps, Cost, Summary};
 use api::spec::{DerivedMotion, LifeSettings};
 use serde::Serialize;
 use solver::SolveError;
 use solver::checkpoint::Resumable;
 use solver::error_control;
 use solver::observer::{self, Event, Observer};
-use solver::record::PlacedFields;
+use solver::record::{Position, Snapshot};
 use solver::scene::Scene;
 
-use crate::export::documents::{JSON, VTU};
-use crate::export::{history, life, line, maps, mission, vtu};
+use crate::export::documents::{JSON, SVG, VTU};
+use crate::export::vtu::VtuError;
+use crate::export::{history, life, line, line_maps, maps, mission, pictures, vtu};
 use crate::spec::Resolved;
 use crate::spec::scatter::FollowsProduct;
 use checkpoint::{Checkpoint, CheckpointPolicy, EncodedCheckpoint};
@@ -151,9 +152,27 @@ impl Recorder<'_> {
         }
     }
 
-    fn fields(&mut self, cycle: u64, fields: &PlacedFields) -> ControlFlow<()> {
-        let name = vtu::file_name(cycle, fields.position);
-        match vtu::bytes(fields) {
+    /// Emits the fields of a snapshot.
+    fn fields(&mut self, snapshot: &Snapshot) -> ControlFlow<()> {
+        let cycle = snapshot.cycle;
+        for fields in &snapshot.fields {
+            self.vtu(cycle, fields.position, vtu::bytes(fields))?;
+        }
+        for fields in &snapshot.line_fields {
+            self.vtu(cycle, fields.position, vtu::line_bytes(fields))?;
+        }
+        ControlFlow::Continue(())
+    }
+
+    /// Emits the file of the fields at a position.
+    fn vtu(
+        &mut self,
+        cycle: u64,
+        position: Position,
+        bytes: Result<Vec<u8>, VtuError>,
+    ) -> ControlFlow<()> {
+        let name = vtu::file_name(cycle, position);
+        match bytes {
             Ok(bytes) => (self.on)(Line::Fields(FieldsFile {
                 name,
                 cycle,
@@ -162,6 +181,23 @@ impl Recorder<'_> {
             })),
             Err(error) => {
                 tracing::error!(%error, name, "fields were not written");
+                ControlFlow::Continue(())
+            }
+        }
+    }
+
+    /// Emits the picture of the maps of a snapshot.
+    fn picture(&mut self, maps: &ContactMaps) -> ControlFlow<()> {
+        let name = pictures::maps::file_name(maps.cycle);
+        match pictures::colour_map(&pictures::maps::picture(maps)) {
+            Ok(drawing) => (self.on)(Line::Fields(FieldsFile {
+                name,
+                cycle: maps.cycle,
+                media_type: SVG,
+                bytes: drawing.into_bytes(),
+            })),
+            Err(error) => {
+                tracing::error!(%error, name, "a picture was not drawn");
                 ControlFlow::Continue(())
             }
         }
@@ -196,13 +232,13 @@ impl Observer for Recorder<'_> {
         let line = match event {
             Event::Cycle(report) => Line::Cycle(Box::new(report.clone())),
             Event::Snapshot(snapshot) => {
-                for fields in &snapshot.fields {
-                    self.fields(snapshot.cycle, fields)?;
-                }
+                self.fields(snapshot)?;
                 let cycle = snapshot.cycle;
-                if let Some(maps) = &snapshot.area {
-                    let name = (maps::file_name(cycle), cycle);
-                    self.document(name, &maps::document(cycle, maps))?;
+                let area = snapshot.area.as_ref();
+                let area = area.map(|maps| maps::document(cycle, maps));
+                if let Some(maps) = area.or_else(|| line_maps::document(snapshot)) {
+                    self.document((maps::file_name(cycle), cycle), &maps)?;
+                    self.picture(&maps)?;
                 }
                 if !snapshot.stations.is_empty() {
                     let name = (line::file_name(cycle), cycle);

@@ -38,7 +38,7 @@ pub fn relocate(model: &Model, depth: &Sides<Vec<f64>>) -> Result<Model, MeshErr
 }
 
 /// Heights of all surface nodes when the contact nodes have receded by `depth`.
-fn worn(body: &BodyModel, depth: &[f64], side: Side) -> Vec<f64> {
+pub(crate) fn worn(body: &BodyModel, depth: &[f64], side: Side) -> Vec<f64> {
     let mut surface: Vec<f64> = body
         .layout
         .x

@@ -5,6 +5,7 @@
 //! A body keeps its operator in its own frame, so large sliding changes only the coupling of both surfaces. A surface
 //! of several zones has an operator for each.
 
+mod antiplane;
 mod assembly;
 mod body_operators;
 mod compliance;
@@ -22,6 +23,7 @@ use crate::sides::{Side, Sides};
 use assembly::Numbering;
 use std::sync::Arc;
 
+pub use antiplane::Antiplane;
 pub use body_operators::{BodyOperators, Operators};
 pub use compliance::{Compliance, Response};
 pub use extruded::{ExtrudedOperators, PrismZone, condense_extruded};

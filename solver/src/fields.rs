@@ -3,6 +3,13 @@
 //! Stress is evaluated at the corners of every element and averaged over the elements of a node, by area. In plane
 //! strain sigma_zz = lambda (eps_xx + eps_yy).
 
+mod along_line;
+mod antiplane;
+mod common_mesh;
+mod tractions;
+
+use nalgebra::Matrix3;
+
 use crate::SolveError;
 use crate::ale;
 use crate::condensation::{Condensed, OperatorError};
@@ -14,6 +21,10 @@ use crate::mesh::columns::Cell;
 use crate::model::{Model, ZoneModel};
 use crate::schedule::increments::Position;
 use crate::sides::{Side, Sides};
+
+pub use along_line::{LineFields, SectionFields, SweptFields};
+pub(crate) use along_line::{SectionState, along_line};
+pub use tractions::SurfaceFields;
 
 /// Fields of both bodies at one position of the slider.
 #[derive(Debug, Clone, PartialEq)]
@@ -41,7 +52,7 @@ pub struct BodyFields {
     pub quality: Vec<f64>,
 }
 
-/// A stress in plane strain, MPa.
+/// A stress, MPa; in plane strain without the shears of z.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Stress {
     /// sigma_xx.
@@ -52,6 +63,10 @@ pub struct Stress {
     pub zz: f64,
     /// sigma_xy.
     pub xy: f64,
+    /// sigma_xz.
+    pub xz: f64,
+    /// sigma_yz.
+    pub yz: f64,
 }
 
 impl Stress {
@@ -59,16 +74,40 @@ impl Stress {
     pub fn von_mises(&self) -> f64 {
         let differences =
             (self.xx - self.yy).powi(2) + (self.yy - self.zz).powi(2) + (self.zz - self.xx).powi(2);
-        (0.5 * differences + 3.0 * self.xy * self.xy).sqrt()
+        let along = self.xz * self.xz + self.yz * self.yz;
+        (0.5 * differences + 3.0 * self.xy * self.xy + 3.0 * along).sqrt()
     }
 
     /// Largest shear stress, half the difference of the extreme principal stresses, MPa.
     pub fn largest_shear(&self) -> f64 {
+        if self.xz != 0.0 || self.yz != 0.0 {
+            let principal = self.tensor().symmetric_eigenvalues();
+            return 0.5 * (principal.max() - principal.min());
+        }
         let centre = 0.5 * (self.xx + self.yy);
         let radius = (0.5 * (self.xx - self.yy)).hypot(self.xy);
         let highest = (centre + radius).max(self.zz);
         let lowest = (centre - radius).min(self.zz);
         0.5 * (highest - lowest)
+    }
+
+    fn tensor(&self) -> Matrix3<f64> {
+        Matrix3::new(
+            self.xx, self.xy, self.xz, self.xy, self.yy, self.yz, self.xz, self.yz, self.zz,
+        )
+    }
+
+    /// A part of the way to another one.
+    fn towards(&self, other: &Self, share: f64) -> Self {
+        let between = |of: fn(&Self) -> f64| (1.0 - share) * of(self) + share * of(other);
+        Self {
+            xx: between(|s| s.xx),
+            yy: between(|s| s.yy),
+            zz: between(|s| s.zz),
+            xy: between(|s| s.xy),
+            xz: between(|s| s.xz),
+            yz: between(|s| s.yz),
+        }
     }
 }
 
@@ -163,6 +202,7 @@ pub fn recover(
             yy: s.yy / w,
             zz: s.zz / w,
             xy: s.xy / w,
+            ..Stress::default()
         })
         .collect();
     Ok(BodyFields {
@@ -229,9 +269,16 @@ mod tests {
             xx: -3.0,
             yy: -3.0,
             zz: -3.0,
-            xy: 0.0,
+            ..Stress::default()
         };
         assert!(pressure.von_mises() < 1e-14 && pressure.largest_shear() < 1e-14);
+        // The same shear in another plane.
+        let along = Stress {
+            yz: 2.0,
+            ..pressure
+        };
+        assert!((along.von_mises() - 12.0_f64.sqrt()).abs() < 1e-14);
+        assert!((along.largest_shear() - 2.0).abs() < 1e-14);
     }
 
     /// A wide block under an even pressure: sigma_yy = -p, sigma_xx = sigma_zz = -p nu/(1 - nu), no shear.

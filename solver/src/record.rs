@@ -17,7 +17,7 @@ mod summary;
 mod worn_area;
 
 pub use crate::cycle::{BlockWear, Checks, FrictionLoop};
-pub use crate::fields::PlacedFields;
+pub use crate::fields::{LineFields, PlacedFields};
 pub use crate::schedule::increments::Position;
 pub use crate::schedule::stops::Outcome;
 pub use crate::sides::Side;

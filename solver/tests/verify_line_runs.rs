@@ -16,14 +16,18 @@ use crate::scenes::{fuzz_button, sprung_contact};
 use crate::verify_resume::resumes_to_the_same_bits;
 use crate::verify_section_and_ball::as_ball;
 
-const FORCE: f64 = 0.5;
+pub(crate) const FORCE: f64 = 0.5;
 const WIDTH: f64 = 0.8;
-const CROWN: f64 = 10.0;
+pub(crate) const CROWN: f64 = 10.0;
 /// k/H of gold on gold, 1/MPa.
-const GOLD: f64 = 1e-5 / 1700.0;
+pub(crate) const GOLD: f64 = 1e-5 / 1700.0;
 
 /// The spring, of which the sides wear by these rates in 1/MPa.
-fn spring(crown_radius_mm: Option<f64>, (slider, receptacle): (f64, f64), cycles: u64) -> Scene {
+pub(crate) fn spring(
+    crown_radius_mm: Option<f64>,
+    (slider, receptacle): (f64, f64),
+    cycles: u64,
+) -> Scene {
     let law = |k_over_h_per_mpa: f64| {
         (k_over_h_per_mpa > 0.0).then_some(WearLaw::Archard { k_over_h_per_mpa })
     };
@@ -73,7 +77,7 @@ fn with_tilt(mut scene: Scene, mrad: f64) -> Scene {
 }
 
 /// The thesis' ring.
-fn ring(cycles: u64) -> Scene {
+pub(crate) fn ring(cycles: u64) -> Scene {
     let mut scene = fuzz_button();
     scene.cycles = cycles;
     scene.accuracy = Accuracy::from_tolerance(0.1);

@@ -1,6 +1,7 @@
 //! Requirement: displacement, stress, von Mises and mesh quality at the requested cycles and positions as VTU, checked
 //! with an independent reader (the Python package `vtk`).
 
+use std::path::Path;
 use std::process::Command;
 
 use tests::fretwear;
@@ -10,6 +11,26 @@ const SPEC: &str = r#"{
   "cycles": 20,
   "output": {"fields": true, "snapshots_at_cycles": [20]}
 }"#;
+
+/// A ring of wire and the crowned spring of a memory card.
+const ALONG_A_LINE: [&str; 2] = [
+    r#"{
+  "system": {"kind": "fuzz_button"},
+  "model": {"dimension": "ring", "outer_diameter_mm": 1.016, "top": "rigid"},
+  "load": {"kind": "force", "n": 0.5},
+  "accuracy": {"preset": "draft"},
+  "cycles": 2,
+  "output": {"fields": true, "snapshots_at_cycles": [2]}
+}"#,
+    r#"{
+  "system": {"kind": "sd_card"},
+  "model": {"dimension": "line", "width_mm": 0.8, "crown_radius_mm": 10},
+  "load": {"kind": "force", "n": 0.5},
+  "accuracy": {"preset": "draft"},
+  "cycles": 2,
+  "output": {"fields": true, "snapshots_at_cycles": [2]}
+}"#,
+];
 
 /// Prints the numbers of points and cells and the lowest and highest value of every array.
 const READER: &str = r#"
@@ -27,6 +48,30 @@ for data in (grid.GetPointData(), grid.GetCellData()):
         print(array.GetName(), *array.GetRange(0))
 "#;
 
+/// Adds the range of the volumes of all cells, and the vertical force of the pressure on the receptacle, whose cells have y up as their third side.
+const VOLUMES: &str = r#"
+from vtkmodules.vtkFiltersVerdict import vtkCellSizeFilter
+size = vtkCellSizeFilter()
+size.SetInputData(grid)
+size.Update()
+print("volume", *size.GetOutput().GetCellData().GetArray("Volume").GetRange())
+pressure = grid.GetPointData().GetArray("contact_pressure_mpa")
+body = grid.GetCellData().GetArray("body")
+force = 0.0
+for i in range(grid.GetNumberOfCells()):
+    if body.GetValue(i) == 0:
+        continue
+    cell = grid.GetCell(i)
+    for side in ((0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7)):
+        nodes = [cell.GetPointId(k) for k in side]
+        carried = [pressure.GetValue(node) for node in nodes]
+        if max(carried) > 0:
+            a, b, c, d = (grid.GetPoint(node) for node in nodes)
+            area = (c[2] - a[2]) * (d[0] - b[0]) - (c[0] - a[0]) * (d[2] - b[2])
+            force += 0.5 * abs(area) * sum(carried) / 4
+print("force", force, 0)
+"#;
+
 #[test]
 #[cfg_attr(not(has_vtk), ignore = "needs the Python package vtk")]
 fn requested_fields_open_in_vtk() {
@@ -41,26 +86,8 @@ fn requested_fields_open_in_vtk() {
         "fields-20-leftmost",
     ] {
         let file = folder.path().join("results").join(format!("{name}.vtu"));
-        let read = Command::new(env!("FRETWEAR_PYTHON"))
-            .args(["-c", READER])
-            .arg(&file)
-            .output()
-            .expect("the reader can be started");
-        let output = String::from_utf8_lossy(&read.stdout).into_owned();
-        let range = |array: &str| -> (f64, f64) {
-            let line = output
-                .lines()
-                .find(|line| line.split(' ').next() == Some(array));
-            let mut numbers = line
-                .unwrap_or_else(|| panic!("{array} is missing in {name}: {output}"))
-                .split(' ')
-                .skip(1)
-                .map(|number| number.parse::<f64>().expect("the reader prints numbers"));
-            (
-                numbers.next().expect("two numbers"),
-                numbers.next().expect("two numbers"),
-            )
-        };
+        let output = read(&file, READER);
+        let range = |array: &str| range(&output, array);
         assert!(range("points").0 > 1000.0 && range("cells").0 > 1000.0);
         assert_eq!(range("body"), (0.0, 1.0));
         assert!(range("quality").0 > 0.5 && range("quality").1 <= 1.0 + 1e-12);
@@ -69,4 +96,58 @@ fn requested_fields_open_in_vtk() {
         assert!((170.0..700.0).contains(&highest), "{name}: {highest}");
         assert!(range("stress_yy_mpa").0 < -200.0 && range("displacement_mm").1 > 0.0);
     }
+}
+
+/// The sections of a ring are joined by straight edges, which take 1.6 % of its length and force in 20 sections; walls
+/// take another hundredth of the vertical force by friction.
+#[test]
+#[cfg_attr(not(has_vtk), ignore = "needs the Python package vtk")]
+fn fields_along_a_line_open_in_vtk() {
+    for spec in ALONG_A_LINE {
+        let folder = tempfile::tempdir().expect("a folder can be made");
+        std::fs::write(folder.path().join("spec.json"), spec).expect("a file can be written");
+        let ran = fretwear(folder.path(), &["solve", "spec.json", "--out", "results"]);
+        assert_eq!(ran.code, Some(0), "{}", ran.stderr);
+        let results = folder.path().join("results");
+        for name in ["fields-0", "fields-2-rightmost", "fields-2-leftmost"] {
+            assert!(results.join(format!("{name}.vtu")).is_file(), "{name}");
+        }
+        let output = read(&results.join("fields-2.vtu"), &format!("{READER}{VOLUMES}"));
+        let range = |array: &str| range(&output, array);
+        assert!(range("points").0 > 10_000.0 && range("cells").0 > 10_000.0);
+        assert_eq!(range("body"), (0.0, 1.0));
+        assert!(range("quality").0 > 0.5, "{output}");
+        assert!(range("volume").0 > 0.0, "{output}");
+        assert!(range("von_mises_mpa").1 > 100.0, "{output}");
+        assert!((range("force").0 / 0.5 - 1.0).abs() < 0.03, "{output}");
+        let picture = std::fs::read_to_string(results.join("maps-2.svg")).expect("a picture");
+        assert!(picture.contains("pressure (MPa)"));
+        assert!(results.join("maps-2.json").is_file());
+    }
+}
+
+/// What a program of the reader prints of a file.
+fn read(file: &Path, program: &str) -> String {
+    let read = Command::new(env!("FRETWEAR_PYTHON"))
+        .args(["-c", program])
+        .arg(file)
+        .output()
+        .expect("the reader can be started");
+    let errors = String::from_utf8_lossy(&read.stderr);
+    assert!(read.status.success(), "{errors}");
+    String::from_utf8_lossy(&read.stdout).into_owned()
+}
+
+/// The two numbers printed of an array.
+fn range(output: &str, array: &str) -> (f64, f64) {
+    let mut lines = output.lines();
+    let line = lines
+        .find(|line| line.split(' ').next() == Some(array))
+        .unwrap_or_else(|| panic!("{array} is missing: {output}"));
+    let numbers = line.split(' ').skip(1);
+    let mut numbers = numbers.map(|number| number.parse().expect("the reader prints numbers"));
+    (
+        numbers.next().expect("two numbers"),
+        numbers.next().expect("two numbers"),
+    )
 }

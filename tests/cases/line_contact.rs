@@ -175,3 +175,58 @@ fn auto_simulates_what_a_crown_calls_for() {
     assert!(loads.windows(2).all(|pair| pair[0] >= pair[1]), "{loads:?}");
     assert!(loads[0] > 3.0 && loads[loads.len() - 1] <= 0.0, "{loads:?}");
 }
+
+/// Integral over places of values by the trapezoidal rule.
+fn trapezoidal(at: &[f64], values: &[f64]) -> f64 {
+    let pairs = at.windows(2).zip(values.windows(2));
+    pairs
+        .map(|(at, values)| 0.5 * (at[1] - at[0]) * (values[0] + values[1]))
+        .sum()
+}
+
+/// The maps of worn depth hold the worn volume of the summary to their seven digits; of a ring with the length of its centre line, 0.4826 mm from the
+/// axis.
+#[test]
+fn maps_along_a_line_hold_the_worn_volume() {
+    let folder = tempfile::tempdir().expect("a folder can be made");
+    let mut crown = document("sd_card_crown.json");
+    crown["cycles"] = json!(40);
+    crown["accuracy"] = json!({"preset": "draft"});
+    crown["stop"] = json!([]);
+    crown["output"] = json!({"snapshots_at_cycles": [40]});
+    for (spec, length_per_place) in [(ring(), 0.4826_f64.to_radians()), (crown, 1.0)] {
+        std::fs::write(folder.path().join("spec.json"), spec.to_string()).expect("a file");
+        let ran = fretwear(folder.path(), &["solve", "spec.json", "--out", "results"]);
+        assert_eq!(ran.code, Some(0), "{}", ran.stderr);
+        let read = |name: &str| -> Value {
+            let text = std::fs::read(folder.path().join("results").join(name)).expect(name);
+            serde_json::from_slice(&text).expect("JSON")
+        };
+        let (maps, summary) = (read("maps-40.json"), read("summary.json"));
+        for side in ["receptacle", "slider"] {
+            let map = &maps[side];
+            let along = if map["theta_deg"].is_array() {
+                numbers(&map["theta_deg"])
+            } else {
+                numbers(&map["z_mm"])
+            };
+            let rows = map["depth_mm"].as_array().expect("rows");
+            let sections: Vec<f64> = rows
+                .iter()
+                .map(|row| trapezoidal(&along, &numbers(row)))
+                .collect();
+            let volume = length_per_place * trapezoidal(&numbers(&map["x_mm"]), &sections);
+            let worn = number(&summary[side]["worn_volume_mm3"]);
+            assert!(
+                (volume - worn).abs() <= 1e-6 * worn,
+                "{side}: {volume} {worn}"
+            );
+        }
+        let picture = folder.path().join("results").join("maps-40.svg");
+        assert!(
+            std::fs::read_to_string(picture)
+                .expect("a picture")
+                .contains("depth")
+        );
+    }
+}

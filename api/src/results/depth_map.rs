@@ -1,4 +1,4 @@
-//! Worn depths and pressure over the area of a contact, at stored cycles.
+//! Worn depths and pressure over the area of a contact, at stored cycles: of a point, and along a line or a ring.
 
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
@@ -6,22 +6,30 @@ use utoipa::ToSchema;
 /// Worn depth over the surface of a body.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct DepthMap {
-    /// Positions along the sliding direction, mm, in the frame of the body.
+    /// Positions along the sliding direction, mm, in the frame of the body; on a ring outward from its centre line.
     pub x_mm: Vec<f64>,
-    /// Positions across it, mm.
+    /// Positions across it, mm; absent on a ring.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub z_mm: Vec<f64>,
-    /// Worn depth, mm: one row for each position along the sliding direction, with one value for each position across it.
+    /// Angles from the direction of motion on a ring, degrees, from 0 to 360, which is 0 again; absent elsewhere.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub theta_deg: Vec<f64>,
+    /// Worn depth, mm: one row for each of `x_mm`, with one value for each of `z_mm` or `theta_deg`.
     pub depth_mm: Vec<Vec<f32>>,
 }
 
 /// Contact pressure over the contact at the neutral position.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct PressureMap {
-    /// Positions along the sliding direction, mm, on the receptacle.
+    /// Positions along the sliding direction, mm, on the receptacle; on a ring outward from its centre line.
     pub x_mm: Vec<f64>,
-    /// Positions across it, mm.
+    /// Positions across it, mm; absent on a ring.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub z_mm: Vec<f64>,
-    /// Pressure, MPa: one row for each position along the sliding direction, with one value for each position across it.
+    /// Angles from the direction of motion on a ring, degrees, from 0 to 360, which is 0 again; absent elsewhere.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub theta_deg: Vec<f64>,
+    /// Pressure, MPa: one row for each of `x_mm`, with one value for each of `z_mm` or `theta_deg`.
     pub pressure_mpa: Vec<Vec<f32>>,
 }
 

@@ -12,6 +12,7 @@ pub fn document(cycle: u64, maps: &AreaMaps) -> ContactMaps {
         DepthMap {
             x_mm: map.x_mm[cut.rows.clone()].to_vec(),
             z_mm: map.z_mm[cut.columns.clone()].to_vec(),
+            theta_deg: Vec::new(),
             depth_mm: cut.values(&map.depth_mm),
         }
     };
@@ -33,19 +34,20 @@ fn pressure(map: &record::PressureMap) -> PressureMap {
     PressureMap {
         x_mm: map.x_mm[cut.rows.clone()].to_vec(),
         z_mm: map.z_mm[cut.columns.clone()].to_vec(),
+        theta_deg: Vec::new(),
         pressure_mpa: cut.values(&map.pressure_mpa),
     }
 }
 
 /// Rows and columns of a map that hold all values above 0.
-struct Cut {
+pub(super) struct Cut {
     width: usize,
-    rows: Range<usize>,
-    columns: Range<usize>,
+    pub(super) rows: Range<usize>,
+    pub(super) columns: Range<usize>,
 }
 
 impl Cut {
-    fn of(width: usize, values: &[f64]) -> Self {
+    pub(super) fn of(width: usize, values: &[f64]) -> Self {
         let height = values.len() / width.max(1);
         let (mut rows, mut columns) = (height..0, width..0);
         for (index, _) in values.iter().enumerate().filter(|(_, value)| **value > 0.0) {
@@ -68,11 +70,19 @@ impl Cut {
         }
     }
 
+    /// The same rows in all columns.
+    pub(super) fn of_all_columns(self) -> Self {
+        Self {
+            columns: 0..self.width,
+            ..self
+        }
+    }
+
     #[expect(
         clippy::cast_possible_truncation,
         reason = "seven digits are beyond any tolerance"
     )]
-    fn values(&self, values: &[f64]) -> Vec<Vec<f32>> {
+    pub(super) fn values(&self, values: &[f64]) -> Vec<Vec<f32>> {
         let rows = self.rows.clone();
         rows.map(|row| {
             let row = &values[row * self.width..][self.columns.clone()];

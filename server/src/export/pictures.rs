@@ -1,16 +1,18 @@
 //! Plots: panels of curves and markers, drawn as SVG; the PNG is rasterised from the SVG.
 //!
 //! Text is measured and rasterised with an embedded font, so that no system font is needed and the same data give the
-//! same picture on every machine. Apart from `run`, `line` and `life`, nothing here knows the meaning of the numbers.
+//! same picture on every machine. Apart from `run`, `line`, `life` and `maps`, nothing here knows the meaning of the numbers.
 
 mod axis;
 mod canvas;
 mod colour;
+mod colour_map;
 mod raster;
 mod ticks;
 
 pub mod life;
 mod line;
+pub mod maps;
 pub mod run;
 
 use plotters::drawing::DrawingAreaErrorKind;
@@ -18,6 +20,7 @@ use plotters::drawing::DrawingAreaErrorKind;
 pub use axis::{Axis, AxisRange, Scale};
 pub use canvas::svg;
 pub use colour::{COLOURS, Colour, ramp};
+pub use colour_map::{ColourMap, MapPanel, svg as colour_map};
 pub use raster::png;
 
 /// A picture: panels one above the other with a common legend.

@@ -1,11 +1,15 @@
 //! Fields inside the bodies as VTU files (VTK's XML format for unstructured grids), for ParaView and similar programs.
 //!
 //! One file holds both bodies at one position: the nodes of the undeformed, worn bodies (mm), the displacement as a
-//! vector to warp them by, stresses in MPa.
+//! vector to warp them by, stresses in MPa. Of a contact along a line it holds the swept bodies (`swept`).
+
+mod appended;
+mod planes;
+mod swept;
 
 use solver::fields::{BodyFields, Stress};
 use solver::mesh::columns::Cell;
-use solver::record::{PlacedFields, Position};
+use solver::record::{LineFields, PlacedFields, Position};
 use vtkio::model::{
     Attribute, Attributes, ByteOrder, CellType, Cells, DataArray, DataSet, UnstructuredGridPiece,
     Version, VertexNumbers, Vtk,
@@ -15,8 +19,14 @@ use crate::export::history::count;
 
 /// The fields could not be written as VTU.
 #[derive(Debug, thiserror::Error)]
-#[error("the fields cannot be written as VTU: {0}")]
-pub struct VtuError(#[from] vtkio::Error);
+pub enum VtuError {
+    /// Those of a section.
+    #[error("the fields cannot be written as VTU: {0}")]
+    Section(#[from] vtkio::Error),
+    /// Those of a line.
+    #[error("the fields along the line cannot be written as VTU: {0}")]
+    Line(#[from] std::io::Error),
+}
 
 /// Content of the file of the fields at one position.
 ///
@@ -45,6 +55,14 @@ pub fn bytes(fields: &PlacedFields) -> Result<Vec<u8>, VtuError> {
     let mut bytes = Vec::new();
     vtk.write_xml(&mut bytes)?;
     Ok(bytes)
+}
+
+/// Content of the file of the fields along a line at one position.
+///
+/// # Errors
+/// [`VtuError`] if the writer fails.
+pub fn line_bytes(fields: &LineFields) -> Result<Vec<u8>, VtuError> {
+    Ok(swept::bytes(fields)?)
 }
 
 /// Name of the file of a cycle and position; the neutral position has no suffix.

@@ -24,7 +24,7 @@ use crate::model::{BodyModel, ZoneModel};
 use crate::sides::Side;
 
 /// Marks a node of the far face, whose potential is zero.
-const HELD: usize = usize::MAX;
+pub(super) const HELD: usize = usize::MAX;
 
 /// The body as a conductor, seen from its contact nodes.
 #[derive(Debug, Clone, PartialEq)]
@@ -106,7 +106,7 @@ fn condensed(zone: &ZoneModel, side: Side) -> Result<SquareMatrix, OperatorError
 }
 
 /// Unknown of each node, those of the contact last; their number, and that of the contact.
-fn numbering(zone: &ZoneModel) -> (Vec<usize>, usize, usize) {
+pub(super) fn numbering(zone: &ZoneModel) -> (Vec<usize>, usize, usize) {
     let mesh = &zone.mesh;
     let mut unknown = vec![0; mesh.nodes()];
     for i in 0..mesh.spines() {
@@ -130,7 +130,11 @@ fn numbering(zone: &ZoneModel) -> (Vec<usize>, usize, usize) {
 }
 
 /// Assembles the conductance; the error is the number of an inverted element.
-fn assemble(zone: &ZoneModel, unknown: &[usize], order: usize) -> Result<LowerTriangle, usize> {
+pub(super) fn assemble(
+    zone: &ZoneModel,
+    unknown: &[usize],
+    order: usize,
+) -> Result<LowerTriangle, usize> {
     let nodes = zone.mesh.coordinates();
     let mut entries: Vec<(usize, usize, f64)> = Vec::new();
     for (element, cell) in zone.mesh.cells().iter().enumerate() {

@@ -120,6 +120,11 @@ impl ColumnMesh {
         self.first[i + 1] - 1
     }
 
+    /// The node of spine `i` on a layer; of a spine without length its only one.
+    pub fn node(&self, i: usize, layer: usize) -> usize {
+        (self.first[i] + layer).min(self.far_node(i))
+    }
+
     fn is_tip(&self, i: usize) -> bool {
         self.first[i + 1] - self.first[i] == 1
     }

@@ -3,7 +3,7 @@
 use crate::along_line::StationReport;
 use crate::contact::ContactState;
 use crate::cycle::{CycleRecord, CycleState, FrictionLoop};
-use crate::fields::PlacedFields;
+use crate::fields::{LineFields, PlacedFields};
 use crate::model::Model;
 use crate::point::DepthMap;
 use crate::schedule::increments::Position;
@@ -24,6 +24,8 @@ pub struct Snapshot {
     pub friction_loop: FrictionLoop,
     /// Fields inside the bodies at the same positions, if the scene asks for them.
     pub fields: Vec<PlacedFields>,
+    /// Those of a contact along a line.
+    pub line_fields: Vec<LineFields>,
     /// The whole contact, of which profiles and tractions are those of the middle section; `None` of a section.
     pub area: Option<AreaMaps>,
     /// The sections along a line, of which profiles and tractions are those of the one across the motion or in the middle; none of
@@ -112,6 +114,7 @@ pub fn snapshot(
         positions: record.contacts.iter().map(at).collect(),
         friction_loop: record.friction_loop,
         fields,
+        line_fields: Vec::new(),
         area: None,
         stations: Vec::new(),
     }

@@ -65,7 +65,12 @@ trait Contact: Sized {
         worn: &Self::Worn,
         resistance: Option<&ContactResistance>,
     ) -> CycleReport;
-    fn snapshot(&self, scene: &Scene, state: &Self::State, worn: Self::Worn) -> Snapshot;
+    fn snapshot(
+        &self,
+        scene: &Scene,
+        state: &Self::State,
+        worn: Self::Worn,
+    ) -> Result<Snapshot, SolveError>;
     fn resolution(&self, state: &Self::State) -> Resolution;
     fn checks(&self, state: &Self::State) -> Checks;
 
@@ -138,7 +143,7 @@ fn begin_contact<C: Contact>(
         contact_half_width_mm: report.contact_half_width_mm,
         contact_resistance_mohm: electrical.total_mohm(),
     };
-    let snapshot = contact.snapshot(scene, &state, worn);
+    let snapshot = contact.snapshot(scene, &state, worn)?;
     let mut run = FiniteRun {
         state,
         initial,
@@ -241,7 +246,7 @@ fn integrate<C: Contact>(
         let end = end.or_else(|| contact.ending());
         let cycle = C::cycle(&run.state);
         if end.is_some() || scene.output.snapshots_at_cycles.contains(&cycle) {
-            let snapshot = contact.snapshot(scene, &run.state, worn);
+            let snapshot = contact.snapshot(scene, &run.state, worn)?;
             if observer.on(Event::Snapshot(&snapshot)).is_break() {
                 return Ok(STOPPED);
             }

@@ -15,24 +15,24 @@ use crate::export::pictures::ticks::Ticks;
 use crate::export::pictures::{Colour, Mark, Panel, Picture, PlotError, Series};
 
 /// Drawing units per pixel: the backend rounds coordinates to whole units, which must not be visible in curves.
-const UNIT: u32 = 4;
+pub(super) const UNIT: u32 = 4;
 
 /// Size of a panel with its axis titles, and of title, legend and margins around it.
 const PANEL: (u32, u32) = (620 * UNIT, 380 * UNIT);
-const TITLE_HEIGHT: u32 = 40 * UNIT;
-const LEGEND_WIDTH: u32 = 190 * UNIT;
-const MARGIN: u32 = 14 * UNIT;
-const X_TITLE: u32 = 46 * UNIT;
-const Y_TITLE: u32 = 68 * UNIT;
+pub(super) const TITLE_HEIGHT: u32 = 40 * UNIT;
+pub(super) const LEGEND_WIDTH: u32 = 190 * UNIT;
+pub(super) const MARGIN: u32 = 14 * UNIT;
+pub(super) const X_TITLE: u32 = 46 * UNIT;
+pub(super) const Y_TITLE: u32 = 68 * UNIT;
 
 /// Sizes of text, strokes and marks.
 const TITLE: u32 = 18 * UNIT;
-const AXIS: u32 = 15 * UNIT;
-const LABEL: u32 = 13 * UNIT;
+pub(super) const AXIS: u32 = 15 * UNIT;
+pub(super) const LABEL: u32 = 13 * UNIT;
 const STROKE: u32 = 2 * UNIT;
-const THIN_STROKE: u32 = UNIT;
+pub(super) const THIN_STROKE: u32 = UNIT;
 const DOT: u32 = 4 * UNIT;
-const TICK: u32 = 5 * UNIT;
+pub(super) const TICK: u32 = 5 * UNIT;
 
 /// The legend: first line, line spacing, end of the markers, start of the labels, height of a label above its line.
 const LEGEND_TOP: i32 = px(24);
@@ -41,13 +41,13 @@ const LEGEND_MARK: i32 = px(26);
 const LEGEND_LABEL: i32 = px(36);
 const LEGEND_RISE: i32 = px(7);
 
-const INK: RGBColor = RGBColor(30, 30, 30);
+pub(super) const INK: RGBColor = RGBColor(30, 30, 30);
 const GRID: RGBColor = RGBColor(222, 222, 222);
 const FAINT: RGBColor = RGBColor(240, 240, 240);
 /// Font family in the SVG: a viewer substitutes its own, text is measured with the embedded one.
 const FAMILY: &str = "sans-serif";
 
-type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
+pub(super) type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 type Chart<'a, 'b> = ChartContext<'a, SVGBackend<'b>, Cartesian2d<Ticks, Ticks>>;
 
 /// Draws a picture.
@@ -55,17 +55,26 @@ type Chart<'a, 'b> = ChartContext<'a, SVGBackend<'b>, Cartesian2d<Ticks, Ticks>>
 /// # Errors
 /// [`PlotError`] if the drawing fails.
 pub fn svg(picture: &Picture) -> Result<String, PlotError> {
+    let panels = u32::try_from(picture.panels.len()).unwrap_or(1);
+    let size = (PANEL.0 + LEGEND_WIDTH, TITLE_HEIGHT + panels * PANEL.1);
+    drawing(size, |root| draw(picture, root, size))
+}
+
+/// What is drawn on an area of a size in drawing units.
+pub(super) fn drawing(
+    size: (u32, u32),
+    draw: impl FnOnce(&Area<'_>) -> Result<(), PlotError>,
+) -> Result<String, PlotError> {
     static FONT: Once = Once::new();
     FONT.call_once(|| {
         // The embedded font is valid; otherwise measuring text below returns an error.
         let _ = register_font(FAMILY, FontStyle::Normal, notosans::REGULAR_TTF);
     });
-    let panels = u32::try_from(picture.panels.len()).unwrap_or(1);
-    let size = (PANEL.0 + LEGEND_WIDTH, TITLE_HEIGHT + panels * PANEL.1);
     let mut text = String::new();
     {
         let root = SVGBackend::with_string(&mut text, size).into_drawing_area();
-        draw(picture, &root, size)?;
+        root.fill(&WHITE)?;
+        draw(&root)?;
         root.present()?;
     }
     // A name may contain characters that XML cannot.
@@ -89,16 +98,21 @@ fn sized_in_pixels(text: &str, (width, height): (u32, u32)) -> String {
 }
 
 fn draw(picture: &Picture, root: &Area<'_>, size: (u32, u32)) -> Result<(), PlotError> {
-    root.fill(&WHITE)?;
-    let (head, body) = root.split_vertically(TITLE_HEIGHT);
-    let title = Text::new(picture.title.clone(), (px(14), px(14)), font(TITLE));
-    head.draw(&title)?;
+    let body = titled(&picture.title, root)?;
     let (panels, side) = body.split_horizontally(size.0 - LEGEND_WIDTH);
     let areas = panels.split_evenly((picture.panels.len(), 1));
     for (panel, area) in picture.panels.iter().zip(&areas) {
         draw_panel(panel, area)?;
     }
     legend(picture, &side)
+}
+
+/// Draws the title; returns the area below it.
+pub(super) fn titled<'a>(title: &str, root: &Area<'a>) -> Result<Area<'a>, PlotError> {
+    let (head, body) = root.split_vertically(TITLE_HEIGHT);
+    let title = Text::new(title.to_owned(), (px(14), px(14)), font(TITLE));
+    head.draw(&title)?;
+    Ok(body)
 }
 
 fn draw_panel(panel: &Panel, area: &Area<'_>) -> Result<(), PlotError> {
@@ -208,15 +222,15 @@ fn legend(picture: &Picture, side: &Area<'_>) -> Result<(), PlotError> {
     Ok(())
 }
 
-fn font(size: u32) -> TextStyle<'static> {
+pub(super) fn font(size: u32) -> TextStyle<'static> {
     (FAMILY, size).into_font().color(&INK)
 }
 
-fn rgb([red, green, blue]: Colour) -> RGBColor {
+pub(super) fn rgb([red, green, blue]: Colour) -> RGBColor {
     RGBColor(red, green, blue)
 }
 
 /// Pixels in drawing units.
-const fn px(pixels: i32) -> i32 {
+pub(super) const fn px(pixels: i32) -> i32 {
     pixels * UNIT.cast_signed()
 }

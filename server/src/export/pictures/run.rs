@@ -64,7 +64,7 @@ fn every_nth(snapshots: &[Snapshot]) -> Vec<Shown<'_>> {
 }
 
 /// The unit for lengths up to `largest_mm`: its name and the factor from mm.
-fn unit(largest_mm: f64) -> (&'static str, f64) {
+pub(super) fn unit(largest_mm: f64) -> (&'static str, f64) {
     match largest_mm {
         small if small < 2e-4 => ("nm", 1e6),
         medium if medium < 0.5 => ("µm", 1e3),
@@ -72,7 +72,7 @@ fn unit(largest_mm: f64) -> (&'static str, f64) {
     }
 }
 
-fn largest<'a>(values: impl IntoIterator<Item = &'a f64>) -> f64 {
+pub(super) fn largest<'a>(values: impl IntoIterator<Item = &'a f64>) -> f64 {
     let sizes = values.into_iter().map(|value| value.abs());
     sizes.fold(0.0, f64::max)
 }

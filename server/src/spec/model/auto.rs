@@ -47,6 +47,10 @@ pub(super) fn choose(
     let (dimension, reason) = match extent::choose(&plane, as_point.as_ref(), line.extent()) {
         (extent::Choice::PlaneStrain, reason) => (Dimension::PlaneStrain, reason),
         (extent::Choice::Line, reason) => (Dimension::Line, reason),
+        (extent::Choice::Point, reason) if section.output.fields => {
+            let detail = "a line of sections is simulated for the fields inside the bodies, which a point does not have";
+            (Dimension::Line, format!("{reason}; {detail}"))
+        }
         (extent::Choice::Point, reason) => (Dimension::Point, reason),
     };
     let scene = match (dimension, crown_radius_mm) {

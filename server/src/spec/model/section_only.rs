@@ -6,6 +6,9 @@ use solver::sides::Side;
 
 use crate::spec::diagnostics::Diagnostics;
 
+/// Dimensions besides the section whose fields inside the bodies are computed.
+const HAS_FIELDS: [&str; 2] = ["line", "ring"];
+
 /// Checks that a specification has nothing that only a section has.
 pub(super) fn check(filled: &Spec, (name, motion): (&str, Motion), diagnostics: &mut Diagnostics) {
     if !filled.mission.is_empty() {
@@ -16,11 +19,11 @@ pub(super) fn check(filled: &Spec, (name, motion): (&str, Motion), diagnostics: 
         );
         diagnostics.fault("/motion/kind", detail);
     }
-    if filled.output.fields == Some(true) {
-        diagnostics.fault(
-            "/output/fields",
-            "fields inside the bodies are those of a section",
+    if filled.output.fields == Some(true) && !HAS_FIELDS.contains(&name) {
+        let detail = format!(
+            "a `{name}` has no fields inside the bodies; `plane_strain`, `line` and `ring` have"
         );
+        diagnostics.fault("/output/fields", detail);
     }
     let overrides = filled.accuracy.overrides.as_ref();
     if overrides.is_some_and(|overrides| overrides.largest_wear_mm.is_some()) {

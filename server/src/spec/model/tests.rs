@@ -115,7 +115,7 @@ fn fields_that_mean_nothing_in_a_dimension_are_refused() {
 
 #[test]
 fn a_law_of_state_is_refused() {
-    let law = r#""law":"archard_pressure_power","k":1e-9,"exponent":1.5"#;
+    let law = r#""law":"rhee","wear_factor":1e-9,"pressure_exponent":1.5,"speed_exponent":1,"time_exponent":1"#;
     let text = ball(&format!(
         r#","plating":{{"slider":[],"receptacle":[]}},"interface":{{"wear":{{"slider":null,"receptacle":{{{law}}}}}}}"#
     ));
@@ -123,7 +123,7 @@ fn a_law_of_state_is_refused() {
     assert!(
         found
             .iter()
-            .any(|pointer| pointer.starts_with("/interface/wear/receptacle")),
+            .any(|pointer| pointer == "/interface/wear/receptacle/law"),
         "{found:?}"
     );
 }
@@ -228,10 +228,17 @@ fn a_line_shares_its_force_and_its_spring() {
 }
 
 #[test]
+fn lines_and_rings_have_fields_inside_the_bodies() {
+    let fields = r#","output":{"fields":true}"#;
+    for text in [ring(fields), line(r#","crown_radius_mm":10"#, fields)] {
+        assert!(accepted(&text).scene.output.fields, "{text}");
+    }
+}
+
+#[test]
 fn fields_that_mean_nothing_along_a_line_are_refused() {
     for (text, expected) in [
         (ring(r#","load":{"kind":"force","n":1,"width_mm":3}"#), "/load/width_mm"),
-        (ring(r#","output":{"fields":true}"#), "/output/fields"),
         (
             ring(r#","motion":{"kind":"continuous","distance_mm":10}"#),
             "/motion/kind",
@@ -336,9 +343,15 @@ fn auto_chooses_by_numbers() {
     assert_eq!(chosen(r#","tilt_mrad":1"#, ""), Named::Line);
     // So flat that it is worn alike, of which 4e-9 mm are no part.
     assert_eq!(chosen(r#","tilt_mrad":5e-6"#, ""), Named::PlaneStrain);
-    // What only a section has.
+    // A point has no fields inside the bodies.
     assert_eq!(
         chosen(r#","crown_radius_mm":10"#, r#","output":{"fields":true}"#),
+        Named::Line
+    );
+    // What only a section has.
+    let powers = r#","plating":{"slider":[],"receptacle":[]},"interface":{"wear":{"slider":null,"receptacle":{"law":"rhee","wear_factor":1e-9,"pressure_exponent":1.5,"speed_exponent":1,"time_exponent":1}}}"#;
+    assert_eq!(
+        chosen(r#","crown_radius_mm":10"#, powers),
         Named::PlaneStrain
     );
 }

@@ -7,6 +7,7 @@ use crate::checkpoint::{LineRun, Misfit, Resumable};
 use crate::contact::{ContactState, Work};
 use crate::cycle::FrictionLoop;
 use crate::effects::EffectsPlan;
+use crate::fields::{self, LineFields, SectionState};
 use crate::record::Checks;
 use crate::scene::Scene;
 use crate::schedule::step::Position;
@@ -47,6 +48,27 @@ impl Sections for LineIntegrator {
 
     fn contacts(&self, section: usize) -> impl Iterator<Item = (Position, f64, &ContactState)> {
         self.contacts(section)
+    }
+
+    fn fields(&self, scene: &Scene, last: &StationCycle) -> Result<Vec<LineFields>, SolveError> {
+        let Some(line) = scene.dimension.line() else {
+            return Ok(Vec::new());
+        };
+        let numbers = last.stations.iter().enumerate();
+        let sections: Vec<SectionState<'_>> = numbers
+            .map(|(number, report)| {
+                let (model, condensed, depth) = self.section(number);
+                let contacts = self.contacts(number);
+                SectionState {
+                    at: report.at,
+                    model,
+                    condensed,
+                    depth,
+                    contacts: contacts.map(|(at, _, contact)| (at, contact)).collect(),
+                }
+            })
+            .collect();
+        self.within(|| fields::along_line(line.shape, &sections, last.cycle > 0))
     }
 
     fn slave(&self) -> Side {

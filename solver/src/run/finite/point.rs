@@ -94,8 +94,13 @@ impl Contact for PointIntegrator {
         })
     }
 
-    fn snapshot(&self, scene: &Scene, state: &PointState, worn: Sides<DepthMap>) -> Snapshot {
-        snapshot((scene, self.scene()), state, worn)
+    fn snapshot(
+        &self,
+        scene: &Scene,
+        state: &PointState,
+        worn: Sides<DepthMap>,
+    ) -> Result<Snapshot, SolveError> {
+        Ok(snapshot((scene, self.scene()), state, worn))
     }
 
     fn resolution(&self, state: &PointState) -> Resolution {
@@ -189,6 +194,7 @@ fn snapshot(
         positions: placed[..count].iter().map(tractions).collect(),
         friction_loop: friction_loop(contact, state),
         fields: Vec::new(),
+        line_fields: Vec::new(),
         area: Some(AreaMaps {
             pressure: pressure_map(state.neutral()),
             depth,

@@ -9,6 +9,7 @@ use crate::contact::{ContactState, Work};
 use crate::cycle::FrictionLoop;
 use crate::effects::EffectsPlan;
 use crate::electrical::{AreaContact, ContactResistance};
+use crate::fields::LineFields;
 use crate::record::{
     self, Checks, CycleReport, DepthProfile, LineEnd, Outcome, Resolution, Snapshot,
     StationSnapshot, TractionField, WornArea, tractions,
@@ -37,6 +38,13 @@ pub(super) trait Sections: Sized {
     fn profile(&self, section: usize) -> StationProfile;
     /// Contacts of a section at the named positions of the cycle, with the displacement of the slider, mm.
     fn contacts(&self, section: usize) -> impl Iterator<Item = (Position, f64, &ContactState)>;
+    /// Fields inside the bodies at the same positions; none where they are not computed.
+    ///
+    /// # Errors
+    /// [`SolveError`] if a present surface would invert an element, or a mesh cannot be factored.
+    fn fields(&self, _: &Scene, _: &StationCycle) -> Result<Vec<LineFields>, SolveError> {
+        Ok(Vec::new())
+    }
     /// The body that carries the tractions.
     fn slave(&self) -> Side;
     /// The section whose profile stands for all.
@@ -141,8 +149,21 @@ impl<S: Sections> Contact for S {
         })
     }
 
-    fn snapshot(&self, _: &Scene, state: &S::State, worn: Vec<StationProfile>) -> Snapshot {
-        snapshot(self, state.last(), worn)
+    fn snapshot(
+        &self,
+        scene: &Scene,
+        state: &S::State,
+        worn: Vec<StationProfile>,
+    ) -> Result<Snapshot, SolveError> {
+        let line_fields = if scene.output.fields {
+            self.fields(scene, state.last())?
+        } else {
+            Vec::new()
+        };
+        Ok(Snapshot {
+            line_fields,
+            ..snapshot(self, state.last(), worn)
+        })
     }
 
     fn resolution(&self, state: &S::State) -> Resolution {
@@ -190,6 +211,7 @@ fn snapshot(sections: &impl Sections, cycle: &StationCycle, worn: Vec<StationPro
         positions: reference.positions.clone(),
         friction_loop: sections.friction_loop().clone(),
         fields: Vec::new(),
+        line_fields: Vec::new(),
         area: None,
         stations,
     }

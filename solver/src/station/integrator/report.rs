@@ -2,9 +2,11 @@
 
 use super::LineIntegrator;
 use crate::along_line::{Ending, StationCycle, StationProfile, StationReport};
+use crate::condensation::Condensed;
 use crate::contact::ContactState;
 use crate::cycle::{Checks, FrictionLoop};
 use crate::law::surface::SurfaceWear;
+use crate::model::Model;
 use crate::number::real_cycles;
 use crate::schedule::step::Position;
 use crate::sides::{Side, Sides};
@@ -125,6 +127,18 @@ impl LineIntegrator {
             x_mm: bodies.map(|body| body.contact_x().to_vec()),
             depth_mm: self.line.stations[station].state.depth.clone(),
         }
+    }
+
+    /// Does work in the threads of the run.
+    pub(crate) fn within<R: Send>(&self, work: impl FnOnce() -> R + Send) -> R {
+        self.threads.within(work)
+    }
+
+    /// The meshed section of a station with its operators, and its worn depths, mm.
+    pub(crate) fn section(&self, station: usize) -> (&Model, &Condensed, &Sides<Vec<f64>>) {
+        let station = &self.line.stations[station];
+        let section = &station.section;
+        (&section.model, &section.condensed, &station.state.depth)
     }
 
     /// Worst residuals so far, with those of the present worn areas.
