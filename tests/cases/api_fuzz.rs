@@ -39,7 +39,13 @@ fn fuzzed(server: &Server, folder: &Path, seconds: &str, chosen: &[&str]) {
         .args(["--phases", "examples,coverage,fuzzing"])
         .args(["--max-examples", "20", "--max-time", seconds, "--seed", "7"])
         // A request may wait for a job for 60 s.
-        .args(["--request-timeout", "90", "--no-color"])
+        .args([
+            "--request-timeout",
+            "90",
+            "--max-response-time",
+            "90",
+            "--no-color",
+        ])
         .args(chosen)
         .current_dir(folder)
         .output()

@@ -62,7 +62,8 @@ async fn a_ring_is_a_job_with_sections() {
         .sum();
     assert!((carried - 2.0 * std::f64::consts::PI * 0.4826).abs() < 1e-9);
     assert!((number(&summary["extent"]["load_n"]) - 0.834).abs() < 1e-6);
-    assert!(number(&summary["checks"]["force_balance"]) < 1e-6);
+    // The common height is found to 1e-5 of the force.
+    assert!(number(&summary["checks"]["force_balance"]) <= 1e-5);
     // mu F over 4 A a cycle.
     let energy = number(&summary["extent"]["dissipated_energy_mj"]);
     let work = 1.21 * 0.834 * 4.0 * 0.033_868 * 40.0;

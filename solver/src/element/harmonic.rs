@@ -140,8 +140,8 @@ mod tests {
             let sum = row.iter().zip(&u).map(|(block, u)| block * u);
             sum.fold(SVector::zeros(), |sum: SVector<f64, 3>, f| sum + f)
         });
-        let largest = k.iter().flatten().map(|block| block.amax());
-        let most = forces.iter().map(|f| f.amax()).fold(0.0, f64::max);
+        let largest = k.iter().flatten().map(Matrix3::amax);
+        let most = forces.iter().map(SVector::amax).fold(0.0, f64::max);
         most / largest.fold(0.0, f64::max)
     }
 
