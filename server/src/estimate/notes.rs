@@ -2,7 +2,7 @@
 
 use api::spec::{EnumValue, LoadKind, Preset, SystemKind, WearLaw};
 use solver::model::resolution;
-use solver::scene::LineShape;
+use solver::scene::{LineShape, RingMotion};
 
 use crate::spec::Resolved;
 
@@ -62,13 +62,17 @@ fn fuzz_button(resolved: &Resolved) -> Vec<String> {
          the top face for the contact pressure"
             .to_owned(),
     ];
-    if let Some(LineShape::Ring { radius_mm, .. }) =
+    if let Some(LineShape::Ring { radius_mm, motion }) =
         resolved.scene.dimension.line().map(|line| line.shape)
     {
+        let moves = match motion {
+            RingMotion::InPlane => "vibrates in its plane",
+            RingMotion::Torsion => "turns about its axis",
+        };
         notes.push(format!(
             "the source gives its rings no dimensions, tops or directions: the centre line of the wire has a radius of {radius_mm:.4} mm here (an \
-             outer circumference of 3.192 mm, the length of its extruded model, if no other diameter is given), the ring vibrates in its \
-             plane, and half of it stands for both"
+             outer circumference of 3.192 mm, the length of its extruded model, if no other diameter is given), the ring {moves}, \
+             and half of it stands for both"
         ));
     }
     if resolved.scene.dimension.extruded().is_some() {
