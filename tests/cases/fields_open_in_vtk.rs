@@ -114,6 +114,10 @@ fn fields_along_a_line_open_in_vtk() {
         }
         let output = read(&results.join("fields-2.vtu"), &format!("{READER}{VOLUMES}"));
         let range = |array: &str| range(&output, array);
+        let bytes = std::fs::read(results.join("fields-2.vtu"))
+            .expect("a file")
+            .len();
+        println!("fields-2.vtu: {bytes} bytes, {} nodes", range("points").0);
         assert!(range("points").0 > 10_000.0 && range("cells").0 > 10_000.0);
         assert_eq!(range("body"), (0.0, 1.0));
         assert!(range("quality").0 > 0.5, "{output}");

@@ -1,11 +1,10 @@
 //! Numbering of unknowns and assembly of a body's stiffness, lower triangle by columns.
 
 use super::Compliance;
-use crate::element::{Tri3, quad_stiffness, stiffness};
+use crate::element::{Stiffness, Tri3, quad_stiffness, stiffness};
 use crate::linear::SquareMatrix;
 use crate::mesh::columns::Cell;
 use crate::model::{Support, ZoneModel};
-use nalgebra::Matrix2;
 
 /// Marks a constrained displacement, which is zero.
 pub(super) const HELD: usize = usize::MAX;
@@ -133,27 +132,38 @@ pub(super) fn assemble(zone: &ZoneModel, numbering: &Numbering) -> Result<LowerT
         match cell {
             Cell::Quad(n) => {
                 let k = quad_stiffness(&n.map(|n| nodes[n]), zone.lame, zone.b_bar);
-                scatter(&mut entries, numbering, n, &k.ok_or_else(inverted)?);
+                scatter(
+                    &mut entries,
+                    &numbering.unknown,
+                    n,
+                    &k.ok_or_else(inverted)?,
+                );
             }
             Cell::Tri(n) => {
                 let k = stiffness::<Tri3, 3, 2>(&n.map(|n| nodes[n]), zone.lame, false);
-                scatter(&mut entries, numbering, n, &k.ok_or_else(inverted)?);
+                scatter(
+                    &mut entries,
+                    &numbering.unknown,
+                    n,
+                    &k.ok_or_else(inverted)?,
+                );
             }
         }
     }
     Ok(compress(entries, numbering.order))
 }
 
-fn scatter<const N: usize>(
+/// Adds the stiffness of an element to the entries (column, row, value) of the lower triangle.
+pub(super) fn scatter<const N: usize, const D: usize>(
     entries: &mut Vec<(usize, usize, f64)>,
-    numbering: &Numbering,
+    unknown: &[[usize; D]],
     nodes: &[usize; N],
-    k: &[[Matrix2<f64>; N]; N],
+    k: &Stiffness<N, D>,
 ) {
     for (a, block_row) in nodes.iter().zip(k) {
         for (b, block) in nodes.iter().zip(block_row) {
-            for (i, &row) in numbering.unknown[*a].iter().enumerate() {
-                for (j, &column) in numbering.unknown[*b].iter().enumerate() {
+            for (i, &row) in unknown[*a].iter().enumerate() {
+                for (j, &column) in unknown[*b].iter().enumerate() {
                     if row != HELD && column != HELD && row >= column {
                         entries.push((column, row, block[(i, j)]));
                     }

@@ -7,17 +7,14 @@
 
 use std::sync::Arc;
 
-use super::assembly::{LowerTriangle, compress};
+use super::assembly::{HELD, LowerTriangle, compress, scatter};
 use super::operator_error::OperatorError;
 use crate::element::harmonic::{Waves, harmonic_stiffness};
-use crate::element::{Element, Quad4, Tri3};
+use crate::element::{Quad4, Tri3};
 use crate::linear::CholeskyPattern;
 use crate::mesh::columns::Cell;
 use crate::model::{BodyModel, ZoneModel};
 use crate::sides::Side;
-
-/// Marks a displacement that is zero.
-const HELD: usize = usize::MAX;
 
 /// What holds the far face of a body.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -41,29 +38,29 @@ pub fn harmonic_compliances(
     waves: &[(Waves, FarFace)],
 ) -> Result<Vec<f64>, OperatorError> {
     let zone = &body.zones[body.zone_at(0.0)];
+    let body = side.name();
     let mut compliances = Vec::with_capacity(waves.len());
-    let mut known: Option<(FarFace, Arc<CholeskyPattern>)> = None;
-    for &(waves, far) in waves {
-        let unknown = numbered(zone, far);
-        let matrix =
-            assemble(zone, &unknown, waves).map_err(|element| OperatorError::Inverted {
-                body: side.name(),
-                element,
-            })?;
-        let failed = |source| OperatorError::Factor {
-            body: side.name(),
-            source,
-        };
-        let pattern = match known.take().filter(|(of, _)| *of == far) {
-            Some((_, pattern)) => pattern,
-            None => Arc::new(CholeskyPattern::new(matrix.starts, matrix.rows, 0).map_err(failed)?),
-        };
-        let factor = pattern.factor(&matrix.values).map_err(failed)?;
+    // What waves under the same far face share.
+    for same in waves.chunk_by(|one, next| one.1 == next.1) {
+        let unknown = numbered(zone, same[0].1);
         let load = load(zone, (&unknown, side), half_width);
-        let mut displacement = load.clone();
-        factor.solve(&mut displacement);
-        compliances.push(load.iter().zip(&displacement).map(|(f, u)| f * u).sum());
-        known = Some((far, pattern));
+        let mut known: Option<Arc<CholeskyPattern>> = None;
+        for (waves, _) in same {
+            let matrix = assemble(zone, (&unknown, load.len()), *waves)
+                .map_err(|element| OperatorError::Inverted { body, element })?;
+            let failed = |source| OperatorError::Factor { body, source };
+            let pattern = if let Some(pattern) = known.take() {
+                pattern
+            } else {
+                let pattern = CholeskyPattern::new(matrix.starts, matrix.rows, 0);
+                Arc::new(pattern.map_err(failed)?)
+            };
+            let mut displacement = load.clone();
+            let factor = pattern.factor(&matrix.values).map_err(failed)?;
+            factor.solve(&mut displacement);
+            compliances.push(load.iter().zip(&displacement).map(|(f, u)| f * u).sum());
+            known = Some(pattern);
+        }
     }
     Ok(compliances)
 }
@@ -86,46 +83,28 @@ fn numbered(zone: &ZoneModel, far: FarFace) -> Vec<[usize; 3]> {
     unknown
 }
 
-/// Assembles the stiffness; the error is the number of an inverted element.
+/// Assembles the stiffness of so many unknowns; the error is the number of an inverted element.
 fn assemble(
     zone: &ZoneModel,
-    unknown: &[[usize; 3]],
+    (unknown, order): (&[[usize; 3]], usize),
     waves: Waves,
 ) -> Result<LowerTriangle, usize> {
     let nodes = zone.mesh.coordinates();
+    let material = (zone.lame, zone.b_bar);
     let mut entries = Vec::new();
     for (element, cell) in zone.mesh.cells().iter().enumerate() {
-        let added = match cell {
-            Cell::Quad(n) => add::<Quad4, 4>(&mut entries, (zone, unknown), (n, &nodes), waves),
-            Cell::Tri(n) => add::<Tri3, 3>(&mut entries, (zone, unknown), (n, &nodes), waves),
-        };
-        added.ok_or(element)?;
-    }
-    let order = unknown.iter().flatten().filter(|slot| **slot != HELD);
-    Ok(compress(entries, order.count()))
-}
-
-/// Adds the stiffness of an element, (column, row, value) of the lower triangle.
-fn add<E: Element<N, 2>, const N: usize>(
-    entries: &mut Vec<(usize, usize, f64)>,
-    (zone, unknown): (&ZoneModel, &[[usize; 3]]),
-    (numbers, nodes): (&[usize; N], &[[f64; 2]]),
-    waves: Waves,
-) -> Option<()> {
-    let corners = numbers.map(|number| nodes[number]);
-    let k = harmonic_stiffness::<E, N>(&corners, (zone.lame, zone.b_bar), waves)?;
-    for (a, blocks) in numbers.iter().zip(&k) {
-        for (b, block) in numbers.iter().zip(blocks) {
-            for (i, &row) in unknown[*a].iter().enumerate() {
-                for (j, &column) in unknown[*b].iter().enumerate() {
-                    if row != HELD && column != HELD && row >= column {
-                        entries.push((column, row, block[(i, j)]));
-                    }
-                }
+        match cell {
+            Cell::Quad(n) => {
+                let k = harmonic_stiffness::<Quad4, 4>(&n.map(|n| nodes[n]), material, waves);
+                scatter(&mut entries, unknown, n, &k.ok_or(element)?);
+            }
+            Cell::Tri(n) => {
+                let k = harmonic_stiffness::<Tri3, 3>(&n.map(|n| nodes[n]), material, waves);
+                scatter(&mut entries, unknown, n, &k.ok_or(element)?);
             }
         }
     }
-    Some(())
+    Ok(compress(entries, order))
 }
 
 /// Nodal forces into the body of Hertz' pressure on its surface, whose resultant is 1; that of one node where none other is in the contact.

@@ -73,26 +73,15 @@ pub fn harmonic_stiffness<E: Element<N, 2>, const N: usize>(
 /// Strains per displacement of a node with a shape function and its gradient, where the line has a curvature and waves per mm.
 fn strains(shape: f64, [dx, dy]: [f64; 2], (curvature, waves): (f64, f64)) -> Strains {
     let (c, m) = (curvature * shape, waves * shape);
-    Strains::from_row_slice(&[
-        dx,
-        0.0,
-        0.0, //
-        0.0,
-        dy,
-        0.0, //
-        c,
-        0.0,
-        m, //
-        dy,
-        dx,
-        0.0, //
-        -m,
-        0.0,
-        dx - c, //
-        0.0,
-        -m,
-        dy,
-    ])
+    let rows = [
+        [dx, 0.0, 0.0],
+        [0.0, dy, 0.0],
+        [c, 0.0, m],
+        [dy, dx, 0.0],
+        [-m, 0.0, dx - c],
+        [0.0, -m, dy],
+    ];
+    Strains::from_fn(|row, column| rows[row][column])
 }
 
 /// Change of volume per displacement of a node.

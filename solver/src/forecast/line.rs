@@ -182,7 +182,7 @@ fn followed(scene: &Scene, line: &StationScene, layout: &Layout) -> Vec<Section>
         LineShape::Ring { .. } => &ANGLES[2..],
         LineShape::Straight { .. } => &ANGLES[..1],
     };
-    let is_rigid_ring = angles.len() > 1 && line.top != Top::Even;
+    let is_rigid_ring = angles.len() > 1 && line.top == Top::Rigid;
     let leading = leading_load(scene, line);
     let whole = Scar::new(scene, layout, false).area_per_cycle;
     let sections = angles.iter().map(|angle| {

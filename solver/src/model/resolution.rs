@@ -221,9 +221,12 @@ pub fn crown_half_lengths_mm(scene: &Scene) -> Option<(f64, f64)> {
 
 /// Hertz' half-width of the most loaded section along a line, mm.
 pub fn largest_half_width(scene: &Scene) -> f64 {
-    // It goes with the root of the load.
-    let most = line_contact::largest_line_load(scene) / scene.load_n_per_mm;
-    hertz_half_width(scene) * most.sqrt()
+    hertz_half_width(scene) * root_of_largest_load(scene)
+}
+
+/// Half-width and pressure of the most loaded section over those under the mean load: both go with the root of the load.
+fn root_of_largest_load(scene: &Scene) -> f64 {
+    (line_contact::largest_line_load(scene) / scene.load_n_per_mm).sqrt()
 }
 
 /// Hertz' peak pressure of the unworn contact, MPa: 2 P/(pi a) of a section, and of the most loaded one along a line; 3 F/(2 pi a b) of a
@@ -234,8 +237,7 @@ pub fn hertz_peak_pressure(scene: &Scene) -> f64 {
         return 1.5 * contact.force_n / (PI * along * across);
     }
     let mean = 2.0 * scene.load_n_per_mm / (PI * hertz_half_width(scene));
-    // It goes with the root of the load.
-    mean * (line_contact::largest_line_load(scene) / scene.load_n_per_mm).sqrt()
+    mean * root_of_largest_load(scene)
 }
 
 /// Chooses the spacing of a scene's meshes: of a mission the finest and widest that one of its blocks needs.

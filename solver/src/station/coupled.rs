@@ -23,7 +23,7 @@ struct Correction {
     lifts: Vec<f64>,
     /// Largest change of a section's load over the mean one.
     of_load: f64,
-    /// Largest change of a height without load over the indentation.
+    /// Largest change of a height without load, mm.
     of_height: f64,
 }
 

@@ -117,7 +117,7 @@ impl StationScene {
     }
 
     /// Whether line loads that differ along the line change the heights of its sections against each other. Of a ring under a rigid top
-    /// they do by a part that nothing would show: 1e-6 of its depth.
+    /// lifts are below 3e-5 of its depth (`coupling`).
     pub(super) fn is_coupled(&self) -> bool {
         match self.top {
             Top::Even => false,

@@ -30,6 +30,7 @@ fn wire_under_pressure_wears_between_even_and_rigid() {
         "ring, depths at 0, 45, 90 deg after 400 cycles: pressure, even, rigid {found:.2?} um"
     );
     let [pressure_um, even_um, rigid_um] = found;
+    // Clear of both, as 0.85 and 1.42 times these are.
     assert!(pressure_um[2] < 0.95 * even_um[2] && pressure_um[2] > 1.05 * rigid_um[2]);
     let volume = |found: &StationSummary| found.last.worn_volume_mm3.receptacle;
     let worn = volume(&pressure)
@@ -39,6 +40,7 @@ fn wire_under_pressure_wears_between_even_and_rigid() {
             .receptacle
             .expect("a rate");
     assert!((worn - 1.0).abs() < 1e-10);
+    // The balance that heights are found to.
     assert!((pressure.last.force_n / super::FORCE - 1.0).abs() < 1e-5);
     // theta and 180 degrees less it wear alike over whole cycles, but for the direction in which each begins.
     let (first, last) = (

@@ -3,8 +3,8 @@
 //! Radii of 1 and 36.5 mm, E = 117 GPa, nu = 0.34, 5 N: half-lengths of 19.258 um and 9.994 times that, p0 = 644.07 MPa, line load in the middle
 //! (pi/2) p0 a = 19.484 N/mm (Johnson, Contact Mechanics, 1985, section 4.2).
 //!
-//! In plane strain the approach depends on the logarithm of the height of the bodies, while that of an ellipse does not. Sections alone have
-//! 21.1, 19.0 and 17.5 N/mm in the middle with bodies of 0.118, 0.25 and 0.5 mm; their coupling makes up for it. Once the contact has
+//! In plane strain the approach depends on the logarithm of the height of the bodies, while that of an ellipse does not; the coupling of the
+//! sections makes up for it. Once the contact has
 //! worn, the depth decides and not the approach.
 
 use super::solved;

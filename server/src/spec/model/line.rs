@@ -26,7 +26,7 @@ const TYPICAL_CROWN_MM: f64 = 10.0;
 /// Width of a straight line over that of its contact, below which its ends count: sections have none.
 const WIDE: f64 = 5.0;
 /// Half-length of a crown's contact over its half-width below which sections rate its unworn pressure too low: by 2 % at 2.8, 6 % at 1.8 and
-/// 16 % at 1 (`solver/tests/verify_line_runs.rs`).
+/// 16 % at 1 (`sections_rate_the_pressure_of_a_round_contact_too_low` of the solver's tests).
 const LONG: f64 = 3.0;
 
 /// A line without its force.

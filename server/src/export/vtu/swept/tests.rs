@@ -1,6 +1,7 @@
 use std::f64::consts::{PI, TAU};
 
 use solver::along_line::Along;
+use solver::element::{Element, Hex8, physical_gradient};
 use solver::record::Position;
 use solver::scene::{LineShape, RingMotion};
 use solver::sides::Sides;
@@ -59,19 +60,7 @@ fn ring(stations: usize) -> LineFields {
     )
 }
 
-/// Nodes of a hexahedron in natural coordinates.
-const CORNERS: [[f64; 3]; 8] = [
-    [-1.0, -1.0, -1.0],
-    [1.0, -1.0, -1.0],
-    [1.0, 1.0, -1.0],
-    [-1.0, 1.0, -1.0],
-    [-1.0, -1.0, 1.0],
-    [1.0, -1.0, 1.0],
-    [1.0, 1.0, 1.0],
-    [-1.0, 1.0, 1.0],
-];
-
-/// Determinants of the Jacobian of all cells at the eight Gauss points, which sum to the volume.
+/// Determinants of the Jacobian of all cells at the quadrature points of the hexahedron, which sum to the volume.
 fn determinants(grid: &Grid) -> Vec<f64> {
     let places: Vec<f64> = match &grid.points.values {
         Values::F32(values) => values.iter().map(|x| f64::from(*x)).collect(),
@@ -81,28 +70,22 @@ fn determinants(grid: &Grid) -> Vec<f64> {
     let Values::I32(nodes) = &grid.topology[0].values else {
         panic!("nodes are whole numbers");
     };
-    let gauss = CORNERS.map(|corner| corner.map(|x| x / 3.0_f64.sqrt()));
-    let cells = nodes.chunks(8).flat_map(|cell| {
-        gauss.map(|at| {
-            let mut jacobian = [[0.0; 3]; 3];
-            for (node, corner) in cell.iter().zip(CORNERS) {
-                let first = 3 * usize::try_from(*node).expect("a number");
-                for (k, row) in jacobian.iter_mut().enumerate() {
-                    let (a, b) = ((k + 1) % 3, (k + 2) % 3);
-                    let slope =
-                        0.125 * corner[k] * (1.0 + corner[a] * at[a]) * (1.0 + corner[b] * at[b]);
-                    for (axis, entry) in row.iter_mut().enumerate() {
-                        *entry += slope * places[first + axis];
-                    }
-                }
-            }
-            let [u, v, w] = jacobian;
-            u[0] * (v[1] * w[2] - v[2] * w[1])
-                + u[1] * (v[2] * w[0] - v[0] * w[2])
-                + u[2] * (v[0] * w[1] - v[1] * w[0])
+    let (cells, rest) = nodes.as_chunks::<8>();
+    assert!(rest.is_empty());
+    let corners = cells.iter().map(|cell| {
+        cell.map(|node| {
+            let first = 3 * usize::try_from(node).expect("a number");
+            [places[first], places[first + 1], places[first + 2]]
         })
     });
-    cells.collect()
+    let determinants = corners.flat_map(|corners| {
+        Hex8::QUADRATURE.iter().map(move |(at, weight)| {
+            let found = physical_gradient(&corners, &Hex8::gradient(*at));
+            let (_, determinant) = found.expect("a cell is not inverted");
+            determinant * weight
+        })
+    });
+    determinants.collect()
 }
 
 /// By Pappus' theorem, less what the straight edges cut off.
