@@ -31,7 +31,7 @@ pub struct StudyRequest {
 pub struct StudyJob {
     /// The job.
     pub id: Uuid,
-    /// Its tolerance; absent where the three settings are fixed.
+    /// Its tolerance; absent where the settings are fixed.
     pub tolerance: Option<f64>,
     /// Its surface element size under the contact, mm, where it is fixed.
     pub contact_element_mm: Option<f64>,
@@ -39,6 +39,8 @@ pub struct StudyJob {
     pub increments_per_cycle: Option<u32>,
     /// Its jump, where that is fixed.
     pub cycle_jump: Option<f64>,
+    /// Its sections along a line, where they are fixed.
+    pub stations: Option<u32>,
     /// Its status.
     pub status: Status,
     /// How its solve ended.
@@ -90,7 +92,7 @@ pub struct Study {
 /// One run of a study.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct StudyRun {
-    /// Its tolerance; absent where the three settings were fixed.
+    /// Its tolerance; absent where the settings were fixed.
     pub tolerance: Option<f64>,
     /// Surface element size under the contact, mm.
     pub contact_element_mm: f64,
@@ -100,6 +102,8 @@ pub struct StudyRun {
     pub increments_per_cycle: u32,
     /// Mean number of physical cycles per computed cycle.
     pub cycle_jump: f64,
+    /// Sections along the line; absent where the contact has none.
+    pub stations: Option<u32>,
     /// How it ended; absent where it failed.
     pub outcome: Option<Outcome>,
     /// Why it failed.
@@ -183,7 +187,7 @@ pub struct Reference {
 /// monotonically.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct Orders {
-    /// The setting: `contact_element_mm`, `increments_per_cycle` or `cycle_jump`.
+    /// The setting: `contact_element_mm`, `increments_per_cycle`, `cycle_jump` or `stations`.
     pub setting: String,
     /// Its three levels, finest first.
     pub levels: Vec<f64>,

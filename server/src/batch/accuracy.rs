@@ -18,6 +18,7 @@ pub(in crate::batch) mod request;
 mod run;
 mod run_accuracy;
 mod run_plan;
+mod settings;
 
 use std::path::PathBuf;
 

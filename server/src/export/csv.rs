@@ -117,7 +117,7 @@ pub fn study(study: &Study) -> Result<Vec<u8>, CsvError> {
     fn error(run: &StudyRun, of: fn(&Errors) -> f64) -> String {
         number(run.errors.as_ref().map(of))
     }
-    let columns: [(&str, Cell); 14] = [
+    let columns: [(&str, Cell); 15] = [
         ("tolerance", |run| number(run.tolerance)),
         ("contact_element_mm", |run| {
             run.contact_element_mm.to_string()
@@ -127,6 +127,7 @@ pub fn study(study: &Study) -> Result<Vec<u8>, CsvError> {
             run.increments_per_cycle.to_string()
         }),
         ("cycle_jump", |run| run.cycle_jump.to_string()),
+        ("stations", |run| number(run.stations.map(f64::from))),
         ("depth_error", |run| error(run, |errors| errors.depth)),
         ("width_error", |run| error(run, |errors| errors.width)),
         ("peak_pressure_error", |run| {

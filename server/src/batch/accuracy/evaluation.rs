@@ -1,12 +1,14 @@
 //! Comparison of the runs of a study with the converged solution: errors and Pareto front.
 
+use api::results::Summary;
 use api::spec::Spec;
 use api::study::{Errors, Study, StudyRun};
 
 use crate::batch::accuracy::error::StudyError;
-use crate::batch::accuracy::grid::{Grid, Settings};
+use crate::batch::accuracy::grid::Grid;
 use crate::batch::accuracy::reference::Converged;
 use crate::batch::accuracy::run::Run;
+use crate::batch::accuracy::settings::Settings;
 use crate::spec;
 
 /// Compares the runs of a study with the converged solution that the grid among them leads to.
@@ -42,13 +44,15 @@ fn row(run: &Run, cycles: u64, converged: &Converged) -> StudyRun {
     let uncertainty = &converged.reference.uncertainty;
     let reached = summary.map(|summary| summary.accuracy).unwrap_or_default();
     let (tolerance, settings) = run.accuracy.parts();
-    let settings = settings.unwrap_or_else(|| Settings::used(cycles, &reached));
+    let settings =
+        settings.unwrap_or_else(|| Settings::used(cycles, &reached, summary.and_then(sections)));
     StudyRun {
         tolerance,
         contact_element_mm: settings.contact_element_mm,
         contact_elements: reached.contact_elements,
         increments_per_cycle: settings.increments_per_cycle,
         cycle_jump: settings.cycle_jump,
+        stations: settings.stations,
         outcome: summary.map(|summary| summary.outcome),
         failure: run.found.as_ref().err().cloned(),
         errors,
@@ -57,6 +61,12 @@ fn row(run: &Run, cycles: u64, converged: &Converged) -> StudyRun {
         peak_memory_mb: summary.map_or(0.0, |summary| summary.cost.peak_memory_mb),
         on_front: false,
     }
+}
+
+/// Sections along the line, or node planes, of a run; `None` where it has none.
+fn sections(summary: &Summary) -> Option<u32> {
+    let count = u32::try_from(summary.stations.len()).ok()?;
+    (count > 0).then_some(count)
 }
 
 /// Marks the Pareto front of runs that are sorted by cost: those with a smaller error than every cheaper run. Errors
@@ -83,6 +93,7 @@ mod tests {
             contact_elements: 10,
             increments_per_cycle: 40,
             cycle_jump: 1.0,
+            stations: None,
             outcome: None,
             failure: None,
             errors: depth.map(|depth| Errors {

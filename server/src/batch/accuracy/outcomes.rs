@@ -78,6 +78,7 @@ fn shown(job: &BatchJob) -> StudyJob {
         contact_element_mm: settings.map(|settings| settings.contact_element_mm),
         increments_per_cycle: settings.map(|settings| settings.increments_per_cycle),
         cycle_jump: settings.map(|settings| settings.cycle_jump),
+        stations: settings.and_then(|settings| settings.stations),
         status: job.status,
         outcome: job.outcome,
     }

@@ -1,15 +1,16 @@
 //! The converged solution by Richardson extrapolation: with q at steps h, 2h, 4h the observed order is
 //! p = log2((q_4h - q_2h)/(q_2h - q_h)), and the limit q_h + (q_h - q_2h)/(2^p - 1) (L. F. Richardson 1911). The
-//! corrections of the three settings are added; their interactions are of higher order.
+//! corrections of all settings are added; their interactions are of higher order.
 
 use api::results::SideProfile;
 use api::study::{Errors, Orders, Reference};
 
 use crate::batch::accuracy::error::StudyError;
 use crate::batch::accuracy::errors::{Solution, depth_at};
-use crate::batch::accuracy::grid::{Grid, LEVELS, Settings};
+use crate::batch::accuracy::grid::{Grid, LEVELS, SETTINGS};
 use crate::batch::accuracy::run::Run;
 use crate::batch::accuracy::run_accuracy::RunAccuracy;
+use crate::batch::accuracy::settings::Settings;
 
 /// Range that observed orders are clamped to for the extrapolation: a small order would blow up the correction, and the
 /// elements are of second order.
@@ -26,16 +27,42 @@ pub(crate) struct Converged {
     solution: Solution,
 }
 
-type Setting = (&'static str, fn(Settings) -> f64);
+/// A setting that is varied.
+struct Varied {
+    name: &'static str,
+    value: fn(Settings) -> f64,
+    /// Its step h.
+    step: fn(Settings) -> f64,
+}
 
-/// The settings in the order of their indices in [`Grid::levels`]: name and value.
-const SETTINGS: [Setting; 3] = [
-    ("contact_element_mm", |settings| settings.contact_element_mm),
-    ("increments_per_cycle", |settings| {
-        f64::from(settings.increments_per_cycle)
-    }),
-    ("cycle_jump", |settings| settings.cycle_jump),
+/// The settings in the order of their indices in [`Grid::levels`].
+const VARIED: [Varied; SETTINGS] = [
+    Varied {
+        name: "contact_element_mm",
+        value: |settings| settings.contact_element_mm,
+        step: |settings| settings.contact_element_mm,
+    },
+    Varied {
+        name: "increments_per_cycle",
+        value: |settings| f64::from(settings.increments_per_cycle),
+        step: |settings| 1.0 / f64::from(settings.increments_per_cycle),
+    },
+    Varied {
+        name: "cycle_jump",
+        value: |settings| settings.cycle_jump,
+        step: |settings| settings.cycle_jump,
+    },
+    Varied {
+        name: "stations",
+        value: |settings| sections(settings),
+        step: |settings| 1.0 / (sections(settings) - 1.0),
+    },
 ];
+
+/// Sections along a line; 1 where there are none.
+fn sections(settings: Settings) -> f64 {
+    settings.stations.map_or(1.0, f64::from)
+}
 
 /// Runs along one setting, the others finest.
 struct Line<'a> {
@@ -112,25 +139,24 @@ impl Converged {
 
 /// Returns the settings that were solved at three levels, each twice or half the one before.
 fn lines<'a>(grid: &Grid, at: &impl Fn(Settings) -> Option<&'a Solution>) -> Vec<Line<'a>> {
-    let line = |(index, (setting, value)): (usize, Setting)| {
+    let line = |(index, varied): (usize, &Varied)| {
         let along = [0, 1, 2].map(|level| {
-            let mut levels = [0; 3];
+            let mut levels = [0; SETTINGS];
             levels[index] = level;
             grid.levels(levels)
         });
         let [Some(fine), Some(middle), Some(coarse)] = along.map(at) else {
             return None;
         };
-        let levels = along.map(value);
-        let doubled =
-            |from: f64, to: f64| (to / from - 2.0).abs() < 1e-9 || (from / to - 2.0).abs() < 1e-9;
-        (doubled(levels[0], levels[1]) && doubled(levels[1], levels[2])).then_some(Line {
-            setting,
-            levels,
+        let steps = along.map(varied.step);
+        let doubled = |from: f64, to: f64| (to / from - 2.0).abs() < 1e-9;
+        (doubled(steps[0], steps[1]) && doubled(steps[1], steps[2])).then_some(Line {
+            setting: varied.name,
+            levels: along.map(varied.value),
             solutions: [fine, middle, coarse],
         })
     };
-    SETTINGS.into_iter().enumerate().filter_map(line).collect()
+    VARIED.iter().enumerate().filter_map(line).collect()
 }
 
 impl Line<'_> {

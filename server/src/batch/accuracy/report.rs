@@ -3,11 +3,14 @@
 mod picture;
 
 use api::study::{Errors, Orders, Study};
-use comfy_table::Table;
+use comfy_table::{ColumnConstraint, Table};
 
 use crate::export::csv;
 use crate::export::documents::{CSV, Document, DocumentError, JSON, PNG, SVG};
 use crate::export::{markdown, pictures};
+
+/// Column of the sections along a line, hidden where there are none.
+const SECTIONS: usize = 6;
 
 /// mm to um.
 const UM: f64 = 1e3;
@@ -98,6 +101,7 @@ fn runs(study: &Study) -> Table {
         "elements",
         "increments",
         "jump",
+        "sections",
         "depth, %",
         "width, %",
         "peak p, %",
@@ -129,6 +133,8 @@ fn runs(study: &Study) -> Table {
             run.contact_elements.to_string(),
             run.increments_per_cycle.to_string(),
             format!("{:.1}", run.cycle_jump),
+            run.stations
+                .map_or_else(String::new, |count| count.to_string()),
             percent(|errors| errors.depth),
             percent(|errors| errors.width),
             percent(|errors| errors.peak_pressure),
@@ -136,6 +142,11 @@ fn runs(study: &Study) -> Table {
             format!("{:.2}", run.cpu_s),
             format!("{:.0}", run.peak_memory_mb),
         ]);
+    }
+    if study.runs.iter().all(|run| run.stations.is_none())
+        && let Some(sections) = table.column_mut(SECTIONS)
+    {
+        sections.set_constraint(ColumnConstraint::Hidden);
     }
     table
 }

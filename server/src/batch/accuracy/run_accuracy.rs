@@ -2,7 +2,7 @@
 
 use api::spec::{Accuracy, CycleJump, Overrides};
 
-use crate::batch::accuracy::grid::Settings;
+use crate::batch::accuracy::settings::Settings;
 
 /// Tolerance of a run whose settings are fixed: decides the parts of the mesh that they leave open.
 const TOLERANCE: f64 = 0.02;
@@ -48,6 +48,7 @@ impl RunAccuracy {
                     contact_element_mm: Some(settings.contact_element_mm),
                     increments_per_cycle: Some(settings.increments_per_cycle),
                     cycle_jump: Some(CycleJump::Fixed(settings.jump())),
+                    stations: settings.stations,
                     ..Overrides::default()
                 }),
                 estimate_errors: Some(false),

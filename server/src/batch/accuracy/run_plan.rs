@@ -267,6 +267,41 @@ mod tests {
     }
 
     #[test]
+    fn sections_of_a_line_are_varied_and_bodies_of_a_width_keep_their_layers() {
+        let plan = |model: &str| {
+            let text = format!(
+                r#"{{"system":{{"kind":"sd_card"}},"model":{model},"load":{{"kind":"force","n":0.5}},"cycles":300}}"#
+            );
+            let scene = spec::read(text.as_bytes()).expect("accepted");
+            RunPlan::within(&scene, &machine(), 8e4, &|_| Ok(())).expect("some runs")
+        };
+        let line = plan(r#"{"dimension":"line","width_mm":0.8,"crown_radius_mm":10}"#);
+        let levels = |run: &PlannedRun| match run.accuracy {
+            RunAccuracy::Fixed(settings) => settings.stations,
+            RunAccuracy::Tolerance(_) => None,
+        };
+        let levels: std::collections::BTreeSet<u32> = line.runs.iter().filter_map(levels).collect();
+        let levels = Vec::from_iter(levels);
+        assert_eq!(levels.len(), 3, "{levels:?}");
+        assert_eq!(levels[2] - 1, 4 * (levels[0] - 1), "{levels:?}");
+        assert!(
+            line.left_out.iter().all(|line| line.contains("about")),
+            "{:?}",
+            line.left_out
+        );
+        let extruded = plan(r#"{"dimension":"extruded","width_mm":0.8}"#);
+        let settings = extruded
+            .runs
+            .iter()
+            .map(|run| run.accuracy.as_spec().overrides);
+        assert!(
+            settings
+                .flatten()
+                .all(|overrides| overrides.stations.is_none())
+        );
+    }
+
+    #[test]
     fn runs_differ_in_their_accuracy_alone() {
         let plan = run_plan(8.0);
         for run in &plan.runs {
