@@ -4,7 +4,7 @@
 use solver::effects::Effect;
 use solver::fields::{BodyFields, LineFields, SectionFields};
 use solver::record::{Position, Snapshot};
-use solver::scene::{Accuracy, Dimension, Friction, Scene, Top};
+use solver::scene::{Accuracy, Dimension, Scene, Top};
 use solver::sides::Side;
 
 use crate::recorder::solve;
@@ -28,11 +28,11 @@ fn neutral(snapshot: &Snapshot) -> &LineFields {
         .expect("fields at the neutral position")
 }
 
-/// Without crown and tilt all sections are the plane contact; under an even top with the same load, without friction with the same tractions.
+/// Without crown and tilt all sections are the plane contact, under an even top with the same load; so is the shear that friction locks in
+/// between these unlike bodies as they are first loaded.
 #[test]
 fn a_straight_line_has_the_fields_of_the_plane_contact() {
     let mut line = spring(None, (0.0, 0.0), 1);
-    line.friction = Friction::Frictionless;
     line.accuracy = Accuracy::from_tolerance(0.1);
     line.output.snapshots_at_cycles = vec![1];
     line.output.fields = true;

@@ -127,7 +127,10 @@ impl LineIntegrator {
     /// Applies the load, with wider zones where the contact of a section needs them.
     fn apply_load(&mut self) -> Result<(), StationError> {
         loop {
-            let Err(error) = self.apply_load_once() else {
+            self.line.stations.iter_mut().for_each(Station::hold);
+            let loaded = self.apply_load_once();
+            self.line.stations.iter_mut().for_each(Station::release);
+            let Err(error) = loaded else {
                 return Ok(());
             };
             self.widen_or(error)?;
@@ -150,7 +153,7 @@ impl LineIntegrator {
         }
     }
 
-    /// Applies the load without sliding. The height under the mean line load is the first one of a rigid top.
+    /// Applies the load without sliding: friction holds the sections together, which locks in shear between unlike bodies. The height under the mean line load is the first one of a rigid top.
     fn apply_load_once(&mut self) -> Result<(), StationError> {
         let line = &mut self.line;
         if self.scene.top != Top::Even {

@@ -13,7 +13,7 @@ use crate::contact::{
     self, ContactError, ContactState, Displacement, Pair, Solver, Surfaces, WarmStart,
 };
 use crate::cycle::{Neutral, wear_limit};
-use crate::model::Interface;
+use crate::model::{Interface, Tangential};
 use crate::sides::{Side, Sides};
 
 /// A solved increment that is not part of the state yet.
@@ -93,6 +93,18 @@ impl Station {
     /// Takes the normals of the surfaces as worn now.
     pub(super) fn update_slopes(&mut self) {
         self.slope = slopes(&self.section.condensed.operators, &self.state.depth);
+    }
+
+    /// Lets friction hold the section together where nothing is imposed that could slip.
+    pub(super) fn hold(&mut self) {
+        if self.interface.friction > 0.0 {
+            self.interface.tangential = Tangential::StickSlip;
+        }
+    }
+
+    /// Lets the section slip as it is displaced.
+    pub(super) fn release(&mut self) {
+        self.interface.tangential = self.section.model.interface.tangential;
     }
 
     /// Solves an increment from the state, under the load of the section or at a height in mm. After another one of the same
