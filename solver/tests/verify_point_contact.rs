@@ -203,3 +203,43 @@ fn the_first_cycle_in_partial_slip_wears_by_mindlins_loop() {
         }
     }
 }
+
+/// A sphere at a fixed approach whose slip annulus wears until it carries nothing (Popov 2014): within the stick radius c of the unworn contact
+/// the surfaces are as they were, F = 2 E* (d c - c^3/(3 R)), beyond it they are worn to where they just touch. Half-spaces of nu = 0,
+/// R = 10 mm, E* = 100 GPa, 100 N, +-1.149464e-3 mm, mu = 0.6: c/a = 0.7071, F = 0.88388 of the first load, depth 5.0982e-4 mm, volume 3.2729e-5 mm^3.
+/// The approach is that of a spring 250 times as stiff as the contact.
+#[test]
+fn a_worn_annulus_leaves_the_load_to_the_stick_zone() {
+    let rates = Sides {
+        slider: 0.0,
+        receptacle: 1e-5,
+    };
+    let mut scene = scene((10.0, 10.0), rates, 1.149_464e-3, 400);
+    for body in [&mut scene.bodies.slider, &mut scene.bodies.receptacle] {
+        body.elastic = Elastic {
+            youngs_modulus_mpa: 200e3,
+            poisson_ratio: 0.0,
+        };
+    }
+    (scene.force_n, scene.friction) = (100.0, 0.6);
+    (scene.slip, scene.spring_n_per_mm) = (SlipRegime::Partial, 1e7);
+    let found = solved(&scene);
+    let (last, map) = (found.last, &found.depth.receptacle);
+    let half_length = (0.75 * scene.force_n * 10.0 / scene.modulus()).cbrt();
+    let width = map.z_mm.len();
+    let stuck = map.depth_mm.iter().enumerate().filter(|(cell, _)| {
+        let (x, z) = (map.x_mm[cell / width], map.z_mm[cell % width]);
+        x.hypot(z) < 0.65 * half_length
+    });
+    let stuck = stuck.fold(0.0, |most: f64, (_, depth)| most.max(*depth));
+    println!(
+        "point contact, worn annulus: load {:.5} of the first (0.88388), depth {:.4e} mm (5.0982e-4), volume {:.4e} mm^3 (3.2729e-5)",
+        last.force_n / scene.force_n,
+        last.max_depth_mm.receptacle,
+        last.worn_volume_mm3.receptacle
+    );
+    assert!((last.force_n / scene.force_n / 0.883_88 - 1.0).abs() < 0.005);
+    assert!((last.max_depth_mm.receptacle / 5.098_2e-4 - 1.0).abs() < 0.02);
+    assert!((last.worn_volume_mm3.receptacle / 3.272_9e-5 - 1.0).abs() < 0.02);
+    assert!(stuck < 1e-3 * last.max_depth_mm.receptacle, "{stuck}");
+}
