@@ -139,4 +139,6 @@ fn load(zone: &ZoneModel, (unknown, side): (&[[usize; 3]], Side), half_width: f6
 }
 
 #[cfg(test)]
+mod full_ring;
+#[cfg(test)]
 mod tests;
