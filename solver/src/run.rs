@@ -3,6 +3,7 @@
 mod finite;
 mod progress;
 mod resistance;
+mod step;
 mod summary;
 
 use std::ops::ControlFlow;
@@ -11,17 +12,17 @@ use crate::SolveError;
 use crate::ale::{self, Spines};
 use crate::checkpoint::{Checkpoint, Earlier, Misfit, Resumable, SectionRun};
 use crate::condensation::{self, Condensed};
-use crate::cycle::{CycleError, CycleRecord, CycleState, Integrator, MissionState};
-use crate::effects::{self, Crossing, EffectsPlan};
+use crate::cycle::{CycleRecord, CycleState, Integrator, MissionState};
+use crate::effects::{self, EffectsPlan};
 use crate::electrical::ElectricalState;
 use crate::fields;
 use crate::model::{self, Model};
 use crate::observer::{Event, Observer, Phase};
 use crate::record::{self, Compared, Exposed, Initial, Life, Outcome, Snapshot, Summary};
 use crate::scene::{Dimension, Scene};
-use crate::schedule::stops;
-use progress::{end, now, progress, push_life};
+use progress::{end, progress, push_life};
 use resistance::Consequence;
+use step::{Renewal, Step, step};
 use summary::summary;
 
 /// Solves a scene from the unworn bodies to its end.
@@ -201,16 +202,6 @@ fn load(
     Ok((run, flow))
 }
 
-/// What a run needs before its next cycle.
-enum Renewal {
-    /// The stiffness of the bodies: the geometry has drifted, or the contact has outgrown its zones.
-    Stiffness,
-    /// Effects that were skipped.
-    Effects,
-    /// The motion of the next block of a mission.
-    Motion,
-}
-
 /// Computes cycles until the run ends (`Break`), or needs something else before its next cycle (`Continue`).
 fn integrate(
     scene: &Scene,
@@ -219,7 +210,6 @@ fn integrate(
     run: &mut SectionRun,
     observer: &mut dyn Observer,
 ) -> Result<ControlFlow<Outcome, Renewal>, SolveError> {
-    const STOPPED: ControlFlow<Outcome, Renewal> = ControlFlow::Break(Outcome::Stopped);
     let blocks = scene.blocks();
     let block = &blocks[run.block()];
     let mut integrator = Integrator::new(block, model, &condensed.operators);
@@ -234,119 +224,75 @@ fn integrate(
         if model.relocates && ale::has_drifted(model, &run.state.depth, &scene.accuracy) {
             return Ok(ControlFlow::Continue(Renewal::Stiffness));
         }
-        let before = run.state.clone();
         let left = run.block_left().map(|left| blocks[left].motion);
-        let step = match left {
-            Some(motion) => integrator
-                .change_motion(&mut run.state, motion)
-                .map(|()| None),
-            None => {
-                next_cycle(scene, model, (&mut integrator, &spines), (run, until_limit)).map(Some)
-            }
+        let tools = (&mut integrator, &spines);
+        let next = (left, until_limit);
+        let (before, record) = match step(scene, (plan, model), tools, (run, next))? {
+            Step::Cycle(before, record) => (*before, *record),
+            Step::MotionChanged => continue,
+            Step::Renew(renewal) => return Ok(ControlFlow::Continue(renewal)),
         };
-        let record = match step {
-            Err(error) if error.needs_wider_zones() => {
-                run.state = before;
-                run.widen();
-                return Ok(ControlFlow::Continue(Renewal::Stiffness));
-            }
-            Err(error) => {
-                let called_for = called_for_by(error, plan, before.cycle);
-                if called_for.is_empty() {
-                    return Err(error.into());
-                }
-                run.go_back(before, called_for);
-                return Ok(ControlFlow::Continue(Renewal::Effects));
-            }
-            Ok(None) => {
-                run.motion_changed();
-                continue;
-            }
-            Ok(Some(record)) => record,
-        };
-        let state = &run.state;
-        let cycles = (before.cycle, state.cycle);
-        let called_for = plan.crossed(scene, cycles, state.depth.largest_of_each());
-        if !called_for.is_empty() {
-            run.go_back(before, called_for);
-            return Ok(ControlFlow::Continue(Renewal::Effects));
-        }
-        let electrical_before = run.electrical.clone();
+        let electrical = run.electrical.clone();
         if let Some(evaluation) = &evaluation {
-            let contact = resistance::contact(scene, (model, condensed), state);
-            evaluation.update(&mut run.electrical, &contact);
-            let resistances = (&electrical_before, &run.electrical);
-            match resistance::consequence(scene, plan, cycles, resistances) {
+            let bodies = (model, condensed);
+            match resistance::update(evaluation, (scene, plan), bodies, (run, &before)) {
                 None => {}
                 Some(Consequence::GoTo(sooner)) => {
-                    run.state = CycleState {
-                        work: state.work,
-                        ..before
-                    };
-                    (run.electrical, until_limit) = (electrical_before, sooner);
+                    until_limit = sooner;
                     continue;
                 }
                 Some(Consequence::Effects(called_for)) => {
-                    run.electrical = electrical_before;
                     run.go_back(before, called_for);
                     return Ok(ControlFlow::Continue(Renewal::Effects));
                 }
             }
-            run.state.constriction_mohm = run.electrical.constriction_mohm();
         }
         until_limit = u64::MAX;
-        let report = record::report(scene, model, &run.state, run.electrical.resistance);
-        if run.is_comparable(scene) {
-            run.compared.push(&report);
-        }
-        push_life(scene, model, run, &electrical_before);
-        if observer.on(Event::Cycle(&report)).is_break() {
-            return Ok(STOPPED);
-        }
-        let (state, end) = (&run.state, end(scene, (model, &spines), run));
-        if end.is_some() || scene.output.snapshots_at_cycles.contains(&state.cycle) {
-            let snapshot = snapshot(scene, model, condensed, state, record)?;
-            if observer.on(Event::Snapshot(&snapshot)).is_break() {
-                return Ok(STOPPED);
-            }
-        }
-        if let Some(outcome) = end {
+        push_life(scene, model, run, &electrical);
+        let end = end(scene, (model, &spines), run);
+        let delivered = deliver(scene, (model, condensed), run, (record, end), observer)?;
+        if let ControlFlow::Break(outcome) = delivered {
             return Ok(ControlFlow::Break(outcome));
-        }
-        if observer.on(checkpoint(run)).is_break() {
-            return Ok(STOPPED);
         }
     }
     Ok(ControlFlow::Break(Outcome::Completed))
 }
 
+/// Delivers what a computed cycle led to; `Break` where the run ends with it or is stopped.
+fn deliver(
+    scene: &Scene,
+    (model, condensed): (&Model, &Condensed),
+    run: &mut SectionRun,
+    (record, end): (CycleRecord, Option<Outcome>),
+    observer: &mut dyn Observer,
+) -> Result<ControlFlow<Outcome>, SolveError> {
+    const STOPPED: ControlFlow<Outcome> = ControlFlow::Break(Outcome::Stopped);
+    let report = record::report(scene, model, &run.state, run.electrical.resistance);
+    if run.is_comparable(scene) {
+        run.compared.push(&report);
+    }
+    if observer.on(Event::Cycle(&report)).is_break() {
+        return Ok(STOPPED);
+    }
+    let state = &run.state;
+    if end.is_some() || scene.output.snapshots_at_cycles.contains(&state.cycle) {
+        let snapshot = snapshot(scene, model, condensed, state, record)?;
+        if observer.on(Event::Snapshot(&snapshot)).is_break() {
+            return Ok(STOPPED);
+        }
+    }
+    if let Some(outcome) = end {
+        return Ok(ControlFlow::Break(outcome));
+    }
+    Ok(match observer.on(checkpoint(run)) {
+        ControlFlow::Break(()) => STOPPED,
+        ControlFlow::Continue(()) => ControlFlow::Continue(()),
+    })
+}
+
 /// The event of a state that the run can be resumed from.
 fn checkpoint(run: &SectionRun) -> Event<'_> {
     Event::Checkpoint(Resumable::Section(run))
-}
-
-/// The skipped effects that an error after so many cycles calls for: those that a contact without a solution may have one with.
-fn called_for_by(error: CycleError, plan: &EffectsPlan, cycle: u64) -> Vec<Crossing> {
-    match error {
-        CycleError::Increment { .. } => plan.called_for_by_failure(cycle),
-        CycleError::Melts { .. } => Vec::new(),
-    }
-}
-
-/// The next computed cycle, within the present block of a mission and up to a cycle.
-fn next_cycle(
-    scene: &Scene,
-    model: &Model,
-    (integrator, spines): (&mut Integrator<'_>, &Spines),
-    (run, until_limit): (&mut SectionRun, u64),
-) -> Result<CycleRecord, CycleError> {
-    let state = &run.state;
-    let depth = |side, part| record::worn_surface(model, state, side).depth_of_part(part);
-    let now = now(scene, (model, spines), run);
-    let next = stops::next(scene, now, depth).min(until_limit);
-    let position = run.mission.as_ref().map(|mission| mission.position);
-    let until = position.map_or((next, true), |position| position.next_reported(scene, next));
-    integrator.compute_cycle(&mut run.state, until)
 }
 
 /// Moves on to the next block of a mission.

@@ -1,5 +1,6 @@
 //! The resistance of the contact in a run.
 
+use crate::checkpoint::SectionRun;
 use crate::condensation::Condensed;
 use crate::cycle::CycleState;
 use crate::effects::{Crossing, Effect, EffectsPlan};
@@ -51,6 +52,33 @@ pub(super) enum Consequence {
     GoTo(u64),
     /// Simulate effects that were skipped.
     Effects(Vec<Crossing>),
+}
+
+/// Takes a computed cycle after a state into the resistance; where that has the run do something else, the run is as before it, but for
+/// its state where skipped effects are called for.
+pub(super) fn update(
+    evaluation: &Evaluation<'_>,
+    (scene, plan): (&Scene, &EffectsPlan),
+    (model, condensed): (&Model, &Condensed),
+    (run, before): (&mut SectionRun, &CycleState),
+) -> Option<Consequence> {
+    let electrical = run.electrical.clone();
+    let contact = contact(scene, (model, condensed), &run.state);
+    evaluation.update(&mut run.electrical, &contact);
+    let cycles = (before.cycle, run.state.cycle);
+    let found = consequence(scene, plan, cycles, (&electrical, &run.electrical));
+    match &found {
+        None => run.state.constriction_mohm = run.electrical.constriction_mohm(),
+        Some(Consequence::GoTo(_)) => {
+            run.state = CycleState {
+                work: run.state.work,
+                ..before.clone()
+            };
+            run.electrical = electrical;
+        }
+        Some(Consequence::Effects(_)) => run.electrical = electrical,
+    }
+    found
 }
 
 /// The consequence of the resistances before and after a computed cycle, if there is one.

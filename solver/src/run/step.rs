@@ -1,0 +1,103 @@
+//! One computed cycle of a run, or what the run needs in its place.
+
+use crate::SolveError;
+use crate::ale::Spines;
+use crate::checkpoint::SectionRun;
+use crate::cycle::{CycleError, CycleRecord, CycleState, Integrator};
+use crate::effects::{Crossing, EffectsPlan};
+use crate::model::Model;
+use crate::record::{self, Exposed};
+use crate::run::progress::now;
+use crate::scene::{Motion, Scene};
+use crate::schedule::stops;
+
+/// What a run needs before its next cycle.
+pub(super) enum Renewal {
+    /// The stiffness of the bodies: the geometry has drifted, or the contact has outgrown its zones.
+    Stiffness,
+    /// Effects that were skipped.
+    Effects,
+    /// The motion of the next block of a mission.
+    Motion,
+}
+
+/// What a step led to.
+pub(super) enum Step {
+    /// A computed cycle, and the state before it.
+    Cycle(Box<CycleState>, Box<CycleRecord>),
+    /// The motion of the block.
+    MotionChanged,
+    /// The state before, which needs something else.
+    Renew(Renewal),
+}
+
+/// Computes the next cycle, up to one at most, or changes the motion to that of the present block from the one that the run has left.
+///
+/// # Errors
+/// A contact without a solution, whatever effects are simulated.
+pub(super) fn step(
+    scene: &Scene,
+    (plan, model): (&EffectsPlan, &Model),
+    (integrator, spines): (&mut Integrator<'_>, &Spines),
+    (run, (left, until_limit)): (&mut SectionRun, (Option<Motion>, u64)),
+) -> Result<Step, SolveError> {
+    let before = run.state.clone();
+    let record = match left {
+        Some(motion) => integrator
+            .change_motion(&mut run.state, motion)
+            .map(|()| None),
+        None => next_cycle(scene, model, (integrator, spines), (run, until_limit)).map(Some),
+    };
+    let record = match record {
+        Ok(Some(record)) => record,
+        Ok(None) => {
+            run.motion_changed();
+            return Ok(Step::MotionChanged);
+        }
+        Err(error) if error.needs_wider_zones() => {
+            run.state = before;
+            run.widen();
+            return Ok(Step::Renew(Renewal::Stiffness));
+        }
+        Err(error) => {
+            let called_for = called_for_by(error, plan, before.cycle);
+            if called_for.is_empty() {
+                return Err(error.into());
+            }
+            run.go_back(before, called_for);
+            return Ok(Step::Renew(Renewal::Effects));
+        }
+    };
+    let state = &run.state;
+    let cycles = (before.cycle, state.cycle);
+    let called_for = plan.crossed(scene, cycles, state.depth.largest_of_each());
+    if called_for.is_empty() {
+        return Ok(Step::Cycle(Box::new(before), Box::new(record)));
+    }
+    run.go_back(before, called_for);
+    Ok(Step::Renew(Renewal::Effects))
+}
+
+/// The skipped effects that an error after so many cycles calls for: those that a contact without a solution may have one with.
+fn called_for_by(error: CycleError, plan: &EffectsPlan, cycle: u64) -> Vec<Crossing> {
+    match error {
+        CycleError::Increment { .. } => plan.called_for_by_failure(cycle),
+        CycleError::Melts { .. } => Vec::new(),
+    }
+}
+
+/// The next computed cycle, within the present block of a mission and up to a cycle.
+fn next_cycle(
+    scene: &Scene,
+    model: &Model,
+    (integrator, spines): (&mut Integrator<'_>, &Spines),
+    (run, until_limit): (&mut SectionRun, u64),
+) -> Result<CycleRecord, CycleError> {
+    let state = &run.state;
+    let depth = |side, part| record::worn_surface(model, state, side).depth_of_part(part);
+    let now = now(scene, (model, spines), run);
+    let next = stops::next(scene, now, depth).min(until_limit);
+    let position = run.mission.as_ref().map(|mission| mission.position);
+    let until = position.map_or((next, true), |position| position.next_reported(scene, next));
+    integrator.compute_cycle(&mut run.state, until)
+}
