@@ -13,7 +13,7 @@ use api::problem::Fault;
 use api::rating::{Rating, RatingRun};
 use api::results::LifeStatus;
 use api::spec::{Criterion, LifeSettings, Spec, Stop};
-use solver::model::resolution;
+use solver::model::expected_wear;
 use solver::scene::Scene;
 
 use crate::number::real;
@@ -95,7 +95,7 @@ pub fn coefficients(
         cycles: u64::MAX,
         ..given.scene
     };
-    let mut factor = real(resolution::expected_end(&endless)) / median_cycles;
+    let mut factor = real(expected_wear::expected_end(&endless)) / median_cycles;
     let mut runs = Vec::new();
     while runs.len() < MOST_RUNS {
         let number = runs.len() + 1;

@@ -33,7 +33,7 @@ use crate::condensation::Operators;
 use crate::contact::{self, ContactError, ContactState, Displacement, Pair, Solver, Surfaces};
 use crate::law::surface::SurfaceWear;
 use crate::model::friction::ContactFriction;
-use crate::model::{Interface, Model, Tangential, resolution};
+use crate::model::{Interface, Model, Tangential, expected_wear};
 use crate::number::{cycles_at_least, real, real_cycles};
 use crate::scene::{Motion, Scene, TimedMotion};
 use crate::schedule::increments::{self, Position};
@@ -109,7 +109,7 @@ impl<'a> Integrator<'a> {
             friction: ContactFriction::new(scene, &model.interface.wear, model.surface.plating),
             nodal_friction: Sides::default(),
             spines: Spines::of(model),
-            expected_cycles: resolution::expected_cycles(scene, model.sizes.hertz_half_width),
+            expected_cycles: expected_wear::expected_cycles(scene, model.sizes.hertz_half_width),
             timed,
             stroke: 0,
             next,

@@ -2,11 +2,13 @@
 
 mod constraint_side;
 pub mod expected_life;
+pub mod expected_wear;
 pub(crate) mod friction;
 pub mod layout;
 pub mod line_contact;
 pub mod profile;
 pub mod resolution;
+pub mod unworn_contact;
 pub(crate) mod worn_cap;
 pub(crate) mod worn_depth;
 mod zones;
@@ -329,7 +331,7 @@ impl Model {
     /// The interface in a block of a mission, in which nothing may stick although it may in others.
     pub(crate) fn interface_of(&self, block: &Scene) -> Interface {
         let hertz = self.sizes.hertz_half_width;
-        let sticks = self.interface.sticks && resolution::sticks(block, hertz);
+        let sticks = self.interface.sticks && unworn_contact::sticks(block, hertz);
         Interface {
             sticks,
             slope_weights: slope_weights(block, sticks),

@@ -4,7 +4,7 @@
 use api::plan::{MachineFigures, Plan, PlannedEffect, Warning};
 use api::problem::Fault;
 use solver::effects::{self, Indicator};
-use solver::model::resolution;
+use solver::model::unworn_contact;
 use solver::point::{PointScene, SlipRegime};
 use solver::scene::Scene;
 
@@ -79,14 +79,14 @@ fn planned(decision: effects::Decision) -> PlannedEffect {
 /// p0 = 2 P / (pi a); and the depth worn by one full pass after Archard's law: (k/H) P per crossed point.
 fn unworn_contact(scene: &Scene) -> Vec<(&'static str, f64)> {
     let load = scene.load_n_per_mm;
-    let half_width = resolution::hertz_half_width(scene);
+    let half_width = unworn_contact::hertz_half_width(scene);
     let distance = scene.motion.distance_per_cycle_mm();
     let mut estimates = vec![
         ("line_load_n_per_mm", load),
         ("hertz_half_width_mm", half_width),
         (
             "hertz_peak_pressure_mpa",
-            resolution::hertz_peak_pressure(scene),
+            unworn_contact::hertz_peak_pressure(scene),
         ),
         ("sliding_distance_per_cycle_mm", distance),
     ];

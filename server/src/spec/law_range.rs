@@ -10,7 +10,7 @@ use std::f64::consts::PI;
 use api::problem::Fault;
 use api::spec::{Spec, WearLaw};
 use solver::effects::Effect;
-use solver::model::resolution;
+use solver::model::unworn_contact;
 use solver::scene::{Dimension, Scene};
 use solver::sides::Side;
 
@@ -23,7 +23,7 @@ const MEAN: f64 = 1.0 / 3.0;
 /// is that of the outermost layer. A law that states k/H alone has no hardness to compare with.
 pub(super) fn warnings(spec: &Spec, scene: &Scene) -> Vec<Fault> {
     // Hertz.
-    let peak = resolution::hertz_peak_pressure(scene);
+    let peak = unworn_contact::hertz_peak_pressure(scene);
     let mean = match scene.dimension {
         Dimension::PlaneStrain | Dimension::Line(_) | Dimension::Extruded(_) => 0.25 * PI * peak,
         Dimension::Point(_) => 2.0 / 3.0 * peak,

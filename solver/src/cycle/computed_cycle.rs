@@ -5,7 +5,7 @@ use super::{CycleError, CycleRecord, CycleState, Integrator};
 use crate::law::elastic::contact_modulus;
 use crate::law::surface::SurfaceWear;
 use crate::law::wear::LocalState;
-use crate::model::resolution::radius;
+use crate::model::unworn_contact::radius;
 use crate::number::real_cycles;
 use crate::schedule::equivalent_wear::EquivalentWear;
 use crate::schedule::jump::Stroke;

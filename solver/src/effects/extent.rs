@@ -10,7 +10,8 @@
 //!
 //! a, c: Hertz' half-lengths along and across the sliding direction.
 
-use crate::model::resolution::{expected_cycles, hertz_half_width, worn_depth_after};
+use crate::model::expected_wear::{expected_cycles, worn_depth_after};
+use crate::model::unworn_contact::hertz_half_width;
 use crate::point::half_lengths_mm;
 use crate::scene::Scene;
 

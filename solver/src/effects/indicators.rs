@@ -17,6 +17,7 @@ use crate::law::skin_effect;
 use crate::law::surface::SurfaceWear;
 use crate::law::wear::LocalState;
 use crate::model::resolution::{self, Sizes};
+use crate::model::{expected_wear, unworn_contact};
 use crate::number::{real, real_cycles};
 use crate::scene::{ContactHeat, Drive, Motion, Scene};
 use crate::sides::{Side, Sides};
@@ -66,9 +67,9 @@ impl<'a> Indicators<'a> {
         Self {
             blocks,
             wear: scene.surface_wear(),
-            rates: resolution::wear_rates(&scene, sizes.hertz_half_width),
+            rates: expected_wear::wear_rates(&scene, sizes.hertz_half_width),
             friction: scene.largest_friction(),
-            radius: resolution::radius(&scene),
+            radius: unworn_contact::radius(&scene),
             lost_slip: lost_slip(&scene, sizes.hertz_half_width),
             sizes,
             scene,
@@ -78,12 +79,12 @@ impl<'a> Indicators<'a> {
     /// Estimated largest worn depths after so many cycles, mm.
     pub(super) fn worn_depth_after(&self, cycles: u64) -> Sides<f64> {
         let state = (self.sizes.hertz_half_width, &self.wear);
-        resolution::worn_depth_after(&self.scene, state, cycles)
+        expected_wear::worn_depth_after(&self.scene, state, cycles)
     }
 
     /// Those at the end.
     pub(super) fn worn_depth_at_end(&self) -> Sides<f64> {
-        let cycles = resolution::expected_cycles(&self.scene, self.sizes.hertz_half_width);
+        let cycles = expected_wear::expected_cycles(&self.scene, self.sizes.hertz_half_width);
         self.worn_depth_after(cycles)
     }
 
@@ -363,14 +364,14 @@ fn lost_slip(scene: &Scene, half_width: f64) -> f64 {
         Motion::Periodic { turns, .. } => turns.path_mm() / (2.0 * real(turns.as_slice().len())),
         Motion::Continuous { step_mm } => step_mm.abs() * real_cycles(scene.cycles),
     };
-    let lost = resolution::gross_slip(scene, half_width);
+    let lost = unworn_contact::gross_slip(scene, half_width);
     if lost > 0.0 { lost / displacement } else { 0.0 }
 }
 
 /// Hertz' peak pressure of the unworn contact over the hardness of the softer surface, -, where both are known.
 pub(super) fn peak_over_hardness(scene: &Scene) -> Option<f64> {
     let electrical = scene.conduction.known()?;
-    let peak = resolution::hertz_peak_pressure(scene);
+    let peak = unworn_contact::hertz_peak_pressure(scene);
     let hardness = Side::BOTH.map(|side| electrical.metals.of(side)[0].hardness_mpa);
     Some(peak / hardness[0].min(hardness[1]))
 }

@@ -1,7 +1,7 @@
 //! Error of small-strain elasticity.
 
 use crate::law::elastic::contact_modulus;
-use crate::model::resolution;
+use crate::model::unworn_contact;
 use crate::scene::{Dimension, Scene};
 
 /// Largest accepted error of small-strain elasticity, relative to peak pressure and half-width.
@@ -26,7 +26,7 @@ pub fn limit(scene: &Scene) -> f64 {
 /// 0.17 % at p0/E* = 0.3 % and by 0.55 % at 1 %. Wear only ever widens the contact and lowers this.
 pub fn cost(scene: &Scene) -> f64 {
     let modulus = contact_modulus(scene.slider.elastic, scene.receptacle.elastic);
-    let strain = resolution::hertz_peak_pressure(scene) / modulus;
+    let strain = unworn_contact::hertz_peak_pressure(scene) / modulus;
     let friction = scene.largest_friction();
     0.5 * strain * (1.0 + 0.16 * friction * friction)
 }

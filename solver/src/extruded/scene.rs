@@ -3,7 +3,7 @@
 use super::error::ExtrudedError;
 use crate::effects::Effect;
 use crate::mesh::NodePlanes;
-use crate::model::resolution;
+use crate::model::unworn_contact;
 use crate::scene::{Dimension, Ends, Friction, Motion, Scene};
 use crate::sides::{Side, Sides};
 
@@ -118,15 +118,15 @@ impl ExtrudedScene {
     /// Checks that all of the contact slips in each stroke.
     pub(super) fn check_slip(&self) -> Result<(), ExtrudedError> {
         let plane = self.plane();
-        let half_width = resolution::hertz_half_width(&plane);
+        let half_width = unworn_contact::hertz_half_width(&plane);
         let free = Scene {
             effects: self.section.effects.clone(),
             ..plane
         };
-        if resolution::sticks(&free, half_width) {
+        if unworn_contact::sticks(&free, half_width) {
             return Err(ExtrudedError::Sticks {
                 amplitude_mm: free.motion.amplitude_mm().abs(),
-                least_mm: 2.0 * resolution::gross_slip(&free, half_width),
+                least_mm: 2.0 * unworn_contact::gross_slip(&free, half_width),
             });
         }
         Ok(())

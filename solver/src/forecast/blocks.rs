@@ -2,7 +2,7 @@
 
 use super::surrogate::Scar;
 use crate::ale;
-use crate::model::{Layout, resolution};
+use crate::model::{Layout, unworn_contact};
 use crate::number::real_cycles;
 use crate::scene::{Motion, Scene};
 use crate::schedule::jump::JumpControl;
@@ -39,7 +39,7 @@ impl WornBlocks {
             scar: Scar::new(
                 scene,
                 layout,
-                layout.sizes.sticks && resolution::sticks(scene, hertz),
+                layout.sizes.sticks && unworn_contact::sticks(scene, hertz),
             ),
             jump: JumpControl::default(),
         };

@@ -8,7 +8,7 @@
 use super::solved;
 use super::surrogate::Scar;
 use crate::extruded::ExtrudedScene;
-use crate::model::{Layout, resolution};
+use crate::model::{Layout, expected_wear};
 use crate::number::{real, real_cycles};
 use crate::scene::{Dimension, LineShape, Motion, RingMotion, Scene, Top};
 use crate::schedule::jump::JumpControl;
@@ -156,7 +156,7 @@ fn forecast(
 
 /// Line load over the mean one of the section that decides on the schedule of a crown, between its contact before and after the run.
 fn leading_load(scene: &Scene, line: &StationScene) -> f64 {
-    let lengths = resolution::crown_half_lengths_mm(scene);
+    let lengths = expected_wear::crown_half_lengths_mm(scene);
     let length = lengths.map(|(unworn, worn)| (unworn + worn).min(line.line.length_mm()));
     // A load that falls from the middle with the square of the place has 1.5 times its mean there.
     length.map_or(1.0, |length| {
@@ -166,7 +166,7 @@ fn leading_load(scene: &Scene, line: &StationScene) -> f64 {
 
 /// Stations that touch, about, over a run: those of a crown within the mean of its contact before and after it.
 fn touching(scene: &Scene, line: &StationScene) -> usize {
-    match resolution::crown_half_lengths_mm(scene) {
+    match expected_wear::crown_half_lengths_mm(scene) {
         Some((unworn, worn)) => line.stations_within(0.5 * (unworn + worn)).max(1),
         None => line.stations,
     }

@@ -7,7 +7,7 @@
 use crate::effects::{self, Effect};
 use crate::law::surface::SurfaceWear;
 use crate::law::wear::LocalState;
-use crate::model::resolution::{self, worn_depth_after};
+use crate::model::expected_wear::{expected_cycles, worn_depth_after};
 use crate::number::{count_at_least, real, real_cycles};
 use crate::point::{JumpControl, PointScene, SlipRegime};
 use crate::scene::Scene;
@@ -62,7 +62,7 @@ pub fn point_forecast(scene: &Scene) -> Option<PointForecast> {
     let amplitude = scene.motion.amplitude_mm();
     let followed = (-SHARED_DEPTH * amplitude / along).exp();
     let radii = contact.radii_mm();
-    let cycles = resolution::expected_cycles(scene, along);
+    let cycles = expected_cycles(scene, along);
     let wear = scene.surface_wear();
     let state = |done: u64| {
         let depth = worn_depth_after(scene, (along, &wear), done);

@@ -7,7 +7,7 @@ use crate::contact::line::CANDIDATE_GAP;
 use crate::law::elastic::contact_modulus;
 use crate::law::surface::SurfaceWear;
 use crate::law::wear::LocalState;
-use crate::model::{Layout, resolution};
+use crate::model::{Layout, expected_wear, unworn_contact};
 use crate::number::{real, real_cycles};
 use crate::record::{Exposed, WornSurface};
 use crate::scene::{Motion, Scene, Tuning};
@@ -76,17 +76,17 @@ impl Scar {
         let modulus = contact_modulus(scene.slider.elastic, scene.receptacle.elastic);
         let tuning = scene.accuracy.tuning;
         let hertz = layout.sizes.hertz_half_width;
-        let rates = resolution::wear_rates(scene, hertz);
+        let rates = expected_wear::wear_rates(scene, hertz);
         let at = LocalState::mean(scene.load_n_per_mm, hertz, scene.timed_motion().mean());
         let wear = rates.slider + rates.receptacle;
-        let approach = resolution::approach(scene, hertz, modulus);
+        let approach = unworn_contact::approach(scene, hertz, modulus);
         let amplitude = scene.motion.amplitude_mm();
         let sliding = if let Motion::Periodic { turns, .. } = scene.motion {
-            let lost = 2.0 * resolution::gross_slip(scene, hertz);
+            let lost = 2.0 * unworn_contact::gross_slip(scene, hertz);
             let slip = |(from, to): (f64, f64)| ((to - from).abs() - lost).max(0.0);
             turns.strokes().map(slip).sum()
         } else if amplitude > 0.0 {
-            4.0 * (amplitude - resolution::gross_slip(scene, hertz)).max(0.0)
+            4.0 * (amplitude - unworn_contact::gross_slip(scene, hertz)).max(0.0)
         } else {
             scene.motion.distance_per_cycle_mm()
         };
@@ -96,7 +96,7 @@ impl Scar {
         let share = |k: f64| if wear > 0.0 { k / wear } else { 0.0 };
         Self {
             sticks,
-            radius: resolution::radius(scene),
+            radius: unworn_contact::radius(scene),
             hertz,
             flat: tuning.surrogate_half_width * hertz,
             tuning,
@@ -116,7 +116,7 @@ impl Scar {
                 .receptacle
                 .is_none_or(SurfaceWear::is_even),
             motion: scene.motion,
-            cycles: resolution::expected_cycles(scene, hertz),
+            cycles: expected_wear::expected_cycles(scene, hertz),
             initial: scene.surface_wear().zip(rates).map(|(wear, rate)| {
                 let equivalent = wear.and_then(|wear| wear.equivalent_rate(at));
                 equivalent.map_or(1.0, |equivalent| equivalent / rate)

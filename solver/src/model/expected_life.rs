@@ -27,7 +27,7 @@
 //! movement of the contact over a crown. Limiting case: one layer, Archard's law.
 
 use super::worn_cap::WornCap;
-use super::{resolution, worn_depth};
+use super::{unworn_contact, worn_depth};
 use crate::law::plating::bottoms;
 use crate::law::surface::SurfaceWear;
 use crate::number::real_cycles;
@@ -81,7 +81,7 @@ pub fn cycles(scene: &Scene, criterion: Criterion) -> Option<f64> {
     let contact = Contact {
         scene,
         wear: scene.surface_wear(),
-        radius: resolution::radius(scene),
+        radius: unworn_contact::radius(scene),
         strokes: strokes(scene),
     };
     let of_section = contact.load_path(criterion).filter(|_| path > 0.0);

@@ -1,6 +1,6 @@
 //! Characteristic lengths of the contact, and the mesh spacing that follows from them.
 //!
-//! * Hertz half-width a = sqrt(4 P R / (pi E*)) with 1/R = 1/R_slider + 1/R_crown (Johnson 1985, eq. 4.43);
+//! * Hertz' half-width of the unworn contact (`unworn_contact`);
 //! * leading-edge step of one pass, where a rigid round slider wears the floor in gross sliding: the section k P equals
 //!   b^2 / (2 R), so b = sqrt(2 R k P);
 //! * scar of a short stroke: the circular segment that was worn off, b = (3 R W / 2)^(1/3) with the worn area
@@ -8,19 +8,13 @@
 //! * flat of a slider in a long stroke: the circular segment that it has lost, by the same formula with W = k_s P s;
 //! * ends of the groove of a long stroke 2 A, W/(2 A) deep: the slider's arc reaches b = sqrt(R W / A) up them.
 
-use super::line_contact;
-use super::worn_cap::WornCap;
-use super::{constraint_side, worn_depth};
-use crate::effects::Effect;
-use crate::law::elastic::contact_modulus;
-use crate::law::surface::SurfaceWear;
-use crate::law::wear::LocalState;
+use super::constraint_side;
+use super::expected_wear::{expected_cycles, wear_rates};
+use super::unworn_contact::{hertz_half_width, radius, sticks};
 use crate::mesh::grading::Spacing;
 use crate::number::real_cycles;
-use crate::point::{PointScene, SlipRegime};
-use crate::scene::{Accuracy, Drive, Elastic, LineShape, Motion, Refinement, Scene, SliderShape};
+use crate::scene::{Accuracy, Refinement, Scene};
 use crate::sides::{Side, Sides};
-use std::f64::consts::PI;
 
 /// Largest element given by the user or chosen for a coarse companion, over the narrower body's half-length: each half of a
 /// body has at least two. Arbitrary.
@@ -53,191 +47,11 @@ pub struct Sizes {
     pub spacing: Sides<Spacing>,
 }
 
-/// Approach of the bodies under the load, mm:  P / (pi E*) (2 ln(4 H/a) - 1)  with the lower body height H (Johnson
-/// 1985, section 5.6, for a strip under a line load).
-pub(crate) fn approach(scene: &Scene, half_width: f64, modulus: f64) -> f64 {
-    let height = scene
-        .slider
-        .shape
-        .height_mm
-        .min(scene.receptacle.shape.height_mm);
-    scene.load_n_per_mm / (PI * modulus) * strip(height, half_width)
-}
-
-/// 2 ln(4 H/a) - 1, or 0 where the strip is no higher than the contact is wide.
-fn strip(height: f64, half_width: f64) -> f64 {
-    (2.0 * (4.0 * height / half_width).ln() - 1.0).max(0.0)
-}
-
-/// Imposed displacement at which all of the contact slips, mm: the largest mu P of the run times the compliance of both bodies
-/// to a tangential force on their surfaces. Near the contact it is the normal one, of a strip; a body of height H and half-width w
-/// besides shears and bends like a beam that is held at its far face (Timoshenko), with G = E/(2 (1 + nu)) and E' =
-/// E/(1 - nu^2):
-///   E' delta / Q = (2 ln(4 min(H, w)/a) - 1) / pi + H^3 / (2 w^3) + 1.2 H / (w (1 - nu)).
-/// A slider whose nodes are all displaced does not deform along x.
-pub(crate) fn gross_slip(scene: &Scene, half_width: f64) -> f64 {
-    let compliance = |elastic: Elastic, height: f64, half: f64| {
-        let Elastic {
-            youngs_modulus_mpa,
-            poisson_ratio,
-        } = elastic;
-        let slender = height / half;
-        let beam = 0.5 * slender.powi(3) + 1.2 * slender / (1.0 - poisson_ratio);
-        (1.0 - poisson_ratio * poisson_ratio) / youngs_modulus_mpa
-            * (strip(height.min(half), half_width) / PI + beam)
-    };
-    let (slider, block) = (&scene.slider, &scene.receptacle);
-    let upper = match scene.drive {
-        Drive::Handle => {
-            let SliderShape {
-                half_width_mm,
-                height_mm,
-                ..
-            } = slider.shape;
-            compliance(slider.elastic, height_mm, half_width_mm)
-        }
-        Drive::WholeBody => 0.0,
-    };
-    let half_block = 0.5 * block.shape.length_mm;
-    let lower = compliance(block.elastic, block.shape.height_mm, half_block);
-    scene.largest_friction() * scene.load_n_per_mm * (upper + lower)
-}
-
-/// Whether part of the contact may stick through the whole stroke: the amplitude is below twice the displacement of
-/// gross slip.
-pub(crate) fn sticks(scene: &Scene, half_width: f64) -> bool {
-    let amplitude_mm = match scene.motion {
-        Motion::Reciprocating { amplitude_mm, .. } => amplitude_mm,
-        Motion::Periodic { turns, .. } => 0.5 * turns.shortest_mm(),
-        Motion::Continuous { .. } => return false,
-    };
-    let is_off = |effect| scene.effects.of(effect) == Some(false);
-    if is_off(Effect::Friction) || is_off(Effect::StickMemory) {
-        return false;
-    }
-    amplitude_mm < 2.0 * gross_slip(scene, half_width)
-}
-
-/// Radius R of the relative curvature of both bodies, mm.
-pub(crate) fn radius(scene: &Scene) -> f64 {
-    let crown = scene.receptacle.shape.crown_radius_mm;
-    1.0 / (1.0 / scene.slider.shape.radius_mm + crown.map_or(0.0, |crown| 1.0 / crown))
-}
-
 /// Travel of the contact over the slider per displacement of the slider, R / (R + R_crown): the gap of two parabolas a
 /// displacement d apart, (x - d)^2 / (2 R) + x^2 / (2 R_crown), is least at x = d R_crown / (R + R_crown). On a flat
 /// receptacle the contact moves with the slider; wear flattens a crown, so that the receptacle is meshed for all of d.
 fn travel_over_slider(slider: f64, crown: Option<f64>) -> f64 {
     crown.map_or(0.0, |crown| slider / (slider + crown))
-}
-
-/// Specific wear rates in a contact of a half-width, 1/MPa; of laws whose rate depends on the depth the mean rate down to the estimated depth at the
-/// end.
-pub(crate) fn wear_rates(scene: &Scene, half_width: f64) -> Sides<f64> {
-    let wear = scene.surface_wear();
-    let at = LocalState::mean(scene.load_n_per_mm, half_width, scene.timed_motion().mean());
-    let by_depth = |wear: Option<SurfaceWear>| wear.is_some_and(SurfaceWear::depends_on_depth);
-    let depth = if by_depth(wear.slider) || by_depth(wear.receptacle) {
-        let cycles = expected_cycles(scene, half_width);
-        worn_depth_after(scene, (half_width, &wear), cycles)
-    } else {
-        Sides::default()
-    };
-    wear.zip(depth)
-        .map(|(wear, depth)| wear.map_or(0.0, |wear| wear.mean_rate(depth, at)))
-}
-
-/// Estimated cycles until the end of a run: all of them, or fewer where it stops at a criterion.
-pub fn expected_end(scene: &Scene) -> u64 {
-    expected_cycles(scene, choose(scene).hertz_half_width)
-}
-
-/// The same for a Hertz half-width, mm.
-pub(crate) fn expected_cycles(scene: &Scene, half_width: f64) -> u64 {
-    let of_cap = WornCap::of_scene(scene).map(|cap| cap.expected_cycles());
-    if let (Some(cycles), Some(_)) = (of_cap, scene.dimension.point()) {
-        return cycles;
-    }
-    let at = LocalState::mean(scene.load_n_per_mm, half_width, scene.timed_motion().mean());
-    let of_section = worn_depth::expected_cycles(scene, (radius(scene), at), &scene.surface_wear());
-    of_cap.map_or(of_section, |cycles| cycles.min(of_section))
-}
-
-/// Estimated largest worn depths after so many cycles, mm, in a contact of a half-width with this wear of both surfaces.
-pub(crate) fn worn_depth_after(
-    scene: &Scene,
-    (half_width, wear): (f64, &Sides<Option<SurfaceWear>>),
-    cycles: u64,
-) -> Sides<f64> {
-    let of_cap = WornCap::of_scene(scene).map(|cap| cap.depth_after(cycles));
-    if let (Some(depth), Some(_)) = (of_cap, scene.dimension.point()) {
-        return depth;
-    }
-    let at = LocalState::mean(scene.load_n_per_mm, half_width, scene.timed_motion().mean());
-    let of_section = worn_depth::after(scene, (radius(scene), at), wear, cycles);
-    // A cap is deeper until it reaches the ends of the width.
-    of_cap.map_or(of_section, |depth| {
-        depth
-            .zip(of_section)
-            .map(|(of_cap, of_section)| of_cap.max(of_section))
-    })
-}
-
-/// Half-width of the unworn contact, mm: Hertz' of a section, the half-length along the sliding direction of a point contact.
-pub fn hertz_half_width(scene: &Scene) -> f64 {
-    if let Some(contact) = PointScene::of(scene, SlipRegime::Gross) {
-        return contact.half_lengths_mm().0;
-    }
-    let modulus = contact_modulus(scene.slider.elastic, scene.receptacle.elastic);
-    (4.0 * scene.load_n_per_mm * radius(scene) / (PI * modulus)).sqrt()
-}
-
-/// Estimated half-length of a contact along the sliding direction at the end of its run, mm: the arc that has worn off, or Hertz'.
-pub fn worn_contact_half_length_mm(scene: &Scene) -> f64 {
-    let hertz = hertz_half_width(scene);
-    let cycles = expected_cycles(scene, hertz);
-    let depth = worn_depth_after(scene, (hertz, &scene.surface_wear()), cycles);
-    let arc = 2.0 * radius(scene) * depth.slider.max(depth.receptacle);
-    arc.sqrt().max(hertz)
-}
-
-/// Half-lengths of the contact of a crowned line, unworn and at the estimated end, mm: the arc that has worn off; `None` of another contact.
-pub fn crown_half_lengths_mm(scene: &Scene) -> Option<(f64, f64)> {
-    let line = scene.dimension.line()?;
-    let LineShape::Straight {
-        crown_radius_mm: Some(radius),
-        ..
-    } = line.shape
-    else {
-        return None;
-    };
-    let unworn = line_contact::touch_of(scene, line).length_mm;
-    let hertz = hertz_half_width(scene);
-    let cycles = expected_cycles(scene, hertz);
-    let depth = worn_depth_after(scene, (hertz, &scene.surface_wear()), cycles);
-    let arc = 2.0 * radius * (depth.slider + depth.receptacle);
-    Some((unworn, (unworn * unworn + arc).sqrt()))
-}
-
-/// Hertz' half-width of the most loaded section along a line, mm.
-pub fn largest_half_width(scene: &Scene) -> f64 {
-    hertz_half_width(scene) * root_of_largest_load(scene)
-}
-
-/// Half-width and pressure of the most loaded section over those under the mean load: both go with the root of the load.
-fn root_of_largest_load(scene: &Scene) -> f64 {
-    (line_contact::largest_line_load(scene) / scene.load_n_per_mm).sqrt()
-}
-
-/// Hertz' peak pressure of the unworn contact, MPa: 2 P/(pi a) of a section, and of the most loaded one along a line; 3 F/(2 pi a b) of a
-/// point contact.
-pub fn hertz_peak_pressure(scene: &Scene) -> f64 {
-    if let Some(contact) = PointScene::of(scene, SlipRegime::Gross) {
-        let (along, across) = contact.half_lengths_mm();
-        return 1.5 * contact.force_n / (PI * along * across);
-    }
-    let mean = 2.0 * scene.load_n_per_mm / (PI * hertz_half_width(scene));
-    mean * root_of_largest_load(scene)
 }
 
 /// Chooses the spacing of a scene's meshes: of a mission the finest and widest that one of its blocks needs.

@@ -18,7 +18,7 @@ use crate::condensation::harmonic::{FarFace, harmonic_compliances};
 use crate::effects::EffectsPlan;
 use crate::element::harmonic::Waves;
 use crate::linear::SquareMatrix;
-use crate::model::{self, resolution};
+use crate::model::{self, unworn_contact};
 use crate::number::{count_at_least, real};
 use crate::scene::{Accuracy, LineShape, Scene, Top};
 use crate::sides::Side;
@@ -139,7 +139,7 @@ fn lifts(
         ..plane.clone()
     };
     let model = model::build(&coarse, plan)?;
-    let half_width = resolution::hertz_half_width(&coarse);
+    let half_width = unworn_contact::hertz_half_width(&coarse);
     let shortest = SHORTEST_OVER_WIDTH / half_width;
     let waves = |n: usize, side: Side| {
         let lifts = top == Top::Pressure && side == Side::Slider && n > RIGID_WAVES;

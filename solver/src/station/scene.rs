@@ -6,7 +6,7 @@ use super::spacing;
 use crate::effects::Effect;
 use crate::law::elastic::contact_modulus;
 use crate::model::line_contact::{Touch, touch};
-use crate::model::resolution;
+use crate::model::unworn_contact;
 use crate::number::{nearest, real};
 use crate::scene::{Accuracy, Dimension, Drive, Friction, Line, LineShape, Motion, Scene, Top};
 use crate::sides::Side;
@@ -257,11 +257,11 @@ impl StationScene {
             load_n_per_mm: line_load,
             ..plane.clone()
         };
-        let half_width = resolution::hertz_half_width(&free);
-        if resolution::sticks(&free, half_width) {
+        let half_width = unworn_contact::hertz_half_width(&free);
+        if unworn_contact::sticks(&free, half_width) {
             return Err(StationError::Sticks {
                 amplitude_mm: plane.motion.amplitude_mm().abs(),
-                least_mm: 2.0 * resolution::gross_slip(&free, half_width),
+                least_mm: 2.0 * unworn_contact::gross_slip(&free, half_width),
             });
         }
         Ok(())

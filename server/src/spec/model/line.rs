@@ -3,7 +3,8 @@
 use api::problem::Fault;
 use api::spec::{Dimension, Model, RingMotion, Spec, SystemKind, Top};
 use solver::effects::extent::Extent;
-use solver::model::resolution::{crown_half_lengths_mm, hertz_half_width, largest_half_width};
+use solver::model::expected_wear::crown_half_lengths_mm;
+use solver::model::unworn_contact::{hertz_half_width, largest_half_width};
 use solver::scene::{self, Conduction, LineShape, Scene};
 use solver::station::{StationError, StationScene};
 

@@ -2,7 +2,8 @@
 
 use api::problem::Fault;
 use api::spec::{LoadKind, Spec};
-use solver::model::resolution::{hertz_half_width, worn_contact_half_length_mm};
+use solver::model::expected_wear::worn_contact_half_length_mm;
+use solver::model::unworn_contact::hertz_half_width;
 use solver::point;
 use solver::scene::{self, Conduction, Point, Scene};
 use solver::sides::Sides;
