@@ -32,7 +32,9 @@ fn main() {
     if can_mount() {
         println!("cargo::rustc-cfg=has_mount");
     }
-    if runs(Command::new("chromium").arg("--version")) {
+    if runs(Command::new("chromium").arg("--version"))
+        && runs(Command::new("chromedriver").arg("--version"))
+    {
         println!("cargo::rustc-cfg=has_chromium");
     }
     if runs(Command::new("ccx").arg("-v")) {

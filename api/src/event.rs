@@ -37,6 +37,32 @@ pub struct Done {
     pub summary: Option<Summary>,
 }
 
+/// An event of the stream of all changes (`GET /v1/events`).
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
+pub struct FeedEvent {
+    /// The revision of the change.
+    pub id: String,
+    /// Its name.
+    pub event: FeedEventName,
+    /// Its document, JSON: the short document of a job, the `id` of a deleted one, or nothing.
+    #[schema(content_media_type = "application/json")]
+    pub data: String,
+}
+
+string_enum! {
+    /// Names of changes.
+    FeedEventName {
+        /// The stream begins after the change of this revision.
+        Start = "start",
+        /// A job has changed.
+        Job = "job",
+        /// A job was deleted.
+        Deleted = "deleted",
+        /// Changes were missed: what is shown must be loaded again.
+        Reset = "reset",
+    }
+}
+
 /// An event of the stream.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
 pub struct StreamEvent {

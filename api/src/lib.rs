@@ -10,6 +10,7 @@ pub mod plan;
 pub mod problem;
 pub mod rating;
 pub mod results;
+pub mod service;
 pub mod spec;
 pub mod study;
 pub mod sweep;

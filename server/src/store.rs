@@ -48,12 +48,13 @@ mod sqlite;
 
 pub use backup::{BackupError, CopySummary};
 pub use batches::{BatchDetail, BatchFilter, BatchJob, BatchOverview, NewBatch, StoredBatch};
-pub use changes::Changes;
+pub use changes::{AllChanges, Changes};
 pub use disk::DataDisk;
 pub use error::StoreError;
 pub use integrity::IntegrityError;
 pub use jobs::{
-    Cancelled, Deleted, Filter, NewJob, RequestKey, Retried, StoredJob, SubmitOptions, Submitted,
+    Cancelled, Changed, Deleted, Filter, NewJob, RequestKey, Retried, StoredJob, SubmitOptions,
+    Submitted,
 };
 pub use leases::{Claim, End, JobUpdate, LeaseState, Reclaimed};
 pub use limits::Limits;

@@ -2,6 +2,7 @@
 
 mod bare_preset;
 pub mod bits;
+mod browser;
 pub mod calculix;
 pub mod database;
 pub mod disk;
@@ -10,6 +11,7 @@ pub mod server;
 mod stepped_clock;
 
 pub use bare_preset::{bare_preset, merged};
+pub use browser::Browser;
 pub use disk::Disk;
 pub use program::{Ran, binary, fretwear, fuzz_button_with_jump, spec};
 pub use server::{Log, Server};

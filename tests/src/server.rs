@@ -316,7 +316,10 @@ impl Server {
 fn serve(folder: &Path, options: &[&str]) -> Command {
     let database = format!("sqlite://{}", folder.join("fretwear.db").display());
     let mut command = Command::new(binary());
-    command.args(["serve", "--listen", "127.0.0.1:0", "--database", &database]);
+    command.args(["serve", "--database", &database]);
+    if !options.contains(&"--listen") {
+        command.args(["--listen", "127.0.0.1:0"]);
+    }
     if !options.contains(&"--workers") {
         command.args(["--workers", "1"]);
     }

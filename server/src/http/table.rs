@@ -63,9 +63,14 @@ pub(super) fn routes_and_document() -> (Router<App>, Document) {
         .routes(routes!(jobs::plan::make_plan))
         .routes(routes!(systems::list::systems))
         .routes(routes!(systems::show::system))
+        .routes(routes!(jobs::feed::all_events))
+        .routes(routes!(operation::show_service::service))
         .routes(routes!(operation::serve_pages::dashboard))
         .routes(routes!(operation::serve_pages::docs))
-        .routes(routes!(operation::serve_pages::asset))
+        .route(
+            "/assets/{*path}",
+            axum::routing::get(operation::serve_pages::asset),
+        )
         .routes(routes!(operation::explain_problem::explain))
         .routes(routes!(operation::show_openapi::openapi))
         .routes(routes!(operation::check_health::healthz))

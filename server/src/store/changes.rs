@@ -1,4 +1,4 @@
-//! Change notifications of a job.
+//! Change notifications of one job, and of all.
 
 use tokio::sync::broadcast;
 use uuid::Uuid;
@@ -19,5 +19,21 @@ impl Changes {
     /// Returns when the job has changed, or when so many other changes were missed that it may have.
     pub async fn next(&mut self) {
         while self.changed.recv().await.is_ok_and(|id| id != self.id) {}
+    }
+}
+
+/// Changes of all jobs, from the time of the subscription.
+#[derive(Debug)]
+pub struct AllChanges(broadcast::Receiver<Uuid>);
+
+impl AllChanges {
+    pub(in crate::store) fn new(changed: broadcast::Receiver<Uuid>) -> Self {
+        Self(changed)
+    }
+
+    /// Returns when any job has changed; notifications that were missed count as one.
+    pub async fn next(&mut self) {
+        let _ = self.0.recv().await;
+        while self.0.try_recv().is_ok() {}
     }
 }

@@ -1,6 +1,6 @@
 //! Jobs as they are submitted, listed, cancelled and deleted.
 
-use api::job::{Job, Status};
+use api::job::{Job, JobOverview, Status};
 use api::plan::Plan;
 use api::spec::Spec;
 use uuid::Uuid;
@@ -38,6 +38,15 @@ pub struct StoredJob {
     pub last_event: i64,
 }
 
+/// What a change of the jobs has left.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Changed {
+    /// A job as it is now.
+    Job(Box<JobOverview>),
+    /// A job that is no longer there.
+    Deleted(Uuid),
+}
+
 /// Which jobs a list contains.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Filter {
@@ -53,6 +62,8 @@ pub struct Filter {
     pub created_before: Option<i64>,
     /// Jobs of this parameter sweep.
     pub sweep: Option<Uuid>,
+    /// With this text in the name, a label's value or the id, whatever the case.
+    pub text: Option<String>,
     /// Jobs older than this one.
     pub before: Option<Uuid>,
     /// Largest number of jobs.

@@ -27,6 +27,7 @@ mod owner;
 mod queries;
 mod reclaim;
 mod results;
+mod revisions;
 mod submissions;
 mod transitions;
 pub(in crate::store) mod verify;
@@ -44,7 +45,7 @@ use uuid::Uuid;
 use crate::clock::Now;
 use crate::metrics::Metrics;
 use crate::store::{
-    Cancelled, Changes, DataDisk, LeaseState, NewJob, RequestKey, StoreError, Submitted,
+    AllChanges, Cancelled, Changes, DataDisk, LeaseState, NewJob, RequestKey, StoreError, Submitted,
 };
 pub use owner::OWNER_HEARTBEAT;
 
@@ -94,6 +95,11 @@ impl Store {
     /// Subscribes to the changes of a job.
     pub fn changes(&self, id: Uuid) -> Changes {
         Changes::new(id, self.changes.subscribe())
+    }
+
+    /// Subscribes to the changes of all jobs.
+    pub fn all_changes(&self) -> AllChanges {
+        AllChanges::new(self.changes.subscribe())
     }
 
     /// Returns when a job may be waiting in the queue.

@@ -2,6 +2,7 @@
 
 pub(crate) mod cancel;
 pub(crate) mod delete;
+pub(crate) mod feed;
 pub(crate) mod list;
 pub(crate) mod plan;
 pub(crate) mod retry;

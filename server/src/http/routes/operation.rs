@@ -5,3 +5,4 @@ pub(crate) mod explain_problem;
 pub(crate) mod serve_pages;
 pub(crate) mod show_metrics;
 pub(crate) mod show_openapi;
+pub(crate) mod show_service;

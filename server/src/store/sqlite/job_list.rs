@@ -80,6 +80,17 @@ fn filtered(mut query: QueryBuilder<Sqlite>, filter: &Filter) -> QueryBuilder<Sq
             .push_bind(sweep.to_string())
             .push(")");
     }
+    if let Some(text) = &filter.text {
+        let text = text.to_lowercase();
+        query
+            .push(" AND (instr(lower(coalesce(spec ->> '$.name', '')), ")
+            .push_bind(text.clone())
+            .push(") OR instr(id, ")
+            .push_bind(text.clone())
+            .push(") OR id IN (SELECT job_id FROM labels WHERE instr(lower(value), ")
+            .push_bind(text)
+            .push(")))");
+    }
     if let Some(before) = filter.before {
         query.push(" AND id < ").push_bind(before.to_string());
     }

@@ -19,6 +19,9 @@ use crate::text::shortened;
 /// Maximum number of labels of a filter.
 const MAX_LABELS: usize = 16;
 
+/// Longest text that is searched for, characters.
+const MAX_TEXT: usize = 200;
+
 /// Error of a query parameter.
 #[derive(Debug, thiserror::Error)]
 pub(crate) enum ListError {
@@ -40,6 +43,9 @@ pub(crate) enum ListError {
     /// Not a kind of system.
     #[error("`{0}` is not a kind of system; kinds are {1}")]
     System(String, String),
+    /// No text, or too long a one.
+    #[error("a text has 1 to {MAX_TEXT} characters, not {0}")]
+    Text(usize),
     /// Not a view.
     #[error("`{0}` is not a view; views are short and full")]
     View(String),
@@ -57,7 +63,7 @@ impl RouteError for ListError {
 
 /// Names of the parameters below.
 const PARAMETERS: &str =
-    "status, system, label, created_from, created_before, sweep, view, limit and page_token";
+    "status, system, label, created_from, created_before, sweep, text, view, limit and page_token";
 
 /// Filters and page; a listed job passes all filters.
 #[derive(Debug, Default, IntoParams)]
@@ -79,6 +85,9 @@ pub(crate) struct ListQuery {
     created_before: Option<String>,
     /// Jobs of this sweep.
     sweep: Option<Uuid>,
+    /// In the name, the value of a label or the id, whatever the case.
+    #[param(min_length = 1, max_length = 200)]
+    text: Option<String>,
     /// `short` (default), or `full` with specification, plan and summary.
     #[param(inline)]
     view: Option<View>,
@@ -168,6 +177,7 @@ fn parse(pairs: &[(String, String)]) -> Result<ParsedQuery<'_>, ListError> {
                 let id = Uuid::parse_str(value);
                 filter.sweep = Some(id.map_err(|_| ListError::Sweep(shortened(value)))?);
             }
+            "text" => filter.text = Some(text(value)?),
             "view" => query.view = self::view(value)?,
             "limit" => query.limit = Some(value.as_str()),
             "page_token" => query.token = Some(value.as_str()),
@@ -178,6 +188,14 @@ fn parse(pairs: &[(String, String)]) -> Result<ParsedQuery<'_>, ListError> {
         return Err(ListError::Labels(filter.labels.len()));
     }
     Ok(query)
+}
+
+fn text(value: &str) -> Result<String, ListError> {
+    let length = value.chars().count();
+    if length == 0 || length > MAX_TEXT {
+        return Err(ListError::Text(length));
+    }
+    Ok(value.to_owned())
 }
 
 fn view(name: &str) -> Result<View, ListError> {

@@ -26,14 +26,14 @@ use crate::metrics::Counted;
 use crate::store::{Changes, StoreError, StoredEvent};
 
 /// Interval of comment lines, which keep the connection open through proxies.
-const KEEP_ALIVE: Duration = Duration::from_secs(15);
+pub(super) const KEEP_ALIVE: Duration = Duration::from_secs(15);
 /// Poll interval of the store, in case a notification was missed.
-const POLL_INTERVAL: Duration = Duration::from_secs(5);
+pub(super) const POLL_INTERVAL: Duration = Duration::from_secs(5);
 const LAST_EVENT_ID: &str = "last-event-id";
 
 /// Error of a request for an event stream.
 #[derive(Debug, thiserror::Error)]
-enum StreamError {
+pub(super) enum StreamError {
     /// Too many streams are open.
     #[error("{MAX_STREAMS} event streams are open, which is the limit; poll the job instead")]
     TooMany,
@@ -108,7 +108,7 @@ pub(crate) async fn events(
     Ok(([(header::CACHE_CONTROL, "no-store")], sse).into_response())
 }
 
-fn last_event_id(headers: &HeaderMap) -> Result<Option<i64>, StreamError> {
+pub(super) fn last_event_id(headers: &HeaderMap) -> Result<Option<i64>, StreamError> {
     let Some(value) = headers.get(LAST_EVENT_ID) else {
         return Ok(None);
     };

@@ -50,7 +50,7 @@ fn page(problem: &ProblemType) -> Result<String, std::fmt::Error> {
         page,
         "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
          <meta name=\"viewport\" content=\"width=device-width\">\n<title>fretwear: {title}</title>\n\
-         <link rel=\"stylesheet\" href=\"/assets/page.css\">\n</head>\n<body>\n\
+         <link rel=\"stylesheet\" href=\"/assets/style.css\">\n</head>\n<body>\n\
          <header><h1>fretwear</h1><a href=\"/\">jobs</a><a href=\"/docs\">interface</a></header>\n\
          <h2>{title}</h2>\n<p class=\"mono muted\">/problems/{name}, status {status}</p>\n<p>{}</p>\n\
          <h3>All types</h3>\n<ul>\n",

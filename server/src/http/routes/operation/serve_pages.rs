@@ -1,45 +1,54 @@
-//! `GET /`, `GET /docs` and `GET /assets/{name}`: the pages of the service. They are part of the binary, contain no
+//! `GET /`, `GET /docs` and the files under `/assets/`: the pages of the service. They are part of the binary, contain no
 //! data and load nothing from other hosts.
 
-use api::problem::Problem;
-use axum::http::{HeaderName, header};
+use std::io::Read;
+
+use axum::extract::Path;
+use axum::http::{HeaderMap, HeaderName, StatusCode, header};
 use axum::response::{IntoResponse, Response};
 
-use crate::http::extract::Name;
 use crate::http::problem::{ProblemResponse, ProblemType, RouteError};
 
 pub(super) const HTML: &str = "text/html; charset=utf-8";
-const SCRIPT: &str = "text/javascript; charset=utf-8";
-const STYLE: &str = "text/css; charset=utf-8";
-/// `Content-Security-Policy` of a page: it loads and requests only from this service.
-const CONTENT_POLICY: &str = "default-src 'none'; script-src 'self'; style-src 'self'; connect-src 'self'; \
-                      img-src 'self' blob:; \
+/// `Content-Security-Policy` of a page: it loads and requests only from this service. The library of charts makes style elements that are
+/// empty, whose digest is that of no text, style attributes and pictures of its own data; scripts come only from here.
+const CONTENT_POLICY: &str = "default-src 'none'; script-src 'self'; \
+                      style-src 'self'; style-src-elem 'self' 'sha256-47DEQpj8HBSa+/TImW+5JCeuQeRkm5NMpJWZG3hSuFU='; \
+                      style-src-attr 'unsafe-inline'; connect-src 'self'; img-src 'self' blob: data:; \
                       base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
+/// Buffer of a decompression, bytes.
+const BUFFER: usize = 1 << 14;
 
-/// A file of the dashboard's folder.
-macro_rules! dashboard {
-    ($name:literal) => {
-        include_str!(concat!("../../../../dashboard/", $name))
-    };
+/// A file of the dashboard.
+struct Asset {
+    path: &'static str,
+    media_type: &'static str,
+    etag: &'static str,
+    /// Its bytes, compressed by Brotli.
+    compressed: &'static [u8],
 }
 
-/// Name, media type and content of each asset.
-const ASSETS: [(&str, &str, &str); 6] = [
-    ("page.css", STYLE, dashboard!("page.css")),
-    ("page.js", SCRIPT, dashboard!("page.js")),
-    ("job.js", SCRIPT, dashboard!("job.js")),
-    ("chart.js", SCRIPT, dashboard!("chart.js")),
-    ("docs.js", SCRIPT, dashboard!("docs.js")),
-    ("dashboard.js", SCRIPT, dashboard!("dashboard.js")),
-];
+/// All files, by their paths.
+const ASSETS: &[Asset] = include!(concat!(env!("OUT_DIR"), "/assets.rs"));
 
-/// Error of an unknown asset.
+/// Error of a request for an asset.
 #[derive(Debug, thiserror::Error)]
-#[error("there is no such asset")]
-struct NoAssetError;
+enum AssetError {
+    /// Unknown.
+    #[error("there is no such asset")]
+    Unknown,
+    /// The program is damaged.
+    #[error("an asset cannot be decompressed: {0}")]
+    Damaged(#[source] std::io::Error),
+}
 
-impl RouteError for NoAssetError {
-    const TYPE: ProblemType = ProblemType::NO_SUCH_PATH;
+impl RouteError for AssetError {
+    fn problem_type(&self) -> ProblemType {
+        match self {
+            Self::Unknown => ProblemType::NO_SUCH_PATH,
+            Self::Damaged(_) => ProblemType::INTERNAL,
+        }
+    }
 }
 
 /// Headers of a page or asset.
@@ -55,15 +64,15 @@ pub(super) fn headers(
     ]
 }
 
-/// Dashboard: the newest jobs and their progress.
+/// Dashboard: jobs, their progress and their results.
 #[utoipa::path(
     get,
     path = "/",
     tag = "pages",
     responses((status = 200, description = "The page", content_type = "text/html", body = String))
 )]
-pub(crate) async fn dashboard() -> impl IntoResponse {
-    (headers(HTML, CONTENT_POLICY), dashboard!("dashboard.html"))
+pub(crate) async fn dashboard(request: HeaderMap) -> Result<Response, ProblemResponse> {
+    serve("index.html", &request)
 }
 
 /// Documentation of this interface.
@@ -73,34 +82,57 @@ pub(crate) async fn dashboard() -> impl IntoResponse {
     tag = "pages",
     responses((status = 200, description = "The page", content_type = "text/html", body = String))
 )]
-pub(crate) async fn docs() -> impl IntoResponse {
-    (headers(HTML, CONTENT_POLICY), dashboard!("docs.html"))
+pub(crate) async fn docs(request: HeaderMap) -> Result<Response, ProblemResponse> {
+    serve("docs/index.html", &request)
 }
 
-/// A script or style sheet of the pages.
-#[utoipa::path(
-    get,
-    path = "/assets/{name}",
-    tag = "pages",
-    params(("name" = String, Path, description = "Name of the asset")),
-    responses(
-        (status = 200, description = "The asset", content(
-            (String = "text/css"),
-            (String = "text/javascript"),
-        )),
-        (status = 404, description = "No such asset", body = Problem),
-    )
-)]
-pub(crate) async fn asset(Name(name): Name) -> Result<Response, ProblemResponse> {
-    let found = ASSETS.iter().find(|(known, _, _)| *known == name);
-    let (_, media_type, content) = found.ok_or(NoAssetError)?;
-    Ok((headers(media_type, CONTENT_POLICY), *content).into_response())
+/// A script, a style sheet or a text of the pages.
+pub(crate) async fn asset(
+    Path(path): Path<String>,
+    request: HeaderMap,
+) -> Result<Response, ProblemResponse> {
+    serve(&path, &request)
+}
+
+fn serve(path: &str, request: &HeaderMap) -> Result<Response, ProblemResponse> {
+    let found = ASSETS.iter().find(|asset| asset.path == path);
+    let asset = found.ok_or(AssetError::Unknown)?;
+    let of_file = [
+        (header::ETAG, asset.etag),
+        (header::VARY, "accept-encoding"),
+    ];
+    let headers = (headers(asset.media_type, CONTENT_POLICY), of_file);
+    let has = |name: HeaderName, part: &str| {
+        let value = request.get(name).and_then(|value| value.to_str().ok());
+        value.is_some_and(|value| value.contains(part))
+    };
+    Ok(if has(header::IF_NONE_MATCH, asset.etag) {
+        (StatusCode::NOT_MODIFIED, headers).into_response()
+    } else if has(header::ACCEPT_ENCODING, "br") {
+        let encoding = [(header::CONTENT_ENCODING, "br")];
+        (headers, encoding, asset.compressed).into_response()
+    } else {
+        (headers, asset.bytes().map_err(AssetError::Damaged)?).into_response()
+    })
+}
+
+impl Asset {
+    /// Its bytes without compression.
+    fn bytes(&self) -> std::io::Result<Vec<u8>> {
+        let mut bytes = Vec::new();
+        brotli::Decompressor::new(self.compressed, BUFFER).read_to_end(&mut bytes)?;
+        Ok(bytes)
+    }
 }
 
 #[cfg(test)]
 mod tests {
-    use crate::http::routes::operation::serve_pages::ASSETS;
+    use super::*;
     use crate::http::tests::Service;
+
+    fn text(asset: &Asset) -> String {
+        String::from_utf8(asset.bytes().expect("it can be decompressed")).expect("it is text")
+    }
 
     #[tokio::test]
     async fn pages_load_only_from_this_service() {
@@ -110,6 +142,7 @@ mod tests {
             assert_eq!(status, 200);
             let policy = headers["content-security-policy"].to_str().expect("text");
             assert!(policy.starts_with("default-src 'none'; script-src 'self';"));
+            assert!(!policy.contains("unsafe-eval"), "{policy}");
             assert_eq!(headers["x-content-type-options"], "nosniff");
             assert!(
                 !text.contains("http://") && !text.contains("https://"),
@@ -130,26 +163,71 @@ mod tests {
     }
 
     #[test]
-    fn assets_refer_to_no_other_host() {
-        for (name, _, content) in ASSETS {
+    fn modules_import_files_that_are_there_and_refer_to_no_other_host() {
+        let own = ASSETS.iter().filter(|asset| asset.path != "plotly.js");
+        for asset in own {
             // An XML namespace, which is never fetched.
-            let content = content.replace("http://www.w3.org/2000/svg", "");
+            let text = text(asset).replace("http://www.w3.org/2000/svg", "");
             assert!(
-                !content.contains("http://") && !content.contains("https://"),
-                "{name}"
+                !text.contains("http://") && !text.contains("https://"),
+                "{}",
+                asset.path
             );
+            let folder = asset.path.rsplit_once('/').map_or("", |(folder, _)| folder);
+            for import in text.split("from \"").skip(1) {
+                let target = import.split('"').next().expect("a path");
+                let mut parts: Vec<&str> = folder.split('/').filter(|s| !s.is_empty()).collect();
+                for step in target.split('/') {
+                    match step {
+                        "." => {}
+                        ".." => drop(parts.pop()),
+                        name => parts.push(name),
+                    }
+                }
+                let path = parts.join("/");
+                assert!(
+                    ASSETS.iter().any(|asset| asset.path == path),
+                    "{} imports {target}",
+                    asset.path
+                );
+            }
         }
+    }
+
+    #[test]
+    fn the_library_of_charts_is_whole() {
+        let library = ASSETS.iter().find(|asset| asset.path == "plotly.js");
+        let library = text(library.expect("it is embedded"));
+        assert!(
+            library.len() > 4_000_000 && library.trim_end().ends_with("});")
+                || library.trim_end().ends_with("}));"),
+            "{}",
+            library.len()
+        );
+    }
+
+    #[tokio::test]
+    async fn assets_are_compressed_for_those_who_accept_it_and_not_sent_twice() {
+        let service = Service::new().await;
+        let path = "/assets/style.css";
+        let (status, plain, text) = service.text("GET", path, &[], "").await;
+        assert_eq!(status, 200);
+        assert!(text.contains(":root") && !plain.contains_key("content-encoding"));
+        let accepting = [("accept-encoding", "gzip, br")];
+        let (_, headers, bytes) = service.bytes("GET", path, &accepting, "").await;
+        assert_eq!(headers["content-encoding"], "br");
+        assert!(bytes.len() < text.len() / 2);
+        let known = [("if-none-match", plain["etag"].to_str().expect("text"))];
+        let (status, _, bytes) = service.bytes("GET", path, &known, "").await;
+        assert_eq!((status.as_u16(), bytes.len()), (304, 0));
     }
 
     #[tokio::test]
     async fn unknown_assets_are_404() {
         let service = Service::new().await;
-        for name in ["x.js", "..%2FCargo.toml", "%FF"] {
-            assert_eq!(
-                service.get(&format!("/assets/{name}")).await.0,
-                404,
-                "{name}"
-            );
+        for name in ["x.js", "..%2FCargo.toml", "parts", "parts/", "%FF"] {
+            let (status, ..) = service.get(&format!("/assets/{name}")).await;
+            assert!(status == 404 || status == 400, "{name}: {status}");
         }
     }
 }

@@ -1,15 +1,19 @@
-//! Tells the program the commit that it is built from.
+//! What the program contains besides its code: the commit that it is built from, and the dashboard.
+
+mod assets;
 
 use std::process::Command;
 
-fn main() {
-    println!("cargo::rerun-if-changed=build.rs");
+fn main() -> std::io::Result<()> {
+    println!("cargo::rerun-if-changed=build");
+    assets::embed()?;
     println!("cargo::rerun-if-env-changed=FRETWEAR_COMMIT");
     // The log of HEAD grows with each commit and checkout; in a copy without it the commit is not known.
     println!("cargo::rerun-if-changed=../.git/logs/HEAD");
     let given = std::env::var("FRETWEAR_COMMIT").ok();
     let commit = given.or_else(head).unwrap_or_else(|| "unknown".to_owned());
     println!("cargo::rustc-env=FRETWEAR_COMMIT={commit}");
+    Ok(())
 }
 
 fn head() -> Option<String> {

@@ -1,0 +1,32 @@
+//! What a service does at present (`GET /v1/service`).
+
+use std::collections::BTreeMap;
+
+use serde::{Deserialize, Serialize};
+use utoipa::ToSchema;
+
+/// The service in a few figures.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
+pub struct ServiceOverview {
+    /// Version of the program.
+    pub version: String,
+    /// Number of jobs by status, including statuses that no job has.
+    pub jobs: BTreeMap<String, u64>,
+    /// Its workers.
+    pub workers: Workers,
+    /// Age of the job that waits longest, s; null if none waits.
+    pub oldest_queued_s: Option<u64>,
+    /// Free space on the disk of the database, MiB; null if it is not known.
+    pub free_disk_mb: Option<u64>,
+    /// Whether it is about to stop and claims no job.
+    pub stopping: bool,
+}
+
+/// Workers of a service.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
+pub struct Workers {
+    /// Those that run.
+    pub total: u64,
+    /// Those that solve a job.
+    pub busy: u64,
+}

@@ -1,0 +1,151 @@
+// A chart with its heading, its choice of axes and its downloads. Hover, zoom and pan are the library's.
+
+import { save } from "../parts/download.js";
+import { element } from "../parts/element.js";
+import { plotly } from "./library.js";
+import { axis, colours, layout, on_theme } from "./theme.js";
+
+/**
+ * @typedef {object} Series
+ * @property {string} name
+ * @property {ArrayLike<number>} x
+ * @property {ArrayLike<number | null>} y
+ * @property {"solid" | "dash" | "dot"} [dash]
+ * @property {number} [colour] number of its colour; that of its place otherwise
+ * @property {"lines" | "markers" | "lines+markers"} [mode]
+ *
+ * @typedef {object} Axis
+ * @property {string} title with the unit
+ * @property {boolean} [can_log] whether the reader may choose a logarithmic axis
+ * @property {boolean} [reversed]
+ *
+ * @typedef {object} Figure
+ * @property {string} title
+ * @property {Axis} x
+ * @property {Axis} y
+ * @property {Series[]} series
+ * @property {{y: number, name: string}[]} [limits] horizontal lines
+ *
+ * @typedef {object} Options
+ * @property {string} name of its files, and of its axes in the address
+ * @property {AbortSignal} signal that ends it with its page
+ * @property {{get: (name: string) => string | null, set: (name: string, value: string | null) => void}} [state] of its axes
+ */
+
+/** A chart on a page. */
+export class Chart {
+  /** @type {Figure | null} */
+  #figure = null;
+  #plot = element("div", { class: "plot" });
+  /** @type {Options} */
+  #options;
+
+  /** @param {Options} options */
+  constructor(options) {
+    this.#options = options;
+    this.title = element("h3");
+    this.tools = element("div", { class: "tools" });
+    this.node = element("figure", { class: "chart", "data-chart": options.name },
+      element("figcaption", {}, this.title, this.tools), this.#plot);
+    on_theme(() => this.#draw(), options.signal);
+    options.signal.addEventListener("abort", () => this.#forget());
+  }
+
+  /**
+   * Draws a figure in place of the last one; zoom and hidden curves stay.
+   * @param {Figure} figure
+   */
+  async show(figure) {
+    if (this.#figure?.title !== figure.title) this.title.textContent = figure.title;
+    const is_first = this.#figure === null;
+    this.#figure = figure;
+    if (is_first) this.#add_tools(figure);
+    await this.#draw();
+  }
+
+  /** @param {Figure} figure */
+  #add_tools(figure) {
+    for (const [name, { can_log }] of /** @type {["x" | "y", Axis][]} */ ([["x", figure.x], ["y", figure.y]])) {
+      if (!can_log) continue;
+      const box = /** @type {HTMLInputElement} */ (element("input", { type: "checkbox", checked: this.#is_log(name) }));
+      box.addEventListener("change", () => {
+        this.#options.state?.set(`${this.#options.name}-${name}`, box.checked ? "log" : null);
+        this.#log[name] = box.checked;
+        this.#draw();
+      });
+      this.tools.append(element("label", {}, box, ` log ${name}`));
+    }
+    const button = (/** @type {string} */ text, /** @type {() => void} */ click) =>
+      element("button", { type: "button", class: "quiet", click, "aria-label": `save ${figure.title} as ${text}` }, text);
+    this.tools.append(button("SVG", () => this.#save_image("svg")), button("PNG", () => this.#save_image("png")), button("CSV", () => this.#save_table()));
+  }
+
+  /** Choices of the reader where the page keeps no state. @type {Record<string, boolean>} */
+  #log = {};
+
+  /** @param {"x" | "y"} name */
+  #is_log(name) {
+    return this.#log[name] ?? this.#options.state?.get(`${this.#options.name}-${name}`) === "log";
+  }
+
+  async #draw() {
+    const figure = this.#figure;
+    if (!figure || this.#options.signal.aborted) return;
+    const library = await plotly();
+    if (this.#options.signal.aborted || figure !== this.#figure) return;
+    const palette = colours();
+    const lines = figure.limits ?? [];
+    // Shapes are placed by values, texts on a logarithmic axis by their logarithm.
+    const height = (/** @type {number} */ y) => (this.#is_log("y") ? Math.log10(y) : y);
+    const style = layout();
+    await library.react(this.#plot, figure.series.map((series, index) => trace(series, palette[(series.colour ?? index) % palette.length])), {
+      ...style,
+      uirevision: this.#options.name,
+      xaxis: { ...axis(figure.x.title, this.#is_log("x")) },
+      yaxis: { ...axis(figure.y.title, this.#is_log("y")), autorange: figure.y.reversed ? "reversed" : true },
+      showlegend: figure.series.length > 1,
+      shapes: lines.map(({ y }) => ({ type: "line", xref: "paper", x0: 0, x1: 1, y0: y, y1: y, line: { color: palette[4], width: 1, dash: "dash" } })),
+      annotations: lines.map(({ y, name }) => ({ xref: "paper", x: 1, y: height(y), text: name, showarrow: false, xanchor: "right", yanchor: "bottom", font: { color: palette[4], size: 11 } })),
+    }, { responsive: true, displaylogo: false, modeBarButtonsToRemove: ["select2d", "lasso2d", "toImage"] });
+  }
+
+  /** @param {"svg" | "png"} format */
+  async #save_image(format) {
+    const library = await plotly();
+    const background = getComputedStyle(document.documentElement).getPropertyValue("--surface").trim();
+    const size = { width: 900, height: 520, scale: format === "png" ? 2 : 1 };
+    const { data, layout } = /** @type {any} */ (this.#plot);
+    const url = await library.toImage({ data, layout: { ...layout, paper_bgcolor: background } }, { format, ...size });
+    const bytes = format === "svg"
+      ? new Blob([decodeURIComponent(url.slice(url.indexOf(",") + 1))], { type: "image/svg+xml" })
+      : new Blob([Uint8Array.from(atob(url.slice(url.indexOf(",") + 1)), (c) => c.charCodeAt(0))], { type: "image/png" });
+    save(bytes, `${this.#options.name}.${format}`);
+  }
+
+  #save_table() {
+    if (this.#figure) save(new Blob([as_table(this.#figure)], { type: "text/csv" }), `${this.#options.name}.csv`);
+  }
+
+  #forget() {
+    if (this.#figure) plotly().then((library) => library.purge(this.#plot));
+  }
+}
+
+/**
+ * @param {Series} series
+ * @param {string} colour
+ */
+function trace({ name, x, y, dash = "solid", mode = "lines" }, colour) {
+  return { type: "scatter", name, x, y, mode, line: { color: colour, width: 2, dash }, marker: { color: colour, size: 6 }, hovertemplate: "%{x:.4~g}, %{y:.4~g}" };
+}
+
+/**
+ * The curves of a figure as CSV: name, x and y of each point.
+ * @param {Figure} figure
+ * @returns {string}
+ */
+export function as_table({ x, y, series }) {
+  const quoted = (/** @type {string} */ text) => `"${text.replaceAll('"', '""')}"`;
+  const rows = series.flatMap((curve) => Array.from(curve.x, (at, index) => `${quoted(curve.name)},${at},${curve.y[index] ?? ""}`));
+  return [["curve", x.title, y.title].map(quoted).join(","), ...rows, ""].join("\n");
+}

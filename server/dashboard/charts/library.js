@@ -1,0 +1,22 @@
+// Plotly.js, loaded when the first chart is drawn.
+
+/** @type {Promise<any> | null} */
+let loading = null;
+
+/**
+ * The library.
+ * @returns {Promise<any>}
+ */
+export function plotly() {
+  loading ??= new Promise((resolve, reject) => {
+    const script = document.createElement("script");
+    script.src = "/assets/plotly.js";
+    script.addEventListener("load", () => resolve(/** @type {any} */ (window).Plotly));
+    script.addEventListener("error", () => {
+      loading = null;
+      reject(new Error("the library of charts could not be loaded"));
+    });
+    document.head.append(script);
+  });
+  return loading;
+}

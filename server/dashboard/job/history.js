@@ -1,0 +1,129 @@
+// What a job has worn so far, against cycles.
+
+import { Chart } from "../charts/chart.js";
+import { fetch_json } from "../parts/client.js";
+
+/** Rows that are drawn at most; the service keeps the extremes of every column. */
+const MOST_POINTS = 2000;
+const UM = 1e3;
+
+/**
+ * @typedef {object} Drawn
+ * @property {string} name
+ * @property {string} title
+ * @property {string} y
+ * @property {(history: any, job: any) => import("../charts/chart.js").Series[]} series
+ * @property {(job: any) => {y: number, name: string}[]} [limits]
+ */
+
+/** @type {Drawn[]} */
+const CHARTS = [
+  {
+    name: "wear",
+    title: "Deepest wear of both sides, and wear at the stations",
+    y: "worn depth, µm",
+    series: (history) => [
+      ...["receptacle", "slider"].map((side) => ({ name: `${side}, deepest`, x: history.cycle, y: scaled(history[side].max_depth_mm, UM) })),
+      ...history.stations.map((/** @type {any} */ { side, x_mm, depth_mm }, /** @type {number} */ index) =>
+        ({ name: `${side} at ${Number((UM * x_mm).toPrecision(3))} µm`, x: history.cycle, y: scaled(depth_mm, UM), dash: "dot", colour: 2 + index })),
+    ],
+    limits: (job) => (job.summary?.life ?? []).filter((/** @type {any} */ { criterion, status }) => criterion.kind !== "resistance" && criterion.kind !== "exposed_fraction" && status === "reached")
+      .map((/** @type {any} */ { criterion, side, limit }) => ({ y: UM * limit, name: `${criterion.kind.replaceAll("_", " ")}, ${side}` })),
+  },
+  {
+    name: "half-width",
+    title: "Width of the contact and of the scars",
+    y: "half-width, µm",
+    series: (history) => [
+      { name: "contact", x: history.cycle, y: scaled(history.contact_half_width_mm, UM), colour: 3 },
+      ...["receptacle", "slider"].map((side, index) => ({ name: `scar, ${side}`, x: history.cycle, y: scaled(history[side].scar_half_width_mm, UM), colour: index })),
+    ],
+  },
+  {
+    name: "peak-pressure",
+    title: "Peak pressure at the neutral position",
+    y: "pressure, MPa",
+    series: (history) => [{ name: "peak pressure", x: history.cycle, y: history.peak_pressure_mpa }],
+  },
+  {
+    name: "worn-area",
+    title: "Worn area",
+    y: "area, µm²",
+    series: (history) => ["receptacle", "slider"].map((side) => ({ name: side, x: history.cycle, y: scaled(history[side].worn_area_mm2, UM * UM) })),
+  },
+  {
+    name: "energy",
+    title: "Energy dissipated in a cycle",
+    y: "energy, mJ/mm",
+    series: (history) => [{ name: "a cycle", x: history.cycle.slice(1), y: rates(history.cycle, history.dissipated_energy_mj_per_mm) }],
+  },
+  {
+    name: "exposed",
+    title: "Length on which a layer is worn through",
+    y: "exposed length, µm",
+    series: (history) => (history.exposed ?? []).map((/** @type {any} */ { side, layer, length_mm }) =>
+      ({ name: `${side}, ${layer == null ? "base metal" : `layer ${layer}`}`, x: history.cycle, y: scaled(length_mm, UM) })),
+  },
+  {
+    name: "resistance",
+    title: "Resistance of the contact",
+    y: "resistance, mOhm",
+    series: (history) => [["whole", "contact_resistance_mohm"], ["constriction, slider", "slider_constriction_mohm"], ["constriction, receptacle", "receptacle_constriction_mohm"], ["film", "film_resistance_mohm"]]
+      .filter(([, column]) => history[column]?.some((/** @type {number | null} */ value) => value != null))
+      .map(([name, column]) => ({ name, x: history.cycle, y: history[column] })),
+  },
+];
+
+/**
+ * @param {(number | null)[]} values
+ * @param {number} factor
+ */
+function scaled(values, factor) {
+  return values.map((value) => (value == null ? null : factor * value));
+}
+
+/**
+ * Change of a sum in a cycle.
+ * @param {number[]} cycles
+ * @param {number[]} sums
+ */
+function rates(cycles, sums) {
+  return sums.slice(1).map((sum, index) => (sum - sums[index]) / Math.max(cycles[index + 1] - cycles[index], 1));
+}
+
+/** The charts of a history; those without values are not shown. */
+export class HistoryCharts {
+  #charts;
+
+  /**
+   * @param {any} state of the axes
+   * @param {AbortSignal} signal
+   */
+  constructor(state, signal) {
+    this.#charts = CHARTS.map((drawn) => ({ drawn, chart: new Chart({ name: drawn.name, signal, state }) }));
+    this.nodes = this.#charts.map(({ chart }) => chart.node);
+    for (const node of this.nodes) node.hidden = true;
+  }
+
+  /**
+   * Loads what there is so far.
+   * @param {any} job
+   * @param {AbortSignal} signal
+   */
+  async load(job, signal) {
+    const history = await fetch_json(`${job.links.wear_history}?max_points=${MOST_POINTS}`, { signal });
+    if (history.cycle.length < 2) return;
+    await Promise.all(this.#charts.map(({ drawn, chart }) => {
+      const series = drawn.series(history, job);
+      chart.node.hidden = series.length === 0;
+      if (series.length === 0) return null;
+      return chart.show({
+        title: drawn.title,
+        x: { title: "cycle", can_log: true },
+        y: { title: drawn.y, can_log: true },
+        series,
+        limits: drawn.limits?.(job),
+      });
+    }));
+  }
+}

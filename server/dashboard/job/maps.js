@@ -1,0 +1,88 @@
+// Maps of worn depth and pressure over the area of a contact, at the stored cycles.
+
+import { plotly } from "../charts/library.js";
+import { axis, layout, on_theme } from "../charts/theme.js";
+import { fetch_json } from "../parts/client.js";
+import { element } from "../parts/element.js";
+import { count } from "../parts/format.js";
+
+const UM = 1e3;
+/** What is drawn: name, field of the document, its values and the unit they are shown in. */
+const DRAWN = /** @type {const} */ ([
+  ["Worn depth of the receptacle, µm", "receptacle", "depth_mm", UM],
+  ["Worn depth of the slider, µm", "slider", "depth_mm", UM],
+  ["Contact pressure, MPa", "contact", "pressure_mpa", 1],
+]);
+
+/** The maps of a job. */
+export class Maps {
+  /** @type {Map<number, string>} */
+  #paths = new Map();
+  #plots = DRAWN.map(() => element("div", { class: "plot" }));
+  #choice = /** @type {HTMLSelectElement} */ (element("select", { "aria-label": "cycle of the maps" }));
+  #signal;
+  /** @type {any} */
+  #shown = null;
+
+  /**
+   * @param {{get: (name: string) => string | null, set: (name: string, value: string | null) => void}} state
+   * @param {AbortSignal} signal
+   */
+  constructor(state, signal) {
+    this.#signal = signal;
+    this.#choice.addEventListener("change", () => {
+      state.set("map", this.#choice.value);
+      this.#load();
+    });
+    this.#choice.dataset.asked = state.get("map") ?? "";
+    on_theme(() => this.#draw(), signal);
+    this.node = element("section", { class: "maps", hidden: true, "aria-label": "maps" },
+      element("p", { class: "line" }, element("label", {}, "Maps at cycle ", this.#choice)),
+      element("div", { class: "charts" }, ...DRAWN.map(([title], index) =>
+        element("figure", { class: "chart" }, element("figcaption", {}, element("h3", {}, title)), this.#plots[index]))));
+  }
+
+  /**
+   * @param {any} listed manifest of the results
+   * @param {AbortSignal} signal
+   */
+  async load({ files, links }, signal) {
+    for (const { name } of files) {
+      const cycle = /^maps-(\d+)\.json$/.exec(name)?.[1];
+      if (cycle !== undefined) this.#paths.set(Number(cycle), links[name]);
+    }
+    if (this.#paths.size === 0 || signal.aborted) return;
+    const cycles = [...this.#paths.keys()].sort((a, b) => a - b);
+    this.#choice.replaceChildren(...cycles.map((cycle) => element("option", { value: cycle }, count(cycle))));
+    this.#choice.value = this.#choice.dataset.asked || String(cycles[cycles.length - 1]);
+    this.node.hidden = false;
+    await this.#load();
+  }
+
+  async #load() {
+    const path = this.#paths.get(Number(this.#choice.value));
+    if (!path) return;
+    this.#shown = await fetch_json(path, { signal: this.#signal });
+    await this.#draw();
+  }
+
+  async #draw() {
+    if (!this.#shown || this.#signal.aborted) return;
+    const library = await plotly();
+    await Promise.all(DRAWN.map(([, part, field, factor], index) => {
+      const map = this.#shown[part];
+      const across = map.theta_deg?.length ? map.theta_deg : (map.z_mm ?? []).map((/** @type {number} */ z) => UM * z);
+      const z = map[field].map((/** @type {number[]} */ row) => row.map((value) => factor * value));
+      const is_empty = z.length === 0 || z.every((/** @type {number[]} */ row) => row.every((value) => value === 0));
+      /** @type {HTMLElement} */ (this.#plots[index].parentElement).hidden = is_empty;
+      if (is_empty) return null;
+      return library.react(this.#plots[index], [{
+        type: "heatmap", x: across, y: map.x_mm.map((/** @type {number} */ x) => UM * x), z, colorscale: "Viridis", hovertemplate: "%{x:.4~g}, %{y:.4~g}: %{z:.4~g}<extra></extra>",
+      }], {
+        ...layout(),
+        xaxis: axis(map.theta_deg?.length ? "angle from the motion, °" : "across the motion, µm", false),
+        yaxis: axis(map.theta_deg?.length ? "outward from the centre line, µm" : "along the motion, µm", false),
+      }, { responsive: true, displaylogo: false });
+    }));
+  }
+}

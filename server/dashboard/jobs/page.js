@@ -1,0 +1,106 @@
+// The list of jobs: filters, live rows, selection.
+
+import { address, change, link } from "../parts/address.js";
+import { fetch_json } from "../parts/client.js";
+import { element } from "../parts/element.js";
+import { follow } from "../parts/feed.js";
+import { throttled } from "../parts/throttled.js";
+import { filter_bar, query_of } from "./filters.js";
+import { Row } from "./row.js";
+import { Selection } from "./selection.js";
+
+/** Jobs of a page of the list. */
+const PAGE = 100;
+/** Least times between loads of the list and of the summary of the service, ms. */
+const RELOAD_MS = 300;
+const SUMMARY_MS = 1000;
+const HEAD = ["select", "job", "system", "status", "progress", "time left", "deepest wear", "duration", "submitted"];
+const NUMBERS = [5, 6, 7];
+
+/** @type {import("../main.js").Page} */
+export async function jobs_page(content, _address, signal) {
+  document.title = "Jobs · fretwear";
+  /** @type {Map<string, Row>} */
+  const rows = new Map();
+  const selection = new Selection(signal);
+  const body = element("tbody");
+  const more = element("p", { class: "more" });
+  const summary = element("p", { class: "muted", role: "status" });
+  const head = element("tr", {}, ...HEAD.map((text, column) => element("th", { scope: "col", class: NUMBERS.includes(column) && "number" }, column === 0 ? element("span", { class: "hidden" }, text) : text)));
+  content.append(
+    element("h1", {}, "Jobs"), summary, filter_bar(signal), selection.bar,
+    element("div", { class: "scroll" }, element("table", { class: "jobs" }, element("thead", {}, head), body)), more);
+
+  const row_of = (/** @type {any} */ job) => {
+    const known = rows.get(job.id);
+    if (known) known.update(job);
+    const row = known ?? new Row(job, selection);
+    rows.set(job.id, row);
+    return row;
+  };
+  let asked = 0;
+  let newest = "";
+  const load = async () => {
+    const call = ++asked;
+    const values = address().values;
+    const page = await fetch_json(`/v1/jobs?${query_of(values, PAGE)}`, { signal });
+    // An older answer may come later.
+    if (call !== asked) return;
+    const listed = page.jobs.map((/** @type {any} */ job) => row_of(job));
+    newest = page.jobs[0]?.created_at ?? "";
+    for (const id of rows.keys()) if (!page.jobs.some((/** @type {any} */ job) => job.id === id)) rows.delete(id);
+    body.replaceChildren(...listed.map((/** @type {Row} */ row) => row.node));
+    more.replaceChildren(...paging(page, values));
+  };
+  await load();
+
+  // A new job is listed where it passes the filters, which the service decides.
+  const is_new = (/** @type {any} */ job) => !address().values.get("page") && (newest === "" || job.created_at > newest);
+  const reload = throttled(load, RELOAD_MS, signal);
+  const refresh_summary = throttled(() => summarize(), SUMMARY_MS, signal);
+  const summarize = async () => summary.replaceChildren(await service_line(signal));
+  follow({
+    changed: (job) => {
+      if (rows.has(job.id)) row_of(job);
+      else if (is_new(job)) reload();
+      refresh_summary();
+    },
+    deleted: (id) => {
+      rows.get(id)?.node.remove();
+      rows.delete(id);
+      selection.remove(id);
+      refresh_summary();
+    },
+    reset: load,
+  }, signal);
+  await summarize();
+  return load;
+}
+
+/**
+ * What is beyond the page: older jobs, or a hint where there are none.
+ * @param {any} page
+ * @param {URLSearchParams} values
+ * @returns {(Node | string)[]}
+ */
+function paging(page, values) {
+  const links = [];
+  if (values.get("page")) links.push(element("a", { href: link("jobs", null, { ...Object.fromEntries(values), page: null }) }, "newest jobs"));
+  if (page.next_page_token)
+    links.push(element("button", { type: "button", click: () => change({ page: page.next_page_token }) }, "older jobs"));
+  if (page.jobs.length === 0)
+    links.push([...values.keys()].length ? "No job passes these filters." : `No jobs yet. Submit one: curl --json @spec.json ${location.origin}/v1/jobs`);
+  return links;
+}
+
+/**
+ * What the service does, in a line.
+ * @param {AbortSignal} signal
+ * @returns {Promise<string>}
+ */
+async function service_line(signal) {
+  const { jobs, workers, free_disk_mb } = await fetch_json("/v1/service", { signal });
+  const counts = ["running", "queued", "succeeded", "failed", "cancelled"].filter((status) => jobs[status]);
+  const disk = free_disk_mb == null ? "" : ` · ${Math.round(free_disk_mb / 1000)} GB free`;
+  return `${counts.map((status) => `${jobs[status]} ${status}`).join(", ") || "no jobs"} · ${workers.busy} of ${workers.total} workers busy${disk}`;
+}

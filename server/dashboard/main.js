@@ -1,0 +1,54 @@
+// The page that the address asks for.
+
+import { compare_page } from "./compare/page.js";
+import { job_page } from "./job/page.js";
+import { jobs_page } from "./jobs/page.js";
+import { address } from "./parts/address.js";
+
+/** @typedef {import("./parts/address.js").Address} Address */
+/** A page fills its element, ends with its signal, and returns what to do when values of its own address change.
+ * @typedef {(content: HTMLElement, address: Address, signal: AbortSignal) => Promise<((values: URLSearchParams) => void) | void>} Page */
+
+/** @type {Record<string, Page>} */
+const PAGES = { jobs: jobs_page, job: job_page, compare: compare_page };
+
+let present = { key: "", end: new AbortController(), changed: /** @type {((values: URLSearchParams) => void) | void} */ (undefined) };
+
+/** @param {string} text */
+function show_message(text) {
+  const message = document.getElementById("message");
+  if (message) message.textContent = text;
+}
+
+async function open_page() {
+  // An address of earlier versions: `#ID`.
+  const id = /^#([0-9a-f-]{36})$/.exec(location.hash)?.[1];
+  if (id) return location.replace(`#/job/${id}`);
+  const asked = address();
+  const key = `${asked.page}/${asked.id ?? ""}`;
+  if (key === present.key && present.changed) return present.changed(asked.values);
+  present.end.abort();
+  const end = new AbortController();
+  present = { key, end, changed: undefined };
+  show_message("");
+  const content = /** @type {HTMLElement} */ (document.getElementById("content"));
+  for (const node of document.querySelectorAll("nav a"))
+    node.toggleAttribute("aria-current", node.getAttribute("href") === `#/${asked.page}`);
+  content.replaceChildren();
+  content.setAttribute("aria-busy", "true");
+  try {
+    const page = PAGES[asked.page] ?? jobs_page;
+    const changed = await page(content, asked, end.signal);
+    if (!end.signal.aborted) present.changed = changed;
+  } catch (error) {
+    if (!end.signal.aborted) show_message(error instanceof Error ? error.message : String(error));
+  } finally {
+    if (!end.signal.aborted) content.removeAttribute("aria-busy");
+  }
+}
+
+addEventListener("hashchange", open_page);
+addEventListener("unhandledrejection", ({ reason }) => {
+  if (reason?.name !== "AbortError") show_message(reason?.message ?? String(reason));
+});
+open_page();

@@ -1,0 +1,85 @@
+// Requests to the interface of the service, with the access token where it needs one.
+
+import { ask_for_token } from "./token.js";
+
+/** A problem document (RFC 9457) as an error. */
+export class Problem extends Error {
+  /**
+   * @param {string} message
+   * @param {number} status
+   * @param {{pointer: string, detail: string}[]} [faults]
+   */
+  constructor(message, status, faults = []) {
+    super(message);
+    this.status = status;
+    this.faults = faults;
+  }
+}
+
+/**
+ * Sends a request. Without a valid token the reader is asked for one, once until the page is used again.
+ * @param {string} path
+ * @param {RequestInit} [options]
+ * @returns {Promise<Response>}
+ */
+export async function send(path, options = {}) {
+  const attempt = () => {
+    const token = sessionStorage.getItem("token");
+    const headers = new Headers(options.headers);
+    if (token) headers.set("authorization", `Bearer ${token}`);
+    return fetch(path, { ...options, headers });
+  };
+  const response = await attempt();
+  if (response.status !== 401 || !(await ask_for_token())) return response;
+  return attempt();
+}
+
+/**
+ * Fetches a document; a refusal is a [`Problem`] with its details.
+ * @param {string} path
+ * @param {RequestInit} [options]
+ * @returns {Promise<any>}
+ */
+export async function fetch_json(path, options) {
+  const response = await send(path, options);
+  if (response.status === 204) return null;
+  const body = await response.json().catch(() => null);
+  if (!response.ok) throw new Problem(body?.detail ?? body?.title ?? `${path}: ${response.status}`, response.status, body?.faults);
+  return body;
+}
+
+/**
+ * Sends a document.
+ * @param {string} path
+ * @param {unknown} body
+ * @returns {Promise<any>}
+ */
+export function post_json(path, body) {
+  return fetch_json(path, { method: "POST", headers: { "content-type": "application/json" }, body: JSON.stringify(body) });
+}
+
+/**
+ * Server-Sent Events of a path until the stream ends or is aborted.
+ * @param {string} path
+ * @param {AbortSignal} signal
+ * @param {string | null} [after] id of the last event that was received
+ * @returns {AsyncGenerator<{name: string, id: string | null, data: any}>}
+ */
+export async function* events(path, signal, after = null) {
+  const headers = after == null ? undefined : { "last-event-id": after };
+  const response = await send(path, { signal, headers });
+  if (!response.ok || !response.body) throw new Problem(`${path}: ${response.status}`, response.status);
+  const reader = response.body.pipeThrough(new TextDecoderStream()).getReader();
+  let text = "";
+  for (;;) {
+    const { value, done } = await reader.read();
+    if (done) return;
+    const blocks = (text + value).split("\n\n");
+    text = blocks.pop() ?? "";
+    for (const block of blocks) {
+      const field = (/** @type {string} */ name) => block.split("\n").find((line) => line.startsWith(`${name}:`))?.slice(name.length + 1).trim();
+      const name = field("event");
+      if (name) yield { name, id: field("id") ?? null, data: JSON.parse(field("data") ?? "null") };
+    }
+  }
+}

@@ -1,0 +1,57 @@
+// Changes of all jobs, from one stream.
+
+import { events, Problem } from "./client.js";
+
+/** Time between attempts to connect again, ms. */
+const RETRY_MS = 2000;
+
+/**
+ * @typedef {object} Listener
+ * @property {(job: any) => void} changed with the short document of a job
+ * @property {(id: string) => void} deleted
+ * @property {() => void} reset where changes were missed: what is shown must be loaded again
+ */
+
+/** @param {string} text */
+function show_connection(text) {
+  const node = document.getElementById("connection");
+  if (node) node.textContent = text;
+}
+
+/**
+ * @param {number} ms
+ * @param {AbortSignal} signal
+ */
+function pause(ms, signal) {
+  return new Promise((resolve) => {
+    setTimeout(resolve, ms);
+    signal.addEventListener("abort", resolve, { once: true });
+  });
+}
+
+/**
+ * Follows the changes of jobs until the signal; connects again where the service was away, without losing any.
+ * @param {Listener} listener
+ * @param {AbortSignal} signal
+ */
+export async function follow(listener, signal) {
+  /** @type {string | null} */
+  let last = null;
+  while (!signal.aborted) {
+    try {
+      for await (const { name, id, data } of events("/v1/events", signal, last)) {
+        show_connection("");
+        last = id ?? last;
+        if (name === "job") listener.changed(data);
+        else if (name === "deleted") listener.deleted(data.id);
+        else if (name === "reset") listener.reset();
+      }
+    } catch (error) {
+      if (signal.aborted) return;
+      if (error instanceof Problem && error.status === 401) return show_connection("no access");
+    }
+    if (signal.aborted) return;
+    show_connection("connecting again …");
+    await pause(RETRY_MS, signal);
+  }
+}

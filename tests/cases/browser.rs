@@ -1,0 +1,60 @@
+//! Requirement: in a real browser the pages show jobs, one job and several beside each other, live and after a reload, by pointer and by keyboard;
+//! nothing is loaded from another host, the content policy blocks nothing and no script fails.
+
+mod comparison;
+mod interface;
+mod job;
+mod jobs;
+
+use serde_json::{Value, json};
+use tests::{Browser, Server};
+
+/// A job of some twenty cycles with two stored ones.
+fn short(name: &str) -> Value {
+    json!({
+        "name": name, "system": {"kind": "cylinder_on_flat"}, "cycles": 20,
+        "accuracy": {"preset": "draft"}, "output": {"snapshots_at_cycles": [1, 20]}
+    })
+}
+
+/// A job that is not done before a test ends it.
+fn long(name: &str) -> Value {
+    json!({
+        "name": name, "system": {"kind": "cylinder_on_flat"}, "cycles": 1_000_000,
+        "accuracy": {"preset": "draft", "overrides": {"cycle_jump": 1}}
+    })
+}
+
+/// Submits a job and returns its id.
+async fn submitted(server: &Server, spec: &Value) -> String {
+    let (status, job) = server.submit(spec.to_string()).await;
+    assert_eq!(status, 202, "{job}");
+    job["id"].as_str().expect("a job has an id").to_owned()
+}
+
+/// Submits a job and waits for its end.
+async fn done(server: &Server, spec: &Value) -> String {
+    let id = submitted(server, spec).await;
+    let ended = |job: &Value| job["finished_at"].is_string();
+    server.job_when(&id, ended).await;
+    id
+}
+
+/// Checks what every page must hold when a test has ended with it.
+async fn is_sound(browser: &Browser) {
+    assert_eq!(browser.complaints().await, Vec::<String>::new());
+    assert_eq!(browser.other_hosts().await, Vec::<String>::new());
+}
+
+/// Checks that a page fits a phone, and takes its pictures for people to look at.
+async fn fits_a_phone(browser: &Browser, name: &str) {
+    browser.picture(name).await;
+    browser.emulate(1400, "dark").await;
+    browser.picture(&format!("{name}-dark")).await;
+    browser.emulate(400, "light").await;
+    let width =
+        "document.documentElement.scrollWidth <= 400 && document.documentElement.scrollWidth";
+    browser.wait_for(width).await;
+    browser.picture(&format!("{name}-400")).await;
+    browser.emulate(1400, "light").await;
+}

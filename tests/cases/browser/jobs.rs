@@ -1,0 +1,102 @@
+//! The list: live rows, filters, selection, keyboard.
+
+use tests::{Browser, Server};
+
+use super::{done, fits_a_phone, is_sound, long, short, submitted};
+
+#[tokio::test]
+#[cfg_attr(
+    not(has_chromium),
+    ignore = "needs the programs chromium and chromedriver"
+)]
+async fn a_list_follows_its_jobs_without_a_reload() {
+    let folder = tempfile::tempdir().expect("a folder can be made");
+    let server = Server::start(folder.path());
+    let browser = Browser::start(&server.base, folder.path()).await;
+    browser.open("/").await;
+    browser.shows("main", "No jobs yet").await;
+    // Names are text, not markup.
+    let id = submitted(&server, &short("short <b>job</b>")).await;
+    let row = format!("tr[data-job='{id}']");
+    browser.shows(&row, "short <b>job</b>").await;
+    browser.shows(&row, "succeeded").await;
+    browser.shows(&row, "20 cycles").await;
+    browser.shows("[role=status]", "1 succeeded").await;
+    let running = submitted(&server, &long("long job")).await;
+    let row = format!("tr[data-job='{running}']");
+    browser.shows(&row, "cycle").await;
+    browser.shows(&row, "of 1,000,000").await;
+    fits_a_phone(&browser, "jobs").await;
+    browser.click(&format!("{row} input")).await;
+    browser.shows(".selection", "1 selected").await;
+    browser.click(".selection button:nth-of-type(2)").await;
+    browser.shows(&row, "cancelled").await;
+    is_sound(&browser).await;
+    browser.close().await;
+}
+
+#[tokio::test]
+#[cfg_attr(
+    not(has_chromium),
+    ignore = "needs the programs chromium and chromedriver"
+)]
+async fn filters_are_in_the_address_and_the_back_button_undoes_them() {
+    let folder = tempfile::tempdir().expect("a folder can be made");
+    let server = Server::start(folder.path());
+    let first = done(&server, &short("first")).await;
+    let second = done(&server, &short("second")).await;
+    let browser = Browser::start(&server.base, folder.path()).await;
+    browser.open("/#/jobs?text=first").await;
+    let shown = |id: &str| format!("document.querySelector(\"tr[data-job='{id}']\") !== null");
+    browser.wait_for(&shown(&first)).await;
+    browser.wait_for(&format!("!({})", shown(&second))).await;
+    browser.click("input[value=failed]").await;
+    browser.shows("main", "No job passes these filters").await;
+    browser
+        .wait_for("location.hash.includes('status=failed')")
+        .await;
+    browser.client.back().await.expect("there is a step back");
+    browser.wait_for(&shown(&first)).await;
+    browser
+        .wait_for("!document.querySelector('input[value=failed]').checked")
+        .await;
+    browser.open("/#/jobs").await;
+    browser.wait_for(&shown(&second)).await;
+    is_sound(&browser).await;
+    browser.close().await;
+}
+
+#[tokio::test]
+#[cfg_attr(
+    not(has_chromium),
+    ignore = "needs the programs chromium and chromedriver"
+)]
+async fn a_job_is_reached_by_the_keyboard_alone() {
+    let folder = tempfile::tempdir().expect("a folder can be made");
+    let server = Server::start(folder.path());
+    let id = done(&server, &short("by keyboard")).await;
+    let browser = Browser::start(&server.base, folder.path()).await;
+    browser.open("/").await;
+    browser
+        .shows(&format!("tr[data-job='{id}']"), "by keyboard")
+        .await;
+    let target = format!("document.activeElement.getAttribute('href') === '#/job/{id}'");
+    let mut steps = 0;
+    while browser
+        .client
+        .execute(&format!("return {target}"), Vec::new())
+        .await
+        .expect("an answer")
+        != true
+    {
+        let body = browser.client.active_element().await.expect("an element");
+        body.send_keys("\u{E004}").await.expect("the tabulator");
+        steps += 1;
+        assert!(steps < 40, "no way to the job by the tabulator");
+    }
+    let link = browser.client.active_element().await.expect("an element");
+    link.send_keys("\u{E007}").await.expect("the enter key");
+    browser.shows("h1", "by keyboard").await;
+    is_sound(&browser).await;
+    browser.close().await;
+}
