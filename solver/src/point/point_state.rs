@@ -142,7 +142,9 @@ impl PointState {
         let (force, contact) = self.sliding.worst_residuals;
         let forces = self.friction_loop(scene).into_iter();
         let most = forces.fold(0.0, |most: f64, (_, (_, whole))| most.max(whole.abs()));
-        let limit = scene.friction * self.neutral.force_n;
+        // A spring presses most before its contact wears in the cycle.
+        let [left, right] = self.turning.each_ref().map(|at| at.force_n);
+        let limit = scene.friction * self.neutral.force_n.max(left).max(right);
         Residuals {
             force,
             dose: self.dose_residual(),

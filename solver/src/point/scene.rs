@@ -117,9 +117,11 @@ impl PointAccuracy {
         let given = accuracy.contact_element_mm.map(|cell| along / cell);
         let cells = given.unwrap_or(chosen.cells_per_half_length);
         let path = scene.motion.distance_per_cycle_mm();
+        // Increments of no motion have no length.
         let given = accuracy
             .increments_per_cycle
-            .map(|count| path / (f64::from(count) * along));
+            .map(|count| path / (f64::from(count) * along))
+            .filter(|step| *step > 0.0);
         let step = given.unwrap_or(chosen.step_over_half_length);
         Self {
             cells_per_half_length: cells * refinement.mesh,

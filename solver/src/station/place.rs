@@ -85,8 +85,8 @@ pub(super) fn places(
                 .chain(after.into_iter().map(|distance| touch.at_mm + distance))
                 .map(rounded)
                 .collect();
-            // Half of a symmetric line stands for both halves.
-            let both = if left > 0.0 { 1.0 } else { 2.0 };
+            // Half of a symmetric line stands for both halves; a tilted one that touches first at an end has all of its sections to one side.
+            let both = if tilt_mrad == 0.0 { 2.0 } else { 1.0 };
             let z = |j: usize| at[j];
             let weight = |j: usize| {
                 let last = stations - 1;

@@ -122,7 +122,7 @@ impl StationScene {
         match self.top {
             Top::Even => false,
             Top::Rigid => matches!(self.line, LineShape::Straight { .. }) && !self.line.is_even(),
-            Top::Pressure => true,
+            Top::Pressure => !self.line.is_even(),
         }
     }
 

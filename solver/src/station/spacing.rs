@@ -31,8 +31,11 @@ pub(super) fn intervals(length: f64, contact: f64, within: usize) -> usize {
     count.min(count_at_least(length / first))
 }
 
-/// Places from 0 to a length in so many intervals.
+/// Places from 0 to a length in so many intervals; 0 alone in none.
 pub(super) fn places(length: f64, contact: f64, (within, count): (usize, usize)) -> Vec<f64> {
+    if count == 0 {
+        return vec![0.0];
+    }
     let even = (0..=count).map(|j| length * real(j) / real(count));
     let first = contact / real(within);
     if count <= within || first * real(count) >= length {
@@ -105,6 +108,7 @@ mod tests {
             even.windows(2)
                 .all(|pair| (pair[1] - pair[0] - 0.1).abs() < 1e-15)
         );
+        assert_eq!(places(0.0, 0.5, (4, 0)), [0.0]);
         assert_eq!(divided(64, (31.0, 33.0)), (31, 33));
         assert_eq!(divided(8, (0.0, 1.0)), (0, 8));
         assert_eq!(divided(8, (1e-9, 1.0)), (1, 7));

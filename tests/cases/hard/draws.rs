@@ -1,6 +1,8 @@
 //! Random specifications over the documented ranges, from numbers in [0, 1). Lengths, loads and rates are drawn by
 //! their logarithm, and mostly in proportion to each other: independent draws would nearly all be refused.
 
+pub(super) mod dimensions;
+
 use std::f64::consts::{FRAC_PI_4, PI};
 
 use serde_json::{Value, json};

@@ -1,5 +1,8 @@
-//! Invariants of every run: one list, asserted by every case.
+//! Invariants of every run: one list, asserted by every case; contacts of finite extent have some of their own (`across`).
 
+pub(in crate::hard) mod across;
+
+use solver::SolveError;
 use solver::ale;
 use solver::model;
 use solver::record::{Checks, CycleReport, SideReport, Snapshot, TractionField};
@@ -78,15 +81,17 @@ fn faults_of(run: &Run, examined: Examined<'_>) -> Vec<String> {
     faults.extend(inverted_elements(run));
     match &run.end {
         Ok(summary) => faults.extend(large_residual(&summary.checks)),
-        Err(error) => {
-            let message = error.to_string();
-            let numbers = message.contains(|c: char| c.is_ascii_digit());
-            if !numbers || message.contains("NaN") || message.contains("inf") {
-                faults.push(format!("the reason has no numbers: {message}"));
-            }
-        }
+        Err(error) => faults.extend(reason_without_numbers(error)),
     }
     faults
+}
+
+/// An error without numbers, or with some that are none.
+fn reason_without_numbers(error: &SolveError) -> Option<String> {
+    let message = error.to_string();
+    let has_numbers = message.contains(|c: char| c.is_ascii_digit());
+    let sound = has_numbers && !message.contains("NaN") && !message.contains("inf");
+    (!sound).then(|| format!("the reason has no numbers: {message}"))
 }
 
 fn not_finite(report: &CycleReport) -> Option<String> {
@@ -130,10 +135,12 @@ fn wear(report: &CycleReport) -> Vec<f64> {
 
 fn taken_back(pair: &[CycleReport]) -> Option<String> {
     let (early, late) = (&pair[0], &pair[1]);
-    let less = wear(early).iter().zip(wear(late)).any(|(a, b)| b < *a);
-    (less || late.cycle <= early.cycle).then(|| {
+    let (before, after) = (wear(early), wear(late));
+    let mut values = before.iter().zip(&after);
+    let less = values.find(|(before, after)| after < before);
+    (less.is_some() || late.cycle <= early.cycle).then(|| {
         format!(
-            "cycles {} to {}: wear is taken back",
+            "cycles {} to {}: wear is taken back: {less:?}",
             early.cycle, late.cycle
         )
     })

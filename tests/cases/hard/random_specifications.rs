@@ -1,106 +1,222 @@
 //! Requirement: any specification from the documented ranges is refused with pointers, or runs and satisfies the
-//! invariants, or ends with an error that contains its numbers.
+//! invariants, or ends with an error that contains its numbers; of a section, and of all other dimensions.
 //! Source: contract.md; every failure that was found and corrected is a case of `regressions_of_random_specifications`.
 //! Naive: combinations of ranges that were never tested.
 //!
 //! `FRETWEAR_DRAWS` sets the number of runs, `FRETWEAR_SEED` (0 to 255) the seed.
 
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::str::FromStr;
 
 use proptest::collection::vec;
 use proptest::strategy::{Strategy, ValueTree};
 use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
+use serde_json::Value;
 use server::spec::{self, Refused};
 use solver::SolveError;
 use solver::cycle::CycleError;
-use solver::scene::Scene;
+use solver::effects::Effect;
+use solver::model::{self, Model};
+use solver::point;
+use solver::scene::{Dimension, Scene};
+use solver::station::StationScene;
 
-use super::draws::{NUMBERS, specification};
-use super::invariants::faults;
-use super::run::solve_part;
+use super::draws::{self, dimensions};
+use super::invariants::{across, faults};
+use super::run::{Run, solve_part};
 
-/// Default number of runs; other draws are refused or too expensive.
-const DRAWS: usize = 200;
 /// Largest number of draws for each run.
 const DRAWN_FOR_ONE: usize = 20;
-/// Computed cycles of a run.
-const MOST_CYCLES: usize = 8;
 /// At most one run in this many may end without a result.
 const FAILURES_ONE_IN: usize = 25;
+
+/// What is drawn and checked.
+struct Trial {
+    /// Random numbers of a draw.
+    numbers: usize,
+    specification: fn(&[f64]) -> Value,
+    /// Checks whether a scene takes seconds at most.
+    is_cheap: fn(&Scene) -> bool,
+    faults: fn(&Run) -> Vec<String>,
+    /// Default number of runs; other draws are refused or too expensive.
+    draws: usize,
+    /// Computed cycles of a run.
+    most_cycles: usize,
+}
+
+/// What the runs of a trial came to.
+#[derive(Default)]
+struct Found {
+    drawn: usize,
+    ran: usize,
+    unsound: Vec<String>,
+    failed: Vec<String>,
+}
 
 fn setting<T: FromStr>(name: &str, default: T) -> T {
     let text = std::env::var(name).ok();
     text.and_then(|text| text.parse().ok()).unwrap_or(default)
 }
 
-/// Checks whether a scene takes seconds at most.
-fn is_cheap(scene: &Scene) -> bool {
-    let model = solver::model::build(scene, &solver::effects::plan(scene))
-        .expect("what is accepted can be meshed");
-    let spines = model.bodies.receptacle.layout.x.len() + model.bodies.slider.layout.x.len();
-    let dofs = model.bodies.receptacle.dofs() + model.bodies.slider.dofs();
+fn meshed(scene: &Scene) -> Model {
+    model::build(scene, &solver::effects::plan(scene)).expect("what is accepted can be meshed")
+}
+
+/// Nodes of both surfaces, degrees of freedom of both bodies.
+fn size(model: &Model) -> (usize, usize) {
+    let bodies = &model.bodies;
+    (
+        bodies.receptacle.layout.x.len() + bodies.slider.layout.x.len(),
+        bodies.receptacle.dofs() + bodies.slider.dofs(),
+    )
+}
+
+fn is_cheap_section(scene: &Scene) -> bool {
+    let model = meshed(scene);
+    let (spines, dofs) = size(&model);
     let way = scene.motion.amplitude_mm() / model.sizes.hertz_half_width;
     spines <= 400
         && dofs <= 20_000
         && (scene.accuracy.increments_per_cycle.is_some() || way <= 60.0)
 }
 
-#[test]
-fn any_specification_is_refused_or_satisfies_the_invariants_or_fails_with_numbers() {
-    let seed = TestRng::from_seed(RngAlgorithm::ChaCha, &[setting("FRETWEAR_SEED", 1); 32]);
-    let mut runner = TestRunner::new_with_rng(Config::default(), seed);
-    let numbers = vec(0.0..1.0_f64, NUMBERS);
-    let (mut ran, mut unsound, mut failed) = (0, Vec::new(), Vec::new());
-    let draws = setting("FRETWEAR_DRAWS", DRAWS);
-    let mut drawn = 0;
-    for draw in 0..DRAWN_FOR_ONE * draws {
-        if ran == draws {
-            break;
+/// The same of a contact of finite extent: a section for each station, of few increments; a window of few cells.
+fn is_cheap_across(scene: &Scene) -> bool {
+    let way = |half_width: f64| scene.motion.amplitude_mm() / half_width;
+    match scene.dimension {
+        Dimension::PlaneStrain => is_cheap_section(scene),
+        Dimension::Point(_) => {
+            let (along, across) = point::half_lengths_mm(scene).expect("it is a point");
+            let sticks = solver::effects::plan(scene).simulates(Effect::StickMemory);
+            let round = if sticks { 2.0 } else { 10.0 };
+            (1.0 / round..round).contains(&(across / along)) && way(along) <= 10.0
         }
-        drawn = draw + 1;
-        let tree = numbers.new_tree(&mut runner).expect("numbers can be drawn");
-        let spec = specification(&tree.current());
-        let scene = match spec::read(spec.to_string().as_bytes()) {
-            Ok(resolved) => resolved.scene,
-            Err(Refused::Faults(faults)) => {
-                assert!(
-                    faults.iter().all(|fault| fault.pointer.starts_with('/')),
-                    "{faults:?}"
-                );
-                continue;
-            }
-            Err(Refused::Parse(error)) => panic!("draw {draw} cannot be read: {error}\n{spec}"),
+        Dimension::Line(_) => {
+            let model = meshed(scene);
+            let (spines, dofs) = size(&model);
+            let stations = StationScene::of(scene).map_or(0, |line| line.stations);
+            spines <= 250
+                && dofs <= 10_000
+                && stations <= 17
+                && way(model.sizes.hertz_half_width) <= 10.0
+        }
+        Dimension::Extruded(bodies) => {
+            let model = meshed(scene);
+            let (spines, dofs) = size(&model);
+            let planes = bodies.layers / 2 + 1;
+            spines * planes <= 500
+                && dofs * planes <= 20_000
+                && way(model.sizes.hertz_half_width) <= 10.0
+        }
+    }
+}
+
+/// The scene of a draw; none of one that is refused.
+fn accepted(draw: usize, spec: &Value) -> Option<Scene> {
+    match spec::read(spec.to_string().as_bytes()) {
+        Ok(resolved) => Some(resolved.scene),
+        Err(Refused::Faults(faults)) => {
+            assert!(
+                faults.iter().all(|fault| fault.pointer.starts_with('/')),
+                "{faults:?}"
+            );
+            None
+        }
+        Err(Refused::Parse(error)) => panic!("draw {draw} cannot be read: {error}\n{spec}"),
+    }
+}
+
+impl Found {
+    /// Takes in the run of a draw.
+    fn add(&mut self, trial: &Trial, (draw, spec, scene): (usize, &Value, Scene)) {
+        self.ran += 1;
+        let run = catch_unwind(AssertUnwindSafe(|| solve_part(scene, trial.most_cycles)));
+        let Ok(run) = run else {
+            self.unsound.push(format!("draw {draw} panics\n{spec}"));
+            return;
         };
-        if !is_cheap(&scene) {
-            continue;
-        }
-        ran += 1;
-        let run = solve_part(scene, MOST_CYCLES);
         // A contact that melts is no failure of the solve.
         let melts = matches!(&run.end, Err(SolveError::Cycle(CycleError::Melts { .. })));
         if let (Err(error), false) = (&run.end, melts) {
-            failed.push(format!("draw {draw}: {error}\n{spec}"));
+            self.failed.push(format!("draw {draw}: {error}\n{spec}"));
         }
-        let faults = faults(&run);
+        let faults = (trial.faults)(&run);
         if !faults.is_empty() {
-            unsound.push(format!("draw {draw}: {}\n{spec}", faults.join("\n")));
+            let faults = faults.join("\n");
+            self.unsound.push(format!("draw {draw}: {faults}\n{spec}"));
         }
     }
-    println!(
-        "of {drawn} draws {ran} ran, {} of them to no contact state",
-        failed.len()
-    );
-    for reason in &failed {
-        println!("{reason}");
+
+    /// Prints the failures.
+    ///
+    /// # Panics
+    /// Where there are too many, or an invariant does not hold.
+    fn check(&self, draws: usize) {
+        let Self { drawn, ran, .. } = self;
+        println!(
+            "of {drawn} draws {ran} ran, {} of them to no contact state",
+            self.failed.len()
+        );
+        for reason in &self.failed {
+            println!("{reason}");
+        }
+        assert!(self.unsound.is_empty(), "{}", self.unsound.join("\n"));
+        assert!(
+            *ran == draws,
+            "of {drawn} draws only {ran} were accepted and small"
+        );
+        assert!(
+            self.failed.len() * FAILURES_ONE_IN <= *ran,
+            "of {ran}: {}",
+            self.failed.join("\n")
+        );
     }
-    assert!(unsound.is_empty(), "{}", unsound.join("\n"));
-    assert!(
-        ran == draws,
-        "of {drawn} draws only {ran} were accepted and small"
-    );
-    assert!(
-        failed.len() * FAILURES_ONE_IN <= ran,
-        "of {ran}: {}",
-        failed.join("\n")
-    );
+}
+
+fn run(trial: &Trial) {
+    let seed = TestRng::from_seed(RngAlgorithm::ChaCha, &[setting("FRETWEAR_SEED", 1); 32]);
+    let mut runner = TestRunner::new_with_rng(Config::default(), seed);
+    let numbers = vec(0.0..1.0_f64, trial.numbers);
+    let draws = setting("FRETWEAR_DRAWS", trial.draws);
+    let mut found = Found::default();
+    for draw in 0..DRAWN_FOR_ONE * draws {
+        if found.ran == draws {
+            break;
+        }
+        found.drawn = draw + 1;
+        let tree = numbers.new_tree(&mut runner).expect("numbers can be drawn");
+        let spec = (trial.specification)(&tree.current());
+        let Some(scene) = accepted(draw, &spec) else {
+            continue;
+        };
+        if (trial.is_cheap)(&scene) {
+            found.add(trial, (draw, &spec, scene));
+        }
+    }
+    found.check(draws);
+}
+
+#[test]
+fn any_specification_is_refused_or_satisfies_the_invariants_or_fails_with_numbers() {
+    run(&Trial {
+        numbers: draws::NUMBERS,
+        specification: draws::specification,
+        is_cheap: is_cheap_section,
+        faults,
+        draws: 200,
+        most_cycles: 8,
+    });
+}
+
+#[test]
+fn any_specification_in_three_dimensions_is_refused_or_satisfies_the_invariants_or_fails_with_numbers()
+ {
+    run(&Trial {
+        numbers: dimensions::NUMBERS,
+        specification: dimensions::specification,
+        is_cheap: is_cheap_across,
+        faults: across::faults,
+        draws: 120,
+        most_cycles: 5,
+    });
 }

@@ -34,3 +34,40 @@ pub(crate) fn cylinder(changes: Value) -> Value {
     });
     merged(base, changes)
 }
+
+/// The thesis' ring of wire under 0.834 N on five sections, with changes.
+pub(crate) fn ring(changes: Value) -> Value {
+    let base = json!({
+        "system": {"kind": "fuzz_button"},
+        "model": {"dimension": "ring", "outer_diameter_mm": 1.016, "top": "rigid"},
+        "materials": {"slider": "copper", "receptacle": "copper"},
+        "interface": {
+            "friction": {"law": "coulomb", "coefficient": 1.21},
+            "wear": {"slider": null, "receptacle": {"law": "archard", "k_over_h_per_mpa": 2.576e-5}},
+        },
+        "load": {"kind": "force", "n": 0.834},
+        "motion": {"kind": "reciprocating", "amplitude_mm": 0.033_868, "period_s": 16},
+        "cycles": 20,
+        "accuracy": {"preset": "draft", "overrides": {"stations": 5}},
+    });
+    merged(base, changes)
+}
+
+/// The spring of a memory card, 0.4 mm round along the motion, under 0.5 N, as a model, with changes.
+pub(crate) fn spring(model: Value, changes: Value) -> Value {
+    let base = json!({
+        "system": {"kind": "sd_card"},
+        "load": {"kind": "force", "n": 0.5},
+        "plating": {"slider": [], "receptacle": []},
+        "interface": {
+            "friction": {"law": "coulomb", "coefficient": 0.3},
+            "wear": {"slider": null, "receptacle": {"law": "archard", "k_over_h_per_mpa": 5.9e-9}},
+        },
+        "motion": {"kind": "reciprocating", "amplitude_mm": 0.02, "frequency_hz": 20},
+        "cycles": 200,
+        "accuracy": {"preset": "draft"},
+    });
+    let mut spec = merged(base, changes);
+    spec["model"] = model;
+    spec
+}

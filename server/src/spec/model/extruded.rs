@@ -115,6 +115,8 @@ fn check(scene: &Scene, diagnostics: &mut Diagnostics) {
         ExtrudedError::Sticks { .. }
         | ExtrudedError::LeavesReceptacle { .. }
         | ExtrudedError::Motion => "/motion",
+        // Others are ranges of fields of their own.
+        ExtrudedError::Value { name, .. } if name.contains("amplitude") => "/motion/amplitude_mm",
         ExtrudedError::FrictionLaw => "/interface/friction",
         ExtrudedError::Law { .. } => "/interface/wear",
         _ => "/model",

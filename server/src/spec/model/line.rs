@@ -256,6 +256,10 @@ impl Line {
             | StationError::Amplitude { .. }
             | StationError::LeavesReceptacle { .. }
             | StationError::Motion => "/motion",
+            // Others are ranges of fields of their own.
+            StationError::Value { name, .. } if name.contains("amplitude") => {
+                "/motion/amplitude_mm"
+            }
             StationError::Spacing { .. } => "/accuracy/overrides/stations",
             StationError::Drive => "/motion/drive",
             StationError::FrictionLaw => "/interface/friction",
