@@ -14,6 +14,7 @@ pub mod harmonic;
 mod near_field;
 mod operator_error;
 mod prism_assembly;
+mod prism_interior;
 mod spreading;
 mod zone_operators;
 
@@ -28,6 +29,7 @@ pub use body_operators::{BodyOperators, Operators};
 pub use compliance::{Compliance, Response};
 pub use extruded::{ExtrudedOperators, PrismZone, condense_extruded};
 pub use operator_error::OperatorError;
+pub use prism_interior::PrismInterior;
 pub use spreading::Spreading;
 pub use zone_operators::ZoneOperators;
 

@@ -6,6 +6,8 @@
 mod along_line;
 mod antiplane;
 mod common_mesh;
+mod extruded;
+mod prisms;
 mod tractions;
 
 use nalgebra::Matrix3;
@@ -24,6 +26,7 @@ use crate::sides::{Side, Sides};
 
 pub use along_line::{LineFields, SectionFields, SweptFields};
 pub(crate) use along_line::{SectionState, along_line};
+pub(crate) use extruded::{ExtrudedSections, extruded};
 pub use tractions::SurfaceFields;
 
 /// Fields of both bodies at one position of the slider.
@@ -95,6 +98,24 @@ impl Stress {
         Matrix3::new(
             self.xx, self.xy, self.xz, self.xy, self.yy, self.yz, self.xz, self.yz, self.zz,
         )
+    }
+
+    /// The same with z pointing the other way.
+    fn mirrored_along_z(&self) -> Self {
+        Self {
+            xz: -self.xz,
+            yz: -self.yz,
+            ..*self
+        }
+    }
+
+    /// The mean of it and of its mirror image.
+    fn without_shear_along_z(&self) -> Self {
+        Self {
+            xz: 0.0,
+            yz: 0.0,
+            ..*self
+        }
     }
 
     /// A part of the way to another one.

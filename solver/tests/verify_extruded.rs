@@ -11,6 +11,7 @@
 
 mod cost;
 mod ends;
+mod fields;
 mod limits;
 mod runs;
 mod wear;

@@ -72,6 +72,47 @@ for i in range(grid.GetNumberOfCells()):
 print("force", force, 0)
 "#;
 
+/// The source's wire in four layers between free ends.
+const EXTRUDED: &str = r#"{
+  "system": {"kind": "fuzz_button"},
+  "model": {"dimension": "extruded", "width_mm": 0.01058, "layers": 4, "layer_growth": 1.5, "ends": "free"},
+  "load": {"kind": "line_force", "n_per_mm": 0.508},
+  "accuracy": {"preset": "draft"},
+  "cycles": 2,
+  "output": {"fields": true, "snapshots_at_cycles": [2]}
+}"#;
+
+/// Adds the volumes of both bodies, and the largest difference of a point from its mirror image at z = 0, of stresses over the highest and of
+/// displacements over the farthest.
+const HALVES: &str = r#"
+volumes = size.GetOutput().GetCellData().GetArray("Volume")
+for mark, name in ((0, "slider_mm3"), (1, "receptacle_mm3")):
+    cells = range(grid.GetNumberOfCells())
+    print(name, sum(volumes.GetValue(i) for i in cells if body.GetValue(i) == mark), 0)
+data = grid.GetPointData()
+names = ["stress_xx_mpa", "stress_yy_mpa", "stress_zz_mpa", "stress_xy_mpa", "stress_xz_mpa", "stress_yz_mpa"]
+arrays = [data.GetArray(name) for name in names]
+signs = [1, 1, 1, 1, -1, -1]
+moved = data.GetArray("displacement_mm")
+marks = [None] * grid.GetNumberOfPoints()
+for i in range(grid.GetNumberOfCells()):
+    cell = grid.GetCell(i)
+    for k in range(8):
+        marks[cell.GetPointId(k)] = body.GetValue(i)
+points = {(marks[i], *grid.GetPoint(i)): i for i in range(grid.GetNumberOfPoints())}
+highest, farthest, stress, displacement = 0.0, 0.0, 0.0, 0.0
+for (mark, x, y, z), i in points.items():
+    j = points[(mark, x, y, -z)]
+    for sign, array in zip(signs, arrays):
+        stress = max(stress, abs(array.GetValue(i) - sign * array.GetValue(j)))
+        highest = max(highest, abs(array.GetValue(i)))
+    for a, b, sign in zip(moved.GetTuple(i), moved.GetTuple(j), (1, 1, -1)):
+        displacement = max(displacement, abs(a - sign * b))
+        farthest = max(farthest, abs(a))
+print("asymmetry", stress / highest, displacement / farthest)
+print("mirrored", len(points), grid.GetNumberOfPoints())
+"#;
+
 #[test]
 #[cfg_attr(not(has_vtk), ignore = "needs the Python package vtk")]
 fn requested_fields_open_in_vtk() {
@@ -127,6 +168,55 @@ fn fields_along_a_line_open_in_vtk() {
         let picture = std::fs::read_to_string(results.join("maps-2.svg")).expect("a picture");
         assert!(picture.contains("pressure (MPa)"));
         assert!(results.join("maps-2.json").is_file());
+    }
+}
+
+/// Both halves of the width are there, mirror images to the bit. The receptacle has the volume of the block, of which two cycles wear 0.06 %, the
+/// slider that of its half circle, of which the chords between its nodes take 0.25 %, and the pressure carries the force to 1 %.
+#[test]
+#[cfg_attr(not(has_vtk), ignore = "needs the Python package vtk")]
+fn fields_of_extruded_bodies_open_in_vtk() {
+    const WIDTH: f64 = 0.010_58;
+    let folder = tempfile::tempdir().expect("a folder can be made");
+    std::fs::write(folder.path().join("spec.json"), EXTRUDED).expect("a file can be written");
+    let ran = fretwear(folder.path(), &["solve", "spec.json", "--out", "results"]);
+    assert_eq!(ran.code, Some(0), "{}", ran.stderr);
+    let results = folder.path().join("results");
+    for name in [
+        "fields-0",
+        "fields-2",
+        "fields-2-rightmost",
+        "fields-2-leftmost",
+    ] {
+        let file = results.join(format!("{name}.vtu"));
+        let output = read(&file, &format!("{READER}{VOLUMES}{HALVES}"));
+        let range = |array: &str| range(&output, array);
+        let bytes = std::fs::metadata(&file).expect("a file").len();
+        println!("{name}.vtu: {bytes} bytes, {} nodes", range("points").0);
+        assert_eq!(range("body"), (0.0, 1.0));
+        assert_eq!(range("mirrored").0.to_bits(), range("mirrored").1.to_bits());
+        assert_eq!(range("asymmetry"), (0.0, 0.0));
+        assert!(
+            range("volume").0 > 0.0 && range("quality").0 > 0.5,
+            "{output}"
+        );
+        let block = 0.084_67 * 0.0635 * WIDTH;
+        assert!((range("receptacle_mm3").0 / block - 1.0).abs() < 1e-3);
+        let wire = 0.5 * std::f64::consts::PI * 0.0254_f64.powi(2) * WIDTH;
+        assert!((range("slider_mm3").0 / wire - 1.0).abs() < 3e-3);
+        assert!(
+            (range("force").0 / (0.508 * WIDTH) - 1.0).abs() < 0.01,
+            "{output}"
+        );
+        assert!(range("von_mises_mpa").1 > 100.0);
+        for name in [
+            "worn_depth_mm",
+            "contact_pressure_mpa",
+            "contact_shear_mpa",
+            "largest_shear_mpa",
+        ] {
+            assert!(range(name).1.is_finite(), "{name}");
+        }
     }
 }
 

@@ -185,7 +185,7 @@ fn trapezoidal(at: &[f64], values: &[f64]) -> f64 {
         .sum()
 }
 
-/// The maps of worn depth hold the worn volume of the summary to their seven digits; of a ring with the length of its centre line, 0.4826 mm from the
+/// The maps of worn depth of lines and of a width hold the worn volume of the summary to their seven digits; of a ring with the length of its centre line, 0.4826 mm from the
 /// axis.
 #[test]
 fn maps_along_a_line_hold_the_worn_volume() {
@@ -195,7 +195,17 @@ fn maps_along_a_line_hold_the_worn_volume() {
     crown["accuracy"] = json!({"preset": "draft"});
     crown["stop"] = json!([]);
     crown["output"] = json!({"snapshots_at_cycles": [40]});
-    for (spec, length_per_place) in [(ring(), 0.4826_f64.to_radians()), (crown, 1.0)] {
+    let mut extruded = document("fuzz_button_extruded.json");
+    extruded["model"] =
+        json!({"dimension": "extruded", "width_mm": 0.01058, "layers": 4, "layer_growth": 1.5});
+    extruded["cycles"] = json!(40);
+    extruded["accuracy"] = json!({"preset": "draft"});
+    extruded["output"] = json!({"snapshots_at_cycles": [40]});
+    for (spec, length_per_place) in [
+        (ring(), 0.4826_f64.to_radians()),
+        (crown, 1.0),
+        (extruded, 1.0),
+    ] {
         std::fs::write(folder.path().join("spec.json"), spec.to_string()).expect("a file");
         let ran = fretwear(folder.path(), &["solve", "spec.json", "--out", "results"]);
         assert_eq!(ran.code, Some(0), "{}", ran.stderr);
@@ -211,6 +221,7 @@ fn maps_along_a_line_hold_the_worn_volume() {
             } else {
                 numbers(&map["z_mm"])
             };
+            assert!(along.windows(2).all(|pair| pair[0] < pair[1]), "{along:?}");
             let rows = map["depth_mm"].as_array().expect("rows");
             let sections: Vec<f64> = rows
                 .iter()

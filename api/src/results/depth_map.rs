@@ -1,4 +1,4 @@
-//! Worn depths and pressure over the area of a contact, at stored cycles: of a point, and along a line or a ring.
+//! Worn depths and pressure over the area of a contact, at stored cycles: of a point, along a line or a ring, and of bodies of a width.
 
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;

@@ -160,7 +160,7 @@ pub struct Output {
     /// Sliding distances at which they are recorded, mm; for continuous motion.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub snapshots_at_distance_mm: Option<Vec<f64>>,
-    /// Whether the fields in the bodies are recorded at the snapshots; of `plane_strain`, `line` and `ring`.
+    /// Whether the fields in the bodies are recorded at the snapshots; of `plane_strain`, `line`, `ring` and `extruded`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub fields: Option<bool>,
 }

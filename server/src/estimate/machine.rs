@@ -27,7 +27,8 @@ pub fn cpu_s(machine: &MachineFigures, workload: &Workload) -> f64 {
     let increments = workload.increments.iter().map(|(nodes, count)| {
         count * machine.increment_s * (nodes / NODES).powf(machine.increment_power)
     });
-    let condensations = workload.condensations.iter().map(|body| {
+    let bodies = workload.condensations.iter().chain(&workload.interiors);
+    let condensations = bodies.map(|body| {
         let [dofs, surface] = condensation_terms(body);
         machine.condensation_dof_s * dofs + machine.condensation_surface_s * surface
     });
@@ -90,6 +91,7 @@ mod tests {
             most_increments: 1,
             increments: vec![(30.0, 100.0), (60.0, 50.0)],
             condensations: [body, Condensations { count: 0.0, ..body }],
+            interiors: [Condensations { count: 0.0, ..body }; 2],
             cell_iterations: 0.0,
             cells: (0.0, 0.0),
             stations: 1,

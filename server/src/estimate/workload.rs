@@ -4,6 +4,7 @@
 use std::collections::BTreeMap;
 
 use solver::error_control::companion_scenes;
+use solver::extruded::ExtrudedScene;
 use solver::forecast::{LineForecast, forecast, line_forecast, point_forecast};
 use solver::model::{BodyLayout, Layout};
 use solver::scene::Scene;
@@ -22,6 +23,8 @@ pub struct Workload {
     pub increments: Vec<(f64, f64)>,
     /// Condensations of the slider and of the receptacle.
     pub condensations: [Condensations; 2],
+    /// Bodies of prisms that are factored again for their fields, as condensations of the slider and of the receptacle.
+    pub interiors: [Condensations; 2],
     /// Iterations of area contacts times the cells of their windows.
     pub cell_iterations: f64,
     /// Cells of the windows and of the surfaces of a point contact at most.
@@ -75,6 +78,7 @@ impl Workload {
                 condensations(forecast.condensations.receptacle, &bodies.receptacle),
             ]
             .map(|body| body.of_planes(forecast.planes)),
+            interiors: interiors(scene, layout),
             cell_iterations: 0.0,
             cells: (0.0, 0.0),
             stations: forecast.stations,
@@ -91,6 +95,7 @@ impl Workload {
             most_increments: u32::try_from(forecast.most_increments).unwrap_or(u32::MAX),
             increments: vec![(0.0, forecast.increments)],
             condensations: [Condensations::NONE; 2],
+            interiors: [Condensations::NONE; 2],
             cell_iterations: forecast.cell_iterations,
             cells: (real(forecast.most_cells), real(forecast.surface_cells)),
             stations: 1,
@@ -118,6 +123,7 @@ impl Workload {
                 condensations(f64::from(slider), &layout.bodies.slider),
                 condensations(f64::from(receptacle), &layout.bodies.receptacle),
             ],
+            interiors: [Condensations::NONE; 2],
             cell_iterations: 0.0,
             cells: (0.0, 0.0),
             stations: 1,
@@ -140,6 +146,26 @@ impl Workload {
             ("increments", self.increments().round()),
         ]
     }
+}
+
+/// Part of the time of a condensation that the fields of a snapshot take. Measured: 0.63, 0.55 and 0.42 with 2, 3 and 5 planes.
+const INTERIOR_SHARE: f64 = 0.5;
+
+/// What the fields of extruded bodies are factored for: each snapshot, and the unworn state. Those of other bodies are factored already.
+fn interiors(scene: &Scene, layout: &Layout) -> [Condensations; 2] {
+    let extruded = ExtrudedScene::of(scene).filter(|bodies| bodies.section.output.fields);
+    let Some(extruded) = extruded else {
+        return [Condensations::NONE; 2];
+    };
+    let snapshots = real(scene.output.snapshots_at_cycles.len()) + 1.0;
+    let bodies = [&layout.bodies.slider, &layout.bodies.receptacle];
+    bodies.map(|body| {
+        let once = Condensations {
+            count: INTERIOR_SHARE * snapshots,
+            ..condensations(1.0, body)
+        };
+        once.of_planes(extruded.node_planes())
+    })
 }
 
 /// A companion that cannot be meshed is not solved.

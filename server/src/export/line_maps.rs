@@ -1,4 +1,4 @@
-//! Maps of a contact along a line: its sections side by side, those of a half mirrored, the whole ring from 0 to 360 degrees with its beginning
+//! Maps of a contact along a line or of a width: its sections side by side, those of a half mirrored, the whole ring from 0 to 360 degrees with its beginning
 //! at both ends.
 //!
 //! Worn depths are those at the contact nodes of each body, which all sections share: nothing is interpolated. Pressures are known at the nodes
@@ -12,7 +12,7 @@ use solver::record::{DepthProfile, Position, Snapshot, StationSnapshot};
 
 use crate::export::maps::Cut;
 
-/// The document of the maps of a snapshot; `None` of a contact that is not along a line of stations.
+/// The document of the maps of a snapshot; `None` of a contact that has no sections along a line.
 pub fn document(snapshot: &Snapshot) -> Option<ContactMaps> {
     let columns = Columns::of(&snapshot.stations)?;
     let x_mm = &snapshot.stations.first()?.receptacle.x_mm;
@@ -88,7 +88,9 @@ impl Columns {
             let (Along::AngleDeg(place) | Along::DistanceMm(place)) = station.report.at;
             (place, number)
         });
-        let given: Vec<(f64, usize)> = given.collect();
+        let mut given: Vec<(f64, usize)> = given.collect();
+        // The node planes of extruded bodies begin at the end.
+        given.sort_by(|one, other| one.0.total_cmp(&other.0));
         let mirrored = given.iter().rev();
         let places = match first {
             Along::AngleDeg(_) => {
@@ -98,7 +100,7 @@ impl Columns {
                 given.iter().copied().chain(other).collect()
             }
             // Half of a line begins in its middle.
-            Along::DistanceMm(z) if z >= 0.0 => {
+            Along::DistanceMm(_) if given[0].0 >= 0.0 => {
                 let other = mirrored.map(|(z, number)| (-z, *number));
                 other
                     .take(given.len() - 1)

@@ -1,7 +1,7 @@
 //! Fields inside the bodies as VTU files (VTK's XML format for unstructured grids), for ParaView and similar programs.
 //!
 //! One file holds both bodies at one position: the nodes of the undeformed, worn bodies (mm), the displacement as a
-//! vector to warp them by, stresses in MPa. Of a contact along a line it holds the swept bodies (`swept`).
+//! vector to warp them by, stresses in MPa. Of a contact along a line or a width it holds the swept bodies (`swept`).
 
 mod appended;
 mod planes;

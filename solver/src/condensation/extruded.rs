@@ -11,12 +11,13 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use super::assembly::HELD;
-use super::prism_assembly::{PrismNumbering, assemble};
+use super::prism_assembly::PrismNumbering;
+use super::prism_interior::{self, PrismInterior};
 use super::{
     BodyOperators, Compliance, OperatorError, Operators, Response, near_field, zone_operators,
 };
 use crate::linear::{CholeskyPattern, SquareMatrix};
-use crate::mesh::{NodePlanes, PrismMesh};
+use crate::mesh::NodePlanes;
 use crate::model::{BodyModel, Model, Support};
 use crate::scene::Ends;
 use crate::sides::{Side, Sides};
@@ -75,10 +76,34 @@ impl PrismZone {
 impl ExtrudedOperators {
     /// The zone of a body in whose interior a range of contact nodes lies farthest; none if it is wider than each.
     pub fn zone(&self, side: Side, range: &Range<usize>) -> Option<&PrismZone> {
+        let number = self.zone_number(side, range)?;
+        self.zones.of(side).get(number)
+    }
+
+    /// The number of that zone.
+    pub fn zone_number(&self, side: Side, range: &Range<usize>) -> Option<usize> {
         let (zones, surface) = (self.zones.of(side).iter(), self.sections.of(side).x.len());
-        let clearances = zones.filter_map(|zone| Some((zone.clearance(range, surface)?, zone)));
+        let clearances = zones
+            .enumerate()
+            .filter_map(|(number, zone)| Some((zone.clearance(range, surface)?, number)));
         let best = clearances.reduce(|best, next| if next.0 > best.0 { next } else { best });
-        best.map(|(_, zone)| zone)
+        best.map(|(_, number)| number)
+    }
+
+    /// Factors the prisms of a zone again, whose sections are those of the models that it was condensed from.
+    ///
+    /// # Errors
+    /// [`OperatorError`] if an element is inverted or the body is not held.
+    pub fn interior(
+        &self,
+        models: &[Model],
+        (planes, ends): (&NodePlanes, Ends),
+        (side, zone): (Side, usize),
+    ) -> Result<PrismInterior, OperatorError> {
+        let bodies: Vec<&BodyModel> = models.iter().map(|m| m.bodies.of(side)).collect();
+        let known = self.zones.of(side).get(zone);
+        let pattern = known.map(|zone| Arc::clone(&zone.pattern));
+        prism_interior::factor(&bodies, zone, side, (planes, ends), pattern)
     }
 }
 
@@ -141,36 +166,24 @@ fn condense_zone(
     (planes, ends): (&NodePlanes, Ends),
     pattern: Option<Arc<CholeskyPattern>>,
 ) -> Result<PrismZone, OperatorError> {
-    let body = side.name();
+    let interior = prism_interior::factor(bodies, zone, side, (planes, ends), pattern)?;
+    let PrismInterior {
+        numbering,
+        factor,
+        far_load: mut response,
+        lengths,
+    } = interior;
     let first_section = &bodies[0].zones[zone];
-    let sections = bodies.iter().map(|body| &body.zones[zone].mesh).collect();
-    let mesh = PrismMesh::new(sections, planes);
-    let support = first_section.support;
-    let numbering = PrismNumbering::new(&mesh, first_section.zone.contact, support, ends);
-    let law = (first_section.lame, first_section.b_bar);
-    let matrix = assemble(&mesh, &numbering, law)
-        .map_err(|element| OperatorError::Inverted { body, element })?;
-    let factor_error = |source| OperatorError::Factor { body, source };
-    let pattern = match pattern {
-        Some(pattern) => pattern,
-        None => Arc::new(
-            CholeskyPattern::new(matrix.starts, matrix.rows, numbering.retained)
-                .map_err(factor_error)?,
-        ),
-    };
-    let factor = pattern.factor(&matrix.values).map_err(factor_error)?;
     let first = bodies[0].first_node(first_section);
     let nodes = first_section.zone.nodes();
-    let lengths = planes.lengths();
     let mut compliance = per_line_force(&numbering, &factor.retained_inverse(), &lengths);
-    let load_response = match support {
+    let load_response = match first_section.support {
         Support::FarFaceHeld => {
             let widths = &bodies[0].contact_widths()[first..first + nodes];
             equalise(&mut compliance, widths, planes.count());
             vec![0.0; numbering.place.len()]
         }
         Support::GuidedUnderPressure => {
-            let mut response = numbering.far_face_load(&mesh, &lengths);
             factor.solve(&mut response);
             let first = numbering.order - numbering.retained;
             let at = |p: &usize| if *p == HELD { 0.0 } else { response[first + p] };
@@ -182,7 +195,7 @@ fn condense_zone(
         nodes,
         compliance,
         load_response,
-        pattern,
+        pattern: Arc::clone(factor.pattern()),
     })
 }
 

@@ -75,6 +75,21 @@ impl PrismNumbering {
         }
     }
 
+    /// Adds nodal forces on the contact surface, N, x and y of each contact node section by section, to a vector over all unknowns.
+    pub(super) fn add_contact_forces(&self, forces: impl Iterator<Item = f64>, target: &mut [f64]) {
+        let first = self.order - self.retained;
+        let slots = self.place.iter().zip(forces);
+        for (place, f) in slots.filter(|(place, _)| **place != HELD) {
+            target[first + place] += f;
+        }
+    }
+
+    /// Displacements of all nodes of a vector over all unknowns, zero where they are held.
+    pub(super) fn nodal(&self, u: &[f64]) -> Vec<[f64; 3]> {
+        let value = |slot: usize| if slot == HELD { 0.0 } else { u[slot] };
+        self.unknown.iter().map(|slots| slots.map(value)).collect()
+    }
+
     /// Nodal forces, N, of an even pressure on the far face whose resultant is one downward unit of force per length; `lengths` of the
     /// sections in mm.
     pub(super) fn far_face_load(&self, mesh: &PrismMesh<'_>, lengths: &[f64]) -> Vec<f64> {

@@ -22,6 +22,7 @@ mod bodies;
 mod increment;
 mod iterate;
 mod newton;
+mod predictor;
 mod problem;
 mod response;
 mod wear;

@@ -22,17 +22,44 @@ pub fn hex_stiffness(nodes: &[[f64; 3]; 8], lame: Lame, b_bar: bool) -> Option<S
     condensed::<Hex8, 8, 3, 24, 9>(nodes, lame, b_bar)
 }
 
-/// Amplitudes a_1 and a_2 of the modes under nodal displacements, mm; `None` if the element is inverted.
+/// Amplitudes a_1 and a_2 of the modes of a quadrilateral under nodal displacements, mm; `None` if the element is inverted.
 pub fn amplitudes(
     nodes: &[[f64; 2]; 4],
     lame: Lame,
     b_bar: bool,
     displacement: &[[f64; 2]; 4],
 ) -> Option<[[f64; 2]; 2]> {
-    let (modes, coupling) = integrate::<Quad4, 4, 2, 8, 4>(nodes, lame, b_bar)?;
-    let u = SVector::<f64, 8>::from_fn(|i, _| displacement[i / 2][i % 2]);
+    amplitudes_of::<Quad4, 4, 2, 8, 4>(nodes, (lame, b_bar), displacement)
+}
+
+/// Amplitudes a_1, a_2 and a_3 of the modes of a hexahedron under nodal displacements, mm; `None` if the element is inverted.
+pub fn hex_amplitudes(
+    nodes: &[[f64; 3]; 8],
+    lame: Lame,
+    b_bar: bool,
+    displacement: &[[f64; 3]; 8],
+) -> Option<[[f64; 3]; 3]> {
+    amplitudes_of::<Hex8, 8, 3, 24, 9>(nodes, (lame, b_bar), displacement)
+}
+
+/// a = -K_aa^-1 K_au u of an element of `U` displacements with `A` amplitudes of modes.
+fn amplitudes_of<
+    E: Element<N, D>,
+    const N: usize,
+    const D: usize,
+    const U: usize,
+    const A: usize,
+>(
+    nodes: &[[f64; D]; N],
+    (lame, b_bar): (Lame, bool),
+    displacement: &[[f64; D]; N],
+) -> Option<[[f64; D]; D]> {
+    let (modes, coupling) = integrate::<E, N, D, U, A>(nodes, lame, b_bar)?;
+    let u = SVector::<f64, U>::from_fn(|i, _| displacement[i / D][i % D]);
     let a = modes.try_inverse()? * coupling.transpose() * -u;
-    Some([[a[0], a[1]], [a[2], a[3]]])
+    Some(std::array::from_fn(|m| {
+        std::array::from_fn(|d| a[D * m + d])
+    }))
 }
 
 /// Stiffness of an element of `U` displacements with `A` amplitudes of modes, which are eliminated.

@@ -16,7 +16,7 @@ pub(super) struct Bodies {
     scene: ExtrudedScene,
     unworn: Model,
     /// The section in each plane, worn as when the operators were built.
-    models: Vec<Model>,
+    pub(super) models: Vec<Model>,
     pub(super) operators: ExtrudedOperators,
     pub(super) shares: Vec<f64>,
     /// What the operators were built for.

@@ -15,7 +15,7 @@ use rayon::iter::{
 };
 
 use super::common_mesh::CommonMesh;
-use super::tractions::{SurfaceFields, carried, slip_sign};
+use super::tractions::{SurfaceFields, SurfaceNodes, carried, slip_sign};
 use super::{BodyFields, Stress, antiplane, recover};
 use crate::SolveError;
 use crate::ale;
@@ -52,7 +52,8 @@ pub struct SweptFields {
     pub sections: Vec<SectionFields>,
 }
 
-/// Fields of a section of a body. Vectors and stresses are those of the section: x across the line, y up, z along the line, to larger angles of a ring.
+/// Fields of a section of a body. Vectors and stresses are those of the section: x across the line, y up, z along the line, to larger angles of a
+/// ring or distances from the middle.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SectionFields {
     /// Places of the nodes, undeformed, the slider at its place at that moment, mm: across the line and up.
@@ -217,13 +218,7 @@ fn swept(
 ) -> Result<SweptFields, SolveError> {
     let body = placed[0].body(side);
     let common = CommonMesh::of(body, placed.iter().map(|placed| placed.zone(side)));
-    let (first, end) = body.layout.contact;
-    let spines = common.spines().iter().enumerate();
-    // Nodes on the contact surface, and their numbers among the contact nodes.
-    let (surface, carrying): (Vec<usize>, Vec<usize>) = spines
-        .filter(|(_, spine)| (first..end).contains(spine))
-        .map(|(i, spine)| (common.mesh.surface_node(i), spine - first))
-        .unzip();
+    let on_surface = SurfaceNodes::of(&common.mesh, common.spines(), body.layout.contact);
     let section = |(placed, factored): (&Placed<'_>, &mut Factored)| {
         let surface_y = ale::worn(body, placed.section.depth.of(side), side);
         let mesh = common.with_surface(&surface_y);
@@ -242,7 +237,8 @@ fn swept(
             displacement_mm: common.values(zone, &displacement, between),
             stress: common.values(zone, &stress, Stress::towards),
             quality: mesh.scaled_jacobians()?,
-            carried: carrying
+            carried: on_surface
+                .contact
                 .iter()
                 .map(|&i| placed.carried.of(side)[i])
                 .collect(),
@@ -257,7 +253,7 @@ fn swept(
     };
     Ok(SweptFields {
         cells: common.mesh.cells(),
-        surface,
+        surface: on_surface.nodes,
         sections: sections.into_iter().collect::<Result<_, _>>()?,
     })
 }

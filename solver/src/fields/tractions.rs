@@ -3,6 +3,7 @@
 use crate::along_line::Along;
 use crate::condensation::Operators;
 use crate::contact::{self, ContactState};
+use crate::mesh::ColumnMesh;
 use crate::model::Interface;
 use crate::scene::{LineShape, RingMotion};
 use crate::schedule::increments::Position;
@@ -17,6 +18,26 @@ pub struct SurfaceFields {
     pub pressure_mpa: f64,
     /// Shear traction on the body, MPa.
     pub shear_mpa: [f64; 3],
+}
+
+/// Nodes of a mesh on the contact surface of its body.
+pub(super) struct SurfaceNodes {
+    /// Their numbers in the mesh.
+    pub(super) nodes: Vec<usize>,
+    /// Their numbers among the contact nodes of the body.
+    pub(super) contact: Vec<usize>,
+}
+
+impl SurfaceNodes {
+    /// Those of a mesh on some spines of its body, whose contact surface has the spines from the first to the end.
+    pub(super) fn of(mesh: &ColumnMesh, spines: &[usize], (first, end): (usize, usize)) -> Self {
+        let spines = spines.iter().enumerate();
+        let (nodes, contact) = spines
+            .filter(|(_, spine)| (first..end).contains(spine))
+            .map(|(i, spine)| (mesh.surface_node(i), spine - first))
+            .unzip();
+        Self { nodes, contact }
+    }
 }
 
 /// Sign of the slider's slip along the line, to larger angles: it moves to the right, or turns to larger angles, but for its way to the left.

@@ -10,7 +10,7 @@ use solver::scene::{Accuracy, Criterion, Dimension, Ends, Extruded, Scene, WearL
 use solver::sides::Side;
 
 /// The thesis' fuzz button in layers.
-fn extruded(layers: usize, ends: Ends, cycles: u64) -> Scene {
+pub(super) fn extruded(layers: usize, ends: Ends, cycles: u64) -> Scene {
     let mut scene = fuzz_button();
     scene.accuracy = Accuracy::from_tolerance(0.1);
     scene.cycles = cycles;

@@ -206,6 +206,7 @@ mod tests {
                 most_increments: 1,
                 increments: vec![(nodes, 7.0)],
                 condensations: [body, Condensations { count: 0.0, ..body }],
+                interiors: [Condensations { count: 0.0, ..body }; 2],
                 cell_iterations: 0.0,
                 cells: (0.0, 0.0),
                 stations: 1,

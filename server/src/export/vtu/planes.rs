@@ -72,6 +72,13 @@ pub(super) fn planes(shape: LineShape, at: &[Along]) -> (Vec<Plane>, bool) {
     }
 }
 
+/// Shortest distance between neighbouring sections of a straight line, mm; infinite of a ring, whose sections are far apart.
+pub(super) fn shortest_gap(planes: &[Plane]) -> f64 {
+    let gaps = planes.windows(2).map(|pair| (pair[1].z - pair[0].z).abs());
+    let gaps = gaps.filter(|gap| *gap > 0.0);
+    gaps.fold(f64::INFINITY, f64::min)
+}
+
 /// Cosine and sine of an angle in degrees; exactly 0 and 1 in quarters, so that both halves meet.
 fn direction(degrees: f64) -> [f64; 2] {
     let quarter = degrees.abs() / 90.0;

@@ -1,5 +1,5 @@
-//! Fields of a contact along a line: both bodies as hexahedra between neighbouring sections, the whole ring or width (`planes`). Sections are
-//! joined by straight edges: a ring of n stations on its half has a volume lower than the round one by (pi/(n - 1))^2/6, 0.6 % with 17.
+//! Fields of a contact along a line, or of extruded bodies: both bodies as hexahedra between neighbouring sections, the whole ring or width
+//! (`planes`). Sections of a ring are joined by straight edges: a ring of n stations on its half has a volume lower than the round one by (pi/(n - 1))^2/6, 0.6 % with 17.
 //!
 //! Vectors and stresses are those of space, as all programs expect that show them. Places are of single precision where that is fine enough.
 //!
@@ -11,7 +11,7 @@ use solver::mesh::columns::Cell;
 use solver::record::LineFields;
 
 use super::appended::{self, Array, Grid, Values};
-use super::planes::{Plane, planes};
+use super::planes::{Plane, planes, shortest_gap};
 
 /// Number of the cell type in VTK.
 const HEXAHEDRON: u8 = 12;
@@ -42,10 +42,11 @@ fn grid(fields: &LineFields) -> Grid {
         array("types", 1, Values::U8(vec![HEXAHEDRON; cells])),
     ];
     let points = points(bodies, &planes);
+    let shortest = shortest_edge(bodies).min(shortest_gap(&planes));
     Grid {
         nodes: points.len() / 3,
         cells,
-        points: array("Points", 3, places(points, shortest_edge(bodies))),
+        points: array("Points", 3, places(points, shortest)),
         topology,
         point_data: point_data(bodies, &planes),
         cell_data: cell_data(bodies, &planes, closed),

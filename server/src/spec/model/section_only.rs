@@ -7,7 +7,7 @@ use solver::sides::Side;
 use crate::spec::diagnostics::Diagnostics;
 
 /// Dimensions besides the section whose fields inside the bodies are computed.
-const HAS_FIELDS: [&str; 2] = ["line", "ring"];
+const HAS_FIELDS: [&str; 3] = ["extruded", "line", "ring"];
 
 /// Checks that a specification has nothing that only a section has.
 pub(super) fn check(filled: &Spec, (name, motion): (&str, Motion), diagnostics: &mut Diagnostics) {
@@ -21,7 +21,7 @@ pub(super) fn check(filled: &Spec, (name, motion): (&str, Motion), diagnostics: 
     }
     if filled.output.fields == Some(true) && !HAS_FIELDS.contains(&name) {
         let detail = format!(
-            "a `{name}` has no fields inside the bodies; `plane_strain`, `line` and `ring` have"
+            "a `{name}` has no fields inside the bodies; `plane_strain`, `line`, `ring` and `extruded` have"
         );
         diagnostics.fault("/output/fields", detail);
     }

@@ -228,9 +228,16 @@ fn a_line_shares_its_force_and_its_spring() {
 }
 
 #[test]
-fn lines_and_rings_have_fields_inside_the_bodies() {
+fn lines_rings_and_extruded_bodies_have_fields_inside_them() {
     let fields = r#","output":{"fields":true}"#;
-    for text in [ring(fields), line(r#","crown_radius_mm":10"#, fields)] {
+    let extruded = format!(
+        r#"{{"system":{{"kind":"fuzz_button"}},"model":{{"dimension":"extruded"}}{fields}}}"#
+    );
+    for text in [
+        ring(fields),
+        line(r#","crown_radius_mm":10"#, fields),
+        extruded,
+    ] {
         assert!(accepted(&text).scene.output.fields, "{text}");
     }
 }

@@ -93,7 +93,7 @@ impl ContactState {
     }
 
     /// Determines which of these nodes of a side are loaded; no others are.
-    pub(super) fn set_loaded(&mut self, side: Side, nodes: Range<usize>) {
+    pub(in crate::contact) fn set_loaded(&mut self, side: Side, nodes: Range<usize>) {
         let (forces, _) = self.force.of(side)[2 * nodes.start..2 * nodes.end].as_chunks::<2>();
         let mut forces = forces.iter();
         let is_loaded = |f: &[f64; 2]| f[0] != 0.0 || f[1] != 0.0;

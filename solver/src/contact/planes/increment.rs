@@ -8,6 +8,7 @@ use super::super::line::{
 use super::bodies::{Extruded, Slide};
 use super::iterate::Iterate;
 use super::newton::{Convergence, Newton};
+use super::predictor::{moved, start_from};
 use super::problem::{Problem, Zones};
 use super::response::Response;
 use super::wear::PlanesWear;
@@ -292,6 +293,7 @@ impl ExtrudedSolver {
             for (shear, p) in next.shear[coupling.first..].iter_mut().zip(pressure) {
                 *shear = friction * p;
             }
+            problem.write_forces(k, pressure, (slave, next));
             self.path.clear();
             self.path.extend_from_slice(&it.path[own.clone()]);
             worn.first = Sides::from_fn(|side| {
@@ -310,41 +312,5 @@ impl ExtrudedSolver {
             let forces = pressure.iter().zip(&problem.force[own]);
             worn.vertical_force = forces.map(|(p, force)| p * force[1]).sum();
         }
-    }
-}
-
-/// Writes statuses and pressures of a start to the nodes of a plane from `first` on.
-fn start_from((closed, pressure): (&mut [bool], &mut [f64]), first: usize, start: WarmStart<'_>) {
-    let nodes = (start.first..).zip(start.status.iter().zip(start.pressure));
-    for (node, (status, p)) in nodes {
-        let Some(at) = node.checked_sub(first).filter(|at| *at < closed.len()) else {
-            continue;
-        };
-        closed[at] = *status != Status::Open;
-        pressure[at] = *p;
-    }
-}
-
-/// Writes the last contact, moved with the slider, to the nodes of a plane from `first` on.
-fn moved(
-    (pair, last): (&Pair<'_>, &ContactState),
-    (closed, pressure): (&mut [bool], &mut [f64]),
-    first: usize,
-    to: Slide,
-) {
-    let Some((begin, end)) = last.active_range() else {
-        return;
-    };
-    let x = &pair.slave().x;
-    let travel = pair.travel(last, to.slider_x);
-    for (i, (closed, pressure)) in (first..).zip(closed.iter_mut().zip(pressure)) {
-        let from = x[i] - travel;
-        if from < x[begin] || from > x[end - 1] {
-            continue;
-        }
-        let next = x.partition_point(|&at| at < from).max(1);
-        let t = ((from - x[next - 1]) / (x[next] - x[next - 1])).clamp(0.0, 1.0);
-        *closed = true;
-        *pressure = (1.0 - t) * last.pressure[next - 1] + t * last.pressure[next];
     }
 }

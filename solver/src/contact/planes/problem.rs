@@ -148,6 +148,30 @@ impl Problem {
         }
     }
 
+    /// Writes the forces on the slider of a plane's pressures to the nodes of both bodies, which had none.
+    pub(super) fn write_forces(
+        &self,
+        plane: usize,
+        pressure: &[f64],
+        (slave, next): (Side, &mut ContactState),
+    ) {
+        let (coupling, n) = (&self.coupling, self.nodes());
+        let per_pressure = self.force[plane * n..(plane + 1) * n].iter();
+        for (i, (p, per_pressure)) in (coupling.first..).zip(pressure.iter().zip(per_pressure)) {
+            let force = per_pressure.map(|f| p * f);
+            next.force.of_mut(slave)[2 * i..2 * i + 2].copy_from_slice(&force);
+            let (from, weights) = coupling.dual_row(i);
+            let (other, _) = next.force.of_mut(slave.other()).as_chunks_mut::<2>();
+            for (other, weight) in other[from..].iter_mut().zip(weights) {
+                other[0] += weight * force[0];
+                other[1] += weight * force[1];
+            }
+        }
+        let (begin, stop) = coupling.master_range;
+        next.set_loaded(slave, coupling.first..coupling.end);
+        next.set_loaded(slave.other(), begin..stop);
+    }
+
     /// Coupled nodes of a plane.
     pub(super) fn nodes(&self) -> usize {
         self.coupling.len()

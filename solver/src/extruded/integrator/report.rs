@@ -2,9 +2,12 @@
 
 use super::ExtrudedIntegrator;
 use crate::along_line::{self, Along, Ending, StationCycle, StationProfile, StationReport};
+use crate::condensation::ExtrudedOperators;
 use crate::contact::ContactState;
 use crate::cycle::{Checks, FrictionLoop};
 use crate::law::surface::{self, SurfaceWear};
+use crate::mesh::NodePlanes;
+use crate::model::Model;
 use crate::number::real_cycles;
 use crate::schedule::step::Position;
 use crate::sides::{Side, Sides};
@@ -156,6 +159,23 @@ impl ExtrudedIntegrator {
     pub(crate) fn pressures_mpa(&self) -> Vec<Vec<f64>> {
         let contacts = self.contact.planes.contacts.iter();
         contacts.map(|contact| contact.pressure.clone()).collect()
+    }
+
+    /// Node planes, and the section in each of them as when the operators were built, with these.
+    pub(crate) fn condensed(&self) -> (&NodePlanes, &[Model], &ExtrudedOperators) {
+        let bodies = &self.bodies;
+        (&bodies.planes, &bodies.models, &bodies.operators)
+    }
+
+    /// Worn depths of each plane, mm.
+    pub(crate) fn depths(&self) -> impl Iterator<Item = &Sides<Vec<f64>>> {
+        self.contact.planes.states.iter().map(|state| &state.depth)
+    }
+
+    /// Contacts of all planes at the named positions of the last computed cycle.
+    pub(crate) fn placed(&self) -> impl Iterator<Item = (Position, &[ContactState])> {
+        let placed = self.record.placed.iter();
+        placed.map(|placed| (placed.position, &placed.contacts[..]))
     }
 
     /// The body that carries the tractions.

@@ -8,6 +8,7 @@ use crate::contact::{ContactState, Work};
 use crate::cycle::FrictionLoop;
 use crate::effects::EffectsPlan;
 use crate::extruded::{ExtrudedError, ExtrudedIntegrator, ExtrudedScene, ExtrudedState};
+use crate::fields::{self, ExtrudedSections, LineFields};
 use crate::record::Checks;
 use crate::scene::Scene;
 use crate::schedule::step::Position;
@@ -51,6 +52,23 @@ impl Sections for ExtrudedIntegrator {
 
     fn contacts(&self, section: usize) -> impl Iterator<Item = (Position, f64, &ContactState)> {
         self.contacts(section)
+    }
+
+    fn fields(&self, scene: &Scene, last: &StationCycle) -> Result<Vec<LineFields>, SolveError> {
+        let Some(shape) = scene.dimension.extruded() else {
+            return Ok(Vec::new());
+        };
+        let (planes, models, operators) = self.condensed();
+        let placed = self.placed();
+        fields::extruded(&ExtrudedSections {
+            shape: *shape,
+            planes,
+            models,
+            operators,
+            at: last.stations.iter().map(|plane| plane.at).collect(),
+            depths: self.depths().collect(),
+            contacts: placed.collect(),
+        })
     }
 
     fn slave(&self) -> Side {
