@@ -15,7 +15,7 @@ async fn selected_jobs_are_compared_by_what_differs() {
     let server = Server::start(folder.path());
     let one = done(&server, &short("one")).await;
     let mut other = short("other");
-    other["motion"] = json!({"amplitude_mm": 0.03});
+    other["motion"] = json!({"kind": "reciprocating", "amplitude_mm": 0.03});
     let other = done(&server, &other).await;
     let browser = Browser::start(&server.base, folder.path()).await;
     browser.open("/").await;

@@ -21,7 +21,7 @@ async fn a_list_follows_its_jobs_without_a_reload() {
     browser.shows(&row, "short <b>job</b>").await;
     browser.shows(&row, "succeeded").await;
     browser.shows(&row, "20 cycles").await;
-    browser.shows("[role=status]", "1 succeeded").await;
+    browser.shows("main [role=status]", "1 succeeded").await;
     let running = submitted(&server, &long("long job")).await;
     let row = format!("tr[data-job='{running}']");
     browser.shows(&row, "cycle").await;
