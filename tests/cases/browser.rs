@@ -5,6 +5,7 @@ mod comparison;
 mod interface;
 mod job;
 mod jobs;
+mod study;
 
 use serde_json::{Value, json};
 use tests::{Browser, Server};

@@ -3,7 +3,7 @@
 import { save } from "../parts/download.js";
 import { element } from "../parts/element.js";
 import { plotly } from "./library.js";
-import { axis, colours, layout, on_theme } from "./theme.js";
+import { axis, colour, colours, layout, on_theme } from "./theme.js";
 
 /**
  * @typedef {object} Series
@@ -48,6 +48,7 @@ export class Chart {
     this.node = element("figure", { class: "chart", "data-chart": options.name },
       element("figcaption", {}, this.title, this.tools), this.#plot);
     on_theme(() => this.#draw(), options.signal);
+    fit(this.#plot, options.signal);
     options.signal.addEventListener("abort", () => this.#forget());
   }
 
@@ -112,10 +113,9 @@ export class Chart {
   /** @param {"svg" | "png"} format */
   async #save_image(format) {
     const library = await plotly();
-    const background = getComputedStyle(document.documentElement).getPropertyValue("--surface").trim();
     const size = { width: 900, height: 520, scale: format === "png" ? 2 : 1 };
     const { data, layout } = /** @type {any} */ (this.#plot);
-    const url = await library.toImage({ data, layout: { ...layout, paper_bgcolor: background } }, { format, ...size });
+    const url = await library.toImage({ data, layout: { ...layout, paper_bgcolor: colour("--surface") } }, { format, ...size });
     const bytes = format === "svg"
       ? new Blob([decodeURIComponent(url.slice(url.indexOf(",") + 1))], { type: "image/svg+xml" })
       : new Blob([Uint8Array.from(atob(url.slice(url.indexOf(",") + 1)), (c) => c.charCodeAt(0))], { type: "image/png" });
@@ -129,6 +129,20 @@ export class Chart {
   #forget() {
     if (this.#figure) plotly().then((library) => library.purge(this.#plot));
   }
+}
+
+/**
+ * Draws a plot anew where its place becomes wider or narrower.
+ * @param {HTMLElement} plot
+ * @param {AbortSignal} signal
+ */
+export function fit(plot, signal) {
+  const observer = new ResizeObserver(async () => {
+    const library = plot.classList.contains("js-plotly-plot") && plot.clientWidth > 0 && (await plotly());
+    if (library && !signal.aborted) library.Plots.resize(plot);
+  });
+  observer.observe(plot);
+  signal.addEventListener("abort", () => observer.disconnect());
 }
 
 /**

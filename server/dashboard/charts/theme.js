@@ -14,16 +14,26 @@ export function colours() {
 }
 
 /**
+ * A colour of the style sheet as it is shown now.
+ * @param {string} name
+ * @returns {string}
+ */
+export function colour(name) {
+  document.body.style.setProperty("outline-color", `var(${name})`);
+  const shown = getComputedStyle(document.body).outlineColor;
+  document.body.style.removeProperty("outline-color");
+  return shown;
+}
+
+/**
  * Layout that charts share.
  * @returns {any}
  */
 export function layout() {
-  const style = getComputedStyle(document.documentElement);
-  const colour = (/** @type {string} */ name) => style.getPropertyValue(name).trim();
   return {
     paper_bgcolor: "transparent",
     plot_bgcolor: "transparent",
-    font: { family: style.fontFamily, size: 12, color: colour("--text") },
+    font: { family: getComputedStyle(document.documentElement).fontFamily, size: 12, color: colour("--text") },
     margin: { l: 66, r: 14, t: 8, b: 46 },
     hovermode: "closest",
     hoverlabel: { bgcolor: colour("--surface"), bordercolor: colour("--line"), font: { color: colour("--text") } },
@@ -40,8 +50,7 @@ export function layout() {
  */
 export function axis(title, log) {
   const tickformat = title === "cycle" ? ",~r" : undefined;
-  const style = getComputedStyle(document.documentElement);
-  const line = style.getPropertyValue("--line").trim();
+  const line = colour("--line");
   return { title: { text: title, standoff: 8 }, type: log ? "log" : "linear", gridcolor: line, linecolor: line, zerolinecolor: line, automargin: true, exponentformat: "power", tickformat };
 }
 

@@ -38,9 +38,9 @@ export async function compare_page(content, { values }, signal) {
     set: (/** @type {string} */ name, /** @type {string | null} */ value) => change({ [name]: value }, { in_place: true }),
   };
   const histories = await Promise.all(jobs.map((job) => fetch_json(`${job.links.wear_history}?max_points=${MOST_POINTS}`, { signal })));
-  for (const [name, title, y, of] of CHARTS) {
-    const chart = new Chart({ name, signal, state });
-    charts.append(chart.node);
+  const drawn = CHARTS.map((content) => ({ content, chart: new Chart({ name: content[0], signal, state }) }));
+  charts.append(...drawn.map(({ chart }) => chart.node));
+  for (const { content: [, title, y, of], chart } of drawn) {
     await chart.show({
       title,
       x: { title: "cycle", can_log: true },

@@ -1,5 +1,6 @@
 // What a job is and what it does now, and what can be done with it.
 
+import { link } from "../parts/address.js";
 import { fetch_json } from "../parts/client.js";
 import { download_link } from "../parts/download.js";
 import { definitions, element } from "../parts/element.js";
@@ -37,6 +38,7 @@ export class Head {
       ? [
         job.summary ? download_link(`${self}/results/archive`, `fretwear-${job.id}.zip`, "All results (zip)") : "",
         job.status === "succeeded" ? "" : button("Run again", "POST", `${self}/retry`, () => location.reload()),
+        element("a", { href: link("study", null, { from: job.id }) }, "Clone and change"),
         button("Delete", "DELETE", self, () => (location.hash = "#/jobs")),
       ]
       : [button("Cancel", "POST", `${self}/cancel`, () => {})]), this.#said);

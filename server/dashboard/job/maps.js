@@ -1,5 +1,6 @@
 // Maps of worn depth and pressure over the area of a contact, at the stored cycles.
 
+import { fit } from "../charts/chart.js";
 import { plotly } from "../charts/library.js";
 import { axis, layout, on_theme } from "../charts/theme.js";
 import { fetch_json } from "../parts/client.js";
@@ -36,6 +37,7 @@ export class Maps {
     });
     this.#choice.dataset.asked = state.get("map") ?? "";
     on_theme(() => this.#draw(), signal);
+    for (const plot of this.#plots) fit(plot, signal);
     this.node = element("section", { class: "maps", hidden: true, "aria-label": "maps" },
       element("p", { class: "line" }, element("label", {}, "Maps at cycle ", this.#choice)),
       element("div", { class: "charts" }, ...DRAWN.map(([title], index) =>

@@ -1,0 +1,40 @@
+// What a plan says before anything is queued.
+
+import { card, definitions, element, table } from "../parts/element.js";
+import { count, duration, length, number, percent, words } from "../parts/format.js";
+
+const SIMULATED = ["simulated", "forced_on"];
+
+/**
+ * The faults of a refused specification.
+ * @param {import("../parts/client.js").Problem} problem
+ * @returns {HTMLElement}
+ */
+export function faults_list({ message, faults }) {
+  if (faults.length === 0) return element("p", {}, message);
+  return element("ul", {}, ...faults.map(({ pointer, detail }) => element("li", {}, element("code", {}, pointer || "/"), " ", detail)));
+}
+
+/**
+ * Size, time, effects, lives and warnings of a plan.
+ * @param {any} plan
+ * @returns {HTMLElement[]}
+ */
+export function plan_cards({ estimates, effects, warnings = [], notes = [], life = [] }) {
+  const lives = life.map((/** @type {any} */ one) => [words(one.criterion?.kind ?? ""), one.side ?? "", count(one.cycles)]).filter((/** @type {string[]} */ row) => row[2] !== "");
+  const rows = effects.map((/** @type {any} */ { effect, decision, value, threshold, reason }) => [
+    words(effect), element("span", { class: SIMULATED.includes(decision) ? "on" : "off" }, words(decision)), percent(value), percent(threshold), reason]);
+  return [
+    card("Expected", definitions([
+      ["processor time", duration(estimates.cpu_s)], ["memory", `${number(estimates.memory_mb)} MB`], ["results", `${number(estimates.output_mb)} MB`],
+      ["computed cycles", count(estimates.computed_cycles)], ["increments", count(estimates.increments)],
+      ["unworn contact", `${length(estimates.hertz_half_width_mm)} to either side, ${number(estimates.hertz_peak_pressure_mpa)} MPa at most`],
+      ["element of the contact", length(estimates.contact_element_mm)],
+    ]), ...(lives.length ? [table({ head: ["life by", "side", "about, cycles"], rows: lives, numbers: [2] })] : [])),
+    ...(warnings.length || notes.length ? [card("To know", element("ul", {},
+      ...warnings.map((/** @type {any} */ { field, detail }) => element("li", {}, element("code", {}, field), " ", detail)),
+      ...notes.map((/** @type {any} */ note) => element("li", {}, typeof note === "string" ? note : note.detail ?? ""))))] : []),
+    element("details", { class: "card" }, element("summary", {}, "Effects: what is simulated and why"),
+      table({ head: ["effect", "decision", "changes results by", "limit", "reason"], rows, numbers: [2, 3] })),
+  ];
+}
