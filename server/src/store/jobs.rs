@@ -62,7 +62,7 @@ pub struct Filter {
     pub created_before: Option<i64>,
     /// Jobs of this parameter sweep.
     pub sweep: Option<Uuid>,
-    /// With this text in the name, a label's value or the id, whatever the case.
+    /// With this text in the name, a label's value or the id, whatever the case of ASCII letters.
     pub text: Option<String>,
     /// Jobs older than this one.
     pub before: Option<Uuid>,

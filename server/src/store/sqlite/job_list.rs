@@ -81,7 +81,8 @@ fn filtered(mut query: QueryBuilder<Sqlite>, filter: &Filter) -> QueryBuilder<Sq
             .push(")");
     }
     if let Some(text) = &filter.text {
-        let text = text.to_lowercase();
+        // SQLite's `lower` knows ASCII alone: other letters are compared as they are.
+        let text = text.to_ascii_lowercase();
         query
             .push(" AND (instr(lower(coalesce(spec ->> '$.name', '')), ")
             .push_bind(text.clone())

@@ -62,6 +62,7 @@ pub(crate) async fn all_events(
         app,
         after,
         pending: first.into_iter().collect(),
+        has_sent: false,
         changes,
         _permit: permit,
     };
@@ -84,6 +85,8 @@ struct FeedTail {
     after: i64,
     /// Fetched, not yet sent.
     pending: VecDeque<Event>,
+    /// Whether the last fetch has found changes.
+    has_sent: bool,
     changes: AllChanges,
     _counted: Counted,
     /// Released when the stream closes.
@@ -96,7 +99,12 @@ impl FeedTail {
             if let Some(event) = self.pending.pop_front() {
                 return Some(event);
             }
-            match self.fetch().await {
+            if self.has_sent {
+                self.collect().await;
+            }
+            let fetched = self.fetch().await;
+            self.has_sent = matches!(fetched, Ok(true));
+            match fetched {
                 Ok(true) => {}
                 Ok(false) if self.app.stopping.is_cancelled() => return None,
                 Ok(false) => self.changed().await,
@@ -129,8 +137,13 @@ impl FeedTail {
         tokio::select! {
             () = self.changes.next() => {}
             () = tokio::time::sleep(POLL_INTERVAL) => {}
-            () = self.app.stopping.cancelled() => return,
+            () = self.app.stopping.cancelled() => {}
         }
+        self.collect().await;
+    }
+
+    /// Lets changes come together.
+    async fn collect(&self) {
         tokio::select! {
             () = tokio::time::sleep(COLLECTED) => {}
             () = self.app.stopping.cancelled() => {}

@@ -85,7 +85,7 @@ pub(crate) struct ListQuery {
     created_before: Option<String>,
     /// Jobs of this sweep.
     sweep: Option<Uuid>,
-    /// In the name, the value of a label or the id, whatever the case.
+    /// In the name, the value of a label or the id, whatever the case of ASCII letters.
     #[param(min_length = 1, max_length = 200)]
     text: Option<String>,
     /// `short` (default), or `full` with specification, plan and summary.
