@@ -34,10 +34,7 @@ pub(crate) fn embed() -> io::Result<()> {
         let mut packed = brotli::CompressorWriter::new(Vec::new(), 1 << 16, LEVEL, WINDOW);
         packed.write_all(bytes)?;
         fs::write(out.join(format!("{number}.br")), packed.into_inner())?;
-        let digest: String = Sha256::digest(bytes)[..DIGEST_BYTES]
-            .iter()
-            .map(|byte| format!("{byte:02x}"))
-            .collect();
+        let digest = digest(bytes);
         writeln!(
             table,
             "    Asset {{ path: {path:?}, media_type: {media_type:?}, etag: \"\\\"{digest}\\\"\", compressed: include_bytes!(concat!(env!(\"OUT_DIR\"), \"/{number}.br\")) }},"
@@ -46,6 +43,15 @@ pub(crate) fn embed() -> io::Result<()> {
     }
     table.push_str("]\n");
     fs::write(out.join("assets.rs"), table)
+}
+
+/// Start of a digest, in hexadecimal digits.
+fn digest(bytes: &[u8]) -> String {
+    let mut text = String::new();
+    for byte in &Sha256::digest(bytes)[..DIGEST_BYTES] {
+        write!(text, "{byte:02x}").expect("text can be written");
+    }
+    text
 }
 
 /// Files of a folder with their paths from the dashboard's.

@@ -99,13 +99,13 @@ impl Browser {
                 }
             }
         });
-        match found.await {
-            Ok(value) => value,
-            Err(_) => panic!(
-                "{expression} stays false; the page has:\n{}",
-                self.text().await
-            ),
+        if let Ok(value) = found.await {
+            return value;
         }
+        panic!(
+            "{expression} stays false; the page has:\n{}",
+            self.text().await
+        )
     }
 
     /// Waits for a text to be shown within the first element of a selector.

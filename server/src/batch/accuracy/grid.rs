@@ -252,7 +252,7 @@ mod tests {
         let coarse: Vec<&Settings> = runs.iter().filter(with(5)).collect();
         assert_eq!(coarse.len(), 2);
         assert_eq!(coarse[0], &runs[0]);
-        assert_eq!(coarse[1].cycle_jump, finest.cycle_jump);
+        assert_eq!(coarse[1].jump(), finest.jump());
         assert_eq!(runs.iter().filter(with(9)).count(), 2);
         // As many as can be halved twice, for few and for many sections.
         let finest = |halvings| Grid::at(&line, [0, 0, 0, halvings]).finest().stations;
