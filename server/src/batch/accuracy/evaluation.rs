@@ -25,7 +25,7 @@ pub(super) fn evaluate(
     let cycles = spec::cycles(spec);
     let mut table: Vec<StudyRun> = runs
         .iter()
-        .map(|run| row(run, cycles, &converged))
+        .map(|run| row(run, (cycles, grid), &converged))
         .collect();
     table.sort_by(|a, b| a.cpu_s.total_cmp(&b.cpu_s));
     mark_front(&mut table, &converged.reference.uncertainty);
@@ -37,15 +37,16 @@ pub(super) fn evaluate(
     })
 }
 
-fn row(run: &Run, cycles: u64, converged: &Converged) -> StudyRun {
+fn row(run: &Run, (cycles, grid): (u64, &Grid), converged: &Converged) -> StudyRun {
     let found = run.found.as_ref().ok();
     let summary = found.map(|found| &found.summary);
     let errors = found.map(|found| converged.errors(&found.solution));
     let uncertainty = &converged.reference.uncertainty;
     let reached = summary.map(|summary| summary.accuracy).unwrap_or_default();
     let (tolerance, settings) = run.accuracy.parts();
-    let settings =
-        settings.unwrap_or_else(|| Settings::used(cycles, &reached, summary.and_then(sections)));
+    // Node planes of bodies of a width are no setting of the grid.
+    let stations = || grid.finest().stations.and_then(|_| sections(summary?));
+    let settings = settings.unwrap_or_else(|| Settings::used(cycles, &reached, stations()));
     StudyRun {
         tolerance,
         contact_element_mm: settings.contact_element_mm,
@@ -63,10 +64,9 @@ fn row(run: &Run, cycles: u64, converged: &Converged) -> StudyRun {
     }
 }
 
-/// Sections along the line, or node planes, of a run; `None` where it has none.
+/// Number of sections of a run.
 fn sections(summary: &Summary) -> Option<u32> {
-    let count = u32::try_from(summary.stations.len()).ok()?;
-    (count > 0).then_some(count)
+    u32::try_from(summary.stations.len()).ok()
 }
 
 /// Marks the Pareto front of runs that are sorted by cost: those with a smaller error than every cheaper run. Errors

@@ -59,7 +59,7 @@ impl Baseline {
     pub(crate) fn cost_s(&self, settings: Settings) -> f64 {
         let finer = self.settings.contact_element_mm / settings.contact_element_mm;
         let computed = self.cycles / settings.cycle_jump;
-        let sections = sections(settings) / sections(self.settings);
+        let sections = settings.sections() / self.settings.sections();
         let increments = computed * f64::from(settings.increments_per_cycle);
         self.increment_s * increments * finer.powi(2) * sections
     }
@@ -79,10 +79,6 @@ fn stations(scene: &Resolved, stations: usize) -> Option<u32> {
 fn is_straight(scene: &Resolved) -> bool {
     let line = scene.scene.dimension.line();
     line.is_some_and(|line| matches!(line.shape, LineShape::Straight { .. }))
-}
-
-fn sections(settings: Settings) -> f64 {
-    settings.stations.map_or(1.0, f64::from)
 }
 
 /// Three levels of each setting, the finest first.

@@ -54,15 +54,10 @@ const VARIED: [Varied; SETTINGS] = [
     },
     Varied {
         name: "stations",
-        value: |settings| sections(settings),
-        step: |settings| 1.0 / (sections(settings) - 1.0),
+        value: Settings::sections,
+        step: |settings| 1.0 / (settings.sections() - 1.0),
     },
 ];
-
-/// Sections along a line; 1 where there are none.
-fn sections(settings: Settings) -> f64 {
-    settings.stations.map_or(1.0, f64::from)
-}
 
 /// Runs along one setting, the others finest.
 struct Line<'a> {

@@ -46,6 +46,11 @@ impl Settings {
         })
     }
 
+    /// Sections along the line; 1 where there are none.
+    pub(crate) fn sections(self) -> f64 {
+        self.stations.map_or(1.0, f64::from)
+    }
+
     /// The jump as an integer.
     #[expect(
         clippy::cast_possible_truncation,
