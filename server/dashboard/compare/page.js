@@ -1,7 +1,7 @@
 // Several jobs beside each other: what differs between their specifications, their figures, their curves on the same axes.
 
 import { Chart } from "../charts/chart.js";
-import { change, link } from "../parts/address.js";
+import { choices, link } from "../parts/address.js";
 import { fetch_json } from "../parts/client.js";
 import { card, element, table } from "../parts/element.js";
 import { count, length, number, percent } from "../parts/format.js";
@@ -33,12 +33,8 @@ export async function compare_page(content, { values }, signal) {
   const names = distinct_names(jobs);
   const charts = element("div", { class: "charts" });
   content.append(figures(jobs, names), charts, differences(jobs, names));
-  const state = {
-    get: (/** @type {string} */ name) => new URLSearchParams(location.hash.split("?")[1]).get(name),
-    set: (/** @type {string} */ name, /** @type {string | null} */ value) => change({ [name]: value }, { in_place: true }),
-  };
   const histories = await Promise.all(jobs.map((job) => fetch_json(`${job.links.wear_history}?max_points=${MOST_POINTS}`, { signal })));
-  const drawn = CHARTS.map((content) => ({ content, chart: new Chart({ name: content[0], signal, state }) }));
+  const drawn = CHARTS.map((content) => ({ content, chart: new Chart({ name: content[0], signal, state: choices }) }));
   charts.append(...drawn.map(({ chart }) => chart.node));
   for (const { content: [, title, y, of], chart } of drawn) {
     await chart.show({

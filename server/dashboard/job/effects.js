@@ -1,22 +1,15 @@
 // What the plan simulates and why, and what it and the result warn of.
 
-import { card, element, table } from "../parts/element.js";
-import { percent, words } from "../parts/format.js";
+import { effects_table } from "../parts/effects.js";
+import { card, element } from "../parts/element.js";
 import { badge } from "../parts/status.js";
-
-const SIMULATED = ["simulated", "forced_on"];
 
 /**
  * @param {any} job
  * @returns {HTMLElement}
  */
 export function effects_card({ plan }) {
-  const effects = plan?.effects ?? [];
-  const rows = effects.map((/** @type {any} */ { effect, decision, value, threshold, reason }) => [
-    words(effect), element("span", { class: SIMULATED.includes(decision) ? "on" : "off" }, words(decision)), percent(value), percent(threshold), reason,
-  ]);
-  return card("Effects: what is simulated and why",
-    table({ head: ["effect", "decision", "changes results by", "limit", "reason"], rows, numbers: [2, 3] }));
+  return card("Effects: what is simulated and why", effects_table(plan?.effects ?? []));
 }
 
 /**

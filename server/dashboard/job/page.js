@@ -1,6 +1,6 @@
 // One job: live while it runs, complete after it.
 
-import { change } from "../parts/address.js";
+import { choices } from "../parts/address.js";
 import { events, fetch_json } from "../parts/client.js";
 import { element } from "../parts/element.js";
 import { has_ended } from "../parts/status.js";
@@ -24,15 +24,11 @@ const RETRY_MS = 2000;
 /** @type {import("../main.js").Page} */
 export async function job_page(content, { id }, signal) {
   let job = await fetch_json(`/v1/jobs/${id}`, { signal });
-  const state = {
-    get: (/** @type {string} */ name) => new URLSearchParams(location.hash.split("?")[1]).get(name),
-    set: (/** @type {string} */ name, /** @type {string | null} */ value) => change({ [name]: value }, { in_place: true }),
-  };
   document.title = `${job.spec.name ?? job.spec.system.kind} · fretwear`;
   const head = new Head(job);
-  const history = new HistoryCharts(state, signal);
-  const snapshots = new SnapshotCharts(state, signal);
-  const maps = new Maps(state, signal);
+  const history = new HistoryCharts(choices, signal);
+  const snapshots = new SnapshotCharts(choices, signal);
+  const maps = new Maps(choices, signal);
   const results = element("div", { class: "cards" });
   const details = element("div", { class: "cards" });
   const charts = element("div", { class: "charts" });

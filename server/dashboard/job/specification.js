@@ -1,6 +1,7 @@
 // The resolved specification with the provenance of every value.
 
 import { card, element, table } from "../parts/element.js";
+import { has_no_parts, leaves } from "../parts/leaves.js";
 
 /**
  * @param {any} job
@@ -8,21 +9,13 @@ import { card, element, table } from "../parts/element.js";
  */
 export function specification_card({ spec }) {
   const { provenance = {}, ...given } = spec;
-  const rows = values(given, "").map(([pointer, value]) => [element("code", {}, pointer), String(value), provenance[pointer] ?? ""]);
+  const rows = leaves(given, "", is_shown_whole).map(([pointer, value]) => [element("code", {}, pointer), Array.isArray(value) ? value.join(", ") : String(value), provenance[pointer] ?? ""]);
   return card("Specification",
     table({ head: ["field", "value", "provenance"], rows }),
     element("details", {}, element("summary", {}, "as JSON"), element("pre", {}, JSON.stringify(given, null, 2))));
 }
 
-/**
- * All values with their JSON pointers.
- * @param {any} value
- * @param {string} pointer
- * @returns {[string, unknown][]}
- */
-function values(value, pointer) {
-  if (value === null || typeof value !== "object") return [[pointer, value]];
-  if (Array.isArray(value) && value.every((item) => typeof item !== "object")) return [[pointer, value.join(", ")]];
-  const step = (/** @type {string} */ key) => key.replaceAll("~", "~0").replaceAll("/", "~1");
-  return Object.entries(value).flatMap(([key, item]) => values(item, `${pointer}/${step(key)}`));
+/** @param {any} value */
+function is_shown_whole(value) {
+  return has_no_parts(value) || (Array.isArray(value) && value.every(has_no_parts));
 }

@@ -41,3 +41,9 @@ export function change(changes, { in_place = false } = {}) {
   if (in_place) history.replaceState(null, "", hash);
   else location.hash = hash;
 }
+
+/** Values of the present address that follow a choice in place, such as an axis or the place of a slider. */
+export const choices = {
+  get: (/** @type {string} */ name) => address().values.get(name),
+  set: (/** @type {string} */ name, /** @type {string | null} */ value) => change({ [name]: value }, { in_place: true }),
+};

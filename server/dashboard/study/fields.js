@@ -2,6 +2,7 @@
 
 import { element } from "../parts/element.js";
 import { words } from "../parts/format.js";
+import { leaves } from "../parts/leaves.js";
 
 /** Ends of names that are units, and the units as they are written. */
 const UNITS = /** @type {[string, string][]} */ ([
@@ -12,17 +13,6 @@ const UNITS = /** @type {[string, string][]} */ ([
 const BY_UNIT = { n: ["force", "N"], mpa: ["pressure", "MPa"], n_per_mm: ["line force", "N/mm"], mm: ["depth", "mm"], mohm: ["resistance", "mΩ"] };
 /** Parts of a specification that are not edited here. */
 const LEFT_OUT = ["provenance", "output", "labels"];
-
-/**
- * All values below one, with their JSON pointers.
- * @param {any} value
- * @param {string} pointer
- * @returns {[string, unknown][]}
- */
-function leaves(value, pointer) {
-  if (value === null || typeof value !== "object") return [[pointer, value]];
-  return Object.entries(value).flatMap(([key, item]) => leaves(item, `${pointer}/${key}`));
-}
 
 /**
  * A specification with another value at a pointer; what it does not contain on the way is taken from the resolved one.

@@ -1,9 +1,8 @@
 // What a plan says before anything is queued.
 
+import { effects_table } from "../parts/effects.js";
 import { card, definitions, element, table } from "../parts/element.js";
-import { count, duration, length, number, percent, words } from "../parts/format.js";
-
-const SIMULATED = ["simulated", "forced_on"];
+import { count, duration, length, number, words } from "../parts/format.js";
 
 /**
  * The faults of a refused specification.
@@ -22,8 +21,6 @@ export function faults_list({ message, faults }) {
  */
 export function plan_cards({ estimates, effects, warnings = [], notes = [], life = [] }) {
   const lives = life.map((/** @type {any} */ one) => [words(one.criterion?.kind ?? ""), one.side ?? "", count(one.cycles)]).filter((/** @type {string[]} */ row) => row[2] !== "");
-  const rows = effects.map((/** @type {any} */ { effect, decision, value, threshold, reason }) => [
-    words(effect), element("span", { class: SIMULATED.includes(decision) ? "on" : "off" }, words(decision)), percent(value), percent(threshold), reason]);
   return [
     card("Expected", definitions([
       ["processor time", duration(estimates.cpu_s)], ["memory", `${number(estimates.memory_mb)} MB`], ["results", `${number(estimates.output_mb)} MB`],
@@ -35,6 +32,6 @@ export function plan_cards({ estimates, effects, warnings = [], notes = [], life
       ...warnings.map((/** @type {any} */ { field, detail }) => element("li", {}, element("code", {}, field), " ", detail)),
       ...notes.map((/** @type {any} */ note) => element("li", {}, typeof note === "string" ? note : note.detail ?? ""))))] : []),
     element("details", { class: "card" }, element("summary", {}, "Effects: what is simulated and why"),
-      table({ head: ["effect", "decision", "changes results by", "limit", "reason"], rows, numbers: [2, 3] })),
+      effects_table(effects)),
   ];
 }
