@@ -208,6 +208,8 @@ fn the_first_cycle_in_partial_slip_wears_by_mindlins_loop() {
 /// the surfaces are as they were, F = 2 E* (d c - c^3/(3 R)), beyond it they are worn to where they just touch. Half-spaces of nu = 0,
 /// R = 10 mm, E* = 100 GPa, 100 N, +-1.149464e-3 mm, mu = 0.6: c/a = 0.7071, F = 0.88388 of the first load, depth 5.0982e-4 mm, volume 3.2729e-5 mm^3.
 /// The approach is that of a spring 250 times as stiff as the contact.
+/// After 400 cycles the annulus still carries a little: 4 000 leave the load 0.1 %, the volume 1.1 % off; the depth at the corner of the stick zone is one of
+/// cells. A prototype reached 0.885, 99.5 and 98.9 %. Hence 0.5 and 2 %.
 #[test]
 fn a_worn_annulus_leaves_the_load_to_the_stick_zone() {
     let rates = Sides {
