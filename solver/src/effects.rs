@@ -217,7 +217,8 @@ impl EffectsPlan {
         }
     }
 
-    /// An effect that a run has called for. Where friction acts on the bodies, nodes may stick unless that is switched off.
+    /// An effect that a run has called for. Where friction acts on the bodies, nodes may stick unless that is switched off or, as in sections
+    /// along a line, every node slips.
     fn called_for(
         &self,
         effect: Effect,
@@ -230,7 +231,9 @@ impl EffectsPlan {
         };
         let is_skipped = |effect: &Effect| {
             let decision = self.decision(*effect);
-            decision.is_some_and(|decision| decision.verdict == Verdict::Skipped)
+            decision.is_some_and(|decision| {
+                decision.verdict == Verdict::Skipped && decision.is_available
+            })
         };
         [effect]
             .into_iter()
@@ -248,7 +251,9 @@ impl EffectsPlan {
     pub fn called_for_by_failure(&self, cycle: u64) -> Vec<Crossing> {
         let skipped = |effect: &Effect| {
             self.decision(*effect).is_some_and(|decision| {
-                decision.verdict == Verdict::Skipped && decision.indicator.is_some()
+                decision.verdict == Verdict::Skipped
+                    && decision.is_available
+                    && decision.indicator.is_some()
             })
         };
         let mut effects = [Effect::Friction, Effect::StickMemory].into_iter();

@@ -4,7 +4,10 @@ use super::*;
 use crate::law::temperature::Temperature;
 use crate::law::wear::WearLaw;
 use crate::model::tests::fuzz_button;
-use crate::scene::{Friction, MildOxidation, Motion, SpeedLaw, SurfaceState};
+use crate::scene::{
+    Dimension, Friction, Line, LineShape, MildOxidation, Motion, RingMotion, SpeedLaw,
+    SurfaceState, Top,
+};
 
 fn simulated(scene: &Scene) -> Vec<&'static str> {
     let plan = plan(scene);
@@ -66,4 +69,33 @@ fn wear_by_time_calls_for_friction_where_wear_by_distance_does_not() {
         },
     })));
     assert!(has_friction(&scene));
+}
+
+/// Every node of a section along a line slips; a contact of one section may stick as soon as shear acts on it.
+#[test]
+fn friction_calls_for_sticking_where_nodes_may_stick_only() {
+    let called_for = |dimension: Dimension| {
+        let mut scene = fuzz_button();
+        scene.cycles = 10;
+        scene.friction = Friction::Coulomb { coefficient: 0.05 };
+        scene.dimension = dimension;
+        let crossings = plan(&scene).called_for_by_failure(7);
+        let effects = crossings.iter().map(|crossing| crossing.effect.name());
+        effects.collect::<Vec<_>>()
+    };
+    assert_eq!(
+        called_for(Dimension::PlaneStrain),
+        ["friction", "stick_memory"]
+    );
+    let ring = Line {
+        shape: LineShape::Ring {
+            radius_mm: 0.5,
+            motion: RingMotion::InPlane,
+        },
+        top: Top::Even,
+        force_n: 0.0834,
+        stations: Some(5),
+        threads: 1,
+    };
+    assert_eq!(called_for(Dimension::Line(ring)), ["friction"]);
 }
