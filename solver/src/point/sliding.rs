@@ -2,7 +2,8 @@
 //!
 //! The gap of an increment is that of the unworn shapes x^2/(2 R) + z^2/(2 R) plus the worn depths of both bodies; the pressure p at its
 //! end wears both by p |ds| (backward Euler). The dose is spread evenly over the positions that the contact has moved through, on either
-//! body, so that no ripples of the length of an increment remain. The mean rates of layers are found by repeating the solve.
+//! body, so that no ripples of the length of an increment remain. The wear through layers is no linear function of the pressure: it is
+//! linearised about that of the last solve, by Newton's method.
 //!
 //! Shapes are parabolas, as Hertz': a circle of depth h is deeper by the part h/(2 R).
 
@@ -28,7 +29,7 @@ const MOST_CELLS: usize = 1 << 19;
 const COARSENED: f64 = 2.2;
 
 /// Most solves of an increment through layers, and change of the pressure over its sum at which they end.
-const MOST_REPETITIONS: usize = 6;
+const MOST_REPETITIONS: usize = 12;
 const PRESSURE_TOLERANCE: f64 = 1e-4;
 
 /// Solves the increments of a point contact that slides.
@@ -36,8 +37,9 @@ pub(super) struct Sliding {
     scene: PointScene,
     contact: NormalContact,
     friction: StickSlip,
-    /// Gap, wear and dose on the window.
+    /// Gap before the increment on the window, and, as linear functions of the pressure, the gap with the wear of the increment.
     gap: Vec<f64>,
+    unloaded_gap: Vec<f64>,
     wear: Vec<f64>,
     dose: Vec<f64>,
 }
@@ -61,6 +63,7 @@ impl Sliding {
             contact: NormalContact::new(state.lattice.cells(), scene.modulus()),
             friction: StickSlip::default(),
             gap: Vec::new(),
+            unloaded_gap: Vec::new(),
             wear: Vec::new(),
             dose: Vec::new(),
         }
@@ -224,7 +227,7 @@ impl Sliding {
         for _ in 0..repetitions {
             self.update_wear(state, increment);
             let problem = NormalProblem {
-                gap_mm: &self.gap,
+                gap_mm: &self.unloaded_gap,
                 wear_mm_per_mpa: &self.wear,
                 force_n: state.force_n,
             };
@@ -273,7 +276,7 @@ impl Sliding {
         }
     }
 
-    /// Wear of both surfaces per pressure in an increment, by the mean rates under the present pressure.
+    /// Linearises the wear of both surfaces in an increment about the present pressure.
     fn update_wear(&mut self, state: &State, increment: Increment) {
         let State {
             lattice,
@@ -284,6 +287,7 @@ impl Sliding {
         } = state;
         self.wear.clear();
         self.wear.resize(pressure.values.len(), 0.0);
+        self.unloaded_gap.clone_from(&self.gap);
         let rows = 2 * lattice.window().0;
         for side in Side::BOTH {
             let surface = surfaces.of(side);
@@ -291,13 +295,17 @@ impl Sliding {
                 .dose
                 .rows(lattice.first_row(side, increment.to), rows);
             let places = doses.iter().zip(&pressure.values).zip(&slip.values);
-            for (wear, ((dose, pressure), slip)) in self.wear.iter_mut().zip(places) {
+            let linear = self.unloaded_gap.iter_mut().zip(&mut self.wear);
+            for ((gap, wear), ((dose, pressure), slip)) in linear.zip(places) {
                 let path = if increment.is_partial {
                     increment.cycles * slip
                 } else {
                     increment.worn_path_mm
                 };
-                *wear += path * surface.mean_rate(*dose, path * pressure);
+                let added = path * pressure;
+                let (worn, rate) = surface.growth(*dose, added);
+                *gap += worn - rate * added;
+                *wear += path * rate;
             }
         }
     }

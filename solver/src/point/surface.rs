@@ -1,8 +1,7 @@
 //! The worn surface of a body: the dose of each cell, from which its depth follows.
 //!
 //! The dose D = int p |ds| of a place, MPa mm, adds where depths of layers do not; its depth is h = G(D) (`law::dose`), k D for
-//! a law of one rate. An increment of a dose dD recedes the surface by G(D + dD) - G(D), in the contact solve by the mean rate of that
-//! dose.
+//! a law of one rate. An increment of a dose dD recedes the surface by G(D + dD) - G(D).
 
 use std::ops::Range;
 
@@ -57,18 +56,17 @@ impl Surface {
         self.wear.map_or(0.0, |wear| wear.depth(equivalent))
     }
 
-    /// Mean specific wear rate of a place of a dose over another one that is added, 1/MPa; that at its depth where none is.
-    pub(super) fn mean_rate(&self, dose: f64, added: f64) -> f64 {
+    /// Growth of the depth of a place of a dose by another one that is added, mm, and the specific wear rate then, 1/MPa.
+    pub(super) fn growth(&self, dose: f64, added: f64) -> (f64, f64) {
+        let Some(wear) = self.wear else {
+            return (0.0, 0.0);
+        };
         if self.is_linear() {
-            return self.rate;
+            return (self.rate * added, self.rate);
         }
-        let depth = self.depth_mm(dose);
-        if added > 1e-9 * dose.max(f64::MIN_POSITIVE) {
-            (self.depth_mm(dose + added) - depth) / added
-        } else {
-            let relative = self.wear.map_or(0.0, |wear| wear.relative_rate(depth));
-            self.rate * relative
-        }
+        let after = self.depth_mm(dose + added);
+        let rate = self.rate * wear.relative_rate(after);
+        (after - self.depth_mm(dose), rate)
     }
 
     /// Depths of all cells, mm.
@@ -179,7 +177,7 @@ mod tests {
     use crate::law::wear::WearLaw;
 
     #[test]
-    fn increments_through_a_layer_wear_by_the_mean_rate_of_their_dose() {
+    fn increments_through_a_layer_wear_it_and_then_the_base() {
         let layer = Layer {
             thickness_mm: 1e-3,
             rate_per_mpa: 1e-8,
@@ -189,8 +187,13 @@ mod tests {
         };
         let surface = Surface::new(SurfaceWear::new(&[layer], Some(base)), (1, 1));
         // 1e5 MPa mm wear the layer, as many more 4 um of the base.
-        assert!((surface.mean_rate(0.0, 2e5) - 2.5e-8).abs() < 1e-20);
-        assert!((surface.mean_rate(2e5, 0.0) - 4e-8).abs() < 1e-20);
+        let is = |(depth, rate): (f64, f64), expected: (f64, f64)| {
+            (depth - expected.0).abs() < 1e-15 && (rate - expected.1).abs() < 1e-20
+        };
+        assert!(is(surface.growth(0.0, 0.0), (0.0, 1e-8)));
+        assert!(is(surface.growth(0.0, 5e4), (5e-4, 1e-8)));
+        assert!(is(surface.growth(0.0, 2e5), (5e-3, 4e-8)));
+        assert!(is(surface.growth(2e5, 0.0), (0.0, 4e-8)));
         assert!((surface.depth_mm(2e5) - 5e-3).abs() < 1e-15);
     }
 }
