@@ -167,11 +167,14 @@ impl ListedJob {
     }
 }
 
-/// Jobs, newest first.
+/// Jobs in the order that was asked for.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct JobList {
     /// The jobs of this page, in short, or in full with `?view=full`.
     pub jobs: Vec<ListedJob>,
     /// Token of the next page; absent on the last one.
     pub next_page_token: Option<String>,
+    /// Jobs on all pages, with `?total=true`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub total: Option<u64>,
 }

@@ -11,7 +11,7 @@ mod snapshot;
 mod summary;
 
 pub use depth_map::{ContactMaps, DepthMap, PressureMap};
-pub use history::{Columns, ExposedLayer, SideSeries, Station, WearHistory};
+pub use history::{Columns, ExposedLayer, Histories, JobHistory, SideSeries, Station, WearHistory};
 pub use life::{LifeBand, LifeEntry, LifeStatus};
 pub use line::{LineProfile, LineProfiles, LineSeries, LineStation, SectionSide};
 pub use manifest::{Manifest, ResultFile};

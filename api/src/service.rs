@@ -1,4 +1,4 @@
-//! What a service does at present (`GET /v1/service`).
+//! What a service does at present (`GET /v1/service`), and the labels of its jobs.
 
 use std::collections::BTreeMap;
 
@@ -29,4 +29,24 @@ pub struct Workers {
     pub total: u64,
     /// Those that solve a job.
     pub busy: u64,
+}
+
+/// Labels that jobs have (`GET /v1/labels`).
+#[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
+pub struct Labels {
+    /// By key; of each key the most frequent values first.
+    pub labels: Vec<LabelInUse>,
+    /// Whether there are more than these.
+    pub more: bool,
+}
+
+/// A label and the number of jobs that have it.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
+pub struct LabelInUse {
+    /// Key.
+    pub key: String,
+    /// Value.
+    pub value: String,
+    /// Jobs that have it.
+    pub jobs: u64,
 }

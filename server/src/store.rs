@@ -53,8 +53,8 @@ pub use disk::DataDisk;
 pub use error::StoreError;
 pub use integrity::IntegrityError;
 pub use jobs::{
-    Cancelled, Changed, Deleted, Filter, NewJob, RequestKey, Retried, StoredJob, SubmitOptions,
-    Submitted,
+    Cancelled, Changed, Deleted, Filter, NewJob, Order, OrderKey, RequestKey, Retried, StoredJob,
+    SubmitOptions, Submitted,
 };
 pub use leases::{Claim, End, JobUpdate, LeaseState, Reclaimed};
 pub use limits::Limits;

@@ -4,6 +4,7 @@
 use indexmap::IndexMap;
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
+use uuid::Uuid;
 
 use crate::results::LineSeries;
 
@@ -66,4 +67,21 @@ pub struct WearHistory {
     #[serde(flatten)]
     #[schema(ignore)]
     pub contact: Columns,
+}
+
+/// Columns of the histories of several jobs.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct Histories {
+    /// The histories, in the order in which the jobs were named; jobs that do not exist have none.
+    pub histories: Vec<JobHistory>,
+}
+
+/// Columns of the history of a job.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct JobHistory {
+    /// Identifier of the job.
+    pub job: Uuid,
+    /// The columns by name, of equal length, one value a computed cycle; those that the history does not have are left out.
+    #[schema(value_type = std::collections::BTreeMap<String, Vec<f64>>)]
+    pub columns: Columns,
 }

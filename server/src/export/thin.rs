@@ -41,6 +41,17 @@ pub fn rows(rows: Vec<CycleReport>, points: usize) -> Vec<CycleReport> {
         .collect()
 }
 
+/// Thins columns over ascending cycles.
+pub fn columns<'a>(cycles: &[f64], columns: impl Iterator<Item = &'a mut Vec<f64>>, points: usize) {
+    let mut columns: Vec<&mut Vec<f64>> = columns.collect();
+    let series: Vec<&[f64]> = columns.iter().map(|values| &values[..]).collect();
+    let selected = select(cycles, &series, points);
+    for values in &mut columns {
+        let chosen = selected.iter().map(|index| values[*index]);
+        **values = chosen.collect();
+    }
+}
+
 /// Thins a profile, each side separately.
 pub fn profile(mut profile: Profile, points: usize) -> Profile {
     for side in [&mut profile.receptacle, &mut profile.slider] {

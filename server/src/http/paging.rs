@@ -1,4 +1,7 @@
-//! Pagination of lists. A page token holds the last entry of its page, and a digest of the list's filters.
+//! Pagination of lists. A page token holds a digest of the list's filters and where the page ends: its last entry where the newest come first,
+//! the number of entries up to there in any other order, whose entries can change their places between two pages.
+
+use std::mem;
 
 use uuid::Uuid;
 
@@ -34,14 +37,32 @@ impl RouteError for PageError {
 pub(super) struct Page {
     digest: String,
     limit: u32,
-    /// Last entry of the page before; this page has older ones.
-    pub(super) before: Option<Uuid>,
+    start: Start,
+}
+
+/// Where a page starts.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Start {
+    /// Behind the last entry of the page before, which has older ones; at the newest entry if there is none.
+    Before(Option<Uuid>),
+    /// Behind so many entries.
+    Behind(u32),
 }
 
 impl Page {
-    /// Parses the parameters of a page; `list` is a text that is unique to the list and its filters.
+    /// Parses the parameters of a page of a list whose newest entries come first; `list` is a text that is unique to the list and its filters.
     pub(super) fn parse(
         list: &str,
+        limit: Option<&str>,
+        token: Option<&str>,
+    ) -> Result<Self, PageError> {
+        Self::parse_from(list, Start::Before(None), limit, token)
+    }
+
+    /// The same of a list whose first page starts so.
+    pub(super) fn parse_from(
+        list: &str,
+        first: Start,
         limit: Option<&str>,
         token: Option<&str>,
     ) -> Result<Self, PageError> {
@@ -51,12 +72,32 @@ impl Page {
             return Err(PageError::Limit(limit));
         }
         let digest = files::sha256(list.as_bytes())[..8].to_owned();
-        let before = token.map(|token| parse_token(token, &digest)).transpose()?;
+        let start = match token.map(|token| parse_token(token, &digest)).transpose()? {
+            None => first,
+            Some(found) if mem::discriminant(&found) == mem::discriminant(&first) => found,
+            Some(_) => return Err(PageError::Token),
+        };
         Ok(Self {
             digest,
             limit,
-            before,
+            start,
         })
+    }
+
+    /// The last entry of the page before, if the page starts behind one.
+    pub(super) fn before(&self) -> Option<Uuid> {
+        match self.start {
+            Start::Before(before) => before,
+            Start::Behind(_) => None,
+        }
+    }
+
+    /// The number of entries that the page starts behind, if they are counted.
+    pub(super) fn skipped(&self) -> u32 {
+        match self.start {
+            Start::Before(_) => 0,
+            Start::Behind(skipped) => skipped,
+        }
     }
 
     /// Entries to query: one more than the page has, which shows whether there is a next page.
@@ -74,14 +115,20 @@ impl Page {
         let more = entries.len() > limit;
         entries.truncate(limit);
         let last = entries.last().filter(|_| more)?;
-        Some(format!("{}{}", self.digest, id(last).simple()))
+        let end = match self.start {
+            Start::Before(_) => id(last).simple().to_string(),
+            Start::Behind(skipped) => format!("{:08x}", skipped.saturating_add(self.limit)),
+        };
+        Some(format!("{}{end}", self.digest))
     }
 }
 
-fn parse_token(token: &str, digest: &str) -> Result<Uuid, PageError> {
-    token
-        .strip_prefix(digest)
-        .filter(|id| id.len() == 32)
-        .and_then(|id| Uuid::parse_str(id).ok())
-        .ok_or(PageError::Token)
+fn parse_token(token: &str, digest: &str) -> Result<Start, PageError> {
+    let end = token.strip_prefix(digest).ok_or(PageError::Token)?;
+    let start = match end.len() {
+        32 => Uuid::parse_str(end).ok().map(|id| Start::Before(Some(id))),
+        8 => u32::from_str_radix(end, 16).ok().map(Start::Behind),
+        _ => None,
+    };
+    start.ok_or(PageError::Token)
 }

@@ -64,6 +64,8 @@ pub(super) fn routes_and_document() -> (Router<App>, Document) {
         .routes(routes!(systems::list::systems))
         .routes(routes!(systems::show::system))
         .routes(routes!(jobs::feed::all_events))
+        .routes(routes!(jobs::list_labels::labels))
+        .routes(routes!(results::compare_histories::histories))
         .routes(routes!(operation::show_service::service))
         .routes(routes!(operation::serve_pages::dashboard))
         .routes(routes!(operation::serve_pages::docs))

@@ -64,10 +64,51 @@ pub struct Filter {
     pub sweep: Option<Uuid>,
     /// With this text in the name, a label's value or the id, whatever the case of ASCII letters.
     pub text: Option<String>,
-    /// Jobs older than this one.
+    /// Order of the jobs.
+    pub order: Order,
+    /// Jobs older than this one; only of the order by creation, newest first.
     pub before: Option<Uuid>,
+    /// Jobs that are left out at the beginning.
+    pub skipped: u32,
     /// Largest number of jobs.
     pub limit: u32,
+}
+
+/// Order of a list; among equals, and among those without a value, the newest first.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Order {
+    /// What the jobs are ordered by.
+    pub key: OrderKey,
+    /// Whether the largest value comes first; jobs without one come last in either direction.
+    pub descending: bool,
+}
+
+impl Default for Order {
+    fn default() -> Self {
+        Self {
+            key: OrderKey::Created,
+            descending: true,
+        }
+    }
+}
+
+/// What a list is ordered by.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum OrderKey {
+    /// Time of submission.
+    Created,
+    /// Name, whatever the case of ASCII letters.
+    Name,
+    /// Kind of system.
+    System,
+    /// Status, by its name.
+    Status,
+    /// Part of the cycles that is done.
+    Progress,
+    /// Deepest wear of both sides.
+    Wear,
+    /// Time from the first claim to the end, or to now.
+    Duration,
 }
 
 /// Effect of a cancel request.

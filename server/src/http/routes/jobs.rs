@@ -4,6 +4,7 @@ pub(crate) mod cancel;
 pub(crate) mod delete;
 pub(crate) mod feed;
 pub(crate) mod list;
+pub(crate) mod list_labels;
 pub(crate) mod plan;
 pub(crate) mod retry;
 pub(crate) mod show;

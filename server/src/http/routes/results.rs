@@ -1,5 +1,6 @@
 //! Results of a job.
 
+pub(crate) mod compare_histories;
 pub(crate) mod download_archive;
 pub(crate) mod download_file;
 pub(crate) mod list;

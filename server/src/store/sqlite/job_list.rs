@@ -1,13 +1,15 @@
 //! Lists of jobs.
 
 use api::job::{Job, JobOverview};
+use api::service::LabelInUse;
 use sqlx::sqlite::SqliteRow;
 use sqlx::{QueryBuilder, Sqlite, SqlitePool};
 use uuid::Uuid;
 
+use crate::clock::now_ms;
 use crate::store::sqlite::document::{document, select};
 use crate::store::sqlite::overview::{overview, select_overview};
-use crate::store::{Filter, Store, StoreError};
+use crate::store::{Filter, OrderKey, Store, StoreError};
 
 /// Longest time between the creation of a job and that of its id, ms: the wait for a commit, with a margin. Far fewer jobs are
 /// submitted in it than are stored.
@@ -33,6 +35,35 @@ impl Store {
         let rows = fetch(query, &self.readers).await?;
         rows.iter().map(|row| overview(&self.disk, row)).collect()
     }
+
+    /// Counts the jobs that pass a filter, whatever its page.
+    ///
+    /// # Errors
+    /// [`StoreError`] if the database fails.
+    pub async fn count(&self, filter: &Filter) -> Result<u64, StoreError> {
+        let mut query = QueryBuilder::new("SELECT count(*) FROM jobs");
+        push_conditions(&mut query, filter);
+        let count: i64 = query.build_query_scalar().fetch_one(&self.readers).await?;
+        Ok(u64::try_from(count).unwrap_or(0))
+    }
+
+    /// Labels and how many jobs have each: by key, the most frequent values first, at most so many.
+    ///
+    /// # Errors
+    /// [`StoreError`] if the database fails.
+    pub async fn labels(&self, most: u32) -> Result<Vec<LabelInUse>, StoreError> {
+        let sql = "SELECT key, value, count(*) FROM labels GROUP BY key, value ORDER BY key, 3 DESC, value LIMIT ?";
+        let rows: Vec<(String, String, i64)> = sqlx::query_as(sql)
+            .bind(most)
+            .fetch_all(&self.readers)
+            .await?;
+        let rows = rows.into_iter().map(|(key, value, jobs)| LabelInUse {
+            key,
+            value,
+            jobs: u64::try_from(jobs).unwrap_or(0),
+        });
+        Ok(rows.collect())
+    }
 }
 
 async fn fetch(
@@ -42,8 +73,47 @@ async fn fetch(
     query.build().fetch_all(readers).await
 }
 
-/// Completes a query of jobs by the conditions, the order and the limit of a filter.
+/// Completes a query of jobs by the conditions, the order and the limits of a filter.
 fn filtered(mut query: QueryBuilder<Sqlite>, filter: &Filter) -> QueryBuilder<Sqlite> {
+    push_conditions(&mut query, filter);
+    if let Some(before) = filter.before {
+        query.push(" AND id < ").push_bind(before.to_string());
+    }
+    query.push(" ORDER BY ");
+    push_order_key(&mut query, filter.order.key);
+    query.push(if filter.order.descending {
+        " DESC NULLS LAST"
+    } else {
+        " ASC NULLS LAST"
+    });
+    if filter.order.key != OrderKey::Created {
+        query.push(", id DESC");
+    }
+    query.push(" LIMIT ").push_bind(filter.limit);
+    query.push(" OFFSET ").push_bind(filter.skipped);
+    query
+}
+
+/// Appends what jobs are ordered by; ids are ordered by their time of creation.
+fn push_order_key(query: &mut QueryBuilder<Sqlite>, key: OrderKey) {
+    let expression = match key {
+        OrderKey::Created => "id",
+        OrderKey::Name => "lower(spec ->> '$.name')",
+        OrderKey::System => "system",
+        OrderKey::Status => "status",
+        OrderKey::Progress => "progress ->> '$.fraction'",
+        OrderKey::Wear => {
+            "max(summary ->> '$.receptacle.max_depth_mm', summary ->> '$.slider.max_depth_mm')"
+        }
+        OrderKey::Duration => {
+            query.push("coalesce(finished_at, ").push_bind(now_ms());
+            ") - started_at"
+        }
+    };
+    query.push(expression);
+}
+
+fn push_conditions(query: &mut QueryBuilder<Sqlite>, filter: &Filter) {
     query.push(" WHERE 1");
     if !filter.statuses.is_empty() {
         query.push(" AND status IN (");
@@ -92,13 +162,6 @@ fn filtered(mut query: QueryBuilder<Sqlite>, filter: &Filter) -> QueryBuilder<Sq
             .push_bind(text)
             .push(")))");
     }
-    if let Some(before) = filter.before {
-        query.push(" AND id < ").push_bind(before.to_string());
-    }
-    query
-        .push(" ORDER BY id DESC LIMIT ")
-        .push_bind(filter.limit);
-    query
 }
 
 /// The first id that can be created at a time, ms since 1970: ids begin with it (RFC 9562, UUID version 7), so that a time

@@ -79,7 +79,7 @@ async fn page(
     let page = Page::parse(kind.collection(), limit, token)?;
     let filter = BatchFilter {
         with_plan: kind.has_plan(),
-        before: page.before,
+        before: page.before(),
         limit: page.query_limit(),
     };
     let mut batches = app.store.batches(filter).await?;

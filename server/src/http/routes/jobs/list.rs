@@ -1,4 +1,4 @@
-//! `GET /v1/jobs`: jobs, newest first.
+//! `GET /v1/jobs`: jobs, newest first or in another order.
 
 use api::job::{JobList, ListedJob, Status};
 use api::spec::{StringEnum, SystemKind};
@@ -10,10 +10,10 @@ use uuid::Uuid;
 
 use crate::http::app::App;
 use crate::http::extract::Params;
-use crate::http::paging::Page;
+use crate::http::paging::{Page, Start};
 use crate::http::problem::{ProblemResponse, ProblemType, RouteError};
 use crate::spec;
-use crate::store::Filter;
+use crate::store::{Filter, Order, OrderKey};
 use crate::text::shortened;
 
 /// Maximum number of labels of a filter.
@@ -49,6 +49,12 @@ pub(crate) enum ListError {
     /// Not a view.
     #[error("`{0}` is not a view; views are short and full")]
     View(String),
+    /// Not an order.
+    #[error("`{0}` is not an order; orders are {1}, each with a - in front for the largest first")]
+    Order(String, String),
+    /// Neither true nor false.
+    #[error("`total` is true or false, not `{0}`")]
+    Total(String),
     /// Too many labels.
     #[error("a filter can have {MAX_LABELS} labels, not {0}")]
     Labels(usize),
@@ -62,8 +68,18 @@ impl RouteError for ListError {
 }
 
 /// Names of the parameters below.
-const PARAMETERS: &str =
-    "status, system, label, created_from, created_before, sweep, text, view, limit and page_token";
+const PARAMETERS: &str = "status, system, label, created_from, created_before, sweep, text, sort, total, view, limit and page_token";
+
+/// Orders by the names of the parameter `sort`.
+const ORDERS: [(&str, OrderKey); 7] = [
+    ("created", OrderKey::Created),
+    ("name", OrderKey::Name),
+    ("system", OrderKey::System),
+    ("status", OrderKey::Status),
+    ("progress", OrderKey::Progress),
+    ("wear", OrderKey::Wear),
+    ("duration", OrderKey::Duration),
+];
 
 /// Filters and page; a listed job passes all filters.
 #[derive(Debug, Default, IntoParams)]
@@ -88,6 +104,13 @@ pub(crate) struct ListQuery {
     /// In the name, the value of a label or the id, whatever the case of ASCII letters.
     #[param(min_length = 1, max_length = 200)]
     text: Option<String>,
+    /// What the jobs are ordered by, the smallest first, or with a `-` in front the largest: `created`, `name`, `system`, `status`, `progress`,
+    /// `wear` (the deeper one of both sides) or `duration`; `-created` by default. Jobs without a value come last. Only in the order by
+    /// creation a page begins exactly where the one before has ended: in the others, jobs that change between two pages can be listed twice or not at all.
+    #[param(pattern = "^-?(created|name|system|status|progress|wear|duration)$")]
+    sort: Option<String>,
+    /// Whether the jobs of all pages are counted.
+    total: Option<bool>,
     /// `short` (default), or `full` with specification, plan and summary.
     #[param(inline)]
     view: Option<View>,
@@ -114,6 +137,7 @@ pub(crate) enum View {
 struct ParsedQuery<'a> {
     filter: Filter,
     view: View,
+    total: bool,
     limit: Option<&'a str>,
     token: Option<&'a str>,
 }
@@ -135,11 +159,21 @@ pub(crate) async fn list(
     let ParsedQuery {
         mut filter,
         view,
+        total,
         limit,
         token,
     } = parse(&pairs)?;
-    let page = Page::parse(&format!("{filter:?}"), limit, token)?;
-    filter.before = page.before;
+    let first = if filter.order == Order::default() {
+        Start::Before(None)
+    } else {
+        Start::Behind(0)
+    };
+    let page = Page::parse_from(&format!("{filter:?}"), first, limit, token)?;
+    let total = match total {
+        true => Some(app.store.count(&filter).await?),
+        false => None,
+    };
+    (filter.before, filter.skipped) = (page.before(), page.skipped());
     filter.limit = page.query_limit();
     let mut jobs: Vec<ListedJob> = match view {
         View::Short => {
@@ -155,6 +189,7 @@ pub(crate) async fn list(
     Ok(Json(JobList {
         jobs,
         next_page_token,
+        total,
     }))
 }
 
@@ -178,6 +213,11 @@ fn parse(pairs: &[(String, String)]) -> Result<ParsedQuery<'_>, ListError> {
                 filter.sweep = Some(id.map_err(|_| ListError::Sweep(shortened(value)))?);
             }
             "text" => filter.text = Some(text(value)?),
+            "sort" => filter.order = order(value)?,
+            "total" => {
+                let total = value.parse();
+                query.total = total.map_err(|_| ListError::Total(shortened(value)))?;
+            }
             "view" => query.view = self::view(value)?,
             "limit" => query.limit = Some(value.as_str()),
             "page_token" => query.token = Some(value.as_str()),
@@ -196,6 +236,19 @@ fn text(value: &str) -> Result<String, ListError> {
         return Err(ListError::Text(length));
     }
     Ok(value.to_owned())
+}
+
+fn order(name: &str) -> Result<Order, ListError> {
+    let (key, descending) = match name.strip_prefix('-') {
+        Some(key) => (key, true),
+        None => (name, false),
+    };
+    let found = ORDERS.iter().find(|(known, _)| *known == key);
+    let Some(&(_, key)) = found else {
+        let names = ORDERS.map(|(known, _)| known).join(", ");
+        return Err(ListError::Order(shortened(name), names));
+    };
+    Ok(Order { key, descending })
 }
 
 fn view(name: &str) -> Result<View, ListError> {

@@ -137,3 +137,70 @@ async fn invalid_filters_are_problems() {
         );
     }
 }
+
+async fn names(service: &Service, query: &str) -> Vec<String> {
+    let (status, _, page) = service.get(&format!("/v1/jobs?{query}")).await;
+    assert_eq!(status, 200, "{query}: {page}");
+    let jobs = page["jobs"].as_array().expect("jobs").iter();
+    jobs.map(|job| job["name"].as_str().unwrap_or("-").to_owned())
+        .collect()
+}
+
+#[tokio::test]
+async fn lists_have_the_order_that_is_asked_for() {
+    let service = Service::new().await;
+    service.with_results().await;
+    for (name, kind) in [("beta", "zif"), ("Alpha", "dimm"), ("gamma", "sd_card")] {
+        let spec = json!({"name": name, "system": {"kind": kind}});
+        service.queued(&spec.to_string()).await;
+    }
+    let of = async |query: &str| names(&service, query).await.join(" ");
+    assert_eq!(of("").await, "gamma Alpha beta -");
+    assert_eq!(of("sort=-created").await, "gamma Alpha beta -");
+    assert_eq!(of("sort=created").await, "- beta Alpha gamma");
+    // Those without a name come last in either direction.
+    assert_eq!(of("sort=name").await, "Alpha beta gamma -");
+    assert_eq!(of("sort=-name").await, "gamma beta Alpha -");
+    assert_eq!(of("sort=system").await, "Alpha - gamma beta");
+    assert_eq!(of("sort=-status").await, "- gamma Alpha beta");
+    assert_eq!(of("sort=-duration").await, "- gamma Alpha beta");
+    assert_eq!(of("sort=wear&system=zif").await, "beta");
+    for query in ["sort=depth", "sort=", "sort=name&sort=name", "total=1"] {
+        let (status, ..) = service.get(&format!("/v1/jobs?{query}")).await;
+        assert_eq!(status, 400, "{query}");
+    }
+}
+
+#[tokio::test]
+async fn all_pages_of_any_order_hold_every_job_once_and_their_number_is_counted() {
+    let service = Service::new().await;
+    for name in ["e", "b", "d", "a", "c"] {
+        let spec = json!({"name": name, "system": {"kind": "dimm"}, "labels": {"lot": name}});
+        service.queued(&spec.to_string()).await;
+    }
+    for (sort, expected) in [("name", "a b c d e"), ("-created", "c a d b e")] {
+        let mut seen = Vec::new();
+        let mut query = format!("sort={sort}&limit=2&total=true");
+        loop {
+            let (_, _, page) = service.get(&format!("/v1/jobs?{query}")).await;
+            assert_eq!(page["total"], 5);
+            let jobs = page["jobs"].as_array().expect("jobs").iter();
+            seen.extend(jobs.filter_map(|job| job["name"].as_str().map(str::to_owned)));
+            let Some(token) = page["next_page_token"].as_str() else {
+                break;
+            };
+            query = format!("sort={sort}&limit=2&total=true&page_token={token}");
+        }
+        assert_eq!(seen.join(" "), expected);
+    }
+    let (_, _, page) = service.get("/v1/jobs?label=lot:b&total=true&limit=1").await;
+    assert_eq!(page["total"], 1);
+    let (_, _, page) = service.get("/v1/jobs?limit=1").await;
+    assert!(page.get("total").is_none());
+    // A token belongs to its order.
+    let token = page["next_page_token"].as_str().expect("a token");
+    let (status, ..) = service
+        .get(&format!("/v1/jobs?limit=1&sort=name&page_token={token}"))
+        .await;
+    assert_eq!(status, 400);
+}
