@@ -145,6 +145,9 @@ pub struct KeyFigures {
     pub peak_pressure_mpa: f64,
     /// Estimated relative error of worn depth and scar width.
     pub estimated_relative_error: f64,
+    /// Cycles after which the first criterion of life was reached; null if none was.
+    #[serde(default)]
+    pub life_cycles: Option<f64>,
 }
 
 /// A job in a list.

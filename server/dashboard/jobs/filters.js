@@ -5,6 +5,7 @@ import { fetch_json } from "../parts/client.js";
 import { element } from "../parts/element.js";
 import { words } from "../parts/format.js";
 import { STATUSES } from "../parts/status.js";
+import { LabelFilter } from "./labels.js";
 
 /** Pause after a key before a text is searched for, ms. */
 const TYPING_MS = 250;
@@ -16,7 +17,7 @@ const TYPING_MS = 250;
  * @returns {URLSearchParams}
  */
 export function query_of(values, limit) {
-  const query = new URLSearchParams({ limit: String(limit) });
+  const query = new URLSearchParams({ limit: String(limit), total: "true" });
   for (const name of ["status", "system", "text", "sort", "sweep"]) {
     const value = values.get(name);
     if (value) query.set(name, value);
@@ -37,6 +38,7 @@ export function filter_bar(signal) {
     return element("label", { class: "chip" }, box, ` ${status}`);
   });
   const system = element("select", { "aria-label": "system", change: apply }, element("option", { value: "" }, "all systems"));
+  const labels = new LabelFilter(signal);
   const text = element("input", { type: "search", placeholder: "name, label or id", "aria-label": "search" });
   /** @type {ReturnType<typeof setTimeout> | undefined} */
   let typing;
@@ -45,7 +47,7 @@ export function filter_bar(signal) {
     typing = setTimeout(apply, TYPING_MS);
   });
   const bar = element("form", { class: "filters", role: "search", submit: (/** @type {Event} */ event) => event.preventDefault() },
-    text, system, element("fieldset", {}, element("legend", { class: "hidden" }, "status"), ...boxes));
+    text, system, labels.node, element("fieldset", {}, element("legend", { class: "hidden" }, "status"), ...boxes));
 
   function apply() {
     const chosen = [...bar.querySelectorAll("input:checked")].map((box) => /** @type {HTMLInputElement} */ (box).value);
@@ -59,6 +61,7 @@ export function filter_bar(signal) {
   function follow_address() {
     const { page, values } = address();
     if (page !== "jobs") return;
+    labels.update();
     const chosen = (values.get("status") ?? "").split(",");
     for (const box of bar.querySelectorAll("input[type=checkbox]"))
       /** @type {HTMLInputElement} */ (box).checked = chosen.includes(/** @type {HTMLInputElement} */ (box).value);

@@ -12,34 +12,53 @@ export function address() {
   return { page: page || "jobs", id: id || null, values: new URLSearchParams(query) };
 }
 
+/** Values by name; several of one name are a list, null is none.
+ * @typedef {Record<string, string | string[] | null>} Values */
+
 /**
  * The link of a page.
  * @param {string} page
  * @param {string | null} [id]
- * @param {Record<string, string | null>} [values]
+ * @param {Values} [values]
  * @returns {string}
  */
 export function link(page, id = null, values = {}) {
-  const present = Object.entries(values).filter(([, value]) => value != null && value !== "");
-  const query = new URLSearchParams(/** @type {[string, string][]} */ (present)).toString();
+  const query = with_changes(new URLSearchParams(), values).toString();
   return `#/${page}${id ? `/${id}` : ""}${query ? `?${query}` : ""}`;
+}
+
+/**
+ * The link of the present page with other values.
+ * @param {Values} changes
+ * @returns {string}
+ */
+export function changed(changes) {
+  const { page, id, values } = address();
+  const query = with_changes(values, changes).toString();
+  return `${link(page, id)}${query ? `?${query}` : ""}`;
 }
 
 /**
  * Changes values of the present address: as a new step of the browser's history, or in place where a value follows a slider.
  * Null removes a value.
- * @param {Record<string, string | null>} changes
+ * @param {Values} changes
  * @param {{in_place?: boolean}} [how]
  */
 export function change(changes, { in_place = false } = {}) {
-  const { page, id, values } = address();
-  for (const [name, value] of Object.entries(changes)) {
-    if (value == null || value === "") values.delete(name);
-    else values.set(name, value);
+  if (in_place) history.replaceState(null, "", changed(changes));
+  else location.hash = changed(changes);
+}
+
+/**
+ * @param {URLSearchParams} values
+ * @param {Values} changes
+ */
+function with_changes(values, changes) {
+  for (const [name, change] of Object.entries(changes)) {
+    values.delete(name);
+    for (const value of [change].flat()) if (value != null && value !== "") values.append(name, value);
   }
-  const hash = link(page, id, Object.fromEntries(values));
-  if (in_place) history.replaceState(null, "", hash);
-  else location.hash = hash;
+  return values;
 }
 
 /** Values of the present address that follow a choice in place, such as an axis or the place of a slider. */

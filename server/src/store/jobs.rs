@@ -107,6 +107,8 @@ pub enum OrderKey {
     Progress,
     /// Deepest wear of both sides.
     Wear,
+    /// Cycles until the first criterion of life was reached.
+    Life,
     /// Time from the first claim to the end, or to now.
     Duration,
 }

@@ -1,5 +1,6 @@
 //! The list: live rows, filters, selection, keyboard.
 
+use serde_json::json;
 use tests::{Browser, Server};
 
 use super::{done, fits_a_phone, is_sound, long, short, submitted};
@@ -62,6 +63,63 @@ async fn filters_are_in_the_address_and_the_back_button_undoes_them() {
         .await;
     browser.open("/#/jobs").await;
     browser.wait_for(&shown(&second)).await;
+    is_sound(&browser).await;
+    browser.close().await;
+}
+
+#[tokio::test]
+#[cfg_attr(
+    not(has_chromium),
+    ignore = "needs the programs chromium and chromedriver"
+)]
+async fn the_list_is_ordered_by_its_head_and_narrowed_by_labels() {
+    let folder = tempfile::tempdir().expect("a folder can be made");
+    let server = Server::start(folder.path());
+    let labelled = |name: &str, cycles: u32, lot: &str| {
+        let mut spec = short(name);
+        (spec["cycles"], spec["labels"]) = (json!(cycles), json!({"lot": lot}));
+        spec["output"] = json!({});
+        spec
+    };
+    let deep = done(&server, &labelled("deep", 60, "7")).await;
+    let flat = done(&server, &labelled("flat", 20, "8")).await;
+    let browser = Browser::start(&server.base, folder.path()).await;
+    browser.open("/").await;
+    let first = |id: &str| format!("document.querySelector('tbody tr')?.dataset.job === '{id}'");
+    browser.wait_for(&first(&flat)).await;
+    // Each job has the curve of its wear.
+    browser
+        .wait_for("document.querySelectorAll('.sparkline polyline').length === 2")
+        .await;
+    let by_wear = "th a[title='order by deepest wear']";
+    browser.click(by_wear).await;
+    browser.wait_for(&first(&deep)).await;
+    browser
+        .wait_for("document.querySelector('th[aria-sort=descending]').textContent.includes('deepest wear')")
+        .await;
+    browser.click(by_wear).await;
+    browser.wait_for(&first(&flat)).await;
+    browser
+        .click("select[aria-label=label] option[value='lot:7']")
+        .await;
+    browser.wait_for(&first(&deep)).await;
+    browser
+        .wait_for("document.querySelectorAll('tbody tr').length === 1")
+        .await;
+    browser
+        .wait_for("location.hash.includes('label=lot%3A7')")
+        .await;
+    browser.click(".chosen button").await;
+    browser
+        .wait_for("document.querySelectorAll('tbody tr').length === 2")
+        .await;
+    // A new job is listed where its order puts it.
+    let deepest = done(&server, &labelled("deepest", 100, "7")).await;
+    browser
+        .wait_for(&format!(
+            "[...document.querySelectorAll('tbody tr')].at(-1).dataset.job === '{deepest}'"
+        ))
+        .await;
     is_sound(&browser).await;
     browser.close().await;
 }

@@ -8,7 +8,7 @@ use uuid::Uuid;
 
 use crate::clock::now_ms;
 use crate::store::sqlite::document::{document, select};
-use crate::store::sqlite::overview::{overview, select_overview};
+use crate::store::sqlite::overview::{LIFE_CYCLES, overview, select_overview};
 use crate::store::{Filter, OrderKey, Store, StoreError};
 
 /// Longest time between the creation of a job and that of its id, ms: the wait for a commit, with a margin. Far fewer jobs are
@@ -105,6 +105,7 @@ fn push_order_key(query: &mut QueryBuilder<Sqlite>, key: OrderKey) {
         OrderKey::Wear => {
             "max(summary ->> '$.receptacle.max_depth_mm', summary ->> '$.slider.max_depth_mm')"
         }
+        OrderKey::Life => LIFE_CYCLES,
         OrderKey::Duration => {
             query.push("coalesce(finished_at, ").push_bind(now_ms());
             ") - started_at"

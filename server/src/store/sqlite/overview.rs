@@ -9,15 +9,18 @@ use crate::store::sqlite::document::{deadline, links, status_and_reason, time, t
 use crate::store::sqlite::queries::{self, outcome, parsed};
 use crate::store::{DataDisk, StoreError};
 
+/// Cycles after which the first criterion of life was reached.
+pub(super) const LIFE_CYCLES: &str = "(SELECT min(value ->> '$.cycles') FROM json_each(summary, '$.life') WHERE value ->> '$.status' = 'reached')";
+
 /// Starts a query of short documents. `->` gives the JSON text of a value, whose digits are those that were stored.
 pub(super) fn select_overview() -> QueryBuilder<Sqlite> {
-    QueryBuilder::new(
+    QueryBuilder::new(format!(
         "SELECT id, system, spec -> '$.name' AS name, spec -> '$.labels' AS labels, status, status_reason, outcome, \
          created_at, started_at, finished_at, priority, deadline_at, progress, attempts, \
          summary -> '$.receptacle.max_depth_mm' AS receptacle, summary -> '$.slider.max_depth_mm' AS slider, \
          summary -> '$.peak_pressure_mpa' AS pressure, \
-         summary -> '$.accuracy.estimated_relative_error' AS error FROM jobs",
-    )
+         summary -> '$.accuracy.estimated_relative_error' AS error, {LIFE_CYCLES} AS life FROM jobs"
+    ))
 }
 
 /// Returns the short document of a selected row.
@@ -67,5 +70,6 @@ fn key_figures(id: Uuid, row: &SqliteRow) -> Result<Option<KeyFigures>, StoreErr
         slider_max_depth_mm: slider,
         peak_pressure_mpa: pressure,
         estimated_relative_error: error,
+        life_cycles: row.try_get("life")?,
     }))
 }

@@ -71,13 +71,14 @@ impl RouteError for ListError {
 const PARAMETERS: &str = "status, system, label, created_from, created_before, sweep, text, sort, total, view, limit and page_token";
 
 /// Orders by the names of the parameter `sort`.
-const ORDERS: [(&str, OrderKey); 7] = [
+const ORDERS: [(&str, OrderKey); 8] = [
     ("created", OrderKey::Created),
     ("name", OrderKey::Name),
     ("system", OrderKey::System),
     ("status", OrderKey::Status),
     ("progress", OrderKey::Progress),
     ("wear", OrderKey::Wear),
+    ("life", OrderKey::Life),
     ("duration", OrderKey::Duration),
 ];
 
@@ -105,9 +106,9 @@ pub(crate) struct ListQuery {
     #[param(min_length = 1, max_length = 200)]
     text: Option<String>,
     /// What the jobs are ordered by, the smallest first, or with a `-` in front the largest: `created`, `name`, `system`, `status`, `progress`,
-    /// `wear` (the deeper one of both sides) or `duration`; `-created` by default. Jobs without a value come last. Only in the order by
+    /// `wear` (the deeper one of both sides), `life` (cycles until the first criterion) or `duration`; `-created` by default. Jobs without a value come last. Only in the order by
     /// creation a page begins exactly where the one before has ended: in the others, jobs that change between two pages can be listed twice or not at all.
-    #[param(pattern = "^-?(created|name|system|status|progress|wear|duration)$")]
+    #[param(pattern = "^-?(created|name|system|status|progress|wear|life|duration)$")]
     sort: Option<String>,
     /// Whether the jobs of all pages are counted.
     total: Option<bool>,
