@@ -19,7 +19,7 @@ pub(super) fn select_overview() -> QueryBuilder<Sqlite> {
          created_at, started_at, finished_at, priority, deadline_at, progress, attempts, \
          summary -> '$.receptacle.max_depth_mm' AS receptacle, summary -> '$.slider.max_depth_mm' AS slider, \
          summary -> '$.peak_pressure_mpa' AS pressure, \
-         summary -> '$.accuracy.estimated_relative_error' AS error, {LIFE_CYCLES} AS life FROM jobs"
+         summary -> '$.accuracy.estimated_relative_error' AS error, {LIFE_CYCLES} AS life, revision FROM jobs"
     ))
 }
 

@@ -1,6 +1,5 @@
 //! Changes of all jobs in their order.
 
-use api::job::JobOverview;
 use sqlx::Row;
 
 use crate::store::sqlite::overview::{overview, select_overview};
@@ -8,7 +7,7 @@ use crate::store::sqlite::queries;
 use crate::store::{Changed, Store, StoreError};
 
 /// Changes that are read at once.
-const MOST: i64 = 200;
+const MOST: u16 = 200;
 /// Revisions whose deletions are kept: as in the migration.
 const KEPT: i64 = 1_000_000;
 
@@ -38,32 +37,29 @@ impl Store {
     /// # Errors
     /// [`StoreError`] if the database fails.
     pub async fn changed_after(&self, revision: i64) -> Result<Vec<(i64, Changed)>, StoreError> {
-        let rows = sqlx::query(
-            "SELECT revision, id, 0 AS deleted FROM jobs WHERE revision > ?1 \
-             UNION ALL SELECT revision, id, 1 FROM deleted_jobs WHERE revision > ?1 \
-             ORDER BY revision LIMIT ?2",
-        )
-        .bind(revision)
-        .bind(MOST)
-        .fetch_all(&self.readers)
-        .await?;
-        let mut changes = Vec::with_capacity(rows.len());
-        for row in &rows {
-            let (revision, id) = (row.try_get("revision")?, queries::id(row, "id")?);
-            if row.try_get("deleted")? {
-                changes.push((revision, Changed::Deleted(id)));
-            } else if let Some(job) = self.overview(id).await? {
-                changes.push((revision, Changed::Job(Box::new(job))));
-            }
-        }
-        Ok(changes)
-    }
-
-    /// The short document of a job as it is now.
-    async fn overview(&self, id: uuid::Uuid) -> Result<Option<JobOverview>, StoreError> {
         let mut query = select_overview();
-        query.push(" WHERE id = ").push_bind(id.to_string());
-        let row = query.build().fetch_optional(&self.readers).await?;
-        row.map(|row| overview(&self.disk, &row)).transpose()
+        query
+            .push(" WHERE revision > ")
+            .push_bind(revision)
+            .push(" ORDER BY revision LIMIT ")
+            .push_bind(MOST);
+        let rows = query.build().fetch_all(&self.readers).await?;
+        let deleted = sqlx::query(
+            "SELECT revision, id FROM deleted_jobs WHERE revision > ? ORDER BY revision LIMIT ?",
+        );
+        let deleted = deleted.bind(revision).bind(MOST);
+        let deleted = deleted.fetch_all(&self.readers).await?;
+        let mut changes = Vec::with_capacity(rows.len() + deleted.len());
+        for row in &rows {
+            let job = Changed::Job(Box::new(overview(&self.disk, row)?));
+            changes.push((row.try_get("revision")?, job));
+        }
+        for row in &deleted {
+            let id = Changed::Deleted(queries::id(row, "id")?);
+            changes.push((row.try_get("revision")?, id));
+        }
+        changes.sort_unstable_by_key(|(revision, _)| *revision);
+        changes.truncate(usize::from(MOST));
+        Ok(changes)
     }
 }
