@@ -4,21 +4,28 @@ import { Chart } from "../charts/chart.js";
 import { choices, link } from "../parts/address.js";
 import { fetch_json } from "../parts/client.js";
 import { card, element, table } from "../parts/element.js";
+import { follow } from "../parts/feed.js";
 import { count, length, number, percent } from "../parts/format.js";
+import { columns_of } from "../parts/histories.js";
 import { badge } from "../parts/status.js";
+import { throttled } from "../parts/throttled.js";
 import { differing } from "./fields.js";
 
 const MOST_JOBS = 10;
 const MOST_POINTS = 1000;
 const UM = 1e3;
 
-/** @type {[string, string, string, (history: any) => (number | null)[]][]} */
+/** Least time between loads while jobs run, ms. */
+const RELOAD_MS = 3000;
+
+/** Name and title of each chart, its axis, its column and the factor to the unit of the axis. @type {[string, string, string, string, number][]} */
 const CHARTS = [
-  ["receptacle", "Deepest wear of the receptacle", "worn depth, µm", (history) => history.receptacle.max_depth_mm.map((/** @type {number} */ depth) => UM * depth)],
-  ["slider", "Deepest wear of the slider", "worn depth, µm", (history) => history.slider.max_depth_mm.map((/** @type {number} */ depth) => UM * depth)],
-  ["pressure", "Peak pressure", "pressure, MPa", (history) => history.peak_pressure_mpa],
-  ["half-width", "Half-width of the contact", "half-width, µm", (history) => history.contact_half_width_mm.map((/** @type {number} */ width) => UM * width)],
+  ["receptacle", "Deepest wear of the receptacle", "worn depth, µm", "receptacle_max_depth_mm", UM],
+  ["slider", "Deepest wear of the slider", "worn depth, µm", "slider_max_depth_mm", UM],
+  ["pressure", "Peak pressure", "pressure, MPa", "peak_pressure_mpa", 1],
+  ["half-width", "Half-width of the contact", "half-width, µm", "contact_half_width_mm", UM],
 ];
+const COLUMNS = ["cycle", ...CHARTS.map(([, , , column]) => column)];
 
 /** @type {import("../main.js").Page} */
 export async function compare_page(content, { values }, signal) {
@@ -29,21 +36,28 @@ export async function compare_page(content, { values }, signal) {
     content.append(element("p", {}, "Select two to ten jobs in the ", element("a", { href: link("jobs") }, "list"), " and compare them."));
     return;
   }
-  const jobs = await Promise.all(ids.map((id) => fetch_json(`/v1/jobs/${id}`, { signal })));
-  const names = distinct_names(jobs);
-  const charts = element("div", { class: "charts" });
-  content.append(figures(jobs, names), charts, differences(jobs, names));
-  const histories = await Promise.all(jobs.map((job) => fetch_json(`${job.links.wear_history}?max_points=${MOST_POINTS}`, { signal })));
-  const drawn = CHARTS.map((content) => ({ content, chart: new Chart({ name: content[0], signal, state: choices }) }));
-  charts.append(...drawn.map(({ chart }) => chart.node));
-  for (const { content: [, title, y, of], chart } of drawn) {
-    await chart.show({
-      title,
-      x: { title: "cycle", can_log: true },
-      y: { title: y, can_log: true },
-      series: histories.map((history, index) => ({ name: names[index], x: history.cycle, y: of(history), colour: index })),
-    });
-  }
+  const [results, specifications] = [element("div"), element("div")];
+  const charts = CHARTS.map((drawn) => ({ drawn, chart: new Chart({ name: drawn[0], signal, state: choices }) }));
+  content.append(results, element("div", { class: "charts" }, charts.map(({ chart }) => chart.node)), specifications);
+  const show = async () => {
+    const jobs = await Promise.all(ids.map((id) => fetch_json(`/v1/jobs/${id}`, { signal })));
+    const names = distinct_names(jobs);
+    results.replaceChildren(figures(jobs, names));
+    specifications.replaceChildren(differences(jobs, names));
+    const histories = await columns_of(ids, COLUMNS, MOST_POINTS, signal);
+    for (const { drawn: [, title, y, column, factor], chart } of charts) {
+      const curve = (/** @type {string} */ id) => ({ x: histories.get(id)?.cycle ?? [], y: (histories.get(id)?.[column] ?? []).map((value) => factor * value) });
+      await chart.show({
+        title,
+        x: { title: "cycle", can_log: true },
+        y: { title: y, can_log: true },
+        series: ids.map((id, index) => ({ name: names[index], ...curve(id), colour: index })),
+      });
+    }
+  };
+  await show();
+  const reload = throttled(show, RELOAD_MS, signal);
+  follow({ changed: ({ id }) => ids.includes(id) && reload(), deleted: () => {}, reset: reload }, signal);
   return () => {};
 }
 
