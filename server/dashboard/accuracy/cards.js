@@ -15,7 +15,7 @@ const TARGETS = [0.1, 0.05, 0.02, 0.01, 0.005, 0.002, 0.001];
  * @param {string[]} left_out
  * @returns {HTMLElement}
  */
-export function reference_card({ method, max_depth_mm, scar_half_width_mm, peak_pressure_mpa, worn_area_mm2, uncertainty }, left_out) {
+export function reference_card({ method, max_depth_mm, scar_half_width_mm, peak_pressure_mpa, worn_area_mm2, uncertainty, orders }, left_out) {
   const of = (/** @type {string} */ value, /** @type {number} */ share) => `${value} ± ${percent(share)}`;
   return card("Reference", element("p", {}, method),
     definitions([
@@ -24,7 +24,9 @@ export function reference_card({ method, max_depth_mm, scar_half_width_mm, peak_
       ["peak pressure at the end", of(`${number(peak_pressure_mpa)} MPa`, uncertainty.peak_pressure)],
       ["worn area", of(`${number(worn_area_mm2, 1e6)} µm²`, uncertainty.area)],
     ]),
-    element("p", { class: "muted small" }, "Its uncertainty is the size of all corrections that lead from the finest run to it."),
+    element("p", { class: "muted small" }, orders.length > 0
+      ? "Its uncertainty is the size of all corrections that lead from the finest run to it."
+      : "Its uncertainty is that tolerance, until the runs of the grid lead to a better one."),
     left_out.length > 0 && element("details", {}, element("summary", {}, left_out.length === 1 ? "one run left out" : `${left_out.length} runs left out`), element("ul", {}, ...left_out.map((text) => element("li", {}, text)))));
 }
 
@@ -40,7 +42,7 @@ export function orders_card(orders) {
     rows.length
       ? table({ head: ["setting", "levels, finest first", ...ERRORS.slice(1).map(([, title]) => title)], rows, numbers: [2, 3, 4, 5] })
       : element("p", {}, "They need the runs of the grid at three levels of a setting."),
-    element("p", { class: "muted small" }, "Halving a setting of order p divides its error by 2 to the power p; – where three levels do not approach a limit from one side."));
+    element("p", { class: "muted small" }, "Halving the step of a setting of order p divides its error by 2 to the power p; – where three levels do not approach a limit from one side."));
 }
 
 /**

@@ -50,7 +50,23 @@ export function error_of(errors, name) {
 }
 
 /**
- * The runs on the Pareto front, cheapest first.
+ * The runs that have a smaller error than every cheaper one, cheapest first.
+ * @param {Run[]} runs
+ * @param {(run: Run) => number} cost
+ * @param {(run: Run) => number} error errors that cannot be told apart must be equal
+ * @returns {Run[]}
+ */
+export function front_of(runs, cost, error) {
+  let best = Infinity;
+  return [...runs].sort((a, b) => cost(a) - cost(b)).filter((run) => {
+    const is_better = error(run) < best;
+    best = Math.min(best, error(run));
+    return is_better;
+  });
+}
+
+/**
+ * The runs on the Pareto front of the service, in depth and width over processor time, cheapest first.
  * @param {Run[]} runs
  * @returns {Run[]}
  */

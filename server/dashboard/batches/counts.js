@@ -1,7 +1,7 @@
 // What the numbers of a batch's jobs by status say about it.
 
 import { element } from "../parts/element.js";
-import { count, percent } from "../parts/format.js";
+import { count } from "../parts/format.js";
 import { STATUSES, has_ended, progress_bar } from "../parts/status.js";
 
 /** @typedef {Record<string, number>} Counts number of jobs by status */
@@ -73,5 +73,5 @@ export function counts_line(counts) {
  */
 export function progress_line(counts, name) {
   const ended = sum(counts, (status) => has_ended({ status }));
-  return element("span", { class: "line" }, progress_bar(progress(counts), `progress of ${name}`), element("span", { class: "muted" }, `${percent(progress(counts))}, ${count(ended)} of ${count(sum(counts))}`));
+  return element("span", { class: "line" }, progress_bar(progress(counts), `progress of ${name}`), element("span", { class: "muted" }, `${count(ended)} of ${count(sum(counts))}`));
 }
