@@ -87,6 +87,7 @@ export class Submission {
   }
 
   #show() {
+    this.#said.textContent = "";
     const form = { job: null, sweep: this.#sweep, accuracy: this.#accuracy }[this.kind];
     for (const one of [this.#sweep, this.#accuracy]) one.node.hidden = one !== form;
     if (form && this.#name_row.parentElement !== form.node) form.node.querySelector("h2")?.after(this.#name_row);

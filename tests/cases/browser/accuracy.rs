@@ -43,7 +43,9 @@ async fn an_accuracy_study_is_shown_while_it_runs_and_its_points_open_jobs() {
     );
     let filled = browser.client.execute(&fill, Vec::new()).await;
     filled.expect("the form can be filled");
-    browser.shows("[aria-label=Expected]", "100").await;
+    browser
+        .wait_for("document.getElementById('field-cycles').value === '100'")
+        .await;
     browser.click("button.primary").await;
     browser.shows("h1", "short fretting test").await;
     let id = browser
@@ -75,7 +77,8 @@ async fn an_accuracy_study_is_shown_while_it_runs_and_its_points_open_jobs() {
         "document.querySelector('[data-chart=work-precision] .plot').data.filter((curve) => curve.customdata).flatMap((curve) => [...curve.x]).length === {jobs}"
     );
     browser.wait_for(&drawn).await;
-    let log = "document.querySelector('[data-chart=work-precision] .plot').layout.xaxis.type === 'log'";
+    let log =
+        "document.querySelector('[data-chart=work-precision] .plot').layout.xaxis.type === 'log'";
     browser.wait_for(log).await;
     browser
         .shows("[aria-label=Reference]", "deepest wear")

@@ -133,9 +133,7 @@ async fn a_listed_sweep_is_followed_cancelled_cloned_and_deleted() {
     browser.click(&format!("{row} button")).await;
     browser.shows(&row, "all 3 cancelled").await;
 
-    browser
-        .open(&format!("/#/study?as=sweep&batch={id}"))
-        .await;
+    browser.open(&format!("/#/study?as=sweep&batch={id}")).await;
     browser.shows("button.primary", "Submit 3 jobs").await;
     let values = "document.querySelector('.swept input.values').value === '0.3, 0.4, 0.5'";
     browser.wait_for(values).await;
