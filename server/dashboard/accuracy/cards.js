@@ -46,7 +46,7 @@ export function orders_card(orders) {
 }
 
 /**
- * Which tolerances the runs at tolerances have kept, as far as the reference can tell.
+ * Which tolerances the runs at tolerances have kept. The reference is uncertain by the bound, and so are the errors.
  * @param {import("./runs.js").Run[]} runs
  * @param {number} bound uncertainty of the reference
  * @returns {HTMLElement | null}
@@ -57,8 +57,8 @@ function kept_tolerances(runs, bound) {
   if (compared.length === 0) return null;
   return definitions([
     ["tolerances kept", named(({ tolerance, error }) => error <= tolerance)],
-    ["kept or below what the reference can tell", named(({ tolerance, error }) => error > tolerance && error <= bound)],
-    ["tolerances not kept", named(({ tolerance, error }) => error > Math.max(tolerance, bound))],
+    ["not told by this reference", named(({ tolerance, error }) => error > tolerance && error <= tolerance + bound)],
+    ["tolerances not kept", named(({ tolerance, error }) => error > tolerance + bound)],
   ]);
 }
 
@@ -80,7 +80,7 @@ export function choice_card({ reference }, runs) {
     duration(run.compared.cpu_s), element("a", { href: link("study", null, { from: run.id }), "aria-label": `clone the run for ${percent(target)}` }, "clone"),
   ]);
   return card("What to choose", rows.length
-    ? table({ head: ["at most", "cheapest run", "its error", "time", ""], rows, numbers: [0, 2, 3] })
+    ? table({ head: ["error at most", "cheapest run", "its error", "time", ""], rows, numbers: [0, 2, 3] })
     : element("p", {}, "No run has an error that can be told from the uncertainty of the reference, or none of 10 % or less."),
   kept_tolerances(runs, bound),
   element("p", { class: "muted small" }, `Errors of depth and width, and processor time, of the runs on the Pareto front. Errors below ${percent(bound)}, the uncertainty of the reference, cannot be told apart.`));
