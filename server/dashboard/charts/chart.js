@@ -5,6 +5,9 @@ import { element } from "../parts/element.js";
 import { plotly } from "./library.js";
 import { axis, colour, colours, layout, on_theme } from "./theme.js";
 
+/** Ticks that a logarithmic x axis has about: more of its labels would overlap on narrow screens. */
+const LOG_TICKS = 4;
+
 /**
  * @typedef {object} Series
  * @property {string} name
@@ -113,7 +116,7 @@ export class Chart {
     await library.react(this.#plot, figure.series.map((series, index) => trace(series, palette[(series.colour ?? index) % palette.length])), {
       ...style,
       uirevision: `${figure.x.title}, ${figure.y.title}`,
-      xaxis: { ...axis(figure.x.title, this.#is_log("x")) },
+      xaxis: { ...axis(figure.x.title, this.#is_log("x")), nticks: this.#is_log("x") ? LOG_TICKS : undefined },
       yaxis: { ...axis(figure.y.title, this.#is_log("y")), autorange: figure.y.reversed ? "reversed" : true },
       showlegend: figure.series.length > 1,
       shapes: lines.map(({ y }) => ({ type: "line", xref: "paper", x0: 0, x1: 1, y0: y, y1: y, line: { color: palette[4], width: 1, dash: "dash" } })),
