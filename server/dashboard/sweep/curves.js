@@ -3,7 +3,7 @@
 import { link } from "../parts/address.js";
 import { number, words } from "../parts/format.js";
 import { as_text, heading, quantity as field } from "../parts/quantity.js";
-import { is_same, values_in_words } from "./points.js";
+import { values_in_words } from "./points.js";
 import { title_of, value_of } from "./quantities.js";
 
 /**
@@ -73,8 +73,9 @@ export function curves(points, x, others, quantity) {
  * @returns {import("../charts/heatmap.js").Cells}
  */
 export function cells(points, x, y, quantity) {
-  const at = (/** @type {any} */ b) => x.values.map((a) => points.find(({ overrides }) => is_same(overrides[x.pointer], a) && is_same(overrides[y.pointer], b)));
-  const found = y.values.map(at);
+  const key = (/** @type {any} */ a, /** @type {any} */ b) => JSON.stringify([a, b]);
+  const by_values = new Map(points.map((point) => [key(point.overrides[x.pointer], point.overrides[y.pointer]), point]));
+  const found = y.values.map((b) => x.values.map((a) => by_values.get(key(a, b))));
   return {
     title: `${capital(quantity.title)} over ${name_of(x.pointer)} and ${name_of(y.pointer)}`,
     x: { title: heading(x.pointer), values: x.values.map(as_text) },

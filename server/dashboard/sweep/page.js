@@ -12,8 +12,9 @@ import { fields_of, load_points } from "./points.js";
 import { PointsTable } from "./table.js";
 import { View } from "./view.js";
 
-/** Least time between loads of the table of a running sweep, ms. */
+/** Least time between loads of the table of a running sweep, ms: in all, and for each of its jobs. */
 const RELOAD_MS = 700;
+const RELOAD_MS_A_JOB = 3;
 
 /** @type {import("../main.js").Page} */
 export async function sweep_page(content, { id }, signal) {
@@ -24,7 +25,7 @@ export async function sweep_page(content, { id }, signal) {
     ({ sweep, points } = await load_points(id ?? "", signal));
     for (const point of points) point.progress = progress.get(point.id);
     await show();
-  }, RELOAD_MS, signal);
+  }, Math.max(RELOAD_MS, RELOAD_MS_A_JOB * points.length), signal);
   const head = new Head(sweep, "sweep", reload);
   const view = new View(signal);
   const table = new PointsTable();

@@ -50,16 +50,6 @@ export function fields_of(points) {
 }
 
 /**
- * Whether two values of a field are the same.
- * @param {any} a
- * @param {any} b
- * @returns {boolean}
- */
-export function is_same(a, b) {
-  return JSON.stringify(a) === JSON.stringify(b);
-}
-
-/**
  * The values of several fields at a point, in words.
  * @param {Point} point
  * @param {Field[]} fields
