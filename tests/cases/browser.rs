@@ -1,11 +1,13 @@
 //! Requirement: in a real browser the pages show jobs, one job and several beside each other, live and after a reload, by pointer and by keyboard;
 //! nothing is loaded from another host, the content policy blocks nothing and no script fails.
 
+mod accuracy;
 mod comparison;
 mod interface;
 mod job;
 mod jobs;
 mod study;
+mod sweeps;
 
 use serde_json::{Value, json};
 use tests::{Browser, Server};

@@ -10,7 +10,8 @@ async fn a_sweep_over_the_load_ends_in_one_table() {
     let server = Server::start(folder.path());
     let request = json!({
         "name": "loads",
-        "base": {"system": {"kind": "sd_card"}, "cycles": 10, "accuracy": {"preset": "draft"}},
+        "base": {"system": {"kind": "sd_card"}, "cycles": 10, "accuracy": {"preset": "draft"},
+                 "life": {"criteria": [{"kind": "worn_depth", "mm": 2e-7}, {"kind": "worn_depth", "mm": 1e-7}]}},
         "grid": {"/load": [{"kind": "line_force", "n_per_mm": 0.2}, {"kind": "line_force", "n_per_mm": 0.4}],
                  "/interface/friction/coefficient": [0.2, 0.3]}
     });
@@ -39,6 +40,11 @@ async fn a_sweep_over_the_load_ends_in_one_table() {
     let depth = header
         .iter()
         .position(|name| *name == "receptacle_max_depth_mm");
+    let lives: Vec<f64> = table
+        .lines()
+        .skip(1)
+        .filter_map(|line| line.rsplit(',').next()?.parse().ok())
+        .collect();
     // An override that is an object contains commas, so cells are counted from the end of the line.
     let from_end = header.len() - depth.expect("a column");
     let depths: Vec<f64> = lines
@@ -54,4 +60,12 @@ async fn a_sweep_over_the_load_ends_in_one_table() {
         depths[1] > 1.5 * depths[0] && depths[3] > 1.5 * depths[2],
         "{table}"
     );
+    // The last column is the first of both lives: the slider, narrow, is worn by 1e-7 mm before 2e-7 mm.
+    assert_eq!(header.last(), Some(&"first_life_cycles"));
+    assert_eq!(lives.len(), 4, "{table}");
+    assert!(
+        lives.iter().all(|life| (1.0..2.5).contains(life)),
+        "{table}"
+    );
+    assert!(lives[1] < lives[0] && lives[3] < lives[2], "{table}");
 }

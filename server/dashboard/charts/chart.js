@@ -5,6 +5,9 @@ import { element } from "../parts/element.js";
 import { plotly } from "./library.js";
 import { axis, colour, colours, layout, on_theme } from "./theme.js";
 
+/** Ticks that a logarithmic x axis has about: more of its labels would overlap on narrow screens. */
+const LOG_TICKS = 4;
+
 /**
  * @typedef {object} Series
  * @property {string} name
@@ -13,10 +16,14 @@ import { axis, colour, colours, layout, on_theme } from "./theme.js";
  * @property {"solid" | "dash" | "dot"} [dash]
  * @property {number} [colour] number of its colour; that of its place otherwise
  * @property {"lines" | "markers" | "lines+markers"} [mode]
+ * @property {"circle" | "circle-open" | "diamond"} [symbol] of its markers
+ * @property {string[]} [texts] what is said of each point besides its values
+ * @property {(string | null)[]} [links] addresses that a click on each point opens
  *
  * @typedef {object} Axis
  * @property {string} title with the unit
  * @property {boolean} [can_log] whether the reader may choose a logarithmic axis
+ * @property {boolean} [log] whether it is logarithmic unless the reader chooses otherwise
  * @property {boolean} [reversed]
  *
  * @typedef {object} Figure
@@ -70,7 +77,8 @@ export class Chart {
       if (!can_log) continue;
       const box = /** @type {HTMLInputElement} */ (element("input", { type: "checkbox", checked: this.#is_log(name) }));
       box.addEventListener("change", () => {
-        this.#options.state?.set(`${this.#options.name}-${name}`, box.checked ? "log" : null);
+        const chosen = box.checked ? "log" : "linear";
+        this.#options.state?.set(`${this.#options.name}-${name}`, box.checked === this.#is_log_by_default(name) ? null : chosen);
         this.#log[name] = box.checked;
         this.#draw();
       });
@@ -78,7 +86,7 @@ export class Chart {
     }
     const button = (/** @type {string} */ text, /** @type {() => void} */ click) =>
       element("button", { type: "button", class: "quiet", click, "aria-label": `save ${figure.title} as ${text}` }, text);
-    this.tools.append(button("SVG", () => this.#save_image("svg")), button("PNG", () => this.#save_image("png")), button("CSV", () => this.#save_table()));
+    this.tools.append(button("SVG", () => save_image(this.#plot, this.#options.name, "svg")), button("PNG", () => save_image(this.#plot, this.#options.name, "png")), button("CSV", () => this.#save_table()));
   }
 
   /** Choices of the reader where the page keeps no state. @type {Record<string, boolean>} */
@@ -86,7 +94,13 @@ export class Chart {
 
   /** @param {"x" | "y"} name */
   #is_log(name) {
-    return this.#log[name] ?? this.#options.state?.get(`${this.#options.name}-${name}`) === "log";
+    const chosen = this.#options.state?.get(`${this.#options.name}-${name}`);
+    return this.#log[name] ?? (chosen ? chosen === "log" : this.#is_log_by_default(name));
+  }
+
+  /** @param {"x" | "y"} name */
+  #is_log_by_default(name) {
+    return this.#figure?.[name].log ?? false;
   }
 
   async #draw() {
@@ -101,25 +115,14 @@ export class Chart {
     const style = layout();
     await library.react(this.#plot, figure.series.map((series, index) => trace(series, palette[(series.colour ?? index) % palette.length])), {
       ...style,
-      uirevision: this.#options.name,
-      xaxis: { ...axis(figure.x.title, this.#is_log("x")) },
+      uirevision: `${figure.x.title}, ${figure.y.title}`,
+      xaxis: { ...axis(figure.x.title, this.#is_log("x")), nticks: this.#is_log("x") ? LOG_TICKS : undefined },
       yaxis: { ...axis(figure.y.title, this.#is_log("y")), autorange: figure.y.reversed ? "reversed" : true },
       showlegend: figure.series.length > 1,
       shapes: lines.map(({ y }) => ({ type: "line", xref: "paper", x0: 0, x1: 1, y0: y, y1: y, line: { color: palette[4], width: 1, dash: "dash" } })),
       annotations: lines.map(({ y, name }) => ({ xref: "paper", x: 1, y: height(y), text: name, showarrow: false, xanchor: "right", yanchor: "bottom", font: { color: palette[4], size: 11 } })),
     }, { responsive: true, displaylogo: false, modeBarButtonsToRemove: ["select2d", "lasso2d", "toImage"] });
-  }
-
-  /** @param {"svg" | "png"} format */
-  async #save_image(format) {
-    const library = await plotly();
-    const size = { width: 900, height: 520, scale: format === "png" ? 2 : 1 };
-    const { data, layout } = /** @type {any} */ (this.#plot);
-    const url = await library.toImage({ data, layout: { ...layout, paper_bgcolor: colour("--surface") } }, { format, ...size });
-    const bytes = format === "svg"
-      ? new Blob([decodeURIComponent(url.slice(url.indexOf(",") + 1))], { type: "image/svg+xml" })
-      : new Blob([Uint8Array.from(atob(url.slice(url.indexOf(",") + 1)), (c) => c.charCodeAt(0))], { type: "image/png" });
-    save(bytes, `${this.#options.name}.${format}`);
+    open_clicked(this.#plot);
   }
 
   #save_table() {
@@ -146,11 +149,45 @@ export function fit(plot, signal) {
 }
 
 /**
+ * Saves a plot as a picture.
+ * @param {HTMLElement} plot
+ * @param {string} name
+ * @param {"svg" | "png"} format
+ */
+export async function save_image(plot, name, format) {
+  const library = await plotly();
+  const size = { width: 900, height: 520, scale: format === "png" ? 2 : 1 };
+  const { data, layout } = /** @type {any} */ (plot);
+  const url = await library.toImage({ data, layout: { ...layout, paper_bgcolor: colour("--surface") } }, { format, ...size });
+  const bytes = format === "svg"
+    ? new Blob([decodeURIComponent(url.slice(url.indexOf(",") + 1))], { type: "image/svg+xml" })
+    : new Blob([Uint8Array.from(atob(url.slice(url.indexOf(",") + 1)), (c) => c.charCodeAt(0))], { type: "image/png" });
+  save(bytes, `${name}.${format}`);
+}
+
+/**
+ * Lets a click on a point of a plot open the address that is its `customdata`.
+ * @param {HTMLElement} plot
+ */
+export function open_clicked(plot) {
+  if (plot.dataset.opens) return;
+  plot.dataset.opens = "points";
+  /** @type {any} */ (plot).on("plotly_click", (/** @type {any} */ { points }) => {
+    const target = points.map((/** @type {any} */ point) => point.customdata).find((/** @type {unknown} */ one) => typeof one === "string");
+    if (target) location.hash = target;
+  });
+}
+
+/**
  * @param {Series} series
  * @param {string} colour
  */
-function trace({ name, x, y, dash = "solid", mode = "lines" }, colour) {
-  return { type: "scatter", name, x, y, mode, line: { color: colour, width: 2, dash }, marker: { color: colour, size: 6 }, hovertemplate: "%{x:.4~g}, %{y:.4~g}" };
+function trace({ name, x, y, dash = "solid", mode = "lines", symbol = "circle", texts, links }, colour) {
+  const values = "%{x:.4~g}, %{y:.4~g}";
+  return {
+    type: "scatter", name, x, y, mode, line: { color: colour, width: 2, dash }, marker: { color: colour, size: links ? 9 : 6, symbol, line: { width: 2, color: colour } },
+    text: texts, customdata: links, hovertemplate: texts ? `%{text}<br>${values}` : values,
+  };
 }
 
 /**

@@ -43,13 +43,13 @@ export function layout() {
 }
 
 /**
- * An axis of charts; cycles are whole numbers.
+ * An axis of charts; cycles are whole numbers, and every tick of a logarithmic axis has its whole value.
  * @param {string} title
  * @param {boolean} log
  * @returns {any}
  */
 export function axis(title, log) {
-  const tickformat = title === "cycle" ? ",~r" : undefined;
+  const tickformat = title === "cycle" ? ",~r" : log ? "~g" : undefined;
   const line = colour("--line");
   return { title: { text: title, standoff: 8 }, type: log ? "log" : "linear", gridcolor: line, linecolor: line, zerolinecolor: line, automargin: true, exponentformat: "power", tickformat };
 }

@@ -10,6 +10,7 @@ const RETRY_MS = 2000;
  * @property {(job: any) => void} changed with the short document of a job
  * @property {(id: string) => void} deleted
  * @property {() => void} reset where changes were missed: what is shown must be loaded again
+ * @property {() => void} [started] once changes are received, all those after this moment
  */
 
 /** @param {string} text */
@@ -45,6 +46,7 @@ export async function follow(listener, signal) {
         if (name === "job") listener.changed(data);
         else if (name === "deleted") listener.deleted(data.id);
         else if (name === "reset") listener.reset();
+        else if (name === "start") listener.started?.();
       }
     } catch (error) {
       if (signal.aborted) return;

@@ -15,7 +15,7 @@ use crate::store::BatchJob;
 type Figure = (&'static str, fn(&Summary) -> f64);
 
 /// Figures of a summary that the table shows.
-const FIGURES: [Figure; 10] = [
+const FIGURES: [Figure; 11] = [
     ("sliding_distance_mm", |s| s.sliding_distance_mm),
     ("receptacle_max_depth_mm", |s| s.receptacle.max_depth_mm),
     ("receptacle_worn_area_mm2", |s| s.receptacle.worn_area_mm2),
@@ -32,7 +32,10 @@ const FIGURES: [Figure; 10] = [
     ("estimated_relative_error", |s| {
         s.accuracy.estimated_relative_error
     }),
+    ("cpu_s", |s| s.cost.cpu_s),
 ];
+/// Column of the cycles after which the first criterion of life was reached; empty where none was.
+const FIRST_LIFE: &str = "first_life_cycles";
 
 /// Returns the table as CSV; cells of jobs without a result are empty.
 ///
@@ -48,6 +51,7 @@ fn write(jobs: &[BatchJob]) -> Result<Vec<u8>, CsvError> {
     header.extend(pointers.iter().map(|pointer| harmless(pointer)));
     header.push("cycles_done".to_owned());
     header.extend(FIGURES.map(|(name, _)| name.to_owned()));
+    header.push(FIRST_LIFE.to_owned());
     let mut writer = Writer::from_writer(Vec::new());
     writer.write_record(header)?;
     for job in jobs {
@@ -61,11 +65,18 @@ fn write(jobs: &[BatchJob]) -> Result<Vec<u8>, CsvError> {
         };
         cells.push(figure(&|summary| summary.cycles_done.to_string()));
         cells.extend(FIGURES.map(|(_, value)| figure(&|summary| value(summary).to_string())));
+        cells.push(figure(&first_life));
         writer.write_record(cells)?;
     }
     writer
         .into_inner()
         .map_err(|error| CsvError(error.to_string()))
+}
+
+fn first_life(summary: &Summary) -> String {
+    let cycles = summary.life.iter().filter_map(|life| life.cycles);
+    let first = cycles.min_by(f64::total_cmp);
+    first.map(|cycles| cycles.to_string()).unwrap_or_default()
 }
 
 fn cell(value: &Value) -> String {
@@ -121,6 +132,6 @@ mod tests {
             ),
             "{text}"
         );
-        assert!(lines[1].ends_with(",,,,,,,,,,"), "{text}");
+        assert!(lines[1].ends_with(",,,,,,,,,,,,"), "{text}");
     }
 }

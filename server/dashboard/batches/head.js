@@ -1,0 +1,65 @@
+// What a batch is and how far it is, and what can be done with it.
+
+import { link } from "../parts/address.js";
+import { download_link } from "../parts/download.js";
+import { definitions, element } from "../parts/element.js";
+import { duration, seconds_between, time } from "../parts/format.js";
+import { end_button } from "./actions.js";
+import { counts_line, progress, progress_line, state_badge } from "./counts.js";
+import { KINDS, name_of } from "./kinds.js";
+
+/** Jobs that one comparison shows at most. */
+const MOST_COMPARED = 10;
+
+/** The head of a batch's page. */
+export class Head {
+  #status = element("div", { class: "status", "aria-live": "polite" });
+  #actions = element("p", { class: "actions" });
+  #said = element("span", { role: "status" });
+  #kind;
+  #reload;
+  #shown = "";
+
+  /**
+   * @param {any} batch
+   * @param {import("./kinds.js").Kind} kind
+   * @param {() => void} reload
+   */
+  constructor(batch, kind, reload) {
+    this.#kind = kind;
+    this.#reload = reload;
+    this.node = element("section", { class: "head" },
+      element("h1", {}, name_of(batch, kind)),
+      element("p", { class: "muted" }, KINDS[kind].name, " · ", element("code", {}, batch.id)),
+      this.#status, this.#actions);
+    this.update(batch);
+  }
+
+  /** @param {any} batch */
+  update(batch) {
+    const shown = JSON.stringify(batch.counts);
+    if (shown === this.#shown) return;
+    this.#shown = shown;
+    const name = name_of(batch, this.#kind);
+    this.#status.replaceChildren(
+      element("p", { class: "line" }, state_badge(batch.counts), progress(batch.counts) < 1 && progress_line(batch.counts, name), counts_line(batch.counts)),
+      definitions([["submitted", `${time(batch.created_at)}, ${duration(Math.round(seconds_between(batch.created_at)))} ago`]]));
+    this.#actions.replaceChildren(...this.#links(batch),
+      end_button(batch, this.#kind, { said: this.#said, cancelled: this.#reload, deleted: () => (location.hash = link("sweeps")) }), this.#said);
+  }
+
+  /** @param {any} batch */
+  #links({ id, jobs }) {
+    const { path, table, name } = KINDS[this.#kind];
+    const file = `${name.replace(" ", "-")}-${id}`;
+    const ids = jobs.map((/** @type {{id: string}} */ job) => job.id);
+    const pictures = this.#kind === "accuracy" ? ["svg", "png"] : [];
+    return [
+      download_link(`${path}/${id}/${table}`, `${file}.csv`, "Table (CSV)"),
+      ...pictures.map((format) => download_link(`${path}/${id}/picture?format=${format}`, `${file}.${format}`, `Diagram (${format.toUpperCase()})`)),
+      element("a", { href: link("jobs", null, { sweep: id }) }, "Its jobs in the list"),
+      ids.length > 1 && ids.length <= MOST_COMPARED ? element("a", { href: link("compare", null, { jobs: ids.join(",") }) }, "Compare its jobs") : "",
+      element("a", { href: link("study", null, { as: this.#kind, batch: id }) }, "Clone and change"),
+    ];
+  }
+}

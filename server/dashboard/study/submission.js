@@ -1,0 +1,128 @@
+// Submitting a specification: as one job, as the base of a sweep, or of an accuracy study.
+
+import { choices, link } from "../parts/address.js";
+import { post_json, Problem } from "../parts/client.js";
+import { element } from "../parts/element.js";
+import { AccuracyForm } from "./accuracy_form.js";
+import { schema_of } from "./schema.js";
+import { SweepForm } from "./sweep_form.js";
+
+/** @typedef {"job" | "sweep" | "accuracy"} Kind */
+
+/** What is submitted: its name, its collection, its page. @type {Record<Kind, [string, string, string]>} */
+const KINDS = { job: ["one job", "/v1/jobs", "job"], sweep: ["sweep", "/v1/sweeps", "sweep"], accuracy: ["accuracy study", "/v1/studies", "accuracy"] };
+
+/** The choice of what is submitted, its forms, its request and the button. */
+export class Submission {
+  /** The specification, while it is one. @type {any} */
+  #spec = null;
+  #is_accepted = false;
+  #expected_s = NaN;
+  #signal;
+  #refused;
+  #kind = /** @type {HTMLSelectElement} */ (element("select", { id: "kind", "aria-label": "what is submitted" }, ...Object.entries(KINDS).map(([kind, [name]]) => element("option", { value: kind }, name))));
+  #name = /** @type {HTMLInputElement} */ (element("input", { id: "batch-name", type: "text", maxlength: 200, class: "name" }));
+  #name_row = element("p", { class: "field" }, element("label", { for: "batch-name" }, "name of all jobs together"), this.#name);
+  #sweep = new SweepForm(() => this.#show());
+  #accuracy = new AccuracyForm(() => this.#show());
+  #body = element("pre", { tabindex: "0" });
+  #curl = element("pre", { tabindex: "0" });
+  #said = element("span", { role: "status" });
+  #button = element("button", { type: "button", class: "primary" }, "Submit");
+
+  /**
+   * @param {{signal: AbortSignal, cloned: import("./clone.js").Cloned | null, refused: (problem: Problem) => void}} options
+   */
+  constructor({ signal, cloned, refused }) {
+    this.#signal = signal;
+    this.#refused = refused;
+    const asked = choices.get("as") ?? "";
+    this.#kind.value = asked in KINDS ? asked : "job";
+    this.#kind.addEventListener("change", () => {
+      choices.set("as", this.#kind.value === "job" ? null : this.#kind.value);
+      this.#show();
+    });
+    this.#name.addEventListener("input", () => this.#show());
+    this.#button.addEventListener("click", () => this.#submit());
+    this.controls = [element("label", {}, "submitted as ", this.#kind), this.#button, this.#said];
+    this.forms = element("div", { class: "submission" }, this.#sweep.node, this.#accuracy.node);
+    this.request = element("details", {}, element("summary", {}, "the request as a command"), this.#curl, this.#body);
+    if (cloned) {
+      this.#sweep.take(cloned);
+      this.#name.value = cloned.name;
+    }
+    this.#show();
+  }
+
+  /** @returns {Kind} */
+  get kind() {
+    return /** @type {Kind} */ (this.#kind.value);
+  }
+
+  /** @param {any} spec the specification as it is typed; null while it is none */
+  typed(spec) {
+    this.#spec = spec;
+    if (spec === null) this.#is_accepted = false;
+    this.#show();
+  }
+
+  /**
+   * @param {any} found the plan of the specification and its resolved form; null where it was refused
+   */
+  async planned(found) {
+    this.#is_accepted = found !== null;
+    this.#expected_s = found?.plan.estimates.cpu_s ?? NaN;
+    this.#show();
+    if (!found) return;
+    const schema = await schema_of(found.spec.system.kind, this.#signal);
+    this.#sweep.offer(found.spec, schema, this.#expected_s);
+    this.#show();
+  }
+
+  #request() {
+    const named = this.#name.value.trim() ? { name: this.#name.value.trim() } : {};
+    if (this.kind === "sweep") return { ...named, base: this.#spec, ...this.#sweep.variations };
+    if (this.kind === "accuracy") return { ...named, base: this.#spec, budget_s: this.#accuracy.budget_s };
+    return this.#spec;
+  }
+
+  #show() {
+    this.#said.textContent = "";
+    const form = { job: null, sweep: this.#sweep, accuracy: this.#accuracy }[this.kind];
+    for (const one of [this.#sweep, this.#accuracy]) one.node.hidden = one !== form;
+    if (form && this.#name_row.parentElement !== form.node) form.node.querySelector("h2")?.after(this.#name_row);
+    this.#sweep.show();
+    this.#accuracy.show(this.#expected_s);
+    const is_ready = this.#is_accepted && this.#spec !== null && (form?.is_complete ?? true);
+    this.#button.toggleAttribute("disabled", !is_ready);
+    const { jobs } = this.#sweep;
+    this.#button.textContent = this.kind === "sweep" && jobs ? `Submit ${jobs === 1 ? "1 job" : `${jobs} jobs`}` : "Submit";
+    if (this.#spec === null) return;
+    const body = this.#request();
+    this.#body.hidden = this.kind === "job";
+    this.#body.textContent = JSON.stringify(body, null, 2);
+    this.#curl.textContent = `curl --json '${JSON.stringify(body).replaceAll("'", "'\\''")}' ${location.origin}${KINDS[this.kind][1]}`;
+  }
+
+  async #submit() {
+    const [, path, page] = KINDS[this.kind];
+    this.#button.setAttribute("disabled", "");
+    this.#said.textContent = this.kind === "accuracy" ? "Choosing the runs …" : "";
+    try {
+      const { id } = await post_json(path, this.#request());
+      if (!this.#signal.aborted) location.hash = link(page, id);
+    } catch (error) {
+      this.#said.textContent = error instanceof Error ? error.message : String(error);
+      this.#button.removeAttribute("disabled");
+      if (error instanceof Problem) this.#mark(error);
+    }
+  }
+
+  /** @param {Problem} problem whose faults are shown at their fields */
+  #mark({ message, status, faults }) {
+    const form = { job: null, sweep: this.#sweep, accuracy: this.#accuracy }[this.kind];
+    const others = form ? form.mark(faults) : faults;
+    const of_base = others.map(({ pointer, detail }) => ({ pointer: pointer.replace(/^\/base(?=\/|$)/, ""), detail }));
+    if (of_base.length || faults.length === 0) this.#refused(new Problem(message, status, of_base));
+  }
+}

@@ -1,0 +1,106 @@
+//! An accuracy study: submitted from the form, live while runs are missing, its diagram, front and what it leads to.
+
+use serde_json::json;
+use tests::{Browser, Server};
+
+use super::{fits_a_phone, is_sound};
+
+/// Clicks on the first point of a curve of the diagram, where it is drawn.
+const CLICK_FIRST_POINT: &str = "
+    const plot = document.querySelector('[data-chart=work-precision] .plot');
+    plot.scrollIntoView();
+    const curve = plot.data.find((curve) => curve.customdata);
+    const { xaxis, yaxis } = plot._fullLayout;
+    const drag = plot.querySelector('.nsewdrag');
+    const place = plot.getBoundingClientRect();
+    const at = { clientX: place.left + xaxis._offset + xaxis.d2p(curve.x[0]), clientY: place.top + yaxis._offset + yaxis.d2p(curve.y[0]), bubbles: true };
+    for (const name of ['mousemove', 'mousedown', 'mouseup']) drag.dispatchEvent(new MouseEvent(name, at));
+    return curve.customdata[0];";
+
+#[tokio::test]
+#[cfg_attr(
+    not(has_chromium),
+    ignore = "needs the programs chromium and chromedriver"
+)]
+async fn an_accuracy_study_is_shown_while_it_runs_and_its_points_open_jobs() {
+    let folder = tempfile::tempdir().expect("a folder can be made");
+    let server = Server::start(folder.path());
+    let browser = Browser::start(&server.base, folder.path()).await;
+    browser
+        .open("/#/study?as=accuracy&system=cylinder_on_flat")
+        .await;
+    let base = json!({
+        "system": {"kind": "cylinder_on_flat", "radius_mm": 6.0, "flat_length_mm": 12.0, "flat_height_mm": 6.0},
+        "load": {"kind": "line_force", "n_per_mm": 18.5}, "cycles": 100, "accuracy": {"preset": "draft"}
+    });
+    let base = json!(base.to_string());
+    browser
+        .shows("[aria-label=Expected]", "processor time")
+        .await;
+    let fill = format!(
+        "for (const [selector, value] of [['textarea', {base}], ['#budget', '2'], ['#batch-name', 'short fretting test']]) {{
+            const node = document.querySelector(selector); node.value = value; node.dispatchEvent(new Event('input')); }}"
+    );
+    let filled = browser.client.execute(&fill, Vec::new()).await;
+    filled.expect("the form can be filled");
+    browser
+        .wait_for("document.getElementById('field-cycles').value === '100'")
+        .await;
+    browser.click("button.primary").await;
+    browser.shows("h1", "short fretting test").await;
+    let id = browser
+        .wait_for("location.hash.startsWith('#/accuracy/') && location.hash.slice(11)")
+        .await;
+    let path = format!("/v1/studies/{}", id.as_str().expect("an id"));
+    let jobs = server.get(&path).await.1["jobs"]
+        .as_array()
+        .expect("jobs")
+        .len();
+    let rows = format!("document.querySelectorAll('.points tbody tr').length === {jobs}");
+    browser.wait_for(&rows).await;
+    browser
+        .shows(".status", &format!("all {jobs} succeeded"))
+        .await;
+
+    // Every run has an error and a cost; the front is that of the service.
+    let (_, document) = server.get(&path).await;
+    let runs = document["study"]["runs"].as_array().expect("runs");
+    let on_front = runs.iter().filter(|run| run["on_front"] == true).count();
+    let curve = |name: &str| {
+        format!(
+            "document.querySelector('[data-chart=work-precision] .plot').data.find((curve) => curve.name === '{name}')"
+        )
+    };
+    let front = format!("{}.x.length === {on_front}", curve("Pareto front"));
+    browser.wait_for(&front).await;
+    let drawn = format!(
+        "document.querySelector('[data-chart=work-precision] .plot').data.filter((curve) => curve.customdata).flatMap((curve) => [...curve.x]).length === {jobs}"
+    );
+    browser.wait_for(&drawn).await;
+    let log =
+        "document.querySelector('[data-chart=work-precision] .plot').layout.xaxis.type === 'log'";
+    browser.wait_for(log).await;
+    browser
+        .shows("[aria-label=Reference]", "deepest wear")
+        .await;
+    browser
+        .shows("[aria-label='What to choose']", "cheapest run")
+        .await;
+    browser
+        .shows(
+            "[aria-label='Observed orders of convergence']",
+            "element of the contact",
+        )
+        .await;
+    fits_a_phone(&browser, "accuracy").await;
+
+    browser.client.refresh().await.expect("it reloads");
+    browser.wait_for(&front).await;
+    let target = browser.client.execute(CLICK_FIRST_POINT, Vec::new()).await;
+    let target = target.expect("it can be clicked");
+    let opened = format!("location.hash.startsWith('#/job/') && location.hash === {target}");
+    browser.wait_for(&opened).await;
+    browser.shows(".status", "succeeded").await;
+    is_sound(&browser).await;
+    browser.close().await;
+}

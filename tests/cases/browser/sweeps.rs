@@ -1,0 +1,149 @@
+//! Sweeps: submitted from the form, watched to their end, drawn as a map whose cells lead to jobs; the list of all of them.
+
+use serde_json::{Value, json};
+use tests::{Browser, Server};
+
+use super::{fits_a_phone, is_sound, long, short};
+
+/// Runs a script on the page.
+async fn run(browser: &Browser, script: &str) {
+    let done = browser.client.execute(script, Vec::new()).await;
+    done.unwrap_or_else(|error| panic!("{script}: {error}"));
+}
+
+/// Types into the input or select of a swept field, which are numbered from 0.
+async fn set(browser: &Browser, field: usize, part: &str, value: &str) {
+    let script = format!(
+        "const node = document.querySelectorAll('.swept')[{field}].querySelector('{part}'); node.value = '{value}'; \
+         for (const name of ['input', 'change']) node.dispatchEvent(new Event(name))"
+    );
+    run(browser, &script).await;
+}
+
+/// Submits a sweep and returns its id.
+async fn swept(server: &Server, request: &Value) -> String {
+    let url = format!("{}/v1/sweeps", server.base);
+    let answer = server.client.post(url).json(request).send().await;
+    let sweep: Value = answer.expect("an answer").json().await.expect("JSON");
+    sweep["id"].as_str().expect("a sweep has an id").to_owned()
+}
+
+#[tokio::test]
+#[cfg_attr(
+    not(has_chromium),
+    ignore = "needs the programs chromium and chromedriver"
+)]
+async fn a_sweep_from_the_form_is_watched_to_its_end_and_its_map_opens_jobs() {
+    let folder = tempfile::tempdir().expect("a folder can be made");
+    let server = Server::start(folder.path());
+    let browser = Browser::start(&server.base, folder.path()).await;
+    browser
+        .open("/#/study?as=sweep&system=cylinder_on_flat")
+        .await;
+    let base = json!(short("swept").to_string());
+    let type_base = format!(
+        "const text = document.querySelector('textarea'); text.value = {base}; text.dispatchEvent(new Event('input'))"
+    );
+    browser
+        .shows("[aria-label=Expected]", "processor time")
+        .await;
+    run(&browser, &type_base).await;
+    let offered = "[...document.querySelectorAll('.swept option')].some((option) => option.value === '/load/n_per_mm')";
+    browser.wait_for(offered).await;
+
+    // A value that is refused is said to be so at its field.
+    set(&browser, 0, "select", "/load/n_per_mm").await;
+    set(&browser, 0, "input.values", "-100, 200, 300").await;
+    browser.shows("button.primary", "Submit 3 jobs").await;
+    browser.click("button.primary").await;
+    browser.shows(".swept .fault", "-100 is outside").await;
+    let refused = browser.complaints().await;
+    let expected = |line: &String| line.contains("/v1/sweeps") && line.contains("422");
+    assert!(refused.iter().all(expected), "{refused:#?}");
+
+    set(&browser, 0, "input.values", "100, 200, 300").await;
+    browser.click(".submission button:not(.quiet)").await;
+    set(&browser, 1, "select", "/motion/amplitude_mm").await;
+    set(&browser, 1, "select:nth-of-type(2)", "linear").await;
+    for (part, value) in [("from", "0.02"), ("to", "0.04"), ("count", "3")] {
+        set(&browser, 1, &format!("input.{part}"), value).await;
+    }
+    browser
+        .shows(".swept:nth-of-type(2) output", "0.02, 0.03, 0.04")
+        .await;
+    browser.shows("button.primary", "Submit 9 jobs").await;
+    fits_a_phone(&browser, "sweep-form").await;
+    browser.click("button.primary").await;
+    browser
+        .wait_for("location.hash.startsWith('#/sweep/')")
+        .await;
+    run(&browser, "window.was_not_reloaded = true").await;
+    browser.shows(".status", "all 9 succeeded").await;
+    let cells = "document.querySelector('[data-chart=sweep-map] .plot').data[0].z.flat().filter((depth) => depth > 0).length === 9";
+    browser.wait_for(cells).await;
+    browser.wait_for("window.was_not_reloaded").await;
+    fits_a_phone(&browser, "sweep").await;
+
+    browser.client.refresh().await.expect("it reloads");
+    browser.wait_for(cells).await;
+    browser
+        .wait_for("document.querySelectorAll('.points tbody tr').length === 9")
+        .await;
+    // The quantity and the kind of chart are in the address; the back button undoes them.
+    run(&browser, "const choice = document.getElementById('choice-view'); choice.value = 'curves'; choice.dispatchEvent(new Event('change'))").await;
+    let curves = "document.querySelector('[data-chart=sweep] .plot').data.length === 3 && location.hash.includes('view=curves')";
+    browser.wait_for(curves).await;
+    browser.client.back().await.expect("there is a step back");
+    browser.wait_for(cells).await;
+    browser
+        .wait_for("document.querySelector('[data-chart=sweep]').hidden")
+        .await;
+    // The middle of the map is the middle of both fields.
+    browser.click("[data-chart=sweep-map] .nsewdrag").await;
+    let id = browser
+        .wait_for("location.hash.startsWith('#/job/') && location.hash.slice(6)")
+        .await;
+    let path = format!("/v1/jobs/{}", id.as_str().expect("an id"));
+    let (_, job) = server.get(&path).await;
+    assert_eq!(job["spec"]["load"]["n_per_mm"], 200.0);
+    assert_eq!(job["spec"]["motion"]["amplitude_mm"], 0.03);
+    browser.shows(".status", "succeeded").await;
+    is_sound(&browser).await;
+    browser.close().await;
+}
+
+#[tokio::test]
+#[cfg_attr(
+    not(has_chromium),
+    ignore = "needs the programs chromium and chromedriver"
+)]
+async fn a_listed_sweep_is_followed_cancelled_cloned_and_deleted() {
+    let folder = tempfile::tempdir().expect("a folder can be made");
+    let server = Server::start(folder.path());
+    let browser = Browser::start(&server.base, folder.path()).await;
+    browser.open("/#/sweeps").await;
+    browser.shows("main", "None here yet").await;
+    let request = json!({"name": "long ones", "base": long("long"), "grid": {"/interface/friction/coefficient": [0.3, 0.4, 0.5]}});
+    let id = swept(&server, &request).await;
+    let row = format!("tr[data-batch='{id}']");
+    browser.shows(&row, "long ones").await;
+    browser.shows(&row, "running").await;
+    browser.shows(&row, "0 of 3").await;
+    fits_a_phone(&browser, "sweeps").await;
+    browser.click(&format!("{row} button")).await;
+    browser.shows(&row, "all 3 cancelled").await;
+
+    browser.open(&format!("/#/study?as=sweep&batch={id}")).await;
+    browser.shows("button.primary", "Submit 3 jobs").await;
+    let values = "document.querySelector('.swept input.values').value === '0.3, 0.4, 0.5'";
+    browser.wait_for(values).await;
+    browser.open("/#/sweeps").await;
+    browser.shows(&row, "Delete").await;
+    run(&browser, "window.confirm = () => true").await;
+    browser.click(&format!("{row} button")).await;
+    browser.shows("main", "None here yet").await;
+    let (status, _) = server.get(&format!("/v1/sweeps/{id}")).await;
+    assert_eq!(status, 404);
+    is_sound(&browser).await;
+    browser.close().await;
+}
