@@ -6,8 +6,9 @@ import { card, element } from "../parts/element.js";
 import { words } from "../parts/format.js";
 import { throttled } from "../parts/throttled.js";
 import { drawing } from "./drawing.js";
-import { Fields, set_value } from "./fields.js";
+import { Fields } from "./fields.js";
 import { faults_list, plan_cards } from "./plan.js";
+import { Shape } from "./schema.js";
 
 /** Pause after a key before the plan is asked for, ms. */
 const TYPING_MS = 300;
@@ -29,11 +30,11 @@ export async function study_page(content, { values }, signal) {
   const curl = element("pre", { tabindex: "0" });
   /** The resolved specification of the last plan. @type {any} */
   let resolved = null;
-  const fields = new Fields((pointer, value) => {
-    const spec = parsed();
-    if (!spec) return;
-    write(set_value(spec, resolved, pointer, value));
-  });
+  const fields = new Fields((spec) => write(spec));
+  const show_fields = (/** @type {any} */ spec, /** @type {import("./fields.js").Fault[]} */ faults) => {
+    const of = systems.find((/** @type {any} */ { kind }) => kind === spec.system?.kind);
+    if (of) fields.show({ spec, resolved: resolved?.system.kind === of.kind ? resolved : of.preset, shape: new Shape(of.schema), faults, systems });
+  };
 
   /** @returns {any} the specification, or null while the text is not JSON */
   const parsed = () => {
@@ -61,15 +62,15 @@ export async function study_page(content, { values }, signal) {
       if (call !== asked || signal.aborted) return;
       resolved = found.spec;
       faults.replaceChildren();
-      fields.show(resolved, []);
+      show_fields(spec, []);
       scene.replaceChildren(...drawing(resolved));
       plan.replaceChildren(...plan_cards(found.plan));
     } catch (error) {
       if (call !== asked || signal.aborted) return;
       if (!(error instanceof Problem)) throw error;
       submit.setAttribute("disabled", "");
-      faults.replaceChildren(faults_list(error));
-      fields.mark(error.faults);
+      show_fields(spec, error.faults);
+      faults.replaceChildren(faults_list(error, (pointer) => fields.focus(pointer)));
     }
   };
   const ask = throttled(show_plan, TYPING_MS, signal);
@@ -88,8 +89,8 @@ export async function study_page(content, { values }, signal) {
 
   content.append(element("h1", {}, "New study"),
     element("p", { class: "line" }, element("label", { for: "system" }, "System "), system, submit, said), faults,
-    element("div", { class: "cards" }, card("To scale", scene), card("Specification as JSON", text, element("details", {}, element("summary", {}, "as a command"), curl))),
-    plan, card("Fields", fields.node));
+    element("div", { class: "study" }, card("Fields", fields.node), element("div", {}, card("To scale", scene),
+      card("Specification as JSON", text, element("details", {}, element("summary", {}, "as a command"), curl)), plan)));
   text.value = JSON.stringify(start, null, 2);
   await show_plan();
 }
