@@ -7,6 +7,7 @@ import { has_ended } from "../parts/status.js";
 import { throttled } from "../parts/throttled.js";
 import { checks_card, cost_card, errors_card } from "./accuracy.js";
 import { effects_card, warnings_card } from "./effects.js";
+import { failure_card } from "./failure.js";
 import { Fields } from "./fields.js";
 import { files_card } from "./files.js";
 import { Head } from "./head.js";
@@ -44,7 +45,7 @@ export async function job_page(content, { id }, signal) {
   const show_end = async () => {
     const listed = await fetch_json(job.links.results, { signal });
     const { summary } = job;
-    fill(results, summary ? [result_card(job), life_card(job), errors_card(job), warnings_card(job)] : [warnings_card(job)]);
+    fill(results, summary ? [result_card(job), life_card(job), errors_card(job), failure_card(job), warnings_card(job)] : [failure_card(job), warnings_card(job)]);
     fill(details, [...(summary ? [stations_card(job), checks_card(job), cost_card(job)] : []), files_card(listed)]);
     await Promise.all([maps.load(listed, signal), fields.load(job, listed)]);
   };
