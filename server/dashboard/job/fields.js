@@ -17,6 +17,8 @@ const UM = 1e3;
 const NEAR = /** @type {Record<string, number>} */ ({ contact: 4, surroundings: 16 });
 /** Pause after a zoom before its picture is computed, ms. */
 const ZOOM_MS = 60;
+/** Size of a file that a browser still reads at once; larger ones are listed among the files. */
+const MOST_BYTES = 64e6;
 /** Pixels of a value of the picture. */
 const FINE = 2;
 
@@ -72,7 +74,7 @@ export class Fields {
    */
   async load(job, { files, links }) {
     this.#job = job;
-    for (const { name } of files) {
+    for (const { name } of files.filter((/** @type {any} */ { bytes }) => bytes <= MOST_BYTES)) {
       const [, cycle, position = "neutral"] = /^fields-(\d+)(?:-(\w+))?\.vtu$/.exec(name) ?? [];
       if (cycle !== undefined) this.#paths.set(`${cycle} ${position}`, links[name]);
     }
@@ -95,9 +97,13 @@ export class Fields {
     await this.#draw();
   }
 
+  get #is_ring() {
+    return (this.#job.spec.model?.chosen ?? this.#job.spec.model?.dimension) === "ring";
+  }
+
   /** @param {string} path @returns {Promise<import("./section.js").Section[]>} */
   #sections(path) {
-    const is_ring = ["ring"].includes(this.#job.spec.model?.chosen ?? this.#job.spec.model?.dimension);
+    const is_ring = this.#is_ring;
     const read = async () => {
       const response = await send(path, { signal: this.#signal });
       if (!response.ok) throw new Error(`the fields could not be loaded: ${response.status}`);
@@ -130,8 +136,7 @@ export class Fields {
     const { section: places } = this.#choices;
     /** @type {HTMLElement} */ (places.parentElement).hidden = found.length < 2;
     if (places.options.length === found.length) return;
-    const is_ring = this.#job.spec.model?.dimension === "ring";
-    places.replaceChildren(...found.map(({ at }, index) => element("option", { value: index }, is_ring ? `${number(at)}°` : `${number(at, UM)} µm`)));
+    places.replaceChildren(...found.map(({ at }, index) => element("option", { value: index }, this.#is_ring ? `${number(at)}°` : `${number(at, UM)} µm`)));
     const middle = found.reduce((best, { at }, index) => (Math.abs(at) < Math.abs(found[best].at) ? index : best), 0);
     places.value = String(Math.min(Number(this.#state.get("section") ?? middle), found.length - 1));
   }
@@ -147,13 +152,13 @@ export class Fields {
     const range = this.#range(section);
     const most = section.faces.flat().reduce((largest, node) => Math.max(largest, section.values[node]), 0);
     await library.react(this.#plot, [
-      { type: "heatmap", ...on_grid(section, range, 2, 2), zmin: 0, zmax: most, colorscale: "Viridis", hoverongaps: false, colorbar: { title: { text: "von Mises stress, MPa", side: "right" }, thickness: 14, outlinewidth: 0 }, hovertemplate: "%{x:.5~g} µm, %{y:.5~g} µm: %{z:.4~g} MPa<extra></extra>" },
+      { type: "heatmap", ...on_grid(section, range, 2, 2), zmin: 0, zmax: most, colorscale: "Viridis", hoverongaps: false, colorbar: { title: { text: "von Mises stress, MPa", side: "right" }, thickness: 14, outlinewidth: 0, len: 0.92, y: 0, yanchor: "bottom" }, hovertemplate: "%{x:.5~g} µm, %{y:.5~g} µm: %{z:.4~g} MPa<extra></extra>" },
       { type: "scatter", ...edges, mode: "lines", line: { color: colour("--text"), width: 1 }, hoverinfo: "skip", showlegend: false },
     ], {
       ...layout(),
       uirevision: view,
       dragmode: "pan",
-      xaxis: { ...axis("along the motion, µm", false), range: range.x, showgrid: false, zeroline: false },
+      xaxis: { ...axis(this.#is_ring ? "outward from the axis of the ring, µm" : "along the motion, µm", false), range: range.x, showgrid: false, zeroline: false },
       yaxis: { ...axis("height, µm", false), range: range.y, scaleanchor: "x", showgrid: false, zeroline: false },
     }, { responsive: true, displaylogo: false, scrollZoom: true });
     if (!this.#listens) /** @type {any} */ (this.#plot).on("plotly_relayout", () => this.#refine());

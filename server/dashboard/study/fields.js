@@ -133,9 +133,9 @@ export class Fields {
     if (shape.forms.some((form) => form.fields)) return [this.#material(pointer, name, value, shape)];
     if (shape.fields) return is_section ? this.#object(pointer, value, shape) : [this.#group(pointer, name, this.#object(pointer, value, shape), this.#is_given(pointer) ? () => this.#set(pointer, undefined) : null)];
     if (!shape.is_list_of_objects) return [this.#row(pointer, value, shape)];
-    const items = (value ?? []).map((/** @type {any} */ item, /** @type {number} */ index) => this.#group(`${pointer}/${index}`, `${name} ${index + 1}`,
+    const items = (value ?? []).map((/** @type {any} */ item, /** @type {number} */ index) => this.#group(`${pointer}/${index}`, `${PLATED.test(pointer) ? "layer" : name} ${index + 1}`,
       this.#object(`${pointer}/${index}`, item, /** @type {Shape} */ (shape.items)), () => this.#set(`${pointer}/${index}`, undefined)));
-    const add = this.#button(`add to ${name}`, `add to ${pointer}`, () => this.#set(`${pointer}/${value?.length ?? 0}`, shape.items?.initial));
+    const add = this.#button(PLATED.test(pointer) ? "add a layer" : `add to ${name}`, `add to ${pointer}`, () => this.#set(`${pointer}/${value?.length ?? 0}`, shape.items?.initial));
     const foot = element("p", { class: "line" }, add, this.#plating_choice(pointer));
     return is_section ? [...items, foot] : [this.#group(pointer, name, [...items, foot], null)];
   }

@@ -126,11 +126,15 @@ async fn laws_materials_and_sections_are_chosen_and_each_fault_stands_at_its_fie
     // A section is added with its fault, and removed again.
     browser.click("[aria-label='add stop']").await;
     browser
-        .wait_for("document.getElementById('field-stop-0-layer').getAttribute('aria-invalid') === 'true'")
+        .wait_for(
+            "document.getElementById('field-stop-0-layer').getAttribute('aria-invalid') === 'true'",
+        )
         .await;
     type_into(&browser, "/stop/0/layer", "2").await;
     browser
-        .wait_for(&format!("{WRITTEN}.stop[0].layer === 2 && document.querySelector('.faults').innerText === ''"))
+        .wait_for(&format!(
+            "{WRITTEN}.stop[0].layer === 2 && document.querySelector('.faults').innerText === ''"
+        ))
         .await;
     fits_a_phone(&browser, "study-fields").await;
     browser.click("[aria-label='remove: stop']").await;
