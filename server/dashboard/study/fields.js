@@ -43,7 +43,7 @@ export class Fields {
   /** @type {any} */
   #shown = null;
 
-  /** @param {(spec: any) => void} changed with the specification that a field was changed in */
+  /** @param {(edit: (spec: any) => any) => void} changed with what a changed field makes of a specification */
   constructor(changed) {
     this.#changed = changed;
     this.node = element("div", { class: "fields" });
@@ -51,8 +51,9 @@ export class Fields {
 
   /** @param {Content} content */
   show(content) {
-    const { spec, resolved, shape, faults } = content;
-    this.#content = content;
+    const { spec, resolved, shape } = content;
+    const faults = content.faults.map(at_its_field);
+    this.#content = { ...content, faults };
     this.#shown = with_defaults(spec, resolved, shape);
     this.#places.clear();
     const fields = Object.entries(shape.fields ?? {}).filter(([name]) => name !== "provenance");
@@ -90,8 +91,8 @@ export class Fields {
    */
   #set(pointer, value) {
     if (!this.#content) return;
-    const { spec, shape } = this.#content;
-    this.#changed(set_value(spec, this.#shown, shape, pointer, value));
+    const { shape } = this.#content;
+    this.#changed((spec) => set_value(spec, this.#shown, shape, pointer, value));
   }
 
   /**
@@ -315,6 +316,16 @@ export class Fields {
       for (const group of [...this.node.querySelectorAll("details")].filter((group) => group.contains(node))) group.open = true;
     }
   }
+}
+
+/**
+ * A fault of an object that lacks a field, at that field.
+ * @param {Fault} fault
+ * @returns {Fault}
+ */
+function at_its_field({ pointer, detail }) {
+  const field = /^missing field `(\w+)`/.exec(detail)?.[1];
+  return { pointer: field ? `${pointer}/${field}` : pointer, detail };
 }
 
 /** @param {string} pointer */

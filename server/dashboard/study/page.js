@@ -30,7 +30,10 @@ export async function study_page(content, { values }, signal) {
   const curl = element("pre", { tabindex: "0" });
   /** The resolved specification of the last plan. @type {any} */
   let resolved = null;
-  const fields = new Fields((spec) => write(spec));
+  const fields = new Fields((edit) => {
+    const spec = parsed();
+    if (spec) write(edit(spec));
+  });
   const show_fields = (/** @type {any} */ spec, /** @type {import("./fields.js").Fault[]} */ faults) => {
     const of = systems.find((/** @type {any} */ { kind }) => kind === spec.system?.kind);
     if (of) fields.show({ spec, resolved: resolved?.system.kind === of.kind ? resolved : of.preset, shape: new Shape(of.schema), faults, systems });

@@ -120,13 +120,14 @@ export class Shape {
     return fields.filter(([other, field]) => other !== name && (field.instead_of.includes(name) || this.fields?.[name]?.instead_of.includes(other))).map(([other]) => other);
   }
 
-  /** A value to start with. @returns {any} */
+  /** A value to start with; undefined where no number is as good as another. @returns {any} */
   get initial() {
-    if (this.choices) return this.choices[0];
+    if (this.is("number") || this.is("string")) return this.choices?.[0];
     if (this.is("boolean")) return true;
+    if (this.is("integer")) return this.#schema.minimum;
     if (this.items) return this.items.fields ? [this.items.initial] : [];
     const { fields, tag } = this;
-    const needed = Object.keys(fields ?? {}).filter((name) => name === tag || (this.required.includes(name) && (fields?.[name].fields || fields?.[name].choices)));
+    const needed = Object.keys(fields ?? {}).filter((name) => name === tag || (this.required.includes(name) && fields?.[name].initial !== undefined));
     return Object.fromEntries(needed.map((name) => [name, fields?.[name].initial]));
   }
 }
