@@ -44,7 +44,7 @@ async fn idle_requests(browser: &Browser) -> Value {
 }
 
 #[tokio::test]
-#[ignore = "takes ten minutes; run it by name"]
+#[ignore = "takes minutes; run it by name"]
 async fn pages_cost_of_many_jobs_and_of_long_ones() {
     let folder = tempfile::tempdir().expect("a folder can be made");
     let server = Server::start(folder.path());
