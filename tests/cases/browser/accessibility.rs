@@ -32,38 +32,39 @@ async fn no_page_contradicts_wcag_a_and_aa() {
     let other = done(&server, &short("other")).await;
     let late = failed(&server, "late").await;
     let drawn = |chart: &str| format!("document.querySelector('[data-chart={chart}] .plot').data");
-    // Each page with what shows that it is complete.
+    let refuse = "(document.getElementById('field-cycles').value = '0', document.getElementById('field-cycles').dispatchEvent(new Event('change')))";
+    let study = "/#/study?system=sd_card";
+    // Each page with what is done on it first, and with what shows that it is complete.
     let pages = [
+        ("/", "true", "document.querySelector('tr[data-job]')"),
+        (&format!("/#/job/{one}"), "true", &drawn("stress")),
         (
-            "/".to_owned(),
-            "document.querySelector('tr[data-job]')".to_owned(),
-        ),
-        (format!("/#/job/{one}"), drawn("stress")),
-        (
-            format!("/#/job/{late}"),
-            "document.querySelector('[aria-label=Failure]')".to_owned(),
+            &format!("/#/job/{late}"),
+            "true",
+            "document.querySelector('[aria-label=Failure]')",
         ),
         (
-            format!("/#/compare?jobs={one},{other}"),
-            drawn("half-width"),
+            &format!("/#/compare?jobs={one},{other}"),
+            "true",
+            &drawn("half-width"),
         ),
         (
-            "/#/study?system=sd_card".to_owned(),
-            "document.querySelector('[aria-label=Expected]')".to_owned(),
+            study,
+            "true",
+            "document.querySelector('[aria-label=Expected]')",
         ),
-        (
-            "/docs".to_owned(),
-            "document.getElementById('schema-Job')".to_owned(),
-        ),
+        (study, refuse, "document.querySelector('[aria-invalid]')"),
+        ("/docs", "true", "document.getElementById('schema-Job')"),
     ];
     let browser = Browser::start(&server.base, folder.path()).await;
     let library = std::fs::read_to_string(env!("FRETWEAR_AXE")).expect("axe-core can be read");
     let mut violations = Vec::new();
     for colours in ["light", "dark"] {
         browser.emulate(1400, colours).await;
-        for (path, complete) in &pages {
+        for (path, first, complete) in pages {
             browser.open("/docs").await;
             browser.open(path).await;
+            browser.wait_for(first).await;
             browser.wait_for(&format!("Boolean({complete})")).await;
             let script = format!("{library}; {OPEN}; {CHECK}");
             let started = browser.client.execute(&script, Vec::new()).await;
