@@ -8,7 +8,7 @@ fn main() {
     println!("cargo::rerun-if-env-changed=FRETWEAR_PYTHON");
     println!("cargo::rerun-if-env-changed=PATH");
     println!(
-        "cargo::rustc-check-cfg=cfg(has_vtk, has_cc, has_ccx, has_chromium, has_curl, has_fma, has_mount, has_schemathesis)"
+        "cargo::rustc-check-cfg=cfg(has_vtk, has_axe, has_cc, has_ccx, has_chromium, has_curl, has_fma, has_mount, has_schemathesis)"
     );
     let python = std::env::var("FRETWEAR_PYTHON").unwrap_or_else(|_| "python3".to_owned());
     println!("cargo::rustc-env=FRETWEAR_PYTHON={python}");
@@ -36,6 +36,13 @@ fn main() {
         && runs(Command::new("chromedriver").arg("--version"))
     {
         println!("cargo::rustc-cfg=has_chromium");
+    }
+    let axe = Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("../target/ci-node/node_modules/axe-core/axe.min.js");
+    println!("cargo::rerun-if-changed={}", axe.display());
+    println!("cargo::rustc-env=FRETWEAR_AXE={}", axe.display());
+    if axe.is_file() {
+        println!("cargo::rustc-cfg=has_axe");
     }
     if runs(Command::new("ccx").arg("-v")) {
         println!("cargo::rustc-cfg=has_ccx");

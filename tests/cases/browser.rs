@@ -1,11 +1,13 @@
 //! Requirement: in a real browser the pages show jobs, one job and several beside each other, live and after a reload, by pointer and by keyboard;
 //! nothing is loaded from another host, the content policy blocks nothing and no script fails.
 
+mod accessibility;
 mod accuracy;
 mod comparison;
 mod interface;
 mod job;
 mod jobs;
+mod pages_cost;
 mod study;
 mod sweeps;
 
@@ -39,6 +41,28 @@ async fn submitted(server: &Server, spec: &Value) -> String {
 async fn done(server: &Server, spec: &Value) -> String {
     let id = submitted(server, spec).await;
     let ended = |job: &Value| job["finished_at"].is_string();
+    server.job_when(&id, ended).await;
+    id
+}
+
+/// A job with the fields of two stored cycles.
+fn with_fields(name: &str) -> Value {
+    let mut spec = short(name);
+    spec["output"]["fields"] = json!(true);
+    spec
+}
+
+/// A job that fails after some cycles: its deadline passes.
+async fn failed(server: &Server, name: &str) -> String {
+    let url = format!("{}/v1/jobs?deadline_s=2", server.base);
+    let request = server.client.post(url).json(&long(name)).send().await;
+    let job: Value = request
+        .expect("an answer")
+        .json()
+        .await
+        .expect("a document");
+    let id = job["id"].as_str().expect("a job has an id").to_owned();
+    let ended = |job: &Value| job["status"] == "failed";
     server.job_when(&id, ended).await;
     id
 }

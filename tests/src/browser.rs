@@ -157,10 +157,21 @@ impl Browser {
         self.command("Emulation.setEmulatedMedia", media).await;
     }
 
-    async fn command(&self, name: &str, parameters: Value) {
+    /// Bytes of objects in the page's memory after those without a use are removed.
+    ///
+    /// # Panics
+    /// If the browser does not answer.
+    pub async fn heap_bytes(&self) -> f64 {
+        self.command("HeapProfiler.collectGarbage", json!({})).await;
+        let usage = self.command("Runtime.getHeapUsage", json!({})).await;
+        usage["usedSize"].as_f64().expect("a number")
+    }
+
+    async fn command(&self, name: &str, parameters: Value) -> Value {
         let body = json!({"cmd": name, "params": parameters});
         let answer = self.post("goog/cdp/execute", &body).await;
         assert!(answer["value"].get("error").is_none(), "{name}: {answer}");
+        answer["value"].clone()
     }
 
     /// Messages of the console since the last call: failures of scripts and requests, and what the content policy has blocked.

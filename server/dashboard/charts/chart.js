@@ -32,6 +32,8 @@ const LOG_TICKS = 4;
  * @property {Axis} y
  * @property {Series[]} series
  * @property {{y: number, name: string}[]} [limits] horizontal lines
+ * @property {boolean} [to_scale] whether both axes have the same scale
+ * @property {string} [note] what the curves say in words
  *
  * @typedef {object} Options
  * @property {string} name of its files, and of its axes in the address
@@ -44,6 +46,7 @@ export class Chart {
   /** @type {Figure | null} */
   #figure = null;
   #plot = element("div", { class: "plot" });
+  #note = element("p", { class: "muted small" });
   /** @type {Options} */
   #options;
 
@@ -53,7 +56,7 @@ export class Chart {
     this.title = element("h3");
     this.tools = element("div", { class: "tools" });
     this.node = element("figure", { class: "chart", "data-chart": options.name },
-      element("figcaption", {}, this.title, this.tools), this.#plot);
+      element("figcaption", {}, this.title, this.tools), this.#plot, this.#note);
     on_theme(() => this.#draw(), options.signal);
     fit(this.#plot, options.signal);
     options.signal.addEventListener("abort", () => this.#forget());
@@ -65,6 +68,7 @@ export class Chart {
    */
   async show(figure) {
     if (this.#figure?.title !== figure.title) this.title.textContent = figure.title;
+    this.#note.textContent = figure.note ?? "";
     const is_first = this.#figure === null;
     this.#figure = figure;
     if (is_first) this.#add_tools(figure);
@@ -115,9 +119,9 @@ export class Chart {
     const style = layout();
     await library.react(this.#plot, figure.series.map((series, index) => trace(series, palette[(series.colour ?? index) % palette.length])), {
       ...style,
-      uirevision: `${figure.x.title}, ${figure.y.title}`,
+      uirevision: `${figure.x.title}, ${figure.y.title}${figure.to_scale ? " to scale" : ""}`,
       xaxis: { ...axis(figure.x.title, this.#is_log("x")), nticks: this.#is_log("x") ? LOG_TICKS : undefined },
-      yaxis: { ...axis(figure.y.title, this.#is_log("y")), autorange: figure.y.reversed ? "reversed" : true },
+      yaxis: { ...axis(figure.y.title, this.#is_log("y")), autorange: figure.y.reversed ? "reversed" : true, ...(figure.to_scale && { scaleanchor: "x", scaleratio: 1 }) },
       showlegend: figure.series.length > 1,
       shapes: lines.map(({ y }) => ({ type: "line", xref: "paper", x0: 0, x1: 1, y0: y, y1: y, line: { color: palette[4], width: 1, dash: "dash" } })),
       annotations: lines.map(({ y, name }) => ({ xref: "paper", x: 1, y: height(y), text: name, showarrow: false, xanchor: "right", yanchor: "bottom", font: { color: palette[4], size: 11 } })),

@@ -39,7 +39,7 @@ export function cost_card({ summary }) {
   const phases = /** @type {[string, number][]} */ (Object.entries(phases_s));
   return card("Cost", definitions([
     ["time", duration(wall_s)], ["processor time", duration(cpu_s)],
-    ...phases.map(([name, seconds]) => /** @type {[string, string]} */ ([words(name), duration(seconds)])),
+    ...phases.map(([name, seconds]) => /** @type {[string, string]} */ ([`of it: ${words(name)}`, `${duration(seconds)}, ${percent(wall_s > 0 ? seconds / wall_s : null)}`])),
     ["memory", `${number(peak_memory_mb)} MiB`], ["unknowns", count(dofs)],
     ["elements of the contact", `${count(summary.accuracy.contact_elements)}, ${number(summary.accuracy.contact_element_mm, 1e3)} µm`],
     ["increments a cycle", count(summary.accuracy.increments_per_cycle)],

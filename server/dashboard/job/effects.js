@@ -2,7 +2,6 @@
 
 import { effects_table } from "../parts/effects.js";
 import { card, element } from "../parts/element.js";
-import { badge } from "../parts/status.js";
 
 /**
  * @param {any} job
@@ -17,10 +16,9 @@ export function effects_card({ plan }) {
  * @param {any} job
  * @returns {HTMLElement | null}
  */
-export function warnings_card({ plan, summary, status, status_reason }) {
+export function warnings_card({ plan, summary }) {
   const of_plan = (plan?.warnings ?? []).map((/** @type {any} */ { field, detail }) => element("li", {}, element("code", {}, field), " ", detail));
   const of_result = (summary?.warnings ?? []).map((/** @type {string} */ text) => element("li", {}, text));
-  const failure = status === "failed" ? [element("li", {}, badge({ status, outcome: null }), " ", status_reason)] : [];
-  const all = [...failure, ...of_result, ...of_plan];
+  const all = [...of_result, ...of_plan];
   return all.length ? card("Warnings", element("ul", {}, ...all)) : null;
 }

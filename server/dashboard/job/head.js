@@ -63,7 +63,7 @@ export class Head {
       element("p", { class: "line" }, badge(job), ...running, job.status === "succeeded" ? "" : element("span", {}, job.status_reason ?? "")),
       definitions([
         ["submitted", time(job.created_at)], ["started", time(job.started_at)], ["ended", time(job.finished_at)],
-        ["duration", taken], ["attempts", job.attempts > 1 ? String(job.attempts) : null],
+        ["duration", taken], ["attempts", String(job.attempts)],
       ]));
   }
 

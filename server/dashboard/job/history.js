@@ -61,14 +61,33 @@ const CHARTS = [
     name: "exposed",
     title: "Length on which a layer is worn through",
     y: "exposed length, µm",
-    series: (history) => (history.exposed ?? []).map((/** @type {any} */ { side, layer, length_mm }) =>
-      ({ name: `${side}, ${layer == null ? "base metal" : `layer ${layer}`}`, x: history.cycle, y: scaled(length_mm, UM) })),
+    series: (history) => exposed(history).map(({ side, layer, length_mm }) => ({ name: layer_name(side, layer), x: history.cycle, y: scaled(length_mm, UM) })),
+  },
+  {
+    name: "exposed-part",
+    title: "Part of the scar on which a layer is worn through",
+    y: "exposed part, %",
+    series: (history) => exposed(history).map(({ side, layer, length_mm }) => ({ name: layer_name(side, layer), x: history.cycle, y: parts(length_mm, history[side].scar_half_width_mm) })),
+  },
+  {
+    name: "remaining",
+    title: "Plating that remains at the deepest place",
+    y: "remaining thickness, µm",
+    series: (history, job) => ["receptacle", "slider"].flatMap((side) => remaining(job.spec.plating?.[side] ?? [], history[side].max_depth_mm)
+      .map(({ layer, y }) => ({ name: `${side}, layer ${layer}`, x: history.cycle, y }))),
+  },
+  {
+    name: "dissipated",
+    title: "Energy dissipated since the start",
+    y: "energy, mJ/mm",
+    series: (history) => [{ name: "sum", x: history.cycle, y: history.dissipated_energy_mj_per_mm }],
   },
   {
     name: "resistance",
     title: "Resistance of the contact",
-    y: "resistance, mOhm",
-    series: (history) => [["whole", "contact_resistance_mohm"], ["constriction, slider", "slider_constriction_mohm"], ["constriction, receptacle", "receptacle_constriction_mohm"], ["film", "film_resistance_mohm"]]
+    y: "resistance, mΩ",
+    series: (history) => [["whole", "contact_resistance_mohm"], ["constriction, slider", "slider_constriction_mohm"], ["constriction, receptacle", "receptacle_constriction_mohm"], ["film", "film_resistance_mohm"],
+      ["bulk of the slider", "slider_bulk_mohm"], ["bulk of the receptacle", "receptacle_bulk_mohm"]]
       .filter(([, column]) => history[column]?.some((/** @type {number | null} */ value) => value != null))
       .map(([name, column]) => ({ name, x: history.cycle, y: history[column] })),
   },
@@ -80,6 +99,47 @@ const CHARTS = [
  */
 function scaled(values, factor) {
   return values.map((value) => (value == null ? null : factor * value));
+}
+
+/**
+ * The layers that are exposed at any time.
+ * @param {any} history
+ * @returns {{side: string, layer: number | null, length_mm: number[]}[]}
+ */
+function exposed(history) {
+  return (history.exposed ?? []).filter((/** @type {any} */ { length_mm }) => length_mm.some((/** @type {number} */ length) => length > 0));
+}
+
+/**
+ * @param {string} side
+ * @param {number | null | undefined} layer
+ */
+function layer_name(side, layer) {
+  return `${side}, ${layer == null ? "base metal" : `layer ${layer}`}`;
+}
+
+/**
+ * Exposed lengths as parts of the scar, %; none where there is no scar.
+ * @param {number[]} lengths
+ * @param {number[]} half_widths
+ */
+function parts(lengths, half_widths) {
+  return lengths.map((length, row) => (half_widths[row] > 0 ? (100 * length) / (2 * half_widths[row]) : 0));
+}
+
+/**
+ * What is left of each layer where the wear is deepest, µm.
+ * @param {any[]} layers from the surface down
+ * @param {number[]} depths_mm
+ */
+function remaining(layers, depths_mm) {
+  let top = 0;
+  return layers.map(({ thickness_um, thickness_mm }, index) => {
+    const thickness = thickness_um ?? UM * thickness_mm;
+    const bottom = top + thickness;
+    top = bottom;
+    return { layer: index + 1, y: depths_mm.map((depth) => Math.min(thickness, Math.max(0, bottom - UM * depth))) };
+  });
 }
 
 /**

@@ -12,7 +12,7 @@ export function life_card({ summary }) {
   if (lives.length === 0) return null;
   const name = (/** @type {any} */ { criterion, side }) => {
     const { kind, layer, fraction, mm, mohm } = criterion;
-    const limit = layer != null ? ` of layer ${layer}` : fraction != null ? ` ${percent(fraction)}` : mm != null ? ` ${number(mm, 1e3)} µm` : mohm != null ? ` ${number(mohm)} mOhm` : "";
+    const limit = layer != null ? ` of layer ${layer}` : fraction != null ? ` ${percent(fraction)}` : mm != null ? ` ${number(mm, 1e3)} µm` : mohm != null ? ` ${number(mohm)} mΩ` : "";
     return `${words(kind)}${limit}${side ? `, ${side}` : ""}`;
   };
   const rows = lives.map((/** @type {any} */ life) => [

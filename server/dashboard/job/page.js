@@ -7,6 +7,8 @@ import { has_ended } from "../parts/status.js";
 import { throttled } from "../parts/throttled.js";
 import { checks_card, cost_card, errors_card } from "./accuracy.js";
 import { effects_card, warnings_card } from "./effects.js";
+import { failure_card } from "./failure.js";
+import { Fields } from "./fields.js";
 import { files_card } from "./files.js";
 import { Head } from "./head.js";
 import { HistoryCharts } from "./history.js";
@@ -29,11 +31,12 @@ export async function job_page(content, { id }, signal) {
   const history = new HistoryCharts(choices, signal);
   const snapshots = new SnapshotCharts(choices, signal);
   const maps = new Maps(choices, signal);
+  const fields = new Fields(choices, signal);
   const results = element("div", { class: "cards" });
   const details = element("div", { class: "cards" });
   const charts = element("div", { class: "charts" });
   content.append(head.node, results, charts, details, element("div", { class: "cards" }, effects_card(job), specification_card(job)));
-  charts.append(...history.nodes, snapshots.node, maps.node);
+  charts.append(...history.nodes, snapshots.node, fields.node, maps.node);
 
   const show_history = async () => {
     await history.load(job, signal);
@@ -42,9 +45,9 @@ export async function job_page(content, { id }, signal) {
   const show_end = async () => {
     const listed = await fetch_json(job.links.results, { signal });
     const { summary } = job;
-    fill(results, summary ? [result_card(job), life_card(job), errors_card(job), warnings_card(job)] : [warnings_card(job)]);
+    fill(results, summary ? [result_card(job), life_card(job), errors_card(job), failure_card(job), warnings_card(job)] : [failure_card(job), warnings_card(job)]);
     fill(details, [...(summary ? [stations_card(job), checks_card(job), cost_card(job)] : []), files_card(listed)]);
-    await maps.load(listed, signal);
+    await Promise.all([maps.load(listed, signal), fields.load(job, listed)]);
   };
   const show = async () => {
     head.update(job);
@@ -60,7 +63,10 @@ export async function job_page(content, { id }, signal) {
         await show();
       },
     });
-  return () => snapshots.follow_address();
+  return () => {
+    snapshots.follow_address();
+    fields.follow_address();
+  };
 }
 
 /**

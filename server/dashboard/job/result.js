@@ -8,7 +8,7 @@ import { count, length, number, words } from "../parts/format.js";
  * @param {any} job
  * @returns {HTMLElement}
  */
-export function result_card({ summary }) {
+export function result_card({ summary, spec }) {
   const { receptacle, slider, initial, accuracy, extent } = summary;
   const worn = /** @type {[string, any][]} */ ([["receptacle", receptacle], ["slider", slider]]);
   const rows = worn.map(([name, side]) => [name, length(side.max_depth_mm), length(side.scar_half_width_mm), `${number(side.worn_area_mm2, 1e6)} µm²`,
@@ -24,7 +24,8 @@ export function result_card({ summary }) {
       ["contact half-width, unworn → worn", `${length(initial.contact_half_width_mm)} → ${length(summary.contact_half_width_mm)}`],
       ["force", extent?.force_n == null ? null : `${number(extent.force_n)} N`],
       ["dissipated energy", summary.dissipated_energy_mj_per_mm == null ? null : `${number(summary.dissipated_energy_mj_per_mm)} mJ/mm`],
-      ["contact resistance", resistance?.initial == null ? null : `${number(resistance.initial)} → ${number(resistance.final)} mOhm`],
+      ["contact resistance", resistance?.initial == null ? null : `${number(resistance.initial)} → ${number(resistance.final)} mΩ`],
+      ["thinnest plating that remains", plating_left(spec, worn)],
     ]));
 }
 
@@ -40,4 +41,17 @@ export function stations_card({ summary }) {
   const rows = stations.map((/** @type {any} */ station) => [place(station), number(station.line_load_n_per_mm), number(station.peak_pressure_mpa),
     length(station.receptacle.max_depth_mm), length(station.slider.max_depth_mm)]);
   return card("Sections along the line", table({ head: ["place", "line load, N/mm", "peak, MPa", "receptacle", "slider"], rows, numbers: [1, 2, 3, 4] }));
+}
+
+/**
+ * The plating that remains at the deepest place of each plated side.
+ * @param {any} spec
+ * @param {[string, any][]} worn
+ */
+function plating_left(spec, worn) {
+  const thickness = (/** @type {string} */ side) => (spec.plating?.[side] ?? []).reduce((/** @type {number} */ sum, /** @type {any} */ { thickness_um, thickness_mm }) => sum + (thickness_mm ?? thickness_um / 1e3), 0);
+  return worn.filter(([side]) => thickness(side) > 0).map(([side, { max_depth_mm }]) => {
+    const left = thickness(side) - max_depth_mm;
+    return `${left > 0 ? length(left) : "none"} of ${length(thickness(side))} (${side})`;
+  }).join(", ");
 }

@@ -4,6 +4,7 @@ import { Chart } from "../charts/chart.js";
 import { fetch_json } from "../parts/client.js";
 import { element } from "../parts/element.js";
 import { count } from "../parts/format.js";
+import { friction_loop } from "./loop.js";
 
 const UM = 1e3;
 const PHASES = ["leftmost", "neutral", "rightmost"];
@@ -19,6 +20,7 @@ export class SnapshotCharts {
   #slider = /** @type {HTMLInputElement} */ (element("input", { type: "range", min: 0, max: 0, step: 1, "aria-label": "stored cycle" }));
   #shown = element("output");
   #overlay = /** @type {HTMLInputElement} */ (element("input", { type: "checkbox" }));
+  #scale = /** @type {HTMLSelectElement} */ (element("select", {}, element("option", { value: "" }, "exaggerated"), element("option", { value: "equal" }, "to scale")));
   #state;
   #signal;
 
@@ -38,13 +40,16 @@ export class SnapshotCharts {
       state.set("cycle", String(this.#cycles[this.#slider.valueAsNumber]));
       this.#draw();
     });
-    this.#overlay.checked = state.get("overlay") === "1";
     this.#overlay.addEventListener("change", () => {
       state.set("overlay", this.#overlay.checked ? "1" : null);
       this.#draw();
     });
+    this.#scale.addEventListener("change", () => {
+      state.set("scale", this.#scale.value);
+      this.#draw();
+    });
     this.node = element("section", { class: "snapshots", hidden: true, "aria-label": "stored cycles" },
-      element("p", { class: "line" }, element("label", {}, "Cycle ", this.#slider), this.#shown, element("label", {}, this.#overlay, " all stored profiles")),
+      element("p", { class: "line" }, element("label", {}, "Cycle ", this.#slider), this.#shown, element("label", {}, this.#overlay, " all stored profiles"), element("label", {}, "Depths ", this.#scale)),
       element("div", { class: "charts" }, this.profile.node, this.pressure.node, this.shear.node, this.loop.node));
   }
 
@@ -74,6 +79,8 @@ export class SnapshotCharts {
   }
 
   #place() {
+    this.#overlay.checked = this.#state.get("overlay") === "1";
+    this.#scale.value = this.#state.get("scale") === "equal" ? "equal" : "";
     const asked = Number(this.#state.get("cycle") ?? NaN);
     const index = this.#cycles.findIndex((cycle) => cycle >= asked);
     this.#slider.value = String(index < 0 ? this.#cycles.length - 1 : index);
@@ -102,7 +109,7 @@ export class SnapshotCharts {
     // The reader may have gone on.
     if (cycle !== this.#cycles[this.#slider.valueAsNumber] || this.#signal.aborted) return;
     await Promise.all([
-      this.profile.show(profiles(profile, others)),
+      this.profile.show({ ...profiles(profile, others), to_scale: this.#scale.value === "equal" }),
       this.pressure.show(tractions(pressure, "pressure", this.#job)),
       this.shear.show(tractions(pressure, "shear", this.#job)),
       this.loop.show(friction_loop(loop)),
@@ -179,19 +186,4 @@ function tractions(snapshot, what, job) {
 function hertz(half_width_mm, peak_mpa) {
   const places = Array.from({ length: 101 }, (_, index) => index / 50 - 1);
   return { name: "Hertz", x: places.map((x) => UM * half_width_mm * x), y: places.map((x) => peak_mpa * Math.sqrt(1 - x * x)), dash: /** @type {const} */ ("dash"), colour: 7 };
-}
-
-/**
- * @param {any} loop
- * @returns {import("../charts/chart.js").Figure}
- */
-function friction_loop(loop) {
-  const [name, values, unit] = loop.tangential_force_n ? ["force", loop.tangential_force_n, "N"] : ["force", loop.tangential_force_n_per_mm, "N/mm"];
-  const closed = (/** @type {number[]} */ list) => [...list, ...list.slice(0, 1)];
-  return {
-    title: `Friction loop of cycle ${count(loop.cycle)}`,
-    x: { title: "displacement, µm" },
-    y: { title: `tangential force, ${unit}` },
-    series: [{ name, x: closed(loop.displacement_mm).map((/** @type {number} */ x) => UM * x), y: closed(values) }],
-  };
 }

@@ -12,7 +12,7 @@ export function specification_card({ spec }) {
   const rows = leaves(given, "", is_shown_whole).map(([pointer, value]) => [element("code", {}, pointer), Array.isArray(value) ? value.join(", ") : String(value), provenance[pointer] ?? ""]);
   return card("Specification",
     table({ head: ["field", "value", "provenance"], rows }),
-    element("details", {}, element("summary", {}, "as JSON"), element("pre", {}, JSON.stringify(given, null, 2))));
+    element("details", {}, element("summary", {}, "as JSON"), element("pre", { tabindex: "0", "aria-label": "specification as JSON" }, JSON.stringify(given, null, 2))));
 }
 
 /** @param {any} value */

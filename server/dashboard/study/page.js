@@ -6,8 +6,9 @@ import { words } from "../parts/format.js";
 import { throttled } from "../parts/throttled.js";
 import { cloned_batch } from "./clone.js";
 import { drawing } from "./drawing.js";
-import { Fields, set_value } from "./fields.js";
+import { Fields } from "./fields.js";
 import { faults_list, plan_cards } from "./plan.js";
+import { Shape } from "./schema.js";
 import { Submission } from "./submission.js";
 
 /** Pause after a key before the plan is asked for, ms. */
@@ -29,14 +30,18 @@ export async function study_page(content, { values }, signal) {
   const scene = element("div", { class: "drawing" });
   /** The resolved specification of the last plan. @type {any} */
   let resolved = null;
-  const fields = new Fields((pointer, value) => {
+  const fields = new Fields((edit) => {
     const spec = parsed();
-    if (!spec) return;
-    write(set_value(spec, resolved, pointer, value));
+    if (spec) write(edit(spec));
   });
+  const show_fields = (/** @type {any} */ spec, /** @type {import("./fields.js").Fault[]} */ faults) => {
+    const of = systems.find((/** @type {any} */ { kind }) => kind === spec.system?.kind);
+    if (of) fields.show({ spec, resolved: resolved?.system.kind === of.kind ? resolved : of.preset, shape: new Shape(of.schema), faults, systems });
+  };
   const refused = (/** @type {Problem} */ problem) => {
-    faults.replaceChildren(faults_list(problem));
-    fields.mark(problem.faults);
+    const spec = parsed();
+    if (spec) show_fields(spec, problem.faults);
+    faults.replaceChildren(faults_list(problem, (pointer) => fields.focus(pointer)));
   };
   const submission = new Submission({ signal, cloned: copied, refused });
 
@@ -65,7 +70,7 @@ export async function study_page(content, { values }, signal) {
       if (call !== asked || signal.aborted) return;
       resolved = found.spec;
       faults.replaceChildren();
-      fields.show(resolved, []);
+      show_fields(spec, []);
       scene.replaceChildren(...drawing(resolved));
       plan.replaceChildren(...plan_cards(found.plan));
       await submission.planned(found);
@@ -82,8 +87,8 @@ export async function study_page(content, { values }, signal) {
 
   content.append(element("h1", {}, "New study"),
     element("p", { class: "line" }, element("label", { for: "system" }, "System "), system, ...submission.controls), faults, submission.forms,
-    element("div", { class: "cards" }, card("To scale", scene), card("Specification as JSON", text, submission.request)),
-    plan, card("Fields", fields.node));
+    element("div", { class: "study" }, card("Fields", fields.node), element("div", {}, card("To scale", scene),
+      card("Specification as JSON", text, element("details", {}, element("summary", {}, "as a command"), submission.request)), plan)));
   text.value = JSON.stringify(start, null, 2);
   await show_plan();
 }

@@ -5,13 +5,15 @@ import { card, definitions, element, table } from "../parts/element.js";
 import { count, duration, length, number, words } from "../parts/format.js";
 
 /**
- * The faults of a refused specification.
+ * The faults of a refused specification, each with a way to its field.
  * @param {import("../parts/client.js").Problem} problem
+ * @param {(pointer: string) => void} go
  * @returns {HTMLElement}
  */
-export function faults_list({ message, faults }) {
+export function faults_list({ message, faults }, go) {
   if (faults.length === 0) return element("p", {}, message);
-  return element("ul", {}, ...faults.map(({ pointer, detail }) => element("li", {}, element("code", {}, pointer || "/"), " ", detail)));
+  return element("ul", {}, ...faults.map(({ pointer, detail }) =>
+    element("li", {}, element("button", { type: "button", class: "quiet", click: () => go(pointer) }, element("code", {}, pointer || "/")), " ", detail)));
 }
 
 /**

@@ -4,7 +4,7 @@ import { choices, link } from "../parts/address.js";
 import { post_json, Problem } from "../parts/client.js";
 import { element } from "../parts/element.js";
 import { AccuracyForm } from "./accuracy_form.js";
-import { schema_of } from "./schema.js";
+import { schema_of } from "./pointers.js";
 import { SweepForm } from "./sweep_form.js";
 
 /** @typedef {"job" | "sweep" | "accuracy"} Kind */

@@ -2,7 +2,7 @@
 
 import { element } from "../parts/element.js";
 import { as_text, quantity } from "../parts/quantity.js";
-import { choices_of, is_count } from "./schema.js";
+import { choices_of, is_count } from "./pointers.js";
 import { listed, spread } from "./values.js";
 
 /** The entry for a field that is not listed. */

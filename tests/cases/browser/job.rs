@@ -3,7 +3,7 @@
 use serde_json::Value;
 use tests::{Browser, Server};
 
-use super::{done, fits_a_phone, is_sound, long, short, submitted};
+use super::{done, failed, fits_a_phone, is_sound, long, short, submitted, with_fields};
 
 #[tokio::test]
 #[cfg_attr(
@@ -111,5 +111,84 @@ async fn a_page_survives_a_restart_of_the_service() {
     server.post(&format!("/v1/jobs/{id}/cancel")).await;
     browser.shows(".status", "cancelled").await;
     assert_eq!(browser.other_hosts().await, Vec::<String>::new());
+    browser.close().await;
+}
+
+#[tokio::test]
+#[cfg_attr(
+    not(has_chromium),
+    ignore = "needs the programs chromium and chromedriver"
+)]
+async fn stresses_are_drawn_at_each_position_and_profiles_to_scale() {
+    let folder = tempfile::tempdir().expect("a folder can be made");
+    let server = Server::start(folder.path());
+    let id = done(&server, &with_fields("stressed")).await;
+    let browser = Browser::start(&server.base, folder.path()).await;
+    browser
+        .open(&format!(
+            "/#/job/{id}?position=rightmost&field=1&scale=equal"
+        ))
+        .await;
+    let stress = "[data-chart=stress]";
+    browser
+        .shows(stress, "Von Mises stress at cycle 1, rightmost position")
+        .await;
+    let plot = "document.querySelector('[data-chart=stress] .plot')";
+    // The picture is as fine as the screen, empty outside of the bodies, and its colours are those of stresses.
+    let values = format!("{plot}.data[0].z.flat()");
+    browser
+        .wait_for(&format!(
+            "{values}.length > 10000 && {values}.includes(null)"
+        ))
+        .await;
+    browser
+        .wait_for(&format!("{plot}.data[0].zmax > 10 && {values}.every((value) => value === null || value <= {plot}.data[0].zmax)"))
+        .await;
+    browser
+        .wait_for(&format!(
+            "{plot}.innerHTML.includes('von Mises stress, MPa')"
+        ))
+        .await;
+    // Zoomed, it is computed for what is shown.
+    let zoom = "const plot = document.querySelector('[data-chart=stress] .plot'); Plotly.relayout(plot, {'xaxis.range': [0, 10]})";
+    let zoomed = browser.client.execute(zoom, Vec::new()).await;
+    zoomed.expect("it can be zoomed");
+    browser
+        .wait_for(&format!("{plot}.data[0].x0 === 0 && Math.abs({plot}.data[0].dx * ({plot}.data[0].z[0].length - 1) - 10) < 1e-6"))
+        .await;
+    let choose = "const choice = [...document.querySelectorAll('.stresses select')][1]; choice.value = 'leftmost'; choice.dispatchEvent(new Event('change'))";
+    let chosen = browser.client.execute(choose, Vec::new()).await;
+    chosen.expect("it can be chosen");
+    browser.shows(stress, "leftmost position").await;
+    browser
+        .wait_for("location.hash.includes('position=leftmost')")
+        .await;
+    let to_scale =
+        "document.querySelector('[data-chart=profile] .plot').layout.yaxis.scaleanchor === 'x'";
+    browser.wait_for(to_scale).await;
+    browser.shows("[data-chart=loop]", "gross slip").await;
+    fits_a_phone(&browser, "stresses").await;
+    is_sound(&browser).await;
+    browser.close().await;
+}
+
+#[tokio::test]
+#[cfg_attr(
+    not(has_chromium),
+    ignore = "needs the programs chromium and chromedriver"
+)]
+async fn a_failed_job_says_why_and_what_to_do() {
+    let folder = tempfile::tempdir().expect("a folder can be made");
+    let server = Server::start(folder.path());
+    let id = failed(&server, "late").await;
+    let browser = Browser::start(&server.base, folder.path()).await;
+    browser.open(&format!("/#/job/{id}")).await;
+    let failure = "[aria-label=Failure]";
+    browser.shows(failure, "Failed: deadline exceeded").await;
+    browser.shows(failure, "Run it again").await;
+    browser.shows(failure, "Clone and change").await;
+    browser.shows(".actions", "Run again").await;
+    fits_a_phone(&browser, "failed").await;
+    is_sound(&browser).await;
     browser.close().await;
 }

@@ -68,3 +68,84 @@ async fn a_study_is_made_refused_mended_submitted_and_cloned() {
     is_sound(&browser).await;
     browser.close().await;
 }
+
+/// The specification that the form has written.
+const WRITTEN: &str = "JSON.parse(document.querySelector('textarea').value)";
+
+#[tokio::test]
+#[cfg_attr(
+    not(has_chromium),
+    ignore = "needs the programs chromium and chromedriver"
+)]
+async fn laws_materials_and_sections_are_chosen_and_each_fault_stands_at_its_field() {
+    let folder = tempfile::tempdir().expect("a folder can be made");
+    let server = Server::start(folder.path());
+    let browser = Browser::start(&server.base, folder.path()).await;
+    browser.open("/#/study?system=fuzz_button").await;
+    browser
+        .shows("[aria-label=Expected]", "processor time")
+        .await;
+    // Another law asks for its own constants: the closed section opens, and each missing one is marked, no other.
+    browser
+        .wait_for("!document.querySelector('[data-group=interface]').open")
+        .await;
+    type_into(&browser, "/interface/wear/slider/law", "quinn").await;
+    browser
+        .wait_for("document.querySelector('[data-group=interface]').open")
+        .await;
+    let invalid = "[...document.querySelectorAll('[aria-invalid]')].map((field) => field.id)";
+    browser
+        .wait_for(&format!("{invalid}.length === 6 && {invalid}.every((id) => id.startsWith('field-interface-wear-slider-'))"))
+        .await;
+    let beside = "document.getElementById('field-interface-wear-slider-critical_film_um-fault').innerText.includes('missing')";
+    browser.wait_for(beside).await;
+    // Edited as JSON, the fields follow.
+    let json = "const text = document.querySelector('textarea'); text.value = '{\"system\": {\"kind\": \"fuzz_button\"}, \"cycles\": 30}'; text.dispatchEvent(new Event('input'))";
+    let typed = browser.client.execute(json, Vec::new());
+    typed.await.expect("it can be typed into");
+    browser
+        .wait_for("document.getElementById('field-cycles').value === '30' && document.querySelector('.faults').innerText === ''")
+        .await;
+    // A material of the library, and one of its properties changed.
+    type_into(&browser, "/materials/slider", "silver").await;
+    browser
+        .wait_for(&format!("{WRITTEN}.materials.slider === 'silver'"))
+        .await;
+    browser
+        .wait_for("document.getElementById('field-materials-slider-youngs_modulus_mpa').value === '83000'")
+        .await;
+    type_into(&browser, "/materials/slider/youngs_modulus_mpa", "80000").await;
+    browser
+        .wait_for(&format!("{WRITTEN}.materials.slider.youngs_modulus_mpa === 80000 && {WRITTEN}.materials.slider.name === undefined"))
+        .await;
+    // A changed friction leaves wear and plating to their defaults.
+    type_into(&browser, "/interface/friction/coefficient", "0.4").await;
+    browser
+        .wait_for(&format!("{WRITTEN}.interface.friction.coefficient === 0.4 && {WRITTEN}.interface.wear === undefined"))
+        .await;
+    // A section is added with its fault, and removed again.
+    browser.click("[aria-label='add stop']").await;
+    browser
+        .wait_for(
+            "document.getElementById('field-stop-0-layer').getAttribute('aria-invalid') === 'true'",
+        )
+        .await;
+    type_into(&browser, "/stop/0/layer", "2").await;
+    browser
+        .wait_for(&format!(
+            "{WRITTEN}.stop[0].layer === 2 && document.querySelector('.faults').innerText === ''"
+        ))
+        .await;
+    fits_a_phone(&browser, "study-fields").await;
+    browser.click("[aria-label='remove: stop']").await;
+    browser
+        .wait_for(&format!("{WRITTEN}.stop === undefined"))
+        .await;
+    let refused = browser.complaints().await;
+    assert!(
+        refused.iter().all(|line| line.contains("/v1/plans")),
+        "{refused:#?}"
+    );
+    is_sound(&browser).await;
+    browser.close().await;
+}

@@ -1,0 +1,81 @@
+//! No page contradicts the success criteria A and AA of WCAG that axe-core can check, light and dark.
+
+use serde_json::{Value, json};
+use tests::{Browser, Server};
+
+use super::{done, failed, short, with_fields};
+
+/// Runs axe-core on the page and stores each violation in words.
+const CHECK: &str = r"
+    window.violations = null;
+    const only = {type: 'tag', values: ['wcag2a', 'wcag2aa', 'wcag21a', 'wcag21aa', 'wcag22aa']};
+    axe.run(document, {runOnly: only}).then(
+        (found) => (window.violations = {
+            passed: found.passes.length,
+            list: found.violations.flatMap(({id, nodes}) => nodes.map(({html, failureSummary}) => `${id}: ${html.slice(0, 200)}: ${failureSummary}`)),
+        }),
+        (error) => (window.violations = {passed: 0, list: [String(error)]}));
+";
+
+/// Opens all that can be opened, so that it is checked as well.
+const OPEN: &str = "for (const part of document.querySelectorAll('details')) part.open = true";
+
+#[tokio::test]
+#[cfg_attr(
+    not(all(has_chromium, has_axe)),
+    ignore = "needs the programs chromium and chromedriver, and axe-core in target/ci-node"
+)]
+async fn no_page_contradicts_wcag_a_and_aa() {
+    let folder = tempfile::tempdir().expect("a folder can be made");
+    let server = Server::start(folder.path());
+    let one = done(&server, &with_fields("one")).await;
+    let other = done(&server, &short("other")).await;
+    let late = failed(&server, "late").await;
+    let drawn = |chart: &str| format!("document.querySelector('[data-chart={chart}] .plot').data");
+    let refuse = "(document.getElementById('field-cycles').value = '0', document.getElementById('field-cycles').dispatchEvent(new Event('change')))";
+    let study = "/#/study?system=sd_card";
+    // Each page with what is done on it first, and with what shows that it is complete.
+    let pages = [
+        ("/", "true", "document.querySelector('tr[data-job]')"),
+        (&format!("/#/job/{one}"), "true", &drawn("stress")),
+        (
+            &format!("/#/job/{late}"),
+            "true",
+            "document.querySelector('[aria-label=Failure]')",
+        ),
+        (
+            &format!("/#/compare?jobs={one},{other}"),
+            "true",
+            &drawn("half-width"),
+        ),
+        (
+            study,
+            "true",
+            "document.querySelector('[aria-label=Expected]')",
+        ),
+        (study, refuse, "document.querySelector('[aria-invalid]')"),
+        ("/docs", "true", "document.getElementById('schema-Job')"),
+    ];
+    let browser = Browser::start(&server.base, folder.path()).await;
+    let library = std::fs::read_to_string(env!("FRETWEAR_AXE")).expect("axe-core can be read");
+    let mut violations = Vec::new();
+    for colours in ["light", "dark"] {
+        browser.emulate(1400, colours).await;
+        for (path, first, complete) in pages {
+            browser.open("/docs").await;
+            browser.open(path).await;
+            browser.wait_for(first).await;
+            browser.wait_for(&format!("Boolean({complete})")).await;
+            let script = format!("{library}; {OPEN}; {CHECK}");
+            let started = browser.client.execute(&script, Vec::new()).await;
+            started.expect("axe-core starts");
+            let found = browser.wait_for("window.violations").await;
+            assert!(found["passed"].as_u64() > Some(0), "{path}: {found}");
+            let list = found["list"].as_array().cloned().unwrap_or_default();
+            let texts = list.iter().filter_map(Value::as_str);
+            violations.extend(texts.map(|text| format!("{colours} {path}: {text}")));
+        }
+    }
+    assert_eq!(json!(violations), json!([]));
+    browser.close().await;
+}
