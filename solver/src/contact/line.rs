@@ -35,6 +35,7 @@ mod pair;
 mod pairing;
 mod predictor;
 mod problem;
+mod reach;
 mod response;
 mod state;
 mod status;

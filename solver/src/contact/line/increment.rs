@@ -13,10 +13,12 @@ use super::pair::{Displacement, Pair, Surfaces, Zones};
 use super::pairing;
 use super::predictor::{predict, start_from};
 use super::problem::{GAP_TOLERANCE, Iterate, MOST_ITERATIONS, Problem};
+use super::reach::share_among_reached;
 use super::response::Response;
 use super::state::ContactState;
 use super::wear_coupling::WearCoupling;
 use super::work::Work;
+use crate::law::surface::SurfaceWear;
 use crate::model::{Interface, Tangential};
 use crate::sides::Sides;
 
@@ -41,6 +43,8 @@ pub struct Solver {
     /// Coefficients of friction of the coupled nodes where these differ, -.
     friction: Vec<f64>,
     recession: Sides<Vec<f64>>,
+    /// Parts of the path that the master's nodes take.
+    reached: Vec<f64>,
     /// The window that these buffers are assembled for.
     assembled: Option<(usize, usize)>,
 }
@@ -220,6 +224,11 @@ impl Solver {
             let geometry = &mut self.geometry;
             geometry.measure((pair, zones), surfaces, setting);
             self.response.reset(geometry.coupling.len(), tracks_slip);
+            let by_dose = |side| matches!(wear.of(side), Some(SurfaceWear::ByDose(_)));
+            if by_dose(interface.slave.other()) && last.indentation > 0.0 {
+                let reached = (last.indentation, &mut self.reached);
+                share_among_reached(geometry, (pair, surfaces), setting.pairing_x, reached);
+            }
             let worn = (wear, surfaces.depth);
             self.wear.assemble(&geometry.coupling, pair, worn, cycles);
             self.assemble_fixed_slip((pair, zones), last, step);

@@ -18,6 +18,9 @@ const GAUSS: [(f64, f64); 3] = [
 /// then continued, which moves nothing by more than round-off.
 const ROUND_OFF: f64 = 1e-10;
 
+/// Part of a row's shares without which it is not changed. Arbitrary.
+const LEAST_KEPT: f64 = 1e-2;
+
 /// Coupling of the slave nodes `first..end` with the master at one position.
 #[derive(Debug, Default)]
 pub(in crate::contact) struct Coupling {
@@ -203,6 +206,29 @@ impl Coupling {
             self.rows[i - self.first].0,
             &self.standard[self.row_span(i)],
         )
+    }
+
+    /// Multiplies what each of the master's nodes in the range shares of a path by a part, and the row of each slave node so that it shares as much
+    /// in all; rows of which next to nothing is left stay as they are.
+    pub(super) fn share_among(&mut self, parts: &[f64]) {
+        let begin = self.master_range.0;
+        for l in self.first..self.end {
+            let (from, span) = (self.rows[l - self.first].0, self.row_span(l));
+            let row = &mut self.standard[span];
+            let parts = &parts[from - begin..];
+            let whole: f64 = row.iter().sum();
+            let kept: f64 = row
+                .iter()
+                .zip(parts)
+                .map(|(share, part)| share * part)
+                .sum();
+            if kept < LEAST_KEPT * whole {
+                continue;
+            }
+            for (share, part) in row.iter_mut().zip(parts) {
+                *share *= part * (whole / kept);
+            }
+        }
     }
 }
 
