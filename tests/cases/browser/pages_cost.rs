@@ -13,7 +13,7 @@ const RUNNING: usize = 50;
 /// Time over which requests are counted, and between two looks at the memory.
 const IDLE: Duration = Duration::from_secs(12);
 const BETWEEN: Duration = Duration::from_secs(30);
-const LOOKS: usize = 7;
+const LOOKS: u64 = 7;
 
 /// Time since the page was opened, ms.
 const SINCE: &str = "performance.now()";
@@ -102,8 +102,8 @@ async fn pages_cost_of_running_jobs() {
     for look in 0..LOOKS {
         let bytes = browser.heap_bytes().await;
         println!(
-            "{RUNNING} running jobs, {:?}: {:.2} MB in use",
-            BETWEEN * u32::try_from(look).expect("few"),
+            "{RUNNING} running jobs, {} s: {:.2} MB in use",
+            look * BETWEEN.as_secs(),
             bytes / 1e6
         );
         tokio::time::sleep(BETWEEN).await;
