@@ -37,6 +37,14 @@ async fn submitted(server: &Server, spec: &Value) -> String {
     job["id"].as_str().expect("a job has an id").to_owned()
 }
 
+/// Submits a sweep or an accuracy study to its collection and returns its id.
+async fn batch(server: &Server, collection: &str, request: &Value) -> String {
+    let url = format!("{}/v1/{collection}", server.base);
+    let answer = server.client.post(url).json(request).send().await;
+    let batch: Value = answer.expect("an answer").json().await.expect("JSON");
+    batch["id"].as_str().expect("it has an id").to_owned()
+}
+
 /// Submits a job and waits for its end.
 async fn done(server: &Server, spec: &Value) -> String {
     let id = submitted(server, spec).await;

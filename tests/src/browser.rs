@@ -14,7 +14,8 @@ use nix::unistd::Pid;
 use serde_json::{Value, json};
 
 /// Timeout of every wait; no measure of speed.
-const PATIENCE: Duration = Duration::from_mins(2);
+const PATIENCE_MS: u64 = 120_000;
+const PATIENCE: Duration = Duration::from_millis(PATIENCE_MS);
 /// Time between two looks at a page that changes by itself.
 const POLL: Duration = Duration::from_millis(50);
 
@@ -56,6 +57,7 @@ impl Browser {
         let options = json!({
             "goog:chromeOptions": {"args": ["--headless=new", "--no-sandbox", "--disable-gpu", "--lang=en-US", "--window-size=1400,1000", profile]},
             "goog:loggingPrefs": {"browser": "ALL"},
+            "timeouts": {"script": PATIENCE_MS},
         });
         let capabilities: Capabilities = serde_json::from_value(options).expect("an object");
         let client = ClientBuilder::new(HttpConnector::new())

@@ -3,7 +3,7 @@
 use serde_json::{Value, json};
 use tests::{Browser, Server};
 
-use super::{done, failed, short, with_fields};
+use super::{batch, done, failed, short, with_fields};
 
 /// Runs axe-core on the page and stores each violation in words.
 const CHECK: &str = r"
@@ -31,6 +31,10 @@ async fn no_page_contradicts_wcag_a_and_aa() {
     let one = done(&server, &with_fields("one")).await;
     let other = done(&server, &short("other")).await;
     let late = failed(&server, "late").await;
+    let base = short("of many");
+    let grid = json!({"/load/n_per_mm": [100, 200], "/motion/amplitude_mm": [0.02, 0.03]});
+    let sweep = batch(&server, "sweeps", &json!({"base": base, "grid": grid})).await;
+    let accuracy = batch(&server, "studies", &json!({"base": base, "budget_s": 10})).await;
     let drawn = |chart: &str| format!("document.querySelector('[data-chart={chart}] .plot').data");
     let refuse = "(document.getElementById('field-cycles').value = '0', document.getElementById('field-cycles').dispatchEvent(new Event('change')))";
     let study = "/#/study?system=sd_card";
@@ -54,6 +58,27 @@ async fn no_page_contradicts_wcag_a_and_aa() {
             "document.querySelector('[aria-label=Expected]')",
         ),
         (study, refuse, "document.querySelector('[aria-invalid]')"),
+        (
+            "/#/study?as=sweep",
+            "true",
+            "document.querySelector('.swept')",
+        ),
+        (
+            "/#/study?as=accuracy",
+            "true",
+            "document.getElementById('budget')",
+        ),
+        (
+            "/#/sweeps",
+            "true",
+            "document.querySelectorAll('.batches tbody tr').length === 2",
+        ),
+        (&format!("/#/sweep/{sweep}"), "true", &drawn("sweep-map")),
+        (
+            &format!("/#/accuracy/{accuracy}"),
+            "true",
+            "document.querySelector('.points tbody tr')",
+        ),
         ("/docs", "true", "document.getElementById('schema-Job')"),
     ];
     let browser = Browser::start(&server.base, folder.path()).await;

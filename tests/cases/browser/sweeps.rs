@@ -1,9 +1,9 @@
 //! Sweeps: submitted from the form, watched to their end, drawn as a map whose cells lead to jobs; the list of all of them.
 
-use serde_json::{Value, json};
+use serde_json::json;
 use tests::{Browser, Server};
 
-use super::{fits_a_phone, is_sound, long, short};
+use super::{batch, fits_a_phone, is_sound, long, short};
 
 /// Runs a script on the page.
 async fn run(browser: &Browser, script: &str) {
@@ -18,14 +18,6 @@ async fn set(browser: &Browser, field: usize, part: &str, value: &str) {
          for (const name of ['input', 'change']) node.dispatchEvent(new Event(name))"
     );
     run(browser, &script).await;
-}
-
-/// Submits a sweep and returns its id.
-async fn swept(server: &Server, request: &Value) -> String {
-    let url = format!("{}/v1/sweeps", server.base);
-    let answer = server.client.post(url).json(request).send().await;
-    let sweep: Value = answer.expect("an answer").json().await.expect("JSON");
-    sweep["id"].as_str().expect("a sweep has an id").to_owned()
 }
 
 #[tokio::test]
@@ -124,7 +116,7 @@ async fn a_listed_sweep_is_followed_cancelled_cloned_and_deleted() {
     browser.open("/#/sweeps").await;
     browser.shows("main", "None here yet").await;
     let request = json!({"name": "long ones", "base": long("long"), "grid": {"/interface/friction/coefficient": [0.3, 0.4, 0.5]}});
-    let id = swept(&server, &request).await;
+    let id = batch(&server, "sweeps", &request).await;
     let row = format!("tr[data-batch='{id}']");
     browser.shows(&row, "long ones").await;
     browser.shows(&row, "running").await;
