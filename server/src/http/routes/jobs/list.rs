@@ -170,9 +170,10 @@ pub(crate) async fn list(
         Start::Behind(0)
     };
     let page = Page::parse_from(&format!("{filter:?}"), first, limit, token)?;
-    let total = match total {
-        true => Some(app.store.count(&filter).await?),
-        false => None,
+    let total = if total {
+        Some(app.store.count(&filter).await?)
+    } else {
+        None
     };
     (filter.before, filter.skipped) = (page.before(), page.skipped());
     filter.limit = page.query_limit();
