@@ -74,7 +74,7 @@ function series(runs, error, cost, bound) {
   const sizes = runs.filter(({ tolerance }) => tolerance === null).map(({ contact_element_mm }) => contact_element_mm ?? 0).sort((a, b) => b - a);
   const levels = sizes.filter((size, index) => index === 0 || Math.abs(size / sizes[index - 1] - 1) > SAME_LEVEL);
   const all = [
-    of("Pareto front", front_of(runs, ({ compared }) => compared[cost], shown), { mode: "lines", colour: FRONT, links: undefined }),
+    of("Pareto front", front_of(runs, ({ compared }) => compared[cost], shown), { mode: "lines", colour: FRONT }),
     ...levels.map((size, index) => of(`elements ${length(size)}`, fixed.filter(({ contact_element_mm }) => Math.abs((contact_element_mm ?? 0) / size - 1) <= SAME_LEVEL), { colour: LEVELS[index % LEVELS.length] })),
     of("chosen from a tolerance", above.filter(({ tolerance }) => tolerance !== null), { colour: TOLERANCES, symbol: "diamond" }),
     of("error below the uncertainty", runs.filter(is_below), { colour: BELOW, symbol: "circle-open" }),

@@ -5,12 +5,12 @@ use tests::{Browser, Server};
 
 use super::{fits_a_phone, is_sound};
 
-/// Clicks on the first point of a curve of the diagram, where it is drawn, and tells whether that has opened its job. The
-/// axes get their ranges after the curves, so that an early click may miss the point.
+/// Clicks on the first point of a level, where it is drawn and may lie under the front, and tells whether that has opened its
+/// job. The axes get their ranges after the curves, so that an early click may miss the point.
 const CLICK_FIRST_POINT: &str = "(() => {
     const plot = document.querySelector('[data-chart=work-precision] .plot');
     plot.scrollIntoView();
-    const curve = plot.data.find((curve) => curve.customdata);
+    const curve = plot.data.find((curve) => curve.mode === 'markers');
     const { xaxis, yaxis } = plot._fullLayout;
     const drag = plot.querySelector('.nsewdrag');
     const place = plot.getBoundingClientRect();
@@ -76,7 +76,7 @@ async fn an_accuracy_study_is_shown_while_it_runs_and_its_points_open_jobs() {
     let front = format!("{}.x.length === {on_front}", curve("Pareto front"));
     browser.wait_for(&front).await;
     let drawn = format!(
-        "document.querySelector('[data-chart=work-precision] .plot').data.filter((curve) => curve.customdata).flatMap((curve) => [...curve.x]).length === {jobs}"
+        "document.querySelector('[data-chart=work-precision] .plot').data.filter((curve) => curve.mode === 'markers').flatMap((curve) => [...curve.x]).length === {jobs}"
     );
     browser.wait_for(&drawn).await;
     let log =
