@@ -1,7 +1,7 @@
 // One field: its name, control, unit, where its value is from, its description and its fault.
 
 import { element } from "../parts/element.js";
-import { name_and_unit } from "./units.js";
+import { name_and_unit } from "../parts/units.js";
 
 /** A field. */
 export class Row {

@@ -1,6 +1,6 @@
 // Names and units of the values of a specification.
 
-import { words } from "../parts/format.js";
+import { words } from "./format.js";
 
 /** Ends of names that are units, and the units as they are written; longer ones first where one ends like another. */
 const UNITS = /** @type {[string, string][]} */ ([
