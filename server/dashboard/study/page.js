@@ -77,8 +77,8 @@ export async function study_page(content, { values }, signal) {
     } catch (error) {
       if (call !== asked || signal.aborted) return;
       if (!(error instanceof Problem)) throw error;
-      await submission.planned(null);
       refused(error);
+      await submission.planned(null);
     }
   };
   const ask = throttled(show_plan, TYPING_MS, signal);
