@@ -125,10 +125,16 @@ impl Browser {
     /// # Panics
     /// If it does not appear.
     pub async fn click(&self, selector: &str) {
-        let wait = self.client.wait().at_most(PATIENCE);
-        let element = wait.for_element(Locator::Css(selector)).await;
-        let element = element.unwrap_or_else(|error| panic!("{selector}: {error}"));
-        element.click().await.expect("it can be clicked");
+        loop {
+            let wait = self.client.wait().at_most(PATIENCE);
+            let element = wait.for_element(Locator::Css(selector)).await;
+            let element = element.unwrap_or_else(|error| panic!("{selector}: {error}"));
+            match element.click().await {
+                // The page has drawn this part anew in between.
+                Err(error) if error.is_stale_element_reference() => {}
+                clicked => return clicked.expect("it can be clicked"),
+            }
+        }
     }
 
     /// The text of the page.

@@ -177,6 +177,14 @@ impl SurfaceWear {
         }
     }
 
+    /// Whether a layer below the surface wears faster than the surface.
+    pub(crate) fn quickens(self) -> bool {
+        match self {
+            Self::ByDose(curve) => curve.largest_rate(f64::INFINITY) > curve.initial_rate(),
+            Self::Law(_) | Self::ByPower { .. } => false,
+        }
+    }
+
     /// Largest specific wear rate from the surface down to a depth in mm, at a representative state, 1/MPa.
     pub fn largest_rate(self, depth: f64, at: LocalState) -> f64 {
         match self {

@@ -224,8 +224,10 @@ impl Solver {
             let geometry = &mut self.geometry;
             geometry.measure((pair, zones), surfaces, setting);
             self.response.reset(geometry.coupling.len(), tracks_slip);
-            let by_dose = |side| matches!(wear.of(side), Some(SurfaceWear::ByDose(_)));
-            if by_dose(interface.slave.other()) && last.indentation > 0.0 {
+            let quickens = wear
+                .of(interface.slave.other())
+                .is_some_and(SurfaceWear::quickens);
+            if quickens && last.indentation > 0.0 {
                 let reached = (last.indentation, &mut self.reached);
                 share_among_reached(geometry, (pair, surfaces), setting.pairing_x, reached);
             }
