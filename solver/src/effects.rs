@@ -149,12 +149,10 @@ impl EffectsPlan {
     ) -> Vec<Crossing> {
         let indicators = Indicators::of(scene);
         let depth = self.with_skipped_wear(depth, indicators.worn_depth_after(cycle));
-        let could_be_on =
-            |decision: &&Decision| decision.verdict == Verdict::Skipped && decision.is_available;
         let skipped = self
             .decisions
             .iter()
-            .filter(could_be_on)
+            .filter(|decision| decision.can_be_called_for())
             .filter_map(|decision| {
                 let indicator = decision.indicator?;
                 let value = indicators.value(decision.effect, depth);
@@ -184,8 +182,7 @@ impl EffectsPlan {
         electrical: &ElectricalState,
     ) -> Vec<Crossing> {
         let decision = self.decision(Effect::JouleHeating);
-        let skipped = decision
-            .filter(|decision| decision.verdict == Verdict::Skipped && decision.is_available);
+        let skipped = decision.filter(|decision| decision.can_be_called_for());
         let Some(indicator) = skipped.and_then(|decision| decision.indicator) else {
             return Vec::new();
         };
@@ -231,9 +228,7 @@ impl EffectsPlan {
         };
         let is_skipped = |effect: &Effect| {
             let decision = self.decision(*effect);
-            decision.is_some_and(|decision| {
-                decision.verdict == Verdict::Skipped && decision.is_available
-            })
+            decision.is_some_and(Decision::can_be_called_for)
         };
         [effect]
             .into_iter()
@@ -251,9 +246,7 @@ impl EffectsPlan {
     pub fn called_for_by_failure(&self, cycle: u64) -> Vec<Crossing> {
         let skipped = |effect: &Effect| {
             self.decision(*effect).is_some_and(|decision| {
-                decision.verdict == Verdict::Skipped
-                    && decision.is_available
-                    && decision.indicator.is_some()
+                decision.can_be_called_for() && decision.indicator.is_some()
             })
         };
         let mut effects = [Effect::Friction, Effect::StickMemory].into_iter();

@@ -28,6 +28,7 @@ mod spring;
 mod state;
 mod stick;
 mod surface;
+mod window;
 
 pub use error::PointError;
 pub(crate) use integrator::PointIntegrator;

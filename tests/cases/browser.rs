@@ -12,7 +12,16 @@ mod study;
 mod sweeps;
 
 use serde_json::{Value, json};
+use tempfile::TempDir;
 use tests::{Browser, Server};
+
+/// A service and a browser for its pages, in a folder of their own, which must outlive them.
+async fn service_and_browser() -> (TempDir, Server, Browser) {
+    let folder = tempfile::tempdir().expect("a folder can be made");
+    let server = Server::start(folder.path());
+    let browser = Browser::start(&server.base, folder.path()).await;
+    (folder, server, browser)
+}
 
 /// A job of some twenty cycles with two stored ones.
 fn short(name: &str) -> Value {

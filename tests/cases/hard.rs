@@ -2,6 +2,7 @@
 //! failure of a naive code; all of them assert one list of invariants.
 
 mod additions;
+mod beside_standing_plating;
 mod change_of_wear;
 mod conforming;
 mod corner_contact;

@@ -1,15 +1,13 @@
 // What a batch is and how far it is, and what can be done with it.
 
 import { link } from "../parts/address.js";
+import { comparison_link } from "../parts/comparison.js";
 import { download_link } from "../parts/download.js";
 import { definitions, element } from "../parts/element.js";
 import { duration, seconds_between, time } from "../parts/format.js";
 import { end_button } from "./actions.js";
 import { counts_line, progress, progress_line, state_badge } from "./counts.js";
 import { KINDS, name_of } from "./kinds.js";
-
-/** Jobs that one comparison shows at most. */
-const MOST_COMPARED = 10;
 
 /** The head of a batch's page. */
 export class Head {
@@ -52,13 +50,13 @@ export class Head {
   #links({ id, jobs }) {
     const { path, table, name } = KINDS[this.#kind];
     const file = `${name.replace(" ", "-")}-${id}`;
-    const ids = jobs.map((/** @type {{id: string}} */ job) => job.id);
+    const comparison = comparison_link(jobs.map((/** @type {{id: string}} */ job) => job.id));
     const pictures = this.#kind === "accuracy" ? ["svg", "png"] : [];
     return [
       download_link(`${path}/${id}/${table}`, `${file}.csv`, "Table (CSV)"),
       ...pictures.map((format) => download_link(`${path}/${id}/picture?format=${format}`, `${file}.${format}`, `Diagram (${format.toUpperCase()})`)),
       element("a", { href: link("jobs", null, { sweep: id }) }, "Its jobs in the list"),
-      ids.length > 1 && ids.length <= MOST_COMPARED ? element("a", { href: link("compare", null, { jobs: ids.join(",") }) }, "Compare its jobs") : "",
+      comparison ? element("a", { href: comparison }, "Compare its jobs") : "",
       element("a", { href: link("study", null, { as: this.#kind, batch: id }) }, "Clone and change"),
     ];
   }

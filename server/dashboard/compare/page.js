@@ -3,6 +3,7 @@
 import { Chart } from "../charts/chart.js";
 import { choices, link } from "../parts/address.js";
 import { fetch_json } from "../parts/client.js";
+import { MOST_COMPARED } from "../parts/comparison.js";
 import { card, element, table } from "../parts/element.js";
 import { follow } from "../parts/feed.js";
 import { count, length, number, percent } from "../parts/format.js";
@@ -11,7 +12,6 @@ import { badge } from "../parts/status.js";
 import { throttled } from "../parts/throttled.js";
 import { differing } from "./fields.js";
 
-const MOST_JOBS = 10;
 const MOST_POINTS = 1000;
 const UM = 1e3;
 
@@ -30,7 +30,7 @@ const COLUMNS = ["cycle", ...CHARTS.map(([, , , column]) => column)];
 /** @type {import("../main.js").Page} */
 export async function compare_page(content, { values }, signal) {
   document.title = "Compare · fretwear";
-  const ids = (values.get("jobs") ?? "").split(",").filter((id) => id !== "").slice(0, MOST_JOBS);
+  const ids = (values.get("jobs") ?? "").split(",").filter((id) => id !== "").slice(0, MOST_COMPARED);
   content.append(element("h1", {}, "Compare"));
   if (ids.length < 2) {
     content.append(element("p", {}, "Select two to ten jobs in the ", element("a", { href: link("jobs") }, "list"), " and compare them."));
@@ -57,7 +57,7 @@ export async function compare_page(content, { values }, signal) {
   };
   await show();
   const reload = throttled(show, RELOAD_MS, signal);
-  follow({ changed: ({ id }) => ids.includes(id) && reload(), deleted: () => {}, reset: reload }, signal);
+  follow({ changed: ({ id }) => ids.includes(id) && reload(), deleted: () => {}, reset: reload, started: reload }, signal);
   return () => {};
 }
 
@@ -80,11 +80,11 @@ function distinct_names(jobs) {
 function figures(jobs, names) {
   const rows = jobs.map((job, index) => {
     const { summary } = job;
-    const life = (summary?.life ?? []).find((/** @type {any} */ one) => one.cycles != null);
+    const lives = (summary?.life ?? []).map((/** @type {any} */ { cycles }) => cycles).filter((/** @type {number | null} */ cycles) => cycles != null);
     return [
       element("a", { href: link("job", job.id) }, names[index]), badge(job), count(summary?.cycles_done),
       length(summary?.receptacle.max_depth_mm), length(summary?.slider.max_depth_mm),
-      summary ? number(summary.peak_pressure_mpa) : "", count(life?.cycles),
+      summary ? number(summary.peak_pressure_mpa) : "", lives.length ? count(Math.min(...lives)) : "",
       percent(summary?.accuracy.estimated_relative_error), summary ? number(summary.cost.cpu_s) : "",
     ];
   });

@@ -15,8 +15,6 @@ export class LabelFilter {
   constructor(signal) {
     this.#signal = signal;
     this.#list.hidden = true;
-    // Jobs get their labels with their submission: the list is as of now when it is opened.
-    this.#list.addEventListener("pointerdown", () => this.#load(), { once: true });
     this.#load();
   }
 

@@ -96,6 +96,7 @@ export async function jobs_page(content, _address, signal) {
       refresh_summary();
     },
     reset: load,
+    started: reload,
   }, signal);
   await summarize();
   return load;

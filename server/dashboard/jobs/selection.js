@@ -1,11 +1,8 @@
 // Jobs that are selected in the list, and what can be done with all of them.
 
-import { link } from "../parts/address.js";
 import { fetch_json } from "../parts/client.js";
+import { comparison_link } from "../parts/comparison.js";
 import { element } from "../parts/element.js";
-
-/** Jobs that one comparison shows at most. */
-const MOST_COMPARED = 10;
 
 /** The selected jobs. */
 export class Selection {
@@ -19,7 +16,7 @@ export class Selection {
     const button = (/** @type {string} */ text, /** @type {() => void} */ click) => element("button", { type: "button", disabled: true, click }, text);
     const all = (/** @type {string} */ verb, /** @type {(id: string) => Promise<unknown>} */ act) => () => this.#for_all(verb, act);
     this.#buttons = {
-      compare: button("Compare", () => (location.hash = link("compare", null, { jobs: [...this.#ids].join(",") }))),
+      compare: button("Compare", () => (location.hash = comparison_link([...this.#ids]) ?? location.hash)),
       cancel: button("Cancel", all("cancelled", (id) => fetch_json(`/v1/jobs/${id}/cancel`, { method: "POST", signal }))),
       remove: button("Delete", all("deleted", (id) => fetch_json(`/v1/jobs/${id}`, { method: "DELETE", signal }))),
     };
@@ -50,7 +47,7 @@ export class Selection {
   /** @param {string} text */
   #show(text) {
     const count = this.#ids.size;
-    this.#buttons.compare.toggleAttribute("disabled", count < 2 || count > MOST_COMPARED);
+    this.#buttons.compare.toggleAttribute("disabled", comparison_link([...this.#ids]) === null);
     this.#buttons.cancel.toggleAttribute("disabled", count === 0);
     this.#buttons.remove.toggleAttribute("disabled", count === 0);
     this.#said.textContent = text;

@@ -34,8 +34,9 @@ export async function study_page(content, { values }, signal) {
     const spec = parsed();
     if (spec) write(edit(spec));
   });
+  const system_of = (/** @type {any} */ spec) => systems.find((/** @type {any} */ { kind }) => kind === spec.system?.kind);
   const show_fields = (/** @type {any} */ spec, /** @type {import("./fields.js").Fault[]} */ faults) => {
-    const of = systems.find((/** @type {any} */ { kind }) => kind === spec.system?.kind);
+    const of = system_of(spec);
     if (of) fields.show({ spec, resolved: resolved?.system.kind === of.kind ? resolved : of.preset, shape: new Shape(of.schema), faults, systems });
   };
   const refused = (/** @type {Problem} */ problem) => {
@@ -73,12 +74,12 @@ export async function study_page(content, { values }, signal) {
       show_fields(spec, []);
       scene.replaceChildren(...drawing(resolved));
       plan.replaceChildren(...plan_cards(found.plan));
-      await submission.planned(found);
+      submission.planned(found, new Shape(system_of(resolved).schema));
     } catch (error) {
       if (call !== asked || signal.aborted) return;
       if (!(error instanceof Problem)) throw error;
       refused(error);
-      await submission.planned(null);
+      submission.planned(null, null);
     }
   };
   const ask = throttled(show_plan, TYPING_MS, signal);

@@ -42,9 +42,14 @@ export class Shape {
     return this.#schema.enum ?? null;
   }
 
-  /** Whether only one value is possible, which is not edited. */
+  /** The only value that is possible, which is not edited; undefined where there are more. @returns {any} */
+  get only() {
+    return this.#schema.const;
+  }
+
+  /** Whether only one value is possible. */
   get is_fixed() {
-    return this.#schema.const !== undefined;
+    return this.only !== undefined;
   }
 
   /** @param {string} type of JSON @returns {boolean} */
@@ -129,5 +134,19 @@ export class Shape {
     const { fields, tag } = this;
     const needed = Object.keys(fields ?? {}).filter((name) => name === tag || (this.required.includes(name) && fields?.[name].initial !== undefined));
     return Object.fromEntries(needed.map((name) => [name, fields?.[name].initial]));
+  }
+
+  /**
+   * What may stand at a JSON pointer below this place, in each of its forms.
+   * @param {string} pointer
+   * @returns {Shape[]}
+   */
+  at(pointer) {
+    const key = (/** @type {string} */ step) => step.replaceAll("~1", "/").replaceAll("~0", "~");
+    /** @type {(shape: Shape) => Shape[]} */
+    const forms_of = (shape) => (shape.forms.length ? shape.forms.flatMap(forms_of) : [shape]);
+    const below = (/** @type {Shape} */ shape, /** @type {string} */ name) => shape.fields?.[name] ?? (/^\d+$/.test(name) ? shape.items : null);
+    return pointer.split("/").slice(1).map(key).reduce((/** @type {Shape[]} */ found, name) =>
+      found.flatMap((shape) => below(shape, name) ?? []).flatMap(forms_of), forms_of(this));
   }
 }

@@ -4,7 +4,6 @@ import { choices, link } from "../parts/address.js";
 import { post_json, Problem } from "../parts/client.js";
 import { element } from "../parts/element.js";
 import { AccuracyForm } from "./accuracy_form.js";
-import { schema_of } from "./pointers.js";
 import { SweepForm } from "./sweep_form.js";
 
 /** @typedef {"job" | "sweep" | "accuracy"} Kind */
@@ -68,14 +67,12 @@ export class Submission {
 
   /**
    * @param {any} found the plan of the specification and its resolved form; null where it was refused
+   * @param {import("./schema.js").Shape | null} shape what may stand in it
    */
-  async planned(found) {
+  planned(found, shape) {
     this.#is_accepted = found !== null;
     this.#expected_s = found?.plan.estimates.cpu_s ?? NaN;
-    this.#show();
-    if (!found) return;
-    const schema = await schema_of(found.spec.system.kind, this.#signal);
-    this.#sweep.offer(found.spec, schema, this.#expected_s);
+    if (found && shape) this.#sweep.offer(found.spec, shape, this.#expected_s);
     this.#show();
   }
 

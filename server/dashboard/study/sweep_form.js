@@ -19,7 +19,8 @@ export class SweepForm {
   #fields = [];
   /** @type {import("./swept_field.js").Offered[]} */
   #offered = [];
-  #schema = /** @type {any} */ (null);
+  /** @type {import("./schema.js").Shape | null} */
+  #shape = null;
   #expected_s = NaN;
   #rows = element("div");
   #combined = /** @type {HTMLSelectElement} */ (element("select", { id: "combined" }, element("option", { value: "grid" }, "every combination"), element("option", { value: "list" }, "first with first, second with second, …")));
@@ -46,7 +47,7 @@ export class SweepForm {
       field.node.remove();
       this.#changed();
     });
-    field.offer(this.#offered, this.#schema);
+    field.offer(this.#offered, this.#shape);
     this.#fields.push(field);
     this.#rows.append(field.node);
     return field;
@@ -64,16 +65,16 @@ export class SweepForm {
   /**
    * Offers the fields of a specification that has been planned.
    * @param {any} resolved
-   * @param {any} schema
+   * @param {import("./schema.js").Shape} shape
    * @param {number} expected_s of one job, processor seconds
    */
-  offer(resolved, schema, expected_s) {
+  offer(resolved, shape, expected_s) {
     const all = leaves(resolved).filter(([pointer, value]) => value !== null && !LEFT_OUT.some((start) => pointer.startsWith(start)));
     const by_name = BY_NAME.filter((pointer) => resolved.materials?.[pointer.split("/")[2]]);
     this.#offered = [...all.map(([pointer, value]) => ({ pointer, value })), ...by_name.map((pointer) => ({ pointer, value: "" }))];
-    this.#schema = schema;
+    this.#shape = shape;
     this.#expected_s = expected_s;
-    for (const field of this.#fields) field.offer(this.#offered, schema);
+    for (const field of this.#fields) field.offer(this.#offered, shape);
     this.show();
   }
 

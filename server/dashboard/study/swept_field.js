@@ -2,7 +2,6 @@
 
 import { element } from "../parts/element.js";
 import { as_text, quantity } from "../parts/quantity.js";
-import { choices_of, is_count } from "./pointers.js";
 import { listed, spread } from "./values.js";
 
 /** The entry for a field that is not listed. */
@@ -18,7 +17,8 @@ let made = 0;
 export class SweptField {
   #id = `swept-${++made}`;
   #changed;
-  #schema = /** @type {any} */ (null);
+  /** What may stand in a specification. @type {import("./schema.js").Shape | null} */
+  #shape = null;
   /** @type {Offered[]} */
   #offered = [];
   #pointer = this.#select("field", []);
@@ -76,17 +76,32 @@ export class SweptField {
   get values() {
     if (this.#how.value === "list") return listed(this.#list.value);
     const number = (/** @type {HTMLInputElement} */ { value }) => (value.trim() === "" ? NaN : Number(value));
-    return spread({ from: number(this.#from), to: number(this.#to), count: number(this.#count), is_log: this.#how.value === "log", is_count: is_count(this.#schema, this.pointer) });
+    return spread({ from: number(this.#from), to: number(this.#to), count: number(this.#count), is_log: this.#how.value === "log", is_count: this.#is_count });
+  }
+
+  /** What may stand at its pointer. */
+  get #shapes() {
+    return this.#shape?.at(this.pointer) ?? [];
+  }
+
+  /** Whether the field is a whole number. */
+  get #is_count() {
+    return this.#shapes.length > 0 && this.#shapes.every((shape) => shape.is("integer"));
+  }
+
+  /** The words that the field can be. @returns {string[]} */
+  get #choices() {
+    return [...new Set(this.#shapes.flatMap(({ choices, only }) => choices ?? [only]))].filter((choice) => typeof choice === "string");
   }
 
   /**
    * Offers the fields of a specification.
    * @param {Offered[]} offered
-   * @param {any} schema
+   * @param {import("./schema.js").Shape | null} shape
    */
-  offer(offered, schema) {
+  offer(offered, shape) {
     const before = this.pointer;
-    this.#schema = schema;
+    this.#shape = shape;
     this.#offered = offered;
     const groups = Map.groupBy(offered, ({ pointer }) => pointer.split("/")[1]);
     this.#pointer.replaceChildren(element("option", { value: "" }, "choose a field"),
@@ -117,7 +132,7 @@ export class SweptField {
   /** Proposes values for a field that was just chosen: all of a choice, the present one of a number. */
   #propose() {
     const present = this.#offered.find(({ pointer }) => pointer === this.pointer)?.value;
-    const choices = typeof present === "boolean" ? ["true", "false"] : choices_of(this.#schema, this.pointer);
+    const choices = typeof present === "boolean" ? ["true", "false"] : this.#choices;
     if (typeof present !== "number") this.#how.value = "list";
     this.#list.value = typeof present === "number" ? String(present) : choices.join(", ");
     this.#from.value = typeof present === "number" ? String(present) : "";

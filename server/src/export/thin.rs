@@ -41,21 +41,10 @@ pub fn rows(rows: Vec<CycleReport>, points: usize) -> Vec<CycleReport> {
         .collect()
 }
 
-/// Thins columns over ascending cycles.
-pub fn columns<'a>(cycles: &[f64], columns: impl Iterator<Item = &'a mut Vec<f64>>, points: usize) {
-    let mut columns: Vec<&mut Vec<f64>> = columns.collect();
-    let series: Vec<&[f64]> = columns.iter().map(|values| &values[..]).collect();
-    let selected = select(cycles, &series, points);
-    for values in &mut columns {
-        let chosen = selected.iter().map(|index| values[*index]);
-        **values = chosen.collect();
-    }
-}
-
 /// Thins a profile, each side separately.
 pub fn profile(mut profile: Profile, points: usize) -> Profile {
     for side in [&mut profile.receptacle, &mut profile.slider] {
-        curves(&mut side.x_mm, [&mut side.depth_mm], points);
+        curves(&mut side.x_mm, vec![&mut side.depth_mm], points);
     }
     profile
 }
@@ -63,7 +52,7 @@ pub fn profile(mut profile: Profile, points: usize) -> Profile {
 /// Thins tractions, each position separately.
 pub fn pressure(mut pressure: Pressure, points: usize) -> Pressure {
     for at in &mut pressure.positions {
-        let series = [&mut at.pressure_mpa, &mut at.shear_mpa];
+        let series = vec![&mut at.pressure_mpa, &mut at.shear_mpa];
         curves(&mut at.x_mm, series, points);
     }
     pressure
@@ -76,19 +65,18 @@ pub fn friction_loop(mut friction_loop: Loop, points: usize) -> Loop {
         &mut friction_loop.tangential_force_n_per_mm,
     );
     let mut increments = (0..u32::MAX).take(x.len()).map(f64::from).collect();
-    let whole = &mut friction_loop.tangential_force_n;
-    if whole.is_empty() {
-        curves(&mut increments, [x, force], points);
-    } else {
-        curves(&mut increments, [x, force, whole], points);
-    }
+    let whole = Some(&mut friction_loop.tangential_force_n).filter(|whole| !whole.is_empty());
+    let series = [x, force].into_iter().chain(whole).collect();
+    curves(&mut increments, series, points);
     friction_loop
 }
 
 /// Thins curves over the ascending `at`.
-fn curves<const N: usize>(at: &mut Vec<f64>, series: [&mut Vec<f64>; N], points: usize) {
-    let selected = select(at, &series.each_ref().map(|values| &values[..]), points);
-    for values in series.into_iter().chain([at]) {
+pub fn curves<'a>(at: &'a mut Vec<f64>, mut series: Vec<&'a mut Vec<f64>>, points: usize) {
+    let values: Vec<&[f64]> = series.iter().map(|values| &values[..]).collect();
+    let selected = select(at, &values, points);
+    series.push(at);
+    for values in series {
         let chosen = selected.iter().filter_map(|index| values.get(*index));
         *values = chosen.copied().collect();
     }

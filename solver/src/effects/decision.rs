@@ -18,6 +18,13 @@ pub struct Decision {
     pub reason: String,
 }
 
+impl Decision {
+    /// Whether a run may still call for the effect: it is skipped, not switched off, and can be simulated in the scene.
+    pub(super) fn can_be_called_for(&self) -> bool {
+        self.verdict == Verdict::Skipped && self.is_available
+    }
+}
+
 /// A decision.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Verdict {

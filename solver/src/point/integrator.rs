@@ -9,6 +9,7 @@ use super::scene::{PointScene, SlipRegime};
 use super::sliding::Sliding;
 use super::state::State;
 use super::surface::Surface;
+use super::window;
 use crate::law::surface::SurfaceWear;
 use crate::number::real_cycles;
 use crate::sides::{Side, Sides};
@@ -78,7 +79,10 @@ impl PointIntegrator {
         until: u64,
     ) -> Result<PointCycle, PointError> {
         let accuracy = self.scene.accuracy;
-        self.sliding.coarsen(&mut state.sliding);
+        window::coarsen(
+            &mut state.sliding,
+            self.scene.accuracy.cells_per_half_length,
+        );
         let work = state.sliding.work;
         loop {
             let remaining = until.max(state.done + 1) - state.done;

@@ -11,22 +11,15 @@ use std::cmp::Ordering;
 use std::ops::Range;
 
 use super::error::PointError;
-use super::field::Axis;
 use super::scene::PointScene;
 use super::section::{half_lengths, section_integral};
 use super::spring;
 use super::state::State;
 use super::stick::StickSlip;
+use super::window::widen;
 use crate::contact::area::{AreaError, NormalContact, NormalProblem};
 use crate::number::{nearest, real};
 use crate::sides::{Side, Sides};
-
-/// Most cells of a window: a solve then takes half a second.
-const MOST_CELLS: usize = 1 << 19;
-
-/// Cells along a half-length of the contact, over those of the unworn one, from which on the grid is coarsened: a coarser one has still
-/// as many as that.
-const COARSENED: f64 = 2.2;
 
 /// Most solves of an increment through layers, and change of the pressure over its sum at which they end.
 const MOST_REPETITIONS: usize = 12;
@@ -309,21 +302,6 @@ impl Sliding {
             }
         }
     }
-
-    /// Coarsens the grids along axes on which the contact has become long.
-    pub(super) fn coarsen(&self, state: &mut State) {
-        for axis in [Axis::Along, Axis::Across] {
-            let (along, across) = half_lengths(&state.pressure);
-            let cells = match axis {
-                Axis::Along => along,
-                Axis::Across => across,
-            };
-            let is_long = cells > COARSENED * self.scene.accuracy.cells_per_half_length;
-            if let Some(lattice) = state.lattice.coarsened(axis).filter(|_| is_long) {
-                state.merge(axis, lattice);
-            }
-        }
-    }
 }
 
 /// First rows of the windows on a body that the contact moves through in an increment, without the one where it is.
@@ -335,26 +313,6 @@ fn rows_passed(state: &State, side: Side, increment: Increment) -> Range<usize> 
         Ordering::Equal => last..last + 1,
         Ordering::Greater => last..first,
     }
-}
-
-/// Widens the window where the contact reaches its edge.
-fn widen(state: &mut State) -> Result<(), PointError> {
-    let (rows, width) = (state.lattice.cells().along_x, state.pressure.width());
-    let has_load = |values: &[f64]| values.iter().any(|pressure| *pressure > 0.0);
-    let pressure = &state.pressure;
-    let along = has_load(pressure.rows(0, 1)) || has_load(pressure.rows(rows - 1, 1));
-    let mut columns = pressure.values.chunks_exact(width);
-    let across = columns.any(|row| row[0] > 0.0 || row[width - 1] > 0.0);
-    let lattice = state.lattice.widened((along, across));
-    let cells = lattice.cells().count();
-    if cells > MOST_CELLS {
-        return Err(PointError::Window {
-            cells,
-            most: MOST_CELLS,
-        });
-    }
-    state.resize(lattice);
-    Ok(())
 }
 
 /// Sum of the changes of a pressure over its sum.

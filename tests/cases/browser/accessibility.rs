@@ -1,9 +1,8 @@
 //! No page contradicts the success criteria A and AA of WCAG that axe-core can check, light and dark.
 
 use serde_json::{Value, json};
-use tests::{Browser, Server};
 
-use super::{batch, done, failed, short, with_fields};
+use super::{batch, done, failed, service_and_browser, short, with_fields};
 
 /// Runs axe-core on the page and stores each violation in words.
 const CHECK: &str = r"
@@ -26,8 +25,7 @@ const OPEN: &str = "for (const part of document.querySelectorAll('details')) par
     ignore = "needs the programs chromium and chromedriver, and axe-core in target/ci-node"
 )]
 async fn no_page_contradicts_wcag_a_and_aa() {
-    let folder = tempfile::tempdir().expect("a folder can be made");
-    let server = Server::start(folder.path());
+    let (_folder, server, browser) = service_and_browser().await;
     let one = done(&server, &with_fields("one")).await;
     let other = done(&server, &short("other")).await;
     let late = failed(&server, "late").await;
@@ -81,7 +79,6 @@ async fn no_page_contradicts_wcag_a_and_aa() {
         ),
         ("/docs", "true", "document.getElementById('schema-Job')"),
     ];
-    let browser = Browser::start(&server.base, folder.path()).await;
     let library = std::fs::read_to_string(env!("FRETWEAR_AXE")).expect("axe-core can be read");
     let mut violations = Vec::new();
     for colours in ["light", "dark"] {

@@ -1,9 +1,8 @@
 //! An accuracy study: submitted from the form, live while runs are missing, its diagram, front and what it leads to.
 
 use serde_json::json;
-use tests::{Browser, Server};
 
-use super::{fits_a_phone, is_sound};
+use super::{fits_a_phone, is_sound, service_and_browser};
 
 /// Clicks on the first point of a level, where it is drawn and may lie under the front, and tells whether that has opened its
 /// job. The axes get their ranges after the curves, so that an early click may miss the point.
@@ -25,9 +24,7 @@ const CLICK_FIRST_POINT: &str = "(() => {
     ignore = "needs the programs chromium and chromedriver"
 )]
 async fn an_accuracy_study_is_shown_while_it_runs_and_its_points_open_jobs() {
-    let folder = tempfile::tempdir().expect("a folder can be made");
-    let server = Server::start(folder.path());
-    let browser = Browser::start(&server.base, folder.path()).await;
+    let (_folder, server, browser) = service_and_browser().await;
     browser
         .open("/#/study?as=accuracy&system=cylinder_on_flat")
         .await;

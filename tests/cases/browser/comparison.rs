@@ -1,9 +1,8 @@
 //! Several jobs beside each other.
 
 use serde_json::json;
-use tests::{Browser, Server};
 
-use super::{done, fits_a_phone, is_sound, short};
+use super::{done, fits_a_phone, is_sound, service_and_browser, short};
 
 #[tokio::test]
 #[cfg_attr(
@@ -11,13 +10,11 @@ use super::{done, fits_a_phone, is_sound, short};
     ignore = "needs the programs chromium and chromedriver"
 )]
 async fn selected_jobs_are_compared_by_what_differs() {
-    let folder = tempfile::tempdir().expect("a folder can be made");
-    let server = Server::start(folder.path());
+    let (_folder, server, browser) = service_and_browser().await;
     let one = done(&server, &short("one")).await;
     let mut other = short("other");
     other["motion"] = json!({"kind": "reciprocating", "amplitude_mm": 0.03});
     let other = done(&server, &other).await;
-    let browser = Browser::start(&server.base, folder.path()).await;
     browser.open("/").await;
     for id in [&one, &other] {
         browser.click(&format!("tr[data-job='{id}'] input")).await;

@@ -1,8 +1,6 @@
 //! The documentation of the interface, and pages of what is not there.
 
-use tests::{Browser, Server};
-
-use super::is_sound;
+use super::{is_sound, service_and_browser};
 
 #[tokio::test]
 #[cfg_attr(
@@ -10,9 +8,7 @@ use super::is_sound;
     ignore = "needs the programs chromium and chromedriver"
 )]
 async fn the_interface_is_explained_and_unknown_jobs_are_said_to_be_so() {
-    let folder = tempfile::tempdir().expect("a folder can be made");
-    let server = Server::start(folder.path());
-    let browser = Browser::start(&server.base, folder.path()).await;
+    let (_folder, _server, browser) = service_and_browser().await;
     browser.open("/docs").await;
     browser.shows("main", "/v1/jobs/{id}/events").await;
     browser

@@ -3,7 +3,9 @@
 use serde_json::Value;
 use tests::{Browser, Server};
 
-use super::{done, failed, fits_a_phone, is_sound, long, short, submitted, with_fields};
+use super::{
+    done, failed, fits_a_phone, is_sound, long, service_and_browser, short, submitted, with_fields,
+};
 
 #[tokio::test]
 #[cfg_attr(
@@ -11,10 +13,8 @@ use super::{done, failed, fits_a_phone, is_sound, long, short, submitted, with_f
     ignore = "needs the programs chromium and chromedriver"
 )]
 async fn a_running_job_is_watched_reloaded_and_cancelled() {
-    let folder = tempfile::tempdir().expect("a folder can be made");
-    let server = Server::start(folder.path());
+    let (_folder, server, browser) = service_and_browser().await;
     let id = submitted(&server, &long("watched")).await;
-    let browser = Browser::start(&server.base, folder.path()).await;
     browser.open(&format!("/#/job/{id}")).await;
     browser.shows("h1", "watched").await;
     browser.shows(".status", "of 1,000,000").await;
@@ -39,10 +39,8 @@ async fn a_running_job_is_watched_reloaded_and_cancelled() {
     ignore = "needs the programs chromium and chromedriver"
 )]
 async fn a_job_that_has_ended_shows_all_that_it_has() {
-    let folder = tempfile::tempdir().expect("a folder can be made");
-    let server = Server::start(folder.path());
+    let (_folder, server, browser) = service_and_browser().await;
     let id = done(&server, &short("complete")).await;
-    let browser = Browser::start(&server.base, folder.path()).await;
     browser.open(&format!("/#/job/{id}")).await;
     for (part, text) in [
         ("[aria-label=Result]", "peak pressure"),
@@ -120,10 +118,8 @@ async fn a_page_survives_a_restart_of_the_service() {
     ignore = "needs the programs chromium and chromedriver"
 )]
 async fn stresses_are_drawn_at_each_position_and_profiles_to_scale() {
-    let folder = tempfile::tempdir().expect("a folder can be made");
-    let server = Server::start(folder.path());
+    let (_folder, server, browser) = service_and_browser().await;
     let id = done(&server, &with_fields("stressed")).await;
-    let browser = Browser::start(&server.base, folder.path()).await;
     browser
         .open(&format!(
             "/#/job/{id}?position=rightmost&field=1&scale=equal"
@@ -178,10 +174,8 @@ async fn stresses_are_drawn_at_each_position_and_profiles_to_scale() {
     ignore = "needs the programs chromium and chromedriver"
 )]
 async fn a_failed_job_says_why_and_what_to_do() {
-    let folder = tempfile::tempdir().expect("a folder can be made");
-    let server = Server::start(folder.path());
+    let (_folder, server, browser) = service_and_browser().await;
     let id = failed(&server, "late").await;
-    let browser = Browser::start(&server.base, folder.path()).await;
     browser.open(&format!("/#/job/{id}")).await;
     let failure = "[aria-label=Failure]";
     browser.shows(failure, "Failed: deadline exceeded").await;

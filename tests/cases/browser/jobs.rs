@@ -1,9 +1,8 @@
 //! The list: live rows, filters, selection, keyboard.
 
 use serde_json::json;
-use tests::{Browser, Server};
 
-use super::{done, fits_a_phone, is_sound, long, short, submitted};
+use super::{done, fits_a_phone, is_sound, long, service_and_browser, short, submitted};
 
 #[tokio::test]
 #[cfg_attr(
@@ -11,9 +10,7 @@ use super::{done, fits_a_phone, is_sound, long, short, submitted};
     ignore = "needs the programs chromium and chromedriver"
 )]
 async fn a_list_follows_its_jobs_without_a_reload() {
-    let folder = tempfile::tempdir().expect("a folder can be made");
-    let server = Server::start(folder.path());
-    let browser = Browser::start(&server.base, folder.path()).await;
+    let (_folder, server, browser) = service_and_browser().await;
     browser.open("/").await;
     browser.shows("main", "No jobs yet").await;
     // Names are text, not markup.
@@ -42,11 +39,9 @@ async fn a_list_follows_its_jobs_without_a_reload() {
     ignore = "needs the programs chromium and chromedriver"
 )]
 async fn filters_are_in_the_address_and_the_back_button_undoes_them() {
-    let folder = tempfile::tempdir().expect("a folder can be made");
-    let server = Server::start(folder.path());
+    let (_folder, server, browser) = service_and_browser().await;
     let first = done(&server, &short("first")).await;
     let second = done(&server, &short("second")).await;
-    let browser = Browser::start(&server.base, folder.path()).await;
     browser.open("/#/jobs?text=first").await;
     let shown = |id: &str| format!("document.querySelector(\"tr[data-job='{id}']\") !== null");
     browser.wait_for(&shown(&first)).await;
@@ -73,8 +68,7 @@ async fn filters_are_in_the_address_and_the_back_button_undoes_them() {
     ignore = "needs the programs chromium and chromedriver"
 )]
 async fn the_list_is_ordered_by_its_head_and_narrowed_by_labels() {
-    let folder = tempfile::tempdir().expect("a folder can be made");
-    let server = Server::start(folder.path());
+    let (_folder, server, browser) = service_and_browser().await;
     let labelled = |name: &str, cycles: u32, lot: &str| {
         let mut spec = short(name);
         (spec["cycles"], spec["labels"]) = (json!(cycles), json!({"lot": lot}));
@@ -83,7 +77,6 @@ async fn the_list_is_ordered_by_its_head_and_narrowed_by_labels() {
     };
     let deep = done(&server, &labelled("deep", 60, "7")).await;
     let flat = done(&server, &labelled("flat", 20, "8")).await;
-    let browser = Browser::start(&server.base, folder.path()).await;
     browser.open("/").await;
     let first = |id: &str| format!("document.querySelector('tbody tr')?.dataset.job === '{id}'");
     browser.wait_for(&first(&flat)).await;
@@ -130,10 +123,8 @@ async fn the_list_is_ordered_by_its_head_and_narrowed_by_labels() {
     ignore = "needs the programs chromium and chromedriver"
 )]
 async fn a_job_is_reached_by_the_keyboard_alone() {
-    let folder = tempfile::tempdir().expect("a folder can be made");
-    let server = Server::start(folder.path());
+    let (_folder, server, browser) = service_and_browser().await;
     let id = done(&server, &short("by keyboard")).await;
-    let browser = Browser::start(&server.base, folder.path()).await;
     browser.open("/").await;
     browser
         .shows(&format!("tr[data-job='{id}']"), "by keyboard")

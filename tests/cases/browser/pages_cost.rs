@@ -5,7 +5,7 @@ use std::time::Duration;
 use serde_json::{Value, json};
 use tests::{Browser, Server};
 
-use super::{done, long, short, submitted};
+use super::{done, long, service_and_browser, short, submitted};
 
 /// Jobs of the long list, and running ones whose changes are shown.
 const LISTED: usize = 1000;
@@ -46,8 +46,7 @@ async fn idle_requests(browser: &Browser) -> Value {
 #[tokio::test]
 #[ignore = "takes minutes; run it by name"]
 async fn pages_cost_of_many_jobs_and_of_long_ones() {
-    let folder = tempfile::tempdir().expect("a folder can be made");
-    let server = Server::start(folder.path());
+    let (_folder, server, browser) = service_and_browser().await;
     let mut history = short("2 000 cycles, seven stations");
     history["cycles"] = json!(2000);
     history["accuracy"]["overrides"] = json!({"cycle_jump": 1});
@@ -56,7 +55,6 @@ async fn pages_cost_of_many_jobs_and_of_long_ones() {
     for number in 1..LISTED {
         submitted(&server, &short(&format!("job {number}"))).await;
     }
-    let browser = Browser::start(&server.base, folder.path()).await;
     let rows = "document.querySelectorAll('tr[data-job]').length === 100";
     for _ in 0..3 {
         let time = time_until(&browser, "/#/jobs", rows).await;

@@ -1,8 +1,8 @@
 //! A new job from the form: refused with its faults at their fields, planned as one types, submitted, cloned and changed.
 
-use tests::{Browser, Server};
+use tests::Browser;
 
-use super::{fits_a_phone, is_sound};
+use super::{fits_a_phone, is_sound, service_and_browser};
 
 /// Types a value into a field in place of what it has.
 async fn type_into(browser: &Browser, pointer: &str, value: &str) {
@@ -26,9 +26,7 @@ async fn type_into(browser: &Browser, pointer: &str, value: &str) {
     ignore = "needs the programs chromium and chromedriver"
 )]
 async fn a_study_is_made_refused_mended_submitted_and_cloned() {
-    let folder = tempfile::tempdir().expect("a folder can be made");
-    let server = Server::start(folder.path());
-    let browser = Browser::start(&server.base, folder.path()).await;
+    let (_folder, _server, browser) = service_and_browser().await;
     browser.open("/#/study?system=cylinder_on_flat").await;
     browser
         .shows("[aria-label=Expected]", "processor time")
@@ -78,9 +76,7 @@ const WRITTEN: &str = "JSON.parse(document.querySelector('textarea').value)";
     ignore = "needs the programs chromium and chromedriver"
 )]
 async fn laws_materials_and_sections_are_chosen_and_each_fault_stands_at_its_field() {
-    let folder = tempfile::tempdir().expect("a folder can be made");
-    let server = Server::start(folder.path());
-    let browser = Browser::start(&server.base, folder.path()).await;
+    let (_folder, _server, browser) = service_and_browser().await;
     browser.open("/#/study?system=fuzz_button").await;
     browser
         .shows("[aria-label=Expected]", "processor time")

@@ -1,9 +1,9 @@
 //! Sweeps: submitted from the form, watched to their end, drawn as a map whose cells lead to jobs; the list of all of them.
 
 use serde_json::json;
-use tests::{Browser, Server};
+use tests::Browser;
 
-use super::{batch, fits_a_phone, is_sound, long, short};
+use super::{batch, fits_a_phone, is_sound, long, service_and_browser, short};
 
 /// Runs a script on the page.
 async fn run(browser: &Browser, script: &str) {
@@ -26,9 +26,7 @@ async fn set(browser: &Browser, field: usize, part: &str, value: &str) {
     ignore = "needs the programs chromium and chromedriver"
 )]
 async fn a_sweep_from_the_form_is_watched_to_its_end_and_its_map_opens_jobs() {
-    let folder = tempfile::tempdir().expect("a folder can be made");
-    let server = Server::start(folder.path());
-    let browser = Browser::start(&server.base, folder.path()).await;
+    let (_folder, server, browser) = service_and_browser().await;
     browser
         .open("/#/study?as=sweep&system=cylinder_on_flat")
         .await;
@@ -110,9 +108,7 @@ async fn a_sweep_from_the_form_is_watched_to_its_end_and_its_map_opens_jobs() {
     ignore = "needs the programs chromium and chromedriver"
 )]
 async fn a_listed_sweep_is_followed_cancelled_cloned_and_deleted() {
-    let folder = tempfile::tempdir().expect("a folder can be made");
-    let server = Server::start(folder.path());
-    let browser = Browser::start(&server.base, folder.path()).await;
+    let (_folder, server, browser) = service_and_browser().await;
     browser.open("/#/sweeps").await;
     browser.shows("main", "None here yet").await;
     let request = json!({"name": "long ones", "base": long("long"), "grid": {"/interface/friction/coefficient": [0.3, 0.4, 0.5]}});

@@ -8,6 +8,7 @@
 
 use super::pair::{Pair, Surfaces};
 use crate::law::friction::{of_both, weighted_mean};
+use crate::model::{Interface, Tangential};
 use crate::sides::Sides;
 
 /// Coefficient of friction at the coupled nodes, -.
@@ -86,6 +87,19 @@ impl Nodes<'_> {
             Self::Uniform(coefficient) => coefficient,
             Self::Nodal(coefficients) => coefficients[node],
         }
+    }
+}
+
+/// Coefficient of the friction that acts on the bodies in a step of the slider; an imposed slip of zero has no direction.
+pub(super) fn acting<'a>(
+    interface: &Interface,
+    friction: Coefficient<'a>,
+    step: f64,
+) -> Coefficient<'a> {
+    match interface.tangential {
+        Tangential::StickSlip => friction,
+        Tangential::ImposedSlip if step != 0.0 => friction,
+        Tangential::ImposedSlip | Tangential::Omitted => Coefficient::NONE,
     }
 }
 

@@ -18,8 +18,7 @@ use super::response::Response;
 use super::state::ContactState;
 use super::wear_coupling::WearCoupling;
 use super::work::Work;
-use crate::law::surface::SurfaceWear;
-use crate::model::{Interface, Tangential};
+use crate::model::Tangential;
 use crate::sides::Sides;
 
 /// Most extensions of the active window within one increment.
@@ -224,11 +223,8 @@ impl Solver {
             let geometry = &mut self.geometry;
             geometry.measure((pair, zones), surfaces, setting);
             self.response.reset(geometry.coupling.len(), tracks_slip);
-            let quickens = wear
-                .of(interface.slave.other())
-                .is_some_and(SurfaceWear::quickens);
-            if quickens && last.indentation > 0.0 {
-                let reached = (last.indentation, &mut self.reached);
+            if cycles > 0.0 {
+                let reached = (last, &mut self.reached);
                 share_among_reached(geometry, (pair, surfaces), setting.pairing_x, reached);
             }
             let worn = (wear, surfaces.depth);
@@ -248,7 +244,7 @@ impl Solver {
             width: &pair.slave().widths[first..end],
             slope: &geometry.slopes.interface,
             master_slope: &geometry.slopes.master,
-            friction: acting_friction(interface, friction, step),
+            friction: friction::acting(interface, friction, step),
             tracks_slip,
             load: setting.load,
             spring: setting.spring,
@@ -333,19 +329,6 @@ impl Solver {
         let jumps = self.deformation.averaged(coupling).zip(&slopes.interface);
         self.fixed_slip
             .extend(jumps.map(|([x, y], s)| step - s * last.height - (x + s * y)));
-    }
-}
-
-/// Coefficient of the friction that acts on the bodies in a step of the slider; an imposed slip of zero has no direction.
-fn acting_friction<'a>(
-    interface: &Interface,
-    friction: Coefficient<'a>,
-    step: f64,
-) -> Coefficient<'a> {
-    match interface.tangential {
-        Tangential::StickSlip => friction,
-        Tangential::ImposedSlip if step != 0.0 => friction,
-        Tangential::ImposedSlip | Tangential::Omitted => Coefficient::NONE,
     }
 }
 

@@ -21,6 +21,10 @@ use crate::text::shortened;
 const MOST_JOBS: usize = 100;
 /// Most columns of each.
 const MOST_COLUMNS: usize = 20;
+/// Rows of a job without `max_points`.
+const DEFAULT_POINTS: usize = 1000;
+/// Most numbers of an answer: 16 MB, and some as many as text.
+const MOST_NUMBERS: usize = 2_000_000;
 
 /// Error of a query parameter.
 #[derive(Debug, thiserror::Error)]
@@ -34,6 +38,15 @@ enum HistoriesError {
     /// No column or too many.
     #[error("an answer holds 1 to {MOST_COLUMNS} columns, not {0}")]
     Columns(usize),
+    /// More numbers than an answer holds.
+    #[error(
+        "an answer holds {MOST_NUMBERS} numbers, not {jobs} jobs of {columns} columns with {points} rows: ask for fewer"
+    )]
+    Numbers {
+        jobs: usize,
+        columns: usize,
+        points: usize,
+    },
     /// A column of none of the jobs.
     #[error("no history has a column `{0}`; columns are {1}")]
     Unknown(String, String),
@@ -52,7 +65,7 @@ pub(crate) struct HistoriesQuery {
     jobs: String,
     /// Names of 1 to 20 columns of the CSV table, separated by commas.
     columns: String,
-    /// Maximum number of rows of each job; extrema of these columns are preserved.
+    /// Maximum number of rows of each job, 1 000 by default; extrema of these columns are preserved. An answer holds 2 000 000 numbers.
     #[param(minimum = 16, maximum = 100_000)]
     max_points: Option<usize>,
 }
@@ -72,6 +85,16 @@ pub(crate) async fn histories(
     max_points::check(query.max_points)?;
     let ids = ids(&query.jobs)?;
     let names = names(&query.columns)?;
+    let points = query.max_points.unwrap_or(DEFAULT_POINTS);
+    let (jobs, columns) = (ids.len(), names.len());
+    if jobs * columns * points > MOST_NUMBERS {
+        let error = HistoriesError::Numbers {
+            jobs,
+            columns,
+            points,
+        };
+        return Err(error.into());
+    }
     let (mut histories, mut known) = (Vec::with_capacity(ids.len()), Vec::new());
     for id in ids {
         let Some(job) = app.store.job(id).await? else {
@@ -80,7 +103,7 @@ pub(crate) async fn histories(
         let stations = job.document.spec.output.stations_mm.unwrap_or_default();
         let rows = app.store.history(id).await?;
         // Thinning a long history blocks; other requests are served meanwhile.
-        let (chosen, points) = (names.clone(), query.max_points);
+        let chosen = names.clone();
         let (columns, all) =
             tokio::task::spawn_blocking(move || of_job(&rows, &stations, &chosen, points)).await?;
         known.extend(all);
@@ -100,7 +123,7 @@ fn of_job(
     rows: &[CycleReport],
     stations: &[f64],
     names: &[String],
-    points: Option<usize>,
+    points: usize,
 ) -> (Columns, Vec<String>) {
     let record = Record::new(rows, stations);
     let all = columns::of(&record);
@@ -113,10 +136,8 @@ fn of_job(
         Some((name.clone(), numbers(values)))
     });
     let mut columns: Columns = chosen.collect();
-    if let Some(points) = points {
-        let cycles: Vec<f64> = record.cycle.iter().map(|cycle| real(*cycle)).collect();
-        thin::columns(&cycles, columns.values_mut(), points);
-    }
+    let mut cycles: Vec<f64> = record.cycle.iter().map(|cycle| real(*cycle)).collect();
+    thin::curves(&mut cycles, columns.values_mut().collect(), points);
     (columns, all.into_iter().map(|(name, _)| name).collect())
 }
 
@@ -184,6 +205,14 @@ mod tests {
                 "max_points is 3",
             ),
             (format!("jobs={id}"), "columns"),
+            (
+                format!(
+                    "jobs={}&columns={}&max_points=100000",
+                    [&id[..]; 3].join(","),
+                    ["cycle"; 7].join(",")
+                ),
+                "2000000 numbers, not 3 jobs of 7 columns with 100000 rows",
+            ),
         ] {
             let (status, _, problem) = service.get(&format!("/v1/histories?{query}")).await;
             assert_eq!(status, 400, "{query}");
