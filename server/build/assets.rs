@@ -26,6 +26,9 @@ pub(crate) fn embed() -> io::Result<()> {
     let mut files = vec![("plotly.js".to_owned(), plotly().into_bytes())];
     collect(Path::new(FOLDER), "", &mut files)?;
     files.sort();
+    let version = version(&files);
+    println!("cargo::rustc-env=FRETWEAR_ASSETS={version}");
+    complete_pages(&mut files, &version);
     let mut table = String::from("&[\n");
     for (number, (path, bytes)) in files.iter().enumerate() {
         let Some(media_type) = media_type(path) else {
@@ -43,6 +46,44 @@ pub(crate) fn embed() -> io::Result<()> {
     }
     table.push_str("]\n");
     fs::write(out.join("assets.rs"), table)
+}
+
+/// Digest of all files and their paths.
+fn version(files: &[(String, Vec<u8>)]) -> String {
+    let mut all = Vec::new();
+    for (path, bytes) in files {
+        all.extend_from_slice(path.as_bytes());
+        all.extend_from_slice(bytes);
+    }
+    digest(&all)
+}
+
+/// Lets pages refer to files below their version, which a browser never asks for again, and name all modules of the dashboard, which
+/// it else finds one after the other.
+fn complete_pages(files: &mut [(String, Vec<u8>)], version: &str) {
+    let folder = format!("\"/assets/{version}/");
+    let is_module = |path: &str| {
+        let path = Path::new(path);
+        path.extension().is_some_and(|extension| extension == "js")
+            && !path.starts_with("docs")
+            && path != Path::new("plotly.js")
+    };
+    let modules = files.iter().map(|(path, _)| path);
+    let preloads: String = modules
+        .filter(|path| is_module(path))
+        .map(|path| format!("<link rel=\"modulepreload\" href={folder}{path}\">\n"))
+        .collect();
+    for (path, bytes) in files.iter_mut() {
+        let Some(name) = path.strip_suffix("index.html") else {
+            continue;
+        };
+        let preloads = if name.is_empty() { &preloads } else { "" };
+        let text = String::from_utf8_lossy(bytes);
+        let text = text.replace("\"/assets/", &folder);
+        *bytes = text
+            .replace("</head>", &format!("{preloads}</head>"))
+            .into_bytes();
+    }
 }
 
 /// Start of a digest, in hexadecimal digits.

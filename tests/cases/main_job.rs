@@ -2,7 +2,7 @@
 //!
 //! Requirement: `fretwear demo --exit` ends with 0 and a table of worn depth by cycle and station; where the contact
 //! is on the flat floor of the groove the depth grows by 2 (k/H) P' = 26.17 nm a cycle, and the worn area equals
-//! (k/H) times the accumulated integral of p |slip|.
+//! (k/H) times the accumulated integral of p |slip|. README.md shows lines of that table.
 
 use serde_json::Value;
 use tests::{Server, fretwear, spec};
@@ -10,28 +10,62 @@ use tests::{Server, fretwear, spec};
 /// 2 (k/H) P' with k = 0.011, H = 427 MPa and P' = 10 MPa over 0.0508 mm, mm a cycle.
 const FLAT_FLOOR: f64 = 2.0 * 0.011 / 427.0 * 0.508;
 
+/// The cells of a line of a table; its cycle without the space between thousands.
+fn cells(line: &str) -> Vec<String> {
+    let inside = line.trim_matches('|').split('|');
+    let mut cells: Vec<String> = inside.map(|cell| cell.trim().to_owned()).collect();
+    cells[0] = cells[0].replace(' ', "");
+    cells
+}
+
+/// The table whose head begins with the words, its head first.
+fn table(text: &str, head: &str) -> Vec<Vec<String>> {
+    let lines = text.lines().skip_while(|line| !line.starts_with(head));
+    lines
+        .take_while(|line| line.starts_with('|'))
+        .filter(|line| !line.contains("--"))
+        .map(cells)
+        .collect()
+}
+
 #[test]
-fn the_demo_solves_its_job_and_exits_with_zero() {
+fn the_demo_solves_its_job_and_prints_the_table_of_the_readme() {
     let folder = tempfile::tempdir().expect("a folder can be made");
     let ran = fretwear(folder.path(), &["demo", "--exit"]);
     assert_eq!(ran.code, Some(0), "{}", ran.stderr);
-    // The table's last column is the growth in the middle since the row above, nm a cycle.
-    let growth = |cycle: &str| -> f64 {
-        let row = ran
-            .stdout
-            .lines()
-            .find(|line| line.split('|').nth(1).map(str::trim) == Some(cycle));
-        let cells: Vec<&str> = row
-            .expect("the row is there")
-            .trim_matches('|')
-            .split('|')
-            .collect();
-        let last = cells.last().expect("a row has cells").trim();
-        last.parse().expect("growth is a number")
+    let printed = table(&ran.stdout, "| cycle |");
+    let row = |cycle: &str| -> &Vec<String> {
+        let row = printed.iter().find(|row| row[0] == cycle);
+        row.unwrap_or_else(|| panic!("no cycle {cycle} in {}", ran.stdout))
     };
+    // The table's last column is the growth in the middle since the row above, nm a cycle.
     for cycle in ["1", "150"] {
-        let off = growth(cycle) / (1e6 * FLAT_FLOOR) - 1.0;
+        let growth: f64 = row(cycle).last().expect("cells").parse().expect("a number");
+        let off = growth / (1e6 * FLAT_FLOOR) - 1.0;
         assert!(off.abs() < 0.01, "cycle {cycle}: {off}");
+    }
+
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../README.md");
+    let readme = std::fs::read_to_string(path).expect("README.md can be read");
+    let told = table(&readme, "| cycle | x = ");
+    assert!(told.len() > 3, "{told:?}");
+    for (place, head) in told[0].iter().enumerate().skip(1) {
+        let head = head.trim_start_matches("x = ");
+        let name =
+            |column: &&String| column.trim_end_matches(" mm") == head.trim_end_matches(" mm");
+        let column = printed[0].iter().find(name);
+        let column = column.unwrap_or_else(|| panic!("no column {head} in {:?}", printed[0]));
+        let column = printed[0].iter().position(|name| name == column);
+        for line in &told[1..] {
+            let number = |cell: &str| cell.parse::<f64>().expect("a number");
+            let off = number(&line[place]) - number(&row(&line[0])[column.expect("found")]);
+            let last_digit = 0.1_f64.powi(line[place].split('.').nth(1).map_or(0, str::len) as i32);
+            assert!(
+                off.abs() < 0.51 * last_digit,
+                "cycle {}, {head}: {off}",
+                line[0]
+            );
+        }
     }
 }
 

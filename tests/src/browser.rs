@@ -137,6 +137,19 @@ impl Browser {
         }
     }
 
+    /// Brings an element into view: what is out of view is drawn anew only when it comes into view.
+    ///
+    /// # Panics
+    /// If there is none.
+    pub async fn scroll_to(&self, selector: &str) {
+        let script = format!(
+            "document.querySelector({}).scrollIntoView()",
+            json!(selector)
+        );
+        let scrolled = self.client.execute(&script, Vec::new()).await;
+        scrolled.unwrap_or_else(|error| panic!("{selector}: {error}"));
+    }
+
     /// The text of the page.
     ///
     /// # Panics

@@ -1,12 +1,16 @@
 // A chart with its heading, its choice of axes and its downloads. Hover, zoom and pan are the library's.
 
+import { csv } from "../parts/csv.js";
 import { save } from "../parts/download.js";
 import { element } from "../parts/element.js";
 import { plotly } from "./library.js";
+import { when_seen } from "./seen.js";
 import { axis, colour, colours, layout, on_theme } from "./theme.js";
 
 /** Ticks that a logarithmic x axis has about: more of its labels would overlap on narrow screens. */
 const LOG_TICKS = 4;
+/** Change of values over their mean, to either side, below which an axis is not fitted to them. */
+const FLAT = 1e-3;
 
 /**
  * @typedef {object} Series
@@ -49,6 +53,7 @@ export class Chart {
   #note = element("p", { class: "muted small" });
   /** @type {Options} */
   #options;
+  #redraw;
 
   /** @param {Options} options */
   constructor(options) {
@@ -57,13 +62,14 @@ export class Chart {
     this.tools = element("div", { class: "tools" });
     this.node = element("figure", { class: "chart", "data-chart": options.name },
       element("figcaption", {}, this.title, this.tools), this.#plot, this.#note);
-    on_theme(() => this.#draw(), options.signal);
+    this.#redraw = when_seen(this.#plot, () => this.#draw(), options.signal);
+    on_theme(this.#redraw, options.signal);
     fit(this.#plot, options.signal);
     options.signal.addEventListener("abort", () => this.#forget());
   }
 
   /**
-   * Draws a figure in place of the last one; zoom and hidden curves stay.
+   * Draws a figure in place of the last one, when it can be seen; zoom and hidden curves stay.
    * @param {Figure} figure
    */
   async show(figure) {
@@ -72,7 +78,7 @@ export class Chart {
     const is_first = this.#figure === null;
     this.#figure = figure;
     if (is_first) this.#add_tools(figure);
-    await this.#draw();
+    await this.#redraw();
   }
 
   /** @param {Figure} figure */
@@ -84,7 +90,7 @@ export class Chart {
         const chosen = box.checked ? "log" : "linear";
         this.#options.state?.set(`${this.#options.name}-${name}`, box.checked === this.#is_log_by_default(name) ? null : chosen);
         this.#log[name] = box.checked;
-        this.#draw();
+        this.#redraw();
       });
       this.tools.append(element("label", {}, box, ` log ${name}`));
     }
@@ -121,7 +127,7 @@ export class Chart {
       ...style,
       uirevision: `${figure.x.title}, ${figure.y.title}${figure.to_scale ? " to scale" : ""}`,
       xaxis: { ...axis(figure.x.title, this.#is_log("x")), nticks: this.#is_log("x") ? LOG_TICKS : undefined },
-      yaxis: { ...axis(figure.y.title, this.#is_log("y")), autorange: figure.y.reversed ? "reversed" : true, ...(figure.to_scale && { scaleanchor: "x", scaleratio: 1 }) },
+      yaxis: { ...axis(figure.y.title, this.#is_log("y")), autorange: figure.y.reversed ? "reversed" : true, ...(!this.#is_log("y") && flat_range(figure.series)), ...(figure.to_scale && { scaleanchor: "x", scaleratio: 1 }) },
       showlegend: figure.series.length > 1,
       shapes: lines.map(({ y }) => ({ type: "line", xref: "paper", x0: 0, x1: 1, y0: y, y1: y, line: { color: palette[4], width: 1, dash: "dash" } })),
       annotations: lines.map(({ y, name }) => ({ xref: "paper", x: 1, y: height(y), text: name, showarrow: false, xanchor: "right", yanchor: "bottom", font: { color: palette[4], size: 11 } })),
@@ -139,14 +145,28 @@ export class Chart {
 }
 
 /**
+ * The range of curves that hardly change: round-off would fill an axis that is fitted to them.
+ * @param {Series[]} series
+ */
+function flat_range(series) {
+  const values = series.flatMap(({ y }) => Array.from(y).filter((value) => value !== null));
+  const [low, high] = values.reduce(([least, most], value) => [Math.min(least, value), Math.max(most, value)], [Infinity, -Infinity]);
+  const middle = (low + high) / 2;
+  const half = FLAT * Math.abs(middle);
+  return high - low < 2 * half ? { autorange: false, range: [middle - 2 * half, middle + 2 * half] } : {};
+}
+
+/**
  * Draws a plot anew where its place becomes wider or narrower.
  * @param {HTMLElement} plot
  * @param {AbortSignal} signal
  */
 export function fit(plot, signal) {
   const observer = new ResizeObserver(async () => {
-    const library = plot.classList.contains("js-plotly-plot") && plot.clientWidth > 0 && (await plotly());
-    if (library && !signal.aborted) library.Plots.resize(plot);
+    const { _fullLayout: drawn } = /** @type {any} */ (plot);
+    if (!drawn || plot.clientWidth === 0 || (drawn.width === plot.clientWidth && drawn.height === plot.clientHeight)) return;
+    const library = await plotly();
+    if (!signal.aborted) library.Plots.resize(plot);
   });
   observer.observe(plot);
   signal.addEventListener("abort", () => observer.disconnect());
@@ -200,7 +220,5 @@ function trace({ name, x, y, dash = "solid", mode = "lines", symbol = "circle", 
  * @returns {string}
  */
 export function as_table({ x, y, series }) {
-  const quoted = (/** @type {string} */ text) => `"${text.replaceAll('"', '""')}"`;
-  const rows = series.flatMap((curve) => Array.from(curve.x, (at, index) => `${quoted(curve.name)},${at},${curve.y[index] ?? ""}`));
-  return [["curve", x.title, y.title].map(quoted).join(","), ...rows, ""].join("\n");
+  return csv(["curve", x.title, y.title], series.flatMap((curve) => Array.from(curve.x, (at, index) => [curve.name, at, curve.y[index] ?? ""])));
 }

@@ -1,9 +1,12 @@
 // A heat map over two fields: a cell for each pair of values, which a click opens.
 
+import { csv } from "../parts/csv.js";
+import { save } from "../parts/download.js";
 import { element } from "../parts/element.js";
 import { number } from "../parts/format.js";
 import { fit, open_clicked, save_image } from "./chart.js";
 import { plotly } from "./library.js";
+import { when_seen } from "./seen.js";
 import { axis, colour, layout, on_theme } from "./theme.js";
 
 /** Cells that have their values written in them at most. */
@@ -26,6 +29,7 @@ export class HeatMap {
   #cells = null;
   #plot = element("div", { class: "plot" });
   #signal;
+  #redraw;
 
   /**
    * @param {string} name of its files
@@ -34,10 +38,13 @@ export class HeatMap {
   constructor(name, signal) {
     this.#signal = signal;
     this.title = element("h3");
-    const button = (/** @type {"svg" | "png"} */ format) => element("button", { type: "button", class: "quiet", "aria-label": `save the heat map as ${format.toUpperCase()}`, click: () => save_image(this.#plot, name, format) }, format.toUpperCase());
+    const button = (/** @type {string} */ text, /** @type {() => void} */ click) =>
+      element("button", { type: "button", class: "quiet", click, "aria-label": `save the heat map as ${text}` }, text);
+    const buttons = [button("SVG", () => save_image(this.#plot, name, "svg")), button("PNG", () => save_image(this.#plot, name, "png")), button("CSV", () => this.#save_table(name))];
     this.node = element("figure", { class: "chart", "data-chart": name },
-      element("figcaption", {}, this.title, element("div", { class: "tools" }, button("svg"), button("png"))), this.#plot);
-    on_theme(() => this.#draw(), signal);
+      element("figcaption", {}, this.title, element("div", { class: "tools" }, ...buttons)), this.#plot);
+    this.#redraw = when_seen(this.#plot, () => this.#draw(), signal);
+    on_theme(this.#redraw, signal);
     fit(this.#plot, signal);
     signal.addEventListener("abort", () => this.#cells && plotly().then((library) => library.purge(this.#plot)));
   }
@@ -46,7 +53,7 @@ export class HeatMap {
   async show(cells) {
     this.#cells = cells;
     this.title.textContent = cells.title;
-    await this.#draw();
+    await this.#redraw();
   }
 
   async #draw() {
@@ -64,7 +71,22 @@ export class HeatMap {
       type: "heatmap", x: x.values, y: y.values, z, text: is_written ? written : undefined, texttemplate: is_written ? "%{text}" : undefined,
       customdata: cells.links, hovertext: cells.texts, hovertemplate: "%{hovertext}<extra></extra>", hoverongaps: true,
       colorscale: "Viridis", xgap: 2, ygap: 2, colorbar: { title: { text: unit }, thickness: 12, outlinewidth: 0, tickfont: { color: colour("--text") }, tickformat: "~g", exponentformat: "power" },
-    }], { ...layout(), margin: { l: 66, r: 14, t: 32, b: 46 }, xaxis: categories(x), yaxis: categories(y) }, { responsive: true, displaylogo: false, modeBarButtonsToRemove: ["select2d", "lasso2d", "toImage"] });
+    }], { ...layout(), xaxis: categories(x), yaxis: categories(y) }, { responsive: true, displaylogo: false, modeBarButtonsToRemove: ["select2d", "lasso2d", "toImage"] });
     open_clicked(this.#plot);
   }
+
+  /** @param {string} name */
+  #save_table(name) {
+    if (this.#cells) save(new Blob([as_table(this.#cells)], { type: "text/csv" }), `${name}.csv`);
+  }
+}
+
+/**
+ * The cells of a heat map as CSV: both fields and the value of each.
+ * @param {Cells} cells
+ * @returns {string}
+ */
+export function as_table({ x, y, unit, z }) {
+  const rows = z.flatMap((row, at) => row.map((value, index) => [x.values[index], y.values[at], value ?? ""]));
+  return csv([x.title, y.title, unit], rows);
 }

@@ -2,6 +2,7 @@
 
 import { fit } from "../charts/chart.js";
 import { plotly } from "../charts/library.js";
+import { when_seen } from "../charts/seen.js";
 import { axis, colour, layout, on_theme } from "../charts/theme.js";
 import { send } from "../parts/client.js";
 import { download_link } from "../parts/download.js";
@@ -40,6 +41,7 @@ export class Fields {
   /** @type {import("./section.js").Section | null} */
   #section = null;
   #refine;
+  #redraw;
   #listens = false;
 
   /**
@@ -53,7 +55,7 @@ export class Fields {
       const node = /** @type {HTMLSelectElement} */ (element("select", {}, ...values.map((value) => element("option", {}, value))));
       node.addEventListener("change", () => {
         state.set(name, node.value);
-        this.#draw();
+        this.#redraw();
       });
       this.#choices[name] = node;
       return element("label", {}, `${text} `, node);
@@ -63,7 +65,8 @@ export class Fields {
     this.#refine = throttled(() => this.#draw_range(), ZOOM_MS, signal);
     this.node = element("section", { class: "stresses", hidden: true, "aria-label": "stresses" }, tools,
       element("figure", { class: "chart", "data-chart": "stress" }, element("figcaption", {}, this.#title), this.#plot, this.#said));
-    on_theme(() => this.#draw(), signal);
+    this.#redraw = when_seen(this.node, () => this.#draw(), signal);
+    on_theme(this.#redraw, signal);
     fit(this.#plot, signal);
     signal.addEventListener("abort", () => this.#section && plotly().then((library) => library.purge(this.#plot)));
   }
@@ -94,7 +97,7 @@ export class Fields {
       const asked = this.#state.get(name);
       if ([...this.#choices[name].options].some(({ value }) => value === asked)) this.#choices[name].value = asked ?? "";
     }
-    await this.#draw();
+    await this.#redraw();
   }
 
   get #is_ring() {

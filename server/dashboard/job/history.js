@@ -4,7 +4,7 @@ import { Chart } from "../charts/chart.js";
 import { fetch_json } from "../parts/client.js";
 
 /** Rows that are drawn at most; the service keeps the extremes of every column. */
-const MOST_POINTS = 2000;
+const MOST_POINTS = 1000;
 const UM = 1e3;
 
 /**

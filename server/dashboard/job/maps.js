@@ -2,6 +2,7 @@
 
 import { fit } from "../charts/chart.js";
 import { plotly } from "../charts/library.js";
+import { when_seen } from "../charts/seen.js";
 import { axis, layout, on_theme } from "../charts/theme.js";
 import { fetch_json } from "../parts/client.js";
 import { element } from "../parts/element.js";
@@ -22,6 +23,7 @@ export class Maps {
   #plots = DRAWN.map(() => element("div", { class: "plot" }));
   #choice = /** @type {HTMLSelectElement} */ (element("select", { "aria-label": "cycle of the maps" }));
   #signal;
+  #redraw;
   /** @type {any} */
   #shown = null;
 
@@ -36,12 +38,13 @@ export class Maps {
       this.#load();
     });
     this.#choice.dataset.asked = state.get("map") ?? "";
-    on_theme(() => this.#draw(), signal);
     for (const plot of this.#plots) fit(plot, signal);
     this.node = element("section", { class: "maps", hidden: true, "aria-label": "maps" },
       element("p", { class: "line" }, element("label", {}, "Maps at cycle ", this.#choice)),
       element("div", { class: "charts" }, ...DRAWN.map(([title], index) =>
         element("figure", { class: "chart" }, element("figcaption", {}, element("h3", {}, title)), this.#plots[index]))));
+    this.#redraw = when_seen(this.node, () => this.#draw(), signal);
+    on_theme(this.#redraw, signal);
   }
 
   /**
@@ -65,7 +68,7 @@ export class Maps {
     const path = this.#paths.get(Number(this.#choice.value));
     if (!path) return;
     this.#shown = await fetch_json(path, { signal: this.#signal });
-    await this.#draw();
+    await this.#redraw();
   }
 
   async #draw() {

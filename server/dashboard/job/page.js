@@ -1,5 +1,6 @@
 // One job: live while it runs, complete after it.
 
+import { plotly } from "../charts/library.js";
 import { choices } from "../parts/address.js";
 import { events, fetch_json } from "../parts/client.js";
 import { element } from "../parts/element.js";
@@ -25,6 +26,8 @@ const RETRY_MS = 2000;
 
 /** @type {import("../main.js").Page} */
 export async function job_page(content, { id }, signal) {
+  // Loaded while the job is.
+  plotly();
   let job = await fetch_json(`/v1/jobs/${id}`, { signal });
   document.title = `${job.spec.name ?? job.spec.system.kind} · fretwear`;
   const head = new Head(job);
@@ -39,8 +42,7 @@ export async function job_page(content, { id }, signal) {
   charts.append(...history.nodes, snapshots.node, fields.node, maps.node);
 
   const show_history = async () => {
-    await history.load(job, signal);
-    await snapshots.load(job, signal);
+    await Promise.all([history.load(job, signal), snapshots.load(job, signal)]);
   };
   const show_end = async () => {
     const listed = await fetch_json(job.links.results, { signal });

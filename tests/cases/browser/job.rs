@@ -60,6 +60,7 @@ async fn a_job_that_has_ended_shows_all_that_it_has() {
     }
     fits_a_phone(&browser, "job").await;
     // The slider goes to the first stored cycle, where Hertz' pressure is drawn as well.
+    browser.scroll_to("section.snapshots").await;
     let slide = "const slider = document.querySelector('input[type=range]'); slider.value = 0; slider.dispatchEvent(new Event('input'))";
     browser
         .client
@@ -146,6 +147,7 @@ async fn stresses_are_drawn_at_each_position_and_profiles_to_scale() {
         ))
         .await;
     // Zoomed, it is computed for what is shown.
+    browser.scroll_to("section.stresses").await;
     let zoom = "const plot = document.querySelector('[data-chart=stress] .plot'); Plotly.relayout(plot, {'xaxis.range': [0, 10]})";
     let zoomed = browser.client.execute(zoom, Vec::new()).await;
     zoomed.expect("it can be zoomed");

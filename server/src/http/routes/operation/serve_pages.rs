@@ -16,6 +16,11 @@ const CONTENT_POLICY: &str = "default-src 'none'; script-src 'self'; \
                       style-src 'self'; style-src-elem 'self' 'sha256-47DEQpj8HBSa+/TImW+5JCeuQeRkm5NMpJWZG3hSuFU='; \
                       style-src-attr 'unsafe-inline'; connect-src 'self'; img-src 'self' blob: data:; \
                       base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
+/// Version of the files: the pages of this program refer to them by paths below it.
+const VERSION: &str = env!("FRETWEAR_ASSETS");
+/// `Cache-Control` of what changes with the program, and of what does not.
+const CHANGES: &str = "no-cache";
+const STAYS: &str = "public, max-age=31536000, immutable";
 /// Buffer of a decompression, bytes.
 const BUFFER: usize = 1 << 14;
 
@@ -59,8 +64,7 @@ pub(super) fn headers(
     [
         (header::CONTENT_TYPE, media_type),
         (header::CONTENT_SECURITY_POLICY, content_policy),
-        // The pages change with the binary.
-        (header::CACHE_CONTROL, "no-cache"),
+        (header::CACHE_CONTROL, CHANGES),
     ]
 }
 
@@ -72,7 +76,7 @@ pub(super) fn headers(
     responses((status = 200, description = "The page", content_type = "text/html", body = String))
 )]
 pub(crate) async fn dashboard(request: HeaderMap) -> Result<Response, ProblemResponse> {
-    serve("index.html", &request)
+    serve("index.html", CHANGES, &request)
 }
 
 /// Documentation of this interface.
@@ -83,7 +87,7 @@ pub(crate) async fn dashboard(request: HeaderMap) -> Result<Response, ProblemRes
     responses((status = 200, description = "The page", content_type = "text/html", body = String))
 )]
 pub(crate) async fn docs(request: HeaderMap) -> Result<Response, ProblemResponse> {
-    serve("docs/index.html", &request)
+    serve("docs/index.html", CHANGES, &request)
 }
 
 /// A script, a style sheet or a text of the pages.
@@ -91,15 +95,26 @@ pub(crate) async fn asset(
     Path(path): Path<String>,
     request: HeaderMap,
 ) -> Result<Response, ProblemResponse> {
-    serve(&path, &request)
+    // A page of an earlier program, still open, finds the files of this one.
+    let (version, name) = path.split_once('/').unwrap_or_default();
+    let is_version =
+        version.len() == VERSION.len() && version.bytes().all(|byte| byte.is_ascii_hexdigit());
+    let name = if is_version { name } else { &path };
+    let caching = if version == VERSION { STAYS } else { CHANGES };
+    serve(name, caching, &request)
 }
 
-fn serve(path: &str, request: &HeaderMap) -> Result<Response, ProblemResponse> {
+fn serve(
+    path: &str,
+    caching: &'static str,
+    request: &HeaderMap,
+) -> Result<Response, ProblemResponse> {
     let found = ASSETS.iter().find(|asset| asset.path == path);
     let asset = found.ok_or(AssetError::Unknown)?;
     let of_file = [
         (header::ETAG, asset.etag),
         (header::VARY, "accept-encoding"),
+        (header::CACHE_CONTROL, caching),
     ];
     let headers = (headers(asset.media_type, CONTENT_POLICY), of_file);
     let has = |name: HeaderName, part: &str| {
@@ -213,15 +228,43 @@ mod tests {
         let (_, headers, bytes) = service.bytes("GET", path, &accepting, "").await;
         assert_eq!(headers["content-encoding"], "br");
         assert!(bytes.len() < text.len() / 2);
+        assert_eq!(plain["cache-control"], "no-cache");
         let known = [("if-none-match", plain["etag"].to_str().expect("text"))];
         let (status, _, bytes) = service.bytes("GET", path, &known, "").await;
         assert_eq!((status.as_u16(), bytes.len()), (304, 0));
     }
 
     #[tokio::test]
+    async fn assets_of_this_version_stay_and_those_of_others_are_asked_for_again() {
+        let service = Service::new().await;
+        let (_, _, page) = service.text("GET", "/", &[], "").await;
+        assert!(page.contains(&format!(
+            "\"modulepreload\" href=\"/assets/{VERSION}/main.js\""
+        )));
+        for (version, caching) in [(VERSION, STAYS), ("0123456789abcdef", CHANGES)] {
+            let path = format!("/assets/{version}/style.css");
+            let (status, headers, text) = service.text("GET", &path, &[], "").await;
+            assert_eq!(
+                (status.as_u16(), &headers["cache-control"]),
+                (200, &caching.parse().expect("a value"))
+            );
+            assert!(text.contains(":root"));
+        }
+    }
+
+    #[tokio::test]
     async fn unknown_assets_are_404() {
         let service = Service::new().await;
-        for name in ["x.js", "..%2FCargo.toml", "parts", "parts/", "%FF"] {
+        for name in [
+            "0123456789abcdef",
+            "0123456789abcdef/",
+            "0123456789abcdef/0123456789abcdef/style.css",
+            "x.js",
+            "..%2FCargo.toml",
+            "parts",
+            "parts/",
+            "%FF",
+        ] {
             let (status, ..) = service.get(&format!("/assets/{name}")).await;
             assert!(status == 404 || status == 400, "{name}: {status}");
         }
