@@ -8,6 +8,7 @@ mod interface;
 mod job;
 mod jobs;
 mod pages_cost;
+mod pictures;
 mod study;
 mod sweeps;
 

@@ -35,7 +35,7 @@ mod pair;
 mod pairing;
 mod predictor;
 mod problem;
-mod reach;
+mod rate_contrast;
 mod response;
 mod state;
 mod status;

@@ -1,9 +1,10 @@
 //! Requirement: a place whose plating is through is no deeper than the slider can reach past the plating that stands beside it.
 //! Source: geometry. With the rigid slider at u, the gap circle(x - u) + h_slider(x - u) + h_receptacle(x) is nowhere negative: the slider has sunk by
 //! its least value s(u), so that h_receptacle(x) is at most the largest s(u) - circle(x - u) - h_slider(x - u) over the stroke.
-//! Naive: contact of means. A node of the base wears 260 times as fast as the nickel beside it and digs where the means hide it.
+//! Naive: contact of means. A node of the base wears 260 times as fast as the nickel beside it and digs where the means hide it: 3.3 um beyond
+//! reach here, 100 um at twice the cycles, and the run ended without a contact state.
 //!
-//! Held in part only: within an increment a node that is just through still digs. The stated error of the depth must say so.
+//! The slider was less blunt before, and it is elastic: it has reached a little deeper than its last shape does.
 
 use std::ops::ControlFlow;
 
@@ -20,8 +21,10 @@ const AMPLITUDE: f64 = 0.02;
 const POSITIONS: i32 = 20;
 /// Half-width in which the slider is a circle that may touch, mm.
 const NEAR: f64 = 0.12;
-/// Most beyond reach, mm: half of the 10.5 um that it was while nodes out of reach took a path.
-const MOST_BEYOND: f64 = 5.25e-3;
+/// Most beyond reach of the last shape, mm.
+const MOST_BEYOND: f64 = 5e-4;
+/// Tolerance of `draft`.
+const TOLERANCE: f64 = 0.1;
 
 /// Keeps the last snapshot of a run.
 #[derive(Default)]
@@ -81,8 +84,7 @@ fn beyond_reach(receptacle: &DepthProfile, slider: &DepthProfile) -> f64 {
 }
 
 #[test]
-#[ignore = "takes a minute; run it by name"]
-fn holes_beside_standing_plating_are_part_of_the_stated_error() {
+fn no_hole_is_dug_beside_standing_plating() {
     let spec = json!({
         "system": {"kind": "zif"}, "cycles": 262_000, "accuracy": {"preset": "draft"},
         "output": {"snapshots_at_cycles": [262_000]},
@@ -105,5 +107,5 @@ fn holes_beside_standing_plating_are_part_of_the_stated_error() {
         100.0 * stated
     );
     assert!(beyond < MOST_BEYOND, "{beyond}");
-    assert!(stated > beyond / deepest, "{stated}");
+    assert!(stated < TOLERANCE, "{stated}");
 }

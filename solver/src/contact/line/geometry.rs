@@ -5,6 +5,7 @@ use std::ops::Range;
 use super::local_slopes::LocalSlopes;
 use super::mortar::Coupling;
 use super::pair::{Pair, Surfaces, Zones};
+use super::rate_contrast::share_by_resistance;
 use super::state::ContactState;
 use crate::model::Interface;
 use crate::sides::Side;
@@ -64,17 +65,18 @@ pub(super) struct Geometry {
 }
 
 impl Geometry {
-    /// Couples a range of the slave's nodes, which must be covered, to the master.
+    /// Couples a range of the slave's nodes, which must be covered, to the master, at about this indentation in mm.
     pub(super) fn place(
         &mut self,
         pair: &Pair<'_>,
         surfaces: &Surfaces<'_>,
-        setting: Setting,
+        (setting, indentation): (Setting, f64),
         nodes: Range<usize>,
     ) {
         let pairing_x = setting.pairing_x;
         self.coupling
             .integrate(pair, pairing_x, nodes.start, nodes.end);
+        share_by_resistance(&mut self.coupling, (pair, surfaces), indentation);
         self.slopes.assemble(pair, &self.coupling, surfaces);
     }
 

@@ -13,7 +13,6 @@ use super::pair::{Displacement, Pair, Surfaces, Zones};
 use super::pairing;
 use super::predictor::{predict, start_from};
 use super::problem::{GAP_TOLERANCE, Iterate, MOST_ITERATIONS, Problem};
-use super::reach::share_among_reached;
 use super::response::Response;
 use super::state::ContactState;
 use super::wear_coupling::WearCoupling;
@@ -42,8 +41,6 @@ pub struct Solver {
     /// Coefficients of friction of the coupled nodes where these differ, -.
     friction: Vec<f64>,
     recession: Sides<Vec<f64>>,
-    /// Parts of the path that the master's nodes take.
-    reached: Vec<f64>,
     /// The window that these buffers are assembled for.
     assembled: Option<(usize, usize)>,
 }
@@ -95,7 +92,7 @@ impl Solver {
             let friction = Coefficient::of(pair, surfaces, &self.friction, direction);
             outcome::write(pair, geometry, it, last, (setting, friction), next);
             let touching =
-                self.touching_beside(pair, surfaces, next, setting, (window, covered))?;
+                self.touching_beside(pair, surfaces, (last, next), setting, (window, covered))?;
             if touching == window {
                 let (geometry, it) = (&self.geometry, &self.iterate);
                 let friction = Coefficient::of(pair, surfaces, &self.friction, direction);
@@ -149,7 +146,8 @@ impl Solver {
         };
         let at = (contact.slider_x, contact.pairing_x);
         let setting = Setting::new(&pair.interface, contact, at, None);
-        self.flank.place(pair, surfaces, setting, first..end);
+        self.flank
+            .place(pair, surfaces, (setting, contact.indentation), first..end);
         let slopes = &self.flank.slopes.interface;
         (first..end)
             .zip(slopes)
@@ -168,7 +166,7 @@ impl Solver {
         &mut self,
         pair: &Pair<'_>,
         surfaces: &Surfaces<'_>,
-        next: &ContactState,
+        (last, next): (&ContactState, &ContactState),
         setting: Setting,
         (window, covered): ((usize, usize), (usize, usize)),
     ) -> Result<(usize, usize), ContactError> {
@@ -181,7 +179,7 @@ impl Solver {
                 continue;
             }
             let geometry = &mut self.flank;
-            geometry.place(pair, surfaces, setting, flank.clone());
+            geometry.place(pair, surfaces, (setting, last.indentation), flank.clone());
             let (begin, stop) = geometry.coupling.master_range;
             let zones = pair.zones(next, flank.clone(), begin..stop)?;
             geometry.measure((pair, zones), surfaces, setting);
@@ -215,7 +213,8 @@ impl Solver {
         let wear = interface.wear.map(|wear| wear.filter(|_| cycles > 0.0));
         let is_assembled = self.assembled == Some((first, end));
         if !is_assembled {
-            self.geometry.place(pair, surfaces, setting, first..end);
+            self.geometry
+                .place(pair, surfaces, (setting, last.indentation), first..end);
         }
         let (begin, stop) = self.geometry.coupling.master_range;
         let zones = pair.zones(last, first..end, begin..stop)?;
@@ -223,10 +222,6 @@ impl Solver {
             let geometry = &mut self.geometry;
             geometry.measure((pair, zones), surfaces, setting);
             self.response.reset(geometry.coupling.len(), tracks_slip);
-            if cycles > 0.0 {
-                let reached = (last, &mut self.reached);
-                share_among_reached(geometry, (pair, surfaces), setting.pairing_x, reached);
-            }
             let worn = (wear, surfaces.depth);
             self.wear.assemble(&geometry.coupling, pair, worn, cycles);
             self.assemble_fixed_slip((pair, zones), last, step);

@@ -18,9 +18,6 @@ const GAUSS: [(f64, f64); 3] = [
 /// then continued, which moves nothing by more than round-off.
 const ROUND_OFF: f64 = 1e-10;
 
-/// Part of a row's shares without which it is not changed. Arbitrary.
-const LEAST_KEPT: f64 = 1e-2;
-
 /// Coupling of the slave nodes `first..end` with the master at one position.
 #[derive(Debug, Default)]
 pub(in crate::contact) struct Coupling {
@@ -208,26 +205,19 @@ impl Coupling {
         )
     }
 
-    /// Multiplies what each of the master's nodes in the range shares of a path by a part, and the row of each slave node so that it shares as much
-    /// in all; rows of which next to nothing is left stay as they are.
-    pub(super) fn share_among(&mut self, parts: &[f64]) {
-        let begin = self.master_range.0;
-        for l in self.first..self.end {
-            let (from, span) = (self.rows[l - self.first].0, self.row_span(l));
-            let row = &mut self.standard[span];
-            let parts = &parts[from - begin..];
-            let whole: f64 = row.iter().sum();
-            let kept: f64 = row
-                .iter()
-                .zip(parts)
-                .map(|(share, part)| share * part)
-                .sum();
-            if kept < LEAST_KEPT * whole {
-                continue;
-            }
-            for (share, part) in row.iter_mut().zip(parts) {
-                *share *= part * (whole / kept);
-            }
+    /// Lets a slave node average the master with the positive weights of its transfer row, and share in proportion to a part of each node besides, as
+    /// much in all. Of linear functions such averages are exact on even meshes only.
+    pub(super) fn share_by(&mut self, i: usize, part: impl Fn(usize) -> f64) {
+        let (from, span) = (self.rows[i - self.first].0, self.row_span(i));
+        let whole: f64 = self.standard[span.clone()].iter().sum();
+        let mut kept = 0.0;
+        for (j, place) in (from..).zip(span.clone()) {
+            self.dual[place] = self.standard[place] / whole;
+            self.standard[place] *= part(j);
+            kept += self.standard[place];
+        }
+        for share in &mut self.standard[span] {
+            *share *= whole / kept;
         }
     }
 }

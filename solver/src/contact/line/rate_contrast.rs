@@ -1,0 +1,55 @@
+//! What the master's nodes take of a slave node's path where their wear rates differ, as those of a plating that is worn through in places.
+//!
+//! Constraints see means of the master's depths. Where each node took its share of the path by its place alone, one that is through to a base of
+//! 260 times the rate would dig a hole unseen while the nickel beside it carries the contact; dual means have negative weights, which let it dig the
+//! faster. On the scale of an element the bodies conform: all that a node of the slave faces recedes together, p_j k_j = const. Each node of the
+//! master then takes its share in proportion to 1/k_j, and the rate of the slave's node is their harmonic mean. Means have positive weights there.
+//!
+//! 1/k_j is that of the depth which the indentation would wear next, so that a node hands its part over before its layer ends.
+//! Planes of extruded bodies do without this.
+
+use super::mortar::Coupling;
+use super::pair::{Pair, Surfaces};
+use crate::law::dose::DoseCurve;
+use crate::law::surface::SurfaceWear;
+
+/// Ratio of wear rates within the support of a node of the slave from which the shares depend on them.
+const CONTRAST: f64 = 2.0;
+/// Dose that a surface takes which no dose wears, over that of its outermost layer. Arbitrary.
+const UNWORN: f64 = 1e6;
+
+/// Shares paths by the resistance of the master's nodes to wear where it differs, at about an indentation in mm; only where a layer of the
+/// master wears faster than its surface.
+pub(super) fn share_by_resistance(
+    coupling: &mut Coupling,
+    (pair, surfaces): (&Pair<'_>, &Surfaces<'_>),
+    indentation: f64,
+) {
+    let master = pair.interface.slave.other();
+    let wear = pair.interface.wear.of(master);
+    let wear = wear.filter(|wear| wear.quickens());
+    let Some(curve) = wear.and_then(SurfaceWear::dose_curve) else {
+        return;
+    };
+    if indentation <= 0.0 {
+        return;
+    }
+    let depth = surfaces.depth.of(master);
+    for i in coupling.first..coupling.end {
+        let (from, weights) = coupling.dual_row(i);
+        let depths = &depth[from..from + weights.len()];
+        let least = depths.iter().map(|depth| curve.rate(*depth));
+        let most = depths.iter().map(|depth| curve.rate(depth + indentation));
+        if most.fold(0.0, f64::max) > CONTRAST * least.fold(f64::INFINITY, f64::min) {
+            coupling.share_by(i, |j| resistance(&curve, depth[j], indentation));
+        }
+    }
+}
+
+/// Dose that wears a thickness below a depth, over that in the outermost layer.
+fn resistance(curve: &DoseCurve, depth: f64, thickness: f64) -> f64 {
+    if depth + thickness > curve.deepest() {
+        return UNWORN;
+    }
+    (curve.equivalent(depth + thickness) - curve.equivalent(depth)) / thickness
+}
