@@ -12,7 +12,7 @@ use solver::effects::{self, Effect, EffectsPlan, Switches, Verdict};
 use solver::record::Summary;
 use solver::scene::Scene;
 
-use crate::hard::run;
+use crate::hard::run::{self, Run};
 use difference::largest;
 
 /// Tolerance of all scenes.
@@ -92,7 +92,7 @@ fn compare(name: &str, scene: &Scene) -> Compared {
         (effect, largest(&off, &auto).0)
     });
     let decisive = decisive.collect();
-    let share = |of: fn(&Summary) -> u64| share(of(&auto), of(&all_on));
+    let share = |of: fn(&Summary) -> u64| share(of(auto.summary()), of(all_on.summary()));
     Compared {
         name: name.to_owned(),
         skipped: skipped(&plan).map(Effect::name).collect(),
@@ -111,9 +111,8 @@ fn share(part: u64, whole: u64) -> f64 {
     f64::from(u32::try_from(millionths).expect("a plan counts little more than everything")) * 1e-6
 }
 
-fn solved(scene: Scene) -> Summary {
-    let ended = run::solve_part(scene, usize::MAX);
-    ended.end.expect("the scene can be solved")
+fn solved(scene: Scene) -> Run {
+    run::solve_part(scene, usize::MAX)
 }
 
 /// Effects that the plan skips although there is something to simulate, and that it could.
