@@ -69,10 +69,14 @@ fn complete_pages(files: &mut [(String, Vec<u8>)], version: &str) {
             && path != Path::new("plotly.js")
     };
     let modules = files.iter().map(|(path, _)| path);
-    let preloads: String = modules
-        .filter(|path| is_module(path))
-        .map(|path| format!("<link rel=\"modulepreload\" href={folder}{path}\">\n"))
-        .collect();
+    let mut preloads = String::new();
+    for path in modules.filter(|path| is_module(path)) {
+        writeln!(
+            preloads,
+            "<link rel=\"modulepreload\" href={folder}{path}\">"
+        )
+        .expect("text can be written");
+    }
     for (path, bytes) in files.iter_mut() {
         let Some(name) = path.strip_suffix("index.html") else {
             continue;

@@ -57,13 +57,13 @@ fn the_demo_solves_its_job_and_prints_the_table_of_the_readme() {
         let column = column.unwrap_or_else(|| panic!("no column {head} in {:?}", printed[0]));
         let column = printed[0].iter().position(|name| name == column);
         for line in &told[1..] {
-            let number = |cell: &str| cell.parse::<f64>().expect("a number");
-            let off = number(&line[place]) - number(&row(&line[0])[column.expect("found")]);
-            let last_digit = 0.1_f64.powi(line[place].split('.').nth(1).map_or(0, str::len) as i32);
-            assert!(
-                off.abs() < 0.51 * last_digit,
-                "cycle {}, {head}: {off}",
-                line[0]
+            let digits = line[place].split('.').nth(1).map_or(0, str::len);
+            let number = &row(&line[0])[column.expect("found")];
+            let number: f64 = number.parse().expect("a number");
+            assert_eq!(
+                line[place],
+                format!("{number:.digits$}"),
+                "{line:?}, {head}"
             );
         }
     }
