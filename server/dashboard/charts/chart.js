@@ -19,6 +19,7 @@ const FLAT = 1e-3;
  * @property {ArrayLike<number | null>} y
  * @property {"solid" | "dash" | "dot"} [dash]
  * @property {number} [colour] number of its colour; that of its place otherwise
+ * @property {number} [opacity] of its line; 1 otherwise
  * @property {"lines" | "markers" | "lines+markers"} [mode]
  * @property {"circle" | "circle-open" | "diamond"} [symbol] of its markers
  * @property {string[]} [texts] what is said of each point besides its values
@@ -206,10 +207,10 @@ export function open_clicked(plot) {
  * @param {Series} series
  * @param {string} colour
  */
-function trace({ name, x, y, dash = "solid", mode = "lines", symbol = "circle", texts, links }, colour) {
+function trace({ name, x, y, opacity = 1, dash = "solid", mode = "lines", symbol = "circle", texts, links }, colour) {
   const values = "%{x:.4~g}, %{y:.4~g}";
   return {
-    type: "scatter", name, x, y, mode, line: { color: colour, width: 2, dash }, marker: { color: colour, size: links ? 9 : 6, symbol, line: { width: 2, color: colour } },
+    type: "scatter", name, x, y, mode, opacity, line: { color: colour, width: 2, dash }, marker: { color: colour, size: links ? 9 : 6, symbol, line: { width: 2, color: colour } },
     text: texts, customdata: links, hovertemplate: texts ? `%{text}<br>${values}` : values,
   };
 }

@@ -7,6 +7,8 @@ import { count } from "../parts/format.js";
 import { friction_loop } from "./loop.js";
 
 const UM = 1e3;
+/** Opacity of the earliest of several overlaid profiles; those after it stand out more and more. */
+const FAINTEST = 0.35;
 const PHASES = ["leftmost", "neutral", "rightmost"];
 
 /** The charts of one cycle. */
@@ -127,6 +129,7 @@ export class SnapshotCharts {
 function profiles(shown, others) {
   const sides = ["receptacle", "slider"];
   const curve = (/** @type {any} */ profile, /** @type {string} */ side, /** @type {boolean} */ is_other) => ({
+    opacity: is_other ? FAINTEST + (1 - FAINTEST) * (others.indexOf(profile) / others.length) : 1,
     name: is_other ? `${side}, cycle ${profile.cycle}` : side,
     x: profile[side].x_mm.map((/** @type {number} */ x) => UM * x),
     y: profile[side].depth_mm.map((/** @type {number} */ depth) => UM * depth),
