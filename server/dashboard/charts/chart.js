@@ -95,9 +95,7 @@ export class Chart {
       });
       this.tools.append(element("label", {}, box, ` log ${name}`));
     }
-    const button = (/** @type {string} */ text, /** @type {() => void} */ click) =>
-      element("button", { type: "button", class: "quiet", click, "aria-label": `save ${figure.title} as ${text}` }, text);
-    this.tools.append(button("SVG", () => save_image(this.#plot, this.#options.name, "svg")), button("PNG", () => save_image(this.#plot, this.#options.name, "png")), button("CSV", () => this.#save_table()));
+    this.tools.append(save_buttons(this.#plot, this.#options.name, figure.title, () => (this.#figure ? as_table(this.#figure) : "")));
   }
 
   /** Choices of the reader where the page keeps no state. @type {Record<string, boolean>} */
@@ -136,10 +134,6 @@ export class Chart {
     open_clicked(this.#plot);
   }
 
-  #save_table() {
-    if (this.#figure) save(new Blob([as_table(this.#figure)], { type: "text/csv" }), `${this.#options.name}.csv`);
-  }
-
   #forget() {
     if (this.#figure) plotly().then((library) => library.purge(this.#plot));
   }
@@ -174,12 +168,27 @@ export function fit(plot, signal) {
 }
 
 /**
+ * Buttons that save a plot as a picture, and as a table where it has one.
+ * @param {HTMLElement} plot
+ * @param {string} name of the files
+ * @param {string} title
+ * @param {() => string} [table]
+ * @returns {HTMLElement}
+ */
+export function save_buttons(plot, name, title, table) {
+  const button = (/** @type {string} */ text, /** @type {() => void} */ click) =>
+    element("button", { type: "button", class: "quiet", click, "aria-label": `save ${title} as ${text}` }, text);
+  return element("span", {}, button("SVG", () => save_image(plot, name, "svg")), button("PNG", () => save_image(plot, name, "png")),
+    table && button("CSV", () => save(new Blob([table()], { type: "text/csv" }), `${name}.csv`)));
+}
+
+/**
  * Saves a plot as a picture.
  * @param {HTMLElement} plot
  * @param {string} name
  * @param {"svg" | "png"} format
  */
-export async function save_image(plot, name, format) {
+async function save_image(plot, name, format) {
   const library = await plotly();
   const size = { width: 900, height: 520, scale: format === "png" ? 2 : 1 };
   const { data, layout } = /** @type {any} */ (plot);

@@ -1,10 +1,9 @@
 // A heat map over two fields: a cell for each pair of values, which a click opens.
 
 import { csv } from "../parts/csv.js";
-import { save } from "../parts/download.js";
 import { element } from "../parts/element.js";
 import { number } from "../parts/format.js";
-import { fit, open_clicked, save_image } from "./chart.js";
+import { fit, open_clicked, save_buttons } from "./chart.js";
 import { plotly } from "./library.js";
 import { when_seen } from "./seen.js";
 import { axis, colour, layout, on_theme } from "./theme.js";
@@ -38,11 +37,9 @@ export class HeatMap {
   constructor(name, signal) {
     this.#signal = signal;
     this.title = element("h3");
-    const button = (/** @type {string} */ text, /** @type {() => void} */ click) =>
-      element("button", { type: "button", class: "quiet", click, "aria-label": `save the heat map as ${text}` }, text);
-    const buttons = [button("SVG", () => save_image(this.#plot, name, "svg")), button("PNG", () => save_image(this.#plot, name, "png")), button("CSV", () => this.#save_table(name))];
+    const buttons = save_buttons(this.#plot, name, "the heat map", () => (this.#cells ? as_table(this.#cells) : ""));
     this.node = element("figure", { class: "chart", "data-chart": name },
-      element("figcaption", {}, this.title, element("div", { class: "tools" }, ...buttons)), this.#plot);
+      element("figcaption", {}, this.title, element("div", { class: "tools" }, buttons)), this.#plot);
     this.#redraw = when_seen(this.#plot, () => this.#draw(), signal);
     on_theme(this.#redraw, signal);
     fit(this.#plot, signal);
@@ -73,11 +70,6 @@ export class HeatMap {
       colorscale: "Viridis", xgap: 2, ygap: 2, colorbar: { title: { text: unit }, thickness: 12, outlinewidth: 0, tickfont: { color: colour("--text") }, tickformat: "~g", exponentformat: "power" },
     }], { ...layout(), xaxis: categories(x), yaxis: categories(y) }, { responsive: true, displaylogo: false, modeBarButtonsToRemove: ["select2d", "lasso2d", "toImage"] });
     open_clicked(this.#plot);
-  }
-
-  /** @param {string} name */
-  #save_table(name) {
-    if (this.#cells) save(new Blob([as_table(this.#cells)], { type: "text/csv" }), `${name}.csv`);
   }
 }
 

@@ -1,6 +1,6 @@
 // The von Mises stress within both bodies, worn and under load, at the stored cycles.
 
-import { fit } from "../charts/chart.js";
+import { fit, save_buttons } from "../charts/chart.js";
 import { plotly } from "../charts/library.js";
 import { when_seen } from "../charts/seen.js";
 import { axis, colour, layout, on_theme } from "../charts/theme.js";
@@ -64,7 +64,7 @@ export class Fields {
       choice("view", "view", "contact", "surroundings", "bodies"), choice("section", "section"), this.#file);
     this.#refine = throttled(() => this.#draw_range(), ZOOM_MS, signal);
     this.node = element("section", { class: "stresses", hidden: true, "aria-label": "stresses" }, tools,
-      element("figure", { class: "chart", "data-chart": "stress" }, element("figcaption", {}, this.#title), this.#plot, this.#said));
+      element("figure", { class: "chart", "data-chart": "stress" }, element("figcaption", {}, this.#title, element("div", { class: "tools" }, save_buttons(this.#plot, "stress", "the stress"))), this.#plot, this.#said));
     this.#redraw = when_seen(this.node, () => this.#draw(), signal);
     on_theme(this.#redraw, signal);
     fit(this.#plot, signal);

@@ -1,10 +1,11 @@
 // Maps of worn depth and pressure over the area of a contact, at the stored cycles.
 
-import { fit } from "../charts/chart.js";
+import { fit, save_buttons } from "../charts/chart.js";
 import { plotly } from "../charts/library.js";
 import { when_seen } from "../charts/seen.js";
 import { axis, layout, on_theme } from "../charts/theme.js";
 import { fetch_json } from "../parts/client.js";
+import { csv } from "../parts/csv.js";
 import { element } from "../parts/element.js";
 import { count } from "../parts/format.js";
 
@@ -42,7 +43,7 @@ export class Maps {
     this.node = element("section", { class: "maps", hidden: true, "aria-label": "maps" },
       element("p", { class: "line" }, element("label", {}, "Maps at cycle ", this.#choice)),
       element("div", { class: "charts" }, ...DRAWN.map(([title], index) =>
-        element("figure", { class: "chart" }, element("figcaption", {}, element("h3", {}, title)), this.#plots[index]))));
+        element("figure", { class: "chart" }, element("figcaption", {}, element("h3", {}, title), this.#tools(index)), this.#plots[index]))));
     this.#redraw = when_seen(this.node, () => this.#draw(), signal);
     on_theme(this.#redraw, signal);
   }
@@ -71,12 +72,21 @@ export class Maps {
     await this.#redraw();
   }
 
+  /** @param {number} index of what is drawn */
+  #tools(index) {
+    const [title, part, field] = DRAWN[index];
+    return element("div", { class: "tools" }, save_buttons(this.#plots[index], `map-${part}`, title, () => {
+      const { across, name, map } = values(this.#shown, part);
+      const rows = map.x_mm.flatMap((/** @type {number} */ x, /** @type {number} */ row) => across.map((at, column) => [UM * x, at, map[field][row][column]]));
+      return csv(["along the motion or outward, µm", name, field], rows);
+    }));
+  }
+
   async #draw() {
     if (!this.#shown || this.#signal.aborted) return;
     const library = await plotly();
     await Promise.all(DRAWN.map(([, part, field, factor], index) => {
-      const map = this.#shown[part];
-      const across = map.theta_deg?.length ? map.theta_deg : (map.z_mm ?? []).map((/** @type {number} */ z) => UM * z);
+      const { across, name, map } = values(this.#shown, part);
       const z = map[field].map((/** @type {number[]} */ row) => row.map((value) => factor * value));
       const is_empty = z.length === 0 || z.every((/** @type {number[]} */ row) => row.every((value) => value === 0));
       /** @type {HTMLElement} */ (this.#plots[index].parentElement).hidden = is_empty;
@@ -85,9 +95,21 @@ export class Maps {
         type: "heatmap", x: across, y: map.x_mm.map((/** @type {number} */ x) => UM * x), z, colorscale: "Viridis", hovertemplate: "%{x:.4~g}, %{y:.4~g}: %{z:.4~g}<extra></extra>",
       }], {
         ...layout(),
-        xaxis: axis(map.theta_deg?.length ? "angle from the motion, °" : "across the motion, µm", false),
+        xaxis: axis(name, false),
         yaxis: axis(map.theta_deg?.length ? "outward from the centre line, µm" : "along the motion, µm", false),
       }, { responsive: true, displaylogo: false });
     }));
   }
+}
+
+/**
+ * One body's map, with the places across the motion and what they are.
+ * @param {any} maps
+ * @param {string} part
+ * @returns {{across: number[], name: string, map: any}}
+ */
+function values(maps, part) {
+  const map = maps[part];
+  if (map.theta_deg?.length) return { across: map.theta_deg, name: "angle from the motion, °", map };
+  return { across: (map.z_mm ?? []).map((/** @type {number} */ z) => UM * z), name: "across the motion, µm", map };
 }

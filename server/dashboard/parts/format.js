@@ -2,6 +2,9 @@
 
 const PREFIXES = /** @type {[number, string][]} */ ([[1, "mm"], [1e-3, "µm"], [1e-6, "nm"]]);
 
+/** Share below which only that is said. */
+const LEAST_SHARE = 1e-4;
+
 /**
  * A number with four digits; empty if there is none.
  * @param {number | null | undefined} value
@@ -43,7 +46,8 @@ export function length(mm) {
  * @returns {string}
  */
 export function percent(share) {
-  return share == null ? "" : `${Number((100 * share).toPrecision(2))} %`;
+  if (share == null) return "";
+  return share !== 0 && Math.abs(share) < LEAST_SHARE ? `< ${100 * LEAST_SHARE} %` : `${Number((100 * share).toPrecision(2))} %`;
 }
 
 /**

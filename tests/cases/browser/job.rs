@@ -19,13 +19,13 @@ async fn a_running_job_is_watched_reloaded_and_cancelled() {
     browser.shows("h1", "watched").await;
     browser.shows(".status", "of 1,000,000").await;
     // Curves grow while it runs.
-    let rows = "document.querySelector('[data-chart=wear] .plot').data[0].x.length";
-    browser.wait_for(&format!("{rows} > 2")).await;
-    let before = browser.wait_for(rows).await.as_u64().expect("a number");
-    browser.wait_for(&format!("{rows} > {before}")).await;
+    let cycle = "Array.from(document.querySelector('[data-chart=wear] .plot').data[0].x).at(-1)";
+    browser.wait_for(&format!("{cycle} > 2")).await;
+    let before = browser.wait_for(cycle).await.as_f64().expect("a number");
+    browser.wait_for(&format!("{cycle} > {before}")).await;
     browser.client.refresh().await.expect("it reloads");
     browser.shows(".status", "of 1,000,000").await;
-    browser.wait_for(&format!("{rows} > 2")).await;
+    browser.wait_for(&format!("{cycle} > {before}")).await;
     browser.click(".actions button").await;
     browser.shows(".status", "cancelled").await;
     browser.shows(".actions", "Run again").await;
