@@ -51,15 +51,12 @@ fn the_demo_solves_its_job_and_prints_the_table_of_the_readme() {
     assert!(told.len() > 3, "{told:?}");
     for (place, head) in told[0].iter().enumerate().skip(1) {
         let head = head.trim_start_matches("x = ");
-        let name =
-            |column: &&String| column.trim_end_matches(" mm") == head.trim_end_matches(" mm");
-        let column = printed[0].iter().find(name);
+        let is_told = |name: &String| name.trim_end_matches(" mm") == head.trim_end_matches(" mm");
+        let column = printed[0].iter().position(is_told);
         let column = column.unwrap_or_else(|| panic!("no column {head} in {:?}", printed[0]));
-        let column = printed[0].iter().position(|name| name == column);
         for line in &told[1..] {
             let digits = line[place].split('.').nth(1).map_or(0, str::len);
-            let number = &row(&line[0])[column.expect("found")];
-            let number: f64 = number.parse().expect("a number");
+            let number: f64 = row(&line[0])[column].parse().expect("a number");
             assert_eq!(
                 line[place],
                 format!("{number:.digits$}"),

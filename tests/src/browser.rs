@@ -229,10 +229,18 @@ impl Browser {
     /// # Panics
     /// If it cannot be taken or written.
     pub async fn picture(&self, name: &str) {
+        let bytes = self.client.screenshot().await.expect("a picture");
+        Self::keep(&format!("{name}.png"), &bytes);
+    }
+
+    /// Writes a picture into `target/screenshots`.
+    ///
+    /// # Panics
+    /// If it cannot be written.
+    pub fn keep(file: &str, bytes: &[u8]) {
         let folder = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../target/screenshots");
         std::fs::create_dir_all(&folder).expect("a folder can be made");
-        let bytes = self.client.screenshot().await.expect("a picture");
-        std::fs::write(folder.join(format!("{name}.png")), bytes).expect("a file can be written");
+        std::fs::write(folder.join(file), bytes).expect("a file can be written");
     }
 
     /// Ends the browser.

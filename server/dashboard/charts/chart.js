@@ -9,6 +9,8 @@ import { axis, colour, colours, layout, on_theme } from "./theme.js";
 
 /** Ticks that a logarithmic x axis has about: more of its labels would overlap on narrow screens. */
 const LOG_TICKS = 4;
+/** Width of the bar of buttons, pixels. */
+const BUTTONS_WIDTH = 34;
 /** Change of values over their mean, to either side, below which an axis is not fitted to them. */
 const FLAT = 1e-3;
 
@@ -124,6 +126,9 @@ export class Chart {
     const style = layout();
     await library.react(this.#plot, figure.series.map((series, index) => trace(series, palette[(series.colour ?? index) % palette.length])), {
       ...style,
+      // The bar of buttons stands beside the plot: above it are the names of the curves.
+      modebar: { ...style.modebar, orientation: "v" },
+      margin: { ...style.margin, r: BUTTONS_WIDTH },
       uirevision: `${figure.x.title}, ${figure.y.title}${figure.to_scale ? " to scale" : ""}`,
       xaxis: { ...axis(figure.x.title, this.#is_log("x")), nticks: this.#is_log("x") ? LOG_TICKS : undefined },
       yaxis: { ...axis(figure.y.title, this.#is_log("y")), autorange: figure.y.reversed ? "reversed" : true, ...(!this.#is_log("y") && flat_range(figure.series)), ...(figure.to_scale && { scaleanchor: "x", scaleratio: 1 }) },

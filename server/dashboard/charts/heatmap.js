@@ -68,7 +68,7 @@ export class HeatMap {
       type: "heatmap", x: x.values, y: y.values, z, text: is_written ? written : undefined, texttemplate: is_written ? "%{text}" : undefined,
       customdata: cells.links, hovertext: cells.texts, hovertemplate: "%{hovertext}<extra></extra>", hoverongaps: true,
       colorscale: "Viridis", xgap: 2, ygap: 2, colorbar: { title: { text: unit }, thickness: 12, outlinewidth: 0, tickfont: { color: colour("--text") }, tickformat: "~g", exponentformat: "power" },
-    }], { ...layout(), xaxis: categories(x), yaxis: categories(y) }, { responsive: true, displaylogo: false, modeBarButtonsToRemove: ["select2d", "lasso2d", "toImage"] });
+    }], { ...layout(), margin: { l: 66, r: 14, t: 32, b: 46 }, xaxis: categories(x), yaxis: categories(y) }, { responsive: true, displaylogo: false, modeBarButtonsToRemove: ["select2d", "lasso2d", "toImage"] });
     open_clicked(this.#plot);
   }
 }
@@ -78,7 +78,7 @@ export class HeatMap {
  * @param {Cells} cells
  * @returns {string}
  */
-export function as_table({ x, y, unit, z }) {
+function as_table({ x, y, unit, z }) {
   const rows = z.flatMap((row, at) => row.map((value, index) => [x.values[index], y.values[at], value ?? ""]));
   return csv([x.title, y.title, unit], rows);
 }

@@ -34,11 +34,10 @@ export function layout() {
     paper_bgcolor: "transparent",
     plot_bgcolor: "transparent",
     font: { family: getComputedStyle(document.documentElement).fontFamily, size: 12, color: colour("--text") },
-    // The bar of buttons stands beside the plot: above it are the names of the curves.
-    margin: { l: 66, r: 34, t: 8, b: 46 },
+    margin: { l: 66, r: 14, t: 8, b: 46 },
     hovermode: "closest",
     hoverlabel: { bgcolor: colour("--surface"), bordercolor: colour("--line"), font: { color: colour("--text") } },
-    modebar: { orientation: "v", bgcolor: "transparent", color: colour("--muted"), activecolor: colour("--accent") },
+    modebar: { bgcolor: "transparent", color: colour("--muted"), activecolor: colour("--accent") },
     legend: { orientation: "h", y: 1.02, yanchor: "bottom", x: 0, font: { size: 11 } },
   };
 }

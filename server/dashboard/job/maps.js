@@ -76,9 +76,9 @@ export class Maps {
   #tools(index) {
     const [title, part, field] = DRAWN[index];
     return element("div", { class: "tools" }, save_buttons(this.#plots[index], `map-${part}`, title, () => {
-      const { across, name, map } = values(this.#shown, part);
-      const rows = map.x_mm.flatMap((/** @type {number} */ x, /** @type {number} */ row) => across.map((at, column) => [UM * x, at, map[field][row][column]]));
-      return csv(["along the motion or outward, µm", name, field], rows);
+      const { across, x, y, map } = values(this.#shown, part);
+      const rows = map.x_mm.flatMap((/** @type {number} */ along, /** @type {number} */ row) => across.map((at, column) => [UM * along, at, map[field][row][column]]));
+      return csv([y, x, field], rows);
     }));
   }
 
@@ -86,7 +86,7 @@ export class Maps {
     if (!this.#shown || this.#signal.aborted) return;
     const library = await plotly();
     await Promise.all(DRAWN.map(([, part, field, factor], index) => {
-      const { across, name, map } = values(this.#shown, part);
+      const { across, x, y, map } = values(this.#shown, part);
       const z = map[field].map((/** @type {number[]} */ row) => row.map((value) => factor * value));
       const is_empty = z.length === 0 || z.every((/** @type {number[]} */ row) => row.every((value) => value === 0));
       /** @type {HTMLElement} */ (this.#plots[index].parentElement).hidden = is_empty;
@@ -95,21 +95,21 @@ export class Maps {
         type: "heatmap", x: across, y: map.x_mm.map((/** @type {number} */ x) => UM * x), z, colorscale: "Viridis", hovertemplate: "%{x:.4~g}, %{y:.4~g}: %{z:.4~g}<extra></extra>",
       }], {
         ...layout(),
-        xaxis: axis(name, false),
-        yaxis: axis(map.theta_deg?.length ? "outward from the centre line, µm" : "along the motion, µm", false),
+        xaxis: axis(x, false),
+        yaxis: axis(y, false),
       }, { responsive: true, displaylogo: false });
     }));
   }
 }
 
 /**
- * One body's map, with the places across the motion and what they are.
+ * A map with its places across the motion, and the titles of its axes.
  * @param {any} maps
  * @param {string} part
- * @returns {{across: number[], name: string, map: any}}
+ * @returns {{across: number[], x: string, y: string, map: any}}
  */
 function values(maps, part) {
   const map = maps[part];
-  if (map.theta_deg?.length) return { across: map.theta_deg, name: "angle from the motion, °", map };
-  return { across: (map.z_mm ?? []).map((/** @type {number} */ z) => UM * z), name: "across the motion, µm", map };
+  if (map.theta_deg?.length) return { across: map.theta_deg, x: "angle from the motion, °", y: "outward from the centre line, µm", map };
+  return { across: (map.z_mm ?? []).map((/** @type {number} */ z) => UM * z), x: "across the motion, µm", y: "along the motion, µm", map };
 }

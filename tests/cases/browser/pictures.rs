@@ -1,8 +1,6 @@
-//! The pictures of README.md: charts of its demonstration, saved as the page saves them.
+//! The pictures of README.md: charts of its demonstration, drawn as the page draws them.
 
-use std::path::Path;
-
-use tests::spec;
+use tests::{Browser, spec};
 
 use super::{done, service_and_browser};
 
@@ -20,8 +18,6 @@ async fn pictures_of_the_readme() {
     let text = std::fs::read_to_string(spec("fuzz_button.json")).expect("it is there");
     let id = done(&server, &text.parse().expect("JSON")).await;
     browser.open(&format!("/#/job/{id}?overlay=1")).await;
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../target/screenshots");
-    std::fs::create_dir_all(&folder).expect("a folder can be made");
     for (chart, file) in PICTURES {
         let plot = format!("document.querySelector('[data-chart={chart}] .plot')");
         browser
@@ -34,7 +30,7 @@ async fn pictures_of_the_readme() {
         let drawn = browser.client.execute_async(&script, Vec::new()).await;
         let drawn = drawn.expect("it can be drawn");
         let text = drawn.as_str().expect("it is text");
-        std::fs::write(folder.join(format!("{file}.svg")), text).expect("a file can be written");
+        Browser::keep(&format!("{file}.svg"), text.as_bytes());
     }
     browser.close().await;
 }
