@@ -5,6 +5,7 @@
 //! tolerance and those of all skipped effects add up to at most half of it; otherwise the largest is simulated too.
 
 mod across_width;
+mod bending;
 mod choice;
 mod decision;
 mod dimension;

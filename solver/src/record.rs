@@ -23,7 +23,7 @@ pub use crate::schedule::stops::Outcome;
 pub use crate::sides::Side;
 pub use channel::{Channel, Channels};
 pub use compared::{Compared, Quantity};
-pub use errors::{ErrorParts, Errors, PRESSURE_TOLERANCES};
+pub use errors::{ErrorParts, Errors};
 pub(crate) use exposure::{Exposed, WornSurface};
 pub use history::{Column, Layer, LineColumns, Record};
 pub use life::{CriterionState, Life};

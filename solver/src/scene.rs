@@ -17,7 +17,7 @@ mod timing;
 mod tuning;
 mod turning_points;
 
-pub use accuracy::{Accuracy, Refinement};
+pub use accuracy::{Accuracy, PRESSURE_TOLERANCES, Refinement};
 pub use body::{BlockShape, Body, SliderShape, SurfaceEffects};
 pub use criterion::Criterion;
 pub use dimension::{Dimension, Ends, Extruded, Line, LineShape, Point, RingMotion, Top};

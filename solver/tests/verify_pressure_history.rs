@@ -7,8 +7,8 @@
 use crate::recorder::solve;
 use crate::scenes::{fuzz_button, pin, sprung_contact};
 use solver::interpolation;
-use solver::record::{CycleReport, PRESSURE_TOLERANCES};
-use solver::scene::{Motion, Scene};
+use solver::record::CycleReport;
+use solver::scene::{Motion, PRESSURE_TOLERANCES, Scene};
 
 fn peaks(reports: &[CycleReport]) -> (Vec<f64>, Vec<f64>) {
     let cycles = reports.iter().map(|report| {

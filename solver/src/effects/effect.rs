@@ -41,7 +41,8 @@ effects! {
     /// Action of the shear traction on the contact.
     Friction = "friction",
         "largest of: slip lost by tangential deformation over the amplitude, (A_c/A)/(1 - mu s), with the slope of the scar's \
-         edge, s = sqrt(2 h/R), or on a corner; (mu s)^2; (mu times Dundurs' beta)^2; mu where fields are asked for",
+         edge, s = sqrt(2 h/R), or on a corner; (mu s)^2; (mu times Dundurs' beta)^2; a third of the skew of the pressure \
+         by the bending of the slider, (mu/4)(E*/E')H^2 b/w^3; mu where fields are asked for",
         ["max_depth_mm", "scar_half_width_mm", "worn_area_mm2", "peak_pressure_mpa", "fields"];
     /// Stick, slip and the tangential deformation in the slip.
     StickMemory = "stick_memory",

@@ -5,7 +5,7 @@ use crate::law::temperature::Temperature;
 use crate::law::wear::WearLaw;
 use crate::model::tests::fuzz_button;
 use crate::scene::{
-    Dimension, Friction, Line, LineShape, MildOxidation, Motion, RingMotion, SpeedLaw,
+    Dimension, Drive, Friction, Line, LineShape, MildOxidation, Motion, RingMotion, SpeedLaw,
     SurfaceState, Top,
 };
 
@@ -34,6 +34,30 @@ fn only_what_the_scene_calls_for_is_simulated() {
     scene.friction = Friction::Frictionless;
     scene.receptacle.wear = None;
     assert_eq!(simulated(&scene), ["elasticity"]);
+}
+
+/// A tip of the given half-width, worn to a flat, in a long stroke.
+fn worn_tip(half_width_mm: f64) -> Scene {
+    let mut scene = fuzz_button();
+    scene.slider.wear = Some(WearLaw::Archard {
+        k_over_h_per_mpa: 1e-7,
+    });
+    scene.slider.elastic = scene.receptacle.elastic;
+    scene.slider.shape.half_width_mm = half_width_mm;
+    scene.slider.shape.radius_mm = 1.0;
+    scene.slider.shape.height_mm = 0.02;
+    scene.friction = Friction::Coulomb { coefficient: 0.1 };
+    scene.cycles = 100;
+    scene
+}
+
+#[test]
+fn a_slender_slider_bends_under_friction_and_a_stocky_one_does_not() {
+    assert!(simulated(&worn_tip(0.01)).contains(&"friction"));
+    assert!(!simulated(&worn_tip(0.1)).contains(&"friction"));
+    let mut held = worn_tip(0.01);
+    held.drive = Drive::WholeBody;
+    assert!(!simulated(&held).contains(&"friction"));
 }
 
 #[test]

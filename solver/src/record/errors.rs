@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::record::Quantity;
+use crate::scene::PRESSURE_TOLERANCES;
 
 /// Estimated relative error of a quantity and the parts of it that mesh, increments, cycle jumps and skipped effects cause.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
@@ -33,9 +34,6 @@ pub struct Errors {
     /// Of the resistance of the contact; `None` where it is not computed.
     pub contact_resistance: Option<ErrorParts>,
 }
-
-/// Tolerance of pressures, and of the resistance that follows from them, over that of depth, width and area.
-pub const PRESSURE_TOLERANCES: f64 = 3.0;
 
 impl Errors {
     /// The errors of each quantity of a run, which may have a resistance of the contact.

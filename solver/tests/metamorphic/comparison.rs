@@ -2,7 +2,8 @@
 
 use std::fmt;
 
-use solver::record::{ErrorParts, Errors, PRESSURE_TOLERANCES, Summary};
+use solver::record::{ErrorParts, Errors, Summary};
+use solver::scene::PRESSURE_TOLERANCES;
 use solver::sides::Side;
 
 /// Relative difference of a quantity in two answers, and the largest one that the relation allows.
