@@ -4,6 +4,7 @@
 //! places in the queue, are those of a monotonic clock, so that a step of the system's clock ends or delays nothing.
 
 use std::sync::OnceLock;
+use std::sync::atomic::{AtomicI64, Ordering};
 use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
 
 use nix::time::{ClockId, clock_gettime};
@@ -48,6 +49,32 @@ impl From<i64> for Now {
             system_ms: ms,
             monotonic_ms: ms,
         }
+    }
+}
+
+/// The clock of a store, by which it measures leases.
+#[derive(Debug, Default)]
+pub enum Clock {
+    /// Those of this process.
+    #[default]
+    System,
+    /// A time that a test sets, ms.
+    Manual(AtomicI64),
+}
+
+impl Clock {
+    /// The present time.
+    pub fn now(&self) -> Now {
+        match self {
+            Self::System => Now::read(),
+            Self::Manual(ms) => ms.load(Ordering::Relaxed).into(),
+        }
+    }
+
+    /// When something of this length ends that begins now, ms of the monotonic clock.
+    pub fn end_of(&self, length: Duration) -> i64 {
+        let length_ms = i64::try_from(length.as_millis()).unwrap_or(i64::MAX);
+        self.now().monotonic_ms.saturating_add(length_ms)
     }
 }
 

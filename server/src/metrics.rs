@@ -3,7 +3,7 @@
 mod process;
 
 use std::fmt;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use api::job::Status;
 use prometheus_client::encoding::text::encode;
@@ -79,6 +79,21 @@ pub struct Metrics {
     streams_open: Gauge,
 }
 
+/// Guard of a busy worker.
+#[derive(Debug)]
+pub struct Busy {
+    _counted: Counted,
+    started: Instant,
+    solve_duration: Histogram,
+}
+
+impl Drop for Busy {
+    fn drop(&mut self) {
+        self.solve_duration
+            .observe(self.started.elapsed().as_secs_f64());
+    }
+}
+
 /// Guard of something that is counted as long as the guard lives: an open event stream, a busy worker.
 #[derive(Debug)]
 pub struct Counted(Gauge);
@@ -95,9 +110,22 @@ impl Metrics {
         counted(&self.streams_open)
     }
 
-    /// Counts a worker that has a job.
-    pub fn busy_worker(&self) -> Counted {
-        counted(&self.workers_busy)
+    /// Counts a worker that has a job, and the time of its attempt.
+    pub fn busy_worker(&self) -> Busy {
+        Busy {
+            _counted: counted(&self.workers_busy),
+            started: Instant::now(),
+            solve_duration: self.solve_duration.clone(),
+        }
+    }
+
+    /// Counts a claim; if it is the first one of a job, with the time since its submission.
+    pub fn claimed(&self, is_first: bool, waited_ms: i64) {
+        self.attempts.inc();
+        if is_first {
+            let waited = Duration::from_millis(u64::try_from(waited_ms).unwrap_or_default());
+            self.claim_latency.observe(waited.as_secs_f64());
+        }
     }
 
     /// Counts an answer of a route, with its status and the time until its head.

@@ -8,8 +8,9 @@ mod admission;
 mod order;
 
 use api::job::Status;
+use serde::{Deserialize, Serialize};
 
-pub use admission::{Admission, MemoryBudget, WaitingJob, admit};
+pub use admission::{Admission, Capacity, MemoryBudget, WaitingJob, admit};
 pub use order::{MAX_PRIORITY, batch_priority, sort_key};
 
 /// Status reason of a job that waits for a free worker only.
@@ -19,7 +20,8 @@ pub const WAITING_FOR_WORKER: &str = "waiting for a worker";
 pub const ATTEMPT_LIMIT: u32 = 3;
 
 /// A transition of a job.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Transition {
     /// A worker claims it.
     Claim,

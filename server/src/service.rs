@@ -16,7 +16,7 @@ use crate::http::{Access, App};
 use crate::store::{Limits, Store, StoreError};
 use crate::supervision::{Supervisor, TaskName, WORKER};
 use crate::worker;
-use crate::worker::WorkerConfig;
+use crate::worker::{REMOTE_LEASE, WorkerConfig, WorkerProcess};
 
 /// Time for open requests to end when the service stops, after the grace period of solving processes.
 const GRACE: Duration = Duration::from_secs(5);
@@ -116,7 +116,7 @@ impl Service {
         let address = listener.local_addr().map_err(listen)?;
         let store = Arc::new(Store::open_with(&config.database, config.limits).await?);
         let worker = Arc::new(config.worker);
-        let reclaimed = store.reclaim_all(worker.lease_end()).await?;
+        let reclaimed = store.reclaim_at_start(worker.lease, REMOTE_LEASE).await?;
         let (queued, ending) = (reclaimed.queued, reclaimed.ending.len());
         tracing::info!(%address, database = config.database, workers = config.workers, queued, ending, "service started");
         let (stopping, supervisor) = (CancellationToken::new(), Arc::new(Supervisor::default()));
@@ -126,11 +126,15 @@ impl Service {
             store: Arc::clone(&store),
             stopping: stopping.clone(),
         };
+        let process = Arc::new(WorkerProcess::new(worker.memory_mb, false));
         for number in 0..config.workers {
-            let (store, worker, stopping) =
-                (Arc::clone(&store), Arc::clone(&worker), stopping.clone());
+            let (store, shared, stopping) = (
+                Arc::clone(&store),
+                (Arc::clone(&process), Arc::clone(&worker)),
+                stopping.clone(),
+            );
             tasks.start((WORKER, number), move || {
-                worker::work(Arc::clone(&store), Arc::clone(&worker), stopping.clone())
+                worker::work(Arc::clone(&store), shared.clone(), stopping.clone())
             });
         }
         let mut reclaimed = Some(reclaimed);

@@ -15,13 +15,13 @@
 //! | --- | --- | --- |
 //! | `submit` | job, labels, first event, request key; several submissions may share a transaction | no |
 //! | `submit_batch` | all jobs of the batch, or none | no |
-//! | `claim_within` | status, lease, attempt and its event; later rows deleted; reasons | no; each lease is new |
-//! | `record` | progress, rows, snapshots, files, checkpoint, events, renewed lease | yes; [`LeaseState::Lost`] |
+//! | `claim` | status, lease, attempt and its event; later rows deleted; reasons | no; each lease is new; repeated: the same jobs |
+//! | `record` | progress, rows, snapshots, files, checkpoint, events, renewed lease | yes; [`LeaseState::Lost`]; repeated: no effect |
 //! | `renew` | end of the lease | yes; [`LeaseState::Lost`], not counted |
 //! | `lease_state` | reads only | yes; [`LeaseState::Lost`], not counted |
-//! | `restart` | rows, snapshots, files and checkpoint deleted, `attempt` event | yes; [`LeaseState::Lost`] |
-//! | `end` | rows, files, block (instead of rows and snapshots), status, summary, `done` event, checkpoint deleted | yes; `None` |
-//! | `reclaim_expired`, `reclaim_all` | all lost jobs: into the queue, or under a new lease | no; they end leases |
+//! | `restart` | rows, snapshots, files and checkpoint deleted, `attempt` event | yes; [`LeaseState::Lost`]; repeated: no effect |
+//! | `end` | rows, files, block (instead of rows and snapshots), status, summary, `done` event, checkpoint deleted | yes; `None`; repeated: the same status |
+//! | `reclaim_expired`, `reclaim_at_start` | all lost jobs: into the queue, or under a new lease | no; they end leases |
 //! | `cancel`, `cancel_batch` | a queued job ends with its `done` event; a running one is marked for its worker | no |
 //! | `expire` | all queued jobs whose deadline has passed end with their `done` events | no |
 //! | `delete`, `delete_batch` | jobs with all rows; files afterwards, or at the next start | no; only ended jobs |
@@ -31,7 +31,11 @@
 //! see committed transactions only. A file counts once a manifest names it; [`Store::attempt_folder`] gives every lease
 //! a folder of its own, so that a worker that lost its lease cannot touch the files of the next attempt.
 //!
-//! Times are milliseconds since 1970 and come from the caller; those of leases come from a monotonic clock.
+//! A *repeated* operation is one whose answer was lost. Claims are numbered by their worker, writes under a lease from 1, and the
+//! store recognizes a number that it has seen.
+//!
+//! Times are milliseconds since 1970 and come from the caller. Leases are lengths: when one ends is a matter of the store's own
+//! monotonic clock ([`Store::clock`]).
 
 mod backup;
 mod batches;
@@ -56,7 +60,9 @@ pub use jobs::{
     Cancelled, Changed, Deleted, Filter, NewJob, Order, OrderKey, RequestKey, Retried, StoredJob,
     SubmitOptions, Submitted,
 };
-pub use leases::{Claim, End, JobUpdate, LeaseState, Reclaimed};
+pub use leases::{
+    Claim, ClaimRequest, End, EventName, JobUpdate, Lease, LeaseState, Reclaimed, RequestNumber,
+};
 pub use limits::Limits;
 pub use results::{Content, NewFile, SnapshotPart, StoredEvent};
 pub use sqlite::backup::{backup, restore};

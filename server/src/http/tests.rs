@@ -134,11 +134,7 @@ impl Service {
     pub(crate) async fn with_fields(&self, content: &[u8]) -> String {
         let id = self.queued(r#"{"system":{"kind":"dimm"}}"#).await;
         let store = &self.app.store;
-        let claim = store
-            .claim(0, i64::MAX)
-            .await
-            .expect("the store")
-            .expect("a job");
+        let claim = store.claim_next(i64::MAX).await.expect("a job");
         let fields = files::manifest_entry("fields-20.vtu", Some(20), VTU, content);
         files::write_atomically(&store.attempt_folder(&claim), &fields.name, content)
             .expect("kept");
@@ -166,33 +162,21 @@ impl Service {
             outcome: None,
             summary: None,
         };
-        store
-            .end(&claim, &update, &end, 1)
-            .await
-            .expect("the store");
+        store.end_next(&claim, &update, &end).await;
         id
     }
 
     /// Adds a running job with rows and snapshots at the cycles 10 and 20; returns its id.
     pub(crate) async fn with_results(&self) -> String {
         let id = self.queued(r#"{"system":{"kind":"dimm"}}"#).await;
-        let claim = self
-            .app
-            .store
-            .claim(0, i64::MAX)
-            .await
-            .expect("the store")
-            .expect("a job");
+        let store = &self.app.store;
+        let claim = store.claim_next(i64::MAX).await.expect("a job");
         let update = JobUpdate {
             rows: [10, 20].map(row).to_vec(),
             snapshots: [10, 20].map(snapshot).to_vec(),
             ..JobUpdate::default()
         };
-        self.app
-            .store
-            .record(&claim, &update, i64::MAX)
-            .await
-            .expect("the store");
+        store.record_next(&claim, &update).await;
         id
     }
 }

@@ -7,7 +7,7 @@ use tokio::task::JoinSet;
 use tokio_util::sync::CancellationToken;
 use tracing::Instrument;
 
-use crate::clock::{Now, monotonic_ms, now_ms};
+use crate::clock::{Now, now_ms};
 use crate::store::{OWNER_HEARTBEAT, Reclaimed, Store, StoreError};
 use crate::worker;
 use crate::worker::WorkerConfig;
@@ -124,9 +124,7 @@ async fn round(
     keep_days: Option<u32>,
 ) -> Result<Reclaimed, StoreError> {
     let reclaimed = if reclaims {
-        store
-            .reclaim_expired(monotonic_ms(), config.lease_end())
-            .await?
+        store.reclaim_expired(config.lease).await?
     } else {
         Reclaimed::default()
     };

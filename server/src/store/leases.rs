@@ -1,17 +1,60 @@
 //! Leases: jobs held by workers, their writes and their ends.
 
+use std::time::Duration;
+
 use api::job::{Outcome, Progress};
 use api::results::{Snapshot, Summary};
+use serde::{Deserialize, Serialize};
 use solver::record::CycleReport;
 use uuid::Uuid;
 
-use crate::queue::Transition;
+use crate::queue::{Capacity, Transition};
 use crate::solve::checkpoint::EncodedCheckpoint;
 use crate::store::NewFile;
 use crate::store::block::EncodedBlock;
 
-/// A job under a lease.
+/// What a worker asks for.
 #[derive(Debug, Clone, PartialEq, Eq)]
+pub struct ClaimRequest {
+    /// Who asks, and the number of the request, from 1: one that is repeated, because its answer was lost, gets the same jobs again.
+    pub request: RequestNumber,
+    /// Whether the worker is another process, which lives on when the service ends.
+    pub is_remote: bool,
+    /// What it can take.
+    pub capacity: Capacity,
+    /// Length of the leases.
+    pub lease: Duration,
+}
+
+/// The number of a worker's request.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub struct RequestNumber {
+    /// The process of the worker.
+    pub worker: Uuid,
+    /// The number, from 1.
+    pub number: i64,
+}
+
+/// A lease of a job: the fence of every write under it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+pub struct Lease {
+    /// The job.
+    pub job: Uuid,
+    /// Number of the lease.
+    pub number: i64,
+}
+
+impl From<&Claim> for Lease {
+    fn from(claim: &Claim) -> Self {
+        Self {
+            job: claim.id,
+            number: claim.lease,
+        }
+    }
+}
+
+/// A job under a lease.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Claim {
     /// The job.
     pub id: Uuid,
@@ -23,17 +66,21 @@ pub struct Claim {
     pub attempt: u32,
     /// Time since the submission, ms.
     pub waited_ms: i64,
-    /// Time at which the job fails unless it has ended, ms.
-    pub deadline_at: Option<i64>,
+    /// Time after the claim at which the job fails unless it has ended, ms.
+    pub deadline_in_ms: Option<i64>,
     /// Estimated peak memory, MB.
     pub memory_mb: i64,
+    /// Estimated processor time, ms; 0 where it is not known.
+    pub cpu_ms: i64,
     /// Checkpoint to resume from.
     pub checkpoint: Option<EncodedCheckpoint>,
 }
 
 /// What a worker writes in one transaction.
-#[derive(Debug, Clone, Default, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct JobUpdate {
+    /// Number of the write under its lease, from 1: one that is repeated, because its answer was lost, has no further effect.
+    pub number: i64,
     /// Progress of the job.
     pub progress: Progress,
     /// New rows of the wear history; they replace rows of the same cycle.
@@ -43,15 +90,37 @@ pub struct JobUpdate {
     /// New files of the manifest; they replace files of the same name.
     pub files: Vec<NewFile>,
     /// The small results of a job that ends, as a block.
+    #[serde(skip)]
     pub block: Option<EncodedBlock>,
     /// The newest checkpoint; all rows, snapshots and files up to its cycle are in this update or an earlier one.
     pub checkpoint: Option<EncodedCheckpoint>,
     /// New events: name and JSON document.
-    pub events: Vec<(&'static str, String)>,
+    pub events: Vec<(EventName, String)>,
+}
+
+/// The events that a worker writes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum EventName {
+    /// Progress of the job.
+    Progress,
+    /// A row of the wear history.
+    Cycle,
+}
+
+impl EventName {
+    /// Its name in the stream.
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Self::Progress => "progress",
+            Self::Cycle => "cycle",
+        }
+    }
 }
 
 /// State of a worker's lease.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum LeaseState {
     /// The worker holds the job.
     Held {
@@ -63,7 +132,7 @@ pub enum LeaseState {
 }
 
 /// How a worker ends a job or returns it to the queue.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct End {
     /// The transition: any but a claim.
     pub transition: Transition,

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use api::results::ResultFile;
+use serde::{Deserialize, Serialize};
 
 /// A stored event.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -16,7 +17,7 @@ pub struct StoredEvent {
 }
 
 /// A file to be added to a manifest.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct NewFile {
     /// Its entry in the manifest.
     pub file: ResultFile,

@@ -42,7 +42,7 @@ use sqlx::sqlite::SqlitePool;
 use tokio::sync::{Notify, broadcast};
 use uuid::Uuid;
 
-use crate::clock::Now;
+use crate::clock::{Clock, Now};
 use crate::metrics::Metrics;
 use crate::store::{
     AllChanges, Cancelled, Changes, DataDisk, LeaseState, NewJob, RequestKey, StoreError, Submitted,
@@ -66,6 +66,7 @@ pub struct Store {
     metrics: Arc<Metrics>,
     submissions: submissions::Submissions,
     disk: Arc<DataDisk>,
+    clock: Clock,
     /// When the database was last written by [`Store::ready`].
     last_probe: tokio::sync::Mutex<Option<Instant>>,
     /// Held as long as the store is open.
@@ -115,6 +116,11 @@ impl Store {
     /// The disk of the database.
     pub fn disk(&self) -> &Arc<DataDisk> {
         &self.disk
+    }
+
+    /// The clock by which leases are measured.
+    pub fn clock(&self) -> &Clock {
+        &self.clock
     }
 
     /// Counters and histograms for `/metrics`.

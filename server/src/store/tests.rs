@@ -6,6 +6,8 @@ mod leases;
 mod order;
 
 use std::sync::Arc;
+use std::sync::atomic::{AtomicI64, Ordering};
+use std::time::Duration;
 
 use api::job::{Outcome, Status};
 use solver::record::CycleReport;
@@ -14,8 +16,9 @@ use tokio::sync::Barrier;
 use uuid::Uuid;
 
 use super::*;
+use crate::clock::Clock;
 use crate::http::tests::row;
-use crate::queue::{ATTEMPT_LIMIT, Transition};
+use crate::queue::{ATTEMPT_LIMIT, Capacity, MemoryBudget, Transition};
 use crate::solve::checkpoint::EncodedCheckpoint;
 use crate::spec;
 
@@ -38,13 +41,77 @@ impl Store {
     }
 
     /// Claims the first job in the order of the queue, whatever memory it needs.
-    pub(crate) async fn claim(
-        &self,
-        now: i64,
-        expires_at: i64,
-    ) -> Result<Option<Claim>, StoreError> {
-        self.claim_within(i64::MAX, now, expires_at).await
+    pub(crate) async fn claim_next(&self, expires_at: i64) -> Option<Claim> {
+        self.claim_within(i64::MAX, expires_at).await
     }
+
+    /// Claims the first job that needs no more than this memory, MB.
+    pub(crate) async fn claim_within(&self, memory_mb: i64, expires_at: i64) -> Option<Claim> {
+        let claims = self
+            .claim(&request(memory_mb, self.until(expires_at)))
+            .await;
+        claims.expect("the store").pop()
+    }
+
+    /// Records an update with the next number, and renews the lease for a long time.
+    pub(crate) async fn record_next(&self, claim: &Claim, update: &JobUpdate) -> LeaseState {
+        let update = numbered(update.clone());
+        let recorded = self.record(claim, &update, Duration::from_hours(1)).await;
+        recorded.expect("the store")
+    }
+
+    /// Ends a job or returns it to the queue, with the next number.
+    pub(crate) async fn end_next(
+        &self,
+        claim: &Claim,
+        update: &JobUpdate,
+        end: &End,
+    ) -> Option<Status> {
+        let ended = self.end(claim, &numbered(update.clone()), end).await;
+        ended.expect("the store")
+    }
+
+    /// The time until one on the clock by which leases are measured, ms.
+    pub(crate) fn until(&self, ms: i64) -> Duration {
+        let left = ms.saturating_sub(self.clock().now().monotonic_ms);
+        Duration::from_millis(u64::try_from(left).unwrap_or_default())
+    }
+
+    /// Sets the clock by which leases are measured, ms.
+    pub(in crate::store) fn set_clock(&self, ms: i64) {
+        let Clock::Manual(now) = self.clock() else {
+            panic!("the clock of the system");
+        };
+        now.store(ms, Ordering::Relaxed);
+    }
+}
+
+/// A request for one job by a worker of its own, which runs no other one.
+pub(crate) fn request(memory_mb: i64, lease: Duration) -> ClaimRequest {
+    ClaimRequest {
+        request: RequestNumber {
+            worker: Uuid::now_v7(),
+            number: 1,
+        },
+        is_remote: false,
+        capacity: Capacity {
+            slots: 1,
+            memory: MemoryBudget {
+                memory_mb,
+                used_mb: 0,
+                running: 1,
+            },
+            ahead_ms: 0,
+        },
+        lease,
+    }
+}
+
+/// An update with the next number of all.
+pub(in crate::store) fn numbered(update: JobUpdate) -> JobUpdate {
+    static LAST: AtomicI64 = AtomicI64::new(0);
+    let number = 1 + LAST.fetch_add(1, Ordering::Relaxed);
+    JobUpdate { number, ..update }
 }
 
 pub(in crate::store) struct Fixture {
@@ -57,7 +124,9 @@ impl Fixture {
     pub(in crate::store) async fn new() -> Self {
         let folder = TempDir::new().expect("a temporary folder");
         let url = format!("sqlite://{}", folder.path().join("test.db").display());
-        let store = Arc::new(Store::open(&url).await.expect("a store"));
+        let clock = Clock::Manual(AtomicI64::new(0));
+        let store = Store::open_by(&url, Limits::default(), clock).await;
+        let store = Arc::new(store.expect("a store"));
         Self { store, url, folder }
     }
 
@@ -77,11 +146,7 @@ impl Fixture {
     }
 
     pub(in crate::store) async fn claimed(&self, expires_at: i64) -> Claim {
-        self.store
-            .claim(1, expires_at)
-            .await
-            .expect("the store")
-            .expect("a job")
+        self.store.claim_next(expires_at).await.expect("a job")
     }
 
     pub(in crate::store) async fn job(&self, id: Uuid) -> api::job::Job {
@@ -95,7 +160,8 @@ impl Fixture {
 
     /// Reclaims jobs whose lease has ended by this time, and ends those without another attempt; returns how many.
     pub(in crate::store) async fn reclaimed(&self, by: i64) -> usize {
-        let reclaimed = self.store.reclaim_expired(by, by + 1).await;
+        self.store.set_clock(by);
+        let reclaimed = self.store.reclaim_expired(Duration::from_millis(1)).await;
         let reclaimed = reclaimed.expect("the store");
         for claim in &reclaimed.ending {
             let empty = JobUpdate::default();
@@ -111,7 +177,9 @@ impl Fixture {
         update: &JobUpdate,
         expires_at: i64,
     ) -> LeaseState {
-        let state = self.store.record(claim, update, expires_at).await;
+        let update = numbered(update.clone());
+        let length = self.store.until(expires_at);
+        let state = self.store.record(claim, &update, length).await;
         state.expect("the store")
     }
 
@@ -123,7 +191,9 @@ impl Fixture {
         transition: Transition,
         now: i64,
     ) -> Option<Status> {
-        let status = self.store.end(claim, update, &end(transition), now).await;
+        self.store.set_clock(now);
+        let update = numbered(update.clone());
+        let status = self.store.end(claim, &update, &end(transition)).await;
         status.expect("the store")
     }
 
@@ -146,7 +216,7 @@ impl Fixture {
 pub(in crate::store) fn update(cycle: u64) -> JobUpdate {
     JobUpdate {
         rows: vec![row(cycle)],
-        events: vec![("cycle", "{}".to_owned())],
+        events: vec![(EventName::Cycle, "{}".to_owned())],
         ..JobUpdate::default()
     }
 }

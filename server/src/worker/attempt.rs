@@ -1,104 +1,75 @@
-//! An attempt at a job: its lease, which is renewed until the end, and its end: the last update, the manifest, the
-//! transition.
+//! An attempt at a job: its lease, which is renewed until the end, and its end: the last updates, and the transition.
 
-use api::job::{Progress, Status};
+use std::time::Duration;
+
 use tokio::time::MissedTickBehavior;
 
-use crate::clock::now_ms;
 use crate::queue::Transition;
-use crate::store::{Claim, End, JobUpdate, LeaseState, Store, StoreError};
+use crate::store::{Claim, End, JobUpdate, Lease, LeaseState, Store};
 use crate::worker::config::{RETRY_PAUSE, WorkerConfig};
-use crate::worker::manifest::build_manifest;
+use crate::worker::employer::{Employer, EmployerError};
 
 /// Heartbeats within a lease.
 const HEARTBEATS: u32 = 3;
 
 /// An attempt at a job under a lease.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Attempt<'a> {
-    pub(super) store: &'a Store,
+pub(super) struct Attempt<'a, E> {
+    pub(super) employer: &'a E,
     pub(super) claim: &'a Claim,
     pub(super) config: &'a WorkerConfig,
 }
 
-impl Attempt<'_> {
+impl<E> Clone for Attempt<'_, E> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<E> Copy for Attempt<'_, E> {}
+
+impl<E: Employer> Attempt<'_, E> {
+    pub(super) fn lease(&self) -> Lease {
+        self.claim.into()
+    }
+
     /// Awaits a task while the lease is renewed, independently of the solver. A lost lease is detected by the next
     /// write.
     pub(super) async fn with_heartbeat<T>(&self, task: impl Future<Output = T>) -> T {
-        let mut timer = tokio::time::interval(self.config.lease / HEARTBEATS);
-        timer.set_missed_tick_behavior(MissedTickBehavior::Delay);
-        let heartbeat = async {
-            loop {
-                timer.tick().await;
-                let renewed = self.store.renew(self.claim, self.config.lease_end()).await;
-                if let Err(error) = renewed {
-                    tracing::warn!(%error, "the lease could not be renewed");
-                }
+        with_heartbeat(self.employer, self.lease(), self.config.lease, task).await
+    }
+
+    /// Writes the last updates and ends the attempt. `number` is that of the end, after those of the updates.
+    pub(super) async fn finalize(
+        &self,
+        updates: &[JobUpdate],
+        number: i64,
+        end: &End,
+    ) -> Result<(), EmployerError> {
+        let lease = self.lease();
+        // The events of the updates precede the end, so they are written first, under the same lease.
+        for update in updates {
+            let record = || self.employer.record(lease, update, self.config.lease);
+            match retry_unless(record, |error| {
+                end.transition == Transition::Cancel && error.is_disk_full()
+            })
+            .await
+            {
+                Ok(LeaseState::Held { .. }) => {}
+                Ok(LeaseState::Lost) => return Ok(()),
+                // What was to be recorded of a cancelled job is lost, the job ends.
+                Err(error) if error.is_disk_full() => break,
+                Err(error) => return Err(error),
             }
-        };
-        tokio::select! {
-            done = task => done,
-            never = heartbeat => never,
         }
-    }
-
-    /// Writes the last update and ends the attempt.
-    pub(super) async fn finalize(&self, update: &JobUpdate, end: &End) -> Result<(), StoreError> {
-        let Self { store, claim, .. } = *self;
-        if end.transition == Transition::Cancel && store.disk().is_full() {
-            return self.end_without_documents(&update.progress, end).await;
-        }
-        // The events of the update precede the end, so they are written first, under the same lease.
-        let recorded = retry(|| store.record(claim, update, self.config.lease_end())).await?;
-        let LeaseState::Held { cancel_requested } = recorded else {
-            return Ok(());
-        };
-        self.end(&update.progress, end, cancel_requested).await
-    }
-
-    /// Ends a cancelled job while nothing more can be stored, so that it can be deleted and its space be freed. Its rows and
-    /// snapshots are there, the documents of them are not.
-    async fn end_without_documents(
-        &self,
-        progress: &Progress,
-        end: &End,
-    ) -> Result<(), StoreError> {
-        let Self { store, claim, .. } = *self;
         let last = JobUpdate {
-            progress: progress.clone(),
+            number,
+            progress: updates
+                .last()
+                .map(|update| update.progress.clone())
+                .unwrap_or_default(),
             ..JobUpdate::default()
         };
-        retry(|| store.end(claim, &last, end, now_ms())).await?;
-        store.remove_unnamed_files(Some(claim)).await?;
-        tracing::info!(reason = end.reason, "cancelled on a full disk");
-        Ok(())
-    }
-
-    /// Ends the job, with documents of all results, or returns it to the queue.
-    async fn end(
-        &self,
-        progress: &Progress,
-        end: &End,
-        cancel_requested: bool,
-    ) -> Result<(), StoreError> {
-        let Self { store, claim, .. } = *self;
-        let is_final = retry(|| store.is_final(claim, end.transition, cancel_requested)).await?;
-        let (files, block) = if is_final {
-            retry(|| build_manifest(store, claim, end.summary.as_ref())).await?
-        } else {
-            (Vec::new(), None)
-        };
-        // The end and the manifest are one transaction.
-        let last = JobUpdate {
-            progress: progress.clone(),
-            files,
-            block,
-            ..JobUpdate::default()
-        };
-        let status = retry(|| store.end(claim, &last, end, now_ms())).await?;
-        store.remove_unnamed_files(Some(claim)).await?;
-        let status = status.map(Status::as_str);
-        tracing::info!(status, reason = end.reason, "attempt ended");
+        retry(|| self.employer.finish(lease, &last, end)).await?;
         Ok(())
     }
 }
@@ -106,41 +77,67 @@ impl Attempt<'_> {
 /// Ends a job whose last worker was lost, under a lease of its own, with documents of the lost attempt's results.
 ///
 /// # Errors
-/// [`StoreError`] if the store fails permanently; the job is reclaimed again when the lease ends.
+/// [`EmployerError`] if the store fails permanently; the job is reclaimed again when the lease ends.
 pub async fn finalize_lost_job(
     store: &Store,
     claim: &Claim,
     config: &WorkerConfig,
     reason: &str,
-) -> Result<(), StoreError> {
-    let attempt = Attempt {
-        store,
-        claim,
-        config,
-    };
+) -> Result<(), EmployerError> {
+    let lease = Lease::from(claim);
     let end = End::without_result(Transition::WorkerLost, reason);
     let finalized = async {
-        let job = retry(|| store.job(claim.id)).await?;
-        let progress = job.map(|job| job.document.progress).unwrap_or_default();
-        // Cancelled or without another attempt, the job ends in either case.
-        attempt.end(&progress, &end, true).await
+        let job = retry(async || Ok::<_, EmployerError>(store.job(claim.id).await?)).await?;
+        let last = JobUpdate {
+            number: 1,
+            progress: job.map(|job| job.document.progress).unwrap_or_default(),
+            ..JobUpdate::default()
+        };
+        retry(|| Employer::finish(store, lease, &last, &end)).await
     };
-    attempt.with_heartbeat(finalized).await
+    with_heartbeat(store, lease, config.lease, finalized).await?;
+    Ok(())
 }
 
-/// Retries an operation until the store accepts it: a stalled store or a full disk must not cost a finished solve. The
+async fn with_heartbeat<E: Employer, T>(
+    employer: &E,
+    lease: Lease,
+    length: Duration,
+    task: impl Future<Output = T>,
+) -> T {
+    let mut timer = tokio::time::interval(length / HEARTBEATS);
+    timer.set_missed_tick_behavior(MissedTickBehavior::Delay);
+    let heartbeat = async {
+        loop {
+            timer.tick().await;
+            if let Err(error) = employer.renew(lease, length).await {
+                tracing::warn!(%error, "the lease could not be renewed");
+            }
+        }
+    };
+    tokio::select! {
+        done = task => done,
+        never = heartbeat => never,
+    }
+}
+
+/// Retries an operation until the employer accepts it: a stalled store or a full disk must not cost a finished solve. The
 /// fence discards writes that come too late.
-pub(super) async fn retry<T, F: Future<Output = Result<T, StoreError>>>(
+pub(super) async fn retry<T, F: Future<Output = Result<T, EmployerError>>>(
     operation: impl Fn() -> F,
-) -> Result<T, StoreError> {
+) -> Result<T, EmployerError> {
+    retry_unless(operation, |_| false).await
+}
+
+/// The same until an error of which nothing better is expected.
+async fn retry_unless<T, F: Future<Output = Result<T, EmployerError>>>(
+    operation: impl Fn() -> F,
+    is_final: impl Fn(&EmployerError) -> bool,
+) -> Result<T, EmployerError> {
     loop {
         match operation().await {
-            Err(
-                error @ (StoreError::Database { .. }
-                | StoreError::Prepare { .. }
-                | StoreError::DiskFull),
-            ) => {
-                tracing::warn!(%error, "the store failed; retrying");
+            Err(error) if error.is_temporary() && !is_final(&error) => {
+                tracing::warn!(%error, "the employer failed; retrying");
                 tokio::time::sleep(RETRY_PAUSE).await;
             }
             answer => return answer,

@@ -5,8 +5,6 @@ use std::time::Duration;
 
 use nix::sys::sysinfo::sysinfo;
 
-use crate::clock::monotonic_ms;
-
 /// Memory limit of a solving process over its estimate: the estimate controls admission, the limit only protects the
 /// machine from one job.
 const MEMORY_MARGIN: i64 = 4;
@@ -18,6 +16,9 @@ const MEMORY_SHARE_PERCENT: u64 = 80;
 /// Pause before an operation of the store is retried.
 pub(super) const RETRY_PAUSE: Duration = Duration::from_secs(1);
 
+/// Length of the leases of workers elsewhere: an interruption of the network or a restart of the service is shorter.
+pub const REMOTE_LEASE: Duration = Duration::from_secs(30);
+
 /// Configuration of workers.
 #[derive(Debug, Clone)]
 pub struct WorkerConfig {
@@ -25,6 +26,10 @@ pub struct WorkerConfig {
     pub program: PathBuf,
     /// Length of a lease; it is renewed three times within.
     pub lease: Duration,
+    /// Interval at which updates are written and the cancel request is read.
+    pub update_every: Duration,
+    /// Processor time up to which a worker claims short jobs ahead; 0 for none.
+    pub ahead: Duration,
     /// Time between two checkpoints of a solving process.
     pub checkpoint_every: Duration,
     /// Threads of a solving process, which solves sections along a line in them.
@@ -38,16 +43,13 @@ pub struct WorkerConfig {
 }
 
 impl WorkerConfig {
-    /// Returns the end of a lease taken or renewed now, ms of the monotonic clock.
-    pub fn lease_end(&self) -> i64 {
-        monotonic_ms().saturating_add(i64::try_from(self.lease.as_millis()).unwrap_or(i64::MAX))
-    }
-
     /// Default configuration for a program.
     pub fn new(program: PathBuf) -> Self {
         Self {
             program,
             lease: Duration::from_secs(10),
+            update_every: Duration::from_millis(150),
+            ahead: Duration::ZERO,
             checkpoint_every: Duration::from_secs(5),
             threads: 1,
             grace: Duration::from_secs(5),

@@ -3,13 +3,14 @@
 use std::path::Path;
 
 use api::results::Summary;
+use api::spec::Spec;
 
 use crate::export::documents;
 use crate::export::documents::{Document, DocumentError, Results};
 use crate::export::files;
 use crate::export::files::FilesError;
 use crate::store::block::{Block, EncodedBlock};
-use crate::store::{Claim, NewFile, Store, StoreError};
+use crate::store::{Lease, NewFile, Store, StoreError};
 
 /// Largest document that is stored in the block of the database instead of a file, bytes. Below some 100 kB a row is read
 /// faster than a file (sqlite.org/intern-v-extern-blob.html).
@@ -19,15 +20,15 @@ const INLINE_LIMIT: usize = 64 << 10;
 /// attempt's folder.
 pub(super) async fn build_manifest(
     store: &Store,
-    claim: &Claim,
+    lease: Lease,
+    spec: Spec,
     summary: Option<&Summary>,
 ) -> Result<(Vec<NewFile>, Option<EncodedBlock>), StoreError> {
-    let rows = store.history(claim.id).await?;
-    let snapshots = store.snapshots(claim.id).await?;
-    let folder = store.attempt_folder(claim);
-    let (spec, summary) = (claim.spec.clone(), summary.cloned());
+    let rows = store.history(lease.job).await?;
+    let snapshots = store.snapshots(lease.job).await?;
+    let folder = store.attempt_folder(lease);
+    let summary = summary.cloned();
     let made = tokio::task::spawn_blocking(move || {
-        let spec = serde_json::from_str(&spec).map_err(DocumentError::from)?;
         let documents = documents::all(&Results {
             spec: &spec,
             summary: summary.as_ref(),
@@ -55,10 +56,10 @@ pub(super) async fn build_manifest(
         }
         // A retry would fail again; rows and snapshots remain readable on their own routes.
         Ok(Err(FilesError::Document(error))) => {
-            tracing::error!(job = %claim.id, %error, "documents are missing from a manifest");
+            tracing::error!(job = %lease.job, %error, "documents are missing from a manifest");
         }
         Err(error) => {
-            tracing::error!(job = %claim.id, %error, "documents are missing from a manifest");
+            tracing::error!(job = %lease.job, %error, "documents are missing from a manifest");
         }
     }
     Ok((Vec::new(), None))

@@ -1,28 +1,29 @@
 //! Supervision of one job: reads the lines of its solving process, stores them under the lease, reacts to a cancel
 //! request and to the stop of the service, ends the attempt.
 
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use api::job::Outcome;
 use api::spec::Spec;
 use tokio::time::MissedTickBehavior;
 use tokio_util::sync::CancellationToken;
 
-use crate::clock::monotonic_ms;
 use crate::queue::Transition;
 use crate::solve::Line;
 use crate::solve::process::{LineError, ReceivedLine, SolveCommand, SolveProcess};
 use crate::spec;
-use crate::store::{End, LeaseState, StoreError};
+use crate::store::{End, LeaseState};
 use crate::worker::attempt::{Attempt, retry};
 use crate::worker::config::RETRY_PAUSE;
+use crate::worker::employer::{Employer, EmployerError};
 use crate::worker::end::{end_by_exit, failed};
 use crate::worker::update_buffer::UpdateBuffer;
 
-/// Interval at which updates are written and the cancel request is read.
-const TICK: Duration = Duration::from_millis(150);
 /// Longest wait for the end of the output after a malformed line.
 const MALFORMED_TIMEOUT: Duration = Duration::from_secs(1);
+
+/// Status reason of a job whose worker is asked to stop.
+const STOPPED: &str = "the service was stopped";
 
 /// Why reading the output of the process has ended.
 enum Stop {
@@ -48,8 +49,10 @@ enum Write {
 }
 
 /// A solving process and the lines of it that are not stored yet.
-struct Supervision<'a> {
-    attempt: Attempt<'a>,
+struct Supervision<'a, E> {
+    attempt: Attempt<'a, E>,
+    /// When the job fails unless it has ended.
+    deadline: Option<Instant>,
     process: SolveProcess,
     buffer: UpdateBuffer,
     stopping: &'a CancellationToken,
@@ -57,29 +60,44 @@ struct Supervision<'a> {
 
 /// Supervises an attempt under a lease that is renewed until the end. Whatever happens to the process, the attempt is
 /// ended or another worker holds the job.
-pub(super) async fn supervise(
-    attempt: Attempt<'_>,
+pub(super) async fn supervise<E: Employer>(
+    attempt: Attempt<'_, E>,
     stopping: &CancellationToken,
-) -> Result<(), StoreError> {
+) -> Result<(), EmployerError> {
     attempt.with_heartbeat(run(attempt, stopping)).await
 }
 
-async fn run(attempt: Attempt<'_>, stopping: &CancellationToken) -> Result<(), StoreError> {
+async fn run<E: Employer>(
+    attempt: Attempt<'_, E>,
+    stopping: &CancellationToken,
+) -> Result<(), EmployerError> {
     let claim = attempt.claim;
+    let deadline = claim.deadline_in_ms.map(|ms| {
+        let length = Duration::from_millis(u64::try_from(ms).unwrap_or_default());
+        Instant::now() + length
+    });
     let cycles = serde_json::from_str::<Spec>(&claim.spec).map_or(0, |spec| spec::cycles(&spec));
     let from_cycle = claim.checkpoint.as_ref().map_or(0, |found| found.cycle);
     tracing::info!(from_cycle, memory_mb = claim.memory_mb, "job claimed");
     let mut buffer = UpdateBuffer::new(cycles, from_cycle);
-    let process = match start(attempt) {
-        Ok(process) => process,
-        Err(cause) => {
+    let started = if stopping.is_cancelled() {
+        Err(End::without_result(Transition::Release, STOPPED))
+    } else {
+        start(attempt).map_err(|cause| {
             let reason = format!("its solving process could not be started: {cause}");
-            let end = End::without_result(Transition::WorkerLost, reason);
-            return attempt.finalize(&buffer.take(true), &end).await;
+            End::without_result(Transition::WorkerLost, reason)
+        })
+    };
+    let process = match started {
+        Ok(process) => process,
+        Err(end) => {
+            let updates = buffer.take_all();
+            return attempt.finalize(&updates, buffer.next_number(), &end).await;
         }
     };
     let mut supervision = Supervision {
         attempt,
+        deadline,
         process,
         buffer,
         stopping,
@@ -90,17 +108,22 @@ async fn run(attempt: Attempt<'_>, stopping: &CancellationToken) -> Result<(), S
         return Ok(());
     };
     if end.transition == Transition::Release && stopping.is_cancelled() {
-        end.reason = Some("the service was stopped".to_owned());
+        end.reason = Some(STOPPED.to_owned());
     }
-    let last = supervision.buffer.take(true);
-    attempt.finalize(&last, &end).await
+    let updates = supervision.buffer.take_all();
+    let number = supervision.buffer.next_number();
+    attempt.finalize(&updates, number, &end).await
 }
 
-fn start(attempt: Attempt<'_>) -> std::io::Result<SolveProcess> {
-    let Attempt { claim, config, .. } = attempt;
+fn start<E: Employer>(attempt: Attempt<'_, E>) -> std::io::Result<SolveProcess> {
+    let Attempt {
+        claim,
+        config,
+        employer,
+    } = attempt;
     SolveCommand {
         program: &config.program,
-        folder: &attempt.store.attempt_folder(claim),
+        folder: &employer.folder(claim.into()),
         spec: &claim.spec,
         checkpoint: claim.checkpoint.as_ref(),
         checkpoint_every: config.checkpoint_every,
@@ -111,9 +134,9 @@ fn start(attempt: Attempt<'_>) -> std::io::Result<SolveProcess> {
     .spawn()
 }
 
-impl Supervision<'_> {
-    async fn read_output(&mut self) -> Result<Stop, StoreError> {
-        let mut tick = tokio::time::interval(TICK);
+impl<E: Employer> Supervision<'_, E> {
+    async fn read_output(&mut self) -> Result<Stop, EmployerError> {
+        let mut tick = tokio::time::interval(self.attempt.config.update_every);
         tick.set_missed_tick_behavior(MissedTickBehavior::Delay);
         let (mut last, mut store_failed) = (None, false);
         loop {
@@ -141,8 +164,7 @@ impl Supervision<'_> {
                 _ = tick.tick() => Write::Update,
                 () = self.stopping.cancelled() => return Ok(Stop::Shutdown),
             };
-            let deadline_at = self.attempt.claim.deadline_at;
-            if deadline_at.is_some_and(|at| monotonic_ms() >= at) {
+            if self.deadline.is_some_and(|at| Instant::now() >= at) {
                 return Ok(Stop::DeadlinePassed);
             }
             match self.execute(write).await {
@@ -154,8 +176,8 @@ impl Supervision<'_> {
                 }) => return Ok(Stop::Cancelled),
                 Ok(LeaseState::Lost) => return Ok(Stop::LeaseLost),
                 // The solve continues and the update is written again; the fence discards writes that come too late.
-                Err(error @ (StoreError::Database { .. } | StoreError::DiskFull)) => {
-                    tracing::warn!(%error, "the store failed; retrying");
+                Err(error) if error.is_temporary() => {
+                    tracing::warn!(%error, "the employer failed; retrying");
                     if self.is_cancelled_on_full_disk(&error).await {
                         return Ok(Stop::Cancelled);
                     }
@@ -169,13 +191,13 @@ impl Supervision<'_> {
 
     /// Whether the user cancelled the job while nothing could be stored because the disk is full. The state of the lease
     /// can be read all the same; after another error the next write returns it.
-    async fn is_cancelled_on_full_disk(&self, error: &StoreError) -> bool {
-        let Attempt { store, claim, .. } = self.attempt;
-        store.disk().release_after(error);
+    async fn is_cancelled_on_full_disk(&self, error: &EmployerError) -> bool {
         let cancelled = LeaseState::Held {
             cancel_requested: true,
         };
-        error.is_disk_full() && store.lease_state(claim).await.ok() == Some(cancelled)
+        let Attempt { employer, .. } = self.attempt;
+        error.is_disk_full()
+            && employer.lease_state(self.attempt.lease()).await.ok() == Some(cancelled)
     }
 
     /// Returns the meaning of a line error. A malformed line at the end of the output was truncated when the process
@@ -191,24 +213,26 @@ impl Supervision<'_> {
     }
 
     /// Executes a write. An update without new lines only reads the state of the lease.
-    async fn execute(&mut self, write: Write) -> Result<LeaseState, StoreError> {
-        let Attempt { store, claim, .. } = self.attempt;
+    async fn execute(&mut self, write: Write) -> Result<LeaseState, EmployerError> {
+        let Attempt {
+            employer, config, ..
+        } = self.attempt;
+        let lease = self.attempt.lease();
         match write {
             Write::Restart(cause) => {
                 tracing::warn!(cause, "the run restarts at cycle 0");
-                self.buffer.restart();
-                retry(|| store.restart(claim)).await
+                let number = self.buffer.restart();
+                retry(|| employer.restart(lease, number)).await
             }
             Write::Update if self.buffer.is_dirty() => {
-                let update = self.buffer.take(false);
-                let expires_at = self.attempt.config.lease_end();
-                let answer = store.record(claim, &update, expires_at).await;
+                let update = self.buffer.take();
+                let answer = employer.record(lease, &update, config.lease).await;
                 if answer.is_err() {
                     self.buffer.put_back(update);
                 }
                 answer
             }
-            Write::Update => store.lease_state(claim).await,
+            Write::Update => employer.lease_state(lease).await,
         }
     }
 

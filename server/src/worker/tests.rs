@@ -16,7 +16,7 @@ use crate::http::tests::row;
 use crate::solve::Line;
 use crate::spec;
 use crate::store::{JobUpdate, Limits, NewJob, Store, SubmitOptions};
-use crate::worker::{WorkerConfig, work};
+use crate::worker::{WorkerConfig, WorkerProcess, work};
 
 /// A worker whose solving process is a shell script, with one job and one attempt.
 struct Scripted {
@@ -61,7 +61,9 @@ impl Scripted {
             ..WorkerConfig::new(program)
         };
         let stopping = CancellationToken::new();
-        let worker = tokio::spawn(work(Arc::clone(&store), Arc::new(config), stopping.clone()));
+        let process = Arc::new(WorkerProcess::new(config.memory_mb, false));
+        let shared = (process, Arc::new(config));
+        let worker = tokio::spawn(work(Arc::clone(&store), shared, stopping.clone()));
         Self {
             store,
             id,
@@ -204,16 +206,20 @@ async fn a_job_with_a_cancel_request_whose_worker_is_lost_has_documents_of_its_r
         options: SubmitOptions::default(),
     };
     let id = store.queue(&job, 0).await;
-    let claim = store.claim(0, 10).await.expect("the store");
+    let claim = store.claim_next(0).await.expect("a job");
     let update = JobUpdate {
         rows: vec![row(1)],
         ..JobUpdate::default()
     };
-    let recorded = store.record(&claim.expect("a job"), &update, 10).await;
+    let update = JobUpdate {
+        number: 1,
+        ..update
+    };
+    let recorded = store.record(&claim, &update, Duration::ZERO).await;
     recorded.expect("the store");
     store.cancel(id, 1).await.expect("the store");
     let reclaimed = store
-        .reclaim_expired(10, i64::MAX)
+        .reclaim_expired(Duration::from_mins(1))
         .await
         .expect("the store");
     let config = WorkerConfig::new(PathBuf::from("none"));

@@ -11,7 +11,7 @@ use solver::record::CycleReport;
 
 use crate::number::real;
 use crate::solve::Line;
-use crate::store::{JobUpdate, NewFile};
+use crate::store::{EventName, JobUpdate, NewFile};
 
 /// Smallest fraction of the cycles between two events.
 const EVENT_FRACTION: f64 = 0.005;
@@ -32,6 +32,10 @@ pub(super) struct UpdateBuffer {
     update: JobUpdate,
     /// Length of the lines in `update`.
     bytes: usize,
+    /// Number of the update that was taken last.
+    number: i64,
+    /// The update that could not be recorded, or perhaps was and its answer was lost: it is repeated as it is.
+    unrecorded: Option<JobUpdate>,
     /// Length of the lines in the update that was taken last.
     taken_bytes: usize,
     newest: Option<CycleReport>,
@@ -55,6 +59,8 @@ impl UpdateBuffer {
             from_cycle,
             update: JobUpdate::default(),
             bytes: 0,
+            number: 0,
+            unrecorded: None,
             taken_bytes: 0,
             newest: None,
             started: Instant::now(),
@@ -63,9 +69,20 @@ impl UpdateBuffer {
         }
     }
 
-    /// Discards everything; the run starts at cycle 0.
-    pub(super) fn restart(&mut self) {
-        *self = Self::new(self.progress.cycles, 0);
+    /// Discards everything; the run starts at cycle 0. Returns the number of this write.
+    pub(super) fn restart(&mut self) -> i64 {
+        let number = self.next_number();
+        *self = Self {
+            number,
+            ..Self::new(self.progress.cycles, 0)
+        };
+        number
+    }
+
+    /// Returns the number of the next write.
+    pub(super) fn next_number(&mut self) -> i64 {
+        self.number += 1;
+        self.number
     }
 
     /// Adds a line that is not the last one.
@@ -96,19 +113,38 @@ impl UpdateBuffer {
 
     /// Whether there is something to write.
     pub(super) fn is_dirty(&self) -> bool {
-        self.bytes > 0
+        self.bytes > 0 || self.unrecorded.is_some()
     }
 
     /// Whether a limit is reached, so that the update should be written at once.
     pub(super) fn is_full(&self) -> bool {
-        self.update.rows.len() >= ROW_LIMIT || self.bytes >= BYTE_LIMIT
+        let bytes = match self.unrecorded {
+            Some(_) => self.bytes.saturating_add(self.taken_bytes),
+            None => self.bytes,
+        };
+        self.update.rows.len() >= ROW_LIMIT || bytes >= BYTE_LIMIT
     }
 
-    /// Takes the update; with events if they are due, or if it is the last update.
-    pub(super) fn take(&mut self, is_last: bool) -> JobUpdate {
+    /// Takes the next update: the one that was not recorded, or else the present one, with events if they are due.
+    pub(super) fn take(&mut self) -> JobUpdate {
+        match self.unrecorded.take() {
+            Some(update) => update,
+            None => self.take_present(false),
+        }
+    }
+
+    /// Takes everything for the end of the attempt, with events.
+    pub(super) fn take_all(&mut self) -> Vec<JobUpdate> {
+        let mut updates = Vec::from_iter(self.unrecorded.take());
+        updates.push(self.take_present(true));
+        updates
+    }
+
+    fn take_present(&mut self, is_last: bool) -> JobUpdate {
         self.taken_bytes = std::mem::take(&mut self.bytes);
         self.progress.eta_s = self.eta_s();
         let mut update = std::mem::take(&mut self.update);
+        update.number = self.next_number();
         update.progress = self.progress.clone();
         if is_last || self.event_due() {
             self.last_event = Some((Instant::now(), self.progress.fraction));
@@ -118,24 +154,17 @@ impl UpdateBuffer {
         update
     }
 
-    /// Puts back an update that was not stored, before the lines that were added since.
+    /// Puts back the update that was taken last, because it could not be recorded.
     pub(super) fn put_back(&mut self, update: JobUpdate) {
-        let newer = std::mem::replace(&mut self.update, update);
-        self.update.rows.extend(newer.rows);
-        self.update.snapshots.extend(newer.snapshots);
-        self.update.files.extend(newer.files);
-        self.update.events.extend(newer.events);
-        self.update.checkpoint = newer.checkpoint.or(self.update.checkpoint.take());
-        let taken_bytes = std::mem::take(&mut self.taken_bytes);
-        self.bytes = self.bytes.saturating_add(taken_bytes);
+        self.unrecorded = Some(update);
     }
 
-    fn events(&mut self) -> Vec<(&'static str, String)> {
+    fn events(&mut self) -> Vec<(EventName, String)> {
         // Serializing numbers and texts does not fail; if it did, the event would be omitted.
         let progress = serde_json::to_string(&self.progress).ok();
         let newest = self.newest.take();
         let cycle = newest.and_then(|row| serde_json::to_string(&row).ok());
-        let events = [("progress", progress), ("cycle", cycle)];
+        let events = [(EventName::Progress, progress), (EventName::Cycle, cycle)];
         let with_data = |(name, data): (_, Option<String>)| Some((name, data?));
         events.into_iter().filter_map(with_data).collect()
     }
@@ -209,7 +238,7 @@ mod tests {
         let (mut rows, mut events) = (0, 0);
         for cycle in 0..=2000 {
             buffer.push(row(cycle), 100);
-            let update = buffer.take(false);
+            let update = buffer.take();
             rows += update.rows.len();
             events += update.events.len();
         }
@@ -219,29 +248,38 @@ mod tests {
     }
 
     #[test]
-    fn an_update_that_was_not_stored_is_part_of_the_next_one() {
+    fn an_update_that_was_not_recorded_is_repeated_as_it_is() {
         let mut buffer = UpdateBuffer::new(10, 0);
         buffer.push(row(1), 100);
-        let failed = buffer.take(false);
-        assert_eq!(failed.events.len(), 2);
+        let failed = buffer.take();
+        assert_eq!((failed.number, failed.events.len()), (1, 2));
         buffer.push(row(2), 100);
-        buffer.put_back(failed);
+        buffer.put_back(failed.clone());
         assert!(buffer.is_dirty());
-        let next = buffer.take(true);
-        let cycles: Vec<u64> = next.rows.iter().map(|row| row.cycle).collect();
-        assert_eq!(cycles, [1, 2]);
-        let names: Vec<_> = next.events.iter().map(|event| event.0).collect();
-        assert_eq!(names, ["progress", "cycle", "progress", "cycle"]);
-        assert!(buffer.take(false).rows.is_empty());
+        assert_eq!(buffer.take(), failed);
+        buffer.put_back(failed.clone());
+        let [repeated, last] = &buffer.take_all()[..] else {
+            panic!("two updates")
+        };
+        assert_eq!(repeated, &failed);
+        assert_eq!((last.number, last.rows[0].cycle), (2, 2));
+        let names: Vec<_> = last.events.iter().map(|event| event.0).collect();
+        assert_eq!(names, [EventName::Progress, EventName::Cycle]);
+        assert!(!buffer.is_dirty());
+        assert_eq!(buffer.restart(), 3);
+        buffer.push(row(1), 100);
+        assert_eq!(buffer.take().number, 4);
     }
 
     #[test]
     fn the_last_update_has_the_last_cycle() {
         let mut buffer = UpdateBuffer::new(10, 0);
         buffer.push(row(1), 100);
-        buffer.take(false);
+        buffer.take();
         buffer.push(row(10), 100);
-        let update = buffer.take(true);
+        let [update] = &buffer.take_all()[..] else {
+            panic!("one update")
+        };
         assert!((update.progress.fraction - 1.0).abs() < 1e-15);
         assert_eq!(
             update
@@ -249,7 +287,7 @@ mod tests {
                 .iter()
                 .map(|event| event.0)
                 .collect::<Vec<_>>(),
-            ["progress", "cycle"]
+            [EventName::Progress, EventName::Cycle]
         );
     }
 
@@ -262,32 +300,32 @@ mod tests {
             })
         };
         let mut buffer = UpdateBuffer::new(10, 3);
-        assert!((buffer.take(false).progress.fraction - 0.3).abs() < 1e-15);
+        assert!((buffer.take().progress.fraction - 0.3).abs() < 1e-15);
         buffer.push(row(4), 100);
         buffer.push(checkpoint(4), 100);
-        let failed = buffer.take(false);
-        buffer.put_back(failed);
         buffer.push(row(5), 100);
-        assert_eq!(buffer.take(false).checkpoint.map(|c| c.cycle), Some(4));
+        let update = buffer.take();
+        assert_eq!(
+            (update.rows.len(), update.checkpoint.map(|c| c.cycle)),
+            (2, Some(4))
+        );
         buffer.push(checkpoint(5), 100);
-        let failed = buffer.take(false);
         buffer.push(checkpoint(6), 100);
-        buffer.put_back(failed);
-        assert_eq!(buffer.take(false).checkpoint.map(|c| c.cycle), Some(6));
+        assert_eq!(buffer.take().checkpoint.map(|c| c.cycle), Some(6));
     }
 
     #[test]
     fn the_phase_of_the_companions_is_announced_without_an_end() {
         let mut buffer = UpdateBuffer::new(10, 0);
         buffer.push(row(5), 100);
-        let first = buffer.take(false);
+        let first = buffer.take();
         assert!(first.progress.eta_s.is_some());
         buffer.push(Line::Phase(Phase::Companions), 10);
-        let update = buffer.take(false);
+        let update = buffer.take();
         assert_eq!(update.progress.eta_s, None);
         assert_eq!(update.events.len(), 1);
         buffer.push(Line::Phase(Phase::Companions), 10);
-        assert!(buffer.take(false).events.is_empty());
+        assert!(buffer.take().events.is_empty());
     }
 
     #[test]
@@ -297,7 +335,7 @@ mod tests {
         assert!(!buffer.is_full());
         buffer.push(row(2), 1);
         assert!(buffer.is_full());
-        let failed = buffer.take(false);
+        let failed = buffer.take();
         assert!(!buffer.is_full());
         buffer.put_back(failed);
         assert!(buffer.is_full());

@@ -1,25 +1,33 @@
 //! The queue beside its model.
 
+use std::sync::atomic::{AtomicI64, Ordering};
+
 use api::job::Status;
 use proptest::prelude::*;
 use proptest::test_runner::TestCaseResult;
+use server::clock::Clock;
 use server::estimate::Estimate;
-use server::queue::{Transition, sort_key};
+use server::queue::{Capacity, MemoryBudget, Transition, sort_key};
 use server::solve::checkpoint::EncodedCheckpoint;
 use server::spec;
 use server::store::{
-    Claim, End, JobUpdate, LeaseState, Limits, NewJob, Store, SubmitOptions, Submitted,
+    Claim, ClaimRequest, End, EventName, JobUpdate, LeaseState, Limits, NewJob, RequestNumber,
+    Store, SubmitOptions, Submitted,
 };
 use solver::record::CycleReport;
 use tempfile::TempDir;
+use uuid::Uuid;
 
 use crate::model::{ATTEMPT_LIMIT, ModelJob};
-use crate::step::{ENDS, LEASE_MS, Step};
+use crate::step::{ENDS, LEASE, LEASE_MS, Step};
 
 /// The queue and its model.
 pub(crate) struct Pair {
     pub(crate) store: Store,
     now: i64,
+    /// Number of the last request.
+    number: i64,
+    worker: Uuid,
     job: NewJob,
     jobs: Vec<ModelJob>,
     claims: Vec<Claim>,
@@ -34,7 +42,10 @@ const LIMITS: Limits = Limits {
 impl Pair {
     pub(crate) async fn new(folder: &TempDir) -> Self {
         let url = format!("sqlite://{}", folder.path().join("test.db").display());
-        let store = Store::open_with(&url, LIMITS).await.expect("a store");
+        let now = 1_000_000;
+        let clock = Clock::Manual(AtomicI64::new(now));
+        let store = Store::open_by(&url, LIMITS, clock).await;
+        let store = store.expect("a store");
         let resolved = spec::read(br#"{"system":{"kind":"fuzz_button"}}"#).expect("accepted");
         let plan = Estimate::of(&resolved).plan(&resolved, None);
         let job = NewJob {
@@ -44,7 +55,9 @@ impl Pair {
         };
         Self {
             store,
-            now: 1_000_000,
+            now,
+            number: 0,
+            worker: Uuid::now_v7(),
             job,
             jobs: Vec::new(),
             claims: Vec::new(),
@@ -66,17 +79,30 @@ impl Pair {
                 priority,
                 deadline_s,
             } => self.submit(*priority, *deadline_s).await,
-            Step::Claim => self.claim().await?,
-            Step::Record { claim, checkpoint } => self.record(*claim, *checkpoint).await?,
+            Step::Claim { slots, times } => self.claim(*slots, *times).await?,
+            Step::Record {
+                claim,
+                checkpoint,
+                times,
+            } => self.record(*claim, *checkpoint, *times).await?,
             Step::Renew { claim } => self.renew(*claim).await?,
-            Step::Restart { claim } => self.restart(*claim).await?,
-            Step::End { claim, transition } => self.end(*claim, ENDS[*transition]).await?,
+            Step::Restart { claim, times } => self.restart(*claim, *times).await?,
+            Step::End {
+                claim,
+                transition,
+                times,
+            } => self.end(*claim, ENDS[*transition], *times).await?,
             Step::Cancel { job } => self.cancel(*job).await,
             Step::Retry { job } => self.retry(*job).await,
             Step::Reclaim => self.reclaim().await?,
             Step::Expire => self.expire().await?,
             Step::Delete { job } => self.delete(*job).await?,
-            Step::Wait { ms } => self.now += ms,
+            Step::Wait { ms } => {
+                self.now += ms;
+                if let Clock::Manual(clock) = self.store.clock() {
+                    clock.store(self.now, Ordering::Relaxed);
+                }
+            }
         }
         self.compare().await
     }
@@ -108,66 +134,86 @@ impl Pair {
         });
     }
 
-    async fn claim(&mut self) -> TestCaseResult {
-        let expires_at = self.now + LEASE_MS;
-        let claim = self
-            .store
-            .claim_within(i64::MAX, self.now, expires_at)
-            .await
-            .expect("the store");
-        let waiting = self
+    async fn claim(&mut self, slots: usize, times: usize) -> TestCaseResult {
+        self.number += 1;
+        let request = ClaimRequest {
+            request: RequestNumber {
+                worker: self.worker,
+                number: self.number,
+            },
+            is_remote: false,
+            capacity: Capacity {
+                slots,
+                memory: MemoryBudget {
+                    memory_mb: i64::MAX,
+                    used_mb: 0,
+                    running: 0,
+                },
+                ahead_ms: 0,
+            },
+            lease: LEASE,
+        };
+        let claims = self.store.claim(&request).await.expect("the store");
+        // A repeated request gets the same jobs; without any, it is as good as the first.
+        for _ in 1..times {
+            let mut again = self.store.claim(&request).await.expect("the store");
+            again.sort_by_key(|claim| claims.iter().position(|first| first.id == claim.id));
+            prop_assert_eq!(&again, &claims);
+        }
+        let mut waiting: Vec<_> = self
             .jobs
             .iter_mut()
-            .filter(|job| !job.deleted && job.status == Status::Queued);
-        let Some(job) = waiting.min_by_key(|job| (job.sort_key, job.id)) else {
-            prop_assert_eq!(claim, None);
-            return Ok(());
-        };
-        job.apply(Transition::Claim);
-        job.attempts += 1;
-        job.fruitless += 1;
-        job.lease += 1;
-        job.events += 1;
-        job.expires_at = expires_at;
-        job.rows = job.checkpoint;
-        let claim = claim.expect("a queued job");
-        prop_assert_eq!((claim.id, claim.lease), (job.id, job.lease));
-        prop_assert_eq!(claim.attempt, job.attempts);
-        let from = claim.checkpoint.as_ref().map_or(0, |found| found.cycle);
-        prop_assert_eq!(from, job.checkpoint);
-        self.claims.push(claim);
+            .filter(|job| !job.deleted && job.status == Status::Queued)
+            .collect();
+        waiting.sort_by_key(|job| (job.sort_key, job.id));
+        prop_assert_eq!(claims.len(), waiting.len().min(slots));
+        for (claim, job) in claims.iter().zip(waiting) {
+            job.apply(Transition::Claim);
+            job.attempts += 1;
+            job.fruitless += 1;
+            job.lease += 1;
+            job.events += 1;
+            job.expires_at = self.now + LEASE_MS;
+            job.rows = job.checkpoint;
+            prop_assert_eq!((claim.id, claim.lease), (job.id, job.lease));
+            prop_assert_eq!(claim.attempt, job.attempts);
+            let from = claim.checkpoint.as_ref().map_or(0, |found| found.cycle);
+            prop_assert_eq!(from, job.checkpoint);
+        }
+        self.claims.extend(claims);
         Ok(())
     }
 
-    async fn record(&mut self, claim: usize, checkpoint: bool) -> TestCaseResult {
+    async fn record(&mut self, claim: usize, checkpoint: bool, times: usize) -> TestCaseResult {
+        self.number += 1;
         let Some((claim, index, held)) = self.claimed(claim) else {
             return Ok(());
         };
         let job = &mut self.jobs[index];
         let cycle = job.rows + 1;
         let update = JobUpdate {
+            number: self.number,
             rows: vec![row(cycle)],
-            events: vec![("cycle", "{}".to_owned())],
+            events: vec![(EventName::Cycle, "{}".to_owned())],
             checkpoint: checkpoint.then(|| EncodedCheckpoint {
                 cycle,
                 state: cycle.to_le_bytes().to_vec(),
             }),
             ..JobUpdate::default()
         };
-        let expires_at = self.now + LEASE_MS;
-        let answer = self.store.record(&claim, &update, expires_at).await;
+        for _ in 0..times {
+            let answer = self.store.record(&claim, &update, LEASE).await;
+            let answer = answer.expect("the store");
+            prop_assert_eq!(answer, expected(held, job.cancel_requested));
+        }
         if held {
             job.rows = cycle;
             job.events += 1;
-            job.expires_at = expires_at;
+            job.expires_at = self.now + LEASE_MS;
             if checkpoint {
                 (job.checkpoint, job.fruitless) = (cycle, 0);
             }
         }
-        prop_assert_eq!(
-            answer.expect("the store"),
-            expected(held, job.cancel_requested)
-        );
         Ok(())
     }
 
@@ -176,10 +222,9 @@ impl Pair {
             return Ok(());
         };
         let job = &mut self.jobs[index];
-        let expires_at = self.now + LEASE_MS;
-        let answer = self.store.renew(&claim, expires_at).await;
+        let answer = self.store.renew(&claim, LEASE).await;
         if held {
-            job.expires_at = expires_at;
+            job.expires_at = self.now + LEASE_MS;
         }
         prop_assert_eq!(
             answer.expect("the store"),
@@ -188,24 +233,26 @@ impl Pair {
         Ok(())
     }
 
-    async fn restart(&mut self, claim: usize) -> TestCaseResult {
+    async fn restart(&mut self, claim: usize, times: usize) -> TestCaseResult {
+        self.number += 1;
         let Some((claim, index, held)) = self.claimed(claim) else {
             return Ok(());
         };
         let job = &mut self.jobs[index];
-        let answer = self.store.restart(&claim).await;
+        for _ in 0..times {
+            let answer = self.store.restart(&claim, self.number).await;
+            let answer = answer.expect("the store");
+            prop_assert_eq!(answer, expected(held, job.cancel_requested));
+        }
         if held {
             (job.rows, job.checkpoint) = (0, 0);
             job.events += 1;
         }
-        prop_assert_eq!(
-            answer.expect("the store"),
-            expected(held, job.cancel_requested)
-        );
         Ok(())
     }
 
-    async fn end(&mut self, claim: usize, transition: Transition) -> TestCaseResult {
+    async fn end(&mut self, claim: usize, transition: Transition, times: usize) -> TestCaseResult {
+        self.number += 1;
         let Some((claim, index, held)) = self.claimed(claim) else {
             return Ok(());
         };
@@ -215,17 +262,22 @@ impl Pair {
             outcome: None,
             summary: None,
         };
-        let answer = self
-            .store
-            .end(&claim, &JobUpdate::default(), &end, self.now)
-            .await;
+        let update = JobUpdate {
+            number: self.number,
+            ..JobUpdate::default()
+        };
+        let mut answers = Vec::new();
+        for _ in 0..times {
+            let answer = self.store.end(&claim, &update, &end).await;
+            answers.push(answer.expect("the store"));
+        }
         let job = &mut self.jobs[index];
         let moved = held && job.apply(transition);
         if moved && transition == Transition::Release && job.status == Status::Queued {
             job.attempts -= 1;
             job.fruitless = job.fruitless.saturating_sub(1);
         }
-        prop_assert_eq!(answer.expect("the store"), moved.then_some(job.status));
+        prop_assert_eq!(answers, vec![moved.then_some(job.status); times]);
         Ok(())
     }
 
@@ -263,11 +315,7 @@ impl Pair {
     }
 
     async fn reclaim(&mut self) -> TestCaseResult {
-        let reclaimed = self
-            .store
-            .reclaim_expired(self.now, self.now + LEASE_MS)
-            .await
-            .expect("the store");
+        let reclaimed = self.store.reclaim_expired(LEASE).await.expect("the store");
         let (mut queued, mut ending) = (0, Vec::new());
         for job in &mut self.jobs {
             if job.status == Status::Running && job.expires_at <= self.now {

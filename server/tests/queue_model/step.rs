@@ -1,32 +1,42 @@
 //! Random operations on the queue.
 
+use std::time::Duration;
+
 use proptest::prelude::*;
 use server::queue::Transition;
 
 /// Length of a lease, ms.
 pub(crate) const LEASE_MS: i64 = 1_000;
+pub(crate) const LEASE: Duration = Duration::from_millis(LEASE_MS.unsigned_abs());
 
-/// An operation on the queue. Indices are taken modulo the number of jobs or claims.
+/// An operation on the queue. Indices are taken modulo the number of jobs or claims; requests with a
+/// number are made so many times.
 #[derive(Debug, Clone)]
 pub(crate) enum Step {
     Submit {
         priority: i32,
         deadline_s: Option<u32>,
     },
-    Claim,
+    Claim {
+        slots: usize,
+        times: usize,
+    },
     Record {
         claim: usize,
         checkpoint: bool,
+        times: usize,
     },
     Renew {
         claim: usize,
     },
     Restart {
         claim: usize,
+        times: usize,
     },
     End {
         claim: usize,
         transition: usize,
+        times: usize,
     },
     Cancel {
         job: usize,
@@ -44,6 +54,9 @@ pub(crate) enum Step {
     },
 }
 
+/// How often a request is made.
+const TIMES: std::ops::Range<usize> = 1..3;
+
 pub(crate) const ENDS: [Transition; 5] = [
     Transition::Succeed,
     Transition::Fail,
@@ -56,12 +69,13 @@ pub(crate) fn step() -> impl Strategy<Value = Step> {
     prop_oneof![
         3 => (-3..=3_i32, prop::option::of(1..4_u32))
             .prop_map(|(priority, deadline_s)| Step::Submit { priority, deadline_s }),
-        4 => Just(Step::Claim),
-        4 => (any::<usize>(), any::<bool>())
-            .prop_map(|(claim, checkpoint)| Step::Record { claim, checkpoint }),
+        4 => (1..4_usize, TIMES).prop_map(|(slots, times)| Step::Claim { slots, times }),
+        4 => (any::<usize>(), any::<bool>(), TIMES)
+            .prop_map(|(claim, checkpoint, times)| Step::Record { claim, checkpoint, times }),
         2 => any::<usize>().prop_map(|claim| Step::Renew { claim }),
-        1 => any::<usize>().prop_map(|claim| Step::Restart { claim }),
-        3 => (any::<usize>(), 0..ENDS.len()).prop_map(|(claim, transition)| Step::End { claim, transition }),
+        1 => (any::<usize>(), TIMES).prop_map(|(claim, times)| Step::Restart { claim, times }),
+        3 => (any::<usize>(), 0..ENDS.len(), TIMES)
+            .prop_map(|(claim, transition, times)| Step::End { claim, transition, times }),
         1 => any::<usize>().prop_map(|job| Step::Cancel { job }),
         1 => any::<usize>().prop_map(|job| Step::Retry { job }),
         2 => Just(Step::Reclaim),

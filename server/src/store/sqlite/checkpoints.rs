@@ -7,7 +7,7 @@ use uuid::Uuid;
 use crate::clock::now_ms;
 use crate::solve::checkpoint::EncodedCheckpoint;
 use crate::store::sqlite::queries::integer;
-use crate::store::{Claim, StoreError};
+use crate::store::{Lease, StoreError};
 
 /// Returns the checkpoint of a job and deletes the results after its cycle. A checkpoint whose checksum differs is
 /// deleted with all results.
@@ -61,14 +61,14 @@ pub(super) async fn delete_results_after(
 /// Replaces the checkpoint of a job, in a transaction that has checked the lease.
 pub(super) async fn write(
     transaction: &mut Transaction<'_, Sqlite>,
-    claim: &Claim,
+    lease: Lease,
     checkpoint: &EncodedCheckpoint,
 ) -> Result<(), StoreError> {
     sqlx::query(
         "INSERT OR REPLACE INTO checkpoints (job_id, lease, cycle, written_at, sha256, state) VALUES (?, ?, ?, ?, ?, ?)",
     )
-    .bind(claim.id.to_string())
-    .bind(claim.lease)
+    .bind(lease.job.to_string())
+    .bind(lease.number)
     .bind(integer(checkpoint.cycle))
     .bind(now_ms())
     .bind(Sha256::digest(&checkpoint.state).as_slice())

@@ -1,4 +1,4 @@
-//! Claims: the first waiting job that fits into the free memory, under a new lease.
+//! Claims: the first waiting jobs that fit into the free memory of a worker, under new leases.
 
 use sqlx::sqlite::SqliteRow;
 use sqlx::{Row, Sqlite, Transaction};
@@ -6,88 +6,83 @@ use uuid::Uuid;
 use uuid::fmt::Hyphenated;
 
 use crate::clock::Now;
-use crate::queue::{MemoryBudget, WaitingJob, admit};
+use crate::queue::{WaitingJob, admit};
 use crate::solve::checkpoint::EncodedCheckpoint;
 use crate::store::sqlite::checkpoints;
 use crate::store::sqlite::queries::{BEGIN, insert_attempt_event};
-use crate::store::{Claim, Store, StoreError};
+use crate::store::{Claim, ClaimRequest, Store, StoreError};
 
-/// Number of waiting jobs among which one that fits is searched.
-const CANDIDATE_LIMIT: i64 = 64;
+/// Number of waiting jobs among which those that fit are searched, beside one for each slot.
+const CANDIDATES: usize = 64;
 
 impl Store {
-    /// Claims the first job in the order of the queue that fits into the part of this memory (MB) that running jobs
-    /// leave, under a new lease that ends at `expires_at`. Jobs before it that do not fit get a status reason.
+    /// Claims the first jobs in the order of the queue that a worker can take, under new leases. Jobs before them that do not fit
+    /// into its memory get a status reason. A repeated request gets the jobs of the first one that it still holds.
     ///
     /// # Errors
     /// [`StoreError`] if the database fails.
-    pub async fn claim_within(
-        &self,
-        memory_mb: i64,
-        now: impl Into<Now>,
-        expires_at: i64,
-    ) -> Result<Option<Claim>, StoreError> {
+    pub async fn claim(&self, request: &ClaimRequest) -> Result<Vec<Claim>, StoreError> {
         self.disk.check()?;
-        let now = now.into();
+        let (now, expires_at) = (self.clock.now(), self.clock.end_of(request.lease));
         let mut transaction = self.writer.begin_with(BEGIN).await?;
-        let (ids, waiting) = candidates(&mut transaction).await?;
-        if waiting.is_empty() {
-            return Ok(None);
+        let known = claimed_before(&mut transaction, request, (now, expires_at)).await?;
+        if !known.is_empty() {
+            transaction.commit().await?;
+            return Ok(known);
         }
-        let budget = memory_budget(&mut transaction, memory_mb).await?;
-        let admission = admit(&waiting, &budget, now.monotonic_ms);
+        let limit = CANDIDATES.saturating_add(request.capacity.slots);
+        let (ids, waiting) = candidates(&mut transaction, limit).await?;
+        if waiting.is_empty() {
+            return Ok(Vec::new());
+        }
+        let admission = admit(&waiting, &request.capacity, now.monotonic_ms);
+        let memory = &request.capacity.memory;
         let mut changed = Vec::new();
         for index in admission.too_large {
             let reason = format!(
-                "waiting for memory: it needs about {} MB, {} of {memory_mb} MB are left",
+                "waiting for memory: it needs about {} MB, {} of {} MB are left",
                 waiting[index].memory_mb,
-                budget.free_mb()
+                memory.free_mb(),
+                memory.memory_mb
             );
             if set_reason(&mut transaction, ids[index], &reason).await? {
                 changed.push(ids[index]);
             }
         }
-        let claim = match admission.admitted {
-            Some(index) => Some(claim(&mut transaction, ids[index], now, expires_at).await?),
-            None => None,
-        };
+        let mut claims = Vec::with_capacity(admission.admitted.len());
+        for index in admission.admitted {
+            let times = (now, expires_at);
+            claims.push(claim(&mut transaction, ids[index], request, times).await?);
+        }
         transaction.commit().await?;
-        changed.extend(claim.as_ref().map(|claim| claim.id));
+        changed.extend(claims.iter().map(|claim| claim.id));
         for id in changed {
             self.changed(id);
         }
-        Ok(claim)
+        Ok(claims)
     }
 }
 
 /// The first queued jobs: their ids, and what their admission depends on.
 async fn candidates(
     transaction: &mut Transaction<'_, Sqlite>,
+    limit: usize,
 ) -> Result<(Vec<Uuid>, Vec<WaitingJob>), StoreError> {
-    let rows: Vec<(Hyphenated, i64, i64)> = sqlx::query_as(
-        "SELECT id, memory_mb, queued_at FROM jobs WHERE status = 'queued' ORDER BY place, id LIMIT ?",
+    let rows: Vec<(Hyphenated, i64, i64, i64)> = sqlx::query_as(
+        "SELECT id, memory_mb, queued_at, cpu_ms FROM jobs WHERE status = 'queued' ORDER BY place, id LIMIT ?",
     )
-    .bind(CANDIDATE_LIMIT)
+    .bind(i64::try_from(limit).unwrap_or(i64::MAX))
     .fetch_all(&mut **transaction)
     .await?;
-    let candidate = |(id, memory_mb, since)| (Uuid::from(id), WaitingJob { memory_mb, since });
+    let candidate = |(id, memory_mb, since, cpu_ms)| {
+        let job = WaitingJob {
+            memory_mb,
+            since,
+            cpu_ms,
+        };
+        (Uuid::from(id), job)
+    };
     Ok(rows.into_iter().map(candidate).unzip())
-}
-
-async fn memory_budget(
-    transaction: &mut Transaction<'_, Sqlite>,
-    memory_mb: i64,
-) -> Result<MemoryBudget, StoreError> {
-    let (running, used_mb) = sqlx::query_as(
-        "SELECT count(*), COALESCE(sum(memory_mb), 0) FROM jobs WHERE status = 'running'",
-    )
-    .fetch_one(&mut **transaction)
-    .await?;
-    Ok(MemoryBudget {
-        memory_mb,
-        used_mb,
-        running,
-    })
 }
 
 /// Sets the status reason of a job; whether it had another one.
@@ -106,27 +101,54 @@ async fn set_reason(
     Ok(changed.rows_affected() > 0)
 }
 
+/// The jobs that the same request has claimed before and that are still held, with renewed leases.
+async fn claimed_before(
+    transaction: &mut Transaction<'_, Sqlite>,
+    request: &ClaimRequest,
+    (now, expires_at): (Now, i64),
+) -> Result<Vec<Claim>, StoreError> {
+    let rows = sqlx::query(
+        "UPDATE jobs SET lease_expires_at = ? WHERE worker = ? AND claim_number = ? AND status = 'running' \
+         RETURNING id, lease, spec, attempts, queued_at, deadline_at, memory_mb, cpu_ms",
+    )
+    .bind(expires_at)
+    .bind(request.request.worker.to_string())
+    .bind(request.request.number)
+    .fetch_all(&mut **transaction)
+    .await?;
+    let mut claims = Vec::with_capacity(rows.len());
+    for row in rows {
+        let id = row.try_get::<Hyphenated, _>("id")?.into();
+        let checkpoint = checkpoints::restore(transaction, id).await?;
+        claims.push(claimed(id, &row, now, checkpoint)?);
+    }
+    Ok(claims)
+}
+
 async fn claim(
     transaction: &mut Transaction<'_, Sqlite>,
     id: Uuid,
-    now: Now,
-    expires_at: i64,
+    request: &ClaimRequest,
+    (now, expires_at): (Now, i64),
 ) -> Result<Claim, StoreError> {
     let row = sqlx::query(
-        "UPDATE jobs SET status = 'running', lease = lease + 1, lease_expires_at = ?, attempts = attempts + 1, \
-         fruitless = fruitless + 1, started_at = COALESCE(started_at, ?), status_reason = NULL, last_event = last_event + 1, version = version + 1 \
+        "UPDATE jobs SET status = 'running', lease = lease + 1, lease_expires_at = ?, last_write = 0, worker = ?, claim_number = ?, \
+         is_remote = ?, attempts = attempts + 1, fruitless = fruitless + 1, started_at = COALESCE(started_at, ?), \
+         status_reason = NULL, last_event = last_event + 1, version = version + 1 \
          WHERE id = ? AND status = 'queued' \
-         RETURNING lease, spec, last_event, attempts, queued_at, deadline_at, memory_mb",
+         RETURNING lease, spec, last_event, attempts, queued_at, deadline_at, memory_mb, cpu_ms",
     )
     .bind(expires_at)
+    .bind(request.request.worker.to_string())
+    .bind(request.request.number)
+    .bind(request.is_remote)
     .bind(now.system_ms)
     .bind(id.to_string())
     .fetch_one(&mut **transaction)
     .await?;
     let checkpoint = checkpoints::restore(transaction, id).await?;
     let from_cycle = checkpoint.as_ref().map_or(0, |found| found.cycle);
-    let waited_ms = now.monotonic_ms.saturating_sub(row.try_get("queued_at")?);
-    let claim = claimed(id, &row, waited_ms, checkpoint)?;
+    let claim = claimed(id, &row, now, checkpoint)?;
     let event = row.try_get("last_event")?;
     insert_attempt_event(transaction, id, event, claim.attempt, from_cycle).await?;
     Ok(claim)
@@ -136,17 +158,19 @@ async fn claim(
 pub(super) fn claimed(
     id: Uuid,
     row: &SqliteRow,
-    waited_ms: i64,
+    now: Now,
     checkpoint: Option<EncodedCheckpoint>,
 ) -> Result<Claim, StoreError> {
+    let deadline_at: Option<i64> = row.try_get("deadline_at")?;
     Ok(Claim {
         id,
         lease: row.try_get("lease")?,
         spec: row.try_get("spec")?,
         attempt: row.try_get("attempts")?,
-        waited_ms,
-        deadline_at: row.try_get("deadline_at")?,
+        waited_ms: now.monotonic_ms.saturating_sub(row.try_get("queued_at")?),
+        deadline_in_ms: deadline_at.map(|at| at.saturating_sub(now.monotonic_ms)),
         memory_mb: row.try_get("memory_mb")?,
+        cpu_ms: row.try_get("cpu_ms")?,
         checkpoint,
     })
 }

@@ -12,12 +12,13 @@ use crate::store::block::Block;
 use crate::store::sqlite::blocks::{block, entries, unreadable, update_entries};
 use crate::store::sqlite::folder::Folder;
 use crate::store::sqlite::queries::{BEGIN, corrupt, integer};
-use crate::store::{Claim, Content, NewFile, Store, StoreError};
+use crate::store::{Content, Lease, NewFile, Store, StoreError};
 
 impl Store {
     /// Returns the folder into which an attempt at a job writes its large results.
-    pub fn attempt_folder(&self, claim: &Claim) -> PathBuf {
-        self.folder.of_attempt(claim.id, claim.lease)
+    pub fn attempt_folder(&self, lease: impl Into<Lease>) -> PathBuf {
+        let lease = lease.into();
+        self.folder.of_attempt(lease.job, lease.number)
     }
 
     /// Returns the manifest of a job so far, by name.
@@ -105,8 +106,8 @@ impl Store {
     ///
     /// # Errors
     /// [`StoreError`] if the database fails.
-    pub async fn remove_unnamed_files(&self, attempt: Option<&Claim>) -> Result<(), StoreError> {
-        let attempt = attempt.map(|claim| (claim.id, claim.lease));
+    pub async fn remove_unnamed_files(&self, attempt: Option<Lease>) -> Result<(), StoreError> {
+        let attempt = attempt.map(|lease| (lease.job, lease.number));
         let named: Vec<String> = sqlx::query_scalar(
             "SELECT place FROM result_files WHERE place IS NOT NULL AND (job_id = ?1 OR ?1 IS NULL)",
         )
@@ -155,16 +156,16 @@ pub(super) fn entry(row: &SqliteRow) -> Result<ResultFile, StoreError> {
 /// Adds files to the manifest, in a transaction that has checked the lease.
 pub(super) async fn insert_files(
     transaction: &mut Transaction<'_, Sqlite>,
-    claim: &Claim,
+    lease: Lease,
     files: &[NewFile],
 ) -> Result<(), StoreError> {
     for NewFile { file, content } in files {
-        let place = Folder::place(claim.id, claim.lease, &file.name);
+        let place = Folder::place(lease.job, lease.number, &file.name);
         sqlx::query(
             "INSERT OR REPLACE INTO result_files (job_id, name, cycle, media_type, bytes, sha256, content, place) \
              VALUES (?, ?, ?, ?, ?, ?, ?, ?)",
         )
-        .bind(claim.id.to_string())
+        .bind(lease.job.to_string())
         .bind(&file.name)
         .bind(file.cycle.map(integer))
         .bind(&file.media_type)

@@ -110,7 +110,7 @@ pub(super) async fn insert(
     let progress = serde_json::to_string(&progress)?;
     sqlx::query(
         "INSERT INTO jobs (id, system, spec, plan, status, status_reason, created_at, progress, last_event, priority, \
-         place, deadline_at, memory_mb, queued_at) VALUES (?, ?, ?, ?, 'queued', ?, ?, ?, 1, ?, ?, ?, ?, ?)",
+         place, deadline_at, memory_mb, cpu_ms, queued_at) VALUES (?, ?, ?, ?, 'queued', ?, ?, ?, 1, ?, ?, ?, ?, ?, ?)",
     )
     .bind(id.to_string())
     .bind(system)
@@ -122,7 +122,8 @@ pub(super) async fn insert(
     .bind(options.priority)
     .bind(queue::sort_key(monotonic_ms, options.priority))
     .bind(options.deadline_s.map(|s| monotonic_ms.saturating_add(1_000 * i64::from(s))))
-    .bind(memory_mb(&job.plan))
+    .bind(estimated(&job.plan, "memory_mb", 1.0))
+    .bind(estimated(&job.plan, "cpu_s", 1e3))
     .bind(monotonic_ms)
     .execute(&mut **transaction)
     .await?;
@@ -138,12 +139,12 @@ pub(super) async fn insert(
     Ok(id)
 }
 
-/// Returns the estimated peak memory of the solve, MB.
+/// Returns an estimate of the plan, rounded up; 0 where it is not known.
 #[expect(
     clippy::cast_possible_truncation,
     reason = "the value is clamped to a range that fits"
 )]
-fn memory_mb(plan: &Plan) -> i64 {
-    let estimate = plan.estimates.get("memory_mb").copied().unwrap_or_default();
-    estimate.ceil().clamp(0.0, 1e9) as i64
+fn estimated(plan: &Plan, name: &str, per_unit: f64) -> i64 {
+    let estimate = plan.estimates.get(name).copied().unwrap_or_default();
+    (per_unit * estimate).ceil().clamp(0.0, 1e12) as i64
 }

@@ -1,7 +1,10 @@
 //! Fenced operations: writes of workers and ends of jobs.
 //!
 //! Every write of a worker says `WHERE id = ? AND lease = ? AND status = 'running'` and has no effect if no row
-//! matches: the lease number, raised by each claim, is the fence.
+//! matches: the lease number, raised by each claim, is the fence. Writes under a lease are numbered, so that one whose
+//! commit or answer was lost can be repeated: one with a number up to the last has no further effect.
+
+use std::time::Duration;
 
 use api::job::Status;
 use sqlx::{Sqlite, Transaction};
@@ -12,64 +15,90 @@ use crate::store::sqlite::checkpoints;
 use crate::store::sqlite::files::insert_files;
 use crate::store::sqlite::queries::{BEGIN, insert_attempt_event, insert_event, integer};
 use crate::store::sqlite::transitions::{EndingJob, end_job};
-use crate::store::{Claim, End, JobUpdate, LeaseState, Store, StoreError};
+use crate::store::{End, JobUpdate, Lease, LeaseState, Store, StoreError};
 
 impl Store {
-    /// Writes an update and renews the lease until `expires_at`.
+    /// Writes an update and renews the lease.
     ///
     /// # Errors
     /// [`StoreError`] if the database fails.
     pub async fn record(
         &self,
-        claim: &Claim,
+        lease: impl Into<Lease>,
         update: &JobUpdate,
-        expires_at: i64,
+        length: Duration,
     ) -> Result<LeaseState, StoreError> {
         self.disk.check()?;
+        let lease = lease.into();
         let mut transaction = self.writer.begin_with(BEGIN).await?;
         let events = integer(update.events.len());
         let held: Option<(i64, bool)> = sqlx::query_as(
-            "UPDATE jobs SET progress = ?, lease_expires_at = ?, last_event = last_event + ?, version = version + 1, \
-             fruitless = iif(?, 0, fruitless) \
-             WHERE id = ? AND lease = ? AND status = 'running' RETURNING last_event, cancel_requested",
+            "UPDATE jobs SET last_write = ?1, progress = ?2, lease_expires_at = ?3, last_event = last_event + ?4, version = version + 1, \
+             fruitless = iif(?5, 0, fruitless) \
+             WHERE id = ?6 AND lease = ?7 AND status = 'running' AND last_write < ?1 RETURNING last_event, cancel_requested",
         )
+        .bind(update.number)
         .bind(serde_json::to_string(&update.progress)?)
-        .bind(expires_at)
+        .bind(self.clock.end_of(length))
         .bind(events)
         .bind(update.checkpoint.is_some())
-        .bind(claim.id.to_string())
-        .bind(claim.lease)
+        .bind(lease.job.to_string())
+        .bind(lease.number)
         .fetch_optional(&mut *transaction)
         .await?;
         let Some((last_event, cancel_requested)) = held else {
-            return Ok(self.stale_write());
+            return self.written_before(&mut transaction, lease).await;
         };
-        write_results(&mut transaction, claim, update).await?;
+        write_results(&mut transaction, lease, update).await?;
         if let Some(checkpoint) = &update.checkpoint {
-            checkpoints::write(&mut transaction, claim, checkpoint).await?;
+            checkpoints::write(&mut transaction, lease, checkpoint).await?;
             self.metrics.checkpoints.inc();
         }
         for (seq, (name, data)) in (last_event - events + 1..).zip(&update.events) {
-            insert_event(&mut transaction, claim.id, seq, name, data).await?;
+            insert_event(&mut transaction, lease.job, seq, name.as_str(), data).await?;
         }
         transaction.commit().await?;
-        self.changed(claim.id);
+        self.changed(lease.job);
         Ok(LeaseState::Held { cancel_requested })
     }
 
-    /// Renews the lease until `expires_at`: the worker's heartbeat.
+    /// The state of the lease of a write that had no effect: it is a repeated one, or the lease was lost.
+    async fn written_before(
+        &self,
+        transaction: &mut Transaction<'_, Sqlite>,
+        lease: Lease,
+    ) -> Result<LeaseState, StoreError> {
+        let cancel_requested: Option<bool> = sqlx::query_scalar(
+            "SELECT cancel_requested FROM jobs WHERE id = ? AND lease = ? AND status = 'running'",
+        )
+        .bind(lease.job.to_string())
+        .bind(lease.number)
+        .fetch_optional(&mut **transaction)
+        .await?;
+        Ok(match cancel_requested {
+            Some(cancel_requested) => LeaseState::Held { cancel_requested },
+            None => self.stale_write(),
+        })
+    }
+
+    /// Renews the lease: the worker's heartbeat.
     ///
     /// # Errors
     /// [`StoreError`] if the database fails.
-    pub async fn renew(&self, claim: &Claim, expires_at: i64) -> Result<LeaseState, StoreError> {
+    pub async fn renew(
+        &self,
+        lease: impl Into<Lease>,
+        length: Duration,
+    ) -> Result<LeaseState, StoreError> {
+        let lease = lease.into();
         let write = async || {
             let cancel_requested = sqlx::query_scalar(
                 "UPDATE jobs SET lease_expires_at = ? WHERE id = ? AND lease = ? AND status = 'running' \
                  RETURNING cancel_requested",
             )
-            .bind(expires_at)
-            .bind(claim.id.to_string())
-            .bind(claim.lease)
+            .bind(self.clock.end_of(length))
+            .bind(lease.job.to_string())
+            .bind(lease.number)
             .fetch_optional(&self.writer)
             .await?;
             Ok(lease_state(cancel_requested))
@@ -81,39 +110,47 @@ impl Store {
     ///
     /// # Errors
     /// [`StoreError`] if the database fails.
-    pub async fn lease_state(&self, claim: &Claim) -> Result<LeaseState, StoreError> {
+    pub async fn lease_state(&self, lease: impl Into<Lease>) -> Result<LeaseState, StoreError> {
+        let lease = lease.into();
         let cancel_requested = sqlx::query_scalar(
             "SELECT cancel_requested FROM jobs WHERE id = ? AND lease = ? AND status = 'running'",
         )
-        .bind(claim.id.to_string())
-        .bind(claim.lease)
+        .bind(lease.job.to_string())
+        .bind(lease.number)
         .fetch_optional(&self.readers)
         .await?;
         Ok(lease_state(cancel_requested))
     }
 
-    /// Deletes results and checkpoint, because the run restarts at cycle 0.
+    /// Deletes results and checkpoint, because the run restarts at cycle 0. The write has a number as an update has.
     ///
     /// # Errors
     /// [`StoreError`] if the database fails.
-    pub async fn restart(&self, claim: &Claim) -> Result<LeaseState, StoreError> {
+    pub async fn restart(
+        &self,
+        lease: impl Into<Lease>,
+        number: i64,
+    ) -> Result<LeaseState, StoreError> {
         self.disk.check()?;
+        let lease = lease.into();
         let mut transaction = self.writer.begin_with(BEGIN).await?;
-        let held: Option<(i64, bool)> = sqlx::query_as(
-            "UPDATE jobs SET last_event = last_event + 1, version = version + 1 \
-             WHERE id = ? AND lease = ? AND status = 'running' RETURNING last_event, cancel_requested",
+        let held: Option<(i64, bool, u32)> = sqlx::query_as(
+            "UPDATE jobs SET last_write = ?1, last_event = last_event + 1, version = version + 1 \
+             WHERE id = ?2 AND lease = ?3 AND status = 'running' AND last_write < ?1 \
+             RETURNING last_event, cancel_requested, attempts",
         )
-        .bind(claim.id.to_string())
-        .bind(claim.lease)
+        .bind(number)
+        .bind(lease.job.to_string())
+        .bind(lease.number)
         .fetch_optional(&mut *transaction)
         .await?;
-        let Some((event, cancel_requested)) = held else {
-            return Ok(self.stale_write());
+        let Some((event, cancel_requested, attempt)) = held else {
+            return self.written_before(&mut transaction, lease).await;
         };
-        checkpoints::delete_results_after(&mut transaction, claim.id, None).await?;
-        insert_attempt_event(&mut transaction, claim.id, event, claim.attempt, 0).await?;
+        checkpoints::delete_results_after(&mut transaction, lease.job, None).await?;
+        insert_attempt_event(&mut transaction, lease.job, event, attempt, 0).await?;
         transaction.commit().await?;
-        self.changed(claim.id);
+        self.changed(lease.job);
         Ok(LeaseState::Held { cancel_requested })
     }
 
@@ -124,45 +161,69 @@ impl Store {
     /// [`StoreError`] if the database fails.
     pub async fn end(
         &self,
-        claim: &Claim,
+        lease: impl Into<Lease>,
         update: &JobUpdate,
         end: &End,
-        now: i64,
     ) -> Result<Option<Status>, StoreError> {
-        let write = || self.write_end(claim, update, end, now);
+        let lease = lease.into();
+        let write = || self.write_end(lease, update, end);
         self.disk.with_reserve(write).await
     }
 
     async fn write_end(
         &self,
-        claim: &Claim,
+        lease: Lease,
         update: &JobUpdate,
         end: &End,
-        now: i64,
     ) -> Result<Option<Status>, StoreError> {
         let mut transaction = self.writer.begin_with(BEGIN).await?;
         let held = sqlx::query_as(
-            "SELECT fruitless, cancel_requested FROM jobs WHERE id = ? AND lease = ? AND status = 'running'",
+            "UPDATE jobs SET last_write = ?1 WHERE id = ?2 AND lease = ?3 AND status = 'running' AND last_write < ?1 \
+             RETURNING fruitless, cancel_requested",
         )
-        .bind(claim.id.to_string())
-        .bind(claim.lease)
+        .bind(update.number)
+        .bind(lease.job.to_string())
+        .bind(lease.number)
         .fetch_optional(&mut *transaction)
         .await?;
         let Some((fruitless, cancel_requested)) = held else {
-            self.stale_write();
-            return Ok(None);
+            return self
+                .ended_before(&mut transaction, lease, update.number)
+                .await;
         };
-        write_results(&mut transaction, claim, update).await?;
-        let job = EndingJob::running(claim.id, fruitless, self.attempt_limit, cancel_requested);
+        write_results(&mut transaction, lease, update).await?;
+        let job = EndingJob::running(lease.job, fruitless, self.attempt_limit, cancel_requested);
         let progress = serde_json::to_string(&update.progress)?;
+        let now = self.clock.now().system_ms;
         let status = end_job(&mut transaction, &job, end, Some(&progress), now).await?;
         if let Some(block) = &update.block {
             let succeeded = status == Some(Status::Succeeded);
-            insert_block(&mut transaction, claim.id, block, succeeded).await?;
+            insert_block(&mut transaction, lease.job, block, succeeded).await?;
         }
         transaction.commit().await?;
-        self.concluded(claim.id, status);
+        self.concluded(lease.job, status);
         Ok(status)
+    }
+
+    /// The status that a repeated end has led to; `None` if it had no effect because the lease was lost.
+    async fn ended_before(
+        &self,
+        transaction: &mut Transaction<'_, Sqlite>,
+        lease: Lease,
+        number: i64,
+    ) -> Result<Option<Status>, StoreError> {
+        let status: Option<String> = sqlx::query_scalar(
+            "SELECT status FROM jobs WHERE id = ? AND lease = ? AND last_write = ? AND status <> 'running'",
+        )
+        .bind(lease.job.to_string())
+        .bind(lease.number)
+        .bind(number)
+        .fetch_optional(&mut **transaction)
+        .await?;
+        if status.is_none() {
+            self.stale_write();
+        }
+        Ok(status.as_deref().and_then(Status::from_name))
     }
 
     /// Whether a transition ends a claimed job instead of returning it to the queue.
@@ -171,16 +232,17 @@ impl Store {
     /// [`StoreError`] if the database fails.
     pub async fn is_final(
         &self,
-        claim: &Claim,
+        lease: impl Into<Lease>,
         transition: Transition,
         cancel_requested: bool,
     ) -> Result<bool, StoreError> {
+        let lease = lease.into();
         let fruitless: Option<u32> = sqlx::query_scalar("SELECT fruitless FROM jobs WHERE id = ?")
-            .bind(claim.id.to_string())
+            .bind(lease.job.to_string())
             .fetch_optional(&self.readers)
             .await?;
         let fruitless = fruitless.unwrap_or_default();
-        let job = EndingJob::running(claim.id, fruitless, self.attempt_limit, cancel_requested);
+        let job = EndingJob::running(lease.job, fruitless, self.attempt_limit, cancel_requested);
         Ok(job.after(transition).is_some_and(Status::is_terminal))
     }
 }
@@ -193,10 +255,10 @@ fn lease_state(cancel_requested: Option<bool>) -> LeaseState {
 
 async fn write_results(
     transaction: &mut Transaction<'_, Sqlite>,
-    claim: &Claim,
+    lease: Lease,
     update: &JobUpdate,
 ) -> Result<(), StoreError> {
-    let id = claim.id.to_string();
+    let id = lease.job.to_string();
     for row in &update.rows {
         sqlx::query("INSERT OR REPLACE INTO history_rows (job_id, cycle, data) VALUES (?, ?, ?)")
             .bind(&id)
@@ -217,5 +279,5 @@ async fn write_results(
         .execute(&mut **transaction)
         .await?;
     }
-    insert_files(transaction, claim, &update.files).await
+    insert_files(transaction, lease, &update.files).await
 }

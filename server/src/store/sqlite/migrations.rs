@@ -14,7 +14,7 @@ macro_rules! file {
 }
 
 /// All files of the folder; a name is the version and what it is about.
-const FILES: [(&str, &str); 22] = [
+const FILES: [(&str, &str); 23] = [
     file!("0001_jobs.sql"),
     file!("0002_labels.sql"),
     file!("0003_events.sql"),
@@ -37,6 +37,7 @@ const FILES: [(&str, &str); 22] = [
     file!("0058_clock.sql"),
     file!("0059_clock_of_the_boot.sql"),
     file!("0060_revisions.sql"),
+    file!("0061_numbered_requests.sql"),
 ];
 
 /// Applies the migrations that a database does not have; refuses a database with others.

@@ -10,6 +10,7 @@ use sqlx::Connection;
 use sqlx::sqlite::{SqliteConnectOptions, SqliteJournalMode, SqlitePoolOptions, SqliteSynchronous};
 use tokio::sync::{Notify, broadcast};
 
+use crate::clock::Clock;
 use crate::export::files::parent;
 use crate::store::sqlite::folder::{Folder, beside};
 use crate::store::sqlite::migrations::migrator;
@@ -36,6 +37,14 @@ impl Store {
     /// # Errors
     /// [`StoreError`], among others if another process serves the database.
     pub async fn open_with(url: &str, limits: Limits) -> Result<Self, StoreError> {
+        Self::open_by(url, limits, Clock::System).await
+    }
+
+    /// Opens it with a clock by which leases are measured.
+    ///
+    /// # Errors
+    /// [`StoreError`], as [`Store::open_with`].
+    pub async fn open_by(url: &str, limits: Limits, clock: Clock) -> Result<Self, StoreError> {
         let options = options(url)?
             .create_if_missing(true)
             .journal_mode(SqliteJournalMode::Wal)
@@ -90,6 +99,7 @@ impl Store {
             metrics: Arc::default(),
             submissions: Submissions::default(),
             disk: Arc::new(DataDisk::reserve(reserve, limits.least_free_disk_mb)),
+            clock,
             path,
             last_probe: tokio::sync::Mutex::default(),
             _lock: lock,

@@ -1,5 +1,7 @@
 //! Reclaiming jobs from lost workers: into the queue, or under a new lease to be ended.
 
+use std::time::Duration;
+
 use api::job::Status;
 use uuid::Uuid;
 use uuid::fmt::Hyphenated;
@@ -10,36 +12,59 @@ use crate::store::sqlite::queries::BEGIN;
 use crate::store::sqlite::transitions::{EndingJob, end_job};
 use crate::store::{End, Reclaimed, Store, StoreError};
 
+/// Which running jobs are reclaimed.
+enum Lost {
+    /// Those whose lease has ended by this time, ms.
+    EndedBy(i64),
+    /// Those of workers in the process that served before.
+    OfLastProcess,
+}
+
 impl Store {
-    /// Reclaims running jobs whose lease has ended by this time. Those without another attempt are held under new
-    /// leases until `expires_at`.
+    /// Reclaims running jobs whose lease has ended. Those without another attempt are held under new leases of this length.
     ///
     /// # Errors
     /// [`StoreError`] if the database fails.
-    pub async fn reclaim_expired(&self, by: i64, expires_at: i64) -> Result<Reclaimed, StoreError> {
-        self.reclaim(by, expires_at, "its worker was lost").await
+    pub async fn reclaim_expired(&self, length: Duration) -> Result<Reclaimed, StoreError> {
+        let lost = Lost::EndedBy(self.clock.now().monotonic_ms);
+        self.reclaim(lost, length, "its worker was lost").await
     }
 
-    /// Reclaims all running jobs, at start-up: the process that held them has ended.
+    /// Reclaims the running jobs of the process that served before, at start-up. Workers elsewhere have the length of a lease of
+    /// theirs to renew it.
     ///
     /// # Errors
     /// [`StoreError`] if the database fails.
-    pub async fn reclaim_all(&self, expires_at: i64) -> Result<Reclaimed, StoreError> {
+    pub async fn reclaim_at_start(
+        &self,
+        length: Duration,
+        elsewhere: Duration,
+    ) -> Result<Reclaimed, StoreError> {
+        sqlx::query("UPDATE jobs SET lease_expires_at = ? WHERE status = 'running' AND is_remote")
+            .bind(self.clock.end_of(elsewhere))
+            .execute(&self.writer)
+            .await?;
         let reason = "the service was ended while it ran";
-        self.reclaim(i64::MAX, expires_at, reason).await
+        self.reclaim(Lost::OfLastProcess, length, reason).await
     }
 
     async fn reclaim(
         &self,
-        by: i64,
-        expires_at: i64,
+        lost: Lost,
+        length: Duration,
         reason: &'static str,
     ) -> Result<Reclaimed, StoreError> {
+        let now = self.clock.now();
         let mut transaction = self.writer.begin_with(BEGIN).await?;
-        let lost: Vec<(Hyphenated, u32, bool)> = sqlx::query_as(
-            "SELECT id, fruitless, cancel_requested FROM jobs WHERE status = 'running' AND lease_expires_at <= ?",
-        )
-        .bind(by)
+        let lost: Vec<(Hyphenated, u32, bool)> = match lost {
+            Lost::EndedBy(by) => sqlx::query_as(
+                "SELECT id, fruitless, cancel_requested FROM jobs WHERE status = 'running' AND lease_expires_at <= ?",
+            )
+            .bind(by),
+            Lost::OfLastProcess => sqlx::query_as(
+                "SELECT id, fruitless, cancel_requested FROM jobs WHERE status = 'running' AND NOT is_remote",
+            ),
+        }
         .fetch_all(&mut *transaction)
         .await?;
         let end = End::without_result(Transition::WorkerLost, reason);
@@ -48,16 +73,17 @@ impl Store {
             let id = Uuid::from(id);
             let job = EndingJob::running(id, fruitless, self.attempt_limit, cancel_requested);
             if job.after(end.transition).is_some_and(Status::is_terminal) {
-                // Nothing is solved under the new lease.
+                // Nothing is solved under the new lease, which this process holds.
                 let row = sqlx::query(
-                    "UPDATE jobs SET lease = lease + 1, lease_expires_at = ? WHERE id = ? \
-                     RETURNING lease, spec, attempts, deadline_at, memory_mb",
+                    "UPDATE jobs SET lease = lease + 1, lease_expires_at = ?, last_write = 0, worker = NULL, claim_number = NULL, \
+                     is_remote = 0 WHERE id = ? \
+                     RETURNING lease, spec, attempts, queued_at, deadline_at, memory_mb, cpu_ms",
                 )
-                .bind(expires_at)
+                .bind(self.clock.end_of(length))
                 .bind(id.to_string())
                 .fetch_one(&mut *transaction)
                 .await?;
-                ending.push(claimed(id, &row, 0, None)?);
+                ending.push(claimed(id, &row, now, None)?);
             } else {
                 let status = end_job(&mut transaction, &job, &end, None, 0).await?;
                 queued.push((id, status));

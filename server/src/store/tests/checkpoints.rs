@@ -25,8 +25,8 @@ async fn the_next_attempt_resumes_from_the_checkpoint_and_keeps_earlier_results(
     let lost = fixture.claimed(10).await;
     fixture.recorded(&lost, &with_checkpoint(3), 10).await;
     fixture.reclaimed(10).await;
-    let late = store.record(&lost, &with_checkpoint(9), 10).await;
-    assert_eq!(late.expect("the store"), LeaseState::Lost);
+    let late = fixture.recorded(&lost, &with_checkpoint(9), 10).await;
+    assert_eq!(late, LeaseState::Lost);
     let claim = fixture.claimed(20).await;
     let checkpoint = claim.checkpoint.clone().expect("a checkpoint");
     assert_eq!(
@@ -41,7 +41,7 @@ async fn the_next_attempt_resumes_from_the_checkpoint_and_keeps_earlier_results(
         ("attempt", r#"{"attempt":2,"from_cycle":3}"#)
     );
     // The solving process may fail to resume from it.
-    store.restart(&claim).await.expect("the store");
+    store.restart(&claim, 1).await.expect("the store");
     assert_eq!(fixture.cycles(id).await, Vec::<u64>::new());
     let events = store.events(id, 3).await.expect("the store");
     assert_eq!(events[0].data, r#"{"attempt":2,"from_cycle":0}"#);

@@ -25,19 +25,19 @@ async fn removing_files_of_a_lost_attempt_leaves_those_of_the_next_one() {
     let file = written(store, &fresh, "fresh.vtu");
     // The worker of the lost attempt cleans up late.
     store
-        .remove_unnamed_files(Some(&lost))
+        .remove_unnamed_files(Some((&lost).into()))
         .await
         .expect("the store");
     let update = JobUpdate {
         files: vec![file],
         ..JobUpdate::default()
     };
-    let ended = store
-        .end(&fresh, &update, &end(Transition::Succeed), 30)
+    let ended = fixture
+        .ended(&fresh, &update, Transition::Succeed, 30)
         .await;
-    assert_eq!(ended.expect("the store"), Some(Status::Succeeded));
+    assert_eq!(ended, Some(Status::Succeeded));
     store
-        .remove_unnamed_files(Some(&fresh))
+        .remove_unnamed_files(Some((&fresh).into()))
         .await
         .expect("the store");
     let (_, content) = store
@@ -57,8 +57,7 @@ async fn a_document_in_a_block_replaces_the_file_that_an_earlier_end_has_left() 
     let fixture = Fixture::new().await;
     let (id, store) = (fixture.queued().await, &fixture.store);
     let first = fixture.claimed(10).await;
-    let recorded = store.record(&first, &with_checkpoint(5), 10).await;
-    recorded.expect("the store");
+    fixture.recorded(&first, &with_checkpoint(5), 10).await;
     // As an earlier version stored it.
     let old = JobUpdate {
         files: vec![NewFile {
@@ -67,8 +66,8 @@ async fn a_document_in_a_block_replaces_the_file_that_an_earlier_end_has_left() 
         }],
         ..JobUpdate::default()
     };
-    let ended = store.end(&first, &old, &end(Transition::Fail), 20).await;
-    assert_eq!(ended.expect("the store"), Some(Status::Failed));
+    let ended = fixture.ended(&first, &old, Transition::Fail, 20).await;
+    assert_eq!(ended, Some(Status::Failed));
     store.retry(id, 30).await.expect("the store");
     let second = fixture.claimed(40).await;
     let mut block = Block::default();
@@ -78,10 +77,8 @@ async fn a_document_in_a_block_replaces_the_file_that_an_earlier_end_has_left() 
         block: Some(block.encode().expect("JSON")),
         ..JobUpdate::default()
     };
-    let ended = store
-        .end(&second, &new, &end(Transition::Succeed), 50)
-        .await;
-    assert_eq!(ended.expect("the store"), Some(Status::Succeeded));
+    let ended = fixture.ended(&second, &new, Transition::Succeed, 50).await;
+    assert_eq!(ended, Some(Status::Succeeded));
     let manifest = store.manifest(id).await.expect("the store");
     assert_eq!(manifest, std::slice::from_ref(&file));
     let found = store.result_file(id, "wear-history.csv").await;

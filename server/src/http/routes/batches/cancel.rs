@@ -58,7 +58,8 @@ mod tests {
     async fn waiting_jobs_end_at_once_and_running_ones_are_asked_to_end() {
         let service = Service::new().await;
         let (_, _, sweep) = service.post("/v1/sweeps", SWEEP).await;
-        service.app.store.claim(0, i64::MAX).await.expect("a claim");
+        let claim = service.app.store.claim_next(i64::MAX).await;
+        claim.expect("a job");
         let path = format!("/v1/sweeps/{}/cancel", sweep["id"].as_str().expect("an id"));
         let (status, _, sweep) = service.post(&path, "").await;
         assert_eq!(status, 202);

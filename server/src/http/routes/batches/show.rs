@@ -61,7 +61,8 @@ mod tests {
         let service = Service::new().await;
         let (_, _, sweep) = service.post("/v1/sweeps", SWEEP).await;
         let path = format!("/v1/sweeps/{}", sweep["id"].as_str().expect("an id"));
-        service.app.store.claim(0, i64::MAX).await.expect("a claim");
+        let claim = service.app.store.claim_next(i64::MAX).await;
+        claim.expect("a job");
         let last = sweep["jobs"][3]["id"].as_str().expect("an id");
         service.post(&format!("/v1/jobs/{last}/cancel"), "").await;
         let (status, _, sweep) = service.get(&path).await;

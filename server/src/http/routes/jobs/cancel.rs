@@ -53,7 +53,8 @@ mod tests {
     async fn a_running_job_ends_later() {
         let service = Service::new().await;
         let id = service.queued(r#"{"system":{"kind":"dimm"}}"#).await;
-        service.app.store.claim(0, i64::MAX).await.expect("a claim");
+        let claim = service.app.store.claim_next(i64::MAX).await;
+        claim.expect("a job");
         let (status, _, job) = service.post(&format!("/v1/jobs/{id}/cancel"), "").await;
         assert_eq!(
             (status.as_u16(), job["status"].as_str()),

@@ -46,15 +46,14 @@ mod tests {
     use crate::store::{Claim, End, JobUpdate};
 
     async fn claimed(service: &Service) -> Claim {
-        let claim = service.app.store.claim(0, i64::MAX).await;
-        claim.expect("the store").expect("a queued job")
+        let claim = service.app.store.claim_next(i64::MAX).await;
+        claim.expect("a queued job")
     }
 
     async fn end(service: &Service, claim: &Claim, transition: Transition) {
         let end = End::without_result(transition, "as the test asked for");
         let store = &service.app.store;
-        let ended = store.end(claim, &JobUpdate::default(), &end, 1).await;
-        ended.expect("the store");
+        store.end_next(claim, &JobUpdate::default(), &end).await;
     }
 
     #[tokio::test]

@@ -1,6 +1,7 @@
 //! Backups of a database in use.
 
 use std::path::Path;
+use std::time::Duration;
 
 use crate::export::documents::VTU;
 use crate::export::files;
@@ -29,16 +30,15 @@ async fn a_backup_is_consistent_although_jobs_are_deleted_and_restarted_meanwhil
     fixture.ended_with(&claim, &with_file(store, &claim)).await;
     let running = fixture.queued().await;
     let claim = fixture.claimed(10).await;
-    let held = store.record(&claim, &with_file(store, &claim), 10).await;
-    held.expect("the store");
+    store.record_next(&claim, &with_file(store, &claim)).await;
 
     let source = Path::new(fixture.url.trim_start_matches("sqlite://"));
     let target = fixture.folder.path().join("copy.db");
     copy_database(source, &target).await.expect("a copy");
     store.delete(deleted).await.expect("the store");
-    store.restart(&claim).await.expect("the store");
+    store.restart(&claim, i64::MAX).await.expect("the store");
     store
-        .remove_unnamed_files(Some(&claim))
+        .remove_unnamed_files(Some((&claim).into()))
         .await
         .expect("the store");
     let copied = copy_named_files(source, &target).await.expect("a backup");
@@ -47,8 +47,10 @@ async fn a_backup_is_consistent_although_jobs_are_deleted_and_restarted_meanwhil
     let copy = Store::open(&format!("sqlite://{}", target.display())).await;
     let copy = copy.expect("a store");
     assert!(copy.job(deleted).await.expect("the store").is_none());
-    assert_eq!(copy.reclaim_all(50).await.expect("the store").queued, 1);
-    let claim = copy.claim(1, 60).await.expect("the store").expect("a job");
+    let lease = Duration::from_secs(1);
+    let reclaimed = copy.reclaim_at_start(lease, lease).await;
+    assert_eq!(reclaimed.expect("the store").queued, 1);
+    let claim = copy.claim_next(i64::MAX).await.expect("a job");
     assert_eq!((claim.id, claim.checkpoint), (running, None));
     assert_eq!(copy.manifest(running).await.expect("the store"), []);
 }

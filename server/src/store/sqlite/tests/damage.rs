@@ -8,8 +8,7 @@ async fn a_damaged_checkpoint_is_detected_and_the_job_restarts_at_cycle_0() {
     let fixture = Fixture::new().await;
     let (id, store) = (fixture.queued().await, &fixture.store);
     let claim = fixture.claimed(10).await;
-    let recorded = store.record(&claim, &with_checkpoint(3), 10).await;
-    recorded.expect("the store");
+    fixture.recorded(&claim, &with_checkpoint(3), 10).await;
     sqlx::query("UPDATE checkpoints SET state = X'00'")
         .execute(&store.writer)
         .await

@@ -1,6 +1,7 @@
 //! Opening: one process serves a database, and a file of another program or version is refused.
 
 use std::sync::Arc;
+use std::time::Duration;
 
 use sqlx::sqlite::SqliteConnectOptions;
 use sqlx::{ConnectOptions, Connection};
@@ -31,16 +32,10 @@ async fn a_database_is_served_by_one_process_and_its_jobs_survive_it() {
     drop(store);
     let store = Arc::new(Store::open(&url).await.expect("free again"));
     let fixture = Fixture { store, url, folder };
-    assert_eq!(
-        fixture
-            .store
-            .reclaim_all(5)
-            .await
-            .expect("the store")
-            .queued,
-        1
-    );
-    assert_eq!(fixture.claimed(10).await.id, id);
+    let lease = Duration::from_secs(1);
+    let reclaimed = fixture.store.reclaim_at_start(lease, lease).await;
+    assert_eq!(reclaimed.expect("the store").queued, 1);
+    assert_eq!(fixture.claimed(i64::MAX).await.id, id);
     assert_eq!(fixture.job(id).await.attempts, 2);
 }
 

@@ -2,7 +2,7 @@
 
 use crate::http::tests::Service;
 use crate::queue::Transition;
-use crate::store::{End, JobUpdate};
+use crate::store::{End, EventName, JobUpdate};
 
 /// Names and ids of a stream's events.
 fn parse(text: &str) -> Vec<(String, Option<i64>)> {
@@ -22,33 +22,23 @@ fn parse(text: &str) -> Vec<(String, Option<i64>)> {
 async fn finished_job(service: &Service) -> String {
     let id = service.queued(r#"{"system":{"kind":"dimm"}}"#).await;
     let store = &service.app.store;
-    let claim = store
-        .claim(0, i64::MAX)
-        .await
-        .expect("the store")
-        .expect("a job");
+    let claim = store.claim_next(i64::MAX).await.expect("a job");
     let update = JobUpdate {
-        events: vec![("progress", "{}".into()), ("cycle", "{}".into())],
+        events: vec![
+            (EventName::Progress, "{}".into()),
+            (EventName::Cycle, "{}".into()),
+        ],
         ..JobUpdate::default()
     };
-    store
-        .record(&claim, &update, i64::MAX)
-        .await
-        .expect("the store");
-    store
-        .record(&claim, &update, i64::MAX)
-        .await
-        .expect("the store");
+    store.record_next(&claim, &update).await;
+    store.record_next(&claim, &update).await;
     let end = End {
         transition: Transition::Succeed,
         reason: None,
         outcome: None,
         summary: None,
     };
-    store
-        .end(&claim, &JobUpdate::default(), &end, 1)
-        .await
-        .expect("the store");
+    store.end_next(&claim, &JobUpdate::default(), &end).await;
     id
 }
 

@@ -1,0 +1,95 @@
+//! Whom a worker works for: the store of its own process, or a service elsewhere. Both give the same answers, which the tests in
+//! `worker/employer/tests.rs` compare.
+
+mod store;
+
+use std::path::PathBuf;
+use std::time::Duration;
+
+use api::job::Status;
+
+use crate::metrics::Busy;
+use crate::store::{Claim, ClaimRequest, End, JobUpdate, Lease, LeaseState, StoreError};
+
+/// Why an employer gave no answer.
+#[derive(Debug, thiserror::Error)]
+pub enum EmployerError {
+    /// The store failed.
+    #[error(transparent)]
+    Store(#[from] StoreError),
+}
+
+impl EmployerError {
+    /// Whether the same request may succeed later.
+    pub(super) fn is_temporary(&self) -> bool {
+        match self {
+            Self::Store(error) => matches!(
+                error,
+                StoreError::Database { .. } | StoreError::Prepare { .. } | StoreError::DiskFull
+            ),
+        }
+    }
+
+    /// Whether the disk of the database is full: nothing more can be recorded, but jobs can be cancelled.
+    pub(super) fn is_disk_full(&self) -> bool {
+        match self {
+            Self::Store(error) => error.is_disk_full(),
+        }
+    }
+}
+
+/// Whom a worker works for.
+pub trait Employer: Send + Sync + 'static {
+    /// Claims jobs. A repeated request gets the same ones.
+    fn claim(
+        &self,
+        request: &ClaimRequest,
+    ) -> impl Future<Output = Result<Vec<Claim>, EmployerError>> + Send;
+
+    /// Returns when a job may be waiting.
+    fn job_waiting(&self) -> impl Future<Output = ()> + Send;
+
+    /// Renews a lease for this length.
+    fn renew(
+        &self,
+        lease: Lease,
+        length: Duration,
+    ) -> impl Future<Output = Result<LeaseState, EmployerError>> + Send;
+
+    /// The state of a lease.
+    fn lease_state(
+        &self,
+        lease: Lease,
+    ) -> impl Future<Output = Result<LeaseState, EmployerError>> + Send;
+
+    /// Records an update and renews the lease. The files that the update names are in the folder of the attempt. A repeated one has
+    /// no further effect.
+    fn record(
+        &self,
+        lease: Lease,
+        update: &JobUpdate,
+        length: Duration,
+    ) -> impl Future<Output = Result<LeaseState, EmployerError>> + Send;
+
+    /// Deletes all results, because the run restarts at cycle 0; numbered as an update.
+    fn restart(
+        &self,
+        lease: Lease,
+        number: i64,
+    ) -> impl Future<Output = Result<LeaseState, EmployerError>> + Send;
+
+    /// Ends the job, with documents of all its results, or returns it to the queue. Of the update, progress and number count.
+    /// Returns the new status, `None` if the lease was lost; a repeated end returns the same.
+    fn finish(
+        &self,
+        lease: Lease,
+        update: &JobUpdate,
+        end: &End,
+    ) -> impl Future<Output = Result<Option<Status>, EmployerError>> + Send;
+
+    /// The folder into which an attempt writes its files.
+    fn folder(&self, lease: Lease) -> PathBuf;
+
+    /// Counts a busy worker where this process has metrics.
+    fn busy(&self) -> Option<Busy>;
+}

@@ -1,0 +1,115 @@
+//! The store of this process as an employer.
+
+use std::path::PathBuf;
+use std::time::Duration;
+
+use api::job::Status;
+
+use super::{Employer, EmployerError};
+use crate::metrics::Busy;
+use crate::queue::Transition;
+use crate::store::{Claim, ClaimRequest, End, JobUpdate, Lease, LeaseState, Store, StoreError};
+use crate::worker::manifest::build_manifest;
+
+impl Employer for Store {
+    async fn claim(&self, request: &ClaimRequest) -> Result<Vec<Claim>, EmployerError> {
+        if self.disk().shortage().is_some() {
+            return Ok(Vec::new());
+        }
+        let claims = Store::claim(self, request).await.inspect_err(|error| {
+            // Jobs that wait say so, and the next write has to be a small one.
+            self.disk().release_after(error);
+        })?;
+        for claim in &claims {
+            self.metrics().claimed(claim.lease == 1, claim.waited_ms);
+        }
+        Ok(claims)
+    }
+
+    async fn job_waiting(&self) {
+        Store::job_waiting(self).await;
+    }
+
+    async fn renew(&self, lease: Lease, length: Duration) -> Result<LeaseState, EmployerError> {
+        Ok(Store::renew(self, lease, length).await?)
+    }
+
+    async fn lease_state(&self, lease: Lease) -> Result<LeaseState, EmployerError> {
+        Ok(Store::lease_state(self, lease).await?)
+    }
+
+    async fn record(
+        &self,
+        lease: Lease,
+        update: &JobUpdate,
+        length: Duration,
+    ) -> Result<LeaseState, EmployerError> {
+        let recorded = Store::record(self, lease, update, length).await;
+        Ok(recorded.inspect_err(|error| {
+            self.disk().release_after(error);
+        })?)
+    }
+
+    async fn restart(&self, lease: Lease, number: i64) -> Result<LeaseState, EmployerError> {
+        Ok(Store::restart(self, lease, number).await?)
+    }
+
+    async fn finish(
+        &self,
+        lease: Lease,
+        update: &JobUpdate,
+        end: &End,
+    ) -> Result<Option<Status>, EmployerError> {
+        Ok(finish(self, lease, update, end).await?)
+    }
+
+    fn folder(&self, lease: Lease) -> PathBuf {
+        self.attempt_folder(lease)
+    }
+
+    fn busy(&self) -> Option<Busy> {
+        Some(self.metrics().busy_worker())
+    }
+}
+
+/// Ends a job, with documents of all results in the same transaction, or returns it to the queue.
+///
+/// # Errors
+/// [`StoreError`] if the store fails.
+async fn finish(
+    store: &Store,
+    lease: Lease,
+    update: &JobUpdate,
+    end: &End,
+) -> Result<Option<Status>, StoreError> {
+    let LeaseState::Held { cancel_requested } = store.lease_state(lease).await? else {
+        // It was lost, or this end is a repeated one.
+        return store.end(lease, update, end).await;
+    };
+    let mut last = JobUpdate {
+        number: update.number,
+        progress: update.progress.clone(),
+        ..JobUpdate::default()
+    };
+    // A cancelled job must end although nothing more can be stored, so that it can be deleted and its space be freed. Its rows
+    // and snapshots are there, the documents of them are not.
+    let is_stored = end.transition != Transition::Cancel || !store.disk().is_full();
+    if is_stored
+        && store
+            .is_final(lease, end.transition, cancel_requested)
+            .await?
+    {
+        let job = store.job(lease.job).await?;
+        let spec = job.map(|job| job.document.spec).unwrap_or_default();
+        let made = build_manifest(store, lease, spec, end.summary.as_ref()).await?;
+        (last.files, last.block) = made;
+    }
+    let status = store.end(lease, &last, end).await?;
+    store.remove_unnamed_files(Some(lease)).await?;
+    tracing::info!(
+        status = status.map(Status::as_str),
+        reason = end.reason,
+        "attempt ended"
+    );
+    Ok(status)
+}

@@ -1,0 +1,92 @@
+//! What the workers of one process share: the numbers of their requests, and the memory of their solves.
+
+use std::sync::{Mutex, MutexGuard, PoisonError};
+
+use uuid::Uuid;
+
+use crate::queue::{Capacity, MemoryBudget};
+use crate::store::{Claim, ClaimRequest, RequestNumber};
+use crate::worker::config::WorkerConfig;
+use crate::worker::employer::{Employer, EmployerError};
+
+/// The workers of one process.
+#[derive(Debug)]
+pub struct WorkerProcess {
+    id: Uuid,
+    is_remote: bool,
+    memory: Mutex<MemoryBudget>,
+    /// Number of the next request; held during it, so that one worker asks at a time.
+    next_request: tokio::sync::Mutex<i64>,
+}
+
+/// Memory of a solve, free again when it is dropped.
+#[derive(Debug)]
+pub(super) struct SolveMemory<'a> {
+    process: &'a WorkerProcess,
+    memory_mb: i64,
+}
+
+impl Drop for SolveMemory<'_> {
+    fn drop(&mut self) {
+        let mut memory = self.process.memory();
+        memory.used_mb -= self.memory_mb;
+        memory.running -= 1;
+    }
+}
+
+impl WorkerProcess {
+    /// Workers with this memory for all their solves, in the process of the store or elsewhere.
+    pub fn new(memory_mb: i64, is_remote: bool) -> Self {
+        Self {
+            id: Uuid::now_v7(),
+            is_remote,
+            memory: Mutex::new(MemoryBudget {
+                memory_mb,
+                used_mb: 0,
+                running: 0,
+            }),
+            next_request: tokio::sync::Mutex::new(1),
+        }
+    }
+
+    /// Claims a job that fits into the free memory, and short ones after it, and reserves the memory of the largest.
+    pub(super) async fn claim(
+        &self,
+        employer: &impl Employer,
+        config: &WorkerConfig,
+    ) -> Result<Option<(Vec<Claim>, SolveMemory<'_>)>, EmployerError> {
+        let mut number = self.next_request.lock().await;
+        let request = ClaimRequest {
+            request: RequestNumber {
+                worker: self.id,
+                number: *number,
+            },
+            is_remote: self.is_remote,
+            capacity: Capacity {
+                slots: 1,
+                memory: *self.memory(),
+                ahead_ms: i64::try_from(config.ahead.as_millis()).unwrap_or(i64::MAX),
+            },
+            lease: config.lease,
+        };
+        // Without an answer the same request is made again, by whichever worker is next.
+        let claims = employer.claim(&request).await?;
+        *number += 1;
+        let Some(memory_mb) = claims.iter().map(|claim| claim.memory_mb).max() else {
+            return Ok(None);
+        };
+        let mut memory = self.memory();
+        memory.used_mb += memory_mb;
+        memory.running += 1;
+        drop(memory);
+        let reserved = SolveMemory {
+            process: self,
+            memory_mb,
+        };
+        Ok(Some((claims, reserved)))
+    }
+
+    fn memory(&self) -> MutexGuard<'_, MemoryBudget> {
+        self.memory.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
