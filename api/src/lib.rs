@@ -15,3 +15,4 @@ pub mod spec;
 pub mod study;
 pub mod sweep;
 pub mod system;
+pub mod worker;

@@ -50,3 +50,14 @@ pub struct LabelInUse {
     /// Jobs that have it.
     pub jobs: u64,
 }
+
+/// What waits and runs: what processes that place workers need to know.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
+pub struct Demand {
+    /// Jobs that wait.
+    pub queued: u64,
+    /// Jobs that run.
+    pub running: u64,
+    /// Estimated processor time of the waiting jobs, s; those without an estimate are not counted.
+    pub queued_cpu_s: u64,
+}

@@ -19,29 +19,25 @@ mod solve;
 mod study;
 mod table;
 mod terminal;
+mod work;
 
 use std::net::SocketAddr;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
 use arguments::{
-    BenchArguments, CalibrateArguments, ChildArguments, DATABASE, LISTEN, LogFormat, ServeArguments,
+    BenchArguments, CalibrateArguments, ChildArguments, DATABASE, LISTEN, LogFormat,
+    ServeArguments, WorkArguments,
 };
 use clap::{CommandFactory, Parser, Subcommand};
+
+use crate::worker::protocol::PROGRAM;
 
 /// First line of `--help`.
 const ABOUT: &str = "Wear of electrical contacts under vibration, by finite elements: on the command line and over HTTP";
 
-/// Version and commit of the program.
-const VERSION: &str = concat!(
-    env!("CARGO_PKG_VERSION"),
-    " (",
-    env!("FRETWEAR_COMMIT"),
-    ")"
-);
-
 #[derive(Debug, Parser)]
-#[command(name = "fretwear", version = VERSION, about = ABOUT)]
+#[command(name = "fretwear", version = PROGRAM, about = ABOUT)]
 struct Arguments {
     #[command(subcommand)]
     command: Command,
@@ -51,6 +47,8 @@ struct Arguments {
 enum Command {
     /// Solve jobs that are submitted over HTTP.
     Serve(ServeArguments),
+    /// Solve jobs of a service elsewhere.
+    Work(WorkArguments),
     /// Solve one specification here, without a server.
     Solve {
         /// The specification, JSON.
@@ -159,6 +157,10 @@ pub fn main() -> ExitCode {
             log::log_panics();
             Some(log::start("info", serve.log))
         }
+        Command::Work(work) => {
+            log::log_panics();
+            Some(log::start("info", work.log))
+        }
         Command::Probe { .. }
         | Command::Backup { .. }
         | Command::Verify { .. }
@@ -169,6 +171,7 @@ pub fn main() -> ExitCode {
     };
     let ended = match command {
         Command::Serve(serve) => serve::run(serve),
+        Command::Work(work) => work::run(&work),
         Command::Solve { spec, out } => solve::run(&spec, out.as_deref()),
         Command::Plan { spec, json } => plan::run(&spec, json),
         Command::Study {

@@ -6,15 +6,20 @@
 mod download;
 mod error;
 mod events;
+mod upload;
+mod worker_tokens;
 
 use std::net::IpAddr;
+use std::path::Path;
 use std::time::Duration;
 
 use api::job::Job;
 use api::problem::Problem;
+use api::service::Demand;
 use reqwest::header::{AUTHORIZATION, HeaderMap, HeaderValue, LOCATION, RETRY_AFTER};
 use reqwest::redirect::Policy;
-use reqwest::{RequestBuilder, Response, StatusCode, Url};
+use reqwest::{Certificate, RequestBuilder, Response, StatusCode, Url};
+use serde::Serialize;
 use serde::de::DeserializeOwned;
 use uuid::Uuid;
 
@@ -40,11 +45,12 @@ pub struct Client {
 }
 
 impl Client {
-    /// A client of the service at an address such as `http://127.0.0.1:8080`, with the access token that it requires.
+    /// A client of the service at an address such as `http://127.0.0.1:8080`, with the access token that it requires, and with the
+    /// authorities in a PEM file to trust instead of those of the system.
     ///
     /// # Errors
-    /// [`ClientError::Address`] and [`ClientError::Token`].
-    pub fn new(server: &str, token: Option<&str>) -> Result<Self, ClientError> {
+    /// [`ClientError::Address`], [`ClientError::Token`] and [`ClientError::Authorities`].
+    pub fn new(server: &str, token: Option<&str>, ca: Option<&Path>) -> Result<Self, ClientError> {
         let base = server.trim_end_matches('/');
         let url = Url::parse(base).ok().filter(is_address);
         let url = url.ok_or_else(|| ClientError::Address(server.to_owned()))?;
@@ -61,7 +67,9 @@ impl Client {
             .read_timeout(READ_TIMEOUT)
             // A submission that is redirected would become a GET.
             .redirect(Policy::none());
-        if url.scheme() == "http" {
+        if let Some(path) = ca {
+            http = http.tls_certs_only(authorities(path)?);
+        } else if url.scheme() == "http" {
             // Those of the system are not needed, and a system without any would be an error.
             http = http.tls_certs_only([]);
         }
@@ -87,6 +95,28 @@ impl Client {
     ) -> Result<T, ClientError> {
         let request = || self.http.get(self.url(path)).query(options);
         repeated(async || self.document(path, request()).await).await
+    }
+
+    /// Posts a document once.
+    ///
+    /// # Errors
+    /// [`ClientError`].
+    pub async fn post<T: DeserializeOwned>(
+        &self,
+        path: &str,
+        body: &impl Serialize,
+    ) -> Result<T, ClientError> {
+        self.document(path, self.http.post(self.url(path)).json(body))
+            .await
+    }
+
+    /// Returns what waits and runs; asks once, with a token for workers.
+    ///
+    /// # Errors
+    /// [`ClientError`].
+    pub async fn demand(&self) -> Result<Demand, ClientError> {
+        let path = "/v1/worker/demand";
+        self.document(path, self.http.get(self.url(path))).await
     }
 
     /// Cancels a job.
@@ -213,6 +243,20 @@ async fn repeated<T>(
     attempt().await
 }
 
+/// The certificates in a PEM file.
+fn authorities(path: &Path) -> Result<Vec<Certificate>, ClientError> {
+    let failed = |cause: String| ClientError::Authorities {
+        path: path.to_owned(),
+        cause,
+    };
+    let pem = std::fs::read(path).map_err(|cause| failed(cause.to_string()))?;
+    let found = Certificate::from_pem_bundle(&pem).map_err(|cause| failed(cause.to_string()))?;
+    if found.is_empty() {
+        return Err(failed("it has no certificate".to_owned()));
+    }
+    Ok(found)
+}
+
 fn is_address(url: &Url) -> bool {
     ["http", "https"].contains(&url.scheme()) && url.has_host() && url.query().is_none()
 }
@@ -253,7 +297,7 @@ mod tests {
             "https://wear.test/",
             "http://[::1]:80/fretwear",
         ] {
-            assert!(Client::new(address, None).is_ok(), "{address}");
+            assert!(Client::new(address, None, None).is_ok(), "{address}");
         }
         for address in [
             "127.0.0.1:8080",
@@ -262,8 +306,8 @@ mod tests {
             "http://",
             "http://a/?b",
         ] {
-            assert!(Client::new(address, None).is_err(), "{address}");
+            assert!(Client::new(address, None, None).is_err(), "{address}");
         }
-        assert!(Client::new("http://a", Some("a\nb")).is_err());
+        assert!(Client::new("http://a", Some("a\nb"), None).is_err());
     }
 }

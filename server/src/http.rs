@@ -16,7 +16,10 @@ mod problem;
 mod problem_type;
 mod routes;
 mod table;
+mod tls;
 mod verified_file;
+mod worker_access;
+mod worker_body;
 
 use std::sync::Arc;
 use std::time::Instant;
@@ -36,6 +39,7 @@ use problem::ProblemType;
 pub use access::{Access, TokenError};
 pub use app::App;
 pub use listener::serve;
+pub use tls::{Tls, TlsError};
 
 /// Maximum number of concurrent requests, over all connections; more wait, except those for the health. Event streams count until their response
 /// starts; long polls have a lower limit of their own.
@@ -48,6 +52,7 @@ const HEALTH: [&str; 2] = ["/healthz", "/readyz"];
 /// Router of all routes.
 pub fn router(app: App) -> Router {
     let access = middleware::from_fn_with_state(app.access.clone(), access::check);
+    let worker_access = middleware::from_fn_with_state(app.clone(), worker_access::check);
     let permits = Arc::new(Semaphore::new(MAX_REQUESTS));
     let requests = middleware::from_fn_with_state(permits, limit_requests);
     let disk_space = middleware::map_response_with_state(app.clone(), disk_space::explain);
@@ -62,6 +67,7 @@ pub fn router(app: App) -> Router {
         .layer(compression::layer())
         .layer(middleware::map_response(compression::weaken_etag))
         .layer(middleware::map_request(compression::accept_identity))
+        .layer(worker_access)
         .layer(access)
         .layer(requests)
         .layer(SetResponseHeaderLayer::if_not_present(

@@ -12,7 +12,7 @@ use tokio::task::JoinSet;
 use tokio_util::sync::CancellationToken;
 
 use crate::http;
-use crate::http::{Access, App};
+use crate::http::{Access, App, Tls};
 use crate::store::{Limits, Store, StoreError};
 use crate::supervision::{Supervisor, TaskName, WORKER};
 use crate::worker;
@@ -30,6 +30,8 @@ pub struct Config {
     pub listen: SocketAddr,
     /// Access control.
     pub access: Access,
+    /// Certificate and key; plain HTTP without.
+    pub tls: Option<Tls>,
     /// Address of the database, `sqlite://PATH`.
     pub database: String,
     /// Number of jobs solved at the same time.
@@ -134,7 +136,12 @@ impl Service {
                 stopping.clone(),
             );
             tasks.start((WORKER, number), move || {
-                worker::work(Arc::clone(&store), shared.clone(), stopping.clone())
+                let work = worker::work(Arc::clone(&store), shared.clone(), stopping.clone());
+                async move {
+                    if let Err(error) = work.await {
+                        tracing::error!(%error, "a worker has ended");
+                    }
+                }
             });
         }
         let mut reclaimed = Some(reclaimed);
@@ -157,7 +164,13 @@ impl Service {
         ));
         let (mut listener, served) = (Some(listener), stopping.clone());
         tasks.start(("listener", 0), move || {
-            serve(listener.take(), address, router.clone(), served.clone())
+            let tls = config.tls.clone();
+            serve(
+                (listener.take(), tls),
+                address,
+                router.clone(),
+                served.clone(),
+            )
         });
         Ok(Self {
             address,
@@ -190,7 +203,7 @@ impl Service {
 
 /// Serves on the listener of the start, or on a new one at the same address.
 async fn serve(
-    listener: Option<TcpListener>,
+    (listener, tls): (Option<TcpListener>, Option<Tls>),
     address: SocketAddr,
     router: Router,
     stopping: CancellationToken,
@@ -200,7 +213,7 @@ async fn serve(
         None => bound(address),
     };
     match bound {
-        Ok(listener) => http::serve(listener, router, stopping).await,
+        Ok(listener) => http::serve((listener, tls), router, stopping).await,
         Err(error) => tracing::error!(%error, %address, "cannot listen again"),
     }
 }

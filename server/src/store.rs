@@ -17,11 +17,13 @@
 //! | `submit_batch` | all jobs of the batch, or none | no |
 //! | `claim` | status, lease, attempt and its event; later rows deleted; reasons | no; each lease is new; repeated: the same jobs |
 //! | `record` | progress, rows, snapshots, files, checkpoint, events, renewed lease | yes; [`LeaseState::Lost`]; repeated: no effect |
+//! | `heartbeat` | end of each lease, where it is due | yes; [`LeaseState::Lost`], not counted |
 //! | `renew` | end of the lease | yes; [`LeaseState::Lost`], not counted |
 //! | `lease_state` | reads only | yes; [`LeaseState::Lost`], not counted |
 //! | `restart` | rows, snapshots, files and checkpoint deleted, `attempt` event | yes; [`LeaseState::Lost`]; repeated: no effect |
 //! | `end` | rows, files, block (instead of rows and snapshots), status, summary, `done` event, checkpoint deleted | yes; `None`; repeated: the same status |
 //! | `reclaim_expired`, `reclaim_at_start` | all lost jobs: into the queue, or under a new lease | no; they end leases |
+//! | `add_worker_token`, `revoke_worker_token` | one token | no |
 //! | `cancel`, `cancel_batch` | a queued job ends with its `done` event; a running one is marked for its worker | no |
 //! | `expire` | all queued jobs whose deadline has passed end with their `done` events | no |
 //! | `delete`, `delete_batch` | jobs with all rows; files afterwards, or at the next start | no; only ended jobs |

@@ -6,6 +6,7 @@ mod employer;
 mod end;
 mod manifest;
 mod process;
+pub mod protocol;
 mod supervisor;
 mod update_buffer;
 
@@ -21,22 +22,26 @@ use supervisor::supervise;
 
 pub use attempt::finalize_lost_job;
 pub use config::{REMOTE_LEASE, WorkerConfig};
-pub use employer::{Employer, EmployerError};
+pub use employer::{Employer, EmployerError, Remote};
 pub use process::WorkerProcess;
 
 /// Interval at which an idle worker polls the queue, in case it missed a notification.
 const POLL_INTERVAL: Duration = Duration::from_secs(1);
 
 /// Claims and supervises jobs until it is asked to stop. A panic ends it; its job is then reclaimed when the lease ends.
+///
+/// # Errors
+/// [`EmployerError`] if the employer does not accept this worker.
 pub async fn work<E: Employer>(
     employer: Arc<E>,
     (process, config): (Arc<WorkerProcess>, Arc<WorkerConfig>),
     stopping: CancellationToken,
-) {
+) -> Result<(), EmployerError> {
     while !stopping.is_cancelled() {
         // Summaries make it too large for the stack of a task.
         match Box::pin(next(&*employer, (&process, &config), &stopping)).await {
             Ok(true) => {}
+            Ok(false) if config.until_idle && is_idle(&*employer).await => return Ok(()),
             Ok(false) => {
                 tokio::select! {
                     () = employer.job_waiting() => {}
@@ -44,12 +49,22 @@ pub async fn work<E: Employer>(
                     () = stopping.cancelled() => {}
                 }
             }
+            Err(error) if error.is_rejected() => return Err(error),
             Err(error) => {
                 tracing::error!(%error, "a worker had no answer");
                 tokio::time::sleep(RETRY_PAUSE).await;
             }
         }
     }
+    Ok(())
+}
+
+/// Whether no job waits or runs anywhere; without an answer there may be one.
+async fn is_idle(employer: &impl Employer) -> bool {
+    employer.is_idle().await.unwrap_or_else(|error| {
+        tracing::warn!(%error, "it is not known whether jobs wait");
+        false
+    })
 }
 
 /// Claims jobs and supervises them to their ends, one after the other; `false` if there was none to claim.

@@ -9,6 +9,7 @@ pub mod disk;
 pub mod program;
 pub mod server;
 mod stepped_clock;
+mod worker;
 
 pub use bare_preset::{bare_preset, merged};
 pub use browser::Browser;
@@ -16,3 +17,4 @@ pub use disk::Disk;
 pub use program::{Ran, binary, fretwear, fuzz_button_with_jump, spec};
 pub use server::{Log, Server};
 pub use stepped_clock::SteppedClock;
+pub use worker::RemoteWorker;

@@ -329,7 +329,8 @@ fn serve(folder: &Path, options: &[&str]) -> Command {
 
 /// The address in a line of the log, if it has one.
 fn address(line: &str) -> Option<String> {
-    let at = line.find("http://127.0.0.1:")?;
+    let at = ["https", "http"].map(|scheme| line.find(&format!("{scheme}://127.0.0.1:")));
+    let at = at.into_iter().flatten().next()?;
     Some(line[at..].trim().to_owned())
 }
 

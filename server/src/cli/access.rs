@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::http::{Access, TokenError};
+use crate::http::{Access, Tls, TlsError, TokenError};
 
 /// Why the access options are invalid.
 #[derive(Debug, thiserror::Error)]
@@ -34,6 +34,27 @@ pub(super) struct AccessOptions {
         value_delimiter = ','
     )]
     allowed_hosts: Vec<String>,
+}
+
+/// Certificate and key of the service.
+#[derive(Debug, clap::Args)]
+pub(super) struct TlsOptions {
+    /// File with the certificate of the service, followed by those up to its authority (PEM); HTTPS instead of HTTP.
+    #[arg(long, env = "FRETWEAR_TLS_CERTIFICATE", requires = "tls_key")]
+    tls_certificate: Option<PathBuf>,
+    /// File with its private key (PEM).
+    #[arg(long, env = "FRETWEAR_TLS_KEY", requires = "tls_certificate")]
+    tls_key: Option<PathBuf>,
+}
+
+impl TlsOptions {
+    /// Reads certificate and key, if they are given.
+    pub(super) fn read(&self) -> Result<Option<Tls>, TlsError> {
+        let files = self.tls_certificate.as_deref().zip(self.tls_key.as_deref());
+        files
+            .map(|(certificate, key)| Tls::read(certificate, key))
+            .transpose()
+    }
 }
 
 /// Returns the access token in a file, or in the environment.

@@ -2,12 +2,15 @@
 
 use std::net::SocketAddr;
 use std::path::PathBuf;
+use std::process::ExitCode;
 
 use api::spec::{Criterion, EnumValue, Part};
 
 use crate::bench::{against, predictions};
-use crate::cli::access::AccessOptions;
-use crate::cli::options::WorkOptions;
+use crate::cli::access::{AccessOptions, TlsOptions};
+use crate::cli::options::{SolveOptions, WorkOptions};
+use crate::cli::terminal::failed;
+use crate::client::Client;
 use crate::rating;
 
 /// Default address of a service.
@@ -22,6 +25,8 @@ pub(super) struct ServeArguments {
     pub(super) listen: SocketAddr,
     #[command(flatten)]
     pub(super) access: AccessOptions,
+    #[command(flatten)]
+    pub(super) tls: TlsOptions,
     /// The database.
     #[arg(long, env = "FRETWEAR_DATABASE", default_value = DATABASE)]
     pub(super) database: String,
@@ -30,6 +35,37 @@ pub(super) struct ServeArguments {
     pub(super) log: LogFormat,
     #[command(flatten)]
     pub(super) work: WorkOptions,
+}
+
+#[derive(Debug, clap::Args)]
+pub(super) struct WorkArguments {
+    /// Address of the service.
+    #[arg(long, env = "FRETWEAR_SERVER")]
+    pub(super) server: String,
+    /// File with a token for workers, as `fretwear worker-token` makes one; none is needed for a service without access token.
+    #[arg(long, env = "FRETWEAR_WORKER_TOKEN_FILE")]
+    token_file: Option<PathBuf>,
+    /// File with the certificates of the authorities to trust (PEM), instead of those of the system.
+    #[arg(long, env = "FRETWEAR_CA")]
+    ca: Option<PathBuf>,
+    /// Folder in which a solve writes its files until they are sent; that of the system for temporary files unless given.
+    #[arg(long, env = "FRETWEAR_SCRATCH")]
+    pub(super) scratch: Option<PathBuf>,
+    /// Format of the log on standard error.
+    #[arg(long, env = "FRETWEAR_LOG", value_enum, default_value = "text")]
+    pub(super) log: LogFormat,
+    #[command(flatten)]
+    pub(super) work: SolveOptions,
+}
+
+impl WorkArguments {
+    /// A client of the service with the token for workers.
+    pub(super) fn client(&self) -> Result<Client, ExitCode> {
+        let token = self.token_file.as_deref().map(fs_err::read_to_string);
+        let token = token.transpose().map_err(failed)?;
+        let token = token.as_deref().map(str::trim);
+        Client::new(&self.server, token, self.ca.as_deref()).map_err(failed)
+    }
 }
 
 /// Formats of the log.

@@ -1,4 +1,4 @@
-//! Commands that use a service elsewhere: `submit`, `list`, `watch`, `fetch`, `cancel` and `retry`.
+//! Commands that use a service elsewhere: `submit`, `list`, `watch`, `fetch`, `cancel`, `retry` and `worker-token`.
 //!
 //! Exit codes: 0, the job succeeded, or what was asked for was done; 1, the job failed, or another error; 2, the service
 //! refused the request; 3, the job was cancelled; 4, the service could not be reached; 130, interrupted (Ctrl-C).
@@ -9,6 +9,7 @@ mod fetch;
 mod list;
 mod submit;
 mod watch;
+mod worker_token;
 
 use clap::Subcommand;
 use uuid::Uuid;
@@ -39,6 +40,9 @@ pub(super) enum ClientCommand {
     Cancel(control::ControlArguments),
     /// Queue failed or cancelled jobs again, from their last checkpoints.
     Retry(control::ControlArguments),
+    /// Make, list and revoke tokens of workers elsewhere.
+    #[command(subcommand)]
+    WorkerToken(worker_token::TokenAction),
 }
 
 pub(super) fn run(command: ClientCommand) -> Ended {
@@ -49,5 +53,6 @@ pub(super) fn run(command: ClientCommand) -> Ended {
         ClientCommand::Fetch(arguments) => fetch::run(&arguments),
         ClientCommand::Cancel(arguments) => control::run(&arguments, Action::Cancel),
         ClientCommand::Retry(arguments) => control::run(&arguments, Action::Retry),
+        ClientCommand::WorkerToken(action) => worker_token::run(&action),
     }
 }

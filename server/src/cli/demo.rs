@@ -48,6 +48,7 @@ async fn demonstrate(listen: SocketAddr, exit: bool) -> Result<(), DemoError> {
     let program = std::env::current_exe()?;
     let service = Service::start(Config {
         listen,
+        tls: None,
         access: Access::default(),
         database,
         workers: workers(None),
@@ -78,7 +79,7 @@ async fn demonstrate(listen: SocketAddr, exit: bool) -> Result<(), DemoError> {
 
 /// Submits the job, waits for its end and shows its results.
 async fn show_job(base: &str) -> Result<(), DemoError> {
-    let client = Client::new(base, None)?;
+    let client = Client::new(base, None, None)?;
     let key = Uuid::now_v7().to_string();
     let id = client.submit(SPEC.into(), &[], &key).await?.id;
     let done = follow(&client, id).await?;

@@ -8,12 +8,18 @@ use clap::Args;
 use crate::queue::ATTEMPT_LIMIT;
 use crate::store::Limits;
 use crate::worker::WorkerConfig;
+use crate::worker::protocol::LONGEST_WAIT;
+
+/// Interval of the updates of a worker elsewhere: a thousand of them are 500 requests a second.
+const REMOTE_UPDATE_EVERY: Duration = Duration::from_secs(2);
+/// Processor time of the short jobs that one is given at once.
+const REMOTE_AHEAD: Duration = Duration::from_secs(5);
 
 /// Options for queue and workers.
 #[derive(Debug, Args)]
 pub(super) struct WorkOptions {
-    /// Number of jobs solved at once; one per processor unless given.
-    #[arg(long, env = "FRETWEAR_WORKERS", value_parser = clap::value_parser!(u16).range(1..=256))]
+    /// Number of jobs solved at once; one per processor unless given; 0 if only workers elsewhere solve (`fretwear work`).
+    #[arg(long, env = "FRETWEAR_WORKERS", value_parser = clap::value_parser!(u16).range(..=256))]
     workers: Option<u16>,
     /// Largest number of attempts in a row without a new checkpoint at a job whose workers are lost.
     #[arg(long, env = "FRETWEAR_ATTEMPTS", default_value_t = ATTEMPT_LIMIT, value_parser = clap::value_parser!(u32).range(1..))]
@@ -39,6 +45,65 @@ pub(super) struct WorkOptions {
     /// Delete jobs so many days after their end; never unless given.
     #[arg(long, env = "FRETWEAR_KEEP_DAYS")]
     pub(super) keep_days: Option<u32>,
+}
+
+/// Options of `work`.
+#[derive(Debug, Args)]
+pub(super) struct SolveOptions {
+    /// Number of jobs solved at once; one per processor unless given.
+    #[arg(long, env = "FRETWEAR_SLOTS", value_parser = clap::value_parser!(u16).range(1..=256))]
+    slots: Option<u16>,
+    /// Limit of the estimated memory of all solves; four fifths of the machine's memory unless given.
+    #[arg(long, env = "FRETWEAR_MEMORY_MB", value_parser = clap::value_parser!(i64).range(1..))]
+    memory_mb: Option<i64>,
+    /// Memory limit of one solve; four times the estimate of its plan, and at least 1024, unless given.
+    #[arg(long, env = "FRETWEAR_JOB_MEMORY_MB", value_parser = clap::value_parser!(i64).range(1..))]
+    job_memory_mb: Option<i64>,
+    /// Time without contact to the service after which it gives the jobs of this worker to others.
+    #[arg(long, env = "FRETWEAR_LEASE_S", default_value = "30", value_parser = seconds)]
+    lease_s: Duration,
+    /// Interval of the checkpoints of a solve.
+    #[arg(long, env = "FRETWEAR_CHECKPOINT_EVERY_S", default_value = "30", value_parser = seconds)]
+    checkpoint_every_s: Duration,
+    /// Time that a solve has for its last checkpoint when the worker stops.
+    #[arg(long, env = "FRETWEAR_GRACE_S", default_value = "30", value_parser = seconds)]
+    grace_s: Duration,
+    /// End when no job waits or runs, also not elsewhere.
+    #[arg(long, env = "FRETWEAR_UNTIL_IDLE")]
+    until_idle: bool,
+}
+
+impl SolveOptions {
+    /// Number of jobs solved at once.
+    pub(super) fn slots(&self) -> usize {
+        crate::cli::runtime::workers(self.slots)
+    }
+
+    /// How long a request waits for a job: not long where the worker is to end without one.
+    pub(super) fn wait(&self) -> Duration {
+        if self.until_idle {
+            Duration::from_millis(500)
+        } else {
+            LONGEST_WAIT
+        }
+    }
+
+    /// Configuration of the workers for a program.
+    pub(super) fn config(&self, program: PathBuf) -> WorkerConfig {
+        let config = WorkerConfig::new(program);
+        WorkerConfig {
+            lease: self.lease_s.max(Duration::from_secs(1)),
+            update_every: REMOTE_UPDATE_EVERY,
+            ahead: REMOTE_AHEAD,
+            until_idle: self.until_idle,
+            checkpoint_every: self.checkpoint_every_s,
+            threads: crate::cli::runtime::processors() / self.slots().max(1),
+            grace: self.grace_s,
+            memory_mb: self.memory_mb.unwrap_or(config.memory_mb),
+            job_memory_mb: self.job_memory_mb,
+            ..config
+        }
+    }
 }
 
 impl WorkOptions {

@@ -11,7 +11,7 @@ use crate::client::Client;
 const TIMEOUT: Duration = Duration::from_secs(4);
 
 pub(super) fn run(listen: SocketAddr) -> Ended {
-    let client = Client::new(&format!("http://{}", local(listen)), None).map_err(failed)?;
+    let client = Client::new(&format!("http://{}", local(listen)), None, None).map_err(failed)?;
     block_on(client.check_ready(TIMEOUT))?.map_err(failed)?;
     write_out("ready")
 }

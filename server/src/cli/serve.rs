@@ -11,11 +11,13 @@ use crate::service::{Config, Service};
 pub(super) fn run(arguments: ServeArguments) -> Ended {
     let program = std::env::current_exe().map_err(failed)?;
     let access = arguments.access.access().map_err(failed)?;
+    let tls = arguments.tls.read().map_err(failed)?;
     let (work, log) = (&arguments.work, arguments.log);
     allow_many_files();
     let config = Config {
         listen: arguments.listen,
         access,
+        tls: tls.clone(),
         workers: work.workers(),
         limits: work.limits(),
         keep_days: work.keep_days,
@@ -27,7 +29,8 @@ pub(super) fn run(arguments: ServeArguments) -> Ended {
         // A log that a program reads has the address in its first line.
         if log == LogFormat::Text {
             let address = service.address;
-            write_err(format_args!("fretwear serves on http://{address}"));
+            let scheme = if tls.is_some() { "https" } else { "http" };
+            write_err(format_args!("fretwear serves on {scheme}://{address}"));
         }
         let ended = tokio::select! {
             ended = until_signal() => ended.map_err(failed),

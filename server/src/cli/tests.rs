@@ -1,4 +1,4 @@
-//! Compares the table of options in the README with the command line.
+//! Compares the tables of options in the README with the command line.
 
 use clap::{CommandFactory, Parser};
 
@@ -6,11 +6,11 @@ use crate::cli::Arguments;
 
 const README: &str = include_str!("../../README.md");
 
-/// Option, variable and default of each option of `serve`.
-fn options() -> Vec<[String; 3]> {
+/// Option, variable and default of each option of a command.
+fn options(name: &str) -> Vec<[String; 3]> {
     let command = Arguments::command();
-    let serve = command.find_subcommand("serve").expect("`serve`");
-    let mut options: Vec<[String; 3]> = serve
+    let command = command.find_subcommand(name).expect("a command");
+    let mut options: Vec<[String; 3]> = command
         .get_arguments()
         .filter(|argument| argument.get_id() != "help")
         .map(|argument| {
@@ -33,16 +33,19 @@ fn options() -> Vec<[String; 3]> {
 
 #[test]
 fn the_readme_lists_every_option_with_its_variable_and_default() {
-    let mut rows: Vec<[String; 3]> = README
-        .lines()
-        .filter(|line| line.starts_with("| `--"))
-        .map(|line| {
-            let cells: Vec<&str> = line.split('|').map(str::trim).collect();
-            [cells[1], cells[2], cells[3]].map(str::to_owned)
-        })
-        .collect();
-    rows.sort();
-    assert_eq!(rows, options());
+    for (header, command) in [("| option |", "serve"), ("| option of `work` |", "work")] {
+        let table = README.lines().skip_while(|line| !line.starts_with(header));
+        let table = table.take_while(|line| line.starts_with('|'));
+        let mut rows: Vec<[String; 3]> = table
+            .filter(|line| line.starts_with("| `--"))
+            .map(|line| {
+                let cells: Vec<&str> = line.split('|').map(str::trim).collect();
+                [cells[1], cells[2], cells[3]].map(str::to_owned)
+            })
+            .collect();
+        rows.sort();
+        assert_eq!(rows, options(command), "{command}");
+    }
 }
 
 #[test]

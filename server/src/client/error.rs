@@ -16,6 +16,14 @@ pub enum ClientError {
     /// The access token cannot be sent.
     #[error("the access token has characters that a header cannot contain")]
     Token,
+    /// The certificates of authorities cannot be read.
+    #[error("{}: {cause}", .path.display())]
+    Authorities {
+        /// The file.
+        path: PathBuf,
+        /// Why.
+        cause: String,
+    },
     /// The service cannot be reached, or the connection broke.
     #[error("{url} cannot be reached: {cause}")]
     Unreachable {
@@ -126,8 +134,14 @@ impl ClientError {
         matches!(self, Self::Problem { problem, .. } if [400, 413, 415, 422].contains(&problem.status))
     }
 
+    /// Whether the service does not accept this client at all.
+    pub fn is_rejected(&self) -> bool {
+        matches!(self, Self::Redirected { .. } | Self::Answer { .. })
+            || matches!(self, Self::Problem { problem, .. } if [401, 403, 404, 409].contains(&problem.status))
+    }
+
     /// Whether the service answered with a problem of this type.
-    pub(super) fn is_of_type(&self, kind: &str) -> bool {
+    pub(crate) fn is_of_type(&self, kind: &str) -> bool {
         matches!(self, Self::Problem { problem, .. } if problem.kind == kind)
     }
 

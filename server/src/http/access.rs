@@ -2,7 +2,8 @@
 //! is configured, the request must have it.
 //!
 //! On loopback the host must be a loopback name or address, which protects from DNS rebinding. Listening elsewhere
-//! needs a token; then the host may also be any IP address, which cannot be rebound, or a configured name.
+//! needs a token; then the host may also be any IP address, which cannot be rebound, or a configured name. Workers elsewhere have tokens
+//! of their own, which reach their paths only and can be revoked.
 
 use std::net::IpAddr;
 use std::sync::Arc;
@@ -16,6 +17,8 @@ use subtle::ConstantTimeEq;
 
 use crate::http::problem::ProblemType;
 
+/// Paths of workers elsewhere, which have tokens of their own.
+const WORKER_FOLDER: &str = "/v1/worker/";
 /// Minimum length of a token, characters: 16 random ones are some 90 bits.
 const MIN_TOKEN_LENGTH: usize = 16;
 /// Maximum length of a token, characters; it must fit into a header.
@@ -89,17 +92,12 @@ impl Access {
         let digest = self.token_sha256.as_ref()?;
         let public = PUBLIC_PATHS.contains(&path)
             || PUBLIC_FOLDERS.iter().any(|folder| path.starts_with(folder));
-        if public || has_token(headers, digest) {
+        if public || is_for_workers(request) || has_token(headers, digest) {
             return None;
         }
-        let mut response = ProblemType::TOKEN_REQUIRED
-            .with_detail("send `Authorization: Bearer TOKEN` with this service's token")
-            .into_response();
-        let challenge = HeaderValue::from_static("Bearer realm=\"fretwear\"");
-        response
-            .headers_mut()
-            .insert(header::WWW_AUTHENTICATE, challenge);
-        Some(response)
+        Some(token_required(
+            "send `Authorization: Bearer TOKEN` with this service's token",
+        ))
     }
 
     fn foreign_host(&self, headers: &HeaderMap) -> Option<&'static str> {
@@ -143,6 +141,11 @@ fn token_digest(token: &str) -> Result<[u8; 32], TokenError> {
 
 /// Whether the request has the token. Digests of equal length are compared in constant time, against timing attacks.
 fn has_token(headers: &HeaderMap, digest: &[u8; 32]) -> bool {
+    sent_digest(headers).ct_eq(digest).into()
+}
+
+/// Digest of the token that a request has; of nothing without one.
+pub(super) fn sent_digest(headers: &HeaderMap) -> [u8; 32] {
     let sent = headers
         .get(header::AUTHORIZATION)
         .and_then(|value| value.to_str().ok())
@@ -150,8 +153,7 @@ fn has_token(headers: &HeaderMap, digest: &[u8; 32]) -> bool {
         .filter(|(scheme, _)| scheme.eq_ignore_ascii_case("bearer"))
         .map(|(_, token)| token.trim())
         .unwrap_or_default();
-    let sent: [u8; 32] = Sha256::digest(sent).into();
-    sent.ct_eq(digest).into()
+    Sha256::digest(sent).into()
 }
 
 /// Middleware that rejects requests without access.
@@ -160,6 +162,23 @@ pub(super) async fn check(State(access): State<Access>, request: Request, next: 
         Some(rejection) => rejection,
         None => next.run(request).await,
     }
+}
+
+/// Whether a request needs a token for workers instead of that of users.
+pub(super) fn is_for_workers(request: &Request) -> bool {
+    request.uri().path().starts_with(WORKER_FOLDER)
+}
+
+/// The response to a request without a token, or with a wrong one.
+pub(super) fn token_required(detail: &str) -> Response {
+    let mut response = ProblemType::TOKEN_REQUIRED
+        .with_detail(detail)
+        .into_response();
+    let challenge = HeaderValue::from_static("Bearer realm=\"fretwear\"");
+    response
+        .headers_mut()
+        .insert(header::WWW_AUTHENTICATE, challenge);
+    response
 }
 
 #[cfg(test)]

@@ -35,6 +35,19 @@ impl<S: Send + Sync> FromRequestParts<S> for JobId {
     }
 }
 
+/// Id of a token of workers, from the path.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct WorkerTokenId(pub(super) Uuid);
+
+impl<S: Send + Sync> FromRequestParts<S> for WorkerTokenId {
+    type Rejection = ProblemResponse;
+
+    async fn from_request_parts(parts: &mut Parts, state: &S) -> Result<Self, ProblemResponse> {
+        let id = path_id(parts, state, "token", ProblemType::NO_SUCH_TOKEN).await?;
+        Ok(Self(id))
+    }
+}
+
 /// A batch, from the path: its kind is that of the collection.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct BatchId {

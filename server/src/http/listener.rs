@@ -12,15 +12,17 @@ use hyper::body::Incoming;
 use hyper::server::conn::http1;
 use hyper::service::service_fn;
 use hyper_util::rt::{TokioIo, TokioTimer};
-use hyper_util::server::graceful::GracefulShutdown;
+use hyper_util::server::graceful::{GracefulShutdown, Watcher};
 use nix::sys::resource::{Resource, getrlimit};
 use nix::sys::socket::setsockopt;
 use nix::sys::socket::sockopt::TcpUserTimeout;
+use tokio::io::{AsyncRead, AsyncWrite};
 use tokio::net::{TcpListener, TcpStream};
 use tokio_util::sync::CancellationToken;
 use tower::ServiceExt;
 
 use crate::http::connections::{Connection, ConnectionLimits, Connections};
+use crate::http::tls::Tls;
 
 /// Maximum numbers of open connections. Each costs a file handle and a few kB.
 const LIMITS: ConnectionLimits = ConnectionLimits {
@@ -42,9 +44,13 @@ const MAX_HEADERS: usize = 64;
 /// Pause after a failed accept, for instance because the process has no more file handles.
 const ACCEPT_PAUSE: Duration = Duration::from_millis(50);
 
-/// Serves until shutdown; returns when the last connection has ended.
-pub async fn serve(listener: TcpListener, router: Router, stopping: CancellationToken) {
-    serve_at_most(limits(), listener, router, stopping).await;
+/// Serves until shutdown, with TLS if it is given; returns when the last connection has ended.
+pub async fn serve(
+    (listener, tls): (TcpListener, Option<Tls>),
+    router: Router,
+    stopping: CancellationToken,
+) {
+    serve_at_most(limits(), (listener, tls), router, stopping).await;
 }
 
 /// The limits that the file handles of this process allow.
@@ -59,7 +65,7 @@ fn limits() -> ConnectionLimits {
 
 async fn serve_at_most(
     limits: ConnectionLimits,
-    listener: TcpListener,
+    (listener, tls): (TcpListener, Option<Tls>),
     router: Router,
     stopping: CancellationToken,
 ) {
@@ -75,7 +81,16 @@ async fn serve_at_most(
             continue;
         };
         if let Some(connection) = connections.add(number, peer.ip()) {
-            tokio::spawn(handle(stream, connection, router.clone(), &open));
+            let (tls, router, watcher) = (tls.clone(), router.clone(), open.watcher());
+            tokio::spawn(async move {
+                let Some(tls) = tls else {
+                    return handle(stream, connection, router, watcher).await;
+                };
+                match tls.handshake(stream).await {
+                    Ok(stream) => handle(stream, connection, router, watcher).await,
+                    Err(error) => tracing::debug!(%peer, %error, "a TLS handshake failed"),
+                }
+            });
         } else {
             tracing::debug!(%peer, "a connection of a client with too many requests was closed");
         }
@@ -85,12 +100,12 @@ async fn serve_at_most(
 }
 
 /// Serves a connection until its end, or until it is closed for another one.
-fn handle(
-    stream: TcpStream,
+async fn handle(
+    stream: impl AsyncRead + AsyncWrite + Unpin + 'static,
     connection: Connection,
     router: Router,
-    open: &GracefulShutdown,
-) -> impl Future<Output = ()> + use<> {
+    watcher: Watcher,
+) {
     let (close, connection) = (connection.close.clone(), Arc::new(connection));
     let service = service_fn(move |request: Request<Incoming>| {
         let in_progress = connection.request();
@@ -107,15 +122,13 @@ fn handle(
         .header_read_timeout(HEAD_TIMEOUT)
         .max_buf_size(MAX_HEAD_BYTES)
         .max_headers(MAX_HEADERS);
-    let served = open.watch(builder.serve_connection(TokioIo::new(stream), service));
-    async move {
-        tokio::select! {
-            // A client that disconnects or times out is not an error of the service.
-            ended = served => if let Err(error) = ended {
-                tracing::debug!(%error, "a connection was aborted");
-            },
-            () = close.cancelled() => tracing::debug!("an idle connection was closed for another one"),
-        }
+    let served = watcher.watch(builder.serve_connection(TokioIo::new(stream), service));
+    tokio::select! {
+        // A client that disconnects or times out is not an error of the service.
+        ended = served => if let Err(error) = ended {
+            tracing::debug!(%error, "a connection was aborted");
+        },
+        () = close.cancelled() => tracing::debug!("an idle connection was closed for another one"),
     }
 }
 
@@ -167,7 +180,12 @@ mod tests {
         let address = listener.local_addr().expect("an address");
         let stopping = CancellationToken::new();
         let router = Router::new().route("/", get(|| async { "here" }));
-        let served = tokio::spawn(serve_at_most(FEW, listener, router, stopping.clone()));
+        let served = tokio::spawn(serve_at_most(
+            FEW,
+            (listener, None),
+            router,
+            stopping.clone(),
+        ));
         let mut idle = Vec::new();
         for _ in 0..20 {
             idle.push(TcpStream::connect(address).await.expect("a connection"));
@@ -193,7 +211,12 @@ mod tests {
             pending::<String>()
         };
         let router = Router::new().route("/", get(endless));
-        let served = tokio::spawn(serve_at_most(FEW, listener, router, stopping.clone()));
+        let served = tokio::spawn(serve_at_most(
+            FEW,
+            (listener, None),
+            router,
+            stopping.clone(),
+        ));
         let asking = [request(address).await, request(address).await];
         for _ in &asking {
             begins.recv().await.expect("it begins");
@@ -222,7 +245,12 @@ mod tests {
         let address = listener.local_addr().expect("an address");
         let stopping = CancellationToken::new();
         let router = Router::new().route("/", get(|| async { pending::<String>().await }));
-        let served = tokio::spawn(serve_at_most(FEW, listener, router, stopping.clone()));
+        let served = tokio::spawn(serve_at_most(
+            FEW,
+            (listener, None),
+            router,
+            stopping.clone(),
+        ));
         let stream = request(address).await;
         tokio::time::sleep(Duration::from_millis(50)).await;
         stopping.cancel();

@@ -138,7 +138,12 @@ fn complete_operation(noun: Option<&str>, operation: &mut Value) {
 
 /// What the id in a path identifies, if it has one.
 fn identified(path: &str) -> Option<&'static str> {
-    let nouns = [("jobs", "job"), ("sweeps", "sweep"), ("studies", "study")];
+    let nouns = [
+        ("jobs", "job"),
+        ("sweeps", "sweep"),
+        ("studies", "study"),
+        ("worker-tokens", "token"),
+    ];
     let is_in = |collection| path.starts_with(&format!("/v1/{collection}/{{id}}"));
     nouns
         .into_iter()

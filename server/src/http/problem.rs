@@ -10,6 +10,7 @@ use crate::export::parquet::ParquetError;
 pub(super) use crate::http::problem_type::ProblemType;
 use crate::spec::Refused;
 use crate::store::StoreError;
+use crate::worker::EmployerError;
 
 /// Media type of a problem document.
 const MEDIA_TYPE: &str = "application/problem+json";
@@ -81,6 +82,15 @@ impl<E: RouteError> From<E> for ProblemResponse {
         match error.problem_type() {
             ProblemType::INTERNAL => Self::internal(&error),
             problem_type => problem_type.with_detail(error.to_string()),
+        }
+    }
+}
+
+impl From<EmployerError> for ProblemResponse {
+    fn from(error: EmployerError) -> Self {
+        match error {
+            EmployerError::Store(error) => error.into(),
+            EmployerError::Remote(error) => Self::internal(&error),
         }
     }
 }

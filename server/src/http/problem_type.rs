@@ -61,6 +61,8 @@ problem_types! {
         "No accuracy study has this id. It may have been deleted.";
     STUDY_OUTDATED, 410, "study-outdated", "the study cannot be compared any more",
         "The study was planned by another version of the service, which compared runs in another way. Its jobs and their results are still there; submit the study again for a comparison.";
+    NO_SUCH_TOKEN, 404, "no-such-token", "there is no such token",
+        "No token for workers has this id. `/v1/worker-tokens` lists all.";
     NO_SUCH_RESULT, 404, "no-such-result", "the job has no such result",
         "The job has not produced this result, or not yet. `/v1/jobs/{id}/results` lists what there is.";
     NO_SUCH_SYSTEM, 404, "no-such-system", "there is no such system",
@@ -77,6 +79,12 @@ problem_types! {
         "HTTP/1.1 requires exactly one Host header.";
     FOREIGN_HOST, 403, "foreign-host", "the request is for another host",
         "The Host or Origin header names another host than the service accepts, which protects browsers from pages of other hosts. Start the service with `--allowed-host NAME` to accept a name.";
+    WORKER_VERSION, 409, "worker-version", "the worker is of another version",
+        "A worker elsewhere has the version and commit of the service, so that every job has the same bits wherever it is solved. Install the version that `detail` names for the service on the worker's machine.";
+    LEASE_LOST, 409, "lease-lost", "the worker does not hold the job any more",
+        "The lease of a worker has ended, and its job was given to another one. The worker gives the attempt up by itself.";
+    FILE_DIFFERS, 422, "file-differs", "a file was not received as it was sent",
+        "A worker sent a file of a result that arrived with another SHA-256. The worker sends it again by itself.";
     TOKEN_REQUIRED, 401, "token-required", "the access token is missing or wrong",
         "Send the access token of the service as `Authorization: Bearer TOKEN`.";
     REQUEST_TIMEOUT, 408, "request-timeout", "the request did not arrive in time",

@@ -6,3 +6,5 @@ pub(in crate::http) mod jobs;
 pub(in crate::http) mod operation;
 pub(in crate::http) mod results;
 pub(in crate::http) mod systems;
+pub(in crate::http) mod worker;
+pub(in crate::http) mod worker_tokens;

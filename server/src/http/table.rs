@@ -1,13 +1,14 @@
 //! The table of routes: every handler, and the OpenAPI document that follows from them.
 
 use axum::Router;
+use axum::routing::{get, post, put};
 use utoipa::OpenApi;
 use utoipa::openapi::OpenApi as Document;
 use utoipa_axum::router::OpenApiRouter;
 use utoipa_axum::routes;
 
 use crate::http::app::App;
-use crate::http::routes::{batches, jobs, operation, results, systems};
+use crate::http::routes::{batches, jobs, operation, results, systems, worker, worker_tokens};
 
 #[derive(OpenApi)]
 #[openapi(
@@ -23,6 +24,21 @@ use crate::http::routes::{batches, jobs, operation, results, systems};
     )
 )]
 struct Interface;
+
+/// The routes of workers elsewhere, which are not in the document.
+fn worker_routes() -> Router<App> {
+    Router::new()
+        .route("/claims", post(worker::claim::claim))
+        .route("/leases", post(worker::renew::renew))
+        .route("/updates", post(worker::record::record))
+        .route("/restarts", post(worker::restart::restart))
+        .route("/ends", post(worker::finish::finish))
+        .route("/demand", get(worker::show_demand::show_demand))
+        .route(
+            "/files/{job}/{lease}/{name}",
+            put(worker::put_file::put_file),
+        )
+}
 
 /// The routes and their OpenAPI document.
 pub(super) fn routes_and_document() -> (Router<App>, Document) {
@@ -69,10 +85,13 @@ pub(super) fn routes_and_document() -> (Router<App>, Document) {
         .routes(routes!(operation::show_service::service))
         .routes(routes!(operation::serve_pages::dashboard))
         .routes(routes!(operation::serve_pages::docs))
-        .route(
-            "/assets/{*path}",
-            axum::routing::get(operation::serve_pages::asset),
-        )
+        .route("/assets/{*path}", get(operation::serve_pages::asset))
+        .routes(routes!(
+            worker_tokens::create::create_worker_token,
+            worker_tokens::list::worker_tokens
+        ))
+        .routes(routes!(worker_tokens::revoke::revoke_worker_token))
+        .nest("/v1/worker", OpenApiRouter::from(worker_routes()))
         .routes(routes!(operation::explain_problem::explain))
         .routes(routes!(operation::show_openapi::openapi))
         .routes(routes!(operation::check_health::healthz))

@@ -118,6 +118,10 @@ impl Service {
             .await
     }
 
+    pub(crate) async fn put(&self, path: &str, body: &str) -> StatusCode {
+        self.send("PUT", path, &[], body).await.0
+    }
+
     /// Queues a job and returns its id.
     pub(crate) async fn queued(&self, spec: &str) -> String {
         let (status, _, job) = self.post("/v1/jobs", spec).await;

@@ -21,6 +21,7 @@ async fn service(folder: &TempDir) -> Service {
     let config = Config {
         listen: SocketAddr::from(([127, 0, 0, 1], 0)),
         access: Access::default(),
+        tls: None,
         database: format!("sqlite://{}", folder.path().join("test.db").display()),
         workers: WORKERS,
         limits: Limits {

@@ -14,7 +14,7 @@ use crate::store::NewFile;
 use crate::store::block::EncodedBlock;
 
 /// What a worker asks for.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct ClaimRequest {
     /// Who asks, and the number of the request, from 1: one that is repeated, because its answer was lost, gets the same jobs again.
     pub request: RequestNumber,

@@ -31,6 +31,7 @@ mod revisions;
 mod submissions;
 mod transitions;
 pub(in crate::store) mod verify;
+mod worker_tokens;
 
 use std::fs::File;
 use std::path::PathBuf;

@@ -95,7 +95,8 @@ pub async fn finalize_lost_job(
         };
         retry(|| Employer::finish(store, lease, &last, &end)).await
     };
-    with_heartbeat(store, lease, config.lease, finalized).await?;
+    // Summaries make it too large for the stack of a task.
+    with_heartbeat(store, lease, config.lease, Box::pin(finalized)).await?;
     Ok(())
 }
 

@@ -30,6 +30,8 @@ pub struct WorkerConfig {
     pub update_every: Duration,
     /// Processor time up to which a worker claims short jobs ahead; 0 for none.
     pub ahead: Duration,
+    /// Whether a worker ends when no job waits or runs.
+    pub until_idle: bool,
     /// Time between two checkpoints of a solving process.
     pub checkpoint_every: Duration,
     /// Threads of a solving process, which solves sections along a line in them.
@@ -50,6 +52,7 @@ impl WorkerConfig {
             lease: Duration::from_secs(10),
             update_every: Duration::from_millis(150),
             ahead: Duration::ZERO,
+            until_idle: false,
             checkpoint_every: Duration::from_secs(5),
             threads: 1,
             grace: Duration::from_secs(5),

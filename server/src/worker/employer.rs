@@ -1,6 +1,7 @@
 //! Whom a worker works for: the store of its own process, or a service elsewhere. Both give the same answers, which the tests in
 //! `worker/employer/tests.rs` compare.
 
+mod remote;
 mod store;
 
 use std::path::PathBuf;
@@ -8,8 +9,11 @@ use std::time::Duration;
 
 use api::job::Status;
 
+use crate::client::ClientError;
 use crate::metrics::Busy;
 use crate::store::{Claim, ClaimRequest, End, JobUpdate, Lease, LeaseState, StoreError};
+
+pub use remote::Remote;
 
 /// Why an employer gave no answer.
 #[derive(Debug, thiserror::Error)]
@@ -17,6 +21,9 @@ pub enum EmployerError {
     /// The store failed.
     #[error(transparent)]
     Store(#[from] StoreError),
+    /// The service elsewhere was not reached, or has refused the request.
+    #[error(transparent)]
+    Remote(#[from] ClientError),
 }
 
 impl EmployerError {
@@ -27,6 +34,16 @@ impl EmployerError {
                 error,
                 StoreError::Database { .. } | StoreError::Prepare { .. } | StoreError::DiskFull
             ),
+            // As the store's own errors: a finished solve waits for a service that fails.
+            Self::Remote(error) => error.is_temporary() || error.is_of_type("/problems/internal"),
+        }
+    }
+
+    /// Whether the employer does not accept this worker.
+    pub(super) fn is_rejected(&self) -> bool {
+        match self {
+            Self::Store(_) => false,
+            Self::Remote(error) => error.is_rejected(),
         }
     }
 
@@ -34,6 +51,7 @@ impl EmployerError {
     pub(super) fn is_disk_full(&self) -> bool {
         match self {
             Self::Store(error) => error.is_disk_full(),
+            Self::Remote(error) => error.is_of_type("/problems/disk-full"),
         }
     }
 }
@@ -92,4 +110,10 @@ pub trait Employer: Send + Sync + 'static {
 
     /// Counts a busy worker where this process has metrics.
     fn busy(&self) -> Option<Busy>;
+
+    /// Whether no job waits or runs anywhere.
+    fn is_idle(&self) -> impl Future<Output = Result<bool, EmployerError>> + Send;
 }
+
+#[cfg(test)]
+mod tests;

@@ -16,14 +16,14 @@ use crate::http::tests::row;
 use crate::solve::Line;
 use crate::spec;
 use crate::store::{JobUpdate, Limits, NewJob, Store, SubmitOptions};
-use crate::worker::{WorkerConfig, WorkerProcess, work};
+use crate::worker::{EmployerError, WorkerConfig, WorkerProcess, work};
 
 /// A worker whose solving process is a shell script, with one job and one attempt.
 struct Scripted {
     store: Arc<Store>,
     id: Uuid,
     stopping: CancellationToken,
-    worker: JoinHandle<()>,
+    worker: JoinHandle<Result<(), EmployerError>>,
     folder: TempDir,
 }
 
@@ -97,7 +97,8 @@ impl Scripted {
     /// Stops the worker; returns the folder of the database.
     async fn stop(self) -> TempDir {
         self.stopping.cancel();
-        self.worker.await.expect("the worker ends");
+        let ended = self.worker.await.expect("the worker ends");
+        ended.expect("the store accepts it");
         self.folder
     }
 }

@@ -76,20 +76,7 @@ pub(super) fn all() -> Vec<(String, Value)> {
         "cylinder_on_flat",
         &thin,
     );
-    let slender = json!({
-        "system": {"kind": "cylinder_on_flat", "radius_mm": 25.0, "slider_half_width_mm": 0.5, "slider_height_mm": 1.25,
-            "flat_length_mm": 5.0, "flat_height_mm": 3.0},
-        "cycles": 60,
-        "load": {"kind": "line_force", "n_per_mm": 20.0},
-        "interface": {"friction": {"law": "coulomb", "coefficient": 0.5}, "wear": {
-            "slider": {"law": "archard", "k_over_h_per_mpa": 1e-6}, "receptacle": {"law": "archard", "k_over_h_per_mpa": 1e-6}}},
-        "motion": {"kind": "reciprocating", "amplitude_mm": 0.8, "period_s": 0.05}});
-    add_to(
-        &mut scenes,
-        "slender slider".to_owned(),
-        "cylinder_on_flat",
-        &slender,
-    );
+    add_slender_to(&mut scenes);
     for spring in [20.0, 200.0] {
         let name = format!("sd_card, 5000 cycles, spring {spring} N/mm");
         let load = json!({"kind": "force", "n": 0.5, "width_mm": 0.8, "spring_n_per_mm": spring});
@@ -110,6 +97,24 @@ pub(super) fn all() -> Vec<(String, Value)> {
     add_fast_to(&mut scenes);
     add_currents_to(&mut scenes);
     scenes
+}
+
+/// A slider that friction bends.
+fn add_slender_to(scenes: &mut Vec<(String, Value)>) {
+    let slender = json!({
+        "system": {"kind": "cylinder_on_flat", "radius_mm": 25.0, "slider_half_width_mm": 0.5, "slider_height_mm": 1.25,
+            "flat_length_mm": 5.0, "flat_height_mm": 3.0},
+        "cycles": 60,
+        "load": {"kind": "line_force", "n_per_mm": 20.0},
+        "interface": {"friction": {"law": "coulomb", "coefficient": 0.5}, "wear": {
+            "slider": {"law": "archard", "k_over_h_per_mpa": 1e-6}, "receptacle": {"law": "archard", "k_over_h_per_mpa": 1e-6}}},
+        "motion": {"kind": "reciprocating", "amplitude_mm": 0.8, "period_s": 0.05}});
+    add_to(
+        scenes,
+        "slender slider".to_owned(),
+        "cylinder_on_flat",
+        &slender,
+    );
 }
 
 /// A soft body on either side.

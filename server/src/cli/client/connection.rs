@@ -28,12 +28,16 @@ pub(in crate::cli) struct ServerOptions {
     /// File with the access token of the service. The variable FRETWEAR_TOKEN can contain the token itself.
     #[arg(long, env = "FRETWEAR_TOKEN_FILE")]
     token_file: Option<PathBuf>,
+    /// File with the certificates of the authorities to trust (PEM), instead of those of the system.
+    #[arg(long, env = "FRETWEAR_CA")]
+    ca: Option<PathBuf>,
 }
 
 impl ServerOptions {
     pub(super) fn client(&self) -> Result<Client, ExitCode> {
         let token = access::token(self.token_file.as_deref()).map_err(failed)?;
-        Client::new(&self.server, token.as_deref().map(str::trim)).map_err(|error| report(&error))
+        let token = token.as_deref().map(str::trim);
+        Client::new(&self.server, token, self.ca.as_deref()).map_err(|error| report(&error))
     }
 }
 

@@ -3,6 +3,7 @@
 use std::time::{Duration, Instant};
 
 use api::job::Status;
+use api::service::Demand;
 use jiff::Timestamp;
 
 use crate::metrics::Gauges;
@@ -13,6 +14,24 @@ use crate::store::{Store, StoreError};
 const PROBE_INTERVAL: Duration = Duration::from_secs(1);
 
 impl Store {
+    /// Returns what waits and runs.
+    ///
+    /// # Errors
+    /// [`StoreError`] if the database fails.
+    pub async fn demand(&self) -> Result<Demand, StoreError> {
+        let (queued, running, queued_cpu_s) = sqlx::query_as(
+            "SELECT count(*) FILTER (WHERE status = 'queued'), count(*) FILTER (WHERE status = 'running'), \
+             COALESCE(sum(cpu_ms) FILTER (WHERE status = 'queued'), 0) / 1000 FROM jobs WHERE status IN ('queued', 'running')",
+        )
+        .fetch_one(&self.readers)
+        .await?;
+        Ok(Demand {
+            queued,
+            running,
+            queued_cpu_s,
+        })
+    }
+
     /// Returns what the store knows: jobs by status, ages, sizes.
     ///
     /// # Errors

@@ -106,6 +106,36 @@ impl Store {
         self.disk.with_reserve(write).await
     }
 
+    /// The states of the leases of a worker, renewed for a length where more than a third of it has passed: a heartbeat that comes
+    /// often, for the sake of cancel requests, writes seldom.
+    ///
+    /// # Errors
+    /// [`StoreError`] if the database fails.
+    pub async fn heartbeat(
+        &self,
+        leases: &[Lease],
+        length: Duration,
+    ) -> Result<Vec<LeaseState>, StoreError> {
+        let renewed_until = self.clock.end_of(length / 3 * 2);
+        let mut states = Vec::with_capacity(leases.len());
+        for lease in leases {
+            let held: Option<(bool, i64)> = sqlx::query_as(
+                "SELECT cancel_requested, lease_expires_at FROM jobs WHERE id = ? AND lease = ? AND status = 'running'",
+            )
+            .bind(lease.job.to_string())
+            .bind(lease.number)
+            .fetch_optional(&self.readers)
+            .await?;
+            states.push(match held {
+                Some((_, expires_at)) if expires_at < renewed_until => {
+                    self.renew(*lease, length).await?
+                }
+                held => lease_state(held.map(|(cancel_requested, _)| cancel_requested)),
+            });
+        }
+        Ok(states)
+    }
+
     /// Whether the worker holds the job; writes nothing.
     ///
     /// # Errors

@@ -14,7 +14,7 @@ macro_rules! file {
 }
 
 /// All files of the folder; a name is the version and what it is about.
-const FILES: [(&str, &str); 23] = [
+const FILES: [(&str, &str); 24] = [
     file!("0001_jobs.sql"),
     file!("0002_labels.sql"),
     file!("0003_events.sql"),
@@ -38,6 +38,7 @@ const FILES: [(&str, &str); 23] = [
     file!("0059_clock_of_the_boot.sql"),
     file!("0060_revisions.sql"),
     file!("0061_numbered_requests.sql"),
+    file!("0062_worker_tokens.sql"),
 ];
 
 /// Applies the migrations that a database does not have; refuses a database with others.

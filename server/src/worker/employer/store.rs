@@ -70,6 +70,11 @@ impl Employer for Store {
     fn busy(&self) -> Option<Busy> {
         Some(self.metrics().busy_worker())
     }
+
+    async fn is_idle(&self) -> Result<bool, EmployerError> {
+        let demand = self.demand().await?;
+        Ok(demand.queued + demand.running == 0)
+    }
 }
 
 /// Ends a job, with documents of all results in the same transaction, or returns it to the queue.
@@ -107,6 +112,8 @@ async fn finish(
     let status = store.end(lease, &last, end).await?;
     store.remove_unnamed_files(Some(lease)).await?;
     tracing::info!(
+        job = %lease.job,
+        lease = lease.number,
         status = status.map(Status::as_str),
         reason = end.reason,
         "attempt ended"

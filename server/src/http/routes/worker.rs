@@ -1,0 +1,10 @@
+//! `/v1/worker/`: what workers elsewhere ask of the service. Between programs of the same version, and so no part of the OpenAPI
+//! document.
+
+pub(in crate::http) mod claim;
+pub(in crate::http) mod finish;
+pub(in crate::http) mod put_file;
+pub(in crate::http) mod record;
+pub(in crate::http) mod renew;
+pub(in crate::http) mod restart;
+pub(in crate::http) mod show_demand;

@@ -1,0 +1,18 @@
+//! `POST /v1/worker/leases`: the heartbeat of a worker for all its jobs.
+
+use axum::Json;
+use axum::extract::State;
+
+use crate::http::app::App;
+use crate::http::problem::ProblemResponse;
+use crate::http::worker_body::WorkerBody;
+use crate::store::LeaseState;
+use crate::worker::protocol::LeasesBody;
+
+/// Renews leases; answers with their states, in the same order.
+pub(crate) async fn renew(
+    State(app): State<App>,
+    WorkerBody(body): WorkerBody<LeasesBody>,
+) -> Result<Json<Vec<LeaseState>>, ProblemResponse> {
+    Ok(Json(app.store.heartbeat(&body.leases, body.length).await?))
+}

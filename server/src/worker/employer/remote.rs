@@ -1,0 +1,189 @@
+//! A service elsewhere as an employer, over HTTP.
+
+use std::collections::HashMap;
+use std::path::PathBuf;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::time::Duration;
+
+use api::job::Status;
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+use tokio::time::MissedTickBehavior;
+use tokio_util::task::AbortOnDropHandle;
+
+use super::{Employer, EmployerError};
+use crate::client::Client;
+use crate::metrics::Busy;
+use crate::store::{Claim, ClaimRequest, End, JobUpdate, Lease, LeaseState};
+use crate::worker::protocol::{ClaimBody, EndBody, LeasesBody, PROGRAM, RestartBody, UpdateBody};
+
+/// Interval of the heartbeat of all jobs of a worker, which also brings cancel requests.
+const HEARTBEAT: Duration = Duration::from_secs(2);
+
+/// Leases of this worker and their states as the service has last told them.
+type Leases = Arc<Mutex<HashMap<Lease, LeaseState>>>;
+
+/// A service elsewhere.
+#[derive(Debug)]
+pub struct Remote {
+    client: Client,
+    /// Folder of the files of attempts until they are sent.
+    scratch: PathBuf,
+    leases: Leases,
+    /// How long a claim waits for a job.
+    wait: Duration,
+    _heartbeat: AbortOnDropHandle<()>,
+}
+
+impl Remote {
+    /// A service that this client reaches; files are written into a folder until they are sent. Renews all leases for a length as long
+    /// as it lives; claims wait for a job for a while. Needs a tokio runtime.
+    pub fn new(client: Client, scratch: PathBuf, (length, wait): (Duration, Duration)) -> Self {
+        let leases = Leases::default();
+        let heartbeat = tokio::spawn(beat(client.clone(), Arc::clone(&leases), length));
+        Self {
+            client,
+            scratch,
+            leases,
+            wait,
+            _heartbeat: AbortOnDropHandle::new(heartbeat),
+        }
+    }
+
+    async fn post<T: DeserializeOwned>(
+        &self,
+        path: &str,
+        body: &impl Serialize,
+    ) -> Result<T, EmployerError> {
+        Ok(self.client.post(path, body).await?)
+    }
+
+    /// Notes the state of a lease that the service has answered with.
+    fn answered(&self, lease: Lease, state: LeaseState) -> LeaseState {
+        held(&self.leases).insert(lease, state);
+        state
+    }
+}
+
+impl Employer for Remote {
+    async fn claim(&self, request: &ClaimRequest) -> Result<Vec<Claim>, EmployerError> {
+        let body = ClaimBody {
+            program: PROGRAM.to_owned(),
+            request: *request,
+            wait: self.wait,
+        };
+        let claims: Vec<Claim> = self.post("/v1/worker/claims", &body).await?;
+        let fresh = LeaseState::Held {
+            cancel_requested: false,
+        };
+        held(&self.leases).extend(claims.iter().map(|claim| (Lease::from(claim), fresh)));
+        Ok(claims)
+    }
+
+    async fn job_waiting(&self) {
+        // A claim waits for a job itself.
+    }
+
+    async fn renew(&self, lease: Lease, _length: Duration) -> Result<LeaseState, EmployerError> {
+        self.lease_state(lease).await
+    }
+
+    /// As of the last heartbeat of all jobs. A service that is not reached may have given the job to another worker, or may be back
+    /// before the lease ends; the solve continues, and the fence decides.
+    async fn lease_state(&self, lease: Lease) -> Result<LeaseState, EmployerError> {
+        let state = held(&self.leases).get(&lease).copied();
+        Ok(state.unwrap_or(LeaseState::Lost))
+    }
+
+    async fn record(
+        &self,
+        lease: Lease,
+        update: &JobUpdate,
+        length: Duration,
+    ) -> Result<LeaseState, EmployerError> {
+        for new in &update.files {
+            let Lease { job, number } = lease;
+            let path = format!("/v1/worker/files/{job}/{number}/{}", new.file.name);
+            let file = self.folder(lease).join(&new.file.name);
+            self.client.put_file(&path, &file, &new.file).await?;
+        }
+        let body = UpdateBody {
+            lease,
+            update: update.clone(),
+            length,
+        };
+        let state = self.post("/v1/worker/updates", &body).await?;
+        Ok(self.answered(lease, state))
+    }
+
+    async fn restart(&self, lease: Lease, number: i64) -> Result<LeaseState, EmployerError> {
+        let body = RestartBody { lease, number };
+        let state = self.post("/v1/worker/restarts", &body).await?;
+        Ok(self.answered(lease, state))
+    }
+
+    async fn finish(
+        &self,
+        lease: Lease,
+        update: &JobUpdate,
+        end: &End,
+    ) -> Result<Option<Status>, EmployerError> {
+        let body = EndBody {
+            lease,
+            update: update.clone(),
+            end: end.clone(),
+        };
+        let status = self.post("/v1/worker/ends", &body).await?;
+        held(&self.leases).remove(&lease);
+        // There is none if the solve has written no files.
+        let _ = fs_err::remove_dir_all(self.folder(lease));
+        Ok(status)
+    }
+
+    fn folder(&self, lease: Lease) -> PathBuf {
+        let attempt = format!("{}-{}", lease.job, lease.number);
+        self.scratch.join(attempt)
+    }
+
+    fn busy(&self) -> Option<Busy> {
+        None
+    }
+
+    async fn is_idle(&self) -> Result<bool, EmployerError> {
+        let demand = self.client.demand().await?;
+        Ok(demand.queued + demand.running == 0)
+    }
+}
+
+/// Renews all leases in one request, for ever.
+async fn beat(client: Client, leases: Leases, length: Duration) {
+    let mut timer = tokio::time::interval(HEARTBEAT);
+    timer.set_missed_tick_behavior(MissedTickBehavior::Delay);
+    loop {
+        timer.tick().await;
+        let body = LeasesBody {
+            leases: held(&leases).keys().copied().collect(),
+            length,
+        };
+        if body.leases.is_empty() {
+            continue;
+        }
+        match client
+            .post::<Vec<LeaseState>>("/v1/worker/leases", &body)
+            .await
+        {
+            Ok(states) => {
+                let mut known = held(&leases);
+                for (lease, state) in body.leases.iter().zip(states) {
+                    // It may have ended meanwhile.
+                    known.entry(*lease).and_modify(|known| *known = state);
+                }
+            }
+            Err(error) => tracing::warn!(%error, "leases could not be renewed"),
+        }
+    }
+}
+
+fn held(leases: &Leases) -> MutexGuard<'_, HashMap<Lease, LeaseState>> {
+    leases.lock().unwrap_or_else(PoisonError::into_inner)
+}

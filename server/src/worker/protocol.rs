@@ -1,0 +1,70 @@
+//! What workers elsewhere and the service send each other under `/v1/worker/`: JSON, between programs of the same version, which the
+//! service checks. It is no part of the interface that users rely on.
+
+use std::time::Duration;
+
+use serde::{Deserialize, Serialize};
+
+use crate::store::{ClaimRequest, End, JobUpdate, Lease};
+
+/// Program of a worker or a service: version and commit. Another one need not give the same bits.
+pub const PROGRAM: &str = concat!(
+    env!("CARGO_PKG_VERSION"),
+    " (",
+    env!("FRETWEAR_COMMIT"),
+    ")"
+);
+
+/// Longest wait for a job in one request.
+pub const LONGEST_WAIT: Duration = Duration::from_secs(20);
+
+/// Body of `POST claims`, answered with the claims once there is a job.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub struct ClaimBody {
+    /// [`PROGRAM`] of the worker.
+    pub program: String,
+    /// What it asks for.
+    pub request: ClaimRequest,
+    /// How long it waits for a job, up to [`LONGEST_WAIT`].
+    pub wait: Duration,
+}
+
+/// Body of `POST leases`, answered with the state of each.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub struct LeasesBody {
+    /// All leases of a worker.
+    pub leases: Vec<Lease>,
+    /// For how long they are renewed.
+    pub length: Duration,
+}
+
+/// Body of `POST updates`, answered with the state of the lease.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub struct UpdateBody {
+    /// The lease.
+    pub lease: Lease,
+    /// The update; its files were sent before.
+    pub update: JobUpdate,
+    /// For how long the lease is renewed.
+    pub length: Duration,
+}
+
+/// Body of `POST restarts`, answered with the state of the lease.
+#[derive(Debug, Clone, Copy, Serialize, Deserialize)]
+pub struct RestartBody {
+    /// The lease.
+    pub lease: Lease,
+    /// Number of the write.
+    pub number: i64,
+}
+
+/// Body of `POST ends`, answered with the status of the job, or null if the lease was lost.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub struct EndBody {
+    /// The lease.
+    pub lease: Lease,
+    /// The last update.
+    pub update: JobUpdate,
+    /// The end.
+    pub end: End,
+}

@@ -1,0 +1,108 @@
+//! Requirement: a service with a certificate serves HTTPS only, and workers and commands trust the authority that they are given.
+
+use std::path::{Path, PathBuf};
+
+use rcgen::{BasicConstraints, CertificateParams, IsCa, Issuer, KeyPair};
+use tests::{RemoteWorker, Server, fretwear};
+
+/// Certificate and key of a service on loopback, and the certificate of their authority.
+struct Certificates {
+    authority: PathBuf,
+    certificate: PathBuf,
+    key: PathBuf,
+}
+
+impl Certificates {
+    fn new(folder: &Path) -> Self {
+        let written = |name: &str, pem: String| {
+            let path = folder.join(name);
+            std::fs::write(&path, pem).expect("a file can be written");
+            path
+        };
+        let mut authority = CertificateParams::new(Vec::new()).expect("valid");
+        authority.is_ca = IsCa::Ca(BasicConstraints::Unconstrained);
+        let authority_key = KeyPair::generate().expect("a key");
+        let root = authority.self_signed(&authority_key).expect("signed");
+        let issuer = Issuer::new(authority, authority_key);
+        let key = KeyPair::generate().expect("a key");
+        let params = CertificateParams::new(vec!["127.0.0.1".to_owned()]).expect("valid");
+        let certificate = params.signed_by(&key, &issuer).expect("signed");
+        Self {
+            authority: written("authority.pem", root.pem()),
+            certificate: written("certificate.pem", certificate.pem()),
+            key: written("key.pem", key.serialize_pem()),
+        }
+    }
+}
+
+fn text(path: &Path) -> &str {
+    path.to_str().expect("text")
+}
+
+#[test]
+fn workers_and_commands_use_https_with_the_authority_that_they_are_given() {
+    let folder = tempfile::tempdir().expect("a folder can be made");
+    let certificates = Certificates::new(folder.path());
+    let options = [
+        "--tls-certificate",
+        text(&certificates.certificate),
+        "--tls-key",
+        text(&certificates.key),
+    ];
+    let server = Server::without_workers(folder.path(), &options);
+    assert!(server.base.starts_with("https://"), "{}", server.base);
+    let spec = folder.path().join("spec.json");
+    let content =
+        r#"{"system": {"kind": "sd_card"}, "cycles": 20, "accuracy": {"preset": "draft"}}"#;
+    std::fs::write(&spec, content).expect("a file can be written");
+    let submit = ["submit", text(&spec), "--server", &server.base];
+    let ca = ["--ca", text(&certificates.authority)];
+    let untrusted = fretwear(folder.path(), &submit);
+    assert_eq!(untrusted.code, Some(4), "{}", untrusted.stderr);
+    let plain = server.base.replace("https", "http");
+    let plain = fretwear(folder.path(), &["submit", text(&spec), "--server", &plain]);
+    assert_eq!(plain.code, Some(4), "{}", plain.stderr);
+    let submitted = fretwear(folder.path(), &[&submit[..], &ca].concat());
+    assert_eq!(submitted.code, Some(0), "{}", submitted.stderr);
+    let options = [&["--until-idle"][..], &ca].concat();
+    let worker = RemoteWorker::start(folder.path(), &server.base, &options);
+    assert_eq!(worker.wait(), Some(0));
+    let list = fretwear(
+        folder.path(),
+        &[&["list", "--server", &server.base], &ca[..]].concat(),
+    );
+    assert!(list.stdout.contains("succeeded"), "{}", list.stdout);
+}
+
+#[test]
+fn a_service_says_which_file_has_no_certificate_or_another_key() {
+    let folder = tempfile::tempdir().expect("a folder can be made");
+    let certificates = Certificates::new(folder.path());
+    std::fs::create_dir(folder.path().join("other")).expect("a folder");
+    let other = Certificates::new(&folder.path().join("other"));
+    let serve = |certificate: &Path, key: &Path| {
+        let options = [
+            "serve",
+            "--listen",
+            "127.0.0.1:0",
+            "--tls-certificate",
+            text(certificate),
+            "--tls-key",
+            text(key),
+        ];
+        fretwear(folder.path(), &options)
+    };
+    let swapped = serve(&certificates.key, &certificates.certificate);
+    assert_eq!(swapped.code, Some(1));
+    let foreign = serve(&certificates.certificate, &other.key);
+    assert_eq!(foreign.code, Some(1));
+    assert!(
+        foreign
+            .stderr
+            .contains("certificate and key cannot be used"),
+        "{}",
+        foreign.stderr
+    );
+    let missing = serve(&folder.path().join("none.pem"), &certificates.key);
+    assert!(missing.stderr.contains("none.pem"), "{}", missing.stderr);
+}
