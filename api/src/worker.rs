@@ -1,8 +1,10 @@
-//! Tokens of workers elsewhere (`/v1/worker-tokens`).
+//! Workers (`GET /v1/workers`), and tokens of those elsewhere (`/v1/worker-tokens`).
 
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 use uuid::Uuid;
+
+use crate::service::Workers;
 
 /// A token to be made.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
@@ -41,4 +43,32 @@ pub struct CreatedWorkerToken {
 pub struct WorkerTokens {
     /// The tokens, also revoked ones.
     pub tokens: Vec<WorkerToken>,
+}
+
+/// Workers of a service.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
+pub struct WorkerList {
+    /// Those in the process of the service.
+    pub here: Workers,
+    /// Processes elsewhere that were in contact within the last minute, longest known first.
+    pub elsewhere: Vec<RemoteWorker>,
+}
+
+/// A process with workers elsewhere.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
+pub struct RemoteWorker {
+    /// Its id, new with each start.
+    pub id: Uuid,
+    /// Name of its machine.
+    pub host: String,
+    /// Number of jobs that it solves at once.
+    pub slots: u64,
+    /// Jobs that it holds; some may wait for a slot.
+    pub jobs: u64,
+    /// Memory for its solves, MB.
+    pub memory_mb: u64,
+    /// Part of it that no solve uses, MB.
+    pub free_memory_mb: u64,
+    /// Time since it was last in contact, s.
+    pub last_contact_s: u64,
 }

@@ -20,6 +20,7 @@ mod tls;
 mod verified_file;
 mod worker_access;
 mod worker_body;
+mod worker_registry;
 
 use std::sync::Arc;
 use std::time::Instant;
@@ -41,13 +42,13 @@ pub use app::App;
 pub use listener::serve;
 pub use tls::{Tls, TlsError};
 
-/// Maximum number of concurrent requests, over all connections; more wait, except those for the health. Event streams count until their response
+/// Maximum number of concurrent requests, over all connections; more wait, except those for the health and claims of workers. Event streams count until their response
 /// starts; long polls have a lower limit of their own.
 const MAX_REQUESTS: usize = 1024;
 /// `Content-Security-Policy` of everything but the pages: a browser loads and runs nothing.
 const DEFAULT_CONTENT_POLICY: &str = "default-src 'none'; frame-ancestors 'none'";
-/// Paths whose requests do not wait for others.
-const HEALTH: [&str; 2] = ["/healthz", "/readyz"];
+/// Paths whose requests do not wait for others: those for the health, and claims of workers, which wait for jobs.
+const UNLIMITED: [&str; 3] = ["/healthz", "/readyz", "/v1/worker/claims"];
 
 /// Router of all routes.
 pub fn router(app: App) -> Router {
@@ -103,7 +104,7 @@ async fn limit_requests(
     next: Next,
 ) -> Response {
     // The semaphore is never closed.
-    let _permit = if HEALTH.contains(&request.uri().path()) {
+    let _permit = if UNLIMITED.contains(&request.uri().path()) {
         None
     } else {
         permits.acquire().await.ok()

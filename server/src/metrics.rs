@@ -43,8 +43,12 @@ pub struct Gauges {
     pub database_bytes: i64,
     /// Free space on its disk, bytes.
     pub disk_free_bytes: i64,
-    /// Workers that run.
+    /// Workers that run in this process.
     pub workers_alive: i64,
+    /// Slots of workers elsewhere.
+    pub remote_slots: i64,
+    /// Estimated processor time of the waiting jobs, s.
+    pub demand_cpu_s: i64,
 }
 
 /// Counters, histograms and the last read gauges.
@@ -60,6 +64,8 @@ pub struct Metrics {
     disk_free: Gauge,
     workers_alive: Gauge,
     workers_busy: Gauge,
+    remote_slots: Gauge,
+    demand_cpu: Gauge,
     answers: Family<[(&'static str, String); 3], Counter>,
     answer_time: ByRoute<Histogram, fn() -> Histogram>,
     process: ProcessMetrics,
@@ -119,6 +125,11 @@ impl Metrics {
         }
     }
 
+    /// Number of workers in this process that have a job.
+    pub fn busy_workers(&self) -> u64 {
+        u64::try_from(self.workers_busy.get()).unwrap_or_default()
+    }
+
     /// Counts a claim; if it is the first one of a job, with the time since its submission.
     pub fn claimed(&self, is_first: bool, waited_ms: i64) {
         self.attempts.inc();
@@ -171,6 +182,8 @@ impl Metrics {
         self.database.set(gauges.database_bytes);
         self.disk_free.set(gauges.disk_free_bytes);
         self.workers_alive.set(gauges.workers_alive);
+        self.remote_slots.set(gauges.remote_slots);
+        self.demand_cpu.set(gauges.demand_cpu_s);
         self.process.read();
         let mut text = String::new();
         encode(&mut text, &self.registry)?;
@@ -208,6 +221,7 @@ impl Default for Metrics {
         let database = ("database_size", "Size of the database");
         let disk_free = ("disk_free", "Free space on the disk of the database");
         let wal = ("wal_size", "Size of the write-ahead log");
+        let demand = ("demand", "Estimated processor time of the waiting jobs");
         let stale = "Writes discarded because their lease was lost";
         let (wait_s, solve_s) = (
             Histogram::new(WAIT_BOUNDS_S),
@@ -230,6 +244,13 @@ impl Default for Metrics {
             disk_free: add_in(r, Unit::Bytes, disk_free, <_>::default()),
             workers_alive: add(r, "workers_alive", "Workers that run"),
             workers_busy: add(r, "workers_busy", "Workers that have a job"),
+            remote_slots: add(r, "remote_slots", "Slots of workers elsewhere"),
+            demand_cpu: add_in(
+                r,
+                Unit::Other("cpu_seconds".to_owned()),
+                demand,
+                <_>::default(),
+            ),
             answers: add(r, "http_requests", "Answered requests by route and status"),
             answer_time: add_in(r, Unit::Seconds, answer, answer_time),
             task_failures: add(
@@ -293,6 +314,8 @@ mod tests {
             database_bytes: 8192,
             disk_free_bytes: 1 << 30,
             workers_alive: 2,
+            remote_slots: 5,
+            demand_cpu_s: 90,
         };
         let busy = metrics.busy_worker();
         let time = Duration::from_millis(2);
@@ -316,6 +339,8 @@ mod tests {
             "fretwear_streams_open 1",
             "fretwear_workers_alive 2",
             "fretwear_workers_busy 1",
+            "fretwear_remote_slots 5",
+            "fretwear_demand_cpu_seconds 90",
             "fretwear_oldest_progress_age_seconds 7",
             "fretwear_database_size_bytes 8192",
             "fretwear_disk_free_bytes 1073741824",

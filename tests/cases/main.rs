@@ -35,6 +35,7 @@ mod line_contact;
 mod load;
 mod main_job;
 mod many_jobs;
+mod many_workers;
 mod mission;
 mod plated_contact;
 mod plated_presets;

@@ -20,20 +20,21 @@ pub(super) fn run(arguments: &WorkArguments) -> Ended {
     let scratch = Scratch::new(arguments.scratch.as_deref()).map_err(failed)?;
     block_on(async {
         let process = Arc::new(WorkerProcess::new(config.memory_mb, true));
+        let slots = arguments.work.slots();
         let remote = Arc::new(Remote::new(
-            client,
+            (client, process.id(), slots),
             scratch.0.clone(),
             (config.lease, arguments.work.wait()),
         ));
         let stopping = CancellationToken::new();
         let mut workers = JoinSet::new();
-        for _ in 0..arguments.work.slots() {
+        for _ in 0..slots {
             let shared = (Arc::clone(&process), Arc::clone(&config));
             workers.spawn(worker::work(Arc::clone(&remote), shared, stopping.clone()));
         }
         tracing::info!(
             server = arguments.server,
-            slots = workers.len(),
+            slots,
             memory_mb = config.memory_mb,
             "worker started"
         );

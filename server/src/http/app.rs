@@ -8,6 +8,7 @@ use tokio_util::sync::CancellationToken;
 
 use crate::estimate::machine::CalibrationCache;
 use crate::http::access::Access;
+use crate::http::worker_registry::WorkerRegistry;
 use crate::store::Store;
 use crate::supervision::Supervisor;
 
@@ -39,6 +40,8 @@ pub struct App {
     pub(super) expansion_permits: Arc<Semaphore>,
     pub(super) long_poll_permits: Arc<Semaphore>,
     pub(super) stream_permits: Arc<Semaphore>,
+    /// Processes with workers elsewhere.
+    pub(super) workers: Arc<WorkerRegistry>,
 }
 
 impl App {
@@ -60,6 +63,7 @@ impl App {
             expansion_permits: Arc::new(Semaphore::new(MAX_EXPANSIONS)),
             long_poll_permits: Arc::new(Semaphore::new(MAX_LONG_POLLS)),
             stream_permits: Arc::new(Semaphore::new(MAX_STREAMS)),
+            workers: Arc::default(),
         }
     }
 }

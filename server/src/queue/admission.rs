@@ -1,7 +1,8 @@
 //! Admission: the first waiting job in order that fits into the free memory is claimed next.
 //!
 //! Smaller jobs may overtake a large one that does not fit, for a limited time; then no job overtakes it, so that
-//! enough memory becomes free. A job that would run alone is always admitted, whatever its estimate.
+//! enough memory becomes free. The only worker admits a job that would run alone whatever its estimate. One of several workers leaves
+//! a job that is larger than all its memory to others, and such a job does not keep it from the next ones.
 
 use serde::{Deserialize, Serialize};
 
@@ -48,6 +49,8 @@ pub struct Capacity {
     pub slots: usize,
     /// Memory of the worker.
     pub memory: MemoryBudget,
+    /// Whether other workers may have more memory.
+    pub is_one_of_several: bool,
     /// Processor time for each slot up to which jobs below that length are admitted ahead, ms; 0 for none.
     pub ahead_ms: i64,
 }
@@ -75,6 +78,9 @@ pub fn admit(waiting: &[WaitingJob], capacity: &Capacity, now: i64) -> Admission
             if !is_short || !ends_in_time || job.memory_mb > budget.memory_mb {
                 break;
             }
+        } else if capacity.is_one_of_several && job.memory_mb > budget.memory_mb {
+            admission.too_large.push(index);
+            continue;
         } else if !budget.admits(job) {
             admission.too_large.push(index);
             if now.saturating_sub(job.since) > OVERTAKING_LIMIT_MS {
@@ -112,6 +118,7 @@ mod tests {
                 used_mb,
                 running,
             },
+            is_one_of_several: false,
             ahead_ms: 0,
         }
     }
@@ -150,6 +157,20 @@ mod tests {
             ..one_slot(0, 0)
         };
         assert_eq!(admit(&waiting, &two, 0).admitted, [0]);
+    }
+
+    #[test]
+    fn one_of_several_workers_leaves_a_job_larger_than_its_memory_to_others() {
+        let waiting = [job(1_001, 0), job(900, 0)];
+        let one = Capacity {
+            is_one_of_several: true,
+            ..one_slot(0, 0)
+        };
+        let admission = admit(&waiting, &one, OVERTAKING_LIMIT_MS + 1);
+        assert_eq!(
+            (admission.admitted, admission.too_large),
+            (vec![1], vec![0])
+        );
     }
 
     #[test]

@@ -101,6 +101,7 @@ pub(crate) fn request(memory_mb: i64, lease: Duration) -> ClaimRequest {
                 used_mb: 0,
                 running: 1,
             },
+            is_one_of_several: false,
             ahead_ms: 0,
         },
         lease,

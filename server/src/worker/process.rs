@@ -49,6 +49,11 @@ impl WorkerProcess {
         }
     }
 
+    /// Its id, new with each start.
+    pub fn id(&self) -> Uuid {
+        self.id
+    }
+
     /// Claims a job that fits into the free memory, and short ones after it, and reserves the memory of the largest.
     pub(super) async fn claim(
         &self,
@@ -65,6 +70,7 @@ impl WorkerProcess {
             capacity: Capacity {
                 slots: 1,
                 memory: *self.memory(),
+                is_one_of_several: self.is_remote,
                 ahead_ms: i64::try_from(config.ahead.as_millis()).unwrap_or(i64::MAX),
             },
             lease: config.lease,

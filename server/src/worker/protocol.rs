@@ -4,6 +4,7 @@
 use std::time::Duration;
 
 use serde::{Deserialize, Serialize};
+use uuid::Uuid;
 
 use crate::store::{ClaimRequest, End, JobUpdate, Lease};
 
@@ -23,6 +24,10 @@ pub const LONGEST_WAIT: Duration = Duration::from_secs(20);
 pub struct ClaimBody {
     /// [`PROGRAM`] of the worker.
     pub program: String,
+    /// Name of its machine.
+    pub host: String,
+    /// Number of jobs that it solves at once.
+    pub slots: usize,
     /// What it asks for.
     pub request: ClaimRequest,
     /// How long it waits for a job, up to [`LONGEST_WAIT`].
@@ -32,7 +37,9 @@ pub struct ClaimBody {
 /// Body of `POST leases`, answered with the state of each.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct LeasesBody {
-    /// All leases of a worker.
+    /// The worker.
+    pub worker: Uuid,
+    /// All its leases.
     pub leases: Vec<Lease>,
     /// For how long they are renewed.
     pub length: Duration,

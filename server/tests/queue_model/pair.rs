@@ -149,6 +149,7 @@ impl Pair {
                     used_mb: 0,
                     running: 0,
                 },
+                is_one_of_several: false,
                 ahead_ms: 0,
             },
             lease: LEASE,

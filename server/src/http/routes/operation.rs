@@ -2,6 +2,7 @@
 
 pub(crate) mod check_health;
 pub(crate) mod explain_problem;
+pub(crate) mod list_workers;
 pub(crate) mod serve_pages;
 pub(crate) mod show_metrics;
 pub(crate) mod show_openapi;

@@ -7,6 +7,7 @@ use api::results::ResultFile;
 use sqlx::sqlite::SqliteRow;
 use sqlx::{Row, Sqlite, Transaction};
 use uuid::Uuid;
+use uuid::fmt::Hyphenated;
 
 use crate::store::block::Block;
 use crate::store::sqlite::blocks::{block, entries, unreadable, update_entries};
@@ -101,7 +102,7 @@ impl Store {
     }
 
     /// Removes files that no manifest names: of the attempts at a job up to this one, or of all jobs at start-up. A
-    /// later attempt may write files that the manifest does not name yet. Files that cannot be removed are logged and
+    /// later attempt may write files that the manifest does not name yet, and so may a worker elsewhere. Files that cannot be removed are logged and
     /// remain until the next start.
     ///
     /// # Errors
@@ -115,7 +116,21 @@ impl Store {
         .fetch_all(&self.readers)
         .await?;
         let named: HashSet<String> = named.into_iter().collect();
-        let remove = move |folder: Folder| folder.remove_unnamed(attempt, &named);
+        // Workers elsewhere, which live on when the service ends, may be about to name what they have sent.
+        let held: Vec<(Hyphenated, i64)> = match attempt {
+            Some(_) => Vec::new(),
+            None => {
+                sqlx::query_as("SELECT id, lease FROM jobs WHERE status = 'running' AND is_remote")
+                    .fetch_all(&self.readers)
+                    .await?
+            }
+        };
+        let remove = move |folder: Folder| {
+            let held = held
+                .iter()
+                .map(|(id, lease)| folder.of_attempt((*id).into(), *lease));
+            folder.remove_unnamed(attempt, &named, &held.collect())
+        };
         match self.in_folder(remove).await {
             Ok(0) => {}
             Ok(removed) => tracing::info!(removed, "files that no manifest names were removed"),

@@ -55,15 +55,16 @@ impl Folder {
     }
 
     /// Removes all files that are not named, and folders without files: of the attempts at a job up to one of them, or
-    /// of all jobs. Returns the number of removed files.
+    /// of all jobs without the folders that are held. Returns the number of removed files.
     pub(super) fn remove_unnamed(
         &self,
         attempt: Option<(Uuid, i64)>,
         named: &HashSet<String>,
+        held: &HashSet<PathBuf>,
     ) -> std::io::Result<usize> {
         let named: HashSet<PathBuf> = named.iter().filter_map(|place| self.path(place)).collect();
         let Some((id, last)) = attempt else {
-            return remove_unnamed(&self.root, &named);
+            return remove_unnamed(&self.root, (&named, held));
         };
         // The job's own folder is not removed, even if empty: the next attempt may be about to write into it.
         let mut removed = 0;
@@ -71,19 +72,24 @@ impl Folder {
             let name = entry.file_name();
             let lease = name.to_str().and_then(|name| name.parse::<i64>().ok());
             if lease.is_some_and(|lease| lease <= last) {
-                removed += remove_unnamed(&entry.path(), &named)?;
+                removed += remove_unnamed(&entry.path(), (&named, held))?;
             }
         }
         Ok(removed)
     }
 }
 
-fn remove_unnamed(folder: &Path, named: &HashSet<PathBuf>) -> std::io::Result<usize> {
+fn remove_unnamed(
+    folder: &Path,
+    (named, held): (&HashSet<PathBuf>, &HashSet<PathBuf>),
+) -> std::io::Result<usize> {
     let (mut removed, mut is_empty) = (0, true);
     for entry in entries(folder)? {
         let path = entry.path();
-        if entry.file_type()?.is_dir() {
-            removed += remove_unnamed(&path, named)?;
+        if held.contains(&path) {
+            is_empty = false;
+        } else if entry.file_type()?.is_dir() {
+            removed += remove_unnamed(&path, (named, held))?;
             is_empty &= !path.exists();
         } else if named.contains(&path) {
             is_empty = false;
@@ -136,12 +142,16 @@ mod tests {
         let named = HashSet::from([Folder::place(named_job, 2, "a.vtu")]);
         assert_eq!(
             folder
-                .remove_unnamed(Some((named_job, 1)), &named)
+                .remove_unnamed(Some((named_job, 1)), &named, &HashSet::new())
                 .expect("removed"),
             1
         );
         assert!(folder.of_attempt(other_job, 1).exists());
-        assert_eq!(folder.remove_unnamed(None, &named).expect("removed"), 1);
+        let held = HashSet::from([folder.of_attempt(other_job, 1)]);
+        let removed = folder.remove_unnamed(None, &named, &held);
+        assert_eq!(removed.expect("removed"), 0, "one is held");
+        let removed = folder.remove_unnamed(None, &named, &HashSet::new());
+        assert_eq!(removed.expect("removed"), 1);
         assert!(folder.of_attempt(named_job, 2).join("a.vtu").exists());
         assert!(
             !folder.of_attempt(named_job, 1).exists() && !folder.of_attempt(other_job, 1).exists()

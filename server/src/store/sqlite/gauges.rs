@@ -80,6 +80,8 @@ impl Store {
             database_bytes: database.map_or(0, |file| integer(file.len())),
             disk_free_bytes: self.disk.free_mb().map_or(0, |mb| integer(mb << 20)),
             workers_alive: 0,
+            remote_slots: 0,
+            demand_cpu_s: integer(self.demand().await?.queued_cpu_s),
         })
     }
 

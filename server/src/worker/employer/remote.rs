@@ -10,6 +10,7 @@ use serde::Serialize;
 use serde::de::DeserializeOwned;
 use tokio::time::MissedTickBehavior;
 use tokio_util::task::AbortOnDropHandle;
+use uuid::Uuid;
 
 use super::{Employer, EmployerError};
 use crate::client::Client;
@@ -30,24 +31,40 @@ pub struct Remote {
     /// Folder of the files of attempts until they are sent.
     scratch: PathBuf,
     leases: Leases,
+    /// Name of this machine.
+    host: String,
+    /// Number of jobs that are solved at once.
+    slots: usize,
     /// How long a claim waits for a job.
     wait: Duration,
     _heartbeat: AbortOnDropHandle<()>,
 }
 
 impl Remote {
-    /// A service that this client reaches; files are written into a folder until they are sent. Renews all leases for a length as long
+    /// A service that this client reaches, for a worker of this id and number of slots; files are written into a folder until they are sent. Renews all leases for a length as long
     /// as it lives; claims wait for a job for a while. Needs a tokio runtime.
-    pub fn new(client: Client, scratch: PathBuf, (length, wait): (Duration, Duration)) -> Self {
+    pub fn new(
+        (client, worker, slots): (Client, Uuid, usize),
+        scratch: PathBuf,
+        (length, wait): (Duration, Duration),
+    ) -> Self {
         let leases = Leases::default();
-        let heartbeat = tokio::spawn(beat(client.clone(), Arc::clone(&leases), length));
+        let beating = beat((client.clone(), worker), Arc::clone(&leases), length);
+        let heartbeat = tokio::spawn(beating);
         Self {
             client,
             scratch,
             leases,
+            host: host(),
+            slots,
             wait,
             _heartbeat: AbortOnDropHandle::new(heartbeat),
         }
+    }
+
+    /// Renews a lease no more, as a worker that has vanished.
+    pub fn forget(&self, lease: Lease) {
+        held(&self.leases).remove(&lease);
     }
 
     async fn post<T: DeserializeOwned>(
@@ -69,6 +86,8 @@ impl Employer for Remote {
     async fn claim(&self, request: &ClaimRequest) -> Result<Vec<Claim>, EmployerError> {
         let body = ClaimBody {
             program: PROGRAM.to_owned(),
+            host: self.host.clone(),
+            slots: self.slots,
             request: *request,
             wait: self.wait,
         };
@@ -81,7 +100,8 @@ impl Employer for Remote {
     }
 
     async fn job_waiting(&self) {
-        // A claim waits for a job itself.
+        // A claim waits for a job itself; the next one follows after a pause, also if the service answers at once.
+        std::future::pending().await
     }
 
     async fn renew(&self, lease: Lease, _length: Duration) -> Result<LeaseState, EmployerError> {
@@ -156,12 +176,13 @@ impl Employer for Remote {
 }
 
 /// Renews all leases in one request, for ever.
-async fn beat(client: Client, leases: Leases, length: Duration) {
+async fn beat((client, worker): (Client, Uuid), leases: Leases, length: Duration) {
     let mut timer = tokio::time::interval(HEARTBEAT);
     timer.set_missed_tick_behavior(MissedTickBehavior::Delay);
     loop {
         timer.tick().await;
         let body = LeasesBody {
+            worker,
             leases: held(&leases).keys().copied().collect(),
             length,
         };
@@ -182,6 +203,14 @@ async fn beat(client: Client, leases: Leases, length: Duration) {
             Err(error) => tracing::warn!(%error, "leases could not be renewed"),
         }
     }
+}
+
+/// Name of this machine; empty where it has none.
+fn host() -> String {
+    let name = nix::unistd::gethostname();
+    name.ok()
+        .and_then(|name| name.into_string().ok())
+        .unwrap_or_default()
 }
 
 fn held(leases: &Leases) -> MutexGuard<'_, HashMap<Lease, LeaseState>> {

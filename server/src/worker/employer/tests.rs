@@ -73,7 +73,11 @@ async fn remote(service: &Service) -> (Remote, TempDir, impl Drop) {
     ));
     let client = Client::new(&format!("http://{address}"), None, None).expect("a client");
     let scratch = TempDir::new().expect("a folder");
-    let remote = Remote::new(client, scratch.path().to_owned(), (LENGTH, LENGTH));
+    let remote = Remote::new(
+        (client, Uuid::now_v7(), 1),
+        scratch.path().to_owned(),
+        (LENGTH, LENGTH),
+    );
     (remote, scratch, stopping.drop_guard())
 }
 

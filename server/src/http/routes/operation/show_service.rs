@@ -34,7 +34,10 @@ pub(crate) async fn service(
             .map(|status| (status.as_str().to_owned(), count(status)))
             .collect(),
         workers: Workers {
-            total: u64::try_from(total).unwrap_or(u64::MAX),
+            total: app
+                .workers
+                .slots()
+                .saturating_add(u64::try_from(total).unwrap_or(u64::MAX)),
             busy: count(Status::Running),
         },
         oldest_queued_s: waiting.map(|(.., age)| u64::try_from(*age).unwrap_or(0)),

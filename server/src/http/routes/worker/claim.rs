@@ -46,6 +46,8 @@ pub(crate) async fn claim(
         lease: body.request.lease.clamp(SHORTEST_LEASE, LONGEST_LEASE),
         ..body.request
     };
+    let (worker, memory) = (request.request.worker, request.capacity.memory);
+    app.workers.claims(worker, (&body.host, body.slots), memory);
     let until = Instant::now() + body.wait.min(LONGEST_WAIT);
     loop {
         let claims = Employer::claim(&*app.store, &request).await?;
@@ -73,6 +75,8 @@ mod tests {
     async fn claim(service: &Service, program: &str) -> (u16, Value) {
         let body = json!({
             "program": program,
+            "host": "n1",
+            "slots": 2,
             "request": request(1_000, Duration::from_secs(9)),
             "wait": Duration::ZERO,
         });

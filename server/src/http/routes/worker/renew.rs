@@ -14,5 +14,6 @@ pub(crate) async fn renew(
     State(app): State<App>,
     WorkerBody(body): WorkerBody<LeasesBody>,
 ) -> Result<Json<Vec<LeaseState>>, ProblemResponse> {
+    app.workers.beats(body.worker, body.leases.len());
     Ok(Json(app.store.heartbeat(&body.leases, body.length).await?))
 }
