@@ -105,6 +105,9 @@ enum Command {
         /// Address of the service.
         #[arg(long, env = "FRETWEAR_LISTEN", default_value = LISTEN)]
         listen: SocketAddr,
+        /// The service has a certificate: HTTPS, whatever names the certificate has.
+        #[arg(long, env = "FRETWEAR_TLS_CERTIFICATE")]
+        tls_certificate: Option<PathBuf>,
     },
     /// Copy a database, also while it is served, and its files into a new folder, and verify the copy.
     Backup {
@@ -187,7 +190,10 @@ pub fn main() -> ExitCode {
         } => export::run(&spec, cycle),
         Command::Bench(arguments) => bench::run(&arguments),
         Command::Demo { exit, listen } => demo::run(listen, exit),
-        Command::Probe { listen } => probe::run(listen),
+        Command::Probe {
+            listen,
+            tls_certificate,
+        } => probe::run(listen, tls_certificate.is_some()),
         Command::Backup { into, database } => backup::run(&database, &into),
         Command::Verify { database } => backup::run_verify(&database),
         Command::Restore { from, database } => backup::run_restore(&from, &database),

@@ -18,7 +18,7 @@ use api::problem::Problem;
 use api::service::Demand;
 use reqwest::header::{AUTHORIZATION, HeaderMap, HeaderValue, LOCATION, RETRY_AFTER};
 use reqwest::redirect::Policy;
-use reqwest::{Certificate, RequestBuilder, Response, StatusCode, Url};
+use reqwest::{Certificate, ClientBuilder, RequestBuilder, Response, StatusCode, Url};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 use uuid::Uuid;
@@ -51,6 +51,32 @@ impl Client {
     /// # Errors
     /// [`ClientError::Address`], [`ClientError::Token`] and [`ClientError::Authorities`].
     pub fn new(server: &str, token: Option<&str>, ca: Option<&Path>) -> Result<Self, ClientError> {
+        Self::with_trust(server, token, |http, url| match ca {
+            Some(path) => Ok(http.tls_certs_only(authorities(path)?)),
+            // Those of the system are not needed, and a system without any would be an error.
+            None if url.scheme() == "http" => Ok(http.tls_certs_only([])),
+            None => Ok(http),
+        })
+    }
+
+    /// A client that does not verify whose certificate it is: for the health of a service on this machine, to which nothing is sent.
+    ///
+    /// # Errors
+    /// [`ClientError::Address`].
+    pub fn unverified(server: &str) -> Result<Self, ClientError> {
+        let trust = |http: ClientBuilder, _: &Url| {
+            Ok(http
+                .tls_certs_only([])
+                .tls_danger_accept_invalid_certs(true))
+        };
+        Self::with_trust(server, None, trust)
+    }
+
+    fn with_trust(
+        server: &str,
+        token: Option<&str>,
+        trust: impl FnOnce(ClientBuilder, &Url) -> Result<ClientBuilder, ClientError>,
+    ) -> Result<Self, ClientError> {
         let base = server.trim_end_matches('/');
         let url = Url::parse(base).ok().filter(is_address);
         let url = url.ok_or_else(|| ClientError::Address(server.to_owned()))?;
@@ -61,18 +87,13 @@ impl Client {
             value.set_sensitive(true);
             headers.insert(AUTHORIZATION, value);
         }
-        let mut http = reqwest::Client::builder()
+        let http = reqwest::Client::builder()
             .default_headers(headers)
             .connect_timeout(CONNECT_TIMEOUT)
             .read_timeout(READ_TIMEOUT)
             // A submission that is redirected would become a GET.
             .redirect(Policy::none());
-        if let Some(path) = ca {
-            http = http.tls_certs_only(authorities(path)?);
-        } else if url.scheme() == "http" {
-            // Those of the system are not needed, and a system without any would be an error.
-            http = http.tls_certs_only([]);
-        }
+        let mut http = trust(http, &url)?;
         if is_loopback(&url) {
             http = http.no_proxy();
         }

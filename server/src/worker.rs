@@ -16,6 +16,8 @@ use std::time::Duration;
 use tokio_util::sync::CancellationToken;
 use tracing::Instrument;
 
+use crate::store::Lease;
+
 use attempt::Attempt;
 use config::RETRY_PAUSE;
 use supervisor::supervise;
@@ -59,6 +61,20 @@ pub async fn work<E: Employer>(
     Ok(())
 }
 
+/// Claims that a worker has, and is done with when it is dropped.
+struct Unfinished<'a, E: Employer> {
+    employer: &'a E,
+    leases: Vec<Lease>,
+}
+
+impl<E: Employer> Drop for Unfinished<'_, E> {
+    fn drop(&mut self) {
+        for lease in &self.leases {
+            self.employer.forget(*lease);
+        }
+    }
+}
+
 /// Whether no job waits or runs anywhere; without an answer there may be one.
 async fn is_idle(employer: &impl Employer) -> bool {
     employer.is_idle().await.unwrap_or_else(|error| {
@@ -75,6 +91,11 @@ async fn next<E: Employer>(
 ) -> Result<bool, EmployerError> {
     let Some((claims, _memory)) = process.claim(employer, config).await? else {
         return Ok(false);
+    };
+    // Those that are given up without an end, by an error or a panic, are renewed no more.
+    let _unfinished = Unfinished {
+        employer,
+        leases: claims.iter().map(Lease::from).collect(),
     };
     for claim in &claims {
         let attempt = Attempt {

@@ -129,7 +129,7 @@ impl Simulated {
         if self.is_harmed && self.random.u8(..20) == 0 {
             self.done.lost.fetch_add(1, Ordering::Relaxed);
             // A worker that has vanished renews nothing.
-            self.remote.forget(claim.into());
+            Employer::forget(&*self.remote, claim.into());
             return;
         }
         let (lease, remote) = (Lease::from(claim), Arc::clone(&self.remote));

@@ -51,6 +51,12 @@ fn workers_and_commands_use_https_with_the_authority_that_they_are_given() {
     ];
     let server = Server::without_workers(folder.path(), &options);
     assert!(server.base.starts_with("https://"), "{}", server.base);
+    let address = server.base.trim_start_matches("https://");
+    let probe = ["probe", "--listen", address];
+    assert_eq!(fretwear(folder.path(), &probe).code, Some(1), "plain HTTP");
+    let with_tls = [&probe[..], &["--tls-certificate", options[1]]].concat();
+    let ready = fretwear(folder.path(), &with_tls);
+    assert_eq!(ready.code, Some(0), "{}", ready.stderr);
     let spec = folder.path().join("spec.json");
     let content =
         r#"{"system": {"kind": "sd_card"}, "cycles": 20, "accuracy": {"preset": "draft"}}"#;

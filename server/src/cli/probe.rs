@@ -10,8 +10,14 @@ use crate::client::Client;
 /// Time limit of the request.
 const TIMEOUT: Duration = Duration::from_secs(4);
 
-pub(super) fn run(listen: SocketAddr) -> Ended {
-    let client = Client::new(&format!("http://{}", local(listen)), None, None).map_err(failed)?;
+pub(super) fn run(listen: SocketAddr, is_tls: bool) -> Ended {
+    let address = local(listen);
+    let client = if is_tls {
+        Client::unverified(&format!("https://{address}"))
+    } else {
+        Client::new(&format!("http://{address}"), None, None)
+    };
+    let client = client.map_err(failed)?;
     block_on(client.check_ready(TIMEOUT))?.map_err(failed)?;
     write_out("ready")
 }

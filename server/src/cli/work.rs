@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
+use std::time::Duration;
 
 use tokio::task::JoinSet;
 use tokio_util::sync::CancellationToken;
@@ -9,9 +10,12 @@ use tokio_util::sync::CancellationToken;
 use crate::cli::arguments::WorkArguments;
 use crate::cli::runtime::block_on;
 use crate::cli::serve::until_signal;
-use crate::cli::terminal::{Ended, failed, write_err};
+use crate::cli::terminal::{Ended, failed};
 use crate::worker;
 use crate::worker::{EmployerError, Remote, WorkerProcess};
+
+/// Pause before a worker is started for one that has panicked.
+const RESTART_PAUSE: Duration = Duration::from_secs(1);
 
 pub(super) fn run(arguments: &WorkArguments) -> Ended {
     let program = std::env::current_exe().map_err(failed)?;
@@ -27,11 +31,11 @@ pub(super) fn run(arguments: &WorkArguments) -> Ended {
             (config.lease, arguments.work.wait()),
         ));
         let stopping = CancellationToken::new();
-        let mut workers = JoinSet::new();
-        for _ in 0..slots {
+        let start = || {
             let shared = (Arc::clone(&process), Arc::clone(&config));
-            workers.spawn(worker::work(Arc::clone(&remote), shared, stopping.clone()));
-        }
+            worker::work(Arc::clone(&remote), shared, stopping.clone())
+        };
+        let mut workers: JoinSet<_> = (0..slots).map(|_| start()).collect();
         tracing::info!(
             server = arguments.server,
             slots,
@@ -39,24 +43,33 @@ pub(super) fn run(arguments: &WorkArguments) -> Ended {
             "worker started"
         );
         let ended = tokio::select! {
-            ended = all(&mut workers) => ended.map_err(failed),
+            ended = all(&mut workers, start) => ended.map_err(failed),
             signal = until_signal() => signal.map_err(failed),
         };
         // Running solves write a last checkpoint, and their jobs return to the queue.
         stopping.cancel();
-        let drained = all(&mut workers).await.map_err(failed);
+        let drained = all(&mut workers, start).await.map_err(failed);
         tracing::info!("worker stopped");
         ended.and(drained)
     })?
 }
 
-/// Waits for all workers, or for one that is not accepted.
-async fn all(workers: &mut JoinSet<Result<(), EmployerError>>) -> Result<(), EmployerError> {
+/// Waits for all workers, or for one that is not accepted; starts another for one that has panicked.
+async fn all<F>(
+    workers: &mut JoinSet<Result<(), EmployerError>>,
+    start: impl Fn() -> F,
+) -> Result<(), EmployerError>
+where
+    F: Future<Output = Result<(), EmployerError>> + Send + 'static,
+{
     while let Some(ended) = workers.join_next().await {
-        match ended {
-            Ok(ended) => ended?,
+        if let Ok(ended) = ended {
+            ended?;
+        } else {
             // Its job is reclaimed when the lease ends.
-            Err(error) => write_err(format_args!("a worker has ended: {error}")),
+            tracing::error!("a worker has ended by a panic; another one is started");
+            tokio::time::sleep(RESTART_PAUSE).await;
+            workers.spawn(start());
         }
     }
     Ok(())

@@ -105,6 +105,9 @@ pub trait Employer: Send + Sync + 'static {
         end: &End,
     ) -> impl Future<Output = Result<Option<Status>, EmployerError>> + Send;
 
+    /// Renews a lease no more, because the worker has given the attempt up without an end.
+    fn forget(&self, lease: Lease);
+
     /// The folder into which an attempt writes its files.
     fn folder(&self, lease: Lease) -> PathBuf;
 

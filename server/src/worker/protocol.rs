@@ -19,6 +19,17 @@ pub const PROGRAM: &str = concat!(
 /// Longest wait for a job in one request.
 pub const LONGEST_WAIT: Duration = Duration::from_secs(20);
 
+/// Lengths of leases that a worker can have.
+const SHORTEST_LEASE: Duration = Duration::from_secs(1);
+const LONGEST_LEASE: Duration = Duration::from_mins(10);
+/// Largest number of jobs that one request can claim, beside short ones ahead.
+pub const MAX_SLOTS: usize = 256;
+
+/// The length of a lease that a worker gets which asks for this one.
+pub fn lease_length(asked: Duration) -> Duration {
+    asked.clamp(SHORTEST_LEASE, LONGEST_LEASE)
+}
+
 /// Body of `POST claims`, answered with the claims once there is a job.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct ClaimBody {

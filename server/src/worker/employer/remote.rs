@@ -62,11 +62,6 @@ impl Remote {
         }
     }
 
-    /// Renews a lease no more, as a worker that has vanished.
-    pub fn forget(&self, lease: Lease) {
-        held(&self.leases).remove(&lease);
-    }
-
     async fn post<T: DeserializeOwned>(
         &self,
         path: &str,
@@ -101,7 +96,7 @@ impl Employer for Remote {
 
     async fn job_waiting(&self) {
         // A claim waits for a job itself; the next one follows after a pause, also if the service answers at once.
-        std::future::pending().await
+        std::future::pending::<()>().await;
     }
 
     async fn renew(&self, lease: Lease, _length: Duration) -> Result<LeaseState, EmployerError> {
@@ -158,6 +153,10 @@ impl Employer for Remote {
         // There is none if the solve has written no files.
         let _ = fs_err::remove_dir_all(self.folder(lease));
         Ok(status)
+    }
+
+    fn forget(&self, lease: Lease) {
+        held(&self.leases).remove(&lease);
     }
 
     fn folder(&self, lease: Lease) -> PathBuf {

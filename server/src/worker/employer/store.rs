@@ -63,6 +63,10 @@ impl Employer for Store {
         Ok(finish(self, lease, update, end).await?)
     }
 
+    fn forget(&self, _lease: Lease) {
+        // An attempt renews its own lease.
+    }
+
     fn folder(&self, lease: Lease) -> PathBuf {
         self.attempt_folder(lease)
     }

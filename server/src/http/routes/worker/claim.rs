@@ -9,15 +9,13 @@ use tokio::time::Instant;
 use crate::http::app::App;
 use crate::http::problem::{ProblemResponse, ProblemType, RouteError};
 use crate::http::worker_body::WorkerBody;
+use crate::queue::Capacity;
 use crate::store::{Claim, ClaimRequest};
 use crate::worker::Employer;
-use crate::worker::protocol::{ClaimBody, LONGEST_WAIT, PROGRAM};
+use crate::worker::protocol::{ClaimBody, LONGEST_WAIT, MAX_SLOTS, PROGRAM, lease_length};
 
 /// Interval at which a waiting request looks for a job, in case it missed a notification.
 const POLL_INTERVAL: Duration = Duration::from_secs(5);
-/// Lengths of leases that a worker may ask for.
-const SHORTEST_LEASE: Duration = Duration::from_secs(1);
-const LONGEST_LEASE: Duration = Duration::from_mins(10);
 
 /// The worker cannot work for this service.
 #[derive(Debug, thiserror::Error)]
@@ -43,7 +41,11 @@ pub(crate) async fn claim(
     }
     let request = ClaimRequest {
         is_remote: true,
-        lease: body.request.lease.clamp(SHORTEST_LEASE, LONGEST_LEASE),
+        lease: lease_length(body.request.lease),
+        capacity: Capacity {
+            slots: body.request.capacity.slots.min(MAX_SLOTS),
+            ..body.request.capacity
+        },
         ..body.request
     };
     let (worker, memory) = (request.request.worker, request.capacity.memory);

@@ -8,7 +8,7 @@ use crate::http::problem::ProblemResponse;
 use crate::http::worker_body::WorkerBody;
 use crate::store::LeaseState;
 use crate::worker::Employer;
-use crate::worker::protocol::UpdateBody;
+use crate::worker::protocol::{UpdateBody, lease_length};
 
 /// Records an update whose files were sent before.
 pub(crate) async fn record(
@@ -20,6 +20,7 @@ pub(crate) async fn record(
         update,
         length,
     } = body;
+    let length = lease_length(length);
     Ok(Json(
         Employer::record(&*app.store, lease, &update, length).await?,
     ))

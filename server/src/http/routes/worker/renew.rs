@@ -7,7 +7,7 @@ use crate::http::app::App;
 use crate::http::problem::ProblemResponse;
 use crate::http::worker_body::WorkerBody;
 use crate::store::LeaseState;
-use crate::worker::protocol::LeasesBody;
+use crate::worker::protocol::{LeasesBody, lease_length};
 
 /// Renews leases; answers with their states, in the same order.
 pub(crate) async fn renew(
@@ -15,5 +15,9 @@ pub(crate) async fn renew(
     WorkerBody(body): WorkerBody<LeasesBody>,
 ) -> Result<Json<Vec<LeaseState>>, ProblemResponse> {
     app.workers.beats(body.worker, body.leases.len());
-    Ok(Json(app.store.heartbeat(&body.leases, body.length).await?))
+    Ok(Json(
+        app.store
+            .heartbeat(&body.leases, lease_length(body.length))
+            .await?,
+    ))
 }
