@@ -89,7 +89,7 @@ async fn next<E: Employer>(
     (process, config): (&WorkerProcess, &WorkerConfig),
     stopping: &CancellationToken,
 ) -> Result<bool, EmployerError> {
-    let Some((claims, _memory)) = process.claim(employer, config).await? else {
+    let Some((claims, _memory)) = process.claim(employer, config, stopping).await? else {
         return Ok(false);
     };
     // Those that are given up without an end, by an error or a panic, are renewed no more.

@@ -2,6 +2,7 @@
 
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
+use tokio_util::sync::CancellationToken;
 use uuid::Uuid;
 
 use crate::queue::{Capacity, MemoryBudget};
@@ -59,8 +60,13 @@ impl WorkerProcess {
         &self,
         employer: &impl Employer,
         config: &WorkerConfig,
+        stopping: &CancellationToken,
     ) -> Result<Option<(Vec<Claim>, SolveMemory<'_>)>, EmployerError> {
-        let mut number = self.next_request.lock().await;
+        let mut number = tokio::select! {
+            biased;
+            () = stopping.cancelled() => return Ok(None),
+            number = self.next_request.lock() => number,
+        };
         let request = ClaimRequest {
             request: RequestNumber {
                 worker: self.id,
@@ -76,7 +82,11 @@ impl WorkerProcess {
             lease: config.lease,
         };
         // Without an answer the same request is made again, by whichever worker is next.
-        let claims = employer.claim(&request).await?;
+        let claims = tokio::select! {
+            claims = employer.claim(&request) => claims?,
+            // It may wait for long. Repeated without a slot, it gets what it has claimed meanwhile, to be given back.
+            () = stopping.cancelled() => employer.claim(&without_slots(request)).await?,
+        };
         *number += 1;
         let Some(memory_mb) = claims.iter().map(|claim| claim.memory_mb).max() else {
             return Ok(None);
@@ -94,5 +104,16 @@ impl WorkerProcess {
 
     fn memory(&self) -> MutexGuard<'_, MemoryBudget> {
         self.memory.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+/// The same request for no further job.
+fn without_slots(request: ClaimRequest) -> ClaimRequest {
+    ClaimRequest {
+        capacity: Capacity {
+            slots: 0,
+            ..request.capacity
+        },
+        ..request
     }
 }

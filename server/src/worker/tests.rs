@@ -237,10 +237,12 @@ async fn a_job_with_a_cancel_request_whose_worker_is_lost_has_documents_of_its_r
     assert!(files.iter().any(|file| file.name == "wear-history.csv"));
 }
 
-/// An employer that gives two jobs and then fails for good.
+/// An employer that gives two jobs and then fails for good, or none and waits.
 #[derive(Debug, Default)]
 struct Failing {
     folder: PathBuf,
+    waits: bool,
+    asked: Mutex<Vec<(i64, usize)>>,
     forgotten: Mutex<Vec<Lease>>,
 }
 
@@ -250,6 +252,11 @@ fn failed() -> EmployerError {
 
 impl Employer for Failing {
     async fn claim(&self, request: &ClaimRequest) -> Result<Vec<Claim>, EmployerError> {
+        let asked = (request.request.number, request.capacity.slots);
+        self.asked.lock().expect("no panic").push(asked);
+        if self.waits && request.capacity.slots > 0 {
+            return std::future::pending().await;
+        }
         let claim = |id| Claim {
             id: Uuid::from_u128(id),
             lease: request.request.number,
@@ -261,7 +268,8 @@ impl Employer for Failing {
             cpu_ms: 1,
             checkpoint: None,
         };
-        Ok(vec![claim(1), claim(2)])
+        let jobs = if self.waits { vec![] } else { vec![1, 2] };
+        Ok(jobs.into_iter().map(claim).collect())
     }
 
     async fn job_waiting(&self) {}
@@ -324,4 +332,33 @@ async fn claims_that_are_given_up_are_renewed_no_more() {
     let forgotten = employer.forgotten.lock().expect("no panic").clone();
     let jobs: Vec<u128> = forgotten.iter().map(|lease| lease.job.as_u128()).collect();
     assert_eq!(jobs, [1, 2]);
+}
+
+#[tokio::test]
+async fn workers_that_wait_for_a_job_stop_and_ask_what_their_request_has_claimed() {
+    let employer = Arc::new(Failing {
+        waits: true,
+        ..Failing::default()
+    });
+    let process = Arc::new(WorkerProcess::new(1_000, true));
+    let config = Arc::new(WorkerConfig::new(PathBuf::from("/nowhere")));
+    let stopping = CancellationToken::new();
+    let start = |_| {
+        let shared = (Arc::clone(&process), Arc::clone(&config));
+        tokio::spawn(work(Arc::clone(&employer), shared, stopping.clone()))
+    };
+    let workers: Vec<_> = (0..8).map(start).collect();
+    while employer.asked.lock().expect("no panic").is_empty() {
+        tokio::task::yield_now().await;
+    }
+    stopping.cancel();
+    for worker in workers {
+        let ended = tokio::time::timeout(TEST_TIMEOUT, worker).await;
+        ended
+            .expect("in time")
+            .expect("no panic")
+            .expect("accepted");
+    }
+    let asked = employer.asked.lock().expect("no panic").clone();
+    assert_eq!(asked, [(1, 1), (1, 0)]);
 }

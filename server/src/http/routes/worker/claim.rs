@@ -53,7 +53,8 @@ pub(crate) async fn claim(
     let until = Instant::now() + body.wait.min(LONGEST_WAIT);
     loop {
         let claims = Employer::claim(&*app.store, &request).await?;
-        if !claims.is_empty() || Instant::now() >= until || app.stopping.is_cancelled() {
+        let may_wait = request.capacity.slots > 0 && !app.stopping.is_cancelled();
+        if !claims.is_empty() || !may_wait || Instant::now() >= until {
             return Ok(Json(claims));
         }
         tokio::select! {
