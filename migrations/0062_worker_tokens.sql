@@ -1,4 +1,4 @@
--- Tokens of workers elsewhere, which reach `/v1/worker/` only. Only their SHA-256 is stored.
+-- Tokens of remote workers, which reach `/v1/worker/` only. Only their SHA-256 is stored.
 CREATE TABLE worker_tokens (
     id         TEXT    NOT NULL PRIMARY KEY,
     name       TEXT    NOT NULL,

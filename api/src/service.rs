@@ -22,7 +22,7 @@ pub struct ServiceOverview {
     pub stopping: bool,
 }
 
-/// Workers of a service, here and elsewhere.
+/// Workers of a service.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
 pub struct Workers {
     /// Those that run.

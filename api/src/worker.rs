@@ -1,4 +1,4 @@
-//! Workers (`GET /v1/workers`), and tokens of those elsewhere (`/v1/worker-tokens`).
+//! Workers (`GET /v1/workers`), and tokens of remote ones (`/v1/worker-tokens`).
 
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
@@ -49,12 +49,12 @@ pub struct WorkerTokens {
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
 pub struct WorkerList {
     /// Those in the process of the service.
-    pub here: Workers,
-    /// Processes elsewhere that were in contact within the last minute, longest known first.
-    pub elsewhere: Vec<RemoteWorker>,
+    pub local: Workers,
+    /// Remote processes that were in contact within the last minute, longest known first.
+    pub remote: Vec<RemoteWorker>,
 }
 
-/// A process with workers elsewhere.
+/// A process with remote workers.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
 pub struct RemoteWorker {
     /// Its id, new with each start.

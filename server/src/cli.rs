@@ -47,7 +47,7 @@ struct Arguments {
 enum Command {
     /// Solve jobs that are submitted over HTTP.
     Serve(ServeArguments),
-    /// Solve jobs of a service elsewhere.
+    /// Solve jobs of a remote service.
     Work(WorkArguments),
     /// Solve one specification here, without a server.
     Solve {

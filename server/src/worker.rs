@@ -61,7 +61,7 @@ pub async fn work<E: Employer>(
     Ok(())
 }
 
-/// Claims that a worker has, and is done with when it is dropped.
+/// Claims of a worker; when it is dropped, what is left of them is abandoned.
 struct Unfinished<'a, E: Employer> {
     employer: &'a E,
     leases: Vec<Lease>,
@@ -70,7 +70,7 @@ struct Unfinished<'a, E: Employer> {
 impl<E: Employer> Drop for Unfinished<'_, E> {
     fn drop(&mut self) {
         for lease in &self.leases {
-            self.employer.forget(*lease);
+            self.employer.abandon(*lease);
         }
     }
 }
@@ -92,7 +92,7 @@ async fn next<E: Employer>(
     let Some((claims, _memory)) = process.claim(employer, config, stopping).await? else {
         return Ok(false);
     };
-    // Those that are given up without an end, by an error or a panic, are renewed no more.
+    // Also after an error or a panic, without an end.
     let _unfinished = Unfinished {
         employer,
         leases: claims.iter().map(Lease::from).collect(),

@@ -1,4 +1,4 @@
-//! Requirement: many workers elsewhere share the jobs of a service: each is solved, none is recorded twice, and a request that is
+//! Requirement: many remote workers share the jobs of a service: each is solved, none is recorded twice, and a request that is
 //! repeated because its answer was lost costs no attempt, also if the service is killed meanwhile.
 //!
 //! The workers are simulated: they claim, record and end over HTTP as real ones do, and solve nothing. The short form runs with all
@@ -30,6 +30,8 @@ const SPEC: &str = r#"{"system":{"kind":"cylinder_on_flat"},"cycles":2,
 const LEASE: Duration = Duration::from_secs(10);
 /// How long a claim waits for a job.
 const WAIT: Duration = Duration::from_secs(2);
+/// Attempts at a job: more than vanishing workers can use up.
+const ATTEMPTS: [&str; 2] = ["--attempts", "20"];
 /// Pause before a request without an answer is repeated.
 const PAUSE: Duration = Duration::from_millis(100);
 
@@ -129,7 +131,7 @@ impl Simulated {
         if self.is_harmed && self.random.u8(..20) == 0 {
             self.done.lost.fetch_add(1, Ordering::Relaxed);
             // A worker that has vanished renews nothing.
-            Employer::forget(&*self.remote, claim.into());
+            self.remote.abandon(claim.into());
             return;
         }
         let (lease, remote) = (Lease::from(claim), Arc::clone(&self.remote));
@@ -193,7 +195,7 @@ fn started(
 async fn every_job_is_solved_once_although_answers_are_lost_and_the_service_is_killed() {
     let folder = tempfile::tempdir().expect("a folder can be made");
     let (jobs, count) = load();
-    let server = Server::without_workers(folder.path(), &[]);
+    let server = Server::without_workers(folder.path(), &ATTEMPTS);
     let mut ids = Vec::new();
     for _ in 0..jobs {
         let (status, job) = server.submit(SPEC).await;
@@ -243,7 +245,8 @@ async fn killed(folder: &Path, server: Server, ids: &[String]) -> Server {
     let address = server.base.trim_start_matches("http://").to_owned();
     server.signal(Signal::SIGKILL);
     server.wait();
-    Server::without_workers(folder, &["--listen", &address])
+    let options = [&ATTEMPTS[..], &["--listen", &address]].concat();
+    Server::without_workers(folder, &options)
 }
 
 #[expect(clippy::print_stdout, reason = "the long form prints a table")]

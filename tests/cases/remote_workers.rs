@@ -1,4 +1,4 @@
-//! Requirement: workers elsewhere solve the jobs of a service with the same bits as its own workers, and neither a worker nor a
+//! Requirement: remote workers solve the jobs of a service with the same bits as its own workers, and neither a worker nor a
 //! service that ends loses a job, an attempt of a job that was given back, or work since the last checkpoint.
 
 use std::path::Path;

@@ -1,4 +1,4 @@
-//! A worker elsewhere: `fretwear work`.
+//! A remote worker: `fretwear work`.
 
 use std::path::Path;
 use std::process::{Child, Command, Stdio};

@@ -40,7 +40,7 @@ pub(super) enum ClientCommand {
     Cancel(control::ControlArguments),
     /// Queue failed or cancelled jobs again, from their last checkpoints.
     Retry(control::ControlArguments),
-    /// Make, list and revoke tokens of workers elsewhere.
+    /// Make, list and revoke tokens of remote workers.
     #[command(subcommand)]
     WorkerToken(worker_token::TokenAction),
 }

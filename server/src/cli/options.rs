@@ -10,7 +10,7 @@ use crate::store::Limits;
 use crate::worker::WorkerConfig;
 use crate::worker::protocol::LONGEST_WAIT;
 
-/// Interval of the updates of a worker elsewhere: a thousand of them are 500 requests a second.
+/// Interval of the updates of a remote worker: a thousand of them are 500 requests a second.
 const REMOTE_UPDATE_EVERY: Duration = Duration::from_secs(2);
 /// Processor time of the short jobs that one is given at once.
 const REMOTE_AHEAD: Duration = Duration::from_secs(5);
@@ -18,7 +18,7 @@ const REMOTE_AHEAD: Duration = Duration::from_secs(5);
 /// Options for queue and workers.
 #[derive(Debug, Args)]
 pub(super) struct WorkOptions {
-    /// Number of jobs solved at once; one per processor unless given; 0 if only workers elsewhere solve (`fretwear work`).
+    /// Number of jobs solved at once; one per processor unless given; 0 if only remote workers solve (`fretwear work`).
     #[arg(long, env = "FRETWEAR_WORKERS", value_parser = clap::value_parser!(u16).range(..=256))]
     workers: Option<u16>,
     /// Largest number of attempts in a row without a new checkpoint at a job whose workers are lost.
@@ -68,7 +68,7 @@ pub(super) struct SolveOptions {
     /// Time that a solve has for its last checkpoint when the worker stops.
     #[arg(long, env = "FRETWEAR_GRACE_S", default_value = "30", value_parser = seconds)]
     grace_s: Duration,
-    /// End when no job waits or runs, also not elsewhere.
+    /// End when no job waits or runs at the service.
     #[arg(long, env = "FRETWEAR_UNTIL_IDLE")]
     until_idle: bool,
 }

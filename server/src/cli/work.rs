@@ -1,4 +1,4 @@
-//! `fretwear work`: workers for a service elsewhere.
+//! `fretwear work`: workers for a remote service.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;

@@ -9,6 +9,7 @@ use futures_util::StreamExt;
 use uuid::Uuid;
 
 use crate::client::{Client, ClientError, repeated};
+use crate::export::files::is_plain_name;
 use crate::store::Content;
 use crate::store::integrity::{self, Checksum};
 
@@ -39,7 +40,7 @@ impl Client {
         std::fs::create_dir_all(folder).map_err(|cause| file_error(folder, cause))?;
         let mut failed = Vec::new();
         for file in &files {
-            if Path::new(&file.name).file_name() != Some(file.name.as_ref()) {
+            if !is_plain_name(&file.name) {
                 return Err(ClientError::Name(file.name.clone()));
             }
             let path = folder.join(&file.name);

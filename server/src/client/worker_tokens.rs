@@ -1,4 +1,4 @@
-//! Tokens of workers elsewhere.
+//! Tokens of remote workers.
 
 use api::worker::{CreatedWorkerToken, NewWorkerToken, WorkerTokens};
 use uuid::Uuid;

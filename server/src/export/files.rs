@@ -104,6 +104,11 @@ pub fn create_folder(folder: &Path) -> std::io::Result<()> {
     }
 }
 
+/// Whether a text is the name of a file, and not a path out of its folder.
+pub fn is_plain_name(name: &str) -> bool {
+    Path::new(name).file_name() == Some(name.as_ref()) && !name.contains('\0')
+}
+
 /// The folder that contains a file.
 pub fn parent(path: &Path) -> &Path {
     match path.parent() {

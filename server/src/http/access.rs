@@ -2,7 +2,7 @@
 //! is configured, the request must have it.
 //!
 //! On loopback the host must be a loopback name or address, which protects from DNS rebinding. Listening elsewhere
-//! needs a token; then the host may also be any IP address, which cannot be rebound, or a configured name. Workers elsewhere have tokens
+//! needs a token; then the host may also be any IP address, which cannot be rebound, or a configured name. Remote workers have tokens
 //! of their own, which reach their paths only and can be revoked.
 
 use std::net::IpAddr;
@@ -17,7 +17,7 @@ use subtle::ConstantTimeEq;
 
 use crate::http::problem::ProblemType;
 
-/// Paths of workers elsewhere, which have tokens of their own.
+/// Paths of remote workers, which have tokens of their own.
 const WORKER_FOLDER: &str = "/v1/worker/";
 /// Minimum length of a token, characters: 16 random ones are some 90 bits.
 const MIN_TOKEN_LENGTH: usize = 16;

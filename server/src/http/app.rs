@@ -40,7 +40,7 @@ pub struct App {
     pub(super) expansion_permits: Arc<Semaphore>,
     pub(super) long_poll_permits: Arc<Semaphore>,
     pub(super) stream_permits: Arc<Semaphore>,
-    /// Processes with workers elsewhere.
+    /// Processes with remote workers.
     pub(super) workers: Arc<WorkerRegistry>,
 }
 

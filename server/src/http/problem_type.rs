@@ -80,7 +80,7 @@ problem_types! {
     FOREIGN_HOST, 403, "foreign-host", "the request is for another host",
         "The Host or Origin header names another host than the service accepts, which protects browsers from pages of other hosts. Start the service with `--allowed-host NAME` to accept a name.";
     WORKER_VERSION, 409, "worker-version", "the worker is of another version",
-        "A worker elsewhere has the version and commit of the service, so that every job has the same bits wherever it is solved. Install the version that `detail` names for the service on the worker's machine.";
+        "A remote worker has the version and commit of the service, so that every job has the same bits wherever it is solved. Install the version that `detail` names for the service on the worker's machine.";
     LEASE_LOST, 409, "lease-lost", "the worker does not hold the job any more",
         "The lease of a worker has ended, and its job was given to another one. The worker gives the attempt up by itself.";
     FILE_DIFFERS, 422, "file-differs", "a file was not received as it was sent",

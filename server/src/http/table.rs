@@ -25,7 +25,7 @@ use crate::http::routes::{batches, jobs, operation, results, systems, worker, wo
 )]
 struct Interface;
 
-/// The routes of workers elsewhere, which are not in the document.
+/// The routes of remote workers, which are not in the document.
 fn worker_routes() -> Router<App> {
     Router::new()
         .route("/claims", post(worker::claim::claim))

@@ -1,4 +1,4 @@
-//! Access of workers elsewhere: where the service requires a token, they need one of their own that is not revoked.
+//! Access of remote workers: where the service requires a token, they need one of their own that is not revoked.
 
 use axum::extract::{Request, State};
 use axum::middleware::Next;

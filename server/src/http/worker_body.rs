@@ -1,4 +1,4 @@
-//! Bodies of workers elsewhere: JSON as others, but of any length that a solving process can write.
+//! Bodies of remote workers: JSON as others, but of any length that a solving process can write.
 
 use std::time::Duration;
 
@@ -27,7 +27,11 @@ impl<S: Send + Sync, T: DeserializeOwned> FromRequest<S> for WorkerBody<T> {
             return Err(ProblemType::REQUEST_TIMEOUT.with_detail(detail));
         };
         let unreadable = |cause: String| ProblemType::UNREADABLE_BODY.with_detail(cause);
-        let bytes = read.map_err(|cause| unreadable(cause.to_string()))?;
+        let bytes = read.map_err(|cause| {
+            unreadable(format!(
+                "it did not arrive, or has more than {MAX_BYTES} bytes: {cause}"
+            ))
+        })?;
         let body = serde_json::from_slice(&bytes);
         Ok(Self(body.map_err(|cause| unreadable(cause.to_string()))?))
     }

@@ -1,4 +1,4 @@
-//! Processes with workers elsewhere, as their requests show them: who is there, with what memory, and what it holds.
+//! Processes with remote workers, as their requests show them: who is there, with what memory, and what it holds.
 
 use std::collections::BTreeMap;
 use std::sync::{Mutex, MutexGuard, PoisonError};

@@ -69,13 +69,18 @@ impl Checksum {
         self.bytes += u64::try_from(bytes.len()).unwrap_or(u64::MAX);
     }
 
+    /// Returns the SHA-256 of all bytes, hexadecimal.
+    pub fn sha256(self) -> String {
+        hexadecimal(&self.sha256.finalize())
+    }
+
     /// Compares all bytes with an entry.
     ///
     /// # Errors
     /// [`IntegrityError`] if they differ.
     pub fn compare(self, entry: &ResultFile) -> Result<(), IntegrityError> {
         compare_length(self.bytes, entry)?;
-        let found = hexadecimal(&self.sha256.finalize());
+        let found = self.sha256();
         if found == entry.sha256 {
             return Ok(());
         }

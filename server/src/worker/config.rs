@@ -16,7 +16,7 @@ const MEMORY_SHARE_PERCENT: u64 = 80;
 /// Pause before an operation of the store is retried.
 pub(super) const RETRY_PAUSE: Duration = Duration::from_secs(1);
 
-/// Length of the leases of workers elsewhere: an interruption of the network or a restart of the service is shorter.
+/// Length of the leases of remote workers: an interruption of the network or a restart of the service is shorter.
 pub const REMOTE_LEASE: Duration = Duration::from_secs(30);
 
 /// Configuration of workers.

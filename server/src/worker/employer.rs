@@ -1,4 +1,4 @@
-//! Whom a worker works for: the store of its own process, or a service elsewhere. Both give the same answers, which the tests in
+//! Whom a worker works for: the store of its own process, or a remote service. Both give the same answers, which the tests in
 //! `worker/employer/tests.rs` compare.
 
 mod remote;
@@ -8,6 +8,7 @@ use std::path::PathBuf;
 use std::time::Duration;
 
 use api::job::Status;
+use api::service::Demand;
 
 use crate::client::ClientError;
 use crate::metrics::Busy;
@@ -21,7 +22,7 @@ pub enum EmployerError {
     /// The store failed.
     #[error(transparent)]
     Store(#[from] StoreError),
-    /// The service elsewhere was not reached, or has refused the request.
+    /// The remote service was not reached, or has refused the request.
     #[error(transparent)]
     Remote(#[from] ClientError),
 }
@@ -105,8 +106,8 @@ pub trait Employer: Send + Sync + 'static {
         end: &End,
     ) -> impl Future<Output = Result<Option<Status>, EmployerError>> + Send;
 
-    /// Renews a lease no more, because the worker has given the attempt up without an end.
-    fn forget(&self, lease: Lease);
+    /// Stops renewing a lease, and removes the files of its attempt, which has ended or is given up.
+    fn abandon(&self, lease: Lease);
 
     /// The folder into which an attempt writes its files.
     fn folder(&self, lease: Lease) -> PathBuf;
@@ -114,8 +115,16 @@ pub trait Employer: Send + Sync + 'static {
     /// Counts a busy worker where this process has metrics.
     fn busy(&self) -> Option<Busy>;
 
+    /// The jobs that wait and run, of all workers.
+    fn demand(&self) -> impl Future<Output = Result<Demand, EmployerError>> + Send;
+
     /// Whether no job waits or runs anywhere.
-    fn is_idle(&self) -> impl Future<Output = Result<bool, EmployerError>> + Send;
+    fn is_idle(&self) -> impl Future<Output = Result<bool, EmployerError>> + Send {
+        async {
+            let demand = self.demand().await?;
+            Ok(demand.queued + demand.running == 0)
+        }
+    }
 }
 
 #[cfg(test)]

@@ -36,7 +36,7 @@ impl Drop for SolveMemory<'_> {
 }
 
 impl WorkerProcess {
-    /// Workers with this memory for all their solves, in the process of the store or elsewhere.
+    /// Workers with this memory for all their solves, in the process of the store or remote.
     pub fn new(memory_mb: i64, is_remote: bool) -> Self {
         Self {
             id: Uuid::now_v7(),

@@ -1,4 +1,4 @@
-//! What workers elsewhere and the service send each other under `/v1/worker/`: JSON, between programs of the same version, which the
+//! What remote workers and the service send each other under `/v1/worker/`: JSON, between programs of the same version, which the
 //! service checks. It is no part of the interface that users rely on.
 
 use std::time::Duration;
@@ -16,10 +16,10 @@ pub const PROGRAM: &str = concat!(
     ")"
 );
 
-/// Longest wait for a job in one request.
+/// Longest wait for a job in one request: a third of the time after which a client takes a silent connection for broken.
 pub const LONGEST_WAIT: Duration = Duration::from_secs(20);
 
-/// Lengths of leases that a worker can have.
+/// Lengths of leases that a worker can have: below, it could not renew them in time; above, a lost job would wait for long. Arbitrary.
 const SHORTEST_LEASE: Duration = Duration::from_secs(1);
 const LONGEST_LEASE: Duration = Duration::from_mins(10);
 /// Largest number of jobs that one request can claim, beside short ones ahead.

@@ -10,11 +10,19 @@
 //! 2.2 um of a slender slider, H/w = 2.4, at mu = 1.17.
 
 use crate::law::elastic::{contact_modulus, plane_strain_compliance};
-use crate::scene::{Drive, Scene};
+use crate::scene::{Drive, PRESSURE_TOLERANCES, Scene};
 use crate::sides::Sides;
 
+/// Skew of the pressure over the wider tolerance of pressures, of a coefficient of friction and a radius of relative curvature, mm, at
+/// these worn depths, mm.
+pub(super) fn indicator(scene: &Scene, (friction, radius): (f64, f64), depth: Sides<f64>) -> f64 {
+    let amplitude = scene.motion.amplitude_mm().abs();
+    let half_width = conforming_half_width(radius, amplitude, depth);
+    skew(scene, friction, half_width) / PRESSURE_TOLERANCES
+}
+
 /// Slope of the pressure times the half-width a of conforming surfaces over their mean pressure, of a coefficient of friction.
-pub(super) fn skew(scene: &Scene, friction: f64, half_width: f64) -> f64 {
+fn skew(scene: &Scene, friction: f64, half_width: f64) -> f64 {
     // Driven as a whole, it does not bend.
     if scene.drive == Drive::WholeBody {
         return 0.0;
@@ -27,7 +35,7 @@ pub(super) fn skew(scene: &Scene, friction: f64, half_width: f64) -> f64 {
 }
 
 /// Half-width over which worn surfaces conform, mm: the slider's flat, sqrt(2 R h), and all of a scar that the stroke does not leave.
-pub(super) fn conforming_half_width(radius: f64, amplitude: f64, depth: Sides<f64>) -> f64 {
+fn conforming_half_width(radius: f64, amplitude: f64, depth: Sides<f64>) -> f64 {
     let chord = |worn: f64| (2.0 * radius * worn).sqrt();
     let scar = chord(depth.slider + depth.receptacle);
     if amplitude <= scar {

@@ -20,7 +20,7 @@ use crate::law::wear::LocalState;
 use crate::model::resolution::{self, Sizes};
 use crate::model::{expected_wear, unworn_contact};
 use crate::number::{real, real_cycles};
-use crate::scene::{ContactHeat, Drive, Motion, PRESSURE_TOLERANCES, Scene};
+use crate::scene::{ContactHeat, Drive, Motion, Scene};
 use crate::sides::{Side, Sides};
 
 /// Relative change of the outputs without rebuilt stiffness, over the square of the worn part of the height and what is left of it. Measured:
@@ -295,14 +295,11 @@ impl<'a> Indicators<'a> {
         lost.max(climbs)
             .max(unlike * unlike)
             .max(stress)
-            .max(self.skew(depth))
-    }
-
-    /// Skew of the pressure by the bending of the slider, over the wider tolerance of pressures.
-    fn skew(&self, depth: Sides<f64>) -> f64 {
-        let amplitude = self.scene.motion.amplitude_mm().abs();
-        let half_width = bending::conforming_half_width(self.radius, amplitude, depth);
-        bending::skew(&self.scene, self.friction, half_width) / PRESSURE_TOLERANCES
+            .max(bending::indicator(
+                &self.scene,
+                (self.friction, self.radius),
+                depth,
+            ))
     }
 
     /// The tangential deformation grows with the normal force of a slider that climbs the edge of its scar, which is without

@@ -1,4 +1,4 @@
-//! `fretwear worker-token create|list|revoke`: tokens of workers elsewhere.
+//! `fretwear worker-token create|list|revoke`: tokens of remote workers.
 
 use std::path::{Path, PathBuf};
 

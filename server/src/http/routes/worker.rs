@@ -1,4 +1,4 @@
-//! `/v1/worker/`: what workers elsewhere ask of the service. Between programs of the same version, and so no part of the OpenAPI
+//! `/v1/worker/`: what remote workers ask of the service. Between programs of the same version, and so no part of the OpenAPI
 //! document.
 
 pub(in crate::http) mod claim;

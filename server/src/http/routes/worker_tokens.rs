@@ -1,4 +1,4 @@
-//! `/v1/worker-tokens`: tokens of workers elsewhere.
+//! `/v1/worker-tokens`: tokens of remote workers.
 
 pub(in crate::http) mod create;
 pub(in crate::http) mod list;

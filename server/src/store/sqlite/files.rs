@@ -102,7 +102,7 @@ impl Store {
     }
 
     /// Removes files that no manifest names: of the attempts at a job up to this one, or of all jobs at start-up. A
-    /// later attempt may write files that the manifest does not name yet, and so may a worker elsewhere. Files that cannot be removed are logged and
+    /// later attempt may write files that the manifest does not name yet, and so may a remote worker. Files that cannot be removed are logged and
     /// remain until the next start.
     ///
     /// # Errors
@@ -116,7 +116,7 @@ impl Store {
         .fetch_all(&self.readers)
         .await?;
         let named: HashSet<String> = named.into_iter().collect();
-        // Workers elsewhere, which live on when the service ends, may be about to name what they have sent.
+        // Remote workers, which live on when the service ends, may be about to name what they have sent.
         let held: Vec<(Hyphenated, i64)> = match attempt {
             Some(_) => Vec::new(),
             None => {

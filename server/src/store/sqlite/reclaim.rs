@@ -30,7 +30,7 @@ impl Store {
         self.reclaim(lost, length, "its worker was lost").await
     }
 
-    /// Reclaims the running jobs of the process that served before, at start-up. Workers elsewhere have the length of a lease of
+    /// Reclaims the running jobs of the process that served before, at start-up. Remote workers have the length of a lease of
     /// theirs to renew it.
     ///
     /// # Errors
@@ -38,10 +38,10 @@ impl Store {
     pub async fn reclaim_at_start(
         &self,
         length: Duration,
-        elsewhere: Duration,
+        remote: Duration,
     ) -> Result<Reclaimed, StoreError> {
         sqlx::query("UPDATE jobs SET lease_expires_at = ? WHERE status = 'running' AND is_remote")
-            .bind(self.clock.end_of(elsewhere))
+            .bind(self.clock.end_of(remote))
             .execute(&self.writer)
             .await?;
         let reason = "the service was ended while it ran";

@@ -1,4 +1,4 @@
-//! Tokens of workers elsewhere.
+//! Tokens of remote workers.
 
 use api::worker::WorkerToken;
 use sqlx::Row;

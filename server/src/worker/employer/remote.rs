@@ -1,4 +1,4 @@
-//! A service elsewhere as an employer, over HTTP.
+//! A remote service as an employer, over HTTP.
 
 use std::collections::HashMap;
 use std::path::PathBuf;
@@ -6,6 +6,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
 use api::job::Status;
+use api::service::Demand;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 use tokio::time::MissedTickBehavior;
@@ -21,10 +22,10 @@ use crate::worker::protocol::{ClaimBody, EndBody, LeasesBody, PROGRAM, RestartBo
 /// Interval of the heartbeat of all jobs of a worker, which also brings cancel requests.
 const HEARTBEAT: Duration = Duration::from_secs(2);
 
-/// Leases of this worker and their states as the service has last told them.
+/// Leases of this worker, and their states by the last answers of the service.
 type Leases = Arc<Mutex<HashMap<Lease, LeaseState>>>;
 
-/// A service elsewhere.
+/// A remote service.
 #[derive(Debug)]
 pub struct Remote {
     client: Client,
@@ -41,8 +42,8 @@ pub struct Remote {
 }
 
 impl Remote {
-    /// A service that this client reaches, for a worker of this id and number of slots; files are written into a folder until they are sent. Renews all leases for a length as long
-    /// as it lives; claims wait for a job for a while. Needs a tokio runtime.
+    /// A service that this client reaches, for a worker of this id and number of slots. Files are in a folder until they are sent. Until it
+    /// is dropped, all leases are renewed for a length; claims wait for a job for a while. Needs a tokio runtime.
     pub fn new(
         (client, worker, slots): (Client, Uuid, usize),
         scratch: PathBuf,
@@ -149,14 +150,14 @@ impl Employer for Remote {
             end: end.clone(),
         };
         let status = self.post("/v1/worker/ends", &body).await?;
-        held(&self.leases).remove(&lease);
-        // There is none if the solve has written no files.
-        let _ = fs_err::remove_dir_all(self.folder(lease));
+        self.abandon(lease);
         Ok(status)
     }
 
-    fn forget(&self, lease: Lease) {
+    fn abandon(&self, lease: Lease) {
         held(&self.leases).remove(&lease);
+        // There is none if the solve has written no files.
+        let _ = fs_err::remove_dir_all(self.folder(lease));
     }
 
     fn folder(&self, lease: Lease) -> PathBuf {
@@ -168,13 +169,12 @@ impl Employer for Remote {
         None
     }
 
-    async fn is_idle(&self) -> Result<bool, EmployerError> {
-        let demand = self.client.demand().await?;
-        Ok(demand.queued + demand.running == 0)
+    async fn demand(&self) -> Result<Demand, EmployerError> {
+        Ok(self.client.demand().await?)
     }
 }
 
-/// Renews all leases in one request, for ever.
+/// Renews all leases in one request, until its task is aborted.
 async fn beat((client, worker): (Client, Uuid), leases: Leases, length: Duration) {
     let mut timer = tokio::time::interval(HEARTBEAT);
     timer.set_missed_tick_behavior(MissedTickBehavior::Delay);

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 use std::time::Duration;
 
 use api::job::Status;
+use api::service::Demand;
 
 use super::{Employer, EmployerError};
 use crate::metrics::Busy;
@@ -63,7 +64,7 @@ impl Employer for Store {
         Ok(finish(self, lease, update, end).await?)
     }
 
-    fn forget(&self, _lease: Lease) {
+    fn abandon(&self, _lease: Lease) {
         // An attempt renews its own lease.
     }
 
@@ -75,9 +76,8 @@ impl Employer for Store {
         Some(self.metrics().busy_worker())
     }
 
-    async fn is_idle(&self) -> Result<bool, EmployerError> {
-        let demand = self.demand().await?;
-        Ok(demand.queued + demand.running == 0)
+    async fn demand(&self) -> Result<Demand, EmployerError> {
+        Ok(Store::demand(self).await?)
     }
 }
 

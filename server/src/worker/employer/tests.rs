@@ -201,7 +201,7 @@ async fn cancelled(employer: &impl Employer, service: &Service) {
     let (id, store) = (queued(service).await, &service.app.store);
     let lease = Lease::from(&claimed(employer).await);
     store.cancel(id, 1).await.expect("the store");
-    let told = async {
+    let learned = async {
         let asked = LeaseState::Held {
             cancel_requested: true,
         };
@@ -209,9 +209,9 @@ async fn cancelled(employer: &impl Employer, service: &Service) {
             tokio::time::sleep(Duration::from_millis(20)).await;
         }
     };
-    tokio::time::timeout(TEST_TIMEOUT, told)
+    tokio::time::timeout(TEST_TIMEOUT, learned)
         .await
-        .expect("it is told");
+        .expect("it learns of it");
 }
 
 async fn lost(employer: &impl Employer, service: &Service) {

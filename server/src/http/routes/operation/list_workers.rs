@@ -1,4 +1,4 @@
-//! `GET /v1/workers`: workers here and elsewhere.
+//! `GET /v1/workers`: local and remote workers.
 
 use api::service::Workers;
 use api::worker::WorkerList;
@@ -8,7 +8,7 @@ use axum::extract::State;
 use crate::http::app::App;
 use crate::supervision::WORKER;
 
-/// Workers in the process of the service, and processes elsewhere with what they hold.
+/// Workers in the process of the service, and remote processes with what they hold.
 #[utoipa::path(
     get,
     path = "/v1/workers",
@@ -19,11 +19,11 @@ pub(crate) async fn workers(State(app): State<App>) -> Json<WorkerList> {
     let running = app.supervisor.running();
     let total = running.iter().filter(|(kind, _)| *kind == WORKER).count();
     Json(WorkerList {
-        here: Workers {
+        local: Workers {
             total: u64::try_from(total).unwrap_or(u64::MAX),
             busy: app.store.metrics().busy_workers(),
         },
-        elsewhere: app.workers.list(),
+        remote: app.workers.list(),
     })
 }
 
@@ -38,7 +38,7 @@ mod tests {
     use crate::worker::protocol::PROGRAM;
 
     #[tokio::test]
-    async fn a_worker_elsewhere_is_listed_with_its_memory_and_jobs() {
+    async fn a_remote_worker_is_listed_with_its_memory_and_jobs() {
         let service = Service::new().await;
         service.queued(r#"{"system":{"kind":"dimm"}}"#).await;
         let asked = request(1_000, Duration::from_secs(9));
@@ -50,7 +50,7 @@ mod tests {
         assert_eq!(states, json!([{"held": {"cancel_requested": false}}]));
         let (status, _, list) = service.get("/v1/workers").await;
         assert_eq!(status, 200);
-        let found = &list["elsewhere"][0];
+        let found = &list["remote"][0];
         assert_eq!(found["id"], json!(asked.request.worker));
         assert_eq!(
             (&found["host"], &found["slots"], &found["jobs"]),
@@ -62,6 +62,6 @@ mod tests {
             (&found["memory_mb"], &found["free_memory_mb"]),
             (&json!(1_000), &json!(1_000))
         );
-        assert_eq!(list["here"], json!({"total": 0, "busy": 0}));
+        assert_eq!(list["local"], json!({"total": 0, "busy": 0}));
     }
 }

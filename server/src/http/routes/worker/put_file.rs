@@ -7,13 +7,13 @@ use axum::extract::{Path as Parameters, Query, State};
 use axum::http::StatusCode;
 use futures_util::StreamExt;
 use serde::Deserialize;
-use sha2::{Digest, Sha256};
 use tokio::io::AsyncWriteExt;
 use uuid::Uuid;
 
-use crate::export::files::{create_folder, hexadecimal};
+use crate::export::files::{create_folder, is_full, is_plain_name};
 use crate::http::app::App;
 use crate::http::problem::{ProblemResponse, ProblemType, RouteError};
+use crate::store::integrity::Checksum;
 use crate::store::{Lease, LeaseState};
 
 /// Why a file is not taken.
@@ -47,7 +47,7 @@ impl RouteError for FileError {
             Self::LeaseLost(_) => ProblemType::LEASE_LOST,
             Self::Broken(_) => ProblemType::REQUEST_TIMEOUT,
             Self::Differs { .. } => ProblemType::FILE_DIFFERS,
-            Self::Write(cause) if crate::export::files::is_full(cause) => ProblemType::DISK_FULL,
+            Self::Write(cause) if is_full(cause) => ProblemType::DISK_FULL,
             Self::Write(_) => ProblemType::INTERNAL,
         }
     }
@@ -65,7 +65,7 @@ pub(crate) async fn put_file(
     Query(announced): Query<Announced>,
     body: Body,
 ) -> Result<StatusCode, ProblemResponse> {
-    if Path::new(&name).file_name() != Some(name.as_ref()) || name.contains('\0') {
+    if !is_plain_name(&name) {
         return Err(FileError::Name(name).into());
     }
     let lease = Lease { job, number };
@@ -92,14 +92,14 @@ pub(crate) async fn put_file(
 /// Writes a body as a file and compares its checksum.
 async fn receive(body: Body, path: &Path, (name, named): (&str, String)) -> Result<(), FileError> {
     let mut file = tokio::fs::File::create(path).await?;
-    let (mut chunks, mut sha256) = (body.into_data_stream(), Sha256::new());
+    let (mut chunks, mut checksum) = (body.into_data_stream(), Checksum::default());
     while let Some(chunk) = chunks.next().await {
         let chunk = chunk.map_err(FileError::Broken)?;
-        sha256.update(&chunk);
+        checksum.update(&chunk);
         file.write_all(&chunk).await?;
     }
     file.sync_all().await?;
-    let found = hexadecimal(&sha256.finalize());
+    let found = checksum.sha256();
     if found == named {
         return Ok(());
     }

@@ -1,4 +1,4 @@
-//! `POST /v1/worker-tokens`: makes a token for workers elsewhere.
+//! `POST /v1/worker-tokens`: makes a token for remote workers.
 
 use api::worker::{CreatedWorkerToken, NewWorkerToken};
 use axum::Json;
@@ -40,7 +40,7 @@ impl RouteError for CreateError {
     }
 }
 
-/// Makes a token for workers elsewhere. It is shown once; the service stores its SHA-256.
+/// Makes a token for remote workers. It is shown once; the service stores its SHA-256.
 #[utoipa::path(
     post,
     path = "/v1/worker-tokens",

@@ -1,4 +1,4 @@
-//! `GET /v1/worker-tokens`: tokens of workers elsewhere.
+//! `GET /v1/worker-tokens`: tokens of remote workers.
 
 use api::worker::WorkerTokens;
 use axum::Json;
@@ -7,7 +7,7 @@ use axum::extract::State;
 use crate::http::app::App;
 use crate::http::problem::ProblemResponse;
 
-/// Tokens of workers elsewhere, without the tokens themselves.
+/// Tokens of remote workers, without the tokens themselves.
 #[utoipa::path(
     get,
     path = "/v1/worker-tokens",

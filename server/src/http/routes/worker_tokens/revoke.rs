@@ -1,4 +1,4 @@
-//! `DELETE /v1/worker-tokens/{id}`: revokes a token of workers elsewhere.
+//! `DELETE /v1/worker-tokens/{id}`: revokes a token of remote workers.
 
 use axum::extract::State;
 use axum::http::StatusCode;
