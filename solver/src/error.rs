@@ -33,3 +33,10 @@ pub enum SolveError {
     #[error("checkpoint: {0}")]
     Checkpoint(#[from] Misfit),
 }
+
+impl SolveError {
+    /// Whether wider zones of fine elements would help.
+    pub(crate) fn needs_wider_zones(&self) -> bool {
+        matches!(self, Self::Cycle(error) if error.needs_wider_zones())
+    }
+}

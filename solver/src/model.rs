@@ -24,6 +24,7 @@ use crate::sides::{Side, Sides};
 pub use layout::{BodyLayout, Layout};
 pub use profile::Profile;
 pub use resolution::Sizes;
+pub(crate) use zones::ZONE_WIDENING;
 pub use zones::{Zone, ZoneSizes};
 
 /// Two bodies ready to be condensed.

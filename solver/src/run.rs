@@ -1,8 +1,10 @@
 //! The run: integrate until the geometry has drifted or the contact has outgrown its mesh, relocate, condense again.
 
 mod finite;
+mod load;
 mod progress;
 mod resistance;
+mod snapshot;
 mod step;
 mod summary;
 
@@ -12,16 +14,16 @@ use crate::SolveError;
 use crate::ale::{self, Spines};
 use crate::checkpoint::{Checkpoint, Earlier, Misfit, Resumable, SectionRun};
 use crate::condensation::{self, Condensed};
-use crate::cycle::{CycleRecord, CycleState, Integrator, MissionState};
+use crate::cycle::{CycleRecord, Integrator};
 use crate::effects::{self, EffectsPlan};
-use crate::electrical::ElectricalState;
-use crate::fields;
 use crate::model::{self, Model};
 use crate::observer::{Event, Observer, Phase};
-use crate::record::{self, Compared, Exposed, Initial, Life, Outcome, Snapshot, Summary};
+use crate::record::{self, Exposed, Outcome, Summary};
 use crate::scene::{Dimension, Scene};
+use load::{Loaded, load_unworn};
 use progress::{end, progress, push_life};
 use resistance::Consequence;
+use snapshot::snapshot;
 use step::{Renewal, Step, step};
 use summary::summary;
 
@@ -43,29 +45,15 @@ pub(crate) fn begin(
     if scene.dimension.is_finite() {
         return finite::begin(scene, plan, earlier, observer);
     }
-    observer.on_phase(Phase::Mesh);
-    let (mut plan, mut model) = (plan.clone(), model::build(scene, plan)?);
-    observer.on_phase(Phase::Condense);
-    let condensed = condensation::condense(&model)?;
-    let mut crossings = Vec::new();
-    let (mut run, flow) = loop {
-        let error = match load(scene, (&plan, &model), &condensed, observer) {
-            Ok(loaded) => break loaded,
-            Err(error) => error,
-        };
-        let called_for = plan.called_for_by_failure(0);
-        let Some(first) = called_for.first() else {
-            return Err(error);
-        };
-        let reason = format!("without {}: {error}", first.effect.name());
-        if observer.on(Event::Restart(&reason)).is_break() {
-            return Err(error);
-        }
-        crossings.extend(called_for);
-        plan = plan.after(&crossings);
-        model.follow(scene, &plan);
-    };
-    (run.crossings, run.earlier) = (crossings, earlier);
+    let loaded = load_unworn(scene, plan, observer)?;
+    let Loaded {
+        plan,
+        model,
+        condensed,
+        mut run,
+        flow,
+    } = loaded;
+    run.earlier = earlier;
     match flow {
         ControlFlow::Continue(()) => advance(scene, (plan, model), condensed, run, observer),
         ControlFlow::Break(()) => Ok(summary(scene, (&plan, &model), &run, Outcome::Stopped)),
@@ -148,58 +136,6 @@ fn advance(
         condensed = condensation::renew(&moved, &model, condensed)?;
         model = moved;
     }
-}
-
-/// Cycle 0: the unworn, loaded state.
-fn load(
-    scene: &Scene,
-    (plan, model): (&EffectsPlan, &Model),
-    condensed: &Condensed,
-    observer: &mut dyn Observer,
-) -> Result<(SectionRun, ControlFlow<()>), SolveError> {
-    let mut state = CycleState::start(&condensed.operators, model.interface.slave);
-    let blocks = scene.blocks();
-    let mut integrator = Integrator::new(&blocks[0], model, &condensed.operators);
-    let record = integrator.apply_load(&mut state)?;
-    let mut electrical = ElectricalState::default();
-    if let Some(evaluation) = resistance::evaluation(scene, plan) {
-        evaluation.update(
-            &mut electrical,
-            &resistance::contact(scene, (model, condensed), &state),
-        );
-        state.constriction_mohm = electrical.constriction_mohm();
-    }
-    let report = record::report(scene, model, &state, electrical.resistance);
-    let mut compared = Compared::default();
-    compared.push(&report);
-    let mut flow = observer.on(Event::Cycle(&report));
-    if flow.is_continue() {
-        let snapshot = snapshot(scene, model, condensed, &state, record)?;
-        flow = observer.on(Event::Snapshot(&snapshot));
-    }
-    if flow.is_continue() {
-        integrator.initial_quarter(&mut state)?;
-    }
-    let initial = Initial {
-        peak_pressure_mpa: report.peak_pressure_mpa,
-        contact_half_width_mm: report.contact_half_width_mm,
-        contact_resistance_mohm: electrical.total_mohm(),
-    };
-    let mission = scene.mission.as_ref();
-    let run = SectionRun {
-        mission: mission.map(|mission| MissionState::new(scene, mission, &state)),
-        state,
-        initial,
-        built: None,
-        relocations: 0,
-        widened: 1.0,
-        crossings: Vec::new(),
-        compared,
-        life: Life::default(),
-        electrical,
-        earlier: Earlier::default(),
-    };
-    Ok((run, flow))
 }
 
 /// Computes cycles until the run ends (`Break`), or needs something else before its next cycle (`Continue`).
@@ -308,21 +244,6 @@ fn next_block(scene: &Scene, model: &Model, run: &mut SectionRun) {
         |state, rates| progress((model, &spines), state, rates),
         |state, side, part| record::worn_surface(model, state, side).depth_of_part(part),
     );
-}
-
-fn snapshot(
-    scene: &Scene,
-    model: &Model,
-    condensed: &Condensed,
-    state: &CycleState,
-    record: CycleRecord,
-) -> Result<Snapshot, SolveError> {
-    let fields = if scene.output.fields {
-        fields::placed(model, condensed, &state.depth, &record.contacts)?
-    } else {
-        Vec::new()
-    };
-    Ok(record::snapshot(model, state, record, fields))
 }
 
 #[cfg(test)]

@@ -13,7 +13,7 @@ use crate::cycle::{CycleState, MissionState};
 use crate::effects::Crossing;
 use crate::electrical::ElectricalState;
 use crate::mesh::MeshError;
-use crate::model::Model;
+use crate::model::{Model, ZONE_WIDENING};
 use crate::record::{Compared, Initial, Life};
 use crate::scene::Scene;
 use crate::sides::{Side, Sides};
@@ -92,7 +92,7 @@ impl SectionRun {
 
     /// Records that zones must be wider.
     pub(crate) fn widen(&mut self) {
-        self.widened *= 2.0;
+        self.widened *= ZONE_WIDENING;
     }
 
     /// Records that the operators are rebuilt at the present depths.

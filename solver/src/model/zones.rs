@@ -21,6 +21,8 @@ const MOST_NODES: usize = 700;
 const MARGIN_NODES: usize = 16;
 /// Growth of elements away from a zone.
 const OUTER_GROWTH: f64 = 1.25;
+/// Factor by which zones become wider where a contact has outgrown them.
+pub(crate) const ZONE_WIDENING: f64 = 2.0;
 
 /// Spines of the mesh of one zone.
 #[derive(Debug, Clone, PartialEq)]

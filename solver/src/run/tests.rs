@@ -3,13 +3,14 @@
 use super::*;
 use crate::effects::{Effect, Switches};
 use crate::model::tests::fuzz_button;
-use crate::scene::Friction;
+use crate::scene::{BlockShape, Friction, Motion, SliderShape, WearLaw};
 
-/// Records the cycles of reports, and the checkpoints.
+/// Records the cycles of reports, the checkpoints and the reasons of restarts.
 #[derive(Default)]
 struct Recorder {
     cycles: Vec<u64>,
     checkpoints: Vec<Checkpoint>,
+    restarts: Vec<String>,
 }
 
 impl Observer for Recorder {
@@ -17,7 +18,8 @@ impl Observer for Recorder {
         match event {
             Event::Cycle(report) => self.cycles.push(report.cycle),
             Event::Checkpoint(checkpoint) => self.checkpoints.push(checkpoint.checkpoint()),
-            Event::Snapshot(_) | Event::Restart(_) => {}
+            Event::Restart(reason) => self.restarts.push(reason.to_owned()),
+            Event::Snapshot(_) => {}
         }
         ControlFlow::Continue(())
     }
@@ -99,4 +101,45 @@ fn a_resumed_run_continues_with_what_it_has_called_for() {
     let resumed = proceed(&scene, &plan_of_few_cycles(), from.clone(), &mut rest);
     let resumed = resumed.expect("it resumes");
     assert_eq!(format!("{resumed:?}"), format!("{done:?}"));
+}
+
+/// McColl's cylinder under 120 N/mm (Hertz: 0.0913 mm, 836.4 MPa) with elements of a 160th of its half-width and a stroke of 7.6 of
+/// them: the load needs 875 nodes of the receptacle, whose zones have 684.
+#[test]
+fn a_first_load_that_is_too_wide_for_its_zones_gets_wider_ones() {
+    let (half_width, steel) = (0.091_336, (200e3, 0.3));
+    let mut scene = scene(1);
+    scene.slider.shape = SliderShape {
+        radius_mm: 6.0,
+        half_width_mm: 4.5,
+        height_mm: 6.0,
+    };
+    scene.receptacle.shape = BlockShape {
+        length_mm: 12.0,
+        height_mm: 6.0,
+        crown_radius_mm: None,
+    };
+    for body in [&mut scene.slider.elastic, &mut scene.receptacle.elastic] {
+        (body.youngs_modulus_mpa, body.poisson_ratio) = steel;
+    }
+    scene.receptacle.wear = Some(WearLaw::Archard {
+        k_over_h_per_mpa: 3e-6,
+    });
+    scene.load_n_per_mm = 120.0;
+    scene.motion = Motion::Reciprocating {
+        amplitude_mm: 3.8 * half_width,
+        period_s: 1.0,
+    };
+    scene.accuracy.contact_element_mm = Some(half_width / 160.0);
+    scene.accuracy.increments_per_cycle = Some(16);
+    scene.accuracy.cycle_jump = Some(1);
+    let mut recorder = Recorder::default();
+    let done = solve(&scene, &mut recorder).expect("it can be solved");
+    let [reason] = &recorder.restarts[..] else {
+        panic!("{:?}", recorder.restarts);
+    };
+    assert!(reason.contains("finely meshed zones of"), "{reason}");
+    assert_eq!(recorder.cycles, [0, 1]);
+    let peak = done.initial.peak_pressure_mpa;
+    assert!((peak / 836.41 - 1.0).abs() < 0.01, "{peak} MPa");
 }

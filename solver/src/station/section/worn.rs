@@ -7,14 +7,12 @@ use crate::ale;
 use crate::along_line;
 use crate::law::surface::{self, SurfaceWear};
 use crate::law::wear::LocalState;
+use crate::model::ZONE_WIDENING;
 use crate::scene::Accuracy;
 use crate::schedule::equivalent_wear::EquivalentWear;
 use crate::sides::{Side, Sides};
 use crate::station::error::StationError;
 use crate::station::meshed::Section;
-
-/// Factor by which zones become wider where a contact has outgrown them.
-const WIDER: f64 = 2.0;
 
 impl Station {
     /// Integrals of the worn depths, mm^2.
@@ -96,7 +94,7 @@ impl Station {
 
     /// Records that the zones of fine elements must be wider.
     pub(in crate::station) fn widen(&mut self) {
-        self.state.widened *= WIDER;
+        self.state.widened *= ZONE_WIDENING;
     }
 
     /// Meshes and condenses the section where it is not at the geometry of the state.
