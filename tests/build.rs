@@ -8,7 +8,7 @@ fn main() {
     println!("cargo::rerun-if-env-changed=FRETWEAR_PYTHON");
     println!("cargo::rerun-if-env-changed=PATH");
     println!(
-        "cargo::rustc-check-cfg=cfg(has_vtk, has_axe, has_cc, has_ccx, has_chromium, has_curl, has_fma, has_mount, has_schemathesis)"
+        "cargo::rustc-check-cfg=cfg(has_vtk, has_axe, has_cc, has_ccx, has_chromium, has_curl, has_fma, has_moto, has_mount, has_schemathesis, has_slurm)"
     );
     let python = std::env::var("FRETWEAR_PYTHON").unwrap_or_else(|_| "python3".to_owned());
     println!("cargo::rustc-env=FRETWEAR_PYTHON={python}");
@@ -17,6 +17,9 @@ fn main() {
     }
     if runs(Command::new(&python).args(["-c", "import schemathesis"])) {
         println!("cargo::rustc-cfg=has_schemathesis");
+    }
+    if runs(Command::new(&python).args(["-c", "import moto.server"])) {
+        println!("cargo::rustc-cfg=has_moto");
     }
     if runs(Command::new("curl").arg("--version"))
         && runs(Command::new("bash").args(["-c", "true"]))
@@ -44,9 +47,23 @@ fn main() {
     if axe.is_file() {
         println!("cargo::rustc-cfg=has_axe");
     }
+    if has_slurm() {
+        println!("cargo::rustc-cfg=has_slurm");
+    }
     if runs(Command::new("ccx").arg("-v")) {
         println!("cargo::rustc-cfg=has_ccx");
     }
+}
+
+/// Checks whether a cluster can be started: with the programs of Slurm and MUNGE, as root.
+fn has_slurm() -> bool {
+    let user = Command::new("id").arg("-u").output();
+    let is_root = user.is_ok_and(|output| output.stdout == b"0\n");
+    is_root
+        && ["slurmctld", "slurmd"]
+            .iter()
+            .all(|program| runs(Command::new(program).arg("-V")))
+        && runs(Command::new("munged").arg("--version"))
 }
 
 /// Checks whether a file system in memory can be mounted, as root can.

@@ -8,13 +8,14 @@ import { jobs_page } from "./jobs/page.js";
 import { address } from "./parts/address.js";
 import { study_page } from "./study/page.js";
 import { sweep_page } from "./sweep/page.js";
+import { workers_page } from "./workers/page.js";
 
 /** @typedef {import("./parts/address.js").Address} Address */
 /** A page fills its element, ends with its signal, and returns what to do when values of its own address change.
  * @typedef {(content: HTMLElement, address: Address, signal: AbortSignal) => Promise<((values: URLSearchParams) => void) | void>} Page */
 
 /** @type {Record<string, Page>} */
-const PAGES = { jobs: jobs_page, job: job_page, compare: compare_page, study: study_page, sweeps: batches_page, sweep: sweep_page, accuracy: accuracy_page };
+const PAGES = { jobs: jobs_page, job: job_page, compare: compare_page, study: study_page, sweeps: batches_page, sweep: sweep_page, accuracy: accuracy_page, workers: workers_page };
 
 let present = { key: "", end: new AbortController(), changed: /** @type {((values: URLSearchParams) => void) | void} */ (undefined) };
 

@@ -11,6 +11,7 @@ mod demo;
 mod export;
 mod log;
 mod options;
+mod pilot;
 mod plan;
 mod probe;
 mod runtime;
@@ -49,6 +50,11 @@ enum Command {
     Serve(ServeArguments),
     /// Solve jobs of a remote service.
     Work(WorkArguments),
+    /// Start workers on a cluster as long as a service has work for them.
+    Pilot {
+        #[command(subcommand)]
+        engine: pilot::Engine,
+    },
     /// Solve one specification here, without a server.
     Solve {
         /// The specification, JSON.
@@ -122,6 +128,9 @@ enum Command {
         /// The database.
         #[arg(long, env = "FRETWEAR_DATABASE", default_value = DATABASE)]
         database: String,
+        /// The store of objects that results were moved to.
+        #[arg(long, env = "FRETWEAR_OBJECTS")]
+        objects: Option<String>,
     },
     /// Verify a backup and copy it to a database that does not exist yet.
     Restore {
@@ -164,6 +173,7 @@ pub fn main() -> ExitCode {
             log::log_panics();
             Some(log::start("info", work.log))
         }
+        Command::Pilot { .. } => Some(log::start("info", LogFormat::Text)),
         Command::Probe { .. }
         | Command::Backup { .. }
         | Command::Verify { .. }
@@ -175,6 +185,7 @@ pub fn main() -> ExitCode {
     let ended = match command {
         Command::Serve(serve) => serve::run(serve),
         Command::Work(work) => work::run(&work),
+        Command::Pilot { engine } => pilot::run(&engine),
         Command::Solve { spec, out } => solve::run(&spec, out.as_deref()),
         Command::Plan { spec, json } => plan::run(&spec, json),
         Command::Study {
@@ -195,7 +206,7 @@ pub fn main() -> ExitCode {
             tls_certificate,
         } => probe::run(listen, tls_certificate.is_some()),
         Command::Backup { into, database } => backup::run(&database, &into),
-        Command::Verify { database } => backup::run_verify(&database),
+        Command::Verify { database, objects } => backup::run_verify(&database, objects.as_deref()),
         Command::Restore { from, database } => backup::run_restore(&from, &database),
         Command::SolveChild(arguments) => child::run(&arguments),
         Command::Client(command) => client::run(command),

@@ -10,6 +10,8 @@ pub mod export;
 pub mod http;
 pub mod metrics;
 mod number;
+pub mod objects;
+pub mod placement;
 pub mod queue;
 pub mod rating;
 pub mod reference;

@@ -49,6 +49,8 @@ pub struct Gauges {
     pub remote_slots: i64,
     /// Estimated processor time of the waiting jobs, s.
     pub demand_cpu_s: i64,
+    /// Jobs whose results wait to be moved to the store of objects.
+    pub results_to_move: i64,
 }
 
 /// Counters, histograms and the last read gauges.
@@ -66,6 +68,7 @@ pub struct Metrics {
     workers_busy: Gauge,
     remote_slots: Gauge,
     demand_cpu: Gauge,
+    results_to_move: Gauge,
     answers: Family<[(&'static str, String); 3], Counter>,
     answer_time: ByRoute<Histogram, fn() -> Histogram>,
     process: ProcessMetrics,
@@ -81,6 +84,8 @@ pub struct Metrics {
     pub stale_writes: Counter,
     /// Stored checkpoints.
     pub checkpoints: Counter,
+    /// Jobs whose results were moved to the store of objects.
+    pub results_moved: Counter,
     task_failures: Family<[(&'static str, &'static str); 1], Counter>,
     streams_open: Gauge,
 }
@@ -184,6 +189,7 @@ impl Metrics {
         self.workers_alive.set(gauges.workers_alive);
         self.remote_slots.set(gauges.remote_slots);
         self.demand_cpu.set(gauges.demand_cpu_s);
+        self.results_to_move.set(gauges.results_to_move);
         self.process.read();
         let mut text = String::new();
         encode(&mut text, &self.registry)?;
@@ -250,6 +256,16 @@ impl Default for Metrics {
                 Unit::Other("cpu_seconds".to_owned()),
                 demand,
                 <_>::default(),
+            ),
+            results_to_move: add(
+                r,
+                "results_to_move",
+                "Jobs whose results wait to be moved to the store of objects",
+            ),
+            results_moved: add(
+                r,
+                "results_moved",
+                "Jobs whose results were moved to the store of objects",
             ),
             answers: add(r, "http_requests", "Answered requests by route and status"),
             answer_time: add_in(r, Unit::Seconds, answer, answer_time),

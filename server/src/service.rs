@@ -1,6 +1,7 @@
 //! The service: store, workers, maintenance and HTTP, started and stopped together.
 
 mod maintenance;
+mod objects;
 
 use std::net::SocketAddr;
 use std::sync::Arc;
@@ -13,6 +14,7 @@ use tokio_util::sync::CancellationToken;
 
 use crate::http;
 use crate::http::{Access, App, Tls};
+use crate::objects::Objects;
 use crate::store::{Limits, Store, StoreError};
 use crate::supervision::{Supervisor, TaskName, WORKER};
 use crate::worker;
@@ -34,6 +36,8 @@ pub struct Config {
     pub tls: Option<Tls>,
     /// Address of the database, `sqlite://PATH`.
     pub database: String,
+    /// Store of objects that results are moved to.
+    pub objects: Option<Objects>,
     /// Number of jobs solved at the same time.
     pub workers: usize,
     /// Limits of the store.
@@ -116,7 +120,9 @@ impl Service {
         };
         let listener = bound(config.listen).map_err(listen)?;
         let address = listener.local_addr().map_err(listen)?;
-        let store = Arc::new(Store::open_with(&config.database, config.limits).await?);
+        let store = Store::open_with(&config.database, config.limits).await?;
+        let moves_results = config.objects.is_some();
+        let store = Arc::new(store.with_objects(config.objects).await?);
         let worker = Arc::new(config.worker);
         let reclaimed = store.reclaim_at_start(worker.lease, REMOTE_LEASE).await?;
         let (queued, ending) = (reclaimed.queued, reclaimed.ending.len());
@@ -151,6 +157,13 @@ impl Service {
             let reclaimed = reclaimed.take().unwrap_or_default();
             maintenance::maintain(store, worker, config.keep_days, reclaimed, stopping)
         });
+        if moves_results {
+            let owned = (Arc::clone(&store), stopping.clone());
+            tasks.start(("objects", 0), move || {
+                let (store, stopping) = owned.clone();
+                objects::move_results(store, stopping)
+            });
+        }
         let owned = (Arc::clone(&store), stopping.clone());
         tasks.start(("heartbeat", 0), move || {
             let (store, stopping) = owned.clone();

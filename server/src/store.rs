@@ -22,6 +22,7 @@
 //! | `lease_state` | reads only | yes; [`LeaseState::Lost`], not counted |
 //! | `restart` | rows, snapshots, files and checkpoint deleted, `attempt` event | yes; [`LeaseState::Lost`]; repeated: no effect |
 //! | `end` | rows, files, block (instead of rows and snapshots), status, summary, `done` event, checkpoint deleted | yes; `None`; repeated: the same status |
+//! | `move_results` | notes the objects; after they are written, their names in place of the results, for several jobs | no; only of succeeded jobs |
 //! | `reclaim_expired`, `reclaim_at_start` | all lost jobs: into the queue, or under a new lease | no; they end leases |
 //! | `add_worker_token`, `revoke_worker_token` | one token | no |
 //! | `cancel`, `cancel_batch` | a queued job ends with its `done` event; a running one is marked for its worker | no |
@@ -43,6 +44,7 @@ mod backup;
 mod batches;
 pub mod block;
 mod changes;
+mod compression;
 mod disk;
 mod error;
 pub mod integrity;
@@ -66,7 +68,7 @@ pub use leases::{
     Claim, ClaimRequest, End, EventName, JobUpdate, Lease, LeaseState, Reclaimed, RequestNumber,
 };
 pub use limits::Limits;
-pub use results::{Content, NewFile, SnapshotPart, StoredEvent};
+pub use results::{Chunks, Content, NewFile, SnapshotPart, StoredEvent};
 pub use sqlite::backup::{backup, restore};
 pub use sqlite::verify::verify;
 pub use sqlite::{OWNER_HEARTBEAT, Store};

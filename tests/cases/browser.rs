@@ -11,6 +11,7 @@ mod pages_cost;
 mod pictures;
 mod study;
 mod sweeps;
+mod workers;
 
 use serde_json::{Value, json};
 use tempfile::TempDir;

@@ -89,6 +89,47 @@ fn the_compose_file_names_the_dockerfile_and_the_volume() {
     assert!(grace > 10);
 }
 
+/// Each command of systemd's units and of the manifests, with its options and variables, is one of the program.
+#[test]
+fn units_and_manifests_name_commands_options_and_variables() {
+    let folder = tempfile::tempdir().expect("a folder can be made");
+    for (file, command) in [
+        ("systemd/fretwear.service", &["serve"][..]),
+        ("systemd/fretwear-work.service", &["work"]),
+        ("systemd/fretwear-pilot.service", &["pilot", "slurm"]),
+        ("kubernetes/service.yaml", &["serve"]),
+        ("kubernetes/workers.yaml", &["work"]),
+    ] {
+        let text = read(&format!("docker/{file}"));
+        let of_command = |line: &&str| {
+            let line = line.trim();
+            line.starts_with("ExecStart=") || line.starts_with("args: [")
+        };
+        let line = text.lines().find(of_command).expect("a command");
+        let words: Vec<&str> = line.split(|c: char| " =[],\"".contains(c)).collect();
+        assert!(
+            command.iter().all(|name| words.contains(name)),
+            "{file}: {line}"
+        );
+        let help = fretwear(folder.path(), &[command, &["--help"]].concat());
+        assert_eq!(help.code, Some(0), "{}", help.stderr);
+        for option in words.iter().filter(|word| word.starts_with("--")) {
+            assert!(
+                help.stdout.contains(&format!("{option} "))
+                    || help.stdout.contains(&format!("{option}\n")),
+                "{file}: {option}"
+            );
+        }
+        let words = text.split(|c: char| !(c.is_ascii_uppercase() || c == '_'));
+        for variable in words.filter(|word| word.starts_with("FRETWEAR_")) {
+            assert!(
+                help.stdout.contains(&format!("[env: {variable}=")),
+                "{file}: {variable}"
+            );
+        }
+    }
+}
+
 #[tokio::test]
 async fn the_health_check_distinguishes_a_running_service_from_none() {
     let folder = tempfile::tempdir().expect("a folder can be made");

@@ -7,7 +7,9 @@ pub mod calculix;
 pub mod database;
 pub mod disk;
 pub mod program;
+mod s3;
 pub mod server;
+mod slurm;
 mod stepped_clock;
 mod worker;
 
@@ -15,6 +17,8 @@ pub use bare_preset::{bare_preset, merged};
 pub use browser::Browser;
 pub use disk::Disk;
 pub use program::{Ran, binary, fretwear, fuzz_button_with_jump, spec};
+pub use s3::S3;
 pub use server::{Log, Server};
+pub use slurm::Slurm;
 pub use stepped_clock::SteppedClock;
 pub use worker::RemoteWorker;

@@ -1,6 +1,6 @@
 // The list of jobs: filters, live rows, selection.
 
-import { address, change, changed } from "../parts/address.js";
+import { address, change, changed, link } from "../parts/address.js";
 import { fetch_json } from "../parts/client.js";
 import { element } from "../parts/element.js";
 import { follow } from "../parts/feed.js";
@@ -79,7 +79,7 @@ export async function jobs_page(content, _address, signal) {
   const ages = setInterval(() => rows.forEach((row) => row.update_times()), AGES_MS);
   signal.addEventListener("abort", () => clearInterval(ages));
   const refresh_summary = throttled(() => summarize(), SUMMARY_MS, signal);
-  const summarize = async () => summary.replaceChildren(await service_line(signal));
+  const summarize = async () => summary.replaceChildren(...(await service_line(signal)));
   follow({
     changed: (job) => {
       if (rows.has(job.id)) {
@@ -123,11 +123,12 @@ function paging(page, values) {
 /**
  * What the service does, in a line.
  * @param {AbortSignal} signal
- * @returns {Promise<string>}
+ * @returns {Promise<(Node | string)[]>}
  */
 async function service_line(signal) {
   const { jobs, workers, free_disk_mb } = await fetch_json("/v1/service", { signal });
   const counts = ["running", "queued", "succeeded", "failed", "cancelled"].filter((status) => jobs[status]);
   const disk = free_disk_mb == null ? "" : ` · ${Math.round(free_disk_mb / 1000)} GB free`;
-  return `${counts.map((status) => `${jobs[status]} ${status}`).join(", ") || "no jobs"} · ${workers.busy} of ${workers.total} workers busy${disk}`;
+  const listed = counts.map((status) => `${jobs[status]} ${status}`).join(", ") || "no jobs";
+  return [`${listed} · `, element("a", { href: link("workers") }, `${workers.busy} of ${workers.total} workers busy`), disk];
 }

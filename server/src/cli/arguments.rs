@@ -30,6 +30,10 @@ pub(super) struct ServeArguments {
     /// The database.
     #[arg(long, env = "FRETWEAR_DATABASE", default_value = DATABASE)]
     pub(super) database: String,
+    /// A store of objects that results of succeeded jobs are moved to: s3://BUCKET/PREFIX, with endpoint, region and keys of the
+    /// environment (AWS_ENDPOINT_URL, AWS_REGION, AWS_ACCESS_KEY_ID, ..), or file:///PATH; they stay in the database unless given.
+    #[arg(long, env = "FRETWEAR_OBJECTS")]
+    pub(super) objects: Option<String>,
     /// Format of the log on standard error.
     #[arg(long, env = "FRETWEAR_LOG", value_enum, default_value = "text")]
     pub(super) log: LogFormat,
@@ -37,17 +41,24 @@ pub(super) struct ServeArguments {
     pub(super) work: WorkOptions,
 }
 
+/// The service that workers work for.
 #[derive(Debug, clap::Args)]
-pub(super) struct WorkArguments {
+pub(super) struct EmployerOptions {
     /// Address of the service.
     #[arg(long, env = "FRETWEAR_SERVER")]
     pub(super) server: String,
     /// File with a token for workers, as `fretwear worker-token` makes one; none is needed for a service without access token.
     #[arg(long, env = "FRETWEAR_WORKER_TOKEN_FILE")]
-    token_file: Option<PathBuf>,
+    pub(super) token_file: Option<PathBuf>,
     /// File with the certificates of the authorities to trust (PEM), instead of those of the system.
     #[arg(long, env = "FRETWEAR_CA")]
-    ca: Option<PathBuf>,
+    pub(super) ca: Option<PathBuf>,
+}
+
+#[derive(Debug, clap::Args)]
+pub(super) struct WorkArguments {
+    #[command(flatten)]
+    pub(super) service: EmployerOptions,
     /// Folder in which a solve writes its files until they are sent; that of the system for temporary files unless given.
     #[arg(long, env = "FRETWEAR_SCRATCH")]
     pub(super) scratch: Option<PathBuf>,
@@ -58,7 +69,7 @@ pub(super) struct WorkArguments {
     pub(super) work: SolveOptions,
 }
 
-impl WorkArguments {
+impl EmployerOptions {
     /// A client of the service with the token for workers.
     pub(super) fn client(&self) -> Result<Client, ExitCode> {
         let token = self.token_file.as_deref().map(fs_err::read_to_string);

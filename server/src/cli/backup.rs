@@ -4,6 +4,7 @@ use std::path::Path;
 
 use crate::cli::runtime::block_on;
 use crate::cli::terminal::{Ended, failed, write_out};
+use crate::objects::Objects;
 use crate::store::{BackupError, CopySummary, backup, restore, verify};
 
 pub(super) fn run(database: &str, into: &Path) -> Ended {
@@ -18,8 +19,9 @@ pub(super) fn run_restore(from: &Path, database: &str) -> Ended {
     report(copied, "copied and verified").map(|_| ())
 }
 
-pub(super) fn run_verify(database: &str) -> Ended {
-    let verified = block_on(verify(database))?;
+pub(super) fn run_verify(database: &str, objects: Option<&str>) -> Ended {
+    let objects = objects.map(Objects::open).transpose().map_err(failed)?;
+    let verified = block_on(verify(database, objects.as_ref()))?;
     let damaged = report(verified, "verified")?;
     refuse(damaged, "marked in their manifests")
 }

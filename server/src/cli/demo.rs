@@ -51,6 +51,7 @@ async fn demonstrate(listen: SocketAddr, exit: bool) -> Result<(), DemoError> {
         tls: None,
         access: Access::default(),
         database,
+        objects: None,
         workers: workers(None),
         limits: Limits::default(),
         keep_days: None,

@@ -6,12 +6,15 @@ use tokio::signal::unix::{SignalKind, signal};
 use crate::cli::arguments::{LogFormat, ServeArguments};
 use crate::cli::runtime::block_on;
 use crate::cli::terminal::{Ended, failed, write_err};
+use crate::objects::Objects;
 use crate::service::{Config, Service};
 
 pub(super) fn run(arguments: ServeArguments) -> Ended {
     let program = std::env::current_exe().map_err(failed)?;
     let access = arguments.access.access().map_err(failed)?;
     let tls = arguments.tls.read().map_err(failed)?;
+    let objects = arguments.objects.as_deref().map(Objects::open);
+    let objects = objects.transpose().map_err(failed)?;
     let (work, log) = (&arguments.work, arguments.log);
     allow_many_files();
     let config = Config {
@@ -23,6 +26,7 @@ pub(super) fn run(arguments: ServeArguments) -> Ended {
         keep_days: work.keep_days,
         worker: work.config(program),
         database: arguments.database,
+        objects,
     };
     block_on(async {
         let service = Service::start(config).await.map_err(failed)?;

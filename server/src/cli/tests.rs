@@ -6,20 +6,25 @@ use crate::cli::Arguments;
 
 const README: &str = include_str!("../../README.md");
 
-/// Option, variable and default of each option of a command.
-fn options(name: &str) -> Vec<[String; 3]> {
-    let command = Arguments::command();
-    let command = command.find_subcommand(name).expect("a command");
+/// Option, variable and default of each option of a command, which may be one of another.
+fn options(names: &[&str]) -> Vec<[String; 3]> {
+    let main = Arguments::command();
+    let command = names.iter().fold(&main, |command, name| {
+        command.find_subcommand(name).expect("a command")
+    });
     let mut options: Vec<[String; 3]> = command
         .get_arguments()
         .filter(|argument| argument.get_id() != "help")
         .map(|argument| {
             let long = argument.get_long().expect("only long options");
-            let variable = argument.get_env().expect("a variable for each option");
+            let variable = argument.get_env();
             let default = argument.get_default_values().first();
             [
                 format!("`--{long}`"),
-                format!("`{}`", variable.to_string_lossy()),
+                variable.map_or_else(
+                    || "-".to_owned(),
+                    |variable| format!("`{}`", variable.to_string_lossy()),
+                ),
                 default.map_or_else(
                     || "-".to_owned(),
                     |value| format!("`{}`", value.to_string_lossy()),
@@ -33,7 +38,11 @@ fn options(name: &str) -> Vec<[String; 3]> {
 
 #[test]
 fn the_readme_lists_every_option_with_its_variable_and_default() {
-    for (header, command) in [("| option |", "serve"), ("| option of `work` |", "work")] {
+    for (header, command) in [
+        ("| option |", &["serve"][..]),
+        ("| option of `work` |", &["work"]),
+        ("| option of `pilot slurm` |", &["pilot", "slurm"]),
+    ] {
         let table = README.lines().skip_while(|line| !line.starts_with(header));
         let table = table.take_while(|line| line.starts_with('|'));
         let mut rows: Vec<[String; 3]> = table
@@ -44,7 +53,7 @@ fn the_readme_lists_every_option_with_its_variable_and_default() {
             })
             .collect();
         rows.sort();
-        assert_eq!(rows, options(command), "{command}");
+        assert_eq!(rows, options(command), "{command:?}");
     }
 }
 

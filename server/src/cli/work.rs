@@ -19,7 +19,7 @@ const RESTART_PAUSE: Duration = Duration::from_secs(1);
 
 pub(super) fn run(arguments: &WorkArguments) -> Ended {
     let program = std::env::current_exe().map_err(failed)?;
-    let client = arguments.client()?;
+    let client = arguments.service.client()?;
     let config = Arc::new(arguments.work.config(program));
     let scratch = Scratch::new(arguments.scratch.as_deref()).map_err(failed)?;
     block_on(async {
@@ -37,7 +37,7 @@ pub(super) fn run(arguments: &WorkArguments) -> Ended {
         };
         let mut workers: JoinSet<_> = (0..slots).map(|_| start()).collect();
         tracing::info!(
-            server = arguments.server,
+            server = arguments.service.server,
             slots,
             memory_mb = config.memory_mb,
             "worker started"

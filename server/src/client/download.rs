@@ -10,7 +10,6 @@ use uuid::Uuid;
 
 use crate::client::{Client, ClientError, repeated};
 use crate::export::files::is_plain_name;
-use crate::store::Content;
 use crate::store::integrity::{self, Checksum};
 
 /// What became of a file.
@@ -120,7 +119,7 @@ fn chosen(files: Vec<ResultFile>, names: &[String]) -> Result<Vec<ResultFile>, C
 }
 
 fn is_present(path: &Path, file: &ResultFile) -> bool {
-    integrity::check(file, &Content::File(path.to_owned())).is_ok()
+    integrity::check_file(file, path).is_ok()
 }
 
 fn file_error(path: &Path, cause: std::io::Error) -> ClientError {

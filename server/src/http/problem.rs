@@ -8,6 +8,7 @@ use crate::export::csv::CsvError;
 use crate::export::documents::DocumentError;
 use crate::export::parquet::ParquetError;
 pub(super) use crate::http::problem_type::ProblemType;
+use crate::objects::ObjectsError;
 use crate::spec::Refused;
 use crate::store::StoreError;
 use crate::worker::EmployerError;
@@ -105,6 +106,12 @@ impl From<StoreError> for ProblemResponse {
                 tracing::error!(%error, "results are damaged");
                 return ProblemType::RESULT_DAMAGED.with_detail(error.to_string());
             }
+            StoreError::Objects(cause @ ObjectsError::Missing(_)) => {
+                tracing::error!(%cause, "results are missing");
+                return ProblemType::RESULT_DAMAGED.with_detail(cause.to_string());
+            }
+            StoreError::Objects(_) => ProblemType::RESULTS_UNREACHABLE
+                .with_detail("the store of objects does not answer; send the request again"),
             error if error.is_transient() => {
                 ProblemType::BUSY.with_detail("the database is busy; send the request again")
             }
@@ -153,7 +160,12 @@ impl IntoResponse for ProblemResponse {
         let mut response = (status, axum::Json(problem)).into_response();
         let headers = response.headers_mut();
         headers.insert(header::CONTENT_TYPE, HeaderValue::from_static(MEDIA_TYPE));
-        if [ProblemType::BUSY, ProblemType::DISK_FULL].contains(&self.problem_type) {
+        let is_temporary = [
+            ProblemType::BUSY,
+            ProblemType::DISK_FULL,
+            ProblemType::RESULTS_UNREACHABLE,
+        ];
+        if is_temporary.contains(&self.problem_type) {
             headers.insert(header::RETRY_AFTER, HeaderValue::from_static(RETRY_AFTER_S));
         }
         if is_full {

@@ -95,6 +95,8 @@ problem_types! {
         "The disk of the database has too little free space to store anything. Jobs wait and continue by themselves; cancelling and deleting still work. Free space on it, or delete jobs.";
     RESULT_DAMAGED, 500, "result-damaged", "a stored result is damaged",
         "The stored bytes of a result differ from its length or SHA-256 in the manifest, so they are not sent. Restore the file from a backup (`fretwear verify` lists all that are damaged), or submit the job again: the same specification gives the same bits.";
+    RESULTS_UNREACHABLE, 503, "results-unreachable", "the results cannot be read at present",
+        "The results of this job are in a store of objects (`--objects`), which does not answer. Jobs are solved all the same, and their results stay in the database until it answers. Send the request again after the time in `Retry-After`.";
     TASK_FAILING, 503, "task-failing", "a task of the service fails repeatedly",
         "A task inside the service ended repeatedly and is restarted each time; `detail` names it, the log of the service says why.";
     INTERNAL, 500, "internal", "internal error",

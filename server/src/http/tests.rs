@@ -214,7 +214,7 @@ pub(crate) fn row(cycle: u64) -> CycleReport {
     }
 }
 
-fn snapshot(cycle: u64) -> Snapshot {
+pub(crate) fn snapshot(cycle: u64) -> Snapshot {
     let side = |values: &[f64]| SideProfile {
         x_mm: values.to_vec(),
         depth_mm: values.to_vec(),

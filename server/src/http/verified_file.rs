@@ -5,10 +5,10 @@ use uuid::Uuid;
 
 use crate::http::app::App;
 use crate::http::problem::{ProblemResponse, ProblemType, RouteError};
-use crate::store::{Content, IntegrityError, integrity};
+use crate::store::{Content, IntegrityError, StoreError, integrity};
 
 /// Largest file that is checked as a whole before the first byte is sent, bytes. The length of every file is checked; the
-/// checksum of a larger one while it is sent, unless it was found to be damaged before.
+/// checksum of a larger one while it is sent, unless it is a file on this machine that was found to be damaged before.
 const CHECKED_FIRST: u64 = 8 << 20;
 
 /// A file whose content differs from its entry in the manifest.
@@ -51,25 +51,34 @@ impl App {
         let Some((entry, content)) = self.store.result_file(id, name).await? else {
             return Ok(None);
         };
-        let is_complete = entry.bytes <= CHECKED_FIRST || entry.damaged.is_some();
-        let check = move || {
-            let checked = if is_complete {
-                integrity::check(&entry, &content)
-            } else {
-                integrity::check_length(&entry, &content)
-            };
-            (entry, content, checked)
+        let is_small = entry.bytes <= CHECKED_FIRST;
+        let (stored, content) = match content {
+            Content::Object(part) if is_small => {
+                let bytes = part.read().await.map_err(StoreError::from)?;
+                (Content::Object(part), Content::Inline(bytes))
+            }
+            content => (content.clone(), content),
         };
-        let (entry, content, checked) = tokio::task::spawn_blocking(check).await?;
+        let check = move || {
+            let is_complete = is_small || entry.damaged.is_some();
+            let (checked, is_complete) = match &content {
+                Content::Inline(bytes) => (integrity::check_bytes(&entry, bytes), true),
+                Content::File(path) if is_complete => (integrity::check_file(&entry, path), true),
+                Content::File(path) => (integrity::check_file_length(&entry, path), false),
+                Content::Object(_) => (Ok(()), false),
+            };
+            (entry, content, checked, is_complete)
+        };
+        let (entry, content, checked, is_complete) = tokio::task::spawn_blocking(check).await?;
         if let Err(cause) = checked {
             return match self.store.result_file(id, name).await? {
                 // Deleted meanwhile, or replaced by the next attempt.
                 None => Ok(None),
-                Some((_, now)) if now != content => Box::pin(self.verified_file(id, name)).await,
+                Some((_, now)) if now != stored => Box::pin(self.verified_file(id, name)).await,
                 Some(_) => Err(self.damaged(id, &entry.name, cause).await.into()),
             };
         }
-        if entry.damaged.is_some() {
+        if entry.damaged.is_some() && is_complete {
             self.mark(id, &entry.name, None).await;
         }
         Ok(Some(VerifiedFile {

@@ -19,6 +19,7 @@ fn metrics_are_exposed_by_name_and_unit() {
         workers_alive: 2,
         remote_slots: 5,
         demand_cpu_s: 90,
+        results_to_move: 4,
     };
     let busy = metrics.busy_worker();
     let time = Duration::from_millis(2);
@@ -44,6 +45,7 @@ fn metrics_are_exposed_by_name_and_unit() {
         "fretwear_workers_busy 1",
         "fretwear_remote_slots 5",
         "fretwear_demand_cpu_seconds 90",
+        "fretwear_results_to_move 4",
         "fretwear_oldest_progress_age_seconds 7",
         "fretwear_database_size_bytes 8192",
         "fretwear_disk_free_bytes 1073741824",

@@ -23,6 +23,7 @@ async fn service(folder: &TempDir) -> Service {
         access: Access::default(),
         tls: None,
         database: format!("sqlite://{}", folder.path().join("test.db").display()),
+        objects: None,
         workers: WORKERS,
         limits: Limits {
             attempts: 1,

@@ -3,29 +3,23 @@
 //! Documents, history and snapshots of a job have most of their digits in common, so that together they take a tenth of their
 //! length; each by itself takes a quarter, besides a row of its own.
 
+mod files;
+
 use std::collections::HashMap;
-use std::io::{Read, Write};
 use std::ops::Range;
 
 use api::results::{ResultFile, Snapshot};
-use brotli::{CompressorWriter, Decompressor};
 use serde::{Deserialize, Serialize};
 use serde_json::value::RawValue;
 use solver::record::CycleReport;
 
 use crate::export::documents::JSON;
 use crate::export::files::manifest_entry;
+use crate::store::compression::{compress, decompress};
 use crate::store::{IntegrityError, SnapshotPart, integrity};
 
 /// Largest length of the content of a block, bytes; it is read as a whole.
 const LIMIT: usize = 4 << 20;
-/// Buffer of the compression, bytes.
-const BUFFER: usize = 16 << 10;
-/// Quality of the compression: 4 to 9 differ by 5 % in length, 4 and 5 take 3 ms for 200 kB, 9 takes 20 ms.
-const QUALITY: u32 = 5;
-/// Logarithms of the compression's smallest and largest window, bytes: 64 kB and 4 MB. A window larger than what it compresses takes
-/// memory and nothing else.
-const WINDOW: (u32, u32) = (16, 22);
 
 /// What an entry of a block is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -37,6 +31,20 @@ enum Kind {
     History,
     /// All snapshots.
     Snapshots,
+    /// A file of the manifest that is not part of the content, but behind it in an object.
+    File,
+    /// Compressed events, behind the content in an object.
+    Events,
+}
+
+impl Kind {
+    fn is_listed(self) -> bool {
+        matches!(self, Self::Document | Self::File)
+    }
+
+    fn is_behind(self) -> bool {
+        matches!(self, Self::File | Self::Events)
+    }
 }
 
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
@@ -149,25 +157,26 @@ impl Block {
     /// [`BlockError::Entries`].
     pub(in crate::store) fn decode(entries: &[u8], content: &[u8]) -> Result<Self, BlockError> {
         Ok(Self {
-            entries: serde_json::from_slice(&decompress(entries))?,
-            content: decompress(content),
+            entries: serde_json::from_slice(&decompress(entries, LIMIT))?,
+            content: decompress(content, LIMIT),
         })
     }
 
-    /// Returns the entries of the documents, by a block's compressed entries only.
+    /// Returns the entries of documents and files, by a block's compressed entries only.
     ///
     /// # Errors
     /// [`BlockError::Entries`].
     pub(in crate::store) fn listed(entries: &[u8]) -> Result<Vec<ResultFile>, BlockError> {
         let block = Self::decode(entries, &[])?;
-        let documents = block.entries.into_iter();
-        let documents = documents.filter(|entry| entry.kind == Kind::Document);
-        Ok(documents.map(|entry| entry.file).collect())
+        let listed = block.entries.into_iter();
+        let listed = listed.filter(|entry| entry.kind.is_listed());
+        Ok(listed.map(|entry| entry.file).collect())
     }
 
-    /// Returns all entries with their contents, checked or not.
+    /// Returns all entries of the content with their parts of it, checked or not.
     pub(in crate::store) fn all(&self) -> impl Iterator<Item = (&ResultFile, &[u8])> {
         let entries = self.entries.iter().zip(self.ranges());
+        let entries = entries.filter(|(entry, _)| !entry.kind.is_behind());
         entries.map(|(entry, range)| (&entry.file, self.slice(range)))
     }
 
@@ -304,25 +313,6 @@ impl Block {
         let length = self.content.len();
         &self.content[range.start.min(length)..range.end.min(length)]
     }
-}
-
-fn compress(bytes: &[u8]) -> Vec<u8> {
-    let window = bytes.len().next_power_of_two().ilog2();
-    let window = window.clamp(WINDOW.0, WINDOW.1);
-    let mut writer = CompressorWriter::new(Vec::new(), BUFFER, QUALITY, window);
-    // Writing to memory cannot fail.
-    let _ = writer.write_all(bytes);
-    writer.into_inner()
-}
-
-/// Decompresses up to the first damage that the format can find; damaged bytes may expand, up to twice the limit.
-fn decompress(bytes: &[u8]) -> Vec<u8> {
-    let mut content = Vec::new();
-    let limit = u64::try_from(2 * LIMIT).unwrap_or(u64::MAX);
-    let mut reader = Decompressor::new(bytes, BUFFER).take(limit);
-    // What was read before an error stays.
-    let _ = reader.read_to_end(&mut content);
-    content
 }
 
 #[cfg(test)]

@@ -6,6 +6,7 @@ use std::path::PathBuf;
 use uuid::Uuid;
 
 use crate::export::files;
+use crate::objects::ObjectsError;
 
 /// Why an operation of the store failed.
 #[derive(Debug, thiserror::Error)]
@@ -118,6 +119,20 @@ pub enum StoreError {
         id: Uuid,
         /// The damage.
         cause: String,
+    },
+    /// The store of objects failed.
+    #[error(transparent)]
+    Objects(#[from] ObjectsError),
+    /// Results are in a store of objects, and none was given.
+    #[error("results of this database are in a store of objects, and none was given (--objects)")]
+    NoObjects,
+    /// Results are in another store of objects.
+    #[error("results of this database are in {stored}, not in {given}")]
+    OtherObjects {
+        /// Address of the one that they are in.
+        stored: String,
+        /// Address of the one that was given.
+        given: String,
     },
     /// A submission was interrupted before it was written.
     #[error("the submission was interrupted before it was written")]

@@ -8,7 +8,6 @@ use api::results::ResultFile;
 use sha2::{Digest, Sha256};
 
 use crate::export::files::hexadecimal;
-use crate::store::results::Content;
 
 const BLOCK: usize = 64 << 10;
 
@@ -89,16 +88,12 @@ impl Checksum {
     }
 }
 
-/// Checks that a content exists with the length of its entry.
+/// Checks that a file exists with the length of its entry.
 ///
 /// # Errors
 /// [`IntegrityError`] if not.
-pub fn check_length(entry: &ResultFile, content: &Content) -> Result<(), IntegrityError> {
-    let found = match content {
-        Content::Inline(bytes) => u64::try_from(bytes.len()).unwrap_or(u64::MAX),
-        Content::File(path) => std::fs::metadata(path)?.len(),
-    };
-    compare_length(found, entry)
+pub fn check_file_length(entry: &ResultFile, path: &Path) -> Result<(), IntegrityError> {
+    compare_length(std::fs::metadata(path)?.len(), entry)
 }
 
 /// Checks bytes.
@@ -111,19 +106,14 @@ pub fn check_bytes(entry: &ResultFile, bytes: &[u8]) -> Result<(), IntegrityErro
     checksum.compare(entry)
 }
 
-/// Reads a content and checks it.
+/// Reads a file and checks it.
 ///
 /// # Errors
 /// [`IntegrityError`] if it differs from its entry.
-pub fn check(entry: &ResultFile, content: &Content) -> Result<(), IntegrityError> {
-    match content {
-        Content::Inline(bytes) => check_bytes(entry, bytes),
-        Content::File(path) => {
-            let mut checksum = Checksum::default();
-            read(path, &mut checksum)?;
-            checksum.compare(entry)
-        }
-    }
+pub fn check_file(entry: &ResultFile, path: &Path) -> Result<(), IntegrityError> {
+    let mut checksum = Checksum::default();
+    read(path, &mut checksum)?;
+    checksum.compare(entry)
 }
 
 fn read(path: &Path, checksum: &mut Checksum) -> std::io::Result<()> {
@@ -156,26 +146,25 @@ mod tests {
         let folder = tempfile::tempdir().expect("a folder");
         let path = folder.path().join("a.vtu");
         let entry = manifest_entry("a.vtu", None, VTU, b"fields");
-        let content = Content::File(path.clone());
         let damage = |bytes: Option<&[u8]>| {
             match bytes {
                 Some(bytes) => std::fs::write(&path, bytes).expect("written"),
                 None => std::fs::remove_file(&path).expect("removed"),
             }
-            check(&entry, &content)
+            check_file(&entry, &path)
         };
         assert!(damage(Some(b"fields")).is_ok());
         let checksum = damage(Some(b"FIELDS"));
         assert!(matches!(checksum, Err(IntegrityError::Checksum { .. })));
-        assert!(check_length(&entry, &content).is_ok());
+        assert!(check_file_length(&entry, &path).is_ok());
         let shorter = damage(Some(b"field"));
         assert!(matches!(
             shorter,
             Err(IntegrityError::Length { found: 5, named: 6 })
         ));
-        assert!(check_length(&entry, &content).is_err());
+        assert!(check_file_length(&entry, &path).is_err());
         assert!(matches!(damage(None), Err(IntegrityError::Missing)));
-        assert!(check(&entry, &Content::Inline(b"fields".to_vec())).is_ok());
-        assert!(check(&entry, &Content::Inline(b"other".to_vec())).is_err());
+        assert!(check_bytes(&entry, b"fields").is_ok());
+        assert!(check_bytes(&entry, b"other").is_err());
     }
 }

@@ -1,12 +1,26 @@
 //! Events and results as they are stored.
 
+use std::io;
+use std::io::SeekFrom;
+use std::ops::Range;
 use std::path::PathBuf;
 
 use api::results::ResultFile;
+use bytes::Bytes;
+use futures_util::stream::BoxStream;
+use futures_util::{TryStreamExt, stream};
 use serde::{Deserialize, Serialize};
+use tokio::fs::File;
+use tokio::io::{AsyncReadExt, AsyncSeekExt};
+use tokio_util::io::ReaderStream;
+
+use crate::objects::ObjectPart;
+
+/// Size of the chunks in which a file is read, bytes.
+const CHUNK_BYTES: usize = 64 << 10;
 
 /// A stored event.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct StoredEvent {
     /// Its number within the job, from 1 without gaps.
     pub seq: i64,
@@ -25,6 +39,9 @@ pub struct NewFile {
     pub content: Option<Vec<u8>>,
 }
 
+/// Parts of a content, one after the other.
+pub type Chunks = BoxStream<'static, io::Result<Bytes>>;
+
 /// Content of a result file.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Content {
@@ -32,6 +49,47 @@ pub enum Content {
     Inline(Vec<u8>),
     /// Path of the file.
     File(PathBuf),
+    /// A range of an object.
+    Object(ObjectPart),
+}
+
+impl Content {
+    /// Reads all of it.
+    ///
+    /// # Errors
+    /// If a file or an object cannot be read.
+    pub async fn read(self) -> io::Result<Vec<u8>> {
+        match self {
+            Self::Inline(bytes) => Ok(bytes),
+            Self::File(path) => tokio::fs::read(path).await,
+            Self::Object(part) => part.read().await.map_err(io::Error::other),
+        }
+    }
+
+    /// Reads a range of it in chunks.
+    ///
+    /// # Errors
+    /// If a file or an object cannot be opened.
+    pub async fn chunks(self, range: Range<u64>) -> io::Result<Chunks> {
+        Ok(match self {
+            Self::Inline(bytes) => {
+                let index = |at: u64| usize::try_from(at).unwrap_or(usize::MAX).min(bytes.len());
+                let (from, until) = (index(range.start), index(range.end));
+                let part = Bytes::from(bytes).slice(from..until);
+                Box::pin(stream::once(async { Ok(part) }))
+            }
+            Self::File(path) => {
+                let mut file = File::open(path).await?;
+                file.seek(SeekFrom::Start(range.start)).await?;
+                let part = file.take(range.end - range.start);
+                Box::pin(ReaderStream::with_capacity(part, CHUNK_BYTES))
+            }
+            Self::Object(part) => {
+                let chunks = part.stream(range).await.map_err(io::Error::other)?;
+                Box::pin(chunks.map_err(io::Error::other))
+            }
+        })
+    }
 }
 
 /// A document of a snapshot.

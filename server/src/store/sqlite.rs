@@ -21,9 +21,11 @@ mod jobs;
 mod leases;
 mod maintenance;
 mod migrations;
+mod objects;
 mod open;
 mod overview;
 mod owner;
+mod packed;
 mod queries;
 mod reclaim;
 mod results;
@@ -45,6 +47,7 @@ use uuid::Uuid;
 
 use crate::clock::{Clock, Now};
 use crate::metrics::Metrics;
+use crate::objects::Objects;
 use crate::store::{
     AllChanges, Cancelled, Changes, DataDisk, LeaseState, NewJob, RequestKey, StoreError, Submitted,
 };
@@ -58,6 +61,8 @@ pub struct Store {
     changes: broadcast::Sender<Uuid>,
     waiting: Notify,
     folder: folder::Folder,
+    /// Where results of succeeded jobs are moved to.
+    objects: Option<Objects>,
     path: PathBuf,
     /// Id of this process as the owner of the database.
     owner: Uuid,

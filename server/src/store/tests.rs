@@ -3,6 +3,7 @@
 mod checkpoints;
 mod files;
 mod leases;
+mod objects;
 mod order;
 
 use std::sync::Arc;

@@ -77,6 +77,7 @@ async fn no_page_contradicts_wcag_a_and_aa() {
             "true",
             "document.querySelector('.points tbody tr')",
         ),
+        ("/#/workers", "true", "document.querySelector('main dl')"),
         ("/docs", "true", "document.getElementById('schema-Job')"),
     ];
     let library = std::fs::read_to_string(env!("FRETWEAR_AXE")).expect("axe-core can be read");

@@ -13,7 +13,7 @@ use crate::store::sqlite::files::entry;
 use crate::store::sqlite::folder::{Folder, beside};
 use crate::store::sqlite::identity::schema_version;
 use crate::store::sqlite::open::{lock, options};
-use crate::store::{BackupError, Content, CopySummary, IntegrityError, integrity};
+use crate::store::{BackupError, CopySummary, IntegrityError, integrity};
 
 /// File name of the database in a backup.
 const NAME: &str = "fretwear.db";
@@ -253,8 +253,7 @@ fn copy_file(
     target: &Path,
     entry: &ResultFile,
 ) -> Result<Result<(), IntegrityError>, BackupError> {
-    let content = Content::File(source.to_owned());
-    let checked = integrity::check(entry, &content);
+    let checked = integrity::check_file(entry, source);
     if let Err(IntegrityError::Missing) = checked {
         return Ok(checked);
     }
@@ -264,7 +263,7 @@ fn copy_file(
     sync(target)?;
     sync(folder)?;
     // What was written is what counts.
-    Ok(checked.and_then(|()| integrity::check(entry, &Content::File(target.to_owned()))))
+    Ok(checked.and_then(|()| integrity::check_file(entry, target)))
 }
 
 /// Whether a database can mark damaged files: those of earlier versions cannot.

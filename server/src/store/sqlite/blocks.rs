@@ -5,14 +5,69 @@ use std::collections::HashMap;
 use sqlx::SqliteConnection;
 use uuid::Uuid;
 
+use crate::objects::Objects;
 use crate::store::block::{Block, BlockError, EncodedBlock};
 use crate::store::{Store, StoreError};
+
+/// A block as it is stored: its content is in the database, or in an object.
+#[derive(Debug)]
+pub(super) struct StoredBlock {
+    pub(super) entries: Vec<u8>,
+    pub(super) content: Vec<u8>,
+    /// Key of the object, and how many bytes of it are the content.
+    pub(super) object: Option<String>,
+    pub(super) content_bytes: Option<u64>,
+}
+
+impl StoredBlock {
+    /// Reads that of a job; `None` if it has none.
+    pub(super) async fn of(
+        connection: &mut SqliteConnection,
+        id: Uuid,
+    ) -> Result<Option<Self>, sqlx::Error> {
+        let found: Option<(_, _, _, _)> = sqlx::query_as(
+            "SELECT entries, content, object, content_bytes FROM result_blocks WHERE job_id = ?",
+        )
+        .bind(id.to_string())
+        .fetch_optional(connection)
+        .await?;
+        Ok(found.map(|(entries, content, object, content_bytes)| Self {
+            entries,
+            content,
+            object,
+            content_bytes,
+        }))
+    }
+
+    /// Decompresses it, with its content from the store of objects where it is there.
+    pub(super) async fn decoded(
+        self,
+        id: Uuid,
+        objects: Option<&Objects>,
+    ) -> Result<Block, StoreError> {
+        let content = match &self.object {
+            None => self.content,
+            Some(key) => {
+                let objects = objects.ok_or(StoreError::NoObjects)?;
+                let content_bytes = self.content_bytes.unwrap_or_default();
+                objects.get(key, 0..content_bytes).await?
+            }
+        };
+        Block::decode(&self.entries, &content).map_err(|cause| unreadable(id, &cause))
+    }
+}
 
 impl Store {
     /// Returns the block of a job; `None` if it has none.
     pub(super) async fn block(&self, id: Uuid) -> Result<Option<Block>, StoreError> {
         let mut connection = self.readers.acquire().await?;
-        block(&mut connection, id).await
+        let stored = StoredBlock::of(&mut connection, id).await?;
+        // An object may be far away.
+        drop(connection);
+        match stored {
+            None => Ok(None),
+            Some(stored) => stored.decoded(id, self.objects.as_ref()).await.map(Some),
+        }
     }
 
     /// Returns the documents of a job's block, by name.
@@ -37,20 +92,6 @@ impl Store {
     }
 }
 
-/// Returns the block of a job; `None` if it has none.
-pub(super) async fn block(
-    connection: &mut SqliteConnection,
-    id: Uuid,
-) -> Result<Option<Block>, StoreError> {
-    let found: Option<(Vec<u8>, Vec<u8>)> =
-        sqlx::query_as("SELECT entries, content FROM result_blocks WHERE job_id = ?")
-            .bind(id.to_string())
-            .fetch_optional(connection)
-            .await?;
-    let decoded = found.map(|(entries, content)| Block::decode(&entries, &content));
-    decoded.transpose().map_err(|cause| unreadable(id, &cause))
-}
-
 /// Stores the block of a job that ends. Its documents replace files of the same names that an earlier end has left. Its history replaces the rows if the job has succeeded: the next try of another one
 /// continues them.
 pub(super) async fn insert_block(
@@ -60,10 +101,11 @@ pub(super) async fn insert_block(
     succeeded: bool,
 ) -> Result<(), StoreError> {
     let id = id.to_string();
-    sqlx::query("INSERT OR REPLACE INTO result_blocks (job_id, entries, content) VALUES (?, ?, ?)")
+    sqlx::query("INSERT OR REPLACE INTO result_blocks (job_id, entries, content, is_movable) VALUES (?, ?, ?, ?)")
         .bind(&id)
         .bind(&block.entries)
         .bind(&block.content)
+        .bind(succeeded)
         .execute(&mut *connection)
         .await?;
     for name in &block.documents {

@@ -9,6 +9,7 @@ use sqlx::{QueryBuilder, Row, Sqlite};
 use uuid::Uuid;
 
 use crate::clock::Now;
+use crate::store::sqlite::packed::unpack;
 use crate::store::sqlite::queries::{self, outcome, parsed, status, summary};
 use crate::store::{DataDisk, StoreError};
 
@@ -16,7 +17,8 @@ use crate::store::{DataDisk, StoreError};
 pub(super) fn select() -> QueryBuilder<Sqlite> {
     QueryBuilder::new(
         "SELECT id, spec, plan, status, status_reason, outcome, created_at, started_at, finished_at, \
-         priority, deadline_at, progress, summary, attempts, last_event, version FROM jobs",
+         priority, deadline_at, progress, summary, attempts, last_event, version, \
+         (SELECT documents FROM result_blocks WHERE job_id = jobs.id) AS packed FROM jobs",
     )
 }
 
@@ -25,6 +27,14 @@ pub(super) fn document(disk: &DataDisk, row: &SqliteRow) -> Result<Job, StoreErr
     let id = queries::id(row, "id")?;
     let time = |column| time(row, column);
     let (status, reason) = status_and_reason(disk, id, row)?;
+    let packed: Option<&[u8]> = row.try_get("packed")?;
+    let (spec, plan) = match packed {
+        Some(packed) => unpack(id, packed)?,
+        None => (
+            parsed(id, "specification", row.try_get("spec")?)?,
+            parsed(id, "plan", row.try_get("plan")?)?,
+        ),
+    };
     Ok(Job {
         id,
         status,
@@ -37,8 +47,8 @@ pub(super) fn document(disk: &DataDisk, row: &SqliteRow) -> Result<Job, StoreErr
         finished_at: time("finished_at")?,
         progress: parsed(id, "progress", row.try_get("progress")?)?,
         attempts: row.try_get("attempts")?,
-        spec: parsed(id, "specification", row.try_get("spec")?)?,
-        plan: Some(parsed(id, "plan", row.try_get("plan")?)?),
+        spec,
+        plan: Some(plan),
         summary: summary(id, row)?,
         links: links(id),
     })

@@ -10,7 +10,7 @@ use uuid::Uuid;
 use uuid::fmt::Hyphenated;
 
 use crate::store::block::Block;
-use crate::store::sqlite::blocks::{block, entries, unreadable, update_entries};
+use crate::store::sqlite::blocks::{StoredBlock, entries, unreadable, update_entries};
 use crate::store::sqlite::folder::Folder;
 use crate::store::sqlite::queries::{BEGIN, corrupt, integer};
 use crate::store::{Content, Lease, NewFile, Store, StoreError};
@@ -27,15 +27,16 @@ impl Store {
     /// # Errors
     /// [`StoreError`] if the database fails.
     pub async fn manifest(&self, id: Uuid) -> Result<Vec<ResultFile>, StoreError> {
+        // Both as of one time: a file may be moved from the one to the other.
+        let mut transaction = self.readers.begin().await?;
         let rows = sqlx::query(
             "SELECT name, cycle, media_type, bytes, sha256, damaged FROM result_files WHERE job_id = ? ORDER BY name",
         )
         .bind(id.to_string())
-        .fetch_all(&self.readers)
+        .fetch_all(&mut *transaction)
         .await?;
         let mut files: Vec<_> = rows.iter().map(entry).collect::<Result<_, _>>()?;
-        let mut connection = self.readers.acquire().await?;
-        if let Some(entries) = entries(&mut connection, id).await? {
+        if let Some(entries) = entries(&mut transaction, id).await? {
             files.extend(Block::listed(&entries).map_err(|cause| unreadable(id, &cause))?);
             files.sort_by(|a, b| a.name.cmp(&b.name));
         }
@@ -59,9 +60,7 @@ impl Store {
         .fetch_optional(&self.readers)
         .await?;
         let Some(row) = row else {
-            let document = |block: &Block| Ok(block.document(name));
-            let document = self.in_block(id, document).await?;
-            return Ok(document.map(|(entry, bytes)| (entry, Content::Inline(bytes))));
+            return self.file_of_block(id, name).await;
         };
         let content = if let Some(content) = row.try_get("content")? {
             Content::Inline(content)
@@ -71,6 +70,34 @@ impl Store {
             Content::File(path.ok_or_else(|| corrupt(id, "path of a file", &place))?)
         };
         Ok(Some((entry(&row)?, content)))
+    }
+
+    /// Returns a document of a job's block, or a file behind it in an object.
+    async fn file_of_block(
+        &self,
+        id: Uuid,
+        name: &str,
+    ) -> Result<Option<(ResultFile, Content)>, StoreError> {
+        let mut connection = self.readers.acquire().await?;
+        let Some(stored) = StoredBlock::of(&mut connection, id).await? else {
+            return Ok(None);
+        };
+        drop(connection);
+        let entries =
+            Block::decode(&stored.entries, &[]).map_err(|cause| unreadable(id, &cause))?;
+        if let (Some(key), Some(content_bytes)) = (&stored.object, stored.content_bytes)
+            && let Some((entry, range)) = entries.files().find(|(entry, _)| entry.name == name)
+        {
+            let objects = self.objects.as_ref().ok_or(StoreError::NoObjects)?;
+            let part = objects.part(key, content_bytes + range.start..content_bytes + range.end);
+            return Ok(Some((entry.clone(), Content::Object(part))));
+        }
+        if !entries.has_document(name) {
+            return Ok(None);
+        }
+        let block = stored.decoded(id, self.objects.as_ref()).await?;
+        let document = block.document(name);
+        Ok(document.map(|(entry, bytes)| (entry, Content::Inline(bytes))))
     }
 
     /// Marks a file in its manifest as damaged, with how, or no longer.
@@ -92,11 +119,12 @@ impl Store {
         .bind(name)
         .execute(&mut *transaction)
         .await?;
-        if let Some(old) = entries(&mut transaction, id).await?
-            && let Some(mut block) = block(&mut transaction, id).await?
-            && let Some(new) = block.mark(name, how)?
-        {
-            update_entries(&mut transaction, id, &old, &new).await?;
+        if let Some(old) = entries(&mut transaction, id).await? {
+            let block = Block::decode(&old, &[]);
+            let mut block = block.map_err(|cause| unreadable(id, &cause))?;
+            if let Some(new) = block.mark(name, how)? {
+                update_entries(&mut transaction, id, &old, &new).await?;
+            }
         }
         Ok(transaction.commit().await?)
     }

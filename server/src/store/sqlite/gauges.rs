@@ -71,8 +71,15 @@ impl Store {
             tokio::fs::metadata(&self.wal).await,
             tokio::fs::metadata(&self.path).await,
         );
+        let results_to_move: i64 = sqlx::query_scalar(
+            "SELECT count(*) FROM result_blocks WHERE is_movable = 1 AND object IS NULL AND ?",
+        )
+        .bind(self.objects.is_some())
+        .fetch_one(&self.readers)
+        .await?;
         Ok(Gauges {
             jobs,
+            results_to_move,
             oldest_checkpoint_s: oldest.map_or(0, |written| seconds(now, written)),
             // The file does not exist before the first write.
             wal_bytes: wal.map_or(0, |file| integer(file.len())),

@@ -14,7 +14,7 @@ macro_rules! file {
 }
 
 /// All files of the folder; a name is the version and what it is about.
-const FILES: [(&str, &str); 24] = [
+const FILES: [(&str, &str); 25] = [
     file!("0001_jobs.sql"),
     file!("0002_labels.sql"),
     file!("0003_events.sql"),
@@ -39,6 +39,7 @@ const FILES: [(&str, &str); 24] = [
     file!("0060_revisions.sql"),
     file!("0061_numbered_requests.sql"),
     file!("0062_worker_tokens.sql"),
+    file!("0063_objects.sql"),
 ];
 
 /// Applies the migrations that a database does not have; refuses a database with others.

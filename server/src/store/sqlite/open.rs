@@ -92,6 +92,7 @@ impl Store {
             changes,
             waiting: Notify::new(),
             folder: Folder::beside(&path),
+            objects: None,
             owner,
             wal: beside(&path, "-wal"),
             machine: beside(&path, ".machine.json"),

@@ -1,25 +1,28 @@
 //! Verification of a database and of all results that it names.
 
+use futures_util::StreamExt;
 use sqlx::sqlite::{SqliteConnection, SqliteRow};
 use sqlx::{ConnectOptions, Connection, Row};
 use uuid::Uuid;
 use uuid::fmt::Hyphenated;
 
 use crate::export::files::{hexadecimal, sha256};
+use crate::objects::{ObjectPart, Objects, ObjectsError};
+use crate::store::integrity::Checksum;
 use crate::store::sqlite::backup::{at, check_integrity, database_at};
-use crate::store::sqlite::blocks::{block, entries, update_entries};
+use crate::store::sqlite::blocks::{StoredBlock, update_entries};
 use crate::store::sqlite::files::entry;
 use crate::store::sqlite::folder::Folder;
 use crate::store::sqlite::migrations::newest_version;
 use crate::store::sqlite::open::options;
-use crate::store::{BackupError, Content, CopySummary, StoreError, integrity};
+use crate::store::{BackupError, CopySummary, StoreError, integrity};
 
 /// Reads the database at `url`, which may be in use, and all results, and compares every checksum. Marks in the manifests
-/// which files are damaged, and which no longer are.
+/// which files are damaged, and which no longer are. `objects` is the store that results were moved to.
 ///
 /// # Errors
-/// [`BackupError`] if the database itself is damaged or cannot be read.
-pub async fn verify(url: &str) -> Result<CopySummary, BackupError> {
+/// [`BackupError`] if the database itself is damaged or cannot be read, or if results are in a store of objects that is not given.
+pub async fn verify(url: &str, objects: Option<&Objects>) -> Result<CopySummary, BackupError> {
     let path = options(url)?.get_filename().to_owned();
     let (found, known) = (database_at(&path).await?, newest_version());
     if found < known {
@@ -33,7 +36,7 @@ pub async fn verify(url: &str) -> Result<CopySummary, BackupError> {
         .await?;
     let mut verified = CopySummary::default();
     for job in jobs {
-        verify_block(&mut database, job.into(), &mut verified).await?;
+        verify_block(&mut database, objects, job.into(), &mut verified).await?;
         let job = job.to_string();
         verify_files(&mut database, &folder, &job, &mut verified).await?;
         verify_checkpoint(&mut database, &job, &mut verified).await?;
@@ -57,16 +60,17 @@ async fn verify_files(
     .await?;
     for row in rows {
         let entry = entry(&row)?;
-        let content = if let Some(content) = row.try_get("content")? {
-            Content::Inline(content)
+        let content: Option<Vec<u8>> = row.try_get("content")?;
+        let checked = if let Some(bytes) = content {
+            integrity::check_bytes(&entry, &bytes)
         } else {
             let place: String = row.try_get("place")?;
-            let path = folder.path(&place);
-            Content::File(path.ok_or(BackupError::Place(place))?)
+            let path = folder.path(&place).ok_or(BackupError::Place(place))?;
+            integrity::check_file(&entry, &path)
         };
         verified.files += 1;
         verified.file_bytes += entry.bytes;
-        let how = match integrity::check(&entry, &content) {
+        let how = match checked {
             Err(cause) if !named(database, job, &row).await? => {
                 tracing::debug!(%cause, "deleted or replaced meanwhile");
                 continue;
@@ -98,30 +102,47 @@ async fn verify_files(
     Ok(())
 }
 
-/// Checks the block of a job; marks its documents.
+/// Checks the block of a job, and the files behind it in an object; marks what is damaged.
 async fn verify_block(
     database: &mut SqliteConnection,
+    objects: Option<&Objects>,
     job: Uuid,
     verified: &mut CopySummary,
 ) -> Result<(), BackupError> {
-    let Some(mut entries) = entries(&mut *database, job).await? else {
+    let Some(stored) = StoredBlock::of(&mut *database, job).await? else {
         return Ok(());
     };
-    let block = match block(&mut *database, job).await {
-        Ok(Some(block)) => block,
-        Ok(None) => return Ok(()),
+    let (mut entries, object) = (stored.entries.clone(), stored.object.clone());
+    let content_bytes = stored.content_bytes.unwrap_or_default();
+    let block = match stored.decoded(job, objects).await {
+        Ok(block) => block,
+        Err(StoreError::Objects(cause @ ObjectsError::Missing(_))) => {
+            let said = format!("results of job {job}: {cause}");
+            verified.damaged.push(said);
+            return Ok(());
+        }
         Err(error @ StoreError::DamagedResults { .. }) => {
             verified.damaged.push(error.to_string());
             return Ok(());
         }
         Err(error) => return Err(error.into()),
     };
+    let documents = block.all();
+    let mut checked: Vec<_> = documents
+        .map(|(entry, bytes)| (entry, integrity::check_bytes(entry, bytes)))
+        .collect();
+    if let (Some(key), Some(objects)) = (object, objects) {
+        for (entry, range) in block.files() {
+            let part = objects.part(&key, content_bytes + range.start..content_bytes + range.end);
+            let found = checksum(&part).await.map_err(StoreError::from)?;
+            checked.push((entry, found.compare(entry)));
+        }
+    }
     let mut marked = block.clone();
-    for (entry, bytes) in block.all() {
+    for (entry, checked) in checked {
         verified.files += 1;
         verified.file_bytes += entry.bytes;
-        let how = integrity::check_bytes(entry, bytes).err();
-        let how = how.map(|cause| cause.to_string());
+        let how = checked.err().map(|cause| cause.to_string());
         let marked = marked.mark(&entry.name, how.as_deref());
         if let Some(new) = marked.map_err(StoreError::from)? {
             // A job that was queued again meanwhile may have another block.
@@ -132,6 +153,16 @@ async fn verify_block(
         verified.damaged.extend(said);
     }
     Ok(())
+}
+
+/// The checksum of a part of an object.
+async fn checksum(part: &ObjectPart) -> Result<Checksum, ObjectsError> {
+    let mut checksum = Checksum::default();
+    let mut chunks = part.stream(0..part.length()).await?;
+    while let Some(chunk) = chunks.next().await {
+        checksum.update(&chunk?);
+    }
+    Ok(checksum)
 }
 
 /// Whether the database still names a file.

@@ -194,7 +194,8 @@ async fn finished(employer: &impl Employer, service: &Service) {
         .await
         .expect("the store")
         .expect("a file");
-    crate::store::integrity::check(&entry, &stored).expect("as it was sent");
+    let bytes = stored.read().await.expect("read");
+    crate::store::integrity::check_bytes(&entry, &bytes).expect("as it was sent");
 }
 
 async fn cancelled(employer: &impl Employer, service: &Service) {

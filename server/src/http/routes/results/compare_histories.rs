@@ -3,6 +3,7 @@
 use api::results::{Columns, Histories, JobHistory};
 use axum::Json;
 use axum::extract::State;
+use futures_util::{StreamExt, TryStreamExt, stream};
 use serde::Deserialize;
 use solver::record::{CycleReport, Record};
 use utoipa::IntoParams;
@@ -19,6 +20,8 @@ use crate::text::shortened;
 
 /// Most jobs of an answer.
 const MOST_JOBS: usize = 100;
+/// Histories that are read at the same time: those in a store of objects are far away. Arbitrary.
+const READS: usize = 8;
 /// Most columns of each.
 const MOST_COLUMNS: usize = 20;
 /// Rows of a job without `max_points`.
@@ -96,18 +99,14 @@ pub(crate) async fn histories(
         return Err(error.into());
     }
     let (mut histories, mut known) = (Vec::with_capacity(ids.len()), Vec::new());
-    for id in ids {
-        let Some(job) = app.store.job(id).await? else {
+    let read = stream::iter(ids).map(|id| history(&app, id, &names, points));
+    let mut read = std::pin::pin!(read.buffered(READS));
+    while let Some(found) = read.try_next().await? {
+        let Some((history, all)) = found else {
             continue;
         };
-        let stations = job.document.spec.output.stations_mm.unwrap_or_default();
-        let rows = app.store.history(id).await?;
-        // Thinning a long history blocks; other requests are served meanwhile.
-        let chosen = names.clone();
-        let (columns, all) =
-            tokio::task::spawn_blocking(move || of_job(&rows, &stations, &chosen, points)).await?;
         known.extend(all);
-        histories.push(JobHistory { job: id, columns });
+        histories.push(history);
     }
     let unknown = names.iter().find(|name| !known.contains(name));
     if let Some(name) = unknown.filter(|_| !known.is_empty()) {
@@ -116,6 +115,25 @@ pub(crate) async fn histories(
         return Err(HistoriesError::Unknown(shortened(name), known.join(", ")).into());
     }
     Ok(Json(Histories { histories }))
+}
+
+/// The history of a job, and the names of all of its columns; `None` if there is no such job.
+async fn history(
+    app: &App,
+    id: Uuid,
+    names: &[String],
+    points: usize,
+) -> Result<Option<(JobHistory, Vec<String>)>, ProblemResponse> {
+    let Some(job) = app.store.job(id).await? else {
+        return Ok(None);
+    };
+    let stations = job.document.spec.output.stations_mm.unwrap_or_default();
+    let rows = app.store.history(id).await?;
+    // Thinning a long history blocks; other requests are served meanwhile.
+    let chosen = names.to_vec();
+    let chosen = move || of_job(&rows, &stations, &chosen, points);
+    let (columns, all) = tokio::task::spawn_blocking(chosen).await?;
+    Ok(Some((JobHistory { job: id, columns }, all)))
 }
 
 /// The chosen columns of a job, and the names of all of its columns.

@@ -1,8 +1,7 @@
 //! `GET /v1/jobs/{id}/results/archive`: all files of a job as a zip, which is written while it is sent.
 
 use std::collections::HashMap;
-use std::io::{self, Read, Write};
-use std::path::Path;
+use std::io::{self, Write};
 use std::time::Duration;
 
 use api::problem::Problem;
@@ -11,7 +10,7 @@ use axum::body::{Body, Bytes};
 use axum::extract::State;
 use axum::http::header;
 use axum::response::{IntoResponse, Response};
-use futures_util::stream;
+use futures_util::{TryStreamExt, stream};
 use tokio::runtime::Handle;
 use tokio::sync::{OwnedSemaphorePermit, mpsc};
 use uuid::Uuid;
@@ -145,11 +144,11 @@ fn write_archive(app: &App, archived: &Archived, writer: ChunkWriter) -> io::Res
         };
         match &content {
             Content::Inline(bytes) => archive.write_all(bytes)?,
-            Content::File(path) => copy(app, (archived.id, file), path, &mut archive)?,
+            content => copy(app, (archived.id, file), content.clone(), &mut archive)?,
         }
         if let Some(picture) = picture_of(&archived.files, &file.name) {
             // `fretwear solve --out` writes it too; it is not stored, because browsers show the drawing.
-            match raster(content) {
+            match raster(&runtime, content) {
                 Ok(pixels) => {
                     archive.start_file(picture, options)?;
                     archive.write_all(&pixels)?;
@@ -169,35 +168,29 @@ fn picture_of(files: &[ResultFile], drawing: &str) -> Option<String> {
     (!is_stored).then_some(picture)
 }
 
-fn raster(drawing: Content) -> io::Result<Vec<u8>> {
-    let svg = match drawing {
-        Content::Inline(bytes) => String::from_utf8(bytes).map_err(io::Error::other)?,
-        Content::File(path) => std::fs::read_to_string(path)?,
-    };
+fn raster(runtime: &Handle, drawing: Content) -> io::Result<Vec<u8>> {
+    let svg = runtime.block_on(drawing.read())?;
+    let svg = String::from_utf8(svg).map_err(io::Error::other)?;
     pictures::png(&svg).map_err(io::Error::other)
 }
 
-/// Copies a file into an archive, and checks it meanwhile.
+/// Copies a content into an archive, and checks it meanwhile.
 fn copy(
     app: &App,
     (id, entry): (Uuid, &ResultFile),
-    path: &Path,
+    content: Content,
     archive: &mut impl Write,
 ) -> io::Result<()> {
-    let mut file = std::fs::File::open(path)?;
-    let (mut checksum, mut block) = (Checksum::default(), vec![0; CHUNK_BYTES]);
-    loop {
-        match file.read(&mut block)? {
-            0 => break,
-            length => {
-                checksum.update(&block[..length]);
-                archive.write_all(&block[..length])?;
-            }
-        }
+    let runtime = Handle::current();
+    let mut chunks = runtime.block_on(content.chunks(0..entry.bytes))?;
+    let mut checksum = Checksum::default();
+    while let Some(chunk) = runtime.block_on(chunks.try_next())? {
+        checksum.update(&chunk);
+        archive.write_all(&chunk)?;
     }
     checksum.compare(entry).map_err(|cause| {
         let damaged = app.damaged(id, &entry.name, cause);
-        io::Error::other(Handle::current().block_on(damaged))
+        io::Error::other(runtime.block_on(damaged))
     })
 }
 

@@ -2,9 +2,7 @@
 //!
 //! The name is looked up in the manifest; the path is the manifest's, never the client's.
 
-use std::io::SeekFrom;
 use std::ops::RangeInclusive;
-use std::path::Path;
 
 use api::problem::Problem;
 use api::results::ResultFile;
@@ -14,20 +12,14 @@ use axum::http::{HeaderMap, StatusCode, header};
 use axum::response::{IntoResponse, Response};
 use futures_util::{TryStreamExt, stream};
 use http_range_header::{RangeUnsatisfiableError, StartPosition, SyntacticallyCorrectRange};
-use tokio::fs::File;
-use tokio::io::{AsyncRead, AsyncReadExt, AsyncSeekExt};
-use tokio_util::io::ReaderStream;
 use uuid::Uuid;
 
 use crate::http::app::App;
 use crate::http::extract::{JobId, Name};
 use crate::http::problem::{ProblemResponse, ProblemType, RouteError};
 use crate::http::verified_file::VerifiedFile;
-use crate::store::Content;
+use crate::store::Chunks;
 use crate::store::integrity::Checksum;
-
-/// Size of the chunks in which a file is read, bytes.
-const CHUNK_BYTES: usize = 64 << 10;
 
 /// Error of a download.
 #[derive(Debug, thiserror::Error)]
@@ -186,32 +178,16 @@ async fn respond(
         (header::CONTENT_LENGTH, length.to_string()),
     ];
     let bytes = entry.bytes;
-    let body = match content {
-        Content::Inline(bytes) => slice(bytes, from, length),
-        Content::File(path) => {
-            let file = open(&path, from).await.map_err(read_error)?.take(length);
-            let whole = !is_complete && range.is_none();
-            checked_stream(file, whole.then(|| Unchecked::new(app, id, entry)))
-        }
-    };
+    let chunks = content.chunks(from..from + length);
+    let chunks = chunks.await.map_err(read_error)?;
+    let whole = !is_complete && range.is_none();
+    let body = checked_stream(chunks, whole.then(|| Unchecked::new(app, id, entry)));
     let Some(range) = range else {
         return Ok((headers, body).into_response());
     };
     let range = format!("bytes {}-{}/{bytes}", range.start(), range.end());
     let range = [(header::CONTENT_RANGE, range)];
     Ok((StatusCode::PARTIAL_CONTENT, headers, range, body).into_response())
-}
-
-fn slice(bytes: Vec<u8>, from: u64, length: u64) -> Body {
-    let index = |at: u64| usize::try_from(at).unwrap_or(usize::MAX).min(bytes.len());
-    let (from, to) = (index(from), index(from + length));
-    Body::from(Bytes::from(bytes).slice(from..to))
-}
-
-async fn open(path: &Path, from: u64) -> std::io::Result<File> {
-    let mut file = File::open(path).await?;
-    file.seek(SeekFrom::Start(from)).await?;
-    Ok(file)
 }
 
 /// A file whose checksum is compared while it is sent.
@@ -254,8 +230,7 @@ impl Unchecked {
 }
 
 /// Streams the rest of a file, checked if it has not been.
-fn checked_stream(file: impl AsyncRead + Send + 'static, unchecked: Option<Unchecked>) -> Body {
-    let chunks = Box::pin(ReaderStream::with_capacity(file, CHUNK_BYTES));
+fn checked_stream(chunks: Chunks, unchecked: Option<Unchecked>) -> Body {
     Body::from_stream(stream::try_unfold(
         (chunks, unchecked),
         |(mut chunks, mut unchecked)| async move {

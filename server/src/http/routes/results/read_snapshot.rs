@@ -19,7 +19,7 @@ use crate::http::app::App;
 use crate::http::extract::{JobId, Params};
 use crate::http::problem::{ProblemResponse, ProblemType, RouteError};
 use crate::http::routes::results::max_points;
-use crate::store::{Content, SnapshotPart};
+use crate::store::SnapshotPart;
 
 /// Error of a section that a job does not have.
 #[derive(Debug, thiserror::Error)]
@@ -247,12 +247,8 @@ async fn section(
     let Some(file) = app.verified_file(id, &line::file_name(cycle)).await? else {
         return Err(missing(0).into());
     };
-    let bytes = match file.content {
-        Content::Inline(bytes) => bytes,
-        Content::File(path) => tokio::fs::read(path)
-            .await
-            .map_err(|cause| UnreadError { id, cause })?,
-    };
+    let bytes = file.content.read().await;
+    let bytes = bytes.map_err(|cause| UnreadError { id, cause })?;
     let found: LineProfiles = serde_json::from_slice(&bytes)?;
     let stations = found.stations.len();
     let of_number = usize::try_from(station)

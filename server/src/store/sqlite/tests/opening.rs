@@ -91,7 +91,7 @@ async fn files_of_other_programs_are_refused_and_not_changed() {
         let into = folder.path().join("backup");
         for refused in [
             backup(&url, &into).await.expect_err("refused"),
-            verify(&url).await.expect_err("refused"),
+            verify(&url, None).await.expect_err("refused"),
         ] {
             assert!(refused.to_string().contains(words), "{refused}");
         }
@@ -129,7 +129,7 @@ async fn a_missing_folder_is_refused_and_not_created() {
         refused,
         format!("the folder {} does not exist", missing.display())
     );
-    assert!(verify(&url).await.is_err());
+    assert!(verify(&url, None).await.is_err());
     assert!(!missing.exists());
 }
 

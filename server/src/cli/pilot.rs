@@ -1,0 +1,151 @@
+//! `fretwear pilot slurm`: workers on a cluster as long as there is work for them.
+
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+use std::time::Duration;
+
+use api::service::Demand;
+use clap::{Args, Subcommand};
+
+use crate::cli::arguments::EmployerOptions;
+use crate::cli::runtime::block_on;
+use crate::cli::serve::until_signal;
+use crate::cli::terminal::{Ended, failed, write_out};
+use crate::client::Client;
+use crate::placement::Fleet;
+use crate::placement::slurm::SlurmWorkers;
+
+/// Engines that start workers.
+#[derive(Debug, Subcommand)]
+pub(super) enum Engine {
+    /// Keep job arrays of `fretwear work --until-idle` submitted to Slurm; the service and all files must be reachable from its nodes.
+    Slurm(SlurmArguments),
+}
+
+#[derive(Debug, Args)]
+pub(super) struct SlurmArguments {
+    #[command(flatten)]
+    service: EmployerOptions,
+    /// Most workers that wait and run at a time.
+    #[arg(long, env = "FRETWEAR_MOST", default_value_t = 50, value_parser = clap::value_parser!(u64).range(1..=100_000))]
+    most: u64,
+    /// Jobs that each worker solves at once, and its processors.
+    #[arg(long, env = "FRETWEAR_SLOTS", default_value_t = 1, value_parser = clap::value_parser!(u64).range(1..=256))]
+    slots: u64,
+    /// Memory of each worker; what the partition gives by default unless given.
+    #[arg(long, env = "FRETWEAR_MEMORY_MB", value_parser = clap::value_parser!(u64).range(1..))]
+    memory_mb: Option<u64>,
+    /// Time limit of each worker, minutes; its jobs continue from their checkpoints in another one.
+    #[arg(long, env = "FRETWEAR_MINUTES", default_value_t = 240, value_parser = clap::value_parser!(u64).range(2..))]
+    minutes: u64,
+    /// Folder for the logs of the workers; they write none unless given.
+    #[arg(long, env = "FRETWEAR_LOGS")]
+    logs: Option<PathBuf>,
+    /// Name of the jobs, by which they are found in the queue of Slurm.
+    #[arg(long, env = "FRETWEAR_JOB_NAME", default_value = "fretwear")]
+    job_name: String,
+    /// A further option of `sbatch`, such as --partition=long; may be repeated.
+    #[arg(long = "sbatch", value_name = "OPTION", allow_hyphen_values = true)]
+    sbatch: Vec<String>,
+    /// Interval between two looks at the demand, s.
+    #[arg(long, env = "FRETWEAR_EVERY_S", default_value_t = 15, value_parser = clap::value_parser!(u64).range(1..))]
+    every_s: u64,
+    /// End when no job waits or runs at the service.
+    #[arg(long, env = "FRETWEAR_UNTIL_IDLE")]
+    until_idle: bool,
+    /// Write the script that would be submitted to standard output, and end.
+    #[arg(long)]
+    print: bool,
+}
+
+pub(super) fn run(engine: &Engine) -> Ended {
+    let Engine::Slurm(arguments) = engine;
+    let workers = arguments.workers()?;
+    if arguments.print {
+        return write_out(workers.script().trim_end());
+    }
+    let client = arguments.service.client()?;
+    block_on(async {
+        tokio::select! {
+            ended = pilot(arguments, &client, &workers) => ended,
+            // Workers that were submitted end by themselves when there is nothing to do.
+            signal = until_signal() => signal.map_err(failed),
+        }
+    })?
+}
+
+/// Submits workers as long as there is work for more than there are.
+async fn pilot(arguments: &SlurmArguments, client: &Client, workers: &SlurmWorkers) -> Ended {
+    let fleet = Fleet {
+        most: arguments.most,
+        slots: arguments.slots,
+    };
+    loop {
+        match client.demand().await {
+            Ok(demand) if arguments.until_idle && demand.queued + demand.running == 0 => {
+                return Ok(());
+            }
+            Ok(demand) => place(fleet, &demand, workers),
+            Err(error) if error.is_rejected() => return Err(failed(error)),
+            Err(error) => tracing::warn!(%error, "the demand is not known"),
+        }
+        tokio::time::sleep(Duration::from_secs(arguments.every_s)).await;
+    }
+}
+
+/// Submits workers if fewer are there than a demand is enough for.
+fn place(fleet: Fleet, demand: &Demand, workers: &SlurmWorkers) {
+    let wanted = fleet.wanted(demand);
+    let placed = workers.present().and_then(|present| {
+        let missing = wanted.saturating_sub(present);
+        if missing > 0 {
+            workers.submit(missing)?;
+            tracing::info!(
+                submitted = missing,
+                present,
+                queued = demand.queued,
+                running = demand.running,
+                "workers submitted"
+            );
+        }
+        Ok(())
+    });
+    if let Err(error) = placed {
+        tracing::warn!(%error, "no workers were submitted");
+    }
+}
+
+impl SlurmArguments {
+    /// The workers that are submitted; they start in another folder.
+    fn workers(&self) -> Result<SlurmWorkers, ExitCode> {
+        let absolute = |path: &Path| std::path::absolute(path).map_err(failed);
+        let program = std::env::current_exe().map_err(failed)?;
+        let mut command = vec![program.display().to_string()];
+        let mut add = |words: &[&str]| command.extend(words.iter().map(|word| (*word).to_owned()));
+        let EmployerOptions {
+            server,
+            token_file,
+            ca,
+        } = &self.service;
+        add(&["work", "--server", server]);
+        for (option, path) in [("--token-file", token_file), ("--ca", ca)] {
+            if let Some(path) = path {
+                add(&[option, &absolute(path)?.display().to_string()]);
+            }
+        }
+        add(&["--slots", &self.slots.to_string()]);
+        if let Some(mb) = self.memory_mb {
+            add(&["--memory-mb", &mb.to_string()]);
+        }
+        add(&["--until-idle"]);
+        Ok(SlurmWorkers {
+            name: self.job_name.clone(),
+            command,
+            processors: self.slots,
+            memory_mb: self.memory_mb,
+            minutes: self.minutes,
+            logs: self.logs.as_deref().map(absolute).transpose()?,
+            options: self.sbatch.clone(),
+        })
+    }
+}

@@ -1,0 +1,177 @@
+//! Slurm: workers as tasks of job arrays.
+//!
+//! What is submitted and runs is read from Slurm's queue by the name of the jobs, so that nothing has to be remembered.
+
+use std::io::Write;
+use std::path::PathBuf;
+use std::process::{Command, Output, Stdio};
+use std::time::Duration;
+
+/// Time between SIGTERM and the end of a worker at its time limit: its solves write a last checkpoint.
+const WARNING: Duration = Duration::from_mins(1);
+/// States of tasks that count as workers.
+const STATES: &str = "PENDING,CONFIGURING,RUNNING,SUSPENDED,COMPLETING";
+
+/// Why Slurm did not do what was asked.
+#[derive(Debug, thiserror::Error)]
+pub enum SlurmError {
+    /// A program of it cannot be run.
+    #[error("cannot run {program}: {cause}")]
+    Run {
+        /// The program.
+        program: &'static str,
+        /// The system's error.
+        cause: std::io::Error,
+    },
+    /// A program of it has failed.
+    #[error("{program} failed: {said}")]
+    Failed {
+        /// The program.
+        program: &'static str,
+        /// Its standard error.
+        said: String,
+    },
+}
+
+/// Workers as Slurm is to run them.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct SlurmWorkers {
+    /// Name of the jobs.
+    pub name: String,
+    /// Program and arguments.
+    pub command: Vec<String>,
+    /// Processors of each.
+    pub processors: u64,
+    /// Memory of each, MB; what the partition gives by default where absent.
+    pub memory_mb: Option<u64>,
+    /// Time limit of each, minutes.
+    pub minutes: u64,
+    /// Folder of their logs; none are written where absent.
+    pub logs: Option<PathBuf>,
+    /// Further options of `sbatch`.
+    pub options: Vec<String>,
+}
+
+impl SlurmWorkers {
+    /// The script of a task. It becomes the worker itself, which so gets the signals.
+    pub fn script(&self) -> String {
+        let log = match &self.logs {
+            Some(folder) => folder.join("%x-%A_%a.log").display().to_string(),
+            None => "/dev/null".to_owned(),
+        };
+        let mut options = vec![
+            format!("--job-name={}", self.name),
+            "--ntasks=1".to_owned(),
+            format!("--cpus-per-task={}", self.processors),
+            format!("--time={}", self.minutes),
+            format!("--signal=B:TERM@{}", WARNING.as_secs()),
+            // Jobs of a worker that ends return to the service, which gives them to others.
+            "--no-requeue".to_owned(),
+            format!("--output={log}"),
+        ];
+        options.extend(self.memory_mb.map(|mb| format!("--mem={mb}M")));
+        options.extend(self.options.iter().cloned());
+        let options = options.iter().map(|option| format!("#SBATCH {option}\n"));
+        let command: Vec<String> = self.command.iter().map(|word| quoted(word)).collect();
+        format!(
+            "#!/bin/sh\n{}exec {}\n",
+            options.collect::<String>(),
+            command.join(" ")
+        )
+    }
+
+    /// Number of workers that wait or run.
+    ///
+    /// # Errors
+    /// [`SlurmError`].
+    pub fn present(&self) -> Result<u64, SlurmError> {
+        let mut command = Command::new("squeue");
+        command.args(["--me", "--noheader", "--array", "--format=%i"]);
+        command.args(["--name", &self.name, "--states", STATES]);
+        let output = finished("squeue", command, "")?;
+        let lines = output.stdout.split(|byte| *byte == b'\n');
+        let tasks = lines.filter(|line| !line.is_empty()).count();
+        Ok(u64::try_from(tasks).unwrap_or(u64::MAX))
+    }
+
+    /// Submits so many workers as one job array.
+    ///
+    /// # Errors
+    /// [`SlurmError`].
+    pub fn submit(&self, workers: u64) -> Result<(), SlurmError> {
+        let mut command = Command::new("sbatch");
+        command.args(["--parsable", &format!("--array=1-{workers}")]);
+        finished("sbatch", command, &self.script()).map(drop)
+    }
+}
+
+/// Runs a program to its end.
+fn finished(
+    program: &'static str,
+    mut command: Command,
+    input: &str,
+) -> Result<Output, SlurmError> {
+    let run = |cause| SlurmError::Run { program, cause };
+    let spawned = command
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn();
+    let mut child = spawned.map_err(run)?;
+    if let Some(mut stdin) = child.stdin.take() {
+        // A program that has ended without reading says why.
+        let _ = stdin.write_all(input.as_bytes());
+    }
+    let output = child.wait_with_output().map_err(run)?;
+    if output.status.success() {
+        return Ok(output);
+    }
+    let said = String::from_utf8_lossy(&output.stderr).trim().to_owned();
+    Err(SlurmError::Failed { program, said })
+}
+
+/// A word as a shell reads it.
+fn quoted(word: &str) -> String {
+    let is_plain = |c: char| c.is_ascii_alphanumeric() || "-_./:=,@%+".contains(c);
+    if !word.is_empty() && word.chars().all(is_plain) {
+        return word.to_owned();
+    }
+    format!("'{}'", word.replace('\'', r"'\''"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_script_becomes_the_worker() {
+        let command = [
+            "/opt/fret wear/fretwear",
+            "work",
+            "--server",
+            "https://a:1",
+            "it's",
+        ];
+        let workers = SlurmWorkers {
+            name: "fretwear".to_owned(),
+            command: command.map(str::to_owned).to_vec(),
+            processors: 16,
+            memory_mb: Some(32_000),
+            minutes: 240,
+            logs: Some(PathBuf::from("/scratch/logs")),
+            options: vec!["--partition=long".to_owned()],
+        };
+        let expected = "#!/bin/sh\n\
+            #SBATCH --job-name=fretwear\n\
+            #SBATCH --ntasks=1\n\
+            #SBATCH --cpus-per-task=16\n\
+            #SBATCH --time=240\n\
+            #SBATCH --signal=B:TERM@60\n\
+            #SBATCH --no-requeue\n\
+            #SBATCH --output=/scratch/logs/%x-%A_%a.log\n\
+            #SBATCH --mem=32000M\n\
+            #SBATCH --partition=long\n\
+            exec '/opt/fret wear/fretwear' work --server https://a:1 'it'\\''s'\n";
+        assert_eq!(workers.script(), expected);
+    }
+}

@@ -1,0 +1,44 @@
+//! Moves results of succeeded jobs to the store of objects.
+
+use std::sync::Arc;
+use std::time::Duration;
+
+use tokio_util::sync::CancellationToken;
+
+use crate::store::Store;
+
+/// Pause after a round.
+const PAUSE: Duration = Duration::from_secs(1);
+/// Longest pause after an error; the first one is [`PAUSE`], and each is twice as long as the last one.
+const LONGEST_PAUSE: Duration = Duration::from_secs(30);
+
+/// Runs until the service stops. Objects whose writing is interrupted are removed at the next start.
+pub(super) async fn move_results(store: Arc<Store>, stopping: CancellationToken) {
+    let (mut moved, mut pause) = (Vec::new(), PAUSE);
+    loop {
+        let round = async {
+            let (now, ended) = store.move_results().await;
+            // Requests that were about to read these files have had a pause.
+            store.remove_moved(&moved).await;
+            (now, ended)
+        };
+        let ended;
+        (moved, ended) = tokio::select! {
+            () = stopping.cancelled() => return,
+            round = round => round,
+        };
+        let count = u64::try_from(moved.len()).unwrap_or_default();
+        store.metrics().results_moved.inc_by(count);
+        match ended {
+            Ok(()) => pause = PAUSE,
+            Err(error) => {
+                tracing::warn!(%error, "results could not be moved; they stay in the database meanwhile");
+                pause = (2 * pause).min(LONGEST_PAUSE);
+            }
+        }
+        tokio::select! {
+            () = stopping.cancelled() => return,
+            () = tokio::time::sleep(pause) => {}
+        }
+    }
+}

@@ -1,0 +1,281 @@
+//! Results in a store of objects.
+
+use std::path::{Path, PathBuf};
+
+use super::*;
+use crate::export::documents::{CSV, VTU};
+use crate::export::files;
+use crate::http::tests::snapshot;
+use crate::objects::Objects;
+use crate::store::block::Block;
+
+/// A database whose results are moved into a folder of objects.
+struct WithObjects {
+    folder: TempDir,
+    store: Arc<Store>,
+}
+
+impl WithObjects {
+    async fn new() -> Self {
+        let folder = TempDir::new().expect("a temporary folder");
+        let store = opened(folder.path(), Some("objects")).await;
+        let store = Arc::new(store.expect("a store"));
+        Self { folder, store }
+    }
+
+    /// Paths of all objects.
+    fn objects(&self) -> Vec<PathBuf> {
+        files_below(&self.folder.path().join("objects"))
+    }
+
+    /// A job that has ended with a document, a file, rows and snapshots.
+    async fn ended(&self, transition: Transition) -> Uuid {
+        let spec = spec::read(br#"{"system":{"kind":"fuzz_button"}}"#).expect("accepted");
+        let plan = crate::estimate::Estimate::of(&spec).plan(&spec, None);
+        let job = NewJob {
+            spec: spec.spec,
+            plan,
+            options: SubmitOptions::default(),
+        };
+        let id = self.store.queue(&job, 0).await;
+        let claim = self.store.claim_next(i64::MAX).await.expect("a job");
+        let folder = self.store.attempt_folder(&claim);
+        files::write_atomically(&folder, "a.vtu", b"fields").expect("written");
+        let update = JobUpdate {
+            files: vec![NewFile {
+                file: files::manifest_entry("a.vtu", Some(1), VTU, b"fields"),
+                content: None,
+            }],
+            snapshots: vec![snapshot(2)],
+            events: vec![(EventName::Cycle, "{}".to_owned()); 2],
+            ..with_checkpoint(3)
+        };
+        self.store.record_next(&claim, &update).await;
+        let mut block = Block::default();
+        let rows: Vec<CycleReport> = (1..=4).map(row).collect();
+        assert!(block.push_history(&rows, &[snapshot(2)]).expect("written"));
+        let document = files::manifest_entry("b.csv", None, CSV, b"cycle");
+        assert!(block.push_document(&document, b"cycle"));
+        let last = JobUpdate {
+            block: Some(block.encode().expect("encoded")),
+            ..JobUpdate::default()
+        };
+        self.store.end_next(&claim, &last, &end(transition)).await;
+        id
+    }
+
+    /// Moves what can be moved; returns the jobs.
+    async fn moved(&self) -> Vec<Uuid> {
+        let (moved, ended) = self.store.move_results().await;
+        ended.expect("the store of objects answers");
+        self.store.remove_moved(&moved).await;
+        moved
+    }
+
+    async fn read(&self, id: Uuid, name: &str) -> Result<Vec<u8>, StoreError> {
+        let found = self.store.result_file(id, name).await?;
+        let (_, content) = found.expect("a file");
+        Ok(content.read().await.expect("it can be read"))
+    }
+}
+
+async fn opened(folder: &Path, objects: Option<&str>) -> Result<Store, StoreError> {
+    let url = format!("sqlite://{}", folder.join("test.db").display());
+    let address = |name| format!("file://{}", folder.join(name).display());
+    let objects = objects.map(|name| Objects::open(&address(name)).expect("opened"));
+    let store = Store::open_with(&url, Limits::default()).await?;
+    store.with_objects(objects).await
+}
+
+/// Paths of all files below a folder.
+fn files_below(folder: &Path) -> Vec<PathBuf> {
+    let entries = std::fs::read_dir(folder).expect("a folder");
+    let paths = entries.map(|entry| entry.expect("an entry").path());
+    paths
+        .flat_map(|path| {
+            if path.is_dir() {
+                files_below(&path)
+            } else {
+                vec![path]
+            }
+        })
+        .collect()
+}
+
+#[tokio::test]
+async fn results_of_a_succeeded_job_are_one_object_and_read_as_before() {
+    let database = WithObjects::new().await;
+    let store = &database.store;
+    let id = database.ended(Transition::Succeed).await;
+    let all = async || {
+        (
+            store.manifest(id).await.expect("the store"),
+            store.history(id).await.expect("the store"),
+            store.snapshots(id).await.expect("the store"),
+            store.events(id, 0).await.expect("the store"),
+            store.events(id, 2).await.expect("the store"),
+            store.job(id).await.expect("the store"),
+        )
+    };
+    let before = all().await;
+    assert_eq!((before.0.len(), before.3.len(), before.4.len()), (2, 5, 3));
+    assert_eq!(database.moved().await, [id]);
+    assert_eq!(before, all().await);
+    assert_eq!(database.objects().len(), 1);
+    assert_eq!(database.read(id, "a.vtu").await.expect("read"), b"fields");
+    assert_eq!(database.read(id, "b.csv").await.expect("read"), b"cycle");
+    assert!(
+        store
+            .result_file(id, "c.csv")
+            .await
+            .expect("read")
+            .is_none()
+    );
+    let results = database.folder.path().join("test.db.results");
+    assert_eq!(files_below(&results), Vec::<PathBuf>::new());
+    assert_eq!(database.moved().await, [] as [Uuid; 0]);
+    let gauges = store.gauges(0).await.expect("the store");
+    assert_eq!(gauges.results_to_move, 0);
+}
+
+#[tokio::test]
+async fn an_object_is_removed_with_its_job() {
+    let database = WithObjects::new().await;
+    let id = database.ended(Transition::Succeed).await;
+    database.moved().await;
+    let deleted = database.store.delete(id).await.expect("the store");
+    assert_eq!(deleted, Deleted::Done);
+    database.moved().await;
+    assert_eq!(database.objects(), Vec::<PathBuf>::new());
+}
+
+/// The results of a job that may be tried again stay: the next attempt continues them.
+#[tokio::test]
+async fn results_of_a_failed_job_are_not_moved() {
+    let database = WithObjects::new().await;
+    let id = database.ended(Transition::Fail).await;
+    assert_eq!(database.moved().await, [] as [Uuid; 0]);
+    assert_eq!(database.read(id, "a.vtu").await.expect("read"), b"fields");
+}
+
+#[tokio::test]
+async fn results_stay_while_the_store_of_objects_fails() {
+    let database = WithObjects::new().await;
+    let objects = database.folder.path().join("objects");
+    let id = database.ended(Transition::Succeed).await;
+    std::fs::remove_dir(&objects).expect("removed");
+    std::fs::write(&objects, "").expect("a file in its place");
+    let (moved, ended) = database.store.move_results().await;
+    assert!(moved.is_empty() && matches!(ended, Err(StoreError::Objects(_))));
+    assert_eq!(database.read(id, "b.csv").await.expect("read"), b"cycle");
+    std::fs::remove_file(&objects).expect("removed");
+    std::fs::create_dir(&objects).expect("a folder");
+    assert_eq!(database.moved().await, [id]);
+    assert_eq!(database.objects().len(), 1);
+}
+
+/// Noted keys whose objects no job names belong to moves that a crash has interrupted.
+#[tokio::test]
+async fn objects_without_a_name_are_removed() {
+    let database = WithObjects::new().await;
+    let id = database.ended(Transition::Succeed).await;
+    let objects = database.folder.path().join("objects");
+    std::fs::create_dir(objects.join("jobs")).expect("a folder");
+    std::fs::write(objects.join("jobs/left"), "").expect("written");
+    database
+        .store
+        .note_unnamed(&[(id, "jobs/left".to_owned())])
+        .await
+        .expect("noted");
+    database.moved().await;
+    let [object] = &database.objects()[..] else {
+        panic!("one object");
+    };
+    assert!(object.to_string_lossy().contains(&id.to_string()));
+}
+
+#[tokio::test]
+async fn a_job_with_a_damaged_file_keeps_its_results() {
+    let database = WithObjects::new().await;
+    let damaged = database.ended(Transition::Succeed).await;
+    let results = database.folder.path().join("test.db.results");
+    let [file] = &files_below(&results)[..] else {
+        panic!("one file");
+    };
+    std::fs::write(file, "field").expect("shortened");
+    let whole = database.ended(Transition::Succeed).await;
+    assert_eq!(database.moved().await, [whole]);
+    assert_eq!(database.moved().await, [] as [Uuid; 0]);
+    assert_eq!(
+        database.read(damaged, "b.csv").await.expect("read"),
+        b"cycle"
+    );
+}
+
+#[tokio::test]
+async fn a_missing_or_damaged_object_is_found() {
+    let database = WithObjects::new().await;
+    let id = database.ended(Transition::Succeed).await;
+    database.moved().await;
+    let folder = database.folder.path();
+    let url = format!("sqlite://{}", folder.join("test.db").display());
+    let objects = Objects::open(&format!("file://{}", folder.join("objects").display()));
+    let objects = objects.expect("opened");
+    let damaged = async || {
+        verify(&url, Some(&objects))
+            .await
+            .expect("verified")
+            .damaged
+    };
+    assert_eq!(damaged().await, Vec::<String>::new());
+    assert!(verify(&url, None).await.is_err(), "they are not there");
+    let object = &database.objects()[0];
+    let mut bytes = std::fs::read(object).expect("read");
+    *bytes.last_mut().expect("a byte") ^= 1;
+    std::fs::write(object, &bytes).expect("written");
+    let said = damaged().await;
+    assert!(
+        said.len() == 1 && said[0].starts_with("a.vtu of job"),
+        "{said:?}"
+    );
+    let manifest = database.store.manifest(id).await.expect("the store");
+    assert!(manifest[0].damaged.is_some(), "{manifest:?}");
+    std::fs::remove_file(object).expect("removed");
+    let said = damaged().await;
+    assert!(
+        said.len() == 1 && said[0].contains("does not exist"),
+        "{said:?}"
+    );
+    let unread = database.read(id, "b.csv").await;
+    assert!(matches!(unread, Err(StoreError::Objects(_))), "{unread:?}");
+}
+
+#[tokio::test]
+async fn a_database_whose_results_are_elsewhere_is_not_opened_without_them() {
+    let database = WithObjects::new().await;
+    database.ended(Transition::Succeed).await;
+    let folder = database.folder.path().to_owned();
+    database.store.close().await;
+    let WithObjects {
+        folder: _kept,
+        store,
+    } = database;
+    drop(store);
+    // Nothing was moved so far.
+    for objects in [None, Some("other"), Some("objects")] {
+        let store = opened(&folder, objects).await.expect("a store");
+        store.close().await;
+    }
+    let store = opened(&folder, Some("objects")).await.expect("a store");
+    store.move_results().await.1.expect("moved");
+    store.close().await;
+    drop(store);
+    let without = opened(&folder, None).await;
+    assert!(matches!(without, Err(StoreError::NoObjects)), "{without:?}");
+    let other = opened(&folder, Some("other")).await;
+    assert!(
+        matches!(other, Err(StoreError::OtherObjects { .. })),
+        "{other:?}"
+    );
+    opened(&folder, Some("objects")).await.expect("a store");
+}

@@ -1,0 +1,171 @@
+//! Requirement: with `--objects`, the results of each succeeded job are moved into one object, and everything is answered as before;
+//! the database keeps less than 15 kB of a job. While the store of objects does not answer, jobs are solved and their results are read all the
+//! same.
+
+use std::time::Duration;
+
+use serde_json::Value;
+use tests::{S3, Server, database, fretwear};
+
+const SPEC: &str = r#"{
+  "name": "kept elsewhere", "labels": {"lot": "7"},
+  "system": {"kind": "cylinder_on_flat"},
+  "cycles": 20,
+  "output": {"fields": true, "snapshots_at_cycles": [20]}
+}"#;
+/// Largest part of the database that belongs to a job, bytes.
+const MOST_BYTES: i64 = 15_000;
+
+/// Submits a job and waits for its end; returns its id.
+async fn solved(server: &Server, spec: &str) -> String {
+    let (status, job) = server.submit(spec.to_owned()).await;
+    assert_eq!(status, 202, "{job}");
+    let id = job["id"].as_str().expect("an id").to_owned();
+    let ended = |job: &Value| job["finished_at"].is_string();
+    let job = server.job_when(&id, ended).await;
+    assert_eq!(job["status"], "succeeded", "{job}");
+    id
+}
+
+/// Waits until no results are to be moved, and so many were.
+async fn moved(server: &Server, jobs: u32) {
+    let line = format!("fretwear_results_moved_total {jobs}");
+    loop {
+        let metrics = server.bytes_in_the_end("/metrics").await;
+        let metrics = String::from_utf8(metrics).expect("text");
+        if metrics.lines().any(|found| found == line) {
+            assert!(metrics.contains("fretwear_results_to_move 0"), "{metrics}");
+            return;
+        }
+        tokio::time::sleep(Duration::from_millis(50)).await;
+    }
+}
+
+/// Everything that can be read of a job, by its path.
+async fn everything(server: &Server, id: &str) -> Vec<(String, Vec<u8>)> {
+    let job = format!("/v1/jobs/{id}");
+    let (_, manifest) = server.get(&format!("{job}/results")).await;
+    let files = manifest["files"].as_array().expect("files");
+    let names = files.iter().filter_map(|file| file["name"].as_str());
+    let mut paths: Vec<String> = names
+        .map(|name| format!("{job}/results/files/{name}"))
+        .collect();
+    paths.extend([
+        job.clone(),
+        format!("{job}/events"),
+        format!("{job}/results"),
+        format!("/v1/histories?jobs={id}&columns=cycle,receptacle_max_depth_mm"),
+        "/v1/jobs?label=lot:7".to_owned(),
+    ]);
+    for part in ["wear-history", "profile?cycle=20", "pressure", "loop"] {
+        paths.push(format!("{job}/results/{part}"));
+    }
+    let mut read = Vec::new();
+    for path in paths {
+        let bytes = server.bytes_in_the_end(&path).await;
+        read.push((path, bytes));
+    }
+    read
+}
+
+#[tokio::test]
+async fn results_are_read_from_their_objects_as_from_the_database() {
+    let folder = tempfile::tempdir().expect("a folder can be made");
+    let server = Server::start(folder.path());
+    let id = solved(&server, SPEC).await;
+    let before = everything(&server, &id).await;
+    drop(server);
+
+    let objects = format!("file://{}", folder.path().join("objects").display());
+    let options = ["--objects", &objects];
+    let server = Server::start_with(folder.path(), &options);
+    moved(&server, 1).await;
+    for ((path, before), (_, now)) in before.iter().zip(everything(&server, &id).await) {
+        assert!(*before == now, "{path}: {}", String::from_utf8_lossy(&now));
+    }
+    let fields = format!("{}/v1/jobs/{id}/results/files/fields-20.vtu", server.base);
+    let part = server.client.get(fields).header("Range", "bytes=10-19");
+    let part = part.send().await.expect("an answer");
+    assert_eq!(part.status(), 206);
+    let whole = before
+        .iter()
+        .find(|(path, _)| path.ends_with("/fields-20.vtu"));
+    let whole = &whole.expect("fields").1;
+    assert_eq!(part.bytes().await.expect("a part"), whole[10..20]);
+    let archive = format!("/v1/jobs/{id}/results/archive");
+    assert!(server.bytes_in_the_end(&archive).await.len() > whole.len() / 10);
+    let verified = fretwear(folder.path(), &["verify", "--objects", &objects]);
+    assert_eq!(verified.code, Some(0), "{}", verified.stderr);
+    drop(server);
+
+    let refused = fretwear(folder.path(), &["serve", "--listen", "127.0.0.1:0"]);
+    assert_eq!(refused.code, Some(1));
+    assert!(refused.stderr.contains("--objects"), "{}", refused.stderr);
+}
+
+#[tokio::test]
+async fn the_database_keeps_little_of_a_job_whose_results_were_moved() {
+    let folder = tempfile::tempdir().expect("a folder can be made");
+    let objects = format!("file://{}", folder.path().join("objects").display());
+    let server = Server::start_with(folder.path(), &["--objects", &objects]);
+    let empty = pages(folder.path()).await;
+    let jobs = 12;
+    for _ in 0..jobs {
+        solved(&server, r#"{"system":{"kind":"sd_card"}}"#).await;
+    }
+    moved(&server, jobs).await;
+    let bytes = (pages(folder.path()).await - empty) / i64::from(jobs);
+    println!("{bytes} bytes of the database a job");
+    assert!(bytes < MOST_BYTES, "{bytes} bytes a job");
+}
+
+/// Bytes of the pages in use.
+async fn pages(folder: &std::path::Path) -> i64 {
+    database::number(
+        folder,
+        "SELECT (page_count - freelist_count) * page_size FROM pragma_page_count, pragma_freelist_count, pragma_page_size",
+    )
+    .await
+}
+
+#[tokio::test]
+#[cfg_attr(
+    not(has_moto),
+    ignore = "needs the Python package moto with its server"
+)]
+async fn jobs_are_solved_and_read_while_the_bucket_does_not_answer() {
+    let folder = tempfile::tempdir().expect("a folder can be made");
+    let mut bucket = S3::start().await;
+    let address = bucket.address();
+    let options = ["--objects", &address];
+    let server = Server::start_in(folder.path(), &options, &bucket.environment());
+    let first = solved(&server, SPEC).await;
+    moved(&server, 1).await;
+    assert_eq!(bucket.objects().await, 1);
+    let history = |id: &str| format!("/v1/jobs/{id}/results/wear-history");
+    assert_eq!(server.get(&history(&first)).await.0, 200);
+
+    bucket.end();
+    let second = solved(&server, SPEC).await;
+    assert_eq!(server.get(&history(&second)).await.0, 200);
+    let (status, problem) = server.get(&history(&first)).await;
+    assert_eq!(status, 503, "{problem}");
+    assert_eq!(problem["type"], "/problems/results-unreachable");
+    assert_eq!(server.get(&format!("/v1/jobs/{first}")).await.0, 200);
+
+    let bucket = bucket.restart().await;
+    moved(&server, 2).await;
+    assert_eq!(bucket.objects().await, 1, "the new one is empty at first");
+    assert_eq!(server.get(&history(&second)).await.0, 200);
+    let (status, problem) = server.get(&history(&first)).await;
+    assert_eq!(status, 500, "{problem}");
+    assert_eq!(problem["type"], "/problems/result-damaged");
+    for id in [&first, &second] {
+        let url = format!("{}/v1/jobs/{id}", server.base);
+        let deleted = server.client.delete(url).send().await.expect("an answer");
+        assert_eq!(deleted.status(), 204);
+    }
+    while bucket.objects().await > 0 {
+        tokio::time::sleep(Duration::from_millis(50)).await;
+    }
+}
