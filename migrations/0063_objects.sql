@@ -18,11 +18,14 @@ CREATE TABLE unnamed_objects (
     key TEXT NOT NULL PRIMARY KEY
 ) STRICT, WITHOUT ROWID;
 
-CREATE TRIGGER result_blocks_leave_their_objects AFTER DELETE ON result_blocks WHEN OLD.object IS NOT NULL BEGIN
+-- Address of the store of objects that the keys belong to, once there is one, and whether objects of deleted jobs are removed from it:
+-- not by a restored copy, because the original names them, too.
+CREATE TABLE object_store (
+    address TEXT    NOT NULL,
+    removes INTEGER NOT NULL DEFAULT 1
+) STRICT;
+
+CREATE TRIGGER result_blocks_leave_their_objects AFTER DELETE ON result_blocks
+WHEN OLD.object IS NOT NULL AND EXISTS (SELECT 1 FROM object_store WHERE removes) BEGIN
     INSERT OR IGNORE INTO unnamed_objects (key) VALUES (OLD.object);
 END;
-
--- Address of the store of objects that the keys belong to, once there is one.
-CREATE TABLE object_store (
-    address TEXT NOT NULL
-) STRICT;

@@ -58,6 +58,8 @@ pub struct Demand {
     pub queued: u64,
     /// Jobs that run.
     pub running: u64,
-    /// Estimated processor time of the waiting jobs, s; those without an estimate are not counted.
+    /// Those of them that remote workers solve.
+    pub running_remotely: u64,
+    /// Estimated processor time of the waiting jobs, s; a minute for one without an estimate.
     pub queued_cpu_s: u64,
 }

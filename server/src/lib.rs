@@ -8,6 +8,7 @@ pub mod clock;
 pub mod estimate;
 pub mod export;
 pub mod http;
+mod json_bytes;
 pub mod metrics;
 mod number;
 pub mod objects;

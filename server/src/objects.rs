@@ -1,26 +1,36 @@
 //! Objects: results of ended jobs in a store of objects, a folder (`file:///PATH`) or a bucket (`s3://BUCKET/PREFIX`), by the crate
 //! `object_store`. An object is written once, whole or not at all, and never changed. Knows neither jobs nor SQL.
 
+mod part;
+
 use std::fmt;
 use std::ops::Range;
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Duration;
 
-use bytes::Bytes;
 use futures_util::TryStreamExt;
-use futures_util::stream::BoxStream;
 use object_store::aws::AmazonS3Builder;
 use object_store::buffered::BufWriter;
 use object_store::local::LocalFileSystem;
 use object_store::path::Path;
 use object_store::prefix::PrefixStore;
-use object_store::{GetOptions, GetRange, ObjectStore, ObjectStoreExt, RetryConfig};
-use tokio::io::{AsyncWriteExt, copy};
+use object_store::{ObjectStore, ObjectStoreExt, RetryConfig};
+use sha2::{Digest, Sha256};
+use tokio::io::{AsyncReadExt, AsyncWriteExt};
+
+use crate::export::files::hexadecimal;
+
+pub use part::ObjectPart;
 
 /// Retries of a request, and the longest time for them: the caller tries again later, too.
 const RETRIES: usize = 3;
 const RETRY_TIMEOUT: Duration = Duration::from_secs(10);
+/// Length of the parts of a large object, and how many of them are sent at the same time: their memory is taken for each writer.
+const PART_BYTES: usize = 8 << 20;
+const PARTS: usize = 2;
+/// Size of the chunks in which a file is read, bytes.
+const CHUNK_BYTES: usize = 64 << 10;
 
 /// Why an object cannot be used.
 #[derive(Debug, thiserror::Error)]
@@ -30,13 +40,21 @@ pub enum ObjectsError {
         "`{0}` is not the address of a store of objects such as s3://bucket/prefix or file:///path"
     )]
     Address(String),
-    /// A file that belongs into an object cannot be read.
+    /// A file that belongs into an object cannot be read at present.
     #[error("cannot read {}: {cause}", .path.display())]
     File {
         /// The file.
         path: PathBuf,
         /// The system's error.
         cause: std::io::Error,
+    },
+    /// A file that belongs into an object is missing or another one.
+    #[error("{} is damaged: {how}", .path.display())]
+    Damaged {
+        /// The file.
+        path: PathBuf,
+        /// What differs.
+        how: String,
     },
     /// There is no such object.
     #[error("the object {0} does not exist")]
@@ -49,6 +67,17 @@ pub enum ObjectsError {
         /// The cause.
         cause: Box<dyn std::error::Error + Send + Sync>,
     },
+}
+
+/// A file that belongs into an object.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct ObjectFile {
+    /// Its path.
+    pub path: PathBuf,
+    /// Its length.
+    pub bytes: u64,
+    /// Its SHA-256, hexadecimal.
+    pub sha256: String,
 }
 
 /// A store of objects.
@@ -81,7 +110,7 @@ impl Objects {
             fs_err::create_dir_all(folder).map_err(|cause| failed(cause.into()))?;
             let local = LocalFileSystem::new_with_prefix(folder);
             let local = local.map_err(|cause| failed(cause.into()))?;
-            Arc::new(local.with_fsync(true))
+            Arc::new(local.with_fsync(true).with_automatic_cleanup(true))
         } else if let Some(bucket) = address.strip_prefix("s3://")
             && let (bucket, prefix) = bucket.split_once('/').unwrap_or((bucket, ""))
             && !bucket.is_empty()
@@ -110,7 +139,8 @@ impl Objects {
         &self.location
     }
 
-    /// Writes an object: bytes, and the contents of files of these lengths behind them. After an error there may be an object or not.
+    /// Writes an object: bytes, and the contents of files behind them, which are compared with what they should be. After an error there may be
+    /// an object or not.
     ///
     /// # Errors
     /// [`ObjectsError`].
@@ -118,23 +148,16 @@ impl Objects {
         &self,
         key: &str,
         head: &[u8],
-        files: &[(PathBuf, u64)],
+        files: &[ObjectFile],
     ) -> Result<(), ObjectsError> {
-        let mut writer = BufWriter::new(Arc::clone(&self.store), Path::from(key));
+        let path = Path::from(key);
+        let mut writer = BufWriter::with_capacity(Arc::clone(&self.store), path, PART_BYTES)
+            .with_max_concurrency(PARTS);
         let failed = |cause: std::io::Error| self.failed(cause.into());
         let written = async {
             writer.write_all(head).await.map_err(failed)?;
-            for (path, bytes) in files {
-                let unread = |cause| ObjectsError::File {
-                    path: path.clone(),
-                    cause,
-                };
-                let mut file = tokio::fs::File::open(path).await.map_err(unread)?;
-                let copied = copy(&mut file, &mut writer).await.map_err(failed)?;
-                if copied != *bytes {
-                    let cause = format!("it has {copied} bytes instead of {bytes}");
-                    return Err(unread(std::io::Error::other(cause)));
-                }
+            for file in files {
+                self.append(&mut writer, file).await?;
             }
             Ok(())
         };
@@ -147,6 +170,43 @@ impl Objects {
         writer.shutdown().await.map_err(failed)
     }
 
+    /// Writes a file, and compares length and checksum.
+    async fn append(&self, writer: &mut BufWriter, file: &ObjectFile) -> Result<(), ObjectsError> {
+        let path = &file.path;
+        let damaged = |how: String| ObjectsError::Damaged {
+            path: path.clone(),
+            how,
+        };
+        let unread = |cause: std::io::Error| match cause.kind() {
+            std::io::ErrorKind::NotFound => damaged("it does not exist".to_owned()),
+            _ => ObjectsError::File {
+                path: path.clone(),
+                cause,
+            },
+        };
+        let mut content = tokio::fs::File::open(path).await.map_err(unread)?;
+        let (mut chunk, mut bytes, mut sha256) = (vec![0; CHUNK_BYTES], 0, Sha256::new());
+        loop {
+            let length = content.read(&mut chunk).await.map_err(unread)?;
+            if length == 0 {
+                break;
+            }
+            sha256.update(&chunk[..length]);
+            bytes += u64::try_from(length).unwrap_or(u64::MAX);
+            let written = writer.write_all(&chunk[..length]).await;
+            written.map_err(|cause| self.failed(cause.into()))?;
+        }
+        let sha256 = hexadecimal(&sha256.finalize());
+        if (bytes, &sha256) == (file.bytes, &file.sha256) {
+            return Ok(());
+        }
+        let how = format!(
+            "it has {bytes} bytes with the SHA-256 {sha256}, and should have {} with {}",
+            file.bytes, file.sha256
+        );
+        Err(damaged(how))
+    }
+
     /// Reads a range of an object.
     ///
     /// # Errors
@@ -157,11 +217,6 @@ impl Objects {
         }
         let bytes = self.store.get_range(&Path::from(key), range).await;
         Ok(bytes.map_err(|cause| self.failed_with(key, cause))?.into())
-    }
-
-    /// A range of an object, to be read later.
-    pub fn part(&self, key: &str, range: Range<u64>) -> ObjectPart {
-        ObjectPart::new(self.clone(), key.to_owned(), range)
     }
 
     /// Removes an object; there may be none.
@@ -199,134 +254,5 @@ impl Objects {
     }
 }
 
-/// A range of an object.
-#[derive(Debug, Clone)]
-pub struct ObjectPart {
-    objects: Objects,
-    key: String,
-    range: Range<u64>,
-}
-
-impl PartialEq for ObjectPart {
-    /// An object never changes.
-    fn eq(&self, other: &Self) -> bool {
-        (&self.key, &self.range) == (&other.key, &other.range)
-    }
-}
-
-impl Eq for ObjectPart {}
-
-impl ObjectPart {
-    fn new(objects: Objects, key: String, range: Range<u64>) -> Self {
-        Self {
-            objects,
-            key,
-            range,
-        }
-    }
-
-    /// Its length, bytes.
-    pub fn length(&self) -> u64 {
-        self.range.end - self.range.start
-    }
-
-    /// Reads all of it.
-    ///
-    /// # Errors
-    /// [`ObjectsError`].
-    pub async fn read(&self) -> Result<Vec<u8>, ObjectsError> {
-        self.objects.get(&self.key, self.range.clone()).await
-    }
-
-    /// Reads a range of it, in chunks.
-    ///
-    /// # Errors
-    /// [`ObjectsError`] if it cannot be opened.
-    pub async fn stream(
-        &self,
-        within: Range<u64>,
-    ) -> Result<BoxStream<'static, Result<Bytes, ObjectsError>>, ObjectsError> {
-        let from = self.range.start + within.start;
-        let until = self.range.end.min(self.range.start + within.end);
-        let path = Path::from(&*self.key);
-        let options = GetOptions::new().with_range(Some(GetRange::Bounded(from..until)));
-        let opened = self.objects.store.get_opts(&path, options);
-        let opened = opened
-            .await
-            .map_err(|cause| self.objects.failed_with(&self.key, cause))?;
-        let (objects, key) = (self.objects.clone(), self.key.clone());
-        let chunks = opened.into_stream();
-        Ok(Box::pin(
-            chunks.map_err(move |cause| objects.failed_with(&key, cause)),
-        ))
-    }
-}
-
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[tokio::test]
-    async fn an_object_has_its_head_and_its_files_and_is_read_in_parts() {
-        let folder = tempfile::tempdir().expect("a folder");
-        let file = folder.path().join("a.vtu");
-        std::fs::write(&file, "fields").expect("written");
-        let address = format!("file://{}/objects", folder.path().display());
-        let objects = Objects::open(&address).expect("opened");
-        objects.check().await.expect("it can be reached");
-        let files = [(file.clone(), 6), (file, 6)];
-        let written = objects.put("jobs/1/a", b"head", &files).await;
-        written.expect("written");
-        let whole = objects.get("jobs/1/a", 0..16).await.expect("read");
-        assert_eq!(whole, b"headfieldsfields");
-        let part = objects.part("jobs/1/a", 4..10);
-        assert_eq!(part.read().await.expect("read"), b"fields");
-        let some: Vec<_> = part
-            .stream(2..5)
-            .await
-            .expect("a stream")
-            .try_collect()
-            .await
-            .expect("read");
-        assert_eq!(some.concat(), b"eld");
-        objects.remove("jobs/1/a").await.expect("removed");
-        objects
-            .remove("jobs/1/a")
-            .await
-            .expect("a repeated request");
-        let gone = objects.get("jobs/1/a", 0..4).await;
-        assert!(matches!(gone, Err(ObjectsError::Missing(_))), "{gone:?}");
-    }
-
-    #[tokio::test]
-    async fn an_object_whose_files_are_missing_is_not_written() {
-        let folder = tempfile::tempdir().expect("a folder");
-        let objects = Objects::open(&format!("file://{}", folder.path().display()));
-        let objects = objects.expect("opened");
-        let shorter = folder.path().join("a.vtu");
-        std::fs::write(&shorter, "field").expect("written");
-        for file in [folder.path().join("b.vtu"), shorter] {
-            let written = objects.put("a", b"head", &[(file, 6)]).await;
-            assert!(
-                matches!(written, Err(ObjectsError::File { .. })),
-                "{written:?}"
-            );
-            assert!(objects.get("a", 0..4).await.is_err());
-        }
-    }
-
-    #[test]
-    fn other_addresses_are_refused() {
-        for address in [
-            "",
-            "objects",
-            "file://relative",
-            "s3://",
-            "gs://bucket",
-            "sqlite://x.db",
-        ] {
-            let opened = Objects::open(address);
-            assert!(matches!(opened, Err(ObjectsError::Address(_))), "{address}");
-        }
-    }
-}
+mod tests;

@@ -18,17 +18,13 @@ pub struct Fleet {
 }
 
 impl Fleet {
-    /// Number of workers that a demand is enough for: those of the running jobs, and for what waits as many as have a minute of work for each
+    /// Number of workers that a demand is enough for: those of the jobs that remote workers solve, and for what waits as many as have a minute of work for each
     /// slot, but no more than there are jobs.
     pub fn wanted(self, demand: &Demand) -> u64 {
         let slots = self.slots.max(1);
         let by_jobs = demand.queued.div_ceil(slots);
-        // Without a calibration of the service's machine there are no estimates.
-        let by_time = match demand.queued_cpu_s {
-            0 => by_jobs,
-            seconds => seconds.div_ceil(WORTH_STARTING_S * slots),
-        };
-        let running = demand.running.div_ceil(slots);
+        let by_time = demand.queued_cpu_s.div_ceil(WORTH_STARTING_S * slots);
+        let running = demand.running_remotely.div_ceil(slots);
         (running + by_jobs.min(by_time)).min(self.most)
     }
 }
@@ -40,7 +36,7 @@ mod tests {
     #[test]
     fn workers_are_wanted_for_a_minute_of_work_and_no_more_than_there_are_jobs() {
         let fleet = Fleet { most: 50, slots: 4 };
-        for ((queued, running, queued_cpu_s), wanted) in [
+        for ((queued, running_remotely, queued_cpu_s), wanted) in [
             ((0, 0, 0), 0),
             // One short job.
             ((1, 0, 1), 1),
@@ -49,15 +45,15 @@ mod tests {
             // 100 jobs of an hour, and as many as there may be.
             ((100, 0, 360_000), 25),
             ((1_000, 0, 3_600_000), 50),
-            // Without estimates.
-            ((10, 0, 0), 3),
             // Running jobs have their workers.
             ((0, 9, 0), 3),
             ((4, 8, 600), 3),
         ] {
             let demand = Demand {
                 queued,
-                running,
+                // The service solves some itself.
+                running: running_remotely + 8,
+                running_remotely,
                 queued_cpu_s,
             };
             assert_eq!(fleet.wanted(&demand), wanted, "{demand:?}");

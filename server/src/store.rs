@@ -68,7 +68,7 @@ pub use leases::{
     Claim, ClaimRequest, End, EventName, JobUpdate, Lease, LeaseState, Reclaimed, RequestNumber,
 };
 pub use limits::Limits;
-pub use results::{Chunks, Content, NewFile, SnapshotPart, StoredEvent};
+pub use results::{Chunks, Content, ContentError, NewFile, SnapshotPart, StoredEvent};
 pub use sqlite::backup::{backup, restore};
 pub use sqlite::verify::verify;
 pub use sqlite::{OWNER_HEARTBEAT, Store};

@@ -1,6 +1,7 @@
 //! Workers: each claims a job, supervises one child process that solves it, and hands its results to its employer.
 
 mod attempt;
+mod computed;
 mod config;
 mod employer;
 mod end;

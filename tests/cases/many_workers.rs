@@ -14,7 +14,10 @@ use std::time::{Duration, Instant};
 use fastrand::Rng;
 use nix::sys::signal::Signal;
 use server::client::Client;
+use server::export::documents::CSV;
+use server::export::files::manifest_entry;
 use server::queue::{Capacity, MemoryBudget, Transition};
+use server::store::block::{Block, EncodedBlock};
 use server::store::{
     Claim, ClaimRequest, End, EventName, JobUpdate, Lease, LeaseState, RequestNumber,
 };
@@ -147,6 +150,7 @@ impl Simulated {
         }
         let last = JobUpdate {
             number: 2,
+            block: Some(documents()),
             ..JobUpdate::default()
         };
         let end = End {
@@ -161,6 +165,15 @@ impl Simulated {
             None => drop(self.done.lost.fetch_add(1, Ordering::Relaxed)),
         }
     }
+}
+
+/// Documents as a worker makes them of a run.
+fn documents() -> EncodedBlock {
+    let mut block = Block::default();
+    let table = b"cycle,depth\n1,2\n";
+    let entry = manifest_entry("wear-history.csv", None, CSV, table);
+    assert!(block.push_history(&[], &[]).expect("JSON") && block.push_document(&entry, table));
+    block.encode().expect("JSON")
 }
 
 /// Starts workers for a service.

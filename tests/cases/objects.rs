@@ -2,7 +2,7 @@
 //! the database keeps less than 15 kB of a job. While the store of objects does not answer, jobs are solved and their results are read all the
 //! same.
 
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use serde_json::Value;
 use tests::{S3, Server, database, fretwear};
@@ -15,6 +15,9 @@ const SPEC: &str = r#"{
 }"#;
 /// Largest part of the database that belongs to a job, bytes.
 const MOST_BYTES: i64 = 15_000;
+
+/// Timeout of a wait; no measure of speed.
+const PATIENCE: Duration = Duration::from_mins(4);
 
 /// Submits a job and waits for its end; returns its id.
 async fn solved(server: &Server, spec: &str) -> String {
@@ -29,14 +32,21 @@ async fn solved(server: &Server, spec: &str) -> String {
 
 /// Waits until no results are to be moved, and so many were.
 async fn moved(server: &Server, jobs: u32) {
-    let line = format!("fretwear_results_moved_total {jobs}");
+    let lines = [
+        format!("fretwear_results_moved_total {jobs}"),
+        "fretwear_results_to_move 0".to_owned(),
+    ];
+    let start = Instant::now();
     loop {
         let metrics = server.bytes_in_the_end("/metrics").await;
         let metrics = String::from_utf8(metrics).expect("text");
-        if metrics.lines().any(|found| found == line) {
-            assert!(metrics.contains("fretwear_results_to_move 0"), "{metrics}");
+        if lines
+            .iter()
+            .all(|line| metrics.lines().any(|found| found == line))
+        {
             return;
         }
+        assert!(start.elapsed() < PATIENCE, "results are moved: {metrics}");
         tokio::time::sleep(Duration::from_millis(50)).await;
     }
 }
@@ -96,7 +106,24 @@ async fn results_are_read_from_their_objects_as_from_the_database() {
     assert!(server.bytes_in_the_end(&archive).await.len() > whole.len() / 10);
     let verified = fretwear(folder.path(), &["verify", "--objects", &objects]);
     assert_eq!(verified.code, Some(0), "{}", verified.stderr);
+    let copied = fretwear(folder.path(), &["backup", "copy"]);
+    assert_eq!(copied.code, Some(0), "{}", copied.stderr);
     drop(server);
+
+    // A copy reads the objects, and removes none with its jobs: the original names them, too.
+    let copy = Server::start_with(&folder.path().join("copy"), &options);
+    let url = format!("{}/v1/jobs/{id}", copy.base);
+    assert_eq!(
+        copy.bytes_in_the_end(&format!("/v1/jobs/{id}")).await,
+        before[before.len() - 9].1
+    );
+    let deleted = copy.client.delete(url).send().await.expect("an answer");
+    assert_eq!(deleted.status(), 204);
+    solved(&copy, SPEC).await;
+    moved(&copy, 1).await;
+    drop(copy);
+    let verified = fretwear(folder.path(), &["verify", "--objects", &objects]);
+    assert_eq!(verified.code, Some(0), "{}", verified.stderr);
 
     let refused = fretwear(folder.path(), &["serve", "--listen", "127.0.0.1:0"]);
     assert_eq!(refused.code, Some(1));
@@ -165,7 +192,9 @@ async fn jobs_are_solved_and_read_while_the_bucket_does_not_answer() {
         let deleted = server.client.delete(url).send().await.expect("an answer");
         assert_eq!(deleted.status(), 204);
     }
+    let start = Instant::now();
     while bucket.objects().await > 0 {
+        assert!(start.elapsed() < PATIENCE, "objects are removed");
         tokio::time::sleep(Duration::from_millis(50)).await;
     }
 }

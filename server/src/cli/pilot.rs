@@ -15,6 +15,11 @@ use crate::client::Client;
 use crate::placement::Fleet;
 use crate::placement::slurm::SlurmWorkers;
 
+/// Default memory of a worker for each of its slots, MB. Arbitrary: solves need 20 to 350 MB by their plans.
+const SLOT_MEMORY_MB: u64 = 2_000;
+/// Time for last checkpoints, s: within the 30 s that Slurm waits by default (`KillWait`) before it kills a cancelled task.
+const GRACE_S: u64 = 20;
+
 /// Engines that start workers.
 #[derive(Debug, Subcommand)]
 pub(super) enum Engine {
@@ -32,17 +37,17 @@ pub(super) struct SlurmArguments {
     /// Jobs that each worker solves at once, and its processors.
     #[arg(long, env = "FRETWEAR_SLOTS", default_value_t = 1, value_parser = clap::value_parser!(u64).range(1..=256))]
     slots: u64,
-    /// Memory of each worker; what the partition gives by default unless given.
-    #[arg(long, env = "FRETWEAR_MEMORY_MB", value_parser = clap::value_parser!(u64).range(1..))]
+    /// Memory of each worker, four fifths of it for the estimated memory of its solves; 2000 for each slot unless given.
+    #[arg(long, env = "FRETWEAR_MEMORY_MB", value_parser = clap::value_parser!(u64).range(100..))]
     memory_mb: Option<u64>,
     /// Time limit of each worker, minutes; its jobs continue from their checkpoints in another one.
-    #[arg(long, env = "FRETWEAR_MINUTES", default_value_t = 240, value_parser = clap::value_parser!(u64).range(2..))]
+    #[arg(long, env = "FRETWEAR_MINUTES", default_value_t = 240, value_parser = clap::value_parser!(u64).range(5..))]
     minutes: u64,
     /// Folder for the logs of the workers; they write none unless given.
     #[arg(long, env = "FRETWEAR_LOGS")]
     logs: Option<PathBuf>,
     /// Name of the jobs, by which they are found in the queue of Slurm.
-    #[arg(long, env = "FRETWEAR_JOB_NAME", default_value = "fretwear")]
+    #[arg(long, env = "FRETWEAR_JOB_NAME", default_value = "fretwear", value_parser = job_name)]
     job_name: String,
     /// A further option of `sbatch`, such as --partition=long; may be repeated.
     #[arg(long = "sbatch", value_name = "OPTION", allow_hyphen_values = true)]
@@ -115,6 +120,15 @@ fn place(fleet: Fleet, demand: &Demand, workers: &SlurmWorkers) {
     }
 }
 
+/// A name that needs no quotes in a script.
+fn job_name(text: &str) -> Result<String, String> {
+    let is_plain = |c: char| c.is_ascii_alphanumeric() || "-_.".contains(c);
+    if text.is_empty() || !text.chars().all(is_plain) {
+        return Err("a name has letters, digits, `-`, `_` and `.`".to_owned());
+    }
+    Ok(text.to_owned())
+}
+
 impl SlurmArguments {
     /// The workers that are submitted; they start in another folder.
     fn workers(&self) -> Result<SlurmWorkers, ExitCode> {
@@ -134,15 +148,14 @@ impl SlurmArguments {
             }
         }
         add(&["--slots", &self.slots.to_string()]);
-        if let Some(mb) = self.memory_mb {
-            add(&["--memory-mb", &mb.to_string()]);
-        }
-        add(&["--until-idle"]);
+        let memory_mb = self.memory_mb.unwrap_or(SLOT_MEMORY_MB * self.slots);
+        add(&["--memory-mb", &(memory_mb / 5 * 4).to_string()]);
+        add(&["--grace-s", &GRACE_S.to_string(), "--until-idle"]);
         Ok(SlurmWorkers {
             name: self.job_name.clone(),
             command,
             processors: self.slots,
-            memory_mb: self.memory_mb,
+            memory_mb,
             minutes: self.minutes,
             logs: self.logs.as_deref().map(absolute).transpose()?,
             options: self.sbatch.clone(),

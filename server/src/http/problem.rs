@@ -10,7 +10,7 @@ use crate::export::parquet::ParquetError;
 pub(super) use crate::http::problem_type::ProblemType;
 use crate::objects::ObjectsError;
 use crate::spec::Refused;
-use crate::store::StoreError;
+use crate::store::{ContentError, StoreError};
 use crate::worker::EmployerError;
 
 /// Media type of a problem document.
@@ -119,6 +119,15 @@ impl From<StoreError> for ProblemResponse {
         };
         tracing::warn!(%error, "a request was rejected for now");
         problem
+    }
+}
+
+impl From<ContentError> for ProblemResponse {
+    fn from(error: ContentError) -> Self {
+        match error {
+            ContentError::Object(cause) => StoreError::Objects(cause).into(),
+            ContentError::File(cause) => Self::internal(&cause),
+        }
     }
 }
 

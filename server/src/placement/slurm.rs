@@ -9,6 +9,8 @@ use std::time::Duration;
 
 /// Time between SIGTERM and the end of a worker at its time limit: its solves write a last checkpoint.
 const WARNING: Duration = Duration::from_mins(1);
+/// Most tasks of a job array: Slurm's own default (`MaxArraySize` of 1001, which is beyond the largest number).
+const LONGEST_ARRAY: u64 = 1_000;
 /// States of tasks that count as workers.
 const STATES: &str = "PENDING,CONFIGURING,RUNNING,SUSPENDED,COMPLETING";
 
@@ -42,8 +44,8 @@ pub struct SlurmWorkers {
     pub command: Vec<String>,
     /// Processors of each.
     pub processors: u64,
-    /// Memory of each, MB; what the partition gives by default where absent.
-    pub memory_mb: Option<u64>,
+    /// Memory of each, MB.
+    pub memory_mb: u64,
     /// Time limit of each, minutes.
     pub minutes: u64,
     /// Folder of their logs; none are written where absent.
@@ -56,7 +58,11 @@ impl SlurmWorkers {
     /// The script of a task. It becomes the worker itself, which so gets the signals.
     pub fn script(&self) -> String {
         let log = match &self.logs {
-            Some(folder) => folder.join("%x-%A_%a.log").display().to_string(),
+            Some(folder) => {
+                // Slurm replaces what follows a per cent sign.
+                let folder = folder.display().to_string().replace('%', "%%");
+                format!("\"{folder}/%x-%A_%a.log\"")
+            }
             None => "/dev/null".to_owned(),
         };
         let mut options = vec![
@@ -68,8 +74,8 @@ impl SlurmWorkers {
             // Jobs of a worker that ends return to the service, which gives them to others.
             "--no-requeue".to_owned(),
             format!("--output={log}"),
+            format!("--mem={}M", self.memory_mb),
         ];
-        options.extend(self.memory_mb.map(|mb| format!("--mem={mb}M")));
         options.extend(self.options.iter().cloned());
         let options = options.iter().map(|option| format!("#SBATCH {option}\n"));
         let command: Vec<String> = self.command.iter().map(|word| quoted(word)).collect();
@@ -94,14 +100,19 @@ impl SlurmWorkers {
         Ok(u64::try_from(tasks).unwrap_or(u64::MAX))
     }
 
-    /// Submits so many workers as one job array.
+    /// Submits so many workers as job arrays.
     ///
     /// # Errors
-    /// [`SlurmError`].
-    pub fn submit(&self, workers: u64) -> Result<(), SlurmError> {
-        let mut command = Command::new("sbatch");
-        command.args(["--parsable", &format!("--array=1-{workers}")]);
-        finished("sbatch", command, &self.script()).map(drop)
+    /// [`SlurmError`]; some may have been submitted.
+    pub fn submit(&self, mut workers: u64) -> Result<(), SlurmError> {
+        while workers > 0 {
+            let tasks = workers.min(LONGEST_ARRAY);
+            let mut command = Command::new("sbatch");
+            command.args(["--parsable", &format!("--array=1-{tasks}")]);
+            finished("sbatch", command, &self.script())?;
+            workers -= tasks;
+        }
+        Ok(())
     }
 }
 
@@ -156,9 +167,9 @@ mod tests {
             name: "fretwear".to_owned(),
             command: command.map(str::to_owned).to_vec(),
             processors: 16,
-            memory_mb: Some(32_000),
+            memory_mb: 32_000,
             minutes: 240,
-            logs: Some(PathBuf::from("/scratch/logs")),
+            logs: Some(PathBuf::from("/scratch/100% logs")),
             options: vec!["--partition=long".to_owned()],
         };
         let expected = "#!/bin/sh\n\
@@ -168,7 +179,7 @@ mod tests {
             #SBATCH --time=240\n\
             #SBATCH --signal=B:TERM@60\n\
             #SBATCH --no-requeue\n\
-            #SBATCH --output=/scratch/logs/%x-%A_%a.log\n\
+            #SBATCH --output=\"/scratch/100%% logs/%x-%A_%a.log\"\n\
             #SBATCH --mem=32000M\n\
             #SBATCH --partition=long\n\
             exec '/opt/fret wear/fretwear' work --server https://a:1 'it'\\''s'\n";

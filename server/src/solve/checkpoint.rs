@@ -6,9 +6,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 use api::results::Cost;
-use base64::Engine as _;
-use base64::prelude::BASE64_STANDARD;
-use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use serde::{Deserialize, Serialize};
 
 /// Format number, raised whenever the fields of a checkpoint or the results computed from them change: runs do not
 /// resume from an older format.
@@ -29,7 +27,7 @@ pub struct EncodedCheckpoint {
     /// Cycle of the checkpoint.
     pub cycle: u64,
     /// A [`Checkpoint`], encoded.
-    #[serde(serialize_with = "to_base64", deserialize_with = "from_base64")]
+    #[serde(with = "crate::json_bytes")]
     pub state: Vec<u8>,
 }
 
@@ -103,17 +101,6 @@ impl CheckpointPolicy {
         }
         due
     }
-}
-
-fn to_base64<S: Serializer>(bytes: &[u8], serializer: S) -> Result<S::Ok, S::Error> {
-    serializer.serialize_str(&BASE64_STANDARD.encode(bytes))
-}
-
-fn from_base64<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<u8>, D::Error> {
-    let text = String::deserialize(deserializer)?;
-    BASE64_STANDARD
-        .decode(text)
-        .map_err(serde::de::Error::custom)
 }
 
 #[cfg(test)]

@@ -61,16 +61,28 @@ pub struct Block {
 }
 
 /// A compressed block.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct EncodedBlock {
     /// The entries, JSON.
+    #[serde(with = "crate::json_bytes")]
     pub(in crate::store) entries: Vec<u8>,
     /// The content.
+    #[serde(with = "crate::json_bytes")]
     pub(in crate::store) content: Vec<u8>,
     /// Names of its documents.
     pub(in crate::store) documents: Vec<String>,
     /// Whether history and snapshots are part of it.
     pub(in crate::store) has_history: bool,
+}
+
+impl EncodedBlock {
+    /// Checks that its entries can be read.
+    ///
+    /// # Errors
+    /// [`BlockError::Entries`].
+    pub fn check(&self) -> Result<(), BlockError> {
+        Block::listed(&self.entries).map(drop)
+    }
 }
 
 /// Why a block cannot be read.

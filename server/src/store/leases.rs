@@ -90,7 +90,7 @@ pub struct JobUpdate {
     /// New files of the manifest; they replace files of the same name.
     pub files: Vec<NewFile>,
     /// The small results of a job that ends, as a block.
-    #[serde(skip)]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub block: Option<EncodedBlock>,
     /// The newest checkpoint; all rows, snapshots and files up to its cycle are in this update or an earlier one.
     pub checkpoint: Option<EncodedCheckpoint>,

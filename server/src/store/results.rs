@@ -14,7 +14,7 @@ use tokio::fs::File;
 use tokio::io::{AsyncReadExt, AsyncSeekExt};
 use tokio_util::io::ReaderStream;
 
-use crate::objects::ObjectPart;
+use crate::objects::{ObjectPart, ObjectsError};
 
 /// Size of the chunks in which a file is read, bytes.
 const CHUNK_BYTES: usize = 64 << 10;
@@ -39,6 +39,17 @@ pub struct NewFile {
     pub content: Option<Vec<u8>>,
 }
 
+/// Why a content cannot be read.
+#[derive(Debug, thiserror::Error)]
+pub enum ContentError {
+    /// Its file.
+    #[error(transparent)]
+    File(#[from] io::Error),
+    /// Its object.
+    #[error(transparent)]
+    Object(#[from] ObjectsError),
+}
+
 /// Parts of a content, one after the other.
 pub type Chunks = BoxStream<'static, io::Result<Bytes>>;
 
@@ -57,20 +68,20 @@ impl Content {
     /// Reads all of it.
     ///
     /// # Errors
-    /// If a file or an object cannot be read.
-    pub async fn read(self) -> io::Result<Vec<u8>> {
+    /// [`ContentError`].
+    pub async fn read(self) -> Result<Vec<u8>, ContentError> {
         match self {
             Self::Inline(bytes) => Ok(bytes),
-            Self::File(path) => tokio::fs::read(path).await,
-            Self::Object(part) => part.read().await.map_err(io::Error::other),
+            Self::File(path) => Ok(tokio::fs::read(path).await?),
+            Self::Object(part) => Ok(part.read().await?),
         }
     }
 
     /// Reads a range of it in chunks.
     ///
     /// # Errors
-    /// If a file or an object cannot be opened.
-    pub async fn chunks(self, range: Range<u64>) -> io::Result<Chunks> {
+    /// [`ContentError`] if a file or an object cannot be opened.
+    pub async fn chunks(self, range: Range<u64>) -> Result<Chunks, ContentError> {
         Ok(match self {
             Self::Inline(bytes) => {
                 let index = |at: u64| usize::try_from(at).unwrap_or(usize::MAX).min(bytes.len());
@@ -85,7 +96,7 @@ impl Content {
                 Box::pin(ReaderStream::with_capacity(part, CHUNK_BYTES))
             }
             Self::Object(part) => {
-                let chunks = part.stream(range).await.map_err(io::Error::other)?;
+                let chunks = part.stream(range).await?;
                 Box::pin(chunks.map_err(io::Error::other))
             }
         })

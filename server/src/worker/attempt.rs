@@ -6,8 +6,10 @@ use tokio::time::MissedTickBehavior;
 
 use crate::queue::Transition;
 use crate::store::{Claim, End, JobUpdate, Lease, LeaseState, Store};
+use crate::worker::computed::Computed;
 use crate::worker::config::{RETRY_PAUSE, WorkerConfig};
 use crate::worker::employer::{Employer, EmployerError};
+use crate::worker::manifest::{Documents, make_documents};
 
 /// Heartbeats within a lease.
 const HEARTBEATS: u32 = 3;
@@ -43,7 +45,7 @@ impl<E: Employer> Attempt<'_, E> {
         &self,
         updates: &[JobUpdate],
         number: i64,
-        end: &End,
+        (end, computed): (&End, Option<Computed>),
     ) -> Result<(), EmployerError> {
         let lease = self.lease();
         // The events of the updates precede the end, so they are written first, under the same lease.
@@ -61,7 +63,7 @@ impl<E: Employer> Attempt<'_, E> {
                 Err(error) => return Err(error),
             }
         }
-        let last = JobUpdate {
+        let mut last = JobUpdate {
             number,
             progress: updates
                 .last()
@@ -69,8 +71,24 @@ impl<E: Employer> Attempt<'_, E> {
                 .unwrap_or_default(),
             ..JobUpdate::default()
         };
+        // Of other ends the employer decides whether they are final.
+        if let Some(computed) = computed.filter(|_| end.transition == Transition::Succeed) {
+            (last.files, last.block) = retry(|| self.documents(end, &computed)).await?;
+        }
         retry(|| self.employer.finish(lease, &last, end)).await?;
         Ok(())
+    }
+
+    /// Makes the documents of everything that was computed.
+    async fn documents(&self, end: &End, computed: &Computed) -> Result<Documents, EmployerError> {
+        let lease = self.lease();
+        let Ok(spec) = serde_json::from_str(&self.claim.spec) else {
+            return Ok((Vec::new(), None));
+        };
+        let results = (computed.rows.clone(), computed.snapshots.clone());
+        let folder = self.employer.folder(lease);
+        let made = make_documents(folder, (lease.job, spec), end.summary.as_ref(), results).await;
+        Ok(made?)
     }
 }
 

@@ -97,8 +97,9 @@ pub trait Employer: Send + Sync + 'static {
         number: i64,
     ) -> impl Future<Output = Result<LeaseState, EmployerError>> + Send;
 
-    /// Ends the job, with documents of all its results, or returns it to the queue. Of the update, progress and number count.
-    /// Returns the new status, `None` if the lease was lost; a repeated end returns the same.
+    /// Ends the job, with documents of all its results, or returns it to the queue. Of the update, progress and number count, and files and block
+    /// where it has one: the documents that the worker has made. Returns the new status, `None` if the lease was lost; a repeated end
+    /// returns the same.
     fn finish(
         &self,
         lease: Lease,

@@ -1,32 +1,37 @@
-//! The manifest of a job that ends.
+//! The documents of a job that ends.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
-use api::results::Summary;
+use api::results::{Snapshot, Summary};
 use api::spec::Spec;
+use solver::record::CycleReport;
+use uuid::Uuid;
 
 use crate::export::documents;
 use crate::export::documents::{Document, DocumentError, Results};
 use crate::export::files;
 use crate::export::files::FilesError;
 use crate::store::block::{Block, EncodedBlock};
-use crate::store::{Lease, NewFile, Store, StoreError};
+use crate::store::{NewFile, StoreError};
 
 /// Largest document that is stored in the block of the database instead of a file, bytes. Below some 100 kB a row is read
 /// faster than a file (sqlite.org/intern-v-extern-blob.html).
 const INLINE_LIMIT: usize = 64 << 10;
 
+/// Documents of a job that ends: files, which are in the folder of the attempt, and a block.
+pub(super) type Documents = (Vec<NewFile>, Option<EncodedBlock>);
+
 /// Makes all documents of a job: the small ones as a block with history and snapshots, the large ones as files in the
-/// attempt's folder.
-pub(super) async fn build_manifest(
-    store: &Store,
-    lease: Lease,
-    spec: Spec,
+/// attempt's folder. Documents that cannot be made are logged and missing.
+///
+/// # Errors
+/// [`StoreError::Prepare`] if a file cannot be written.
+pub(super) async fn make_documents(
+    folder: PathBuf,
+    (job, spec): (Uuid, Spec),
     summary: Option<&Summary>,
-) -> Result<(Vec<NewFile>, Option<EncodedBlock>), StoreError> {
-    let rows = store.history(lease.job).await?;
-    let snapshots = store.snapshots(lease.job).await?;
-    let folder = store.attempt_folder(lease);
+    (rows, snapshots): (Vec<CycleReport>, Vec<Snapshot>),
+) -> Result<Documents, StoreError> {
     let summary = summary.cloned();
     let made = tokio::task::spawn_blocking(move || {
         let documents = documents::all(&Results {
@@ -56,10 +61,10 @@ pub(super) async fn build_manifest(
         }
         // A retry would fail again; rows and snapshots remain readable on their own routes.
         Ok(Err(FilesError::Document(error))) => {
-            tracing::error!(job = %lease.job, %error, "documents are missing from a manifest");
+            tracing::error!(%job, %error, "documents are missing from a manifest");
         }
         Err(error) => {
-            tracing::error!(job = %lease.job, %error, "documents are missing from a manifest");
+            tracing::error!(%job, %error, "documents are missing from a manifest");
         }
     }
     Ok((Vec::new(), None))

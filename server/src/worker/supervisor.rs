@@ -92,7 +92,8 @@ async fn run<E: Employer>(
         Ok(process) => process,
         Err(end) => {
             let updates = buffer.take_all();
-            return attempt.finalize(&updates, buffer.next_number(), &end).await;
+            let number = buffer.next_number();
+            return attempt.finalize(&updates, number, (&end, None)).await;
         }
     };
     let mut supervision = Supervision {
@@ -112,7 +113,8 @@ async fn run<E: Employer>(
     }
     let updates = supervision.buffer.take_all();
     let number = supervision.buffer.next_number();
-    attempt.finalize(&updates, number, &end).await
+    let computed = supervision.buffer.take_computed();
+    attempt.finalize(&updates, number, (&end, computed)).await
 }
 
 fn start<E: Employer>(attempt: Attempt<'_, E>) -> std::io::Result<SolveProcess> {

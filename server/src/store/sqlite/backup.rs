@@ -12,6 +12,7 @@ use crate::export::files::{create_folder, parent};
 use crate::store::sqlite::files::entry;
 use crate::store::sqlite::folder::{Folder, beside};
 use crate::store::sqlite::identity::schema_version;
+use crate::store::sqlite::moved_meanwhile::take_moved;
 use crate::store::sqlite::open::{lock, options};
 use crate::store::{BackupError, CopySummary, IntegrityError, integrity};
 
@@ -44,7 +45,10 @@ pub(super) async fn database_at(path: &Path) -> Result<i64, BackupError> {
 }
 
 /// Copies a database, which may be in use.
-pub(super) async fn copy_database(source: &Path, target: &Path) -> Result<(), BackupError> {
+pub(in crate::store) async fn copy_database(
+    source: &Path,
+    target: &Path,
+) -> Result<(), BackupError> {
     let mut database = at(source).connect().await?;
     sqlx::query("VACUUM INTO ?")
         .bind(target.to_string_lossy().into_owned())
@@ -55,13 +59,16 @@ pub(super) async fn copy_database(source: &Path, target: &Path) -> Result<(), Ba
 
 /// Copies the files that a copied database names; jobs that were deleted from the source meanwhile are deleted from the
 /// copy too. Damaged files are copied as they are, and marked as damaged in the copy.
-pub(super) async fn copy_named_files(
+pub(in crate::store) async fn copy_named_files(
     source: &Path,
     target: &Path,
 ) -> Result<CopySummary, BackupError> {
     let (mut copied, damages) =
         copy_files(target, &Folder::beside(source), &Folder::beside(target)).await?;
-    let (damaged, deleted) = still_named(source, damages).await?;
+    let (damaged, missing) = still_named(source, damages).await?;
+    let mut database = at(target).connect().await?;
+    let deleted = take_moved(source, &mut database, missing).await?;
+    database.close().await?;
     copied.jobs = delete_missing(target, &deleted).await?;
     copied.damaged = complete(target, damaged).await?;
     sync(target)?;
@@ -103,6 +110,19 @@ async fn complete(database: &Path, damaged: Vec<Damage>) -> Result<Vec<String>, 
         sqlx::query("DELETE FROM owner")
             .execute(&mut connection)
             .await?;
+    }
+    let moves: i64 =
+        sqlx::query_scalar("SELECT count(*) FROM sqlite_master WHERE name = 'object_store'")
+            .fetch_one(&mut connection)
+            .await?;
+    if moves > 0 {
+        // The original names these objects, or will remove them.
+        for statement in [
+            "DELETE FROM unnamed_objects",
+            "UPDATE object_store SET removes = 0",
+        ] {
+            sqlx::query(statement).execute(&mut connection).await?;
+        }
     }
     for Damage { place, cause, .. } in damaged {
         let how = cause.to_string();

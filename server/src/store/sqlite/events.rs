@@ -3,6 +3,7 @@
 use sqlx::SqliteConnection;
 use uuid::Uuid;
 
+use crate::objects::ObjectPart;
 use crate::store::block::Block;
 use crate::store::compression::{compress, decompress};
 use crate::store::integrity;
@@ -62,7 +63,7 @@ impl Store {
         };
         let objects = self.objects.as_ref().ok_or(StoreError::NoObjects)?;
         let from = stored.content_bytes.unwrap_or_default();
-        let part = objects.part(&key, from + range.start..from + range.end);
+        let part = ObjectPart::new(objects, &key, from + range.start..from + range.end);
         let bytes = part.read().await?;
         let damaged = |cause: String| StoreError::DamagedResults { id, cause };
         integrity::check_bytes(entry, &bytes)

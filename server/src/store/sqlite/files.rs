@@ -9,6 +9,7 @@ use sqlx::{Row, Sqlite, Transaction};
 use uuid::Uuid;
 use uuid::fmt::Hyphenated;
 
+use crate::objects::ObjectPart;
 use crate::store::block::Block;
 use crate::store::sqlite::blocks::{StoredBlock, entries, unreadable, update_entries};
 use crate::store::sqlite::folder::Folder;
@@ -89,7 +90,11 @@ impl Store {
             && let Some((entry, range)) = entries.files().find(|(entry, _)| entry.name == name)
         {
             let objects = self.objects.as_ref().ok_or(StoreError::NoObjects)?;
-            let part = objects.part(key, content_bytes + range.start..content_bytes + range.end);
+            let part = ObjectPart::new(
+                objects,
+                key,
+                content_bytes + range.start..content_bytes + range.end,
+            );
             return Ok(Some((entry.clone(), Content::Object(part))));
         }
         if !entries.has_document(name) {

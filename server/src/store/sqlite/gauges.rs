@@ -13,21 +13,28 @@ use crate::store::{Store, StoreError};
 /// Shortest time between two write probes.
 const PROBE_INTERVAL: Duration = Duration::from_secs(1);
 
+/// Processor time that is expected of a job without an estimate, ms. Arbitrary.
+const UNKNOWN_CPU_MS: i64 = 60_000;
+
 impl Store {
     /// Returns what waits and runs.
     ///
     /// # Errors
     /// [`StoreError`] if the database fails.
     pub async fn demand(&self) -> Result<Demand, StoreError> {
-        let (queued, running, queued_cpu_s) = sqlx::query_as(
+        let (queued, running, running_remotely, queued_cpu_s) = sqlx::query_as(
             "SELECT count(*) FILTER (WHERE status = 'queued'), count(*) FILTER (WHERE status = 'running'), \
-             COALESCE(sum(cpu_ms) FILTER (WHERE status = 'queued'), 0) / 1000 FROM jobs WHERE status IN ('queued', 'running')",
+             count(*) FILTER (WHERE status = 'running' AND is_remote), \
+             (COALESCE(sum(iif(cpu_ms > 0, cpu_ms, ?)) FILTER (WHERE status = 'queued'), 0) + 999) / 1000 \
+             FROM jobs WHERE status IN ('queued', 'running')",
         )
+        .bind(UNKNOWN_CPU_MS)
         .fetch_one(&self.readers)
         .await?;
         Ok(Demand {
             queued,
             running,
+            running_remotely,
             queued_cpu_s,
         })
     }

@@ -4,41 +4,22 @@
 //! A key is noted as that of an unnamed object before the object is written, and is named in the transaction that removes the results
 //! from the database; so no object is left without a name or without a note, whenever the process ends.
 
-use std::path::PathBuf;
+use std::fmt::Display;
 
-use api::results::ResultFile;
 use futures_util::{StreamExt, stream};
-use sqlx::{Row, Sqlite, Transaction};
+use sqlx::{Sqlite, Transaction};
 use uuid::Uuid;
 use uuid::fmt::Hyphenated;
 
-use crate::export::documents::JSON;
-use crate::export::files::manifest_entry;
 use crate::objects::{Objects, ObjectsError};
-use crate::store::block::Block;
-use crate::store::sqlite::blocks::{StoredBlock, unreadable};
-use crate::store::sqlite::events::pack_events;
-use crate::store::sqlite::files::entry;
-use crate::store::sqlite::packed::{listed, pack};
-use crate::store::sqlite::queries::{BEGIN, corrupt, integer};
+use crate::store::sqlite::queries::BEGIN;
+use crate::store::sqlite::results_to_move::{Moved, Prepared};
 use crate::store::{Store, StoreError};
 
 /// Most jobs whose results are moved at once: they share two transactions. Arbitrary: more than a machine ends within a second.
 const JOBS: i64 = 512;
 /// Objects that are written at the same time. Arbitrary: an object takes some 10 to 100 ms.
-const WRITES: usize = 16;
-
-/// Results that were written to an object.
-struct Moved {
-    id: Uuid,
-    key: String,
-    /// The entries of the block before, and now.
-    entries: (Vec<u8>, Vec<u8>),
-    content_bytes: i64,
-    /// Specification and plan, compressed, and the part of the specification that stays.
-    documents: Vec<u8>,
-    listed: String,
-}
+const WRITES: usize = 8;
 
 impl Store {
     /// Lets the store move results to a store of objects, or, without one, checks that none were moved.
@@ -61,20 +42,26 @@ impl Store {
                     given: given.location().to_owned(),
                 });
             }
-            (_, Some(given)) => {
-                let mut transaction = self.writer.begin_with(BEGIN).await?;
-                sqlx::query("DELETE FROM object_store")
-                    .execute(&mut *transaction)
-                    .await?;
-                sqlx::query("INSERT INTO object_store (address) VALUES (?)")
-                    .bind(given.location())
-                    .execute(&mut *transaction)
-                    .await?;
-                transaction.commit().await?;
-            }
+            (_, Some(given)) => self.note_address(given.location()).await?,
         }
         self.objects = objects;
         Ok(self)
+    }
+
+    /// Notes the address of the store of objects.
+    async fn note_address(&self, address: &str) -> Result<(), StoreError> {
+        let mut transaction = self.writer.begin_with(BEGIN).await?;
+        let updated = sqlx::query("UPDATE object_store SET address = ?")
+            .bind(address)
+            .execute(&mut *transaction)
+            .await?;
+        if updated.rows_affected() == 0 {
+            sqlx::query("INSERT INTO object_store (address) VALUES (?)")
+                .bind(address)
+                .execute(&mut *transaction)
+                .await?;
+        }
+        Ok(transaction.commit().await?)
     }
 
     /// Moves results of succeeded jobs to the store of objects, of a limited number of jobs. Returns these jobs; their files are
@@ -86,11 +73,13 @@ impl Store {
         let Some(objects) = &self.objects else {
             return (Vec::new(), Ok(()));
         };
+        // Objects that cannot be removed keep no others from being written.
+        let mut failed = self.remove_unnamed_objects(objects).await;
         let written = match self.write_objects(objects).await {
             Ok(written) => written,
             Err(error) => return (Vec::new(), Err(error)),
         };
-        let (mut moved, mut failed) = (Vec::new(), Ok(()));
+        let mut moved = Vec::new();
         for written in written {
             match written {
                 Ok(written) => moved.extend(written),
@@ -108,7 +97,6 @@ impl Store {
         &self,
         objects: &Objects,
     ) -> Result<Vec<Result<Option<Moved>, StoreError>>, StoreError> {
-        self.remove_unnamed_objects(objects).await?;
         let jobs: Vec<Hyphenated> = sqlx::query_scalar(
             "SELECT job_id FROM result_blocks WHERE is_movable = 1 AND object IS NULL LIMIT ?",
         )
@@ -178,81 +166,41 @@ impl Store {
         Ok(transaction.commit().await?)
     }
 
-    /// Writes the results of a job to an object; `None` if the job was deleted, or if a file of it is damaged.
+    /// Writes the results of a job to an object; `None` if the job was deleted, or if its results are damaged, which then stay.
     async fn write_object(
         &self,
         objects: &Objects,
         id: Uuid,
         key: String,
     ) -> Result<Option<Moved>, StoreError> {
-        let mut connection = self.readers.acquire().await?;
-        let Some(stored) = StoredBlock::of(&mut connection, id).await? else {
-            return Ok(None);
-        };
-        let texts: Option<(String, String)> =
-            sqlx::query_as("SELECT spec, plan FROM jobs WHERE id = ?")
-                .bind(id.to_string())
-                .fetch_optional(&mut *connection)
-                .await?;
-        let Some((spec, plan)) = texts else {
-            return Ok(None);
-        };
-        let events = pack_events(&mut connection, id).await?;
-        drop(connection);
-        let (files, paths): (Vec<ResultFile>, Vec<(PathBuf, u64)>) =
-            self.files_to_move(id).await?.into_iter().unzip();
-        let head = [&stored.content[..], &events].concat();
-        match objects.put(&key, &head, &paths).await {
-            Ok(()) => {}
-            Err(error @ ObjectsError::File { .. }) => {
-                tracing::error!(job = %id, %error, "results stay in the database");
-                self.keep_results(id).await?;
-                return Ok(None);
+        let prepared = match self.prepare(id, key).await {
+            Ok(Some(prepared)) => prepared,
+            Ok(None) => return Ok(None),
+            Err(error @ (StoreError::DamagedResults { .. } | StoreError::Corrupt { .. })) => {
+                return self.keep_results(id, &error).await;
             }
-            Err(error) => return Err(error.into()),
-        }
-        let events = manifest_entry("events", None, JSON, &events);
-        let entries = Block::with_files(&stored.entries, events, files);
-        let entries = entries.map_err(|cause| unreadable(id, &cause))?;
-        Ok(Some(Moved {
-            id,
-            key,
-            content_bytes: integer(stored.content.len()),
-            documents: pack(&spec, &plan),
-            listed: listed(id, &spec)?,
-            entries: (stored.entries, entries),
-        }))
-    }
-
-    /// The files of a job's manifest, with their paths and lengths.
-    async fn files_to_move(
-        &self,
-        id: Uuid,
-    ) -> Result<Vec<(ResultFile, (PathBuf, u64))>, StoreError> {
-        let rows = sqlx::query(
-            "SELECT name, cycle, media_type, bytes, sha256, damaged, place FROM result_files \
-             WHERE job_id = ? AND place IS NOT NULL ORDER BY name",
-        )
-        .bind(id.to_string())
-        .fetch_all(&self.readers)
-        .await?;
-        let file = |row| {
-            let (entry, place) = (entry(row)?, row.try_get::<&str, _>("place")?);
-            let path = self.folder.path(place);
-            let path = path.ok_or_else(|| corrupt(id, "path of a file", &place))?;
-            let bytes = entry.bytes;
-            Ok((entry, (path, bytes)))
+            Err(error) => return Err(error),
         };
-        rows.iter().map(file).collect()
+        let Prepared { moved, head, files } = prepared;
+        match objects.put(&moved.key, &head, &files).await {
+            Ok(()) => Ok(Some(moved)),
+            Err(error @ ObjectsError::Damaged { .. }) => self.keep_results(id, &error).await,
+            Err(error) => Err(error.into()),
+        }
     }
 
     /// Leaves the results of a job where they are.
-    async fn keep_results(&self, id: Uuid) -> Result<(), StoreError> {
+    async fn keep_results(
+        &self,
+        id: Uuid,
+        cause: &(impl Display + Sync),
+    ) -> Result<Option<Moved>, StoreError> {
+        tracing::error!(job = %id, error = %cause, "results stay in the database");
         sqlx::query("UPDATE result_blocks SET is_movable = 0 WHERE job_id = ?")
             .bind(id.to_string())
             .execute(&self.writer)
             .await?;
-        Ok(())
+        Ok(None)
     }
 
     /// Names the objects and removes the results from the database, unless they have changed meanwhile. Returns the jobs.

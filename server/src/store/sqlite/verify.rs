@@ -116,6 +116,12 @@ async fn verify_block(
     let content_bytes = stored.content_bytes.unwrap_or_default();
     let block = match stored.decoded(job, objects).await {
         Ok(block) => block,
+        Err(StoreError::Objects(ObjectsError::Missing(_)))
+            if !is_named(database, job, object.as_deref()).await? =>
+        {
+            tracing::debug!(%job, "deleted meanwhile");
+            return Ok(());
+        }
         Err(StoreError::Objects(cause @ ObjectsError::Missing(_))) => {
             let said = format!("results of job {job}: {cause}");
             verified.damaged.push(said);
@@ -132,8 +138,12 @@ async fn verify_block(
         .map(|(entry, bytes)| (entry, integrity::check_bytes(entry, bytes)))
         .collect();
     if let (Some(key), Some(objects)) = (object, objects) {
-        for (entry, range) in block.files() {
-            let part = objects.part(&key, content_bytes + range.start..content_bytes + range.end);
+        for (entry, range) in block.events().into_iter().chain(block.files()) {
+            let part = ObjectPart::new(
+                objects,
+                &key,
+                content_bytes + range.start..content_bytes + range.end,
+            );
             let found = checksum(&part).await.map_err(StoreError::from)?;
             checked.push((entry, found.compare(entry)));
         }
@@ -153,6 +163,21 @@ async fn verify_block(
         verified.damaged.extend(said);
     }
     Ok(())
+}
+
+/// Whether a job still names an object.
+async fn is_named(
+    database: &mut SqliteConnection,
+    job: Uuid,
+    object: Option<&str>,
+) -> Result<bool, BackupError> {
+    let rows: i64 =
+        sqlx::query_scalar("SELECT count(*) FROM result_blocks WHERE job_id = ? AND object = ?")
+            .bind(job.to_string())
+            .bind(object)
+            .fetch_one(database)
+            .await?;
+    Ok(rows > 0)
 }
 
 /// The checksum of a part of an object.

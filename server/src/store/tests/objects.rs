@@ -8,6 +8,7 @@ use crate::export::files;
 use crate::http::tests::snapshot;
 use crate::objects::Objects;
 use crate::store::block::Block;
+use crate::store::sqlite::backup::{copy_database, copy_named_files};
 
 /// A database whose results are moved into a folder of objects.
 struct WithObjects {
@@ -195,7 +196,7 @@ async fn objects_without_a_name_are_removed() {
 }
 
 #[tokio::test]
-async fn a_job_with_a_damaged_file_keeps_its_results() {
+async fn a_job_with_a_damaged_file_keeps_its_results_and_others_are_moved() {
     let database = WithObjects::new().await;
     let damaged = database.ended(Transition::Succeed).await;
     let results = database.folder.path().join("test.db.results");
@@ -278,4 +279,50 @@ async fn a_database_whose_results_are_elsewhere_is_not_opened_without_them() {
         "{other:?}"
     );
     opened(&folder, Some("objects")).await.expect("a store");
+}
+
+/// Objects that the store does not let remove keep no others from being written.
+#[tokio::test]
+async fn an_object_that_cannot_be_removed_stops_nothing() {
+    let database = WithObjects::new().await;
+    let id = database.ended(Transition::Succeed).await;
+    let objects = database.folder.path().join("objects");
+    // A folder is no object, and cannot be removed as one.
+    std::fs::create_dir_all(objects.join("jobs/left/inside")).expect("a folder");
+    let left = [(id, "jobs/left".to_owned())];
+    database.store.note_unnamed(&left).await.expect("noted");
+    let (moved, ended) = database.store.move_results().await;
+    assert_eq!(moved, [id]);
+    assert!(matches!(ended, Err(StoreError::Objects(_))), "{ended:?}");
+}
+
+/// The backup's copy of the database has files that are moved before they are copied.
+#[tokio::test]
+async fn a_backup_has_results_that_are_moved_meanwhile() {
+    let database = WithObjects::new().await;
+    let id = database.ended(Transition::Succeed).await;
+    let before = database.store.job(id).await.expect("the store");
+    let folder = database.folder.path();
+    let (source, target) = (folder.join("test.db"), folder.join("copy/test.db"));
+    std::fs::create_dir(folder.join("copy")).expect("a folder");
+    copy_database(&source, &target).await.expect("a copy");
+    database.moved().await;
+    let copied = copy_named_files(&source, &target).await.expect("a backup");
+    assert_eq!((copied.jobs, copied.files, copied.damaged.len()), (1, 0, 0));
+    let url = format!("sqlite://{}", target.display());
+    let objects = Objects::open(&format!("file://{}", folder.join("objects").display()));
+    let copy = Store::open(&url).await.expect("a store");
+    let copy = copy
+        .with_objects(Some(objects.expect("opened")))
+        .await
+        .expect("a store");
+    assert_eq!(copy.job(id).await.expect("the store"), before);
+    assert_eq!(copy.events(id, 0).await.expect("the store").len(), 5);
+    let found = copy.result_file(id, "a.vtu").await.expect("the store");
+    let (_, content) = found.expect("a file");
+    assert_eq!(content.read().await.expect("read"), b"fields");
+    // The original's objects stay.
+    copy.delete(id).await.expect("the store");
+    copy.move_results().await.1.expect("nothing to do");
+    assert_eq!(database.objects().len(), 1);
 }

@@ -16,7 +16,7 @@ use uuid::Uuid;
 use super::{Employer, EmployerError};
 use crate::client::Client;
 use crate::metrics::Busy;
-use crate::store::{Claim, ClaimRequest, End, JobUpdate, Lease, LeaseState};
+use crate::store::{Claim, ClaimRequest, End, JobUpdate, Lease, LeaseState, NewFile};
 use crate::worker::protocol::{ClaimBody, EndBody, LeasesBody, PROGRAM, RestartBody, UpdateBody};
 
 /// Interval of the heartbeat of all jobs of a worker, which also brings cancel requests.
@@ -71,6 +71,17 @@ impl Remote {
         Ok(self.client.post(path, body).await?)
     }
 
+    /// Sends files of an attempt, which count once a write names them.
+    async fn put_files(&self, lease: Lease, files: &[NewFile]) -> Result<(), EmployerError> {
+        let Lease { job, number } = lease;
+        for NewFile { file, .. } in files {
+            let path = format!("/v1/worker/files/{job}/{number}/{}", file.name);
+            let content = self.folder(lease).join(&file.name);
+            self.client.put_file(&path, &content, file).await?;
+        }
+        Ok(())
+    }
+
     /// Notes the state of a lease that the service has answered with.
     fn answered(&self, lease: Lease, state: LeaseState) -> LeaseState {
         held(&self.leases).insert(lease, state);
@@ -117,12 +128,7 @@ impl Employer for Remote {
         update: &JobUpdate,
         length: Duration,
     ) -> Result<LeaseState, EmployerError> {
-        for new in &update.files {
-            let Lease { job, number } = lease;
-            let path = format!("/v1/worker/files/{job}/{number}/{}", new.file.name);
-            let file = self.folder(lease).join(&new.file.name);
-            self.client.put_file(&path, &file, &new.file).await?;
-        }
+        self.put_files(lease, &update.files).await?;
         let body = UpdateBody {
             lease,
             update: update.clone(),
@@ -144,6 +150,11 @@ impl Employer for Remote {
         update: &JobUpdate,
         end: &End,
     ) -> Result<Option<Status>, EmployerError> {
+        match self.put_files(lease, &update.files).await {
+            // An end whose answer was lost has ended the lease.
+            Err(EmployerError::Remote(error)) if error.is_of_type("/problems/lease-lost") => {}
+            sent => sent?,
+        }
         let body = EndBody {
             lease,
             update: update.clone(),

@@ -4,13 +4,14 @@ use std::path::PathBuf;
 use std::time::Duration;
 
 use api::job::Status;
+use api::results::Summary;
 use api::service::Demand;
 
 use super::{Employer, EmployerError};
 use crate::metrics::Busy;
 use crate::queue::Transition;
 use crate::store::{Claim, ClaimRequest, End, JobUpdate, Lease, LeaseState, Store, StoreError};
-use crate::worker::manifest::build_manifest;
+use crate::worker::manifest::{Documents, make_documents};
 
 impl Employer for Store {
     async fn claim(&self, request: &ClaimRequest) -> Result<Vec<Claim>, EmployerError> {
@@ -81,6 +82,20 @@ impl Employer for Store {
     }
 }
 
+/// Makes the documents of everything that is stored of a job.
+async fn stored_documents(
+    store: &Store,
+    lease: Lease,
+    summary: Option<&Summary>,
+) -> Result<Documents, StoreError> {
+    let job = store.job(lease.job).await?;
+    let spec = job.map(|job| job.document.spec).unwrap_or_default();
+    let rows = store.history(lease.job).await?;
+    let snapshots = store.snapshots(lease.job).await?;
+    let folder = store.attempt_folder(lease);
+    make_documents(folder, (lease.job, spec), summary, (rows, snapshots)).await
+}
+
 /// Ends a job, with documents of all results in the same transaction, or returns it to the queue.
 ///
 /// # Errors
@@ -103,15 +118,14 @@ async fn finish(
     // A cancelled job must end although nothing more can be stored, so that it can be deleted and its space be freed. Its rows
     // and snapshots are there, the documents of them are not.
     let is_stored = end.transition != Transition::Cancel || !store.disk().is_full();
-    if is_stored
+    if update.block.is_some() {
+        (last.files, last.block) = (update.files.clone(), update.block.clone());
+    } else if is_stored
         && store
             .is_final(lease, end.transition, cancel_requested)
             .await?
     {
-        let job = store.job(lease.job).await?;
-        let spec = job.map(|job| job.document.spec).unwrap_or_default();
-        let made = build_manifest(store, lease, spec, end.summary.as_ref()).await?;
-        (last.files, last.block) = made;
+        (last.files, last.block) = stored_documents(store, lease, end.summary.as_ref()).await?;
     }
     let status = store.end(lease, &last, end).await?;
     store.remove_unnamed_files(Some(lease)).await?;

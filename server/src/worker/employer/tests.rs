@@ -11,11 +11,12 @@ use uuid::Uuid;
 
 use super::*;
 use crate::client::Client;
-use crate::export::documents::VTU;
+use crate::export::documents::{CSV, VTU};
 use crate::export::files;
 use crate::http::tests::{Service, row};
 use crate::queue::Transition;
 use crate::solve::checkpoint::EncodedCheckpoint;
+use crate::store::block::Block;
 use crate::store::tests::request;
 use crate::store::{EventName, NewFile};
 
@@ -54,6 +55,7 @@ with_both! {
     a_repeated_claim_gets_the_same_job_and_costs_no_attempt => repeated_claim;
     a_repeated_update_is_recorded_once => repeated_update;
     results_of_a_finished_job_are_those_that_its_worker_has_sent => finished;
+    documents_that_a_worker_has_made_are_those_of_its_job => documented;
     a_worker_learns_of_a_cancel_request => cancelled;
     a_worker_that_has_lost_its_lease_changes_nothing => lost;
     a_restarted_run_has_no_earlier_results => restarted;
@@ -196,6 +198,38 @@ async fn finished(employer: &impl Employer, service: &Service) {
         .expect("a file");
     let bytes = stored.read().await.expect("read");
     crate::store::integrity::check_bytes(&entry, &bytes).expect("as it was sent");
+}
+
+async fn documented(employer: &impl Employer, service: &Service) {
+    let (id, store) = (queued(service).await, &service.app.store);
+    let lease = Lease::from(&claimed(employer).await);
+    let recorded = employer.record(lease, &update(1, 5), LENGTH).await;
+    assert_eq!(recorded.expect("an answer"), HELD);
+    let large = files::manifest_entry("large.csv", None, CSV, b"many rows");
+    files::write_atomically(&employer.folder(lease), &large.name, b"many rows").expect("written");
+    let small = files::manifest_entry("small.csv", None, CSV, b"a row");
+    let mut block = Block::default();
+    assert!(block.push_history(&[row(5)], &[]).expect("written"));
+    assert!(block.push_document(&small, b"a row"));
+    let last = JobUpdate {
+        number: 2,
+        files: vec![NewFile {
+            file: large.clone(),
+            content: None,
+        }],
+        block: Some(block.encode().expect("encoded")),
+        ..JobUpdate::default()
+    };
+    let ended = employer
+        .finish(lease, &last, &end(Transition::Succeed))
+        .await;
+    assert_eq!(ended.expect("an answer"), Some(Status::Succeeded));
+    let manifest = store.manifest(id).await.expect("the store");
+    assert_eq!(manifest, [large.clone(), small]);
+    let found = store.result_file(id, &large.name).await.expect("the store");
+    let (_, content) = found.expect("a file");
+    assert_eq!(content.read().await.expect("read"), b"many rows");
+    assert_eq!(store.history(id).await.expect("the store"), [row(5)]);
 }
 
 async fn cancelled(employer: &impl Employer, service: &Service) {

@@ -169,7 +169,7 @@ fn picture_of(files: &[ResultFile], drawing: &str) -> Option<String> {
 }
 
 fn raster(runtime: &Handle, drawing: Content) -> io::Result<Vec<u8>> {
-    let svg = runtime.block_on(drawing.read())?;
+    let svg = runtime.block_on(drawing.read()).map_err(io::Error::other)?;
     let svg = String::from_utf8(svg).map_err(io::Error::other)?;
     pictures::png(&svg).map_err(io::Error::other)
 }
@@ -182,7 +182,8 @@ fn copy(
     archive: &mut impl Write,
 ) -> io::Result<()> {
     let runtime = Handle::current();
-    let mut chunks = runtime.block_on(content.chunks(0..entry.bytes))?;
+    let chunks = runtime.block_on(content.chunks(0..entry.bytes));
+    let mut chunks = chunks.map_err(io::Error::other)?;
     let mut checksum = Checksum::default();
     while let Some(chunk) = runtime.block_on(chunks.try_next())? {
         checksum.update(&chunk);

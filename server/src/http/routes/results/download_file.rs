@@ -21,29 +21,13 @@ use crate::http::verified_file::VerifiedFile;
 use crate::store::Chunks;
 use crate::store::integrity::Checksum;
 
-/// Error of a download.
+/// Error of a file that the manifest does not list.
 #[derive(Debug, thiserror::Error)]
-enum FileError {
-    /// The manifest does not list the file.
-    #[error("the manifest of job {0} lists no such file")]
-    Missing(Uuid),
-    /// The file cannot be read.
-    #[error("a file of job {id} cannot be read: {cause}")]
-    Read {
-        /// The job.
-        id: Uuid,
-        /// Error of the file system.
-        cause: std::io::Error,
-    },
-}
+#[error("the manifest of job {0} lists no such file")]
+struct NoFileError(Uuid);
 
-impl RouteError for FileError {
-    fn problem_type(&self) -> ProblemType {
-        match self {
-            Self::Missing(_) => ProblemType::NO_SUCH_RESULT,
-            Self::Read { .. } => ProblemType::INTERNAL,
-        }
-    }
+impl RouteError for NoFileError {
+    const TYPE: ProblemType = ProblemType::NO_SUCH_RESULT;
 }
 
 /// A file of a job.
@@ -73,7 +57,7 @@ pub(crate) async fn file(
 ) -> Result<Response, ProblemResponse> {
     let Some(verified) = app.verified_file(id, &name).await? else {
         app.job(id).await?;
-        return Err(FileError::Missing(id).into());
+        return Err(NoFileError(id).into());
     };
     let file = verified.entry.clone();
     let etag = format!("\"{}\"", file.sha256);
@@ -162,8 +146,7 @@ async fn respond(
     id: Uuid,
     verified: VerifiedFile,
     range: Option<RangeInclusive<u64>>,
-) -> Result<Response, FileError> {
-    let read_error = |cause| FileError::Read { id, cause };
+) -> Result<Response, ProblemResponse> {
     let VerifiedFile {
         entry,
         content,
@@ -178,8 +161,7 @@ async fn respond(
         (header::CONTENT_LENGTH, length.to_string()),
     ];
     let bytes = entry.bytes;
-    let chunks = content.chunks(from..from + length);
-    let chunks = chunks.await.map_err(read_error)?;
+    let chunks = content.chunks(from..from + length).await?;
     let whole = !is_complete && range.is_none();
     let body = checked_stream(chunks, whole.then(|| Unchecked::new(app, id, entry)));
     let Some(range) = range else {

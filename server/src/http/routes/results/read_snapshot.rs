@@ -44,18 +44,6 @@ impl RouteError for WholeLineError {
     const TYPE: ProblemType = ProblemType::NO_SUCH_RESULT;
 }
 
-/// Error of a file of sections that cannot be read.
-#[derive(Debug, thiserror::Error)]
-#[error("the sections of job {id} cannot be read: {cause}")]
-struct UnreadError {
-    id: Uuid,
-    cause: std::io::Error,
-}
-
-impl RouteError for UnreadError {
-    const TYPE: ProblemType = ProblemType::INTERNAL;
-}
-
 /// Error of a job without a stored snapshot.
 #[derive(Debug, thiserror::Error)]
 #[error("job {0} has no stored snapshot so far")]
@@ -247,8 +235,7 @@ async fn section(
     let Some(file) = app.verified_file(id, &line::file_name(cycle)).await? else {
         return Err(missing(0).into());
     };
-    let bytes = file.content.read().await;
-    let bytes = bytes.map_err(|cause| UnreadError { id, cause })?;
+    let bytes = file.content.read().await?;
     let found: LineProfiles = serde_json::from_slice(&bytes)?;
     let stations = found.stations.len();
     let of_number = usize::try_from(station)

@@ -5,8 +5,9 @@ use axum::Json;
 use axum::extract::State;
 
 use crate::http::app::App;
-use crate::http::problem::ProblemResponse;
+use crate::http::problem::{ProblemResponse, ProblemType};
 use crate::http::worker_body::WorkerBody;
+use crate::store::block::EncodedBlock;
 use crate::worker::Employer;
 use crate::worker::protocol::EndBody;
 
@@ -16,6 +17,10 @@ pub(crate) async fn finish(
     WorkerBody(body): WorkerBody<EndBody>,
 ) -> Result<Json<Option<Status>>, ProblemResponse> {
     let EndBody { lease, update, end } = body;
+    if let Some(Err(cause)) = update.block.as_ref().map(EncodedBlock::check) {
+        let detail = format!("/update/block: {cause}");
+        return Err(ProblemType::UNREADABLE_BODY.with_detail(detail));
+    }
     Ok(Json(
         Employer::finish(&*app.store, lease, &update, &end).await?,
     ))
