@@ -69,7 +69,8 @@ async fn candidates(
     limit: usize,
 ) -> Result<(Vec<Uuid>, Vec<WaitingJob>), StoreError> {
     let rows: Vec<(Hyphenated, i64, i64, i64)> = sqlx::query_as(
-        "SELECT id, memory_mb, queued_at, cpu_ms FROM jobs WHERE status = 'queued' ORDER BY place, id LIMIT ?",
+        "SELECT id, memory_mb, queued_at, cpu_ms FROM jobs INDEXED BY jobs_waiting \
+         WHERE status = 'queued' ORDER BY place, id LIMIT ?",
     )
     .bind(i64::try_from(limit).unwrap_or(i64::MAX))
     .fetch_all(&mut **transaction)
@@ -108,7 +109,8 @@ async fn claimed_before(
     (now, expires_at): (Now, i64),
 ) -> Result<Vec<Claim>, StoreError> {
     let rows = sqlx::query(
-        "UPDATE jobs SET lease_expires_at = ? WHERE worker = ? AND claim_number = ? AND status = 'running' \
+        "UPDATE jobs INDEXED BY jobs_by_claim SET lease_expires_at = ? \
+         WHERE worker = ? AND claim_number = ? AND status = 'running' \
          RETURNING id, lease, spec, attempts, queued_at, deadline_at, memory_mb, cpu_ms",
     )
     .bind(expires_at)

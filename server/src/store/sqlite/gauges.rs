@@ -23,10 +23,11 @@ impl Store {
     /// [`StoreError`] if the database fails.
     pub async fn demand(&self) -> Result<Demand, StoreError> {
         let (queued, running, running_remotely, queued_cpu_s) = sqlx::query_as(
-            "SELECT count(*) FILTER (WHERE status = 'queued'), count(*) FILTER (WHERE status = 'running'), \
-             count(*) FILTER (WHERE status = 'running' AND is_remote), \
-             (COALESCE(sum(iif(cpu_ms > 0, cpu_ms, ?)) FILTER (WHERE status = 'queued'), 0) + 999) / 1000 \
-             FROM jobs WHERE status IN ('queued', 'running')",
+            "SELECT (SELECT count(*) FROM jobs INDEXED BY jobs_waiting WHERE status = 'queued'), \
+             (SELECT count(*) FROM jobs INDEXED BY jobs_running WHERE status = 'running'), \
+             (SELECT count(*) FROM jobs INDEXED BY jobs_running WHERE status = 'running' AND is_remote), \
+             (SELECT (COALESCE(sum(iif(cpu_ms > 0, cpu_ms, ?)), 0) + 999) / 1000 FROM jobs INDEXED BY jobs_waiting \
+             WHERE status = 'queued')",
         )
         .bind(UNKNOWN_CPU_MS)
         .fetch_one(&self.readers)

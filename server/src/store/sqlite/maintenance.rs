@@ -21,7 +21,7 @@ impl Store {
         let now = now.into();
         let mut transaction = self.writer.begin_with(BEGIN).await?;
         let late: Vec<Hyphenated> =
-            sqlx::query_scalar("SELECT id FROM jobs WHERE status = 'queued' AND deadline_at <= ?")
+            sqlx::query_scalar("SELECT id FROM jobs INDEXED BY jobs_by_deadline WHERE status = 'queued' AND deadline_at <= ?")
                 .bind(now.monotonic_ms)
                 .fetch_all(&mut *transaction)
                 .await?;

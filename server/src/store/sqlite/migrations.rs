@@ -14,7 +14,7 @@ macro_rules! file {
 }
 
 /// All files of the folder; a name is the version and what it is about.
-const FILES: [(&str, &str); 25] = [
+const FILES: [(&str, &str); 26] = [
     file!("0001_jobs.sql"),
     file!("0002_labels.sql"),
     file!("0003_events.sql"),
@@ -40,6 +40,7 @@ const FILES: [(&str, &str); 25] = [
     file!("0061_numbered_requests.sql"),
     file!("0062_worker_tokens.sql"),
     file!("0063_objects.sql"),
+    file!("0064_queue_indexes.sql"),
 ];
 
 /// Applies the migrations that a database does not have; refuses a database with others.

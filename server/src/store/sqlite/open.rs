@@ -30,6 +30,8 @@ const READER_TIMEOUT: Duration = Duration::from_secs(2);
 const READERS: u32 = 4;
 /// Number of changes that a subscriber may fall behind.
 const CHANGE_CAPACITY: usize = 1024;
+/// Page cache of the writing connection, KiB with the sign that SQLite wants: the rows and indexes of the jobs that workers have.
+const WRITER_CACHE: &str = "-16384";
 
 impl Store {
     /// Opens the database at `url` (`sqlite://PATH`), creates it if it is missing, and migrates its schema.
@@ -62,7 +64,7 @@ impl Store {
             // SQLite ends a transaction by itself when the disk is full or fails, and then cannot roll it back; sqlx
             // takes it for an open one and refuses to begin another on that connection. The pool replaces it.
             .before_acquire(|writer, _| Box::pin(async { Ok(!writer.is_in_transaction()) }))
-            .connect_with(options.clone())
+            .connect_with(options.clone().pragma("cache_size", WRITER_CACHE))
             .await?;
         let version: String = sqlx::query_scalar("SELECT sqlite_version()")
             .fetch_one(&writer)

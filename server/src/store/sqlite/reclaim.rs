@@ -58,7 +58,8 @@ impl Store {
         let mut transaction = self.writer.begin_with(BEGIN).await?;
         let lost: Vec<(Hyphenated, u32, bool)> = match lost {
             Lost::EndedBy(by) => sqlx::query_as(
-                "SELECT id, fruitless, cancel_requested FROM jobs WHERE status = 'running' AND lease_expires_at <= ?",
+                "SELECT id, fruitless, cancel_requested FROM jobs INDEXED BY jobs_leased \
+                 WHERE status = 'running' AND lease_expires_at <= ?",
             )
             .bind(by),
             Lost::OfLastProcess => sqlx::query_as(
