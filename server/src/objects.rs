@@ -9,7 +9,6 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Duration;
 
-use futures_util::TryStreamExt;
 use object_store::aws::AmazonS3Builder;
 use object_store::buffered::BufWriter;
 use object_store::local::LocalFileSystem;
@@ -228,15 +227,6 @@ impl Objects {
             Ok(()) | Err(object_store::Error::NotFound { .. }) => Ok(()),
             Err(cause) => Err(self.failed_with(key, cause)),
         }
-    }
-
-    /// Checks that the store can be reached and read.
-    ///
-    /// # Errors
-    /// [`ObjectsError`].
-    pub async fn check(&self) -> Result<(), ObjectsError> {
-        let first = self.store.list(None).try_next().await;
-        first.map(drop).map_err(|cause| self.failed(cause.into()))
     }
 
     fn failed(&self, cause: Box<dyn std::error::Error + Send + Sync>) -> ObjectsError {

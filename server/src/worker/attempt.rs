@@ -1,5 +1,6 @@
 //! An attempt at a job: its lease, which is renewed until the end, and its end: the last updates, and the transition.
 
+use std::sync::Arc;
 use std::time::Duration;
 
 use tokio::time::MissedTickBehavior;
@@ -73,6 +74,7 @@ impl<E: Employer> Attempt<'_, E> {
         };
         // Of other ends the employer decides whether they are final.
         if let Some(computed) = computed.filter(|_| end.transition == Transition::Succeed) {
+            let computed = Arc::new(computed);
             (last.files, last.block) = retry(|| self.documents(end, &computed)).await?;
         }
         retry(|| self.employer.finish(lease, &last, end)).await?;
@@ -80,15 +82,18 @@ impl<E: Employer> Attempt<'_, E> {
     }
 
     /// Makes the documents of everything that was computed.
-    async fn documents(&self, end: &End, computed: &Computed) -> Result<Documents, EmployerError> {
+    async fn documents(
+        &self,
+        end: &End,
+        computed: &Arc<Computed>,
+    ) -> Result<Documents, EmployerError> {
         let lease = self.lease();
         let Ok(spec) = serde_json::from_str(&self.claim.spec) else {
             return Ok((Vec::new(), None));
         };
-        let results = (computed.rows.clone(), computed.snapshots.clone());
-        let folder = self.employer.folder(lease);
-        let made = make_documents(folder, (lease.job, spec), end.summary.as_ref(), results).await;
-        Ok(made?)
+        let (folder, summary) = (self.employer.folder(lease), end.summary.as_ref());
+        let computed = Arc::clone(computed);
+        Ok(make_documents(folder, (lease.job, spec), summary, computed).await?)
     }
 }
 

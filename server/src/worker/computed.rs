@@ -1,4 +1,4 @@
-//! What an attempt has computed so far, so that it makes the documents of its job itself.
+//! What a run has computed, as the documents of its job are made of it; an attempt collects it, so that it makes them itself.
 
 use api::results::Snapshot;
 use solver::record::CycleReport;
@@ -16,6 +16,15 @@ pub(super) struct Computed {
 }
 
 impl Computed {
+    /// Everything that is stored of a run.
+    pub(super) fn stored(rows: Vec<CycleReport>, snapshots: Vec<Snapshot>) -> Self {
+        Self {
+            rows,
+            snapshots,
+            bytes: 0,
+        }
+    }
+
     /// Adds a row of a line of this length; `None` if not all can be held, or if its cycle is not a later one.
     pub(super) fn with_row(mut self, row: &CycleReport, bytes: usize) -> Option<Self> {
         let is_later = self.rows.last().is_none_or(|last| last.cycle < row.cycle);

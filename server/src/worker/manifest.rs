@@ -1,10 +1,10 @@
 //! The documents of a job that ends.
 
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
-use api::results::{Snapshot, Summary};
+use api::results::Summary;
 use api::spec::Spec;
-use solver::record::CycleReport;
 use uuid::Uuid;
 
 use crate::export::documents;
@@ -13,6 +13,7 @@ use crate::export::files;
 use crate::export::files::FilesError;
 use crate::store::block::{Block, EncodedBlock};
 use crate::store::{NewFile, StoreError};
+use crate::worker::computed::Computed;
 
 /// Largest document that is stored in the block of the database instead of a file, bytes. Below some 100 kB a row is read
 /// faster than a file (sqlite.org/intern-v-extern-blob.html).
@@ -30,21 +31,21 @@ pub(super) async fn make_documents(
     folder: PathBuf,
     (job, spec): (Uuid, Spec),
     summary: Option<&Summary>,
-    (rows, snapshots): (Vec<CycleReport>, Vec<Snapshot>),
+    computed: Arc<Computed>,
 ) -> Result<Documents, StoreError> {
     let summary = summary.cloned();
     let made = tokio::task::spawn_blocking(move || {
         let documents = documents::all(&Results {
             spec: &spec,
             summary: summary.as_ref(),
-            rows: &rows,
-            snapshots: &snapshots,
+            rows: &computed.rows,
+            snapshots: &computed.snapshots,
             // Users of the service have a browser, which draws SVG.
             pixels: false,
         })?;
         let mut block = Block::default();
         block
-            .push_history(&rows, &snapshots)
+            .push_history(&computed.rows, &computed.snapshots)
             .map_err(DocumentError::from)?;
         let mut files = Vec::new();
         for document in documents {

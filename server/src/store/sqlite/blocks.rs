@@ -1,11 +1,12 @@
 //! Blocks of results of ended jobs.
 
 use std::collections::HashMap;
+use std::ops::Range;
 
 use sqlx::SqliteConnection;
 use uuid::Uuid;
 
-use crate::objects::Objects;
+use crate::objects::{ObjectPart, Objects};
 use crate::store::block::{Block, BlockError, EncodedBlock};
 use crate::store::{Store, StoreError};
 
@@ -14,9 +15,32 @@ use crate::store::{Store, StoreError};
 pub(super) struct StoredBlock {
     pub(super) entries: Vec<u8>,
     pub(super) content: Vec<u8>,
-    /// Key of the object, and how many bytes of it are the content.
-    pub(super) object: Option<String>,
-    pub(super) content_bytes: Option<u64>,
+    pub(super) object: Option<StoredObject>,
+}
+
+/// The object of a block.
+#[derive(Debug, Clone)]
+pub(super) struct StoredObject {
+    pub(super) key: String,
+    /// How many bytes of it are the content.
+    content_bytes: u64,
+}
+
+impl StoredObject {
+    /// What is behind the content.
+    ///
+    /// # Errors
+    /// [`StoreError::NoObjects`].
+    pub(super) fn behind(
+        &self,
+        objects: Option<&Objects>,
+        range: &Range<u64>,
+    ) -> Result<ObjectPart, StoreError> {
+        let objects = objects.ok_or(StoreError::NoObjects)?;
+        let from = self.content_bytes;
+        let range = from + range.start..from + range.end;
+        Ok(ObjectPart::new(objects, &self.key, range))
+    }
 }
 
 impl StoredBlock {
@@ -25,17 +49,18 @@ impl StoredBlock {
         connection: &mut SqliteConnection,
         id: Uuid,
     ) -> Result<Option<Self>, sqlx::Error> {
-        let found: Option<(_, _, _, _)> = sqlx::query_as(
+        let found: Option<(_, _, Option<_>, Option<_>)> = sqlx::query_as(
             "SELECT entries, content, object, content_bytes FROM result_blocks WHERE job_id = ?",
         )
         .bind(id.to_string())
         .fetch_optional(connection)
         .await?;
-        Ok(found.map(|(entries, content, object, content_bytes)| Self {
+        Ok(found.map(|(entries, content, key, content_bytes)| Self {
             entries,
             content,
-            object,
-            content_bytes,
+            object: key
+                .zip(content_bytes)
+                .map(|(key, content_bytes)| StoredObject { key, content_bytes }),
         }))
     }
 
@@ -47,10 +72,9 @@ impl StoredBlock {
     ) -> Result<Block, StoreError> {
         let content = match &self.object {
             None => self.content,
-            Some(key) => {
+            Some(StoredObject { key, content_bytes }) => {
                 let objects = objects.ok_or(StoreError::NoObjects)?;
-                let content_bytes = self.content_bytes.unwrap_or_default();
-                objects.get(key, 0..content_bytes).await?
+                objects.get(key, 0..*content_bytes).await?
             }
         };
         Block::decode(&self.entries, &content).map_err(|cause| unreadable(id, &cause))

@@ -3,7 +3,6 @@
 use sqlx::SqliteConnection;
 use uuid::Uuid;
 
-use crate::objects::ObjectPart;
 use crate::store::block::Block;
 use crate::store::compression::{compress, decompress};
 use crate::store::integrity;
@@ -51,19 +50,17 @@ impl Store {
         let mut connection = self.readers.acquire().await?;
         let stored = StoredBlock::of(&mut connection, id).await?;
         drop(connection);
-        let Some((stored, key)) =
-            stored.and_then(|stored| stored.object.clone().map(|key| (stored, key)))
+        let Some((entries, object)) =
+            stored.and_then(|stored| Some((stored.entries, stored.object?)))
         else {
             return Ok(Vec::new());
         };
-        let block = Block::decode(&stored.entries, &[]);
+        let block = Block::decode(&entries, &[]);
         let block = block.map_err(|cause| unreadable(id, &cause))?;
         let Some((entry, range)) = block.events() else {
             return Ok(Vec::new());
         };
-        let objects = self.objects.as_ref().ok_or(StoreError::NoObjects)?;
-        let from = stored.content_bytes.unwrap_or_default();
-        let part = ObjectPart::new(objects, &key, from + range.start..from + range.end);
+        let part = object.behind(self.objects.as_ref(), &range)?;
         let bytes = part.read().await?;
         let damaged = |cause: String| StoreError::DamagedResults { id, cause };
         integrity::check_bytes(entry, &bytes)

@@ -9,7 +9,6 @@ use sqlx::{Row, Sqlite, Transaction};
 use uuid::Uuid;
 use uuid::fmt::Hyphenated;
 
-use crate::objects::ObjectPart;
 use crate::store::block::Block;
 use crate::store::sqlite::blocks::{StoredBlock, entries, unreadable, update_entries};
 use crate::store::sqlite::folder::Folder;
@@ -86,15 +85,10 @@ impl Store {
         drop(connection);
         let entries =
             Block::decode(&stored.entries, &[]).map_err(|cause| unreadable(id, &cause))?;
-        if let (Some(key), Some(content_bytes)) = (&stored.object, stored.content_bytes)
+        if let Some(object) = &stored.object
             && let Some((entry, range)) = entries.files().find(|(entry, _)| entry.name == name)
         {
-            let objects = self.objects.as_ref().ok_or(StoreError::NoObjects)?;
-            let part = ObjectPart::new(
-                objects,
-                key,
-                content_bytes + range.start..content_bytes + range.end,
-            );
+            let part = object.behind(self.objects.as_ref(), &range)?;
             return Ok(Some((entry.clone(), Content::Object(part))));
         }
         if !entries.has_document(name) {

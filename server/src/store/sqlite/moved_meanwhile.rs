@@ -5,6 +5,13 @@ use std::path::Path;
 use sqlx::{Connection, SqliteConnection};
 
 use crate::store::BackupError;
+use crate::store::sqlite::objects::REMOVALS;
+
+/// What a copy takes over of a job (`?1`) from its original.
+const TAKEN: [&str; 2] = [
+    "INSERT OR REPLACE INTO result_blocks SELECT * FROM original.result_blocks WHERE job_id = ?1",
+    "UPDATE jobs SET (spec, plan) = (SELECT spec, plan FROM original.jobs AS moved WHERE moved.id = ?1) WHERE id = ?1",
+];
 
 /// Takes the results of jobs over that were moved to the store of objects while their files were copied. Returns the places of the
 /// files of other jobs.
@@ -34,12 +41,7 @@ pub(super) async fn take_moved(
             continue;
         };
         let mut transaction = copy.begin().await?;
-        for statement in [
-            "INSERT OR REPLACE INTO result_blocks SELECT * FROM original.result_blocks WHERE job_id = ?1",
-            "UPDATE jobs SET (spec, plan) = (SELECT spec, plan FROM original.jobs AS moved WHERE moved.id = ?1) WHERE id = ?1",
-            "DELETE FROM result_files WHERE job_id = ?1 AND place IS NOT NULL",
-            "DELETE FROM events WHERE job_id = ?1 AND seq < (SELECT last_event FROM jobs WHERE id = ?1)",
-        ] {
+        for statement in TAKEN.into_iter().chain(REMOVALS) {
             sqlx::query(statement)
                 .bind(&job)
                 .execute(&mut *transaction)

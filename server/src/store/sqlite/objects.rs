@@ -18,6 +18,11 @@ use crate::store::{Store, StoreError};
 
 /// Most jobs whose results are moved at once: they share two transactions. Arbitrary: more than a machine ends within a second.
 const JOBS: i64 = 512;
+/// What leaves the database once a job (`?1`) has an object, beside the content of its block.
+pub(super) const REMOVALS: [&str; 2] = [
+    "DELETE FROM result_files WHERE job_id = ?1 AND place IS NOT NULL",
+    "DELETE FROM events WHERE job_id = ?1 AND seq < (SELECT last_event FROM jobs WHERE id = ?1)",
+];
 /// Objects that are written at the same time. Arbitrary: an object takes some 10 to 100 ms.
 const WRITES: usize = 8;
 
@@ -152,6 +157,7 @@ impl Store {
         failed
     }
 
+    /// Notes the keys of objects that are about to be written.
     pub(in crate::store) async fn note_unnamed(
         &self,
         keyed: &[(Uuid, String)],
@@ -249,10 +255,7 @@ async fn name_object(
         .bind(moved.id.to_string())
         .execute(&mut **transaction)
         .await?;
-    for statement in [
-        "DELETE FROM result_files WHERE job_id = ?1 AND place IS NOT NULL",
-        "DELETE FROM events WHERE job_id = ?1 AND seq < (SELECT last_event FROM jobs WHERE id = ?1)",
-    ] {
+    for statement in REMOVALS {
         sqlx::query(statement)
             .bind(moved.id.to_string())
             .execute(&mut **transaction)

@@ -10,7 +10,7 @@ use crate::export::files::{hexadecimal, sha256};
 use crate::objects::{ObjectPart, Objects, ObjectsError};
 use crate::store::integrity::Checksum;
 use crate::store::sqlite::backup::{at, check_integrity, database_at};
-use crate::store::sqlite::blocks::{StoredBlock, update_entries};
+use crate::store::sqlite::blocks::{StoredBlock, StoredObject, update_entries};
 use crate::store::sqlite::files::entry;
 use crate::store::sqlite::folder::Folder;
 use crate::store::sqlite::migrations::newest_version;
@@ -113,11 +113,10 @@ async fn verify_block(
         return Ok(());
     };
     let (mut entries, object) = (stored.entries.clone(), stored.object.clone());
-    let content_bytes = stored.content_bytes.unwrap_or_default();
     let block = match stored.decoded(job, objects).await {
         Ok(block) => block,
         Err(StoreError::Objects(ObjectsError::Missing(_)))
-            if !is_named(database, job, object.as_deref()).await? =>
+            if !is_named(database, job, object.as_ref()).await? =>
         {
             tracing::debug!(%job, "deleted meanwhile");
             return Ok(());
@@ -137,13 +136,9 @@ async fn verify_block(
     let mut checked: Vec<_> = documents
         .map(|(entry, bytes)| (entry, integrity::check_bytes(entry, bytes)))
         .collect();
-    if let (Some(key), Some(objects)) = (object, objects) {
+    if let Some(object) = object {
         for (entry, range) in block.events().into_iter().chain(block.files()) {
-            let part = ObjectPart::new(
-                objects,
-                &key,
-                content_bytes + range.start..content_bytes + range.end,
-            );
+            let part = object.behind(objects, &range)?;
             let found = checksum(&part).await.map_err(StoreError::from)?;
             checked.push((entry, found.compare(entry)));
         }
@@ -169,12 +164,12 @@ async fn verify_block(
 async fn is_named(
     database: &mut SqliteConnection,
     job: Uuid,
-    object: Option<&str>,
+    object: Option<&StoredObject>,
 ) -> Result<bool, BackupError> {
     let rows: i64 =
         sqlx::query_scalar("SELECT count(*) FROM result_blocks WHERE job_id = ? AND object = ?")
             .bind(job.to_string())
-            .bind(object)
+            .bind(object.map(|object| &object.key))
             .fetch_one(database)
             .await?;
     Ok(rows > 0)

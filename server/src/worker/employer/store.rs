@@ -1,6 +1,7 @@
 //! The store of this process as an employer.
 
 use std::path::PathBuf;
+use std::sync::Arc;
 use std::time::Duration;
 
 use api::job::Status;
@@ -11,6 +12,7 @@ use super::{Employer, EmployerError};
 use crate::metrics::Busy;
 use crate::queue::Transition;
 use crate::store::{Claim, ClaimRequest, End, JobUpdate, Lease, LeaseState, Store, StoreError};
+use crate::worker::computed::Computed;
 use crate::worker::manifest::{Documents, make_documents};
 
 impl Employer for Store {
@@ -93,7 +95,8 @@ async fn stored_documents(
     let rows = store.history(lease.job).await?;
     let snapshots = store.snapshots(lease.job).await?;
     let folder = store.attempt_folder(lease);
-    make_documents(folder, (lease.job, spec), summary, (rows, snapshots)).await
+    let computed = Arc::new(Computed::stored(rows, snapshots));
+    make_documents(folder, (lease.job, spec), summary, computed).await
 }
 
 /// Ends a job, with documents of all results in the same transaction, or returns it to the queue.
