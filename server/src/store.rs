@@ -41,18 +41,31 @@
 //! monotonic clock ([`Store::clock`]).
 
 mod backup;
+mod batch_rows;
 mod batches;
 pub mod block;
 mod changes;
 mod compression;
 mod disk;
+mod document;
+mod ending;
 mod error;
+mod folder;
 pub mod integrity;
 mod jobs;
 mod leases;
 mod limits;
+mod local;
+mod new_row;
+mod objects;
+mod operations;
+mod overview;
+mod packed;
 mod results;
+mod results_to_move;
+mod rows;
 mod sqlite;
+mod stored_block;
 
 pub use backup::{BackupError, CopySummary};
 pub use batches::{BatchDetail, BatchFilter, BatchJob, BatchOverview, NewBatch, StoredBatch};
@@ -68,10 +81,11 @@ pub use leases::{
     Claim, ClaimRequest, End, EventName, JobUpdate, Lease, LeaseState, Reclaimed, RequestNumber,
 };
 pub use limits::Limits;
+pub use operations::Store;
 pub use results::{Chunks, Content, ContentError, NewFile, SnapshotPart, StoredEvent};
+pub use sqlite::OWNER_HEARTBEAT;
 pub use sqlite::backup::{backup, restore};
 pub use sqlite::verify::verify;
-pub use sqlite::{OWNER_HEARTBEAT, Store};
 
 #[cfg(test)]
 pub(crate) mod tests;

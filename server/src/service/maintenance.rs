@@ -7,7 +7,7 @@ use tokio::task::JoinSet;
 use tokio_util::sync::CancellationToken;
 use tracing::Instrument;
 
-use crate::clock::{Now, now_ms};
+use crate::clock::now_ms;
 use crate::store::{OWNER_HEARTBEAT, Reclaimed, Store, StoreError};
 use crate::worker;
 use crate::worker::WorkerConfig;
@@ -132,7 +132,7 @@ async fn round(
     if queued + ending > 0 {
         tracing::warn!(queued, ending, "jobs reclaimed from lost workers");
     }
-    let expired = store.expire(Now::read()).await?;
+    let expired = store.expire().await?;
     if expired > 0 {
         tracing::warn!(
             expired,

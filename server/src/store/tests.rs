@@ -33,8 +33,8 @@ impl Store {
     }
 
     /// Queues a job.
-    pub(crate) async fn queue(&self, job: &NewJob, now: i64) -> Uuid {
-        let submitted = self.submit(job, None, now).await.expect("the store");
+    pub(crate) async fn queue(&self, job: &NewJob) -> Uuid {
+        let submitted = self.submit(job, None).await.expect("the store");
         let Submitted::Job(id) = submitted else {
             panic!("there is no key");
         };
@@ -144,7 +144,7 @@ impl Fixture {
             plan,
             options,
         };
-        self.store.queue(&job, 0).await
+        self.store.queue(&job).await
     }
 
     pub(in crate::store) async fn claimed(&self, expires_at: i64) -> Claim {

@@ -58,7 +58,7 @@ impl Scripted {
             spec,
             options: SubmitOptions::default(),
         };
-        let id = store.queue(&job, 0).await;
+        let id = store.queue(&job).await;
         let config = WorkerConfig {
             ..WorkerConfig::new(program)
         };
@@ -141,11 +141,7 @@ async fn a_job_whose_process_never_reads_its_specification_can_be_cancelled() {
     let name = "x".repeat(1 << 20);
     let scripted = Scripted::named("exec sleep 100", Some(name)).await;
     scripted.job_when(|job| job.status == Status::Running).await;
-    scripted
-        .store
-        .cancel(scripted.id, 1)
-        .await
-        .expect("the store");
+    scripted.store.cancel(scripted.id).await.expect("the store");
     assert_eq!(scripted.ended().await.status, Status::Cancelled);
     scripted.stop().await;
 }
@@ -208,7 +204,7 @@ async fn a_job_with_a_cancel_request_whose_worker_is_lost_has_documents_of_its_r
         spec: resolved.spec,
         options: SubmitOptions::default(),
     };
-    let id = store.queue(&job, 0).await;
+    let id = store.queue(&job).await;
     let claim = store.claim_next(0).await.expect("a job");
     let update = JobUpdate {
         rows: vec![row(1)],
@@ -220,7 +216,7 @@ async fn a_job_with_a_cancel_request_whose_worker_is_lost_has_documents_of_its_r
     };
     let recorded = store.record(&claim, &update, Duration::ZERO).await;
     recorded.expect("the store");
-    store.cancel(id, 1).await.expect("the store");
+    store.cancel(id).await.expect("the store");
     let reclaimed = store
         .reclaim_expired(Duration::from_mins(1))
         .await

@@ -109,7 +109,7 @@ impl Pair {
             priority,
             deadline_s,
         };
-        let submitted = self.store.submit(&self.job, None, self.now).await;
+        let submitted = self.store.submit(&self.job, None).await;
         let Submitted::Job(id) = submitted.expect("queued") else {
             panic!("there is no key");
         };
@@ -136,10 +136,7 @@ impl Pair {
         let Some(job) = self.jobs.get_mut(job % count) else {
             return;
         };
-        self.store
-            .cancel(job.id, self.now)
-            .await
-            .expect("the store");
+        self.store.cancel(job.id).await.expect("the store");
         match job.status {
             _ if job.deleted => {}
             Status::Queued => {
@@ -155,7 +152,7 @@ impl Pair {
         let Some(job) = self.jobs.get_mut(job % count) else {
             return;
         };
-        self.store.retry(job.id, self.now).await.expect("the store");
+        self.store.retry(job.id).await.expect("the store");
         if !job.deleted && job.apply(Transition::Retry) {
             (job.fruitless, job.cancel_requested) = (0, false);
             let from_submission = job.deadline_at.map(|at| at - job.queued_at);
@@ -192,7 +189,7 @@ impl Pair {
     }
 
     async fn expire(&mut self) -> TestCaseResult {
-        let expired = self.store.expire(self.now).await.expect("the store");
+        let expired = self.store.expire().await.expect("the store");
         let mut expected = 0;
         for job in self.jobs.iter_mut().filter(|job| !job.deleted) {
             let late = job.deadline_at.is_some_and(|at| at <= self.now);
@@ -217,7 +214,7 @@ impl Pair {
 
     /// Compares every job with the model; its events have no gaps and `done` is the last one of one that has ended.
     async fn compare(&self) -> TestCaseResult {
-        for (status, count, _) in self.store.gauges(0).await.expect("the store").jobs {
+        for (status, count, _) in self.store.gauges().await.expect("the store").jobs {
             let jobs = self.jobs.iter();
             let expected = jobs.filter(|job| !job.deleted && job.status == status);
             prop_assert_eq!(usize::try_from(count), Ok(expected.count()));

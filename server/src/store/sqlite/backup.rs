@@ -9,8 +9,8 @@ use sqlx::sqlite::{SqliteConnectOptions, SqliteConnection};
 use sqlx::{ConnectOptions, Connection, Row};
 
 use crate::export::files::{create_folder, parent};
-use crate::store::sqlite::files::entry;
-use crate::store::sqlite::folder::{Folder, beside};
+use crate::store::folder::{Folder, beside};
+use crate::store::rows::entry;
 use crate::store::sqlite::identity::schema_version;
 use crate::store::sqlite::moved_meanwhile::take_moved;
 use crate::store::sqlite::open::{lock, options};

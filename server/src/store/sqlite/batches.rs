@@ -2,62 +2,46 @@
 
 use std::collections::BTreeMap;
 
-use api::job::Status;
-use sqlx::sqlite::SqliteRow;
-use sqlx::{Row, Sqlite, SqliteExecutor, Transaction};
+use sqlx::{Sqlite, SqliteExecutor, Transaction};
 use uuid::Uuid;
 use uuid::fmt::Hyphenated;
 
 use crate::clock::Now;
-use crate::store::batches::{
-    BatchDetail, BatchFilter, BatchJob, BatchOverview, NewBatch, StoredBatch,
-};
-use crate::store::sqlite::document::status_and_reason;
-use crate::store::sqlite::document::timestamp;
+use crate::store::batch_rows::{batch_job, batch_overview, no_jobs};
+use crate::store::batches::{BatchDetail, BatchFilter, BatchOverview, NewBatch, StoredBatch};
+use crate::store::rows::StoredRow;
+use crate::store::sqlite::SqliteStore;
 use crate::store::sqlite::job_rows::{cancel, insert};
-use crate::store::sqlite::queries::{BEGIN, id, outcome, parsed, summary};
-use crate::store::{DataDisk, Deleted, RequestKey, SnapshotPart, Store, StoreError, Submitted};
+use crate::store::sqlite::queries::BEGIN;
+use crate::store::{Deleted, RequestKey, StoreError, Submitted};
 
-impl Store {
-    /// Queues all jobs of a batch or none; returns the earlier batch if a request with the same key and body has queued
-    /// one. `now` is the time of their submission.
-    ///
-    /// # Errors
-    /// [`StoreError`] if the database fails.
-    pub async fn submit_batch(
+impl SqliteStore {
+    pub(in crate::store) async fn submit_batch(
         &self,
         batch: &NewBatch,
         key: Option<&RequestKey>,
-        now: impl Into<Now>,
     ) -> Result<Submitted, StoreError> {
-        self.disk.check()?;
+        self.local.disk.check()?;
         let mut transaction = self.writer.begin_with(BEGIN).await?;
         if let Some(key) = key
             && let Some(earlier) = submitted(&mut *transaction, key).await?
         {
             return Ok(earlier);
         }
-        let id = insert_batch(&mut transaction, batch, key, now.into()).await?;
+        let id = insert_batch(&mut transaction, batch, key, self.local.clock.now()).await?;
         transaction.commit().await?;
-        // Wakes every idle worker; one that misses the notification polls within a second.
-        self.waiting.notify_waiters();
-        self.waiting.notify_one();
+        self.local.many_wait();
         Ok(Submitted::Job(id))
     }
 
-    /// Returns the batch that an earlier request with the same key queued, if there was one.
-    ///
-    /// # Errors
-    /// [`StoreError`] if the database fails.
-    pub async fn submitted_batch(&self, key: &RequestKey) -> Result<Option<Submitted>, StoreError> {
+    pub(in crate::store) async fn submitted_batch(
+        &self,
+        key: &RequestKey,
+    ) -> Result<Option<Submitted>, StoreError> {
         submitted(&self.readers, key).await
     }
 
-    /// Returns a batch with its jobs and so much of their results; `None` if there is no batch of that id.
-    ///
-    /// # Errors
-    /// [`StoreError`] if the database fails or a document in it cannot be read.
-    pub async fn batch(
+    pub(in crate::store) async fn batch_without_profiles(
         &self,
         id: Uuid,
         detail: BatchDetail,
@@ -82,37 +66,21 @@ impl Store {
         let mut counts = no_jobs();
         let mut jobs = Vec::with_capacity(rows.len());
         for row in rows {
-            let mut job = job(&self.disk, &row)?;
+            let job = batch_job(&self.local.disk, &row)?;
             *counts.entry(job.status.as_str().to_owned()).or_default() += 1;
-            if detail >= BatchDetail::Profiles && job.summary.is_some() {
-                job.profile = self.last_profile(job.id).await?;
-            }
             jobs.push(job);
         }
         Ok(Some(StoredBatch {
-            overview: overview(&batch, counts)?,
-            plan: batch.try_get("plan")?,
+            overview: batch_overview(&batch, counts)?,
+            plan: batch.optional_text("plan")?,
             jobs,
         }))
     }
 
-    /// Returns the last profile of a job; `None` if it has none, or if its results are damaged, so that the other jobs can be
-    /// compared.
-    async fn last_profile(&self, id: Uuid) -> Result<Option<String>, StoreError> {
-        match self.snapshot(id, SnapshotPart::Profile, None).await {
-            Err(error @ StoreError::DamagedResults { .. }) => {
-                tracing::error!(%error, "a job is left out of a comparison");
-                Ok(None)
-            }
-            found => found,
-        }
-    }
-
-    /// Returns batches, newest first.
-    ///
-    /// # Errors
-    /// [`StoreError`] if the database fails.
-    pub async fn batches(&self, filter: BatchFilter) -> Result<Vec<BatchOverview>, StoreError> {
+    pub(in crate::store) async fn batches(
+        &self,
+        filter: BatchFilter,
+    ) -> Result<Vec<BatchOverview>, StoreError> {
         // Ids are hexadecimal text, all of which sorts before `g`.
         let before = filter.before.map_or("g".to_owned(), |id| id.to_string());
         let rows = sqlx::query(
@@ -126,17 +94,17 @@ impl Store {
         .await?;
         let mut batches = Vec::with_capacity(rows.len());
         for row in rows {
-            let counts = self.batch_counts(id(&row, "id")?).await?;
-            batches.push(overview(&row, counts)?);
+            let counts = self.batch_counts(row.id("id")?).await?;
+            batches.push(batch_overview(&row, counts)?);
         }
         Ok(batches)
     }
 
-    /// Checks whether a batch exists; with `with_plan`, whether it has an evaluation plan too.
-    ///
-    /// # Errors
-    /// [`StoreError`] if the database fails.
-    pub async fn has_batch(&self, id: Uuid, with_plan: bool) -> Result<bool, StoreError> {
+    pub(in crate::store) async fn has_batch(
+        &self,
+        id: Uuid,
+        with_plan: bool,
+    ) -> Result<bool, StoreError> {
         let found = sqlx::query_scalar(
             "SELECT EXISTS (SELECT 1 FROM sweeps LEFT JOIN studies ON sweep_id = id \
              WHERE id = ? AND (NOT ? OR plan IS NOT NULL))",
@@ -147,14 +115,10 @@ impl Store {
         Ok(found.await?)
     }
 
-    /// Cancels all jobs of a batch: waiting ones end at once, running ones are ended by their workers.
-    ///
-    /// # Errors
-    /// [`StoreError`] if the database fails.
-    pub async fn cancel_batch(&self, id: Uuid, now: i64) -> Result<(), StoreError> {
+    pub(in crate::store) async fn cancel_batch(&self, id: Uuid) -> Result<(), StoreError> {
         let write = async || {
             let mut transaction = self.writer.begin_with(BEGIN).await?;
-            let jobs = jobs_of(&mut transaction, id).await?;
+            let (jobs, now) = (jobs_of(&mut transaction, id).await?, self.local.clock.now());
             let mut effects = Vec::with_capacity(jobs.len());
             for job in jobs {
                 effects.push((job, cancel(&mut transaction, job, now).await?));
@@ -162,17 +126,13 @@ impl Store {
             transaction.commit().await?;
             Ok(effects)
         };
-        for (job, effect) in self.disk.with_reserve(write).await? {
-            self.cancelled(job, effect);
+        for (job, effect) in self.local.disk.with_reserve(write).await? {
+            self.local.cancelled(job, effect);
         }
         Ok(())
     }
 
-    /// Deletes a batch whose jobs have all ended, with the jobs, their events, results and files.
-    ///
-    /// # Errors
-    /// [`StoreError`] if the database fails.
-    pub async fn delete_batch(&self, id: Uuid) -> Result<Deleted, StoreError> {
+    pub(in crate::store) async fn delete_batch(&self, id: Uuid) -> Result<Deleted, StoreError> {
         let mut transaction = self.writer.begin_with(BEGIN).await?;
         let active: i64 = sqlx::query_scalar(
             "SELECT count(*) FROM sweep_jobs JOIN jobs ON jobs.id = job_id \
@@ -197,8 +157,8 @@ impl Store {
             .await?;
         transaction.commit().await?;
         for job in jobs {
-            self.remove_files(job).await;
-            self.changed(job);
+            self.local.remove_files(job).await;
+            self.local.changed(job);
         }
         Ok(match deleted.rows_affected() {
             0 => Deleted::Missing,
@@ -281,35 +241,4 @@ async fn jobs_of(
             .fetch_all(&mut **transaction)
             .await?;
     Ok(jobs.into_iter().map(Uuid::from).collect())
-}
-
-/// Returns a batch without its jobs.
-fn overview(row: &SqliteRow, counts: BTreeMap<String, u64>) -> Result<BatchOverview, StoreError> {
-    Ok(BatchOverview {
-        id: id(row, "id")?,
-        name: row.try_get("name")?,
-        created_at: timestamp(row.try_get("created_at")?),
-        counts,
-    })
-}
-
-/// Returns a job of a batch, without its profile.
-fn job(disk: &DataDisk, row: &SqliteRow) -> Result<BatchJob, StoreError> {
-    let id = id(row, "job_id")?;
-    let (status, status_reason) = status_and_reason(disk, id, row)?;
-    Ok(BatchJob {
-        id,
-        overrides: parsed(id, "overrides", row.try_get("overrides")?)?,
-        status,
-        status_reason,
-        outcome: outcome(row)?,
-        summary: summary(id, row)?,
-        profile: None,
-    })
-}
-
-/// Zero for every status.
-fn no_jobs() -> BTreeMap<String, u64> {
-    let all = Status::ALL.iter();
-    all.map(|status| (status.as_str().to_owned(), 0)).collect()
 }

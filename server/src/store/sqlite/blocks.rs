@@ -1,104 +1,51 @@
 //! Blocks of results of ended jobs.
 
 use std::collections::HashMap;
-use std::ops::Range;
 
 use sqlx::SqliteConnection;
 use uuid::Uuid;
 
-use crate::objects::{ObjectPart, Objects};
+use crate::store::StoreError;
 use crate::store::block::{Block, BlockError, EncodedBlock};
-use crate::store::{Store, StoreError};
+use crate::store::sqlite::SqliteStore;
+use crate::store::stored_block::{StoredBlock, unreadable};
 
-/// A block as it is stored: its content is in the database, or in an object.
-#[derive(Debug)]
-pub(super) struct StoredBlock {
-    pub(super) entries: Vec<u8>,
-    pub(super) content: Vec<u8>,
-    pub(super) object: Option<StoredObject>,
+/// Reads the block of a job; `None` if it has none.
+pub(super) async fn stored_block(
+    connection: &mut SqliteConnection,
+    id: Uuid,
+) -> Result<Option<StoredBlock>, sqlx::Error> {
+    let found = sqlx::query_as(
+        "SELECT entries, content, object, content_bytes FROM result_blocks WHERE job_id = ?",
+    )
+    .bind(id.to_string())
+    .fetch_optional(connection)
+    .await?;
+    Ok(found.map(|(entries, content, key, content_bytes)| {
+        StoredBlock::new(entries, content, key, content_bytes)
+    }))
 }
 
-/// The object of a block.
-#[derive(Debug, Clone)]
-pub(super) struct StoredObject {
-    pub(super) key: String,
-    /// How many bytes of it are the content.
-    content_bytes: u64,
-}
-
-impl StoredObject {
-    /// What is behind the content.
-    ///
-    /// # Errors
-    /// [`StoreError::NoObjects`].
-    pub(super) fn behind(
-        &self,
-        objects: Option<&Objects>,
-        range: &Range<u64>,
-    ) -> Result<ObjectPart, StoreError> {
-        let objects = objects.ok_or(StoreError::NoObjects)?;
-        let from = self.content_bytes;
-        let range = from + range.start..from + range.end;
-        Ok(ObjectPart::new(objects, &self.key, range))
-    }
-}
-
-impl StoredBlock {
-    /// Reads that of a job; `None` if it has none.
-    pub(super) async fn of(
-        connection: &mut SqliteConnection,
-        id: Uuid,
-    ) -> Result<Option<Self>, sqlx::Error> {
-        let found: Option<(_, _, Option<_>, Option<_>)> = sqlx::query_as(
-            "SELECT entries, content, object, content_bytes FROM result_blocks WHERE job_id = ?",
-        )
-        .bind(id.to_string())
-        .fetch_optional(connection)
-        .await?;
-        Ok(found.map(|(entries, content, key, content_bytes)| Self {
-            entries,
-            content,
-            object: key
-                .zip(content_bytes)
-                .map(|(key, content_bytes)| StoredObject { key, content_bytes }),
-        }))
-    }
-
-    /// Decompresses it, with its content from the store of objects where it is there.
-    pub(super) async fn decoded(
-        self,
-        id: Uuid,
-        objects: Option<&Objects>,
-    ) -> Result<Block, StoreError> {
-        let content = match &self.object {
-            None => self.content,
-            Some(StoredObject { key, content_bytes }) => {
-                let objects = objects.ok_or(StoreError::NoObjects)?;
-                objects.get(key, 0..*content_bytes).await?
-            }
-        };
-        Block::decode(&self.entries, &content).map_err(|cause| unreadable(id, &cause))
-    }
-}
-
-impl Store {
+impl SqliteStore {
     /// Returns the block of a job; `None` if it has none.
     pub(super) async fn block(&self, id: Uuid) -> Result<Option<Block>, StoreError> {
         let mut connection = self.readers.acquire().await?;
-        let stored = StoredBlock::of(&mut connection, id).await?;
+        let stored = stored_block(&mut connection, id).await?;
         // An object may be far away.
         drop(connection);
         match stored {
             None => Ok(None),
-            Some(stored) => stored.decoded(id, self.objects.as_ref()).await.map(Some),
+            Some(stored) => stored
+                .decoded(id, self.local.objects.as_ref())
+                .await
+                .map(Some),
         }
     }
 
-    /// Returns the documents of a job's block, by name.
-    ///
-    /// # Errors
-    /// [`StoreError`] if the database fails or the block cannot be read.
-    pub async fn block_documents(&self, id: Uuid) -> Result<HashMap<String, Vec<u8>>, StoreError> {
+    pub(in crate::store) async fn block_documents(
+        &self,
+        id: Uuid,
+    ) -> Result<HashMap<String, Vec<u8>>, StoreError> {
         let block = self.block(id).await?.unwrap_or_default();
         Ok(block.into_documents())
     }
@@ -179,12 +126,4 @@ pub(super) async fn update_entries(
         .execute(connection)
         .await?;
     Ok(())
-}
-
-/// The error of a block that cannot be read.
-pub(super) fn unreadable(id: Uuid, cause: &BlockError) -> StoreError {
-    StoreError::DamagedResults {
-        id,
-        cause: cause.to_string(),
-    }
 }

@@ -6,7 +6,7 @@ use uuid::Uuid;
 
 use crate::clock::now_ms;
 use crate::solve::checkpoint::EncodedCheckpoint;
-use crate::store::sqlite::queries::integer;
+use crate::store::rows::integer;
 use crate::store::{Lease, StoreError};
 
 /// Returns the checkpoint of a job and deletes the results after its cycle. A checkpoint whose checksum differs is

@@ -1,29 +1,30 @@
 //! Claims: the first waiting jobs that fit into the free memory of a worker, under new leases.
 
-use sqlx::sqlite::SqliteRow;
-use sqlx::{Row, Sqlite, Transaction};
+use sqlx::{Sqlite, Transaction};
 use uuid::Uuid;
 use uuid::fmt::Hyphenated;
 
 use crate::clock::Now;
 use crate::queue::{WaitingJob, admit};
-use crate::solve::checkpoint::EncodedCheckpoint;
-use crate::store::sqlite::checkpoints;
+use crate::store::rows;
+use crate::store::rows::StoredRow;
 use crate::store::sqlite::queries::{BEGIN, insert_attempt_event};
-use crate::store::{Claim, ClaimRequest, Store, StoreError};
+use crate::store::sqlite::{SqliteStore, checkpoints};
+use crate::store::{Claim, ClaimRequest, StoreError};
 
 /// Number of waiting jobs among which those that fit are searched, beside one for each slot.
 const CANDIDATES: usize = 64;
 
-impl Store {
-    /// Claims the first jobs in the order of the queue that a worker can take, under new leases. Jobs before them that do not fit
-    /// into its memory get a status reason. A repeated request gets the jobs of the first one that it still holds.
-    ///
-    /// # Errors
-    /// [`StoreError`] if the database fails.
-    pub async fn claim(&self, request: &ClaimRequest) -> Result<Vec<Claim>, StoreError> {
-        self.disk.check()?;
-        let (now, expires_at) = (self.clock.now(), self.clock.end_of(request.lease));
+impl SqliteStore {
+    pub(in crate::store) async fn claim(
+        &self,
+        request: &ClaimRequest,
+    ) -> Result<Vec<Claim>, StoreError> {
+        self.local.disk.check()?;
+        let (now, expires_at) = (
+            self.local.clock.now(),
+            self.local.clock.end_of(request.lease),
+        );
         let mut transaction = self.writer.begin_with(BEGIN).await?;
         let known = claimed_before(&mut transaction, request, (now, expires_at)).await?;
         if !known.is_empty() {
@@ -57,7 +58,7 @@ impl Store {
         transaction.commit().await?;
         changed.extend(claims.iter().map(|claim| claim.id));
         for id in changed {
-            self.changed(id);
+            self.local.changed(id);
         }
         Ok(claims)
     }
@@ -120,9 +121,9 @@ async fn claimed_before(
     .await?;
     let mut claims = Vec::with_capacity(rows.len());
     for row in rows {
-        let id = row.try_get::<Hyphenated, _>("id")?.into();
+        let id = row.id("id")?;
         let checkpoint = checkpoints::restore(transaction, id).await?;
-        claims.push(claimed(id, &row, now, checkpoint)?);
+        claims.push(rows::claim(id, &row, now, checkpoint)?);
     }
     Ok(claims)
 }
@@ -150,29 +151,8 @@ async fn claim(
     .await?;
     let checkpoint = checkpoints::restore(transaction, id).await?;
     let from_cycle = checkpoint.as_ref().map_or(0, |found| found.cycle);
-    let claim = claimed(id, &row, now, checkpoint)?;
-    let event = row.try_get("last_event")?;
+    let claim = rows::claim(id, &row, now, checkpoint)?;
+    let event = row.integer("last_event")?;
     insert_attempt_event(transaction, id, event, claim.attempt, from_cycle).await?;
     Ok(claim)
-}
-
-/// Returns the claim of a job, from its row under the new lease.
-pub(super) fn claimed(
-    id: Uuid,
-    row: &SqliteRow,
-    now: Now,
-    checkpoint: Option<EncodedCheckpoint>,
-) -> Result<Claim, StoreError> {
-    let deadline_at: Option<i64> = row.try_get("deadline_at")?;
-    Ok(Claim {
-        id,
-        lease: row.try_get("lease")?,
-        spec: row.try_get("spec")?,
-        attempt: row.try_get("attempts")?,
-        waited_ms: now.monotonic_ms.saturating_sub(row.try_get("queued_at")?),
-        deadline_in_ms: deadline_at.map(|at| at.saturating_sub(now.monotonic_ms)),
-        memory_mb: row.try_get("memory_mb")?,
-        cpu_ms: row.try_get("cpu_ms")?,
-        checkpoint,
-    })
 }

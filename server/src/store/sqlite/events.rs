@@ -3,24 +3,20 @@
 use sqlx::SqliteConnection;
 use uuid::Uuid;
 
-use crate::store::block::Block;
-use crate::store::compression::{compress, decompress};
-use crate::store::integrity;
-use crate::store::sqlite::blocks::{StoredBlock, unreadable};
-use crate::store::sqlite::queries::integer;
-use crate::store::{Store, StoreError, StoredEvent};
+use crate::store::rows::integer;
+use crate::store::sqlite::SqliteStore;
+use crate::store::sqlite::blocks::stored_block;
+use crate::store::{StoreError, StoredEvent};
 
 /// Largest number of events in an answer.
 const PAGE: usize = 500;
-/// Largest length of all events of a job, bytes.
-const LIMIT: usize = 64 << 20;
 
-impl Store {
-    /// Returns the events of a job after number `after`, oldest first; at most a page of them.
-    ///
-    /// # Errors
-    /// [`StoreError`] if the database fails.
-    pub async fn events(&self, id: Uuid, after: i64) -> Result<Vec<StoredEvent>, StoreError> {
+impl SqliteStore {
+    pub(in crate::store) async fn events(
+        &self,
+        id: Uuid,
+        after: i64,
+    ) -> Result<Vec<StoredEvent>, StoreError> {
         let rows: Vec<(i64, String, String)> = sqlx::query_as(
             "SELECT seq, name, iif(name = 'done' AND data ->> '$.status' = 'succeeded', \
              json_set(data, '$.summary', json((SELECT summary FROM jobs WHERE id = job_id))), data) \
@@ -48,33 +44,20 @@ impl Store {
     /// The events of a job that were moved.
     async fn moved_events(&self, id: Uuid) -> Result<Vec<StoredEvent>, StoreError> {
         let mut connection = self.readers.acquire().await?;
-        let stored = StoredBlock::of(&mut connection, id).await?;
+        let stored = stored_block(&mut connection, id).await?;
         drop(connection);
-        let Some((entries, object)) =
-            stored.and_then(|stored| Some((stored.entries, stored.object?)))
-        else {
-            return Ok(Vec::new());
-        };
-        let block = Block::decode(&entries, &[]);
-        let block = block.map_err(|cause| unreadable(id, &cause))?;
-        let Some((entry, range)) = block.events() else {
-            return Ok(Vec::new());
-        };
-        let part = object.behind(self.objects.as_ref(), &range)?;
-        let bytes = part.read().await?;
-        let damaged = |cause: String| StoreError::DamagedResults { id, cause };
-        integrity::check_bytes(entry, &bytes)
-            .map_err(|cause| damaged(format!("events: {cause}")))?;
-        serde_json::from_slice(&decompress(&bytes, LIMIT))
-            .map_err(|cause| damaged(format!("events: {cause}")))
+        match stored {
+            None => Ok(Vec::new()),
+            Some(stored) => stored.events(id, self.local.objects.as_ref()).await,
+        }
     }
 }
 
-/// Compresses all events of a job but the last one, which stays.
-pub(super) async fn pack_events(
+/// All events of a job but the last one, which stays.
+pub(super) async fn events_to_move(
     connection: &mut SqliteConnection,
     id: Uuid,
-) -> Result<Vec<u8>, StoreError> {
+) -> Result<Vec<StoredEvent>, StoreError> {
     let rows: Vec<(i64, String, String)> = sqlx::query_as(
         "SELECT seq, name, data FROM events WHERE job_id = ?1 \
          AND seq < (SELECT last_event FROM jobs WHERE id = ?1) ORDER BY seq",
@@ -83,6 +66,5 @@ pub(super) async fn pack_events(
     .fetch_all(connection)
     .await?;
     let event = |(seq, name, data)| StoredEvent { seq, name, data };
-    let events: Vec<_> = rows.into_iter().map(event).collect();
-    Ok(compress(&serde_json::to_vec(&events)?))
+    Ok(rows.into_iter().map(event).collect())
 }

@@ -1,32 +1,23 @@
 //! Manifests: the files of a job by name, and their content.
 
 use std::collections::HashSet;
-use std::path::PathBuf;
 
 use api::results::ResultFile;
-use sqlx::sqlite::SqliteRow;
 use sqlx::{Row, Sqlite, Transaction};
 use uuid::Uuid;
 use uuid::fmt::Hyphenated;
 
 use crate::store::block::Block;
-use crate::store::sqlite::blocks::{StoredBlock, entries, unreadable, update_entries};
-use crate::store::sqlite::folder::Folder;
-use crate::store::sqlite::queries::{BEGIN, corrupt, integer};
-use crate::store::{Content, Lease, NewFile, Store, StoreError};
+use crate::store::folder::Folder;
+use crate::store::rows::{corrupt, entry, integer};
+use crate::store::sqlite::SqliteStore;
+use crate::store::sqlite::blocks::{entries, stored_block, update_entries};
+use crate::store::sqlite::queries::BEGIN;
+use crate::store::stored_block::unreadable;
+use crate::store::{Content, Lease, NewFile, StoreError};
 
-impl Store {
-    /// Returns the folder into which an attempt at a job writes its large results.
-    pub fn attempt_folder(&self, lease: impl Into<Lease>) -> PathBuf {
-        let lease = lease.into();
-        self.folder.of_attempt(lease.job, lease.number)
-    }
-
-    /// Returns the manifest of a job so far, by name.
-    ///
-    /// # Errors
-    /// [`StoreError`] if the database fails.
-    pub async fn manifest(&self, id: Uuid) -> Result<Vec<ResultFile>, StoreError> {
+impl SqliteStore {
+    pub(in crate::store) async fn manifest(&self, id: Uuid) -> Result<Vec<ResultFile>, StoreError> {
         // Both as of one time: a file may be moved from the one to the other.
         let mut transaction = self.readers.begin().await?;
         let rows = sqlx::query(
@@ -43,11 +34,7 @@ impl Store {
         Ok(files)
     }
 
-    /// Returns a file that the manifest names, and its content.
-    ///
-    /// # Errors
-    /// [`StoreError`] if the database fails.
-    pub async fn result_file(
+    pub(in crate::store) async fn result_file(
         &self,
         id: Uuid,
         name: &str,
@@ -66,7 +53,7 @@ impl Store {
             Content::Inline(content)
         } else {
             let place = row.try_get("place")?;
-            let path = self.folder.path(place);
+            let path = self.local.folder.path(place);
             Content::File(path.ok_or_else(|| corrupt(id, "path of a file", &place))?)
         };
         Ok(Some((entry(&row)?, content)))
@@ -79,31 +66,15 @@ impl Store {
         name: &str,
     ) -> Result<Option<(ResultFile, Content)>, StoreError> {
         let mut connection = self.readers.acquire().await?;
-        let Some(stored) = StoredBlock::of(&mut connection, id).await? else {
-            return Ok(None);
-        };
+        let stored = stored_block(&mut connection, id).await?;
         drop(connection);
-        let entries =
-            Block::decode(&stored.entries, &[]).map_err(|cause| unreadable(id, &cause))?;
-        if let Some(object) = &stored.object
-            && let Some((entry, range)) = entries.files().find(|(entry, _)| entry.name == name)
-        {
-            let part = object.behind(self.objects.as_ref(), &range)?;
-            return Ok(Some((entry.clone(), Content::Object(part))));
+        match stored {
+            None => Ok(None),
+            Some(stored) => stored.file(id, name, self.local.objects.as_ref()).await,
         }
-        if !entries.has_document(name) {
-            return Ok(None);
-        }
-        let block = stored.decoded(id, self.objects.as_ref()).await?;
-        let document = block.document(name);
-        Ok(document.map(|(entry, bytes)| (entry, Content::Inline(bytes))))
     }
 
-    /// Marks a file in its manifest as damaged, with how, or no longer.
-    ///
-    /// # Errors
-    /// [`StoreError`] if the database fails.
-    pub async fn mark_damaged(
+    pub(in crate::store) async fn mark_damaged(
         &self,
         id: Uuid,
         name: &str,
@@ -128,13 +99,10 @@ impl Store {
         Ok(transaction.commit().await?)
     }
 
-    /// Removes files that no manifest names: of the attempts at a job up to this one, or of all jobs at start-up. A
-    /// later attempt may write files that the manifest does not name yet, and so may a remote worker. Files that cannot be removed are logged and
-    /// remain until the next start.
-    ///
-    /// # Errors
-    /// [`StoreError`] if the database fails.
-    pub async fn remove_unnamed_files(&self, attempt: Option<Lease>) -> Result<(), StoreError> {
+    pub(in crate::store) async fn remove_unnamed_files(
+        &self,
+        attempt: Option<Lease>,
+    ) -> Result<(), StoreError> {
         let attempt = attempt.map(|lease| (lease.job, lease.number));
         let named: Vec<String> = sqlx::query_scalar(
             "SELECT place FROM result_files WHERE place IS NOT NULL AND (job_id = ?1 OR ?1 IS NULL)",
@@ -158,41 +126,13 @@ impl Store {
                 .map(|(id, lease)| folder.of_attempt((*id).into(), *lease));
             folder.remove_unnamed(attempt, &named, &held.collect())
         };
-        match self.in_folder(remove).await {
+        match self.local.in_folder(remove).await {
             Ok(0) => {}
             Ok(removed) => tracing::info!(removed, "files that no manifest names were removed"),
             Err(error) => tracing::warn!(%error, "files that no manifest names were not removed"),
         }
         Ok(())
     }
-
-    /// Removes the files of a deleted job. Files that cannot be removed are logged and remain until the next start.
-    pub(super) async fn remove_files(&self, id: Uuid) {
-        if let Err(error) = self.in_folder(move |folder| folder.remove(id)).await {
-            tracing::warn!(job = %id, %error, "files could not be removed");
-        }
-    }
-
-    /// Runs a blocking operation on the folder of results.
-    async fn in_folder<T: Send + 'static>(
-        &self,
-        operation: impl FnOnce(Folder) -> std::io::Result<T> + Send + 'static,
-    ) -> std::io::Result<T> {
-        let folder = self.folder.clone();
-        tokio::task::spawn_blocking(move || operation(folder)).await?
-    }
-}
-
-/// Returns the entry of a file in the manifest.
-pub(super) fn entry(row: &SqliteRow) -> Result<ResultFile, StoreError> {
-    Ok(ResultFile {
-        name: row.try_get("name")?,
-        cycle: row.try_get("cycle")?,
-        media_type: row.try_get("media_type")?,
-        bytes: row.try_get("bytes")?,
-        sha256: row.try_get("sha256")?,
-        damaged: row.try_get("damaged")?,
-    })
 }
 
 /// Adds files to the manifest, in a transaction that has checked the lease.

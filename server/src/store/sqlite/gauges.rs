@@ -7,8 +7,9 @@ use api::service::Demand;
 use jiff::Timestamp;
 
 use crate::metrics::Gauges;
-use crate::store::sqlite::queries::integer;
-use crate::store::{Store, StoreError};
+use crate::store::StoreError;
+use crate::store::rows::integer;
+use crate::store::sqlite::SqliteStore;
 
 /// Shortest time between two write probes.
 const PROBE_INTERVAL: Duration = Duration::from_secs(1);
@@ -16,12 +17,8 @@ const PROBE_INTERVAL: Duration = Duration::from_secs(1);
 /// Processor time that is expected of a job without an estimate, ms. Arbitrary.
 const UNKNOWN_CPU_MS: i64 = 60_000;
 
-impl Store {
-    /// Returns what waits and runs.
-    ///
-    /// # Errors
-    /// [`StoreError`] if the database fails.
-    pub async fn demand(&self) -> Result<Demand, StoreError> {
+impl SqliteStore {
+    pub(in crate::store) async fn demand(&self) -> Result<Demand, StoreError> {
         let (queued, running, running_remotely, queued_cpu_s) = sqlx::query_as(
             "SELECT (SELECT count(*) FROM jobs INDEXED BY jobs_waiting WHERE status = 'queued'), \
              (SELECT count(*) FROM jobs INDEXED BY jobs_running WHERE status = 'running'), \
@@ -40,11 +37,8 @@ impl Store {
         })
     }
 
-    /// Returns what the store knows: jobs by status, ages, sizes.
-    ///
-    /// # Errors
-    /// [`StoreError`] if the database fails.
-    pub async fn gauges(&self, now: i64) -> Result<Gauges, StoreError> {
+    pub(in crate::store) async fn gauges(&self) -> Result<Gauges, StoreError> {
+        let now = self.local.clock.now().system_ms;
         let rows: Vec<(String, i64, Option<i64>)> = sqlx::query_as(
             "SELECT status, jobs, (SELECT min(created_at) FROM jobs WHERE jobs.status = job_counts.status) FROM job_counts",
         )
@@ -82,7 +76,7 @@ impl Store {
         let results_to_move: i64 = sqlx::query_scalar(
             "SELECT count(*) FROM result_blocks WHERE is_movable = 1 AND object IS NULL AND ?",
         )
-        .bind(self.objects.is_some())
+        .bind(self.local.objects.is_some())
         .fetch_one(&self.readers)
         .await?;
         Ok(Gauges {
@@ -93,26 +87,21 @@ impl Store {
             wal_bytes: wal.map_or(0, |file| integer(file.len())),
             oldest_progress_s: progress.map_or(0, |at| seconds(now, at.as_millisecond())),
             database_bytes: database.map_or(0, |file| integer(file.len())),
-            disk_free_bytes: self.disk.free_mb().map_or(0, |mb| integer(mb << 20)),
+            disk_free_bytes: self.local.disk.free_mb().map_or(0, |mb| integer(mb << 20)),
             workers_alive: 0,
             remote_slots: 0,
             demand_cpu_s: 0,
         })
     }
 
-    /// Checks that the database can be written, by a write; at most once a second, so that frequent requests do not
-    /// block the workers' writes.
-    ///
-    /// # Errors
-    /// [`StoreError`] if the database cannot be written.
-    pub async fn ready(&self, now: i64) -> Result<(), StoreError> {
-        self.disk.check()?;
+    pub(in crate::store) async fn ready(&self) -> Result<(), StoreError> {
+        self.local.disk.check()?;
         let mut last = self.last_probe.lock().await;
         if last.is_some_and(|at| at.elapsed() < PROBE_INTERVAL) {
             return Ok(());
         }
         sqlx::query("INSERT OR REPLACE INTO probes (name, written_at) VALUES ('ready', ?)")
-            .bind(now)
+            .bind(self.local.clock.now().system_ms)
             .execute(&self.writer)
             .await?;
         *last = Some(Instant::now());

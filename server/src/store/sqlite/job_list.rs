@@ -7,51 +7,44 @@ use sqlx::{QueryBuilder, Sqlite, SqlitePool};
 use uuid::Uuid;
 
 use crate::clock::now_ms;
-use crate::store::sqlite::document::{document, select};
-use crate::store::sqlite::overview::{LIFE_CYCLES, overview, select_overview};
-use crate::store::{Filter, OrderKey, Store, StoreError};
+use crate::store::document::document;
+use crate::store::overview::overview;
+use crate::store::sqlite::SqliteStore;
+use crate::store::sqlite::selects::{LIFE_CYCLES, select, select_overview};
+use crate::store::{Filter, OrderKey, StoreError};
 
 /// Longest time between the creation of a job and that of its id, ms: the wait for a commit, with a margin. Far fewer jobs are
 /// submitted in it than are stored.
 const SUBMISSION_MS: i64 = 600_000;
 
-impl Store {
-    /// Returns the jobs that pass a filter, newest first.
-    ///
-    /// # Errors
-    /// [`StoreError`] if the database fails.
-    pub async fn list(&self, filter: &Filter) -> Result<Vec<Job>, StoreError> {
+impl SqliteStore {
+    pub(in crate::store) async fn list(&self, filter: &Filter) -> Result<Vec<Job>, StoreError> {
         let query = filtered(select(), filter);
         let rows = fetch(query, &self.readers).await?;
-        rows.iter().map(|row| document(&self.disk, row)).collect()
+        rows.iter()
+            .map(|row| document(&self.local.disk, row))
+            .collect()
     }
 
-    /// Returns the same in short.
-    ///
-    /// # Errors
-    /// [`StoreError`] if the database fails.
-    pub async fn list_short(&self, filter: &Filter) -> Result<Vec<JobOverview>, StoreError> {
+    pub(in crate::store) async fn list_short(
+        &self,
+        filter: &Filter,
+    ) -> Result<Vec<JobOverview>, StoreError> {
         let query = filtered(select_overview(), filter);
         let rows = fetch(query, &self.readers).await?;
-        rows.iter().map(|row| overview(&self.disk, row)).collect()
+        rows.iter()
+            .map(|row| overview(&self.local.disk, row))
+            .collect()
     }
 
-    /// Counts the jobs that pass a filter, whatever its page.
-    ///
-    /// # Errors
-    /// [`StoreError`] if the database fails.
-    pub async fn count(&self, filter: &Filter) -> Result<u64, StoreError> {
+    pub(in crate::store) async fn count(&self, filter: &Filter) -> Result<u64, StoreError> {
         let mut query = QueryBuilder::new("SELECT count(*) FROM jobs");
         push_conditions(&mut query, filter);
         let count: i64 = query.build_query_scalar().fetch_one(&self.readers).await?;
         Ok(u64::try_from(count).unwrap_or(0))
     }
 
-    /// Labels and how many jobs have each: by key, the most frequent values first, at most so many.
-    ///
-    /// # Errors
-    /// [`StoreError`] if the database fails.
-    pub async fn labels(&self, most: u32) -> Result<Vec<LabelInUse>, StoreError> {
+    pub(in crate::store) async fn labels(&self, most: u32) -> Result<Vec<LabelInUse>, StoreError> {
         let sql = "SELECT key, value, count(*) FROM labels GROUP BY key, value ORDER BY key, 3 DESC, value LIMIT ?";
         let rows: Vec<(String, String, i64)> = sqlx::query_as(sql)
             .bind(most)

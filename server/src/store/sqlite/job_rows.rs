@@ -1,17 +1,17 @@
 //! Statements about one job within a transaction.
 
-use api::job::{Progress, Status};
-use api::plan::Plan;
-use api::spec::SystemKind;
+use api::job::Status;
 use sqlx::{Sqlite, SqliteConnection, Transaction};
 use uuid::Uuid;
 
 use crate::clock::Now;
 use crate::queue;
 use crate::queue::{Attempts, Transition, next_status};
-use crate::store::sqlite::document::timestamp;
-use crate::store::sqlite::queries::{insert_event, status};
-use crate::store::sqlite::transitions::{EndingJob, end_job};
+use crate::store::ending::EndingJob;
+use crate::store::new_row::NewRow;
+use crate::store::rows::status;
+use crate::store::sqlite::queries::insert_event;
+use crate::store::sqlite::transitions::end_job;
 use crate::store::{Cancelled, End, NewJob, Retried, StoreError};
 
 /// Returns the status of a job; `None` if there is no such job.
@@ -30,12 +30,19 @@ pub(super) async fn status_of(
 pub(super) async fn cancel(
     connection: &mut SqliteConnection,
     id: Uuid,
-    now: i64,
+    now: Now,
 ) -> Result<Option<Cancelled>, StoreError> {
     Ok(match status_of(connection, id).await? {
         Some(Status::Queued) => {
             let end = End::without_result(Transition::Cancel, "cancelled while waiting");
-            end_job(connection, &EndingJob::queued(id, true), &end, None, now).await?;
+            end_job(
+                connection,
+                &EndingJob::queued(id, true),
+                &end,
+                None,
+                now.system_ms,
+            )
+            .await?;
             Some(Cancelled::AtOnce)
         }
         Some(Status::Running) => {
@@ -95,56 +102,35 @@ pub(super) async fn insert(
     job: &NewJob,
     now: Now,
 ) -> Result<Uuid, StoreError> {
-    let Now {
-        system_ms,
-        monotonic_ms,
-    } = now;
-    let id = Uuid::now_v7();
-    let options = job.options;
-    let system = job.spec.system.kind.known().map_or("", SystemKind::as_str);
-    let progress = Progress {
-        cycles: crate::spec::cycles(&job.spec),
-        updated_at: Some(timestamp(system_ms)),
-        ..Progress::default()
-    };
-    let progress = serde_json::to_string(&progress)?;
+    let new = NewRow::of(job, now)?;
+    let id = new.id.to_string();
     sqlx::query(
         "INSERT INTO jobs (id, system, spec, plan, status, status_reason, created_at, progress, last_event, priority, \
          place, deadline_at, memory_mb, cpu_ms, queued_at) VALUES (?, ?, ?, ?, 'queued', ?, ?, ?, 1, ?, ?, ?, ?, ?, ?)",
     )
-    .bind(id.to_string())
-    .bind(system)
-    .bind(serde_json::to_string(&job.spec)?)
-    .bind(serde_json::to_string(&job.plan)?)
+    .bind(&id)
+    .bind(new.system)
+    .bind(&new.spec)
+    .bind(&new.plan)
     .bind(queue::WAITING_FOR_WORKER)
-    .bind(system_ms)
-    .bind(&progress)
-    .bind(options.priority)
-    .bind(queue::sort_key(monotonic_ms, options.priority))
-    .bind(options.deadline_s.map(|s| monotonic_ms.saturating_add(1_000 * i64::from(s))))
-    .bind(estimated(&job.plan, "memory_mb", 1.0))
-    .bind(estimated(&job.plan, "cpu_s", 1e3))
-    .bind(monotonic_ms)
+    .bind(now.system_ms)
+    .bind(&new.progress)
+    .bind(job.options.priority)
+    .bind(new.place)
+    .bind(new.deadline_at)
+    .bind(new.memory_mb)
+    .bind(new.cpu_ms)
+    .bind(now.monotonic_ms)
     .execute(&mut **transaction)
     .await?;
     for (key, value) in &job.spec.labels {
         sqlx::query("INSERT INTO labels (job_id, key, value) VALUES (?, ?, ?)")
-            .bind(id.to_string())
+            .bind(&id)
             .bind(key)
             .bind(value)
             .execute(&mut **transaction)
             .await?;
     }
-    insert_event(transaction, id, 1, "progress", &progress).await?;
-    Ok(id)
-}
-
-/// Returns an estimate of the plan, rounded up; 0 where it is not known.
-#[expect(
-    clippy::cast_possible_truncation,
-    reason = "the value is clamped to a range that fits"
-)]
-fn estimated(plan: &Plan, name: &str, per_unit: f64) -> i64 {
-    let estimate = plan.estimates.get(name).copied().unwrap_or_default();
-    (per_unit * estimate).ceil().clamp(0.0, 1e12) as i64
+    insert_event(transaction, new.id, 1, "progress", &new.progress).await?;
+    Ok(new.id)
 }

@@ -10,25 +10,24 @@ use api::job::Status;
 use sqlx::{Sqlite, Transaction};
 
 use crate::queue::Transition;
+use crate::store::ending::EndingJob;
+use crate::store::rows::integer;
+use crate::store::sqlite::SqliteStore;
 use crate::store::sqlite::blocks::insert_block;
 use crate::store::sqlite::checkpoints;
 use crate::store::sqlite::files::insert_files;
-use crate::store::sqlite::queries::{BEGIN, insert_attempt_event, insert_event, integer};
-use crate::store::sqlite::transitions::{EndingJob, end_job};
-use crate::store::{End, JobUpdate, Lease, LeaseState, Store, StoreError};
+use crate::store::sqlite::queries::{BEGIN, insert_attempt_event, insert_event};
+use crate::store::sqlite::transitions::end_job;
+use crate::store::{End, JobUpdate, Lease, LeaseState, StoreError};
 
-impl Store {
-    /// Writes an update and renews the lease.
-    ///
-    /// # Errors
-    /// [`StoreError`] if the database fails.
-    pub async fn record(
+impl SqliteStore {
+    pub(in crate::store) async fn record(
         &self,
         lease: impl Into<Lease>,
         update: &JobUpdate,
         length: Duration,
     ) -> Result<LeaseState, StoreError> {
-        self.disk.check()?;
+        self.local.disk.check()?;
         let lease = lease.into();
         let mut transaction = self.writer.begin_with(BEGIN).await?;
         let events = integer(update.events.len());
@@ -39,7 +38,7 @@ impl Store {
         )
         .bind(update.number)
         .bind(serde_json::to_string(&update.progress)?)
-        .bind(self.clock.end_of(length))
+        .bind(self.local.clock.end_of(length))
         .bind(events)
         .bind(update.checkpoint.is_some())
         .bind(lease.job.to_string())
@@ -52,13 +51,13 @@ impl Store {
         write_results(&mut transaction, lease, update).await?;
         if let Some(checkpoint) = &update.checkpoint {
             checkpoints::write(&mut transaction, lease, checkpoint).await?;
-            self.metrics.checkpoints.inc();
+            self.local.metrics.checkpoints.inc();
         }
         for (seq, (name, data)) in (last_event - events + 1..).zip(&update.events) {
             insert_event(&mut transaction, lease.job, seq, name.as_str(), data).await?;
         }
         transaction.commit().await?;
-        self.changed(lease.job);
+        self.local.changed(lease.job);
         Ok(LeaseState::Held { cancel_requested })
     }
 
@@ -77,15 +76,11 @@ impl Store {
         .await?;
         Ok(match cancel_requested {
             Some(cancel_requested) => LeaseState::Held { cancel_requested },
-            None => self.stale_write(),
+            None => self.local.stale_write(),
         })
     }
 
-    /// Renews the lease: the worker's heartbeat.
-    ///
-    /// # Errors
-    /// [`StoreError`] if the database fails.
-    pub async fn renew(
+    pub(in crate::store) async fn renew(
         &self,
         lease: impl Into<Lease>,
         length: Duration,
@@ -96,27 +91,22 @@ impl Store {
                 "UPDATE jobs SET lease_expires_at = ? WHERE id = ? AND lease = ? AND status = 'running' \
                  RETURNING cancel_requested",
             )
-            .bind(self.clock.end_of(length))
+            .bind(self.local.clock.end_of(length))
             .bind(lease.job.to_string())
             .bind(lease.number)
             .fetch_optional(&self.writer)
             .await?;
             Ok(lease_state(cancel_requested))
         };
-        self.disk.with_reserve(write).await
+        self.local.disk.with_reserve(write).await
     }
 
-    /// The states of the leases of a worker, renewed for a length where more than a third of it has passed: a heartbeat that comes
-    /// often, for the sake of cancel requests, writes seldom.
-    ///
-    /// # Errors
-    /// [`StoreError`] if the database fails.
-    pub async fn heartbeat(
+    pub(in crate::store) async fn heartbeat(
         &self,
         leases: &[Lease],
         length: Duration,
     ) -> Result<Vec<LeaseState>, StoreError> {
-        let renewed_until = self.clock.end_of(length / 3 * 2);
+        let renewed_until = self.local.clock.end_of(length / 3 * 2);
         let mut states = Vec::with_capacity(leases.len());
         for lease in leases {
             let held: Option<(bool, i64)> = sqlx::query_as(
@@ -136,11 +126,10 @@ impl Store {
         Ok(states)
     }
 
-    /// Whether the worker holds the job; writes nothing.
-    ///
-    /// # Errors
-    /// [`StoreError`] if the database fails.
-    pub async fn lease_state(&self, lease: impl Into<Lease>) -> Result<LeaseState, StoreError> {
+    pub(in crate::store) async fn lease_state(
+        &self,
+        lease: impl Into<Lease>,
+    ) -> Result<LeaseState, StoreError> {
         let lease = lease.into();
         let cancel_requested = sqlx::query_scalar(
             "SELECT cancel_requested FROM jobs WHERE id = ? AND lease = ? AND status = 'running'",
@@ -152,16 +141,12 @@ impl Store {
         Ok(lease_state(cancel_requested))
     }
 
-    /// Deletes results and checkpoint, because the run restarts at cycle 0. The write has a number as an update has.
-    ///
-    /// # Errors
-    /// [`StoreError`] if the database fails.
-    pub async fn restart(
+    pub(in crate::store) async fn restart(
         &self,
         lease: impl Into<Lease>,
         number: i64,
     ) -> Result<LeaseState, StoreError> {
-        self.disk.check()?;
+        self.local.disk.check()?;
         let lease = lease.into();
         let mut transaction = self.writer.begin_with(BEGIN).await?;
         let held: Option<(i64, bool, u32)> = sqlx::query_as(
@@ -180,16 +165,11 @@ impl Store {
         checkpoints::delete_results_after(&mut transaction, lease.job, None).await?;
         insert_attempt_event(&mut transaction, lease.job, event, attempt, 0).await?;
         transaction.commit().await?;
-        self.changed(lease.job);
+        self.local.changed(lease.job);
         Ok(LeaseState::Held { cancel_requested })
     }
 
-    /// Writes progress, results and files of the last update and ends the job or returns it to the queue, in one
-    /// transaction. Returns the new status, or `None` if the lease was lost.
-    ///
-    /// # Errors
-    /// [`StoreError`] if the database fails.
-    pub async fn end(
+    pub(in crate::store) async fn end(
         &self,
         lease: impl Into<Lease>,
         update: &JobUpdate,
@@ -197,7 +177,7 @@ impl Store {
     ) -> Result<Option<Status>, StoreError> {
         let lease = lease.into();
         let write = || self.write_end(lease, update, end);
-        self.disk.with_reserve(write).await
+        self.local.disk.with_reserve(write).await
     }
 
     async fn write_end(
@@ -222,16 +202,21 @@ impl Store {
                 .await;
         };
         write_results(&mut transaction, lease, update).await?;
-        let job = EndingJob::running(lease.job, fruitless, self.attempt_limit, cancel_requested);
+        let job = EndingJob::running(
+            lease.job,
+            fruitless,
+            self.local.attempt_limit,
+            cancel_requested,
+        );
         let progress = serde_json::to_string(&update.progress)?;
-        let now = self.clock.now().system_ms;
+        let now = self.local.clock.now().system_ms;
         let status = end_job(&mut transaction, &job, end, Some(&progress), now).await?;
         if let Some(block) = &update.block {
             let succeeded = status == Some(Status::Succeeded);
             insert_block(&mut transaction, lease.job, block, succeeded).await?;
         }
         transaction.commit().await?;
-        self.concluded(lease.job, status);
+        self.local.concluded(lease.job, status);
         Ok(status)
     }
 
@@ -251,16 +236,12 @@ impl Store {
         .fetch_optional(&mut **transaction)
         .await?;
         if status.is_none() {
-            self.stale_write();
+            self.local.stale_write();
         }
         Ok(status.as_deref().and_then(Status::from_name))
     }
 
-    /// Whether a transition ends a claimed job instead of returning it to the queue.
-    ///
-    /// # Errors
-    /// [`StoreError`] if the database fails.
-    pub async fn is_final(
+    pub(in crate::store) async fn is_final(
         &self,
         lease: impl Into<Lease>,
         transition: Transition,
@@ -272,7 +253,12 @@ impl Store {
             .fetch_optional(&self.readers)
             .await?;
         let fruitless = fruitless.unwrap_or_default();
-        let job = EndingJob::running(lease.job, fruitless, self.attempt_limit, cancel_requested);
+        let job = EndingJob::running(
+            lease.job,
+            fruitless,
+            self.local.attempt_limit,
+            cancel_requested,
+        );
         Ok(job.after(transition).is_some_and(Status::is_terminal))
     }
 }

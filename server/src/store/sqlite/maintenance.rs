@@ -3,22 +3,19 @@
 use api::job::{Outcome, Status};
 use uuid::fmt::Hyphenated;
 
-use crate::clock::Now;
 use crate::queue::Transition;
+use crate::store::ending::EndingJob;
+use crate::store::sqlite::SqliteStore;
 use crate::store::sqlite::queries::BEGIN;
-use crate::store::sqlite::transitions::{EndingJob, end_job};
-use crate::store::{End, Store, StoreError};
+use crate::store::sqlite::transitions::end_job;
+use crate::store::{End, StoreError};
 
 /// Largest number of jobs deleted in a call; bounds how long other writes wait.
 const DELETE_LIMIT: i64 = 50;
 
-impl Store {
-    /// Fails queued jobs whose deadline has passed. Returns how many.
-    ///
-    /// # Errors
-    /// [`StoreError`] if the database fails.
-    pub async fn expire(&self, now: impl Into<Now>) -> Result<usize, StoreError> {
-        let now = now.into();
+impl SqliteStore {
+    pub(in crate::store) async fn expire(&self) -> Result<usize, StoreError> {
+        let now = self.local.clock.now();
         let mut transaction = self.writer.begin_with(BEGIN).await?;
         let late: Vec<Hyphenated> =
             sqlx::query_scalar("SELECT id FROM jobs INDEXED BY jobs_by_deadline WHERE status = 'queued' AND deadline_at <= ?")
@@ -35,17 +32,15 @@ impl Store {
         }
         transaction.commit().await?;
         for id in &late {
-            self.concluded((*id).into(), Some(Status::Failed));
+            self.local.concluded((*id).into(), Some(Status::Failed));
         }
         Ok(late.len())
     }
 
-    /// Deletes jobs that ended before a time, the oldest first and a limited number, and batches without remaining
-    /// jobs. Returns the number of jobs.
-    ///
-    /// # Errors
-    /// [`StoreError`] if the database fails.
-    pub async fn delete_ended_before(&self, time: i64) -> Result<usize, StoreError> {
+    pub(in crate::store) async fn delete_ended_before(
+        &self,
+        time: i64,
+    ) -> Result<usize, StoreError> {
         let old: Vec<Hyphenated> = sqlx::query_scalar(
             "SELECT id FROM jobs WHERE finished_at < ? ORDER BY finished_at LIMIT ?",
         )
@@ -68,11 +63,7 @@ impl Store {
         Ok(old.len())
     }
 
-    /// Moves the write-ahead log into the database, as far as readers allow and without waiting for them.
-    ///
-    /// # Errors
-    /// [`StoreError`] if the database fails.
-    pub async fn checkpoint_wal(&self) -> Result<(), StoreError> {
+    pub(in crate::store) async fn checkpoint_wal(&self) -> Result<(), StoreError> {
         sqlx::query("PRAGMA wal_checkpoint(PASSIVE)")
             .execute(&self.writer)
             .await?;

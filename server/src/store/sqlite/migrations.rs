@@ -3,12 +3,12 @@
 use sqlx::SqlSafeStr;
 use sqlx::migrate::{Migration, MigrationType, Migrator};
 
-/// A file of the folder `migrations`: its name and its SQL.
+/// A file of the folder `migrations/sqlite`: its name and its SQL.
 macro_rules! file {
     ($name:literal) => {
         (
             $name,
-            include_str!(concat!("../../../../migrations/", $name)),
+            include_str!(concat!("../../../../migrations/sqlite/", $name)),
         )
     };
 }
@@ -76,7 +76,7 @@ mod tests {
 
     #[test]
     fn every_file_of_the_folder_is_embedded_and_has_a_version() {
-        let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../migrations");
+        let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../migrations/sqlite");
         let entries = std::fs::read_dir(folder).expect("the folder");
         let name = |entry: std::io::Result<std::fs::DirEntry>| {
             let name = entry.expect("an entry").file_name();

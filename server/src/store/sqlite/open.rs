@@ -3,20 +3,20 @@
 use std::fs::{File, TryLockError};
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
-use std::sync::Arc;
 use std::time::Duration;
 
 use sqlx::Connection;
 use sqlx::sqlite::{SqliteConnectOptions, SqliteJournalMode, SqlitePoolOptions, SqliteSynchronous};
-use tokio::sync::{Notify, broadcast};
 
 use crate::clock::Clock;
 use crate::export::files::parent;
-use crate::store::sqlite::folder::{Folder, beside};
+use crate::store::folder::beside;
+use crate::store::local::Local;
+use crate::store::sqlite::SqliteStore;
 use crate::store::sqlite::migrations::migrator;
 use crate::store::sqlite::submissions::Submissions;
 use crate::store::sqlite::{identity, owner};
-use crate::store::{DataDisk, Limits, Store, StoreError};
+use crate::store::{Limits, StoreError};
 
 /// Oldest accepted version: older ones can corrupt the write-ahead log when it is reset.
 const OLDEST_SQLITE: (u32, u32, u32) = (3, 51, 3);
@@ -28,25 +28,16 @@ const BUSY_TIMEOUT: Duration = Duration::from_secs(2);
 const READER_TIMEOUT: Duration = Duration::from_secs(2);
 /// Number of reading connections.
 const READERS: u32 = 4;
-/// Number of changes that a subscriber may fall behind.
-const CHANGE_CAPACITY: usize = 1024;
 /// Page cache of the writing connection, KiB with the sign that SQLite wants: the rows and indexes of the jobs that workers have.
 const WRITER_CACHE: &str = "-16384";
 
-impl Store {
+impl SqliteStore {
     /// Opens the database at `url` (`sqlite://PATH`), creates it if it is missing, and migrates its schema.
-    ///
-    /// # Errors
-    /// [`StoreError`], among others if another process serves the database.
-    pub async fn open_with(url: &str, limits: Limits) -> Result<Self, StoreError> {
-        Self::open_by(url, limits, Clock::System).await
-    }
-
-    /// Opens it with a clock by which leases are measured.
-    ///
-    /// # Errors
-    /// [`StoreError`], as [`Store::open_with`].
-    pub async fn open_by(url: &str, limits: Limits, clock: Clock) -> Result<Self, StoreError> {
+    pub(in crate::store) async fn open(
+        url: &str,
+        limits: Limits,
+        clock: Clock,
+    ) -> Result<Self, StoreError> {
         let options = options(url)?
             .create_if_missing(true)
             .journal_mode(SqliteJournalMode::Wal)
@@ -55,9 +46,7 @@ impl Store {
             .busy_timeout(BUSY_TIMEOUT);
         let path = options.get_filename().to_owned();
         let lock = lock(&path)?;
-        let reserve = beside(&path, ".reserve");
-        // Of a process that was killed: whatever space there is is needed now.
-        let _ = std::fs::remove_file(&reserve);
+        let local = Local::prepare(&path, limits, clock);
         let is_new = identity::schema_version(&path).await?.is_none();
         let writer = SqlitePoolOptions::new()
             .max_connections(1)
@@ -87,22 +76,13 @@ impl Store {
             .acquire_timeout(READER_TIMEOUT)
             .connect_with(options.read_only(true))
             .await?;
-        let (changes, _) = broadcast::channel(CHANGE_CAPACITY);
         let store = Self {
+            local,
             writer,
             readers,
-            changes,
-            waiting: Notify::new(),
-            folder: Folder::beside(&path),
-            objects: None,
             owner,
             wal: beside(&path, "-wal"),
-            machine: beside(&path, ".machine.json"),
-            attempt_limit: limits.attempts,
-            metrics: Arc::default(),
             submissions: Submissions::default(),
-            disk: Arc::new(DataDisk::reserve(reserve, limits.least_free_disk_mb)),
-            clock,
             path,
             last_probe: tokio::sync::Mutex::default(),
             _lock: lock,
@@ -112,7 +92,7 @@ impl Store {
     }
 
     /// Closes all connections.
-    pub async fn close(&self) {
+    pub(in crate::store) async fn close(&self) {
         self.disown().await;
         self.readers.close().await;
         self.writer.close().await;

@@ -11,8 +11,9 @@ use sqlx::{Sqlite, Transaction};
 use uuid::Uuid;
 
 use crate::clock::{Now, Origin, STEP_MS, boot};
+use crate::store::StoreError;
+use crate::store::sqlite::SqliteStore;
 use crate::store::sqlite::queries::BEGIN;
-use crate::store::{Store, StoreError};
 
 /// Interval between two heartbeats; each is a small write.
 pub const OWNER_HEARTBEAT: Duration = Duration::from_secs(5);
@@ -150,12 +151,8 @@ async fn row(pool: &SqlitePool) -> Result<Option<Row>, StoreError> {
     Ok(row.map(Row::from))
 }
 
-impl Store {
-    /// Writes a heartbeat of this process.
-    ///
-    /// # Errors
-    /// [`StoreError::Served`] if another process has become the owner.
-    pub async fn beat(&self) -> Result<(), StoreError> {
+impl SqliteStore {
+    pub(in crate::store) async fn beat(&self) -> Result<(), StoreError> {
         let write = async || {
             let written = sqlx::query("UPDATE owner SET beats = beats + 1 WHERE id = ?")
                 .bind(self.owner.to_string())
@@ -164,7 +161,7 @@ impl Store {
             self.store_step(Now::read().stepped_ms()).await?;
             Ok(written.rows_affected())
         };
-        if self.disk.with_reserve(write).await? > 0 {
+        if self.local.disk.with_reserve(write).await? > 0 {
             return Ok(());
         }
         let other = row(&self.readers).await?;

@@ -7,10 +7,12 @@ use uuid::Uuid;
 use uuid::fmt::Hyphenated;
 
 use crate::queue::Transition;
-use crate::store::sqlite::claims::claimed;
+use crate::store::ending::EndingJob;
+use crate::store::rows;
+use crate::store::sqlite::SqliteStore;
 use crate::store::sqlite::queries::BEGIN;
-use crate::store::sqlite::transitions::{EndingJob, end_job};
-use crate::store::{End, Reclaimed, Store, StoreError};
+use crate::store::sqlite::transitions::end_job;
+use crate::store::{End, Reclaimed, StoreError};
 
 /// Which running jobs are reclaimed.
 enum Lost {
@@ -20,28 +22,22 @@ enum Lost {
     OfLastProcess,
 }
 
-impl Store {
-    /// Reclaims running jobs whose lease has ended. Those without another attempt are held under new leases of this length.
-    ///
-    /// # Errors
-    /// [`StoreError`] if the database fails.
-    pub async fn reclaim_expired(&self, length: Duration) -> Result<Reclaimed, StoreError> {
-        let lost = Lost::EndedBy(self.clock.now().monotonic_ms);
+impl SqliteStore {
+    pub(in crate::store) async fn reclaim_expired(
+        &self,
+        length: Duration,
+    ) -> Result<Reclaimed, StoreError> {
+        let lost = Lost::EndedBy(self.local.clock.now().monotonic_ms);
         self.reclaim(lost, length, "its worker was lost").await
     }
 
-    /// Reclaims the running jobs of the process that served before, at start-up. Remote workers have the length of a lease of
-    /// theirs to renew it.
-    ///
-    /// # Errors
-    /// [`StoreError`] if the database fails.
-    pub async fn reclaim_at_start(
+    pub(in crate::store) async fn reclaim_at_start(
         &self,
         length: Duration,
         remote: Duration,
     ) -> Result<Reclaimed, StoreError> {
         sqlx::query("UPDATE jobs SET lease_expires_at = ? WHERE status = 'running' AND is_remote")
-            .bind(self.clock.end_of(remote))
+            .bind(self.local.clock.end_of(remote))
             .execute(&self.writer)
             .await?;
         let reason = "the service was ended while it ran";
@@ -54,7 +50,7 @@ impl Store {
         length: Duration,
         reason: &'static str,
     ) -> Result<Reclaimed, StoreError> {
-        let now = self.clock.now();
+        let now = self.local.clock.now();
         let mut transaction = self.writer.begin_with(BEGIN).await?;
         let lost: Vec<(Hyphenated, u32, bool)> = match lost {
             Lost::EndedBy(by) => sqlx::query_as(
@@ -72,7 +68,7 @@ impl Store {
         let (mut queued, mut ending) = (Vec::new(), Vec::new());
         for (id, fruitless, cancel_requested) in lost {
             let id = Uuid::from(id);
-            let job = EndingJob::running(id, fruitless, self.attempt_limit, cancel_requested);
+            let job = EndingJob::running(id, fruitless, self.local.attempt_limit, cancel_requested);
             if job.after(end.transition).is_some_and(Status::is_terminal) {
                 // Nothing is solved under the new lease, which this process holds.
                 let row = sqlx::query(
@@ -80,11 +76,11 @@ impl Store {
                      is_remote = 0 WHERE id = ? \
                      RETURNING lease, spec, attempts, queued_at, deadline_at, memory_mb, cpu_ms",
                 )
-                .bind(self.clock.end_of(length))
+                .bind(self.local.clock.end_of(length))
                 .bind(id.to_string())
                 .fetch_one(&mut *transaction)
                 .await?;
-                ending.push(claimed(id, &row, now, None)?);
+                ending.push(rows::claim(id, &row, now, None)?);
             } else {
                 let status = end_job(&mut transaction, &job, &end, None, 0).await?;
                 queued.push((id, status));
@@ -92,10 +88,10 @@ impl Store {
         }
         transaction.commit().await?;
         for (id, status) in &queued {
-            self.concluded(*id, *status);
+            self.local.concluded(*id, *status);
         }
         for _ in 0..queued.len() + ending.len() {
-            self.metrics.reclaimed.inc();
+            self.local.metrics.reclaimed.inc();
         }
         Ok(Reclaimed {
             queued: queued.len(),

@@ -7,15 +7,12 @@ use sqlx::AssertSqlSafe;
 use uuid::Uuid;
 
 use crate::store::block::Block;
-use crate::store::sqlite::queries::{integer, parsed};
-use crate::store::{SnapshotPart, Store, StoreError};
+use crate::store::rows::{integer, parsed};
+use crate::store::sqlite::SqliteStore;
+use crate::store::{SnapshotPart, StoreError};
 
-impl Store {
-    /// Returns the rows of the wear history so far, by cycle.
-    ///
-    /// # Errors
-    /// [`StoreError`] if the database fails or a row cannot be read.
-    pub async fn history(&self, id: Uuid) -> Result<Vec<CycleReport>, StoreError> {
+impl SqliteStore {
+    pub(in crate::store) async fn history(&self, id: Uuid) -> Result<Vec<CycleReport>, StoreError> {
         // As a stream: the texts of a long history together are several times as large as its rows.
         let text = sqlx::query_scalar::<_, String>(
             "SELECT data FROM history_rows WHERE job_id = ? ORDER BY cycle",
@@ -30,11 +27,7 @@ impl Store {
         Ok(packed.unwrap_or_default())
     }
 
-    /// Returns a document (JSON) of the snapshot nearest to a cycle; of the last snapshot if no cycle is given.
-    ///
-    /// # Errors
-    /// [`StoreError`] if the database fails.
-    pub async fn snapshot(
+    pub(in crate::store) async fn snapshot(
         &self,
         id: Uuid,
         part: SnapshotPart,
@@ -60,11 +53,7 @@ impl Store {
         self.in_block(id, nearest).await
     }
 
-    /// Returns all snapshots of a job, by cycle.
-    ///
-    /// # Errors
-    /// [`StoreError`] if the database fails or a document cannot be read.
-    pub async fn snapshots(&self, id: Uuid) -> Result<Vec<Snapshot>, StoreError> {
+    pub(in crate::store) async fn snapshots(&self, id: Uuid) -> Result<Vec<Snapshot>, StoreError> {
         let rows: Vec<(String, String, String)> = sqlx::query_as(
             "SELECT profile, pressure, friction_loop FROM snapshots WHERE job_id = ? ORDER BY cycle",
         )

@@ -1,42 +1,33 @@
 //! Changes of all jobs in their order.
 
-use sqlx::Row;
-
-use crate::store::sqlite::overview::{overview, select_overview};
-use crate::store::sqlite::queries;
-use crate::store::{Changed, Store, StoreError};
+use crate::store::overview::overview;
+use crate::store::rows::StoredRow;
+use crate::store::sqlite::SqliteStore;
+use crate::store::sqlite::selects::select_overview;
+use crate::store::{Changed, StoreError};
 
 /// Changes that are read at once.
 const MOST: u16 = 200;
 /// Revisions whose deletions are kept: as in the migration.
 const KEPT: i64 = 1_000_000;
 
-impl Store {
-    /// Revision of the last change of any job.
-    ///
-    /// # Errors
-    /// [`StoreError`] if the database fails.
-    pub async fn last_revision(&self) -> Result<i64, StoreError> {
+impl SqliteStore {
+    pub(in crate::store) async fn last_revision(&self) -> Result<i64, StoreError> {
         let last = sqlx::query_scalar("SELECT last FROM revisions")
             .fetch_one(&self.readers)
             .await?;
         Ok(last)
     }
 
-    /// Whether all changes after a revision are known.
-    ///
-    /// # Errors
-    /// [`StoreError`] if the database fails.
-    pub async fn knows_revision(&self, revision: i64) -> Result<bool, StoreError> {
+    pub(in crate::store) async fn knows_revision(&self, revision: i64) -> Result<bool, StoreError> {
         let last = self.last_revision().await?;
         Ok((last.saturating_sub(KEPT)..=last).contains(&revision))
     }
 
-    /// Jobs that have changed or were deleted after a revision, each once, in the order of their last changes.
-    ///
-    /// # Errors
-    /// [`StoreError`] if the database fails.
-    pub async fn changed_after(&self, revision: i64) -> Result<Vec<(i64, Changed)>, StoreError> {
+    pub(in crate::store) async fn changed_after(
+        &self,
+        revision: i64,
+    ) -> Result<Vec<(i64, Changed)>, StoreError> {
         let mut query = select_overview();
         query
             .push(" WHERE revision > ")
@@ -51,12 +42,12 @@ impl Store {
         let deleted = deleted.fetch_all(&self.readers).await?;
         let mut changes = Vec::with_capacity(rows.len() + deleted.len());
         for row in &rows {
-            let job = Changed::Job(Box::new(overview(&self.disk, row)?));
-            changes.push((row.try_get("revision")?, job));
+            let job = Changed::Job(Box::new(overview(&self.local.disk, row)?));
+            changes.push((row.integer("revision")?, job));
         }
         for row in &deleted {
-            let id = Changed::Deleted(queries::id(row, "id")?);
-            changes.push((row.try_get("revision")?, id));
+            let id = Changed::Deleted(row.id("id")?);
+            changes.push((row.integer("revision")?, id));
         }
         changes.sort_unstable_by_key(|(revision, _)| *revision);
         changes.truncate(usize::from(MOST));

@@ -38,13 +38,13 @@ impl Submissions {
         writer: &SqlitePool,
         job: &NewJob,
         key: Option<&RequestKey>,
-        now: impl Into<Now>,
+        now: Now,
     ) -> Result<Submitted, StoreError> {
         let (answer, mut answered) = oneshot::channel();
         self.pending().push(Pending {
             job: job.clone(),
             key: key.cloned(),
-            now: now.into(),
+            now,
             answer,
         });
         loop {

@@ -8,13 +8,14 @@ use uuid::fmt::Hyphenated;
 
 use crate::export::files::{hexadecimal, sha256};
 use crate::objects::{ObjectPart, Objects, ObjectsError};
+use crate::store::folder::Folder;
 use crate::store::integrity::Checksum;
+use crate::store::rows::entry;
 use crate::store::sqlite::backup::{at, check_integrity, database_at};
-use crate::store::sqlite::blocks::{StoredBlock, StoredObject, update_entries};
-use crate::store::sqlite::files::entry;
-use crate::store::sqlite::folder::Folder;
+use crate::store::sqlite::blocks::{stored_block, update_entries};
 use crate::store::sqlite::migrations::newest_version;
 use crate::store::sqlite::open::options;
+use crate::store::stored_block::StoredObject;
 use crate::store::{BackupError, CopySummary, StoreError, integrity};
 
 /// Reads the database at `url`, which may be in use, and all results, and compares every checksum. Marks in the manifests
@@ -109,7 +110,7 @@ async fn verify_block(
     job: Uuid,
     verified: &mut CopySummary,
 ) -> Result<(), BackupError> {
-    let Some(stored) = StoredBlock::of(&mut *database, job).await? else {
+    let Some(stored) = stored_block(&mut *database, job).await? else {
         return Ok(());
     };
     let (mut entries, object) = (stored.entries.clone(), stored.object.clone());

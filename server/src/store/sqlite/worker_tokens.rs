@@ -1,25 +1,19 @@
 //! Tokens of remote workers.
 
 use api::worker::WorkerToken;
-use sqlx::Row;
-use sqlx::sqlite::SqliteRow;
 use uuid::Uuid;
 
-use crate::store::sqlite::document::timestamp;
-use crate::store::sqlite::queries::id;
-use crate::store::{Store, StoreError};
+use crate::store::StoreError;
+use crate::store::rows::{timestamp, token};
+use crate::store::sqlite::SqliteStore;
 
-impl Store {
-    /// Adds a token by its SHA-256.
-    ///
-    /// # Errors
-    /// [`StoreError`] if the database fails.
-    pub async fn add_worker_token(
+impl SqliteStore {
+    pub(in crate::store) async fn add_worker_token(
         &self,
         name: &str,
         sha256: &[u8; 32],
     ) -> Result<WorkerToken, StoreError> {
-        let (id, now) = (Uuid::now_v7(), self.clock.now().system_ms);
+        let (id, now) = (Uuid::now_v7(), self.local.clock.now().system_ms);
         sqlx::query("INSERT INTO worker_tokens (id, name, sha256, created_at) VALUES (?, ?, ?, ?)")
             .bind(id.to_string())
             .bind(name)
@@ -35,11 +29,7 @@ impl Store {
         })
     }
 
-    /// Returns all tokens, oldest first.
-    ///
-    /// # Errors
-    /// [`StoreError`] if the database fails.
-    pub async fn worker_tokens(&self) -> Result<Vec<WorkerToken>, StoreError> {
+    pub(in crate::store) async fn worker_tokens(&self) -> Result<Vec<WorkerToken>, StoreError> {
         let rows =
             sqlx::query("SELECT id, name, created_at, revoked_at FROM worker_tokens ORDER BY id")
                 .fetch_all(&self.readers)
@@ -47,26 +37,21 @@ impl Store {
         rows.iter().map(token).collect()
     }
 
-    /// Revokes a token; `false` if there is none of this id. A token stays revoked.
-    ///
-    /// # Errors
-    /// [`StoreError`] if the database fails.
-    pub async fn revoke_worker_token(&self, id: Uuid) -> Result<bool, StoreError> {
+    pub(in crate::store) async fn revoke_worker_token(&self, id: Uuid) -> Result<bool, StoreError> {
         let revoked = sqlx::query(
             "UPDATE worker_tokens SET revoked_at = COALESCE(revoked_at, ?) WHERE id = ?",
         )
-        .bind(self.clock.now().system_ms)
+        .bind(self.local.clock.now().system_ms)
         .bind(id.to_string())
         .execute(&self.writer)
         .await?;
         Ok(revoked.rows_affected() > 0)
     }
 
-    /// Whether a token of this SHA-256 is valid.
-    ///
-    /// # Errors
-    /// [`StoreError`] if the database fails.
-    pub async fn accepts_worker_token(&self, sha256: &[u8; 32]) -> Result<bool, StoreError> {
+    pub(in crate::store) async fn accepts_worker_token(
+        &self,
+        sha256: &[u8; 32],
+    ) -> Result<bool, StoreError> {
         let found: i64 = sqlx::query_scalar(
             "SELECT count(*) FROM worker_tokens WHERE sha256 = ? AND revoked_at IS NULL",
         )
@@ -75,14 +60,4 @@ impl Store {
         .await?;
         Ok(found > 0)
     }
-}
-
-fn token(row: &SqliteRow) -> Result<WorkerToken, StoreError> {
-    let revoked_at: Option<i64> = row.try_get("revoked_at")?;
-    Ok(WorkerToken {
-        id: id(row, "id")?,
-        name: row.try_get("name")?,
-        created_at: timestamp(row.try_get("created_at")?),
-        revoked_at: revoked_at.map(timestamp),
-    })
 }

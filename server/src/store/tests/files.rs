@@ -68,7 +68,7 @@ async fn a_document_in_a_block_replaces_the_file_that_an_earlier_end_has_left() 
     };
     let ended = fixture.ended(&first, &old, Transition::Fail, 20).await;
     assert_eq!(ended, Some(Status::Failed));
-    store.retry(id, 30).await.expect("the store");
+    store.retry(id).await.expect("the store");
     let second = fixture.claimed(40).await;
     let mut block = Block::default();
     let file = files::manifest_entry("wear-history.csv", None, CSV, b"new");

@@ -129,7 +129,7 @@ async fn a_job_with_a_cancel_request_gets_no_further_attempt() {
     let id = fixture.queued().await;
     let claim = fixture.claimed(10).await;
     assert_eq!(
-        fixture.store.cancel(id, 2).await.expect("the store"),
+        fixture.store.cancel(id).await.expect("the store"),
         Some(Cancelled::Requested)
     );
     let held = fixture.recorded(&claim, &update(1), 10).await;
@@ -143,7 +143,7 @@ async fn a_job_with_a_cancel_request_gets_no_further_attempt() {
     assert_eq!(fixture.job(id).await.status, Status::Cancelled);
     assert_eq!(fixture.cycles(id).await, [1]);
     assert_eq!(
-        fixture.store.cancel(id, 3).await.expect("the store"),
+        fixture.store.cancel(id).await.expect("the store"),
         Some(Cancelled::Already)
     );
 }
@@ -184,20 +184,22 @@ async fn every_kind_of_end_is_counted() {
     let fixture = Fixture::new().await;
     let store = &fixture.store;
     let cancelled = fixture.queued().await;
-    store.cancel(cancelled, 1).await.expect("the store");
-    store.cancel(cancelled, 2).await.expect("the store");
+    store.cancel(cancelled).await.expect("the store");
+    store.cancel(cancelled).await.expect("the store");
     let late = SubmitOptions {
         priority: 0,
         deadline_s: Some(1),
     };
     fixture.queued_with(late).await;
-    store.expire(1_000).await.expect("the store");
+    store.set_clock(1_000);
+    store.expire().await.expect("the store");
+    store.set_clock(0);
     fixture.queued().await;
     for _ in 0..ATTEMPT_LIMIT {
         fixture.claimed(10).await;
         fixture.reclaimed(10).await;
     }
-    let gauges = store.gauges(0).await.expect("the store");
+    let gauges = store.gauges().await.expect("the store");
     let text = store.metrics().text(&gauges).expect("text");
     for line in [
         "fretwear_jobs_ended_total{status=\"cancelled\"} 1",

@@ -38,7 +38,7 @@ impl WithObjects {
             plan,
             options: SubmitOptions::default(),
         };
-        let id = self.store.queue(&job, 0).await;
+        let id = self.store.queue(&job).await;
         let claim = self.store.claim_next(i64::MAX).await.expect("a job");
         let folder = self.store.attempt_folder(&claim);
         files::write_atomically(&folder, "a.vtu", b"fields").expect("written");
@@ -135,7 +135,7 @@ async fn results_of_a_succeeded_job_are_one_object_and_read_as_before() {
     let results = database.folder.path().join("test.db.results");
     assert_eq!(files_below(&results), Vec::<PathBuf>::new());
     assert_eq!(database.moved().await, [] as [Uuid; 0]);
-    let gauges = store.gauges(0).await.expect("the store");
+    let gauges = store.gauges().await.expect("the store");
     assert_eq!(gauges.results_to_move, 0);
 }
 

@@ -71,8 +71,10 @@ async fn a_deadline_ends_a_queued_job_and_only_old_jobs_are_deleted() {
         deadline_s: Some(5),
     };
     let late = fixture.queued_with(options).await;
-    assert_eq!(fixture.store.expire(4_999).await.expect("the store"), 0);
-    assert_eq!(fixture.store.expire(5_000).await.expect("the store"), 1);
+    fixture.store.set_clock(4_999);
+    assert_eq!(fixture.store.expire().await.expect("the store"), 0);
+    fixture.store.set_clock(5_000);
+    assert_eq!(fixture.store.expire().await.expect("the store"), 1);
     let job = fixture.job(late).await;
     assert_eq!(
         (job.status, job.outcome),

@@ -235,7 +235,7 @@ async fn documented(employer: &impl Employer, service: &Service) {
 async fn cancelled(employer: &impl Employer, service: &Service) {
     let (id, store) = (queued(service).await, &service.app.store);
     let lease = Lease::from(&claimed(employer).await);
-    store.cancel(id, 1).await.expect("the store");
+    store.cancel(id).await.expect("the store");
     let learned = async {
         let asked = LeaseState::Held {
             cancel_requested: true,

@@ -8,7 +8,6 @@ use axum::extract::State;
 use axum::http::StatusCode;
 
 use crate::batch::Document;
-use crate::clock::now_ms;
 use crate::http::app::App;
 use crate::http::extract::BatchId;
 use crate::http::problem::ProblemResponse;
@@ -46,7 +45,7 @@ pub(crate) async fn cancel_study(app: State<App>, batch: BatchId) -> Cancelled {
 
 async fn cancel(app: &App, batch: BatchId) -> Cancelled {
     app.require_batch(batch).await?;
-    app.store.cancel_batch(batch.id, now_ms()).await?;
+    app.store.cancel_batch(batch.id).await?;
     Ok((StatusCode::ACCEPTED, document(app, batch).await?))
 }
 

@@ -124,7 +124,7 @@ mod tests {
             jobs: Vec::new(),
             plan: Some(plan.replacen(r#""format":1"#, r#""format":2"#, 1)),
         };
-        let submitted = store.submit_batch(&other, None, 0).await;
+        let submitted = store.submit_batch(&other, None).await;
         let Ok(Submitted::Job(id)) = submitted else {
             panic!("{submitted:?}");
         };

@@ -10,7 +10,6 @@ use axum::http::{HeaderMap, StatusCode, header};
 use axum::response::{IntoResponse, Response};
 
 use crate::batch::Kind;
-use crate::clock::Now;
 use crate::http::app::App;
 use crate::http::extract::{BatchId, JsonBody};
 use crate::http::idempotency_key::{KeyError, idempotency_key};
@@ -88,9 +87,7 @@ async fn submit(
         };
         let batch = tokio::task::spawn_blocking(expand).await??;
         let store = &app.store;
-        store
-            .submit_batch(&batch, key.as_ref(), Now::read())
-            .await?
+        store.submit_batch(&batch, key.as_ref()).await?
     };
     let Submitted::Job(id) = submitted else {
         return Err(KeyError::Reused.into());

@@ -6,7 +6,6 @@ use axum::extract::State;
 use axum::http::StatusCode;
 use axum::response::{IntoResponse, Response};
 
-use crate::clock::now_ms;
 use crate::http::app::App;
 use crate::http::extract::JobId;
 use crate::http::job_error::JobError;
@@ -25,7 +24,7 @@ pub(crate) async fn cancel(
     State(app): State<App>,
     JobId(id): JobId,
 ) -> Result<Response, ProblemResponse> {
-    let cancelled = app.store.cancel(id, now_ms()).await?;
+    let cancelled = app.store.cancel(id).await?;
     cancelled.ok_or(JobError::Missing(id))?;
     let job = app.job(id).await?;
     Ok((StatusCode::ACCEPTED, Json(job.document)).into_response())

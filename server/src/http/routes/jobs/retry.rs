@@ -7,7 +7,6 @@ use axum::extract::State;
 use axum::http::StatusCode;
 use axum::response::{IntoResponse, Response};
 
-use crate::clock::Now;
 use crate::http::app::App;
 use crate::http::extract::JobId;
 use crate::http::job_error::JobError;
@@ -29,7 +28,7 @@ pub(crate) async fn retry(
     State(app): State<App>,
     JobId(id): JobId,
 ) -> Result<Response, ProblemResponse> {
-    let retried = app.store.retry(id, Now::read()).await?;
+    let retried = app.store.retry(id).await?;
     if retried.ok_or(JobError::Missing(id))? == Retried::Succeeded {
         return Err(JobError::Succeeded(id).into());
     }

@@ -11,7 +11,6 @@ use axum::response::{IntoResponse, Response};
 use serde::Deserialize;
 use utoipa::IntoParams;
 
-use crate::clock::Now;
 use crate::estimate::Estimate;
 use crate::http::app::App;
 use crate::http::extract::{JsonBody, Params};
@@ -109,7 +108,7 @@ pub(crate) async fn submit(
         plan,
         options,
     };
-    let Submitted::Job(id) = app.store.submit(&new, key.as_ref(), Now::read()).await? else {
+    let Submitted::Job(id) = app.store.submit(&new, key.as_ref()).await? else {
         return Err(KeyError::Reused.into());
     };
     let job = app.store.job(id).await?.ok_or(JobError::Deleted(id))?;

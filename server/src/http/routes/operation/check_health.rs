@@ -5,7 +5,6 @@ use axum::Json;
 use axum::extract::State;
 use serde_json::{Value, json};
 
-use crate::clock::now_ms;
 use crate::http::app::App;
 use crate::http::problem::{ProblemResponse, ProblemType};
 
@@ -29,7 +28,7 @@ pub(crate) async fn healthz() -> Json<Value> {
 pub(crate) async fn readyz(State(app): State<App>) -> Result<Json<Value>, ProblemResponse> {
     let failing = app.supervisor.failing();
     let disk = app.store.disk();
-    let written = match app.store.ready(now_ms()).await {
+    let written = match app.store.ready().await {
         // Then the disk fails, not the database.
         Err(error) if error.is_disk_full() => {
             disk.release_after(&error);

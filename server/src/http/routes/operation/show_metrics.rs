@@ -5,7 +5,6 @@ use axum::extract::State;
 use axum::http::header;
 use axum::response::{IntoResponse, Response};
 
-use crate::clock::now_ms;
 use crate::http::app::App;
 use crate::http::problem::ProblemResponse;
 use crate::supervision::WORKER;
@@ -24,7 +23,7 @@ const MEDIA_TYPE: &str = "application/openmetrics-text; version=1.0.0; charset=u
     )
 )]
 pub(crate) async fn metrics(State(app): State<App>) -> Result<Response, ProblemResponse> {
-    let mut gauges = app.store.gauges(now_ms()).await?;
+    let mut gauges = app.store.gauges().await?;
     let running = app.supervisor.running();
     let workers = running.iter().filter(|(kind, _)| *kind == WORKER).count();
     gauges.workers_alive = i64::try_from(workers).unwrap_or(i64::MAX);

@@ -6,7 +6,6 @@ use axum::extract::State;
 
 use api::job::Status;
 
-use crate::clock::now_ms;
 use crate::http::app::App;
 use crate::http::problem::ProblemResponse;
 use crate::supervision::WORKER;
@@ -21,7 +20,7 @@ use crate::supervision::WORKER;
 pub(crate) async fn service(
     State(app): State<App>,
 ) -> Result<Json<ServiceOverview>, ProblemResponse> {
-    let gauges = app.store.gauges(now_ms()).await?;
+    let gauges = app.store.gauges().await?;
     let running = app.supervisor.running();
     let total = running.iter().filter(|(kind, _)| *kind == WORKER).count();
     let of = |status: Status| gauges.jobs.iter().find(|(of, ..)| *of == status);

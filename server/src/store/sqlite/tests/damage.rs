@@ -10,7 +10,7 @@ async fn a_damaged_checkpoint_is_detected_and_the_job_restarts_at_cycle_0() {
     let claim = fixture.claimed(10).await;
     fixture.recorded(&claim, &with_checkpoint(3), 10).await;
     sqlx::query("UPDATE checkpoints SET state = X'00'")
-        .execute(&store.writer)
+        .execute(&store.sqlite().writer)
         .await
         .expect("damage");
     fixture.reclaimed(10).await;
@@ -23,7 +23,7 @@ async fn a_damaged_checkpoint_is_detected_and_the_job_restarts_at_cycle_0() {
 async fn a_transaction_ended_by_sqlite_does_not_block_later_writes() {
     let fixture = Fixture::new().await;
     let store = &fixture.store;
-    let mut transaction = store.writer.begin_with(BEGIN).await;
+    let mut transaction = store.sqlite().writer.begin_with(BEGIN).await;
     // As SQLite does when the disk is full.
     let ended = sqlx::query("ROLLBACK").execute(transaction.as_deref_mut().expect("begun"));
     ended.await.expect("ended");

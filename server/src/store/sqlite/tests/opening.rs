@@ -106,7 +106,7 @@ async fn a_database_of_a_later_version_is_refused_in_words() {
     let later = "INSERT INTO _sqlx_migrations (version, description, success, checksum, execution_time) \
                  VALUES (9999, 'later', 1, x'00', 0)";
     sqlx::query(later)
-        .execute(&store.writer)
+        .execute(&store.sqlite().writer)
         .await
         .expect("executed");
     store.close().await;

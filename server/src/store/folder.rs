@@ -8,7 +8,7 @@ use fs_err::DirEntry;
 use uuid::Uuid;
 
 /// Returns the path of a file or folder beside a database, by its suffix.
-pub(super) fn beside(database: &Path, suffix: &str) -> PathBuf {
+pub(in crate::store) fn beside(database: &Path, suffix: &str) -> PathBuf {
     let mut name = database.as_os_str().to_owned();
     name.push(suffix);
     PathBuf::from(name)
@@ -16,30 +16,30 @@ pub(super) fn beside(database: &Path, suffix: &str) -> PathBuf {
 
 /// The folder of large results.
 #[derive(Debug, Clone)]
-pub(super) struct Folder {
+pub(in crate::store) struct Folder {
     root: PathBuf,
 }
 
 impl Folder {
     /// The folder of a database.
-    pub(super) fn beside(database: &Path) -> Self {
+    pub(in crate::store) fn beside(database: &Path) -> Self {
         Self {
             root: beside(database, ".results"),
         }
     }
 
     /// Returns the folder of an attempt.
-    pub(super) fn of_attempt(&self, id: Uuid, lease: i64) -> PathBuf {
+    pub(in crate::store) fn of_attempt(&self, id: Uuid, lease: i64) -> PathBuf {
         self.root.join(id.to_string()).join(lease.to_string())
     }
 
     /// Returns the path of a file relative to this folder, as the database stores it.
-    pub(super) fn place(id: Uuid, lease: i64, name: &str) -> String {
+    pub(in crate::store) fn place(id: Uuid, lease: i64, name: &str) -> String {
         format!("{id}/{lease}/{name}")
     }
 
     /// Returns the absolute path of a stored one; `None` if it leads out of the folder, which the service never writes.
-    pub(super) fn path(&self, place: &str) -> Option<PathBuf> {
+    pub(in crate::store) fn path(&self, place: &str) -> Option<PathBuf> {
         let is_inside = Path::new(place)
             .components()
             .all(|part| matches!(part, Component::Normal(_)));
@@ -47,7 +47,7 @@ impl Folder {
     }
 
     /// Removes all files of a job.
-    pub(super) fn remove(&self, id: Uuid) -> std::io::Result<()> {
+    pub(in crate::store) fn remove(&self, id: Uuid) -> std::io::Result<()> {
         match fs_err::remove_dir_all(self.root.join(id.to_string())) {
             Err(cause) if cause.kind() != std::io::ErrorKind::NotFound => Err(cause),
             _ => Ok(()),
@@ -56,7 +56,7 @@ impl Folder {
 
     /// Removes all files that are not named, and folders without files: of the attempts at a job up to one of them, or
     /// of all jobs without the folders that are held. Returns the number of removed files.
-    pub(super) fn remove_unnamed(
+    pub(in crate::store) fn remove_unnamed(
         &self,
         attempt: Option<(Uuid, i64)>,
         named: &HashSet<String>,

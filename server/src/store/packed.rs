@@ -7,7 +7,7 @@ use uuid::Uuid;
 
 use crate::store::StoreError;
 use crate::store::compression::{compress, decompress};
-use crate::store::sqlite::queries::corrupt;
+use crate::store::rows::corrupt;
 
 /// Largest length of specification and plan, bytes.
 const LIMIT: usize = 64 << 20;
@@ -15,18 +15,18 @@ const LIMIT: usize = 64 << 20;
 const LISTED: [&str; 2] = ["name", "labels"];
 
 /// Compresses the texts of a specification and its plan.
-pub(super) fn pack(spec: &str, plan: &str) -> Vec<u8> {
+pub(in crate::store) fn pack(spec: &str, plan: &str) -> Vec<u8> {
     compress(format!("[{spec},{plan}]").as_bytes())
 }
 
 /// Specification and plan.
-pub(super) fn unpack(id: Uuid, packed: &[u8]) -> Result<(Spec, Plan), StoreError> {
+pub(in crate::store) fn unpack(id: Uuid, packed: &[u8]) -> Result<(Spec, Plan), StoreError> {
     let texts = decompress(packed, LIMIT);
     serde_json::from_slice(&texts).map_err(|cause| corrupt(id, "specification and plan", &cause))
 }
 
 /// The part of a specification that stays as it is.
-pub(super) fn listed(id: Uuid, spec: &str) -> Result<String, StoreError> {
+pub(in crate::store) fn listed(id: Uuid, spec: &str) -> Result<String, StoreError> {
     let spec: Map<String, Value> =
         serde_json::from_str(spec).map_err(|cause| corrupt(id, "specification", &cause))?;
     let members = spec.into_iter();

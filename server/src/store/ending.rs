@@ -1,0 +1,125 @@
+//! Ends of jobs, with `done` as the last event, and returns to the queue: what is stored of them.
+
+use api::event::Done;
+use api::job::{Outcome, Status};
+use uuid::Uuid;
+
+use crate::queue::{Attempts, Transition, next_status};
+use crate::store::{End, StoreError};
+
+/// A job that ends or returns to the queue, and what its next status depends on.
+pub(in crate::store) struct EndingJob {
+    pub(in crate::store) id: Uuid,
+    pub(in crate::store) status: Status,
+    pub(in crate::store) cancel_requested: bool,
+    attempts: Attempts,
+}
+
+/// What a transition stores.
+pub(in crate::store) struct Ending {
+    pub(in crate::store) status: Status,
+    pub(in crate::store) status_reason: Option<String>,
+    pub(in crate::store) outcome: Option<&'static str>,
+    /// JSON.
+    pub(in crate::store) summary: Option<String>,
+    /// Whether its worker gives it back, which costs no attempt.
+    pub(in crate::store) is_released: bool,
+    /// The document of the event `done`, for a job that ends.
+    pub(in crate::store) done: Option<String>,
+}
+
+impl EndingJob {
+    /// A running job.
+    pub(in crate::store) fn running(
+        id: Uuid,
+        fruitless: u32,
+        limit: u32,
+        cancel_requested: bool,
+    ) -> Self {
+        Self {
+            id,
+            status: Status::Running,
+            attempts: Attempts { fruitless, limit },
+            cancel_requested,
+        }
+    }
+
+    /// A queued job; the number of its attempts matters for lost workers only.
+    pub(in crate::store) fn queued(id: Uuid, cancel_requested: bool) -> Self {
+        Self {
+            status: Status::Queued,
+            ..Self::running(id, 0, 0, cancel_requested)
+        }
+    }
+
+    /// Returns the status after a transition.
+    pub(in crate::store) fn after(&self, transition: Transition) -> Option<Status> {
+        next_status(
+            self.status,
+            transition,
+            self.attempts,
+            self.cancel_requested,
+        )
+    }
+
+    /// Returns what an end stores; `None` if its transition is not allowed.
+    pub(in crate::store) fn ending(&self, end: &End) -> Result<Option<Ending>, StoreError> {
+        let Some(status) = self.after(end.transition) else {
+            return Ok(None);
+        };
+        let (status_reason, outcome) = reason_and_outcome(status, self.attempts, end);
+        let done = status.is_terminal().then(|| Done {
+            status,
+            status_reason: status_reason.clone(),
+            outcome,
+            // That of a succeeded job stays, and is added where the event is read.
+            summary: (end.summary.clone()).filter(|_| status != Status::Succeeded),
+        });
+        Ok(Some(Ending {
+            status,
+            status_reason,
+            outcome: outcome.map(Outcome::as_str),
+            summary: end
+                .summary
+                .as_ref()
+                .map(serde_json::to_string)
+                .transpose()?,
+            is_released: status == Status::Queued && end.transition == Transition::Release,
+            done: done.as_ref().map(serde_json::to_string).transpose()?,
+        }))
+    }
+}
+
+/// Status reason and outcome for the user.
+fn reason_and_outcome(
+    status: Status,
+    Attempts { fruitless, limit }: Attempts,
+    end: &End,
+) -> (Option<String>, Option<Outcome>) {
+    let cause = end.reason.as_deref().unwrap_or("its worker was lost");
+    let (reason, outcome) = match (end.transition, status) {
+        (Transition::WorkerLost, Status::Queued) if fruitless == 0 => (
+            format!("{cause}; it continues from its last checkpoint; waiting for a worker"),
+            None,
+        ),
+        (Transition::WorkerLost, Status::Queued) => (
+            format!(
+                "attempt {fruitless} of {limit} without a new checkpoint: {cause}; waiting for a worker"
+            ),
+            None,
+        ),
+        (Transition::WorkerLost, Status::Failed) => (
+            format!(
+                "worker_lost: {fruitless} attempts without a new checkpoint; the last: {cause}"
+            ),
+            Some(Outcome::WorkerLost),
+        ),
+        (Transition::Release, Status::Queued) => (format!("{cause}; waiting for a worker"), None),
+        // The cancel request was made before the worker was lost or released the job.
+        (Transition::WorkerLost | Transition::Release, Status::Cancelled) => {
+            ("cancelled while running".to_owned(), end.outcome)
+        }
+        _ => return (end.reason.clone(), end.outcome),
+    };
+    (Some(reason), outcome)
+}

@@ -1,0 +1,108 @@
+//! What this process has of a store besides the database: the folder of large results, the disk, the clock, counters and
+//! subscribers.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use api::job::Status;
+use tokio::sync::{Notify, broadcast};
+use uuid::Uuid;
+
+use crate::clock::Clock;
+use crate::metrics::Metrics;
+use crate::objects::Objects;
+use crate::store::folder::{Folder, beside};
+use crate::store::{Cancelled, DataDisk, LeaseState, Limits};
+
+/// Number of changes that a subscriber may fall behind.
+const CHANGE_CAPACITY: usize = 1024;
+
+/// What this process has of a store.
+#[derive(Debug)]
+pub(in crate::store) struct Local {
+    pub(in crate::store) changes: broadcast::Sender<Uuid>,
+    pub(in crate::store) waiting: Notify,
+    pub(in crate::store) folder: Folder,
+    /// Where results of succeeded jobs are moved to.
+    pub(in crate::store) objects: Option<Objects>,
+    /// The machine's calibration cache.
+    pub(in crate::store) machine: PathBuf,
+    pub(in crate::store) attempt_limit: u32,
+    pub(in crate::store) metrics: Arc<Metrics>,
+    pub(in crate::store) disk: Arc<DataDisk>,
+    pub(in crate::store) clock: Clock,
+}
+
+impl Local {
+    /// Prepares it: its files are named after `files` and lie beside it.
+    pub(in crate::store) fn prepare(files: &std::path::Path, limits: Limits, clock: Clock) -> Self {
+        let reserve = beside(files, ".reserve");
+        // Of a process that was killed: whatever space there is is needed now.
+        let _ = std::fs::remove_file(&reserve);
+        let (changes, _) = broadcast::channel(CHANGE_CAPACITY);
+        Self {
+            changes,
+            waiting: Notify::new(),
+            folder: Folder::beside(files),
+            objects: None,
+            machine: beside(files, ".machine.json"),
+            attempt_limit: limits.attempts,
+            metrics: Arc::default(),
+            disk: Arc::new(DataDisk::reserve(reserve, limits.least_free_disk_mb)),
+            clock,
+        }
+    }
+
+    /// Counts a write whose lease was lost.
+    pub(in crate::store) fn stale_write(&self) -> LeaseState {
+        self.metrics.stale_writes.inc();
+        LeaseState::Lost
+    }
+
+    /// Notifies the subscribers of a job.
+    pub(in crate::store) fn changed(&self, id: Uuid) {
+        // Without a subscriber this is not an error.
+        let _ = self.changes.send(id);
+    }
+
+    /// Notifies subscribers of a committed cancel request, which ends a queued job.
+    pub(in crate::store) fn cancelled(&self, id: Uuid, effect: Option<Cancelled>) {
+        match effect {
+            Some(Cancelled::AtOnce) => self.concluded(id, Some(Status::Cancelled)),
+            Some(Cancelled::Requested) => self.changed(id),
+            Some(Cancelled::Already) | None => {}
+        }
+    }
+
+    /// Notifies subscribers and workers of a committed transition, and counts ended jobs.
+    pub(in crate::store) fn concluded(&self, id: Uuid, status: Option<Status>) {
+        self.changed(id);
+        match status {
+            Some(Status::Queued) => self.waiting.notify_one(),
+            Some(status) if status.is_terminal() => self.metrics.ended(status),
+            _ => {}
+        }
+    }
+
+    /// Wakes every idle worker; one that misses the notification looks again within a second.
+    pub(in crate::store) fn many_wait(&self) {
+        self.waiting.notify_waiters();
+        self.waiting.notify_one();
+    }
+
+    /// Removes the files of a deleted job. Files that cannot be removed are logged and remain until the next start.
+    pub(in crate::store) async fn remove_files(&self, id: Uuid) {
+        if let Err(error) = self.in_folder(move |folder| folder.remove(id)).await {
+            tracing::warn!(job = %id, %error, "files could not be removed");
+        }
+    }
+
+    /// Runs a blocking operation on the folder of results.
+    pub(in crate::store) async fn in_folder<T: Send + 'static>(
+        &self,
+        operation: impl FnOnce(Folder) -> std::io::Result<T> + Send + 'static,
+    ) -> std::io::Result<T> {
+        let folder = self.folder.clone();
+        tokio::task::spawn_blocking(move || operation(folder)).await?
+    }
+}

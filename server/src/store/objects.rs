@@ -1,0 +1,160 @@
+//! Results of succeeded jobs in a store of objects. They are moved there after the end of the job, which waits for no other machine:
+//! while the store of objects cannot be reached, results stay in the database and its folder.
+//!
+//! A key is noted as that of an unnamed object before the object is written, and is named in the transaction that removes the results
+//! from the database; so no object is left without a name or without a note, whenever the process ends. One process moves at a time.
+
+use std::fmt::Display;
+
+use futures_util::{StreamExt, stream};
+use uuid::Uuid;
+
+use crate::objects::{Objects, ObjectsError};
+use crate::store::results_to_move::{Moved, Prepared};
+use crate::store::{Store, StoreError};
+
+/// Most jobs whose results are moved at once: they share two transactions. Arbitrary: more than a machine ends within a second.
+const JOBS: i64 = 512;
+/// Objects that are written at the same time. Arbitrary: an object takes some 10 to 100 ms.
+const WRITES: usize = 8;
+
+impl Store {
+    /// Lets the store move results to a store of objects, or, without one, checks that none were moved.
+    ///
+    /// # Errors
+    /// [`StoreError`], among others if results are in another one.
+    pub async fn with_objects(mut self, objects: Option<Objects>) -> Result<Self, StoreError> {
+        let stored = self.address_of_objects().await?;
+        match (&stored, &objects) {
+            (None, None) => return Ok(self),
+            (Some(_), None) => return Err(StoreError::NoObjects),
+            (Some(stored), Some(given)) if stored != given.location() => {
+                return Err(StoreError::OtherObjects {
+                    stored: stored.clone(),
+                    given: given.location().to_owned(),
+                });
+            }
+            (_, Some(given)) => self.note_address_of_objects(given.location()).await?,
+        }
+        self.local_mut().objects = objects;
+        Ok(self)
+    }
+
+    /// Moves results of succeeded jobs to the store of objects, of a limited number of jobs. Returns these jobs; their files are
+    /// still there for requests that are reading them, until [`Store::remove_moved`].
+    ///
+    /// # Errors
+    /// [`StoreError`] if the database or the store of objects fails; the results of other jobs are moved all the same.
+    pub async fn move_results(&self) -> (Vec<Uuid>, Result<(), StoreError>) {
+        let Some(objects) = &self.local().objects else {
+            return (Vec::new(), Ok(()));
+        };
+        match self.moves_results().await {
+            Ok(true) => {}
+            Ok(false) => return (Vec::new(), Ok(())),
+            Err(error) => return (Vec::new(), Err(error)),
+        }
+        // Objects that cannot be removed keep no others from being written.
+        let mut failed = self.remove_unnamed_objects(objects).await;
+        let written = match self.write_objects(objects).await {
+            Ok(written) => written,
+            Err(error) => return (Vec::new(), Err(error)),
+        };
+        let mut moved = Vec::new();
+        for written in written {
+            match written {
+                Ok(written) => moved.extend(written),
+                Err(error) => failed = Err(error),
+            }
+        }
+        match self.name_objects(&moved).await {
+            Ok(named) => (named, failed),
+            Err(error) => (Vec::new(), Err(error)),
+        }
+    }
+
+    /// Removes the files of jobs whose results were moved.
+    pub async fn remove_moved(&self, jobs: &[Uuid]) {
+        for id in jobs {
+            self.local().remove_files(*id).await;
+        }
+    }
+
+    /// Writes the objects of a limited number of jobs.
+    async fn write_objects(
+        &self,
+        objects: &Objects,
+    ) -> Result<Vec<Result<Option<Moved>, StoreError>>, StoreError> {
+        let jobs = self.movable_jobs(JOBS).await?;
+        if jobs.is_empty() {
+            return Ok(Vec::new());
+        }
+        let keyed = jobs.into_iter().map(|id| {
+            let key = format!("jobs/{id}/{}", Uuid::now_v7());
+            (id, key)
+        });
+        let keyed: Vec<_> = keyed.collect();
+        self.note_unnamed(&keyed).await?;
+        let writes = stream::iter(keyed).map(|(id, key)| self.write_object(objects, id, key));
+        Ok(writes.buffer_unordered(WRITES).collect().await)
+    }
+
+    async fn remove_unnamed_objects(&self, objects: &Objects) -> Result<(), StoreError> {
+        let keys = self.take_unnamed(JOBS).await?;
+        if keys.is_empty() {
+            return Ok(());
+        }
+        let removals = stream::iter(keys).map(async |key| {
+            objects.remove(&key).await?;
+            Ok::<_, ObjectsError>(key)
+        });
+        let removals: Vec<_> = removals.buffer_unordered(WRITES).collect().await;
+        let (mut removed, mut failed) = (Vec::with_capacity(removals.len()), Ok(()));
+        for key in removals {
+            match key {
+                Ok(key) => removed.push(key),
+                Err(error) => failed = Err(error.into()),
+            }
+        }
+        self.forget_unnamed(&removed).await?;
+        failed
+    }
+
+    /// Writes the results of a job to an object; `None` if the job was deleted, or if its results are damaged, which then stay.
+    async fn write_object(
+        &self,
+        objects: &Objects,
+        id: Uuid,
+        key: String,
+    ) -> Result<Option<Moved>, StoreError> {
+        let prepared = match self.results_to_move(id).await {
+            Ok(Some(stored)) => stored.prepare(id, key).await,
+            Ok(None) => return Ok(None),
+            Err(error) => Err(error),
+        };
+        let prepared = match prepared {
+            Ok(prepared) => prepared,
+            Err(error @ (StoreError::DamagedResults { .. } | StoreError::Corrupt { .. })) => {
+                return self.kept(id, &error).await;
+            }
+            Err(error) => return Err(error),
+        };
+        let Prepared { moved, head, files } = prepared;
+        match objects.put(&moved.key, &head, &files).await {
+            Ok(()) => Ok(Some(moved)),
+            Err(error @ ObjectsError::Damaged { .. }) => self.kept(id, &error).await,
+            Err(error) => Err(error.into()),
+        }
+    }
+
+    /// Leaves the results of a job where they are.
+    async fn kept(
+        &self,
+        id: Uuid,
+        cause: &(impl Display + Sync),
+    ) -> Result<Option<Moved>, StoreError> {
+        tracing::error!(job = %id, error = %cause, "results stay in the database");
+        self.keep_results(id).await?;
+        Ok(None)
+    }
+}

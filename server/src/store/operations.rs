@@ -1,0 +1,154 @@
+//! The operations of every storage engine.
+
+mod jobs;
+mod leases;
+mod results;
+mod service;
+
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use uuid::Uuid;
+
+use crate::clock::Clock;
+use crate::metrics::Metrics;
+use crate::store::local::Local;
+use crate::store::sqlite::SqliteStore;
+use crate::store::{
+    AllChanges, BatchDetail, Changes, DataDisk, Lease, Limits, SnapshotPart, StoreError,
+    StoredBatch,
+};
+
+/// Jobs, batches, events and results, durable.
+#[derive(Debug)]
+pub struct Store(pub(in crate::store) Engine);
+
+/// The engines.
+#[derive(Debug)]
+pub(in crate::store) enum Engine {
+    /// A file.
+    Sqlite(Box<SqliteStore>),
+}
+
+/// Lets the store have an operation that each engine has.
+macro_rules! operations {
+    ($($(#[$doc:meta])* $visibility:vis async fn $name:ident(&self $(, $argument:ident: $type:ty)*) -> $result:ty;)*) => {
+        impl $crate::store::Store {
+            $($(#[$doc])*
+            $visibility async fn $name(&self $(, $argument: $type)*) -> $result {
+                match &self.0 {
+                    $crate::store::operations::Engine::Sqlite(store) => store.$name($($argument),*).await,
+                }
+            })*
+        }
+    };
+}
+use operations;
+
+impl Store {
+    /// Opens the database at `url` (`sqlite://PATH`), creates it if it is missing, and migrates its schema.
+    ///
+    /// # Errors
+    /// [`StoreError`], among others if another process serves the database.
+    pub async fn open_with(url: &str, limits: Limits) -> Result<Self, StoreError> {
+        Self::open_by(url, limits, Clock::System).await
+    }
+
+    /// Opens it with a clock by which leases are measured.
+    ///
+    /// # Errors
+    /// [`StoreError`], as [`Store::open_with`].
+    pub async fn open_by(url: &str, limits: Limits, clock: Clock) -> Result<Self, StoreError> {
+        let store = SqliteStore::open(url, limits, clock).await?;
+        Ok(Self(Engine::Sqlite(Box::new(store))))
+    }
+
+    /// Closes all connections.
+    pub async fn close(&self) {
+        match &self.0 {
+            Engine::Sqlite(store) => store.close().await,
+        }
+    }
+
+    /// Returns a batch with its jobs and so much of their results; `None` if there is no batch of that id.
+    ///
+    /// # Errors
+    /// [`StoreError`] if the database fails or a document in it cannot be read.
+    pub async fn batch(
+        &self,
+        id: Uuid,
+        detail: BatchDetail,
+    ) -> Result<Option<StoredBatch>, StoreError> {
+        let mut batch = self.batch_without_profiles(id, detail).await?;
+        let jobs = batch.iter_mut().flat_map(|batch| &mut batch.jobs);
+        for job in jobs.filter(|job| detail >= BatchDetail::Profiles && job.summary.is_some()) {
+            job.profile = self.last_profile(job.id).await?;
+        }
+        Ok(batch)
+    }
+
+    /// Returns the last profile of a job; `None` if it has none, or if its results are damaged, so that the other jobs can be
+    /// compared.
+    async fn last_profile(&self, id: Uuid) -> Result<Option<String>, StoreError> {
+        match self.snapshot(id, SnapshotPart::Profile, None).await {
+            Err(error @ StoreError::DamagedResults { .. }) => {
+                tracing::error!(%error, "a job is left out of a comparison");
+                Ok(None)
+            }
+            found => found,
+        }
+    }
+
+    /// Subscribes to the changes of a job.
+    pub fn changes(&self, id: Uuid) -> Changes {
+        Changes::new(id, self.local().changes.subscribe())
+    }
+
+    /// Subscribes to the changes of all jobs.
+    pub fn all_changes(&self) -> AllChanges {
+        AllChanges::new(self.local().changes.subscribe())
+    }
+
+    /// Returns when a job may be waiting in the queue.
+    pub async fn job_waiting(&self) {
+        self.local().waiting.notified().await;
+    }
+
+    /// Returns the folder into which an attempt at a job writes its large results.
+    pub fn attempt_folder(&self, lease: impl Into<Lease>) -> PathBuf {
+        let lease = lease.into();
+        self.local().folder.of_attempt(lease.job, lease.number)
+    }
+
+    /// Path of the machine's calibration cache.
+    pub fn machine_file(&self) -> PathBuf {
+        self.local().machine.clone()
+    }
+
+    /// The disk of large results.
+    pub fn disk(&self) -> &Arc<DataDisk> {
+        &self.local().disk
+    }
+
+    /// The clock by which leases are measured.
+    pub fn clock(&self) -> &Clock {
+        &self.local().clock
+    }
+
+    /// Counters and histograms for `/metrics`.
+    pub fn metrics(&self) -> &Arc<Metrics> {
+        &self.local().metrics
+    }
+
+    pub(in crate::store) fn local(&self) -> &Local {
+        match &self.0 {
+            Engine::Sqlite(store) => &store.local,
+        }
+    }
+
+    pub(in crate::store) fn local_mut(&mut self) -> &mut Local {
+        match &mut self.0 {
+            Engine::Sqlite(store) => &mut store.local,
+        }
+    }
+}

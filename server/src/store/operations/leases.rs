@@ -1,0 +1,81 @@
+//! Leases: claims, fenced writes, lost workers.
+
+use std::time::Duration;
+
+use api::job::Status;
+
+use crate::queue::Transition;
+use crate::store::operations::operations;
+use crate::store::{Claim, ClaimRequest, End, JobUpdate, Lease, LeaseState, Reclaimed, StoreError};
+
+operations! {
+    /// Claims the first jobs in the order of the queue that a worker can take, under new leases. Jobs before them that do not fit
+    /// into its memory get a status reason. A repeated request gets the jobs of the first one that it still holds.
+    ///
+    /// # Errors
+    /// [`StoreError`] if the database fails.
+    pub async fn claim(&self, request: &ClaimRequest) -> Result<Vec<Claim>, StoreError>;
+
+    /// Writes an update and renews the lease.
+    ///
+    /// # Errors
+    /// [`StoreError`] if the database fails.
+    pub async fn record(&self, lease: impl Into<Lease>, update: &JobUpdate, length: Duration) -> Result<LeaseState, StoreError>;
+
+    /// The states of the leases of a worker, renewed for a length where more than a third of it has passed: a heartbeat that comes
+    /// often, for the sake of cancel requests, writes seldom.
+    ///
+    /// # Errors
+    /// [`StoreError`] if the database fails.
+    pub async fn heartbeat(&self, leases: &[Lease], length: Duration) -> Result<Vec<LeaseState>, StoreError>;
+
+    /// Renews the lease: the worker's heartbeat.
+    ///
+    /// # Errors
+    /// [`StoreError`] if the database fails.
+    pub async fn renew(&self, lease: impl Into<Lease>, length: Duration) -> Result<LeaseState, StoreError>;
+
+    /// Whether the worker holds the job; writes nothing.
+    ///
+    /// # Errors
+    /// [`StoreError`] if the database fails.
+    pub async fn lease_state(&self, lease: impl Into<Lease>) -> Result<LeaseState, StoreError>;
+
+    /// Deletes results and checkpoint, because the run restarts at cycle 0. The write has a number as an update has.
+    ///
+    /// # Errors
+    /// [`StoreError`] if the database fails.
+    pub async fn restart(&self, lease: impl Into<Lease>, number: i64) -> Result<LeaseState, StoreError>;
+
+    /// Writes progress, results and files of the last update and ends the job or returns it to the queue, in one
+    /// transaction. Returns the new status, or `None` if the lease was lost.
+    ///
+    /// # Errors
+    /// [`StoreError`] if the database fails.
+    pub async fn end(&self, lease: impl Into<Lease>, update: &JobUpdate, end: &End) -> Result<Option<Status>, StoreError>;
+
+    /// Whether a transition ends a claimed job instead of returning it to the queue.
+    ///
+    /// # Errors
+    /// [`StoreError`] if the database fails.
+    pub async fn is_final(&self, lease: impl Into<Lease>, transition: Transition, cancel_requested: bool) -> Result<bool, StoreError>;
+
+    /// Reclaims running jobs whose lease has ended. Those without another attempt are held under new leases of this length.
+    ///
+    /// # Errors
+    /// [`StoreError`] if the database fails.
+    pub async fn reclaim_expired(&self, length: Duration) -> Result<Reclaimed, StoreError>;
+
+    /// Reclaims the running jobs of the process that served before, at start-up. Remote workers have the length of a lease of
+    /// theirs to renew it.
+    ///
+    /// # Errors
+    /// [`StoreError`] if the database fails.
+    pub async fn reclaim_at_start(&self, length: Duration, remote: Duration) -> Result<Reclaimed, StoreError>;
+
+    /// Fails queued jobs whose deadline has passed. Returns how many.
+    ///
+    /// # Errors
+    /// [`StoreError`] if the database fails.
+    pub async fn expire(&self) -> Result<usize, StoreError>;
+}

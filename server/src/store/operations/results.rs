@@ -1,0 +1,99 @@
+//! Events and results.
+
+use std::collections::HashMap;
+
+use api::results::{ResultFile, Snapshot};
+use solver::record::CycleReport;
+use uuid::Uuid;
+
+use crate::store::operations::operations;
+use crate::store::results_to_move::{Moved, Stored};
+use crate::store::{Content, Lease, SnapshotPart, StoreError, StoredEvent};
+
+operations! {
+    /// Returns the events of a job after number `after`, oldest first; at most a page of them.
+    ///
+    /// # Errors
+    /// [`StoreError`] if the database fails.
+    pub async fn events(&self, id: Uuid, after: i64) -> Result<Vec<StoredEvent>, StoreError>;
+
+    /// Returns the rows of the wear history so far, by cycle.
+    ///
+    /// # Errors
+    /// [`StoreError`] if the database fails or a row cannot be read.
+    pub async fn history(&self, id: Uuid) -> Result<Vec<CycleReport>, StoreError>;
+
+    /// Returns a document (JSON) of the snapshot nearest to a cycle; of the last snapshot if no cycle is given.
+    ///
+    /// # Errors
+    /// [`StoreError`] if the database fails.
+    pub async fn snapshot(&self, id: Uuid, part: SnapshotPart, cycle: Option<u64>) -> Result<Option<String>, StoreError>;
+
+    /// Returns all snapshots of a job, by cycle.
+    ///
+    /// # Errors
+    /// [`StoreError`] if the database fails or a document cannot be read.
+    pub async fn snapshots(&self, id: Uuid) -> Result<Vec<Snapshot>, StoreError>;
+
+    /// Returns the documents of a job's block, by name.
+    ///
+    /// # Errors
+    /// [`StoreError`] if the database fails or the block cannot be read.
+    pub async fn block_documents(&self, id: Uuid) -> Result<HashMap<String, Vec<u8>>, StoreError>;
+
+    /// Returns the manifest of a job so far, by name.
+    ///
+    /// # Errors
+    /// [`StoreError`] if the database fails.
+    pub async fn manifest(&self, id: Uuid) -> Result<Vec<ResultFile>, StoreError>;
+
+    /// Returns a file that the manifest names, and its content.
+    ///
+    /// # Errors
+    /// [`StoreError`] if the database fails.
+    pub async fn result_file(&self, id: Uuid, name: &str) -> Result<Option<(ResultFile, Content)>, StoreError>;
+
+    /// Marks a file in its manifest as damaged, with how, or no longer.
+    ///
+    /// # Errors
+    /// [`StoreError`] if the database fails.
+    pub async fn mark_damaged(&self, id: Uuid, name: &str, how: Option<&str>) -> Result<(), StoreError>;
+
+    /// Removes files that no manifest names: of the attempts at a job up to this one, or of all jobs at start-up. A
+    /// later attempt may write files that the manifest does not name yet, and so may a remote worker. Files that cannot be removed are logged and
+    /// remain until the next start.
+    ///
+    /// # Errors
+    /// [`StoreError`] if the database fails.
+    pub async fn remove_unnamed_files(&self, attempt: Option<Lease>) -> Result<(), StoreError>;
+
+    /// Address of the store of objects that results were moved to; `None` if none were.
+    pub(in crate::store) async fn address_of_objects(&self) -> Result<Option<String>, StoreError>;
+
+    /// Notes it.
+    pub(in crate::store) async fn note_address_of_objects(&self, address: &str) -> Result<(), StoreError>;
+
+    /// Whether it is this process that moves results.
+    pub(in crate::store) async fn moves_results(&self) -> Result<bool, StoreError>;
+
+    /// Succeeded jobs whose results are not in objects.
+    pub(in crate::store) async fn movable_jobs(&self, most: i64) -> Result<Vec<Uuid>, StoreError>;
+
+    /// Notes the keys of objects that are about to be written.
+    pub(in crate::store) async fn note_unnamed(&self, keyed: &[(Uuid, String)]) -> Result<(), StoreError>;
+
+    /// Keys of objects to be removed; they cannot be named any more.
+    pub(in crate::store) async fn take_unnamed(&self, most: i64) -> Result<Vec<String>, StoreError>;
+
+    /// Forgets the keys of removed objects.
+    pub(in crate::store) async fn forget_unnamed(&self, keys: &[String]) -> Result<(), StoreError>;
+
+    /// Reads the results of a job; `None` if it was deleted.
+    pub(in crate::store) async fn results_to_move(&self, id: Uuid) -> Result<Option<Stored>, StoreError>;
+
+    /// Notes that the results of a job cannot be moved.
+    pub(in crate::store) async fn keep_results(&self, id: Uuid) -> Result<(), StoreError>;
+
+    /// Names objects and removes the results from the database, unless they have changed meanwhile. Returns the jobs.
+    pub(in crate::store) async fn name_objects(&self, moved: &[Moved]) -> Result<Vec<Uuid>, StoreError>;
+}

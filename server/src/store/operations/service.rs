@@ -1,0 +1,91 @@
+//! Changes of all jobs, gauges, tokens, maintenance.
+
+use api::service::Demand;
+use api::worker::WorkerToken;
+use uuid::Uuid;
+
+use crate::metrics::Gauges;
+use crate::store::operations::operations;
+use crate::store::{Changed, StoreError};
+
+operations! {
+    /// Revision of the last change of any job.
+    ///
+    /// # Errors
+    /// [`StoreError`] if the database fails.
+    pub async fn last_revision(&self) -> Result<i64, StoreError>;
+
+    /// Whether all changes after a revision are known.
+    ///
+    /// # Errors
+    /// [`StoreError`] if the database fails.
+    pub async fn knows_revision(&self, revision: i64) -> Result<bool, StoreError>;
+
+    /// Jobs that have changed or were deleted after a revision, each once, in the order of their last changes.
+    ///
+    /// # Errors
+    /// [`StoreError`] if the database fails.
+    pub async fn changed_after(&self, revision: i64) -> Result<Vec<(i64, Changed)>, StoreError>;
+
+    /// Returns what waits and runs.
+    ///
+    /// # Errors
+    /// [`StoreError`] if the database fails.
+    pub async fn demand(&self) -> Result<Demand, StoreError>;
+
+    /// Returns what the store knows: jobs by status, ages, sizes.
+    ///
+    /// # Errors
+    /// [`StoreError`] if the database fails.
+    pub async fn gauges(&self) -> Result<Gauges, StoreError>;
+
+    /// Checks that the database can be written, by a write; at most once a second, so that frequent requests do not
+    /// block the workers' writes.
+    ///
+    /// # Errors
+    /// [`StoreError`] if the database cannot be written.
+    pub async fn ready(&self) -> Result<(), StoreError>;
+
+    /// Adds a token by its SHA-256.
+    ///
+    /// # Errors
+    /// [`StoreError`] if the database fails.
+    pub async fn add_worker_token(&self, name: &str, sha256: &[u8; 32]) -> Result<WorkerToken, StoreError>;
+
+    /// Returns all tokens, oldest first.
+    ///
+    /// # Errors
+    /// [`StoreError`] if the database fails.
+    pub async fn worker_tokens(&self) -> Result<Vec<WorkerToken>, StoreError>;
+
+    /// Revokes a token; `false` if there is none of this id. A token stays revoked.
+    ///
+    /// # Errors
+    /// [`StoreError`] if the database fails.
+    pub async fn revoke_worker_token(&self, id: Uuid) -> Result<bool, StoreError>;
+
+    /// Whether a token of this SHA-256 is valid.
+    ///
+    /// # Errors
+    /// [`StoreError`] if the database fails.
+    pub async fn accepts_worker_token(&self, sha256: &[u8; 32]) -> Result<bool, StoreError>;
+
+    /// Deletes jobs that ended before a time, the oldest first and a limited number, and batches without remaining
+    /// jobs. Returns the number of jobs.
+    ///
+    /// # Errors
+    /// [`StoreError`] if the database fails.
+    pub async fn delete_ended_before(&self, time: i64) -> Result<usize, StoreError>;
+
+    /// Moves the write-ahead log into the database, as far as readers allow and without waiting for them.
+    ///
+    /// # Errors
+    /// [`StoreError`] if the database fails.
+    pub async fn checkpoint_wal(&self) -> Result<(), StoreError>;
+
+    /// Writes a heartbeat of this process.
+    ///
+    /// # Errors
+    /// [`StoreError::Served`] if another process has become the owner.
+    pub async fn beat(&self) -> Result<(), StoreError>;
+}

@@ -1,0 +1,61 @@
+//! Rows of `jobs` as short documents: only what they contain is read and parsed.
+
+use api::job::{JobOverview, KeyFigures};
+use uuid::Uuid;
+
+use crate::store::document::{deadline, links, status_and_reason};
+use crate::store::rows::{StoredRow, outcome, parsed, time, timestamp, unsigned};
+use crate::store::{DataDisk, StoreError};
+
+/// Returns the short document of a selected row.
+pub(in crate::store) fn overview(
+    disk: &DataDisk,
+    row: &impl StoredRow,
+) -> Result<JobOverview, StoreError> {
+    let id = row.id("id")?;
+    let (status, status_reason) = status_and_reason(disk, id, row)?;
+    let (name, labels) = (row.optional_text("name")?, row.optional_text("labels")?);
+    Ok(JobOverview {
+        id,
+        name: name.map_or(Ok(None), |name| parsed(id, "name", &name))?,
+        system: row.text("system")?,
+        labels: labels.map_or_else(
+            || Ok(std::collections::BTreeMap::new()),
+            |labels| parsed(id, "labels", &labels),
+        )?,
+        status,
+        status_reason,
+        outcome: outcome(row)?,
+        priority: unsigned(row, "priority")?,
+        deadline_at: deadline(row)?,
+        created_at: timestamp(row.integer("created_at")?),
+        started_at: time(row, "started_at")?,
+        finished_at: time(row, "finished_at")?,
+        progress: parsed(id, "progress", &row.text("progress")?)?,
+        attempts: unsigned(row, "attempts")?,
+        key_figures: key_figures(id, row)?,
+        links: links(id),
+    })
+}
+
+fn key_figures(id: Uuid, row: &impl StoredRow) -> Result<Option<KeyFigures>, StoreError> {
+    let figure = |column: &str| -> Result<Option<f64>, StoreError> {
+        let text = row.optional_text(column)?;
+        text.map(|text| parsed(id, "summary", &text)).transpose()
+    };
+    let (Some(receptacle), Some(slider), Some(pressure), Some(error)) = (
+        figure("receptacle")?,
+        figure("slider")?,
+        figure("pressure")?,
+        figure("error")?,
+    ) else {
+        return Ok(None);
+    };
+    Ok(Some(KeyFigures {
+        receptacle_max_depth_mm: receptacle,
+        slider_max_depth_mm: slider,
+        peak_pressure_mpa: pressure,
+        estimated_relative_error: error,
+        life_cycles: row.optional_number("life")?,
+    }))
+}

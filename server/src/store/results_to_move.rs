@@ -1,0 +1,107 @@
+//! Results of a job as they are written to an object.
+
+use api::results::ResultFile;
+use uuid::Uuid;
+
+use crate::export::documents::JSON;
+use crate::export::files::manifest_entry;
+use crate::objects::ObjectFile;
+use crate::store::block::Block;
+use crate::store::folder::Folder;
+use crate::store::packed::{listed, pack};
+use crate::store::rows::{StoredRow, corrupt, entry, integer};
+use crate::store::stored_block::{StoredBlock, pack_events, unreadable};
+use crate::store::{StoreError, StoredEvent, integrity};
+
+/// Results that were written to an object.
+pub(in crate::store) struct Moved {
+    pub(in crate::store) id: Uuid,
+    pub(in crate::store) key: String,
+    /// The entries of the block before, and now.
+    pub(in crate::store) entries: (Vec<u8>, Vec<u8>),
+    pub(in crate::store) content_bytes: i64,
+    /// Specification and plan, compressed, and the part of the specification that stays.
+    pub(in crate::store) documents: Vec<u8>,
+    pub(in crate::store) listed: String,
+}
+
+/// Results that can be written to an object.
+pub(in crate::store) struct Prepared {
+    pub(in crate::store) moved: Moved,
+    /// The content of the block and the events.
+    pub(in crate::store) head: Vec<u8>,
+    pub(in crate::store) files: Vec<ObjectFile>,
+}
+
+/// Results of a job as they were read from the database.
+pub(in crate::store) struct Stored {
+    pub(in crate::store) block: StoredBlock,
+    /// Specification and plan, JSON.
+    pub(in crate::store) texts: (String, String),
+    /// All but the last one.
+    pub(in crate::store) events: Vec<StoredEvent>,
+    pub(in crate::store) files: Vec<(ResultFile, ObjectFile)>,
+}
+
+impl Stored {
+    /// Checks the results and compresses what is not yet.
+    pub(in crate::store) async fn prepare(
+        self,
+        id: Uuid,
+        key: String,
+    ) -> Result<Prepared, StoreError> {
+        let prepare = move || {
+            let StoredBlock {
+                entries, content, ..
+            } = self.block;
+            let (spec, plan) = self.texts;
+            check(id, &entries, &content)?;
+            let events = pack_events(&self.events)?;
+            let events_entry = manifest_entry("events", None, JSON, &events);
+            let (of_files, files): (Vec<_>, _) = self.files.into_iter().unzip();
+            let with_files = Block::with_files(&entries, events_entry, of_files);
+            let with_files = with_files.map_err(|cause| unreadable(id, &cause))?;
+            let moved = Moved {
+                id,
+                key,
+                content_bytes: integer(content.len()),
+                documents: pack(&spec, &plan),
+                listed: listed(id, &spec)?,
+                entries: (entries, with_files),
+            };
+            let head = [&content[..], &events].concat();
+            Ok(Prepared { moved, head, files })
+        };
+        // Decompression takes milliseconds.
+        let prepared = tokio::task::spawn_blocking(prepare).await;
+        prepared.unwrap_or(Err(StoreError::Unwritten))
+    }
+}
+
+/// A file of a manifest, from its row, with its place.
+pub(in crate::store) fn file_to_move(
+    folder: &Folder,
+    id: Uuid,
+    row: &impl StoredRow,
+) -> Result<(ResultFile, ObjectFile), StoreError> {
+    let (entry, place) = (entry(row)?, row.text("place")?);
+    let path = folder.path(&place);
+    let file = ObjectFile {
+        path: path.ok_or_else(|| corrupt(id, "path of a file", &place))?,
+        bytes: entry.bytes,
+        sha256: entry.sha256.clone(),
+    };
+    Ok((entry, file))
+}
+
+/// Checks the content of a block: the object will be the only copy of it.
+fn check(id: Uuid, entries: &[u8], content: &[u8]) -> Result<(), StoreError> {
+    let block = Block::decode(entries, content).map_err(|cause| unreadable(id, &cause))?;
+    for (entry, bytes) in block.all() {
+        integrity::check_bytes(entry, bytes).map_err(|cause| StoreError::DamagedResults {
+            id,
+            cause: format!("{}: {cause}", entry.name),
+        })?;
+    }
+    Ok(())
+}

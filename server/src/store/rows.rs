@@ -1,0 +1,197 @@
+//! Rows of the tables, whatever the engine, and the values that are read from them.
+
+use api::event::Attempt;
+use api::job::{Outcome, Status};
+use api::results::{ResultFile, Summary};
+use api::worker::WorkerToken;
+use jiff::Timestamp;
+use serde::de::DeserializeOwned;
+use uuid::Uuid;
+
+use crate::clock::Now;
+use crate::solve::checkpoint::EncodedCheckpoint;
+use crate::store::{Claim, StoreError};
+
+/// A row of an engine, whose columns are read by name.
+pub(in crate::store) trait StoredRow {
+    /// An id.
+    fn id(&self, column: &str) -> Result<Uuid, StoreError>;
+    /// A text that may be absent.
+    fn optional_text(&self, column: &str) -> Result<Option<String>, StoreError>;
+    /// A text.
+    fn text(&self, column: &str) -> Result<String, StoreError>;
+    /// An integer that may be absent.
+    fn optional_integer(&self, column: &str) -> Result<Option<i64>, StoreError>;
+    /// An integer.
+    fn integer(&self, column: &str) -> Result<i64, StoreError>;
+    /// A number that may be absent.
+    fn optional_number(&self, column: &str) -> Result<Option<f64>, StoreError>;
+    /// Bytes that may be absent.
+    fn optional_bytes(&self, column: &str) -> Result<Option<Vec<u8>>, StoreError>;
+}
+
+/// Implements [`StoredRow`] for the row of an engine, whose ids are of a type.
+macro_rules! stored_row {
+    ($row:ty, $id:ty) => {
+        impl $crate::store::rows::StoredRow for $row {
+            fn id(&self, column: &str) -> Result<uuid::Uuid, $crate::store::StoreError> {
+                Ok(sqlx::Row::try_get::<$id, _>(self, column)?.into())
+            }
+
+            fn optional_text(
+                &self,
+                column: &str,
+            ) -> Result<Option<String>, $crate::store::StoreError> {
+                Ok(sqlx::Row::try_get(self, column)?)
+            }
+
+            fn text(&self, column: &str) -> Result<String, $crate::store::StoreError> {
+                Ok(sqlx::Row::try_get(self, column)?)
+            }
+
+            fn optional_integer(
+                &self,
+                column: &str,
+            ) -> Result<Option<i64>, $crate::store::StoreError> {
+                Ok(sqlx::Row::try_get(self, column)?)
+            }
+
+            fn integer(&self, column: &str) -> Result<i64, $crate::store::StoreError> {
+                Ok(sqlx::Row::try_get(self, column)?)
+            }
+
+            fn optional_number(
+                &self,
+                column: &str,
+            ) -> Result<Option<f64>, $crate::store::StoreError> {
+                Ok(sqlx::Row::try_get(self, column)?)
+            }
+
+            fn optional_bytes(
+                &self,
+                column: &str,
+            ) -> Result<Option<Vec<u8>>, $crate::store::StoreError> {
+                Ok(sqlx::Row::try_get(self, column)?)
+            }
+        }
+    };
+}
+pub(in crate::store) use stored_row;
+
+/// Reads the status of a job.
+pub(in crate::store) fn status(id: Uuid, row: &impl StoredRow) -> Result<Status, StoreError> {
+    let name = row.text("status")?;
+    Status::from_name(&name).ok_or_else(|| corrupt(id, "status", &name))
+}
+
+/// Reads the outcome of a job.
+pub(in crate::store) fn outcome(row: &impl StoredRow) -> Result<Option<Outcome>, StoreError> {
+    let name = row.optional_text("outcome")?;
+    Ok(name.as_deref().and_then(Outcome::from_name))
+}
+
+/// Reads the summary of a job.
+pub(in crate::store) fn summary(
+    id: Uuid,
+    row: &impl StoredRow,
+) -> Result<Option<Summary>, StoreError> {
+    let text = row.optional_text("summary")?;
+    text.map(|text| parsed(id, "summary", &text)).transpose()
+}
+
+/// Reads a time, ms since 1970.
+pub(in crate::store) fn time(
+    row: &impl StoredRow,
+    column: &str,
+) -> Result<Option<String>, StoreError> {
+    Ok(row.optional_integer(column)?.map(timestamp))
+}
+
+/// Reads a count.
+pub(in crate::store) fn unsigned<T: TryFrom<i64> + Default>(
+    row: &impl StoredRow,
+    column: &str,
+) -> Result<T, StoreError> {
+    Ok(row.integer(column)?.try_into().unwrap_or_default())
+}
+
+/// Reads the entry of a file in a manifest.
+pub(in crate::store) fn entry(row: &impl StoredRow) -> Result<ResultFile, StoreError> {
+    let cycle = row.optional_integer("cycle")?;
+    Ok(ResultFile {
+        name: row.text("name")?,
+        cycle: cycle.and_then(|cycle| cycle.try_into().ok()),
+        media_type: row.text("media_type")?,
+        bytes: unsigned(row, "bytes")?,
+        sha256: row.text("sha256")?,
+        damaged: row.optional_text("damaged")?,
+    })
+}
+
+/// Reads a token of a worker.
+pub(in crate::store) fn token(row: &impl StoredRow) -> Result<WorkerToken, StoreError> {
+    Ok(WorkerToken {
+        id: row.id("id")?,
+        name: row.text("name")?,
+        created_at: timestamp(row.integer("created_at")?),
+        revoked_at: time(row, "revoked_at")?,
+    })
+}
+
+/// Reads a job under its new lease.
+pub(in crate::store) fn claim(
+    id: Uuid,
+    row: &impl StoredRow,
+    now: Now,
+    checkpoint: Option<EncodedCheckpoint>,
+) -> Result<Claim, StoreError> {
+    let deadline_at = row.optional_integer("deadline_at")?;
+    Ok(Claim {
+        id,
+        lease: row.integer("lease")?,
+        spec: row.text("spec")?,
+        attempt: unsigned(row, "attempts")?,
+        waited_ms: now.monotonic_ms.saturating_sub(row.integer("queued_at")?),
+        deadline_in_ms: deadline_at.map(|at| at.saturating_sub(now.monotonic_ms)),
+        memory_mb: row.integer("memory_mb")?,
+        cpu_ms: row.integer("cpu_ms")?,
+        checkpoint,
+    })
+}
+
+/// Parses a stored JSON document.
+pub(in crate::store) fn parsed<T: DeserializeOwned>(
+    id: Uuid,
+    what: &'static str,
+    text: &str,
+) -> Result<T, StoreError> {
+    serde_json::from_str(text).map_err(|cause| corrupt(id, what, &cause))
+}
+
+/// The error of a stored value that cannot be read.
+pub(in crate::store) fn corrupt(id: Uuid, what: &'static str, cause: &impl ToString) -> StoreError {
+    StoreError::Corrupt {
+        id,
+        what,
+        cause: cause.to_string(),
+    }
+}
+
+/// Converts a count or cycle to the integer of a database; saturates.
+pub(in crate::store) fn integer(value: impl TryInto<i64>) -> i64 {
+    value.try_into().unwrap_or(i64::MAX)
+}
+
+/// The document of the event of a new attempt, which starts at a cycle.
+pub(in crate::store) fn attempt_event(attempt: u32, from_cycle: u64) -> Result<String, StoreError> {
+    Ok(serde_json::to_string(&Attempt {
+        attempt,
+        from_cycle,
+    })?)
+}
+
+/// Formats milliseconds since 1970 as RFC 3339.
+pub(in crate::store) fn timestamp(milliseconds: i64) -> String {
+    Timestamp::from_millisecond(milliseconds)
+        .map_or_else(|_| milliseconds.to_string(), |time| time.to_string())
+}
