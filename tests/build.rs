@@ -1,14 +1,18 @@
 //! Detects the optional programs that some cases need; cases whose program is absent are ignored, visibly.
 
+#[path = "../server/build/postgresql.rs"]
+mod postgresql;
+
 use std::path::Path;
 use std::process::Command;
 
 fn main() {
+    postgresql::find();
     println!("cargo::rerun-if-changed=build.rs");
     println!("cargo::rerun-if-env-changed=FRETWEAR_PYTHON");
     println!("cargo::rerun-if-env-changed=PATH");
     println!(
-        "cargo::rustc-check-cfg=cfg(has_vtk, has_axe, has_cc, has_ccx, has_chromium, has_curl, has_fma, has_moto, has_mount, has_schemathesis, has_slurm)"
+        "cargo::rustc-check-cfg=cfg(has_vtk, has_axe, has_cc, has_ccx, has_chromium, has_curl, has_fma, has_haproxy, has_moto, has_mount, has_schemathesis, has_slurm)"
     );
     let python = std::env::var("FRETWEAR_PYTHON").unwrap_or_else(|_| "python3".to_owned());
     println!("cargo::rustc-env=FRETWEAR_PYTHON={python}");
@@ -46,6 +50,9 @@ fn main() {
     println!("cargo::rustc-env=FRETWEAR_AXE={}", axe.display());
     if axe.is_file() {
         println!("cargo::rustc-cfg=has_axe");
+    }
+    if runs(Command::new("haproxy").arg("-v")) {
+        println!("cargo::rustc-cfg=has_haproxy");
     }
     if has_slurm() {
         println!("cargo::rustc-cfg=has_slurm");

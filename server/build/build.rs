@@ -1,12 +1,14 @@
 //! What the program contains besides its code: the commit that it is built from, and the dashboard.
 
 mod assets;
+mod postgresql;
 
 use std::process::Command;
 
 fn main() -> std::io::Result<()> {
     println!("cargo::rerun-if-changed=build");
     assets::embed()?;
+    postgresql::find();
     println!("cargo::rerun-if-env-changed=FRETWEAR_COMMIT");
     // The log of HEAD grows with each commit and checkout; in a copy without it the commit is not known.
     println!("cargo::rerun-if-changed=../.git/logs/HEAD");

@@ -120,13 +120,13 @@ enum Command {
         /// The folder.
         into: PathBuf,
         /// The database.
-        #[arg(long, env = "FRETWEAR_DATABASE", default_value = DATABASE)]
+        #[arg(long, env = "FRETWEAR_DATABASE", default_value = DATABASE, hide_env_values = true)]
         database: String,
     },
     /// Read all results of a database, also while it is served, and compare their checksums.
     Verify {
         /// The database.
-        #[arg(long, env = "FRETWEAR_DATABASE", default_value = DATABASE)]
+        #[arg(long, env = "FRETWEAR_DATABASE", default_value = DATABASE, hide_env_values = true)]
         database: String,
         /// The store of objects that results were moved to.
         #[arg(long, env = "FRETWEAR_OBJECTS")]
@@ -137,7 +137,7 @@ enum Command {
         /// The folder of the backup.
         from: PathBuf,
         /// The database.
-        #[arg(long, env = "FRETWEAR_DATABASE", default_value = DATABASE)]
+        #[arg(long, env = "FRETWEAR_DATABASE", default_value = DATABASE, hide_env_values = true)]
         database: String,
     },
     #[command(flatten)]

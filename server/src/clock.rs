@@ -31,6 +31,12 @@ impl Now {
         }
     }
 
+    /// When something of this length ends that begins now, ms of the monotonic clock.
+    pub fn end_of(self, length: Duration) -> i64 {
+        let length_ms = i64::try_from(length.as_millis()).unwrap_or(i64::MAX);
+        self.monotonic_ms.saturating_add(length_ms)
+    }
+
     /// How far the system's clock was stepped since the process started, ms.
     pub fn stepped_ms(self) -> i64 {
         let difference = self.system_ms.saturating_sub(self.monotonic_ms);
@@ -58,6 +64,8 @@ pub enum Clock {
     /// Those of this process.
     #[default]
     System,
+    /// That of the database, which this process does not know.
+    Database,
     /// A time that a test sets, ms.
     Manual(AtomicI64),
 }
@@ -66,15 +74,22 @@ impl Clock {
     /// The present time.
     pub fn now(&self) -> Now {
         match self {
-            Self::System => Now::read(),
+            Self::System | Self::Database => Now::read(),
             Self::Manual(ms) => ms.load(Ordering::Relaxed).into(),
         }
     }
 
     /// When something of this length ends that begins now, ms of the monotonic clock.
     pub fn end_of(&self, length: Duration) -> i64 {
-        let length_ms = i64::try_from(length.as_millis()).unwrap_or(i64::MAX);
-        self.now().monotonic_ms.saturating_add(length_ms)
+        self.now().end_of(length)
+    }
+
+    /// How far the system's clock was stepped since the process started, ms; 0 where times are of another clock.
+    pub fn stepped_ms(&self) -> i64 {
+        match self {
+            Self::System => Now::read().stepped_ms(),
+            Self::Database | Self::Manual(_) => 0,
+        }
     }
 }
 

@@ -4,6 +4,7 @@ mod maintenance;
 mod objects;
 
 use std::net::SocketAddr;
+use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -15,7 +16,7 @@ use tokio_util::sync::CancellationToken;
 use crate::http;
 use crate::http::{Access, App, Tls};
 use crate::objects::Objects;
-use crate::store::{Limits, Store, StoreError};
+use crate::store::{Limits, Store, StoreError, shown_address};
 use crate::supervision::{Supervisor, TaskName, WORKER};
 use crate::worker;
 use crate::worker::{REMOTE_LEASE, WorkerConfig, WorkerProcess};
@@ -34,8 +35,10 @@ pub struct Config {
     pub access: Access,
     /// Certificate and key; plain HTTP without.
     pub tls: Option<Tls>,
-    /// Address of the database, `sqlite://PATH`.
+    /// Address of the database, `sqlite://PATH` or `postgres://USER@HOST/NAME`.
     pub database: String,
+    /// Where the large results of a PostgreSQL database are: in the folder of this name with `.results` behind it.
+    pub files: PathBuf,
     /// Store of objects that results are moved to.
     pub objects: Option<Objects>,
     /// Number of jobs solved at the same time.
@@ -120,13 +123,13 @@ impl Service {
         };
         let listener = bound(config.listen).map_err(listen)?;
         let address = listener.local_addr().map_err(listen)?;
-        let store = Store::open_with(&config.database, config.limits).await?;
+        let store = Store::open_with(&config.database, &config.files, config.limits).await?;
         let moves_results = config.objects.is_some();
         let store = Arc::new(store.with_objects(config.objects).await?);
         let worker = Arc::new(config.worker);
         let reclaimed = store.reclaim_at_start(worker.lease, REMOTE_LEASE).await?;
         let (queued, ending) = (reclaimed.queued, reclaimed.ending.len());
-        tracing::info!(%address, database = config.database, workers = config.workers, queued, ending, "service started");
+        tracing::info!(%address, database = shown_address(&config.database), workers = config.workers, queued, ending, "service started");
         let (stopping, supervisor) = (CancellationToken::new(), Arc::new(Supervisor::default()));
         let mut tasks = Tasks {
             running: JoinSet::new(),

@@ -41,6 +41,7 @@ mod objects;
 mod plated_contact;
 mod plated_presets;
 mod point_contact;
+mod postgresql;
 mod predicted_cost;
 mod readme_commands;
 mod refused_specifications;

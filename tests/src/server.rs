@@ -10,10 +10,16 @@ use nix::sys::signal::{Signal, kill};
 use nix::unistd::Pid;
 use serde_json::Value;
 
+use crate::postgres::PostgresServer;
 use crate::program::binary;
 
 /// Timeout of every wait; no measure of speed.
 const PATIENCE: Duration = Duration::from_mins(4);
+
+/// File with the address of the database of a folder.
+const ADDRESS: &str = "database-url";
+/// Lets every case use PostgreSQL. Those about the file of a database, its disk and its clock then fail.
+const EVERYWHERE: &str = "FRETWEAR_TEST_POSTGRESQL";
 
 /// A running service.
 #[derive(Debug)]
@@ -314,9 +320,9 @@ impl Server {
 
 /// The command of a service with its database in a folder; one worker unless the options name another number.
 fn serve(folder: &Path, options: &[&str]) -> Command {
-    let database = format!("sqlite://{}", folder.join("fretwear.db").display());
     let mut command = Command::new(binary());
-    command.args(["serve", "--database", &database]);
+    command.args(["serve", "--database", &database(folder), "--files"]);
+    command.arg(folder.join("fretwear"));
     if !options.contains(&"--listen") {
         command.args(["--listen", "127.0.0.1:0"]);
     }
@@ -325,6 +331,33 @@ fn serve(folder: &Path, options: &[&str]) -> Command {
     }
     command.args(options);
     command
+}
+
+/// Lets the services of a folder serve a database of the PostgreSQL server that the cases share.
+///
+/// # Panics
+/// If the folder cannot be written.
+pub fn use_postgresql(folder: &Path) -> String {
+    let url = PostgresServer::shared().new_database();
+    use_database(folder, &url);
+    url
+}
+
+/// Lets the services of a folder serve a database.
+///
+/// # Panics
+/// If the folder cannot be written.
+pub fn use_database(folder: &Path, url: &str) {
+    std::fs::write(folder.join(ADDRESS), url).expect("a file");
+}
+
+/// Address of the database of a folder.
+fn database(folder: &Path) -> String {
+    match std::fs::read_to_string(folder.join(ADDRESS)) {
+        Ok(url) => url,
+        Err(_) if std::env::var_os(EVERYWHERE).is_some() => use_postgresql(folder),
+        Err(_) => format!("sqlite://{}", folder.join("fretwear.db").display()),
+    }
 }
 
 /// The address in a line of the log, if it has one.

@@ -39,9 +39,14 @@ pub(in crate::batch) fn read<T: DeserializeOwned>(bytes: &[u8]) -> Result<T, Ref
     })
 }
 
-/// Returns the fault of a name that is too long.
+/// Returns the fault of a name that is too long, or that no database can store.
 pub(in crate::batch) fn name_fault(name: Option<&str>) -> Option<Fault> {
-    let length = name?.chars().count();
-    let detail = format!("{length} characters, at most {NAME_LIMIT} are allowed");
-    (length > NAME_LIMIT).then(|| Fault::new("/name", detail))
+    let name = name?;
+    let length = name.chars().count();
+    if length > NAME_LIMIT {
+        let detail = format!("{length} characters, at most {NAME_LIMIT} are allowed");
+        return Some(Fault::new("/name", detail));
+    }
+    let has_nul = name.contains('\0');
+    has_nul.then(|| Fault::new("/name", "the character U+0000 is not allowed"))
 }

@@ -27,9 +27,24 @@ pub(super) struct ServeArguments {
     pub(super) access: AccessOptions,
     #[command(flatten)]
     pub(super) tls: TlsOptions,
-    /// The database.
-    #[arg(long, env = "FRETWEAR_DATABASE", default_value = DATABASE)]
+    /// The database: sqlite://PATH, which one service serves, or postgres://USER@HOST/NAME, which several services serve. A password
+    /// belongs into the variable or into ~/.pgpass, because other users of the machine see the command.
+    #[arg(
+        long,
+        env = "FRETWEAR_DATABASE",
+        default_value = DATABASE,
+        hide_env_values = true
+    )]
     pub(super) database: String,
+    /// Where large results are with a PostgreSQL database: in the folder PATH.results, which all its services share. Those of a SQLite
+    /// database are beside it.
+    #[arg(
+        long,
+        env = "FRETWEAR_FILES",
+        value_name = "PATH",
+        default_value = "fretwear"
+    )]
+    pub(super) files: PathBuf,
     /// A store of objects that results of succeeded jobs are moved to: s3://BUCKET/PREFIX, with endpoint, region and keys of the
     /// environment (AWS_ENDPOINT_URL, AWS_REGION, AWS_ACCESS_KEY_ID, ..), or file:///PATH; they stay in the database unless given.
     #[arg(long, env = "FRETWEAR_OBJECTS")]

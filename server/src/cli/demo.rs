@@ -50,6 +50,7 @@ async fn demonstrate(listen: SocketAddr, exit: bool) -> Result<(), DemoError> {
         listen,
         tls: None,
         access: Access::default(),
+        files: folder.join("fretwear"),
         database,
         objects: None,
         workers: workers(None),

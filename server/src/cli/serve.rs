@@ -26,6 +26,7 @@ pub(super) fn run(arguments: ServeArguments) -> Ended {
         keep_days: work.keep_days,
         worker: work.config(program),
         database: arguments.database,
+        files: arguments.files,
         objects,
     };
     block_on(async {

@@ -22,6 +22,7 @@ async fn service(folder: &TempDir) -> Service {
         listen: SocketAddr::from(([127, 0, 0, 1], 0)),
         access: Access::default(),
         tls: None,
+        files: folder.path().join("test"),
         database: format!("sqlite://{}", folder.path().join("test.db").display()),
         objects: None,
         workers: WORKERS,

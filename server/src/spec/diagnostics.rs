@@ -151,12 +151,14 @@ impl Diagnostics {
         count
     }
 
-    /// Adds a fault if a text is too long.
+    /// Adds a fault if a text is too long, or has the character that databases cannot store in a text.
     pub(crate) fn check_text(&mut self, pointer: &str, text: &str, limit: usize) {
         let length = text.chars().count();
         if length > limit {
             let detail = format!("{length} characters, at most {limit} are allowed");
             self.fault(pointer, detail);
+        } else if text.contains('\0') {
+            self.fault(pointer, "the character U+0000 is not allowed");
         }
     }
 

@@ -4,10 +4,11 @@ use std::collections::BTreeMap;
 
 use api::job::Status;
 
+use crate::store::StoreError;
 use crate::store::batches::{BatchJob, BatchOverview};
 use crate::store::document::status_and_reason;
+use crate::store::local::Local;
 use crate::store::rows::{StoredRow, outcome, parsed, summary, timestamp};
-use crate::store::{DataDisk, StoreError};
 
 /// Returns a batch without its jobs.
 pub(in crate::store) fn batch_overview(
@@ -24,11 +25,11 @@ pub(in crate::store) fn batch_overview(
 
 /// Returns a job of a batch, without its profile.
 pub(in crate::store) fn batch_job(
-    disk: &DataDisk,
+    local: &Local,
     row: &impl StoredRow,
 ) -> Result<BatchJob, StoreError> {
     let id = row.id("job_id")?;
-    let (status, status_reason) = status_and_reason(disk, id, row)?;
+    let (status, status_reason) = status_and_reason(local, id, row)?;
     Ok(BatchJob {
         id,
         overrides: parsed(id, "overrides", &row.text("overrides")?)?,

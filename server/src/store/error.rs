@@ -12,7 +12,9 @@ use crate::objects::ObjectsError;
 #[derive(Debug, thiserror::Error)]
 pub enum StoreError {
     /// The database address is invalid.
-    #[error("`{url}` is not the address of a database such as sqlite://fretwear.db")]
+    #[error(
+        "`{url}` is not the address of a database such as sqlite://fretwear.db or postgres://USER@HOST/NAME"
+    )]
     Address {
         /// The address.
         url: String,
@@ -85,6 +87,31 @@ pub enum StoreError {
         /// The oldest accepted version.
         oldest: &'static str,
     },
+    /// The address of a PostgreSQL server is invalid. It is not shown: it may have a password.
+    #[error("the address of the PostgreSQL database is invalid: {cause}")]
+    Server {
+        /// Why.
+        cause: String,
+    },
+    /// A PostgreSQL server beyond this machine whose name would not be verified.
+    #[error(
+        "{host} is not this machine: add ?sslmode=verify-full (and sslrootcert=FILE) to the address of the database"
+    )]
+    Unverified {
+        /// Name of the server.
+        host: String,
+    },
+    /// The PostgreSQL server is too old.
+    #[error("the PostgreSQL server has version {found}, at least {oldest} is needed")]
+    OldServer {
+        /// Its version.
+        found: i64,
+        /// The oldest accepted version.
+        oldest: i64,
+    },
+    /// What is done with the database's own tools.
+    #[error("this is for SQLite databases; of a PostgreSQL database, use pg_dump and pg_restore")]
+    OnlySqlite,
     /// A schema migration failed.
     #[error("migrating the database: {0}")]
     Migrate(#[source] Box<dyn Error + Send + Sync>),

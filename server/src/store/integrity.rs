@@ -6,8 +6,10 @@ use std::path::Path;
 
 use api::results::ResultFile;
 use sha2::{Digest, Sha256};
+use uuid::Uuid;
 
 use crate::export::files::hexadecimal;
+use crate::solve::checkpoint::EncodedCheckpoint;
 
 const BLOCK: usize = 64 << 10;
 
@@ -52,6 +54,20 @@ impl From<std::io::Error> for IntegrityError {
             _ => Self::Read(cause),
         }
     }
+}
+
+/// Returns a stored checkpoint; `None`, with an error in the log, if its checksum differs.
+pub(in crate::store) fn checkpoint(
+    id: Uuid,
+    cycle: u64,
+    sha256: &[u8],
+    state: Vec<u8>,
+) -> Option<EncodedCheckpoint> {
+    if Sha256::digest(&state).as_slice() == sha256 {
+        return Some(EncodedCheckpoint { cycle, state });
+    }
+    tracing::error!(job = %id, cycle, "the checkpoint is damaged: its checksum differs; the job restarts at cycle 0");
+    None
 }
 
 /// The bytes of a content so far, to be compared with its entry once they are complete.

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use api::job::Status;
-use tokio::sync::{Notify, broadcast};
+use tokio::sync::{Notify, broadcast, mpsc};
 use uuid::Uuid;
 
 use crate::clock::Clock;
@@ -17,11 +17,22 @@ use crate::store::{Cancelled, DataDisk, LeaseState, Limits};
 /// Number of changes that a subscriber may fall behind.
 const CHANGE_CAPACITY: usize = 1024;
 
+/// What the processes that serve the same database are told.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(in crate::store) enum Told {
+    /// Jobs wait in the queue.
+    Waiting,
+    /// A job has changed.
+    Changed(Uuid),
+}
+
 /// What this process has of a store.
 #[derive(Debug)]
 pub(in crate::store) struct Local {
     pub(in crate::store) changes: broadcast::Sender<Uuid>,
-    pub(in crate::store) waiting: Notify,
+    pub(in crate::store) waiting: Arc<Notify>,
+    /// To the processes that serve the same database.
+    pub(in crate::store) others: Option<mpsc::UnboundedSender<Told>>,
     pub(in crate::store) folder: Folder,
     /// Where results of succeeded jobs are moved to.
     pub(in crate::store) objects: Option<Objects>,
@@ -42,7 +53,8 @@ impl Local {
         let (changes, _) = broadcast::channel(CHANGE_CAPACITY);
         Self {
             changes,
-            waiting: Notify::new(),
+            waiting: Arc::default(),
+            others: None,
             folder: Folder::beside(files),
             objects: None,
             machine: beside(files, ".machine.json"),
@@ -63,6 +75,15 @@ impl Local {
     pub(in crate::store) fn changed(&self, id: Uuid) {
         // Without a subscriber this is not an error.
         let _ = self.changes.send(id);
+        self.tell(Told::Changed(id));
+    }
+
+    /// Tells the processes that serve the same database.
+    fn tell(&self, told: Told) {
+        if let Some(others) = &self.others {
+            // The task that tells them ends with the store.
+            let _ = others.send(told);
+        }
     }
 
     /// Notifies subscribers of a committed cancel request, which ends a queued job.
@@ -78,7 +99,10 @@ impl Local {
     pub(in crate::store) fn concluded(&self, id: Uuid, status: Option<Status>) {
         self.changed(id);
         match status {
-            Some(Status::Queued) => self.waiting.notify_one(),
+            Some(Status::Queued) => {
+                self.waiting.notify_one();
+                self.tell(Told::Waiting);
+            }
             Some(status) if status.is_terminal() => self.metrics.ended(status),
             _ => {}
         }
@@ -88,6 +112,7 @@ impl Local {
     pub(in crate::store) fn many_wait(&self) {
         self.waiting.notify_waiters();
         self.waiting.notify_one();
+        self.tell(Told::Waiting);
     }
 
     /// Removes the files of a deleted job. Files that cannot be removed are logged and remain until the next start.

@@ -5,14 +5,16 @@ mod leases;
 mod results;
 mod service;
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use reqwest::Url;
 use uuid::Uuid;
 
 use crate::clock::Clock;
 use crate::metrics::Metrics;
 use crate::store::local::Local;
+use crate::store::postgres::PostgresStore;
 use crate::store::sqlite::SqliteStore;
 use crate::store::{
     AllChanges, BatchDetail, Changes, DataDisk, Lease, Limits, SnapshotPart, StoreError,
@@ -28,16 +30,19 @@ pub struct Store(pub(in crate::store) Engine);
 pub(in crate::store) enum Engine {
     /// A file.
     Sqlite(Box<SqliteStore>),
+    /// A database of a server.
+    Postgres(Box<PostgresStore>),
 }
 
-/// Lets the store have an operation that each engine has.
+/// Lets the store have an operation that each engine has. Boxed, so that what waits for it is not as large as that of both engines.
 macro_rules! operations {
     ($($(#[$doc:meta])* $visibility:vis async fn $name:ident(&self $(, $argument:ident: $type:ty)*) -> $result:ty;)*) => {
         impl $crate::store::Store {
             $($(#[$doc])*
             $visibility async fn $name(&self $(, $argument: $type)*) -> $result {
                 match &self.0 {
-                    $crate::store::operations::Engine::Sqlite(store) => store.$name($($argument),*).await,
+                    $crate::store::operations::Engine::Sqlite(store) => Box::pin(store.$name($($argument),*)).await,
+                    $crate::store::operations::Engine::Postgres(store) => Box::pin(store.$name($($argument),*)).await,
                 }
             })*
         }
@@ -46,27 +51,40 @@ macro_rules! operations {
 use operations;
 
 impl Store {
-    /// Opens the database at `url` (`sqlite://PATH`), creates it if it is missing, and migrates its schema.
+    /// Opens the database at `url` and migrates its schema: `sqlite://PATH`, which is created if it is missing, or
+    /// `postgres://USER@HOST/NAME`, whose large results are in the folder `files`.results; those of a file are beside it.
     ///
     /// # Errors
-    /// [`StoreError`], among others if another process serves the database.
-    pub async fn open_with(url: &str, limits: Limits) -> Result<Self, StoreError> {
-        Self::open_by(url, limits, Clock::System).await
+    /// [`StoreError`], among others if another process serves the file.
+    pub async fn open_with(url: &str, files: &Path, limits: Limits) -> Result<Self, StoreError> {
+        Self::open_by(url, files, limits, Clock::System).await
     }
 
     /// Opens it with a clock by which leases are measured.
     ///
     /// # Errors
     /// [`StoreError`], as [`Store::open_with`].
-    pub async fn open_by(url: &str, limits: Limits, clock: Clock) -> Result<Self, StoreError> {
-        let store = SqliteStore::open(url, limits, clock).await?;
-        Ok(Self(Engine::Sqlite(Box::new(store))))
+    pub async fn open_by(
+        url: &str,
+        files: &Path,
+        limits: Limits,
+        clock: Clock,
+    ) -> Result<Self, StoreError> {
+        let engine = if is_postgres(url) {
+            let opened = Box::pin(PostgresStore::open(url, files, limits, clock));
+            Engine::Postgres(Box::new(opened.await?))
+        } else {
+            let opened = Box::pin(SqliteStore::open(url, limits, clock));
+            Engine::Sqlite(Box::new(opened.await?))
+        };
+        Ok(Self(engine))
     }
 
     /// Closes all connections.
     pub async fn close(&self) {
         match &self.0 {
             Engine::Sqlite(store) => store.close().await,
+            Engine::Postgres(store) => store.close().await,
         }
     }
 
@@ -143,12 +161,33 @@ impl Store {
     pub(in crate::store) fn local(&self) -> &Local {
         match &self.0 {
             Engine::Sqlite(store) => &store.local,
+            Engine::Postgres(store) => &store.local,
         }
     }
 
     pub(in crate::store) fn local_mut(&mut self) -> &mut Local {
         match &mut self.0 {
             Engine::Sqlite(store) => &mut store.local,
+            Engine::Postgres(store) => &mut store.local,
         }
     }
+}
+
+/// The address of a database as it may be shown, without a password.
+pub fn shown_address(url: &str) -> String {
+    if !is_postgres(url) {
+        return url.to_owned();
+    }
+    let shown = |mut url: Url| {
+        // Fails for addresses without host, which have no password.
+        let _ = url.set_password(None);
+        url.set_query(None);
+        url.to_string()
+    };
+    Url::parse(url).map_or_else(|_| "postgres:".to_owned(), shown)
+}
+
+/// Whether an address is that of a PostgreSQL database.
+pub(in crate::store) fn is_postgres(url: &str) -> bool {
+    url.starts_with("postgres:") || url.starts_with("postgresql:")
 }

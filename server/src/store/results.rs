@@ -113,3 +113,14 @@ pub enum SnapshotPart {
     /// Friction loop.
     Loop,
 }
+
+impl SnapshotPart {
+    /// The column that has it.
+    pub(in crate::store) fn column(self) -> &'static str {
+        match self {
+            Self::Profile => "profile",
+            Self::Pressure => "pressure",
+            Self::Loop => "friction_loop",
+        }
+    }
+}

@@ -2,7 +2,7 @@
 
 use api::event::Attempt;
 use api::job::{Outcome, Status};
-use api::results::{ResultFile, Summary};
+use api::results::{ResultFile, Snapshot, Summary};
 use api::worker::WorkerToken;
 use jiff::Timestamp;
 use serde::de::DeserializeOwned;
@@ -156,6 +156,18 @@ pub(in crate::store) fn claim(
         memory_mb: row.integer("memory_mb")?,
         cpu_ms: row.integer("cpu_ms")?,
         checkpoint,
+    })
+}
+
+/// A snapshot from its texts: profile, pressure and friction loop.
+pub(in crate::store) fn snapshot(
+    id: Uuid,
+    (profile, pressure, friction_loop): &(String, String, String),
+) -> Result<Snapshot, StoreError> {
+    Ok(Snapshot {
+        profile: parsed(id, "snapshot", profile)?,
+        pressure: parsed(id, "snapshot", pressure)?,
+        friction_loop: parsed(id, "snapshot", friction_loop)?,
     })
 }
 

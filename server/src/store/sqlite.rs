@@ -8,7 +8,6 @@ mod batches;
 mod blocks;
 mod checkpoints;
 mod claims;
-mod errors;
 mod events;
 mod files;
 mod gauges;
@@ -38,10 +37,12 @@ use std::fs::File;
 use std::path::PathBuf;
 use std::time::Instant;
 
+use api::job::Status;
 use sqlx::sqlite::SqlitePool;
 use uuid::Uuid;
 
 use crate::store::local::Local;
+use crate::store::sqlite::submissions::{Submission, Submissions, write};
 use crate::store::{NewJob, RequestKey, StoreError, Submitted};
 pub use owner::OWNER_HEARTBEAT;
 
@@ -55,7 +56,7 @@ pub(in crate::store) struct SqliteStore {
     /// Id of this process as the owner of the database.
     owner: Uuid,
     wal: PathBuf,
-    submissions: submissions::Submissions,
+    submissions: Submissions,
     /// When the database was last written by [`SqliteStore::ready`].
     last_probe: tokio::sync::Mutex<Option<Instant>>,
     /// Held as long as the store is open.
@@ -69,11 +70,15 @@ impl SqliteStore {
         key: Option<&RequestKey>,
     ) -> Result<Submitted, StoreError> {
         self.local.disk.check()?;
-        let now = self.local.clock.now();
-        let submitted = self.submissions.submit(&self.writer, job, key, now).await?;
+        let submission = Submission {
+            job: job.clone(),
+            key: key.cloned(),
+            now: self.local.clock.now(),
+        };
+        let write = |group| write(self.writer.clone(), group);
+        let submitted = self.submissions.ask(submission, write).await?;
         if let Submitted::Job(id) = submitted {
-            self.local.changed(id);
-            self.local.waiting.notify_one();
+            self.local.concluded(id, Some(Status::Queued));
         }
         Ok(submitted)
     }

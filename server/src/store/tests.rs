@@ -1,11 +1,46 @@
 //! The contract of the store over a real database: fencing, contention, reclaiming, restarts.
 
+#[expect(
+    unreachable_pub,
+    reason = "the file belongs to the crate of the end-to-end cases, too"
+)]
+#[path = "../../../tests/src/postgres.rs"]
+mod postgres;
+
+/// Runs tests on each engine, with a fixture at a place of its own.
+macro_rules! on_both_engines {
+    ($fixture:ident: $($name:ident,)+) => {
+        mod sqlite {
+            $(
+                #[tokio::test(flavor = "multi_thread", worker_threads = 4)]
+                async fn $name() {
+                    let place = crate::store::tests::Place::sqlite();
+                    super::$name(super::$fixture::at(place).await).await;
+                }
+            )+
+        }
+
+        mod postgres {
+            $(
+                #[tokio::test(flavor = "multi_thread", worker_threads = 4)]
+                #[cfg_attr(not(has_postgresql), ignore = "needs the programs of PostgreSQL")]
+                async fn $name() {
+                    let place = crate::store::tests::Place::postgres();
+                    super::$name(super::$fixture::at(place).await).await;
+                }
+            )+
+        }
+    };
+}
+
 mod checkpoints;
+mod columns;
 mod files;
 mod leases;
 mod objects;
 mod order;
 
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicI64, Ordering};
 use std::time::Duration;
@@ -29,7 +64,7 @@ pub(crate) use super::sqlite::tests::{fill_disk, hold_write_lock};
 impl Store {
     /// Opens a database with default limits.
     pub(crate) async fn open(url: &str) -> Result<Self, StoreError> {
-        Self::open_with(url, Limits::default()).await
+        Self::open_with(url, Path::new("unused"), Limits::default()).await
     }
 
     /// Queues a job.
@@ -116,6 +151,34 @@ pub(in crate::store) fn numbered(update: JobUpdate) -> JobUpdate {
     JobUpdate { number, ..update }
 }
 
+/// An empty database, and a folder.
+pub(in crate::store) struct Place {
+    pub(in crate::store) folder: TempDir,
+    pub(in crate::store) url: String,
+}
+
+impl Place {
+    /// In a file in the folder.
+    pub(in crate::store) fn sqlite() -> Self {
+        let folder = TempDir::new().expect("a temporary folder");
+        let url = format!("sqlite://{}", folder.path().join("test.db").display());
+        Self { folder, url }
+    }
+
+    /// In a server that the tests share.
+    pub(in crate::store) fn postgres() -> Self {
+        Self {
+            folder: TempDir::new().expect("a temporary folder"),
+            url: postgres::PostgresServer::shared().new_database(),
+        }
+    }
+
+    /// Where large results are.
+    pub(in crate::store) fn files(&self) -> PathBuf {
+        self.folder.path().join("test.db")
+    }
+}
+
 pub(in crate::store) struct Fixture {
     pub(in crate::store) store: Arc<Store>,
     pub(in crate::store) url: String,
@@ -123,12 +186,17 @@ pub(in crate::store) struct Fixture {
 }
 
 impl Fixture {
+    /// In a file.
     pub(in crate::store) async fn new() -> Self {
-        let folder = TempDir::new().expect("a temporary folder");
-        let url = format!("sqlite://{}", folder.path().join("test.db").display());
+        Self::at(Place::sqlite()).await
+    }
+
+    pub(in crate::store) async fn at(place: Place) -> Self {
         let clock = Clock::Manual(AtomicI64::new(0));
-        let store = Store::open_by(&url, Limits::default(), clock).await;
+        let files = place.files();
+        let store = Store::open_by(&place.url, &files, Limits::default(), clock).await;
         let store = Arc::new(store.expect("a store"));
+        let Place { folder, url } = place;
         Self { store, url, folder }
     }
 

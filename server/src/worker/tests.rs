@@ -47,7 +47,11 @@ impl Scripted {
         std::fs::set_permissions(&program, std::fs::Permissions::from_mode(0o755))
             .expect("a program");
         let url = format!("sqlite://{}", folder.path().join("test.db").display());
-        let store = Arc::new(Store::open_with(&url, LIMITS).await.expect("a store"));
+        let store = Arc::new(
+            Store::open_with(&url, folder.path(), LIMITS)
+                .await
+                .expect("a store"),
+        );
         let resolved = spec::read(br#"{"system":{"kind":"fuzz_button"}}"#).expect("accepted");
         let spec = Spec {
             name,

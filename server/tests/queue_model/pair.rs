@@ -2,6 +2,7 @@
 
 mod requests;
 
+use std::path::Path;
 use std::sync::atomic::{AtomicI64, Ordering};
 
 use api::job::Status;
@@ -12,7 +13,6 @@ use server::estimate::Estimate;
 use server::queue::{Transition, sort_key};
 use server::spec;
 use server::store::{Claim, Limits, NewJob, Store, SubmitOptions, Submitted};
-use tempfile::TempDir;
 use uuid::Uuid;
 
 use crate::model::{ATTEMPT_LIMIT, ModelJob};
@@ -37,11 +37,10 @@ const LIMITS: Limits = Limits {
 };
 
 impl Pair {
-    pub(crate) async fn new(folder: &TempDir) -> Self {
-        let url = format!("sqlite://{}", folder.path().join("test.db").display());
+    pub(crate) async fn new(url: &str, files: &Path) -> Self {
         let now = 1_000_000;
         let clock = Clock::Manual(AtomicI64::new(now));
-        let store = Store::open_by(&url, LIMITS, clock).await;
+        let store = Store::open_by(url, files, LIMITS, clock).await;
         let store = store.expect("a store");
         let resolved = spec::read(br#"{"system":{"kind":"fuzz_button"}}"#).expect("accepted");
         let plan = Estimate::of(&resolved).plan(&resolved, None);

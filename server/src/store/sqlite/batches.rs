@@ -66,7 +66,7 @@ impl SqliteStore {
         let mut counts = no_jobs();
         let mut jobs = Vec::with_capacity(rows.len());
         for row in rows {
-            let job = batch_job(&self.local.disk, &row)?;
+            let job = batch_job(&self.local, &row)?;
             *counts.entry(job.status.as_str().to_owned()).or_default() += 1;
             jobs.push(job);
         }

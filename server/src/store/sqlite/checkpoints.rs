@@ -7,7 +7,7 @@ use uuid::Uuid;
 use crate::clock::now_ms;
 use crate::solve::checkpoint::EncodedCheckpoint;
 use crate::store::rows::integer;
-use crate::store::{Lease, StoreError};
+use crate::store::{Lease, StoreError, integrity};
 
 /// Returns the checkpoint of a job and deletes the results after its cycle. A checkpoint whose checksum differs is
 /// deleted with all results.
@@ -20,13 +20,8 @@ pub(super) async fn restore(
             .bind(id.to_string())
             .fetch_optional(&mut **transaction)
             .await?;
-    let valid = stored.and_then(|(cycle, sha256, state)| {
-        if Sha256::digest(&state).as_slice() == sha256 {
-            return Some(EncodedCheckpoint { cycle, state });
-        }
-        tracing::error!(job = %id, cycle, "the checkpoint is damaged: its checksum differs; the job restarts at cycle 0");
-        None
-    });
+    let valid =
+        stored.and_then(|(cycle, sha256, state)| integrity::checkpoint(id, cycle, &sha256, state));
     delete_results_after(transaction, id, valid.as_ref().map(|found| found.cycle)).await?;
     Ok(valid)
 }

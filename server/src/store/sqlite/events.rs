@@ -3,13 +3,9 @@
 use sqlx::SqliteConnection;
 use uuid::Uuid;
 
-use crate::store::rows::integer;
 use crate::store::sqlite::SqliteStore;
 use crate::store::sqlite::blocks::stored_block;
-use crate::store::{StoreError, StoredEvent};
-
-/// Largest number of events in an answer.
-const PAGE: usize = 500;
+use crate::store::{StoreError, StoredEvent, events};
 
 impl SqliteStore {
     pub(in crate::store) async fn events(
@@ -17,28 +13,22 @@ impl SqliteStore {
         id: Uuid,
         after: i64,
     ) -> Result<Vec<StoredEvent>, StoreError> {
-        let rows: Vec<(i64, String, String)> = sqlx::query_as(
-            "SELECT seq, name, iif(name = 'done' AND data ->> '$.status' = 'succeeded', \
-             json_set(data, '$.summary', json((SELECT summary FROM jobs WHERE id = job_id))), data) \
+        let rows: Vec<(i64, String, String, Option<String>)> = sqlx::query_as(
+            "SELECT seq, name, data, iif(name = 'done', (SELECT summary FROM jobs WHERE id = job_id), NULL) \
              FROM events WHERE job_id = ? AND seq > ? ORDER BY seq LIMIT ?",
         )
         .bind(id.to_string())
         .bind(after)
-        .bind(integer(PAGE))
+        .bind(events::PAGE)
         .fetch_all(&self.readers)
         .await?;
-        let event = |(seq, name, data)| StoredEvent { seq, name, data };
-        let stored: Vec<_> = rows.into_iter().map(event).collect();
-        // Numbers have no gaps: the events before were moved to an object.
-        let is_whole = stored.first().is_none_or(|first| first.seq == after + 1);
-        if is_whole {
+        let stored = rows.into_iter().map(events::with_summary);
+        let stored: Vec<_> = stored.collect::<Result<_, _>>()?;
+        if events::is_whole(&stored, after) {
             return Ok(stored);
         }
-        let mut events = self.moved_events(id).await?;
-        events.retain(|event| event.seq > after);
-        events.extend(stored);
-        events.truncate(PAGE);
-        Ok(events)
+        let moved = self.moved_events(id).await?;
+        Ok(events::page(moved, stored, after))
     }
 
     /// The events of a job that were moved.

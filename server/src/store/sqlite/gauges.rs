@@ -1,21 +1,16 @@
 //! Gauges for `/metrics`, and the write probe.
 
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
-use api::job::Status;
 use api::service::Demand;
-use jiff::Timestamp;
 
 use crate::metrics::Gauges;
 use crate::store::StoreError;
+use crate::store::gauges::{
+    PROBE_INTERVAL, StatusRow, UNKNOWN_CPU_MS, by_status, progress_age_s, seconds,
+};
 use crate::store::rows::integer;
 use crate::store::sqlite::SqliteStore;
-
-/// Shortest time between two write probes.
-const PROBE_INTERVAL: Duration = Duration::from_secs(1);
-
-/// Processor time that is expected of a job without an estimate, ms. Arbitrary.
-const UNKNOWN_CPU_MS: i64 = 60_000;
 
 impl SqliteStore {
     pub(in crate::store) async fn demand(&self) -> Result<Demand, StoreError> {
@@ -39,24 +34,11 @@ impl SqliteStore {
 
     pub(in crate::store) async fn gauges(&self) -> Result<Gauges, StoreError> {
         let now = self.local.clock.now().system_ms;
-        let rows: Vec<(String, i64, Option<i64>)> = sqlx::query_as(
+        let rows: Vec<StatusRow> = sqlx::query_as(
             "SELECT status, jobs, (SELECT min(created_at) FROM jobs WHERE jobs.status = job_counts.status) FROM job_counts",
         )
         .fetch_all(&self.readers)
         .await?;
-        let jobs = Status::ALL
-            .into_iter()
-            .map(|status| {
-                let row = rows.iter().find(|(name, ..)| name == status.as_str());
-                row.map_or((status, 0, 0), |(_, count, oldest)| {
-                    (
-                        status,
-                        *count,
-                        oldest.map_or(0, |oldest| seconds(now, oldest)),
-                    )
-                })
-            })
-            .collect();
         let oldest: Option<i64> = sqlx::query_scalar(
             "SELECT min(written_at) FROM checkpoints JOIN jobs ON id = job_id WHERE status = 'running'",
         )
@@ -68,7 +50,6 @@ impl SqliteStore {
         )
         .fetch_one(&self.readers)
         .await?;
-        let progress = progress.and_then(|time| time.parse::<Timestamp>().ok());
         let (wal, database) = (
             tokio::fs::metadata(&self.wal).await,
             tokio::fs::metadata(&self.path).await,
@@ -80,12 +61,12 @@ impl SqliteStore {
         .fetch_one(&self.readers)
         .await?;
         Ok(Gauges {
-            jobs,
+            jobs: by_status(&rows, now),
             results_to_move,
             oldest_checkpoint_s: oldest.map_or(0, |written| seconds(now, written)),
             // The file does not exist before the first write.
             wal_bytes: wal.map_or(0, |file| integer(file.len())),
-            oldest_progress_s: progress.map_or(0, |at| seconds(now, at.as_millisecond())),
+            oldest_progress_s: progress_age_s(progress, now),
             database_bytes: database.map_or(0, |file| integer(file.len())),
             disk_free_bytes: self.local.disk.free_mb().map_or(0, |mb| integer(mb << 20)),
             workers_alive: 0,
@@ -107,8 +88,4 @@ impl SqliteStore {
         *last = Some(Instant::now());
         Ok(())
     }
-}
-
-fn seconds(now: i64, since: i64) -> i64 {
-    now.saturating_sub(since).max(0) / 1_000
 }

@@ -8,7 +8,7 @@ use sqlx::sqlite::{SqliteConnectOptions, SqliteConnection};
 use sqlx::{ConnectOptions, Connection};
 
 use crate::store::StoreError;
-use crate::store::sqlite::errors::is_no_database;
+use crate::store::database_errors::is_no_database;
 use crate::store::sqlite::migrations::newest_version;
 
 /// `PRAGMA application_id` of the databases of this program: `frtw` in ASCII.

@@ -4,26 +4,20 @@ use api::job::{Job, JobOverview};
 use api::service::LabelInUse;
 use sqlx::sqlite::SqliteRow;
 use sqlx::{QueryBuilder, Sqlite, SqlitePool};
-use uuid::Uuid;
 
 use crate::clock::now_ms;
 use crate::store::document::document;
+use crate::store::job_ids::{first_created_at, first_created_before};
 use crate::store::overview::overview;
 use crate::store::sqlite::SqliteStore;
 use crate::store::sqlite::selects::{LIFE_CYCLES, select, select_overview};
 use crate::store::{Filter, OrderKey, StoreError};
 
-/// Longest time between the creation of a job and that of its id, ms: the wait for a commit, with a margin. Far fewer jobs are
-/// submitted in it than are stored.
-const SUBMISSION_MS: i64 = 600_000;
-
 impl SqliteStore {
     pub(in crate::store) async fn list(&self, filter: &Filter) -> Result<Vec<Job>, StoreError> {
         let query = filtered(select(), filter);
         let rows = fetch(query, &self.readers).await?;
-        rows.iter()
-            .map(|row| document(&self.local.disk, row))
-            .collect()
+        rows.iter().map(|row| document(&self.local, row)).collect()
     }
 
     pub(in crate::store) async fn list_short(
@@ -32,9 +26,7 @@ impl SqliteStore {
     ) -> Result<Vec<JobOverview>, StoreError> {
         let query = filtered(select_overview(), filter);
         let rows = fetch(query, &self.readers).await?;
-        rows.iter()
-            .map(|row| overview(&self.local.disk, row))
-            .collect()
+        rows.iter().map(|row| overview(&self.local, row)).collect()
     }
 
     pub(in crate::store) async fn count(&self, filter: &Filter) -> Result<u64, StoreError> {
@@ -130,12 +122,12 @@ fn push_conditions(query: &mut QueryBuilder<Sqlite>, filter: &Filter) {
     }
     if let Some(from) = filter.created_from {
         query.push(" AND created_at >= ").push_bind(from);
-        let first = first_id(from.saturating_sub(SUBMISSION_MS));
+        let first = first_created_at(from).to_string();
         query.push(" AND id >= ").push_bind(first);
     }
     if let Some(before) = filter.created_before {
         query.push(" AND created_at < ").push_bind(before);
-        let end = first_id(before.saturating_add(SUBMISSION_MS));
+        let end = first_created_before(before).to_string();
         query.push(" AND id < ").push_bind(end);
     }
     if let Some(sweep) = filter.sweep {
@@ -155,29 +147,5 @@ fn push_conditions(query: &mut QueryBuilder<Sqlite>, filter: &Filter) {
             .push(") OR id IN (SELECT job_id FROM labels WHERE instr(lower(value), ")
             .push_bind(text)
             .push(")))");
-    }
-}
-
-/// The first id that can be created at a time, ms since 1970: ids begin with it (RFC 9562, UUID version 7), so that a time
-/// bounds a range of the primary key.
-fn first_id(time: i64) -> String {
-    let [.., a, b, c, d, e, f] = time.max(0).to_be_bytes();
-    let mut bytes = [0; 16];
-    bytes[..6].copy_from_slice(&[a, b, c, d, e, f]);
-    Uuid::from_bytes(bytes).to_string()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn ids_of_later_times_are_larger_and_new_ones_are_within_their_time() {
-        let id = Uuid::now_v7();
-        let (seconds, nanoseconds) = id.get_timestamp().expect("a time").to_unix();
-        let seconds = i64::try_from(seconds).expect("small");
-        let now = 1_000 * seconds + i64::from(nanoseconds / 1_000_000);
-        assert!(first_id(now) <= id.to_string() && id.to_string() < first_id(now + 1));
-        assert!(first_id(0) < first_id(1) && first_id(-5) == first_id(0));
     }
 }

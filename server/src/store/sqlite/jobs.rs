@@ -18,7 +18,7 @@ impl SqliteStore {
         let Some(row) = query.build().fetch_optional(&self.readers).await? else {
             return Ok(None);
         };
-        let document = document(&self.local.disk, &row)?;
+        let document = document(&self.local, &row)?;
         Ok(Some(StoredJob {
             waits_for_disk: self.local.disk.status_reason(document.status).is_some(),
             document,

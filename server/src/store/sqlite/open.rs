@@ -12,6 +12,7 @@ use crate::clock::Clock;
 use crate::export::files::parent;
 use crate::store::folder::beside;
 use crate::store::local::Local;
+use crate::store::operations::is_postgres;
 use crate::store::sqlite::SqliteStore;
 use crate::store::sqlite::migrations::migrator;
 use crate::store::sqlite::submissions::Submissions;
@@ -101,6 +102,9 @@ impl SqliteStore {
 
 /// Returns the options to connect to the file at `url`.
 pub(super) fn options(url: &str) -> Result<SqliteConnectOptions, StoreError> {
+    if is_postgres(url) {
+        return Err(StoreError::OnlySqlite);
+    }
     // A database in memory would lose every job, and has no folder for a lock file.
     let is_file = |options: &SqliteConnectOptions| {
         let path = options.get_filename().to_string_lossy();

@@ -7,7 +7,7 @@ use sqlx::AssertSqlSafe;
 use uuid::Uuid;
 
 use crate::store::block::Block;
-use crate::store::rows::{integer, parsed};
+use crate::store::rows::{integer, parsed, snapshot};
 use crate::store::sqlite::SqliteStore;
 use crate::store::{SnapshotPart, StoreError};
 
@@ -33,11 +33,7 @@ impl SqliteStore {
         part: SnapshotPart,
         cycle: Option<u64>,
     ) -> Result<Option<String>, StoreError> {
-        let column = match part {
-            SnapshotPart::Profile => "profile",
-            SnapshotPart::Pressure => "pressure",
-            SnapshotPart::Loop => "friction_loop",
-        };
+        let column = part.column();
         let sql = format!(
             "SELECT {column} FROM snapshots WHERE job_id = ? ORDER BY abs(cycle - ?), cycle LIMIT 1"
         );
@@ -60,15 +56,8 @@ impl SqliteStore {
         .bind(id.to_string())
         .fetch_all(&self.readers)
         .await?;
-        let snapshot = |(profile, pressure, friction_loop): &(String, String, String)| {
-            Ok(Snapshot {
-                profile: parsed(id, "snapshot", profile)?,
-                pressure: parsed(id, "snapshot", pressure)?,
-                friction_loop: parsed(id, "snapshot", friction_loop)?,
-            })
-        };
         if !rows.is_empty() {
-            return rows.iter().map(snapshot).collect();
+            return rows.iter().map(|texts| snapshot(id, texts)).collect();
         }
         let packed = self.in_block(id, Block::snapshots).await?;
         Ok(packed.unwrap_or_default())

@@ -16,7 +16,9 @@ use crate::store::sqlite::SqliteStore;
 impl Store {
     /// The store as it is in a file.
     pub(in crate::store) fn sqlite(&self) -> &SqliteStore {
-        let Engine::Sqlite(store) = &self.0;
+        let Engine::Sqlite(store) = &self.0 else {
+            panic!("another engine");
+        };
         store
     }
 }

@@ -2,9 +2,12 @@
 
 use super::*;
 
-#[tokio::test]
-async fn a_second_attempt_starts_with_an_empty_history() {
-    let fixture = Fixture::new().await;
+on_both_engines! { Fixture:
+    a_second_attempt_starts_with_an_empty_history,
+    the_next_attempt_resumes_from_the_checkpoint_and_keeps_earlier_results,
+}
+
+async fn a_second_attempt_starts_with_an_empty_history(fixture: Fixture) {
     let id = fixture.queued().await;
     let claim = fixture.claimed(10).await;
     fixture.recorded(&claim, &update(5), 10).await;
@@ -18,9 +21,7 @@ async fn a_second_attempt_starts_with_an_empty_history() {
     assert_eq!(fixture.cycles(id).await, Vec::<u64>::new());
 }
 
-#[tokio::test]
-async fn the_next_attempt_resumes_from_the_checkpoint_and_keeps_earlier_results() {
-    let fixture = Fixture::new().await;
+async fn the_next_attempt_resumes_from_the_checkpoint_and_keeps_earlier_results(fixture: Fixture) {
     let (id, store) = (fixture.queued().await, &fixture.store);
     let lost = fixture.claimed(10).await;
     fixture.recorded(&lost, &with_checkpoint(3), 10).await;

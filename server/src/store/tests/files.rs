@@ -5,6 +5,11 @@ use crate::export::documents::{CSV, VTU};
 use crate::export::files;
 use crate::store::block::Block;
 
+on_both_engines! { Fixture:
+    removing_files_of_a_lost_attempt_leaves_those_of_the_next_one,
+    a_document_in_a_block_replaces_the_file_that_an_earlier_end_has_left,
+}
+
 /// Writes a file of an attempt; returns its entry.
 fn written(store: &Store, claim: &Claim, name: &str) -> NewFile {
     files::write_atomically(&store.attempt_folder(claim), name, b"fields").expect("written");
@@ -14,9 +19,7 @@ fn written(store: &Store, claim: &Claim, name: &str) -> NewFile {
     }
 }
 
-#[tokio::test]
-async fn removing_files_of_a_lost_attempt_leaves_those_of_the_next_one() {
-    let fixture = Fixture::new().await;
+async fn removing_files_of_a_lost_attempt_leaves_those_of_the_next_one(fixture: Fixture) {
     let (id, store) = (fixture.queued().await, &fixture.store);
     let lost = fixture.claimed(10).await;
     written(store, &lost, "lost.vtu");
@@ -52,9 +55,7 @@ async fn removing_files_of_a_lost_attempt_leaves_those_of_the_next_one() {
     assert!(!store.attempt_folder(&lost).exists());
 }
 
-#[tokio::test]
-async fn a_document_in_a_block_replaces_the_file_that_an_earlier_end_has_left() {
-    let fixture = Fixture::new().await;
+async fn a_document_in_a_block_replaces_the_file_that_an_earlier_end_has_left(fixture: Fixture) {
     let (id, store) = (fixture.queued().await, &fixture.store);
     let first = fixture.claimed(10).await;
     fixture.recorded(&first, &with_checkpoint(5), 10).await;

@@ -2,9 +2,17 @@
 
 use super::*;
 
-#[tokio::test]
-async fn a_worker_that_lost_its_lease_writes_nothing() {
-    let fixture = Fixture::new().await;
+on_both_engines! { Fixture:
+    a_worker_that_lost_its_lease_writes_nothing,
+    a_job_whose_workers_are_lost_fails_after_its_last_attempt,
+    an_attempt_that_left_a_checkpoint_does_not_count,
+    releasing_a_job_costs_no_attempt,
+    a_job_with_a_cancel_request_gets_no_further_attempt,
+    event_numbers_have_no_gaps,
+    every_kind_of_end_is_counted,
+}
+
+async fn a_worker_that_lost_its_lease_writes_nothing(fixture: Fixture) {
     let (id, store) = (fixture.queued().await, &fixture.store);
     let stale = fixture.claimed(10).await;
     assert_eq!(fixture.reclaimed(10).await, 1);
@@ -48,9 +56,7 @@ async fn a_worker_that_lost_its_lease_writes_nothing() {
     assert_eq!(fixture.job(id).await.outcome, Some(Outcome::Completed));
 }
 
-#[tokio::test]
-async fn a_job_whose_workers_are_lost_fails_after_its_last_attempt() {
-    let fixture = Fixture::new().await;
+async fn a_job_whose_workers_are_lost_fails_after_its_last_attempt(fixture: Fixture) {
     let id = fixture.queued().await;
     for attempt in 1..=ATTEMPT_LIMIT {
         assert_eq!(fixture.claimed(10).await.id, id);
@@ -72,9 +78,7 @@ async fn a_job_whose_workers_are_lost_fails_after_its_last_attempt() {
     assert_eq!(events.last().expect("an event").name, "done");
 }
 
-#[tokio::test]
-async fn an_attempt_that_left_a_checkpoint_does_not_count() {
-    let fixture = Fixture::new().await;
+async fn an_attempt_that_left_a_checkpoint_does_not_count(fixture: Fixture) {
     let id = fixture.queued().await;
     let checkpoint = |cycle| JobUpdate {
         checkpoint: Some(EncodedCheckpoint {
@@ -108,9 +112,7 @@ async fn an_attempt_that_left_a_checkpoint_does_not_count() {
     );
 }
 
-#[tokio::test]
-async fn releasing_a_job_costs_no_attempt() {
-    let fixture = Fixture::new().await;
+async fn releasing_a_job_costs_no_attempt(fixture: Fixture) {
     let id = fixture.queued().await;
     for _ in 0..2 * ATTEMPT_LIMIT {
         let claim = fixture.claimed(10).await;
@@ -123,9 +125,7 @@ async fn releasing_a_job_costs_no_attempt() {
     assert_eq!((job.status, job.attempts), (Status::Queued, 0));
 }
 
-#[tokio::test]
-async fn a_job_with_a_cancel_request_gets_no_further_attempt() {
-    let fixture = Fixture::new().await;
+async fn a_job_with_a_cancel_request_gets_no_further_attempt(fixture: Fixture) {
     let id = fixture.queued().await;
     let claim = fixture.claimed(10).await;
     assert_eq!(
@@ -148,9 +148,7 @@ async fn a_job_with_a_cancel_request_gets_no_further_attempt() {
     );
 }
 
-#[tokio::test]
-async fn event_numbers_have_no_gaps() {
-    let fixture = Fixture::new().await;
+async fn event_numbers_have_no_gaps(fixture: Fixture) {
     let id = fixture.queued().await;
     let lost = fixture.claimed(10).await;
     fixture.recorded(&lost, &update(1), 10).await;
@@ -179,9 +177,7 @@ async fn event_numbers_have_no_gaps() {
     );
 }
 
-#[tokio::test]
-async fn every_kind_of_end_is_counted() {
-    let fixture = Fixture::new().await;
+async fn every_kind_of_end_is_counted(fixture: Fixture) {
     let store = &fixture.store;
     let cancelled = fixture.queued().await;
     store.cancel(cancelled).await.expect("the store");

@@ -10,23 +10,33 @@ use crate::objects::Objects;
 use crate::store::block::Block;
 use crate::store::sqlite::backup::{copy_database, copy_named_files};
 
+on_both_engines! { WithObjects:
+    results_of_a_succeeded_job_are_one_object_and_read_as_before,
+    an_object_is_removed_with_its_job,
+    results_of_a_failed_job_are_not_moved,
+    results_stay_while_the_store_of_objects_fails,
+    objects_without_a_name_are_removed,
+    a_job_with_a_damaged_file_keeps_its_results_and_others_are_moved,
+    a_database_whose_results_are_elsewhere_is_not_opened_without_them,
+    an_object_that_cannot_be_removed_stops_nothing,
+}
+
 /// A database whose results are moved into a folder of objects.
 struct WithObjects {
-    folder: TempDir,
+    place: Place,
     store: Arc<Store>,
 }
 
 impl WithObjects {
-    async fn new() -> Self {
-        let folder = TempDir::new().expect("a temporary folder");
-        let store = opened(folder.path(), Some("objects")).await;
+    async fn at(place: Place) -> Self {
+        let store = opened(&place, Some("objects")).await;
         let store = Arc::new(store.expect("a store"));
-        Self { folder, store }
+        Self { place, store }
     }
 
     /// Paths of all objects.
     fn objects(&self) -> Vec<PathBuf> {
-        files_below(&self.folder.path().join("objects"))
+        files_below(&self.place.folder.path().join("objects"))
     }
 
     /// A job that has ended with a document, a file, rows and snapshots.
@@ -80,11 +90,10 @@ impl WithObjects {
     }
 }
 
-async fn opened(folder: &Path, objects: Option<&str>) -> Result<Store, StoreError> {
-    let url = format!("sqlite://{}", folder.join("test.db").display());
-    let address = |name| format!("file://{}", folder.join(name).display());
+async fn opened(place: &Place, objects: Option<&str>) -> Result<Store, StoreError> {
+    let address = |name| format!("file://{}", place.folder.path().join(name).display());
     let objects = objects.map(|name| Objects::open(&address(name)).expect("opened"));
-    let store = Store::open_with(&url, Limits::default()).await?;
+    let store = Store::open_with(&place.url, &place.files(), Limits::default()).await?;
     store.with_objects(objects).await
 }
 
@@ -103,9 +112,7 @@ fn files_below(folder: &Path) -> Vec<PathBuf> {
         .collect()
 }
 
-#[tokio::test]
-async fn results_of_a_succeeded_job_are_one_object_and_read_as_before() {
-    let database = WithObjects::new().await;
+async fn results_of_a_succeeded_job_are_one_object_and_read_as_before(database: WithObjects) {
     let store = &database.store;
     let id = database.ended(Transition::Succeed).await;
     let all = async || {
@@ -132,16 +139,14 @@ async fn results_of_a_succeeded_job_are_one_object_and_read_as_before() {
             .expect("read")
             .is_none()
     );
-    let results = database.folder.path().join("test.db.results");
+    let results = database.place.folder.path().join("test.db.results");
     assert_eq!(files_below(&results), Vec::<PathBuf>::new());
     assert_eq!(database.moved().await, [] as [Uuid; 0]);
     let gauges = store.gauges().await.expect("the store");
     assert_eq!(gauges.results_to_move, 0);
 }
 
-#[tokio::test]
-async fn an_object_is_removed_with_its_job() {
-    let database = WithObjects::new().await;
+async fn an_object_is_removed_with_its_job(database: WithObjects) {
     let id = database.ended(Transition::Succeed).await;
     database.moved().await;
     let deleted = database.store.delete(id).await.expect("the store");
@@ -151,18 +156,14 @@ async fn an_object_is_removed_with_its_job() {
 }
 
 /// The results of a job that may be tried again stay: the next attempt continues them.
-#[tokio::test]
-async fn results_of_a_failed_job_are_not_moved() {
-    let database = WithObjects::new().await;
+async fn results_of_a_failed_job_are_not_moved(database: WithObjects) {
     let id = database.ended(Transition::Fail).await;
     assert_eq!(database.moved().await, [] as [Uuid; 0]);
     assert_eq!(database.read(id, "a.vtu").await.expect("read"), b"fields");
 }
 
-#[tokio::test]
-async fn results_stay_while_the_store_of_objects_fails() {
-    let database = WithObjects::new().await;
-    let objects = database.folder.path().join("objects");
+async fn results_stay_while_the_store_of_objects_fails(database: WithObjects) {
+    let objects = database.place.folder.path().join("objects");
     let id = database.ended(Transition::Succeed).await;
     std::fs::remove_dir(&objects).expect("removed");
     std::fs::write(&objects, "").expect("a file in its place");
@@ -176,11 +177,9 @@ async fn results_stay_while_the_store_of_objects_fails() {
 }
 
 /// Noted keys whose objects no job names belong to moves that a crash has interrupted.
-#[tokio::test]
-async fn objects_without_a_name_are_removed() {
-    let database = WithObjects::new().await;
+async fn objects_without_a_name_are_removed(database: WithObjects) {
     let id = database.ended(Transition::Succeed).await;
-    let objects = database.folder.path().join("objects");
+    let objects = database.place.folder.path().join("objects");
     std::fs::create_dir(objects.join("jobs")).expect("a folder");
     std::fs::write(objects.join("jobs/left"), "").expect("written");
     database
@@ -195,11 +194,9 @@ async fn objects_without_a_name_are_removed() {
     assert!(object.to_string_lossy().contains(&id.to_string()));
 }
 
-#[tokio::test]
-async fn a_job_with_a_damaged_file_keeps_its_results_and_others_are_moved() {
-    let database = WithObjects::new().await;
+async fn a_job_with_a_damaged_file_keeps_its_results_and_others_are_moved(database: WithObjects) {
     let damaged = database.ended(Transition::Succeed).await;
-    let results = database.folder.path().join("test.db.results");
+    let results = database.place.folder.path().join("test.db.results");
     let [file] = &files_below(&results)[..] else {
         panic!("one file");
     };
@@ -215,10 +212,10 @@ async fn a_job_with_a_damaged_file_keeps_its_results_and_others_are_moved() {
 
 #[tokio::test]
 async fn a_missing_or_damaged_object_is_found() {
-    let database = WithObjects::new().await;
+    let database = WithObjects::at(Place::sqlite()).await;
     let id = database.ended(Transition::Succeed).await;
     database.moved().await;
-    let folder = database.folder.path();
+    let folder = database.place.folder.path();
     let url = format!("sqlite://{}", folder.join("test.db").display());
     let objects = Objects::open(&format!("file://{}", folder.join("objects").display()));
     let objects = objects.expect("opened");
@@ -251,42 +248,34 @@ async fn a_missing_or_damaged_object_is_found() {
     assert!(matches!(unread, Err(StoreError::Objects(_))), "{unread:?}");
 }
 
-#[tokio::test]
-async fn a_database_whose_results_are_elsewhere_is_not_opened_without_them() {
-    let database = WithObjects::new().await;
+async fn a_database_whose_results_are_elsewhere_is_not_opened_without_them(database: WithObjects) {
     database.ended(Transition::Succeed).await;
-    let folder = database.folder.path().to_owned();
     database.store.close().await;
-    let WithObjects {
-        folder: _kept,
-        store,
-    } = database;
+    let WithObjects { place, store } = database;
     drop(store);
     // Nothing was moved so far.
     for objects in [None, Some("other"), Some("objects")] {
-        let store = opened(&folder, objects).await.expect("a store");
+        let store = opened(&place, objects).await.expect("a store");
         store.close().await;
     }
-    let store = opened(&folder, Some("objects")).await.expect("a store");
+    let store = opened(&place, Some("objects")).await.expect("a store");
     store.move_results().await.1.expect("moved");
     store.close().await;
     drop(store);
-    let without = opened(&folder, None).await;
+    let without = opened(&place, None).await;
     assert!(matches!(without, Err(StoreError::NoObjects)), "{without:?}");
-    let other = opened(&folder, Some("other")).await;
+    let other = opened(&place, Some("other")).await;
     assert!(
         matches!(other, Err(StoreError::OtherObjects { .. })),
         "{other:?}"
     );
-    opened(&folder, Some("objects")).await.expect("a store");
+    opened(&place, Some("objects")).await.expect("a store");
 }
 
 /// Objects that the store does not let remove keep no others from being written.
-#[tokio::test]
-async fn an_object_that_cannot_be_removed_stops_nothing() {
-    let database = WithObjects::new().await;
+async fn an_object_that_cannot_be_removed_stops_nothing(database: WithObjects) {
     let id = database.ended(Transition::Succeed).await;
-    let objects = database.folder.path().join("objects");
+    let objects = database.place.folder.path().join("objects");
     // A folder is no object, and cannot be removed as one.
     std::fs::create_dir_all(objects.join("jobs/left/inside")).expect("a folder");
     let left = [(id, "jobs/left".to_owned())];
@@ -299,10 +288,10 @@ async fn an_object_that_cannot_be_removed_stops_nothing() {
 /// The backup's copy of the database has files that are moved before they are copied.
 #[tokio::test]
 async fn a_backup_has_results_that_are_moved_meanwhile() {
-    let database = WithObjects::new().await;
+    let database = WithObjects::at(Place::sqlite()).await;
     let id = database.ended(Transition::Succeed).await;
     let before = database.store.job(id).await.expect("the store");
-    let folder = database.folder.path();
+    let folder = database.place.folder.path();
     let (source, target) = (folder.join("test.db"), folder.join("copy/test.db"));
     std::fs::create_dir(folder.join("copy")).expect("a folder");
     copy_database(&source, &target).await.expect("a copy");

@@ -2,6 +2,12 @@
 
 use super::*;
 
+on_both_engines! { Fixture:
+    the_oldest_job_is_claimed_first,
+    a_higher_priority_is_claimed_first_and_a_large_job_says_that_it_waits_for_memory,
+    a_deadline_ends_a_queued_job_and_only_old_jobs_are_deleted,
+}
+
 #[tokio::test(flavor = "multi_thread", worker_threads = 4)]
 async fn concurrent_workers_never_claim_the_same_job() {
     const JOBS: usize = 40;
@@ -32,9 +38,7 @@ async fn concurrent_workers_never_claim_the_same_job() {
     assert_eq!(claimed.len(), JOBS);
 }
 
-#[tokio::test]
-async fn the_oldest_job_is_claimed_first() {
-    let fixture = Fixture::new().await;
+async fn the_oldest_job_is_claimed_first(fixture: Fixture) {
     let first = fixture.queued().await;
     let second = fixture.queued().await;
     assert_eq!(fixture.claimed(10).await.id, first);
@@ -42,9 +46,9 @@ async fn the_oldest_job_is_claimed_first() {
     assert_eq!(fixture.store.claim_next(10).await, None);
 }
 
-#[tokio::test]
-async fn a_higher_priority_is_claimed_first_and_a_large_job_says_that_it_waits_for_memory() {
-    let fixture = Fixture::new().await;
+async fn a_higher_priority_is_claimed_first_and_a_large_job_says_that_it_waits_for_memory(
+    fixture: Fixture,
+) {
     let plain = fixture.queued().await;
     let urgent = fixture
         .queued_with(SubmitOptions {
@@ -63,9 +67,7 @@ async fn a_higher_priority_is_claimed_first_and_a_large_job_says_that_it_waits_f
     assert_eq!(fixture.claimed(10).await.id, plain);
 }
 
-#[tokio::test]
-async fn a_deadline_ends_a_queued_job_and_only_old_jobs_are_deleted() {
-    let fixture = Fixture::new().await;
+async fn a_deadline_ends_a_queued_job_and_only_old_jobs_are_deleted(fixture: Fixture) {
     let options = SubmitOptions {
         priority: 0,
         deadline_s: Some(5),

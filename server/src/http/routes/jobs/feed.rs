@@ -56,7 +56,7 @@ pub(crate) async fn all_events(
         Some(_) => (Some("reset"), app.store.last_revision().await?),
         None => (Some("start"), app.store.last_revision().await?),
     };
-    let first = name.map(|name| event(name, after).data("{}"));
+    let first = name.map(|name| event(name, Some(after)).data("{}"));
     let tail = FeedTail {
         _counted: app.store.metrics().stream(),
         app,
@@ -75,8 +75,12 @@ pub(crate) async fn all_events(
     Ok(([(header::CACHE_CONTROL, "no-store")], sse).into_response())
 }
 
-fn event(name: &str, revision: i64) -> Event {
-    Event::default().event(name).id(revision.to_string())
+fn event(name: &str, revision: Option<i64>) -> Event {
+    let event = Event::default().event(name);
+    match revision {
+        Some(revision) => event.id(revision.to_string()),
+        None => event,
+    }
 }
 
 /// Remaining changes.
@@ -119,15 +123,17 @@ impl FeedTail {
     /// Fetches the next changes; `false` if there are none so far.
     async fn fetch(&mut self) -> Result<bool, StoreError> {
         let changes = self.app.store.changed_after(self.after).await?;
-        for (revision, change) in &changes {
+        for (index, (revision, change)) in changes.iter().enumerate() {
             self.after = *revision;
-            let sent = match change {
-                Changed::Job(job) => event("job", *revision).data(serde_json::to_string(job)?),
-                Changed::Deleted(id) => {
-                    event("deleted", *revision).data(json!({ "id": id }).to_string())
+            let next = changes.get(index + 1).map(|(revision, _)| revision);
+            // A client that knows a revision knows all changes of it: of several, the last one names it.
+            let id = Some(*revision).filter(|revision| next != Some(revision));
+            self.pending.push_back(match change {
+                Changed::Job(job) => event("job", id).data(serde_json::to_string(job)?),
+                Changed::Deleted(job) => {
+                    event("deleted", id).data(json!({ "id": job }).to_string())
                 }
-            };
-            self.pending.push_back(sent);
+            });
         }
         Ok(!changes.is_empty())
     }

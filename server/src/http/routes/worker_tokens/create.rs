@@ -26,6 +26,9 @@ pub(crate) enum CreateError {
     /// The name is empty or too long.
     #[error("a name has 1 to {MAX_NAME} characters, not all of them blank; this one has {0}")]
     Name(usize),
+    /// The name has the character that databases cannot store in a text.
+    #[error("the character U+0000 is not allowed in a name")]
+    Nul,
     /// The system has no random numbers.
     #[error("no random numbers: {0}")]
     Random(getrandom::Error),
@@ -34,7 +37,7 @@ pub(crate) enum CreateError {
 impl RouteError for CreateError {
     fn problem_type(&self) -> ProblemType {
         match self {
-            Self::Body(_) | Self::Name(_) => ProblemType::UNREADABLE_BODY,
+            Self::Body(_) | Self::Name(_) | Self::Nul => ProblemType::UNREADABLE_BODY,
             Self::Random(_) => ProblemType::INTERNAL,
         }
     }
@@ -56,6 +59,9 @@ pub(crate) async fn create_worker_token(
     let length = new.name.chars().count();
     if new.name.trim().is_empty() || length > MAX_NAME {
         return Err(CreateError::Name(length).into());
+    }
+    if new.name.contains('\0') {
+        return Err(CreateError::Nul.into());
     }
     let mut random = [0; TOKEN_BYTES];
     getrandom::fill(&mut random).map_err(CreateError::Random)?;

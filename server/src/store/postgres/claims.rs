@@ -1,0 +1,320 @@
+//! Claims: the first waiting jobs that fit into the free memory of a worker, under new leases. Claims that meet share a transaction, and
+//! those of all processes take turns: each would ask for the same jobs.
+
+use std::collections::HashMap;
+
+use sqlx::postgres::{PgConnection, PgPool};
+use uuid::Uuid;
+
+use crate::clock::Now;
+use crate::queue::{WaitingJob, admit};
+use crate::store::groups::Pending;
+use crate::store::postgres::{PostgresStore, checkpoints};
+use crate::store::rows::{StoredRow, attempt_event, claim, integer};
+use crate::store::{Claim, ClaimRequest, StoreError};
+
+/// Number of waiting jobs among which those that fit are searched, beside one for each slot.
+const CANDIDATES: usize = 64;
+/// Key of the lock of the process that claims: `frtc` in ASCII.
+const TURN: i64 = 0x6672_7463;
+
+impl PostgresStore {
+    pub(in crate::store) async fn claim(
+        &self,
+        request: &ClaimRequest,
+    ) -> Result<Vec<Claim>, StoreError> {
+        self.local.disk.check()?;
+        let given = self.given_now();
+        let write = |group| write(self.pool.clone(), given, group);
+        let Claimed { claims, reasoned } = self.claims.ask(*request, write).await?;
+        for id in claims.iter().map(|claim| claim.id).chain(reasoned) {
+            self.local.changed(id);
+        }
+        Ok(claims)
+    }
+}
+
+/// What a request has got.
+#[derive(Debug)]
+pub(super) struct Claimed {
+    claims: Vec<Claim>,
+    /// Jobs that were given another reason to wait.
+    reasoned: Vec<Uuid>,
+}
+
+/// Claims jobs for requests in one transaction. If it fails, all fail: a request is repeated, and gets the same jobs if its
+/// transaction was committed.
+async fn write(pool: PgPool, given: Option<Now>, group: Vec<Pending<ClaimRequest, Claimed>>) {
+    // A request may be repeated before the first one is answered.
+    let mut requests: Vec<ClaimRequest> = Vec::with_capacity(group.len());
+    for pending in &group {
+        if position(&requests, &pending.request).is_none() {
+            requests.push(pending.request);
+        }
+    }
+    match claim_for(&pool, given, &requests).await {
+        Ok((claims, mut reasoned)) => {
+            for pending in group {
+                let index = position(&requests, &pending.request);
+                let claims = index.map(|index| claims[index].clone());
+                pending.answer(Ok(Claimed {
+                    claims: claims.unwrap_or_default(),
+                    reasoned: std::mem::take(&mut reasoned),
+                }));
+            }
+        }
+        Err(error) => {
+            tracing::warn!(%error, requests = requests.len(), "claims failed");
+            for pending in group {
+                pending.answer(Err(StoreError::Unwritten));
+            }
+        }
+    }
+}
+
+fn position(requests: &[ClaimRequest], request: &ClaimRequest) -> Option<usize> {
+    requests
+        .iter()
+        .position(|other| other.request == request.request)
+}
+
+/// Claims jobs for each request; returns the jobs, too, that were given another reason to wait.
+async fn claim_for(
+    pool: &PgPool,
+    given: Option<Now>,
+    requests: &[ClaimRequest],
+) -> Result<(Vec<Vec<Claim>>, Vec<Uuid>), StoreError> {
+    let mut transaction = pool.begin().await?;
+    let now = turn(&mut transaction).await?;
+    let now = given.unwrap_or(now);
+    let mut claims = claimed_before(&mut transaction, requests, now).await?;
+    let fresh: Vec<_> = (0..requests.len())
+        .filter(|index| claims[*index].is_empty())
+        .collect();
+    let slots: usize = fresh
+        .iter()
+        .map(|index| requests[*index].capacity.slots)
+        .sum();
+    let mut waiting = candidates(&mut transaction, CANDIDATES.saturating_add(slots)).await?;
+    let (mut admitted, mut reasons) = (Vec::new(), HashMap::new());
+    for index in fresh {
+        for id in admit_for(&requests[index], &mut waiting, &mut reasons, now) {
+            admitted.push((id, index));
+        }
+    }
+    let reasons: Vec<_> = waiting
+        .iter()
+        .filter_map(|(id, _)| Some((*id, reasons.remove(id)?)))
+        .collect();
+    let reasoned = set_reasons(&mut transaction, reasons).await?;
+    for (index, claim) in claim_admitted(&mut transaction, requests, &admitted, now).await? {
+        claims[index].push(claim);
+    }
+    transaction.commit().await?;
+    Ok((claims, reasoned))
+}
+
+/// Waits until it is the turn of this transaction to claim, and returns the time. A process that was paused in its turn loses it.
+async fn turn(connection: &mut PgConnection) -> Result<Now, StoreError> {
+    sqlx::query(
+        "SELECT pg_advisory_xact_lock($1), set_config('idle_in_transaction_session_timeout', '3s', true)",
+    )
+    .bind(TURN)
+    .execute(&mut *connection)
+    .await?;
+    let now: i64 = sqlx::query_scalar("SELECT fretwear_now()")
+        .fetch_one(connection)
+        .await?;
+    Ok(now.into())
+}
+
+/// The first queued jobs: their ids, and what their admission depends on. They are not locked: most are not claimed.
+async fn candidates(
+    connection: &mut PgConnection,
+    limit: usize,
+) -> Result<Vec<(Uuid, WaitingJob)>, StoreError> {
+    let rows: Vec<(Uuid, i64, i64, i64)> = sqlx::query_as(
+        "SELECT id, memory_mb, queued_at, cpu_ms FROM jobs WHERE status = 'queued' ORDER BY place, id LIMIT $1",
+    )
+    .bind(integer(limit))
+    .fetch_all(connection)
+    .await?;
+    let candidate = |(id, memory_mb, since, cpu_ms)| {
+        let job = WaitingJob {
+            memory_mb,
+            since,
+            cpu_ms,
+        };
+        (id, job)
+    };
+    Ok(rows.into_iter().map(candidate).collect())
+}
+
+/// Takes the jobs out of those that wait which a worker can take, and notes why it does not take others.
+fn admit_for(
+    request: &ClaimRequest,
+    waiting: &mut Vec<(Uuid, WaitingJob)>,
+    reasons: &mut HashMap<Uuid, String>,
+    now: Now,
+) -> Vec<Uuid> {
+    let jobs: Vec<_> = waiting.iter().map(|(_, job)| *job).collect();
+    let admission = admit(&jobs, &request.capacity, now.monotonic_ms);
+    let memory = &request.capacity.memory;
+    for index in admission.too_large {
+        let (id, job) = &waiting[index];
+        let reason = format!(
+            "waiting for memory: it needs about {} MB, {} of {} MB are left",
+            job.memory_mb,
+            memory.free_mb(),
+            memory.memory_mb
+        );
+        reasons.insert(*id, reason);
+    }
+    let admitted: Vec<_> = admission
+        .admitted
+        .iter()
+        .map(|index| waiting[*index].0)
+        .collect();
+    waiting.retain(|(id, _)| !admitted.contains(id));
+    admitted
+}
+
+/// Sets the status reasons of jobs that do not fit into the memory; returns those that had another one.
+async fn set_reasons(
+    connection: &mut PgConnection,
+    reasons: Vec<(Uuid, String)>,
+) -> Result<Vec<Uuid>, StoreError> {
+    if reasons.is_empty() {
+        return Ok(Vec::new());
+    }
+    let (ids, reasons): (Vec<_>, Vec<_>) = reasons.into_iter().unzip();
+    let changed = sqlx::query_scalar(
+        "WITH late AS (SELECT jobs.id, reason FROM jobs JOIN unnest($1::uuid[], $2::text[]) AS given (id, reason) ON jobs.id = given.id \
+         WHERE status = 'queued' AND status_reason IS DISTINCT FROM reason FOR UPDATE OF jobs SKIP LOCKED) \
+         UPDATE jobs SET status_reason = late.reason, version = version + 1 FROM late WHERE jobs.id = late.id RETURNING jobs.id",
+    )
+    .bind(ids)
+    .bind(reasons)
+    .fetch_all(connection)
+    .await?;
+    Ok(changed)
+}
+
+/// The jobs that the same requests have claimed before and that are still held, with renewed leases.
+async fn claimed_before(
+    connection: &mut PgConnection,
+    requests: &[ClaimRequest],
+    now: Now,
+) -> Result<Vec<Vec<Claim>>, StoreError> {
+    let workers: Vec<_> = requests
+        .iter()
+        .map(|request| request.request.worker)
+        .collect();
+    let numbers: Vec<_> = requests
+        .iter()
+        .map(|request| request.request.number)
+        .collect();
+    let ends: Vec<_> = requests
+        .iter()
+        .map(|request| now.end_of(request.lease))
+        .collect();
+    let rows = sqlx::query(
+        "UPDATE jobs SET lease_expires_at = ends FROM unnest($1::uuid[], $2::bigint[], $3::bigint[]) WITH ORDINALITY \
+         AS given (worker, number, ends, n) WHERE jobs.worker = given.worker AND claim_number = number AND status = 'running' \
+         RETURNING n, id, lease, spec, attempts, queued_at, deadline_at, memory_mb, cpu_ms",
+    )
+    .bind(workers)
+    .bind(numbers)
+    .bind(ends)
+    .fetch_all(&mut *connection)
+    .await?;
+    let mut claims = vec![Vec::new(); requests.len()];
+    for row in rows {
+        let id = row.id("id")?;
+        let checkpoint = checkpoints::restore(connection, id).await?;
+        let index = usize::try_from(row.integer("n")? - 1).unwrap_or(usize::MAX);
+        if let Some(claims) = claims.get_mut(index) {
+            claims.push(claim(id, &row, now, checkpoint)?);
+        }
+    }
+    Ok(claims)
+}
+
+/// Claims admitted jobs, each for the request of an index; those that another transaction has locked or changed are left out.
+async fn claim_admitted(
+    connection: &mut PgConnection,
+    requests: &[ClaimRequest],
+    admitted: &[(Uuid, usize)],
+    now: Now,
+) -> Result<Vec<(usize, Claim)>, StoreError> {
+    if admitted.is_empty() {
+        return Ok(Vec::new());
+    }
+    let ids: Vec<_> = admitted.iter().map(|(id, _)| *id).collect();
+    let of = |index: &usize| &requests[*index];
+    let workers: Vec<_> = admitted
+        .iter()
+        .map(|(_, index)| of(index).request.worker)
+        .collect();
+    let numbers: Vec<_> = admitted
+        .iter()
+        .map(|(_, index)| of(index).request.number)
+        .collect();
+    let ends: Vec<_> = admitted
+        .iter()
+        .map(|(_, index)| now.end_of(of(index).lease))
+        .collect();
+    let remote: Vec<_> = admitted
+        .iter()
+        .map(|(_, index)| of(index).is_remote)
+        .collect();
+    let rows = sqlx::query(
+        "WITH free AS (SELECT id FROM jobs WHERE id = ANY($1) AND status = 'queued' FOR UPDATE SKIP LOCKED) \
+         UPDATE jobs SET status = 'running', lease = lease + 1, lease_expires_at = given.ends, last_write = 0, worker = given.worker, \
+         claim_number = given.number, is_remote = given.remote, attempts = attempts + 1, fruitless = fruitless + 1, \
+         started_at = COALESCE(started_at, $6), status_reason = NULL, last_event = last_event + 1, version = version + 1 \
+         FROM free JOIN unnest($1::uuid[], $2::uuid[], $3::bigint[], $4::bigint[], $5::boolean[]) WITH ORDINALITY \
+         AS given (id, worker, number, ends, remote, n) ON free.id = given.id WHERE jobs.id = free.id \
+         RETURNING n, jobs.id, lease, spec, last_event, attempts, queued_at, deadline_at, memory_mb, cpu_ms",
+    )
+    .bind(ids)
+    .bind(workers)
+    .bind(numbers)
+    .bind(ends)
+    .bind(remote)
+    .bind(now.system_ms)
+    .fetch_all(&mut *connection)
+    .await?;
+    let mut claimed = Vec::with_capacity(rows.len());
+    let (mut ids, mut seqs, mut events) = (Vec::new(), Vec::new(), Vec::new());
+    for row in rows {
+        let id = row.id("id")?;
+        // Under its first lease a job has no results.
+        let checkpoint = match row.integer("lease")? {
+            1 => None,
+            _ => checkpoints::restore(connection, id).await?,
+        };
+        let from_cycle = checkpoint.as_ref().map_or(0, |found| found.cycle);
+        let claim = claim(id, &row, now, checkpoint)?;
+        ids.push(id);
+        seqs.push(row.integer("last_event")?);
+        events.push(attempt_event(claim.attempt, from_cycle)?);
+        claimed.push((row.integer("n")?, claim));
+    }
+    sqlx::query(
+        "INSERT INTO events (job_id, seq, name, data) \
+         SELECT id, seq, 'attempt', data FROM unnest($1::uuid[], $2::bigint[], $3::text[]) AS new (id, seq, data)",
+    )
+    .bind(ids)
+    .bind(seqs)
+    .bind(events)
+    .execute(connection)
+    .await?;
+    // In the order of the queue.
+    claimed.sort_by_key(|(n, _)| *n);
+    let index = |n: i64| usize::try_from(n - 1).ok().and_then(|n| admitted.get(n));
+    let claims = claimed.into_iter();
+    Ok(claims
+        .filter_map(|(n, claim)| Some((index(n)?.1, claim)))
+        .collect())
+}

@@ -1,0 +1,155 @@
+//! Manifests: the files of a job by name, and their content.
+
+use std::collections::HashSet;
+
+use api::results::ResultFile;
+use sqlx::postgres::PgConnection;
+use uuid::Uuid;
+
+use crate::store::block::Block;
+use crate::store::folder::Folder;
+use crate::store::postgres::PostgresStore;
+use crate::store::postgres::blocks::entries;
+use crate::store::rows::{StoredRow, corrupt, entry, integer};
+use crate::store::stored_block::unreadable;
+use crate::store::{Content, Lease, NewFile, StoreError};
+
+impl PostgresStore {
+    pub(in crate::store) async fn manifest(&self, id: Uuid) -> Result<Vec<ResultFile>, StoreError> {
+        // Both as of one time: a file may be moved from the one to the other.
+        let mut transaction = self
+            .pool
+            .begin_with("BEGIN ISOLATION LEVEL REPEATABLE READ READ ONLY")
+            .await?;
+        let rows = sqlx::query(
+            "SELECT name, cycle, media_type, bytes, sha256, damaged FROM result_files WHERE job_id = $1",
+        )
+        .bind(id)
+        .fetch_all(&mut *transaction)
+        .await?;
+        let mut files: Vec<_> = rows.iter().map(entry).collect::<Result<_, _>>()?;
+        if let Some(entries) = entries(&mut transaction, id).await? {
+            files.extend(Block::listed(&entries).map_err(|cause| unreadable(id, &cause))?);
+        }
+        files.sort_by(|a, b| a.name.cmp(&b.name));
+        Ok(files)
+    }
+
+    pub(in crate::store) async fn result_file(
+        &self,
+        id: Uuid,
+        name: &str,
+    ) -> Result<Option<(ResultFile, Content)>, StoreError> {
+        // No text of the database has this character, and none can be compared with one that has.
+        if name.contains('\0') {
+            return Ok(None);
+        }
+        let row = sqlx::query(
+            "SELECT name, cycle, media_type, bytes, sha256, damaged, content, place FROM result_files WHERE job_id = $1 AND name = $2",
+        )
+        .bind(id)
+        .bind(name)
+        .fetch_optional(&self.pool)
+        .await?;
+        let Some(row) = row else {
+            return match self.stored_block(id).await? {
+                None => Ok(None),
+                Some(stored) => stored.file(id, name, self.local.objects.as_ref()).await,
+            };
+        };
+        let content = if let Some(content) = row.optional_bytes("content")? {
+            Content::Inline(content)
+        } else {
+            let place = row.text("place")?;
+            let path = self.local.folder.path(&place);
+            Content::File(path.ok_or_else(|| corrupt(id, "path of a file", &place))?)
+        };
+        Ok(Some((entry(&row)?, content)))
+    }
+
+    pub(in crate::store) async fn mark_damaged(
+        &self,
+        id: Uuid,
+        name: &str,
+        how: Option<&str>,
+    ) -> Result<(), StoreError> {
+        let mut transaction = self.pool.begin().await?;
+        sqlx::query(
+            "UPDATE result_files SET damaged = $1 WHERE job_id = $2 AND name = $3 AND damaged IS DISTINCT FROM $1",
+        )
+        .bind(how)
+        .bind(id)
+        .bind(name)
+        .execute(&mut *transaction)
+        .await?;
+        if let Some(old) = entries(&mut transaction, id).await? {
+            let block = Block::decode(&old, &[]);
+            let mut block = block.map_err(|cause| unreadable(id, &cause))?;
+            if let Some(new) = block.mark(name, how)? {
+                // Unless the job has another block meanwhile.
+                sqlx::query(
+                    "UPDATE result_blocks SET entries = $1 WHERE job_id = $2 AND entries = $3",
+                )
+                .bind(new)
+                .bind(id)
+                .bind(old)
+                .execute(&mut *transaction)
+                .await?;
+            }
+        }
+        Ok(transaction.commit().await?)
+    }
+
+    /// Removes files of the attempts at a job up to this one; those of other jobs may be about to be named by other processes.
+    pub(in crate::store) async fn remove_unnamed_files(
+        &self,
+        attempt: Option<Lease>,
+    ) -> Result<(), StoreError> {
+        let Some(attempt) = attempt else {
+            return Ok(());
+        };
+        let named: Vec<String> = sqlx::query_scalar(
+            "SELECT place FROM result_files WHERE place IS NOT NULL AND job_id = $1",
+        )
+        .bind(attempt.job)
+        .fetch_all(&self.pool)
+        .await?;
+        let named: HashSet<String> = named.into_iter().collect();
+        let attempt = Some((attempt.job, attempt.number));
+        let remove = move |folder: Folder| folder.remove_unnamed(attempt, &named, &HashSet::new());
+        match self.local.in_folder(remove).await {
+            Ok(0) => {}
+            Ok(removed) => tracing::info!(removed, "files that no manifest names were removed"),
+            Err(error) => tracing::warn!(%error, "files that no manifest names were not removed"),
+        }
+        Ok(())
+    }
+}
+
+/// Adds files to the manifest, in a transaction that has checked the lease.
+pub(super) async fn insert_files(
+    connection: &mut PgConnection,
+    lease: Lease,
+    files: &[NewFile],
+) -> Result<(), StoreError> {
+    for NewFile { file, content } in files {
+        let place = Folder::place(lease.job, lease.number, &file.name);
+        sqlx::query(
+            "INSERT INTO result_files (job_id, name, cycle, media_type, bytes, sha256, content, place) \
+             VALUES ($1, $2, $3, $4, $5, $6, $7, $8) ON CONFLICT (job_id, name) DO UPDATE SET cycle = excluded.cycle, \
+             media_type = excluded.media_type, bytes = excluded.bytes, sha256 = excluded.sha256, content = excluded.content, \
+             place = excluded.place, damaged = NULL",
+        )
+        .bind(lease.job)
+        .bind(&file.name)
+        .bind(file.cycle.map(integer))
+        .bind(&file.media_type)
+        .bind(integer(file.bytes))
+        .bind(&file.sha256)
+        .bind(content.as_deref())
+        .bind(content.is_none().then_some(place))
+        .execute(&mut *connection)
+        .await?;
+    }
+    Ok(())
+}

@@ -1,0 +1,88 @@
+//! Gauges for `/metrics`, and the write probe.
+
+use std::time::Instant;
+
+use api::service::Demand;
+
+use crate::metrics::Gauges;
+use crate::store::StoreError;
+use crate::store::gauges::{
+    PROBE_INTERVAL, StatusRow, UNKNOWN_CPU_MS, by_status, progress_age_s, seconds,
+};
+use crate::store::postgres::PostgresStore;
+use crate::store::rows::integer;
+
+impl PostgresStore {
+    pub(in crate::store) async fn demand(&self) -> Result<Demand, StoreError> {
+        let (queued, running, running_remotely, queued_cpu_ms): (i64, i64, i64, i64) =
+            sqlx::query_as(
+                "SELECT (SELECT count(*) FROM jobs WHERE status = 'queued'), \
+                 (SELECT count(*) FROM jobs WHERE status = 'running'), \
+                 (SELECT count(*) FROM jobs WHERE status = 'running' AND is_remote), \
+                 (SELECT COALESCE(sum(CASE WHEN cpu_ms > 0 THEN cpu_ms ELSE $1 END), 0)::bigint FROM jobs WHERE status = 'queued')",
+            )
+            .bind(UNKNOWN_CPU_MS)
+            .fetch_one(&self.pool)
+            .await?;
+        let count = |count: i64| count.try_into().unwrap_or_default();
+        Ok(Demand {
+            queued: count(queued),
+            running: count(running),
+            running_remotely: count(running_remotely),
+            queued_cpu_s: count((queued_cpu_ms + 999) / 1_000),
+        })
+    }
+
+    pub(in crate::store) async fn gauges(&self) -> Result<Gauges, StoreError> {
+        let mut connection = self.pool.acquire().await?;
+        let now = self.now(&mut connection).await?.system_ms;
+        // An index has both.
+        let rows: Vec<StatusRow> =
+            sqlx::query_as("SELECT status, count(*), min(created_at) FROM jobs GROUP BY status")
+                .fetch_all(&mut *connection)
+                .await?;
+        let (checkpoint, progress, database_bytes, results_to_move): (
+            Option<i64>,
+            Option<String>,
+            i64,
+            i64,
+        ) = sqlx::query_as(
+            "SELECT (SELECT min(written_at) FROM checkpoints JOIN jobs ON id = job_id WHERE status = 'running'), \
+             (SELECT min(progress::json ->> 'updated_at') FROM jobs WHERE status = 'running'), \
+             pg_database_size(current_database()), \
+             (SELECT count(*) FROM result_blocks WHERE is_movable AND object IS NULL AND $1)",
+        )
+        .bind(self.local.objects.is_some())
+        .fetch_one(&mut *connection)
+        .await?;
+        Ok(Gauges {
+            jobs: by_status(&rows, now),
+            results_to_move,
+            oldest_checkpoint_s: checkpoint.map_or(0, |written| seconds(now, written)),
+            // The server has its own metrics.
+            wal_bytes: 0,
+            oldest_progress_s: progress_age_s(progress, now),
+            database_bytes,
+            disk_free_bytes: self.local.disk.free_mb().map_or(0, |mb| integer(mb << 20)),
+            workers_alive: 0,
+            remote_slots: 0,
+            demand_cpu_s: 0,
+        })
+    }
+
+    pub(in crate::store) async fn ready(&self) -> Result<(), StoreError> {
+        self.local.disk.check()?;
+        let mut last = self.last_probe.lock().await;
+        if last.is_some_and(|at| at.elapsed() < PROBE_INTERVAL) {
+            return Ok(());
+        }
+        sqlx::query(
+            "INSERT INTO probes (name, written_at) VALUES ('ready', fretwear_now()) \
+             ON CONFLICT (name) DO UPDATE SET written_at = excluded.written_at",
+        )
+        .execute(&self.pool)
+        .await?;
+        *last = Some(Instant::now());
+        Ok(())
+    }
+}

@@ -1,0 +1,125 @@
+//! Statements about one job within a transaction.
+
+use api::job::Status;
+use sqlx::postgres::PgConnection;
+use uuid::Uuid;
+
+use crate::clock::Now;
+use crate::queue;
+use crate::queue::{Attempts, Transition, next_status};
+use crate::store::ending::EndingJob;
+use crate::store::new_row::NewRow;
+use crate::store::postgres::queries::insert_event;
+use crate::store::postgres::transitions::end_job;
+use crate::store::rows::status;
+use crate::store::{Cancelled, End, NewJob, Retried, StoreError};
+
+/// Locks the row of a job and returns its status; `None` if there is no such job.
+pub(super) async fn lock(
+    connection: &mut PgConnection,
+    id: Uuid,
+) -> Result<Option<Status>, StoreError> {
+    let row = sqlx::query("SELECT status FROM jobs WHERE id = $1 FOR UPDATE")
+        .bind(id)
+        .fetch_optional(connection)
+        .await?;
+    row.map(|row| status(id, &row)).transpose()
+}
+
+/// Requests the end of a job, within a transaction.
+pub(super) async fn cancel(
+    connection: &mut PgConnection,
+    id: Uuid,
+    now: Now,
+) -> Result<Option<Cancelled>, StoreError> {
+    Ok(match lock(connection, id).await? {
+        Some(Status::Queued) => {
+            let end = End::without_result(Transition::Cancel, "cancelled while waiting");
+            let job = EndingJob::queued(id, true);
+            end_job(connection, &job, &end, None, now.system_ms).await?;
+            Some(Cancelled::AtOnce)
+        }
+        Some(Status::Running) => {
+            sqlx::query(
+                "UPDATE jobs SET cancel_requested = true, status_reason = 'cancel requested', version = version + 1 WHERE id = $1",
+            )
+            .bind(id)
+            .execute(connection)
+            .await?;
+            Some(Cancelled::Requested)
+        }
+        Some(_) => Some(Cancelled::Already),
+        None => None,
+    })
+}
+
+/// Queues a failed or cancelled job again, within a transaction.
+pub(super) async fn retry(
+    connection: &mut PgConnection,
+    id: Uuid,
+    now: Now,
+) -> Result<Option<Retried>, StoreError> {
+    let Some(status) = lock(connection, id).await? else {
+        return Ok(None);
+    };
+    let attempts = Attempts {
+        fruitless: 0,
+        limit: 0,
+    };
+    let Some(queued) = next_status(status, Transition::Retry, attempts, false) else {
+        let is_terminal = status.is_terminal();
+        let effect = if is_terminal {
+            Retried::Succeeded
+        } else {
+            Retried::Already
+        };
+        return Ok(Some(effect));
+    };
+    let (seq, progress): (i64, String) = sqlx::query_as(
+        "UPDATE jobs SET status = $1, status_reason = $2, outcome = NULL, summary = NULL, finished_at = NULL, \
+         cancel_requested = false, fruitless = 0, deadline_at = deadline_at - queued_at + $3, queued_at = $3, \
+         last_event = last_event + 1, version = version + 1 WHERE id = $4 RETURNING last_event, progress",
+    )
+    .bind(queued.as_str())
+    .bind(queue::WAITING_FOR_WORKER)
+    .bind(now.monotonic_ms)
+    .bind(id)
+    .fetch_one(&mut *connection)
+    .await?;
+    insert_event(connection, id, seq, "progress", &progress).await?;
+    Ok(Some(Retried::Queued))
+}
+
+/// Adds a job to the queue, with its labels and its first event, in one statement.
+pub(super) async fn insert(
+    connection: &mut PgConnection,
+    job: &NewJob,
+    new: &NewRow,
+    now: Now,
+) -> Result<(), StoreError> {
+    let (keys, values): (Vec<_>, Vec<_>) = job.spec.labels.iter().unzip();
+    sqlx::query(
+        "WITH job AS (INSERT INTO jobs (id, system, spec, plan, status, status_reason, created_at, progress, last_event, priority, \
+         place, deadline_at, memory_mb, cpu_ms, queued_at) VALUES ($1, $2, $3, $4, 'queued', $5, $6, $7, 1, $8, $9, $10, $11, $12, $13)), \
+         labelled AS (INSERT INTO labels (job_id, key, value) SELECT $1, * FROM unnest($14::text[], $15::text[])) \
+         INSERT INTO events (job_id, seq, name, data) VALUES ($1, 1, 'progress', $7)",
+    )
+    .bind(new.id)
+    .bind(new.system)
+    .bind(&new.spec)
+    .bind(&new.plan)
+    .bind(queue::WAITING_FOR_WORKER)
+    .bind(now.system_ms)
+    .bind(&new.progress)
+    .bind(i64::from(job.options.priority))
+    .bind(new.place)
+    .bind(new.deadline_at)
+    .bind(new.memory_mb)
+    .bind(new.cpu_ms)
+    .bind(now.monotonic_ms)
+    .bind(keys)
+    .bind(values)
+    .execute(connection)
+    .await?;
+    Ok(())
+}

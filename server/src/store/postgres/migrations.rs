@@ -1,0 +1,24 @@
+//! The migrations of the schema, embedded.
+
+use sqlx::migrate::Migrator;
+
+use crate::store::migrations::{file, migrator_of};
+
+/// All files of the folder; a name is the version and what it is about.
+const FILES: [(&str, &str); 1] = [file!("postgres/0064_schema.sql")];
+
+/// Applies the migrations that a database does not have; refuses a database with others.
+pub(super) fn migrator() -> Migrator {
+    migrator_of(&FILES)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::store::migrations::tests::assert_whole;
+
+    #[test]
+    fn every_file_of_the_folder_is_embedded_and_has_a_version() {
+        assert_whole("postgres", &FILES);
+    }
+}

@@ -1,0 +1,97 @@
+//! Changes that the processes which serve a database tell each other. Not in the transactions that make them: a notification in a
+//! transaction holds a lock through its commit, so that commits would follow each other. What is missed is found by the next look.
+
+use std::collections::BTreeSet;
+use std::time::Duration;
+
+use sqlx::postgres::{PgListener, PgPool};
+use tokio::sync::mpsc::UnboundedReceiver;
+use tokio::sync::{Notify, broadcast};
+use tokio::time::sleep;
+use uuid::Uuid;
+
+use std::sync::Arc;
+
+use crate::store::StoreError;
+use crate::store::local::Told;
+
+const CHANNEL: &str = "fretwear_changes";
+/// Time in which changes come together.
+const INTERVAL: Duration = Duration::from_millis(100);
+/// Changes in a notification: its text has at most 8 000 bytes, an id 37.
+const MOST: usize = 200;
+/// What stands for jobs that wait.
+const WAITING: &str = "waiting";
+/// Time before another connection is tried.
+const PAUSE: Duration = Duration::from_secs(1);
+
+/// Tells the changes of this process until the store is closed.
+pub(super) async fn tell(pool: PgPool, process: Uuid, mut told: UnboundedReceiver<Told>) {
+    while let Some(first) = told.recv().await {
+        sleep(INTERVAL).await;
+        let mut changes = BTreeSet::from([first]);
+        while let Ok(next) = told.try_recv() {
+            changes.insert(next);
+        }
+        let changes: Vec<_> = changes.into_iter().map(text).collect();
+        for some in changes.chunks(MOST) {
+            let notified = sqlx::query("SELECT pg_notify($1, $2)")
+                .bind(CHANNEL)
+                .bind(format!("{process} {}", some.join(" ")))
+                .execute(&pool)
+                .await;
+            if let Err(error) = notified {
+                tracing::debug!(%error, "other processes were not told of changes");
+            }
+        }
+    }
+}
+
+/// Hears the changes of other processes until the store is closed.
+pub(super) async fn hear(
+    pool: PgPool,
+    process: Uuid,
+    changes: broadcast::Sender<Uuid>,
+    waiting: Arc<Notify>,
+) {
+    loop {
+        if let Err(error) = listen(&pool, process, &changes, &waiting).await {
+            tracing::warn!(%error, "changes of other processes are not heard");
+        }
+        sleep(PAUSE).await;
+    }
+}
+
+async fn listen(
+    pool: &PgPool,
+    process: Uuid,
+    changes: &broadcast::Sender<Uuid>,
+    waiting: &Notify,
+) -> Result<(), StoreError> {
+    let mut listener = PgListener::connect_with(pool).await?;
+    listener.listen(CHANNEL).await?;
+    loop {
+        let notification = listener.recv().await?;
+        let Some((from, text)) = notification.payload().split_once(' ') else {
+            continue;
+        };
+        if from == process.to_string() {
+            continue;
+        }
+        for change in text.split(' ') {
+            if change == WAITING {
+                waiting.notify_one();
+            } else if let Ok(id) = change.parse() {
+                // Without a subscriber this is not an error.
+                let _ = changes.send(id);
+            }
+        }
+    }
+}
+
+fn text(told: Told) -> String {
+    match told {
+        Told::Waiting => WAITING.to_owned(),
+        Told::Changed(id) => id.to_string(),
+    }
+}

@@ -1,0 +1,79 @@
+//! Reclaiming jobs from lost workers: into the queue, or under a new lease to be ended.
+
+use std::time::Duration;
+
+use api::job::Status;
+use uuid::Uuid;
+
+use crate::queue::Transition;
+use crate::store::ending::EndingJob;
+use crate::store::postgres::PostgresStore;
+use crate::store::postgres::transitions::end_job;
+use crate::store::rows;
+use crate::store::{End, Reclaimed, StoreError};
+
+const REASON: &str = "its worker was lost";
+
+impl PostgresStore {
+    /// Of the processes that serve the database, one reclaims a job.
+    pub(in crate::store) async fn reclaim_expired(
+        &self,
+        length: Duration,
+    ) -> Result<Reclaimed, StoreError> {
+        let (mut transaction, now) = self.begin().await?;
+        let lost: Vec<(Uuid, i64, bool)> = sqlx::query_as(
+            "SELECT id, fruitless, cancel_requested FROM jobs WHERE status = 'running' AND lease_expires_at <= $1 \
+             ORDER BY id FOR UPDATE SKIP LOCKED",
+        )
+        .bind(now.monotonic_ms)
+        .fetch_all(&mut *transaction)
+        .await?;
+        let end = End::without_result(Transition::WorkerLost, REASON);
+        let (mut queued, mut ending) = (Vec::new(), Vec::new());
+        for (id, fruitless, cancel_requested) in lost {
+            let fruitless = fruitless.try_into().unwrap_or_default();
+            let limit = self.local.attempt_limit;
+            let job = EndingJob::running(id, fruitless, limit, cancel_requested);
+            if job.after(end.transition).is_some_and(Status::is_terminal) {
+                // Nothing is solved under the new lease, which this process holds.
+                let row = sqlx::query(
+                    "UPDATE jobs SET lease = lease + 1, lease_expires_at = $1, last_write = 0, worker = NULL, claim_number = NULL, \
+                     is_remote = false WHERE id = $2 RETURNING lease, spec, attempts, queued_at, deadline_at, memory_mb, cpu_ms",
+                )
+                .bind(now.end_of(length))
+                .bind(id)
+                .fetch_one(&mut *transaction)
+                .await?;
+                ending.push(rows::claim(id, &row, now, None)?);
+            } else {
+                let status = end_job(&mut transaction, &job, &end, None, 0).await?;
+                queued.push((id, status));
+            }
+        }
+        transaction.commit().await?;
+        for (id, status) in &queued {
+            self.local.concluded(*id, *status);
+        }
+        for _ in 0..queued.len() + ending.len() {
+            self.local.metrics.reclaimed.inc();
+        }
+        Ok(Reclaimed {
+            queued: queued.len(),
+            ending,
+            reason: REASON,
+        })
+    }
+
+    /// No job belongs to a process that serves the database: leases end by themselves.
+    #[expect(
+        clippy::unused_async,
+        reason = "other engines take the jobs of the process that served before"
+    )]
+    pub(in crate::store) async fn reclaim_at_start(
+        &self,
+        _length: Duration,
+        _remote: Duration,
+    ) -> Result<Reclaimed, StoreError> {
+        Ok(Reclaimed::default())
+    }
+}

@@ -1,0 +1,182 @@
+//! Simulated workers: they claim, record and end over HTTP as real ones do, and solve nothing.
+
+use std::path::Path;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU32, Ordering};
+use std::time::{Duration, Instant};
+
+use fastrand::Rng;
+use server::client::Client;
+use server::export::documents::CSV;
+use server::export::files::manifest_entry;
+use server::queue::{Capacity, MemoryBudget, Transition};
+use server::store::block::{Block, EncodedBlock};
+use server::store::{
+    Claim, ClaimRequest, End, EventName, JobUpdate, Lease, LeaseState, RequestNumber,
+};
+use server::worker::{Employer, EmployerError, Remote};
+use tokio::task::JoinSet;
+use uuid::Uuid;
+
+/// Length of a lease: jobs of workers that vanish are soon given to others.
+const LEASE: Duration = Duration::from_secs(10);
+/// How long a claim waits for a job.
+const WAIT: Duration = Duration::from_secs(2);
+/// Pause before a request without an answer is repeated.
+const PAUSE: Duration = Duration::from_millis(100);
+
+/// What the workers have done.
+#[derive(Default)]
+pub(super) struct Done {
+    /// Attempts of workers that have vanished, or that the machine did not let renew their lease in time.
+    pub(super) lost: AtomicU32,
+}
+
+/// A worker that solves nothing.
+struct Simulated {
+    remote: Arc<Remote>,
+    id: Uuid,
+    number: i64,
+    random: Rng,
+    done: Arc<Done>,
+    /// Times of claims that got a job.
+    claims: Vec<Duration>,
+    /// Whether requests are repeated at random, and jobs abandoned.
+    is_harmed: bool,
+}
+
+impl Simulated {
+    /// Works until no job waits or runs.
+    async fn work(mut self) -> Vec<Duration> {
+        loop {
+            let claims = self.claim().await;
+            if claims.is_empty() {
+                let remote = Arc::clone(&self.remote);
+                let idle = self.answered(|| remote.is_idle()).await;
+                if idle {
+                    return self.claims;
+                }
+                tokio::time::sleep(PAUSE).await;
+            }
+            for claim in claims {
+                self.solve(&claim).await;
+            }
+        }
+    }
+
+    /// Repeats a request until it is answered, and then once more at random: its answer was lost.
+    async fn answered<T, F: Future<Output = Result<T, EmployerError>>>(
+        &mut self,
+        request: impl Fn() -> F,
+    ) -> T {
+        let mut is_lost = self.is_harmed && self.random.u8(..5) == 0;
+        loop {
+            match request().await {
+                Ok(answer) if !is_lost => return answer,
+                Ok(_) => is_lost = false,
+                Err(_) => tokio::time::sleep(PAUSE).await,
+            }
+        }
+    }
+
+    async fn claim(&mut self) -> Vec<Claim> {
+        self.number += 1;
+        let request = ClaimRequest {
+            request: RequestNumber {
+                worker: self.id,
+                number: self.number,
+            },
+            is_remote: true,
+            capacity: Capacity {
+                slots: 1,
+                memory: MemoryBudget {
+                    memory_mb: 10_000,
+                    used_mb: 0,
+                    running: 0,
+                },
+                is_one_of_several: true,
+                ahead_ms: 0,
+            },
+            lease: LEASE,
+        };
+        let (began, remote) = (Instant::now(), Arc::clone(&self.remote));
+        let claims = self.answered(|| remote.claim(&request)).await;
+        if !claims.is_empty() {
+            self.claims.push(began.elapsed());
+        }
+        claims
+    }
+
+    async fn solve(&mut self, claim: &Claim) {
+        if self.is_harmed && self.random.u8(..20) == 0 {
+            self.done.lost.fetch_add(1, Ordering::Relaxed);
+            // A worker that has vanished renews nothing.
+            self.remote.abandon(claim.into());
+            return;
+        }
+        let (lease, remote) = (Lease::from(claim), Arc::clone(&self.remote));
+        let update = JobUpdate {
+            number: 1,
+            events: vec![(EventName::Cycle, format!("{{\"lease\":{}}}", claim.lease))],
+            ..JobUpdate::default()
+        };
+        let recorded = self.answered(|| remote.record(lease, &update, LEASE)).await;
+        if recorded == LeaseState::Lost {
+            self.done.lost.fetch_add(1, Ordering::Relaxed);
+            return;
+        }
+        let last = JobUpdate {
+            number: 2,
+            block: Some(documents()),
+            ..JobUpdate::default()
+        };
+        let end = End {
+            transition: Transition::Succeed,
+            reason: None,
+            outcome: None,
+            summary: None,
+        };
+        let ended = self.answered(|| remote.finish(lease, &last, &end)).await;
+        match ended {
+            Some(status) => assert_eq!(status.as_str(), "succeeded"),
+            None => drop(self.done.lost.fetch_add(1, Ordering::Relaxed)),
+        }
+    }
+}
+
+/// Documents as a worker makes them of a run.
+fn documents() -> EncodedBlock {
+    let mut block = Block::default();
+    let table = b"cycle,depth\n1,2\n";
+    let entry = manifest_entry("wear-history.csv", None, CSV, table);
+    assert!(block.push_history(&[], &[]).expect("JSON") && block.push_document(&entry, table));
+    block.encode().expect("JSON")
+}
+
+/// Starts workers, each for one of the services.
+pub(super) fn started(
+    folder: &Path,
+    services: &[&str],
+    (count, is_harmed): (usize, bool),
+    done: &Arc<Done>,
+) -> JoinSet<Vec<Duration>> {
+    let client = |server: &&str| Client::new(server, None, None).expect("a client");
+    let clients: Vec<_> = services.iter().map(client).collect();
+    (0..count)
+        .map(|number| (number, Uuid::now_v7()))
+        .map(|(number, id)| Simulated {
+            remote: Arc::new(Remote::new(
+                (clients[number % clients.len()].clone(), id, 1),
+                folder.to_owned(),
+                (LEASE, WAIT),
+            )),
+            id,
+            number: 0,
+            random: Rng::with_seed(u64::try_from(number).expect("small")),
+            done: Arc::clone(done),
+            claims: Vec::new(),
+            is_harmed,
+        })
+        .map(Simulated::work)
+        .collect()
+}
