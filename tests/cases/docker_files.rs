@@ -21,6 +21,13 @@ fn instructions<'a>(dockerfile: &'a str, name: &str) -> Vec<&'a str> {
         .collect()
 }
 
+/// Whether a help names a variable of the environment, with its value or without, where that may be a secret.
+fn has_variable(help: &str, name: &str) -> bool {
+    ['=', ']']
+        .iter()
+        .any(|end| help.contains(&format!("[env: {name}{end}")))
+}
+
 #[test]
 fn the_image_is_built_from_this_workspace_and_contains_its_binary() {
     let dockerfile = read("docker/Dockerfile");
@@ -64,7 +71,7 @@ fn the_container_runs_unprivileged_with_one_volume_and_a_health_check() {
     let variables = instructions(&dockerfile, "ENV")[0];
     for variable in variables.split_whitespace() {
         let name = variable.split('=').next().expect("a name");
-        assert!(help.contains(&format!("[env: {name}=")), "{name}");
+        assert!(has_variable(&help, name), "{name}");
     }
     assert!(variables.contains("sqlite:///data/"));
 }
@@ -122,10 +129,7 @@ fn units_and_manifests_name_commands_options_and_variables() {
         }
         let words = text.split(|c: char| !(c.is_ascii_uppercase() || c == '_'));
         for variable in words.filter(|word| word.starts_with("FRETWEAR_")) {
-            assert!(
-                help.stdout.contains(&format!("[env: {variable}=")),
-                "{file}: {variable}"
-            );
+            assert!(has_variable(&help.stdout, variable), "{file}: {variable}");
         }
     }
 }

@@ -7,8 +7,14 @@
 //!
 //!     FRETWEAR_WORKERS_LOAD=10000,1000 cargo test --release -p tests many_workers::of_a_file -- --nocapture
 //!     FRETWEAR_WORKERS_LOAD=10000,1000,2 cargo test --release -p tests many_workers::of_postgresql -- --nocapture
+//!
+//! `failover` kills the primary of a PostgreSQL database, `harms` everything that jobs depend on, one after the other; their long form has
+//! so many jobs and workers, and `FRETWEAR_HARMS` harms:
+//!
+//!     FRETWEAR_WORKERS_LOAD=100000,1000,3 FRETWEAR_HARMS=50 cargo test --release -p tests many_workers::harms -- --nocapture
 
 mod failover;
+mod harms;
 mod simulated;
 
 use std::path::Path;
@@ -20,7 +26,7 @@ use futures_util::{StreamExt, stream};
 use nix::sys::signal::Signal;
 use tests::{Server, bits};
 
-use simulated::{Done, started};
+use simulated::{Done, Harm, started};
 
 /// A job whose documents are small.
 const SPEC: &str = r#"{"system":{"kind":"cylinder_on_flat"},"cycles":2,
@@ -73,7 +79,12 @@ async fn solved_once(folder: &Path, services: usize) {
     let done = Arc::new(Done::default());
     let began = Instant::now();
     let addresses: Vec<_> = services.iter().map(|server| &server.base[..]).collect();
-    let workers = started(folder, &addresses, (count, !is_long()), &done);
+    let harm = if is_long() {
+        Harm::None
+    } else {
+        Harm::LostWorkers
+    };
+    let workers = started(folder, &addresses, (count, harm), &done);
     if !is_long() {
         let killed = services.remove(0);
         services.insert(0, restarted(folder, killed, &ids).await);

@@ -5,6 +5,9 @@ use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 use std::time::Duration;
 
+use nix::sys::signal::{Signal, kill};
+use nix::unistd::Pid;
+
 use crate::postgres::PostgresServer;
 
 /// How often another port is tried, if another process has taken the one that was free.
@@ -73,6 +76,15 @@ impl Haproxy {
             Self::start(&folder, &configuration, format!("http://{address}"))
         });
         started.expect("it starts")
+    }
+
+    /// Sends it a signal.
+    ///
+    /// # Panics
+    /// If it has ended.
+    pub fn signal(&self, signal: Signal) {
+        let id = i32::try_from(self.child.id()).expect("process ids are small");
+        kill(Pid::from_raw(id), signal).expect("it runs");
     }
 
     fn start(folder: &Path, configuration: &str, address: String) -> Option<Self> {

@@ -39,11 +39,34 @@ impl PostgresServer {
     /// # Panics
     /// If it does not run.
     pub fn kill(&self) {
+        self.signal_first("KILL");
+    }
+
+    /// Sends a signal to its processes: those of its connections, too.
+    ///
+    /// # Panics
+    /// If it does not run.
+    pub fn signal(&self, signal: &str) {
+        self.signal_first(signal);
+        let parent = self.first_process();
+        // Some may end meanwhile.
+        let _ = Command::new("pkill")
+            .args([&format!("-{signal}"), "-P", &parent])
+            .status();
+    }
+
+    fn signal_first(&self, signal: &str) {
+        let process = self.first_process();
+        let sent = Command::new("kill")
+            .args([&format!("-{signal}"), &process])
+            .status();
+        assert!(sent.expect("kill").success(), "no process {process}");
+    }
+
+    fn first_process(&self) -> String {
         let file = self.folder.join("data/postmaster.pid");
         let text = std::fs::read_to_string(file).expect("it runs");
-        let id = text.lines().next().expect("its process");
-        let killed = Command::new("kill").args(["-KILL", id]).status();
-        assert!(killed.expect("kill").success(), "no process {id}");
+        text.lines().next().expect("its process").to_owned()
     }
 
     /// Its socket.

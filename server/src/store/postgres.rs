@@ -7,6 +7,7 @@
 mod batches;
 mod blocks;
 mod checkpoints;
+mod claimed;
 mod claims;
 mod events;
 mod files;
@@ -38,6 +39,7 @@ use tokio_util::task::AbortOnDropHandle;
 use crate::clock::{Clock, Now};
 use crate::store::groups::Groups;
 use crate::store::local::Local;
+use crate::store::postgres::claimed::Claimed;
 use crate::store::{ClaimRequest, StoreError};
 
 /// A store in a PostgreSQL database.
@@ -45,7 +47,7 @@ use crate::store::{ClaimRequest, StoreError};
 pub(in crate::store) struct PostgresStore {
     pub(in crate::store) local: Local,
     pool: PgPool,
-    claims: Groups<ClaimRequest, claims::Claimed>,
+    claims: Groups<ClaimRequest, Claimed>,
     /// The connection that asks for the lock of the process that moves results, and whether it holds it.
     mover: tokio::sync::Mutex<Option<(PgConnection, bool)>>,
     /// When the database was last written by [`PostgresStore::ready`].

@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 use nix::sys::signal::Signal;
 use tests::{Haproxy, PostgresServer, Server};
 
-use super::simulated::{Done, started};
+use super::simulated::{Done, Harm, started};
 use super::{ATTEMPTS, assert_once, is_long, load, submitted};
 
 /// Time between the death of the primary and the promotion, as a supervisor needs it.
@@ -36,7 +36,12 @@ async fn a_primary_and_a_service_that_are_killed_lose_no_job() {
     let services = Haproxy::of_services(folder.path(), &[&first.base, &second.base]);
     let ids = submitted(&second, jobs).await;
     let done = Arc::new(Done::default());
-    let workers = started(folder.path(), &[&services.address], (count, true), &done);
+    let workers = started(
+        folder.path(),
+        &[&services.address],
+        (count, Harm::LostWorkers),
+        &done,
+    );
 
     ended(&second, &ids[ids.len() / 5]).await;
     primary.kill();

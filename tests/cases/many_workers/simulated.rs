@@ -32,6 +32,16 @@ pub(super) struct Done {
     pub(super) lost: AtomicU32,
 }
 
+/// What happens to workers at random.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Harm {
+    None,
+    /// Answers are lost, so that requests are repeated.
+    LostAnswers,
+    /// Workers vanish with their jobs, too.
+    LostWorkers,
+}
+
 /// A worker that solves nothing.
 struct Simulated {
     remote: Arc<Remote>,
@@ -41,8 +51,7 @@ struct Simulated {
     done: Arc<Done>,
     /// Times of claims that got a job.
     claims: Vec<Duration>,
-    /// Whether requests are repeated at random, and jobs abandoned.
-    is_harmed: bool,
+    harm: Harm,
 }
 
 impl Simulated {
@@ -69,7 +78,7 @@ impl Simulated {
         &mut self,
         request: impl Fn() -> F,
     ) -> T {
-        let mut is_lost = self.is_harmed && self.random.u8(..5) == 0;
+        let mut is_lost = self.harm != Harm::None && self.random.u8(..5) == 0;
         loop {
             match request().await {
                 Ok(answer) if !is_lost => return answer,
@@ -108,7 +117,7 @@ impl Simulated {
     }
 
     async fn solve(&mut self, claim: &Claim) {
-        if self.is_harmed && self.random.u8(..20) == 0 {
+        if self.harm == Harm::LostWorkers && self.random.u8(..20) == 0 {
             self.done.lost.fetch_add(1, Ordering::Relaxed);
             // A worker that has vanished renews nothing.
             self.remote.abandon(claim.into());
@@ -157,7 +166,7 @@ fn documents() -> EncodedBlock {
 pub(super) fn started(
     folder: &Path,
     services: &[&str],
-    (count, is_harmed): (usize, bool),
+    (count, harm): (usize, Harm),
     done: &Arc<Done>,
 ) -> JoinSet<Vec<Duration>> {
     let client = |server: &&str| Client::new(server, None, None).expect("a client");
@@ -175,7 +184,7 @@ pub(super) fn started(
             random: Rng::with_seed(u64::try_from(number).expect("small")),
             done: Arc::clone(done),
             claims: Vec::new(),
-            is_harmed,
+            harm,
         })
         .map(Simulated::work)
         .collect()

@@ -9,6 +9,7 @@ use uuid::Uuid;
 use crate::clock::Now;
 use crate::queue::{WaitingJob, admit};
 use crate::store::groups::Pending;
+use crate::store::postgres::claimed::Claimed;
 use crate::store::postgres::{PostgresStore, checkpoints};
 use crate::store::rows::{StoredRow, attempt_event, claim, integer};
 use crate::store::{Claim, ClaimRequest, StoreError};
@@ -32,14 +33,6 @@ impl PostgresStore {
         }
         Ok(claims)
     }
-}
-
-/// What a request has got.
-#[derive(Debug)]
-pub(super) struct Claimed {
-    claims: Vec<Claim>,
-    /// Jobs that were given another reason to wait.
-    reasoned: Vec<Uuid>,
 }
 
 /// Claims jobs for requests in one transaction. If it fails, all fail: a request is repeated, and gets the same jobs if its

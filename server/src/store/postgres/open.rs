@@ -4,7 +4,7 @@ use std::path::Path;
 use std::str::FromStr;
 use std::time::Duration;
 
-use sqlx::postgres::{PgConnectOptions, PgPool, PgPoolOptions, PgSslMode};
+use sqlx::postgres::{PgConnectOptions, PgConnection, PgPool, PgPoolOptions, PgSslMode};
 use tokio::sync::mpsc;
 use tokio_util::task::AbortOnDropHandle;
 use uuid::Uuid;
@@ -52,6 +52,7 @@ impl PostgresStore {
         let pool = PgPoolOptions::new()
             .max_connections(CONNECTIONS + 1)
             .acquire_timeout(CONNECTION_TIMEOUT)
+            .after_connect(|connection, _| Box::pin(refuse_standby(connection)))
             .connect_with(options)
             .await?;
         check_version(&pool).await?;
@@ -109,6 +110,17 @@ fn options(url: &str) -> Result<PgConnectOptions, StoreError> {
         });
     }
     Ok(options.application_name("fretwear").options(SETTINGS))
+}
+
+/// Refuses a connection to a standby, where a proxy leads while the primary does not answer: it would stay there.
+async fn refuse_standby(connection: &mut PgConnection) -> Result<(), sqlx::Error> {
+    let is_standby: bool = sqlx::query_scalar("SELECT pg_is_in_recovery()")
+        .fetch_one(connection)
+        .await?;
+    if is_standby {
+        return Err(sqlx::Error::Configuration("the server is a standby".into()));
+    }
+    Ok(())
 }
 
 async fn check_version(pool: &PgPool) -> Result<(), StoreError> {
