@@ -46,8 +46,7 @@ CREATE TABLE jobs (
     CHECK ((status IN ('succeeded', 'failed', 'cancelled')) = (finished_at IS NOT NULL))
 ) WITH (fillfactor = 70, toast_tuple_target = 512, autovacuum_vacuum_scale_factor = 0.01, autovacuum_analyze_scale_factor = 0.02);
 
-ALTER TABLE jobs ALTER COLUMN spec SET STORAGE EXTENDED, ALTER COLUMN plan SET STORAGE EXTENDED,
-    ALTER COLUMN summary SET STORAGE EXTENDED, ALTER COLUMN progress SET STORAGE MAIN;
+ALTER TABLE jobs ALTER COLUMN progress SET STORAGE MAIN;
 
 CREATE INDEX jobs_waiting ON jobs (place, id) INCLUDE (memory_mb, queued_at, cpu_ms) WHERE status = 'queued';
 CREATE INDEX jobs_running ON jobs (id) WHERE status = 'running';
@@ -55,6 +54,7 @@ CREATE INDEX jobs_by_claim ON jobs (worker, claim_number) WHERE status = 'runnin
 CREATE INDEX jobs_by_deadline ON jobs (deadline_at) WHERE status = 'queued' AND deadline_at IS NOT NULL;
 CREATE INDEX jobs_by_end ON jobs (finished_at) WHERE finished_at IS NOT NULL;
 CREATE INDEX jobs_by_status ON jobs (status, id);
+CREATE INDEX jobs_by_age ON jobs (status, created_at);
 CREATE INDEX jobs_by_system ON jobs (system, id);
 CREATE INDEX jobs_by_revision ON jobs (revision, id);
 
@@ -70,8 +70,8 @@ INSERT INTO revisions (name, last) VALUES ('jobs', 0);
 CREATE FUNCTION fretwear_revision() RETURNS bigint LANGUAGE sql VOLATILE
     RETURN (SELECT last FROM revisions) + pg_current_xact_id()::text::bigint;
 
--- The last revision of which, and of all before it, every change can be seen.
-CREATE FUNCTION fretwear_last_revision() RETURNS bigint LANGUAGE sql VOLATILE
+-- The last revision of which, and of all before it, every change can be seen: by the snapshot of the statement that asks.
+CREATE FUNCTION fretwear_last_revision() RETURNS bigint LANGUAGE sql STABLE
     RETURN (SELECT last FROM revisions) + pg_snapshot_xmin(pg_current_snapshot())::text::bigint - 1;
 
 CREATE TABLE deleted_jobs (

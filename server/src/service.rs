@@ -137,7 +137,12 @@ impl Service {
             store: Arc::clone(&store),
             stopping: stopping.clone(),
         };
-        let process = Arc::new(WorkerProcess::new(worker.memory_mb, false));
+        let process = WorkerProcess::new(worker.memory_mb, false);
+        let process = Arc::new(if store.is_shared() {
+            process.beside_others()
+        } else {
+            process
+        });
         for number in 0..config.workers {
             let (store, shared, stopping) = (
                 Arc::clone(&store),

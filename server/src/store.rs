@@ -68,6 +68,7 @@ mod operations;
 mod overview;
 mod packed;
 mod postgres;
+mod reading;
 mod results;
 mod results_to_move;
 mod rows;

@@ -11,7 +11,8 @@ use std::time::Duration;
 const PROGRAMS: &str = env!("FRETWEAR_POSTGRESQL");
 /// The user as which it runs in a test of the superuser, which it refuses to run for.
 const USER: &str = "postgres";
-/// Its first process waits for the end of its input, which ends with the test, and then stops and removes everything.
+/// Its first process waits for the end of its input, which ends with the test, and then stops and removes everything, also what the test
+/// has paused.
 const SCRIPT: &str =
     r#""$@" & server=$!; read -r _; kill -INT $server; wait $server; rm -rf "$FOLDER""#;
 /// Settings of a server whose files need not survive the machine.

@@ -1,7 +1,7 @@
 //! A real `fretwear serve` on a free loopback port, killed when it goes out of scope.
 
 use std::fs::File;
-use std::io::{BufRead, BufReader, Lines};
+use std::io::{BufRead, BufReader, Lines, Write};
 use std::path::{Path, PathBuf};
 use std::process::{Child, ChildStderr, Command, Stdio};
 use std::time::{Duration, Instant};
@@ -20,6 +20,9 @@ const PATIENCE: Duration = Duration::from_mins(4);
 const ADDRESS: &str = "database-url";
 /// Lets every case use PostgreSQL. Those about the file of a database, its disk and its clock then fail.
 const EVERYWHERE: &str = "FRETWEAR_TEST_POSTGRESQL";
+
+/// File that the logs of services are appended to.
+const KEPT: &str = "FRETWEAR_TEST_LOG";
 
 /// A running service.
 #[derive(Debug)]
@@ -73,8 +76,18 @@ impl Server {
             .env("RUST_LOG", "info")
             .envs(environment.iter().copied());
         let (server, lines) = Self::started(command);
-        // Its further output is read and discarded, so that it never blocks on a full pipe.
-        std::thread::spawn(move || lines.for_each(drop));
+        // Its further output is read, so that it never blocks on a full pipe, and kept if somebody wants to see it.
+        let mut kept = std::env::var_os(KEPT).map(|path| {
+            let file = File::options().create(true).append(true).open(path);
+            file.expect("a file for the logs")
+        });
+        std::thread::spawn(move || {
+            for line in lines.map_while(Result::ok) {
+                if let Some(kept) = &mut kept {
+                    writeln!(kept, "{line}").expect("the log can be written");
+                }
+            }
+        });
         server
     }
 

@@ -19,8 +19,11 @@ const DISK_FULL_STATE: &str = "53100";
 impl From<sqlx::Error> for StoreError {
     fn from(error: sqlx::Error) -> Self {
         let (is_transient, is_disk_full) = match &error {
-            // The connection was lost, or none was to be had in time.
-            sqlx::Error::PoolTimedOut | sqlx::Error::Io(_) => (true, false),
+            // The connection was lost, or none was to be had in time; a proxy without a server accepts one and ends it in the middle of the
+            // protocol.
+            sqlx::Error::PoolTimedOut | sqlx::Error::Io(_) | sqlx::Error::Protocol(_) => {
+                (true, false)
+            }
             _ => match (state(&error), result_code(&error)) {
                 (Some(state), _) => (
                     TRANSIENT_STATES

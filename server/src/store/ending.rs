@@ -68,6 +68,8 @@ impl EndingJob {
             return Ok(None);
         };
         let (status_reason, outcome) = reason_and_outcome(status, self.attempts, end);
+        // What a program has written before its end may have a character that databases cannot store in a text.
+        let status_reason = status_reason.map(|reason| reason.replace('\0', "\u{fffd}"));
         let done = status.is_terminal().then(|| Done {
             status,
             status_reason: status_reason.clone(),

@@ -161,6 +161,9 @@ pub enum StoreError {
         /// Address of the one that was given.
         given: String,
     },
+    /// The database has not answered in time.
+    #[error("the database has not answered within {0:?}")]
+    NoAnswer(std::time::Duration),
     /// A submission was interrupted before it was written.
     #[error("the submission was interrupted before it was written")]
     Unwritten,
@@ -173,7 +176,7 @@ impl StoreError {
     /// Whether a retry may succeed: the database is busy, or its disk is full.
     pub fn is_transient(&self) -> bool {
         match self {
-            Self::Unwritten => true,
+            Self::Unwritten | Self::NoAnswer(_) => true,
             Self::Database { is_transient, .. } => *is_transient,
             _ => self.is_disk_full(),
         }

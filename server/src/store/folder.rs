@@ -46,6 +46,20 @@ impl Folder {
         (is_inside && !place.is_empty()).then(|| self.root.join(place))
     }
 
+    /// The jobs that have files.
+    pub(in crate::store) fn jobs(&self) -> std::io::Result<Vec<Uuid>> {
+        let names = entries(&self.root)?.into_iter();
+        let names = names.map(|entry| entry.file_name());
+        Ok(names
+            .filter_map(|name| name.to_str()?.parse().ok())
+            .collect())
+    }
+
+    /// Whether it is there: as long as no job has files it is not, and neither while the disk that it is on is not mounted.
+    pub(in crate::store) fn exists(&self) -> bool {
+        self.root.is_dir()
+    }
+
     /// Removes all files of a job.
     pub(in crate::store) fn remove(&self, id: Uuid) -> std::io::Result<()> {
         match fs_err::remove_dir_all(self.root.join(id.to_string())) {

@@ -1,7 +1,7 @@
 //! Requests that share a transaction. A commit waits some milliseconds for the disk; requests that arrive meanwhile are written
 //! together by the next one, and each is answered only after its own.
 
-use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use tokio::sync::oneshot;
 
@@ -14,7 +14,7 @@ const LIMIT: usize = 64;
 #[derive(Debug)]
 pub(in crate::store) struct Groups<Q, A> {
     pending: Mutex<Vec<Pending<Q, A>>>,
-    turn: tokio::sync::Mutex<()>,
+    turn: Arc<tokio::sync::Mutex<()>>,
 }
 
 /// A request, and where its answer goes.
@@ -25,6 +25,11 @@ pub(in crate::store) struct Pending<Q, A> {
 }
 
 impl<Q, A> Pending<Q, A> {
+    /// Whether nobody waits for the answer any more.
+    pub(in crate::store) fn is_given_up(&self) -> bool {
+        self.answer.is_closed()
+    }
+
     /// Answers the request. The client may have disconnected: what is written is written all the same.
     pub(in crate::store) fn answer(self, answer: Result<A, StoreError>) {
         let _ = self.answer.send(answer);
@@ -35,7 +40,7 @@ impl<Q, A> Default for Groups<Q, A> {
     fn default() -> Self {
         Self {
             pending: Mutex::default(),
-            turn: tokio::sync::Mutex::default(),
+            turn: Arc::default(),
         }
     }
 }
@@ -53,16 +58,19 @@ impl<Q: Send + 'static, A: Send + 'static> Groups<Q, A> {
         let (answer, mut answered) = oneshot::channel();
         self.pending().push(Pending { request, answer });
         loop {
-            let turn = self.turn.lock().await;
+            let turn = Arc::clone(&self.turn).lock_owned().await;
             match answered.try_recv() {
                 Ok(answer) => return answer,
                 Err(oneshot::error::TryRecvError::Closed) => return Err(StoreError::Unwritten),
                 Err(oneshot::error::TryRecvError::Empty) => {}
             }
-            // In a task of its own: a client that disconnects must not cancel the requests of others.
-            let writing = tokio::spawn(write(self.take()));
+            // In a task of its own, which keeps the turn: a client that disconnects must not cancel the requests of others.
+            let write = write(self.take());
+            let writing = tokio::spawn(async move {
+                write.await;
+                drop(turn);
+            });
             writing.await.map_err(|_| StoreError::Unwritten)?;
-            drop(turn);
         }
     }
 

@@ -1,7 +1,7 @@
 //! What this process has of a store besides the database: the folder of large results, the disk, the clock, counters and
 //! subscribers.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use api::job::Status;
@@ -45,9 +45,16 @@ pub(in crate::store) struct Local {
 }
 
 impl Local {
-    /// Prepares it: its files are named after `files` and lie beside it.
-    pub(in crate::store) fn prepare(files: &std::path::Path, limits: Limits, clock: Clock) -> Self {
-        let reserve = beside(files, ".reserve");
+    /// Prepares it: its files are named after `files` and lie beside it; those of this machine are named after the machine, too, where
+    /// others have theirs at the same place.
+    pub(in crate::store) fn prepare(
+        files: &Path,
+        machine: Option<&str>,
+        limits: Limits,
+        clock: Clock,
+    ) -> Self {
+        let own = machine.map_or_else(String::new, |name| format!(".{name}"));
+        let reserve = beside(files, &format!("{own}.reserve"));
         // Of a process that was killed: whatever space there is is needed now.
         let _ = std::fs::remove_file(&reserve);
         let (changes, _) = broadcast::channel(CHANGE_CAPACITY);
@@ -57,7 +64,7 @@ impl Local {
             others: None,
             folder: Folder::beside(files),
             objects: None,
-            machine: beside(files, ".machine.json"),
+            machine: beside(files, &format!("{own}.machine.json")),
             attempt_limit: limits.attempts,
             metrics: Arc::default(),
             disk: Arc::new(DataDisk::reserve(reserve, limits.least_free_disk_mb)),

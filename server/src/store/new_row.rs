@@ -25,8 +25,8 @@ pub(in crate::store) struct NewRow {
 }
 
 impl NewRow {
-    /// That of a job that is queued now.
-    pub(in crate::store) fn of(job: &NewJob, now: Now) -> Result<Self, StoreError> {
+    /// That of a job that is queued now, under an id.
+    pub(in crate::store) fn of(job: &NewJob, id: Uuid, now: Now) -> Result<Self, StoreError> {
         let Now {
             system_ms,
             monotonic_ms,
@@ -39,7 +39,7 @@ impl NewRow {
         };
         let deadline_ms = options.deadline_s.map(|s| 1_000 * i64::from(s));
         Ok(Self {
-            id: Uuid::now_v7(),
+            id,
             system: job.spec.system.kind.known().map_or("", SystemKind::as_str),
             spec: serde_json::to_string(&job.spec)?,
             plan: serde_json::to_string(&job.plan)?,

@@ -142,7 +142,9 @@ impl Store {
         let Prepared { moved, head, files } = prepared;
         match objects.put(&moved.key, &head, &files).await {
             Ok(()) => Ok(Some(moved)),
-            Err(error @ ObjectsError::Damaged { .. }) => self.kept(id, &error).await,
+            Err(error @ ObjectsError::Damaged { .. }) if self.local().folder.exists() => {
+                self.kept(id, &error).await
+            }
             Err(error) => Err(error.into()),
         }
     }

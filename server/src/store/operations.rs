@@ -42,7 +42,9 @@ macro_rules! operations {
             $visibility async fn $name(&self $(, $argument: $type)*) -> $result {
                 match &self.0 {
                     $crate::store::operations::Engine::Sqlite(store) => Box::pin(store.$name($($argument),*)).await,
-                    $crate::store::operations::Engine::Postgres(store) => Box::pin(store.$name($($argument),*)).await,
+                    $crate::store::operations::Engine::Postgres(store) => {
+                        $crate::store::postgres::answered(Box::pin(store.$name($($argument),*))).await
+                    }
                 }
             })*
         }
@@ -158,6 +160,11 @@ impl Store {
         &self.local().metrics
     }
 
+    /// Whether several processes may serve the database.
+    pub fn is_shared(&self) -> bool {
+        matches!(self.0, Engine::Postgres(_))
+    }
+
     pub(in crate::store) fn local(&self) -> &Local {
         match &self.0 {
             Engine::Sqlite(store) => &store.local,
@@ -175,19 +182,22 @@ impl Store {
 
 /// The address of a database as it may be shown, without a password.
 pub fn shown_address(url: &str) -> String {
-    if !is_postgres(url) {
-        return url.to_owned();
-    }
     let shown = |mut url: Url| {
         // Fails for addresses without host, which have no password.
         let _ = url.set_password(None);
         url.set_query(None);
         url.to_string()
     };
-    Url::parse(url).map_or_else(|_| "postgres:".to_owned(), shown)
+    match url.split_once(':') {
+        Some((scheme, _)) if scheme != "sqlite" => {
+            Url::parse(url).map_or_else(|_| format!("{scheme}:.."), shown)
+        }
+        _ => url.to_owned(),
+    }
 }
 
 /// Whether an address is that of a PostgreSQL database.
 pub(in crate::store) fn is_postgres(url: &str) -> bool {
-    url.starts_with("postgres:") || url.starts_with("postgresql:")
+    let scheme = url.split_once(':').map_or("", |(scheme, _)| scheme);
+    scheme.eq_ignore_ascii_case("postgres") || scheme.eq_ignore_ascii_case("postgresql")
 }

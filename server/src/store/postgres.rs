@@ -9,6 +9,7 @@ mod blocks;
 mod checkpoints;
 mod claimed;
 mod claims;
+mod compared;
 mod events;
 mod files;
 mod gauges;
@@ -30,28 +31,33 @@ mod selects;
 mod transitions;
 mod worker_tokens;
 
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 use sqlx::postgres::{PgConnection, PgPool};
 use sqlx::{Postgres, Transaction};
+use tokio::time::timeout;
 use tokio_util::task::AbortOnDropHandle;
 
 use crate::clock::{Clock, Now};
 use crate::store::groups::Groups;
 use crate::store::local::Local;
 use crate::store::postgres::claimed::Claimed;
+use crate::store::postgres::compared::Compared;
 use crate::store::{ClaimRequest, StoreError};
 
 /// A store in a PostgreSQL database.
 #[derive(Debug)]
 pub(in crate::store) struct PostgresStore {
     pub(in crate::store) local: Local,
+    /// For claims and writes, which must not wait for reads.
     pool: PgPool,
+    readers: PgPool,
     claims: Groups<ClaimRequest, Claimed>,
     /// The connection that asks for the lock of the process that moves results, and whether it holds it.
     mover: tokio::sync::Mutex<Option<(PgConnection, bool)>>,
     /// When the database was last written by [`PostgresStore::ready`].
     last_probe: tokio::sync::Mutex<Option<Instant>>,
+    compared: tokio::sync::Mutex<Option<Compared>>,
     /// Tells and hears changes.
     tasks: [AbortOnDropHandle<()>; 2],
 }
@@ -59,7 +65,7 @@ pub(in crate::store) struct PostgresStore {
 impl PostgresStore {
     /// Begins a transaction, at a time.
     async fn begin(&self) -> Result<(Transaction<'static, Postgres>, Now), StoreError> {
-        let mut transaction = self.pool.begin().await?;
+        let mut transaction = begin(&self.pool, None).await?;
         let now = self.now(&mut transaction).await?;
         Ok((transaction, now))
     }
@@ -80,4 +86,32 @@ impl PostgresStore {
         let is_given = matches!(self.local.clock, Clock::Manual(_));
         is_given.then(|| self.local.clock.now())
     }
+}
+
+/// Longest time that an operation may take: a server whose machine has vanished answers never.
+const LONGEST: Duration = Duration::from_secs(60);
+
+/// Waits for an operation, but not for ever.
+pub(in crate::store) async fn answered<T>(
+    operation: impl Future<Output = Result<T, StoreError>>,
+) -> Result<T, StoreError> {
+    let answer = timeout(LONGEST, operation).await;
+    answer.unwrap_or(Err(StoreError::NoAnswer(LONGEST)))
+}
+
+/// Begins a transaction by a statement, in a task of its own: a request that is dropped before the answer to `BEGIN` would leave a
+/// connection in the pool that is in a transaction and not known to be so.
+async fn begin(
+    pool: &PgPool,
+    statement: Option<&'static str>,
+) -> Result<Transaction<'static, Postgres>, StoreError> {
+    let pool = pool.clone();
+    let beginning = tokio::spawn(async move {
+        match statement {
+            None => pool.begin().await,
+            Some(statement) => pool.begin_with(statement).await,
+        }
+    });
+    let transaction = beginning.await.map_err(|_| StoreError::Unwritten)?;
+    Ok(transaction?)
 }

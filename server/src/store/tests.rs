@@ -39,6 +39,7 @@ mod files;
 mod leases;
 mod objects;
 mod order;
+mod roles;
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;

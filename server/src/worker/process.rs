@@ -15,6 +15,7 @@ use crate::worker::employer::{Employer, EmployerError};
 pub struct WorkerProcess {
     id: Uuid,
     is_remote: bool,
+    is_one_of_several: bool,
     memory: Mutex<MemoryBudget>,
     /// Number of the next request; held during it, so that one worker asks at a time.
     next_request: tokio::sync::Mutex<i64>,
@@ -41,12 +42,22 @@ impl WorkerProcess {
         Self {
             id: Uuid::now_v7(),
             is_remote,
+            is_one_of_several: is_remote,
             memory: Mutex::new(MemoryBudget {
                 memory_mb,
                 used_mb: 0,
                 running: 0,
             }),
             next_request: tokio::sync::Mutex::new(1),
+        }
+    }
+
+    /// One beside which others, with more memory, may take the jobs that do not fit.
+    #[must_use]
+    pub fn beside_others(self) -> Self {
+        Self {
+            is_one_of_several: true,
+            ..self
         }
     }
 
@@ -76,7 +87,7 @@ impl WorkerProcess {
             capacity: Capacity {
                 slots: 1,
                 memory: *self.memory(),
-                is_one_of_several: self.is_remote,
+                is_one_of_several: self.is_one_of_several,
                 ahead_ms: i64::try_from(config.ahead.as_millis()).unwrap_or(i64::MAX),
             },
             lease: config.lease,

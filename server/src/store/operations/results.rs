@@ -1,57 +1,20 @@
 //! Events and results.
 
-use std::collections::HashMap;
-
 use api::results::{ResultFile, Snapshot};
 use solver::record::CycleReport;
 use uuid::Uuid;
 
 use crate::store::operations::operations;
 use crate::store::results_to_move::{Moved, Stored};
+use crate::store::stored_block::StoredBlock;
 use crate::store::{Content, Lease, SnapshotPart, StoreError, StoredEvent};
 
 operations! {
-    /// Returns the events of a job after number `after`, oldest first; at most a page of them.
-    ///
-    /// # Errors
-    /// [`StoreError`] if the database fails.
-    pub async fn events(&self, id: Uuid, after: i64) -> Result<Vec<StoredEvent>, StoreError>;
-
-    /// Returns the rows of the wear history so far, by cycle.
-    ///
-    /// # Errors
-    /// [`StoreError`] if the database fails or a row cannot be read.
-    pub async fn history(&self, id: Uuid) -> Result<Vec<CycleReport>, StoreError>;
-
-    /// Returns a document (JSON) of the snapshot nearest to a cycle; of the last snapshot if no cycle is given.
-    ///
-    /// # Errors
-    /// [`StoreError`] if the database fails.
-    pub async fn snapshot(&self, id: Uuid, part: SnapshotPart, cycle: Option<u64>) -> Result<Option<String>, StoreError>;
-
-    /// Returns all snapshots of a job, by cycle.
-    ///
-    /// # Errors
-    /// [`StoreError`] if the database fails or a document cannot be read.
-    pub async fn snapshots(&self, id: Uuid) -> Result<Vec<Snapshot>, StoreError>;
-
-    /// Returns the documents of a job's block, by name.
-    ///
-    /// # Errors
-    /// [`StoreError`] if the database fails or the block cannot be read.
-    pub async fn block_documents(&self, id: Uuid) -> Result<HashMap<String, Vec<u8>>, StoreError>;
-
     /// Returns the manifest of a job so far, by name.
     ///
     /// # Errors
     /// [`StoreError`] if the database fails.
     pub async fn manifest(&self, id: Uuid) -> Result<Vec<ResultFile>, StoreError>;
-
-    /// Returns a file that the manifest names, and its content.
-    ///
-    /// # Errors
-    /// [`StoreError`] if the database fails.
-    pub async fn result_file(&self, id: Uuid, name: &str) -> Result<Option<(ResultFile, Content)>, StoreError>;
 
     /// Marks a file in its manifest as damaged, with how, or no longer.
     ///
@@ -96,4 +59,22 @@ operations! {
 
     /// Names objects and removes the results from the database, unless they have changed meanwhile. Returns the jobs.
     pub(in crate::store) async fn name_objects(&self, moved: &[Moved]) -> Result<Vec<Uuid>, StoreError>;
+
+    /// Reads the block of a job; `None` if it has none.
+    pub(in crate::store) async fn stored_block(&self, id: Uuid) -> Result<Option<StoredBlock>, StoreError>;
+
+    /// Reads the rows of the wear history, by cycle.
+    pub(in crate::store) async fn history_rows(&self, id: Uuid) -> Result<Vec<CycleReport>, StoreError>;
+
+    /// Reads a document of the row of the snapshot nearest to a cycle.
+    pub(in crate::store) async fn snapshot_row(&self, id: Uuid, part: SnapshotPart, cycle: Option<u64>) -> Result<Option<String>, StoreError>;
+
+    /// Reads the rows of all snapshots, by cycle.
+    pub(in crate::store) async fn snapshot_rows(&self, id: Uuid) -> Result<Vec<Snapshot>, StoreError>;
+
+    /// Reads a page of the rows of events after one.
+    pub(in crate::store) async fn event_rows(&self, id: Uuid, after: i64) -> Result<Vec<StoredEvent>, StoreError>;
+
+    /// Reads the row of a file.
+    pub(in crate::store) async fn file_row(&self, id: Uuid, name: &str) -> Result<Option<(ResultFile, Content)>, StoreError>;
 }

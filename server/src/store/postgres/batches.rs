@@ -8,9 +8,10 @@ use uuid::Uuid;
 use crate::clock::Now;
 use crate::store::batch_rows::{batch_job, batch_overview, no_jobs};
 use crate::store::batches::{BatchDetail, BatchFilter, BatchOverview, NewBatch, StoredBatch};
+use crate::store::job_ids::new_id;
 use crate::store::new_row::NewRow;
-use crate::store::postgres::PostgresStore;
 use crate::store::postgres::job_rows::{cancel, insert};
+use crate::store::postgres::{PostgresStore, begin};
 use crate::store::rows::StoredRow;
 use crate::store::{Deleted, RequestKey, StoreError, Submitted};
 
@@ -22,7 +23,7 @@ impl PostgresStore {
     ) -> Result<Submitted, StoreError> {
         self.local.disk.check()?;
         let (mut transaction, now) = self.begin().await?;
-        let id = Uuid::now_v7();
+        let id = new_id(now.system_ms);
         if !insert_batch(&mut transaction, (id, batch), key, now).await?
             && let Some(key) = key
         {
@@ -52,7 +53,7 @@ impl PostgresStore {
             "SELECT id, name, created_at, plan FROM sweeps LEFT JOIN studies ON sweep_id = id WHERE id = $1",
         )
         .bind(id)
-        .fetch_optional(&self.pool)
+        .fetch_optional(&self.readers)
         .await?;
         let Some(batch) = batch else {
             return Ok(None);
@@ -63,7 +64,7 @@ impl PostgresStore {
         )
         .bind(detail >= BatchDetail::Summaries)
         .bind(id)
-        .fetch_all(&self.pool)
+        .fetch_all(&self.readers)
         .await?;
         let mut counts = no_jobs();
         let mut jobs = Vec::with_capacity(rows.len());
@@ -90,7 +91,7 @@ impl PostgresStore {
         .bind(filter.before.unwrap_or(Uuid::max()))
         .bind(filter.with_plan)
         .bind(i64::from(filter.limit))
-        .fetch_all(&self.pool)
+        .fetch_all(&self.readers)
         .await?;
         let mut batches = Vec::with_capacity(rows.len());
         for row in rows {
@@ -111,7 +112,7 @@ impl PostgresStore {
         )
         .bind(id)
         .bind(with_plan)
-        .fetch_one(&self.pool);
+        .fetch_one(&self.readers);
         Ok(found.await?)
     }
 
@@ -129,7 +130,7 @@ impl PostgresStore {
     }
 
     pub(in crate::store) async fn delete_batch(&self, id: Uuid) -> Result<Deleted, StoreError> {
-        let mut transaction = self.pool.begin().await?;
+        let mut transaction = begin(&self.pool, None).await?;
         let jobs = locked_jobs(&mut transaction, id).await?;
         let active: i64 = sqlx::query_scalar(
             "SELECT count(*) FROM jobs WHERE id = ANY($1) AND finished_at IS NULL",
@@ -164,7 +165,7 @@ impl PostgresStore {
             "SELECT status, count(*) FROM sweep_jobs JOIN jobs ON jobs.id = job_id WHERE sweep_id = $1 GROUP BY status",
         )
         .bind(id)
-        .fetch_all(&self.pool)
+        .fetch_all(&self.readers)
         .await?;
         let mut counts = no_jobs();
         let count = |(status, count): (String, i64)| (status, count.try_into().unwrap_or_default());
@@ -209,7 +210,7 @@ async fn insert_jobs(
 ) -> Result<(), StoreError> {
     let (mut jobs, mut overrides) = (Vec::new(), Vec::new());
     for (job, changes) in &batch.jobs {
-        let new = NewRow::of(job, now)?;
+        let new = NewRow::of(job, new_id(now.system_ms), now)?;
         insert(connection, job, &new, now).await?;
         jobs.push(new.id);
         overrides.push(serde_json::to_string(changes)?);

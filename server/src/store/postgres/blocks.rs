@@ -1,14 +1,12 @@
 //! Blocks of results of ended jobs.
 
-use std::collections::HashMap;
-
 use sqlx::postgres::PgConnection;
 use uuid::Uuid;
 
 use crate::store::StoreError;
-use crate::store::block::{Block, BlockError, EncodedBlock};
+use crate::store::block::EncodedBlock;
 use crate::store::postgres::PostgresStore;
-use crate::store::stored_block::{StoredBlock, unreadable};
+use crate::store::stored_block::StoredBlock;
 
 /// Reads the block of a job; `None` if it has none.
 pub(super) async fn stored_block(
@@ -27,41 +25,12 @@ pub(super) async fn stored_block(
 }
 
 impl PostgresStore {
-    /// Returns the block of a job as it is stored; `None` if it has none.
-    pub(super) async fn stored_block(&self, id: Uuid) -> Result<Option<StoredBlock>, StoreError> {
-        let mut connection = self.pool.acquire().await?;
+    pub(in crate::store) async fn stored_block(
+        &self,
+        id: Uuid,
+    ) -> Result<Option<StoredBlock>, StoreError> {
+        let mut connection = self.readers.acquire().await?;
         Ok(stored_block(&mut connection, id).await?)
-    }
-
-    /// Returns the block of a job; `None` if it has none.
-    async fn block(&self, id: Uuid) -> Result<Option<Block>, StoreError> {
-        match self.stored_block(id).await? {
-            None => Ok(None),
-            Some(stored) => {
-                let block = stored.decoded(id, self.local.objects.as_ref()).await;
-                block.map(Some)
-            }
-        }
-    }
-
-    pub(in crate::store) async fn block_documents(
-        &self,
-        id: Uuid,
-    ) -> Result<HashMap<String, Vec<u8>>, StoreError> {
-        let block = self.block(id).await?.unwrap_or_default();
-        Ok(block.into_documents())
-    }
-
-    /// Returns what is read of a job's block; `None` if it has none, or if it is not part of it.
-    pub(super) async fn in_block<T>(
-        &self,
-        id: Uuid,
-        read: impl FnOnce(&Block) -> Result<Option<T>, BlockError>,
-    ) -> Result<Option<T>, StoreError> {
-        let Some(block) = self.block(id).await? else {
-            return Ok(None);
-        };
-        read(&block).map_err(|cause| unreadable(id, &cause))
     }
 }
 

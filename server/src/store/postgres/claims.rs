@@ -2,20 +2,24 @@
 //! those of all processes take turns: each would ask for the same jobs.
 
 use std::collections::HashMap;
+use std::time::Duration;
 
 use sqlx::postgres::{PgConnection, PgPool};
+use tokio::time::timeout;
 use uuid::Uuid;
 
 use crate::clock::Now;
 use crate::queue::{WaitingJob, admit};
 use crate::store::groups::Pending;
 use crate::store::postgres::claimed::Claimed;
-use crate::store::postgres::{PostgresStore, checkpoints};
+use crate::store::postgres::{PostgresStore, begin, checkpoints};
 use crate::store::rows::{StoredRow, attempt_event, claim, integer};
 use crate::store::{Claim, ClaimRequest, StoreError};
 
 /// Number of waiting jobs among which those that fit are searched, beside one for each slot.
 const CANDIDATES: usize = 64;
+/// Longest time that claims may take: a server that has vanished answers never.
+const LONGEST: Duration = Duration::from_secs(40);
 /// Key of the lock of the process that claims: `frtc` in ASCII.
 const TURN: i64 = 0x6672_7463;
 
@@ -37,16 +41,9 @@ impl PostgresStore {
 
 /// Claims jobs for requests in one transaction. If it fails, all fail: a request is repeated, and gets the same jobs if its
 /// transaction was committed.
-async fn write(pool: PgPool, given: Option<Now>, group: Vec<Pending<ClaimRequest, Claimed>>) {
-    // A request may be repeated before the first one is answered.
-    let mut requests: Vec<ClaimRequest> = Vec::with_capacity(group.len());
-    for pending in &group {
-        if position(&requests, &pending.request).is_none() {
-            requests.push(pending.request);
-        }
-    }
-    match claim_for(&pool, given, &requests).await {
-        Ok((claims, mut reasoned)) => {
+async fn write(pool: PgPool, given: Option<Now>, mut group: Vec<Pending<ClaimRequest, Claimed>>) {
+    match timeout(LONGEST, claim_for(&pool, given, &mut group)).await {
+        Ok(Ok((requests, claims, mut reasoned))) => {
             for pending in group {
                 let index = position(&requests, &pending.request);
                 let claims = index.map(|index| claims[index].clone());
@@ -56,8 +53,12 @@ async fn write(pool: PgPool, given: Option<Now>, group: Vec<Pending<ClaimRequest
                 }));
             }
         }
-        Err(error) => {
-            tracing::warn!(%error, requests = requests.len(), "claims failed");
+        failed => {
+            let error = match failed {
+                Ok(Err(error)) => error.to_string(),
+                _ => format!("no answer within {LONGEST:?}"),
+            };
+            tracing::warn!(error, requests = group.len(), "claims failed");
             for pending in group {
                 pending.answer(Err(StoreError::Unwritten));
             }
@@ -71,16 +72,28 @@ fn position(requests: &[ClaimRequest], request: &ClaimRequest) -> Option<usize> 
         .position(|other| other.request == request.request)
 }
 
-/// Claims jobs for each request; returns the jobs, too, that were given another reason to wait.
+/// Requests, what each has claimed, and the jobs that were given another reason to wait.
+type Answers = (Vec<ClaimRequest>, Vec<Vec<Claim>>, Vec<Uuid>);
+
+/// Claims jobs for each request that is still waited for.
 async fn claim_for(
     pool: &PgPool,
     given: Option<Now>,
-    requests: &[ClaimRequest],
-) -> Result<(Vec<Vec<Claim>>, Vec<Uuid>), StoreError> {
-    let mut transaction = pool.begin().await?;
+    group: &mut Vec<Pending<ClaimRequest, Claimed>>,
+) -> Result<Answers, StoreError> {
+    let mut transaction = begin(pool, None).await?;
     let now = turn(&mut transaction).await?;
     let now = given.unwrap_or(now);
-    let mut claims = claimed_before(&mut transaction, requests, now).await?;
+    // What is claimed for a worker that has gone would wait for the end of its lease.
+    group.retain(|pending| !pending.is_given_up());
+    // A request may be repeated before the first one is answered.
+    let mut requests: Vec<ClaimRequest> = Vec::with_capacity(group.len());
+    for pending in &*group {
+        if position(&requests, &pending.request).is_none() {
+            requests.push(pending.request);
+        }
+    }
+    let mut claims = claimed_before(&mut transaction, &requests, now).await?;
     let fresh: Vec<_> = (0..requests.len())
         .filter(|index| claims[*index].is_empty())
         .collect();
@@ -100,11 +113,11 @@ async fn claim_for(
         .filter_map(|(id, _)| Some((*id, reasons.remove(id)?)))
         .collect();
     let reasoned = set_reasons(&mut transaction, reasons).await?;
-    for (index, claim) in claim_admitted(&mut transaction, requests, &admitted, now).await? {
+    for (index, claim) in claim_admitted(&mut transaction, &requests, &admitted, now).await? {
         claims[index].push(claim);
     }
     transaction.commit().await?;
-    Ok((claims, reasoned))
+    Ok((requests, claims, reasoned))
 }
 
 /// Waits until it is the turn of this transaction to claim, and returns the time. A process that was paused in its turn loses it.
@@ -212,9 +225,11 @@ async fn claimed_before(
         .map(|request| now.end_of(request.lease))
         .collect();
     let rows = sqlx::query(
-        "UPDATE jobs SET lease_expires_at = ends FROM unnest($1::uuid[], $2::bigint[], $3::bigint[]) WITH ORDINALITY \
-         AS given (worker, number, ends, n) WHERE jobs.worker = given.worker AND claim_number = number AND status = 'running' \
-         RETURNING n, id, lease, spec, attempts, queued_at, deadline_at, memory_mb, cpu_ms",
+        "WITH held AS (SELECT id, ends, n FROM jobs JOIN unnest($1::uuid[], $2::bigint[], $3::bigint[]) WITH ORDINALITY \
+         AS given (worker, number, ends, n) ON jobs.worker = given.worker AND claim_number = number \
+         WHERE status = 'running' ORDER BY id FOR UPDATE OF jobs) \
+         UPDATE jobs SET lease_expires_at = ends FROM held WHERE jobs.id = held.id \
+         RETURNING n, jobs.id, lease, spec, attempts, queued_at, deadline_at, memory_mb, cpu_ms",
     )
     .bind(workers)
     .bind(numbers)

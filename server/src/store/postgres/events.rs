@@ -1,4 +1,4 @@
-//! Events of jobs. Those before the last one of a job whose results were moved to a store of objects are in its object.
+//! Rows of events.
 
 use sqlx::postgres::PgConnection;
 use uuid::Uuid;
@@ -7,7 +7,7 @@ use crate::store::postgres::PostgresStore;
 use crate::store::{StoreError, StoredEvent, events};
 
 impl PostgresStore {
-    pub(in crate::store) async fn events(
+    pub(in crate::store) async fn event_rows(
         &self,
         id: Uuid,
         after: i64,
@@ -19,18 +19,10 @@ impl PostgresStore {
         .bind(id)
         .bind(after)
         .bind(events::PAGE)
-        .fetch_all(&self.pool)
+        .fetch_all(&self.readers)
         .await?;
         let stored = rows.into_iter().map(events::with_summary);
-        let stored: Vec<_> = stored.collect::<Result<_, _>>()?;
-        if events::is_whole(&stored, after) {
-            return Ok(stored);
-        }
-        let moved = match self.stored_block(id).await? {
-            None => Vec::new(),
-            Some(block) => block.events(id, self.local.objects.as_ref()).await?,
-        };
-        Ok(events::page(moved, stored, after))
+        stored.collect()
     }
 }
 

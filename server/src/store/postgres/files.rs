@@ -8,8 +8,9 @@ use uuid::Uuid;
 
 use crate::store::block::Block;
 use crate::store::folder::Folder;
-use crate::store::postgres::PostgresStore;
 use crate::store::postgres::blocks::entries;
+use crate::store::postgres::job_rows::lock;
+use crate::store::postgres::{PostgresStore, begin};
 use crate::store::rows::{StoredRow, corrupt, entry, integer};
 use crate::store::stored_block::unreadable;
 use crate::store::{Content, Lease, NewFile, StoreError};
@@ -17,10 +18,11 @@ use crate::store::{Content, Lease, NewFile, StoreError};
 impl PostgresStore {
     pub(in crate::store) async fn manifest(&self, id: Uuid) -> Result<Vec<ResultFile>, StoreError> {
         // Both as of one time: a file may be moved from the one to the other.
-        let mut transaction = self
-            .pool
-            .begin_with("BEGIN ISOLATION LEVEL REPEATABLE READ READ ONLY")
-            .await?;
+        let mut transaction = begin(
+            &self.readers,
+            Some("BEGIN ISOLATION LEVEL REPEATABLE READ READ ONLY"),
+        )
+        .await?;
         let rows = sqlx::query(
             "SELECT name, cycle, media_type, bytes, sha256, damaged FROM result_files WHERE job_id = $1",
         )
@@ -35,7 +37,7 @@ impl PostgresStore {
         Ok(files)
     }
 
-    pub(in crate::store) async fn result_file(
+    pub(in crate::store) async fn file_row(
         &self,
         id: Uuid,
         name: &str,
@@ -49,13 +51,10 @@ impl PostgresStore {
         )
         .bind(id)
         .bind(name)
-        .fetch_optional(&self.pool)
+        .fetch_optional(&self.readers)
         .await?;
         let Some(row) = row else {
-            return match self.stored_block(id).await? {
-                None => Ok(None),
-                Some(stored) => stored.file(id, name, self.local.objects.as_ref()).await,
-            };
+            return Ok(None);
         };
         let content = if let Some(content) = row.optional_bytes("content")? {
             Content::Inline(content)
@@ -73,7 +72,8 @@ impl PostgresStore {
         name: &str,
         how: Option<&str>,
     ) -> Result<(), StoreError> {
-        let mut transaction = self.pool.begin().await?;
+        let mut transaction = begin(&self.pool, None).await?;
+        lock(&mut transaction, id).await?;
         sqlx::query(
             "UPDATE result_files SET damaged = $1 WHERE job_id = $2 AND name = $3 AND damaged IS DISTINCT FROM $1",
         )
@@ -100,19 +100,20 @@ impl PostgresStore {
         Ok(transaction.commit().await?)
     }
 
-    /// Removes files of the attempts at a job up to this one; those of other jobs may be about to be named by other processes.
+    /// Removes files of the attempts at a job up to this one, or those of all jobs that were deleted or whose results were moved. Files of
+    /// other jobs may be about to be named by other processes.
     pub(in crate::store) async fn remove_unnamed_files(
         &self,
         attempt: Option<Lease>,
     ) -> Result<(), StoreError> {
         let Some(attempt) = attempt else {
-            return Ok(());
+            return self.remove_left_files().await;
         };
         let named: Vec<String> = sqlx::query_scalar(
             "SELECT place FROM result_files WHERE place IS NOT NULL AND job_id = $1",
         )
         .bind(attempt.job)
-        .fetch_all(&self.pool)
+        .fetch_all(&self.readers)
         .await?;
         let named: HashSet<String> = named.into_iter().collect();
         let attempt = Some((attempt.job, attempt.number));
@@ -121,6 +122,27 @@ impl PostgresStore {
             Ok(0) => {}
             Ok(removed) => tracing::info!(removed, "files that no manifest names were removed"),
             Err(error) => tracing::warn!(%error, "files that no manifest names were not removed"),
+        }
+        Ok(())
+    }
+
+    async fn remove_left_files(&self) -> Result<(), StoreError> {
+        let jobs = match self.local.in_folder(|folder| folder.jobs()).await {
+            Ok(jobs) => jobs,
+            Err(error) => {
+                tracing::warn!(%error, "the folder of results cannot be read");
+                return Ok(());
+            }
+        };
+        let needed: Vec<Uuid> = sqlx::query_scalar(
+            "SELECT id FROM jobs LEFT JOIN result_blocks ON job_id = id WHERE id = ANY($1) AND object IS NULL",
+        )
+        .bind(&jobs)
+        .fetch_all(&self.readers)
+        .await?;
+        let needed: HashSet<_> = needed.into_iter().collect();
+        for job in jobs.into_iter().filter(|job| !needed.contains(job)) {
+            self.local.remove_files(job).await;
         }
         Ok(())
     }

@@ -22,7 +22,7 @@ impl PostgresStore {
                  (SELECT COALESCE(sum(CASE WHEN cpu_ms > 0 THEN cpu_ms ELSE $1 END), 0)::bigint FROM jobs WHERE status = 'queued')",
             )
             .bind(UNKNOWN_CPU_MS)
-            .fetch_one(&self.pool)
+            .fetch_one(&self.readers)
             .await?;
         let count = |count: i64| count.try_into().unwrap_or_default();
         Ok(Demand {
@@ -34,7 +34,7 @@ impl PostgresStore {
     }
 
     pub(in crate::store) async fn gauges(&self) -> Result<Gauges, StoreError> {
-        let mut connection = self.pool.acquire().await?;
+        let mut connection = self.readers.acquire().await?;
         let now = self.now(&mut connection).await?.system_ms;
         // An index has both.
         let rows: Vec<StatusRow> =

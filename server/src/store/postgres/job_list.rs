@@ -15,7 +15,7 @@ use crate::store::{Filter, OrderKey, StoreError};
 impl PostgresStore {
     pub(in crate::store) async fn list(&self, filter: &Filter) -> Result<Vec<Job>, StoreError> {
         let mut query = filtered(select(), filter);
-        let rows = query.build().fetch_all(&self.pool).await?;
+        let rows = query.build().fetch_all(&self.readers).await?;
         rows.iter().map(|row| document(&self.local, row)).collect()
     }
 
@@ -24,14 +24,14 @@ impl PostgresStore {
         filter: &Filter,
     ) -> Result<Vec<JobOverview>, StoreError> {
         let mut query = filtered(select_overview(), filter);
-        let rows = query.build().fetch_all(&self.pool).await?;
+        let rows = query.build().fetch_all(&self.readers).await?;
         rows.iter().map(|row| overview(&self.local, row)).collect()
     }
 
     pub(in crate::store) async fn count(&self, filter: &Filter) -> Result<u64, StoreError> {
         let mut query = QueryBuilder::new("SELECT count(*) FROM jobs");
         push_conditions(&mut query, filter);
-        let count: i64 = query.build_query_scalar().fetch_one(&self.pool).await?;
+        let count: i64 = query.build_query_scalar().fetch_one(&self.readers).await?;
         Ok(u64::try_from(count).unwrap_or(0))
     }
 
@@ -41,7 +41,7 @@ impl PostgresStore {
              ORDER BY key COLLATE \"C\", 3 DESC, value COLLATE \"C\" LIMIT $1",
         )
         .bind(i64::from(most))
-        .fetch_all(&self.pool)
+        .fetch_all(&self.readers)
         .await?;
         let rows = rows.into_iter().map(|(key, value, jobs)| LabelInUse {
             key,

@@ -5,10 +5,11 @@ use sqlx::postgres::PgConnection;
 use uuid::Uuid;
 
 use crate::store::document::document;
+use crate::store::job_ids::new_id;
 use crate::store::new_row::NewRow;
-use crate::store::postgres::PostgresStore;
 use crate::store::postgres::job_rows::{cancel, insert, lock, retry};
 use crate::store::postgres::selects::select;
+use crate::store::postgres::{PostgresStore, begin};
 use crate::store::rows::StoredRow;
 use crate::store::{
     Cancelled, Deleted, NewJob, RequestKey, Retried, StoreError, StoredJob, Submitted,
@@ -22,7 +23,7 @@ impl PostgresStore {
     ) -> Result<Submitted, StoreError> {
         self.local.disk.check()?;
         let (mut transaction, now) = self.begin().await?;
-        let new = NewRow::of(job, now)?;
+        let new = NewRow::of(job, new_id(now.system_ms), now)?;
         if let Some(key) = key
             && let Some(earlier) = submitted_before(&mut transaction, key, new.id).await?
         {
@@ -37,7 +38,7 @@ impl PostgresStore {
     pub(in crate::store) async fn job(&self, id: Uuid) -> Result<Option<StoredJob>, StoreError> {
         let mut query = select();
         query.push(" WHERE id = ").push_bind(id);
-        let Some(row) = query.build().fetch_optional(&self.pool).await? else {
+        let Some(row) = query.build().fetch_optional(&self.readers).await? else {
             return Ok(None);
         };
         let document = document(&self.local, &row)?;
@@ -58,6 +59,7 @@ impl PostgresStore {
     }
 
     pub(in crate::store) async fn retry(&self, id: Uuid) -> Result<Option<Retried>, StoreError> {
+        self.local.disk.check()?;
         let (mut transaction, now) = self.begin().await?;
         let effect = retry(&mut transaction, id, now).await?;
         transaction.commit().await?;
@@ -68,7 +70,7 @@ impl PostgresStore {
     }
 
     pub(in crate::store) async fn delete(&self, id: Uuid) -> Result<Deleted, StoreError> {
-        let mut transaction = self.pool.begin().await?;
+        let mut transaction = begin(&self.pool, None).await?;
         let effect = match lock(&mut transaction, id).await? {
             None => Deleted::Missing,
             Some(status) if !status.is_terminal() => Deleted::Active,

@@ -13,7 +13,7 @@ use crate::store::postgres::blocks::insert_block;
 use crate::store::postgres::files::insert_files;
 use crate::store::postgres::queries::insert_attempt_event;
 use crate::store::postgres::transitions::end_job;
-use crate::store::postgres::{PostgresStore, checkpoints};
+use crate::store::postgres::{PostgresStore, begin, checkpoints};
 use crate::store::rows::integer;
 use crate::store::{End, JobUpdate, Lease, LeaseState, StoreError};
 
@@ -150,7 +150,7 @@ impl PostgresStore {
     ) -> Result<LeaseState, StoreError> {
         self.local.disk.check()?;
         let lease = lease.into();
-        let mut transaction = self.pool.begin().await?;
+        let mut transaction = begin(&self.pool, None).await?;
         let held: Option<(i64, bool, i64)> = sqlx::query_as(
             "UPDATE jobs SET last_write = $1, last_event = last_event + 1, version = version + 1 \
              WHERE id = $2 AND lease = $3 AND status = 'running' AND last_write < $1 \

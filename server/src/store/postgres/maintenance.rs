@@ -66,10 +66,12 @@ impl PostgresStore {
 
     /// The server keeps its own log; what is removed here are old notes of deletions.
     pub(in crate::store) async fn checkpoint_wal(&self) -> Result<(), StoreError> {
-        sqlx::query("DELETE FROM deleted_jobs WHERE revision <= fretwear_last_revision() - $1")
-            .bind(KEPT_REVISIONS)
-            .execute(&self.pool)
-            .await?;
+        sqlx::query(
+            "DELETE FROM deleted_jobs WHERE revision <= (SELECT fretwear_last_revision()) - $1",
+        )
+        .bind(KEPT_REVISIONS)
+        .execute(&self.pool)
+        .await?;
         Ok(())
     }
 

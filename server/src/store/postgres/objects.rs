@@ -4,8 +4,11 @@ use sqlx::Connection;
 use sqlx::postgres::PgConnection;
 use uuid::Uuid;
 
+use crate::objects::Objects;
 use crate::store::StoreError;
-use crate::store::postgres::PostgresStore;
+use crate::store::postgres::job_rows::lock;
+use crate::store::postgres::open::refuse_standby;
+use crate::store::postgres::{PostgresStore, begin};
 use crate::store::results_to_move::Moved;
 
 /// Key of the lock of the process that moves results: `frtw` in ASCII.
@@ -24,7 +27,7 @@ impl PostgresStore {
         &self,
         address: &str,
     ) -> Result<(), StoreError> {
-        let mut transaction = self.pool.begin().await?;
+        let mut transaction = begin(&self.pool, None).await?;
         // Two processes that start together must not write two rows.
         sqlx::query("LOCK TABLE object_store IN EXCLUSIVE MODE")
             .execute(&mut *transaction)
@@ -55,7 +58,12 @@ impl PostgresStore {
                 return Ok(true);
             }
             Some((connection, false)) => connection,
-            None => PgConnection::connect_with(&self.pool.connect_options()).await?,
+            None => {
+                let mut connection =
+                    PgConnection::connect_with(&self.pool.connect_options()).await?;
+                refuse_standby(&mut connection).await?;
+                connection
+            }
         };
         let is_mover: bool = sqlx::query_scalar("SELECT pg_try_advisory_lock($1)")
             .bind(MOVER)
@@ -118,8 +126,15 @@ impl PostgresStore {
     ) -> Result<Vec<Uuid>, StoreError> {
         let mut named = Vec::with_capacity(moved.len());
         for results in moved {
-            if self.name_object(results).await? {
-                named.push(results.id);
+            match self.name_object(results).await {
+                Ok(true) => named.push(results.id),
+                Ok(false) => {}
+                // What is named stays so; the others are moved another time.
+                Err(error) if !named.is_empty() => {
+                    tracing::warn!(%error, "results of a job were not moved");
+                    return Ok(named);
+                }
+                Err(error) => return Err(error),
             }
         }
         Ok(named)
@@ -127,17 +142,26 @@ impl PostgresStore {
 
     /// Names an object; false if the results are not those any more that it has, or if the object is being removed.
     async fn name_object(&self, moved: &Moved) -> Result<bool, StoreError> {
-        let mut transaction = self.pool.begin().await?;
+        let mut transaction = begin(&self.pool, None).await?;
+        lock(&mut transaction, moved.id).await?;
         let noted = sqlx::query("DELETE FROM unnamed_objects WHERE key = $1 AND NOT is_removing")
             .bind(&moved.key)
             .execute(&mut *transaction)
             .await?;
         if noted.rows_affected() == 0 {
+            // Another process has taken it for one that is left; it may have been written after its removal.
+            sqlx::query("INSERT INTO unnamed_objects (key) VALUES ($1) ON CONFLICT DO NOTHING")
+                .bind(&moved.key)
+                .execute(&mut *transaction)
+                .await?;
+            transaction.commit().await?;
             return Ok(false);
         }
+        let address = self.local.objects.as_ref().map(Objects::location);
         let updated = sqlx::query(
             "UPDATE result_blocks SET content = '', object = $1, content_bytes = $2, entries = $3, documents = $4 \
-             WHERE job_id = $5 AND entries = $6 AND is_movable AND object IS NULL",
+             WHERE job_id = $5 AND entries = $6 AND is_movable AND object IS NULL \
+             AND EXISTS (SELECT 1 FROM object_store WHERE address = $7)",
         )
         .bind(&moved.key)
         .bind(moved.content_bytes)
@@ -145,6 +169,7 @@ impl PostgresStore {
         .bind(&moved.documents)
         .bind(moved.id)
         .bind(&moved.entries.0)
+        .bind(address)
         .execute(&mut *transaction)
         .await?;
         if updated.rows_affected() == 0 {

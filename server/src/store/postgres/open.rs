@@ -4,6 +4,8 @@ use std::path::Path;
 use std::str::FromStr;
 use std::time::Duration;
 
+use reqwest::Url;
+use sqlx::Connection;
 use sqlx::postgres::{PgConnectOptions, PgConnection, PgPool, PgPoolOptions, PgSslMode};
 use tokio::sync::mpsc;
 use tokio_util::task::AbortOnDropHandle;
@@ -18,8 +20,10 @@ use crate::store::postgres::migrations::migrator;
 use crate::store::postgres::notifications::{hear, tell};
 use crate::store::{Limits, StoreError};
 
-/// Number of connections beside the one that hears changes.
-const CONNECTIONS: u32 = 8;
+/// Number of connections for claims and writes, among them one that tells changes.
+const WRITERS: u32 = 9;
+/// Number of connections for reads.
+const READERS: u32 = 5;
 /// Longest wait for a connection; shorter than a lease, because workers wait too.
 const CONNECTION_TIMEOUT: Duration = Duration::from_secs(5);
 /// Settings of a connection. A plan that was made while a table was empty must not be used when it is full; a statement, a lock or a
@@ -29,6 +33,18 @@ const SETTINGS: [(&str, &str); 4] = [
     ("statement_timeout", "30s"),
     ("lock_timeout", "10s"),
     ("idle_in_transaction_session_timeout", "30s"),
+];
+/// Parameters of an address.
+const PARAMETERS: [&str; 9] = [
+    "sslmode",
+    "sslrootcert",
+    "sslcert",
+    "sslkey",
+    "host",
+    "port",
+    "dbname",
+    "user",
+    "password",
 ];
 /// The first version that has all that the statements use: SQL functions with `RETURN`.
 const OLDEST_SERVER: i64 = 14;
@@ -49,19 +65,17 @@ impl PostgresStore {
                 path: folder.to_owned(),
             });
         }
-        let pool = PgPoolOptions::new()
-            .max_connections(CONNECTIONS + 1)
-            .acquire_timeout(CONNECTION_TIMEOUT)
-            .after_connect(|connection, _| Box::pin(refuse_standby(connection)))
-            .connect_with(options)
-            .await?;
-        check_version(&pool).await?;
-        migrate(&pool).await?;
+        migrate(&options).await?;
+        let options = options.options(SETTINGS);
+        let pool = connect(WRITERS, options.clone()).await?;
+        let readers = connect(READERS, options).await?;
+        let machine = nix::unistd::gethostname().unwrap_or_default();
+        let machine = machine.to_string_lossy();
         let clock = match clock {
             Clock::Manual(_) => clock,
             Clock::System | Clock::Database => Clock::Database,
         };
-        let mut local = Local::prepare(files, limits, clock);
+        let mut local = Local::prepare(files, Some(&machine), limits, clock);
         let (others, told) = mpsc::unbounded_channel();
         local.others = Some(others);
         let process = Uuid::now_v7();
@@ -70,14 +84,18 @@ impl PostgresStore {
             tokio::spawn(tell(pool.clone(), process, told)),
             tokio::spawn(hear(pool.clone(), process, changes, waiting)),
         ];
-        Ok(Self {
+        let store = Self {
             local,
             pool,
+            readers,
             claims: Groups::default(),
             mover: tokio::sync::Mutex::default(),
             last_probe: tokio::sync::Mutex::default(),
+            compared: tokio::sync::Mutex::default(),
             tasks: tasks.map(AbortOnDropHandle::new),
-        })
+        };
+        store.remove_unnamed_files(None).await?;
+        Ok(store)
     }
 
     /// Closes all connections.
@@ -86,16 +104,35 @@ impl PostgresStore {
             task.abort();
         }
         *self.mover.lock().await = None;
+        self.readers.close().await;
         self.pool.close().await;
     }
+}
+
+/// Opens a pool of so many connections.
+async fn connect(connections: u32, options: PgConnectOptions) -> Result<PgPool, sqlx::Error> {
+    PgPoolOptions::new()
+        .max_connections(connections)
+        .acquire_timeout(CONNECTION_TIMEOUT)
+        .after_connect(|connection, _| Box::pin(refuse_standby(connection)))
+        .connect_with(options)
+        .await
 }
 
 /// Returns the options to connect to the server at `url`. Beyond this machine, connections are encrypted and the server's name is
 /// verified.
 fn options(url: &str) -> Result<PgConnectOptions, StoreError> {
-    let options = PgConnectOptions::from_str(url).map_err(|cause| StoreError::Server {
-        cause: cause.to_string(),
-    })?;
+    let invalid = |cause: String| StoreError::Server { cause };
+    let parsed = Url::parse(url).map_err(|cause| invalid(cause.to_string()))?;
+    // Unknown ones would be written into the log with their values.
+    let mut names = parsed.query_pairs().map(|(name, _)| name);
+    if let Some(unknown) = names.find(|name| !PARAMETERS.contains(&&**name)) {
+        let known = PARAMETERS.join(", ");
+        return Err(invalid(format!(
+            "`{unknown}` is none of its parameters, {known}"
+        )));
+    }
+    let options = PgConnectOptions::from_str(url).map_err(|cause| invalid(cause.to_string()))?;
     let host = options.get_host();
     let is_here = options.get_socket().is_some()
         || host.starts_with('/')
@@ -109,11 +146,11 @@ fn options(url: &str) -> Result<PgConnectOptions, StoreError> {
             host: host.to_owned(),
         });
     }
-    Ok(options.application_name("fretwear").options(SETTINGS))
+    Ok(options.application_name("fretwear"))
 }
 
 /// Refuses a connection to a standby, where a proxy leads while the primary does not answer: it would stay there.
-async fn refuse_standby(connection: &mut PgConnection) -> Result<(), sqlx::Error> {
+pub(super) async fn refuse_standby(connection: &mut PgConnection) -> Result<(), sqlx::Error> {
     let is_standby: bool = sqlx::query_scalar("SELECT pg_is_in_recovery()")
         .fetch_one(connection)
         .await?;
@@ -123,9 +160,9 @@ async fn refuse_standby(connection: &mut PgConnection) -> Result<(), sqlx::Error
     Ok(())
 }
 
-async fn check_version(pool: &PgPool) -> Result<(), StoreError> {
+async fn check_version(server: &mut PgConnection) -> Result<(), StoreError> {
     let number: String = sqlx::query_scalar("SHOW server_version_num")
-        .fetch_one(pool)
+        .fetch_one(server)
         .await?;
     let version = number.parse::<i64>().unwrap_or_default() / 10_000;
     if version < OLDEST_SERVER {
@@ -137,16 +174,37 @@ async fn check_version(pool: &PgPool) -> Result<(), StoreError> {
     Ok(())
 }
 
-/// Migrates the schema; a database of a later version is refused. Processes that start together take turns.
-async fn migrate(pool: &PgPool) -> Result<(), StoreError> {
-    migrator().run(pool).await?;
-    // The transactions of another cluster, from which the database was restored, had higher numbers.
+/// Migrates the schema, unless it is migrated already, so that a role that may not change it can serve the database. A database of a
+/// later version is refused. Processes that start together take turns, without the limits of other connections: an index may take long.
+async fn migrate(options: &PgConnectOptions) -> Result<(), StoreError> {
+    let mut server = PgConnection::connect_with(options).await?;
+    refuse_standby(&mut server).await?;
+    check_version(&mut server).await?;
+    let known = migrator().iter().map(|migration| migration.version).max();
+    if applied(&mut server).await? != known {
+        migrator().run(&mut server).await?;
+    }
+    // The transactions of another cluster, from which the database was restored, had higher numbers. That of this statement is above all
+    // that have ended in this one.
     sqlx::query(
-        "UPDATE revisions SET last = last + greatest(0, (SELECT max(revision) FROM jobs) - fretwear_last_revision())",
+        "UPDATE revisions SET last = last + behind FROM (SELECT max(revision) - fretwear_revision() AS behind FROM jobs) AS jobs \
+         WHERE behind > 0",
     )
-    .execute(pool)
+    .execute(&mut server)
     .await?;
-    Ok(())
+    Ok(server.close().await?)
+}
+
+/// Version of the last migration of a database; none if there was none.
+async fn applied(server: &mut PgConnection) -> Result<Option<i64>, StoreError> {
+    let is_new: bool = sqlx::query_scalar("SELECT to_regclass('_sqlx_migrations') IS NULL")
+        .fetch_one(&mut *server)
+        .await?;
+    if is_new {
+        return Ok(None);
+    }
+    let last = sqlx::query_scalar("SELECT max(version) FROM _sqlx_migrations WHERE success");
+    Ok(last.fetch_one(server).await?)
 }
 
 #[cfg(test)]
@@ -172,5 +230,15 @@ mod tests {
         ] {
             assert!(options(url).is_ok(), "{url}");
         }
+    }
+
+    #[test]
+    fn unknown_parameters_are_refused_without_their_values() {
+        let refused = options("postgres://fretwear@127.0.0.1/fretwear?pasword=a-secret");
+        let said = refused.expect_err("refused").to_string();
+        assert!(
+            said.contains("pasword") && !said.contains("a-secret"),
+            "{said}"
+        );
     }
 }

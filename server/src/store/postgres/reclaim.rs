@@ -1,15 +1,18 @@
 //! Reclaiming jobs from lost workers: into the queue, or under a new lease to be ended.
 
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use api::job::Status;
 use uuid::Uuid;
 
+use crate::clock::Now;
 use crate::queue::Transition;
 use crate::store::ending::EndingJob;
 use crate::store::postgres::PostgresStore;
+use crate::store::postgres::compared::Compared;
 use crate::store::postgres::transitions::end_job;
 use crate::store::rows;
+use crate::store::rows::integer;
 use crate::store::{End, Reclaimed, StoreError};
 
 const REASON: &str = "its worker was lost";
@@ -20,12 +23,22 @@ impl PostgresStore {
         &self,
         length: Duration,
     ) -> Result<Reclaimed, StoreError> {
+        // What has ended while this waits for the database is left to the next time: a worker may be waiting, too, to renew it.
+        let asked = Instant::now();
         let (mut transaction, now) = self.begin().await?;
+        if !self.is_steady(now).await {
+            return Ok(Reclaimed::default());
+        }
+        let waited_ms = match self.given_now() {
+            Some(_) => 0,
+            None => integer(asked.elapsed().as_millis()),
+        };
+        let ended_by = now.monotonic_ms - waited_ms;
         let lost: Vec<(Uuid, i64, bool)> = sqlx::query_as(
             "SELECT id, fruitless, cancel_requested FROM jobs WHERE status = 'running' AND lease_expires_at <= $1 \
              ORDER BY id FOR UPDATE SKIP LOCKED",
         )
-        .bind(now.monotonic_ms)
+        .bind(ended_by)
         .fetch_all(&mut *transaction)
         .await?;
         let end = End::without_result(Transition::WorkerLost, REASON);
@@ -62,6 +75,18 @@ impl PostgresStore {
             ending,
             reason: REASON,
         })
+    }
+
+    /// Whether the clock of the database has gone as that of this process.
+    async fn is_steady(&self, now: Now) -> bool {
+        if self.given_now().is_some() {
+            return true;
+        }
+        let mut compared = self.compared.lock().await;
+        let next = Compared::after(compared.as_ref(), Instant::now(), now.system_ms);
+        let is_steady = next.is_steady();
+        *compared = Some(next);
+        is_steady
     }
 
     /// No job belongs to a process that serves the database: leases end by themselves.

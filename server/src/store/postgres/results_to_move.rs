@@ -17,7 +17,7 @@ impl PostgresStore {
         &self,
         id: Uuid,
     ) -> Result<Option<Stored>, StoreError> {
-        let mut connection = self.pool.acquire().await?;
+        let mut connection = self.readers.acquire().await?;
         let block = stored_block(&mut connection, id).await?;
         let texts = sqlx::query_as("SELECT spec, plan FROM jobs WHERE id = $1")
             .bind(id)

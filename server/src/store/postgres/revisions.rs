@@ -17,7 +17,7 @@ const MOST: usize = 200;
 impl PostgresStore {
     pub(in crate::store) async fn last_revision(&self) -> Result<i64, StoreError> {
         let last = sqlx::query_scalar("SELECT fretwear_last_revision()");
-        Ok(last.fetch_one(&self.pool).await?)
+        Ok(last.fetch_one(&self.readers).await?)
     }
 
     pub(in crate::store) async fn knows_revision(&self, revision: i64) -> Result<bool, StoreError> {
@@ -32,10 +32,10 @@ impl PostgresStore {
         // Both queries as of one revision: what is committed between them must not be passed over.
         let last = self.last_revision().await?;
         let mut jobs = between(select_overview(), revision, last);
-        let rows = jobs.build().fetch_all(&self.pool).await?;
+        let rows = jobs.build().fetch_all(&self.readers).await?;
         let deleted = QueryBuilder::new("SELECT revision, id FROM deleted_jobs");
         let mut deleted = between(deleted, revision, last);
-        let deleted = deleted.build().fetch_all(&self.pool).await?;
+        let deleted = deleted.build().fetch_all(&self.readers).await?;
         // Where one list was cut, the other one is not known to be whole beyond.
         let last_of = |rows: &[PgRow]| {
             rows.last()

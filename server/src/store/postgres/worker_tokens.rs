@@ -27,7 +27,7 @@ impl PostgresStore {
     pub(in crate::store) async fn worker_tokens(&self) -> Result<Vec<WorkerToken>, StoreError> {
         let rows =
             sqlx::query("SELECT id, name, created_at, revoked_at FROM worker_tokens ORDER BY id")
-                .fetch_all(&self.pool)
+                .fetch_all(&self.readers)
                 .await?;
         rows.iter().map(token).collect()
     }
@@ -50,6 +50,6 @@ impl PostgresStore {
             "SELECT EXISTS (SELECT 1 FROM worker_tokens WHERE sha256 = $1 AND revoked_at IS NULL)",
         )
         .bind(&sha256[..]);
-        Ok(found.fetch_one(&self.pool).await?)
+        Ok(found.fetch_one(&self.readers).await?)
     }
 }

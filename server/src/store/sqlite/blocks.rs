@@ -1,14 +1,12 @@
 //! Blocks of results of ended jobs.
 
-use std::collections::HashMap;
-
 use sqlx::SqliteConnection;
 use uuid::Uuid;
 
 use crate::store::StoreError;
-use crate::store::block::{Block, BlockError, EncodedBlock};
+use crate::store::block::EncodedBlock;
 use crate::store::sqlite::SqliteStore;
-use crate::store::stored_block::{StoredBlock, unreadable};
+use crate::store::stored_block::StoredBlock;
 
 /// Reads the block of a job; `None` if it has none.
 pub(super) async fn stored_block(
@@ -27,39 +25,12 @@ pub(super) async fn stored_block(
 }
 
 impl SqliteStore {
-    /// Returns the block of a job; `None` if it has none.
-    pub(super) async fn block(&self, id: Uuid) -> Result<Option<Block>, StoreError> {
+    pub(in crate::store) async fn stored_block(
+        &self,
+        id: Uuid,
+    ) -> Result<Option<StoredBlock>, StoreError> {
         let mut connection = self.readers.acquire().await?;
-        let stored = stored_block(&mut connection, id).await?;
-        // An object may be far away.
-        drop(connection);
-        match stored {
-            None => Ok(None),
-            Some(stored) => stored
-                .decoded(id, self.local.objects.as_ref())
-                .await
-                .map(Some),
-        }
-    }
-
-    pub(in crate::store) async fn block_documents(
-        &self,
-        id: Uuid,
-    ) -> Result<HashMap<String, Vec<u8>>, StoreError> {
-        let block = self.block(id).await?.unwrap_or_default();
-        Ok(block.into_documents())
-    }
-
-    /// Returns what is read of a job's block; `None` if it has none, or if it is not part of it.
-    pub(super) async fn in_block<T>(
-        &self,
-        id: Uuid,
-        read: impl FnOnce(&Block) -> Result<Option<T>, BlockError>,
-    ) -> Result<Option<T>, StoreError> {
-        let Some(block) = self.block(id).await? else {
-            return Ok(None);
-        };
-        read(&block).map_err(|cause| unreadable(id, &cause))
+        Ok(stored_block(&mut connection, id).await?)
     }
 }
 

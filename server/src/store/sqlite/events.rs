@@ -1,14 +1,13 @@
-//! Events of jobs. Those before the last one of a job whose results were moved to a store of objects are in its object.
+//! Rows of events.
 
 use sqlx::SqliteConnection;
 use uuid::Uuid;
 
 use crate::store::sqlite::SqliteStore;
-use crate::store::sqlite::blocks::stored_block;
 use crate::store::{StoreError, StoredEvent, events};
 
 impl SqliteStore {
-    pub(in crate::store) async fn events(
+    pub(in crate::store) async fn event_rows(
         &self,
         id: Uuid,
         after: i64,
@@ -23,23 +22,7 @@ impl SqliteStore {
         .fetch_all(&self.readers)
         .await?;
         let stored = rows.into_iter().map(events::with_summary);
-        let stored: Vec<_> = stored.collect::<Result<_, _>>()?;
-        if events::is_whole(&stored, after) {
-            return Ok(stored);
-        }
-        let moved = self.moved_events(id).await?;
-        Ok(events::page(moved, stored, after))
-    }
-
-    /// The events of a job that were moved.
-    async fn moved_events(&self, id: Uuid) -> Result<Vec<StoredEvent>, StoreError> {
-        let mut connection = self.readers.acquire().await?;
-        let stored = stored_block(&mut connection, id).await?;
-        drop(connection);
-        match stored {
-            None => Ok(Vec::new()),
-            Some(stored) => stored.events(id, self.local.objects.as_ref()).await,
-        }
+        stored.collect()
     }
 }
 

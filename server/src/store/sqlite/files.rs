@@ -11,7 +11,7 @@ use crate::store::block::Block;
 use crate::store::folder::Folder;
 use crate::store::rows::{corrupt, entry, integer};
 use crate::store::sqlite::SqliteStore;
-use crate::store::sqlite::blocks::{entries, stored_block, update_entries};
+use crate::store::sqlite::blocks::{entries, update_entries};
 use crate::store::sqlite::queries::BEGIN;
 use crate::store::stored_block::unreadable;
 use crate::store::{Content, Lease, NewFile, StoreError};
@@ -34,7 +34,7 @@ impl SqliteStore {
         Ok(files)
     }
 
-    pub(in crate::store) async fn result_file(
+    pub(in crate::store) async fn file_row(
         &self,
         id: Uuid,
         name: &str,
@@ -47,7 +47,7 @@ impl SqliteStore {
         .fetch_optional(&self.readers)
         .await?;
         let Some(row) = row else {
-            return self.file_of_block(id, name).await;
+            return Ok(None);
         };
         let content = if let Some(content) = row.try_get("content")? {
             Content::Inline(content)
@@ -57,21 +57,6 @@ impl SqliteStore {
             Content::File(path.ok_or_else(|| corrupt(id, "path of a file", &place))?)
         };
         Ok(Some((entry(&row)?, content)))
-    }
-
-    /// Returns a document of a job's block, or a file behind it in an object.
-    async fn file_of_block(
-        &self,
-        id: Uuid,
-        name: &str,
-    ) -> Result<Option<(ResultFile, Content)>, StoreError> {
-        let mut connection = self.readers.acquire().await?;
-        let stored = stored_block(&mut connection, id).await?;
-        drop(connection);
-        match stored {
-            None => Ok(None),
-            Some(stored) => stored.file(id, name, self.local.objects.as_ref()).await,
-        }
     }
 
     pub(in crate::store) async fn mark_damaged(

@@ -102,7 +102,7 @@ pub(super) async fn insert(
     job: &NewJob,
     now: Now,
 ) -> Result<Uuid, StoreError> {
-    let new = NewRow::of(job, now)?;
+    let new = NewRow::of(job, Uuid::now_v7(), now)?;
     let id = new.id.to_string();
     sqlx::query(
         "INSERT INTO jobs (id, system, spec, plan, status, status_reason, created_at, progress, last_event, priority, \

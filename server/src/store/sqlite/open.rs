@@ -12,7 +12,7 @@ use crate::clock::Clock;
 use crate::export::files::parent;
 use crate::store::folder::beside;
 use crate::store::local::Local;
-use crate::store::operations::is_postgres;
+use crate::store::operations::{is_postgres, shown_address};
 use crate::store::sqlite::SqliteStore;
 use crate::store::sqlite::migrations::migrator;
 use crate::store::sqlite::submissions::Submissions;
@@ -47,7 +47,7 @@ impl SqliteStore {
             .busy_timeout(BUSY_TIMEOUT);
         let path = options.get_filename().to_owned();
         let lock = lock(&path)?;
-        let local = Local::prepare(&path, limits, clock);
+        let local = Local::prepare(&path, None, limits, clock);
         let is_new = identity::schema_version(&path).await?.is_none();
         let writer = SqlitePoolOptions::new()
             .max_connections(1)
@@ -116,7 +116,7 @@ pub(super) fn options(url: &str) -> Result<SqliteConnectOptions, StoreError> {
     options
         .filter(|options| is_plain && is_file(options))
         .ok_or_else(|| StoreError::Address {
-            url: url.to_owned(),
+            url: shown_address(url),
         })
 }
 

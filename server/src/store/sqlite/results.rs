@@ -1,4 +1,4 @@
-//! Wear history and snapshots, readable while the job is running.
+//! Rows of the wear history and of snapshots, readable while the job is running.
 
 use api::results::Snapshot;
 use futures_util::{StreamExt, TryStreamExt};
@@ -6,28 +6,25 @@ use solver::record::CycleReport;
 use sqlx::AssertSqlSafe;
 use uuid::Uuid;
 
-use crate::store::block::Block;
 use crate::store::rows::{integer, parsed, snapshot};
 use crate::store::sqlite::SqliteStore;
 use crate::store::{SnapshotPart, StoreError};
 
 impl SqliteStore {
-    pub(in crate::store) async fn history(&self, id: Uuid) -> Result<Vec<CycleReport>, StoreError> {
+    pub(in crate::store) async fn history_rows(
+        &self,
+        id: Uuid,
+    ) -> Result<Vec<CycleReport>, StoreError> {
         // As a stream: the texts of a long history together are several times as large as its rows.
         let text = sqlx::query_scalar::<_, String>(
             "SELECT data FROM history_rows WHERE job_id = ? ORDER BY cycle",
         );
         let texts = text.bind(id.to_string()).fetch(&self.readers);
         let rows = texts.map(|text| parsed(id, "history row", &text?));
-        let rows: Vec<_> = rows.try_collect().await?;
-        if !rows.is_empty() {
-            return Ok(rows);
-        }
-        let packed = self.in_block(id, Block::history).await?;
-        Ok(packed.unwrap_or_default())
+        rows.try_collect().await
     }
 
-    pub(in crate::store) async fn snapshot(
+    pub(in crate::store) async fn snapshot_row(
         &self,
         id: Uuid,
         part: SnapshotPart,
@@ -42,24 +39,19 @@ impl SqliteStore {
             .bind(cycle.map_or(i64::MAX, integer))
             .fetch_optional(&self.readers)
             .await?;
-        if found.is_some() {
-            return Ok(found);
-        }
-        let nearest = |block: &Block| block.snapshot(part, cycle.unwrap_or(u64::MAX));
-        self.in_block(id, nearest).await
+        Ok(found)
     }
 
-    pub(in crate::store) async fn snapshots(&self, id: Uuid) -> Result<Vec<Snapshot>, StoreError> {
+    pub(in crate::store) async fn snapshot_rows(
+        &self,
+        id: Uuid,
+    ) -> Result<Vec<Snapshot>, StoreError> {
         let rows: Vec<(String, String, String)> = sqlx::query_as(
             "SELECT profile, pressure, friction_loop FROM snapshots WHERE job_id = ? ORDER BY cycle",
         )
         .bind(id.to_string())
         .fetch_all(&self.readers)
         .await?;
-        if !rows.is_empty() {
-            return rows.iter().map(|texts| snapshot(id, texts)).collect();
-        }
-        let packed = self.in_block(id, Block::snapshots).await?;
-        Ok(packed.unwrap_or_default())
+        rows.iter().map(|texts| snapshot(id, texts)).collect()
     }
 }
