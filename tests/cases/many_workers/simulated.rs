@@ -18,8 +18,10 @@ use server::worker::{Employer, EmployerError, Remote};
 use tokio::task::JoinSet;
 use uuid::Uuid;
 
-/// Length of a lease: jobs of workers that vanish are soon given to others.
-const LEASE: Duration = Duration::from_secs(10);
+/// Length of a lease where workers vanish: their jobs are soon given to others.
+const SHORT_LEASE: Duration = Duration::from_secs(10);
+/// Length of one where none does: longer than anything is away, also on a busy machine.
+const LONG_LEASE: Duration = Duration::from_secs(60);
 /// How long a claim waits for a job.
 const WAIT: Duration = Duration::from_secs(2);
 /// Pause before a request without an answer is repeated.
@@ -40,6 +42,16 @@ pub(super) enum Harm {
     LostAnswers,
     /// Workers vanish with their jobs, too.
     LostWorkers,
+}
+
+impl Harm {
+    fn lease(self) -> Duration {
+        if self == Self::LostWorkers {
+            SHORT_LEASE
+        } else {
+            LONG_LEASE
+        }
+    }
 }
 
 /// A worker that solves nothing.
@@ -106,7 +118,7 @@ impl Simulated {
                 is_one_of_several: true,
                 ahead_ms: 0,
             },
-            lease: LEASE,
+            lease: self.harm.lease(),
         };
         let (began, remote) = (Instant::now(), Arc::clone(&self.remote));
         let claims = self.answered(|| remote.claim(&request)).await;
@@ -124,12 +136,15 @@ impl Simulated {
             return;
         }
         let (lease, remote) = (Lease::from(claim), Arc::clone(&self.remote));
+        let length = self.harm.lease();
         let update = JobUpdate {
             number: 1,
             events: vec![(EventName::Cycle, format!("{{\"lease\":{}}}", claim.lease))],
             ..JobUpdate::default()
         };
-        let recorded = self.answered(|| remote.record(lease, &update, LEASE)).await;
+        let recorded = self
+            .answered(|| remote.record(lease, &update, length))
+            .await;
         if recorded == LeaseState::Lost {
             self.done.lost.fetch_add(1, Ordering::Relaxed);
             return;
@@ -177,7 +192,7 @@ pub(super) fn started(
             remote: Arc::new(Remote::new(
                 (clients[number % clients.len()].clone(), id, 1),
                 folder.to_owned(),
-                (LEASE, WAIT),
+                (harm.lease(), WAIT),
             )),
             id,
             number: 0,
