@@ -60,11 +60,18 @@ mod of_a_file {
 }
 
 mod of_postgresql {
+    use tests::PostgresServer;
+
     #[tokio::test(flavor = "multi_thread")]
     #[cfg_attr(not(has_postgresql), ignore = "needs the programs of PostgreSQL")]
     async fn every_job_is_solved_once_although_answers_are_lost_and_a_service_is_killed() {
         let folder = tempfile::tempdir().expect("a folder can be made");
-        tests::use_postgresql(folder.path());
+        // Rates are those of a server that waits for its disk, as SQLite does.
+        let durable = super::is_long().then(|| PostgresServer::start(&["max_connections=200"]));
+        match &durable {
+            Some(server) => tests::use_database(folder.path(), &server.new_database()),
+            None => drop(tests::use_postgresql(folder.path())),
+        }
         super::solved_once(folder.path(), super::load().2).await;
     }
 }
