@@ -89,7 +89,7 @@ impl PostgresStore {
 }
 
 /// Longest time that an operation may take: a server whose machine has vanished answers never.
-const LONGEST: Duration = Duration::from_secs(60);
+const LONGEST: Duration = Duration::from_mins(1);
 
 /// Waits for an operation, but not for ever.
 pub(in crate::store) async fn answered<T>(

@@ -21,7 +21,7 @@ use uuid::Uuid;
 /// Length of a lease where workers vanish: their jobs are soon given to others.
 const SHORT_LEASE: Duration = Duration::from_secs(10);
 /// Length of one where none does: longer than anything is away, also on a busy machine.
-const LONG_LEASE: Duration = Duration::from_secs(60);
+const LONG_LEASE: Duration = Duration::from_mins(1);
 /// How long a claim waits for a job.
 const WAIT: Duration = Duration::from_secs(2);
 /// Pause before a request without an answer is repeated.
