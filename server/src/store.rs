@@ -1,8 +1,8 @@
 //! The store: jobs, batches, events and results, durable. The only place with SQL.
 //!
 //! The types of this module and of its files are the contract of every storage engine; the SQL of an engine, its
-//! connections and its rows are below a folder of its own (`store/sqlite/`). Nothing outside of that folder knows which
-//! engine it is. The tests in `store/tests/` are those of the contract.
+//! connections and its rows are below a folder of its own (`store/sqlite/`, `store/postgres/`). Nothing outside of the store knows
+//! which engine it is. The tests in `store/tests/` are those of the contract, and run on both.
 //!
 //! # Guarantees
 //!
@@ -37,8 +37,8 @@
 //! A *repeated* operation is one whose answer was lost. Claims are numbered by their worker, writes under a lease from 1, and the
 //! store recognizes a number that it has seen.
 //!
-//! Times are milliseconds since 1970 and come from the caller. Leases are lengths: when one ends is a matter of the store's own
-//! monotonic clock ([`Store::clock`]).
+//! Times are milliseconds since 1970 and the store's own. Leases are lengths: when one ends is a matter of a monotonic clock of the process
+//! that serves a file ([`Store::clock`]), and of the clock of a database that several processes serve.
 
 mod backup;
 mod batch_rows;
@@ -74,6 +74,7 @@ mod results_to_move;
 mod rows;
 mod sqlite;
 mod stored_block;
+mod stored_file;
 
 pub use backup::{BackupError, CopySummary};
 pub use batches::{BatchDetail, BatchFilter, BatchJob, BatchOverview, NewBatch, StoredBatch};

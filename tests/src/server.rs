@@ -10,16 +10,11 @@ use nix::sys::signal::{Signal, kill};
 use nix::unistd::Pid;
 use serde_json::Value;
 
-use crate::postgres::PostgresServer;
 use crate::program::binary;
+use crate::served_database::address_of_database;
 
 /// Timeout of every wait; no measure of speed.
 const PATIENCE: Duration = Duration::from_mins(4);
-
-/// File with the address of the database of a folder.
-const ADDRESS: &str = "database-url";
-/// Lets every case use PostgreSQL. Those about the file of a database, its disk and its clock then fail.
-const EVERYWHERE: &str = "FRETWEAR_TEST_POSTGRESQL";
 
 /// File that the logs of services are appended to.
 const KEPT: &str = "FRETWEAR_TEST_LOG";
@@ -196,35 +191,6 @@ impl Server {
         Pid::from_raw(i32::try_from(self.child.id()).expect("process ids are small"))
     }
 
-    /// Its solving processes.
-    pub fn solving(&self) -> Vec<Pid> {
-        let threads = std::fs::read_dir(format!("/proc/{}/task", self.id()));
-        let lists = threads.into_iter().flatten().flatten();
-        let lists =
-            lists.filter_map(|thread| std::fs::read_to_string(thread.path().join("children")).ok());
-        lists
-            .flat_map(|list| {
-                let ids = list.split_whitespace().map(str::parse);
-                ids.flatten().map(Pid::from_raw).collect::<Vec<_>>()
-            })
-            .collect()
-    }
-
-    /// Peak memory of the service process so far, MB.
-    ///
-    /// # Panics
-    /// If it has ended.
-    pub fn peak_memory_mb(&self) -> f64 {
-        let status = std::fs::read_to_string(format!("/proc/{}/status", self.child.id()))
-            .expect("the service is there");
-        let peak = status.lines().find_map(|line| line.strip_prefix("VmHWM:"));
-        let kilobytes = peak.and_then(|peak| peak.trim().strip_suffix(" kB"));
-        let kilobytes: u32 = kilobytes
-            .and_then(|number| number.trim().parse().ok())
-            .expect("the system tells the peak");
-        f64::from(kilobytes) / 1024.0
-    }
-
     /// Waits for the service to end; returns its exit code.
     ///
     /// # Panics
@@ -334,7 +300,12 @@ impl Server {
 /// The command of a service with its database in a folder; one worker unless the options name another number.
 fn serve(folder: &Path, options: &[&str]) -> Command {
     let mut command = Command::new(binary());
-    command.args(["serve", "--database", &database(folder), "--files"]);
+    command.args([
+        "serve",
+        "--database",
+        &address_of_database(folder),
+        "--files",
+    ]);
     command.arg(folder.join("fretwear"));
     if !options.contains(&"--listen") {
         command.args(["--listen", "127.0.0.1:0"]);
@@ -344,33 +315,6 @@ fn serve(folder: &Path, options: &[&str]) -> Command {
     }
     command.args(options);
     command
-}
-
-/// Lets the services of a folder serve a database of the PostgreSQL server that the cases share.
-///
-/// # Panics
-/// If the folder cannot be written.
-pub fn use_postgresql(folder: &Path) -> String {
-    let url = PostgresServer::shared().new_database();
-    use_database(folder, &url);
-    url
-}
-
-/// Lets the services of a folder serve a database.
-///
-/// # Panics
-/// If the folder cannot be written.
-pub fn use_database(folder: &Path, url: &str) {
-    std::fs::write(folder.join(ADDRESS), url).expect("a file");
-}
-
-/// Address of the database of a folder.
-fn database(folder: &Path) -> String {
-    match std::fs::read_to_string(folder.join(ADDRESS)) {
-        Ok(url) => url,
-        Err(_) if std::env::var_os(EVERYWHERE).is_some() => use_postgresql(folder),
-        Err(_) => format!("sqlite://{}", folder.join("fretwear.db").display()),
-    }
 }
 
 /// The address in a line of the log, if it has one.

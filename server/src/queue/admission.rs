@@ -37,6 +37,16 @@ impl MemoryBudget {
         self.memory_mb.saturating_sub(self.used_mb).max(0)
     }
 
+    /// Why a job waits that does not fit into it, for its user.
+    pub fn reason_to_wait(&self, job: &WaitingJob) -> String {
+        format!(
+            "waiting for memory: it needs about {} MB, {} of {} MB are left",
+            job.memory_mb,
+            self.free_mb(),
+            self.memory_mb
+        )
+    }
+
     fn admits(&self, job: &WaitingJob) -> bool {
         self.running == 0 || job.memory_mb <= self.free_mb()
     }

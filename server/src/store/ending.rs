@@ -5,7 +5,7 @@ use api::job::{Outcome, Status};
 use uuid::Uuid;
 
 use crate::queue::{Attempts, Transition, next_status};
-use crate::store::{End, StoreError};
+use crate::store::{End, Retried, StoreError};
 
 /// A job that ends or returns to the queue, and what its next status depends on.
 pub(in crate::store) struct EndingJob {
@@ -90,6 +90,20 @@ impl EndingJob {
             done: done.as_ref().map(serde_json::to_string).transpose()?,
         }))
     }
+}
+
+/// The status of a job that is tried again, or why it is not.
+pub(in crate::store) fn retried(status: Status) -> Result<Status, Retried> {
+    let attempts = Attempts {
+        fruitless: 0,
+        limit: 0,
+    };
+    let queued = next_status(status, Transition::Retry, attempts, false);
+    queued.ok_or(if status.is_terminal() {
+        Retried::Succeeded
+    } else {
+        Retried::Already
+    })
 }
 
 /// Status reason and outcome for the user.

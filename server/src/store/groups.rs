@@ -82,7 +82,7 @@ impl<Q: Send + 'static, A: Send + 'static> Groups<Q, A> {
     fn take(&self) -> Vec<Pending<Q, A>> {
         let mut pending = self.pending();
         // A client that has disconnected got no answer, so what it asked for must not be done later.
-        pending.retain(|pending| !pending.answer.is_closed());
+        pending.retain(|pending| !pending.is_given_up());
         let count = pending.len().min(LIMIT);
         pending.drain(..count).collect()
     }

@@ -131,6 +131,15 @@ pub enum LeaseState {
     Lost,
 }
 
+impl LeaseState {
+    /// That of a held job, by whether its end was requested; lost without one.
+    pub(in crate::store) fn of(cancel_requested: Option<bool>) -> Self {
+        cancel_requested.map_or(Self::Lost, |cancel_requested| Self::Held {
+            cancel_requested,
+        })
+    }
+}
+
 /// How a worker ends a job or returns it to the queue.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct End {

@@ -129,6 +129,18 @@ impl Local {
         }
     }
 
+    /// Removes files that no manifest names, by an operation that returns their number. Those that cannot be removed are logged and remain.
+    pub(in crate::store) async fn remove_unnamed(
+        &self,
+        remove: impl FnOnce(Folder) -> std::io::Result<usize> + Send + 'static,
+    ) {
+        match self.in_folder(remove).await {
+            Ok(0) => {}
+            Ok(removed) => tracing::info!(removed, "files that no manifest names were removed"),
+            Err(error) => tracing::warn!(%error, "files that no manifest names were not removed"),
+        }
+    }
+
     /// Runs a blocking operation on the folder of results.
     pub(in crate::store) async fn in_folder<T: Send + 'static>(
         &self,

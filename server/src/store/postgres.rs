@@ -72,13 +72,10 @@ impl PostgresStore {
 
     /// The present time by the clock of the database.
     async fn now(&self, connection: &mut PgConnection) -> Result<Now, StoreError> {
-        if let Some(now) = self.given_now() {
-            return Ok(now);
+        match self.given_now() {
+            Some(now) => Ok(now),
+            None => time_of(connection).await,
         }
-        let now: i64 = sqlx::query_scalar("SELECT fretwear_now()")
-            .fetch_one(connection)
-            .await?;
-        Ok(now.into())
     }
 
     /// The present time if a test sets it.
@@ -86,6 +83,14 @@ impl PostgresStore {
         let is_given = matches!(self.local.clock, Clock::Manual(_));
         is_given.then(|| self.local.clock.now())
     }
+}
+
+/// Asks the database for its time.
+async fn time_of(connection: &mut PgConnection) -> Result<Now, StoreError> {
+    let now: i64 = sqlx::query_scalar("SELECT fretwear_now()")
+        .fetch_one(connection)
+        .await?;
+    Ok(now.into())
 }
 
 /// Longest time that an operation may take: a server whose machine has vanished answers never.

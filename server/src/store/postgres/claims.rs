@@ -12,7 +12,7 @@ use crate::clock::Now;
 use crate::queue::{WaitingJob, admit};
 use crate::store::groups::Pending;
 use crate::store::postgres::claimed::Claimed;
-use crate::store::postgres::{PostgresStore, begin, checkpoints};
+use crate::store::postgres::{PostgresStore, begin, checkpoints, time_of};
 use crate::store::rows::{StoredRow, attempt_event, claim, integer};
 use crate::store::{Claim, ClaimRequest, StoreError};
 
@@ -128,10 +128,7 @@ async fn turn(connection: &mut PgConnection) -> Result<Now, StoreError> {
     .bind(TURN)
     .execute(&mut *connection)
     .await?;
-    let now: i64 = sqlx::query_scalar("SELECT fretwear_now()")
-        .fetch_one(connection)
-        .await?;
-    Ok(now.into())
+    time_of(connection).await
 }
 
 /// The first queued jobs: their ids, and what their admission depends on. They are not locked: most are not claimed.
@@ -168,13 +165,7 @@ fn admit_for(
     let memory = &request.capacity.memory;
     for index in admission.too_large {
         let (id, job) = &waiting[index];
-        let reason = format!(
-            "waiting for memory: it needs about {} MB, {} of {} MB are left",
-            job.memory_mb,
-            memory.free_mb(),
-            memory.memory_mb
-        );
-        reasons.insert(*id, reason);
+        reasons.insert(*id, memory.reason_to_wait(job));
     }
     let admitted: Vec<_> = admission
         .admitted

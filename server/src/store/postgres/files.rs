@@ -11,8 +11,9 @@ use crate::store::folder::Folder;
 use crate::store::postgres::blocks::entries;
 use crate::store::postgres::job_rows::lock;
 use crate::store::postgres::{PostgresStore, begin};
-use crate::store::rows::{StoredRow, corrupt, entry, integer};
+use crate::store::rows::{entry, integer};
 use crate::store::stored_block::unreadable;
+use crate::store::stored_file::file;
 use crate::store::{Content, Lease, NewFile, StoreError};
 
 impl PostgresStore {
@@ -53,17 +54,8 @@ impl PostgresStore {
         .bind(name)
         .fetch_optional(&self.readers)
         .await?;
-        let Some(row) = row else {
-            return Ok(None);
-        };
-        let content = if let Some(content) = row.optional_bytes("content")? {
-            Content::Inline(content)
-        } else {
-            let place = row.text("place")?;
-            let path = self.local.folder.path(&place);
-            Content::File(path.ok_or_else(|| corrupt(id, "path of a file", &place))?)
-        };
-        Ok(Some((entry(&row)?, content)))
+        row.map(|row| file(&self.local.folder, id, &row))
+            .transpose()
     }
 
     pub(in crate::store) async fn mark_damaged(
@@ -118,11 +110,7 @@ impl PostgresStore {
         let named: HashSet<String> = named.into_iter().collect();
         let attempt = Some((attempt.job, attempt.number));
         let remove = move |folder: Folder| folder.remove_unnamed(attempt, &named, &HashSet::new());
-        match self.local.in_folder(remove).await {
-            Ok(0) => {}
-            Ok(removed) => tracing::info!(removed, "files that no manifest names were removed"),
-            Err(error) => tracing::warn!(%error, "files that no manifest names were not removed"),
-        }
+        self.local.remove_unnamed(remove).await;
         Ok(())
     }
 

@@ -6,8 +6,8 @@ use uuid::Uuid;
 
 use crate::clock::Now;
 use crate::queue;
-use crate::queue::{Attempts, Transition, next_status};
-use crate::store::ending::EndingJob;
+use crate::queue::Transition;
+use crate::store::ending::{EndingJob, retried};
 use crate::store::new_row::NewRow;
 use crate::store::postgres::queries::insert_event;
 use crate::store::postgres::transitions::end_job;
@@ -62,18 +62,9 @@ pub(super) async fn retry(
     let Some(status) = lock(connection, id).await? else {
         return Ok(None);
     };
-    let attempts = Attempts {
-        fruitless: 0,
-        limit: 0,
-    };
-    let Some(queued) = next_status(status, Transition::Retry, attempts, false) else {
-        let is_terminal = status.is_terminal();
-        let effect = if is_terminal {
-            Retried::Succeeded
-        } else {
-            Retried::Already
-        };
-        return Ok(Some(effect));
+    let queued = match retried(status) {
+        Ok(queued) => queued,
+        Err(effect) => return Ok(Some(effect)),
     };
     let (seq, progress): (i64, String) = sqlx::query_as(
         "UPDATE jobs SET status = $1, status_reason = $2, outcome = NULL, summary = NULL, finished_at = NULL, \

@@ -85,7 +85,7 @@ impl PostgresStore {
         .fetch_optional(&mut *transaction)
         .await?;
         transaction.commit().await?;
-        Ok(lease_state(cancel_requested))
+        Ok(LeaseState::of(cancel_requested))
     }
 
     pub(in crate::store) async fn heartbeat(
@@ -140,7 +140,7 @@ impl PostgresStore {
         lease: impl Into<Lease>,
     ) -> Result<LeaseState, StoreError> {
         let mut connection = self.pool.acquire().await?;
-        Ok(lease_state(held(&mut connection, lease.into()).await?))
+        Ok(LeaseState::of(held(&mut connection, lease.into()).await?))
     }
 
     pub(in crate::store) async fn restart(
@@ -246,12 +246,6 @@ impl PostgresStore {
         let job = EndingJob::running(lease.job, fruitless, limit, cancel_requested);
         Ok(job.after(transition).is_some_and(Status::is_terminal))
     }
-}
-
-fn lease_state(cancel_requested: Option<bool>) -> LeaseState {
-    cancel_requested.map_or(LeaseState::Lost, |cancel_requested| LeaseState::Held {
-        cancel_requested,
-    })
 }
 
 /// Whether the end of a held job was requested; `None` if the lease was lost.

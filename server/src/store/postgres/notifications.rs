@@ -2,6 +2,7 @@
 //! transaction holds a lock through its commit, so that commits would follow each other. What is missed is found by the next look.
 
 use std::collections::BTreeSet;
+use std::sync::Arc;
 use std::time::Duration;
 
 use sqlx::postgres::{PgListener, PgPool};
@@ -9,8 +10,6 @@ use tokio::sync::mpsc::UnboundedReceiver;
 use tokio::sync::{Notify, broadcast};
 use tokio::time::sleep;
 use uuid::Uuid;
-
-use std::sync::Arc;
 
 use crate::store::StoreError;
 use crate::store::local::Told;

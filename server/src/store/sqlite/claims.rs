@@ -40,12 +40,7 @@ impl SqliteStore {
         let memory = &request.capacity.memory;
         let mut changed = Vec::new();
         for index in admission.too_large {
-            let reason = format!(
-                "waiting for memory: it needs about {} MB, {} of {} MB are left",
-                waiting[index].memory_mb,
-                memory.free_mb(),
-                memory.memory_mb
-            );
+            let reason = memory.reason_to_wait(&waiting[index]);
             if set_reason(&mut transaction, ids[index], &reason).await? {
                 changed.push(ids[index]);
             }

@@ -3,17 +3,18 @@
 use std::collections::HashSet;
 
 use api::results::ResultFile;
-use sqlx::{Row, Sqlite, Transaction};
+use sqlx::{Sqlite, Transaction};
 use uuid::Uuid;
 use uuid::fmt::Hyphenated;
 
 use crate::store::block::Block;
 use crate::store::folder::Folder;
-use crate::store::rows::{corrupt, entry, integer};
+use crate::store::rows::{entry, integer};
 use crate::store::sqlite::SqliteStore;
 use crate::store::sqlite::blocks::{entries, update_entries};
 use crate::store::sqlite::queries::BEGIN;
 use crate::store::stored_block::unreadable;
+use crate::store::stored_file::file;
 use crate::store::{Content, Lease, NewFile, StoreError};
 
 impl SqliteStore {
@@ -46,17 +47,8 @@ impl SqliteStore {
         .bind(name)
         .fetch_optional(&self.readers)
         .await?;
-        let Some(row) = row else {
-            return Ok(None);
-        };
-        let content = if let Some(content) = row.try_get("content")? {
-            Content::Inline(content)
-        } else {
-            let place = row.try_get("place")?;
-            let path = self.local.folder.path(place);
-            Content::File(path.ok_or_else(|| corrupt(id, "path of a file", &place))?)
-        };
-        Ok(Some((entry(&row)?, content)))
+        row.map(|row| file(&self.local.folder, id, &row))
+            .transpose()
     }
 
     pub(in crate::store) async fn mark_damaged(
@@ -111,11 +103,7 @@ impl SqliteStore {
                 .map(|(id, lease)| folder.of_attempt((*id).into(), *lease));
             folder.remove_unnamed(attempt, &named, &held.collect())
         };
-        match self.local.in_folder(remove).await {
-            Ok(0) => {}
-            Ok(removed) => tracing::info!(removed, "files that no manifest names were removed"),
-            Err(error) => tracing::warn!(%error, "files that no manifest names were not removed"),
-        }
+        self.local.remove_unnamed(remove).await;
         Ok(())
     }
 }

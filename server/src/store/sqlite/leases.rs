@@ -96,7 +96,7 @@ impl SqliteStore {
             .bind(lease.number)
             .fetch_optional(&self.writer)
             .await?;
-            Ok(lease_state(cancel_requested))
+            Ok(LeaseState::of(cancel_requested))
         };
         self.local.disk.with_reserve(write).await
     }
@@ -120,7 +120,7 @@ impl SqliteStore {
                 Some((_, expires_at)) if expires_at < renewed_until => {
                     self.renew(*lease, length).await?
                 }
-                held => lease_state(held.map(|(cancel_requested, _)| cancel_requested)),
+                held => LeaseState::of(held.map(|(cancel_requested, _)| cancel_requested)),
             });
         }
         Ok(states)
@@ -138,7 +138,7 @@ impl SqliteStore {
         .bind(lease.number)
         .fetch_optional(&self.readers)
         .await?;
-        Ok(lease_state(cancel_requested))
+        Ok(LeaseState::of(cancel_requested))
     }
 
     pub(in crate::store) async fn restart(
@@ -261,12 +261,6 @@ impl SqliteStore {
         );
         Ok(job.after(transition).is_some_and(Status::is_terminal))
     }
-}
-
-fn lease_state(cancel_requested: Option<bool>) -> LeaseState {
-    cancel_requested.map_or(LeaseState::Lost, |cancel_requested| LeaseState::Held {
-        cancel_requested,
-    })
 }
 
 async fn write_results(
