@@ -16,8 +16,10 @@ pub struct BatchOverview {
     /// Time of its submission (RFC 3339).
     #[schema(format = DateTime)]
     pub created_at: String,
-    /// Number of its jobs by status, including statuses that no job has.
+    /// Number of its jobs by status, including statuses that no job has, without those that are still to be queued.
     pub counts: BTreeMap<String, u64>,
+    /// Number of jobs that are still to be queued.
+    pub to_come: u64,
     /// Related resources: relation to path.
     pub links: BTreeMap<String, String>,
 }

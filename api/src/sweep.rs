@@ -24,10 +24,11 @@ pub struct SweepRequest {
     /// The specification that is varied.
     #[schema(value_type = Spec)]
     pub base: Value,
-    /// JSON pointer to values; one job per combination, the last pointer varying fastest.
+    /// JSON pointer to values; one job per combination, the last pointer varying fastest; at most 1 000 000. Of more than 1 000, the
+    /// first are queued at once and the others while these are solved.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub grid: Option<BTreeMap<String, Vec<Value>>>,
-    /// One job per entry.
+    /// One job per entry; at most 1 000.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schema(value_type = Option<Vec<BTreeMap<String, Value>>>)]
     pub list: Option<Vec<Changes>>,
@@ -38,6 +39,8 @@ pub struct SweepRequest {
 pub struct SweepJob {
     /// The job.
     pub id: Uuid,
+    /// Its number in the sweep, from 0.
+    pub position: u64,
     /// Its changes against the base.
     #[schema(value_type = BTreeMap<String, Value>)]
     pub overrides: Changes,
@@ -45,6 +48,18 @@ pub struct SweepJob {
     pub status: Status,
     /// How its solve ended.
     pub outcome: Option<Outcome>,
+}
+
+/// Changes that make no valid job.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct RefusedChanges {
+    /// Their number in the sweep, from 0.
+    pub position: u64,
+    /// The changes against the base.
+    #[schema(value_type = BTreeMap<String, Value>)]
+    pub overrides: Changes,
+    /// What is wrong with them.
+    pub reason: String,
 }
 
 /// A sweep.
@@ -57,10 +72,20 @@ pub struct Sweep {
     /// Time of its submission (RFC 3339).
     #[schema(format = DateTime)]
     pub created_at: String,
-    /// Number of its jobs by status, including statuses that no job has.
+    /// Number of its jobs by status, including statuses that no job has, without those that are still to be queued.
     pub counts: BTreeMap<String, u64>,
-    /// Its jobs in order, without those that were deleted.
+    /// Number of jobs that were asked for, of a sweep of more than 1 000.
+    pub asked: Option<u64>,
+    /// The grid that was asked for, of such a sweep.
+    pub grid: Option<BTreeMap<String, Vec<Value>>>,
+    /// Number of jobs that are still to be queued; 0 if it was cancelled.
+    pub to_come: u64,
+    /// Number of combinations that made no valid job, found when they were to be queued.
+    pub refused: u64,
+    /// Its jobs in order, or a part of them, without those that were deleted; `links.next` has the next part.
     pub jobs: Vec<SweepJob>,
+    /// The first 100 combinations that made no valid job.
+    pub refused_changes: Vec<RefusedChanges>,
     /// Related resources: relation to path.
     pub links: BTreeMap<String, String>,
 }

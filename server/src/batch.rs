@@ -1,6 +1,6 @@
 //! Batches: many jobs of one question.
 //!
-//! A batch is expanded (a request into the specifications of its jobs), run (as ordinary jobs of the queue) and
+//! A batch is expanded (a request into the specifications of its jobs; that of a large sweep portion by portion), run (as ordinary jobs of the queue) and
 //! evaluated (the stored jobs into a document and a table). Parameter sweeps and accuracy studies are its two kinds.
 //! Does not know HTTP, SQL or the terminal.
 
@@ -10,14 +10,23 @@ mod kind;
 mod sweep;
 mod variation;
 
+use std::ops::Range;
+
 use api::plan::MachineFigures;
 use api::study::{StudyDocument, StudyRequest};
-use api::sweep::{Changes, Sweep, SweepRequest};
+use api::sweep::{Sweep, SweepRequest};
 use serde::Serialize;
+use uuid::Uuid;
 
+use crate::batch::sweep::Expanded;
+use crate::estimate::machine::cpu_s;
+use crate::number::real;
 use crate::queue;
 use crate::spec::Refused;
-use crate::store::{BatchDetail, NewBatch, NewJob, StoredBatch, SubmitOptions};
+use crate::store::{
+    BatchDetail, BatchPart, NewBatch, NewBatchJob, NewExpansion, NewJob, Portion, StoredBatch,
+    SubmitOptions,
+};
 
 pub use error::{EvaluateError, ExpandError};
 pub use kind::Kind;
@@ -37,7 +46,7 @@ pub enum Request {
 #[serde(untagged)]
 pub enum Document {
     /// A parameter sweep.
-    Sweep(Sweep),
+    Sweep(Box<Sweep>),
     /// An accuracy study with the comparison of its results.
     AccuracyStudy(Box<StudyDocument>),
 }
@@ -81,13 +90,13 @@ impl Kind {
         }
     }
 
-    /// Returns a batch as a document.
+    /// Returns a batch, with the part of its jobs that was read, as a document.
     ///
     /// # Errors
     /// [`EvaluateError`] if something stored cannot be read.
-    pub fn document(self, batch: StoredBatch) -> Result<Document, EvaluateError> {
+    pub fn document(self, batch: StoredBatch, part: BatchPart) -> Result<Document, EvaluateError> {
         match self {
-            Self::Sweep => Ok(Document::Sweep(sweep::document(batch))),
+            Self::Sweep => Ok(Document::Sweep(Box::new(sweep::document(batch, part)?))),
             Self::AccuracyStudy => {
                 let study = accuracy::outcomes::document(batch)?;
                 Ok(Document::AccuracyStudy(Box::new(study)))
@@ -95,20 +104,21 @@ impl Kind {
         }
     }
 
-    /// Returns the results of a batch as CSV, one line per job.
+    /// Returns the results of a batch as CSV, one line per job, with the header or as the next part of a table.
     ///
     /// # Errors
     /// [`EvaluateError`] if something stored cannot be read, or there is nothing to compare yet.
-    pub fn table(self, batch: &StoredBatch) -> Result<Vec<u8>, EvaluateError> {
+    pub fn table(self, batch: &StoredBatch, with_header: bool) -> Result<Vec<u8>, EvaluateError> {
         match self {
-            Self::Sweep => sweep::table::csv(&batch.jobs),
+            Self::Sweep => sweep::table::csv(&batch.jobs, with_header),
             Self::AccuracyStudy => accuracy::outcomes::table(batch),
         }
     }
 }
 
 impl Request {
-    /// Returns the jobs to be queued: all of them, accepted, or none.
+    /// Returns the jobs to be queued: all of them, accepted, or none; of a large sweep, the first of them and what the others are
+    /// made from.
     ///
     /// # Errors
     /// [`ExpandError`] with the faults of the request, or of the jobs it would make.
@@ -117,30 +127,87 @@ impl Request {
         machine: Option<&MachineFigures>,
         accept: &Accept<'_>,
     ) -> Result<NewBatch, ExpandError> {
-        let (name, variations, plan) = match self {
-            Self::Sweep(request) => (&request.name, sweep::expand(request, accept)?, None),
+        let (name, first, plan, expansion) = match self {
+            Self::Sweep(request) => {
+                let expanded = sweep::expand(request, accept)?;
+                let expansion = expansion(request, &expanded, machine)?;
+                (&request.name, expanded.first, None, expansion)
+            }
             Self::AccuracyStudy(request) => {
                 let machine = machine.ok_or(ExpandError::Unmeasured)?;
                 let (variations, plan) = accuracy::request::expand(request, machine, accept)?;
-                (&request.name, variations, Some(plan))
+                (&request.name, variations, Some(plan), None)
             }
         };
-        let jobs = variations.into_iter().enumerate();
         Ok(NewBatch {
             name: name.clone(),
-            jobs: jobs
+            jobs: (0..)
+                .zip(first)
                 .map(|(position, variation)| job(position, variation, machine))
                 .collect(),
             plan,
+            expansion,
         })
     }
 }
 
-fn job(
-    position: usize,
-    variation: Variation,
+/// Returns the jobs of a batch at these positions, made from its request.
+///
+/// # Errors
+/// [`ExpandError`] if the request cannot be read.
+pub fn portion(
+    batch: Uuid,
+    request: &str,
+    positions: Range<u64>,
     machine: Option<&MachineFigures>,
-) -> (NewJob, Changes) {
+    accept: &Accept<'_>,
+) -> Result<Portion, ExpandError> {
+    let request = serde_json::from_str(request)?;
+    let (jobs, refused) = sweep::portion::jobs(&request, positions.clone(), accept);
+    let jobs = jobs.into_iter();
+    Ok(Portion {
+        batch,
+        positions,
+        jobs: jobs
+            .map(|(position, variation)| job(position, variation, machine))
+            .collect(),
+        refused,
+    })
+}
+
+/// The jobs of a sweep after the first ones.
+fn expansion(
+    request: &SweepRequest,
+    expanded: &Expanded,
+    machine: Option<&MachineFigures>,
+) -> Result<Option<NewExpansion>, ExpandError> {
+    let Expanded {
+        first,
+        sample,
+        jobs,
+    } = expanded;
+    let next = u64::try_from(first.len()).unwrap_or(u64::MAX);
+    if next >= *jobs {
+        return Ok(None);
+    }
+    Ok(Some(NewExpansion {
+        request: serde_json::to_string(request)?,
+        next,
+        jobs: *jobs,
+        cpu_s: mean_cpu_s(sample, machine),
+    }))
+}
+
+/// Processor time that is expected of one of these jobs in the mean; `None` if the machine's speed is unknown.
+fn mean_cpu_s(sample: &[Variation], machine: Option<&MachineFigures>) -> Option<f64> {
+    let machine = machine.filter(|_| !sample.is_empty())?;
+    let each = sample
+        .iter()
+        .map(|variation| cpu_s(machine, &variation.estimate.workload));
+    Some(each.sum::<f64>() / real(sample.len()))
+}
+
+fn job(position: u64, variation: Variation, machine: Option<&MachineFigures>) -> NewBatchJob {
     let job = NewJob {
         plan: variation.estimate.plan(&variation.resolved, machine),
         spec: variation.resolved.spec,
@@ -149,5 +216,9 @@ fn job(
             deadline_s: None,
         },
     };
-    (job, variation.overrides)
+    NewBatchJob {
+        position,
+        job,
+        overrides: variation.overrides,
+    }
 }

@@ -39,6 +39,7 @@ use problem::ProblemType;
 
 pub use access::{Access, TokenError};
 pub use app::App;
+pub(crate) use limits::check as check_limits;
 pub use listener::serve;
 pub use tls::{Tls, TlsError};
 

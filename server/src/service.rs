@@ -1,5 +1,6 @@
 //! The service: store, workers, maintenance and HTTP, started and stopped together.
 
+mod expansions;
 mod maintenance;
 mod objects;
 
@@ -26,6 +27,10 @@ const GRACE: Duration = Duration::from_secs(5);
 /// Connections that may wait to be accepted, as far as the system allows: a client that finds no place tries again after 1 s.
 const BACKLOG: u32 = 1_024;
 
+/// Jobs of a large sweep that wait in the queue unless another number is given: those of a minute, of workers that end more jobs a second
+/// than were measured.
+pub const JOBS_AHEAD: u64 = 20_000;
+
 /// Configuration of the service.
 #[derive(Debug, Clone)]
 pub struct Config {
@@ -47,6 +52,8 @@ pub struct Config {
     pub limits: Limits,
     /// Days after which ended jobs are deleted.
     pub keep_days: Option<u32>,
+    /// Jobs of each large sweep that wait in the queue at most.
+    pub jobs_ahead: u64,
     /// Configuration of the workers.
     pub worker: WorkerConfig,
 }
@@ -177,12 +184,18 @@ impl Service {
             let (store, stopping) = owned.clone();
             maintenance::beat(store, stopping)
         });
-        let router = http::router(App::new(
+        let app = App::new(
             Arc::clone(&store),
             config.access,
             (stopping.clone(), Arc::clone(&supervisor)),
             http::openapi::document(),
-        ));
+        );
+        let owned = (Arc::clone(&store), app.machine.clone(), stopping.clone());
+        tasks.start(("expansions", 0), move || {
+            let (store, machine, stopping) = owned.clone();
+            expansions::queue_ahead(store, machine, config.jobs_ahead, stopping)
+        });
+        let router = http::router(app);
         let (mut listener, served) = (Some(listener), stopping.clone());
         tasks.start(("listener", 0), move || {
             let tls = config.tls.clone();

@@ -14,7 +14,8 @@
 //! | operation | atomic | fenced; answer if the lease was lost |
 //! | --- | --- | --- |
 //! | `submit` | job, labels, first event, request key; several submissions may share a transaction | no |
-//! | `submit_batch` | all jobs of the batch, or none | no |
+//! | `submit_batch` | all jobs of the batch, or none; with an expansion, the first of them | no |
+//! | `extend_batch` | the next jobs of a batch; none if others have queued these, or the batch was cancelled | no |
 //! | `claim` | status, lease, attempt and its event; later rows deleted; reasons | no; each lease is new; repeated: the same jobs |
 //! | `record` | progress, rows, snapshots, files, checkpoint, events, renewed lease | yes; [`LeaseState::Lost`]; repeated: no effect |
 //! | `heartbeat` | end of each lease, where it is due | yes; [`LeaseState::Lost`], not counted |
@@ -25,9 +26,11 @@
 //! | `move_results` | notes the objects; after they are written, their names in place of the results, for several jobs | no; only of succeeded jobs |
 //! | `reclaim_expired`, `reclaim_at_start` | all lost jobs: into the queue, or under a new lease | no; they end leases |
 //! | `add_worker_token`, `revoke_worker_token` | one token | no |
-//! | `cancel`, `cancel_batch` | a queued job ends with its `done` event; a running one is marked for its worker | no |
+//! | `cancel` | a queued job ends with its `done` event; a running one is marked for its worker | no |
+//! | `cancel_batch` | no jobs are queued any more; then its jobs as by `cancel`, a limited number at once | no |
 //! | `expire` | all queued jobs whose deadline has passed end with their `done` events | no |
-//! | `delete`, `delete_batch` | jobs with all rows; files afterwards, or at the next start | no; only ended jobs |
+//! | `delete` | a job with all rows; files afterwards, or at the next start | no; only ended jobs |
+//! | `delete_batch` | jobs as by `delete`, a limited number at once; the batch with the last of them | no; only ended jobs |
 //! | `delete_ended_before` | each job; a limited number a call | no; only ended jobs |
 //!
 //! Event numbers of a job count from 1 without gaps, in the order of the transactions; `done` is the last one. Reads
@@ -77,7 +80,10 @@ mod stored_block;
 mod stored_file;
 
 pub use backup::{BackupError, CopySummary};
-pub use batches::{BatchDetail, BatchFilter, BatchJob, BatchOverview, NewBatch, StoredBatch};
+pub use batches::{
+    BatchDetail, BatchFilter, BatchJob, BatchOverview, BatchPart, Expansion, NewBatch, NewBatchJob,
+    NewExpansion, Portion, RefusedJob, StoredBatch,
+};
 pub use changes::{AllChanges, Changes};
 pub use disk::DataDisk;
 pub use error::StoreError;

@@ -16,6 +16,7 @@
 mod failover;
 mod harms;
 mod simulated;
+mod sweep;
 
 use std::path::Path;
 use std::sync::Arc;

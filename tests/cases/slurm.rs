@@ -15,8 +15,6 @@ use tests::{Server, Slurm, binary};
 /// A job of some 0.1 s.
 const SPEC: &str = r#"{"system":{"kind":"cylinder_on_flat"},"cycles":20,"accuracy":{"preset":"draft"},
     "load":{"kind":"line_force","n_per_mm":18.5}}"#;
-/// Jobs of a sweep, which has up to 1 000.
-const SWEEP: usize = 1_000;
 /// Timeout of a wait; no measure of speed.
 const PATIENCE: Duration = Duration::from_mins(4);
 /// Workers at a time.
@@ -103,20 +101,17 @@ async fn a_sweep_is_solved_on_three_nodes() {
     let slurm = Slurm::start(folder.path());
     let server = Server::without_workers(folder.path(), &[]);
     let base: Value = serde_json::from_str(SPEC).expect("JSON");
-    for first in (0..jobs).step_by(SWEEP) {
-        let numbers = first..jobs.min(first + SWEEP);
-        let loads: Vec<f64> = numbers
-            .map(|number| 10.0 + 1e-3 * f64::from(u32::try_from(number).expect("small")))
-            .collect();
-        let sweep = json!({"base": base, "grid": {"/load/n_per_mm": loads}});
-        let posted = server
-            .client
-            .post(format!("{}/v1/sweeps", server.base))
-            .json(&sweep);
-        let posted = posted.send().await.expect("an answer");
-        let status = posted.status();
-        assert_eq!(status, 202, "{}", posted.text().await.expect("a text"));
-    }
+    let loads: Vec<f64> = (0..jobs)
+        .map(|number| 10.0 + 1e-3 * f64::from(u32::try_from(number).expect("small")))
+        .collect();
+    let sweep = json!({"base": base, "grid": {"/load/n_per_mm": loads}});
+    let posted = server
+        .client
+        .post(format!("{}/v1/sweeps", server.base))
+        .json(&sweep);
+    let posted = posted.send().await.expect("an answer");
+    let status = posted.status();
+    assert_eq!(status, 202, "{}", posted.text().await.expect("a text"));
     let began = Instant::now();
     let mut samples = Vec::new();
     let mut running = pilot(&server, &slurm).spawn().expect("a pilot");

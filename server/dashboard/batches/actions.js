@@ -3,7 +3,7 @@
 import { fetch_json } from "../parts/client.js";
 import { element } from "../parts/element.js";
 import { count } from "../parts/format.js";
-import { progress } from "./counts.js";
+import { counts_with_later, progress } from "./counts.js";
 import { KINDS, name_of } from "./kinds.js";
 
 /**
@@ -25,8 +25,9 @@ export function end_button(batch, kind, { said, cancelled, deleted }) {
       said.textContent = error instanceof Error ? error.message : String(error);
     }
   };
-  const jobs = Object.values(/** @type {Record<string, number>} */ (batch.counts)).reduce((all, some) => all + some, 0);
-  const has_ended = progress(batch.counts) === 1 || jobs === 0;
+  const counts = counts_with_later(batch);
+  const jobs = Object.values(counts).reduce((all, some) => all + some, 0);
+  const has_ended = progress(counts) === 1 || jobs === 0;
   const remove = () => confirm(`Delete ${name} with its ${count(jobs)} jobs and their results?`) && act(path, "DELETE", deleted);
   return has_ended
     ? element("button", { type: "button", "aria-label": `Delete ${name}`, click: remove }, "Delete")

@@ -24,6 +24,15 @@ export function counts_of(jobs) {
 }
 
 /**
+ * Numbers of the jobs of a batch by status; those that are still to be queued count as queued.
+ * @param {{counts: Counts, to_come?: number}} batch
+ * @returns {Counts}
+ */
+export function counts_with_later({ counts, to_come = 0 }) {
+  return { ...counts, queued: (counts.queued ?? 0) + to_come };
+}
+
+/**
  * The share of the jobs that have ended.
  * @param {Counts} counts
  * @returns {number}

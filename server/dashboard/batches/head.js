@@ -6,7 +6,7 @@ import { download_link } from "../parts/download.js";
 import { definitions, element } from "../parts/element.js";
 import { duration, seconds_between, time } from "../parts/format.js";
 import { end_button } from "./actions.js";
-import { counts_line, progress, progress_line, state_badge } from "./counts.js";
+import { counts_line, counts_with_later, progress, progress_line, state_badge } from "./counts.js";
 import { KINDS, name_of } from "./kinds.js";
 
 /** The head of a batch's page. */
@@ -35,12 +35,13 @@ export class Head {
 
   /** @param {any} batch */
   update(batch) {
-    const shown = JSON.stringify(batch.counts);
+    const counts = counts_with_later(batch);
+    const shown = JSON.stringify(counts);
     if (shown === this.#shown) return;
     this.#shown = shown;
     const name = name_of(batch, this.#kind);
     this.#status.replaceChildren(
-      element("p", { class: "line" }, state_badge(batch.counts), progress(batch.counts) < 1 && progress_line(batch.counts, name), counts_line(batch.counts)),
+      element("p", { class: "line" }, state_badge(counts), progress(counts) < 1 && progress_line(counts, name), counts_line(counts)),
       definitions([["submitted", `${time(batch.created_at)}, ${duration(Math.round(seconds_between(batch.created_at)))} ago`]]));
     this.#actions.replaceChildren(...this.#links(batch),
       end_button(batch, this.#kind, { said: this.#said, cancelled: this.#reload, deleted: () => (location.hash = link("sweeps")) }), this.#said);

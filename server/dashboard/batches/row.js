@@ -4,7 +4,7 @@ import { link } from "../parts/address.js";
 import { element } from "../parts/element.js";
 import { duration, seconds_between, time } from "../parts/format.js";
 import { end_button } from "./actions.js";
-import { counts_line, progress_line, state, state_badge } from "./counts.js";
+import { counts_line, counts_with_later, progress_line, state, state_badge } from "./counts.js";
 import { KINDS, name_of } from "./kinds.js";
 
 /** A row of the table, which follows its batch. */
@@ -37,13 +37,14 @@ export class Row {
   /** @param {any} batch */
   update(batch) {
     this.show_age();
-    const shown = JSON.stringify(batch.counts);
+    const counts = counts_with_later(batch);
+    const shown = JSON.stringify(counts);
     if (shown === this.#shown) return;
     this.#shown = shown;
-    this.node.className = state(batch.counts);
-    this.#state.replaceChildren(state_badge(batch.counts));
-    this.#counts.replaceChildren(counts_line(batch.counts));
-    this.#progress.replaceChildren(progress_line(batch.counts, name_of(batch, this.kind)));
+    this.node.className = state(counts);
+    this.#state.replaceChildren(state_badge(counts));
+    this.#counts.replaceChildren(counts_line(counts));
+    this.#progress.replaceChildren(progress_line(counts, name_of(batch, this.kind)));
     this.#end.replaceChildren(end_button(batch, this.kind, this.#then));
   }
 

@@ -24,6 +24,8 @@ export async function cloned_batch(id, kind, signal) {
   const { provenance: _, ...base } = batch.study?.spec ?? (await base_of(batch, signal)) ?? { system: { kind: "cylinder_on_flat" } };
   const name = batch.name ? `${batch.name}, changed` : "";
   if (kind === "accuracy") return { base, name, fields: [], is_grid: true };
+  // A large sweep shows the first of its jobs.
+  if (batch.grid) return { base, name, is_grid: true, fields: Object.entries(batch.grid).map(([pointer, values]) => ({ pointer, values })) };
   const fields = fields_of(batch.jobs);
   const combinations = fields.reduce((all, { values }) => all * values.length, 1);
   const is_grid = combinations === batch.jobs.length;

@@ -5,8 +5,9 @@ import { count, duration } from "../parts/format.js";
 import { leaves } from "../parts/leaves.js";
 import { SweptField } from "./swept_field.js";
 
-/** Jobs that the service accepts in a sweep at most. */
-const MOST_JOBS = 1000;
+/** Jobs that the service accepts in a sweep at most: of every combination, and of a list. */
+const MOST_JOBS = 1e6;
+const MOST_LISTED = 1000;
 /** Parts of a specification that are not swept. */
 const LEFT_OUT = ["/provenance", "/output", "/labels", "/name"];
 /** Parts that can be given by a name of the library as well. */
@@ -94,9 +95,13 @@ export class SweepForm {
     return lengths.length ? lengths.reduce((all, some) => all * some, 1) : 0;
   }
 
+  get #most_jobs() {
+    return this.variations.list ? MOST_LISTED : MOST_JOBS;
+  }
+
   /** Whether it can be submitted. */
   get is_complete() {
-    return this.jobs >= 1 && this.jobs <= MOST_JOBS && this.#fields.every((field) => this.#fault(field) === "");
+    return this.jobs >= 1 && this.jobs <= this.#most_jobs && this.#fields.every((field) => this.#fault(field) === "");
   }
 
   /**
@@ -121,7 +126,7 @@ export class SweepForm {
     const { jobs } = this;
     const together = duration(jobs * this.#expected_s);
     this.#said.textContent = jobs === 0 ? "Choose a field and its values."
-      : jobs > MOST_JOBS ? `${count(jobs)} jobs; a sweep has at most ${count(MOST_JOBS)}.`
+      : jobs > this.#most_jobs ? `${count(jobs)} jobs; a sweep has at most ${count(this.#most_jobs)}.`
         : `${jobs === 1 ? "1 job" : `${count(jobs)} jobs`}${together && !Number.isNaN(this.#expected_s) ? `, ${together} of processor time together if each takes as long as the one that is planned here` : ""}.`;
   }
 

@@ -5,10 +5,12 @@ import { counts_of } from "../batches/counts.js";
 import { Head } from "../batches/head.js";
 import { name_of } from "../batches/kinds.js";
 import { element } from "../parts/element.js";
+import { count } from "../parts/format.js";
 import { follow } from "../parts/feed.js";
 import { has_ended } from "../parts/status.js";
 import { throttled } from "../parts/throttled.js";
 import { fields_of, load_points } from "./points.js";
+import { refused_card } from "./refused.js";
 import { PointsTable } from "./table.js";
 import { View } from "./view.js";
 
@@ -30,10 +32,15 @@ export async function sweep_page(content, { id }, signal) {
   const view = new View(signal);
   const table = new PointsTable();
   const base = element("div", { class: "cards" });
-  content.append(head.node, view.node, table.node, base);
+  const part = element("p", { class: "muted", hidden: true });
+  const refused = element("div", { class: "cards" });
+  content.append(head.node, refused, part, view.node, table.node, base);
 
   const show = async () => {
     head.update(sweep);
+    part.hidden = !sweep.asked;
+    part.textContent = `The first ${count(points.length)} of ${count(sweep.asked ?? points.length)} points; the table as CSV has all that are queued or have ended.`;
+    refused.replaceChildren(...(sweep.refused ? [refused_card(sweep)] : []));
     table.show(points);
     await view.show(points);
   };
@@ -44,11 +51,13 @@ export async function sweep_page(content, { id }, signal) {
   follow({
     changed: (job) => {
       const point = points.find((one) => one.id === job.id);
+      // It may be one of a large sweep that is not shown.
+      if (sweep.asked && has_ended(job)) reload();
       if (!point) return;
       if (has_ended(job) && !has_ended(point)) reload();
       Object.assign(point, { status: job.status, outcome: job.outcome, progress: job.progress });
       table.update(point);
-      head.update({ ...sweep, counts: counts_of(points) });
+      if (!sweep.asked) head.update({ ...sweep, counts: counts_of(points) });
     },
     deleted: (deleted) => {
       if (points.some((point) => point.id === deleted)) reload();

@@ -19,15 +19,18 @@ import { as_text, quantity } from "../parts/quantity.js";
  * @property {boolean} is_number
  */
 
+/** Points that are loaded and shown at most: the first ones. */
+export const MOST_POINTS = 1000;
+
 /**
- * A sweep with its points as they are now.
+ * A sweep with its points as they are now, or the first of them.
  * @param {string} id
  * @param {AbortSignal} signal
  * @returns {Promise<{sweep: any, points: Point[]}>}
  */
 export async function load_points(id, signal) {
   const sweep = await fetch_json(`/v1/sweeps/${id}`, { signal });
-  const path = `/v1/sweeps/${id}/outcomes`;
+  const path = `/v1/sweeps/${id}/outcomes?limit=${MOST_POINTS}`;
   const response = await send(path, { signal });
   if (!response.ok) throw new Problem(`${path}: ${response.status}`, response.status);
   const rows = new Map(rows_of_csv(await response.text()).map((row) => [row.get("job"), row]));

@@ -1,61 +1,63 @@
-//! Parameter sweeps. The size of a sweep is checked before it is expanded, and the faults of all jobs are reported.
+//! Parameter sweeps. The size of a sweep is checked before it is expanded, and the faults of all jobs are reported; of a large one,
+//! those of a sample, which has every value of every field as far as its size allows.
 
 mod patch;
+pub(super) mod portion;
+mod sample;
 pub(super) mod table;
+mod variations;
 
 use std::collections::{BTreeMap, BTreeSet};
 
 use api::problem::Fault;
-use api::spec::pointer_token;
-use api::sweep::{Changes, Sweep, SweepJob, SweepRequest};
-use serde_json::Value;
+use api::sweep::{RefusedChanges, Sweep, SweepJob, SweepRequest};
 
+use crate::batch::error::EvaluateError;
 use crate::batch::kind::Kind;
+use crate::batch::sweep::variations::Variations;
 use crate::batch::variation::{self, Accept, Variation};
-use crate::estimate::Estimate;
-use crate::spec::{Refused, Resolved};
-use crate::store::{BatchJob, StoredBatch};
+use crate::spec::Refused;
+use crate::store::{BatchJob, BatchPart, RefusedJob, StoredBatch};
 
-/// Largest number of jobs of a sweep.
-const JOB_LIMIT: usize = 1000;
+/// Largest number of jobs of a grid.
+const GRID_LIMIT: u64 = 1_000_000;
+/// Largest number of jobs of a list, and of a grid that is queued as a whole.
+const WHOLE_LIMIT: u64 = 1_000;
+/// Jobs of a larger grid that are queued at once.
+const FIRST_JOBS: u64 = 250;
 /// Largest number of pointers that a job of a sweep changes.
 const CHANGE_LIMIT: usize = 32;
-/// Largest size of all specifications together, bytes.
-const EXPANDED_LIMIT: usize = 32 << 20;
+/// Largest size of all specifications that are queued at once, bytes.
+const EXPANDED_LIMIT: u64 = 32 << 20;
 /// Largest number of reported faults.
 const FAULT_LIMIT: usize = 100;
 
-/// Returns the jobs of a sweep, in order.
+/// The jobs of a sweep.
+#[derive(Debug)]
+pub(super) struct Expanded {
+    /// Those that are queued at once, in order.
+    pub(super) first: Vec<Variation>,
+    /// Some of the later ones.
+    pub(super) sample: Vec<Variation>,
+    /// Number of all.
+    pub(super) jobs: u64,
+}
+
+/// Returns the first jobs of a sweep, in order.
 ///
 /// # Errors
 /// [`Refused`] for sizes beyond the limits, and with the faults of the sweep, or of the jobs it would make.
-pub(super) fn expand(
-    request: &SweepRequest,
-    accept: &Accept<'_>,
-) -> Result<Vec<Variation>, Refused> {
+pub(super) fn expand(request: &SweepRequest, accept: &Accept<'_>) -> Result<Expanded, Refused> {
     check_size(request).map_err(Refused::Faults)?;
-    let all = match (&request.grid, &request.list) {
-        (Some(grid), _) => combinations(grid),
-        (None, list) => list.clone().unwrap_or_default(),
-    };
-    // Completes variants of which the base has nothing and a change sets one field: `/load/n` of the preset's load.
-    let preset = serde_json::to_vec(&request.base)
-        .ok()
-        .and_then(|base| crate::spec::read(&base).ok())
-        .and_then(|resolved| serde_json::to_value(resolved.spec).ok())
-        .unwrap_or(Value::Null);
-    let (mut variations, mut faults) = (Vec::with_capacity(all.len()), BTreeSet::new());
-    for (index, overrides) in all.into_iter().enumerate() {
-        match vary(&request.base, &preset, &overrides) {
-            Ok(resolved) => variations.push(Variation {
-                overrides,
-                estimate: Estimate::of(&resolved),
-                resolved,
-            }),
-            Err(found) => {
-                let in_sweep = |fault| in_sweep(fault, index, &overrides, request.grid.is_some());
-                faults.extend(found.into_iter().map(in_sweep));
-            }
+    let variations = Variations::of(request);
+    let jobs = variations.len();
+    let at_once = jobs_at_once(jobs);
+    let later = (at_once < jobs).then(|| sample::positions(request, at_once..jobs));
+    let (mut all, mut faults) = (Vec::new(), BTreeSet::new());
+    for position in (0..at_once).chain(later.into_iter().flatten()) {
+        match variations.at(position) {
+            Ok(variation) => all.push(variation),
+            Err(found) => faults.extend(found),
         }
         if faults.len() >= FAULT_LIMIT {
             break;
@@ -66,133 +68,125 @@ pub(super) fn expand(
         let faults = reported.map(|(pointer, detail)| Fault { pointer, detail });
         return Err(Refused::Faults(faults.collect()));
     }
-    for variation in &variations {
+    for variation in &all {
         accept(&variation.estimate)?;
     }
-    Ok(variations)
+    let sample = all.split_off(usize::try_from(at_once).unwrap_or(usize::MAX));
+    Ok(Expanded {
+        first: all,
+        sample,
+        jobs,
+    })
 }
 
-/// Returns a stored batch as a sweep.
-pub(super) fn document(batch: StoredBatch) -> Sweep {
+/// Number of jobs of a sweep that are queued when it is submitted.
+fn jobs_at_once(jobs: u64) -> u64 {
+    if jobs <= WHOLE_LIMIT {
+        jobs
+    } else {
+        FIRST_JOBS
+    }
+}
+
+/// Returns a part of a stored batch as a sweep.
+///
+/// # Errors
+/// [`EvaluateError::Corrupt`] if its request cannot be read.
+pub(super) fn document(batch: StoredBatch, part: BatchPart) -> Result<Sweep, EvaluateError> {
     let overview = batch.overview;
+    let request = batch.request.as_deref().map(serde_json::from_str);
+    let request: Option<SweepRequest> =
+        request
+            .transpose()
+            .map_err(|cause| EvaluateError::Corrupt {
+                id: overview.id,
+                what: "request",
+                cause,
+            })?;
+    let mut links = Kind::Sweep.links(overview.id);
+    let is_full = batch.jobs.len() >= usize::try_from(part.limit).unwrap_or(usize::MAX);
+    if let Some(last) = batch.jobs.last().filter(|_| is_full) {
+        let (own, from, limit) = (&links["self"], last.position + 1, part.limit);
+        links.insert(
+            "next".to_owned(),
+            format!("{own}?from={from}&limit={limit}"),
+        );
+    }
     let shown = |job: BatchJob| SweepJob {
         id: job.id,
+        position: job.position,
         overrides: job.overrides,
         status: job.status,
         outcome: job.outcome,
     };
-    Sweep {
+    let refused = |job: RefusedJob| RefusedChanges {
+        position: job.position,
+        overrides: job.overrides,
+        reason: job.reason,
+    };
+    Ok(Sweep {
         id: overview.id,
         name: overview.name,
         created_at: overview.created_at,
         counts: overview.counts,
+        asked: overview.asked,
+        grid: request.and_then(|request| request.grid),
+        to_come: overview.to_come,
+        refused: overview.refused,
         jobs: batch.jobs.into_iter().map(shown).collect(),
-        links: Kind::Sweep.links(overview.id),
-    }
+        refused_changes: batch.refused.into_iter().map(refused).collect(),
+        links,
+    })
 }
 
 /// Checks how large a sweep would become.
 fn check_size(request: &SweepRequest) -> Result<(), Vec<Fault>> {
     let mut faults = Vec::from_iter(variation::name_fault(request.name.as_deref()));
     let mut fault = |pointer: &str, detail: String| faults.push(Fault::new(pointer, detail));
-    let (pointer, jobs, changes) = match (&request.grid, &request.list) {
-        (Some(grid), None) => {
-            let jobs = grid
-                .values()
-                .try_fold(1_usize, |jobs, values| jobs.checked_mul(values.len()));
-            ("/grid", jobs.unwrap_or(usize::MAX), grid.len())
-        }
+    let (pointer, limit, changes) = match (&request.grid, &request.list) {
+        (Some(grid), None) => ("/grid", GRID_LIMIT, grid.len()),
         (None, Some(list)) => {
             let changes = list.iter().map(BTreeMap::len).max();
-            ("/list", list.len(), changes.unwrap_or_default())
+            ("/list", WHOLE_LIMIT, changes.unwrap_or_default())
         }
         _ => {
             fault("", "a sweep has either a `grid` or a `list`".to_owned());
             return Err(faults);
         }
     };
-    if !(1..=JOB_LIMIT).contains(&jobs) {
-        let detail = format!("{jobs} jobs; a sweep has 1 to {JOB_LIMIT}");
-        fault(pointer, detail);
+    let jobs = variations::number(request);
+    if !(1..=limit).contains(&jobs) {
+        fault(
+            pointer,
+            format!("{jobs} jobs; a {} has 1 to {limit}", &pointer[1..]),
+        );
     }
     if changes > CHANGE_LIMIT {
         let detail = format!("{changes} pointers a job, at most {CHANGE_LIMIT}");
         fault(pointer, detail);
     }
     let size = serde_json::to_string(&request.base).map_or(0, |base| base.len());
-    let expanded = size.saturating_mul(jobs);
+    let size = u64::try_from(size).unwrap_or(u64::MAX);
+    let expanded = size.saturating_mul(jobs_at_once(jobs));
     if expanded > EXPANDED_LIMIT {
-        let detail = format!("{expanded} bytes in all jobs together, at most {EXPANDED_LIMIT}");
+        let detail = format!(
+            "{expanded} bytes in the jobs that are queued at once, at most {EXPANDED_LIMIT}"
+        );
         fault("/base", detail);
     }
     faults.is_empty().then_some(()).ok_or(faults)
 }
 
-/// Returns every combination of a grid, the last pointer varying fastest.
-fn combinations(grid: &BTreeMap<String, Vec<Value>>) -> Vec<Changes> {
-    let mut all = vec![Changes::new()];
-    for (pointer, values) in grid {
-        all = all
-            .iter()
-            .flat_map(|changes| {
-                values.iter().map(move |value| {
-                    let mut changes = changes.clone();
-                    changes.insert(pointer.clone(), value.clone());
-                    changes
-                })
-            })
-            .collect();
-    }
-    all
-}
-
-/// Resolves the base with its changes.
-fn vary(base: &Value, preset: &Value, overrides: &Changes) -> Result<Resolved, Vec<Fault>> {
-    let mut document = base.clone();
-    let set = |(pointer, value): (&String, &Value)| {
-        let set = patch::set(&mut document, preset, pointer, value.clone());
-        Some(Fault::new(pointer.clone(), set.err()?))
-    };
-    let faults: Vec<Fault> = overrides.iter().filter_map(set).collect();
-    if !faults.is_empty() {
-        return Err(faults);
-    }
-    // A document that was read can be serialized.
-    let bytes = serde_json::to_vec(&document).unwrap_or_default();
-    crate::spec::read(&bytes).map_err(|refused| match refused {
-        Refused::Parse(error) => {
-            let mut faults = vec![Fault::new(error.pointer, error.detail)];
-            faults.extend(error.others);
-            faults
-        }
-        Refused::Faults(faults) => faults,
-    })
-}
-
-/// Moves a fault to its pointer in the submitted sweep: into the changes of its job, or into the base.
-fn in_sweep(fault: Fault, index: usize, overrides: &Changes, grid: bool) -> (String, String) {
-    let Fault { pointer, detail } = fault;
-    let changed = overrides.keys().find(|changed| {
-        let below = pointer.strip_prefix(changed.as_str());
-        below.is_some_and(|rest| rest.is_empty() || rest.starts_with('/'))
-    });
-    let pointer_in_sweep = match changed {
-        Some(changed) if grid => format!("/grid/{}", pointer_token(changed)),
-        Some(changed) => format!("/list/{index}/{}", pointer_token(changed)),
-        None => return (format!("/base{pointer}"), detail),
-    };
-    (pointer_in_sweep, format!("{detail} ({pointer} of a job)"))
-}
-
 #[cfg(test)]
 mod tests {
-    use serde_json::json;
+    use serde_json::{Value, json};
 
     use super::*;
 
     fn expanded(text: &Value) -> Result<Vec<Variation>, Vec<Fault>> {
         let request = variation::read(text.to_string().as_bytes());
-        let variations = request.and_then(|request| expand(&request, &|_| Ok(())));
+        let expanded = request.and_then(|request| expand(&request, &|_| Ok(())));
+        let variations = expanded.map(|expanded| expanded.first);
         variations.map_err(|refused| match refused {
             Refused::Faults(faults) => faults,
             Refused::Parse(error) => panic!("{error}"),
@@ -267,7 +261,7 @@ mod tests {
         }
         assert_eq!(
             expanded(&json!({"base": {}, "list": []})).expect_err("refused")[0].detail,
-            "0 jobs; a sweep has 1 to 1000"
+            "0 jobs; a list has 1 to 1000"
         );
     }
 }

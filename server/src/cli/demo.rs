@@ -15,7 +15,7 @@ use crate::cli::table;
 use crate::cli::terminal::{Ended, failed, write_err, write_out};
 use crate::client::{Client, ClientError};
 use crate::http::Access;
-use crate::service::{Config, Service, ServiceError};
+use crate::service::{Config, JOBS_AHEAD, Service, ServiceError};
 use crate::store::Limits;
 use crate::worker::WorkerConfig;
 
@@ -56,6 +56,7 @@ async fn demonstrate(listen: SocketAddr, exit: bool) -> Result<(), DemoError> {
         workers: workers(None),
         limits: Limits::default(),
         keep_days: None,
+        jobs_ahead: JOBS_AHEAD,
         worker: WorkerConfig::new(program),
     })
     .await?;

@@ -6,6 +6,7 @@ use std::time::Duration;
 use clap::Args;
 
 use crate::queue::ATTEMPT_LIMIT;
+use crate::service::JOBS_AHEAD;
 use crate::store::Limits;
 use crate::worker::WorkerConfig;
 use crate::worker::protocol::LONGEST_WAIT;
@@ -45,6 +46,9 @@ pub(super) struct WorkOptions {
     /// Delete jobs so many days after their end; never unless given.
     #[arg(long, env = "FRETWEAR_KEEP_DAYS")]
     pub(super) keep_days: Option<u32>,
+    /// Jobs of each large sweep that wait in the queue at most; its others follow while these are solved.
+    #[arg(long, env = "FRETWEAR_JOBS_AHEAD", default_value_t = JOBS_AHEAD, value_parser = clap::value_parser!(u64).range(1..))]
+    pub(super) jobs_ahead: u64,
 }
 
 /// Options of `work`.

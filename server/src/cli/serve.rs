@@ -24,6 +24,7 @@ pub(super) fn run(arguments: ServeArguments) -> Ended {
         workers: work.workers(),
         limits: work.limits(),
         keep_days: work.keep_days,
+        jobs_ahead: work.jobs_ahead,
         worker: work.config(program),
         database: arguments.database,
         files: arguments.files,

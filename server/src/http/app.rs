@@ -34,7 +34,7 @@ pub struct App {
     /// OpenAPI document of the interface.
     pub(super) document: &'static Value,
     /// Measured speed of this machine.
-    pub(super) machine: CalibrationCache,
+    pub(crate) machine: CalibrationCache,
     pub(super) archive_permits: Arc<Semaphore>,
     /// Permits to expand a study into its jobs.
     pub(super) expansion_permits: Arc<Semaphore>,

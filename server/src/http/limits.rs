@@ -18,7 +18,7 @@ const MAX_INCREMENTS: f64 = 2e8;
 ///
 /// # Errors
 /// [`Refused`] with a fault for each limit that is exceeded.
-pub(super) fn check(estimate: &Estimate) -> Result<(), Refused> {
+pub(crate) fn check(estimate: &Estimate) -> Result<(), Refused> {
     let size = &estimate.footprint;
     let increments = estimate.workload.increments();
     let limits = [

@@ -17,7 +17,7 @@ pub fn sort_key(submitted_at: i64, priority: i32) -> i64 {
 
 /// Returns the priority of the job at this position of a parameter sweep: each counts one minute younger than the one
 /// before it, so that a job submitted later does not wait for all of a long sweep.
-pub fn batch_priority(position: usize) -> i32 {
+pub fn batch_priority(position: u64) -> i32 {
     i32::try_from(position).map_or(-MAX_PRIORITY, |position| -position.min(MAX_PRIORITY))
 }
 
@@ -37,6 +37,6 @@ mod tests {
     fn a_later_job_does_not_wait_for_a_whole_sweep() {
         assert!(sort_key(0, batch_priority(3)) > sort_key(60_000, 0));
         assert!(sort_key(0, batch_priority(0)) < sort_key(60_000, 0));
-        assert_eq!(batch_priority(usize::MAX), -MAX_PRIORITY);
+        assert_eq!(batch_priority(u64::MAX), -MAX_PRIORITY);
     }
 }

@@ -31,6 +31,7 @@ async fn service(folder: &TempDir) -> Service {
             least_free_disk_mb: 0,
         },
         keep_days: None,
+        jobs_ahead: 10,
         worker: WorkerConfig::new(program),
     };
     Service::start(config).await.expect("a service")
@@ -65,7 +66,12 @@ async fn a_service_works_after_each_of_its_tasks_was_killed() {
     let client = reqwest::Client::new();
     let url = |path: &str| format!("http://{}{path}", service.address);
     let get = |path: &str| client.get(url(path));
-    let mut tasks = vec![("heartbeat", 0), ("listener", 0), ("maintenance", 0)];
+    let mut tasks = vec![
+        ("expansions", 0),
+        ("heartbeat", 0),
+        ("listener", 0),
+        ("maintenance", 0),
+    ];
     tasks.extend((0..WORKERS).map(|number| ("worker", number)));
     until(|| get("/readyz"), |status, _| status == 200).await;
     assert_eq!(service.supervisor.running(), tasks);

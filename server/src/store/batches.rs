@@ -1,9 +1,11 @@
 //! Batches in the store: jobs that were queued together.
 //!
-//! A batch is queued as a whole or not at all, and deleted only after all its jobs have ended. A batch may have an
-//! evaluation plan: an opaque JSON text that the store does not read.
+//! A batch is accepted as a whole or not at all, and deleted only after all its jobs have ended. A batch may have an
+//! evaluation plan, and an expansion: jobs that are queued only when others have been solved. Plan and request are opaque JSON texts that
+//! the store does not read.
 
 use std::collections::BTreeMap;
+use std::ops::Range;
 
 use api::job::{Outcome, Status};
 use api::results::Summary;
@@ -12,15 +14,83 @@ use uuid::Uuid;
 
 use crate::store::NewJob;
 
+/// Largest number of jobs that a transaction cancels or deletes; bounds how long other writes wait.
+pub(in crate::store) const JOBS_AT_ONCE: i64 = 250;
+/// Largest number of refused combinations that are shown.
+pub(in crate::store) const SHOWN_REFUSALS: i64 = 100;
+
 /// A batch to be queued.
 #[derive(Debug, Clone, PartialEq)]
 pub struct NewBatch {
     /// Name for people.
     pub name: Option<String>,
-    /// Its jobs in order, each with its changes against the base specification.
-    pub jobs: Vec<(NewJob, Changes)>,
+    /// Its jobs in order, or the first of them.
+    pub jobs: Vec<NewBatchJob>,
     /// Evaluation plan, JSON.
     pub plan: Option<String>,
+    /// The jobs after these.
+    pub expansion: Option<NewExpansion>,
+}
+
+/// A job of a batch to be queued.
+#[derive(Debug, Clone, PartialEq)]
+pub struct NewBatchJob {
+    /// Its number in the batch, from 0.
+    pub position: u64,
+    /// The job.
+    pub job: NewJob,
+    /// Its changes against the base specification.
+    pub overrides: Changes,
+}
+
+/// The jobs of a batch that are queued only when others have been solved.
+#[derive(Debug, Clone, PartialEq)]
+pub struct NewExpansion {
+    /// What they are made from, JSON.
+    pub request: String,
+    /// Position of the first of them.
+    pub next: u64,
+    /// Number of jobs in all.
+    pub jobs: u64,
+    /// Processor time that is expected of one, s.
+    pub cpu_s: Option<f64>,
+}
+
+/// A batch with jobs that are to be queued.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Expansion {
+    /// The batch.
+    pub batch: Uuid,
+    /// Position of the next job.
+    pub next: u64,
+    /// Number of jobs in all.
+    pub jobs: u64,
+    /// Number of its jobs that wait in the queue.
+    pub waiting: u64,
+}
+
+/// The next jobs of a batch.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Portion {
+    /// The batch.
+    pub batch: Uuid,
+    /// Positions that were tried.
+    pub positions: Range<u64>,
+    /// The jobs.
+    pub jobs: Vec<NewBatchJob>,
+    /// Positions that make no job.
+    pub refused: Vec<RefusedJob>,
+}
+
+/// A combination of changes that makes no valid job.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RefusedJob {
+    /// Its number in the batch, from 0.
+    pub position: u64,
+    /// Its changes against the base specification.
+    pub overrides: Changes,
+    /// Why.
+    pub reason: String,
 }
 
 /// A batch without its jobs.
@@ -32,8 +102,14 @@ pub struct BatchOverview {
     pub name: Option<String>,
     /// Time of its submission (RFC 3339).
     pub created_at: String,
-    /// Number of its jobs by status, including statuses that no job has.
+    /// Number of its jobs in the queue and after it by status, including statuses that no job has.
     pub counts: BTreeMap<String, u64>,
+    /// Number of jobs that were asked for, of which some may have been deleted; `None` if it has no expansion.
+    pub asked: Option<u64>,
+    /// Number of jobs that are still to be queued.
+    pub to_come: u64,
+    /// Number of combinations that made no valid job.
+    pub refused: u64,
 }
 
 /// A batch with its jobs.
@@ -43,8 +119,12 @@ pub struct StoredBatch {
     pub overview: BatchOverview,
     /// Evaluation plan, JSON.
     pub plan: Option<String>,
-    /// Its jobs in order, without those that were deleted.
+    /// What the jobs of its expansion are made from, JSON.
+    pub request: Option<String>,
+    /// The jobs that were asked for, in order, without those that were deleted.
     pub jobs: Vec<BatchJob>,
+    /// The first combinations that made no valid job.
+    pub refused: Vec<RefusedJob>,
 }
 
 /// A job of a batch.
@@ -52,6 +132,8 @@ pub struct StoredBatch {
 pub struct BatchJob {
     /// The job's id.
     pub id: Uuid,
+    /// Its number in the batch, from 0.
+    pub position: u64,
     /// Its changes against the base specification.
     pub overrides: Changes,
     /// Its status.
@@ -64,6 +146,23 @@ pub struct BatchJob {
     pub summary: Option<Summary>,
     /// Its last profile, JSON; absent below [`BatchDetail::Profiles`], and where there is no summary.
     pub profile: Option<String>,
+}
+
+/// Jobs of a batch, in the order of their positions.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct BatchPart {
+    /// Position of the first.
+    pub from: u64,
+    /// Largest number of them.
+    pub limit: u32,
+}
+
+impl BatchPart {
+    /// All jobs.
+    pub const WHOLE: Self = Self {
+        from: 0,
+        limit: u32::MAX,
+    };
 }
 
 /// How much of a batch's results is read.

@@ -46,18 +46,25 @@ impl NewRow {
             progress: serde_json::to_string(&progress)?,
             place: queue::sort_key(monotonic_ms, options.priority),
             deadline_at: deadline_ms.map(|ms| monotonic_ms.saturating_add(ms)),
-            memory_mb: estimated(&job.plan, "memory_mb", 1.0),
-            cpu_ms: estimated(&job.plan, "cpu_s", 1e3),
+            memory_mb: planned(&job.plan, "memory_mb", 1.0),
+            cpu_ms: planned(&job.plan, "cpu_s", 1e3),
         })
     }
 }
 
 /// Returns an estimate of the plan, rounded up; 0 where it is not known.
+fn planned(plan: &Plan, name: &str, per_unit: f64) -> i64 {
+    estimated(
+        plan.estimates.get(name).copied().unwrap_or_default(),
+        per_unit,
+    )
+}
+
+/// Returns an estimate in a smaller unit, rounded up.
 #[expect(
     clippy::cast_possible_truncation,
     reason = "the value is clamped to a range that fits"
 )]
-fn estimated(plan: &Plan, name: &str, per_unit: f64) -> i64 {
-    let estimate = plan.estimates.get(name).copied().unwrap_or_default();
+pub(in crate::store) fn estimated(estimate: f64, per_unit: f64) -> i64 {
     (per_unit * estimate).ceil().clamp(0.0, 1e12) as i64
 }

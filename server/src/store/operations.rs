@@ -17,8 +17,8 @@ use crate::store::local::Local;
 use crate::store::postgres::PostgresStore;
 use crate::store::sqlite::SqliteStore;
 use crate::store::{
-    AllChanges, BatchDetail, Changes, DataDisk, Lease, Limits, SnapshotPart, StoreError,
-    StoredBatch,
+    AllChanges, BatchDetail, BatchPart, Changes, DataDisk, Deleted, Lease, Limits, SnapshotPart,
+    StoreError, StoredBatch,
 };
 
 /// Jobs, batches, events and results, durable.
@@ -90,21 +90,45 @@ impl Store {
         }
     }
 
-    /// Returns a batch with its jobs and so much of their results; `None` if there is no batch of that id.
+    /// Returns a batch with some of its jobs and so much of their results; `None` if there is no batch of that id.
     ///
     /// # Errors
     /// [`StoreError`] if the database fails or a document in it cannot be read.
     pub async fn batch(
         &self,
         id: Uuid,
+        part: BatchPart,
         detail: BatchDetail,
     ) -> Result<Option<StoredBatch>, StoreError> {
-        let mut batch = self.batch_without_profiles(id, detail).await?;
+        let mut batch = self.batch_without_profiles(id, part, detail).await?;
         let jobs = batch.iter_mut().flat_map(|batch| &mut batch.jobs);
         for job in jobs.filter(|job| detail >= BatchDetail::Profiles && job.summary.is_some()) {
             job.profile = self.last_profile(job.id).await?;
         }
         Ok(batch)
+    }
+
+    /// Cancels all jobs of a batch: waiting ones end at once, running ones are ended by their workers, those to come are never queued.
+    /// If it is interrupted, it can be repeated.
+    ///
+    /// # Errors
+    /// [`StoreError`] if the database fails.
+    pub async fn cancel_batch(&self, id: Uuid) -> Result<(), StoreError> {
+        while self.cancel_some(id).await? {}
+        Ok(())
+    }
+
+    /// Deletes a batch whose jobs have all ended, with the jobs, their events, results and files. If it is interrupted, it can be
+    /// repeated.
+    ///
+    /// # Errors
+    /// [`StoreError`] if the database fails.
+    pub async fn delete_batch(&self, id: Uuid) -> Result<Deleted, StoreError> {
+        loop {
+            if let Some(deleted) = self.delete_some(id).await? {
+                return Ok(deleted);
+            }
+        }
     }
 
     /// Returns the last profile of a job; `None` if it has none, or if its results are damaged, so that the other jobs can be

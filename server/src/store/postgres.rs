@@ -11,6 +11,7 @@ mod claimed;
 mod claims;
 mod compared;
 mod events;
+mod expansions;
 mod files;
 mod gauges;
 mod job_list;

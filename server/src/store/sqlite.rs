@@ -9,6 +9,7 @@ mod blocks;
 mod checkpoints;
 mod claims;
 mod events;
+mod expansions;
 mod files;
 mod gauges;
 mod identity;

@@ -33,6 +33,7 @@ macro_rules! on_both_engines {
     };
 }
 
+mod batches;
 mod checkpoints;
 mod columns;
 mod files;

@@ -37,15 +37,18 @@ const FIGURES: [Figure; 11] = [
 /// Column of the cycles after which the first criterion of life was reached; empty where none was.
 const FIRST_LIFE: &str = "first_life_cycles";
 
-/// Returns the table as CSV; cells of jobs without a result are empty.
+/// Returns the table as CSV, with its header or as the next part of one; cells of jobs without a result are empty.
 ///
 /// # Errors
 /// [`EvaluateError::Write`] if the writer fails.
-pub(in crate::batch) fn csv(jobs: &[BatchJob]) -> Result<Vec<u8>, EvaluateError> {
-    Ok(write(jobs).map_err(DocumentError::from)?)
+pub(in crate::batch) fn csv(
+    jobs: &[BatchJob],
+    with_header: bool,
+) -> Result<Vec<u8>, EvaluateError> {
+    Ok(write(jobs, with_header).map_err(DocumentError::from)?)
 }
 
-fn write(jobs: &[BatchJob]) -> Result<Vec<u8>, CsvError> {
+fn write(jobs: &[BatchJob], with_header: bool) -> Result<Vec<u8>, CsvError> {
     let pointers: BTreeSet<&String> = jobs.iter().flat_map(|job| job.overrides.keys()).collect();
     let mut header = vec!["job".to_owned(), "status".to_owned(), "outcome".to_owned()];
     header.extend(pointers.iter().map(|pointer| harmless(pointer)));
@@ -53,7 +56,9 @@ fn write(jobs: &[BatchJob]) -> Result<Vec<u8>, CsvError> {
     header.extend(FIGURES.map(|(name, _)| name.to_owned()));
     header.push(FIRST_LIFE.to_owned());
     let mut writer = Writer::from_writer(Vec::new());
-    writer.write_record(header)?;
+    if with_header {
+        writer.write_record(header)?;
+    }
     for job in jobs {
         let outcome = job.outcome.map(Outcome::as_str).unwrap_or_default();
         let mut cells = vec![job.id.to_string()];
@@ -113,6 +118,7 @@ mod tests {
         ]);
         let job = BatchJob {
             id: uuid::Uuid::nil(),
+            position: 0,
             overrides,
             status: Status::Queued,
             status_reason: None,
@@ -120,7 +126,7 @@ mod tests {
             summary: None,
             profile: None,
         };
-        let text = String::from_utf8(csv(&[job]).expect("a table")).expect("text");
+        let text = String::from_utf8(csv(&[job], true).expect("a table")).expect("text");
         let lines: Vec<&str> = text.lines().collect();
         assert!(
             lines[0].starts_with("job,status,outcome,/load/n,/name,'@x,cycles_done,"),

@@ -6,8 +6,8 @@ use uuid::Uuid;
 
 use crate::store::operations::operations;
 use crate::store::{
-    BatchDetail, BatchFilter, BatchOverview, Cancelled, Deleted, Filter, NewBatch, NewJob,
-    RequestKey, Retried, StoreError, StoredBatch, StoredJob, Submitted,
+    BatchDetail, BatchFilter, BatchOverview, BatchPart, Cancelled, Deleted, Expansion, Filter,
+    NewBatch, NewJob, Portion, RequestKey, Retried, StoreError, StoredBatch, StoredJob, Submitted,
 };
 
 operations! {
@@ -80,8 +80,8 @@ operations! {
     /// [`StoreError`] if the database fails.
     pub async fn delete(&self, id: Uuid) -> Result<Deleted, StoreError>;
 
-    /// Returns a batch with its jobs, without their profiles.
-    pub(in crate::store) async fn batch_without_profiles(&self, id: Uuid, detail: BatchDetail) -> Result<Option<StoredBatch>, StoreError>;
+    /// Returns a batch with some of its jobs, without their profiles.
+    pub(in crate::store) async fn batch_without_profiles(&self, id: Uuid, part: BatchPart, detail: BatchDetail) -> Result<Option<StoredBatch>, StoreError>;
 
     /// Returns batches, newest first.
     ///
@@ -95,15 +95,28 @@ operations! {
     /// [`StoreError`] if the database fails.
     pub async fn has_batch(&self, id: Uuid, with_plan: bool) -> Result<bool, StoreError>;
 
-    /// Cancels all jobs of a batch: waiting ones end at once, running ones are ended by their workers.
+    /// Returns the batches with jobs that are to be queued, oldest first.
     ///
     /// # Errors
     /// [`StoreError`] if the database fails.
-    pub async fn cancel_batch(&self, id: Uuid) -> Result<(), StoreError>;
+    pub async fn expansions(&self) -> Result<Vec<Expansion>, StoreError>;
 
-    /// Deletes a batch whose jobs have all ended, with the jobs, their events, results and files.
+    /// Returns what the jobs of a batch are made from; `None` if none are to be queued.
     ///
     /// # Errors
     /// [`StoreError`] if the database fails.
-    pub async fn delete_batch(&self, id: Uuid) -> Result<Deleted, StoreError>;
+    pub async fn expansion_request(&self, batch: Uuid) -> Result<Option<String>, StoreError>;
+
+    /// Queues the next jobs of a batch. Returns whether it did: not if these positions are not the next ones any more, or the batch was
+    /// cancelled or deleted.
+    ///
+    /// # Errors
+    /// [`StoreError`] if the database fails.
+    pub async fn extend_batch(&self, portion: &Portion) -> Result<bool, StoreError>;
+
+    /// Cancels jobs of a batch, a limited number, and queues no more of it; returns whether some may be left.
+    pub(in crate::store) async fn cancel_some(&self, batch: Uuid) -> Result<bool, StoreError>;
+
+    /// Deletes jobs of a batch, a limited number, and with the last of them the batch; returns how it ended, or `None` if some are left.
+    pub(in crate::store) async fn delete_some(&self, batch: Uuid) -> Result<Option<Deleted>, StoreError>;
 }

@@ -6,14 +6,26 @@ use sqlx::postgres::{PgConnection, PgExecutor};
 use uuid::Uuid;
 
 use crate::clock::Now;
-use crate::store::batch_rows::{batch_job, batch_overview, no_jobs};
-use crate::store::batches::{BatchDetail, BatchFilter, BatchOverview, NewBatch, StoredBatch};
+use crate::store::batch_rows::{batch_job, batch_overview, no_jobs, refused_job};
+use crate::store::batches::{
+    BatchDetail, BatchFilter, BatchOverview, BatchPart, JOBS_AT_ONCE, NewBatch, SHOWN_REFUSALS,
+    StoredBatch,
+};
 use crate::store::job_ids::new_id;
-use crate::store::new_row::NewRow;
-use crate::store::postgres::job_rows::{cancel, insert};
+use crate::store::postgres::expansions::{insert_expansion, insert_jobs};
+use crate::store::postgres::job_rows::cancel;
 use crate::store::postgres::{PostgresStore, begin};
-use crate::store::rows::StoredRow;
+use crate::store::rows::{StoredRow, integer};
 use crate::store::{Deleted, RequestKey, StoreError, Submitted};
+
+/// The columns of an overview, of `sweeps` beside `expansions`.
+macro_rules! overviews {
+    () => {
+        "SELECT id, name, created_at, jobs AS asked, \
+         COALESCE(CASE WHEN is_over THEN 0 ELSE jobs - next END, 0) AS to_come, \
+         (SELECT count(*) FROM refused_jobs WHERE refused_jobs.sweep_id = id) AS refused"
+    };
+}
 
 impl PostgresStore {
     pub(in crate::store) async fn submit_batch(
@@ -31,7 +43,10 @@ impl PostgresStore {
             let earlier = submitted(&mut *transaction, key).await?;
             return earlier.ok_or(StoreError::Unwritten);
         }
-        insert_jobs(&mut transaction, (id, batch), now).await?;
+        if let Some(expansion) = &batch.expansion {
+            insert_expansion(&mut transaction, id, expansion).await?;
+        }
+        insert_jobs(&mut transaction, id, &batch.jobs, now).await?;
         transaction.commit().await?;
         self.local.many_wait();
         Ok(Submitted::Job(id))
@@ -47,11 +62,14 @@ impl PostgresStore {
     pub(in crate::store) async fn batch_without_profiles(
         &self,
         id: Uuid,
+        part: BatchPart,
         detail: BatchDetail,
     ) -> Result<Option<StoredBatch>, StoreError> {
-        let batch = sqlx::query(
-            "SELECT id, name, created_at, plan FROM sweeps LEFT JOIN studies ON sweep_id = id WHERE id = $1",
-        )
+        let batch = sqlx::query(concat!(
+            overviews!(),
+            ", plan, request FROM sweeps LEFT JOIN expansions ON expansions.sweep_id = id \
+             LEFT JOIN studies ON studies.sweep_id = id WHERE id = $1",
+        ))
         .bind(id)
         .fetch_optional(&self.readers)
         .await?;
@@ -59,24 +77,31 @@ impl PostgresStore {
             return Ok(None);
         };
         let rows = sqlx::query(
-            "SELECT job_id, overrides, status, status_reason, outcome, CASE WHEN $1 THEN summary END AS summary \
-             FROM sweep_jobs JOIN jobs ON jobs.id = job_id WHERE sweep_id = $2 ORDER BY position",
+            "SELECT job_id, position, overrides, status, status_reason, outcome, CASE WHEN $1 THEN summary END AS summary \
+             FROM sweep_jobs JOIN jobs ON jobs.id = job_id WHERE sweep_jobs.sweep_id = $2 AND position >= $3 \
+             ORDER BY position LIMIT $4",
         )
         .bind(detail >= BatchDetail::Summaries)
         .bind(id)
+        .bind(integer(part.from))
+        .bind(i64::from(part.limit))
         .fetch_all(&self.readers)
         .await?;
-        let mut counts = no_jobs();
-        let mut jobs = Vec::with_capacity(rows.len());
-        for row in rows {
-            let job = batch_job(&self.local, &row)?;
-            *counts.entry(job.status.as_str().to_owned()).or_default() += 1;
-            jobs.push(job);
-        }
+        let jobs = rows.iter().map(|row| batch_job(&self.local, row));
+        let refused = sqlx::query(
+            "SELECT position, overrides, reason FROM refused_jobs WHERE sweep_id = $1 ORDER BY position LIMIT $2",
+        )
+        .bind(id)
+        .bind(SHOWN_REFUSALS)
+        .fetch_all(&self.readers)
+        .await?;
+        let refused = refused.iter().map(|row| refused_job(id, row));
         Ok(Some(StoredBatch {
-            overview: batch_overview(&batch, counts)?,
+            overview: batch_overview(&batch, self.batch_counts(id).await?)?,
             plan: batch.optional_text("plan")?,
-            jobs,
+            request: batch.optional_text("request")?,
+            jobs: jobs.collect::<Result<_, _>>()?,
+            refused: refused.collect::<Result<_, _>>()?,
         }))
     }
 
@@ -84,10 +109,11 @@ impl PostgresStore {
         &self,
         filter: BatchFilter,
     ) -> Result<Vec<BatchOverview>, StoreError> {
-        let rows = sqlx::query(
-            "SELECT id, name, created_at FROM sweeps WHERE id < $1 \
-             AND (NOT $2 OR id IN (SELECT sweep_id FROM studies)) ORDER BY id DESC LIMIT $3",
-        )
+        let rows = sqlx::query(concat!(
+            overviews!(),
+            " FROM sweeps LEFT JOIN expansions ON expansions.sweep_id = id \
+             WHERE id < $1 AND (NOT $2 OR id IN (SELECT sweep_id FROM studies)) ORDER BY id DESC LIMIT $3",
+        ))
         .bind(filter.before.unwrap_or(Uuid::max()))
         .bind(filter.with_plan)
         .bind(i64::from(filter.limit))
@@ -116,57 +142,82 @@ impl PostgresStore {
         Ok(found.await?)
     }
 
-    pub(in crate::store) async fn cancel_batch(&self, id: Uuid) -> Result<(), StoreError> {
+    pub(in crate::store) async fn cancel_some(&self, batch: Uuid) -> Result<bool, StoreError> {
         let (mut transaction, now) = self.begin().await?;
-        let mut effects = Vec::new();
-        for job in locked_jobs(&mut transaction, id).await? {
+        sqlx::query("UPDATE expansions SET is_over = true WHERE sweep_id = $1 AND NOT is_over")
+            .bind(batch)
+            .execute(&mut *transaction)
+            .await?;
+        let jobs: Vec<Uuid> = sqlx::query_scalar(
+            "SELECT id FROM jobs WHERE sweep_id = $1 AND (status = 'queued' OR status = 'running' AND NOT cancel_requested) \
+             ORDER BY id LIMIT $2 FOR UPDATE",
+        )
+        .bind(batch)
+        .bind(JOBS_AT_ONCE)
+        .fetch_all(&mut *transaction)
+        .await?;
+        let mut effects = Vec::with_capacity(jobs.len());
+        for job in jobs {
             effects.push((job, cancel(&mut transaction, job, now).await?));
         }
         transaction.commit().await?;
-        for (job, effect) in effects {
-            self.local.cancelled(job, effect);
+        for (job, effect) in &effects {
+            self.local.cancelled(*job, *effect);
         }
-        Ok(())
+        // Jobs that have ended while this transaction waited for their locks are not among them.
+        Ok(!effects.is_empty())
     }
 
-    pub(in crate::store) async fn delete_batch(&self, id: Uuid) -> Result<Deleted, StoreError> {
+    pub(in crate::store) async fn delete_some(
+        &self,
+        batch: Uuid,
+    ) -> Result<Option<Deleted>, StoreError> {
         let mut transaction = begin(&self.pool, None).await?;
-        let jobs = locked_jobs(&mut transaction, id).await?;
-        let active: i64 = sqlx::query_scalar(
-            "SELECT count(*) FROM jobs WHERE id = ANY($1) AND finished_at IS NULL",
+        let jobs: Vec<Uuid> = sqlx::query_scalar(
+            "SELECT id FROM jobs WHERE sweep_id = $1 ORDER BY id LIMIT $2 FOR UPDATE",
         )
-        .bind(&jobs)
+        .bind(batch)
+        .bind(JOBS_AT_ONCE)
+        .fetch_all(&mut *transaction)
+        .await?;
+        let is_active: bool = sqlx::query_scalar(
+            "SELECT EXISTS (SELECT 1 FROM jobs WHERE sweep_id = $1 AND status IN ('queued', 'running')) \
+             OR EXISTS (SELECT 1 FROM expansions WHERE sweep_id = $1 AND NOT is_over)",
+        )
+        .bind(batch)
         .fetch_one(&mut *transaction)
         .await?;
-        if active > 0 {
-            return Ok(Deleted::Active);
+        if is_active {
+            return Ok(Some(Deleted::Active));
         }
         sqlx::query("DELETE FROM jobs WHERE id = ANY($1)")
             .bind(&jobs)
             .execute(&mut *transaction)
             .await?;
-        let deleted = sqlx::query("DELETE FROM sweeps WHERE id = $1")
-            .bind(id)
-            .execute(&mut *transaction)
-            .await?;
+        let deleted = sqlx::query(
+            "DELETE FROM sweeps WHERE id = $1 AND NOT EXISTS (SELECT 1 FROM jobs WHERE sweep_id = $1)",
+        )
+        .bind(batch)
+        .execute(&mut *transaction)
+        .await?;
         transaction.commit().await?;
+        let is_left = deleted.rows_affected() == 0 && !jobs.is_empty();
         for job in jobs {
             self.local.remove_files(job).await;
             self.local.changed(job);
         }
-        Ok(match deleted.rows_affected() {
+        Ok((!is_left).then_some(match deleted.rows_affected() {
             0 => Deleted::Missing,
             _ => Deleted::Done,
-        })
+        }))
     }
 
     async fn batch_counts(&self, id: Uuid) -> Result<BTreeMap<String, u64>, StoreError> {
-        let rows: Vec<(String, i64)> = sqlx::query_as(
-            "SELECT status, count(*) FROM sweep_jobs JOIN jobs ON jobs.id = job_id WHERE sweep_id = $1 GROUP BY status",
-        )
-        .bind(id)
-        .fetch_all(&self.readers)
-        .await?;
+        let rows: Vec<(String, i64)> =
+            sqlx::query_as("SELECT status, count(*) FROM jobs WHERE sweep_id = $1 GROUP BY status")
+                .bind(id)
+                .fetch_all(&self.readers)
+                .await?;
         let mut counts = no_jobs();
         let count = |(status, count): (String, i64)| (status, count.try_into().unwrap_or_default());
         counts.extend(rows.into_iter().map(count));
@@ -202,31 +253,6 @@ async fn insert_batch(
     Ok(added.rows_affected() > 0)
 }
 
-/// Queues the jobs of a batch.
-async fn insert_jobs(
-    connection: &mut PgConnection,
-    (id, batch): (Uuid, &NewBatch),
-    now: Now,
-) -> Result<(), StoreError> {
-    let (mut jobs, mut overrides) = (Vec::new(), Vec::new());
-    for (job, changes) in &batch.jobs {
-        let new = NewRow::of(job, new_id(now.system_ms), now)?;
-        insert(connection, job, &new, now).await?;
-        jobs.push(new.id);
-        overrides.push(serde_json::to_string(changes)?);
-    }
-    sqlx::query(
-        "INSERT INTO sweep_jobs (sweep_id, position, job_id, overrides) SELECT $1, n - 1, job, overrides \
-         FROM unnest($2::uuid[], $3::text[]) WITH ORDINALITY AS new (job, overrides, n)",
-    )
-    .bind(id)
-    .bind(jobs)
-    .bind(overrides)
-    .execute(connection)
-    .await?;
-    Ok(())
-}
-
 /// Returns the batch that an earlier request with the same key queued.
 async fn submitted(
     database: impl PgExecutor<'_>,
@@ -238,13 +264,4 @@ async fn submitted(
             .fetch_optional(database)
             .await?;
     Ok(earlier.map(|(body, id)| key.repeated(&body, id)))
-}
-
-/// Locks the jobs of a batch, in the order of their ids.
-async fn locked_jobs(connection: &mut PgConnection, id: Uuid) -> Result<Vec<Uuid>, StoreError> {
-    let jobs = sqlx::query_scalar(
-        "SELECT id FROM jobs WHERE id IN (SELECT job_id FROM sweep_jobs WHERE sweep_id = $1) ORDER BY id FOR UPDATE",
-    )
-    .bind(id);
-    Ok(jobs.fetch_all(connection).await?)
 }

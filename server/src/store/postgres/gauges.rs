@@ -16,10 +16,13 @@ impl PostgresStore {
     pub(in crate::store) async fn demand(&self) -> Result<Demand, StoreError> {
         let (queued, running, running_remotely, queued_cpu_ms): (i64, i64, i64, i64) =
             sqlx::query_as(
-                "SELECT (SELECT count(*) FROM jobs WHERE status = 'queued'), \
+                "WITH to_come AS (SELECT COALESCE(sum(jobs - next), 0)::bigint AS jobs, \
+                 COALESCE(sum((jobs - next) * cpu_ms), 0)::bigint AS cpu_ms FROM expansions WHERE NOT is_over) \
+                 SELECT (SELECT count(*) FROM jobs WHERE status = 'queued') + to_come.jobs, \
                  (SELECT count(*) FROM jobs WHERE status = 'running'), \
                  (SELECT count(*) FROM jobs WHERE status = 'running' AND is_remote), \
-                 (SELECT COALESCE(sum(CASE WHEN cpu_ms > 0 THEN cpu_ms ELSE $1 END), 0)::bigint FROM jobs WHERE status = 'queued')",
+                 (SELECT COALESCE(sum(CASE WHEN cpu_ms > 0 THEN cpu_ms ELSE $1 END), 0)::bigint FROM jobs \
+                 WHERE status = 'queued') + to_come.cpu_ms FROM to_come",
             )
             .bind(UNKNOWN_CPU_MS)
             .fetch_one(&self.readers)

@@ -133,10 +133,7 @@ fn push_conditions(query: &mut QueryBuilder<Postgres>, filter: &Filter) {
             .push_bind(first_created_before(before));
     }
     if let Some(sweep) = filter.sweep {
-        query
-            .push(" AND id IN (SELECT job_id FROM sweep_jobs WHERE sweep_id = ")
-            .push_bind(sweep)
-            .push(")");
+        query.push(" AND sweep_id = ").push_bind(sweep);
     }
     if let Some(text) = &filter.text {
         // In the collation "C", `lower` knows ASCII alone: other letters are compared as they are.

@@ -81,17 +81,18 @@ pub(super) async fn retry(
     Ok(Some(Retried::Queued))
 }
 
-/// Adds a job to the queue, with its labels and its first event, in one statement.
+/// Adds a job to the queue, with its labels and its first event, in one statement; `batch` is the one that it belongs to.
 pub(super) async fn insert(
     connection: &mut PgConnection,
     job: &NewJob,
     new: &NewRow,
-    now: Now,
+    (batch, now): (Option<Uuid>, Now),
 ) -> Result<(), StoreError> {
     let (keys, values): (Vec<_>, Vec<_>) = job.spec.labels.iter().unzip();
     sqlx::query(
         "WITH job AS (INSERT INTO jobs (id, system, spec, plan, status, status_reason, created_at, progress, last_event, priority, \
-         place, deadline_at, memory_mb, cpu_ms, queued_at) VALUES ($1, $2, $3, $4, 'queued', $5, $6, $7, 1, $8, $9, $10, $11, $12, $13)), \
+         place, deadline_at, memory_mb, cpu_ms, queued_at, sweep_id) \
+         VALUES ($1, $2, $3, $4, 'queued', $5, $6, $7, 1, $8, $9, $10, $11, $12, $13, $16)), \
          labelled AS (INSERT INTO labels (job_id, key, value) SELECT $1, * FROM unnest($14::text[], $15::text[])) \
          INSERT INTO events (job_id, seq, name, data) VALUES ($1, 1, 'progress', $7)",
     )
@@ -110,6 +111,7 @@ pub(super) async fn insert(
     .bind(now.monotonic_ms)
     .bind(keys)
     .bind(values)
+    .bind(batch)
     .execute(connection)
     .await?;
     Ok(())

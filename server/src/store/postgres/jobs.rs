@@ -29,7 +29,7 @@ impl PostgresStore {
         {
             return Ok(earlier);
         }
-        insert(&mut transaction, job, &new, now).await?;
+        insert(&mut transaction, job, &new, (None, now)).await?;
         transaction.commit().await?;
         self.local.concluded(new.id, Some(Status::Queued));
         Ok(Submitted::Job(new.id))

@@ -55,7 +55,8 @@ impl PostgresStore {
         if !old.is_empty() {
             sqlx::query(
                 "DELETE FROM sweeps WHERE created_at < $1 \
-                 AND NOT EXISTS (SELECT 1 FROM sweep_jobs WHERE sweep_id = sweeps.id)",
+                 AND NOT EXISTS (SELECT 1 FROM sweep_jobs WHERE sweep_id = sweeps.id) \
+                 AND NOT EXISTS (SELECT 1 FROM expansions WHERE sweep_id = sweeps.id AND NOT is_over)",
             )
             .bind(time)
             .execute(&self.pool)

@@ -7,13 +7,25 @@ use uuid::Uuid;
 use uuid::fmt::Hyphenated;
 
 use crate::clock::Now;
-use crate::store::batch_rows::{batch_job, batch_overview, no_jobs};
-use crate::store::batches::{BatchDetail, BatchFilter, BatchOverview, NewBatch, StoredBatch};
-use crate::store::rows::StoredRow;
+use crate::store::batch_rows::{batch_job, batch_overview, no_jobs, refused_job};
+use crate::store::batches::{
+    BatchDetail, BatchFilter, BatchOverview, BatchPart, JOBS_AT_ONCE, NewBatch, SHOWN_REFUSALS,
+    StoredBatch,
+};
+use crate::store::rows::{StoredRow, integer};
 use crate::store::sqlite::SqliteStore;
-use crate::store::sqlite::job_rows::{cancel, insert};
+use crate::store::sqlite::expansions::{insert_expansion, insert_jobs};
+use crate::store::sqlite::job_rows::cancel;
 use crate::store::sqlite::queries::BEGIN;
 use crate::store::{Deleted, RequestKey, StoreError, Submitted};
+
+/// The columns of an overview, of `sweeps` beside `expansions`.
+macro_rules! overviews {
+    () => {
+        "SELECT id, name, created_at, jobs AS asked, COALESCE(iif(is_over, 0, jobs - next), 0) AS to_come, \
+         (SELECT count(*) FROM refused_jobs WHERE refused_jobs.sweep_id = id) AS refused"
+    };
+}
 
 impl SqliteStore {
     pub(in crate::store) async fn submit_batch(
@@ -44,11 +56,14 @@ impl SqliteStore {
     pub(in crate::store) async fn batch_without_profiles(
         &self,
         id: Uuid,
+        part: BatchPart,
         detail: BatchDetail,
     ) -> Result<Option<StoredBatch>, StoreError> {
-        let batch = sqlx::query(
-            "SELECT id, name, created_at, plan FROM sweeps LEFT JOIN studies ON sweep_id = id WHERE id = ?",
-        )
+        let batch = sqlx::query(concat!(
+            overviews!(),
+            ", plan, request FROM sweeps LEFT JOIN expansions ON expansions.sweep_id = id \
+             LEFT JOIN studies ON studies.sweep_id = id WHERE id = ?",
+        ))
         .bind(id.to_string())
         .fetch_optional(&self.readers)
         .await?;
@@ -56,24 +71,31 @@ impl SqliteStore {
             return Ok(None);
         };
         let rows = sqlx::query(
-            "SELECT job_id, overrides, status, status_reason, outcome, CASE WHEN ? THEN summary END AS summary \
-             FROM sweep_jobs JOIN jobs ON jobs.id = job_id WHERE sweep_id = ? ORDER BY position",
+            "SELECT job_id, position, overrides, status, status_reason, outcome, CASE WHEN ? THEN summary END AS summary \
+             FROM sweep_jobs JOIN jobs ON jobs.id = job_id WHERE sweep_jobs.sweep_id = ? AND position >= ? \
+             ORDER BY position LIMIT ?",
         )
         .bind(detail >= BatchDetail::Summaries)
         .bind(id.to_string())
+        .bind(integer(part.from))
+        .bind(part.limit)
         .fetch_all(&self.readers)
         .await?;
-        let mut counts = no_jobs();
-        let mut jobs = Vec::with_capacity(rows.len());
-        for row in rows {
-            let job = batch_job(&self.local, &row)?;
-            *counts.entry(job.status.as_str().to_owned()).or_default() += 1;
-            jobs.push(job);
-        }
+        let jobs = rows.iter().map(|row| batch_job(&self.local, row));
+        let refused = sqlx::query(
+            "SELECT position, overrides, reason FROM refused_jobs WHERE sweep_id = ? ORDER BY position LIMIT ?",
+        )
+        .bind(id.to_string())
+        .bind(SHOWN_REFUSALS)
+        .fetch_all(&self.readers)
+        .await?;
+        let refused = refused.iter().map(|row| refused_job(id, row));
         Ok(Some(StoredBatch {
-            overview: batch_overview(&batch, counts)?,
+            overview: batch_overview(&batch, self.batch_counts(id).await?)?,
             plan: batch.optional_text("plan")?,
-            jobs,
+            request: batch.optional_text("request")?,
+            jobs: jobs.collect::<Result<_, _>>()?,
+            refused: refused.collect::<Result<_, _>>()?,
         }))
     }
 
@@ -83,10 +105,11 @@ impl SqliteStore {
     ) -> Result<Vec<BatchOverview>, StoreError> {
         // Ids are hexadecimal text, all of which sorts before `g`.
         let before = filter.before.map_or("g".to_owned(), |id| id.to_string());
-        let rows = sqlx::query(
-            "SELECT id, name, created_at FROM sweeps \
+        let rows = sqlx::query(concat!(
+            overviews!(),
+            " FROM sweeps LEFT JOIN expansions ON expansions.sweep_id = id \
              WHERE id < ? AND (NOT ? OR id IN (SELECT sweep_id FROM studies)) ORDER BY id DESC LIMIT ?",
-        )
+        ))
         .bind(before)
         .bind(filter.with_plan)
         .bind(filter.limit)
@@ -115,60 +138,78 @@ impl SqliteStore {
         Ok(found.await?)
     }
 
-    pub(in crate::store) async fn cancel_batch(&self, id: Uuid) -> Result<(), StoreError> {
+    pub(in crate::store) async fn cancel_some(&self, batch: Uuid) -> Result<bool, StoreError> {
         let write = async || {
             let mut transaction = self.writer.begin_with(BEGIN).await?;
-            let (jobs, now) = (jobs_of(&mut transaction, id).await?, self.local.clock.now());
+            sqlx::query("UPDATE expansions SET is_over = 1 WHERE sweep_id = ? AND NOT is_over")
+                .bind(batch.to_string())
+                .execute(&mut *transaction)
+                .await?;
+            let jobs: Vec<Hyphenated> = sqlx::query_scalar(
+                "SELECT id FROM jobs WHERE sweep_id = ? AND status IN ('queued', 'running') \
+                 AND (status = 'queued' OR NOT cancel_requested) LIMIT ?",
+            )
+            .bind(batch.to_string())
+            .bind(JOBS_AT_ONCE)
+            .fetch_all(&mut *transaction)
+            .await?;
+            let now = self.local.clock.now();
             let mut effects = Vec::with_capacity(jobs.len());
-            for job in jobs {
+            for job in jobs.into_iter().map(Uuid::from) {
                 effects.push((job, cancel(&mut transaction, job, now).await?));
             }
             transaction.commit().await?;
             Ok(effects)
         };
-        for (job, effect) in self.local.disk.with_reserve(write).await? {
-            self.local.cancelled(job, effect);
+        let effects = self.local.disk.with_reserve(write).await?;
+        for (job, effect) in &effects {
+            self.local.cancelled(*job, *effect);
         }
-        Ok(())
+        Ok(!effects.is_empty())
     }
 
-    pub(in crate::store) async fn delete_batch(&self, id: Uuid) -> Result<Deleted, StoreError> {
+    pub(in crate::store) async fn delete_some(
+        &self,
+        batch: Uuid,
+    ) -> Result<Option<Deleted>, StoreError> {
         let mut transaction = self.writer.begin_with(BEGIN).await?;
-        let active: i64 = sqlx::query_scalar(
-            "SELECT count(*) FROM sweep_jobs JOIN jobs ON jobs.id = job_id \
-             WHERE sweep_id = ? AND finished_at IS NULL",
+        let is_active: bool = sqlx::query_scalar(
+            "SELECT EXISTS (SELECT 1 FROM jobs WHERE sweep_id = ?1 AND status IN ('queued', 'running')) \
+             OR EXISTS (SELECT 1 FROM expansions WHERE sweep_id = ?1 AND NOT is_over)",
         )
-        .bind(id.to_string())
+        .bind(batch.to_string())
         .fetch_one(&mut *transaction)
         .await?;
-        if active > 0 {
-            return Ok(Deleted::Active);
+        if is_active {
+            return Ok(Some(Deleted::Active));
         }
-        let jobs = jobs_of(&mut transaction, id).await?;
-        sqlx::query(
-            "DELETE FROM jobs WHERE id IN (SELECT job_id FROM sweep_jobs WHERE sweep_id = ?)",
+        let jobs: Vec<Hyphenated> = sqlx::query_scalar(
+            "DELETE FROM jobs WHERE id IN (SELECT id FROM jobs WHERE sweep_id = ? LIMIT ?) RETURNING id",
         )
-        .bind(id.to_string())
-        .execute(&mut *transaction)
+        .bind(batch.to_string())
+        .bind(JOBS_AT_ONCE)
+        .fetch_all(&mut *transaction)
         .await?;
-        let deleted = sqlx::query("DELETE FROM sweeps WHERE id = ?")
-            .bind(id.to_string())
+        let is_last = integer(jobs.len()) < JOBS_AT_ONCE;
+        let deleted = sqlx::query("DELETE FROM sweeps WHERE id = ? AND ?")
+            .bind(batch.to_string())
+            .bind(is_last)
             .execute(&mut *transaction)
             .await?;
         transaction.commit().await?;
-        for job in jobs {
+        for job in jobs.into_iter().map(Uuid::from) {
             self.local.remove_files(job).await;
             self.local.changed(job);
         }
-        Ok(match deleted.rows_affected() {
+        Ok(is_last.then_some(match deleted.rows_affected() {
             0 => Deleted::Missing,
             _ => Deleted::Done,
-        })
+        }))
     }
 
     async fn batch_counts(&self, id: Uuid) -> Result<BTreeMap<String, u64>, StoreError> {
         let rows: Vec<(String, u64)> = sqlx::query_as(
-            "SELECT status, count(*) FROM sweep_jobs JOIN jobs ON jobs.id = job_id WHERE sweep_id = ? GROUP BY status",
+            "SELECT status, count(*) FROM jobs INDEXED BY jobs_by_sweep WHERE sweep_id = ? GROUP BY status",
         )
         .bind(id.to_string())
         .fetch_all(&self.readers)
@@ -196,18 +237,6 @@ async fn insert_batch(
     .bind(key.map(|key| key.meaning_sha256.as_slice()))
     .execute(&mut **transaction)
     .await?;
-    for (position, (job, overrides)) in (0_i64..).zip(&batch.jobs) {
-        let job = insert(transaction, job, now).await?;
-        sqlx::query(
-            "INSERT INTO sweep_jobs (sweep_id, position, job_id, overrides) VALUES (?, ?, ?, ?)",
-        )
-        .bind(id.to_string())
-        .bind(position)
-        .bind(job.to_string())
-        .bind(serde_json::to_string(overrides)?)
-        .execute(&mut **transaction)
-        .await?;
-    }
     if let Some(plan) = &batch.plan {
         sqlx::query("INSERT INTO studies (sweep_id, plan) VALUES (?, ?)")
             .bind(id.to_string())
@@ -215,6 +244,10 @@ async fn insert_batch(
             .execute(&mut **transaction)
             .await?;
     }
+    if let Some(expansion) = &batch.expansion {
+        insert_expansion(transaction, id, expansion).await?;
+    }
+    insert_jobs(transaction, id, &batch.jobs, now).await?;
     Ok(id)
 }
 
@@ -229,16 +262,4 @@ async fn submitted(
             .fetch_optional(database)
             .await?;
     Ok(earlier.map(|(body, id)| key.repeated(&body, id.into())))
-}
-
-async fn jobs_of(
-    transaction: &mut Transaction<'_, Sqlite>,
-    id: Uuid,
-) -> Result<Vec<Uuid>, StoreError> {
-    let jobs: Vec<Hyphenated> =
-        sqlx::query_scalar("SELECT job_id FROM sweep_jobs WHERE sweep_id = ?")
-            .bind(id.to_string())
-            .fetch_all(&mut **transaction)
-            .await?;
-    Ok(jobs.into_iter().map(Uuid::from).collect())
 }

@@ -15,11 +15,13 @@ use crate::store::sqlite::SqliteStore;
 impl SqliteStore {
     pub(in crate::store) async fn demand(&self) -> Result<Demand, StoreError> {
         let (queued, running, running_remotely, queued_cpu_s) = sqlx::query_as(
-            "SELECT (SELECT count(*) FROM jobs INDEXED BY jobs_waiting WHERE status = 'queued'), \
+            "WITH to_come AS (SELECT COALESCE(sum(jobs - next), 0) AS jobs, COALESCE(sum((jobs - next) * cpu_ms), 0) AS cpu_ms \
+             FROM expansions WHERE NOT is_over) \
+             SELECT (SELECT count(*) FROM jobs INDEXED BY jobs_waiting WHERE status = 'queued') + to_come.jobs, \
              (SELECT count(*) FROM jobs INDEXED BY jobs_running WHERE status = 'running'), \
              (SELECT count(*) FROM jobs INDEXED BY jobs_running WHERE status = 'running' AND is_remote), \
-             (SELECT (COALESCE(sum(iif(cpu_ms > 0, cpu_ms, ?)), 0) + 999) / 1000 FROM jobs INDEXED BY jobs_waiting \
-             WHERE status = 'queued')",
+             ((SELECT COALESCE(sum(iif(cpu_ms > 0, cpu_ms, ?)), 0) FROM jobs INDEXED BY jobs_waiting \
+             WHERE status = 'queued') + to_come.cpu_ms + 999) / 1000 FROM to_come",
         )
         .bind(UNKNOWN_CPU_MS)
         .fetch_one(&self.readers)

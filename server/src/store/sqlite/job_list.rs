@@ -131,10 +131,7 @@ fn push_conditions(query: &mut QueryBuilder<Sqlite>, filter: &Filter) {
         query.push(" AND id < ").push_bind(end);
     }
     if let Some(sweep) = filter.sweep {
-        query
-            .push(" AND id IN (SELECT job_id FROM sweep_jobs WHERE sweep_id = ")
-            .push_bind(sweep.to_string())
-            .push(")");
+        query.push(" AND sweep_id = ").push_bind(sweep.to_string());
     }
     if let Some(text) = &filter.text {
         // SQLite's `lower` knows ASCII alone: other letters are compared as they are.

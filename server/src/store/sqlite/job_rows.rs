@@ -87,17 +87,19 @@ pub(super) async fn retry(
     Ok(Some(Retried::Queued))
 }
 
-/// Adds a job to the queue, with its first event.
+/// Adds a job to the queue, with its first event; `batch` is the one that it belongs to.
 pub(super) async fn insert(
     transaction: &mut Transaction<'_, Sqlite>,
     job: &NewJob,
+    batch: Option<Uuid>,
     now: Now,
 ) -> Result<Uuid, StoreError> {
     let new = NewRow::of(job, Uuid::now_v7(), now)?;
     let id = new.id.to_string();
     sqlx::query(
         "INSERT INTO jobs (id, system, spec, plan, status, status_reason, created_at, progress, last_event, priority, \
-         place, deadline_at, memory_mb, cpu_ms, queued_at) VALUES (?, ?, ?, ?, 'queued', ?, ?, ?, 1, ?, ?, ?, ?, ?, ?)",
+         place, deadline_at, memory_mb, cpu_ms, queued_at, sweep_id) \
+         VALUES (?, ?, ?, ?, 'queued', ?, ?, ?, 1, ?, ?, ?, ?, ?, ?, ?)",
     )
     .bind(&id)
     .bind(new.system)
@@ -112,6 +114,7 @@ pub(super) async fn insert(
     .bind(new.memory_mb)
     .bind(new.cpu_ms)
     .bind(now.monotonic_ms)
+    .bind(batch.map(|batch| batch.to_string()))
     .execute(&mut **transaction)
     .await?;
     for (key, value) in &job.spec.labels {

@@ -54,7 +54,8 @@ impl SqliteStore {
         if !old.is_empty() {
             sqlx::query(
                 "DELETE FROM sweeps WHERE created_at < ? \
-                 AND NOT EXISTS (SELECT 1 FROM sweep_jobs WHERE sweep_id = sweeps.id)",
+                 AND NOT EXISTS (SELECT 1 FROM sweep_jobs WHERE sweep_id = sweeps.id) \
+                 AND NOT EXISTS (SELECT 1 FROM expansions WHERE sweep_id = sweeps.id AND NOT is_over)",
             )
             .bind(time)
             .execute(&self.writer)

@@ -5,7 +5,7 @@ use sqlx::migrate::Migrator;
 use crate::store::migrations::{file, migrator_of};
 
 /// All files of the folder; a name is the version and what it is about.
-const FILES: [(&str, &str); 26] = [
+const FILES: [(&str, &str); 27] = [
     file!("sqlite/0001_jobs.sql"),
     file!("sqlite/0002_labels.sql"),
     file!("sqlite/0003_events.sql"),
@@ -32,6 +32,7 @@ const FILES: [(&str, &str); 26] = [
     file!("sqlite/0062_worker_tokens.sql"),
     file!("sqlite/0063_objects.sql"),
     file!("sqlite/0064_queue_indexes.sql"),
+    file!("sqlite/0065_expansions.sql"),
 ];
 
 /// Applies the migrations that a database does not have; refuses a database with others.

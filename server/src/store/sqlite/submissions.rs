@@ -65,7 +65,7 @@ async fn write_one(
             return Ok(key.repeated(&body, job.into()));
         }
     }
-    let id = insert(transaction, &submission.job, submission.now).await?;
+    let id = insert(transaction, &submission.job, None, submission.now).await?;
     if let Some(key) = &submission.key {
         sqlx::query("INSERT INTO request_keys (key, body_sha256, job_id) VALUES (?, ?, ?)")
             .bind(&key.key)

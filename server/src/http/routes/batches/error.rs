@@ -4,7 +4,10 @@ use crate::batch::{EvaluateError, ExpandError, Kind};
 use crate::http::app::App;
 use crate::http::extract::BatchId;
 use crate::http::problem::{ProblemResponse, ProblemType, RouteError};
-use crate::store::{BatchDetail, StoredBatch};
+use crate::store::{BatchDetail, BatchPart, StoredBatch};
+
+/// Jobs that are shown of a batch unless fewer are asked for.
+pub(super) const MOST_JOBS: u32 = 1_000;
 
 /// Error of a route about one batch.
 #[derive(Debug, thiserror::Error)]
@@ -15,6 +18,9 @@ pub(crate) enum BatchError {
     /// A job of the batch has not ended.
     #[error("{0} has jobs that have not ended; cancel it first")]
     Active(BatchId),
+    /// No number of jobs.
+    #[error("a part has 1 to {MOST_JOBS} jobs, not {0}")]
+    Limit(u32),
 }
 
 impl RouteError for BatchError {
@@ -28,6 +34,7 @@ impl RouteError for BatchError {
                 Kind::Sweep => ProblemType::SWEEP_ACTIVE,
                 Kind::AccuracyStudy => ProblemType::STUDY_ACTIVE,
             },
+            Self::Limit(_) => ProblemType::INVALID_QUERY,
         }
     }
 }
@@ -65,7 +72,7 @@ impl App {
     pub(super) async fn evaluate_batch<T: Send + 'static>(
         &self,
         batch: BatchId,
-        detail: BatchDetail,
+        (part, detail): (BatchPart, BatchDetail),
         evaluate: impl FnOnce(StoredBatch) -> Result<T, EvaluateError> + Send + 'static,
     ) -> Result<T, ProblemResponse> {
         let BatchId { kind, id } = batch;
@@ -75,10 +82,14 @@ impl App {
         };
         // The plan first: beside one of another format, results need not be readable.
         if kind.has_plan() {
-            let statuses = read(self.store.batch(id, BatchDetail::Statuses).await?)?;
+            let statuses = read(
+                self.store
+                    .batch(id, BatchPart { from: 0, limit: 0 }, BatchDetail::Statuses)
+                    .await?,
+            )?;
             kind.check_plan(&statuses)?;
         }
-        let stored = read(self.store.batch(id, detail).await?)?;
+        let stored = read(self.store.batch(id, part, detail).await?)?;
         Ok(tokio::task::spawn_blocking(move || evaluate(stored)).await??)
     }
 }

@@ -89,6 +89,7 @@ async fn page(
         name: batch.name,
         created_at: batch.created_at,
         counts: batch.counts,
+        to_come: batch.to_come,
         links: kind.links(batch.id),
     });
     Ok((batches.collect(), next_page_token))

@@ -1,30 +1,75 @@
 //! `GET /v1/sweeps/{id}/outcomes` and `GET /v1/studies/{id}/table`: the results of a batch as a table.
 
+use std::io;
+
 use api::problem::Problem;
+use axum::body::{Body, Bytes};
 use axum::extract::State;
 use axum::http::header;
 use axum::response::{IntoResponse, Response};
+use futures_util::{StreamExt, stream};
+use serde::Deserialize;
+use utoipa::IntoParams;
 
+use crate::batch::EvaluateError;
 use crate::export::documents::CSV;
 use crate::http::app::App;
-use crate::http::extract::BatchId;
+use crate::http::extract::{BatchId, Params};
 use crate::http::problem::ProblemResponse;
+use crate::http::routes::batches::error::MOST_JOBS;
 use crate::http::routes::results::download_file::attachment;
+use crate::store::{BatchPart, StoredBatch};
+
+/// Part of the table.
+#[derive(Debug, Clone, Copy, Deserialize, IntoParams)]
+#[into_params(parameter_in = Query)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct OutcomesQuery {
+    /// Position of the first job, from 0.
+    #[serde(default)]
+    #[param(value_type = Option<u64>)]
+    from: u64,
+    /// Largest number of jobs; all unless given.
+    #[param(minimum = 1)]
+    limit: Option<u32>,
+}
 
 /// The results of a sweep so far as CSV: changes, status and figures, one line per job.
 #[utoipa::path(
     get,
     path = "/v1/sweeps/{id}/outcomes",
     tag = "sweeps",
+    params(OutcomesQuery),
     responses(
         (status = 200, description = "The table", content_type = "text/csv", body = String),
     )
 )]
 pub(crate) async fn sweep_outcomes(
-    app: State<App>,
+    State(app): State<App>,
     batch: BatchId,
+    Params(query): Params<OutcomesQuery>,
 ) -> Result<Response, ProblemResponse> {
-    table(&app, batch).await
+    let OutcomesQuery { from, limit } = query;
+    let whole = limit.unwrap_or(u32::MAX);
+    let part = BatchPart {
+        from,
+        limit: whole.min(MOST_JOBS),
+    };
+    let evaluate = move |stored| rows(batch, &stored, true);
+    let read = (part, batch.kind.table_detail());
+    let (table, first) = app.evaluate_batch(batch, read, evaluate).await?;
+    // The rest of a long table is read while the client takes it.
+    let rest = first.next.filter(|_| whole > first.jobs);
+    let Some(next) = rest else {
+        return Ok(csv(batch, Body::from(table)));
+    };
+    let start = Rest {
+        next: Some(next),
+        jobs: whole - first.jobs,
+    };
+    let rest = stream::try_unfold(start, move |rest| next_rows(app.clone(), batch, rest));
+    let first = stream::once(async { Ok(Bytes::from(table)) });
+    Ok(csv(batch, Body::from_stream(first.chain(rest))))
 }
 
 /// The runs of a study so far as CSV: settings, errors, cost.
@@ -46,17 +91,67 @@ pub(crate) async fn study_table(
 }
 
 async fn table(app: &App, batch: BatchId) -> Result<Response, ProblemResponse> {
+    let evaluate = move |stored| batch.kind.table(&stored, true);
+    let read = (BatchPart::WHOLE, batch.kind.table_detail());
+    let table = app.evaluate_batch(batch, read, evaluate).await?;
+    Ok(csv(batch, Body::from(table)))
+}
+
+/// The jobs of a table that follow.
+#[derive(Debug, Clone, Copy)]
+struct Rest {
+    /// Position of the first of them.
+    next: Option<u64>,
+    /// Number of them at most; of those that were read, their number.
+    jobs: u32,
+}
+
+/// The rows of a part, what follows it, and how many jobs it has.
+fn rows(
+    batch: BatchId,
+    stored: &StoredBatch,
+    with_header: bool,
+) -> Result<(Vec<u8>, Rest), EvaluateError> {
+    let rows = batch.kind.table(stored, with_header)?;
+    let jobs = u32::try_from(stored.jobs.len()).unwrap_or(u32::MAX);
+    let last = stored.jobs.last().filter(|_| jobs >= MOST_JOBS);
+    let next = last.map(|last| last.position + 1);
+    Ok((rows, Rest { next, jobs }))
+}
+
+/// The next rows of a long table; an error ends the body early.
+async fn next_rows(app: App, batch: BatchId, rest: Rest) -> io::Result<Option<(Bytes, Rest)>> {
+    let Some(from) = rest.next.filter(|_| rest.jobs > 0) else {
+        return Ok(None);
+    };
+    let part = BatchPart {
+        from,
+        limit: rest.jobs.min(MOST_JOBS),
+    };
+    let detail = batch.kind.table_detail();
+    let stored = app.store.batch(batch.id, part, detail).await;
+    let Some(stored) = stored.map_err(io::Error::other)? else {
+        return Err(io::Error::other(format!("{batch} was deleted meanwhile")));
+    };
+    let found = tokio::task::spawn_blocking(move || rows(batch, &stored, false)).await?;
+    let (rows, found) = found.map_err(io::Error::other)?;
+    let rest = Rest {
+        next: found.next,
+        jobs: rest.jobs - found.jobs,
+    };
+    Ok(Some((Bytes::from(rows), rest)))
+}
+
+fn csv(batch: BatchId, body: Body) -> Response {
     let BatchId { kind, id } = batch;
-    let evaluate = move |stored| kind.table(&stored);
-    let table = app
-        .evaluate_batch(batch, kind.table_detail(), evaluate)
-        .await?;
-    let name = attachment(&format!("{kind}-{id}.csv"));
     let headers = [
         (header::CONTENT_TYPE, CSV.to_owned()),
-        (header::CONTENT_DISPOSITION, name),
+        (
+            header::CONTENT_DISPOSITION,
+            attachment(&format!("{kind}-{id}.csv")),
+        ),
     ];
-    Ok((headers, table).into_response())
+    (headers, body).into_response()
 }
 
 #[cfg(test)]

@@ -12,6 +12,7 @@ use crate::export::documents::{PNG, SVG};
 use crate::http::app::App;
 use crate::http::extract::{BatchId, Params};
 use crate::http::problem::ProblemResponse;
+use crate::store::BatchPart;
 
 /// Format of a picture.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize, ToSchema)]
@@ -61,8 +62,8 @@ pub(crate) async fn study_picture(
             PictureFormat::Png => (PNG, report::png(&study)?),
         })
     };
-    let detail = batch.kind.document_detail();
-    let (media_type, bytes) = app.evaluate_batch(batch, detail, draw).await?;
+    let read = (BatchPart::WHOLE, batch.kind.document_detail());
+    let (media_type, bytes) = app.evaluate_batch(batch, read, draw).await?;
     Ok(([(header::CONTENT_TYPE, media_type)], bytes).into_response())
 }
 

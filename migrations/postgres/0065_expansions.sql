@@ -1,0 +1,25 @@
+-- A sweep may have more jobs than are in the queue at once: those from position `next` on are made from its request while others are
+-- solved, until `is_over`.
+CREATE TABLE expansions (
+    sweep_id uuid    NOT NULL PRIMARY KEY REFERENCES sweeps (id) ON DELETE CASCADE,
+    request  text    NOT NULL,
+    jobs     bigint  NOT NULL,
+    next     bigint  NOT NULL CHECK (next BETWEEN 0 AND jobs),
+    cpu_ms   bigint  NOT NULL,
+    is_over  boolean NOT NULL DEFAULT false
+);
+
+-- Combinations of values that make no valid job.
+CREATE TABLE refused_jobs (
+    sweep_id  uuid   NOT NULL REFERENCES sweeps (id) ON DELETE CASCADE,
+    position  bigint NOT NULL,
+    overrides text   NOT NULL,
+    reason    text   NOT NULL,
+    PRIMARY KEY (sweep_id, position)
+);
+
+-- The jobs of a sweep are counted by status, those that have not ended are found, and all are listed in their order, from indexes.
+ALTER TABLE jobs ADD COLUMN sweep_id uuid;
+UPDATE jobs SET sweep_id = (SELECT sweep_id FROM sweep_jobs WHERE job_id = jobs.id) WHERE id IN (SELECT job_id FROM sweep_jobs);
+CREATE INDEX jobs_by_sweep ON jobs (sweep_id, status) WHERE sweep_id IS NOT NULL;
+CREATE INDEX jobs_in_sweep ON jobs (sweep_id, id) WHERE sweep_id IS NOT NULL;

@@ -1,0 +1,53 @@
+//! Jobs of a large sweep that are queued while others are solved.
+
+use std::ops::Range;
+
+use api::problem::Fault;
+use api::sweep::SweepRequest;
+
+use crate::batch::sweep::variations::Variations;
+use crate::batch::variation::{Accept, Variation};
+use crate::spec::Refused;
+use crate::store::RefusedJob;
+
+/// Returns the jobs at these positions; those that are not valid, or not accepted, are refused with a reason.
+pub(in crate::batch) fn jobs(
+    request: &SweepRequest,
+    positions: Range<u64>,
+    accept: &Accept<'_>,
+) -> (Vec<(u64, Variation)>, Vec<RefusedJob>) {
+    let variations = Variations::of(request);
+    let (mut jobs, mut refused) = (Vec::new(), Vec::new());
+    for position in positions {
+        let accepted = variations.at(position).map_err(|faults| words(&faults));
+        let accepted = accepted.and_then(|variation| {
+            accept(&variation.estimate).map_err(|refused| reason(&refused))?;
+            Ok(variation)
+        });
+        match accepted {
+            Ok(variation) => jobs.push((position, variation)),
+            Err(reason) => refused.push(RefusedJob {
+                position,
+                overrides: variations.changes(position),
+                reason,
+            }),
+        }
+    }
+    (jobs, refused)
+}
+
+fn reason(refused: &Refused) -> String {
+    match refused {
+        Refused::Parse(error) => error.to_string(),
+        Refused::Faults(faults) => {
+            let faults = faults.iter();
+            let faults = faults.map(|Fault { pointer, detail }| (pointer.clone(), detail.clone()));
+            words(&faults.collect::<Vec<_>>())
+        }
+    }
+}
+
+fn words(faults: &[(String, String)]) -> String {
+    let each = |(pointer, detail): &(String, String)| format!("{pointer}: {detail}");
+    faults.iter().map(each).collect::<Vec<_>>().join("; ")
+}

@@ -1,0 +1,130 @@
+//! Batches with jobs that are queued only when others have been solved.
+
+use sqlx::postgres::PgConnection;
+use uuid::Uuid;
+
+use crate::clock::Now;
+use crate::store::StoreError;
+use crate::store::batch_rows::expansion;
+use crate::store::batches::{Expansion, NewBatchJob, NewExpansion, Portion};
+use crate::store::gauges::UNKNOWN_CPU_MS;
+use crate::store::job_ids::new_id;
+use crate::store::new_row::{NewRow, estimated};
+use crate::store::postgres::PostgresStore;
+use crate::store::postgres::job_rows::insert;
+use crate::store::rows::integer;
+
+impl PostgresStore {
+    pub(in crate::store) async fn expansions(&self) -> Result<Vec<Expansion>, StoreError> {
+        let rows = sqlx::query(
+            "SELECT sweep_id, next, jobs, (SELECT count(*) FROM jobs WHERE jobs.sweep_id = expansions.sweep_id \
+             AND status = 'queued') AS waiting FROM expansions WHERE NOT is_over ORDER BY sweep_id",
+        )
+        .fetch_all(&self.readers)
+        .await?;
+        rows.iter().map(expansion).collect()
+    }
+
+    pub(in crate::store) async fn expansion_request(
+        &self,
+        batch: Uuid,
+    ) -> Result<Option<String>, StoreError> {
+        let request = sqlx::query_scalar(
+            "SELECT request FROM expansions WHERE sweep_id = $1 AND NOT is_over",
+        )
+        .bind(batch);
+        Ok(request.fetch_optional(&self.readers).await?)
+    }
+
+    pub(in crate::store) async fn extend_batch(
+        &self,
+        portion: &Portion,
+    ) -> Result<bool, StoreError> {
+        self.local.disk.check()?;
+        let (mut transaction, now) = self.begin().await?;
+        let positions = &portion.positions;
+        let taken = sqlx::query(
+            "UPDATE expansions SET next = $1, is_over = $1 >= jobs WHERE sweep_id = $2 AND next = $3 AND NOT is_over",
+        )
+        .bind(integer(positions.end))
+        .bind(portion.batch)
+        .bind(integer(positions.start))
+        .execute(&mut *transaction)
+        .await?;
+        if taken.rows_affected() == 0 {
+            return Ok(false);
+        }
+        insert_jobs(&mut transaction, portion.batch, &portion.jobs, now).await?;
+        let (mut positions, mut overrides, mut reasons) = (Vec::new(), Vec::new(), Vec::new());
+        for refused in &portion.refused {
+            positions.push(integer(refused.position));
+            overrides.push(serde_json::to_string(&refused.overrides)?);
+            reasons.push(refused.reason.as_str());
+        }
+        sqlx::query(
+            "INSERT INTO refused_jobs (sweep_id, position, overrides, reason) \
+             SELECT $1, * FROM unnest($2::bigint[], $3::text[], $4::text[])",
+        )
+        .bind(portion.batch)
+        .bind(positions)
+        .bind(overrides)
+        .bind(reasons)
+        .execute(&mut *transaction)
+        .await?;
+        transaction.commit().await?;
+        self.local.many_wait();
+        Ok(true)
+    }
+}
+
+/// Notes the jobs that are to be queued.
+pub(super) async fn insert_expansion(
+    connection: &mut PgConnection,
+    batch: Uuid,
+    expansion: &NewExpansion,
+) -> Result<(), StoreError> {
+    sqlx::query(
+        "INSERT INTO expansions (sweep_id, request, jobs, next, cpu_ms) VALUES ($1, $2, $3, $4, $5)",
+    )
+    .bind(batch)
+    .bind(&expansion.request)
+    .bind(integer(expansion.jobs))
+    .bind(integer(expansion.next))
+    .bind(expansion.cpu_s.map_or(UNKNOWN_CPU_MS, |s| estimated(s, 1e3)))
+    .execute(connection)
+    .await?;
+    Ok(())
+}
+
+/// Queues jobs of a batch.
+pub(super) async fn insert_jobs(
+    connection: &mut PgConnection,
+    batch: Uuid,
+    new: &[NewBatchJob],
+    now: Now,
+) -> Result<(), StoreError> {
+    let (mut positions, mut jobs, mut overrides) = (Vec::new(), Vec::new(), Vec::new());
+    for NewBatchJob {
+        position,
+        job,
+        overrides: changes,
+    } in new
+    {
+        let row = NewRow::of(job, new_id(now.system_ms), now)?;
+        insert(connection, job, &row, (Some(batch), now)).await?;
+        positions.push(integer(*position));
+        jobs.push(row.id);
+        overrides.push(serde_json::to_string(changes)?);
+    }
+    sqlx::query(
+        "INSERT INTO sweep_jobs (sweep_id, position, job_id, overrides) \
+         SELECT $1, * FROM unnest($2::bigint[], $3::uuid[], $4::text[])",
+    )
+    .bind(batch)
+    .bind(positions)
+    .bind(jobs)
+    .bind(overrides)
+    .execute(connection)
+    .await?;
+    Ok(())
+}

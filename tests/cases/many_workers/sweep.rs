@@ -1,0 +1,142 @@
+//! A sweep of more jobs than wait in the queue at once, which follow while others are solved.
+
+use std::collections::BTreeSet;
+use std::path::Path;
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use nix::sys::signal::Signal;
+use serde_json::{Value, json};
+use tests::{PostgresServer, Server};
+
+use super::simulated::{Done, Harm, started};
+use super::{ATTEMPTS, SPEC, is_long, load, report};
+
+/// Jobs of the sweep that wait at most in the short form.
+const AHEAD: u64 = 60;
+/// Jobs of the short form: more than a sweep queues at once.
+const JOBS: usize = 1_200;
+/// Jobs of such a sweep that are queued when it is submitted.
+const AT_ONCE: u64 = 250;
+
+#[tokio::test(flavor = "multi_thread")]
+async fn every_job_of_a_large_sweep_is_solved_once_although_the_service_is_killed() {
+    let folder = tempfile::tempdir().expect("a folder can be made");
+    solved_once(folder.path(), 1).await;
+}
+
+#[tokio::test(flavor = "multi_thread")]
+#[cfg_attr(not(has_postgresql), ignore = "needs the programs of PostgreSQL")]
+async fn two_services_queue_every_job_of_a_large_sweep_once() {
+    let folder = tempfile::tempdir().expect("a folder can be made");
+    let durable = is_long().then(|| PostgresServer::start(&["max_connections=200"]));
+    match &durable {
+        Some(server) => tests::use_database(folder.path(), &server.new_database()),
+        None => drop(tests::use_postgresql(folder.path())),
+    }
+    solved_once(folder.path(), 2).await;
+}
+
+async fn solved_once(folder: &Path, services: usize) {
+    let (jobs, count) = if is_long() {
+        (load().0, load().1)
+    } else {
+        (JOBS, 30)
+    };
+    let ahead = AHEAD.to_string();
+    let options = if is_long() {
+        ATTEMPTS.to_vec()
+    } else {
+        [&ATTEMPTS[..], &["--jobs-ahead", &ahead]].concat()
+    };
+    let mut services: Vec<_> = (0..services)
+        .map(|_| Server::without_workers(folder, &options))
+        .collect();
+    let began = Instant::now();
+    let sweep = submitted(&services[0], jobs).await;
+    if is_long() {
+        say(&format!("accepted after {:?}", began.elapsed()));
+    }
+    let path = format!("/v1/sweeps/{}", sweep["id"].as_str().expect("an id"));
+    let (began, done) = (Instant::now(), Arc::new(Done::default()));
+    let addresses: Vec<_> = services.iter().map(|server| &server.base[..]).collect();
+    let workers = started(folder, &addresses, (count, Harm::None), &done);
+    let half = u64::try_from(jobs / 2).expect("small");
+    loop {
+        let (_, sweep) = services[0].get(&format!("{path}?limit=1")).await;
+        let waiting = number(&sweep["counts"]["queued"]);
+        assert!(is_long() || waiting <= AT_ONCE.max(AHEAD), "{waiting} wait");
+        if number(&sweep["counts"]["succeeded"]) >= half {
+            break;
+        }
+        tokio::time::sleep(Duration::from_millis(100)).await;
+    }
+    let killed = services.remove(0);
+    let address = killed.base.trim_start_matches("http://").to_owned();
+    killed.signal(Signal::SIGKILL);
+    killed.wait();
+    let options = [&options[..], &["--listen", &address]].concat();
+    services.push(Server::without_workers(folder, &options));
+    let claims: Vec<Duration> = workers.join_all().await.concat();
+    let elapsed = began.elapsed();
+    for server in &services {
+        assert_whole(server, &path, jobs).await;
+    }
+    if is_long() {
+        report(jobs, elapsed, claims);
+    }
+}
+
+/// Submits a sweep of so many jobs.
+async fn submitted(server: &Server, jobs: usize) -> Value {
+    let base: Value = serde_json::from_str(SPEC).expect("JSON");
+    let coefficients = 0..u32::try_from(jobs / 3).expect("small");
+    let coefficients: Vec<f64> = coefficients.map(|n| 0.2 + 1e-6 * f64::from(n)).collect();
+    let grid = json!({"/cycles": [2, 3, 4], "/interface/friction/coefficient": coefficients});
+    let request = server.client.post(format!("{}/v1/sweeps", server.base));
+    let request = request.json(&json!({"name": "large", "base": base, "grid": grid}));
+    let answer = request.send().await.expect("the service answers");
+    assert_eq!(answer.status(), 202);
+    answer.json().await.expect("JSON")
+}
+
+/// Checks that each job of a sweep has succeeded at its first attempt, with its own changes, and has a row in the table.
+async fn assert_whole(server: &Server, path: &str, jobs: usize) {
+    let (mut part, mut seen, mut ids) = (path.to_owned(), 0, BTreeSet::new());
+    loop {
+        let (_, sweep) = server.get(&part).await;
+        for job in sweep["jobs"].as_array().expect("jobs") {
+            assert_eq!(number(&job["position"]), seen);
+            assert_eq!(job["status"], "succeeded", "{job}");
+            let id = job["id"].as_str().expect("an id").to_owned();
+            assert!(ids.insert(id), "{job}");
+            seen += 1;
+        }
+        let Some(next) = sweep["links"]["next"].as_str() else {
+            let all = u64::try_from(jobs).expect("small");
+            assert_eq!(number(&sweep["counts"]["succeeded"]), all);
+            assert_eq!((number(&sweep["asked"]), seen), (all, all));
+            assert_eq!(sweep["to_come"], 0);
+            break;
+        };
+        next.clone_into(&mut part);
+    }
+    let (_, table) = server.get(&format!("{path}/outcomes")).await;
+    let table = table.as_str().expect("CSV");
+    let rows: BTreeSet<_> = table.lines().skip(1).map(|row| &row[..36]).collect();
+    assert!(rows.iter().all(|id| ids.contains(*id)), "{table}");
+    assert_eq!((rows.len(), table.lines().count()), (jobs, jobs + 1));
+    let (_, last) = server.get(&format!("{path}?from={}", jobs - 1)).await;
+    let coefficient = 0.2 + 1e-6 * f64::from(u32::try_from(jobs / 3 - 1).expect("small"));
+    let overrides = json!({"/cycles": 4, "/interface/friction/coefficient": coefficient});
+    assert_eq!(last["jobs"][0]["overrides"], overrides);
+}
+
+#[expect(clippy::print_stdout, reason = "the long form prints figures")]
+fn say(text: &str) {
+    println!("{text}");
+}
+
+fn number(value: &Value) -> u64 {
+    value.as_u64().expect("a number")
+}
