@@ -12,7 +12,7 @@ fn main() {
     println!("cargo::rerun-if-env-changed=FRETWEAR_PYTHON");
     println!("cargo::rerun-if-env-changed=PATH");
     println!(
-        "cargo::rustc-check-cfg=cfg(has_vtk, has_axe, has_cc, has_ccx, has_chromium, has_curl, has_fma, has_haproxy, has_moto, has_mount, has_schemathesis, has_slurm)"
+        "cargo::rustc-check-cfg=cfg(has_vtk, has_axe, has_cc, has_ccx, has_chromium, has_curl, has_fma, has_haproxy, has_moto, has_mount, has_promtool, has_schemathesis, has_slurm)"
     );
     let python = std::env::var("FRETWEAR_PYTHON").unwrap_or_else(|_| "python3".to_owned());
     println!("cargo::rustc-env=FRETWEAR_PYTHON={python}");
@@ -53,6 +53,9 @@ fn main() {
     }
     if runs(Command::new("haproxy").arg("-v")) {
         println!("cargo::rustc-cfg=has_haproxy");
+    }
+    if runs(Command::new("promtool").arg("--version")) {
+        println!("cargo::rustc-cfg=has_promtool");
     }
     if has_slurm() {
         println!("cargo::rustc-cfg=has_slurm");

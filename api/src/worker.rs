@@ -71,4 +71,6 @@ pub struct RemoteWorker {
     pub free_memory_mb: u64,
     /// Time since it was last in contact, s.
     pub last_contact_s: u64,
+    /// Whether it takes no more jobs, and ends when it has solved those that it holds.
+    pub is_draining: bool,
 }

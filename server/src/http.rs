@@ -42,6 +42,7 @@ pub use app::App;
 pub(crate) use limits::check as check_limits;
 pub use listener::serve;
 pub use tls::{Tls, TlsError};
+pub(crate) use worker_registry::WorkerRegistry;
 
 /// Maximum number of concurrent requests, over all connections; more wait, except those for the health and claims of workers. Event streams count until their response
 /// starts; long polls have a lower limit of their own.

@@ -3,6 +3,8 @@
 mod expansions;
 mod maintenance;
 mod objects;
+mod tasks;
+mod workers;
 
 use std::net::SocketAddr;
 use std::path::PathBuf;
@@ -17,10 +19,10 @@ use tokio_util::sync::CancellationToken;
 use crate::http;
 use crate::http::{Access, App, Tls};
 use crate::objects::Objects;
+use crate::service::tasks::Tasks;
 use crate::store::{Limits, Store, StoreError, shown_address};
-use crate::supervision::{Supervisor, TaskName, WORKER};
-use crate::worker;
-use crate::worker::{REMOTE_LEASE, WorkerConfig, WorkerProcess};
+use crate::supervision::Supervisor;
+use crate::worker::{REMOTE_LEASE, WorkerConfig};
 
 /// Time for open requests to end when the service stops, after the grace period of solving processes.
 const GRACE: Duration = Duration::from_secs(5);
@@ -92,29 +94,6 @@ pub struct Service {
     grace: Duration,
 }
 
-/// Tasks that are being started.
-struct Tasks {
-    running: JoinSet<()>,
-    supervisor: Arc<Supervisor>,
-    store: Arc<Store>,
-    stopping: CancellationToken,
-}
-
-impl Tasks {
-    fn start<F>(&mut self, name: TaskName, start: impl FnMut() -> F + Send + 'static)
-    where
-        F: Future<Output = ()> + Send + 'static,
-    {
-        let (supervisor, metrics) = (
-            Arc::clone(&self.supervisor),
-            Arc::clone(self.store.metrics()),
-        );
-        let stopping = self.stopping.clone();
-        self.running
-            .spawn(supervisor.run(name, metrics, stopping, start));
-    }
-}
-
 impl Service {
     /// Starts everything, after reclaiming the jobs of a process that has ended.
     ///
@@ -138,63 +117,19 @@ impl Service {
         let (queued, ending) = (reclaimed.queued, reclaimed.ending.len());
         tracing::info!(%address, database = shown_address(&config.database), workers = config.workers, queued, ending, "service started");
         let (stopping, supervisor) = (CancellationToken::new(), Arc::new(Supervisor::default()));
-        let mut tasks = Tasks {
-            running: JoinSet::new(),
-            supervisor: Arc::clone(&supervisor),
-            store: Arc::clone(&store),
-            stopping: stopping.clone(),
-        };
-        let process = WorkerProcess::new(worker.memory_mb, false);
-        let process = Arc::new(if store.is_shared() {
-            process.beside_others()
-        } else {
-            process
-        });
-        for number in 0..config.workers {
-            let (store, shared, stopping) = (
-                Arc::clone(&store),
-                (Arc::clone(&process), Arc::clone(&worker)),
-                stopping.clone(),
-            );
-            tasks.start((WORKER, number), move || {
-                let work = worker::work(Arc::clone(&store), shared.clone(), stopping.clone());
-                async move {
-                    if let Err(error) = work.await {
-                        tracing::error!(%error, "a worker has ended");
-                    }
-                }
-            });
-        }
-        let mut reclaimed = Some(reclaimed);
-        let maintained = (Arc::clone(&store), Arc::clone(&worker), stopping.clone());
-        tasks.start(("maintenance", 0), move || {
-            let (store, worker, stopping) = maintained.clone();
-            let reclaimed = reclaimed.take().unwrap_or_default();
-            maintenance::maintain(store, worker, config.keep_days, reclaimed, stopping)
-        });
-        if moves_results {
-            let owned = (Arc::clone(&store), stopping.clone());
-            tasks.start(("objects", 0), move || {
-                let (store, stopping) = owned.clone();
-                objects::move_results(store, stopping)
-            });
-        }
-        let owned = (Arc::clone(&store), stopping.clone());
-        tasks.start(("heartbeat", 0), move || {
-            let (store, stopping) = owned.clone();
-            maintenance::beat(store, stopping)
-        });
+        let mut tasks = Tasks::new(&store, &supervisor, &stopping);
+        tasks.start_workers(config.workers, &worker);
         let app = App::new(
             Arc::clone(&store),
             config.access,
             (stopping.clone(), Arc::clone(&supervisor)),
             http::openapi::document(),
         );
-        let owned = (Arc::clone(&store), app.machine.clone(), stopping.clone());
-        tasks.start(("expansions", 0), move || {
-            let (store, machine, stopping) = owned.clone();
-            expansions::queue_ahead(store, machine, config.jobs_ahead, stopping)
-        });
+        tasks.start_upkeep(&app, &worker, (config.keep_days, reclaimed));
+        if moves_results {
+            tasks.start_mover();
+        }
+        tasks.start_queueing(&app, config.jobs_ahead);
         let router = http::router(app);
         let (mut listener, served) = (Some(listener), stopping.clone());
         tasks.start(("listener", 0), move || {

@@ -26,6 +26,8 @@
 //! | `move_results` | notes the objects; after they are written, their names in place of the results, for several jobs | no; only of succeeded jobs |
 //! | `reclaim_expired`, `reclaim_at_start` | all lost jobs: into the queue, or under a new lease | no; they end leases |
 //! | `add_worker_token`, `revoke_worker_token` | one token | no |
+//! | `note_workers` | contacts with remote workers; those without one for a minute are forgotten | no |
+//! | `drain_worker` | one worker, which takes no more jobs | no |
 //! | `cancel` | a queued job ends with its `done` event; a running one is marked for its worker | no |
 //! | `cancel_batch` | no jobs are queued any more; then its jobs as by `cancel`, a limited number at once | no |
 //! | `expire` | all queued jobs whose deadline has passed end with their `done` events | no |
@@ -78,6 +80,7 @@ mod rows;
 mod sqlite;
 mod stored_block;
 mod stored_file;
+mod workers;
 
 pub use backup::{BackupError, CopySummary};
 pub use batches::{
@@ -101,6 +104,7 @@ pub use results::{Chunks, Content, ContentError, NewFile, SnapshotPart, StoredEv
 pub use sqlite::OWNER_HEARTBEAT;
 pub use sqlite::backup::{backup, restore};
 pub use sqlite::verify::verify;
+pub use workers::{WorkerContact, WorkerOffer};
 
 #[cfg(test)]
 pub(crate) mod tests;

@@ -31,7 +31,7 @@ pub use process::WorkerProcess;
 /// Interval at which an idle worker polls the queue, in case it missed a notification.
 const POLL_INTERVAL: Duration = Duration::from_secs(1);
 
-/// Claims and supervises jobs until it is asked to stop. A panic ends it; its job is then reclaimed when the lease ends.
+/// Claims and supervises jobs until it is asked to stop, or is given no more. A panic ends it; its job is then reclaimed when the lease ends.
 ///
 /// # Errors
 /// [`EmployerError`] if the employer does not accept this worker.
@@ -51,6 +51,10 @@ pub async fn work<E: Employer>(
                     () = tokio::time::sleep(POLL_INTERVAL) => {}
                     () = stopping.cancelled() => {}
                 }
+            }
+            Err(error) if error.is_drained() => {
+                tracing::info!(%error, "a worker ends");
+                return Ok(());
             }
             Err(error) if error.is_rejected() => return Err(error),
             Err(error) => {

@@ -6,6 +6,7 @@
 )]
 
 mod access_token;
+mod alarms;
 mod api_fuzz;
 mod architecture;
 mod auto_against_all_on;

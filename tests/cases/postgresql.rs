@@ -2,6 +2,7 @@
 //! do, and one that ends loses no job.
 
 use std::path::Path;
+use std::time::Duration;
 
 use futures_util::stream::BoxStream;
 use futures_util::{StreamExt, TryStreamExt};
@@ -11,6 +12,9 @@ use tests::{RemoteWorker, Server, bits, fuzz_button_with_jump, use_postgresql};
 
 /// A short lease, so that the jobs of a service that was killed are soon taken by another; not a measure of speed.
 const LEASE: [&str; 2] = ["--lease-s", "2"];
+
+/// Longest wait; not a measure of speed.
+const PATIENCE: Duration = Duration::from_mins(4);
 
 fn with_fields() -> Value {
     json!({
@@ -208,4 +212,34 @@ fn passwords_are_not_shown() {
     }
     let backup = tests::fretwear(folder, &["backup", "--database", url, "copy"]);
     assert!(backup.stderr.contains("pg_dump"), "{}", backup.stderr);
+}
+
+#[tokio::test]
+#[cfg_attr(not(has_postgresql), ignore = "needs the programs of PostgreSQL")]
+async fn a_worker_of_one_service_is_listed_and_drained_by_another() {
+    let folder = tempfile::tempdir().expect("a folder can be made");
+    use_postgresql(folder.path());
+    let [first, second] = [(); 2].map(|()| Server::without_workers(folder.path(), &[]));
+    let worker = RemoteWorker::start(folder.path(), &first.base, &[]);
+    let listed = async {
+        loop {
+            let (_, list) = second.get("/v1/workers").await;
+            if let Some(id) = list["remote"][0]["id"].as_str() {
+                return format!("/v1/workers/{id}/drain");
+            }
+            tokio::time::sleep(Duration::from_millis(50)).await;
+        }
+    };
+    let path = tokio::time::timeout(PATIENCE, listed).await;
+    let path = path.expect("it is listed in time");
+    let (status, drained) = second.post(&path).await;
+    assert_eq!(
+        (status, &drained["is_draining"]),
+        (202, &json!(true)),
+        "{drained}"
+    );
+    assert_eq!(worker.wait(), Some(0));
+    let id = submitted(&first, with_fields().to_string()).await;
+    let _other = RemoteWorker::start(folder.path(), &first.base, &[]);
+    assert_eq!(ended(&second, &id).await["status"], "succeeded");
 }

@@ -132,6 +132,34 @@ async fn a_cancel_request_reaches_a_remote_solve() {
 }
 
 #[tokio::test]
+async fn a_worker_that_is_drained_solves_what_it_has_and_ends() {
+    let folder = tempfile::tempdir().expect("a folder can be made");
+    let server = Server::without_workers(folder.path(), &[]);
+    let id = submitted(&server, fuzz_button_with_jump(4)).await;
+    let worker = RemoteWorker::start(folder.path(), &server.base, &[]);
+    server.job_when(&id, is_under_way).await;
+    let waiting = submitted(&server, with_fields()).await;
+    let (_, list) = server.get("/v1/workers").await;
+    let process = list["remote"][0]["id"].as_str().expect("a worker");
+    let path = format!("/v1/workers/{process}/drain");
+    let (status, drained) = server.post(&path).await;
+    assert_eq!(status, 202, "{drained}");
+    assert_eq!(worker.wait(), Some(0));
+    let (_, job) = server.get(&format!("/v1/jobs/{id}")).await;
+    assert_eq!(
+        (&job["status"], &job["attempts"]),
+        (&json!("succeeded"), &json!(1)),
+        "{job}"
+    );
+    let (_, job) = server.get(&format!("/v1/jobs/{waiting}")).await;
+    assert_eq!(
+        (&job["status"], &job["attempts"]),
+        (&json!("queued"), &json!(0)),
+        "{job}"
+    );
+}
+
+#[tokio::test]
 async fn a_worker_that_is_to_end_when_nothing_waits_solves_what_waits_first() {
     let folder = tempfile::tempdir().expect("a folder can be made");
     let server = Server::without_workers(folder.path(), &[]);

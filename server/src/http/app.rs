@@ -41,7 +41,7 @@ pub struct App {
     pub(super) long_poll_permits: Arc<Semaphore>,
     pub(super) stream_permits: Arc<Semaphore>,
     /// Processes with remote workers.
-    pub(super) workers: Arc<WorkerRegistry>,
+    pub(crate) workers: Arc<WorkerRegistry>,
 }
 
 impl App {

@@ -48,6 +48,19 @@ impl<S: Send + Sync> FromRequestParts<S> for WorkerTokenId {
     }
 }
 
+/// Id of a remote worker, from the path.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct WorkerId(pub(super) Uuid);
+
+impl<S: Send + Sync> FromRequestParts<S> for WorkerId {
+    type Rejection = ProblemResponse;
+
+    async fn from_request_parts(parts: &mut Parts, state: &S) -> Result<Self, ProblemResponse> {
+        let id = path_id(parts, state, "worker", ProblemType::NO_SUCH_WORKER).await?;
+        Ok(Self(id))
+    }
+}
+
 /// A batch, from the path: its kind is that of the collection.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct BatchId {

@@ -81,6 +81,10 @@ problem_types! {
         "The Host or Origin header names another host than the service accepts, which protects browsers from pages of other hosts. Start the service with `--allowed-host NAME` to accept a name.";
     WORKER_VERSION, 409, "worker-version", "the worker is of another version",
         "A remote worker has the version and commit of the service, so that every job has the same bits wherever it is solved. Install the version that `detail` names for the service on the worker's machine.";
+    WORKER_DRAINED, 409, "worker-drained", "the worker takes no more jobs",
+        "The worker was drained by `POST /v1/workers/{id}/drain`. It ends by itself when it has solved the jobs that it holds.";
+    NO_SUCH_WORKER, 404, "no-such-worker", "there is no such worker",
+        "No remote worker of this id was in contact within the last minute. A worker has another id after each start; `/v1/workers` lists them.";
     LEASE_LOST, 409, "lease-lost", "the worker does not hold the job any more",
         "The lease of a worker has ended, and its job was given to another one. The worker gives the attempt up by itself.";
     FILE_DIFFERS, 422, "file-differs", "a file was not received as it was sent",

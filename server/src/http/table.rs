@@ -84,6 +84,7 @@ pub(super) fn routes_and_document() -> (Router<App>, Document) {
         .routes(routes!(results::compare_histories::histories))
         .routes(routes!(operation::show_service::service))
         .routes(routes!(operation::list_workers::workers))
+        .routes(routes!(operation::drain_worker::drain_worker))
         .routes(routes!(operation::serve_pages::dashboard))
         .routes(routes!(operation::serve_pages::docs))
         .route("/assets/{*path}", get(operation::serve_pages::asset))

@@ -1,83 +1,110 @@
-//! Processes with remote workers, as their requests show them: who is there, with what memory, and what it holds.
+//! Contacts of this service with remote workers, which it notes in the store from time to time: there are many a second.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
-use api::worker::RemoteWorker;
 use uuid::Uuid;
 
 use crate::queue::MemoryBudget;
+use crate::store::{Store, StoreError, WorkerContact, WorkerOffer};
 
-/// Time without contact after which a process is taken for ended: several claims, each of which waits for up to 20 s.
-const PRESENT: Duration = Duration::from_mins(1);
+/// Time after which a contact is noted again: much shorter than that after which a process is taken for ended.
+const NOTE_EVERY: Duration = Duration::from_secs(10);
 
-/// The processes, by id and so by age.
+/// The processes that were in contact.
 #[derive(Debug, Default)]
-pub(super) struct WorkerRegistry {
+pub(crate) struct WorkerRegistry {
     seen: Mutex<BTreeMap<Uuid, Seen>>,
+    /// Those that take no more jobs.
+    draining: Mutex<BTreeSet<Uuid>>,
 }
 
 #[derive(Debug)]
 struct Seen {
-    host: String,
-    slots: usize,
-    memory: MemoryBudget,
-    jobs: usize,
+    offer: Option<WorkerOffer>,
     last_contact: Instant,
+    noted: Option<Instant>,
 }
 
 impl WorkerRegistry {
     /// Notes a claim.
     pub(super) fn claims(&self, worker: Uuid, (host, slots): (&str, usize), memory: MemoryBudget) {
-        let mut seen = self.present();
-        let entry = seen.entry(worker).or_insert_with(|| Seen {
+        let offer = WorkerOffer {
             host: host.to_owned(),
-            slots,
-            memory,
-            jobs: 0,
-            last_contact: Instant::now(),
-        });
-        entry.memory = memory;
-        entry.last_contact = Instant::now();
-        if memory.running == 0 {
-            entry.jobs = 0;
-        }
-    }
-
-    /// Notes a heartbeat for so many jobs. A process that has not claimed since the service started is not known yet.
-    pub(super) fn beats(&self, worker: Uuid, jobs: usize) {
-        if let Some(entry) = self.present().get_mut(&worker) {
-            entry.jobs = jobs;
-            entry.last_contact = Instant::now();
-        }
-    }
-
-    /// Number of jobs that all of them solve at once.
-    pub(super) fn slots(&self) -> u64 {
-        let slots = self.list().into_iter().map(|worker| worker.slots);
-        slots.fold(0, u64::saturating_add)
-    }
-
-    /// The processes that are there.
-    pub(super) fn list(&self) -> Vec<RemoteWorker> {
-        let positive = |value: i64| u64::try_from(value).unwrap_or_default();
-        let shown = |(id, seen): (&Uuid, &Seen)| RemoteWorker {
-            id: *id,
-            host: seen.host.clone(),
-            slots: u64::try_from(seen.slots).unwrap_or(u64::MAX),
-            jobs: u64::try_from(seen.jobs).unwrap_or(u64::MAX),
-            memory_mb: positive(seen.memory.memory_mb),
-            free_memory_mb: positive(seen.memory.free_mb()),
-            last_contact_s: seen.last_contact.elapsed().as_secs(),
+            slots: i64::try_from(slots).unwrap_or(i64::MAX),
+            memory_mb: memory.memory_mb,
+            free_memory_mb: memory.free_mb(),
         };
-        self.present().iter().map(shown).collect()
+        self.contact(worker, Some(offer));
     }
 
-    /// Those that are there; the others are forgotten.
-    fn present(&self) -> MutexGuard<'_, BTreeMap<Uuid, Seen>> {
-        let mut seen = self.seen.lock().unwrap_or_else(PoisonError::into_inner);
-        seen.retain(|_, entry| entry.last_contact.elapsed() < PRESENT);
-        seen
+    /// Notes a heartbeat.
+    pub(super) fn beats(&self, worker: Uuid) {
+        self.contact(worker, None);
     }
+
+    /// Whether a process takes no more jobs.
+    pub(super) fn is_draining(&self, worker: Uuid) -> bool {
+        held(&self.draining).contains(&worker)
+    }
+
+    /// Notes in the store what has not been noted for a while, and reads who takes no more jobs.
+    pub(crate) async fn exchange(&self, store: &Store) -> Result<(), StoreError> {
+        self.note(store, NOTE_EVERY).await?;
+        let draining = store.draining_workers().await?;
+        *held(&self.draining) = draining.into_iter().collect();
+        Ok(())
+    }
+
+    /// Notes in the store all contacts since the last time.
+    pub(super) async fn note_all(&self, store: &Store) -> Result<(), StoreError> {
+        self.note(store, Duration::ZERO).await
+    }
+
+    async fn note(&self, store: &Store, every: Duration) -> Result<(), StoreError> {
+        let contacts = self.due(every);
+        if contacts.is_empty() {
+            return Ok(());
+        }
+        store.note_workers(&contacts).await
+    }
+
+    /// Contacts with processes that were last noted so long ago, and have been in contact since; the others are forgotten once they are
+    /// noted and silent.
+    fn due(&self, every: Duration) -> Vec<WorkerContact> {
+        let mut seen = held(&self.seen);
+        let mut contacts = Vec::new();
+        for (id, entry) in seen.iter_mut() {
+            let is_new = entry.noted.is_none_or(|noted| entry.last_contact > noted);
+            if is_new && entry.noted.is_none_or(|noted| noted.elapsed() >= every) {
+                entry.noted = Some(Instant::now());
+                contacts.push(WorkerContact {
+                    id: *id,
+                    offer: entry.offer.clone(),
+                    ago: entry.last_contact.elapsed(),
+                });
+            }
+        }
+        seen.retain(|_, entry| entry.last_contact.elapsed() < 2 * NOTE_EVERY);
+        contacts
+    }
+
+    /// Notes a contact now, with what the process offers where it says so.
+    fn contact(&self, worker: Uuid, offer: Option<WorkerOffer>) {
+        let (mut seen, now) = (held(&self.seen), Instant::now());
+        let entry = seen.entry(worker).or_insert(Seen {
+            offer: None,
+            last_contact: now,
+            noted: None,
+        });
+        entry.last_contact = now;
+        if offer.is_some() {
+            entry.offer = offer;
+        }
+    }
+}
+
+fn held<T>(shared: &Mutex<T>) -> MutexGuard<'_, T> {
+    shared.lock().unwrap_or_else(PoisonError::into_inner)
 }

@@ -73,6 +73,7 @@ async fn a_service_works_after_each_of_its_tasks_was_killed() {
         ("maintenance", 0),
     ];
     tasks.extend((0..WORKERS).map(|number| ("worker", number)));
+    tasks.push(("workers", 0));
     until(|| get("/readyz"), |status, _| status == 200).await;
     assert_eq!(service.supervisor.running(), tasks);
     for task in &tasks {

@@ -31,6 +31,7 @@ mod revisions;
 mod selects;
 mod transitions;
 mod worker_tokens;
+mod workers;
 
 use std::time::{Duration, Instant};
 

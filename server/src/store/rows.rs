@@ -3,7 +3,7 @@
 use api::event::Attempt;
 use api::job::{Outcome, Status};
 use api::results::{ResultFile, Snapshot, Summary};
-use api::worker::WorkerToken;
+use api::worker::{RemoteWorker, WorkerToken};
 use jiff::Timestamp;
 use serde::de::DeserializeOwned;
 use uuid::Uuid;
@@ -192,6 +192,28 @@ pub(in crate::store) fn corrupt(id: Uuid, what: &'static str, cause: &impl ToStr
 /// Converts a count or cycle to the integer of a database; saturates.
 pub(in crate::store) fn integer(value: impl TryInto<i64>) -> i64 {
     value.try_into().unwrap_or(i64::MAX)
+}
+
+/// Returns a remote worker at a time on the clock of its contacts, ms.
+pub(in crate::store) fn remote_worker(
+    row: &impl StoredRow,
+    now: i64,
+) -> Result<RemoteWorker, StoreError> {
+    let number = |column| {
+        let value = row.integer(column)?;
+        Ok::<u64, StoreError>(value.try_into().unwrap_or_default())
+    };
+    let since = now.saturating_sub(row.integer("last_contact_at")?);
+    Ok(RemoteWorker {
+        id: row.id("id")?,
+        host: row.text("host")?,
+        slots: number("slots")?,
+        jobs: number("jobs")?,
+        memory_mb: number("memory_mb")?,
+        free_memory_mb: number("free_memory_mb")?,
+        last_contact_s: (since / 1_000).try_into().unwrap_or_default(),
+        is_draining: row.integer("is_draining")? != 0,
+    })
 }
 
 /// The document of the event of a new attempt, which starts at a cycle.

@@ -33,6 +33,7 @@ mod submissions;
 mod transitions;
 pub(in crate::store) mod verify;
 mod worker_tokens;
+mod workers;
 
 use std::fs::File;
 use std::path::PathBuf;

@@ -41,6 +41,7 @@ mod leases;
 mod objects;
 mod order;
 mod roles;
+mod workers;
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;

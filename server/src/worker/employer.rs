@@ -48,6 +48,14 @@ impl EmployerError {
         }
     }
 
+    /// Whether the employer gives this worker no more jobs.
+    pub(super) fn is_drained(&self) -> bool {
+        match self {
+            Self::Store(_) => false,
+            Self::Remote(error) => error.is_of_type("/problems/worker-drained"),
+        }
+    }
+
     /// Whether the disk of the database is full: nothing more can be recorded, but jobs can be cancelled.
     pub(super) fn is_disk_full(&self) -> bool {
         match self {

@@ -25,5 +25,7 @@ async fn remote_workers_are_shown_with_their_jobs_while_they_come() {
         .await;
     browser.shows("main", "1 job in 1 slot of 1 process").await;
     is_sound(&browser).await;
+    browser.click("tbody button").await;
+    browser.shows("tbody", "takes no more jobs").await;
     browser.close().await;
 }

@@ -1,12 +1,12 @@
 //! Changes of all jobs, gauges, tokens, maintenance.
 
 use api::service::Demand;
-use api::worker::WorkerToken;
+use api::worker::{RemoteWorker, WorkerToken};
 use uuid::Uuid;
 
 use crate::metrics::Gauges;
 use crate::store::operations::operations;
-use crate::store::{Changed, StoreError};
+use crate::store::{Changed, StoreError, WorkerContact};
 
 operations! {
     /// Revision of the last change of any job.
@@ -69,6 +69,30 @@ operations! {
     /// # Errors
     /// [`StoreError`] if the database fails.
     pub async fn accepts_worker_token(&self, sha256: &[u8; 32]) -> Result<bool, StoreError>;
+
+    /// Notes contacts with remote workers, and forgets those that were in contact with no service for a minute.
+    ///
+    /// # Errors
+    /// [`StoreError`] if the database fails.
+    pub async fn note_workers(&self, contacts: &[WorkerContact]) -> Result<(), StoreError>;
+
+    /// Remote workers that were in contact with a service within the last minute, longest known first.
+    ///
+    /// # Errors
+    /// [`StoreError`] if the database fails.
+    pub async fn workers(&self) -> Result<Vec<RemoteWorker>, StoreError>;
+
+    /// Remote workers that take no more jobs.
+    ///
+    /// # Errors
+    /// [`StoreError`] if the database fails.
+    pub async fn draining_workers(&self) -> Result<Vec<Uuid>, StoreError>;
+
+    /// Lets a remote worker take no more jobs; `false` if there is none of this id.
+    ///
+    /// # Errors
+    /// [`StoreError`] if the database fails.
+    pub async fn drain_worker(&self, id: Uuid) -> Result<bool, StoreError>;
 
     /// Deletes jobs that ended before a time, the oldest first and a limited number, and batches without remaining
     /// jobs. Returns the number of jobs.

@@ -4,6 +4,7 @@ use std::time::Instant;
 
 use api::service::Demand;
 
+use crate::clock::Now;
 use crate::metrics::Gauges;
 use crate::store::StoreError;
 use crate::store::gauges::{
@@ -11,6 +12,7 @@ use crate::store::gauges::{
 };
 use crate::store::postgres::PostgresStore;
 use crate::store::rows::integer;
+use crate::store::workers::present_from;
 
 impl PostgresStore {
     pub(in crate::store) async fn demand(&self) -> Result<Demand, StoreError> {
@@ -38,24 +40,30 @@ impl PostgresStore {
 
     pub(in crate::store) async fn gauges(&self) -> Result<Gauges, StoreError> {
         let mut connection = self.readers.acquire().await?;
-        let now = self.now(&mut connection).await?.system_ms;
+        let Now {
+            system_ms: now,
+            monotonic_ms,
+        } = self.now(&mut connection).await?;
         // An index has both.
         let rows: Vec<StatusRow> =
             sqlx::query_as("SELECT status, count(*), min(created_at) FROM jobs GROUP BY status")
                 .fetch_all(&mut *connection)
                 .await?;
-        let (checkpoint, progress, database_bytes, results_to_move): (
+        let (checkpoint, progress, database_bytes, results_to_move, remote_slots): (
             Option<i64>,
             Option<String>,
+            i64,
             i64,
             i64,
         ) = sqlx::query_as(
             "SELECT (SELECT min(written_at) FROM checkpoints JOIN jobs ON id = job_id WHERE status = 'running'), \
              (SELECT min(progress::json ->> 'updated_at') FROM jobs WHERE status = 'running'), \
              pg_database_size(current_database()), \
-             (SELECT count(*) FROM result_blocks WHERE is_movable AND object IS NULL AND $1)",
+             (SELECT count(*) FROM result_blocks WHERE is_movable AND object IS NULL AND $1), \
+             (SELECT COALESCE(sum(slots), 0)::bigint FROM workers WHERE last_contact_at >= $2)",
         )
         .bind(self.local.objects.is_some())
+        .bind(present_from(monotonic_ms))
         .fetch_one(&mut *connection)
         .await?;
         Ok(Gauges {
@@ -68,7 +76,7 @@ impl PostgresStore {
             database_bytes,
             disk_free_bytes: self.local.disk.free_mb().map_or(0, |mb| integer(mb << 20)),
             workers_alive: 0,
-            remote_slots: 0,
+            remote_slots,
             demand_cpu_s: 0,
         })
     }

@@ -11,6 +11,7 @@ use crate::store::gauges::{
 };
 use crate::store::rows::integer;
 use crate::store::sqlite::SqliteStore;
+use crate::store::workers::present_from;
 
 impl SqliteStore {
     pub(in crate::store) async fn demand(&self) -> Result<Demand, StoreError> {
@@ -62,6 +63,12 @@ impl SqliteStore {
         .bind(self.local.objects.is_some())
         .fetch_one(&self.readers)
         .await?;
+        let remote_slots = sqlx::query_scalar(
+            "SELECT COALESCE(sum(slots), 0) FROM workers WHERE last_contact_at >= ?",
+        )
+        .bind(present_from(self.local.clock.now().monotonic_ms))
+        .fetch_one(&self.readers)
+        .await?;
         Ok(Gauges {
             jobs: by_status(&rows, now),
             results_to_move,
@@ -72,7 +79,7 @@ impl SqliteStore {
             database_bytes: database.map_or(0, |file| integer(file.len())),
             disk_free_bytes: self.local.disk.free_mb().map_or(0, |mb| integer(mb << 20)),
             workers_alive: 0,
-            remote_slots: 0,
+            remote_slots,
             demand_cpu_s: 0,
         })
     }

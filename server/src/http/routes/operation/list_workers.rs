@@ -6,25 +6,30 @@ use axum::Json;
 use axum::extract::State;
 
 use crate::http::app::App;
+use crate::http::problem::ProblemResponse;
 use crate::supervision::WORKER;
 
-/// Workers in the process of the service, and remote processes with what they hold.
+/// Workers in the process of the service, and remote processes with what they hold, of all services of the database.
 #[utoipa::path(
     get,
     path = "/v1/workers",
     tag = "operation",
     responses((status = 200, description = "The workers", body = WorkerList))
 )]
-pub(crate) async fn workers(State(app): State<App>) -> Json<WorkerList> {
+pub(crate) async fn workers(State(app): State<App>) -> Result<Json<WorkerList>, ProblemResponse> {
     let running = app.supervisor.running();
     let total = running.iter().filter(|(kind, _)| *kind == WORKER).count();
-    Json(WorkerList {
+    if let Err(error) = app.workers.note_all(&app.store).await {
+        // Those that are known are listed all the same.
+        tracing::warn!(%error, "contacts with workers could not be noted");
+    }
+    Ok(Json(WorkerList {
         local: Workers {
             total: u64::try_from(total).unwrap_or(u64::MAX),
             busy: app.store.metrics().busy_workers(),
         },
-        remote: app.workers.list(),
-    })
+        remote: app.store.workers().await?,
+    }))
 }
 
 #[cfg(test)]

@@ -27,7 +27,6 @@ pub(crate) async fn metrics(State(app): State<App>) -> Result<Response, ProblemR
     let running = app.supervisor.running();
     let workers = running.iter().filter(|(kind, _)| *kind == WORKER).count();
     gauges.workers_alive = i64::try_from(workers).unwrap_or(i64::MAX);
-    gauges.remote_slots = i64::try_from(app.workers.slots()).unwrap_or(i64::MAX);
     // Only here: it is a sum over all waiting jobs, and other gauges are polled.
     gauges.demand_cpu_s = i64::try_from(app.store.demand().await?.queued_cpu_s).unwrap_or(i64::MAX);
     let text = app.store.metrics().text(&gauges)?;

@@ -33,9 +33,8 @@ pub(crate) async fn service(
             .map(|status| (status.as_str().to_owned(), count(status)))
             .collect(),
         workers: Workers {
-            total: app
-                .workers
-                .slots()
+            total: u64::try_from(gauges.remote_slots)
+                .unwrap_or_default()
                 .saturating_add(u64::try_from(total).unwrap_or(u64::MAX)),
             busy: count(Status::Running),
         },

@@ -5,6 +5,7 @@ use std::time::Duration;
 use axum::Json;
 use axum::extract::State;
 use tokio::time::Instant;
+use uuid::Uuid;
 
 use crate::http::app::App;
 use crate::http::problem::{ProblemResponse, ProblemType, RouteError};
@@ -30,7 +31,16 @@ impl RouteError for OtherVersion {
     const TYPE: ProblemType = ProblemType::WORKER_VERSION;
 }
 
-/// Claims jobs; without one it waits for a while and then claims none.
+/// The worker was told to end.
+#[derive(Debug, thiserror::Error)]
+#[error("worker {0} takes no more jobs: it was drained")]
+pub(crate) struct Drained(Uuid);
+
+impl RouteError for Drained {
+    const TYPE: ProblemType = ProblemType::WORKER_DRAINED;
+}
+
+/// Claims jobs; without one it waits for a while and then claims none. A worker that takes no more jobs gets those of a repeated request.
 pub(crate) async fn claim(
     State(app): State<App>,
     WorkerBody(body): WorkerBody<ClaimBody>,
@@ -39,7 +49,7 @@ pub(crate) async fn claim(
         let worker = body.program;
         return Err(OtherVersion { worker }.into());
     }
-    let request = ClaimRequest {
+    let mut request = ClaimRequest {
         is_remote: true,
         lease: lease_length(body.request.lease),
         capacity: Capacity {
@@ -52,7 +62,14 @@ pub(crate) async fn claim(
     app.workers.claims(worker, (&body.host, body.slots), memory);
     let until = Instant::now() + body.wait.min(LONGEST_WAIT);
     loop {
+        let is_draining = app.workers.is_draining(worker);
+        if is_draining {
+            request.capacity.slots = 0;
+        }
         let claims = Employer::claim(&*app.store, &request).await?;
+        if is_draining && claims.is_empty() {
+            return Err(Drained(worker).into());
+        }
         let may_wait = request.capacity.slots > 0 && !app.stopping.is_cancelled();
         if !claims.is_empty() || !may_wait || Instant::now() >= until {
             return Ok(Json(claims));

@@ -1,0 +1,50 @@
+//! Remote workers in the store: who is there, and who shall take no more jobs.
+
+use std::time::Duration;
+
+use uuid::Uuid;
+
+/// Time without contact after which a process is taken for ended: several claims, each of which waits for up to 20 s.
+pub(in crate::store) const PRESENT: Duration = Duration::from_mins(1);
+
+/// Time without contact after which one that takes no more jobs is forgotten: if it is back after a while, it still takes none.
+const REMEMBERED: Duration = Duration::from_hours(24);
+
+/// A contact of a service with a remote process.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct WorkerContact {
+    /// The process.
+    pub id: Uuid,
+    /// What it said of itself at its last claim; `None` if it has made none at this service.
+    pub offer: Option<WorkerOffer>,
+    /// How long ago.
+    pub ago: Duration,
+}
+
+/// What a process offers.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct WorkerOffer {
+    /// Name of its machine.
+    pub host: String,
+    /// Number of jobs that it solves at once.
+    pub slots: i64,
+    /// Memory for its solves, MB.
+    pub memory_mb: i64,
+    /// Part of it that no solve uses, MB.
+    pub free_memory_mb: i64,
+}
+
+/// Time of a contact on a clock, ms.
+pub(in crate::store) fn contact_at(now: i64, ago: Duration) -> i64 {
+    now.saturating_sub(i64::try_from(ago.as_millis()).unwrap_or(i64::MAX))
+}
+
+/// Contacts before this time on a clock, ms, are those of processes that are forgotten also if they were to take no more jobs.
+pub(in crate::store) fn remembered_from(now: i64) -> i64 {
+    contact_at(now, REMEMBERED)
+}
+
+/// Contacts before this time on a clock, ms, are those of processes that have ended.
+pub(in crate::store) fn present_from(now: i64) -> i64 {
+    contact_at(now, PRESENT)
+}
