@@ -12,7 +12,7 @@ fn main() {
     println!("cargo::rerun-if-env-changed=FRETWEAR_PYTHON");
     println!("cargo::rerun-if-env-changed=PATH");
     println!(
-        "cargo::rustc-check-cfg=cfg(has_vtk, has_axe, has_cc, has_ccx, has_chromium, has_curl, has_fma, has_haproxy, has_moto, has_mount, has_promtool, has_schemathesis, has_slurm)"
+        "cargo::rustc-check-cfg=cfg(has_vtk, has_axe, has_cc, has_ccx, has_chromium, has_curl, has_fma, has_haproxy, has_moto, has_mount, has_network, has_promtool, has_schemathesis, has_slurm)"
     );
     let python = std::env::var("FRETWEAR_PYTHON").unwrap_or_else(|_| "python3".to_owned());
     println!("cargo::rustc-env=FRETWEAR_PYTHON={python}");
@@ -54,6 +54,9 @@ fn main() {
     if runs(Command::new("haproxy").arg("-v")) {
         println!("cargo::rustc-cfg=has_haproxy");
     }
+    if can_make_networks() {
+        println!("cargo::rustc-cfg=has_network");
+    }
     if runs(Command::new("promtool").arg("--version")) {
         println!("cargo::rustc-cfg=has_promtool");
     }
@@ -89,6 +92,19 @@ fn can_mount() -> bool {
                 .arg(&folder),
         );
     mounted && runs(Command::new("umount").arg(&folder))
+}
+
+/// Checks whether network namespaces with interfaces can be made, as root can.
+fn can_make_networks() -> bool {
+    let name = format!("fretwear-probe-{}", std::process::id());
+    let pair = format!("fwp{}", std::process::id());
+    let made = runs(Command::new("ip").args(["netns", "add", &name]));
+    let cable = [
+        "link", "add", &pair, "type", "veth", "peer", "name", "fwp", "netns", &name,
+    ];
+    let connected = made && runs(Command::new("ip").args(cable));
+    // One of the pair goes with the other.
+    made && runs(Command::new("ip").args(["netns", "del", &name])) && connected
 }
 
 /// Checks whether the processor has the vector instructions that the golden results were computed with.

@@ -6,10 +6,11 @@ CREATE TABLE expansions (
     jobs     INTEGER NOT NULL,
     next     INTEGER NOT NULL CHECK (next BETWEEN 0 AND jobs),
     cpu_ms   INTEGER NOT NULL,
+    refused  INTEGER NOT NULL DEFAULT 0,
     is_over  INTEGER NOT NULL DEFAULT 0
 ) STRICT;
 
--- Combinations of values that make no valid job.
+-- The first combinations of values that make no valid job; `refused` is the number of all.
 CREATE TABLE refused_jobs (
     sweep_id  TEXT    NOT NULL REFERENCES sweeps (id) ON DELETE CASCADE,
     position  INTEGER NOT NULL,
@@ -21,5 +22,5 @@ CREATE TABLE refused_jobs (
 -- The jobs of a sweep are counted by status, those that have not ended are found, and all are listed in their order, from indexes.
 ALTER TABLE jobs ADD COLUMN sweep_id TEXT;
 UPDATE jobs SET sweep_id = (SELECT sweep_id FROM sweep_jobs WHERE job_id = jobs.id) WHERE id IN (SELECT job_id FROM sweep_jobs);
-CREATE INDEX jobs_by_sweep ON jobs (sweep_id, status) WHERE sweep_id IS NOT NULL;
+CREATE INDEX jobs_by_sweep ON jobs (sweep_id, status, id) WHERE sweep_id IS NOT NULL;
 CREATE INDEX jobs_in_sweep ON jobs (sweep_id, id) WHERE sweep_id IS NOT NULL;

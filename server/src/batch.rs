@@ -19,13 +19,14 @@ use serde::Serialize;
 use uuid::Uuid;
 
 use crate::batch::sweep::Expanded;
+use crate::estimate::Estimate;
 use crate::estimate::machine::cpu_s;
 use crate::number::real;
 use crate::queue;
 use crate::spec::Refused;
 use crate::store::{
-    BatchDetail, BatchPart, NewBatch, NewBatchJob, NewExpansion, NewJob, Portion, StoredBatch,
-    SubmitOptions,
+    BatchDetail, BatchJob, BatchPart, NewBatch, NewBatchJob, NewExpansion, NewJob, Portion,
+    StoredBatch, SubmitOptions,
 };
 
 pub use error::{EvaluateError, ExpandError};
@@ -104,13 +105,13 @@ impl Kind {
         }
     }
 
-    /// Returns the results of a batch as CSV, one line per job, with the header or as the next part of a table.
+    /// Returns the results of a batch as CSV, one line per job after the header.
     ///
     /// # Errors
     /// [`EvaluateError`] if something stored cannot be read, or there is nothing to compare yet.
-    pub fn table(self, batch: &StoredBatch, with_header: bool) -> Result<Vec<u8>, EvaluateError> {
+    pub fn table(self, batch: &StoredBatch) -> Result<Vec<u8>, EvaluateError> {
         match self {
-            Self::Sweep => sweep::table::csv(&batch.jobs, with_header),
+            Self::Sweep => sweep::table::csv(batch),
             Self::AccuracyStudy => accuracy::outcomes::table(batch),
         }
     }
@@ -149,6 +150,14 @@ impl Request {
             expansion,
         })
     }
+}
+
+/// Returns further rows of the table of a sweep as CSV.
+///
+/// # Errors
+/// [`EvaluateError::Write`] if the writer fails.
+pub fn rows(jobs: &[BatchJob]) -> Result<Vec<u8>, EvaluateError> {
+    sweep::table::rows(jobs)
 }
 
 /// Returns the jobs of a batch at these positions, made from its request.
@@ -199,11 +208,11 @@ fn expansion(
 }
 
 /// Processor time that is expected of one of these jobs in the mean; `None` if the machine's speed is unknown.
-fn mean_cpu_s(sample: &[Variation], machine: Option<&MachineFigures>) -> Option<f64> {
+fn mean_cpu_s(sample: &[Estimate], machine: Option<&MachineFigures>) -> Option<f64> {
     let machine = machine.filter(|_| !sample.is_empty())?;
     let each = sample
         .iter()
-        .map(|variation| cpu_s(machine, &variation.estimate.workload));
+        .map(|estimate| cpu_s(machine, &estimate.workload));
     Some(each.sum::<f64>() / real(sample.len()))
 }
 

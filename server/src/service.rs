@@ -125,6 +125,7 @@ impl Service {
             (stopping.clone(), Arc::clone(&supervisor)),
             http::openapi::document(),
         );
+        app.workers.exchange(&store).await;
         tasks.start_upkeep(&app, &worker, (config.keep_days, reclaimed));
         if moves_results {
             tasks.start_mover();

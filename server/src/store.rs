@@ -26,10 +26,10 @@
 //! | `move_results` | notes the objects; after they are written, their names in place of the results, for several jobs | no; only of succeeded jobs |
 //! | `reclaim_expired`, `reclaim_at_start` | all lost jobs: into the queue, or under a new lease | no; they end leases |
 //! | `add_worker_token`, `revoke_worker_token` | one token | no |
-//! | `note_workers` | contacts with remote workers; those without one for a minute are forgotten | no |
+//! | `note_workers` | contacts with remote workers; those without one for a day are forgotten | no |
 //! | `drain_worker` | one worker, which takes no more jobs | no |
 //! | `cancel` | a queued job ends with its `done` event; a running one is marked for its worker | no |
-//! | `cancel_batch` | no jobs are queued any more; then its jobs as by `cancel`, a limited number at once | no |
+//! | `cancel_batch` | none of its jobs are queued any more; then its jobs as by `cancel`, a limited number at once | no |
 //! | `expire` | all queued jobs whose deadline has passed end with their `done` events | no |
 //! | `delete` | a job with all rows; files afterwards, or at the next start | no; only ended jobs |
 //! | `delete_batch` | jobs as by `delete`, a limited number at once; the batch with the last of them | no; only ended jobs |
@@ -46,6 +46,7 @@
 //! that serves a file ([`Store::clock`]), and of the clock of a database that several processes serve.
 
 mod backup;
+mod batch_counts;
 mod batch_rows;
 mod batches;
 pub mod block;

@@ -39,6 +39,7 @@ mod many_jobs;
 mod many_workers;
 mod mission;
 mod objects;
+mod partition;
 mod plated_contact;
 mod plated_presets;
 mod point_contact;

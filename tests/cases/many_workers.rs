@@ -35,6 +35,9 @@ const SPEC: &str = r#"{"system":{"kind":"cylinder_on_flat"},"cycles":2,
 /// Attempts at a job: more than vanishing workers can use up.
 const ATTEMPTS: [&str; 2] = ["--attempts", "20"];
 
+/// Requests of a case at the same time.
+const AT_ONCE: usize = 16;
+
 /// Number of jobs, workers and services.
 fn load() -> (usize, usize, usize) {
     let Some(asked) = std::env::var("FRETWEAR_WORKERS_LOAD").ok() else {
@@ -102,27 +105,28 @@ async fn solved_once(folder: &Path, services: usize) {
     let server = services.last().expect("one");
     assert_once(server, &ids, &done).await;
     if is_long() {
-        report(jobs, elapsed, claims);
+        report(server, jobs, elapsed, claims).await;
     }
 }
 
 /// Checks that every job has succeeded, is recorded once an attempt, and that only vanished workers cost attempts.
 async fn assert_once(server: &Server, ids: &[String], done: &Done) {
-    let mut attempts = 0;
-    for id in ids {
+    let checks = stream::iter(ids).map(async |id| {
         let (_, job) = server.get(&format!("/v1/jobs/{id}")).await;
         assert_eq!(job["status"], "succeeded", "{job}");
         let tries = job["attempts"].as_u64().expect("a number");
-        attempts += tries;
         let solved = bits::events(server, id, "cycle").await;
         let range = 1..=usize::try_from(tries).expect("small");
         assert!(
             range.contains(&solved.len()),
             "{id} is recorded once an attempt: {solved:?}"
         );
-    }
+        tries
+    });
+    let attempts: Vec<u64> = checks.buffered(AT_ONCE).collect().await;
     let lost = u64::from(done.lost.load(Ordering::Relaxed));
     let expected = u64::try_from(ids.len()).expect("small") + lost;
+    let attempts: u64 = attempts.iter().sum();
     assert_eq!(attempts, expected, "only vanished workers cost attempts");
 }
 
@@ -133,7 +137,7 @@ async fn submitted(server: &Server, jobs: usize) -> Vec<String> {
         assert_eq!(status, 202, "{job}");
         job["id"].as_str().expect("an id").to_owned()
     });
-    submissions.buffered(16).collect().await
+    submissions.buffered(AT_ONCE).collect().await
 }
 
 /// Kills the service once some jobs have ended, and starts it again.
@@ -149,14 +153,21 @@ async fn restarted(folder: &Path, server: Server, ids: &[String]) -> Server {
     Server::without_workers(folder, &options)
 }
 
+/// Prints rates, times and the size of the database.
 #[expect(clippy::print_stdout, reason = "the long form prints a table")]
-fn report(jobs: usize, elapsed: Duration, mut claims: Vec<Duration>) {
+async fn report(server: &Server, jobs: usize, elapsed: Duration, mut claims: Vec<Duration>) {
     claims.sort_unstable();
     let at = |hundredths: usize| claims[(claims.len() - 1) * hundredths / 100];
-    let rate = f64::from(u32::try_from(jobs).expect("small")) / elapsed.as_secs_f64();
+    let jobs = f64::from(u32::try_from(jobs).expect("small"));
+    let (_, metrics) = server.get("/metrics").await;
+    let mut lines = metrics.as_str().expect("a text").lines();
+    let bytes = lines.find_map(|line| line.strip_prefix("fretwear_database_size_bytes "));
+    let bytes: f64 = bytes.expect("a gauge").parse().expect("a number");
     println!(
-        "{jobs} jobs, {rate:.0} claims and ends a second; claims p50 {:?}, p99 {:?}",
+        "{jobs} jobs, {:.0} claims and ends a second; claims p50 {:?}, p99 {:?}; {:.0} bytes of the database a job",
+        jobs / elapsed.as_secs_f64(),
         at(50),
-        at(99)
+        at(99),
+        bytes / jobs
     );
 }

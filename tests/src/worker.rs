@@ -21,7 +21,23 @@ impl RemoteWorker {
     /// # Panics
     /// If it cannot be started.
     pub fn start(folder: &Path, server: &str, options: &[&str]) -> Self {
-        let child = Command::new(binary())
+        Self::start_by(&[], folder, server, options)
+    }
+
+    /// The same by another program, such as one that runs it in a network of its own, with arguments before those of the worker.
+    ///
+    /// # Panics
+    /// If it cannot be started.
+    pub fn start_by(by: &[&str], folder: &Path, server: &str, options: &[&str]) -> Self {
+        let mut command = match by {
+            [program, arguments @ ..] => {
+                let mut command = Command::new(program);
+                command.args(arguments).arg(binary());
+                command
+            }
+            [] => Command::new(binary()),
+        };
+        let child = command
             .args(["work", "--server", server, "--slots", "1", "--scratch"])
             .arg(folder)
             .args(options)

@@ -16,6 +16,7 @@ use crate::batch::error::EvaluateError;
 use crate::batch::kind::Kind;
 use crate::batch::sweep::variations::Variations;
 use crate::batch::variation::{self, Accept, Variation};
+use crate::estimate::Estimate;
 use crate::spec::Refused;
 use crate::store::{BatchJob, BatchPart, RefusedJob, StoredBatch};
 
@@ -37,8 +38,8 @@ const FAULT_LIMIT: usize = 100;
 pub(super) struct Expanded {
     /// Those that are queued at once, in order.
     pub(super) first: Vec<Variation>,
-    /// Some of the later ones.
-    pub(super) sample: Vec<Variation>,
+    /// Estimates of some of the later ones.
+    pub(super) sample: Vec<Estimate>,
     /// Number of all.
     pub(super) jobs: u64,
 }
@@ -53,10 +54,11 @@ pub(super) fn expand(request: &SweepRequest, accept: &Accept<'_>) -> Result<Expa
     let jobs = variations.len();
     let at_once = jobs_at_once(jobs);
     let later = (at_once < jobs).then(|| sample::positions(request, at_once..jobs));
-    let (mut all, mut faults) = (Vec::new(), BTreeSet::new());
+    let (mut first, mut sample, mut faults) = (Vec::new(), Vec::new(), BTreeSet::new());
     for position in (0..at_once).chain(later.into_iter().flatten()) {
         match variations.at(position) {
-            Ok(variation) => all.push(variation),
+            Ok(variation) if position < at_once => first.push(variation),
+            Ok(variation) => sample.push(variation.estimate),
             Err(found) => faults.extend(found),
         }
         if faults.len() >= FAULT_LIMIT {
@@ -68,12 +70,10 @@ pub(super) fn expand(request: &SweepRequest, accept: &Accept<'_>) -> Result<Expa
         let faults = reported.map(|(pointer, detail)| Fault { pointer, detail });
         return Err(Refused::Faults(faults.collect()));
     }
-    for variation in &all {
-        accept(&variation.estimate)?;
-    }
-    let sample = all.split_off(usize::try_from(at_once).unwrap_or(usize::MAX));
+    let estimates = first.iter().map(|variation| &variation.estimate);
+    estimates.chain(&sample).try_for_each(accept)?;
     Ok(Expanded {
-        first: all,
+        first,
         sample,
         jobs,
     })

@@ -46,7 +46,7 @@ pub(super) struct WorkOptions {
     /// Delete jobs so many days after their end; never unless given.
     #[arg(long, env = "FRETWEAR_KEEP_DAYS")]
     pub(super) keep_days: Option<u32>,
-    /// Jobs of each large sweep that wait in the queue at most; its others follow while these are solved.
+    /// Waiting jobs of a large sweep beyond which no more of it are queued; the others follow while these are solved.
     #[arg(long, env = "FRETWEAR_JOBS_AHEAD", default_value_t = JOBS_AHEAD, value_parser = clap::value_parser!(u64).range(1..))]
     pub(super) jobs_ahead: u64,
 }

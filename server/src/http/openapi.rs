@@ -143,6 +143,7 @@ fn identified(path: &str) -> Option<&'static str> {
         ("sweeps", "sweep"),
         ("studies", "study"),
         ("worker-tokens", "token"),
+        ("workers", "worker"),
     ];
     let is_in = |collection| path.starts_with(&format!("/v1/{collection}/{{id}}"));
     nouns

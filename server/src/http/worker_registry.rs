@@ -7,10 +7,17 @@ use std::time::{Duration, Instant};
 use uuid::Uuid;
 
 use crate::queue::MemoryBudget;
-use crate::store::{Store, StoreError, WorkerContact, WorkerOffer};
+use crate::store::{Store, WorkerContact, WorkerOffer};
+use crate::worker::protocol::MAX_SLOTS;
 
 /// Time after which a contact is noted again: much shorter than that after which a process is taken for ended.
 const NOTE_EVERY: Duration = Duration::from_secs(10);
+/// The same where workers are shown.
+const SHOW_EVERY: Duration = Duration::from_secs(2);
+/// Time after which a silent process is forgotten here.
+const FORGOTTEN: Duration = Duration::from_mins(1);
+/// Longest name of a machine, characters.
+const LONGEST_HOST: usize = 255;
 
 /// The processes that were in contact.
 #[derive(Debug, Default)]
@@ -24,6 +31,7 @@ pub(crate) struct WorkerRegistry {
 struct Seen {
     offer: Option<WorkerOffer>,
     last_contact: Instant,
+    /// The last contact that the store knows.
     noted: Option<Instant>,
 }
 
@@ -31,8 +39,12 @@ impl WorkerRegistry {
     /// Notes a claim.
     pub(super) fn claims(&self, worker: Uuid, (host, slots): (&str, usize), memory: MemoryBudget) {
         let offer = WorkerOffer {
-            host: host.to_owned(),
-            slots: i64::try_from(slots).unwrap_or(i64::MAX),
+            host: host
+                .chars()
+                .filter(|c| !c.is_control())
+                .take(LONGEST_HOST)
+                .collect(),
+            slots: i64::try_from(slots.min(MAX_SLOTS)).unwrap_or(i64::MAX),
             memory_mb: memory.memory_mb,
             free_memory_mb: memory.free_mb(),
         };
@@ -49,45 +61,54 @@ impl WorkerRegistry {
         held(&self.draining).contains(&worker)
     }
 
-    /// Notes in the store what has not been noted for a while, and reads who takes no more jobs.
-    pub(crate) async fn exchange(&self, store: &Store) -> Result<(), StoreError> {
-        self.note(store, NOTE_EVERY).await?;
-        let draining = store.draining_workers().await?;
-        *held(&self.draining) = draining.into_iter().collect();
-        Ok(())
+    /// Notes in the store what has not been noted for a while, and reads who takes no more jobs. What fails is logged and done the next time.
+    pub(crate) async fn exchange(&self, store: &Store) {
+        self.note(store, NOTE_EVERY).await;
+        match store.draining_workers().await {
+            Ok(draining) => *held(&self.draining) = draining.into_iter().collect(),
+            Err(error) => tracing::warn!(%error, "it is not known which workers are drained"),
+        }
     }
 
-    /// Notes in the store all contacts since the last time.
-    pub(super) async fn note_all(&self, store: &Store) -> Result<(), StoreError> {
-        self.note(store, Duration::ZERO).await
+    /// Notes in the store what is to be shown.
+    pub(super) async fn note_shown(&self, store: &Store) {
+        self.note(store, SHOW_EVERY).await;
     }
 
-    async fn note(&self, store: &Store, every: Duration) -> Result<(), StoreError> {
+    async fn note(&self, store: &Store, every: Duration) {
         let contacts = self.due(every);
         if contacts.is_empty() {
-            return Ok(());
+            return;
         }
-        store.note_workers(&contacts).await
+        let began = Instant::now();
+        match store.note_workers(&contacts).await {
+            Ok(()) => {
+                let mut seen = held(&self.seen);
+                for contact in &contacts {
+                    let noted = began.checked_sub(contact.ago);
+                    seen.entry(contact.id)
+                        .and_modify(|entry| entry.noted = noted.or(entry.noted));
+                }
+            }
+            Err(error) => tracing::warn!(%error, "contacts with workers could not be noted"),
+        }
     }
 
-    /// Contacts with processes that were last noted so long ago, and have been in contact since; the others are forgotten once they are
-    /// noted and silent.
+    /// Contacts with processes of which the last one that was noted is so old; silent processes are forgotten.
     fn due(&self, every: Duration) -> Vec<WorkerContact> {
         let mut seen = held(&self.seen);
-        let mut contacts = Vec::new();
-        for (id, entry) in seen.iter_mut() {
-            let is_new = entry.noted.is_none_or(|noted| entry.last_contact > noted);
-            if is_new && entry.noted.is_none_or(|noted| noted.elapsed() >= every) {
-                entry.noted = Some(Instant::now());
-                contacts.push(WorkerContact {
-                    id: *id,
-                    offer: entry.offer.clone(),
-                    ago: entry.last_contact.elapsed(),
-                });
-            }
-        }
-        seen.retain(|_, entry| entry.last_contact.elapsed() < 2 * NOTE_EVERY);
-        contacts
+        seen.retain(|_, entry| entry.last_contact.elapsed() < FORGOTTEN);
+        let is_due = |entry: &Seen| {
+            let since = |noted| entry.last_contact.saturating_duration_since(noted);
+            entry.noted.is_none_or(|noted| since(noted) > every)
+        };
+        let due = seen.iter().filter(|(_, entry)| is_due(entry));
+        let contact = |(id, entry): (&Uuid, &Seen)| WorkerContact {
+            id: *id,
+            offer: entry.offer.clone(),
+            ago: entry.last_contact.elapsed(),
+        };
+        due.map(contact).collect()
     }
 
     /// Notes a contact now, with what the process offers where it says so.

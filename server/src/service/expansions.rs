@@ -8,7 +8,6 @@ use std::time::Duration;
 
 use tokio::task::JoinError;
 use tokio_util::sync::CancellationToken;
-use uuid::Uuid;
 
 use crate::batch;
 use crate::batch::ExpandError;
@@ -16,7 +15,7 @@ use crate::estimate::machine::CalibrationCache;
 use crate::http::check_limits;
 use crate::store::{Expansion, Portion, Store, StoreError};
 
-/// Pause after a round.
+/// Pause after a round that has queued nothing.
 const PAUSE: Duration = Duration::from_secs(1);
 /// Jobs that a transaction queues; bounds how long other writes wait.
 const PORTION: u64 = 128;
@@ -26,14 +25,14 @@ const PORTION: u64 = 128;
 enum QueueError {
     #[error(transparent)]
     Store(#[from] StoreError),
-    #[error("the request of batch {batch} cannot be read: {cause}")]
-    Request { batch: Uuid, cause: ExpandError },
+    #[error("its request cannot be read: {0}")]
+    Request(#[from] ExpandError),
     #[error("making its jobs: {0}")]
     Task(#[from] JoinError),
 }
 
 /// Runs until the service stops: keeps so many jobs of each sweep in the queue. Several services may do so on one database; of two that
-/// have made the same jobs, one queues them.
+/// have made the same jobs, one queues them, and the other one pauses.
 pub(super) async fn queue_ahead(
     store: Arc<Store>,
     machine: CalibrationCache,
@@ -42,10 +41,14 @@ pub(super) async fn queue_ahead(
 ) {
     loop {
         let round = async {
-            if let Err(error) = fill(&store, &machine, ahead).await {
-                tracing::error!(%error, "the next jobs of a sweep could not be queued");
+            match round(&store, &machine, ahead).await {
+                Ok(true) => {}
+                Ok(false) => tokio::time::sleep(PAUSE).await,
+                Err(error) => {
+                    tracing::error!(%error, "the sweeps with jobs to be queued could not be read");
+                    tokio::time::sleep(PAUSE).await;
+                }
             }
-            tokio::time::sleep(PAUSE).await;
         };
         tokio::select! {
             () = stopping.cancelled() => return,
@@ -54,27 +57,37 @@ pub(super) async fn queue_ahead(
     }
 }
 
-/// Queues jobs until so many of each sweep wait, a portion of each in turn.
-async fn fill(store: &Store, machine: &CalibrationCache, ahead: u64) -> Result<(), QueueError> {
-    let mut open = store.expansions().await?;
-    loop {
-        open.retain(|sweep| sweep.next < sweep.jobs && sweep.waiting < ahead);
-        if open.is_empty() {
-            return Ok(());
+/// Queues a portion of each sweep of which fewer jobs wait; returns whether there was one. One that fails holds up no others.
+async fn round(store: &Store, machine: &CalibrationCache, ahead: u64) -> Result<bool, StoreError> {
+    let mut has_queued = false;
+    for sweep in store.expansions().await? {
+        if sweep.waiting >= ahead {
+            continue;
         }
-        for sweep in &mut open {
-            let most = PORTION.min(ahead - sweep.waiting);
-            let end = sweep.jobs.min(sweep.next + most);
-            let Some(portion) = prepare(store, machine, sweep, end).await? else {
-                sweep.next = sweep.jobs;
-                continue;
-            };
-            sweep.waiting += u64::try_from(portion.jobs.len()).unwrap_or(u64::MAX);
-            // Otherwise another service queues its jobs, or it was cancelled: the next round will tell.
-            let is_queued = store.extend_batch(&portion).await?;
-            sweep.next = if is_queued { end } else { sweep.jobs };
+        let end = sweep
+            .jobs
+            .min(sweep.next + PORTION.min(ahead - sweep.waiting));
+        match queue_portion(store, machine, &sweep, end).await {
+            Ok(is_queued) => has_queued |= is_queued,
+            Err(error) => {
+                tracing::error!(batch = %sweep.batch, %error, "the next jobs of a sweep could not be queued");
+            }
         }
     }
+    Ok(has_queued)
+}
+
+/// Queues the next jobs of a sweep; returns whether it did: not if another service has queued them, or the sweep was cancelled.
+async fn queue_portion(
+    store: &Store,
+    machine: &CalibrationCache,
+    sweep: &Expansion,
+    end: u64,
+) -> Result<bool, QueueError> {
+    let Some(portion) = prepare(store, machine, sweep, end).await? else {
+        return Ok(false);
+    };
+    Ok(store.extend_batch(&portion).await?)
 }
 
 /// Makes the next jobs of a sweep, on all processors; `None` if none are to be queued any more.
@@ -101,10 +114,7 @@ async fn prepare(
         refused: Vec::new(),
     };
     for part in parts.collect::<Vec<_>>() {
-        let part = part.await?.map_err(|cause| QueueError::Request {
-            batch: sweep.batch,
-            cause,
-        })?;
+        let part = part.await??;
         whole.jobs.extend(part.jobs);
         whole.refused.extend(part.refused);
     }

@@ -7,7 +7,6 @@ use tokio::task::JoinSet;
 use tokio_util::sync::CancellationToken;
 use tracing::Instrument;
 
-use crate::clock::now_ms;
 use crate::store::{OWNER_HEARTBEAT, Reclaimed, Store, StoreError};
 use crate::worker;
 use crate::worker::WorkerConfig;
@@ -139,12 +138,21 @@ async fn round(
             "jobs failed because their deadline passed while they waited"
         );
     }
-    if let Some(days) = keep_days {
-        let before = now_ms().saturating_sub(DAY_MS.saturating_mul(i64::from(days)));
-        let deleted = store.delete_ended_before(before).await?;
-        if deleted > 0 {
-            tracing::info!(deleted, keep_days = days, "old jobs deleted");
-        }
+    if let Some(days) = keep_days
+        && let Err(error) = delete_old(store, days).await
+    {
+        // What was reclaimed goes on all the same.
+        tracing::error!(%error, "old jobs could not be deleted");
     }
     Ok(reclaimed)
+}
+
+async fn delete_old(store: &Store, days: u32) -> Result<(), StoreError> {
+    let now = store.time().await?;
+    let before = now.saturating_sub(DAY_MS.saturating_mul(i64::from(days)));
+    let deleted = store.delete_ended_before(before).await?;
+    if deleted > 0 {
+        tracing::info!(deleted, keep_days = days, "old jobs deleted");
+    }
+    Ok(())
 }

@@ -8,7 +8,7 @@ use tokio_util::sync::CancellationToken;
 use crate::http::WorkerRegistry;
 use crate::store::Store;
 
-/// Time between two looks: a drain reaches the workers of other services within it.
+/// Interval: a drain reaches the workers of other services within it.
 const EVERY: Duration = Duration::from_secs(2);
 
 /// Runs until the service stops.
@@ -18,12 +18,10 @@ pub(super) async fn note_workers(
     stopping: CancellationToken,
 ) {
     loop {
+        workers.exchange(&store).await;
         tokio::select! {
             () = stopping.cancelled() => return,
             () = tokio::time::sleep(EVERY) => {}
-        }
-        if let Err(error) = workers.exchange(&store).await {
-            tracing::warn!(%error, "contacts with workers could not be noted");
         }
     }
 }

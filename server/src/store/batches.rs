@@ -15,9 +15,9 @@ use uuid::Uuid;
 use crate::store::NewJob;
 
 /// Largest number of jobs that a transaction cancels or deletes; bounds how long other writes wait.
-pub(in crate::store) const JOBS_AT_ONCE: i64 = 250;
-/// Largest number of refused combinations that are shown.
-pub(in crate::store) const SHOWN_REFUSALS: i64 = 100;
+pub(in crate::store) const JOBS_AT_ONCE: i64 = 100;
+/// Refused combinations that are stored with their reasons: the first ones.
+pub(in crate::store) const STORED_REFUSALS: u64 = 100;
 
 /// A batch to be queued.
 #[derive(Debug, Clone, PartialEq)]
@@ -80,6 +80,17 @@ pub struct Portion {
     pub jobs: Vec<NewBatchJob>,
     /// Positions that make no job.
     pub refused: Vec<RefusedJob>,
+}
+
+impl Portion {
+    /// The refused ones that are stored, if so many are refused with them.
+    pub(in crate::store) fn stored_refusals(&self, refused: i64) -> &[RefusedJob] {
+        let all = u64::try_from(refused).unwrap_or_default();
+        let own = u64::try_from(self.refused.len()).unwrap_or(u64::MAX);
+        let left = STORED_REFUSALS.saturating_sub(all.saturating_sub(own));
+        let stored = usize::try_from(left.min(own)).unwrap_or_default();
+        &self.refused[..stored]
+    }
 }
 
 /// A combination of changes that makes no valid job.

@@ -11,6 +11,7 @@ use uuid::Uuid;
 use crate::clock::Clock;
 use crate::metrics::Metrics;
 use crate::objects::Objects;
+use crate::store::batch_counts::BatchCounts;
 use crate::store::folder::{Folder, beside};
 use crate::store::{Cancelled, DataDisk, LeaseState, Limits};
 
@@ -42,6 +43,7 @@ pub(in crate::store) struct Local {
     pub(in crate::store) metrics: Arc<Metrics>,
     pub(in crate::store) disk: Arc<DataDisk>,
     pub(in crate::store) clock: Clock,
+    pub(in crate::store) batch_counts: BatchCounts,
 }
 
 impl Local {
@@ -69,6 +71,7 @@ impl Local {
             metrics: Arc::default(),
             disk: Arc::new(DataDisk::reserve(reserve, limits.least_free_disk_mb)),
             clock,
+            batch_counts: BatchCounts::default(),
         }
     }
 

@@ -114,6 +114,7 @@ impl Store {
     /// # Errors
     /// [`StoreError`] if the database fails.
     pub async fn cancel_batch(&self, id: Uuid) -> Result<(), StoreError> {
+        self.end_expansion(id).await?;
         while self.cancel_some(id).await? {}
         Ok(())
     }

@@ -7,7 +7,8 @@ use uuid::Uuid;
 /// Time without contact after which a process is taken for ended: several claims, each of which waits for up to 20 s.
 pub(in crate::store) const PRESENT: Duration = Duration::from_mins(1);
 
-/// Time without contact after which one that takes no more jobs is forgotten: if it is back after a while, it still takes none.
+/// Time without contact after which one is forgotten: if it is back before, it is listed again at once, and one that was drained still takes
+/// no jobs.
 const REMEMBERED: Duration = Duration::from_hours(24);
 
 /// A contact of a service with a remote process.
@@ -39,7 +40,7 @@ pub(in crate::store) fn contact_at(now: i64, ago: Duration) -> i64 {
     now.saturating_sub(i64::try_from(ago.as_millis()).unwrap_or(i64::MAX))
 }
 
-/// Contacts before this time on a clock, ms, are those of processes that are forgotten also if they were to take no more jobs.
+/// Contacts before this time on a clock, ms, are those of processes that are forgotten.
 pub(in crate::store) fn remembered_from(now: i64) -> i64 {
     contact_at(now, REMEMBERED)
 }

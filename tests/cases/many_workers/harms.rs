@@ -6,13 +6,14 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use fastrand::Rng;
+use futures_util::{StreamExt, stream};
 use nix::sys::signal::Signal;
 use server::client::Client;
 use tests::{Haproxy, PostgresServer, Server, SteppedClock};
 use uuid::Uuid;
 
 use super::simulated::{Done, Harm, started};
-use super::{SPEC, assert_once, is_long, load};
+use super::{AT_ONCE, SPEC, assert_once, is_long, load};
 
 /// How long something is away: much shorter than a lease.
 const AWAY: Duration = Duration::from_millis(1_500);
@@ -177,11 +178,14 @@ async fn paused(proxy: &Haproxy) {
     proxy.signal(Signal::SIGCONT);
 }
 
-/// Submits a job through the proxy until it is accepted.
-async fn accepted(client: &Client) -> String {
-    let key = Uuid::now_v7().to_string();
-    let job = client.submit(SPEC.into(), &[], &key).await;
-    job.expect("it is accepted in the end").id.to_string()
+/// Submits so many jobs through the proxy, each until it is accepted, several at the same time.
+async fn accepted(client: &Client, jobs: usize) -> Vec<String> {
+    let submissions = stream::iter(0..jobs).map(async |_| {
+        let key = Uuid::now_v7().to_string();
+        let job = client.submit(SPEC.into(), &[], &key).await;
+        job.expect("it is accepted in the end").id.to_string()
+    });
+    submissions.buffered(AT_ONCE).collect().await
 }
 
 #[tokio::test(flavor = "multi_thread")]
@@ -207,9 +211,7 @@ async fn what_is_away_for_less_than_a_lease_costs_no_job_and_no_attempt() {
         };
         // Half of the jobs of a round are submitted before the harm, the others while it lasts.
         let some = jobs.div_ceil(2 * harms);
-        for _ in 0..some {
-            ids.push(accepted(&client).await);
-        }
+        ids.extend(accepted(&client, some).await);
         let address = system.of_services.address.clone();
         let solving = started(
             folder.path(),
@@ -217,14 +219,7 @@ async fn what_is_away_for_less_than_a_lease_costs_no_job_and_no_attempt() {
             (workers, Harm::LostAnswers),
             &done,
         );
-        let submissions = async {
-            let mut ids = Vec::with_capacity(some);
-            for _ in 0..some {
-                ids.push(accepted(&client).await);
-            }
-            ids
-        };
-        let ((), more) = tokio::join!(system.harm(fault), submissions);
+        let ((), more) = tokio::join!(system.harm(fault), accepted(&client, some));
         ids.extend(more);
         solving.join_all().await;
         started(folder.path(), &[&address], (1, Harm::None), &done)

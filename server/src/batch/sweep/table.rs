@@ -5,12 +5,13 @@ use std::collections::BTreeSet;
 use ::csv::Writer;
 use api::job::Outcome;
 use api::results::Summary;
+use api::sweep::SweepRequest;
 use serde_json::Value;
 
 use crate::batch::error::EvaluateError;
 use crate::export::csv::CsvError;
 use crate::export::documents::DocumentError;
-use crate::store::BatchJob;
+use crate::store::{BatchJob, StoredBatch};
 
 type Figure = (&'static str, fn(&Summary) -> f64);
 
@@ -37,19 +38,39 @@ const FIGURES: [Figure; 11] = [
 /// Column of the cycles after which the first criterion of life was reached; empty where none was.
 const FIRST_LIFE: &str = "first_life_cycles";
 
-/// Returns the table as CSV, with its header or as the next part of one; cells of jobs without a result are empty.
+/// Returns the table as CSV; cells of jobs without a result are empty.
 ///
 /// # Errors
 /// [`EvaluateError::Write`] if the writer fails.
-pub(in crate::batch) fn csv(
-    jobs: &[BatchJob],
-    with_header: bool,
-) -> Result<Vec<u8>, EvaluateError> {
-    Ok(write(jobs, with_header).map_err(DocumentError::from)?)
+pub(in crate::batch) fn csv(batch: &StoredBatch) -> Result<Vec<u8>, EvaluateError> {
+    // Also where none of its jobs is in this part.
+    let request: Option<SweepRequest> = batch
+        .request
+        .as_deref()
+        .and_then(|request| serde_json::from_str(request).ok());
+    let grid = request.and_then(|request| request.grid).unwrap_or_default();
+    let pointers = pointers(&batch.jobs).chain(grid.keys()).collect();
+    Ok(write(&pointers, &batch.jobs, true).map_err(DocumentError::from)?)
 }
 
-fn write(jobs: &[BatchJob], with_header: bool) -> Result<Vec<u8>, CsvError> {
-    let pointers: BTreeSet<&String> = jobs.iter().flat_map(|job| job.overrides.keys()).collect();
+/// Returns further rows of a table whose jobs all change the same fields.
+///
+/// # Errors
+/// [`EvaluateError::Write`] if the writer fails.
+pub(in crate::batch) fn rows(jobs: &[BatchJob]) -> Result<Vec<u8>, EvaluateError> {
+    let pointers = pointers(jobs).collect();
+    Ok(write(&pointers, jobs, false).map_err(DocumentError::from)?)
+}
+
+fn pointers(jobs: &[BatchJob]) -> impl Iterator<Item = &String> {
+    jobs.iter().flat_map(|job| job.overrides.keys())
+}
+
+fn write(
+    pointers: &BTreeSet<&String>,
+    jobs: &[BatchJob],
+    with_header: bool,
+) -> Result<Vec<u8>, CsvError> {
     let mut header = vec!["job".to_owned(), "status".to_owned(), "outcome".to_owned()];
     header.extend(pointers.iter().map(|pointer| harmless(pointer)));
     header.push("cycles_done".to_owned());
@@ -126,7 +147,9 @@ mod tests {
             summary: None,
             profile: None,
         };
-        let text = String::from_utf8(csv(&[job], true).expect("a table")).expect("text");
+        let jobs = [job];
+        let table = write(&pointers(&jobs).collect(), &jobs, true).expect("a table");
+        let text = String::from_utf8(table).expect("text");
         let lines: Vec<&str> = text.lines().collect();
         assert!(
             lines[0].starts_with("job,status,outcome,/load/n,/name,'@x,cycles_done,"),

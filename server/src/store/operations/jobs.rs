@@ -6,8 +6,9 @@ use uuid::Uuid;
 
 use crate::store::operations::operations;
 use crate::store::{
-    BatchDetail, BatchFilter, BatchOverview, BatchPart, Cancelled, Deleted, Expansion, Filter,
-    NewBatch, NewJob, Portion, RequestKey, Retried, StoreError, StoredBatch, StoredJob, Submitted,
+    BatchDetail, BatchFilter, BatchJob, BatchOverview, BatchPart, Cancelled, Deleted, Expansion,
+    Filter, NewBatch, NewJob, Portion, RequestKey, Retried, StoreError, StoredBatch, StoredJob,
+    Submitted,
 };
 
 operations! {
@@ -83,6 +84,12 @@ operations! {
     /// Returns a batch with some of its jobs, without their profiles.
     pub(in crate::store) async fn batch_without_profiles(&self, id: Uuid, part: BatchPart, detail: BatchDetail) -> Result<Option<StoredBatch>, StoreError>;
 
+    /// Returns some jobs of a batch, without their profiles.
+    ///
+    /// # Errors
+    /// [`StoreError`] if the database fails.
+    pub async fn batch_jobs(&self, id: Uuid, part: BatchPart, detail: BatchDetail) -> Result<Vec<BatchJob>, StoreError>;
+
     /// Returns batches, newest first.
     ///
     /// # Errors
@@ -114,7 +121,10 @@ operations! {
     /// [`StoreError`] if the database fails.
     pub async fn extend_batch(&self, portion: &Portion) -> Result<bool, StoreError>;
 
-    /// Cancels jobs of a batch, a limited number, and queues no more of it; returns whether some may be left.
+    /// Lets no more jobs of a batch be queued.
+    pub(in crate::store) async fn end_expansion(&self, batch: Uuid) -> Result<(), StoreError>;
+
+    /// Cancels jobs of a batch, a limited number; returns whether some may be left.
     pub(in crate::store) async fn cancel_some(&self, batch: Uuid) -> Result<bool, StoreError>;
 
     /// Deletes jobs of a batch, a limited number, and with the last of them the batch; returns how it ended, or `None` if some are left.

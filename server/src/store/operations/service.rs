@@ -70,7 +70,7 @@ operations! {
     /// [`StoreError`] if the database fails.
     pub async fn accepts_worker_token(&self, sha256: &[u8; 32]) -> Result<bool, StoreError>;
 
-    /// Notes contacts with remote workers, and forgets those that were in contact with no service for a minute.
+    /// Notes contacts with remote workers, and forgets those that were in contact with no service for a day.
     ///
     /// # Errors
     /// [`StoreError`] if the database fails.
@@ -88,13 +88,19 @@ operations! {
     /// [`StoreError`] if the database fails.
     pub async fn draining_workers(&self) -> Result<Vec<Uuid>, StoreError>;
 
-    /// Lets a remote worker take no more jobs; `false` if there is none of this id.
+    /// Lets a remote worker take no more jobs; `false` if none of this id was in contact within the last minute.
     ///
     /// # Errors
     /// [`StoreError`] if the database fails.
     pub async fn drain_worker(&self, id: Uuid) -> Result<bool, StoreError>;
 
-    /// Deletes jobs that ended before a time, the oldest first and a limited number, and batches without remaining
+    /// The time of the store, ms since 1970.
+    ///
+    /// # Errors
+    /// [`StoreError`] if the database fails.
+    pub async fn time(&self) -> Result<i64, StoreError>;
+
+    /// Deletes jobs that ended before a time of the store, the oldest first and a limited number, and batches without remaining
     /// jobs. Returns the number of jobs.
     ///
     /// # Errors

@@ -1,14 +1,16 @@
 //! Batches: jobs that were queued together. An evaluation plan is a row of the table `studies`.
 
 use std::collections::BTreeMap;
+use std::time::Instant;
 
+use api::job::Status;
 use sqlx::postgres::{PgConnection, PgExecutor};
 use uuid::Uuid;
 
 use crate::clock::Now;
 use crate::store::batch_rows::{batch_job, batch_overview, no_jobs, refused_job};
 use crate::store::batches::{
-    BatchDetail, BatchFilter, BatchOverview, BatchPart, JOBS_AT_ONCE, NewBatch, SHOWN_REFUSALS,
+    BatchDetail, BatchFilter, BatchJob, BatchOverview, BatchPart, JOBS_AT_ONCE, NewBatch,
     StoredBatch,
 };
 use crate::store::job_ids::new_id;
@@ -23,7 +25,7 @@ macro_rules! overviews {
     () => {
         "SELECT id, name, created_at, jobs AS asked, \
          COALESCE(CASE WHEN is_over THEN 0 ELSE jobs - next END, 0) AS to_come, \
-         (SELECT count(*) FROM refused_jobs WHERE refused_jobs.sweep_id = id) AS refused"
+         COALESCE(refused, 0) AS refused"
     };
 }
 
@@ -76,6 +78,29 @@ impl PostgresStore {
         let Some(batch) = batch else {
             return Ok(None);
         };
+        let jobs = self.batch_jobs(id, part, detail).await?;
+        let refused = sqlx::query(
+            "SELECT position, overrides, reason FROM refused_jobs WHERE sweep_id = $1 ORDER BY position",
+        )
+        .bind(id)
+        .fetch_all(&self.readers)
+        .await?;
+        let refused = refused.iter().map(|row| refused_job(id, row));
+        Ok(Some(StoredBatch {
+            overview: batch_overview(&batch, self.batch_counts(id).await?)?,
+            plan: batch.optional_text("plan")?,
+            request: batch.optional_text("request")?,
+            jobs,
+            refused: refused.collect::<Result<_, _>>()?,
+        }))
+    }
+
+    pub(in crate::store) async fn batch_jobs(
+        &self,
+        id: Uuid,
+        part: BatchPart,
+        detail: BatchDetail,
+    ) -> Result<Vec<BatchJob>, StoreError> {
         let rows = sqlx::query(
             "SELECT job_id, position, overrides, status, status_reason, outcome, CASE WHEN $1 THEN summary END AS summary \
              FROM sweep_jobs JOIN jobs ON jobs.id = job_id WHERE sweep_jobs.sweep_id = $2 AND position >= $3 \
@@ -88,21 +113,7 @@ impl PostgresStore {
         .fetch_all(&self.readers)
         .await?;
         let jobs = rows.iter().map(|row| batch_job(&self.local, row));
-        let refused = sqlx::query(
-            "SELECT position, overrides, reason FROM refused_jobs WHERE sweep_id = $1 ORDER BY position LIMIT $2",
-        )
-        .bind(id)
-        .bind(SHOWN_REFUSALS)
-        .fetch_all(&self.readers)
-        .await?;
-        let refused = refused.iter().map(|row| refused_job(id, row));
-        Ok(Some(StoredBatch {
-            overview: batch_overview(&batch, self.batch_counts(id).await?)?,
-            plan: batch.optional_text("plan")?,
-            request: batch.optional_text("request")?,
-            jobs: jobs.collect::<Result<_, _>>()?,
-            refused: refused.collect::<Result<_, _>>()?,
-        }))
+        jobs.collect()
     }
 
     pub(in crate::store) async fn batches(
@@ -144,18 +155,20 @@ impl PostgresStore {
 
     pub(in crate::store) async fn cancel_some(&self, batch: Uuid) -> Result<bool, StoreError> {
         let (mut transaction, now) = self.begin().await?;
-        sqlx::query("UPDATE expansions SET is_over = true WHERE sweep_id = $1 AND NOT is_over")
-            .bind(batch)
-            .execute(&mut *transaction)
-            .await?;
-        let jobs: Vec<Uuid> = sqlx::query_scalar(
-            "SELECT id FROM jobs WHERE sweep_id = $1 AND (status = 'queued' OR status = 'running' AND NOT cancel_requested) \
-             ORDER BY id LIMIT $2 FOR UPDATE",
-        )
-        .bind(batch)
-        .bind(JOBS_AT_ONCE)
-        .fetch_all(&mut *transaction)
-        .await?;
+        let mut jobs: Vec<Uuid> = Vec::new();
+        for status in [Status::Queued, Status::Running] {
+            if jobs.is_empty() {
+                jobs = sqlx::query_scalar(
+                    "SELECT id FROM jobs WHERE sweep_id = $1 AND status = $2 AND NOT cancel_requested \
+                     ORDER BY id LIMIT $3 FOR UPDATE",
+                )
+                .bind(batch)
+                .bind(status.as_str())
+                .bind(JOBS_AT_ONCE)
+                .fetch_all(&mut *transaction)
+                .await?;
+            }
+        }
         let mut effects = Vec::with_capacity(jobs.len());
         for job in jobs {
             effects.push((job, cancel(&mut transaction, job, now).await?));
@@ -173,13 +186,6 @@ impl PostgresStore {
         batch: Uuid,
     ) -> Result<Option<Deleted>, StoreError> {
         let mut transaction = begin(&self.pool, None).await?;
-        let jobs: Vec<Uuid> = sqlx::query_scalar(
-            "SELECT id FROM jobs WHERE sweep_id = $1 ORDER BY id LIMIT $2 FOR UPDATE",
-        )
-        .bind(batch)
-        .bind(JOBS_AT_ONCE)
-        .fetch_all(&mut *transaction)
-        .await?;
         let is_active: bool = sqlx::query_scalar(
             "SELECT EXISTS (SELECT 1 FROM jobs WHERE sweep_id = $1 AND status IN ('queued', 'running')) \
              OR EXISTS (SELECT 1 FROM expansions WHERE sweep_id = $1 AND NOT is_over)",
@@ -190,6 +196,13 @@ impl PostgresStore {
         if is_active {
             return Ok(Some(Deleted::Active));
         }
+        let jobs: Vec<Uuid> = sqlx::query_scalar(
+            "SELECT id FROM jobs WHERE sweep_id = $1 AND finished_at IS NOT NULL ORDER BY id LIMIT $2 FOR UPDATE",
+        )
+        .bind(batch)
+        .bind(JOBS_AT_ONCE)
+        .fetch_all(&mut *transaction)
+        .await?;
         sqlx::query("DELETE FROM jobs WHERE id = ANY($1)")
             .bind(&jobs)
             .execute(&mut *transaction)
@@ -212,7 +225,12 @@ impl PostgresStore {
         }))
     }
 
+    /// Counts the jobs of a batch by status; of a large one, every now and then.
     async fn batch_counts(&self, id: Uuid) -> Result<BTreeMap<String, u64>, StoreError> {
+        if let Some(kept) = self.local.batch_counts.kept(id) {
+            return Ok(kept);
+        }
+        let began = Instant::now();
         let rows: Vec<(String, i64)> =
             sqlx::query_as("SELECT status, count(*) FROM jobs WHERE sweep_id = $1 GROUP BY status")
                 .bind(id)
@@ -221,6 +239,7 @@ impl PostgresStore {
         let mut counts = no_jobs();
         let count = |(status, count): (String, i64)| (status, count.try_into().unwrap_or_default());
         counts.extend(rows.into_iter().map(count));
+        self.local.batch_counts.keep(id, &counts, began);
         Ok(counts)
     }
 }

@@ -36,6 +36,14 @@ impl PostgresStore {
         Ok(request.fetch_optional(&self.readers).await?)
     }
 
+    pub(in crate::store) async fn end_expansion(&self, batch: Uuid) -> Result<(), StoreError> {
+        sqlx::query("UPDATE expansions SET is_over = true WHERE sweep_id = $1 AND NOT is_over")
+            .bind(batch)
+            .execute(&self.pool)
+            .await?;
+        Ok(())
+    }
+
     pub(in crate::store) async fn extend_batch(
         &self,
         portion: &Portion,
@@ -43,20 +51,22 @@ impl PostgresStore {
         self.local.disk.check()?;
         let (mut transaction, now) = self.begin().await?;
         let positions = &portion.positions;
-        let taken = sqlx::query(
-            "UPDATE expansions SET next = $1, is_over = $1 >= jobs WHERE sweep_id = $2 AND next = $3 AND NOT is_over",
+        let refused: Option<i64> = sqlx::query_scalar(
+            "UPDATE expansions SET next = $1, is_over = $1 >= jobs, refused = refused + $4 \
+             WHERE sweep_id = $2 AND next = $3 AND NOT is_over RETURNING refused",
         )
         .bind(integer(positions.end))
         .bind(portion.batch)
         .bind(integer(positions.start))
-        .execute(&mut *transaction)
+        .bind(integer(portion.refused.len()))
+        .fetch_optional(&mut *transaction)
         .await?;
-        if taken.rows_affected() == 0 {
+        let Some(refused) = refused else {
             return Ok(false);
-        }
+        };
         insert_jobs(&mut transaction, portion.batch, &portion.jobs, now).await?;
         let (mut positions, mut overrides, mut reasons) = (Vec::new(), Vec::new(), Vec::new());
-        for refused in &portion.refused {
+        for refused in portion.stored_refusals(refused) {
             positions.push(integer(refused.position));
             overrides.push(serde_json::to_string(&refused.overrides)?);
             reasons.push(refused.reason.as_str());

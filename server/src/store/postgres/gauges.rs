@@ -60,7 +60,7 @@ impl PostgresStore {
              (SELECT min(progress::json ->> 'updated_at') FROM jobs WHERE status = 'running'), \
              pg_database_size(current_database()), \
              (SELECT count(*) FROM result_blocks WHERE is_movable AND object IS NULL AND $1), \
-             (SELECT COALESCE(sum(slots), 0)::bigint FROM workers WHERE last_contact_at >= $2)",
+             (SELECT COALESCE(sum(slots), 0)::bigint FROM workers WHERE last_contact_at >= $2 AND NOT is_draining)",
         )
         .bind(self.local.objects.is_some())
         .bind(present_from(monotonic_ms))

@@ -4,7 +4,6 @@ use api::job::{Job, JobOverview};
 use api::service::LabelInUse;
 use sqlx::{Postgres, QueryBuilder};
 
-use crate::clock::now_ms;
 use crate::store::document::document;
 use crate::store::job_ids::{first_created_at, first_created_before};
 use crate::store::overview::overview;
@@ -85,10 +84,7 @@ fn push_order_key(query: &mut QueryBuilder<Postgres>, key: OrderKey) {
             "GREATEST((summary::json #>> '{receptacle,max_depth_mm}')::float8, (summary::json #>> '{slider,max_depth_mm}')::float8)"
         }
         OrderKey::Life => LIFE_CYCLES,
-        OrderKey::Duration => {
-            query.push("coalesce(finished_at, ").push_bind(now_ms());
-            ") - started_at"
-        }
+        OrderKey::Duration => "coalesce(finished_at, fretwear_now()) - started_at",
     };
     query.push(expression);
 }

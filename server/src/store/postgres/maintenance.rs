@@ -38,6 +38,11 @@ impl PostgresStore {
         Ok(late.len())
     }
 
+    pub(in crate::store) async fn time(&self) -> Result<i64, StoreError> {
+        let mut connection = self.pool.acquire().await?;
+        Ok(self.now(&mut connection).await?.system_ms)
+    }
+
     pub(in crate::store) async fn delete_ended_before(
         &self,
         time: i64,

@@ -46,11 +46,9 @@ impl PostgresStore {
         }
         sqlx::query(
             "DELETE FROM workers WHERE id IN \
-             (SELECT id FROM workers WHERE last_contact_at < CASE WHEN is_draining THEN $1 ELSE $2 END \
-             ORDER BY id FOR UPDATE SKIP LOCKED)",
+             (SELECT id FROM workers WHERE last_contact_at < $1 ORDER BY id FOR UPDATE SKIP LOCKED)",
         )
         .bind(remembered_from(now))
-        .bind(present_from(now))
         .execute(&mut *transaction)
         .await?;
         Ok(transaction.commit().await?)
@@ -76,10 +74,15 @@ impl PostgresStore {
     }
 
     pub(in crate::store) async fn drain_worker(&self, id: Uuid) -> Result<bool, StoreError> {
-        let drained = sqlx::query("UPDATE workers SET is_draining = true WHERE id = $1")
-            .bind(id)
-            .execute(&self.pool)
-            .await?;
+        let mut connection = self.pool.acquire().await?;
+        let now = self.now(&mut connection).await?.monotonic_ms;
+        let drained = sqlx::query(
+            "UPDATE workers SET is_draining = true WHERE id = $1 AND last_contact_at >= $2",
+        )
+        .bind(id)
+        .bind(present_from(now))
+        .execute(&mut *connection)
+        .await?;
         Ok(drained.rows_affected() > 0)
     }
 }

@@ -1,6 +1,7 @@
 //! Batches: jobs that were queued together. An evaluation plan is a row of the table `studies`.
 
 use std::collections::BTreeMap;
+use std::time::Instant;
 
 use sqlx::{Sqlite, SqliteExecutor, Transaction};
 use uuid::Uuid;
@@ -9,7 +10,7 @@ use uuid::fmt::Hyphenated;
 use crate::clock::Now;
 use crate::store::batch_rows::{batch_job, batch_overview, no_jobs, refused_job};
 use crate::store::batches::{
-    BatchDetail, BatchFilter, BatchOverview, BatchPart, JOBS_AT_ONCE, NewBatch, SHOWN_REFUSALS,
+    BatchDetail, BatchFilter, BatchJob, BatchOverview, BatchPart, JOBS_AT_ONCE, NewBatch,
     StoredBatch,
 };
 use crate::store::rows::{StoredRow, integer};
@@ -23,7 +24,7 @@ use crate::store::{Deleted, RequestKey, StoreError, Submitted};
 macro_rules! overviews {
     () => {
         "SELECT id, name, created_at, jobs AS asked, COALESCE(iif(is_over, 0, jobs - next), 0) AS to_come, \
-         (SELECT count(*) FROM refused_jobs WHERE refused_jobs.sweep_id = id) AS refused"
+         COALESCE(refused, 0) AS refused"
     };
 }
 
@@ -70,6 +71,29 @@ impl SqliteStore {
         let Some(batch) = batch else {
             return Ok(None);
         };
+        let jobs = self.batch_jobs(id, part, detail).await?;
+        let refused = sqlx::query(
+            "SELECT position, overrides, reason FROM refused_jobs WHERE sweep_id = ? ORDER BY position",
+        )
+        .bind(id.to_string())
+        .fetch_all(&self.readers)
+        .await?;
+        let refused = refused.iter().map(|row| refused_job(id, row));
+        Ok(Some(StoredBatch {
+            overview: batch_overview(&batch, self.batch_counts(id).await?)?,
+            plan: batch.optional_text("plan")?,
+            request: batch.optional_text("request")?,
+            jobs,
+            refused: refused.collect::<Result<_, _>>()?,
+        }))
+    }
+
+    pub(in crate::store) async fn batch_jobs(
+        &self,
+        id: Uuid,
+        part: BatchPart,
+        detail: BatchDetail,
+    ) -> Result<Vec<BatchJob>, StoreError> {
         let rows = sqlx::query(
             "SELECT job_id, position, overrides, status, status_reason, outcome, CASE WHEN ? THEN summary END AS summary \
              FROM sweep_jobs JOIN jobs ON jobs.id = job_id WHERE sweep_jobs.sweep_id = ? AND position >= ? \
@@ -82,21 +106,7 @@ impl SqliteStore {
         .fetch_all(&self.readers)
         .await?;
         let jobs = rows.iter().map(|row| batch_job(&self.local, row));
-        let refused = sqlx::query(
-            "SELECT position, overrides, reason FROM refused_jobs WHERE sweep_id = ? ORDER BY position LIMIT ?",
-        )
-        .bind(id.to_string())
-        .bind(SHOWN_REFUSALS)
-        .fetch_all(&self.readers)
-        .await?;
-        let refused = refused.iter().map(|row| refused_job(id, row));
-        Ok(Some(StoredBatch {
-            overview: batch_overview(&batch, self.batch_counts(id).await?)?,
-            plan: batch.optional_text("plan")?,
-            request: batch.optional_text("request")?,
-            jobs: jobs.collect::<Result<_, _>>()?,
-            refused: refused.collect::<Result<_, _>>()?,
-        }))
+        jobs.collect()
     }
 
     pub(in crate::store) async fn batches(
@@ -141,10 +151,6 @@ impl SqliteStore {
     pub(in crate::store) async fn cancel_some(&self, batch: Uuid) -> Result<bool, StoreError> {
         let write = async || {
             let mut transaction = self.writer.begin_with(BEGIN).await?;
-            sqlx::query("UPDATE expansions SET is_over = 1 WHERE sweep_id = ? AND NOT is_over")
-                .bind(batch.to_string())
-                .execute(&mut *transaction)
-                .await?;
             let jobs: Vec<Hyphenated> = sqlx::query_scalar(
                 "SELECT id FROM jobs WHERE sweep_id = ? AND status IN ('queued', 'running') \
                  AND (status = 'queued' OR NOT cancel_requested) LIMIT ?",
@@ -207,7 +213,12 @@ impl SqliteStore {
         }))
     }
 
+    /// Counts the jobs of a batch by status; of a large one, every now and then.
     async fn batch_counts(&self, id: Uuid) -> Result<BTreeMap<String, u64>, StoreError> {
+        if let Some(kept) = self.local.batch_counts.kept(id) {
+            return Ok(kept);
+        }
+        let began = Instant::now();
         let rows: Vec<(String, u64)> = sqlx::query_as(
             "SELECT status, count(*) FROM jobs INDEXED BY jobs_by_sweep WHERE sweep_id = ? GROUP BY status",
         )
@@ -216,6 +227,7 @@ impl SqliteStore {
         .await?;
         let mut counts = no_jobs();
         counts.extend(rows);
+        self.local.batch_counts.keep(id, &counts, began);
         Ok(counts)
     }
 }

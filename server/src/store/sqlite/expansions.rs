@@ -36,6 +36,17 @@ impl SqliteStore {
         Ok(request.fetch_optional(&self.readers).await?)
     }
 
+    pub(in crate::store) async fn end_expansion(&self, batch: Uuid) -> Result<(), StoreError> {
+        let write = async || {
+            sqlx::query("UPDATE expansions SET is_over = 1 WHERE sweep_id = ? AND NOT is_over")
+                .bind(batch.to_string())
+                .execute(&self.writer)
+                .await?;
+            Ok(())
+        };
+        self.local.disk.with_reserve(write).await
+    }
+
     pub(in crate::store) async fn extend_batch(
         &self,
         portion: &Portion,
@@ -43,20 +54,22 @@ impl SqliteStore {
         self.local.disk.check()?;
         let mut transaction = self.writer.begin_with(BEGIN).await?;
         let positions = &portion.positions;
-        let taken = sqlx::query(
-            "UPDATE expansions SET next = ?1, is_over = ?1 >= jobs WHERE sweep_id = ?2 AND next = ?3 AND NOT is_over",
+        let refused: Option<i64> = sqlx::query_scalar(
+            "UPDATE expansions SET next = ?1, is_over = ?1 >= jobs, refused = refused + ?4 \
+             WHERE sweep_id = ?2 AND next = ?3 AND NOT is_over RETURNING refused",
         )
         .bind(integer(positions.end))
         .bind(portion.batch.to_string())
         .bind(integer(positions.start))
-        .execute(&mut *transaction)
+        .bind(integer(portion.refused.len()))
+        .fetch_optional(&mut *transaction)
         .await?;
-        if taken.rows_affected() == 0 {
+        let Some(refused) = refused else {
             return Ok(false);
-        }
+        };
         let now = self.local.clock.now();
         insert_jobs(&mut transaction, portion.batch, &portion.jobs, now).await?;
-        for refused in &portion.refused {
+        for refused in portion.stored_refusals(refused) {
             sqlx::query(
                 "INSERT INTO refused_jobs (sweep_id, position, overrides, reason) VALUES (?, ?, ?, ?)",
             )

@@ -64,7 +64,7 @@ impl SqliteStore {
         .fetch_one(&self.readers)
         .await?;
         let remote_slots = sqlx::query_scalar(
-            "SELECT COALESCE(sum(slots), 0) FROM workers WHERE last_contact_at >= ?",
+            "SELECT COALESCE(sum(slots), 0) FROM workers WHERE last_contact_at >= ? AND NOT is_draining",
         )
         .bind(present_from(self.local.clock.now().monotonic_ms))
         .fetch_one(&self.readers)

@@ -37,6 +37,11 @@ impl SqliteStore {
         Ok(late.len())
     }
 
+    #[expect(clippy::unused_async, reason = "other engines ask the database")]
+    pub(in crate::store) async fn time(&self) -> Result<i64, StoreError> {
+        Ok(self.local.clock.now().system_ms)
+    }
+
     pub(in crate::store) async fn delete_ended_before(
         &self,
         time: i64,

@@ -43,9 +43,8 @@ impl SqliteStore {
             .execute(&mut *transaction)
             .await?;
         }
-        sqlx::query("DELETE FROM workers WHERE last_contact_at < iif(is_draining, ?, ?)")
+        sqlx::query("DELETE FROM workers WHERE last_contact_at < ?")
             .bind(remembered_from(now))
-            .bind(present_from(now))
             .execute(&mut *transaction)
             .await?;
         Ok(transaction.commit().await?)
@@ -73,10 +72,17 @@ impl SqliteStore {
     }
 
     pub(in crate::store) async fn drain_worker(&self, id: Uuid) -> Result<bool, StoreError> {
-        let drained = sqlx::query("UPDATE workers SET is_draining = 1 WHERE id = ?")
+        let from = present_from(self.local.clock.now().monotonic_ms);
+        let write = async || {
+            let drained = sqlx::query(
+                "UPDATE workers SET is_draining = 1 WHERE id = ? AND last_contact_at >= ?",
+            )
             .bind(id.to_string())
+            .bind(from)
             .execute(&self.writer)
             .await?;
-        Ok(drained.rows_affected() > 0)
+            Ok(drained.rows_affected() > 0)
+        };
+        self.local.disk.with_reserve(write).await
     }
 }

@@ -9,6 +9,7 @@ use crate::store::batches::JOBS_AT_ONCE;
 on_both_engines! { Fixture:
     the_next_jobs_of_a_batch_are_queued_once_and_in_order,
     a_cancelled_batch_queues_no_more,
+    all_refused_combinations_are_counted_and_the_first_are_stored,
     a_batch_with_jobs_to_come_is_not_deleted,
     a_large_batch_is_cancelled_and_deleted_in_several_transactions,
 }
@@ -137,6 +138,38 @@ async fn the_next_jobs_of_a_batch_are_queued_once_and_in_order(fixture: Fixture)
     for id in order {
         assert_eq!(fixture.claimed(10).await.id, id);
     }
+}
+
+async fn all_refused_combinations_are_counted_and_the_first_are_stored(fixture: Fixture) {
+    let expansion = NewExpansion {
+        request: "{}".to_owned(),
+        next: 0,
+        jobs: 1_000,
+        cpu_s: None,
+    };
+    let batch = fixture.batch(Vec::new(), Some(expansion)).await;
+    for positions in [0..60, 60..120, 120..180] {
+        let refused = positions.clone().map(|position| RefusedJob {
+            position,
+            overrides: changes(position),
+            reason: "no".to_owned(),
+        });
+        let portion = Portion {
+            batch,
+            positions: positions.clone(),
+            jobs: Vec::new(),
+            refused: refused.collect(),
+        };
+        let extended = fixture.store.extend_batch(&portion).await;
+        assert!(extended.expect("the store"));
+    }
+    let stored = fixture.stored(batch, BatchPart::WHOLE).await;
+    assert_eq!(
+        (stored.overview.refused, stored.overview.to_come),
+        (180, 820)
+    );
+    let positions: Vec<u64> = stored.refused.iter().map(|one| one.position).collect();
+    assert_eq!(positions, (0..100).collect::<Vec<_>>());
 }
 
 async fn a_cancelled_batch_queues_no_more(fixture: Fixture) {

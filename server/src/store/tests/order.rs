@@ -83,6 +83,8 @@ async fn a_deadline_ends_a_queued_job_and_only_old_jobs_are_deleted(fixture: Fix
         (Status::Failed, Some(Outcome::DeadlineExceeded))
     );
     fixture.queued().await;
+    let now = fixture.store.time().await.expect("the store");
+    assert_eq!(now, fixture.store.clock().now().system_ms);
     let deleted = fixture.store.delete_ended_before(5_000).await;
     assert_eq!(deleted.expect("the store"), 0);
     let deleted = fixture.store.delete_ended_before(5_001).await;

@@ -73,6 +73,8 @@ async fn a_drained_worker_stays_drained_although_it_was_away(fixture: Fixture) {
     fixture.store.set_clock(hour);
     fixture.noted(&[contact(other, 1, 0)]).await;
     assert_eq!(fixture.workers().await.len(), 1);
+    let drained = fixture.store.drain_worker(worker).await;
+    assert!(!drained.expect("the store"), "it is away");
     fixture.noted(&[contact(worker, 1, 0)]).await;
     let draining = fixture.store.draining_workers().await;
     assert_eq!(draining.expect("the store"), [worker]);
@@ -83,6 +85,8 @@ async fn a_drained_worker_stays_drained_although_it_was_away(fixture: Fixture) {
         .map(|one| one.is_draining)
         .collect();
     assert_eq!(is_draining, [true, false]);
+    let gauges = fixture.store.gauges().await.expect("the store");
+    assert_eq!(gauges.remote_slots, 4, "those of the other one");
     fixture.store.set_clock(26 * hour);
     fixture.noted(&[contact(other, 1, 0)]).await;
     let draining = fixture.store.draining_workers().await;

@@ -1,5 +1,7 @@
 //! `POST /v1/sweeps/{id}/cancel` and `POST /v1/studies/{id}/cancel`: cancels all jobs of a batch; always accepted.
 
+use std::sync::Arc;
+
 use api::problem::Problem;
 use api::study::StudyDocument;
 use api::sweep::Sweep;
@@ -45,7 +47,9 @@ pub(crate) async fn cancel_study(app: State<App>, batch: BatchId) -> Cancelled {
 
 async fn cancel(app: &App, batch: BatchId) -> Cancelled {
     app.require_batch(batch).await?;
-    app.store.cancel_batch(batch.id).await?;
+    // It goes on if the client does not wait for its end.
+    let store = Arc::clone(&app.store);
+    tokio::spawn(async move { store.cancel_batch(batch.id).await }).await??;
     Ok((StatusCode::ACCEPTED, document(app, batch).await?))
 }
 

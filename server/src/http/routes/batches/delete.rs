@@ -1,5 +1,7 @@
 //! `DELETE /v1/sweeps/{id}` and `DELETE /v1/studies/{id}`: deletes a batch whose jobs have ended.
 
+use std::sync::Arc;
+
 use api::problem::Problem;
 use axum::extract::State;
 use axum::http::StatusCode;
@@ -46,7 +48,10 @@ pub(crate) async fn remove_study(
 
 async fn remove(app: &App, batch: BatchId) -> Result<StatusCode, ProblemResponse> {
     app.require_batch(batch).await?;
-    match app.store.delete_batch(batch.id).await? {
+    // It goes on if the client does not wait for its end.
+    let store = Arc::clone(&app.store);
+    let deleting = tokio::spawn(async move { store.delete_batch(batch.id).await });
+    match deleting.await?? {
         Deleted::Done => Ok(StatusCode::NO_CONTENT),
         Deleted::Active => Err(BatchError::Active(batch).into()),
         Deleted::Missing => Err(BatchError::Missing(batch).into()),

@@ -11,14 +11,14 @@ use futures_util::{StreamExt, stream};
 use serde::Deserialize;
 use utoipa::IntoParams;
 
-use crate::batch::EvaluateError;
+use crate::batch;
 use crate::export::documents::CSV;
 use crate::http::app::App;
 use crate::http::extract::{BatchId, Params};
 use crate::http::problem::ProblemResponse;
-use crate::http::routes::batches::error::MOST_JOBS;
+use crate::http::routes::batches::error::{BatchError, MOST_JOBS};
 use crate::http::routes::results::download_file::attachment;
-use crate::store::{BatchPart, StoredBatch};
+use crate::store::{BatchJob, BatchPart, StoredBatch};
 
 /// Part of the table.
 #[derive(Debug, Clone, Copy, Deserialize, IntoParams)]
@@ -50,12 +50,18 @@ pub(crate) async fn sweep_outcomes(
     Params(query): Params<OutcomesQuery>,
 ) -> Result<Response, ProblemResponse> {
     let OutcomesQuery { from, limit } = query;
+    if limit == Some(0) {
+        return Err(BatchError::Limit(0).into());
+    }
     let whole = limit.unwrap_or(u32::MAX);
     let part = BatchPart {
         from,
         limit: whole.min(MOST_JOBS),
     };
-    let evaluate = move |stored| rows(batch, &stored, true);
+    let evaluate = move |stored: StoredBatch| {
+        let table = batch.kind.table(&stored)?;
+        Ok((table, followed_by(&stored.jobs)))
+    };
     let read = (part, batch.kind.table_detail());
     let (table, first) = app.evaluate_batch(batch, read, evaluate).await?;
     // The rest of a long table is read while the client takes it.
@@ -91,7 +97,7 @@ pub(crate) async fn study_table(
 }
 
 async fn table(app: &App, batch: BatchId) -> Result<Response, ProblemResponse> {
-    let evaluate = move |stored| batch.kind.table(&stored, true);
+    let evaluate = move |stored| batch.kind.table(&stored);
     let read = (BatchPart::WHOLE, batch.kind.table_detail());
     let table = app.evaluate_batch(batch, read, evaluate).await?;
     Ok(csv(batch, Body::from(table)))
@@ -106,17 +112,14 @@ struct Rest {
     jobs: u32,
 }
 
-/// The rows of a part, what follows it, and how many jobs it has.
-fn rows(
-    batch: BatchId,
-    stored: &StoredBatch,
-    with_header: bool,
-) -> Result<(Vec<u8>, Rest), EvaluateError> {
-    let rows = batch.kind.table(stored, with_header)?;
-    let jobs = u32::try_from(stored.jobs.len()).unwrap_or(u32::MAX);
-    let last = stored.jobs.last().filter(|_| jobs >= MOST_JOBS);
-    let next = last.map(|last| last.position + 1);
-    Ok((rows, Rest { next, jobs }))
+/// How many jobs a part has, and where the next one begins if it is a whole part.
+fn followed_by(jobs: &[BatchJob]) -> Rest {
+    let number = u32::try_from(jobs.len()).unwrap_or(u32::MAX);
+    let last = jobs.last().filter(|_| number >= MOST_JOBS);
+    Rest {
+        next: last.map(|last| last.position + 1),
+        jobs: number,
+    }
 }
 
 /// The next rows of a long table; an error ends the body early.
@@ -129,12 +132,11 @@ async fn next_rows(app: App, batch: BatchId, rest: Rest) -> io::Result<Option<(B
         limit: rest.jobs.min(MOST_JOBS),
     };
     let detail = batch.kind.table_detail();
-    let stored = app.store.batch(batch.id, part, detail).await;
-    let Some(stored) = stored.map_err(io::Error::other)? else {
-        return Err(io::Error::other(format!("{batch} was deleted meanwhile")));
-    };
-    let found = tokio::task::spawn_blocking(move || rows(batch, &stored, false)).await?;
-    let (rows, found) = found.map_err(io::Error::other)?;
+    let jobs = app.store.batch_jobs(batch.id, part, detail).await;
+    let jobs = jobs.map_err(io::Error::other)?;
+    let found = followed_by(&jobs);
+    let rows = tokio::task::spawn_blocking(move || batch::rows(&jobs)).await?;
+    let rows = rows.map_err(io::Error::other)?;
     let rest = Rest {
         next: found.next,
         jobs: rest.jobs - found.jobs,

@@ -1,6 +1,5 @@
 //! `POST /v1/workers/{id}/drain`: a remote worker takes no more jobs.
 
-use api::problem::Problem;
 use api::worker::RemoteWorker;
 use axum::Json;
 use axum::extract::State;
@@ -26,18 +25,17 @@ impl RouteError for Missing {
     tag = "operation",
     responses(
         (status = 202, description = "Accepted; the worker in its current state", body = RemoteWorker),
-        (status = 404, description = "No such worker", body = Problem),
     )
 )]
 pub(crate) async fn drain_worker(
     State(app): State<App>,
     worker: WorkerId,
 ) -> Result<(StatusCode, Json<RemoteWorker>), ProblemResponse> {
-    app.workers.note_all(&app.store).await?;
+    app.workers.note_shown(&app.store).await;
     if !app.store.drain_worker(worker.0).await? {
         return Err(Missing(worker).into());
     }
-    app.workers.exchange(&app.store).await?;
+    app.workers.exchange(&app.store).await;
     let workers = app.store.workers().await?;
     let drained = workers.into_iter().find(|found| found.id == worker.0);
     let drained = drained.ok_or(Missing(worker))?;

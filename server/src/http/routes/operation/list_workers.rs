@@ -19,10 +19,7 @@ use crate::supervision::WORKER;
 pub(crate) async fn workers(State(app): State<App>) -> Result<Json<WorkerList>, ProblemResponse> {
     let running = app.supervisor.running();
     let total = running.iter().filter(|(kind, _)| *kind == WORKER).count();
-    if let Err(error) = app.workers.note_all(&app.store).await {
-        // Those that are known are listed all the same.
-        tracing::warn!(%error, "contacts with workers could not be noted");
-    }
+    app.workers.note_shown(&app.store).await;
     Ok(Json(WorkerList {
         local: Workers {
             total: u64::try_from(total).unwrap_or(u64::MAX),

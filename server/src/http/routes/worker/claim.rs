@@ -31,7 +31,7 @@ impl RouteError for OtherVersion {
     const TYPE: ProblemType = ProblemType::WORKER_VERSION;
 }
 
-/// The worker was told to end.
+/// The worker was drained.
 #[derive(Debug, thiserror::Error)]
 #[error("worker {0} takes no more jobs: it was drained")]
 pub(crate) struct Drained(Uuid);
