@@ -23,7 +23,7 @@ const KEPT: &str = "FRETWEAR_TEST_LOG";
 #[derive(Debug)]
 pub struct Server {
     child: Child,
-    /// Its address, `http://127.0.0.1:PORT`.
+    /// Its address, `http://127.0.0.1:PORT` unless it was asked to listen elsewhere.
     pub base: String,
     /// A client.
     pub client: reqwest::Client,
@@ -319,9 +319,8 @@ fn serve(folder: &Path, options: &[&str]) -> Command {
 
 /// The address in a line of the log, if it has one.
 fn address(line: &str) -> Option<String> {
-    let at = ["https", "http"].map(|scheme| line.find(&format!("{scheme}://127.0.0.1:")));
-    let at = at.into_iter().flatten().next()?;
-    Some(line[at..].trim().to_owned())
+    let (_, address) = line.split_once(" serves on ")?;
+    Some(address.trim().to_owned())
 }
 
 async fn answer(request: reqwest::RequestBuilder) -> (u16, Value) {
