@@ -44,6 +44,7 @@ mod plated_contact;
 mod plated_presets;
 mod point_contact;
 mod postgresql;
+mod postgresql_tls;
 mod predicted_cost;
 mod readme_commands;
 mod refused_specifications;

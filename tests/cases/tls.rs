@@ -1,39 +1,8 @@
 //! Requirement: a service with a certificate serves HTTPS only, and workers and commands trust the authority that they are given.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
-use rcgen::{BasicConstraints, CertificateParams, IsCa, Issuer, KeyPair};
-use tests::{RemoteWorker, Server, fretwear};
-
-/// Certificate and key of a service on loopback, and the certificate of their authority.
-struct Certificates {
-    authority: PathBuf,
-    certificate: PathBuf,
-    key: PathBuf,
-}
-
-impl Certificates {
-    fn new(folder: &Path) -> Self {
-        let written = |name: &str, pem: String| {
-            let path = folder.join(name);
-            std::fs::write(&path, pem).expect("a file can be written");
-            path
-        };
-        let mut authority = CertificateParams::new(Vec::new()).expect("valid");
-        authority.is_ca = IsCa::Ca(BasicConstraints::Unconstrained);
-        let authority_key = KeyPair::generate().expect("a key");
-        let root = authority.self_signed(&authority_key).expect("signed");
-        let issuer = Issuer::new(authority, authority_key);
-        let key = KeyPair::generate().expect("a key");
-        let params = CertificateParams::new(vec!["127.0.0.1".to_owned()]).expect("valid");
-        let certificate = params.signed_by(&key, &issuer).expect("signed");
-        Self {
-            authority: written("authority.pem", root.pem()),
-            certificate: written("certificate.pem", certificate.pem()),
-            key: written("key.pem", key.serialize_pem()),
-        }
-    }
-}
+use tests::{Certificates, RemoteWorker, Server, fretwear};
 
 fn text(path: &Path) -> &str {
     path.to_str().expect("text")
@@ -42,7 +11,7 @@ fn text(path: &Path) -> &str {
 #[test]
 fn workers_and_commands_use_https_with_the_authority_that_they_are_given() {
     let folder = tempfile::tempdir().expect("a folder can be made");
-    let certificates = Certificates::new(folder.path());
+    let certificates = Certificates::new(folder.path(), "127.0.0.1");
     let options = [
         "--tls-certificate",
         text(&certificates.certificate),
@@ -83,9 +52,9 @@ fn workers_and_commands_use_https_with_the_authority_that_they_are_given() {
 #[test]
 fn a_service_says_which_file_has_no_certificate_or_another_key() {
     let folder = tempfile::tempdir().expect("a folder can be made");
-    let certificates = Certificates::new(folder.path());
+    let certificates = Certificates::new(folder.path(), "127.0.0.1");
     std::fs::create_dir(folder.path().join("other")).expect("a folder");
-    let other = Certificates::new(&folder.path().join("other"));
+    let other = Certificates::new(&folder.path().join("other"), "127.0.0.1");
     let serve = |certificate: &Path, key: &Path| {
         let options = [
             "serve",

@@ -21,8 +21,8 @@ impl PostgresServer {
             .status();
         assert!(copied.expect("pg_basebackup").success(), "no standby");
         let standby = Self::of(folder, &SETTINGS);
-        self.execute("ALTER SYSTEM SET synchronous_standby_names = 'b'");
-        self.execute("SELECT pg_reload_conf()");
+        self.answer("ALTER SYSTEM SET synchronous_standby_names = 'b'");
+        self.answer("SELECT pg_reload_conf()");
         standby
     }
 
@@ -31,7 +31,7 @@ impl PostgresServer {
     /// # Panics
     /// If it cannot.
     pub fn promote(&self) {
-        self.execute("SELECT pg_promote()");
+        self.answer("SELECT pg_promote()");
     }
 
     /// Kills it, without a chance to write anything.
@@ -72,21 +72,5 @@ impl PostgresServer {
     /// Its socket.
     pub fn socket(&self) -> PathBuf {
         self.folder.join(".s.PGSQL.5432")
-    }
-
-    fn execute(&self, statement: &str) {
-        let done = program("psql")
-            .args([
-                "-q",
-                "-o",
-                "/dev/null",
-                "-h",
-                self.folder(),
-                "-U",
-                "fretwear",
-            ])
-            .args(["-d", "postgres", "-c", statement])
-            .status();
-        assert!(done.expect("psql").success(), "{statement}");
     }
 }
