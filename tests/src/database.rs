@@ -3,10 +3,13 @@
 use std::path::Path;
 use std::time::Duration;
 
+use sqlx::postgres::PgConnection;
 use sqlx::sqlite::{SqliteConnectOptions, SqliteConnection};
 use sqlx::{Connection, Executor};
 
-/// Opens the database of the service in a folder.
+use crate::served_database::address_of_database;
+
+/// Opens the file of the database of the service in a folder.
 ///
 /// # Panics
 /// If it cannot be opened.
@@ -19,18 +22,41 @@ pub async fn open(folder: &Path) -> SqliteConnection {
         .expect("the database can be opened")
 }
 
+/// Opens the database of the services of a folder, if it is one of a server.
+async fn open_served(folder: &Path) -> Option<PgConnection> {
+    let url = address_of_database(folder);
+    if url.starts_with("sqlite:") {
+        return None;
+    }
+    let database = PgConnection::connect(&url).await;
+    Some(database.expect("the database can be opened"))
+}
+
+/// Executes the statement of a file or that of a server; returns the number of rows that it has changed.
+async fn execute(folder: &Path, of_file: &'static str, of_server: &'static str) -> u64 {
+    let rows = if let Some(mut database) = open_served(folder).await {
+        let done = database.execute(of_server).await;
+        done.map(|done| done.rows_affected())
+    } else {
+        let mut database = open(folder).await;
+        let done = database.execute(of_file).await;
+        database.close().await.expect("the database can be closed");
+        done.map(|done| done.rows_affected())
+    };
+    rows.expect("the database can be written")
+}
+
 /// Corrupts all checkpoints; returns their number.
 ///
 /// # Panics
 /// If the database cannot be written.
 pub async fn damage_checkpoints(folder: &Path) -> u64 {
-    let mut database = open(folder).await;
-    let done = database
-        .execute("UPDATE checkpoints SET state = CAST(substr(state, 2) AS BLOB)")
-        .await
-        .expect("the database can be written");
-    database.close().await.expect("the database can be closed");
-    done.rows_affected()
+    execute(
+        folder,
+        "UPDATE checkpoints SET state = CAST(substr(state, 2) AS BLOB)",
+        "UPDATE checkpoints SET state = substr(state, 2)",
+    )
+    .await
 }
 
 /// Overwrites the small results of all jobs that have ended; returns their number.
@@ -38,20 +64,28 @@ pub async fn damage_checkpoints(folder: &Path) -> u64 {
 /// # Panics
 /// If the database cannot be written.
 pub async fn damage_results(folder: &Path) -> u64 {
-    let mut database = open(folder).await;
-    let done = database
-        .execute("UPDATE result_blocks SET content = zeroblob(length(content))")
-        .await
-        .expect("the database can be written");
-    database.close().await.expect("the database can be closed");
-    done.rows_affected()
+    execute(
+        folder,
+        "UPDATE result_blocks SET content = zeroblob(length(content))",
+        "UPDATE result_blocks SET content = decode(repeat('00', length(content)), 'hex')",
+    )
+    .await
 }
 
-/// Holds the write lock for a while.
+/// Holds up all writes for a while.
 ///
 /// # Panics
 /// If the database cannot be written.
 pub async fn stall(folder: &Path, time: Duration) {
+    if let Some(mut database) = open_served(folder).await {
+        for statement in ["BEGIN", "LOCK TABLE jobs IN EXCLUSIVE MODE"] {
+            let done = database.execute(statement).await;
+            done.expect("the table can be locked");
+        }
+        // The end of the connection ends the transaction.
+        tokio::time::sleep(time).await;
+        return database.close().await.expect("the database can be closed");
+    }
     let mut database = open(folder).await;
     database
         .execute("BEGIN IMMEDIATE")
@@ -70,6 +104,10 @@ pub async fn stall(folder: &Path, time: Duration) {
 /// # Panics
 /// If it cannot be read.
 pub async fn number(folder: &Path, query: &'static str) -> i64 {
+    if let Some(mut database) = open_served(folder).await {
+        let found = sqlx::query_scalar(query).fetch_one(&mut database).await;
+        return found.expect("the database can be read");
+    }
     let mut database = open(folder).await;
     let found = sqlx::query_scalar(query).fetch_one(&mut database).await;
     database.close().await.expect("the database can be closed");

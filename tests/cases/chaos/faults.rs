@@ -176,7 +176,7 @@ impl Trial {
             .await;
         let ids = list["jobs"].as_array().into_iter().flatten();
         let ids = ids.filter_map(|job| job["id"].as_str());
-        let files = ids.flat_map(|id| files_of(&self.folder, id));
+        let files = ids.flat_map(|id| files_of(&self.results, id));
         let files: Vec<(String, PathBuf)> = files.collect();
         let Some((id, path)) = self.rng.choice(files) else {
             return false;
@@ -227,8 +227,8 @@ fn connection(server: &Server) -> TcpStream {
 }
 
 /// The files of a job's results: in one folder for each lease, of which the last one remains.
-fn files_of(folder: &Path, id: &str) -> Vec<(String, PathBuf)> {
-    let leases = entries(&folder.join("fretwear.db.results").join(id));
+fn files_of(results: &Path, id: &str) -> Vec<(String, PathBuf)> {
+    let leases = entries(&results.join(id));
     let files = leases.iter().flat_map(|lease| entries(lease));
     files.map(|path| (id.to_owned(), path)).collect()
 }

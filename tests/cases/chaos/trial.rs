@@ -6,7 +6,7 @@ use std::time::Instant;
 
 use fastrand::Rng;
 use serde_json::Value;
-use tests::{Disk, Log, Server, SteppedClock};
+use tests::{Disk, Log, Server, SteppedClock, use_postgresql};
 
 use super::faults::Fault;
 
@@ -27,12 +27,23 @@ const DISK_MB: (usize, usize) = (64, 2);
 /// Deadline of each job, s: shorter than the steps of the clock, longer than a trial.
 const DEADLINE_S: u32 = 7_200;
 
+/// What keeps the jobs.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Engine {
+    /// A file of SQLite.
+    File,
+    /// A PostgreSQL server.
+    Server,
+}
+
 /// The service, what it runs on, and what was done.
 pub(super) struct Trial {
     pub(super) began: Instant,
     pub(super) disk: Disk,
     pub(super) clock: SteppedClock,
     pub(super) folder: PathBuf,
+    /// Where the files of results are.
+    pub(super) results: PathBuf,
     server: Option<Server>,
     pub(super) rng: Rng,
     pub(super) accepted: Vec<String>,
@@ -46,13 +57,20 @@ pub(super) struct Trial {
 }
 
 impl Trial {
-    pub(super) fn new(jobs: usize, seed: u64) -> Self {
+    pub(super) fn new(engine: Engine, jobs: usize, seed: u64) -> Self {
         let disk = Disk::new(DISK_MB.0 + DISK_MB.1 * jobs);
         let folder = disk.path().to_owned();
+        if engine == Engine::Server {
+            use_postgresql(&folder);
+        }
         let mut trial = Self {
             began: Instant::now(),
             clock: SteppedClock::new(&folder),
             disk,
+            results: folder.join(match engine {
+                Engine::File => "fretwear.db.results",
+                Engine::Server => "fretwear.results",
+            }),
             folder,
             server: None,
             rng: Rng::with_seed(seed),
