@@ -15,7 +15,7 @@ use super::{ATTEMPTS, SPEC, is_long, load, report};
 /// Jobs of the sweep that wait at most in the short form.
 const AHEAD: u64 = 60;
 /// Jobs of the short form: more than a sweep queues at once.
-const JOBS: usize = 1_200;
+const JOBS: usize = 1_002;
 /// Jobs of such a sweep that are queued when it is submitted.
 const AT_ONCE: u64 = 250;
 
