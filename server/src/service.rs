@@ -29,8 +29,8 @@ const GRACE: Duration = Duration::from_secs(5);
 /// Connections that may wait to be accepted, as far as the system allows: a client that finds no place tries again after 1 s.
 const BACKLOG: u32 = 1_024;
 
-/// Jobs of a large sweep that wait in the queue unless another number is given: those of a minute, of workers that end more jobs a second
-/// than were measured.
+/// Waiting jobs of a large sweep beyond which no more of it are queued, unless another number is given: those of a minute at 333 ends a
+/// second.
 pub const JOBS_AHEAD: u64 = 20_000;
 
 /// Configuration of the service.
@@ -54,7 +54,7 @@ pub struct Config {
     pub limits: Limits,
     /// Days after which ended jobs are deleted.
     pub keep_days: Option<u32>,
-    /// Jobs of each large sweep that wait in the queue at most.
+    /// Waiting jobs of a large sweep beyond which no more of it are queued.
     pub jobs_ahead: u64,
     /// Configuration of the workers.
     pub worker: WorkerConfig,

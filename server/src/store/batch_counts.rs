@@ -1,4 +1,4 @@
-//! Numbers of jobs of batches that took long to be counted, kept for a while.
+//! Numbers of jobs of large batches that took long to be counted, kept for a while.
 
 use std::collections::{BTreeMap, HashMap};
 use std::sync::{Mutex, PoisonError};
@@ -6,6 +6,8 @@ use std::time::{Duration, Instant};
 
 use uuid::Uuid;
 
+/// Batches with no more jobs are counted anew each time, also where a busy machine takes long for it.
+const SMALL: u64 = 10_000;
 /// A count that takes no longer is made anew each time.
 const QUICK: Duration = Duration::from_millis(20);
 /// How many times as long as it took a count is kept: counting takes a twentieth of a processor at most.
@@ -31,10 +33,33 @@ impl BatchCounts {
     /// Keeps what was counted since a time, if that took long.
     pub(in crate::store) fn keep(&self, batch: Uuid, counts: &Counts, began: Instant) {
         let took = began.elapsed();
-        if took > QUICK {
+        if took > QUICK && counts.values().sum::<u64>() > SMALL {
             let until = Instant::now() + KEPT_TIMES * took;
             let mut kept = self.kept.lock().unwrap_or_else(PoisonError::into_inner);
             kept.insert(batch, (until, counts.clone()));
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_slow_counts_of_large_batches_are_kept() {
+        let slow = Instant::now()
+            .checked_sub(Duration::from_secs(1))
+            .expect("the machine has run for a second");
+        let of = |jobs| Counts::from([("queued".to_owned(), jobs)]);
+        for (jobs, began, is_kept) in [
+            (SMALL, slow, false),
+            (SMALL + 1, slow, true),
+            (SMALL + 1, Instant::now() + QUICK, false),
+        ] {
+            let (counts, batch) = (BatchCounts::default(), Uuid::now_v7());
+            counts.keep(batch, &of(jobs), began);
+            assert_eq!(counts.kept(batch).is_some(), is_kept, "{jobs}");
+            assert_eq!(counts.kept(Uuid::now_v7()), None);
         }
     }
 }

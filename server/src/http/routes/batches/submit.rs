@@ -18,7 +18,7 @@ use crate::http::problem::ProblemResponse;
 use crate::http::routes::batches::show::document;
 use crate::store::Submitted;
 
-/// Queues many variations of one specification: all of them, or none if one has a fault.
+/// Queues many variations of one specification, or none if one has a fault; of more than 1 000, a sample is checked.
 #[utoipa::path(
     post,
     path = "/v1/sweeps",
