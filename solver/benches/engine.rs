@@ -10,7 +10,7 @@ use solver::condensation::condense;
 use solver::contact::area::{Cells, NormalContact, NormalProblem};
 use solver::cycle::{CycleState, Integrator};
 use solver::model;
-use solver::scene::Scene;
+use solver::scene::{Friction, Motion, Scene, WearLaw};
 
 fn main() {
     divan::main();
@@ -48,6 +48,53 @@ fn cycle_of_40_increments(bencher: Bencher<'_, '_>, element_um: u32) {
     integrator
         .initial_quarter(&mut loaded)
         .expect("it sets out");
+    bencher
+        .with_inputs(|| loaded.clone())
+        .bench_local_values(|mut state| {
+            integrator
+                .compute_cycle(&mut state, (2, true))
+                .expect("it slides")
+        });
+}
+
+/// Partial slip of a cylinder that wears the flat, about so many nodes in contact: as in `tests/verify_stick_zone.rs`, whose contact
+/// has a half-width of 0.0913 mm.
+fn partial_slip(nodes: u32) -> Scene {
+    let mut scene = scenes::mccoll();
+    scene.slider.shape.half_width_mm = 6.0;
+    scene.slider.wear = None;
+    scene.receptacle.wear = Some(WearLaw::Archard {
+        k_over_h_per_mpa: 3e-6,
+    });
+    scene.friction = Friction::Coulomb { coefficient: 0.6 };
+    scene.load_n_per_mm = 120.0;
+    scene.motion = Motion::Reciprocating {
+        amplitude_mm: 0.0012,
+        period_s: 1.0,
+    };
+    scene.cycles = 10;
+    scene.accuracy.contact_element_mm = Some(2.0 * 0.0913 / f64::from(nodes));
+    scene.accuracy.increments_per_cycle = Some(20);
+    scene.accuracy.cycle_jump = Some(2);
+    scene
+}
+
+#[divan::bench(args = [80, 160, 320, 640, 1_280, 2_000], sample_count = 5)]
+fn partial_slip_cycle_of_20_increments(bencher: Bencher<'_, '_>, nodes: u32) {
+    let scene = partial_slip(nodes);
+    let model = model::build(&scene, &solver::effects::plan(&scene)).expect("it can be meshed");
+    let condensed = condense(&model).expect("it can be condensed");
+    let operators = &condensed.operators;
+    let mut loaded = CycleState::start(operators, model.interface.slave);
+    let mut integrator = Integrator::new(&scene, &model, operators);
+    integrator.apply_load(&mut loaded).expect("it settles");
+    integrator
+        .initial_quarter(&mut loaded)
+        .expect("it sets out");
+    // The first cycle starts from no cycle before.
+    integrator
+        .compute_cycle(&mut loaded, (2, true))
+        .expect("it slides");
     bencher
         .with_inputs(|| loaded.clone())
         .bench_local_values(|mut state| {

@@ -52,4 +52,5 @@ mod verify_stick_zone;
 mod verify_symmetry;
 mod verify_thermal_softening;
 mod verify_wear_laws;
+mod verify_wide_contact;
 mod verify_worn_slider;

@@ -7,7 +7,7 @@ use solver::SolveError;
 use solver::condensation::{self, Condensed};
 use solver::cycle::{CycleState, Integrator};
 use solver::model::{self, Model};
-use solver::scene::Scene;
+use solver::scene::{Friction, Motion, Scene, WearLaw};
 
 use crate::bench::{BenchError, Row, measured};
 use crate::number::real;
@@ -22,6 +22,10 @@ pub(super) const FUZZ_BUTTON: &str = include_str!("../../examples/fuzz_button.js
 const CONDENSED: [f64; 3] = [5e3, 20e3, 50e3];
 /// Numbers of nodes in contact for the increments.
 const ACTIVE: [u32; 3] = [20, 50, 150];
+/// The same in partial slip.
+const IN_PARTIAL_SLIP: [u32; 5] = [160, 320, 640, 1_280, 2_000];
+/// Hertz half-width of the cylinder of `mccoll.json` under 120 N/mm, mm.
+const HERTZ_120: f64 = 0.0913;
 /// Hertz half-width of `mccoll.json`, mm, from which element sizes are derived.
 const HERTZ: f64 = 0.03586;
 /// Contact elements, mm, and numbers of cycles of the scaling cases.
@@ -36,6 +40,7 @@ pub fn all() -> Vec<Case> {
     vec![
         ("condensation", condensations),
         ("increments", increments),
+        ("increments in partial slip", increments_in_partial_slip),
         ("friction cycle", friction_cycle),
         ("mccoll.json at the reference's resolution", reference),
         ("mccoll.json, draft", || mccoll("draft", 0.1)),
@@ -149,6 +154,34 @@ fn increments() -> Result<Vec<Row>, BenchError> {
         Ok(row(what, size, cycle_s / increments))
     };
     ACTIVE.into_iter().map(increment).collect()
+}
+
+/// A cylinder of 6 mm under 120 N/mm that wears the flat, +-1.2 um: four fifths of its contact stick.
+fn increments_in_partial_slip() -> Result<Vec<Row>, BenchError> {
+    let increment = |active: u32| {
+        let scene = scene(MCCOLL, |scene| {
+            fix(scene, 2.0 * HERTZ_120 / f64::from(active), 20, 2);
+            scene.cycles = 10;
+            scene.load_n_per_mm = 120.0;
+            scene.friction = Friction::Coulomb { coefficient: 0.6 };
+            scene.motion = Motion::Reciprocating {
+                amplitude_mm: 0.0012,
+                period_s: 1.0,
+            };
+            scene.slider.wear = None;
+            scene.receptacle.wear = Some(WearLaw::Archard {
+                k_over_h_per_mpa: 3e-6,
+            });
+        })?;
+        let (_, cycle_s, increments) = time_cycle(&scene)?;
+        let size = format!("{active} nodes in contact");
+        Ok(row(
+            "contact increment in partial slip",
+            size,
+            cycle_s / increments,
+        ))
+    };
+    IN_PARTIAL_SLIP.into_iter().map(increment).collect()
 }
 
 /// Returns the seconds of the set-up and of one cycle, and the increments of the cycle.

@@ -10,7 +10,7 @@ use crate::sides::Sides;
 pub type Operators = Sides<BodyOperators>;
 
 /// One body seen from its contact surface.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone)]
 pub struct BodyOperators {
     /// Places of the contact nodes in the body's frame, mm, ascending.
     pub x: Vec<f64>,

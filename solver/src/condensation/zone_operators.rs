@@ -3,14 +3,18 @@
 use std::ops::Range;
 
 use super::compliance::{Compliance, Response};
+use crate::linear::Hodlr;
+use std::sync::OnceLock;
 
 /// The response of a mesh that is fine along some of the contact nodes.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone)]
 pub struct ZoneOperators {
     /// First contact node of the zone.
     first: usize,
     /// Displacements of its nodes per force at them.
     compliance: Compliance,
+    /// The same, compressed when a wide contact first asks for it.
+    compressed: OnceLock<Hodlr>,
     /// Displacement of its surface unknowns per unit of normal load on the far face, mm per N/mm; zero where the far
     /// face is held.
     load_response: Vec<f64>,
@@ -22,6 +26,7 @@ impl ZoneOperators {
         Self {
             first,
             compliance,
+            compressed: OnceLock::new(),
             load_response,
         }
     }
@@ -35,6 +40,19 @@ impl ZoneOperators {
     pub fn to_force_at(&self, node: usize, of: &Range<usize>) -> Response<'_> {
         let of = of.start - self.first..of.end - self.first;
         self.compliance.to_force_at(node - self.first, &of)
+    }
+
+    /// Adds to the displacements of some of its nodes (x, y of each) those by forces at others, in an effort that grows little more
+    /// than linearly with their number.
+    pub fn add_displacements(
+        &self,
+        (from, forces): (&Range<usize>, &[f64]),
+        (of, displacements): (&Range<usize>, &mut [f64]),
+    ) {
+        let compressed = self.compressed.get_or_init(|| self.compliance.compressed());
+        let unknowns =
+            |nodes: &Range<usize>| 2 * (nodes.start - self.first)..2 * (nodes.end - self.first);
+        compressed.add_product((&unknowns(from), forces), (&unknowns(of), displacements));
     }
 
     /// Displacement of surface unknown `row` = 2 i + d per force at unknown `column` = 2 j + e, mm per N/mm.

@@ -6,13 +6,12 @@
 //! One factorisation of A serves all conditions that the border's unknowns are under.
 
 use super::SquareMatrix;
+use super::blocked_lu::{BlockedLu, Exchanges};
 use super::dense::substitute;
 use super::vector::{add_scaled, vectorized};
-use faer::dyn_stack::{MemBuffer, MemStack};
-use faer::linalg::lu::partial_pivoting::{factor, solve};
 use faer::linalg::matmul::matmul;
 use faer::prelude::{Reborrow, ReborrowMut};
-use faer::{Accum, Conj, MatMut, Par};
+use faer::{Accum, MatMut, Par};
 
 /// A system condensed onto its border. Buffers are reused.
 #[derive(Default)]
@@ -20,9 +19,8 @@ pub struct CondensedSystem {
     /// A's factors, A^-1 B, C and S in place of the system.
     matrix: SquareMatrix,
     core: usize,
-    forward: Vec<usize>,
-    backward: Vec<usize>,
-    memory: Option<(usize, MemBuffer)>,
+    exchanges: Exchanges,
+    lu: BlockedLu,
     permuted: Vec<f64>,
 }
 
@@ -40,33 +38,10 @@ impl CondensedSystem {
         if core == 0 {
             return;
         }
-        self.forward.resize(core, 0);
-        self.backward.resize(core, 0);
-        let memory = match &mut self.memory {
-            Some((largest, memory)) if *largest >= order => memory,
-            slot => {
-                let spec = faer::Spec::default();
-                let factor =
-                    factor::lu_in_place_scratch::<usize, f64>(order, order, Par::Seq, spec);
-                let solve = solve::solve_in_place_scratch::<usize, f64>(order, order, Par::Seq);
-                &mut slot.insert((order, MemBuffer::new(factor.or(solve)))).1
-            }
-        };
-        let stack = MemStack::new(memory);
         let all = MatMut::from_column_major_slice_mut(self.matrix.values_mut(), order, order);
         let (mut a, mut b, c, d) = all.split_at_mut(core, core);
-        let spec = faer::Spec::default();
-        let (forward, backward) = (&mut self.forward, &mut self.backward);
-        let (_, perm) = factor::lu_in_place(a.rb_mut(), forward, backward, Par::Seq, stack, spec);
-        solve::solve_in_place_with_conj(
-            a.rb(),
-            a.rb(),
-            perm,
-            Conj::No,
-            b.rb_mut(),
-            Par::Seq,
-            stack,
-        );
+        self.lu.factor(a.rb_mut(), &mut self.exchanges);
+        self.lu.solve(a.rb(), &self.exchanges, b.rb_mut());
         matmul(d, Accum::Add, c.rb(), b.rb(), -1.0, Par::Seq);
     }
 
@@ -82,7 +57,7 @@ impl CondensedSystem {
             return;
         }
         let (f, g) = rhs.split_at_mut(core);
-        substitute(&self.matrix, &self.forward, f, &mut self.permuted);
+        substitute(&self.matrix, &self.exchanges.forward, f, &mut self.permuted);
         let matrix = &self.matrix;
         vectorized(
             #[inline(always)]

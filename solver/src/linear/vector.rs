@@ -16,3 +16,19 @@ pub fn add_scaled(sum: &mut [f64], a: f64, x: &[f64]) {
         *sum += a * x;
     }
 }
+
+/// Sum of products, in eight parts that vector registers hold, compiled for those of its caller.
+#[expect(clippy::inline_always, reason = "only then it is compiled for them")]
+#[inline(always)]
+pub fn dot(a: &[f64], b: &[f64]) -> f64 {
+    let (a, a_rest) = a.as_chunks::<8>();
+    let (b, b_rest) = b.as_chunks::<8>();
+    let mut sums = [0.0; 8];
+    for (a, b) in a.iter().zip(b) {
+        for i in 0..8 {
+            sums[i] += a[i] * b[i];
+        }
+    }
+    let rest: f64 = a_rest.iter().zip(b_rest).map(|(a, b)| a * b).sum();
+    sums.iter().sum::<f64>() + rest
+}

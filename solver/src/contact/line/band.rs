@@ -26,6 +26,16 @@ impl Band {
         &mut self.diagonals[(l + self.bandwidth - i) * self.nodes + i]
     }
 
+    /// Entry (i, i).
+    pub(in crate::contact) fn diagonal(&self, i: usize) -> f64 {
+        self.diagonals[self.bandwidth * self.nodes + i]
+    }
+
+    /// Number of diagonals on each side of the main one.
+    pub(in crate::contact) fn bandwidth(&self) -> usize {
+        self.bandwidth
+    }
+
     /// Writes this matrix with every column multiplied by a factor, and a diagonal added to it.
     pub(in crate::contact) fn combine(
         &self,

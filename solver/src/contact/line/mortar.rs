@@ -6,6 +6,7 @@
 //! patch test holds at any position.
 
 use super::pair::Pair;
+use std::ops::Range;
 
 /// Three-point Gauss rule on [0, 1], accurate for the gap of curved profiles.
 const GAUSS: [(f64, f64); 3] = [
@@ -190,11 +191,22 @@ impl Coupling {
         (self.rows[i - self.first].0, &self.dual[self.row_span(i)])
     }
 
-    /// The averaging rows of all coupled slave nodes.
-    pub(in crate::contact) fn dual_rows(&self) -> impl Iterator<Item = (usize, &[f64])> {
-        self.rows
+    /// The averaging rows of some coupled slave nodes.
+    pub(in crate::contact) fn dual_rows(
+        &self,
+        nodes: &Range<usize>,
+    ) -> impl Iterator<Item = (usize, &[f64])> {
+        self.rows[nodes.start - self.first..=nodes.end - self.first]
             .windows(2)
             .map(|rows| (rows[0].0, &self.dual[rows[0].1..rows[1].1]))
+    }
+
+    /// Master nodes that the rows of some coupled slave nodes touch.
+    pub(in crate::contact) fn masters(&self, nodes: &Range<usize>) -> Range<usize> {
+        // Both ends of the rows ascend.
+        let (first, _) = self.dual_row(nodes.start);
+        let (last, weights) = self.dual_row(nodes.end - 1);
+        first..last + weights.len()
     }
 
     /// Transfer row of slave node `i`: its first master node and the integrals of phi_i phi_j, mm.

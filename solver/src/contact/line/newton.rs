@@ -15,23 +15,26 @@
 
 mod correction;
 mod evaluation;
+mod hierarchical;
 mod jacobian;
 mod partition;
 mod secant;
+mod system;
 
 use super::active_set;
+use super::deformation::WIDE;
 use super::problem::{Iterate, Problem};
 use super::response::Response;
 use super::status::Status;
 use super::unknown::Unknown;
 use super::wear_coupling::WearCoupling;
 use super::work::Work;
-use crate::linear::CondensedSystem;
 use crate::number::count;
 use correction::{Correction, settle};
 use evaluation::Evaluation;
 use jacobian::Jacobian;
 use partition::Partition;
+use system::System;
 
 /// End of the Newton iteration.
 pub(super) enum Convergence {
@@ -48,7 +51,7 @@ pub(super) enum Convergence {
 pub(super) struct Newton {
     partition: Partition,
     jacobian: Jacobian,
-    system: CondensedSystem,
+    system: System,
     correction: Correction,
     evaluation: Evaluation,
     /// Factorizations, and unknowns of their systems, since the last reset.
@@ -79,6 +82,10 @@ const BALANCE_TOLERANCE: f64 = 1e-9;
 /// 0.03 and 0.3 take as long, to 2 %.
 const SLOW: f64 = 0.1;
 
+/// Fewest unknowns of a core whose off-diagonal blocks are approximated. Arbitrary: with 150 and 300 contacts of 160 to 640 nodes take as
+/// long, to 20 % (`cargo bench -p solver -- partial_slip`).
+const LEAST_CORE: usize = 250;
+
 /// From this iteration on factors are renewed in each, for systems that chord steps do not solve. Arbitrary: 6 and 20 take as
 /// long, to 1 %.
 const EXACT_FROM: usize = 12;
@@ -95,7 +102,7 @@ impl Newton {
         (most_iterations, repeated): (usize, bool),
     ) -> Convergence {
         let (mut residual, mut changes) = (f64::INFINITY, usize::MAX);
-        let mut renew = true;
+        let (mut renew, mut exact_from) = (true, EXACT_FROM);
         if repeated {
             settle(problem, it);
             if self.partition.admits(it) {
@@ -106,12 +113,17 @@ impl Newton {
         for iteration in 0..most_iterations {
             let renewed = renew || !self.partition.admits(it);
             if renewed {
-                residual = self.linearise(problem, response, wear, it, iteration < EXACT_FROM);
+                residual = self.linearise(problem, response, wear, it, iteration < exact_from);
             }
             let last = (residual, changes);
             let partition = &self.partition;
             let system = (&mut self.system, renewed || last.1 > 0);
             if !self.correction.apply(problem, partition, system, it) {
+                if self.system.is_hierarchical() {
+                    // A cluster of its core may be singular although the core is not.
+                    (renew, exact_from) = (true, iteration);
+                    continue;
+                }
                 return Convergence::Singular {
                     active: self.partition.unknowns.len(),
                 };
@@ -130,7 +142,7 @@ impl Newton {
                 return Convergence::Singular { active: 0 };
             }
             let slow = changes == 0 && last.1 == 0 && residual > SLOW * last.0;
-            renew = slow || iteration + 1 >= EXACT_FROM;
+            renew = slow || iteration + 1 >= exact_from;
         }
         Convergence::NotConverged { residual, changes }
     }
@@ -171,17 +183,28 @@ impl Newton {
     ) -> f64 {
         settle(problem, it);
         self.partition.choose(it);
-        for unknown in &self.partition.unknowns {
+        let partition = &self.partition;
+        let (unknowns, core) = (&partition.unknowns, partition.core);
+        // Later linearisations are exact.
+        let is_hierarchical = lumped && it.status.len() >= WIDE && core >= LEAST_CORE;
+        let responding = if is_hierarchical { core } else { 0 };
+        for unknown in &unknowns[responding..] {
             response.compute(problem, *unknown);
         }
-        let residual = self.evaluate(problem, response, wear, it);
-        let partition = &self.partition;
-        let matrix = self.system.system(partition.unknowns.len() + 1);
-        self.jacobian
-            .assemble(problem, partition, response, wear, (it, lumped), matrix);
-        self.system.condense(partition.core);
+        let residual = self
+            .evaluation
+            .evaluate(problem, unknowns, response, wear, it);
+        let (system, jacobian) = (&mut self.system, &mut self.jacobian);
+        if is_hierarchical {
+            let blocks = system.hierarchical(core, unknowns.len() + 1 - core);
+            jacobian.assemble_hierarchical(problem, partition, response, wear, it, blocks);
+        } else {
+            let matrix = system.dense(unknowns.len() + 1);
+            jacobian.assemble(problem, partition, response, wear, (it, lumped), matrix);
+        }
+        system.condense(core);
         self.work.factorizations += 1;
-        self.work.unknowns += count(partition.unknowns.len() + 1);
+        self.work.unknowns += count(unknowns.len() + 1);
         residual
     }
 

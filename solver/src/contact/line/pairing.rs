@@ -10,10 +10,12 @@
 //! wrong lag to first order, so that it need not be exact: where all of the contact slips in each stroke, it is left
 //! out.
 
+use super::deformation::WIDE;
 use super::pair::Pair;
 use super::state::ContactState;
 use crate::condensation::ZoneOperators;
 use crate::sides::Side;
+use std::ops::Range;
 
 /// Displacement of the slider at which the surfaces are paired, mm, for its imposed displacement, with the mean coefficient of
 /// friction of the contact. Stored forces act on the slider, so that the jump of slider over receptacle is the sum of what they do to
@@ -28,10 +30,11 @@ pub(super) fn position(
     }
     let (mut lag, mut largest) = (0.0, 0.0);
     for side in Side::BOTH {
-        let Some(zone) = pair.operators.of(side).zone(&last.loaded(side)) else {
+        let loaded = last.loaded(side);
+        let Some(zone) = pair.operators.of(side).zone(&loaded) else {
             return slider_x;
         };
-        let (elastic, slipping) = mean_displacements(zone, last.force.of(side));
+        let (elastic, slipping) = mean_displacements(zone, &loaded, last.force.of(side));
         lag -= elastic;
         largest += friction * slipping;
     }
@@ -46,10 +49,33 @@ pub(super) fn position(
 
 /// Mean of u_x over the contact, weighted by its vertical forces, under nodal forces, and the size of the same under
 /// their vertical part turned into the tangential direction, mm.
-fn mean_displacements(zone: &ZoneOperators, force: &[f64]) -> (f64, f64) {
+fn mean_displacements(zone: &ZoneOperators, loaded: &Range<usize>, force: &[f64]) -> (f64, f64) {
+    let own = &force[2 * loaded.start..2 * loaded.end];
+    let vertical = || own.iter().skip(1).step_by(2);
+    let total: f64 = vertical().sum();
+    if total <= 0.0 {
+        return (0.0, 0.0);
+    }
+    let (under_force, turned) = if loaded.len() >= WIDE {
+        let turned: Vec<f64> = vertical().flat_map(|f| [*f, 0.0]).collect();
+        let mean = |forces: &[f64]| {
+            let mut moved = vec![0.0; forces.len()];
+            zone.add_displacements((loaded, forces), (loaded, &mut moved));
+            let weighted = vertical().zip(moved.iter().step_by(2));
+            weighted.map(|(weight, u)| weight * u).sum::<f64>()
+        };
+        (mean(own), mean(&turned))
+    } else {
+        each_by_each(zone, force)
+    };
+    (under_force / total, turned.abs() / total)
+}
+
+/// The sums of both, node by node.
+fn each_by_each(zone: &ZoneOperators, force: &[f64]) -> (f64, f64) {
     let forces = force.chunks_exact(2).enumerate();
     let loaded = forces.filter(|(_, f)| f[1] != 0.0);
-    let (mut under_force, mut turned, mut total) = (0.0, 0.0, 0.0);
+    let (mut under_force, mut turned) = (0.0, 0.0);
     for (j, f) in loaded.clone() {
         let nodes = zone.nodes();
         let response = zone.to_force_at(j, &nodes);
@@ -58,11 +84,6 @@ fn mean_displacements(zone: &ZoneOperators, force: &[f64]) -> (f64, f64) {
             under_force += weight[1] * (f[0] * x_per_x + f[1] * x_per_y);
             turned += weight[1] * f[1] * x_per_x;
         }
-        total += f[1];
     }
-    if total > 0.0 {
-        (under_force / total, turned.abs() / total)
-    } else {
-        (0.0, 0.0)
-    }
+    (under_force, turned)
 }

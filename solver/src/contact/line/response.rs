@@ -15,14 +15,23 @@ pub(super) struct Response {
     nodes: usize,
     /// Whether jumps and shears are computed.
     tangential: bool,
-    /// For each node: gaps, then jumps per unit of its pressure; gaps, then jumps per unit of its shear, mm/MPa. Gaps per
-    /// unit of its pressure only, where slip is imposed.
+    /// Columns in the order in which they are first computed: gaps, then jumps per unit of an unknown, mm/MPa. Gaps only, where
+    /// slip is imposed.
     columns: Vec<f64>,
-    /// Unknowns whose columns are computed, pressure and shear of each node.
-    computed: Vec<[Option<Unknown>; 2]>,
+    /// The columns of pressure and shear of each node.
+    computed: Vec<[Option<Computed>; 2]>,
+    /// Number of columns.
+    count: usize,
     deformation: Deformation,
     /// Entries computed since the last reset of the count.
     pub(super) entries: u64,
+}
+
+/// An unknown whose column is computed, and where that begins.
+#[derive(Debug, Clone, Copy)]
+struct Computed {
+    unknown: Unknown,
+    begin: usize,
 }
 
 /// Gaps and tangential jumps of all coupled nodes; no jumps where slip is imposed.
@@ -33,8 +42,7 @@ impl Response {
     pub(super) fn reset(&mut self, nodes: usize, tangential: bool) {
         self.nodes = nodes;
         self.tangential = tangential;
-        let per_node = if tangential { 4 } else { 1 };
-        self.columns.resize(per_node * nodes * nodes, 0.0);
+        self.count = 0;
         self.computed.clear();
         self.computed.resize(nodes, [None; 2]);
     }
@@ -43,39 +51,44 @@ impl Response {
     #[inline]
     pub(super) fn column(&self, unknown: Unknown) -> Column<'_> {
         let place = place(unknown);
-        debug_assert!(
-            self.computed[place / 2][place % 2] == Some(unknown),
-            "a column is computed before use"
-        );
-        let begin = self.begin(place);
-        let values = if self.tangential { 2 } else { 1 };
-        self.columns[begin..begin + values * self.nodes].split_at(self.nodes)
+        let column = self.computed[place / 2][place % 2];
+        let column = column.filter(|column| column.unknown == unknown);
+        let Some(Computed { begin, .. }) = column else {
+            unreachable!("a column is computed before use");
+        };
+        self.columns[begin..begin + self.length()].split_at(self.nodes)
     }
 
-    /// Where the column of a place begins.
+    /// Length of a column.
     #[inline]
-    fn begin(&self, place: usize) -> usize {
+    fn length(&self) -> usize {
         if self.tangential {
-            2 * place * self.nodes
+            2 * self.nodes
         } else {
-            place / 2 * self.nodes
+            self.nodes
         }
     }
 
     /// Computes the column of an unknown once.
     pub(super) fn compute(&mut self, problem: &Problem<'_>, unknown: Unknown) {
         let place = place(unknown);
+        let length = self.length();
         let computed = &mut self.computed[place / 2][place % 2];
-        if computed.replace(unknown) == Some(unknown) {
-            return;
+        let begin = computed.map_or(self.count * length, |column| column.begin);
+        match computed.replace(Computed { unknown, begin }) {
+            Some(column) if column.unknown == unknown => return,
+            Some(_) => {}
+            None => self.count += 1,
         }
-        let values = if self.tangential { 2 } else { 1 };
-        self.entries += count(values * self.nodes);
+        let needed = self.columns.len().max(begin + length);
+        self.columns.resize(needed, 0.0);
+        self.entries += count(length);
         let coupling = problem.coupling;
         let (node, force) = (coupling.first + unknown.node(), unknown.force(problem));
-        let (n, begin) = (self.nodes, self.begin(place));
+        let n = self.nodes;
         let deformation = &mut self.deformation;
-        deformation.under_force(problem.zones, coupling, node, force);
+        let nodes = coupling.first..coupling.end;
+        deformation.under_force(problem.zones, coupling, (node, force), nodes);
         let displacements = deformation.averaged(coupling);
         if !self.tangential {
             let rows = self.columns[begin..begin + n].iter_mut();

@@ -224,6 +224,13 @@ impl WearCoupling {
         *combined(self) = matrix;
     }
 
+    /// Nodes to either side at which a pressure opens gaps.
+    pub(super) fn reach(&self) -> usize {
+        let other = self.other_opening();
+        let other = other.map_or(0, |other| other.per_pressure.bandwidth());
+        self.per_pressure().bandwidth().max(other)
+    }
+
     /// W: gap opened per path p |sigma|, 1/MPa.
     pub(in crate::contact) fn opening(&self) -> &Band {
         &self.opening

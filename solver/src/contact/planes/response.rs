@@ -58,7 +58,8 @@ impl Response {
             }
             let (own, _) = self.slave.as_chunks::<2>();
             let (far, _) = self.master.as_chunks::<2>();
-            let rows = coupling.dual_rows().zip(own);
+            let coupled = coupling.first..coupling.end;
+            let rows = coupling.dual_rows(&coupled).zip(own);
             let slopes = &problem.master_slope[k * n..(k + 1) * n];
             for ((gap, slope), ((from, weights), own)) in gaps.iter_mut().zip(slopes).zip(rows) {
                 let [mut x, mut y] = *own;

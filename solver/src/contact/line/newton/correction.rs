@@ -8,7 +8,8 @@ use super::super::status::Status;
 use super::super::unknown::Unknown;
 use super::partition::Partition;
 use super::secant::Secant;
-use crate::linear::{CondensedSystem, DenseLu};
+use super::system::System;
+use crate::linear::DenseLu;
 
 /// Condition of an unknown of the border.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -41,7 +42,7 @@ impl Correction {
         &mut self,
         problem: &Problem<'_>,
         partition: &Partition,
-        (system, renewed): (&mut CondensedSystem, bool),
+        (system, renewed): (&mut System, bool),
         it: &mut Iterate,
     ) -> bool {
         self.write_residuals(problem, partition, it);
@@ -76,7 +77,7 @@ impl Correction {
         &mut self,
         problem: &Problem<'_>,
         partition: &Partition,
-        system: &mut CondensedSystem,
+        system: &mut System,
         it: &Iterate,
     ) -> &[f64] {
         let unknowns = partition.unknowns.len();
@@ -133,7 +134,7 @@ impl Correction {
     }
 
     /// Factors the equations of the border's free unknowns.
-    fn factor_border(&mut self, system: &CondensedSystem) {
+    fn factor_border(&mut self, system: &System) {
         let matrix = self.lu.matrix(self.free.len());
         let mut columns = 0;
         for (b, condition) in self.conditions.iter().enumerate() {
@@ -157,7 +158,7 @@ impl Correction {
     }
 
     /// Solves for the border's changes, whose residuals are those after the elimination of the core.
-    fn solve_border(&mut self, core: usize, system: &CondensedSystem) -> bool {
+    fn solve_border(&mut self, core: usize, system: &System) -> bool {
         let border = &mut self.change[core..];
         self.rhs.clear();
         self.rhs.extend(self.free.iter().map(|row| border[*row]));

@@ -1,5 +1,6 @@
 //! Evaluation of an iterate: gaps, slips and paths under its tractions.
 
+use super::super::deformation::{Deformation, WIDE};
 use super::super::problem::{GAP_TOLERANCE, Iterate, Problem};
 use super::super::response::Response;
 use super::super::status::Status;
@@ -16,6 +17,9 @@ pub(super) struct Evaluation {
     /// Gaps and slips by deformation.
     gap: Vec<f64>,
     slip: Vec<f64>,
+    /// Forces of the unknowns on the slider at the coupled nodes.
+    force: Vec<f64>,
+    deformation: Deformation,
 }
 
 impl Evaluation {
@@ -29,7 +33,7 @@ impl Evaluation {
         it: &mut Iterate,
     ) -> f64 {
         let n = it.status.len();
-        self.deform(unknowns, response, it);
+        self.deform(problem, unknowns, response, it);
         let mut indentation = 0.0_f64;
         for (i, fixed) in problem.fixed_slip.iter().enumerate() {
             it.slip[i] = fixed + problem.slope[i] * it.height;
@@ -79,10 +83,21 @@ impl Evaluation {
         residual / scale
     }
 
-    fn deform(&mut self, unknowns: &[Unknown], response: &Response, it: &Iterate) {
+    /// Gaps and slips by deformation under the unknowns of an iterate.
+    fn deform(
+        &mut self,
+        problem: &Problem<'_>,
+        unknowns: &[Unknown],
+        response: &Response,
+        it: &Iterate,
+    ) {
         for values in [&mut self.gap, &mut self.slip] {
             values.clear();
             values.resize(it.status.len(), 0.0);
+        }
+        if it.status.len() >= WIDE {
+            self.deform_wide(problem, unknowns, it);
+            return;
         }
         vectorized(
             #[inline(always)]
@@ -97,5 +112,25 @@ impl Evaluation {
                 }
             },
         );
+    }
+
+    /// The same of a wide contact, whose responses are not computed one by one.
+    fn deform_wide(&mut self, problem: &Problem<'_>, unknowns: &[Unknown], it: &Iterate) {
+        self.force.clear();
+        self.force.resize(2 * it.status.len(), 0.0);
+        for unknown in unknowns {
+            let (value, [x, y]) = (unknown.value(it), unknown.force(problem));
+            let node = unknown.node();
+            self.force[2 * node] += value * x;
+            self.force[2 * node + 1] += value * y;
+        }
+        let coupling = problem.coupling;
+        self.deformation
+            .under_forces(problem.zones, coupling, &self.force);
+        let displacements = self.deformation.averaged(coupling).enumerate();
+        for (i, [x, y]) in displacements {
+            self.gap[i] = y - problem.master_slope[i] * x;
+            self.slip[i] = x + problem.slope[i] * y;
+        }
     }
 }

@@ -1,0 +1,242 @@
+//! Square matrices whose off-diagonal blocks have low rank (HODLR: hierarchically off-diagonal low-rank; Ambikasaran and Darve 2013).
+//!
+//! ```text
+//!   | D0   U0 V0^T |                        levels 1, 2, ... of clusters, halved down to dense leaves;
+//!   | U1 V1^T   D1 |   and D0, D1 likewise  block j of a level: rows of cluster j, columns of its sibling
+//! ```
+
+use super::cross_approximation::{CrossApproximation, Entries};
+use super::vector::{add_scaled, dot, vectorized};
+use std::ops::Range;
+
+/// Most rows of a leaf. Arbitrary: 64 and 128 take as long, to 15 % (`cargo bench -p solver -- partial_slip`).
+const MOST_LEAF_ROWS: usize = 96;
+
+/// A block of low rank: where its factors begin, by columns.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct LowRank {
+    pub(super) u: usize,
+    pub(super) v: usize,
+    pub(super) rank: usize,
+}
+
+/// What blocks are approximated to.
+#[derive(Debug, Clone, Copy)]
+pub struct Approximation {
+    /// Error over the norm of a block.
+    pub tolerance: f64,
+    /// Whether all of its entries are compared, not only what its crosses show.
+    pub compared: bool,
+    /// Whether the matrix is symmetric.
+    pub symmetric: bool,
+}
+
+/// A matrix of few entries beside its diagonal: row, column and value, by columns.
+pub type Triplets<'a> = &'a [(usize, usize, f64)];
+
+/// A square matrix whose off-diagonal blocks have low rank. Buffers are reused.
+#[derive(Debug, Clone, Default)]
+pub struct Hodlr {
+    pub(super) order: usize,
+    pub(super) levels: u32,
+    /// Dense leaves, by columns, one after the other.
+    pub(super) leaves: Vec<f64>,
+    /// Blocks of level 1, then of level 2, ...
+    pub(super) blocks: Vec<LowRank>,
+    /// Factors of all blocks, level by level.
+    pub(super) factors: Vec<f64>,
+    /// Where those of each level begin, from level 1 on.
+    pub(super) level_starts: Vec<usize>,
+    cross: CrossApproximation,
+}
+
+/// Rows of cluster `number` of a level.
+pub(super) fn cluster(order: usize, level: u32, number: usize) -> Range<usize> {
+    (order * number) >> level..(order * (number + 1)) >> level
+}
+
+/// Number of the first block of a level.
+pub(super) fn first_block(level: u32) -> usize {
+    (1 << level) - 2
+}
+
+impl Hodlr {
+    /// Approximates a matrix: smooth entries, and few others beside the diagonal that are added to them.
+    pub fn approximate(
+        &mut self,
+        order: usize,
+        entries: &mut impl Entries,
+        added: Triplets<'_>,
+        to: Approximation,
+    ) {
+        self.order = order;
+        self.levels = 0;
+        while order >> self.levels > MOST_LEAF_ROWS {
+            self.levels += 1;
+        }
+        self.blocks.clear();
+        self.factors.clear();
+        self.level_starts.clear();
+        for level in 1..=self.levels {
+            self.level_starts.push(self.factors.len());
+            for number in 0..1 << level {
+                let rows = cluster(order, level, number);
+                let columns = cluster(order, level, number ^ 1);
+                let mirrored = (number % 2 == 1 && to.symmetric).then(|| self.mirrored());
+                let block = mirrored.unwrap_or_else(|| {
+                    let to = (to.tolerance, to.compared);
+                    self.cross.approximate(entries, (&rows, &columns), to);
+                    self.push_block((&rows, &columns), added)
+                });
+                self.blocks.push(block);
+            }
+        }
+        self.write_leaves(entries, added);
+    }
+
+    /// The block beside the last one, of a symmetric matrix.
+    fn mirrored(&self) -> LowRank {
+        let LowRank { u, v, rank } = self.blocks[self.blocks.len() - 1];
+        LowRank { u: v, v: u, rank }
+    }
+
+    /// Stores the factors of the approximated block, and the added entries in it: a rank for each of their rows.
+    fn push_block(
+        &mut self,
+        (rows, columns): (&Range<usize>, &Range<usize>),
+        added: Triplets<'_>,
+    ) -> LowRank {
+        let mut beside: Vec<(usize, usize, f64)> = within(added, columns)
+            .filter(|(row, ..)| rows.contains(row))
+            .collect();
+        beside.sort_by_key(|entry| entry.0);
+        let mut distinct: Vec<usize> = beside.iter().map(|entry| entry.0).collect();
+        distinct.dedup();
+        let (u, v) = self.cross.factors();
+        let rank = u.len() / rows.len() + distinct.len();
+        let begin = self.factors.len();
+        self.factors.extend_from_slice(u);
+        for row in &distinct {
+            let unit = self.factors.len() + row - rows.start;
+            self.factors.resize(self.factors.len() + rows.len(), 0.0);
+            self.factors[unit] = 1.0;
+        }
+        let middle = self.factors.len();
+        self.factors.extend_from_slice(v);
+        for row in &distinct {
+            let start = self.factors.len();
+            self.factors.resize(start + columns.len(), 0.0);
+            for (_, column, value) in beside.iter().filter(|entry| entry.0 == *row) {
+                self.factors[start + column - columns.start] += value;
+            }
+        }
+        LowRank {
+            u: begin,
+            v: middle,
+            rank,
+        }
+    }
+
+    fn write_leaves(&mut self, entries: &mut impl Entries, added: Triplets<'_>) {
+        self.leaves.clear();
+        for number in 0..1 << self.levels {
+            let rows = cluster(self.order, self.levels, number);
+            let begin = self.leaves.len();
+            self.leaves.resize(begin + rows.len() * rows.len(), 0.0);
+            let leaf = &mut self.leaves[begin..];
+            for (column, values) in rows.clone().zip(leaf.chunks_exact_mut(rows.len())) {
+                entries.column(column, rows.clone(), values);
+            }
+            for (row, column, value) in within(added, &rows) {
+                if rows.contains(&row) {
+                    leaf[(column - rows.start) * rows.len() + row - rows.start] += value;
+                }
+            }
+        }
+    }
+
+    /// Adds to the rows of a range the product with values at a range of columns.
+    pub fn add_product(
+        &self,
+        (columns, values): (&Range<usize>, &[f64]),
+        (rows, sum): (&Range<usize>, &mut [f64]),
+    ) {
+        vectorized(
+            #[inline(always)]
+            || {
+                let mut begin = 0;
+                for number in 0..1 << self.levels {
+                    let own = cluster(self.order, self.levels, number);
+                    self.add_leaf((own.clone(), begin), (columns, values), (rows, sum));
+                    begin += own.len() * own.len();
+                }
+                for level in 1..=self.levels {
+                    for number in 0..1 << level {
+                        self.add_block((level, number), (columns, values), (rows, sum));
+                    }
+                }
+            },
+        );
+    }
+
+    #[expect(clippy::inline_always, reason = "only then it is vectorized")]
+    #[inline(always)]
+    fn add_leaf(
+        &self,
+        (own, begin): (Range<usize>, usize),
+        (columns, values): (&Range<usize>, &[f64]),
+        (rows, sum): (&Range<usize>, &mut [f64]),
+    ) {
+        let (to, from) = (common(&own, rows), common(&own, columns));
+        if to.is_empty() {
+            return;
+        }
+        for column in from {
+            let first = begin + (column - own.start) * own.len();
+            let entries = &self.leaves[first + to.start - own.start..first + to.end - own.start];
+            let sum = &mut sum[to.start - rows.start..to.end - rows.start];
+            add_scaled(sum, values[column - columns.start], entries);
+        }
+    }
+
+    #[expect(clippy::inline_always, reason = "only then it is vectorized")]
+    #[inline(always)]
+    fn add_block(
+        &self,
+        (level, number): (u32, usize),
+        (columns, values): (&Range<usize>, &[f64]),
+        (rows, sum): (&Range<usize>, &mut [f64]),
+    ) {
+        let block = self.blocks[first_block(level) + number];
+        let own = cluster(self.order, level, number);
+        let other = cluster(self.order, level, number ^ 1);
+        let (to, from) = (common(&own, rows), common(&other, columns));
+        if to.is_empty() || from.is_empty() {
+            return;
+        }
+        let values = &values[from.start - columns.start..from.end - columns.start];
+        let sum = &mut sum[to.start - rows.start..to.end - rows.start];
+        for k in 0..block.rank {
+            let (u, v) = (block.u + k * own.len(), block.v + k * other.len());
+            let v = &self.factors[v + from.start - other.start..v + from.end - other.start];
+            let u = &self.factors[u + to.start - own.start..u + to.end - own.start];
+            add_scaled(sum, dot(v, values), u);
+        }
+    }
+}
+
+/// The entries in a range of columns.
+fn within<'a>(
+    added: Triplets<'a>,
+    columns: &Range<usize>,
+) -> impl Iterator<Item = (usize, usize, f64)> + 'a {
+    let begin = added.partition_point(|entry| entry.1 < columns.start);
+    let end = added.partition_point(|entry| entry.1 < columns.end);
+    added[begin..end].iter().copied()
+}
+
+/// What two ranges have in common.
+fn common(a: &Range<usize>, b: &Range<usize>) -> Range<usize> {
+    let start = a.start.max(b.start);
+    start..a.end.min(b.end).max(start)
+}
