@@ -14,6 +14,7 @@ mod balance;
 mod companions;
 mod estimate;
 
+pub use balance::finest_scenes;
 pub use companions::companion_scenes;
 
 use crate::SolveError;

@@ -8,6 +8,7 @@ use solver::model::unworn_contact;
 use solver::point::{PointScene, SlipRegime};
 use solver::scene::Scene;
 
+use crate::estimate::workload::Workload;
 use crate::estimate::{Estimate, life, machine, notes};
 use crate::export::history;
 use crate::spec::Resolved;
@@ -34,6 +35,23 @@ impl Estimate {
             warnings: resolved.warnings.iter().map(warning).collect(),
             notes: notes::notes(resolved),
         }
+    }
+}
+
+impl Estimate {
+    /// The same with what the solve takes if it restarts at the greatest cost (`cpu_s_with_restart`); takes three times as long.
+    pub fn plan_with_restart(&self, resolved: &Resolved, machine: Option<&MachineFigures>) -> Plan {
+        let mut plan = self.plan(resolved, machine);
+        let restarts = Workload::of_restarts(&resolved.scene).into_iter();
+        if let Some(machine) = machine {
+            let longest = restarts.map(|restart| machine::cpu_s(machine, &restart));
+            if let Some(longest) = longest.reduce(f64::max) {
+                let seconds = machine::cpu_s(machine, &self.workload) + longest;
+                let name = "cpu_s_with_restart".to_owned();
+                plan.estimates.insert(name, seconds);
+            }
+        }
+        plan
     }
 }
 

@@ -3,7 +3,7 @@
 
 use std::collections::BTreeMap;
 
-use solver::error_control::companion_scenes;
+use solver::error_control::{companion_scenes, finest_scenes};
 use solver::extruded::ExtrudedScene;
 use solver::forecast::{LineForecast, forecast, line_forecast, point_forecast};
 use solver::model::{BodyLayout, Layout};
@@ -132,6 +132,11 @@ impl Workload {
         }
     }
 
+    /// What a restart of a run may take at most, by the setting that it refines.
+    pub(super) fn of_restarts(scene: &Scene) -> Vec<Self> {
+        solvable(finest_scenes(scene))
+    }
+
     /// Contact increments of the whole run.
     pub fn increments(&self) -> f64 {
         self.increments.iter().map(|(_, count)| count).sum()
@@ -168,16 +173,21 @@ fn interiors(scene: &Scene, layout: &Layout) -> [Condensations; 2] {
     })
 }
 
-/// A companion that cannot be meshed is not solved.
+/// Those beside which the errors of a run are estimated.
 fn companions(scene: &Scene) -> Vec<Workload> {
-    let scenes = companion_scenes(scene).into_iter();
+    solvable(companion_scenes(scene))
+}
+
+/// The workloads of scenes; those that cannot be meshed are not solved.
+fn solvable(scenes: Vec<Scene>) -> Vec<Workload> {
+    let scenes = scenes.into_iter();
     scenes
-        .filter_map(|companion| {
-            if companion.dimension.point().is_some() {
-                return Some(Workload::of(&companion, None));
+        .filter_map(|scene| {
+            if scene.dimension.point().is_some() {
+                return Some(Workload::of(&scene, None));
             }
-            let layout = Layout::of(&companion).ok()?;
-            Some(Workload::of(&companion, Some(&layout)))
+            let layout = Layout::of(&scene).ok()?;
+            Some(Workload::of(&scene, Some(&layout)))
         })
         .collect()
 }

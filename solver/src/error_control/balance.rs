@@ -69,6 +69,39 @@ pub(super) fn finer(scene: &Scene, errors: &Errors) -> Refinement {
     }
 }
 
+/// The scenes that a run which restarts may take the longest for: one of its settings alone is as fine as a restart makes it.
+pub fn finest_scenes(of: &Scene) -> Vec<Scene> {
+    let Accuracy {
+        contact_element_mm: element,
+        increments_per_cycle: increments,
+        cycle_jump: jump,
+        estimate_errors,
+        ..
+    } = of.accuracy;
+    let [mesh, steps, cycles] = COST.map(|power| MOST_COST.powf(power.recip()));
+    let mesh = mesh.min(largest_mesh_factor(of));
+    let alone = [
+        (element.is_none(), [mesh, 1.0, 1.0]),
+        (increments.is_none(), [1.0, steps, 1.0]),
+        (jump.is_none(), [1.0, 1.0, cycles]),
+    ];
+    let chosen = alone
+        .into_iter()
+        .filter(|(free, _)| *free && estimate_errors);
+    chosen
+        .map(|(_, [mesh, increments, cycles])| {
+            let refinement = Refinement {
+                mesh,
+                increments,
+                cycles,
+            };
+            let mut scene = companions::refined(of, refinement);
+            scene.accuracy.estimate_errors = false;
+            scene
+        })
+        .collect()
+}
+
 /// Factor up to which the cells of a point contact may be more along each axis.
 const MORE_CELLS: f64 = 2.0;
 
