@@ -88,6 +88,53 @@ async fn a_cluster_solves_what_waits_and_is_left_empty() {
     emptied(&slurm).await;
 }
 
+/// Workers that end at once, here because their program fails, are submitted less and less often, and the pilot says so.
+#[tokio::test]
+#[cfg_attr(
+    not(has_slurm),
+    ignore = "needs the programs of Slurm and MUNGE, and to be root"
+)]
+async fn a_pilot_slows_down_when_its_workers_end_at_once() {
+    let folder = tempfile::tempdir().expect("a folder can be made");
+    let slurm = Slurm::start(folder.path());
+    let server = Server::without_workers(folder.path(), &[]);
+    let program = folder.path().join("fretwear");
+    std::fs::copy(binary(), &program).expect("the program can be copied");
+    let log = folder.path().join("pilot.log");
+    let mut command = slurm.command(&program.display().to_string());
+    command.args(["pilot", "slurm", "--every-s", "1"]);
+    command.args(["--server", &server.base, "--most", MOST]);
+    let said = std::fs::File::create(&log).expect("a log can be made");
+    let mut pilot = command.stderr(said).spawn().expect("a pilot");
+    // The pilot runs; workers would start what is at its path now.
+    std::fs::remove_file(&program).expect("it is there");
+    let failing = std::fs::File::create(&program).expect("it can be written");
+    let executable = std::os::unix::fs::PermissionsExt::from_mode(0o755);
+    failing.set_permissions(executable).expect("it is ours");
+    std::fs::write(&program, "#!/bin/sh\nexit 1\n").expect("it can be written");
+    let (status, job) = server.submit(SPEC).await;
+    assert_eq!(status, 202, "{job}");
+    let start = Instant::now();
+    let said = loop {
+        let said = std::fs::read_to_string(&log).expect("a log");
+        if said.contains("solve nothing") {
+            break said;
+        }
+        assert!(start.elapsed() < PATIENCE, "the pilot says it: {said}");
+        tokio::time::sleep(Duration::from_millis(50)).await;
+    };
+    // The second start is made at the next look, the third after a pause.
+    assert_eq!(said.matches("workers submitted").count(), 2, "{said}");
+    pilot.kill().expect("it runs");
+    pilot.wait().expect("it was started");
+    emptied(&slurm).await;
+    let (_, job) = server
+        .get(&format!("/v1/jobs/{}", job["id"].as_str().expect("an id")))
+        .await;
+    let (status, attempts) = (&job["status"], &job["attempts"]);
+    assert_eq!((status, attempts), (&json!("queued"), &json!(0)), "{job}");
+}
+
 #[tokio::test]
 #[cfg_attr(
     not(has_slurm),

@@ -12,8 +12,8 @@ use crate::cli::runtime::block_on;
 use crate::cli::serve::until_signal;
 use crate::cli::terminal::{Ended, failed, write_out};
 use crate::client::Client;
-use crate::placement::Fleet;
-use crate::placement::slurm::SlurmWorkers;
+use crate::placement::slurm::{SlurmError, SlurmWorkers};
+use crate::placement::{Fleet, Pace};
 
 /// Default memory of a worker for each of its slots, MB. Arbitrary: solves need 20 to 350 MB by their plans.
 const SLOT_MEMORY_MB: u64 = 2_000;
@@ -85,39 +85,57 @@ async fn pilot(arguments: &SlurmArguments, client: &Client, workers: &SlurmWorke
         most: arguments.most,
         slots: arguments.slots,
     };
+    let every = Duration::from_secs(arguments.every_s);
+    let mut pace = Pace::new(every);
     loop {
         match client.demand().await {
             Ok(demand) if arguments.until_idle && demand.queued + demand.running == 0 => {
                 return Ok(());
             }
-            Ok(demand) => place(fleet, &demand, workers),
+            Ok(demand) => {
+                if let Err(error) = place(fleet, &demand, workers, &mut pace).await {
+                    tracing::warn!(%error, "no workers were submitted");
+                }
+            }
             Err(error) if error.is_rejected() => return Err(failed(error)),
             Err(error) => tracing::warn!(%error, "the demand is not known"),
         }
-        tokio::time::sleep(Duration::from_secs(arguments.every_s)).await;
+        tokio::time::sleep(every).await;
     }
 }
 
 /// Submits workers if fewer are there than a demand is enough for.
-fn place(fleet: Fleet, demand: &Demand, workers: &SlurmWorkers) {
-    let wanted = fleet.wanted(demand);
-    let placed = workers.present().and_then(|present| {
-        let missing = wanted.saturating_sub(present);
-        if missing > 0 {
-            workers.submit(missing)?;
-            tracing::info!(
-                submitted = missing,
-                present,
-                queued = demand.queued,
-                running = demand.running,
-                "workers submitted"
-            );
-        }
-        Ok(())
-    });
-    if let Err(error) = placed {
-        tracing::warn!(%error, "no workers were submitted");
+async fn place(
+    fleet: Fleet,
+    demand: &Demand,
+    workers: &SlurmWorkers,
+    pace: &mut Pace,
+) -> Result<(), SlurmError> {
+    let wait = pace.wait(demand);
+    let present = workers.present().await?;
+    let missing = fleet.wanted(demand).saturating_sub(present);
+    if missing == 0 {
+        return Ok(());
     }
+    if !wait.is_zero() {
+        tracing::warn!(
+            starts = pace.fruitless() + 1,
+            again_in_s = wait.as_secs(),
+            queued = demand.queued,
+            "the workers that were submitted solve nothing; see their logs (--logs)"
+        );
+        return Ok(());
+    }
+    workers.submit(missing).await?;
+    pace.started(demand, present == 0);
+    tracing::info!(
+        submitted = missing,
+        present,
+        queued = demand.queued,
+        running = demand.running,
+        "workers submitted"
+    );
+    Ok(())
 }
 
 /// A name that needs no quotes in a script.

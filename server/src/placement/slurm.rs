@@ -2,15 +2,20 @@
 //!
 //! What is submitted and runs is read from Slurm's queue by the name of the jobs, so that nothing has to be remembered.
 
-use std::io::Write;
 use std::path::PathBuf;
-use std::process::{Command, Output, Stdio};
+use std::process::{Output, Stdio};
 use std::time::Duration;
+
+use tokio::io::AsyncWriteExt;
+use tokio::process::Command;
+use tokio::time::timeout;
 
 /// Time between SIGTERM and the end of a worker at its time limit: its solves write a last checkpoint.
 const WARNING: Duration = Duration::from_mins(1);
 /// Most tasks of a job array: Slurm's own default (`MaxArraySize` of 1001, which is beyond the largest number).
 const LONGEST_ARRAY: u64 = 1_000;
+/// Longest time that Slurm may take to answer: its programs wait for a controller that is away.
+const LONGEST_ANSWER: Duration = Duration::from_mins(1);
 /// States of tasks that count as workers.
 const STATES: &str = "PENDING,CONFIGURING,RUNNING,SUSPENDED,COMPLETING";
 
@@ -32,6 +37,12 @@ pub enum SlurmError {
         program: &'static str,
         /// Its standard error.
         said: String,
+    },
+    /// A program of it does not answer.
+    #[error("{program} has not answered for {} s", LONGEST_ANSWER.as_secs())]
+    Silent {
+        /// The program.
+        program: &'static str,
     },
 }
 
@@ -90,11 +101,11 @@ impl SlurmWorkers {
     ///
     /// # Errors
     /// [`SlurmError`].
-    pub fn present(&self) -> Result<u64, SlurmError> {
+    pub async fn present(&self) -> Result<u64, SlurmError> {
         let mut command = Command::new("squeue");
         command.args(["--me", "--noheader", "--array", "--format=%i"]);
         command.args(["--name", &self.name, "--states", STATES]);
-        let output = finished("squeue", command, "")?;
+        let output = finished("squeue", command, "").await?;
         let lines = output.stdout.split(|byte| *byte == b'\n');
         let tasks = lines.filter(|line| !line.is_empty()).count();
         Ok(u64::try_from(tasks).unwrap_or(u64::MAX))
@@ -104,20 +115,20 @@ impl SlurmWorkers {
     ///
     /// # Errors
     /// [`SlurmError`]; some may have been submitted.
-    pub fn submit(&self, mut workers: u64) -> Result<(), SlurmError> {
+    pub async fn submit(&self, mut workers: u64) -> Result<(), SlurmError> {
         while workers > 0 {
             let tasks = workers.min(LONGEST_ARRAY);
             let mut command = Command::new("sbatch");
             command.args(["--parsable", &format!("--array=1-{tasks}")]);
-            finished("sbatch", command, &self.script())?;
+            finished("sbatch", command, &self.script()).await?;
             workers -= tasks;
         }
         Ok(())
     }
 }
 
-/// Runs a program to its end.
-fn finished(
+/// Runs a program to its end. One that does not answer, or for which nobody waits any more, is killed.
+async fn finished(
     program: &'static str,
     mut command: Command,
     input: &str,
@@ -127,13 +138,20 @@ fn finished(
         .stdin(Stdio::piped())
         .stdout(Stdio::piped())
         .stderr(Stdio::piped())
+        .kill_on_drop(true)
         .spawn();
     let mut child = spawned.map_err(run)?;
-    if let Some(mut stdin) = child.stdin.take() {
-        // A program that has ended without reading says why.
-        let _ = stdin.write_all(input.as_bytes());
-    }
-    let output = child.wait_with_output().map_err(run)?;
+    let answer = async {
+        if let Some(mut stdin) = child.stdin.take() {
+            // A program that has ended without reading says why.
+            let _ = stdin.write_all(input.as_bytes()).await;
+        }
+        child.wait_with_output().await
+    };
+    let answered = timeout(LONGEST_ANSWER, answer).await;
+    let output = answered
+        .map_err(|_| SlurmError::Silent { program })?
+        .map_err(run)?;
     if output.status.success() {
         return Ok(output);
     }
