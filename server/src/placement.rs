@@ -34,55 +34,61 @@ impl Fleet {
     }
 }
 
-/// When workers may be started again. Those that end at once, as without a readable token or on nodes that cannot reach the service, are
-/// started less and less often.
+/// When workers may be started again: those that fail, as without a readable token or on nodes that cannot reach the service, are started
+/// less and less often.
 #[derive(Debug)]
 pub struct Pace {
+    /// Time between two looks.
     every: Duration,
-    /// Starts, one after the other, that brought no job to its end and no worker that solves one.
+    /// Workers of the last start, and those that have failed since.
+    started: u64,
+    failed: u64,
+    /// Starts, one after the other, of which at least half of the workers have failed.
     fruitless: u32,
-    /// Jobs that waited at the last start.
-    waiting: Option<u64>,
-    /// Time since then.
-    since: Duration,
+    /// Time until the next start.
+    left: Duration,
 }
 
 impl Pace {
-    /// Of a pilot that looks at the demand at intervals.
+    /// Of a pilot that looks at intervals.
     pub fn new(every: Duration) -> Self {
         Self {
             every,
+            started: 0,
+            failed: 0,
             fruitless: 0,
-            waiting: None,
-            since: Duration::ZERO,
+            left: Duration::ZERO,
         }
     }
 
-    /// Notes the demand at the next look; returns how long no workers are started yet.
-    pub fn wait(&mut self, demand: &Demand) -> Duration {
-        self.since += self.every;
-        let Some(waiting) = self.waiting else {
-            return Duration::ZERO;
-        };
-        if demand.running_remotely > 0 || demand.queued < waiting {
-            self.fruitless = 0;
-            return Duration::ZERO;
-        }
-        let pause = self.every.saturating_mul(1 << self.fruitless.min(16));
-        pause.min(LONGEST_WAIT).saturating_sub(self.since)
-    }
-
-    /// Notes a start, and whether there were no workers any more.
-    pub fn started(&mut self, demand: &Demand, none_left: bool) {
-        if none_left && self.waiting.is_some() {
+    /// Notes the workers that have failed since the last look; returns how long no others are started.
+    pub fn look(&mut self, failed: u64) -> Duration {
+        self.left = self.left.saturating_sub(self.every);
+        let had_failed = self.has_failed();
+        self.failed += failed;
+        if self.has_failed() && !had_failed {
             self.fruitless += 1;
+            let pause = self.every.saturating_mul(1 << self.fruitless.min(16));
+            self.left = pause.min(LONGEST_WAIT);
         }
-        (self.waiting, self.since) = (Some(demand.queued), Duration::ZERO);
+        self.left
     }
 
-    /// Number of starts, one after the other, whose workers have solved nothing.
+    /// Notes a start of so many workers.
+    pub fn started(&mut self, workers: u64) {
+        if !self.has_failed() {
+            self.fruitless = 0;
+        }
+        (self.started, self.failed) = (workers, 0);
+    }
+
+    /// Number of starts, one after the other, whose workers have failed.
     pub fn fruitless(&self) -> u32 {
         self.fruitless
+    }
+
+    fn has_failed(&self) -> bool {
+        self.started > 0 && 2 * self.failed >= self.started
     }
 }
 
@@ -90,44 +96,46 @@ impl Pace {
 mod tests {
     use super::*;
 
-    fn demand(queued: u64, running_remotely: u64) -> Demand {
-        Demand {
-            queued,
-            running: running_remotely,
-            running_remotely,
-            queued_cpu_s: 60 * queued,
-        }
-    }
-
-    #[test]
-    fn workers_that_end_at_once_are_started_less_and_less_often() {
+    /// The looks at which workers are started, of which so many fail by the next look.
+    fn starts(workers: u64, failing: u64) -> Vec<u64> {
         let mut pace = Pace::new(Duration::from_secs(15));
-        let mut starts = Vec::new();
-        for look in 0..400_u64 {
-            let demand = demand(10, 0);
-            if pace.wait(&demand).is_zero() {
-                pace.started(&demand, true);
+        let (mut starts, mut failed) = (Vec::new(), 0);
+        for look in 0..400 {
+            if pace.look(std::mem::take(&mut failed)).is_zero() {
+                pace.started(workers);
                 starts.push(look);
+                failed = failing;
             }
         }
-        assert_eq!(starts[..6], [0, 1, 3, 7, 15, 31]);
-        // Every ten minutes in the end.
-        let last = starts.windows(2).last().expect("some");
-        assert_eq!(last[1] - last[0], 40);
+        starts
     }
 
     #[test]
-    fn workers_that_solve_are_followed_by_others_at_once() {
-        let mut pace = Pace::new(Duration::from_secs(15));
-        for _ in 0..5 {
-            pace.started(&demand(10, 0), true);
+    fn workers_that_fail_are_started_less_and_less_often() {
+        for failing in [25, 49, 50] {
+            let starts = starts(50, failing);
+            assert_eq!(starts[..6], [0, 3, 8, 17, 34, 67]);
+            // After ten minutes in the end.
+            let last = starts.windows(2).last().expect("some");
+            assert_eq!(last[1] - last[0], 41);
         }
-        assert!(!pace.wait(&demand(10, 0)).is_zero());
-        assert!(pace.wait(&demand(10, 1)).is_zero());
-        pace.started(&demand(9, 0), true);
-        // A job has been taken.
-        assert!(pace.wait(&demand(8, 0)).is_zero());
+        // A node that fails now and then holds nothing up.
+        assert_eq!(starts(50, 10).len(), 400);
+    }
+
+    #[test]
+    fn a_start_that_did_not_fail_ends_the_pauses() {
+        let mut pace = Pace::new(Duration::from_secs(15));
+        for _ in 0..3 {
+            pace.started(4);
+            pace.look(4);
+        }
+        assert_eq!(pace.fruitless(), 3);
+        pace.started(4);
+        pace.look(1);
+        pace.started(4);
         assert_eq!(pace.fruitless(), 0);
+        assert_eq!(pace.look(4), Duration::from_secs(30));
     }
 
     #[test]

@@ -38,16 +38,25 @@ fn condensation(bencher: Bencher<'_, '_>, element_um: u32) {
 
 #[divan::bench(args = [4, 2, 1])]
 fn cycle_of_40_increments(bencher: Bencher<'_, '_>, element_um: u32) {
-    let scene = mccoll(element_um);
-    let model = model::build(&scene, &solver::effects::plan(&scene)).expect("it can be meshed");
+    bench_cycle(bencher, &mccoll(element_um), 0);
+}
+
+/// A computed cycle of two, after some others.
+fn bench_cycle(bencher: Bencher<'_, '_>, scene: &Scene, before: u32) {
+    let model = model::build(scene, &solver::effects::plan(scene)).expect("it can be meshed");
     let condensed = condense(&model).expect("it can be condensed");
     let operators = &condensed.operators;
     let mut loaded = CycleState::start(operators, model.interface.slave);
-    let mut integrator = Integrator::new(&scene, &model, operators);
+    let mut integrator = Integrator::new(scene, &model, operators);
     integrator.apply_load(&mut loaded).expect("it settles");
     integrator
         .initial_quarter(&mut loaded)
         .expect("it sets out");
+    for _ in 0..before {
+        integrator
+            .compute_cycle(&mut loaded, (2, true))
+            .expect("it slides");
+    }
     bencher
         .with_inputs(|| loaded.clone())
         .bench_local_values(|mut state| {
@@ -81,27 +90,8 @@ fn partial_slip(nodes: u32) -> Scene {
 
 #[divan::bench(args = [80, 160, 320, 640, 1_280, 2_000], sample_count = 5)]
 fn partial_slip_cycle_of_20_increments(bencher: Bencher<'_, '_>, nodes: u32) {
-    let scene = partial_slip(nodes);
-    let model = model::build(&scene, &solver::effects::plan(&scene)).expect("it can be meshed");
-    let condensed = condense(&model).expect("it can be condensed");
-    let operators = &condensed.operators;
-    let mut loaded = CycleState::start(operators, model.interface.slave);
-    let mut integrator = Integrator::new(&scene, &model, operators);
-    integrator.apply_load(&mut loaded).expect("it settles");
-    integrator
-        .initial_quarter(&mut loaded)
-        .expect("it sets out");
     // The first cycle starts from no cycle before.
-    integrator
-        .compute_cycle(&mut loaded, (2, true))
-        .expect("it slides");
-    bencher
-        .with_inputs(|| loaded.clone())
-        .bench_local_values(|mut state| {
-            integrator
-                .compute_cycle(&mut state, (2, true))
-                .expect("it slides")
-        });
+    bench_cycle(bencher, &partial_slip(nodes), 1);
 }
 
 #[divan::bench(args = [0.1, 0.02], sample_count = 3)]

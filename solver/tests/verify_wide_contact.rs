@@ -1,11 +1,13 @@
 //! Contacts of hundreds of nodes, whose operators are compressed and whose Jacobian is factored with off-diagonal blocks of low rank
-//! (Ambikasaran and Darve 2013): the same displacements, the same solutions, and an effort of about n^1.5.
+//! (Ambikasaran and Darve 2013): the same displacements and the same solutions.
 
 use crate::scenes::mccoll;
+use crate::verify_plating::layer;
 use solver::condensation::{Condensed, condense};
 use solver::cycle::{CycleState, Integrator};
+use solver::effects::{Effect, Switches};
 use solver::model::{self, Model};
-use solver::scene::{Friction, Motion, Scene, WearLaw};
+use solver::scene::{Friction, Motion, Rhee, Scene, WearLaw};
 use solver::sides::{Side, Sides};
 
 /// Half-width of the unworn contact, mm (`verify_cattaneo_mindlin`).
@@ -140,6 +142,74 @@ fn wide_contacts_converge_like_narrow_ones() {
         println!("factorizations an increment: {factorizations:.2?}");
         // Statuses change at more nodes of a finer mesh from one increment to the next.
         assert!(factorizations[3] < 2.5 * factorizations[0]);
+    }
+}
+
+type Change = fn(&mut Scene);
+
+/// Everything that the Jacobian of a wide contact is written for in another way than that of a narrow one: layers that are worn through,
+/// laws of which a power of the depth adds, a spring, slip as imposed, no friction; both bodies worn, either carrying the constraints.
+#[test]
+fn wide_contacts_of_other_laws_and_plans_wear_like_narrow_ones() {
+    let cases: [(&str, f64, Change); 6] = [
+        ("layers worn through, gross slip", 0.01, |scene| {
+            scene.receptacle.plating = vec![layer(3e-5, 1e-6)];
+            scene.slider.plating = vec![layer(2e-5, 5e-7)];
+        }),
+        ("layers worn through, partial slip", 0.0012, |scene| {
+            scene.receptacle.plating = vec![layer(2e-6, 1e-6)];
+        }),
+        ("power of the depth", 0.01, |scene| {
+            let law = Rhee {
+                factor: 1e-7,
+                pressure_exponent: 1.0,
+                speed_exponent: 1.0,
+                time_exponent: 0.8,
+            };
+            scene.receptacle.wear = Some(WearLaw::Power(law.power_law()));
+        }),
+        ("spring", 0.01, |scene| scene.spring_n_per_mm2 = 1e5),
+        ("slip as imposed", 0.01, |scene| {
+            scene.effects = Switches::default().with(Effect::StickMemory, false);
+        }),
+        ("no friction", 0.01, |scene| {
+            scene.effects = Switches::default().with(Effect::Friction, false);
+        }),
+    ];
+    for (name, amplitude, change) in cases {
+        let rates = Sides {
+            slider: 1e-6,
+            receptacle: 3e-6,
+        };
+        let [narrow, wide] = [160, 400].map(|nodes| {
+            let mut scene = scene(nodes, amplitude, rates);
+            change(&mut scene);
+            slide(&scene)
+        });
+        assert!(
+            wide.checks.complementarity <= 1e-11,
+            "{name}: {:?}",
+            wide.checks
+        );
+        assert!(wide.checks.worn_area <= 1e-11, "{name}: {:?}", wide.checks);
+        let deepest = |state: &CycleState, side| {
+            let depths = state.depth.of(side).iter();
+            depths.fold(0.0, |most: f64, depth| most.max(*depth))
+        };
+        for side in Side::BOTH {
+            for (what, narrow, wide) in [
+                ("area", *narrow.worn_area.of(side), *wide.worn_area.of(side)),
+                ("deepest", deepest(&narrow, side), deepest(&wide, side)),
+            ] {
+                println!("{name}, {}: {what} {narrow:.4e}, {wide:.4e}", side.name());
+                assert!((wide / narrow - 1.0).abs() < 0.02, "{name}");
+            }
+        }
+        let per_increment =
+            |state: &CycleState| real(state.work.factorizations) / real(state.work.increments);
+        let factorizations = [per_increment(&narrow), per_increment(&wide)];
+        println!("{name}: factorizations an increment {factorizations:.2?}");
+        assert!(factorizations[1] < 2.5 * factorizations[0], "{name}");
     }
 }
 

@@ -15,10 +15,11 @@ use sha2::{Digest, Sha256};
 use tests::{Server, bits};
 
 /// Fields that differ from run to run: what a solve costs, and when things happened.
-const MASKED: [&str; 10] = [
+const MASKED: [&str; 11] = [
     "id",
     "cost",
     "cpu_s",
+    "cpu_s_with_restart",
     "machine",
     "eta_s",
     "updated_at",

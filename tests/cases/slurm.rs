@@ -88,13 +88,13 @@ async fn a_cluster_solves_what_waits_and_is_left_empty() {
     emptied(&slurm).await;
 }
 
-/// Workers that end at once, here because their program fails, are submitted less and less often, and the pilot says so.
+/// Workers that fail, here because of their program, are submitted less and less often, and the pilot says so.
 #[tokio::test]
 #[cfg_attr(
     not(has_slurm),
     ignore = "needs the programs of Slurm and MUNGE, and to be root"
 )]
-async fn a_pilot_slows_down_when_its_workers_end_at_once() {
+async fn a_pilot_slows_down_when_its_workers_fail() {
     let folder = tempfile::tempdir().expect("a folder can be made");
     let slurm = Slurm::start(folder.path());
     let server = Server::without_workers(folder.path(), &[]);
@@ -117,14 +117,20 @@ async fn a_pilot_slows_down_when_its_workers_end_at_once() {
     let start = Instant::now();
     let said = loop {
         let said = std::fs::read_to_string(&log).expect("a log");
-        if said.contains("solve nothing") {
+        if said.matches("workers have failed").count() > 2 {
             break said;
         }
         assert!(start.elapsed() < PATIENCE, "the pilot says it: {said}");
         tokio::time::sleep(Duration::from_millis(50)).await;
     };
-    // The second start is made at the next look, the third after a pause.
-    assert_eq!(said.matches("workers submitted").count(), 2, "{said}");
+    // One start for each warning, and pauses of two, four and eight looks.
+    let warnings: Vec<_> = said.split("workers have failed").take(3).collect();
+    for before in warnings {
+        assert_eq!(before.matches("workers submitted").count(), 1, "{said}");
+    }
+    for pause in [2, 4, 8] {
+        assert!(said.contains(&format!("again_in_s={pause}")), "{said}");
+    }
     pilot.kill().expect("it runs");
     pilot.wait().expect("it was started");
     emptied(&slurm).await;

@@ -1,5 +1,6 @@
 //! `fretwear pilot slurm`: workers on a cluster as long as there is work for them.
 
+use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::Duration;
@@ -86,14 +87,17 @@ async fn pilot(arguments: &SlurmArguments, client: &Client, workers: &SlurmWorke
         slots: arguments.slots,
     };
     let every = Duration::from_secs(arguments.every_s);
-    let mut pace = Pace::new(every);
+    let mut starts = Starts {
+        pace: Pace::new(every),
+        failed: HashSet::new(),
+    };
     loop {
         match client.demand().await {
             Ok(demand) if arguments.until_idle && demand.queued + demand.running == 0 => {
                 return Ok(());
             }
             Ok(demand) => {
-                if let Err(error) = place(fleet, &demand, workers, &mut pace).await {
+                if let Err(error) = starts.place((fleet, workers), &demand).await {
                     tracing::warn!(%error, "no workers were submitted");
                 }
             }
@@ -104,38 +108,48 @@ async fn pilot(arguments: &SlurmArguments, client: &Client, workers: &SlurmWorke
     }
 }
 
-/// Submits workers if fewer are there than a demand is enough for.
-async fn place(
-    fleet: Fleet,
-    demand: &Demand,
-    workers: &SlurmWorkers,
-    pace: &mut Pace,
-) -> Result<(), SlurmError> {
-    let wait = pace.wait(demand);
-    let present = workers.present().await?;
-    let missing = fleet.wanted(demand).saturating_sub(present);
-    if missing == 0 {
-        return Ok(());
-    }
-    if !wait.is_zero() {
-        tracing::warn!(
-            starts = pace.fruitless() + 1,
-            again_in_s = wait.as_secs(),
+/// Starts of workers.
+struct Starts {
+    pace: Pace,
+    /// Tasks that had failed at the last look.
+    failed: HashSet<String>,
+}
+
+impl Starts {
+    /// Submits workers if fewer are there than a demand is enough for.
+    async fn place(
+        &mut self,
+        (fleet, workers): (Fleet, &SlurmWorkers),
+        demand: &Demand,
+    ) -> Result<(), SlurmError> {
+        let failed = workers.failed().await?;
+        let present = workers.present().await?;
+        let others = failed.difference(&self.failed).count();
+        self.failed = failed;
+        let before = self.pace.fruitless();
+        let wait = self.pace.look(u64::try_from(others).unwrap_or(u64::MAX));
+        if self.pace.fruitless() > before {
+            tracing::warn!(
+                tasks = others,
+                again_in_s = wait.as_secs(),
+                "workers have failed; their logs (--logs) say why"
+            );
+        }
+        let missing = fleet.wanted(demand).saturating_sub(present);
+        if missing == 0 || !wait.is_zero() {
+            return Ok(());
+        }
+        self.pace.started(missing);
+        workers.submit(missing).await?;
+        tracing::info!(
+            submitted = missing,
+            present,
             queued = demand.queued,
-            "the workers that were submitted solve nothing; see their logs (--logs)"
+            running = demand.running,
+            "workers submitted"
         );
-        return Ok(());
+        Ok(())
     }
-    workers.submit(missing).await?;
-    pace.started(demand, present == 0);
-    tracing::info!(
-        submitted = missing,
-        present,
-        queued = demand.queued,
-        running = demand.running,
-        "workers submitted"
-    );
-    Ok(())
 }
 
 /// A name that needs no quotes in a script.

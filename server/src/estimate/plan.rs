@@ -39,7 +39,8 @@ impl Estimate {
 }
 
 impl Estimate {
-    /// The same with what the solve takes if it restarts at the greatest cost (`cpu_s_with_restart`); takes three times as long.
+    /// The same with an estimate of what the solve takes if it restarts with its costliest setting as fine as a restart makes it
+    /// (`cpu_s_with_restart`); takes four times as long.
     pub fn plan_with_restart(&self, resolved: &Resolved, machine: Option<&MachineFigures>) -> Plan {
         let mut plan = self.plan(resolved, machine);
         let restarts = Workload::of_restarts(&resolved.scene).into_iter();
@@ -123,4 +124,39 @@ fn unworn_contact(scene: &Scene) -> Vec<(&'static str, f64)> {
         estimates.push(("receptacle_full_pass_depth_mm", depth));
     }
     estimates
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const MACHINE: MachineFigures = MachineFigures {
+        program: String::new(),
+        increment_s: 1e-4,
+        increment_power: 1.5,
+        condensation_dof_s: 1e-7,
+        condensation_surface_s: 1e-9,
+    };
+
+    /// Seconds without and with a restart.
+    fn seconds(accuracy: &str) -> (f64, Option<f64>) {
+        let text = format!(r#"{{"system":{{"kind":"dimm"}},"cycles":200,"accuracy":{accuracy}}}"#);
+        let resolved = crate::spec::read(text.as_bytes()).expect("accepted");
+        let plan = Estimate::of(&resolved).plan_with_restart(&resolved, Some(&MACHINE));
+        let of = |name: &str| plan.estimates.get(name).copied();
+        (of("cpu_s").expect("a number"), of("cpu_s_with_restart"))
+    }
+
+    #[test]
+    fn a_restart_takes_some_times_as_long_as_the_run_where_it_may_refine() {
+        let (without, with) = seconds("{}");
+        let ratio = with.expect("a number") / without;
+        assert!((2.5..12.0).contains(&ratio), "{ratio}");
+        let given = r#"{"contact_element_mm":0.0005,"increments_per_cycle":400,"cycle_jump":4}"#;
+        assert_eq!(seconds(given).1, None);
+        assert_eq!(seconds(r#"{"estimate_errors":false}"#).1, None);
+        // Increments alone may be refined.
+        let given = r#"{"contact_element_mm":0.0005,"cycle_jump":4}"#;
+        assert!(seconds(given).1 > Some(seconds(given).0));
+    }
 }

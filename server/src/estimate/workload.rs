@@ -132,7 +132,7 @@ impl Workload {
         }
     }
 
-    /// What a restart of a run may take at most, by the setting that it refines.
+    /// Restarts of a run, each with one setting as fine as a restart makes it.
     pub(super) fn of_restarts(scene: &Scene) -> Vec<Self> {
         solvable(finest_scenes(scene))
     }

@@ -2,6 +2,7 @@
 //!
 //! What is submitted and runs is read from Slurm's queue by the name of the jobs, so that nothing has to be remembered.
 
+use std::collections::HashSet;
 use std::path::PathBuf;
 use std::process::{Output, Stdio};
 use std::time::Duration;
@@ -16,8 +17,9 @@ const WARNING: Duration = Duration::from_mins(1);
 const LONGEST_ARRAY: u64 = 1_000;
 /// Longest time that Slurm may take to answer: its programs wait for a controller that is away.
 const LONGEST_ANSWER: Duration = Duration::from_mins(1);
-/// States of tasks that count as workers.
-const STATES: &str = "PENDING,CONFIGURING,RUNNING,SUSPENDED,COMPLETING";
+/// States of tasks that count as workers, and of those that have failed, which Slurm lists for some minutes.
+const PRESENT: &str = "PENDING,CONFIGURING,RUNNING,SUSPENDED,COMPLETING";
+const FAILED: &str = "FAILED,BOOT_FAIL,NODE_FAIL,OUT_OF_MEMORY";
 
 /// Why Slurm did not do what was asked.
 #[derive(Debug, thiserror::Error)]
@@ -102,13 +104,25 @@ impl SlurmWorkers {
     /// # Errors
     /// [`SlurmError`].
     pub async fn present(&self) -> Result<u64, SlurmError> {
+        let tasks = self.tasks(PRESENT).await?;
+        Ok(u64::try_from(tasks.len()).unwrap_or(u64::MAX))
+    }
+
+    /// Tasks that have failed within some minutes, by their names.
+    ///
+    /// # Errors
+    /// [`SlurmError`].
+    pub async fn failed(&self) -> Result<HashSet<String>, SlurmError> {
+        Ok(self.tasks(FAILED).await?.into_iter().collect())
+    }
+
+    async fn tasks(&self, states: &str) -> Result<Vec<String>, SlurmError> {
         let mut command = Command::new("squeue");
         command.args(["--me", "--noheader", "--array", "--format=%i"]);
-        command.args(["--name", &self.name, "--states", STATES]);
+        command.args(["--name", &self.name, "--states", states]);
         let output = finished("squeue", command, "").await?;
-        let lines = output.stdout.split(|byte| *byte == b'\n');
-        let tasks = lines.filter(|line| !line.is_empty()).count();
-        Ok(u64::try_from(tasks).unwrap_or(u64::MAX))
+        let text = String::from_utf8_lossy(&output.stdout);
+        Ok(text.lines().map(str::to_owned).collect())
     }
 
     /// Submits so many workers as job arrays.

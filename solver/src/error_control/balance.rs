@@ -69,7 +69,7 @@ pub(super) fn finer(scene: &Scene, errors: &Errors) -> Refinement {
     }
 }
 
-/// The scenes that a run which restarts may take the longest for: one of its settings alone is as fine as a restart makes it.
+/// The scenes of restarts, each with one of its settings as fine as a restart makes it.
 pub fn finest_scenes(of: &Scene) -> Vec<Scene> {
     let Accuracy {
         contact_element_mm: element,

@@ -34,30 +34,38 @@ pub struct Approximation {
 /// A matrix of few entries beside its diagonal: row, column and value, by columns.
 pub type Triplets<'a> = &'a [(usize, usize, f64)];
 
+/// Where the parts of a matrix are.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Shape {
+    pub(super) order: usize,
+    pub(super) levels: u32,
+    /// Blocks of level 1, then of level 2, ...
+    pub(super) blocks: Vec<LowRank>,
+}
+
+impl Shape {
+    /// Rows of a cluster of a level.
+    pub(super) fn cluster(&self, level: u32, number: usize) -> Range<usize> {
+        (self.order * number) >> level..(self.order * (number + 1)) >> level
+    }
+
+    /// The block in the rows of a cluster.
+    pub(super) fn block(&self, level: u32, number: usize) -> LowRank {
+        self.blocks[(1 << level) - 2 + number]
+    }
+}
+
 /// A square matrix whose off-diagonal blocks have low rank. Buffers are reused.
 #[derive(Debug, Clone, Default)]
 pub struct Hodlr {
-    pub(super) order: usize,
-    pub(super) levels: u32,
+    pub(super) shape: Shape,
     /// Dense leaves, by columns, one after the other.
     pub(super) leaves: Vec<f64>,
-    /// Blocks of level 1, then of level 2, ...
-    pub(super) blocks: Vec<LowRank>,
     /// Factors of all blocks, level by level.
     pub(super) factors: Vec<f64>,
     /// Where those of each level begin, from level 1 on.
     pub(super) level_starts: Vec<usize>,
     cross: CrossApproximation,
-}
-
-/// Rows of cluster `number` of a level.
-pub(super) fn cluster(order: usize, level: u32, number: usize) -> Range<usize> {
-    (order * number) >> level..(order * (number + 1)) >> level
-}
-
-/// Number of the first block of a level.
-pub(super) fn first_block(level: u32) -> usize {
-    (1 << level) - 2
 }
 
 impl Hodlr {
@@ -69,26 +77,26 @@ impl Hodlr {
         added: Triplets<'_>,
         to: Approximation,
     ) {
-        self.order = order;
-        self.levels = 0;
-        while order >> self.levels > MOST_LEAF_ROWS {
-            self.levels += 1;
+        self.shape.order = order;
+        self.shape.levels = 0;
+        while order >> self.shape.levels > MOST_LEAF_ROWS {
+            self.shape.levels += 1;
         }
-        self.blocks.clear();
+        self.shape.blocks.clear();
         self.factors.clear();
         self.level_starts.clear();
-        for level in 1..=self.levels {
+        for level in 1..=self.shape.levels {
             self.level_starts.push(self.factors.len());
             for number in 0..1 << level {
-                let rows = cluster(order, level, number);
-                let columns = cluster(order, level, number ^ 1);
+                let rows = self.shape.cluster(level, number);
+                let columns = self.shape.cluster(level, number ^ 1);
                 let mirrored = (number % 2 == 1 && to.symmetric).then(|| self.mirrored());
                 let block = mirrored.unwrap_or_else(|| {
                     let to = (to.tolerance, to.compared);
                     self.cross.approximate(entries, (&rows, &columns), to);
                     self.push_block((&rows, &columns), added)
                 });
-                self.blocks.push(block);
+                self.shape.blocks.push(block);
             }
         }
         self.write_leaves(entries, added);
@@ -96,7 +104,8 @@ impl Hodlr {
 
     /// The block beside the last one, of a symmetric matrix.
     fn mirrored(&self) -> LowRank {
-        let LowRank { u, v, rank } = self.blocks[self.blocks.len() - 1];
+        let blocks = &self.shape.blocks;
+        let LowRank { u, v, rank } = blocks[blocks.len() - 1];
         LowRank { u: v, v: u, rank }
     }
 
@@ -139,8 +148,8 @@ impl Hodlr {
 
     fn write_leaves(&mut self, entries: &mut impl Entries, added: Triplets<'_>) {
         self.leaves.clear();
-        for number in 0..1 << self.levels {
-            let rows = cluster(self.order, self.levels, number);
+        for number in 0..1 << self.shape.levels {
+            let rows = self.shape.cluster(self.shape.levels, number);
             let begin = self.leaves.len();
             self.leaves.resize(begin + rows.len() * rows.len(), 0.0);
             let leaf = &mut self.leaves[begin..];
@@ -165,12 +174,12 @@ impl Hodlr {
             #[inline(always)]
             || {
                 let mut begin = 0;
-                for number in 0..1 << self.levels {
-                    let own = cluster(self.order, self.levels, number);
+                for number in 0..1 << self.shape.levels {
+                    let own = self.shape.cluster(self.shape.levels, number);
                     self.add_leaf((own.clone(), begin), (columns, values), (rows, sum));
                     begin += own.len() * own.len();
                 }
-                for level in 1..=self.levels {
+                for level in 1..=self.shape.levels {
                     for number in 0..1 << level {
                         self.add_block((level, number), (columns, values), (rows, sum));
                     }
@@ -207,9 +216,9 @@ impl Hodlr {
         (columns, values): (&Range<usize>, &[f64]),
         (rows, sum): (&Range<usize>, &mut [f64]),
     ) {
-        let block = self.blocks[first_block(level) + number];
-        let own = cluster(self.order, level, number);
-        let other = cluster(self.order, level, number ^ 1);
+        let block = self.shape.block(level, number);
+        let own = self.shape.cluster(level, number);
+        let other = self.shape.cluster(level, number ^ 1);
         let (to, from) = (common(&own, rows), common(&other, columns));
         if to.is_empty() || from.is_empty() {
             return;

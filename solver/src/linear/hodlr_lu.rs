@@ -5,7 +5,7 @@
 //!   x_a = D_a^-1 f_a - Y_a z_a,  x_b = D_b^-1 f_b - Y_b z_b.
 
 use super::blocked_lu::{BlockedLu, Exchanges};
-use super::hodlr::{Hodlr, LowRank, cluster, first_block};
+use super::hodlr::{Hodlr, Shape};
 use faer::linalg::matmul::matmul;
 use faer::prelude::{Reborrow, ReborrowMut};
 use faer::{Accum, MatMut, MatRef, Par};
@@ -35,12 +35,13 @@ struct Pair<'a> {
 impl<'a> Pair<'a> {
     /// From the factors of its level and those below, which begin at `begin` among all.
     fn of(
-        matrix: &Shape<'_>,
+        shape: &Shape,
         (level, pair): (u32, usize),
         (factors, begin): (&'a [f64], usize),
     ) -> Self {
-        let [a, b] = [2 * pair, 2 * pair + 1].map(|j| cluster(matrix.order, level, j).len());
-        let [of_a, of_b] = [2 * pair, 2 * pair + 1].map(|j| matrix.blocks[first_block(level) + j]);
+        let siblings = [2 * pair, 2 * pair + 1];
+        let [a, b] = siblings.map(|j| shape.cluster(level, j).len());
+        let [of_a, of_b] = siblings.map(|j| shape.block(level, j));
         let view = |at: usize, rows: usize, rank: usize| {
             let at = at - begin;
             MatRef::from_column_major_slice(&factors[at..at + rows * rank], rows, rank)
@@ -109,15 +110,8 @@ impl<'a> Pair<'a> {
     }
 }
 
-/// Where the blocks of a matrix are.
-struct Shape<'a> {
-    order: usize,
-    levels: u32,
-    blocks: &'a [LowRank],
-}
-
 impl HodlrLu {
-    /// The matrix to be approximated, and factored then.
+    /// The matrix to be approximated, as one that is not symmetric, and factored then.
     pub fn matrix(&mut self) -> &mut Hodlr {
         &mut self.matrix
     }
@@ -134,24 +128,25 @@ impl HodlrLu {
             lu,
             z,
         } = self;
-        let shape = Shape {
-            order: matrix.order,
-            levels: matrix.levels,
-            blocks: &matrix.blocks,
-        };
+        let Hodlr {
+            shape,
+            leaves,
+            factors,
+            level_starts,
+            ..
+        } = matrix;
         let columns = rhs.len() / shape.order.max(1);
         let mut rhs = MatMut::from_column_major_slice_mut(rhs, shape.order, columns);
-        let (leaves, factors) = (&mut matrix.leaves[..], &mut matrix.factors[..]);
         leaf_exchanges.resize(1 << shape.levels, Exchanges::default());
         let mut begin = 0;
         for (number, exchanges) in leaf_exchanges.iter_mut().enumerate() {
-            let rows = cluster(shape.order, shape.levels, number);
+            let rows = shape.cluster(shape.levels, number);
             let n = rows.len();
             let leaf = &mut leaves[begin..begin + n * n];
             begin += n * n;
             let mut leaf = MatMut::from_column_major_slice_mut(leaf, n, n);
             lu.factor(leaf.rb_mut(), exchanges);
-            shape.for_each_ancestor((shape.levels, number), factors, |u| {
+            for_each_ancestor(shape, (shape.levels, number), factors, |u| {
                 lu.solve(leaf.rb(), exchanges, u);
             });
             let rhs = rhs.rb_mut().subrows_mut(rows.start, n);
@@ -162,10 +157,10 @@ impl HodlrLu {
         rank_exchanges.resize((1 << shape.levels) - 1, Exchanges::default());
         let mut next = rank_exchanges.iter_mut();
         for level in (1..=shape.levels).rev() {
-            let start = matrix.level_starts[level as usize - 1];
+            let start = level_starts[level as usize - 1];
             let (above, own) = factors.split_at_mut(start);
             for (number, exchanges) in (0..1 << (level - 1)).zip(&mut next) {
-                let pair = Pair::of(&shape, (level, number), (own, start));
+                let pair = Pair::of(shape, (level, number), (own, start));
                 let (order, at) = (pair.order(), ranks.len());
                 rank_starts.push(at);
                 ranks.resize(at + order * order, 0.0);
@@ -174,10 +169,10 @@ impl HodlrLu {
                 pair.assemble(system.rb_mut());
                 lu.factor(system.rb_mut(), exchanges);
                 let system = system.rb();
-                shape.for_each_ancestor((level - 1, number), above, |u| {
+                for_each_ancestor(shape, (level - 1, number), above, |u| {
                     pair.reduce((lu, z), (system, exchanges), u);
                 });
-                let rows = cluster(shape.order, level - 1, number);
+                let rows = shape.cluster(level - 1, number);
                 let rhs = rhs.rb_mut().subrows_mut(rows.start, rows.len());
                 pair.reduce((lu, z), (system, exchanges), rhs);
             }
@@ -195,28 +190,29 @@ impl HodlrLu {
             lu,
             z,
         } = self;
-        let shape = Shape {
-            order: matrix.order,
-            levels: matrix.levels,
-            blocks: &matrix.blocks,
-        };
+        let Hodlr {
+            shape,
+            leaves,
+            factors,
+            ..
+        } = matrix;
         let mut rhs = MatMut::from_column_major_slice_mut(rhs, shape.order, 1);
         let mut begin = 0;
         for (number, exchanges) in leaf_exchanges.iter().enumerate() {
-            let rows = cluster(shape.order, shape.levels, number);
+            let rows = shape.cluster(shape.levels, number);
             let n = rows.len();
-            let leaf = MatRef::from_column_major_slice(&matrix.leaves[begin..begin + n * n], n, n);
+            let leaf = MatRef::from_column_major_slice(&leaves[begin..begin + n * n], n, n);
             begin += n * n;
             lu.solve(leaf, exchanges, rhs.rb_mut().subrows_mut(rows.start, n));
         }
         let mut systems = rank_starts.iter().zip(&*rank_exchanges);
         for level in (1..=shape.levels).rev() {
             for (number, (at, exchanges)) in (0..1 << (level - 1)).zip(&mut systems) {
-                let pair = Pair::of(&shape, (level, number), (&matrix.factors, 0));
+                let pair = Pair::of(shape, (level, number), (factors, 0));
                 let order = pair.order();
                 let system = &ranks[*at..at + order * order];
                 let system = MatRef::from_column_major_slice(system, order, order);
-                let rows = cluster(shape.order, level - 1, number);
+                let rows = shape.cluster(level - 1, number);
                 let rhs = rhs.rb_mut().subrows_mut(rows.start, rows.len());
                 pair.reduce((lu, z), (system, exchanges), rhs);
             }
@@ -224,23 +220,21 @@ impl HodlrLu {
     }
 }
 
-impl Shape<'_> {
-    /// Gives the rows that a cluster has of U of the blocks of all clusters that hold it, itself included.
-    fn for_each_ancestor(
-        &self,
-        (level, number): (u32, usize),
-        factors: &mut [f64],
-        mut apply: impl FnMut(MatMut<'_, f64>),
-    ) {
-        let rows = cluster(self.order, level, number);
-        for above in 1..=level {
-            let ancestor = number >> (level - above);
-            let whole = cluster(self.order, above, ancestor);
-            let block = self.blocks[first_block(above) + ancestor];
-            let u = &mut factors[block.u..block.u + whole.len() * block.rank];
-            let u = MatMut::from_column_major_slice_mut(u, whole.len(), block.rank);
-            apply(u.subrows_mut(rows.start - whole.start, rows.len()));
-        }
+/// Gives the rows that a cluster has of U of the blocks of all clusters that hold it, itself included.
+fn for_each_ancestor(
+    shape: &Shape,
+    (level, number): (u32, usize),
+    factors: &mut [f64],
+    mut apply: impl FnMut(MatMut<'_, f64>),
+) {
+    let rows = shape.cluster(level, number);
+    for above in 1..=level {
+        let ancestor = number >> (level - above);
+        let whole = shape.cluster(above, ancestor);
+        let block = shape.block(above, ancestor);
+        let u = &mut factors[block.u..block.u + whole.len() * block.rank];
+        let u = MatMut::from_column_major_slice_mut(u, whole.len(), block.rank);
+        apply(u.subrows_mut(rows.start - whole.start, rows.len()));
     }
 }
 

@@ -33,8 +33,7 @@ use std::ops::Range;
 /// same of the hard cases (`cargo test --release -p tests hard`).
 const CONE_SLACK: f64 = 1e-10;
 
-/// Most nodes of a complementarity problem: the work grows with their cube. Arbitrary, like the bounds below: Newton's
-/// method alone decides beyond it.
+/// Most nodes of a complementarity problem: the work grows with their cube. Arbitrary, like the bounds below.
 const MOST_NODES: usize = 200;
 /// Most linearisations of the wear.
 const MOST_LINEARISATIONS: usize = 20;
@@ -82,14 +81,15 @@ impl Complementarity {
         if it.status.len() > MOST_NODES {
             return end;
         }
-        for node in 0..it.status.len() {
-            response.compute(problem, Unknown::pressure(problem, node));
-            if problem.tracks_slip {
-                response.compute(problem, Unknown::Shear(node));
-            }
-        }
         self.reset(problem, it);
         for _ in 0..MOST_LINEARISATIONS {
+            // Newton's method leaves the columns of slipping nodes, whose pressures bring their friction.
+            for node in 0..it.status.len() {
+                response.compute(problem, Unknown::pressure(problem, node));
+                if problem.tracks_slip {
+                    response.compute(problem, Unknown::Shear(node));
+                }
+            }
             let Linearised::Solution { changes } = self.relinearise(problem, response, wear, it)
             else {
                 return end;

@@ -99,7 +99,7 @@ impl Solver {
                 let recession = &mut self.recession;
                 let mut work = std::mem::take(&mut self.newton.work);
                 work.increments = 1;
-                work.response_entries = std::mem::take(&mut self.response.entries);
+                work.response_entries += std::mem::take(&mut self.response.entries);
                 return Ok(Increment::of(
                     (pair, geometry, it),
                     (&self.wear, recession),

@@ -222,14 +222,14 @@ impl Coupling {
     pub(super) fn share_by(&mut self, i: usize, part: impl Fn(usize) -> f64) {
         let (from, span) = (self.rows[i - self.first].0, self.row_span(i));
         let whole: f64 = self.standard[span.clone()].iter().sum();
-        let mut kept = 0.0;
+        let mut shared = 0.0;
         for (j, place) in (from..).zip(span.clone()) {
             self.dual[place] = self.standard[place] / whole;
             self.standard[place] *= part(j);
-            kept += self.standard[place];
+            shared += self.standard[place];
         }
         for share in &mut self.standard[span] {
-            *share *= whole / kept;
+            *share *= whole / shared;
         }
     }
 }

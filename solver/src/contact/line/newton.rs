@@ -147,7 +147,8 @@ impl Newton {
         Convergence::NotConverged { residual, changes }
     }
 
-    /// Determines the change of a converged contact with the height that it is given, by the last linearisation.
+    /// Determines the change of a converged contact with the height that it is given, by the last linearisation: to a thousandth where
+    /// its core is approximated.
     pub(super) fn respond_to_height(&mut self, problem: &Problem<'_>, it: &Iterate) {
         let pressures = &mut self.pressure_per_height;
         pressures.clear();
@@ -198,6 +199,7 @@ impl Newton {
         if is_hierarchical {
             let blocks = system.hierarchical(core, unknowns.len() + 1 - core);
             jacobian.assemble_hierarchical(problem, partition, response, wear, it, blocks);
+            self.work.response_entries += std::mem::take(&mut jacobian.hierarchical.entries);
         } else {
             let matrix = system.dense(unknowns.len() + 1);
             jacobian.assemble(problem, partition, response, wear, (it, lumped), matrix);

@@ -51,11 +51,12 @@ impl Response {
     #[inline]
     pub(super) fn column(&self, unknown: Unknown) -> Column<'_> {
         let place = place(unknown);
-        let column = self.computed[place / 2][place % 2];
-        let column = column.filter(|column| column.unknown == unknown);
-        let Some(Computed { begin, .. }) = column else {
-            unreachable!("a column is computed before use");
-        };
+        let computed = self.computed[place / 2][place % 2];
+        debug_assert!(
+            computed.is_some_and(|column| column.unknown == unknown),
+            "a column is computed before use"
+        );
+        let begin = computed.map_or(0, |column| column.begin);
         self.columns[begin..begin + self.length()].split_at(self.nodes)
     }
 

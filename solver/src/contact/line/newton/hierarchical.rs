@@ -11,6 +11,7 @@ use super::super::unknown::Unknown;
 use super::super::wear_coupling::WearCoupling;
 use super::partition::Partition;
 use crate::linear::{Approximation, Entries, Hodlr};
+use crate::number::count;
 use std::ops::Range;
 
 /// What the core is approximated to: chord steps and their correction do the rest. Arbitrary: 1e-2 and 1e-4 take as
@@ -33,6 +34,8 @@ pub(super) struct Hierarchical {
     wear: Vec<(usize, usize, f64)>,
     opened: Vec<f64>,
     deformation: Deformation,
+    /// Entries of the Jacobian computed since the last reset of the count.
+    pub(super) entries: u64,
 }
 
 /// The smooth part of the Jacobian.
@@ -42,6 +45,7 @@ struct Influence<'a> {
     force: &'a [[f64; 2]],
     equation: &'a [[f64; 2]],
     deformation: &'a mut Deformation,
+    entries: &'a mut u64,
 }
 
 impl Hierarchical {
@@ -116,6 +120,7 @@ impl Hierarchical {
             force: &self.force,
             equation: &self.equation,
             deformation: &mut self.deformation,
+            entries: &mut self.entries,
         };
         let border = partition.unknowns.len() - core;
         for (k, row) in below.chunks_exact_mut(core).take(border).enumerate() {
@@ -137,6 +142,7 @@ impl Influence<'_> {
         (range, vectors): (Range<usize>, &[[f64; 2]]),
         entries: &mut [f64],
     ) {
+        *self.entries += count(range.len());
         let coupling = self.problem.coupling;
         let first = coupling.first;
         let (begin, end) = (

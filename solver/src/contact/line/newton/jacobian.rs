@@ -22,7 +22,7 @@ pub(super) struct Jacobian {
     /// Gap opened by wear, per slip: by the path, and by no path.
     opening: Band,
     other_opening: Band,
-    hierarchical: Hierarchical,
+    pub(super) hierarchical: Hierarchical,
 }
 
 impl Jacobian {
