@@ -152,11 +152,11 @@ mod tests {
         let (without, with) = seconds("{}");
         let ratio = with.expect("a number") / without;
         assert!((2.5..12.0).contains(&ratio), "{ratio}");
-        let given = r#"{"contact_element_mm":0.0005,"increments_per_cycle":400,"cycle_jump":4}"#;
+        let given = r#"{"overrides":{"contact_element_mm":0.0005,"increments_per_cycle":400,"cycle_jump":4}}"#;
         assert_eq!(seconds(given).1, None);
         assert_eq!(seconds(r#"{"estimate_errors":false}"#).1, None);
         // Increments alone may be refined.
-        let given = r#"{"contact_element_mm":0.0005,"cycle_jump":4}"#;
+        let given = r#"{"overrides":{"contact_element_mm":0.0005,"cycle_jump":4}}"#;
         assert!(seconds(given).1 > Some(seconds(given).0));
     }
 }
