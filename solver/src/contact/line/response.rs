@@ -18,20 +18,14 @@ pub(super) struct Response {
     /// Columns in the order in which they are first computed: gaps, then jumps per unit of an unknown, mm/MPa. Gaps only, where
     /// slip is imposed.
     columns: Vec<f64>,
-    /// The columns of pressure and shear of each node.
-    computed: Vec<[Option<Computed>; 2]>,
+    /// Unknowns whose columns are computed, pressure and shear of each node, and where these begin.
+    computed: Vec<[Option<Unknown>; 2]>,
+    begins: Vec<[usize; 2]>,
     /// Number of columns.
     count: usize,
     deformation: Deformation,
     /// Entries computed since the last reset of the count.
     pub(super) entries: u64,
-}
-
-/// An unknown whose column is computed, and where that begins.
-#[derive(Debug, Clone, Copy)]
-struct Computed {
-    unknown: Unknown,
-    begin: usize,
 }
 
 /// Gaps and tangential jumps of all coupled nodes; no jumps where slip is imposed.
@@ -45,18 +39,18 @@ impl Response {
         self.count = 0;
         self.computed.clear();
         self.computed.resize(nodes, [None; 2]);
+        self.begins.resize(nodes, [0; 2]);
     }
 
     /// Per unit of an unknown; requires its column.
     #[inline]
     pub(super) fn column(&self, unknown: Unknown) -> Column<'_> {
-        let place = place(unknown);
-        let computed = self.computed[place / 2][place % 2];
+        let (node, kind) = place(unknown);
         debug_assert!(
-            computed.is_some_and(|column| column.unknown == unknown),
+            self.computed[node][kind] == Some(unknown),
             "a column is computed before use"
         );
-        let begin = computed.map_or(0, |column| column.begin);
+        let begin = self.begins[node][kind];
         self.columns[begin..begin + self.length()].split_at(self.nodes)
     }
 
@@ -72,15 +66,17 @@ impl Response {
 
     /// Computes the column of an unknown once.
     pub(super) fn compute(&mut self, problem: &Problem<'_>, unknown: Unknown) {
-        let place = place(unknown);
+        let (place, kind) = place(unknown);
         let length = self.length();
-        let computed = &mut self.computed[place / 2][place % 2];
-        let begin = computed.map_or(self.count * length, |column| column.begin);
-        match computed.replace(Computed { unknown, begin }) {
-            Some(column) if column.unknown == unknown => return,
+        match self.computed[place][kind].replace(unknown) {
+            Some(computed) if computed == unknown => return,
             Some(_) => {}
-            None => self.count += 1,
+            None => {
+                self.begins[place][kind] = self.count * length;
+                self.count += 1;
+            }
         }
+        let begin = self.begins[place][kind];
         let needed = self.columns.len().max(begin + length);
         self.columns.resize(needed, 0.0);
         self.entries += count(length);
@@ -109,10 +105,11 @@ impl Response {
     }
 }
 
-/// Number of an unknown's column: the pressure and the shear of each node.
-fn place(unknown: Unknown) -> usize {
+/// Node and kind of an unknown: its pressure or its shear.
+#[inline]
+fn place(unknown: Unknown) -> (usize, usize) {
     match unknown {
-        Unknown::Pressure(node, _) => 2 * node,
-        Unknown::Shear(node) => 2 * node + 1,
+        Unknown::Pressure(node, _) => (node, 0),
+        Unknown::Shear(node) => (node, 1),
     }
 }
