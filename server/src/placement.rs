@@ -37,7 +37,7 @@ impl Fleet {
 /// When workers may be started again: those that fail, as without a readable token or on nodes that cannot reach the service, are started
 /// less and less often.
 #[derive(Debug)]
-pub struct Pace {
+pub struct Backoff {
     /// Time between two looks.
     every: Duration,
     /// Workers of the last start, and those that have failed since.
@@ -49,7 +49,7 @@ pub struct Pace {
     left: Duration,
 }
 
-impl Pace {
+impl Backoff {
     /// Of a pilot that looks at intervals.
     pub fn new(every: Duration) -> Self {
         Self {
@@ -62,7 +62,7 @@ impl Pace {
     }
 
     /// Notes the workers that have failed since the last look; returns how long no others are started.
-    pub fn look(&mut self, failed: u64) -> Duration {
+    pub fn observe(&mut self, failed: u64) -> Duration {
         self.left = self.left.saturating_sub(self.every);
         let had_failed = self.has_failed();
         self.failed += failed;
@@ -98,11 +98,11 @@ mod tests {
 
     /// The looks at which workers are started, of which so many fail by the next look.
     fn starts(workers: u64, failing: u64) -> Vec<u64> {
-        let mut pace = Pace::new(Duration::from_secs(15));
+        let mut backoff = Backoff::new(Duration::from_secs(15));
         let (mut starts, mut failed) = (Vec::new(), 0);
         for look in 0..400 {
-            if pace.look(std::mem::take(&mut failed)).is_zero() {
-                pace.started(workers);
+            if backoff.observe(std::mem::take(&mut failed)).is_zero() {
+                backoff.started(workers);
                 starts.push(look);
                 failed = failing;
             }
@@ -125,17 +125,17 @@ mod tests {
 
     #[test]
     fn a_start_that_did_not_fail_ends_the_pauses() {
-        let mut pace = Pace::new(Duration::from_secs(15));
+        let mut backoff = Backoff::new(Duration::from_secs(15));
         for _ in 0..3 {
-            pace.started(4);
-            pace.look(4);
+            backoff.started(4);
+            backoff.observe(4);
         }
-        assert_eq!(pace.fruitless(), 3);
-        pace.started(4);
-        pace.look(1);
-        pace.started(4);
-        assert_eq!(pace.fruitless(), 0);
-        assert_eq!(pace.look(4), Duration::from_secs(30));
+        assert_eq!(backoff.fruitless(), 3);
+        backoff.started(4);
+        backoff.observe(1);
+        backoff.started(4);
+        assert_eq!(backoff.fruitless(), 0);
+        assert_eq!(backoff.observe(4), Duration::from_secs(30));
     }
 
     #[test]

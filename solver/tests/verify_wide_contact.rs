@@ -121,7 +121,8 @@ fn wide_contacts_converge_like_narrow_ones() {
             assert!(checks.force_balance <= 1e-9, "{checks:?}");
             assert!(checks.worn_area <= 1e-11, "{checks:?}");
         }
-        // What a mesh changes, and the change between the wide contacts that would be too large.
+        // Refining a wide contact changes each at most half as much as refining a narrow one, or hardly. A half-width is read within
+        // an element, 0.6 % of it with 320 nodes.
         let quantities: [(Quantity, f64); 3] = [
             (
                 |state| state.worn_area.slider + state.worn_area.receptacle,
@@ -197,6 +198,7 @@ fn wide_contacts_of_other_laws_and_plans_wear_like_narrow_ones() {
             depths.fold(0.0, |most: f64, depth| most.max(*depth))
         };
         for side in Side::BOTH {
+            // The tolerance of the scene; depths at the edge of a stick zone differ by 1 % between these meshes.
             for (what, narrow, wide) in [
                 ("area", *narrow.worn_area.of(side), *wide.worn_area.of(side)),
                 ("deepest", deepest(&narrow, side), deepest(&wide, side)),

@@ -13,8 +13,8 @@ use crate::cli::runtime::block_on;
 use crate::cli::serve::until_signal;
 use crate::cli::terminal::{Ended, failed, write_out};
 use crate::client::Client;
-use crate::placement::slurm::{SlurmError, SlurmWorkers};
-use crate::placement::{Fleet, Pace};
+use crate::placement::slurm::{SlurmError, SlurmWorkers, Tasks};
+use crate::placement::{Backoff, Fleet};
 
 /// Default memory of a worker for each of its slots, MB. Arbitrary: solves need 20 to 350 MB by their plans.
 const SLOT_MEMORY_MB: u64 = 2_000;
@@ -88,7 +88,7 @@ async fn pilot(arguments: &SlurmArguments, client: &Client, workers: &SlurmWorke
     };
     let every = Duration::from_secs(arguments.every_s);
     let mut starts = Starts {
-        pace: Pace::new(every),
+        backoff: Backoff::new(every),
         failed: HashSet::new(),
     };
     loop {
@@ -110,7 +110,7 @@ async fn pilot(arguments: &SlurmArguments, client: &Client, workers: &SlurmWorke
 
 /// Starts of workers.
 struct Starts {
-    pace: Pace,
+    backoff: Backoff,
     /// Tasks that had failed at the last look.
     failed: HashSet<String>,
 }
@@ -122,13 +122,14 @@ impl Starts {
         (fleet, workers): (Fleet, &SlurmWorkers),
         demand: &Demand,
     ) -> Result<(), SlurmError> {
-        let failed = workers.failed().await?;
-        let present = workers.present().await?;
+        let Tasks { present, failed } = workers.tasks().await?;
         let others = failed.difference(&self.failed).count();
         self.failed = failed;
-        let before = self.pace.fruitless();
-        let wait = self.pace.look(u64::try_from(others).unwrap_or(u64::MAX));
-        if self.pace.fruitless() > before {
+        let before = self.backoff.fruitless();
+        let wait = self
+            .backoff
+            .observe(u64::try_from(others).unwrap_or(u64::MAX));
+        if self.backoff.fruitless() > before {
             tracing::warn!(
                 tasks = others,
                 again_in_s = wait.as_secs(),
@@ -139,7 +140,7 @@ impl Starts {
         if missing == 0 || !wait.is_zero() {
             return Ok(());
         }
-        self.pace.started(missing);
+        self.backoff.started(missing);
         workers.submit(missing).await?;
         tracing::info!(
             submitted = missing,

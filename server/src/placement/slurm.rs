@@ -18,8 +18,14 @@ const LONGEST_ARRAY: u64 = 1_000;
 /// Longest time that Slurm may take to answer: its programs wait for a controller that is away.
 const LONGEST_ANSWER: Duration = Duration::from_mins(1);
 /// States of tasks that count as workers, and of those that have failed, which Slurm lists for some minutes.
-const PRESENT: &str = "PENDING,CONFIGURING,RUNNING,SUSPENDED,COMPLETING";
-const FAILED: &str = "FAILED,BOOT_FAIL,NODE_FAIL,OUT_OF_MEMORY";
+const PRESENT: [&str; 5] = [
+    "PENDING",
+    "CONFIGURING",
+    "RUNNING",
+    "SUSPENDED",
+    "COMPLETING",
+];
+const FAILED: [&str; 4] = ["FAILED", "BOOT_FAIL", "NODE_FAIL", "OUT_OF_MEMORY"];
 
 /// Why Slurm did not do what was asked.
 #[derive(Debug, thiserror::Error)]
@@ -67,6 +73,30 @@ pub struct SlurmWorkers {
     pub options: Vec<String>,
 }
 
+/// Tasks that Slurm lists.
+#[derive(Debug, Default, PartialEq, Eq)]
+pub struct Tasks {
+    /// Number of those that wait or run.
+    pub present: u64,
+    /// Ids of those that have failed within some minutes.
+    pub failed: HashSet<String>,
+}
+
+impl Tasks {
+    /// Of lines with state and id.
+    fn of(listed: &str) -> Self {
+        let mut tasks = Self::default();
+        for (state, id) in listed.lines().filter_map(|line| line.split_once(' ')) {
+            if FAILED.contains(&state) {
+                tasks.failed.insert(id.to_owned());
+            } else {
+                tasks.present += 1;
+            }
+        }
+        tasks
+    }
+}
+
 impl SlurmWorkers {
     /// The script of a task. It becomes the worker itself, which so gets the signals.
     pub fn script(&self) -> String {
@@ -99,30 +129,17 @@ impl SlurmWorkers {
         )
     }
 
-    /// Number of workers that wait or run.
+    /// The workers that Slurm lists.
     ///
     /// # Errors
     /// [`SlurmError`].
-    pub async fn present(&self) -> Result<u64, SlurmError> {
-        let tasks = self.tasks(PRESENT).await?;
-        Ok(u64::try_from(tasks.len()).unwrap_or(u64::MAX))
-    }
-
-    /// Tasks that have failed within some minutes, by their names.
-    ///
-    /// # Errors
-    /// [`SlurmError`].
-    pub async fn failed(&self) -> Result<HashSet<String>, SlurmError> {
-        Ok(self.tasks(FAILED).await?.into_iter().collect())
-    }
-
-    async fn tasks(&self, states: &str) -> Result<Vec<String>, SlurmError> {
+    pub async fn tasks(&self) -> Result<Tasks, SlurmError> {
+        let states = [&PRESENT[..], &FAILED].concat().join(",");
         let mut command = Command::new("squeue");
-        command.args(["--me", "--noheader", "--array", "--format=%i"]);
-        command.args(["--name", &self.name, "--states", states]);
+        command.args(["--me", "--noheader", "--array", "--format=%T %i"]);
+        command.args(["--name", &self.name, "--states", &states]);
         let output = finished("squeue", command, "").await?;
-        let text = String::from_utf8_lossy(&output.stdout);
-        Ok(text.lines().map(str::to_owned).collect())
+        Ok(Tasks::of(&String::from_utf8_lossy(&output.stdout)))
     }
 
     /// Submits so many workers as job arrays.
@@ -185,6 +202,14 @@ fn quoted(word: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn failed_tasks_are_no_workers() {
+        let listed = "RUNNING 7_1\nPENDING 7_2\nFAILED 7_3\nNODE_FAIL 8\nCOMPLETING 9_1\n";
+        let failed = ["7_3", "8"].map(str::to_owned).into();
+        assert_eq!(Tasks::of(listed), Tasks { present: 3, failed });
+        assert_eq!(Tasks::of(""), Tasks::default());
+    }
 
     #[test]
     fn the_script_becomes_the_worker() {

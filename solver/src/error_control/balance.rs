@@ -31,14 +31,8 @@ const MORE_UNKNOWNS: f64 = 2.0;
 /// The refinement of a run that restarts because of the errors of one with the settings of the tolerance. Settings that
 /// the user has given stay as they are; an error that these alone cause is not refined for.
 pub(super) fn finer(scene: &Scene, errors: &Errors) -> Refinement {
-    let Accuracy {
-        tolerance,
-        contact_element_mm: element,
-        increments_per_cycle: increments,
-        cycle_jump: jump,
-        ..
-    } = scene.accuracy;
-    let free = [element.is_none(), increments.is_none(), jump.is_none()];
+    let tolerance = scene.accuracy.tolerance;
+    let free = free_settings(scene);
     let all_shares: f64 = COST.iter().sum();
     let mut factors = [1.0_f64; 3];
     for quantity in errors.outside(tolerance).filter(|q| is_decisive(*q)) {
@@ -69,32 +63,34 @@ pub(super) fn finer(scene: &Scene, errors: &Errors) -> Refinement {
     }
 }
 
-/// The scenes of restarts, each with one of its settings as fine as a restart makes it.
-pub fn finest_scenes(of: &Scene) -> Vec<Scene> {
+/// Whether mesh, increments and jumps are chosen by the run.
+fn free_settings(scene: &Scene) -> [bool; 3] {
     let Accuracy {
         contact_element_mm: element,
         increments_per_cycle: increments,
         cycle_jump: jump,
-        estimate_errors,
         ..
-    } = of.accuracy;
-    let [mesh, steps, cycles] = COST.map(|power| MOST_COST.powf(power.recip()));
+    } = scene.accuracy;
+    [element.is_none(), increments.is_none(), jump.is_none()]
+}
+
+/// The scenes of restarts, each with one of its settings as fine as a restart makes it.
+pub fn finest_scenes(of: &Scene) -> Vec<Scene> {
+    if !of.accuracy.estimate_errors {
+        return Vec::new();
+    }
+    let [mesh, increments, cycles] = COST.map(|power| MOST_COST.powf(power.recip()));
     let mesh = mesh.min(largest_mesh_factor(of));
+    let none = Refinement::NONE;
     let alone = [
-        (element.is_none(), [mesh, 1.0, 1.0]),
-        (increments.is_none(), [1.0, steps, 1.0]),
-        (jump.is_none(), [1.0, 1.0, cycles]),
+        Refinement { mesh, ..none },
+        Refinement { increments, ..none },
+        Refinement { cycles, ..none },
     ];
-    let chosen = alone
-        .into_iter()
-        .filter(|(free, _)| *free && estimate_errors);
-    chosen
-        .map(|(_, [mesh, increments, cycles])| {
-            let refinement = Refinement {
-                mesh,
-                increments,
-                cycles,
-            };
+    let restarts = alone.into_iter().zip(free_settings(of));
+    restarts
+        .filter(|(_, free)| *free)
+        .map(|(refinement, _)| {
             let mut scene = companions::refined(of, refinement);
             scene.accuracy.estimate_errors = false;
             scene

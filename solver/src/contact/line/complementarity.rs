@@ -33,7 +33,7 @@ use std::ops::Range;
 /// same of the hard cases (`cargo test --release -p tests hard`).
 const CONE_SLACK: f64 = 1e-10;
 
-/// Most nodes of a complementarity problem: the work grows with their cube. Arbitrary, like the bounds below.
+/// Most nodes: the work grows with their cube, and beyond it Newton's method alone decides. Arbitrary, like the bounds below.
 const MOST_NODES: usize = 200;
 /// Most linearisations of the wear.
 const MOST_LINEARISATIONS: usize = 20;

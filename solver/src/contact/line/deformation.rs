@@ -8,7 +8,7 @@ use crate::linear::vector::vectorized;
 use crate::sides::Side;
 use std::ops::Range;
 
-/// From this number of loaded nodes on, their displacements are computed with compressed operators. Arbitrary: with 100 and 256
+/// From this number of loaded or coupled nodes on, their displacements are computed with compressed operators. Arbitrary: with 100 and 256
 /// contacts of 160 to 640 nodes take as long, to 20 % (`cargo bench -p solver -- partial_slip`).
 pub(super) const WIDE: usize = 200;
 

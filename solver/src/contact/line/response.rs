@@ -45,7 +45,7 @@ impl Response {
     /// Per unit of an unknown; requires its column.
     #[inline]
     pub(super) fn column(&self, unknown: Unknown) -> Column<'_> {
-        let (node, kind) = place(unknown);
+        let (node, kind) = (unknown.node(), kind(unknown));
         debug_assert!(
             self.computed[node][kind] == Some(unknown),
             "a column is computed before use"
@@ -66,22 +66,22 @@ impl Response {
 
     /// Computes the column of an unknown once.
     pub(super) fn compute(&mut self, problem: &Problem<'_>, unknown: Unknown) {
-        let (place, kind) = place(unknown);
+        let (node, kind) = (unknown.node(), kind(unknown));
         let length = self.length();
-        match self.computed[place][kind].replace(unknown) {
+        match self.computed[node][kind].replace(unknown) {
             Some(computed) if computed == unknown => return,
             Some(_) => {}
             None => {
-                self.begins[place][kind] = self.count * length;
+                self.begins[node][kind] = self.count * length;
                 self.count += 1;
             }
         }
-        let begin = self.begins[place][kind];
+        let begin = self.begins[node][kind];
         let needed = self.columns.len().max(begin + length);
         self.columns.resize(needed, 0.0);
         self.entries += count(length);
         let coupling = problem.coupling;
-        let (node, force) = (coupling.first + unknown.node(), unknown.force(problem));
+        let (node, force) = (coupling.first + node, unknown.force(problem));
         let n = self.nodes;
         let deformation = &mut self.deformation;
         let nodes = coupling.first..coupling.end;
@@ -105,11 +105,11 @@ impl Response {
     }
 }
 
-/// Node and kind of an unknown: its pressure or its shear.
+/// Which of its node's two columns an unknown has.
 #[inline]
-fn place(unknown: Unknown) -> (usize, usize) {
+fn kind(unknown: Unknown) -> usize {
     match unknown {
-        Unknown::Pressure(node, _) => (node, 0),
-        Unknown::Shear(node) => (node, 1),
+        Unknown::Pressure(..) => 0,
+        Unknown::Shear(_) => 1,
     }
 }

@@ -121,3 +121,32 @@ fn a_coarse_approximation_sees_both_kinds_of_equations() {
     let off = off.fold(0.0, f64::max) / real(order);
     assert!(off < 1e-2, "{off:e}");
 }
+
+/// The columns of the unit matrix, the second half of them first: regular, but each of its leaves is zero.
+struct Exchanged {
+    order: usize,
+}
+
+impl Entries for Exchanged {
+    fn row(&mut self, row: usize, columns: Range<usize>, entries: &mut [f64]) {
+        self.column(row, columns, entries);
+    }
+
+    fn column(&mut self, column: usize, rows: Range<usize>, entries: &mut [f64]) {
+        for (row, entry) in rows.zip(entries) {
+            *entry = f64::from(u8::from(row == (column + self.order / 2) % self.order));
+        }
+    }
+}
+
+#[test]
+fn a_singular_cluster_of_a_regular_matrix_is_told() {
+    let order = 386;
+    let mut lu = HodlrLu::default();
+    lu.matrix()
+        .approximate(order, &mut Exchanged { order }, &[], to(1e-12, true));
+    lu.factor(&mut []);
+    let mut x = vec![1.0; order];
+    lu.solve(&mut x);
+    assert!(x.iter().any(|x| !x.is_finite()));
+}
