@@ -107,6 +107,7 @@ async fn next<E: Employer>(
             employer,
             claim,
             config,
+            threads: config.threads_of_one_of(process.running()),
         };
         let span = tracing::info_span!("job", id = %claim.id, lease = claim.lease, attempt = claim.attempt);
         let _busy = employer.busy();

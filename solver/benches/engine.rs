@@ -5,11 +5,15 @@
 #[path = "../tests/scenes.rs"]
 mod scenes;
 
+use std::ops::ControlFlow;
+
 use divan::Bencher;
 use solver::condensation::condense;
 use solver::contact::area::{Cells, NormalContact, NormalProblem};
 use solver::cycle::{CycleState, Integrator};
+use solver::error_control;
 use solver::model;
+use solver::observer::{Event, Observer};
 use solver::scene::{Friction, Motion, Scene, WearLaw};
 
 fn main() {
@@ -33,7 +37,25 @@ fn condensation(bencher: Bencher<'_, '_>, element_um: u32) {
         &solver::effects::plan(&mccoll(element_um)),
     )
     .expect("it can be meshed");
-    bencher.bench_local(|| condense(&model).expect("it can be condensed"));
+    bencher.bench_local(|| condense(&model, 1).expect("it can be condensed"));
+}
+
+/// A run at 2 % with the companions that its error is estimated by, in so many threads.
+#[divan::bench(args = [1, 2], sample_count = 10)]
+fn run_with_companions(bencher: Bencher<'_, '_>, threads: usize) {
+    let mut scene = scenes::mccoll();
+    scene.accuracy.estimate_errors = true;
+    scene.threads = threads;
+    bencher.bench_local(|| error_control::solve(&scene, &mut Unobserved).expect("it goes through"));
+}
+
+/// Observes nothing.
+struct Unobserved;
+
+impl Observer for Unobserved {
+    fn on(&mut self, _event: Event<'_>) -> ControlFlow<()> {
+        ControlFlow::Continue(())
+    }
 }
 
 #[divan::bench(args = [4, 2, 1])]
@@ -44,7 +66,7 @@ fn cycle_of_40_increments(bencher: Bencher<'_, '_>, element_um: u32) {
 /// A computed cycle of two, after some others.
 fn bench_cycle(bencher: Bencher<'_, '_>, scene: &Scene, before: u32) {
     let model = model::build(scene, &solver::effects::plan(scene)).expect("it can be meshed");
-    let condensed = condense(&model).expect("it can be condensed");
+    let condensed = condense(&model, 1).expect("it can be condensed");
     let operators = &condensed.operators;
     let mut loaded = CycleState::start(operators, model.interface.slave);
     let mut integrator = Integrator::new(scene, &model, operators);

@@ -66,11 +66,16 @@ impl Resumable<'_> {
 impl Checkpoint {
     /// Physical cycles whose results were delivered.
     pub fn cycle(&self) -> u64 {
+        self.as_resumable().cycle()
+    }
+
+    /// It as an event.
+    pub(crate) fn as_resumable(&self) -> Resumable<'_> {
         match self {
-            Self::Section(run) => Resumable::Section(run).cycle(),
-            Self::Point(run) => Resumable::Point(run).cycle(),
-            Self::Line(run) => Resumable::Line(run).cycle(),
-            Self::Extruded(run) => Resumable::Extruded(run).cycle(),
+            Self::Section(run) => Resumable::Section(run),
+            Self::Point(run) => Resumable::Point(run),
+            Self::Line(run) => Resumable::Line(run),
+            Self::Extruded(run) => Resumable::Extruded(run),
         }
     }
 
@@ -81,6 +86,16 @@ impl Checkpoint {
             Self::Point(run) => &run.earlier,
             Self::Line(run) => &run.earlier,
             Self::Extruded(run) => &run.earlier,
+        }
+    }
+
+    /// The same, to be changed.
+    pub(crate) fn earlier_mut(&mut self) -> &mut Earlier {
+        match self {
+            Self::Section(run) => &mut run.earlier,
+            Self::Point(run) => &mut run.earlier,
+            Self::Line(run) => &mut run.earlier,
+            Self::Extruded(run) => &mut run.earlier,
         }
     }
 }

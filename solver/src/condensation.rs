@@ -21,6 +21,7 @@ mod zone_operators;
 use crate::linear::{CholeskyFactor, CholeskyPattern};
 use crate::model::{BodyModel, Model, Support, ZoneModel};
 use crate::sides::{Side, Sides};
+use crate::threads::for_both;
 use assembly::Numbering;
 use std::sync::Arc;
 
@@ -44,6 +45,9 @@ pub struct Condensed {
     pub spreading: Sides<Option<Spreading>>,
 }
 
+/// Operators of a body, the factor of its one mesh, and the body as a conductor.
+type CondensedBody = ((BodyOperators, Option<Interior>), Option<Spreading>);
+
 /// The factored stiffness of a mesh: gives interior displacements back.
 #[derive(Debug)]
 pub struct Interior {
@@ -52,14 +56,16 @@ pub struct Interior {
     far_load: Vec<f64>,
 }
 
-/// Condenses both bodies.
+/// Condenses both bodies, one beside the other in more than one thread.
 ///
 /// # Errors
 /// [`OperatorError`] if an element is inverted or a body is not held.
-pub fn condense(model: &Model) -> Result<Condensed, OperatorError> {
-    let bodies = Sides::from_fn(|side| condense_body(model.bodies.of(side), side, None));
-    let spreading = Sides::from_fn(|side| spreading_of(model, side));
-    Ok(Condensed::of(bodies.transpose()?, spreading.transpose()?))
+pub fn condense(model: &Model, threads: usize) -> Result<Condensed, OperatorError> {
+    let condensed = for_both(threads, model.bodies.as_ref(), |side, body| {
+        let operators = condense_body(body, side, None)?;
+        Ok((operators, spreading_of(model, side)?))
+    });
+    condensed.transpose().map(Condensed::of)
 }
 
 /// A body as a conductor, if the model conducts.
@@ -70,58 +76,47 @@ fn spreading_of(model: &Model, side: Side) -> Result<Option<Spreading>, Operator
 }
 
 /// Condenses again what has changed from a model to the next: a body whose meshes are the same keeps its operators, one of
-/// the same mesh lines its pattern.
+/// the same mesh lines its pattern. Both bodies are condensed as by [`condense`].
 ///
 /// # Errors
 /// [`OperatorError`] if an element is inverted or a body is not held.
 pub fn renew(
-    model: &Model,
-    before: &Model,
+    (model, before): (&Model, &Model),
     earlier: Condensed,
+    threads: usize,
 ) -> Result<Condensed, OperatorError> {
-    let renew_body = |side: Side, (operators, interior): (BodyOperators, Option<Interior>)| {
+    let known = earlier.operators.zip(earlier.interior);
+    let known = known.zip(earlier.spreading).map(Some);
+    let condensed = for_both(threads, known, |side, known: &mut Option<CondensedBody>| {
         let (body, earlier) = (model.bodies.of(side), before.bodies.of(side));
-        if body.zones == earlier.zones {
-            return Ok((operators, interior));
-        }
-        let pattern = interior.as_ref().map(|i| i.factor.pattern().clone());
-        let pattern = pattern.filter(|_| body.layout == earlier.layout);
         // The old operators and factor are freed before the new ones are computed.
-        drop((operators, interior));
-        condense_body(body, side, pattern)
-    };
-    let mut known = earlier.spreading;
-    let spreading = Sides::from_fn(|side| {
-        let is_same = model.bodies.of(side).zones == before.bodies.of(side).zones;
-        match known.of_mut(side).take().filter(|_| is_same) {
-            Some(same) => Ok(Some(same)),
-            None => spreading_of(model, side),
-        }
+        let pattern = match known.take() {
+            Some(same) if body.zones == earlier.zones => return Ok(same),
+            Some(((_, Some(interior)), _)) if body.layout == earlier.layout => {
+                Some(Arc::clone(interior.factor.pattern()))
+            }
+            _ => None,
+        };
+        let operators = condense_body(body, side, pattern)?;
+        Ok((operators, spreading_of(model, side)?))
     });
-    let Sides { slider, receptacle } = earlier.operators.zip(earlier.interior);
-    let bodies = Sides {
-        slider: renew_body(Side::Slider, slider)?,
-        receptacle: renew_body(Side::Receptacle, receptacle)?,
-    };
-    Ok(Condensed::of(bodies, spreading.transpose()?))
+    condensed.transpose().map(Condensed::of)
 }
 
 impl Condensed {
-    fn of(
-        bodies: Sides<(BodyOperators, Option<Interior>)>,
-        spreading: Sides<Option<Spreading>>,
-    ) -> Self {
-        let Sides { slider, receptacle } = bodies;
+    fn of(Sides { slider, receptacle }: Sides<CondensedBody>) -> Self {
+        let ((slider, slider_interior), slider_spreading) = slider;
+        let ((receptacle, receptacle_interior), receptacle_spreading) = receptacle;
         Self {
-            operators: Sides {
-                slider: slider.0,
-                receptacle: receptacle.0,
-            },
+            operators: Sides { slider, receptacle },
             interior: Sides {
-                slider: slider.1,
-                receptacle: receptacle.1,
+                slider: slider_interior,
+                receptacle: receptacle_interior,
             },
-            spreading,
+            spreading: Sides {
+                slider: slider_spreading,
+                receptacle: receptacle_spreading,
+            },
         }
     }
 

@@ -9,8 +9,11 @@
 //! finer run has no solution, the first one is solved again.
 //!
 //! What the companions are compared by is part of the checkpoint, so that a resumed run makes the same choices.
+//!
+//! In more than one thread the companions are solved beside the run.
 
 mod balance;
+mod companion_threads;
 mod companions;
 mod estimate;
 
@@ -24,8 +27,10 @@ use crate::observer::{Event, Observer, Phase};
 use crate::record::{Compared, Errors, Outcome, Quantity, Summary};
 use crate::run;
 use crate::scene::{Refinement, Scene};
+use companion_threads::CompanionThreads;
 use estimate::Estimate;
 use std::ops::ControlFlow;
+use std::thread::Scope;
 
 /// Solves a scene from the unworn bodies to its end, with an estimate of the error.
 ///
@@ -53,30 +58,34 @@ fn control(
     from: Option<Checkpoint>,
     observer: &mut dyn Observer,
 ) -> Result<Summary, SolveError> {
-    let mut runs = Runs {
-        scene,
-        plan: effects::plan(scene),
-        earlier: from
-            .as_ref()
-            .map_or_else(Earlier::default, |from| from.earlier().clone()),
-        from,
-        observer,
-    };
-    if !scene.accuracy.estimate_errors {
-        return runs.solve(scene);
-    }
-    let stages: [fn(&mut Runs<'_>) -> Stage; 4] = [
-        |runs| runs.first(),
-        |runs| runs.companions(),
-        |runs| runs.end_within(),
-        |runs| runs.finer(),
-    ];
-    for stage in stages {
-        if let ControlFlow::Break(done) = stage(&mut runs)? {
-            return Ok(done);
+    let plan = effects::plan(scene);
+    std::thread::scope(|scope| {
+        let earlier = from.as_ref().map(Checkpoint::earlier);
+        let mut runs = Runs {
+            scene,
+            plan: &plan,
+            earlier: earlier.cloned().unwrap_or_default(),
+            from,
+            observer,
+            threads: None,
+        };
+        if !scene.accuracy.estimate_errors {
+            return runs.solve(scene);
         }
-    }
-    runs.first_again()
+        runs.begin_threads(scope);
+        let stages: [fn(&mut Runs<'_, '_>) -> Stage; 4] = [
+            |runs| runs.first(),
+            |runs| runs.companions(),
+            |runs| runs.end_within(),
+            |runs| runs.finer(),
+        ];
+        for stage in stages {
+            if let ControlFlow::Break(done) = stage(&mut runs)? {
+                return Ok(done);
+            }
+        }
+        runs.first_again()
+    })
 }
 
 /// The end of all runs, or what the next stage is for. A stage that is behind the checkpoint does nothing.
@@ -85,18 +94,34 @@ type Stage = Result<ControlFlow<Summary>, SolveError>;
 const NEXT: Stage = Ok(ControlFlow::Continue(()));
 
 /// The runs of a scene.
-struct Runs<'a> {
-    scene: &'a Scene,
+struct Runs<'scope, 'env> {
+    scene: &'env Scene,
     /// The plan of the scene, which all runs follow.
-    plan: EffectsPlan,
+    plan: &'env EffectsPlan,
     /// The checkpoint that the next run resumes from.
     from: Option<Checkpoint>,
     /// The run with the settings of the tolerance, its companions, and `None` for a finer run without a solution.
     earlier: Earlier,
-    observer: &'a mut dyn Observer,
+    observer: &'env mut dyn Observer,
+    /// Threads of the companions, if they have any.
+    threads: Option<CompanionThreads<'scope, 'env>>,
 }
 
-impl Runs<'_> {
+impl<'scope, 'env> Runs<'scope, 'env> {
+    /// Begins threads for companions that are still to be solved.
+    fn begin_threads(&mut self, scope: &'scope Scope<'scope, 'env>) {
+        let next = self.earlier.runs.len().saturating_sub(1);
+        if self.scene.threads < 2 || next >= companions::count(self.scene) {
+            return;
+        }
+        // The checkpoint is that of the run until this one has ended, then of a companion.
+        let of_companion = self.from.take_if(|_| !self.earlier.runs.is_empty());
+        let case = (self.scene, self.plan);
+        let threads = CompanionThreads::new(scope, case, (next, of_companion));
+        threads.begin(self.scene.threads - 1);
+        self.threads = Some(threads);
+    }
+
     /// The run with the settings of the tolerance.
     fn first(&mut self) -> Stage {
         if !self.earlier.runs.is_empty() {
@@ -117,16 +142,15 @@ impl Runs<'_> {
         if self.earlier.finished.is_some() {
             self.observer.on_phase(Phase::Companions);
         }
+        if let Some(threads) = &self.threads {
+            // The run has left its own thread to them.
+            threads.begin(1);
+        }
         while let Some(companion) = companions::companion(self.scene, self.earlier.runs.len() - 1) {
             if self.earlier.runs.get(1) == Some(&None) {
                 break;
             }
-            let observer = &mut companions::Quiet {
-                observer: self.observer,
-            };
-            let from = self.from.take();
-            let done = one_run((&companion, &self.plan), from, &self.earlier, observer);
-            let compared = match done {
+            let compared = match self.companion(&companion) {
                 Ok(done) if done.outcome == Outcome::Stopped => {
                     return Ok(ControlFlow::Break(done));
                 }
@@ -136,7 +160,31 @@ impl Runs<'_> {
             };
             self.earlier.runs.push(compared);
         }
+        self.threads = None;
         NEXT
+    }
+
+    /// The next companion: from its thread if it has one.
+    fn companion(&mut self, companion: &Scene) -> Result<Summary, SolveError> {
+        let number = self.earlier.runs.len() - 1;
+        let mut from = self.from.take();
+        if let Some(threads) = &mut self.threads {
+            let (earlier, observer) = (&mut self.earlier, &mut *self.observer);
+            let solved = threads.wait(number, &mut |mut checkpoint| {
+                std::mem::swap(checkpoint.earlier_mut(), earlier);
+                let flow = observer.on(Event::Checkpoint(checkpoint.as_resumable()));
+                std::mem::swap(checkpoint.earlier_mut(), earlier);
+                flow
+            });
+            if let Some(solved) = solved {
+                return solved;
+            }
+            from = from.or(threads.take_checkpoint());
+        }
+        let observer = &mut companions::Quiet {
+            observer: self.observer,
+        };
+        run::by_plan((companion, self.plan), from, &self.earlier, observer)
     }
 
     /// Ends with the first run, unless a finer one is worth it.
@@ -198,7 +246,7 @@ impl Runs<'_> {
 
     fn solve(&mut self, scene: &Scene) -> Result<Summary, SolveError> {
         let from = self.from.take();
-        one_run((scene, &self.plan), from, &self.earlier, self.observer)
+        run::by_plan((scene, self.plan), from, &self.earlier, self.observer)
     }
 
     fn first_errors(&self) -> Option<Errors> {
@@ -227,19 +275,6 @@ impl Runs<'_> {
             run,
             refinement,
         }
-    }
-}
-
-/// One of the runs of a scene, from its checkpoint if there is one.
-fn one_run(
-    (scene, plan): (&Scene, &EffectsPlan),
-    from: Option<Checkpoint>,
-    earlier: &Earlier,
-    observer: &mut dyn Observer,
-) -> Result<Summary, SolveError> {
-    match from {
-        Some(from) => run::proceed(scene, plan, from, observer),
-        None => run::begin(scene, plan, earlier.clone(), observer),
     }
 }
 

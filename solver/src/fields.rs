@@ -311,7 +311,7 @@ mod tests {
         scene.accuracy.contact_element_mm = Some(0.002);
         let model =
             model::build(&scene, &crate::effects::plan(&scene)).expect("the block can be meshed");
-        let condensed = condense(&model).expect("the block can be condensed");
+        let condensed = condense(&model, 1).expect("the block can be condensed");
         let force: Vec<f64> = model
             .bodies
             .receptacle

@@ -28,5 +28,6 @@ pub mod scene;
 pub mod schedule;
 pub mod sides;
 pub mod station;
+mod threads;
 
 pub use error::SolveError;

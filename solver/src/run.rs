@@ -35,8 +35,21 @@ pub fn solve(scene: &Scene, observer: &mut dyn Observer) -> Result<Summary, Solv
     begin(scene, &effects::plan(scene), Earlier::default(), observer)
 }
 
+/// Solves a scene by a plan: from a checkpoint if there is one, else after earlier runs of it.
+pub(crate) fn by_plan(
+    (scene, plan): (&Scene, &EffectsPlan),
+    from: Option<Checkpoint>,
+    earlier: &Earlier,
+    observer: &mut dyn Observer,
+) -> Result<Summary, SolveError> {
+    match from {
+        Some(from) => proceed(scene, plan, from, observer),
+        None => begin(scene, plan, earlier.clone(), observer),
+    }
+}
+
 /// Solves a scene by a plan, after earlier runs of it.
-pub(crate) fn begin(
+fn begin(
     scene: &Scene,
     plan: &EffectsPlan,
     earlier: Earlier,
@@ -74,7 +87,7 @@ pub fn resume(
 }
 
 /// Solves a scene by a plan from a checkpoint to its end.
-pub(crate) fn proceed(
+fn proceed(
     scene: &Scene,
     plan: &EffectsPlan,
     run: Checkpoint,
@@ -99,7 +112,7 @@ pub(crate) fn proceed(
     run.check(&unworn, scene.cycles)?;
     let model = run.model(&unworn)?;
     observer.on_phase(Phase::Condense);
-    let condensed = condensation::condense(&model)?;
+    let condensed = condensation::condense(&model, scene.threads)?;
     advance(scene, (plan, model), condensed, run, observer)
 }
 
@@ -133,7 +146,7 @@ fn advance(
         run.relocated();
         let moved = run.model(&model)?;
         observer.on_phase(Phase::Condense);
-        condensed = condensation::renew(&moved, &model, condensed)?;
+        condensed = condensation::renew((&moved, &model), condensed, scene.threads)?;
         model = moved;
     }
 }

@@ -33,9 +33,9 @@ mod record;
 mod run;
 mod scene;
 mod section;
+mod side_by_side;
 mod spacing;
 mod state;
-mod threads;
 mod top;
 
 pub use error::StationError;

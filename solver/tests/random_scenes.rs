@@ -263,6 +263,7 @@ fn scene(u: &mut Numbers, regime: Regime, worn: Worn) -> Scene {
         conduction: Conduction::default(),
         effects: Switches::default(),
         scattered: Vec::new(),
+        threads: 1,
         dimension: Dimension::PlaneStrain,
     }
 }

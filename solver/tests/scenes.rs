@@ -70,6 +70,7 @@ pub(crate) fn mccoll() -> Scene {
         conduction: Conduction::default(),
         effects: Switches::default(),
         scattered: Vec::new(),
+        threads: 1,
         dimension: Dimension::PlaneStrain,
     }
 }
@@ -127,6 +128,7 @@ pub(crate) fn fuzz_button() -> Scene {
         conduction: Conduction::default(),
         effects: Switches::default(),
         scattered: Vec::new(),
+        threads: 1,
         dimension: Dimension::PlaneStrain,
     }
 }

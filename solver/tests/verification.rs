@@ -51,6 +51,7 @@ mod verify_stations;
 mod verify_stick_zone;
 mod verify_symmetry;
 mod verify_thermal_softening;
+mod verify_threads;
 mod verify_wear_laws;
 mod verify_wide_contact;
 mod verify_worn_slider;

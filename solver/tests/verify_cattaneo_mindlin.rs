@@ -45,7 +45,7 @@ impl Bench {
         let mut model = solver::model::build(&scene, &solver::effects::plan(&scene))
             .expect("the scene can be meshed");
         model.interface.slave = slave;
-        let condensed = condense(&model).expect("the scene can be condensed");
+        let condensed = condense(&model, 1).expect("the scene can be condensed");
         let operators = &condensed.operators;
         let zero = [
             vec![0.0; operators.receptacle.x.len()],

@@ -326,7 +326,7 @@ fn mirrored_motion_wears_the_mirror_image() {
     ] {
         let scene = with(&scene, friction);
         let model = solver::model::build(&scene, &solver::effects::plan(&scene)).expect("a mesh");
-        let condensed = condense(&model).expect("it can be condensed");
+        let condensed = condense(&model, 1).expect("it can be condensed");
         let run = |amplitude_mm: f64| {
             let mut scene = scene.clone();
             scene.motion = Motion::Reciprocating {

@@ -30,7 +30,7 @@ fn worn(scene: &Scene, slave: Side) -> CycleState {
     let mut model = solver::model::build(scene, &solver::effects::plan(scene))
         .expect("the scene can be meshed");
     model.interface.slave = slave;
-    let operators = condense(&model).expect("it can be condensed").operators;
+    let operators = condense(&model, 1).expect("it can be condensed").operators;
     let mut state = CycleState::start(&operators, slave);
     let mut integrator = Integrator::new(scene, &model, &operators);
     integrator

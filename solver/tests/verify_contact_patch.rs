@@ -92,7 +92,7 @@ fn uniform_pressure_passes_through_non_matching_meshes_at_any_position() {
             },
             sizes,
         };
-        let operators = condense(&model)
+        let operators = condense(&model, 1)
             .expect("the blocks can be condensed")
             .operators;
         let pair = Pair {

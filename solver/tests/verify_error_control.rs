@@ -103,10 +103,10 @@ fn random_scenes_are_within_their_tolerance_and_their_estimates() {
 
 /// Records everything that is delivered, and every checkpoint with the number of reports before it.
 #[derive(Default)]
-struct Delivered {
-    recorder: Recorder,
-    checkpoints: Vec<Checkpoint>,
-    restarts: Vec<String>,
+pub(crate) struct Delivered {
+    pub(crate) recorder: Recorder,
+    pub(crate) checkpoints: Vec<Checkpoint>,
+    pub(crate) restarts: Vec<String>,
 }
 
 impl Observer for Delivered {
@@ -121,7 +121,7 @@ impl Observer for Delivered {
 }
 
 /// Its mesh and its increments leave more than 2 % in the depth.
-fn outside_at_first() -> Scene {
+pub(crate) fn outside_at_first() -> Scene {
     with_estimate(&draw(1, 30, REFERENCE * TOLERANCE, 10.0))
 }
 

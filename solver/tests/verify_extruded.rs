@@ -64,7 +64,7 @@ fn solved(scene: &ExtrudedScene) -> ExtrudedSummary {
 /// The loaded plane contact of a section.
 fn loaded_plane(section: &Scene) -> ContactState {
     let model = model::build(section, &effects::plan(section)).expect("the section can be meshed");
-    let condensed = condensation::condense(&model).expect("the section can be condensed");
+    let condensed = condensation::condense(&model, 1).expect("the section can be condensed");
     let mut state = CycleState::start(&condensed.operators, model.interface.slave);
     Integrator::new(section, &model, &condensed.operators)
         .apply_load(&mut state)

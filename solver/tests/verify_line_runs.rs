@@ -51,8 +51,8 @@ pub(crate) fn spring(
         top: Top::Rigid,
         force_n: FORCE,
         stations: None,
-        threads: 2,
     });
+    scene.threads = 2;
     scene
 }
 
@@ -92,8 +92,8 @@ pub(crate) fn ring(cycles: u64) -> Scene {
         top: Top::Rigid,
         force_n: 0.834,
         stations: Some(5),
-        threads: 2,
     });
+    scene.threads = 2;
     scene
 }
 
@@ -129,7 +129,7 @@ fn companions_and_threads_of_a_line_have_the_same_bits() {
     let of = |threads| {
         let mut scene = ring(15);
         scene.accuracy.estimate_errors = true;
-        scene.dimension.set_threads(threads);
+        scene.threads = threads;
         let (summary, recorder) = solve(&scene).expect("it can be solved");
         format!(
             "{summary:?} {:?} {:?}",

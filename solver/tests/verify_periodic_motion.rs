@@ -252,7 +252,7 @@ fn a_mirrored_motion_gives_the_mirror_image() {
     scene.accuracy.cycle_jump = Some(2);
     scene.accuracy.increments_per_cycle = Some(240);
     let model = model::build(&scene, &effects::plan(&scene)).expect("a model");
-    let condensed = condense(&model).expect("operators");
+    let condensed = condense(&model, 1).expect("operators");
     let operators = &condensed.operators;
     let integrate = |scene: &Scene| {
         let mut state = CycleState::start(operators, model.interface.slave);

@@ -28,7 +28,7 @@ fn excess(share: f64, elements: f64) -> f64 {
     scene.accuracy.contact_element_mm = Some(half_contact / elements);
     let mut model = model::build(&scene, &effects::plan(&scene)).expect("the strip can be meshed");
     model.conducts = true;
-    let condensed = condense(&model).expect("the strip can be condensed");
+    let condensed = condense(&model, 1).expect("the strip can be condensed");
     let ratio = condensed.spreading_ratios((-half_contact, half_contact));
     ratio.receptacle - HEIGHT / (2.0 * HALF_LENGTH)
 }

@@ -35,6 +35,7 @@ const AMPLITUDE: f64 = 0.033_868;
 fn ring(top: Top, stations: usize, cycles: u64) -> StationScene {
     let mut section = fuzz_button();
     section.cycles = cycles;
+    section.threads = 2;
     section.output.snapshots_at_cycles = vec![cycles];
     StationScene {
         section,
@@ -45,7 +46,6 @@ fn ring(top: Top, stations: usize, cycles: u64) -> StationScene {
         top,
         force_n: FORCE,
         stations,
-        threads: 2,
     }
 }
 
@@ -276,7 +276,7 @@ fn results_do_not_depend_on_the_number_of_threads() {
     let of = |threads| {
         let mut scene = ring(Top::Rigid, 5, 12);
         scene.section.accuracy.tolerance = 0.1;
-        scene.threads = threads;
+        scene.section.threads = threads;
         solved(&scene)
     };
     let alone = of(1);

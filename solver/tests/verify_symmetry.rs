@@ -19,7 +19,7 @@ use solver::sides::{Side, Sides};
 fn mirrored_motion_gives_mirrored_tractions() {
     let model = solver::model::build(&mccoll(), &solver::effects::plan(&mccoll()))
         .expect("the scene can be meshed");
-    let condensed = condense(&model).expect("the scene can be condensed");
+    let condensed = condense(&model, 1).expect("the scene can be condensed");
     let operators = &condensed.operators;
     let pair = Pair {
         operators,

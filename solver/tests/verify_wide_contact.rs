@@ -42,7 +42,7 @@ fn law(rate: f64) -> Option<WearLaw> {
 
 fn condensed(scene: &Scene) -> (Model, Condensed) {
     let model = model::build(scene, &solver::effects::plan(scene)).expect("it can be meshed");
-    let condensed = condense(&model).expect("it can be condensed");
+    let condensed = condense(&model, 1).expect("it can be condensed");
     (model, condensed)
 }
 

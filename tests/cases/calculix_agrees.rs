@@ -30,7 +30,7 @@ fn ours() -> Ours {
         .scene;
     let model =
         solver::model::build(&scene, &solver::effects::plan(&scene)).expect("it can be meshed");
-    let condensed = condense(&model).expect("it can be condensed");
+    let condensed = condense(&model, 1).expect("it can be condensed");
     let operators = &condensed.operators;
     let mut state = CycleState::start(operators, model.interface.slave);
     Integrator::new(&scene, &model, operators)

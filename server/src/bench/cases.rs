@@ -99,7 +99,7 @@ fn build(scene: &Scene) -> Result<Model, SolveError> {
 pub(super) fn set_up(scene: &Scene) -> Result<(f64, (Model, Condensed)), SolveError> {
     measured(3, || {
         let model = build(scene)?;
-        let condensed = condensation::condense(&model)?;
+        let condensed = condensation::condense(&model, 1)?;
         Ok((model, condensed))
     })
 }
@@ -115,7 +115,7 @@ fn row(what: impl Into<String>, size: String, cpu_s: f64) -> Row {
 fn condensations() -> Result<Vec<Row>, BenchError> {
     let condensation = |target: f64| {
         let model = build(&sized(target)?)?;
-        let condense = || condensation::condense(&model).map_err(SolveError::from);
+        let condense = || condensation::condense(&model, 1).map_err(SolveError::from);
         let (cpu_s, _) = measured(3, condense)?;
         let bodies = &model.bodies;
         let surface = 2 * (bodies.slider.contact_x().len() + bodies.receptacle.contact_x().len());

@@ -39,7 +39,7 @@ pub(super) fn run(arguments: &ChildArguments) -> Ended {
             return Err(refused(&error));
         }
     };
-    resolved.scene.dimension.set_threads(arguments.threads);
+    resolved.scene.threads = arguments.threads;
     std::thread::spawn(end_with_supervisor);
     let from = match input.checkpoint() {
         Ok(from) => from,

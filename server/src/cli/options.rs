@@ -101,7 +101,7 @@ impl SolveOptions {
             ahead: REMOTE_AHEAD,
             until_idle: self.until_idle,
             checkpoint_every: self.checkpoint_every_s,
-            threads: crate::cli::runtime::processors() / self.slots().max(1),
+            threads: crate::cli::runtime::processors(),
             grace: self.grace_s,
             memory_mb: self.memory_mb.unwrap_or(config.memory_mb),
             job_memory_mb: self.job_memory_mb,
@@ -130,7 +130,7 @@ impl WorkOptions {
         WorkerConfig {
             lease: self.lease_s.max(Duration::from_millis(100)),
             checkpoint_every: self.checkpoint_every_s,
-            threads: crate::cli::runtime::processors() / self.workers().max(1),
+            threads: crate::cli::runtime::processors(),
             grace: self.grace_s,
             memory_mb: self.memory_mb.unwrap_or(config.memory_mb),
             job_memory_mb: self.job_memory_mb,

@@ -19,7 +19,7 @@ use crate::spec::Resolved;
 
 pub(super) fn run(spec: &Path, out: Option<&Path>) -> Ended {
     let mut resolved = specification_for(spec, out)?;
-    resolved.scene.dimension.set_threads(processors());
+    resolved.scene.threads = processors();
     let mut recorded = Recorded::default();
     let solved = solve(&resolved, &mut recorded);
     if let Some(folder) = out {

@@ -127,6 +127,7 @@ pub(super) fn fill(spec: &Spec, kind: SystemKind, diagnostics: &mut Diagnostics)
         conduction: conductors.conduction,
         effects,
         scattered: Vec::new(),
+        threads: 1,
     };
     let (scene, chosen) = model::with_dimension(scene, (dimension, &mut filled), diagnostics);
     Filled {

@@ -20,6 +20,8 @@ pub(super) struct Attempt<'a, E> {
     pub(super) employer: &'a E,
     pub(super) claim: &'a Claim,
     pub(super) config: &'a WorkerConfig,
+    /// Threads of its solving process.
+    pub(super) threads: usize,
 }
 
 impl<E> Clone for Attempt<'_, E> {

@@ -34,7 +34,7 @@ pub struct WorkerConfig {
     pub until_idle: bool,
     /// Time between two checkpoints of a solving process.
     pub checkpoint_every: Duration,
-    /// Threads of a solving process, which solves sections along a line in them.
+    /// Threads of all solving processes together, of which each has one at least.
     pub threads: usize,
     /// Time for the last checkpoint of a solving process before it is killed.
     pub grace: Duration,
@@ -61,6 +61,11 @@ impl WorkerConfig {
         }
     }
 
+    /// Returns the threads of a solving process that starts as one of so many: its part while no more start after it.
+    pub(super) fn threads_of_one_of(&self, running: usize) -> usize {
+        (self.threads / running.max(1)).max(1)
+    }
+
     /// Returns the memory limit of a solving process with this estimate, MB.
     pub(super) fn memory_limit_mb(&self, estimated_mb: i64) -> i64 {
         self.job_memory_mb.unwrap_or_else(|| {
@@ -84,6 +89,16 @@ mod tests {
 
     fn config() -> WorkerConfig {
         WorkerConfig::new(PathBuf::from("fretwear"))
+    }
+
+    #[test]
+    fn a_process_takes_its_part_of_the_threads_and_one_at_least() {
+        let config = WorkerConfig {
+            threads: 8,
+            ..config()
+        };
+        let threads = [0, 1, 2, 3, 8, 20].map(|running| config.threads_of_one_of(running));
+        assert_eq!(threads, [8, 8, 4, 2, 1, 1]);
     }
 
     #[test]

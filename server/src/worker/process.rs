@@ -113,6 +113,11 @@ impl WorkerProcess {
         Ok(Some((claims, reserved)))
     }
 
+    /// Solves that hold memory.
+    pub(super) fn running(&self) -> usize {
+        usize::try_from(self.memory().running).unwrap_or_default()
+    }
+
     fn memory(&self) -> MutexGuard<'_, MemoryBudget> {
         self.memory.lock().unwrap_or_else(PoisonError::into_inner)
     }

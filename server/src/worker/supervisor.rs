@@ -122,6 +122,7 @@ fn start<E: Employer>(attempt: Attempt<'_, E>) -> std::io::Result<SolveProcess> 
         claim,
         config,
         employer,
+        threads,
     } = attempt;
     SolveCommand {
         program: &config.program,
@@ -129,7 +130,7 @@ fn start<E: Employer>(attempt: Attempt<'_, E>) -> std::io::Result<SolveProcess> 
         spec: &claim.spec,
         checkpoint: claim.checkpoint.as_ref(),
         checkpoint_every: config.checkpoint_every,
-        threads: config.threads,
+        threads,
         memory_limit_mb: Some(config.memory_limit_mb(claim.memory_mb)),
         own_group: true,
     }

@@ -21,6 +21,7 @@ use crate::mesh::NodePlanes;
 use crate::model::{BodyModel, Model, Support};
 use crate::scene::Ends;
 use crate::sides::{Side, Sides};
+use crate::threads::for_both;
 
 /// Condensed extruded bodies.
 #[derive(Debug)]
@@ -108,7 +109,7 @@ impl ExtrudedOperators {
 }
 
 /// Condenses both bodies, whose section in each plane is a model. A body whose sections are those of earlier models keeps its responses,
-/// one of the same mesh lines its patterns.
+/// one of the same mesh lines its patterns. In more than one thread both are condensed side by side.
 ///
 /// # Errors
 /// [`OperatorError`] if an element is inverted or a body is not held.
@@ -116,15 +117,15 @@ pub fn condense_extruded(
     models: &[Model],
     (planes, ends): (&NodePlanes, Ends),
     earlier: Option<(&[Model], Sides<Vec<PrismZone>>)>,
+    threads: usize,
 ) -> Result<ExtrudedOperators, OperatorError> {
     let sections = Sides::from_fn(|side| section_of(models[0].bodies.of(side)));
-    let (before, mut known) = match earlier {
+    let (before, known) = match earlier {
         Some((before, zones)) => (before, zones.map(Some)),
         None => (&[][..], Sides::default()),
     };
-    let zones = Sides::from_fn(|side| {
+    let zones = for_both(threads, known, |side, known| {
         let bodies: Vec<&BodyModel> = models.iter().map(|m| m.bodies.of(side)).collect();
-        let mut known = known.of_mut(side).take();
         let mut earlier = before.iter().map(|model| model.bodies.of(side));
         let is_same = |(now, before): (&&BodyModel, &BodyModel)| now.zones == before.zones;
         let is_same = bodies.iter().zip(earlier.clone()).all(is_same);
@@ -135,6 +136,7 @@ pub fn condense_extruded(
             .next()
             .is_some_and(|before| before.layout == bodies[0].layout);
         let patterns: Vec<Arc<CholeskyPattern>> = known
+            .take()
             .filter(|_| is_alike)
             .map(|zones| zones.into_iter().map(|zone| zone.pattern).collect())
             .unwrap_or_default();

@@ -7,7 +7,7 @@ use crate::scene::Drive;
 fn compliance_is_symmetric_and_positive() {
     let model = model::build(&fuzz_button(), &crate::effects::plan(&fuzz_button()))
         .expect("the preset can be meshed");
-    let operators = condense(&model)
+    let operators = condense(&model, 1)
         .expect("the preset can be condensed")
         .operators;
     for body in [&operators.slider, &operators.receptacle] {
@@ -32,7 +32,7 @@ fn an_even_pressure_squeezes_a_wide_block_uniaxially() {
     scene.accuracy.contact_element_mm = Some(0.002);
     let model =
         model::build(&scene, &crate::effects::plan(&scene)).expect("the block can be meshed");
-    let body = condense(&model)
+    let body = condense(&model, 1)
         .expect("the block can be condensed")
         .operators
         .receptacle;
@@ -57,7 +57,7 @@ fn a_guided_slider_moves_only_vertically() {
     scene.drive = Drive::WholeBody;
     let model =
         model::build(&scene, &crate::effects::plan(&scene)).expect("the preset can be meshed");
-    let slider = condense(&model)
+    let slider = condense(&model, 1)
         .expect("the preset can be condensed")
         .operators
         .slider;
@@ -73,7 +73,7 @@ fn a_guided_slider_moves_only_vertically() {
 fn interior_and_surface_agree() {
     let model = model::build(&fuzz_button(), &crate::effects::plan(&fuzz_button()))
         .expect("the preset can be meshed");
-    let condensed = condense(&model).expect("the preset can be condensed");
+    let condensed = condense(&model, 1).expect("the preset can be condensed");
     let body = &condensed.operators.receptacle;
     let mesh = &model.bodies.receptacle.zones[0].mesh;
     let middle = body.x.len() / 2;
@@ -101,7 +101,7 @@ fn interior_and_surface_agree() {
 fn near_fields_are_equal_in_both_directions() {
     let model = model::build(&fuzz_button(), &crate::effects::plan(&fuzz_button()))
         .expect("the preset can be meshed");
-    let condensed = condense(&model).expect("the preset can be condensed");
+    let condensed = condense(&model, 1).expect("the preset can be condensed");
     let body = &condensed.operators.receptacle;
     let middle = body.x.len() / 2;
     let local = |d: usize, i: usize| {

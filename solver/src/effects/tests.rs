@@ -119,7 +119,6 @@ fn friction_calls_for_sticking_where_nodes_may_stick_only() {
         top: Top::Even,
         force_n: 0.0834,
         stations: Some(5),
-        threads: 1,
     };
     assert_eq!(called_for(Dimension::Line(ring)), ["friction"]);
 }

@@ -34,7 +34,12 @@ impl Bodies {
         let models = vec![section.clone(); planes.count()];
         check(scene, &models, &planes)?;
         Ok(Self {
-            operators: condense_extruded(&models, (&planes, scene.ends), None)?,
+            operators: condense_extruded(
+                &models,
+                (&planes, scene.ends),
+                None,
+                scene.section.threads,
+            )?,
             shares: planes.shares(),
             scene: scene.clone(),
             unworn: section,
@@ -94,8 +99,8 @@ impl Bodies {
         let models: Vec<Model> = models.collect::<Result<_, _>>()?;
         check(&self.scene, &models, &self.planes)?;
         let earlier = (&self.models[..], std::mem::take(&mut self.operators.zones));
-        self.operators =
-            condense_extruded(&models, (&self.planes, self.scene.ends), Some(earlier))?;
+        let (ends, threads) = (self.scene.ends, self.scene.section.threads);
+        self.operators = condense_extruded(&models, (&self.planes, ends), Some(earlier), threads)?;
         self.models = models;
         self.built.clone_from(&common.built);
         self.widenings = common.widenings;

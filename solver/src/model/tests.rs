@@ -65,6 +65,7 @@ pub(crate) fn fuzz_button() -> Scene {
         conduction: Conduction::default(),
         effects: Switches::default(),
         scattered: Vec::new(),
+        threads: 1,
         dimension: Dimension::PlaneStrain,
     }
 }

@@ -35,7 +35,7 @@ pub(super) fn load_unworn(
     observer.on_phase(Phase::Mesh);
     let (mut plan, mut model) = (plan.clone(), model::build(scene, plan)?);
     observer.on_phase(Phase::Condense);
-    let mut condensed = condensation::condense(&model)?;
+    let mut condensed = condensation::condense(&model, scene.threads)?;
     let (mut crossings, mut widened) = (Vec::new(), 1.0);
     loop {
         let error = match load(scene, (&plan, &model), &condensed, observer) {
@@ -63,7 +63,7 @@ pub(super) fn load_unworn(
         if error.needs_wider_zones() {
             widened *= model::ZONE_WIDENING;
             model = model.with_zones_widened(widened)?;
-            condensed = condensation::condense(&model)?;
+            condensed = condensation::condense(&model, scene.threads)?;
         } else {
             crossings.extend(called_for);
             plan = plan.after(&crossings);

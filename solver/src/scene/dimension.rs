@@ -37,8 +37,6 @@ pub struct Line {
     /// Number of sections along the half ring, the half of a straight line or all of one with a tilt, with both ends; chosen from the
     /// tolerance if absent.
     pub stations: Option<usize>,
-    /// Threads that the sections are solved in; results do not depend on it.
-    pub threads: usize,
 }
 
 /// What bodies drawn out over a width have beyond their section.
@@ -132,13 +130,6 @@ impl Dimension {
     /// Whether it consists of sections along a line, all of which slip as imposed.
     pub fn has_sections(&self) -> bool {
         matches!(self, Self::Line(_) | Self::Extruded(_))
-    }
-
-    /// Sets the threads that sections along a line are solved in.
-    pub fn set_threads(&mut self, threads: usize) {
-        if let Self::Line(line) = self {
-            line.threads = threads.max(1);
-        }
     }
 
     /// Whether it has a finite extent across the sliding direction.

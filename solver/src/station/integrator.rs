@@ -13,8 +13,8 @@ use super::meshed::Section;
 use super::place::places;
 use super::scene::{StationScene, intervals_within};
 use super::section::{Increment, Station};
+use super::side_by_side::for_each;
 use super::state::{Common, LineState, StationState};
-use super::threads::{Threads, for_each};
 use super::top::{Carrier, Unsolved};
 use crate::along_line::LineRecord;
 use crate::contact::ContactState;
@@ -26,6 +26,7 @@ use crate::schedule::increments;
 use crate::schedule::plan::Cycles;
 use crate::schedule::replay::ReplayPlan;
 use crate::schedule::step::Position;
+use crate::threads::Threads;
 
 /// The load at the neutral position, without sliding.
 const FIRST_LOAD: Increment = Increment {
@@ -120,7 +121,7 @@ impl LineIntegrator {
             amplitude_mm,
             unworn,
             record: LineRecord::default(),
-            threads: Arc::new(Threads::new(scene.threads)),
+            threads: Arc::new(Threads::new(scene.section.threads)),
         })
     }
 

@@ -23,7 +23,7 @@ impl Section {
     /// [`StationError`] if it cannot be condensed.
     pub(super) fn unworn(model: Model) -> Result<Self, StationError> {
         Ok(Self {
-            condensed: condensation::condense(&model)?,
+            condensed: condensation::condense(&model, 1)?,
             model,
             built: None,
             widened: 1.0,
@@ -38,7 +38,7 @@ impl Section {
         };
         let model = model.with_zones_widened(state.widened)?;
         Ok(Self {
-            condensed: condensation::condense(&model)?,
+            condensed: condensation::condense(&model, 1)?,
             model,
             built: state.built.clone(),
             widened: state.widened,

@@ -24,8 +24,6 @@ pub struct StationScene {
     pub force_n: f64,
     /// Number of stations along the half ring, the half of a straight line or all of one with a tilt, with both ends.
     pub stations: usize,
-    /// Threads that the stations are solved in; results do not depend on it.
-    pub threads: usize,
 }
 
 /// Stations along half of a line that suffice for a tolerance: under a rigid top depths at 1 000 cycles of the thesis' ring are 15.81, 15.93
@@ -104,7 +102,6 @@ impl StationScene {
             line: line.shape,
             top: line.top,
             force_n: line.force_n,
-            threads: line.threads,
         };
         own.stations = stations_of(line, own.touch(), &scene.accuracy);
         Some(own)

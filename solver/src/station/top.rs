@@ -9,7 +9,7 @@
 use super::coupling::Coupling;
 use super::height::{Found, Height};
 use super::section::{Increment, Station};
-use super::threads::for_each;
+use super::side_by_side::for_each;
 use crate::contact::ContactError;
 use crate::scene::Top;
 

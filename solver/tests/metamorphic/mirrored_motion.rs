@@ -46,7 +46,7 @@ fn the_mirror_image(drawn: &Drawn) -> Result<Option<Vec<Deviation>>, SolveError>
     scene.accuracy.cycle_jump = Some(JUMP);
     scene.accuracy.increments_per_cycle = Some(INCREMENTS);
     let model = solver::model::build(&scene, &solver::effects::plan(&scene))?;
-    let condensed = condense(&model)?;
+    let condensed = condense(&model, 1)?;
     let operators = &condensed.operators;
     let integrate = |scene: &Scene| -> Result<CycleState, SolveError> {
         let mut state = CycleState::start(operators, model.interface.slave);

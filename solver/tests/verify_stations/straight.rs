@@ -39,6 +39,7 @@ fn crowned(height_mm: f64, stations: usize, tilt_mrad: f64) -> StationScene {
         period_s: 1.0,
     };
     section.cycles = 0;
+    section.threads = 2;
     StationScene {
         section,
         line: LineShape::Straight {
@@ -49,7 +50,6 @@ fn crowned(height_mm: f64, stations: usize, tilt_mrad: f64) -> StationScene {
         top: Top::Rigid,
         force_n: 5.0,
         stations,
-        threads: 2,
     }
 }
 

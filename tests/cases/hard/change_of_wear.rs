@@ -20,7 +20,7 @@ fn wear_coefficient_can_change_a_hundredfold_between_two_cycles() {
     })));
     let mut model = solver::model::build(&scene, &solver::effects::plan(&scene))
         .expect("the scene can be meshed");
-    let condensed = condense(&model).expect("it can be condensed");
+    let condensed = condense(&model, 1).expect("it can be condensed");
     let operators = &condensed.operators;
     let widths = model.bodies.receptacle.contact_widths();
     let mut state = CycleState::start(operators, model.interface.slave);

@@ -16,7 +16,7 @@ pub(crate) fn explicit_wear(
 ) -> Result<TractionField, ContactError> {
     let model = solver::model::build(scene, &solver::effects::plan(scene))
         .expect("the scene can be meshed");
-    let operators = condense(&model).expect("it can be condensed").operators;
+    let operators = condense(&model, 1).expect("it can be condensed").operators;
     let pair = Pair {
         operators: &operators,
         interface: model.interface,

@@ -235,7 +235,6 @@ impl Line {
             top: self.top,
             force_n: scene.load_n_per_mm * self.shape.length_mm(),
             stations: stations(spec, diagnostics),
-            threads: 1,
         });
         if diagnostics.is_clean() {
             Self::check(&scene, diagnostics);

@@ -12,7 +12,7 @@ fn model_of(scene: &Scene) -> Model {
 
 fn extruded(model: &Model, planes: &NodePlanes, ends: Ends) -> ExtrudedOperators {
     let models = vec![model.clone(); planes.count()];
-    condense_extruded(&models, (planes, ends), None).expect("the scene can be condensed")
+    condense_extruded(&models, (planes, ends), None, 1).expect("the scene can be condensed")
 }
 
 fn coarse() -> Scene {
@@ -43,7 +43,7 @@ fn sections_under_equal_forces_respond_as_the_plane_body() {
         scene.slider.elastic.poisson_ratio = poisson_ratio;
         scene.receptacle.elastic.poisson_ratio = poisson_ratio;
         let model = model_of(&scene);
-        let plane = condense(&model)
+        let plane = condense(&model, 1)
             .expect("the preset can be condensed")
             .operators;
         let solid = extruded(&model, &planes, ends);
@@ -147,7 +147,7 @@ fn sections_have_surfaces_of_their_own() {
     let planes = NodePlanes::new(0.01, 2, 1.0);
     let model = model_of(&coarse());
     let before = vec![model.clone(); 2];
-    let first = condense_extruded(&before, (&planes, Ends::Free), None).expect("unworn");
+    let first = condense_extruded(&before, (&planes, Ends::Free), None, 1).expect("unworn");
     let depth = Sides {
         slider: vec![0.0; model.bodies.slider.contact_x().len()],
         receptacle: vec![0.03; model.bodies.receptacle.contact_x().len()],
@@ -164,9 +164,14 @@ fn sections_have_surfaces_of_their_own() {
     };
     let unworn = [own(&first, 0), own(&first, 1)];
     let slider = entry(&first.zones.slider[0], (0, 1), (1, 3));
-    let then = condense_extruded(&models, (&planes, Ends::Free), Some((&before, first.zones)))
-        .expect("the worn body can be condensed");
-    let anew = condense_extruded(&models, (&planes, Ends::Free), None).expect("likewise");
+    let then = condense_extruded(
+        &models,
+        (&planes, Ends::Free),
+        Some((&before, first.zones)),
+        2,
+    )
+    .expect("the worn body can be condensed");
+    let anew = condense_extruded(&models, (&planes, Ends::Free), None, 1).expect("likewise");
     let stiffer = [0, 1].map(|k| 1.0 - own(&then, k) / unworn[k]);
     assert!(
         stiffer[0] > 0.01 && stiffer[1].abs() < 0.5 * stiffer[0],

@@ -45,7 +45,7 @@ fn wear_from(
     let mut model = build(&scene, &crate::effects::plan(&scene)).expect("the scene can be meshed");
     model.interface.wear = laws
         .map(|law| SurfaceWear::new(&[], law).map(|wear| wear.during(Pace::at_speed(1.0), STEP)));
-    let operators = condense(&model).expect("it can be condensed").operators;
+    let operators = condense(&model, 1).expect("it can be condensed").operators;
     let pair = Pair {
         operators: &operators,
         interface: model.interface,

@@ -1,29 +1,9 @@
-//! Stations in threads: each is solved alone, and errors are those of the first station that has one, so that results do not depend on the
+//! Stations side by side: each is solved alone, and errors are those of the first station that has one, so that results do not depend on the
 //! number of threads.
 
 use rayon::iter::{IndexedParallelIterator, IntoParallelRefMutIterator, ParallelIterator};
-use rayon::{ThreadPool, ThreadPoolBuilder};
 
 use super::section::Station;
-
-/// The threads of a run: none besides the caller's own where no others were asked for or could be started.
-#[derive(Default)]
-pub(super) struct Threads(Option<ThreadPool>);
-
-impl Threads {
-    pub(super) fn new(count: usize) -> Self {
-        let others = (count > 1).then(|| ThreadPoolBuilder::new().num_threads(count).build());
-        Self(others.and_then(Result::ok))
-    }
-
-    /// Does work in which stations are shared among the threads.
-    pub(super) fn within<R: Send>(&self, work: impl FnOnce() -> R + Send) -> R {
-        match &self.0 {
-            Some(pool) => pool.install(work),
-            None => work(),
-        }
-    }
-}
 
 /// Does the same with all stations, of which each has its number, in the threads that the caller is one of.
 ///

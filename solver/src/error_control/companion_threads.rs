@@ -1,0 +1,197 @@
+//! Companions in threads of their own. They do not depend on the run that they belong to, so they are solved beside it.
+//!
+//! A companion that the run waits for hands its checkpoints over, so that the work can be stopped and resumed there; one
+//! that is beside the run does not, and is solved again if the run is resumed.
+
+use std::collections::BTreeMap;
+use std::ops::ControlFlow;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::mpsc::{Receiver, Sender, channel};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::thread::Scope;
+
+use super::companions;
+use crate::SolveError;
+use crate::checkpoint::{Checkpoint, Earlier};
+use crate::effects::EffectsPlan;
+use crate::observer::{Event, Observer};
+use crate::record::Summary;
+use crate::run;
+use crate::scene::Scene;
+use crate::threads::thread;
+
+/// Result of a run.
+type Solved = Result<Summary, SolveError>;
+
+/// The companions of a scene, in as many threads as were begun. They are stopped when it is dropped.
+pub(super) struct CompanionThreads<'scope, 'env> {
+    scope: &'scope Scope<'scope, 'env>,
+    scene: &'env Scene,
+    plan: &'env EffectsPlan,
+    common: Arc<Common>,
+    /// For threads that are still to be begun.
+    sender: Option<Sender<Progress>>,
+    received: Receiver<Progress>,
+    /// Companions that have ended, by their number.
+    ended: BTreeMap<usize, Solved>,
+}
+
+/// What all threads know.
+struct Common {
+    /// Number of the next companion, and the checkpoint that it is resumed from.
+    next: Mutex<(usize, Option<Checkpoint>)>,
+    /// Number of the companion that the run waits for.
+    awaited: AtomicUsize,
+    stopped: AtomicBool,
+}
+
+/// What a thread tells of the companion of a number.
+enum Progress {
+    Checkpoint(usize, Checkpoint),
+    Ended(usize, Box<Solved>),
+}
+
+impl<'scope, 'env> CompanionThreads<'scope, 'env> {
+    /// The companions from one on, of which the first is resumed from a checkpoint if there is one.
+    pub(super) fn new(
+        scope: &'scope Scope<'scope, 'env>,
+        (scene, plan): (&'env Scene, &'env EffectsPlan),
+        first: (usize, Option<Checkpoint>),
+    ) -> Self {
+        let (sender, received) = channel();
+        Self {
+            scope,
+            scene,
+            plan,
+            common: Arc::new(Common {
+                next: Mutex::new(first),
+                awaited: AtomicUsize::new(usize::MAX),
+                stopped: AtomicBool::new(false),
+            }),
+            sender: Some(sender),
+            received,
+            ended: BTreeMap::new(),
+        }
+    }
+
+    /// Begins threads, as far as the system has any; none after the first wait.
+    pub(super) fn begin(&self, threads: usize) {
+        for _ in 0..threads {
+            let Some(sender) = self.sender.clone() else {
+                return;
+            };
+            let (common, case) = (Arc::clone(&self.common), (self.scene, self.plan));
+            let solve = move || common.solve_all(case, &sender);
+            // With fewer threads the same is solved, later.
+            let _ = thread().spawn_scoped(self.scope, solve);
+        }
+    }
+
+    /// Waits for a companion; `on` receives its checkpoints meanwhile, and may stop it. `None` if no thread solves it.
+    pub(super) fn wait(
+        &mut self,
+        number: usize,
+        on: &mut dyn FnMut(Checkpoint) -> ControlFlow<()>,
+    ) -> Option<Solved> {
+        self.sender = None;
+        self.common.awaited.store(number, Ordering::Relaxed);
+        loop {
+            if let Some(solved) = self.ended.remove(&number) {
+                return Some(solved);
+            }
+            match self.received.recv().ok()? {
+                Progress::Ended(number, solved) => {
+                    self.ended.insert(number, *solved);
+                }
+                Progress::Checkpoint(of, checkpoint) => {
+                    if of == number && !self.common.is_stopped() && on(checkpoint).is_break() {
+                        self.common.stop();
+                    }
+                }
+            }
+        }
+    }
+
+    /// The checkpoint of the first companion, if no thread has taken it.
+    pub(super) fn take_checkpoint(&self) -> Option<Checkpoint> {
+        self.common.next().1.take()
+    }
+}
+
+impl Drop for CompanionThreads<'_, '_> {
+    fn drop(&mut self) {
+        self.common.stop();
+    }
+}
+
+impl Common {
+    fn stop(&self) {
+        self.stopped.store(true, Ordering::Relaxed);
+    }
+
+    fn is_stopped(&self) -> bool {
+        self.stopped.load(Ordering::Relaxed)
+    }
+
+    fn next(&self) -> MutexGuard<'_, (usize, Option<Checkpoint>)> {
+        self.next.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// The number of the next companion that no thread has taken, and its checkpoint.
+    fn take_next(&self) -> (usize, Option<Checkpoint>) {
+        let mut next = self.next();
+        let (number, from) = (next.0, next.1.take());
+        next.0 += 1;
+        (number, from)
+    }
+
+    /// Solves one companion after the other until none is left.
+    fn solve_all(&self, (scene, plan): (&Scene, &EffectsPlan), sender: &Sender<Progress>) {
+        while !self.is_stopped() {
+            let (number, from) = self.take_next();
+            let Some(companion) = companions::companion(scene, number) else {
+                return;
+            };
+            let companion = Scene {
+                threads: 1,
+                ..companion
+            };
+            let mut observer = Watched {
+                number,
+                common: self,
+                sender,
+            };
+            let solved = run::by_plan((&companion, plan), from, &Earlier::default(), &mut observer);
+            let ended = Progress::Ended(number, Box::new(solved));
+            if sender.send(ended).is_err() {
+                return;
+            }
+        }
+    }
+}
+
+/// Observes a companion.
+struct Watched<'a> {
+    number: usize,
+    common: &'a Common,
+    sender: &'a Sender<Progress>,
+}
+
+impl Observer for Watched<'_> {
+    fn on(&mut self, event: Event<'_>) -> ControlFlow<()> {
+        if self.common.is_stopped() {
+            return ControlFlow::Break(());
+        }
+        let Event::Checkpoint(run) = event else {
+            return ControlFlow::Continue(());
+        };
+        if self.common.awaited.load(Ordering::Relaxed) != self.number {
+            return ControlFlow::Continue(());
+        }
+        let progress = Progress::Checkpoint(self.number, run.checkpoint());
+        match self.sender.send(progress) {
+            Ok(()) => ControlFlow::Continue(()),
+            Err(_) => ControlFlow::Break(()),
+        }
+    }
+}
