@@ -94,7 +94,7 @@ async fn next<E: Employer>(
     (process, config): (&WorkerProcess, &WorkerConfig),
     stopping: &CancellationToken,
 ) -> Result<bool, EmployerError> {
-    let Some((claims, _memory)) = process.claim(employer, config, stopping).await? else {
+    let Some((claims, memory)) = process.claim(employer, config, stopping).await? else {
         return Ok(false);
     };
     // Also after an error or a panic, without an end.
@@ -107,7 +107,7 @@ async fn next<E: Employer>(
             employer,
             claim,
             config,
-            threads: config.threads_of_one_of(process.running()),
+            threads: memory.threads,
         };
         let span = tracing::info_span!("job", id = %claim.id, lease = claim.lease, attempt = claim.attempt);
         let _busy = employer.busy();

@@ -111,7 +111,9 @@ impl<'scope, 'env> Runs<'scope, 'env> {
     /// Begins threads for companions that are still to be solved.
     fn begin_threads(&mut self, scope: &'scope Scope<'scope, 'env>) {
         let next = self.earlier.runs.len().saturating_sub(1);
-        if self.scene.threads < 2 || next >= companions::count(self.scene) {
+        // A line is solved in all threads itself, and so are its companions after it.
+        let is_line = self.scene.dimension.line().is_some();
+        if self.scene.threads < 2 || is_line || next >= companions::count(self.scene) {
             return;
         }
         // The checkpoint is that of the run until this one has ended, then of a companion.

@@ -102,7 +102,7 @@ pub struct Scene {
     /// The scene with other wear coefficients, whose lives are compared with those of this one on coarse settings: where they do not go
     /// with the inverse of the coefficients.
     pub scattered: Vec<Scene>,
-    /// Threads that the solve may take; results do not depend on it.
+    /// Threads that the solve is to keep busy; results do not depend on it.
     pub threads: usize,
 }
 

@@ -26,8 +26,8 @@ impl Threads {
     }
 }
 
-/// Does work for both bodies: with more than one thread one beside the other, the receptacle in the caller's, so that what the larger
-/// body's work frees is there for the next.
+/// Does work for both bodies: with more than one thread one beside the other, the receptacle in the caller's thread. It is the larger body in
+/// most scenes, and what a thread has freed is there for its next allocations.
 pub(crate) fn for_both<T: Send, R: Send>(
     threads: usize,
     Sides {
@@ -38,7 +38,7 @@ pub(crate) fn for_both<T: Send, R: Send>(
 ) -> Sides<R> {
     let (beside, receptacle) = std::thread::scope(|scope| {
         let of_slider = || work(Side::Slider, &mut slider);
-        let beside = (threads > 1).then(|| thread().spawn_scoped(scope, of_slider));
+        let beside = (threads > 1).then(|| Builder::new().spawn_scoped(scope, of_slider));
         let receptacle = work(Side::Receptacle, &mut receptacle);
         let beside = beside.and_then(Result::ok).map(ScopedJoinHandle::join);
         let beside = beside.map(|done| done.unwrap_or_else(|panic| resume_unwind(panic)));
@@ -48,9 +48,4 @@ pub(crate) fn for_both<T: Send, R: Send>(
         slider: beside.unwrap_or_else(|| work(Side::Slider, &mut slider)),
         receptacle,
     }
-}
-
-/// A thread with the stack of the first thread of a process on Linux, for whole runs and their parts.
-pub(crate) fn thread() -> Builder {
-    Builder::new().stack_size(8 << 20)
 }

@@ -129,6 +129,24 @@ fn companions_that_outlast_the_run_are_stopped_and_resumed() {
     }
 }
 
+/// Where no other companion is left, which gives the run no time to stop it later.
+#[test]
+fn a_run_is_stopped_at_the_last_checkpoint_of_its_last_companion() {
+    let scene = with_many_companions();
+    let mut whole = Delivered::default();
+    error_control::solve(&scene, &mut whole).expect("it has a solution");
+    let [.., before, last] = &whole.checkpoints[..] else {
+        panic!("companions have checkpoints");
+    };
+    for threads in [1, 3] {
+        let mut stops = Stops::new(0, &scene);
+        let scene = in_threads(&scene, threads);
+        let stopped = error_control::resume(&scene, before.clone(), &mut stops);
+        assert_eq!(stopped.expect("it resumes").outcome, Outcome::Stopped);
+        assert_eq!(stops.last.as_ref(), Some(last), "{threads} threads");
+    }
+}
+
 /// Stops a run at its first computed cycle.
 #[derive(Default)]
 struct StopsAtOnce(bool);

@@ -185,7 +185,7 @@ pub(super) struct ChildArguments {
     /// Interval of checkpoints.
     #[arg(long)]
     pub(super) checkpoint_every_ms: u64,
-    /// Threads that the solve may take; results do not depend on it.
+    /// Threads that the solve is to keep busy; results do not depend on it.
     #[arg(long, default_value_t = 1)]
     pub(super) threads: usize,
     /// Limit of writable memory.

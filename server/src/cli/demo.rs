@@ -9,7 +9,7 @@ use api::results::WearHistory;
 use uuid::Uuid;
 
 use crate::cli::client::follow;
-use crate::cli::runtime::{block_on, workers};
+use crate::cli::runtime::{block_on, or_processors};
 use crate::cli::serve::until_signal;
 use crate::cli::table;
 use crate::cli::terminal::{Ended, failed, write_err, write_out};
@@ -53,7 +53,7 @@ async fn demonstrate(listen: SocketAddr, exit: bool) -> Result<(), DemoError> {
         files: folder.join("fretwear"),
         database,
         objects: None,
-        workers: workers(None),
+        workers: or_processors(None),
         limits: Limits::default(),
         keep_days: None,
         jobs_ahead: JOBS_AHEAD,

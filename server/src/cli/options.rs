@@ -22,6 +22,9 @@ pub(super) struct WorkOptions {
     /// Number of jobs solved at once; one per processor unless given; 0 if only remote workers solve (`fretwear work`).
     #[arg(long, env = "FRETWEAR_WORKERS", value_parser = clap::value_parser!(u16).range(..=256))]
     workers: Option<u16>,
+    /// Threads of a solve that runs alone; of several each has its part, one at least; one per processor unless given.
+    #[arg(long, env = "FRETWEAR_THREADS", value_parser = clap::value_parser!(u16).range(1..=256))]
+    threads: Option<u16>,
     /// Largest number of attempts in a row without a new checkpoint at a job whose workers are lost.
     #[arg(long, env = "FRETWEAR_ATTEMPTS", default_value_t = ATTEMPT_LIMIT, value_parser = clap::value_parser!(u32).range(1..))]
     attempts: u32,
@@ -57,6 +60,9 @@ pub(super) struct SolveOptions {
     /// Number of jobs solved at once; one per processor unless given.
     #[arg(long, env = "FRETWEAR_SLOTS", value_parser = clap::value_parser!(u16).range(1..=256))]
     slots: Option<u16>,
+    /// Threads of a solve that runs alone; of several each has its part, one at least; one per processor unless given.
+    #[arg(long, env = "FRETWEAR_THREADS", value_parser = clap::value_parser!(u16).range(1..=256))]
+    threads: Option<u16>,
     /// Limit of the estimated memory of all solves; four fifths of the machine's memory unless given.
     #[arg(long, env = "FRETWEAR_MEMORY_MB", value_parser = clap::value_parser!(i64).range(1..))]
     memory_mb: Option<i64>,
@@ -80,7 +86,7 @@ pub(super) struct SolveOptions {
 impl SolveOptions {
     /// Number of jobs solved at once.
     pub(super) fn slots(&self) -> usize {
-        crate::cli::runtime::workers(self.slots)
+        crate::cli::runtime::or_processors(self.slots)
     }
 
     /// How long a request waits for a job: not long where the worker is to end without one.
@@ -101,7 +107,7 @@ impl SolveOptions {
             ahead: REMOTE_AHEAD,
             until_idle: self.until_idle,
             checkpoint_every: self.checkpoint_every_s,
-            threads: crate::cli::runtime::processors(),
+            threads: crate::cli::runtime::or_processors(self.threads),
             grace: self.grace_s,
             memory_mb: self.memory_mb.unwrap_or(config.memory_mb),
             job_memory_mb: self.job_memory_mb,
@@ -113,7 +119,7 @@ impl SolveOptions {
 impl WorkOptions {
     /// Number of jobs solved at once.
     pub(super) fn workers(&self) -> usize {
-        crate::cli::runtime::workers(self.workers)
+        crate::cli::runtime::or_processors(self.workers)
     }
 
     /// Limits of the store.
@@ -130,7 +136,7 @@ impl WorkOptions {
         WorkerConfig {
             lease: self.lease_s.max(Duration::from_millis(100)),
             checkpoint_every: self.checkpoint_every_s,
-            threads: crate::cli::runtime::processors(),
+            threads: crate::cli::runtime::or_processors(self.threads),
             grace: self.grace_s,
             memory_mb: self.memory_mb.unwrap_or(config.memory_mb),
             job_memory_mb: self.job_memory_mb,

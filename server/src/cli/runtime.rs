@@ -4,8 +4,8 @@ use std::process::ExitCode;
 
 use crate::cli::terminal::failed;
 
-/// Number of jobs solved at once; one per processor unless given.
-pub(super) fn workers(given: Option<u16>) -> usize {
+/// A number of jobs or threads; one per processor unless given.
+pub(super) fn or_processors(given: Option<u16>) -> usize {
     given.map_or_else(processors, usize::from)
 }
 

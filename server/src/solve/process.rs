@@ -49,7 +49,7 @@ pub(crate) struct SolveCommand<'a> {
     pub(crate) checkpoint: Option<&'a EncodedCheckpoint>,
     /// Time between two checkpoints.
     pub(crate) checkpoint_every: Duration,
-    /// Threads that sections along a line are solved in.
+    /// Threads that the solve is to keep busy.
     pub(crate) threads: usize,
     /// Memory limit, MB.
     pub(crate) memory_limit_mb: Option<i64>,

@@ -13,6 +13,9 @@ const MIN_MEMORY_MB: i64 = 1_024;
 /// Part of the machine's memory for all solving processes together, per cent.
 const MEMORY_SHARE_PERCENT: u64 = 80;
 
+/// Memory in several threads over the estimate, which is that in one, per cent: 154 at most of ten scenes in 2 to 8 threads.
+const MEMORY_OF_THREADS_PERCENT: i64 = 160;
+
 /// Pause before an operation of the store is retried.
 pub(super) const RETRY_PAUSE: Duration = Duration::from_secs(1);
 
@@ -34,7 +37,7 @@ pub struct WorkerConfig {
     pub until_idle: bool,
     /// Time between two checkpoints of a solving process.
     pub checkpoint_every: Duration,
-    /// Threads of all solving processes together, of which each has one at least.
+    /// Threads of a solving process that runs alone; of several each has its part when it starts, one at least.
     pub threads: usize,
     /// Time for the last checkpoint of a solving process before it is killed.
     pub grace: Duration,
@@ -61,9 +64,21 @@ impl WorkerConfig {
         }
     }
 
-    /// Returns the threads of a solving process that starts as one of so many: its part while no more start after it.
-    pub(super) fn threads_of_one_of(&self, running: usize) -> usize {
-        (self.threads / running.max(1)).max(1)
+    /// Returns the threads of a solving process with this estimate that starts as one of so many, and the memory in MB that it takes with
+    /// them: one thread and the estimate if there is not enough for more.
+    pub(super) fn threads_and_memory(
+        &self,
+        (estimated_mb, free_mb): (i64, i64),
+        running: usize,
+    ) -> (usize, i64) {
+        let threads = (self.threads / running.max(1)).max(1);
+        let more_mb = estimated_mb.saturating_mul(MEMORY_OF_THREADS_PERCENT) / 100;
+        let limit_mb = free_mb.min(self.memory_limit_mb(estimated_mb));
+        if threads > 1 && more_mb <= limit_mb {
+            (threads, more_mb)
+        } else {
+            (1, estimated_mb)
+        }
     }
 
     /// Returns the memory limit of a solving process with this estimate, MB.
@@ -97,8 +112,18 @@ mod tests {
             threads: 8,
             ..config()
         };
-        let threads = [0, 1, 2, 3, 8, 20].map(|running| config.threads_of_one_of(running));
+        let taken = |memory, running| config.threads_and_memory(memory, running);
+        let threads = [0, 1, 2, 3, 8, 20].map(|running| taken((100, 1_000), running).0);
         assert_eq!(threads, [8, 8, 4, 2, 1, 1]);
+        assert_eq!(taken((100, 160), 1), (8, 160));
+        assert_eq!(taken((100, 1_000), 8), (1, 100));
+        // There is no memory for more threads, or a limit below it.
+        assert_eq!(taken((100, 159), 1), (1, 100));
+        let limited = WorkerConfig {
+            job_memory_mb: Some(159),
+            ..config
+        };
+        assert_eq!(limited.threads_and_memory((100, 1_000), 1), (1, 100));
     }
 
     #[test]

@@ -21,11 +21,12 @@ pub struct WorkerProcess {
     next_request: tokio::sync::Mutex<i64>,
 }
 
-/// Memory of a solve, free again when it is dropped.
+/// Memory of a solve, free again when it is dropped, and its threads.
 #[derive(Debug)]
 pub(super) struct SolveMemory<'a> {
     process: &'a WorkerProcess,
     memory_mb: i64,
+    pub(super) threads: usize,
 }
 
 impl Drop for SolveMemory<'_> {
@@ -99,23 +100,22 @@ impl WorkerProcess {
             () = stopping.cancelled() => employer.claim(&without_slots(request)).await?,
         };
         *number += 1;
-        let Some(memory_mb) = claims.iter().map(|claim| claim.memory_mb).max() else {
+        let Some(estimated_mb) = claims.iter().map(|claim| claim.memory_mb).max() else {
             return Ok(None);
         };
         let mut memory = self.memory();
-        memory.used_mb += memory_mb;
         memory.running += 1;
+        let running = usize::try_from(memory.running).unwrap_or_default();
+        let (threads, memory_mb) =
+            config.threads_and_memory((estimated_mb, memory.free_mb()), running);
+        memory.used_mb += memory_mb;
         drop(memory);
         let reserved = SolveMemory {
             process: self,
             memory_mb,
+            threads,
         };
         Ok(Some((claims, reserved)))
-    }
-
-    /// Solves that hold memory.
-    pub(super) fn running(&self) -> usize {
-        usize::try_from(self.memory().running).unwrap_or_default()
     }
 
     fn memory(&self) -> MutexGuard<'_, MemoryBudget> {

@@ -8,7 +8,7 @@ use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
-use std::thread::Scope;
+use std::thread::{Builder, Scope};
 
 use super::companions;
 use crate::SolveError;
@@ -18,7 +18,6 @@ use crate::observer::{Event, Observer};
 use crate::record::Summary;
 use crate::run;
 use crate::scene::Scene;
-use crate::threads::thread;
 
 /// Result of a run.
 type Solved = Result<Summary, SolveError>;
@@ -45,9 +44,11 @@ struct Common {
     stopped: AtomicBool,
 }
 
-/// What a thread tells of the companion of a number.
+/// What a thread tells of its companion.
 enum Progress {
-    Checkpoint(usize, Checkpoint),
+    /// A checkpoint of the one that is waited for. The companion waits for the answer, without which it stops.
+    Checkpoint(Checkpoint, Sender<ControlFlow<()>>),
+    /// That of a number has ended.
     Ended(usize, Box<Solved>),
 }
 
@@ -74,16 +75,18 @@ impl<'scope, 'env> CompanionThreads<'scope, 'env> {
         }
     }
 
-    /// Begins threads, as far as the system has any; none after the first wait.
+    /// Begins threads, at most one for each companion that no thread has taken, and as far as the system has any; none after the
+    /// first wait.
     pub(super) fn begin(&self, threads: usize) {
-        for _ in 0..threads {
+        let left = companions::count(self.scene).saturating_sub(self.common.next().0);
+        for _ in 0..threads.min(left) {
             let Some(sender) = self.sender.clone() else {
                 return;
             };
             let (common, case) = (Arc::clone(&self.common), (self.scene, self.plan));
             let solve = move || common.solve_all(case, &sender);
             // With fewer threads the same is solved, later.
-            let _ = thread().spawn_scoped(self.scope, solve);
+            let _ = Builder::new().spawn_scoped(self.scope, solve);
         }
     }
 
@@ -103,10 +106,13 @@ impl<'scope, 'env> CompanionThreads<'scope, 'env> {
                 Progress::Ended(number, solved) => {
                     self.ended.insert(number, *solved);
                 }
-                Progress::Checkpoint(of, checkpoint) => {
-                    if of == number && !self.common.is_stopped() && on(checkpoint).is_break() {
+                Progress::Checkpoint(checkpoint, answer) => {
+                    let flow = on(checkpoint);
+                    if flow.is_break() {
                         self.common.stop();
                     }
+                    // A companion that does not wait for it has ended.
+                    let _ = answer.send(flow);
                 }
             }
         }
@@ -188,10 +194,11 @@ impl Observer for Watched<'_> {
         if self.common.awaited.load(Ordering::Relaxed) != self.number {
             return ControlFlow::Continue(());
         }
-        let progress = Progress::Checkpoint(self.number, run.checkpoint());
-        match self.sender.send(progress) {
-            Ok(()) => ControlFlow::Continue(()),
-            Err(_) => ControlFlow::Break(()),
-        }
+        let (answer, answered) = channel();
+        let progress = Progress::Checkpoint(run.checkpoint(), answer);
+        let sent = self.sender.send(progress);
+        // What has not been received is dropped with the run, and the answer with it.
+        let flow = sent.ok().and_then(|()| answered.recv().ok());
+        flow.unwrap_or(ControlFlow::Break(()))
     }
 }

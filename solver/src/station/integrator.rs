@@ -121,7 +121,7 @@ impl LineIntegrator {
             amplitude_mm,
             unworn,
             record: LineRecord::default(),
-            threads: Arc::new(Threads::new(scene.section.threads)),
+            threads: Arc::new(Threads::new(scene.section.threads.min(scene.stations))),
         })
     }
 
