@@ -30,8 +30,11 @@ mod results_to_move;
 mod revisions;
 mod selects;
 mod transitions;
+mod updates;
 mod worker_tokens;
 mod workers;
+mod write;
+mod writes;
 
 use std::time::{Duration, Instant};
 
@@ -45,6 +48,7 @@ use crate::store::groups::Groups;
 use crate::store::local::Local;
 use crate::store::postgres::claimed::Claimed;
 use crate::store::postgres::compared::Compared;
+use crate::store::postgres::writes::Writes;
 use crate::store::{ClaimRequest, StoreError};
 
 /// A store in a PostgreSQL database.
@@ -55,6 +59,7 @@ pub(in crate::store) struct PostgresStore {
     pool: PgPool,
     readers: PgPool,
     claims: Groups<ClaimRequest, Claimed>,
+    writes: Writes,
     /// The connection that asks for the lock of the process that moves results, and whether it holds it.
     mover: tokio::sync::Mutex<Option<(PgConnection, bool)>>,
     /// When the database was last written by [`PostgresStore::ready`].
@@ -97,6 +102,9 @@ async fn time_of(connection: &mut PgConnection) -> Result<Now, StoreError> {
 
 /// Longest time that an operation may take: a server whose machine has vanished answers never.
 const LONGEST: Duration = Duration::from_mins(1);
+
+/// Longest time that a transaction of several requests may take, for the same reason.
+const LONGEST_TURN: Duration = Duration::from_secs(40);
 
 /// Waits for an operation, but not for ever.
 pub(in crate::store) async fn answered<T>(

@@ -42,6 +42,7 @@ mod objects;
 mod order;
 mod roles;
 mod workers;
+mod writes;
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;

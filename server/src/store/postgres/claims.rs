@@ -2,7 +2,6 @@
 //! those of all processes take turns: each would ask for the same jobs.
 
 use std::collections::HashMap;
-use std::time::Duration;
 
 use sqlx::postgres::{PgConnection, PgPool};
 use tokio::time::timeout;
@@ -12,14 +11,12 @@ use crate::clock::Now;
 use crate::queue::{WaitingJob, admit};
 use crate::store::groups::Pending;
 use crate::store::postgres::claimed::Claimed;
-use crate::store::postgres::{PostgresStore, begin, checkpoints, time_of};
+use crate::store::postgres::{LONGEST_TURN, PostgresStore, begin, checkpoints, time_of};
 use crate::store::rows::{StoredRow, attempt_event, claim, integer};
 use crate::store::{Claim, ClaimRequest, StoreError};
 
 /// Number of waiting jobs among which those that fit are searched, beside one for each slot.
 const CANDIDATES: usize = 64;
-/// Longest time that claims may take: a server that has vanished answers never.
-const LONGEST: Duration = Duration::from_secs(40);
 /// Key of the lock of the process that claims: `frtc` in ASCII.
 const TURN: i64 = 0x6672_7463;
 
@@ -42,7 +39,7 @@ impl PostgresStore {
 /// Claims jobs for requests in one transaction. If it fails, all fail: a request is repeated, and gets the same jobs if its
 /// transaction was committed.
 async fn write(pool: PgPool, given: Option<Now>, mut group: Vec<Pending<ClaimRequest, Claimed>>) {
-    match timeout(LONGEST, claim_for(&pool, given, &mut group)).await {
+    match timeout(LONGEST_TURN, claim_for(&pool, given, &mut group)).await {
         Ok(Ok((requests, claims, mut reasoned))) => {
             for pending in group {
                 let index = position(&requests, &pending.request);
@@ -56,7 +53,7 @@ async fn write(pool: PgPool, given: Option<Now>, mut group: Vec<Pending<ClaimReq
         failed => {
             let error = match failed {
                 Ok(Err(error)) => error.to_string(),
-                _ => format!("no answer within {LONGEST:?}"),
+                _ => format!("no answer within {LONGEST_TURN:?}"),
             };
             tracing::warn!(error, requests = group.len(), "claims failed");
             for pending in group {

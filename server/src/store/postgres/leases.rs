@@ -1,7 +1,6 @@
 //! Fenced operations: writes of workers and ends of jobs. The statement that names the lease locks the row of the job until the
 //! transaction ends.
 
-use std::collections::BTreeMap;
 use std::time::Duration;
 
 use api::job::Status;
@@ -9,12 +8,9 @@ use sqlx::postgres::PgConnection;
 
 use crate::queue::Transition;
 use crate::store::ending::EndingJob;
-use crate::store::postgres::blocks::insert_block;
-use crate::store::postgres::files::insert_files;
 use crate::store::postgres::queries::insert_attempt_event;
-use crate::store::postgres::transitions::end_job;
+use crate::store::postgres::write::{Effect, Kind, Write};
 use crate::store::postgres::{PostgresStore, begin, checkpoints};
-use crate::store::rows::integer;
 use crate::store::{End, JobUpdate, Lease, LeaseState, StoreError};
 
 impl PostgresStore {
@@ -26,33 +22,21 @@ impl PostgresStore {
     ) -> Result<LeaseState, StoreError> {
         self.local.disk.check()?;
         let lease = lease.into();
-        let (mut transaction, now) = self.begin().await?;
-        let events = integer(update.events.len());
-        let held: Option<(i64, bool)> = sqlx::query_as(
-            "UPDATE jobs SET last_write = $1, progress = $2, lease_expires_at = $3, last_event = last_event + $4, version = version + 1, \
-             fruitless = CASE WHEN $5 THEN 0 ELSE fruitless END \
-             WHERE id = $6 AND lease = $7 AND status = 'running' AND last_write < $1 RETURNING last_event, cancel_requested",
-        )
-        .bind(update.number)
-        .bind(serde_json::to_string(&update.progress)?)
-        .bind(now.end_of(length))
-        .bind(events)
-        .bind(update.checkpoint.is_some())
-        .bind(lease.job)
-        .bind(lease.number)
-        .fetch_optional(&mut *transaction)
-        .await?;
-        let Some((last_event, cancel_requested)) = held else {
-            return self.written_before(&mut transaction, lease).await;
+        let write = Write {
+            lease,
+            update: update.clone(),
+            kind: Kind::Renew(length),
         };
-        write_results(&mut transaction, lease, update).await?;
-        if let Some(checkpoint) = &update.checkpoint {
-            checkpoints::write(&mut transaction, lease, checkpoint, now).await?;
-            self.local.metrics.checkpoints.inc();
+        let written = self.write(write).await?;
+        let Effect::Held { cancel_requested } = written.effect else {
+            return Ok(self.local.stale_write());
+        };
+        if !written.is_repeated {
+            if update.checkpoint.is_some() {
+                self.local.metrics.checkpoints.inc();
+            }
+            self.local.changed(lease.job);
         }
-        write_events(&mut transaction, lease, last_event - events + 1, update).await?;
-        transaction.commit().await?;
-        self.local.changed(lease.job);
         Ok(LeaseState::Held { cancel_requested })
     }
 
@@ -179,55 +163,20 @@ impl PostgresStore {
         end: &End,
     ) -> Result<Option<Status>, StoreError> {
         let lease = lease.into();
-        let (mut transaction, now) = self.begin().await?;
-        let held: Option<(i64, bool)> = sqlx::query_as(
-            "UPDATE jobs SET last_write = $1 WHERE id = $2 AND lease = $3 AND status = 'running' AND last_write < $1 \
-             RETURNING fruitless, cancel_requested",
-        )
-        .bind(update.number)
-        .bind(lease.job)
-        .bind(lease.number)
-        .fetch_optional(&mut *transaction)
-        .await?;
-        let Some((fruitless, cancel_requested)) = held else {
-            return self
-                .ended_before(&mut transaction, lease, update.number)
-                .await;
+        let write = Write {
+            lease,
+            update: update.clone(),
+            kind: Kind::End(Box::new(end.clone())),
         };
-        write_results(&mut transaction, lease, update).await?;
-        let fruitless = fruitless.try_into().unwrap_or_default();
-        let limit = self.local.attempt_limit;
-        let job = EndingJob::running(lease.job, fruitless, limit, cancel_requested);
-        let progress = serde_json::to_string(&update.progress)?;
-        let status = end_job(&mut transaction, &job, end, Some(&progress), now.system_ms).await?;
-        if let Some(block) = &update.block {
-            let succeeded = status == Some(Status::Succeeded);
-            insert_block(&mut transaction, lease.job, block, succeeded).await?;
-        }
-        transaction.commit().await?;
-        self.local.concluded(lease.job, status);
-        Ok(status)
-    }
-
-    /// The status that a repeated end has led to; `None` if it had no effect because the lease was lost.
-    async fn ended_before(
-        &self,
-        connection: &mut PgConnection,
-        lease: Lease,
-        number: i64,
-    ) -> Result<Option<Status>, StoreError> {
-        let status: Option<String> = sqlx::query_scalar(
-            "SELECT status FROM jobs WHERE id = $1 AND lease = $2 AND last_write = $3 AND status <> 'running'",
-        )
-        .bind(lease.job)
-        .bind(lease.number)
-        .bind(number)
-        .fetch_optional(connection)
-        .await?;
-        if status.is_none() {
+        let written = self.write(write).await?;
+        let Effect::Ended(status) = written.effect else {
             self.local.stale_write();
+            return Ok(None);
+        };
+        if !written.is_repeated {
+            self.local.concluded(lease.job, status);
         }
-        Ok(status.as_deref().and_then(Status::from_name))
+        Ok(status)
     }
 
     pub(in crate::store) async fn is_final(
@@ -256,76 +205,4 @@ async fn held(connection: &mut PgConnection, lease: Lease) -> Result<Option<bool
     .bind(lease.job)
     .bind(lease.number);
     Ok(cancel_requested.fetch_optional(connection).await?)
-}
-
-async fn write_results(
-    connection: &mut PgConnection,
-    lease: Lease,
-    update: &JobUpdate,
-) -> Result<(), StoreError> {
-    // A statement replaces a row once: of rows of one cycle, the last one counts.
-    let mut rows = BTreeMap::new();
-    for row in &update.rows {
-        rows.insert(integer(row.cycle), serde_json::to_string(row)?);
-    }
-    if !rows.is_empty() {
-        let (cycles, texts): (Vec<_>, Vec<_>) = rows.into_iter().unzip();
-        sqlx::query(
-            "INSERT INTO history_rows (job_id, cycle, data) SELECT $1, * FROM unnest($2::bigint[], $3::text[]) \
-             ON CONFLICT (job_id, cycle) DO UPDATE SET data = excluded.data",
-        )
-        .bind(lease.job)
-        .bind(cycles)
-        .bind(texts)
-        .execute(&mut *connection)
-        .await?;
-    }
-    for snapshot in &update.snapshots {
-        sqlx::query(
-            "INSERT INTO snapshots (job_id, cycle, profile, pressure, friction_loop) VALUES ($1, $2, $3, $4, $5) \
-             ON CONFLICT (job_id, cycle) DO UPDATE SET profile = excluded.profile, pressure = excluded.pressure, \
-             friction_loop = excluded.friction_loop",
-        )
-        .bind(lease.job)
-        .bind(integer(snapshot.profile.cycle))
-        .bind(serde_json::to_string(&snapshot.profile)?)
-        .bind(serde_json::to_string(&snapshot.pressure)?)
-        .bind(serde_json::to_string(&snapshot.friction_loop)?)
-        .execute(&mut *connection)
-        .await?;
-    }
-    insert_files(connection, lease, &update.files).await
-}
-
-/// Appends the events of an update, numbered from `first`.
-async fn write_events(
-    connection: &mut PgConnection,
-    lease: Lease,
-    first: i64,
-    update: &JobUpdate,
-) -> Result<(), StoreError> {
-    if update.events.is_empty() {
-        return Ok(());
-    }
-    let names: Vec<_> = update
-        .events
-        .iter()
-        .map(|(name, _)| name.as_str())
-        .collect();
-    let texts: Vec<_> = update
-        .events
-        .iter()
-        .map(|(_, data)| data.as_str())
-        .collect();
-    sqlx::query(
-        "INSERT INTO events (job_id, seq, name, data) SELECT $1, $2 + n - 1, name, data \
-         FROM unnest($3::text[], $4::text[]) WITH ORDINALITY AS new (name, data, n)",
-    )
-    .bind(lease.job)
-    .bind(first)
-    .bind(names)
-    .bind(texts)
-    .execute(connection)
-    .await?;
-    Ok(())
 }

@@ -89,6 +89,7 @@ impl PostgresStore {
             pool,
             readers,
             claims: Groups::default(),
+            writes: Groups::default(),
             mover: tokio::sync::Mutex::default(),
             last_probe: tokio::sync::Mutex::default(),
             compared: tokio::sync::Mutex::default(),

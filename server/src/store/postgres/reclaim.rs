@@ -59,7 +59,7 @@ impl PostgresStore {
                 .await?;
                 ending.push(rows::claim(id, &row, now, None)?);
             } else {
-                let status = end_job(&mut transaction, &job, &end, None, 0).await?;
+                let status = end_job(&mut transaction, &job, &end, 0).await?;
                 queued.push((id, status));
             }
         }
