@@ -7,6 +7,7 @@ pub mod client;
 pub mod clock;
 pub mod estimate;
 pub mod export;
+mod groups;
 pub mod http;
 mod json_bytes;
 pub mod metrics;

@@ -60,7 +60,6 @@ mod error;
 mod events;
 mod folder;
 mod gauges;
-mod groups;
 pub mod integrity;
 mod job_ids;
 mod jobs;

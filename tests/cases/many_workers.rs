@@ -8,6 +8,8 @@
 //!     FRETWEAR_WORKERS_LOAD=10000,1000 cargo test --release -p tests many_workers::of_a_file -- --nocapture
 //!     FRETWEAR_WORKERS_LOAD=10000,1000,2 cargo test --release -p tests many_workers::of_postgresql -- --nocapture
 //!
+//! `FRETWEAR_WORKERS_SLOTS` of them are in a process (4), which sends their writes together.
+//!
 //! `failover` kills the primary of a PostgreSQL database, `harms` everything that jobs depend on, one after the other; their long form has
 //! so many jobs and workers, and `FRETWEAR_HARMS` harms:
 //!
@@ -101,7 +103,7 @@ async fn solved_once(folder: &Path, services: usize) {
         services.insert(0, restarted(folder, killed, &ids).await);
     }
     let claims: Vec<Duration> = workers.join_all().await.concat();
-    let elapsed = began.elapsed();
+    let elapsed = done.last_end() - began;
     let server = services.last().expect("one");
     assert_once(server, &ids, &done).await;
     if is_long() {

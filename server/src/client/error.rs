@@ -100,6 +100,14 @@ pub enum ClientError {
 }
 
 impl ClientError {
+    /// A problem within an answer.
+    pub(crate) fn of(problem: Problem) -> Self {
+        Self::Problem {
+            problem: Box::new(problem),
+            retry_after: None,
+        }
+    }
+
     /// The connection failed; with the causes, which the library does not show.
     pub(super) fn unreachable(url: &str, error: reqwest::Error) -> Self {
         let mut cause = error.to_string();

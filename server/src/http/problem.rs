@@ -49,6 +49,23 @@ impl ProblemResponse {
         self
     }
 
+    /// Its document.
+    pub(super) fn document(self) -> Problem {
+        let ProblemType {
+            status,
+            name,
+            title,
+            ..
+        } = self.problem_type;
+        Problem {
+            kind: format!("/problems/{name}"),
+            title: title.to_owned(),
+            status,
+            detail: self.detail,
+            faults: self.faults,
+        }
+    }
+
     /// An internal error: the cause is logged here and hidden from the client.
     pub(super) fn internal(cause: &dyn std::error::Error) -> Self {
         tracing::error!(%cause, "a request failed");
@@ -151,22 +168,11 @@ impl From<Refused> for ProblemResponse {
 
 impl IntoResponse for ProblemResponse {
     fn into_response(self) -> Response {
-        let ProblemType {
-            status,
-            name,
-            title,
-            ..
-        } = self.problem_type;
+        let problem_type = self.problem_type;
         let is_full = self.detail == Some(StoreError::DiskFull.to_string());
-        let problem = Problem {
-            kind: format!("/problems/{name}"),
-            title: title.to_owned(),
-            status,
-            detail: self.detail,
-            faults: self.faults,
-        };
-        let status = StatusCode::from_u16(status).unwrap_or(StatusCode::INTERNAL_SERVER_ERROR);
-        let mut response = (status, axum::Json(problem)).into_response();
+        let status = StatusCode::from_u16(problem_type.status);
+        let status = status.unwrap_or(StatusCode::INTERNAL_SERVER_ERROR);
+        let mut response = (status, axum::Json(self.document())).into_response();
         let headers = response.headers_mut();
         headers.insert(header::CONTENT_TYPE, HeaderValue::from_static(MEDIA_TYPE));
         let is_temporary = [
@@ -174,7 +180,7 @@ impl IntoResponse for ProblemResponse {
             ProblemType::DISK_FULL,
             ProblemType::RESULTS_UNREACHABLE,
         ];
-        if is_temporary.contains(&self.problem_type) {
+        if is_temporary.contains(&problem_type) {
             headers.insert(header::RETRY_AFTER, HeaderValue::from_static(RETRY_AFTER_S));
         }
         if is_full {

@@ -30,9 +30,8 @@ fn worker_routes() -> Router<App> {
     Router::new()
         .route("/claims", post(worker::claim::claim))
         .route("/leases", post(worker::renew::renew))
-        .route("/updates", post(worker::record::record))
+        .route("/writes", post(worker::write::write))
         .route("/restarts", post(worker::restart::restart))
-        .route("/ends", post(worker::finish::finish))
         .route("/demand", get(worker::show_demand::show_demand))
         .route(
             "/files/{job}/{lease}/{name}",

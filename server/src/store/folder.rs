@@ -60,6 +60,11 @@ impl Folder {
         self.root.is_dir()
     }
 
+    /// Whether a job may have files.
+    pub(in crate::store) fn has(&self, id: Uuid) -> bool {
+        self.root.join(id.to_string()).exists()
+    }
+
     /// Removes all files of a job.
     pub(in crate::store) fn remove(&self, id: Uuid) -> std::io::Result<()> {
         match fs_err::remove_dir_all(self.root.join(id.to_string())) {

@@ -98,6 +98,20 @@ pub struct JobUpdate {
     pub events: Vec<(EventName, String)>,
 }
 
+/// Largest block of a small update, bytes; bounds how long others that are written with it wait. Arbitrary.
+const SMALL_BLOCK: usize = 64 * 1024;
+
+impl JobUpdate {
+    /// Whether it is written together with others: it has a few rows and events, and no more than a small block of results.
+    pub(crate) fn is_small(&self) -> bool {
+        let block = self.block.as_ref();
+        let bytes = block.map_or(0, |block| block.entries.len() + block.content.len());
+        let is_rest_small =
+            self.snapshots.is_empty() && self.files.is_empty() && self.checkpoint.is_none();
+        is_rest_small && bytes <= SMALL_BLOCK
+    }
+}
+
 /// The events that a worker writes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]

@@ -8,7 +8,7 @@ mod batches;
 mod blocks;
 mod checkpoints;
 mod claimed;
-mod claims;
+pub(in crate::store) mod claims;
 mod compared;
 mod events;
 mod expansions;
@@ -44,7 +44,7 @@ use tokio::time::timeout;
 use tokio_util::task::AbortOnDropHandle;
 
 use crate::clock::{Clock, Now};
-use crate::store::groups::Groups;
+use crate::groups::Groups;
 use crate::store::local::Local;
 use crate::store::postgres::claimed::Claimed;
 use crate::store::postgres::compared::Compared;
@@ -58,7 +58,7 @@ pub(in crate::store) struct PostgresStore {
     /// For claims and writes, which must not wait for reads.
     pool: PgPool,
     readers: PgPool,
-    claims: Groups<ClaimRequest, Claimed>,
+    claims: Groups<ClaimRequest, Result<Claimed, StoreError>>,
     writes: Writes,
     /// The connection that asks for the lock of the process that moves results, and whether it holds it.
     mover: tokio::sync::Mutex<Option<(PgConnection, bool)>>,

@@ -78,7 +78,8 @@ impl SqliteStore {
             now: self.local.clock.now(),
         };
         let write = |group| write(self.writer.clone(), group);
-        let submitted = self.submissions.ask(submission, write).await?;
+        let submitted = self.submissions.ask(submission, write).await;
+        let submitted = submitted.unwrap_or(Err(StoreError::Unwritten))?;
         if let Submitted::Job(id) = submitted {
             self.local.concluded(id, Some(Status::Queued));
         }

@@ -287,7 +287,7 @@ impl Fixture {
     }
 }
 
-pub(in crate::store) fn update(cycle: u64) -> JobUpdate {
+pub(crate) fn update(cycle: u64) -> JobUpdate {
     JobUpdate {
         rows: vec![row(cycle)],
         events: vec![(EventName::Cycle, "{}".to_owned())],
@@ -307,7 +307,7 @@ pub(in crate::store) fn with_checkpoint(cycle: u64) -> JobUpdate {
     }
 }
 
-pub(in crate::store) fn end(transition: Transition) -> End {
+pub(crate) fn end(transition: Transition) -> End {
     End {
         transition,
         reason: Some("because".to_owned()),

@@ -3,10 +3,12 @@
 
 use std::time::Duration;
 
+use api::job::Status;
+use api::problem::Problem;
 use serde::{Deserialize, Serialize};
 use uuid::Uuid;
 
-use crate::store::{ClaimRequest, End, JobUpdate, Lease};
+use crate::store::{ClaimRequest, End, JobUpdate, Lease, LeaseState};
 
 /// Program of a worker or a service: version and commit. Another one need not give the same bits.
 pub const PROGRAM: &str = concat!(
@@ -56,7 +58,51 @@ pub struct LeasesBody {
     pub length: Duration,
 }
 
-/// Body of `POST updates`, answered with the state of the lease.
+/// Largest number of writes in a request.
+pub const MOST_WRITES: usize = 256;
+
+/// A write of a worker. Body of `POST writes` are some, answered with a [`WriteAnswer`] to each, in the same order; those of one job are done
+/// one after the other.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum WriteBody {
+    /// An update.
+    Update(UpdateBody),
+    /// The end of an attempt.
+    End(EndBody),
+}
+
+/// Answer to a write.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum WriteAnswer {
+    /// The lease of an update.
+    Lease(LeaseState),
+    /// The status of a job after its end; null if the lease was lost.
+    Status(Option<Status>),
+    /// It was not done.
+    Problem(Problem),
+}
+
+impl WriteBody {
+    /// The lease.
+    pub fn lease(&self) -> Lease {
+        match self {
+            Self::Update(body) => body.lease,
+            Self::End(body) => body.lease,
+        }
+    }
+
+    /// The update.
+    pub fn update(&self) -> &JobUpdate {
+        match self {
+            Self::Update(body) => &body.update,
+            Self::End(body) => &body.update,
+        }
+    }
+}
+
+/// An update of a job that is held.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct UpdateBody {
     /// The lease.
@@ -76,7 +122,7 @@ pub struct RestartBody {
     pub number: i64,
 }
 
-/// Body of `POST ends`, answered with the status of the job, or null if the lease was lost.
+/// The end of an attempt.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct EndBody {
     /// The lease.

@@ -1,8 +1,8 @@
 //! Simulated workers: they claim, record and end over HTTP as real ones do, and solve nothing.
 
 use std::path::Path;
-use std::sync::Arc;
 use std::sync::atomic::{AtomicU32, Ordering};
+use std::sync::{Arc, LazyLock, Mutex};
 use std::time::{Duration, Instant};
 
 use fastrand::Rng;
@@ -32,6 +32,16 @@ const PAUSE: Duration = Duration::from_millis(100);
 pub(super) struct Done {
     /// Attempts of workers that have vanished, or that the machine did not let renew their lease in time.
     pub(super) lost: AtomicU32,
+    /// When the last job ended.
+    last_end: Mutex<Option<Instant>>,
+}
+
+impl Done {
+    /// When the last job ended; now if none has.
+    pub(super) fn last_end(&self) -> Instant {
+        let last = *self.last_end.lock().expect("no panic");
+        last.unwrap_or_else(Instant::now)
+    }
 }
 
 /// What happens to workers at random.
@@ -151,7 +161,7 @@ impl Simulated {
         }
         let last = JobUpdate {
             number: 2,
-            block: Some(documents()),
+            block: Some(DOCUMENTS.clone()),
             ..JobUpdate::default()
         };
         let end = End {
@@ -162,22 +172,31 @@ impl Simulated {
         };
         let ended = self.answered(|| remote.finish(lease, &last, &end)).await;
         match ended {
-            Some(status) => assert_eq!(status.as_str(), "succeeded"),
+            Some(status) => {
+                assert_eq!(status.as_str(), "succeeded");
+                *self.done.last_end.lock().expect("no panic") = Some(Instant::now());
+            }
             None => drop(self.done.lost.fetch_add(1, Ordering::Relaxed)),
         }
     }
 }
 
 /// Documents as a worker makes them of a run.
-fn documents() -> EncodedBlock {
+static DOCUMENTS: LazyLock<EncodedBlock> = LazyLock::new(|| {
     let mut block = Block::default();
     let table = b"cycle,depth\n1,2\n";
     let entry = manifest_entry("wear-history.csv", None, CSV, table);
     assert!(block.push_history(&[], &[]).expect("JSON") && block.push_document(&entry, table));
     block.encode().expect("JSON")
+});
+
+/// Workers of a process.
+fn slots() -> usize {
+    let asked = std::env::var("FRETWEAR_WORKERS_SLOTS").ok();
+    asked.map_or(4, |slots| slots.parse().expect("a number"))
 }
 
-/// Starts workers, each for one of the services.
+/// Starts workers, several in a process, which is for one of the services.
 pub(super) fn started(
     folder: &Path,
     services: &[&str],
@@ -186,15 +205,21 @@ pub(super) fn started(
 ) -> JoinSet<Vec<Duration>> {
     let client = |server: &&str| Client::new(server, None, None).expect("a client");
     let clients: Vec<_> = services.iter().map(client).collect();
+    let slots = slots();
+    let remote = |number: usize| {
+        let client = clients[number % clients.len()].clone();
+        let lengths = (harm.lease(), WAIT);
+        Arc::new(Remote::new(
+            (client, Uuid::now_v7(), slots),
+            folder.to_owned(),
+            lengths,
+        ))
+    };
+    let processes: Vec<_> = (0..count.div_ceil(slots)).map(remote).collect();
     (0..count)
-        .map(|number| (number, Uuid::now_v7()))
-        .map(|(number, id)| Simulated {
-            remote: Arc::new(Remote::new(
-                (clients[number % clients.len()].clone(), id, 1),
-                folder.to_owned(),
-                (harm.lease(), WAIT),
-            )),
-            id,
+        .map(|number| Simulated {
+            remote: Arc::clone(&processes[number / slots]),
+            id: Uuid::now_v7(),
             number: 0,
             random: Rng::with_seed(u64::try_from(number).expect("small")),
             done: Arc::clone(done),

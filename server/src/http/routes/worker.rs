@@ -2,9 +2,8 @@
 //! document.
 
 pub(in crate::http) mod claim;
-pub(in crate::http) mod finish;
 pub(in crate::http) mod put_file;
-pub(in crate::http) mod record;
 pub(in crate::http) mod renew;
 pub(in crate::http) mod restart;
 pub(in crate::http) mod show_demand;
+pub(in crate::http) mod write;

@@ -8,8 +8,8 @@ use tokio::time::timeout;
 use uuid::Uuid;
 
 use crate::clock::Now;
+use crate::groups::Pending;
 use crate::queue::{WaitingJob, admit};
-use crate::store::groups::Pending;
 use crate::store::postgres::claimed::Claimed;
 use crate::store::postgres::{LONGEST_TURN, PostgresStore, begin, checkpoints, time_of};
 use crate::store::rows::{StoredRow, attempt_event, claim, integer};
@@ -19,6 +19,16 @@ use crate::store::{Claim, ClaimRequest, StoreError};
 const CANDIDATES: usize = 64;
 /// Key of the lock of the process that claims: `frtc` in ASCII.
 const TURN: i64 = 0x6672_7463;
+/// Waits for the turn. A process that was paused in its turn loses it. Jobs are read in the order of their index and no further than they are
+/// asked for: by statistics of a time when few jobs waited, PostgreSQL would read and sort all of them for each claim.
+pub(in crate::store) const TAKE_TURN: &str = "SELECT pg_advisory_xact_lock($1), \
+    set_config('idle_in_transaction_session_timeout', '3s', true), \
+    set_config('enable_bitmapscan', 'off', true), set_config('enable_seqscan', 'off', true), set_config('enable_sort', 'off', true)";
+/// The first queued jobs. They are not locked: most are not claimed.
+pub(in crate::store) const FIRST_QUEUED: &str = "SELECT id, memory_mb, queued_at, cpu_ms FROM jobs WHERE status = 'queued' \
+    ORDER BY place, id LIMIT $1";
+
+type Waiting = Pending<ClaimRequest, Result<Claimed, StoreError>>;
 
 impl PostgresStore {
     pub(in crate::store) async fn claim(
@@ -28,7 +38,8 @@ impl PostgresStore {
         self.local.disk.check()?;
         let given = self.given_now();
         let write = |group| write(self.pool.clone(), given, group);
-        let Claimed { claims, reasoned } = self.claims.ask(*request, write).await?;
+        let claimed = self.claims.ask(*request, write).await;
+        let Claimed { claims, reasoned } = claimed.unwrap_or(Err(StoreError::Unwritten))?;
         for id in claims.iter().map(|claim| claim.id).chain(reasoned) {
             self.local.changed(id);
         }
@@ -38,7 +49,7 @@ impl PostgresStore {
 
 /// Claims jobs for requests in one transaction. If it fails, all fail: a request is repeated, and gets the same jobs if its
 /// transaction was committed.
-async fn write(pool: PgPool, given: Option<Now>, mut group: Vec<Pending<ClaimRequest, Claimed>>) {
+async fn write(pool: PgPool, given: Option<Now>, mut group: Vec<Waiting>) {
     match timeout(LONGEST_TURN, claim_for(&pool, given, &mut group)).await {
         Ok(Ok((requests, claims, mut reasoned))) => {
             for pending in group {
@@ -76,7 +87,7 @@ type Answers = (Vec<ClaimRequest>, Vec<Vec<Claim>>, Vec<Uuid>);
 async fn claim_for(
     pool: &PgPool,
     given: Option<Now>,
-    group: &mut Vec<Pending<ClaimRequest, Claimed>>,
+    group: &mut Vec<Waiting>,
 ) -> Result<Answers, StoreError> {
     let mut transaction = begin(pool, None).await?;
     let now = turn(&mut transaction).await?;
@@ -117,28 +128,24 @@ async fn claim_for(
     Ok((requests, claims, reasoned))
 }
 
-/// Waits until it is the turn of this transaction to claim, and returns the time. A process that was paused in its turn loses it.
+/// Waits until it is the turn of this transaction to claim, and returns the time.
 async fn turn(connection: &mut PgConnection) -> Result<Now, StoreError> {
-    sqlx::query(
-        "SELECT pg_advisory_xact_lock($1), set_config('idle_in_transaction_session_timeout', '3s', true)",
-    )
-    .bind(TURN)
-    .execute(&mut *connection)
-    .await?;
+    sqlx::query(TAKE_TURN)
+        .bind(TURN)
+        .execute(&mut *connection)
+        .await?;
     time_of(connection).await
 }
 
-/// The first queued jobs: their ids, and what their admission depends on. They are not locked: most are not claimed.
+/// The first queued jobs: their ids, and what their admission depends on.
 async fn candidates(
     connection: &mut PgConnection,
     limit: usize,
 ) -> Result<Vec<(Uuid, WaitingJob)>, StoreError> {
-    let rows: Vec<(Uuid, i64, i64, i64)> = sqlx::query_as(
-        "SELECT id, memory_mb, queued_at, cpu_ms FROM jobs WHERE status = 'queued' ORDER BY place, id LIMIT $1",
-    )
-    .bind(integer(limit))
-    .fetch_all(connection)
-    .await?;
+    let rows: Vec<(Uuid, i64, i64, i64)> = sqlx::query_as(FIRST_QUEUED)
+        .bind(integer(limit))
+        .fetch_all(connection)
+        .await?;
     let candidate = |(id, memory_mb, since, cpu_ms)| {
         let job = WaitingJob {
             memory_mb,

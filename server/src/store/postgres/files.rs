@@ -101,6 +101,11 @@ impl PostgresStore {
         let Some(attempt) = attempt else {
             return self.remove_left_files().await;
         };
+        let job = attempt.job;
+        let has_files = self.local.in_folder(move |folder| Ok(folder.has(job)));
+        if !has_files.await.unwrap_or(true) {
+            return Ok(());
+        }
         let named: Vec<String> = sqlx::query_scalar(
             "SELECT place FROM result_files WHERE place IS NOT NULL AND job_id = $1",
         )

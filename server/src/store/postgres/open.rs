@@ -13,7 +13,7 @@ use uuid::Uuid;
 
 use crate::clock::Clock;
 use crate::export::files::parent;
-use crate::store::groups::Groups;
+use crate::groups::Groups;
 use crate::store::local::Local;
 use crate::store::postgres::PostgresStore;
 use crate::store::postgres::migrations::migrator;

@@ -9,31 +9,13 @@ use std::sync::Arc;
 
 use tokio::time::timeout;
 
-use crate::store::groups::{Groups, Pending};
+use crate::groups::{Groups, Pending};
+use crate::store::StoreError;
 use crate::store::postgres::write::{Locked, Write, Writer, Written};
 use crate::store::postgres::{LONGEST_TURN, PostgresStore};
-use crate::store::{JobUpdate, StoreError};
-
-/// Largest content of a write that shares a transaction, bytes; bounds how long the others wait. Arbitrary.
-const SMALL: usize = 64 * 1024;
 
 /// Small writes that wait for a transaction; none of one that is to be written alone.
 pub(super) type Writes = Groups<Arc<Write>, Option<Written>>;
-
-impl Write {
-    fn is_small(&self) -> bool {
-        let JobUpdate {
-            snapshots,
-            files,
-            block,
-            checkpoint,
-            ..
-        } = &self.update;
-        let block = block.as_ref();
-        let bytes = block.map_or(0, |block| block.entries.len() + block.content.len());
-        snapshots.is_empty() && files.is_empty() && checkpoint.is_none() && bytes <= SMALL
-    }
-}
 
 impl PostgresStore {
     /// Writes together with others, or alone.
@@ -44,9 +26,9 @@ impl PostgresStore {
             attempt_limit: self.local.attempt_limit,
         };
         let write = Arc::new(write);
-        if write.is_small() {
+        if write.update.is_small() {
             let together = |group| write_together(writer.clone(), group);
-            if let Ok(Some(written)) = self.writes.ask(Arc::clone(&write), together).await {
+            if let Some(Some(written)) = self.writes.ask(Arc::clone(&write), together).await {
                 return Ok(written);
             }
         }
@@ -77,7 +59,7 @@ async fn write_together(writer: Writer, mut group: Vec<Pending<Arc<Write>, Optio
         };
         let mut written = written.into_iter();
         for pending in now {
-            pending.answer(Ok(written.next().flatten()));
+            pending.answer(written.next().flatten());
         }
         group = later;
     }

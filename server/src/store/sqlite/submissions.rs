@@ -5,13 +5,15 @@ use sqlx::{Sqlite, Transaction};
 use uuid::fmt::Hyphenated;
 
 use crate::clock::Now;
-use crate::store::groups::{Groups, Pending};
+use crate::groups::{Groups, Pending};
 use crate::store::sqlite::job_rows::insert;
 use crate::store::sqlite::queries::BEGIN;
 use crate::store::{NewJob, RequestKey, StoreError, Submitted};
 
 /// Submissions to be written.
-pub(super) type Submissions = Groups<Submission, Submitted>;
+pub(super) type Submissions = Groups<Submission, Result<Submitted, StoreError>>;
+
+type Waiting = Pending<Submission, Result<Submitted, StoreError>>;
 
 /// A job to be queued.
 #[derive(Debug)]
@@ -23,7 +25,7 @@ pub(super) struct Submission {
 
 /// Writes submissions in one transaction, or each in its own if that fails, so that one that cannot be written does not
 /// fail the others.
-pub(super) async fn write(writer: SqlitePool, group: Vec<Pending<Submission, Submitted>>) {
+pub(super) async fn write(writer: SqlitePool, group: Vec<Waiting>) {
     let all = group.iter().map(|pending| &pending.request);
     if let Ok(submitted) = write_group(&writer, all).await {
         for (pending, submitted) in group.into_iter().zip(submitted) {

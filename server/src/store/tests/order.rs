@@ -1,6 +1,9 @@
 //! Order of claims, and ends of queued jobs.
 
+use sqlx::{Connection, Executor, PgConnection};
+
 use super::*;
+use crate::store::postgres::claims::{FIRST_QUEUED, TAKE_TURN};
 
 on_both_engines! { Fixture:
     the_oldest_job_is_claimed_first,
@@ -90,4 +93,36 @@ async fn a_deadline_ends_a_queued_job_and_only_old_jobs_are_deleted(fixture: Fix
     let deleted = fixture.store.delete_ended_before(5_001).await;
     assert_eq!(deleted.expect("the store"), 1);
     assert!(fixture.store.job(late).await.expect("the store").is_none());
+}
+
+/// Jobs are claimed in the order of an index and no further than asked for, also by statistics of a time when one job waited.
+#[tokio::test]
+#[cfg_attr(not(has_postgresql), ignore = "needs the programs of PostgreSQL")]
+async fn a_claim_does_not_read_all_jobs_that_wait() {
+    let fixture = Fixture::at(Place::postgres()).await;
+    fixture.queued().await;
+    let mut connection = PgConnection::connect(&fixture.url).await.expect("a server");
+    for statement in [
+        "ANALYZE jobs",
+        "INSERT INTO jobs SELECT (jsonb_populate_record(first, jsonb_build_object('id', gen_random_uuid(), 'place', n))).* \
+         FROM jobs AS first, generate_series(1, 5000) AS n",
+        "BEGIN",
+    ] {
+        connection.execute(statement).await.expect(statement);
+    }
+    sqlx::query(TAKE_TURN)
+        .bind(0_i64)
+        .execute(&mut connection)
+        .await
+        .expect("a turn");
+    let explained = format!("EXPLAIN {}", FIRST_QUEUED.replace("$1", "80"));
+    let plan: Vec<String> = sqlx::query_scalar(sqlx::AssertSqlSafe(explained))
+        .fetch_all(&mut connection)
+        .await
+        .expect("a plan");
+    let plan = plan.join("\n");
+    assert!(
+        plan.contains("using jobs_waiting") && !plan.contains("Sort"),
+        "{plan}"
+    );
 }

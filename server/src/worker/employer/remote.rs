@@ -6,6 +6,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
 use api::job::Status;
+use api::problem::Problem;
 use api::service::Demand;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -14,10 +15,16 @@ use tokio_util::task::AbortOnDropHandle;
 use uuid::Uuid;
 
 use super::{Employer, EmployerError};
-use crate::client::Client;
+use crate::client::{Client, ClientError};
+use crate::groups::{Groups, Pending};
 use crate::metrics::Busy;
 use crate::store::{Claim, ClaimRequest, End, JobUpdate, Lease, LeaseState, NewFile};
-use crate::worker::protocol::{ClaimBody, EndBody, LeasesBody, PROGRAM, RestartBody, UpdateBody};
+use crate::worker::protocol::{
+    ClaimBody, EndBody, LeasesBody, PROGRAM, RestartBody, UpdateBody, WriteAnswer, WriteBody,
+};
+
+/// Where writes are sent.
+const WRITES: &str = "/v1/worker/writes";
 
 /// Interval of the heartbeat of all jobs of a worker, which also brings cancel requests.
 const HEARTBEAT: Duration = Duration::from_secs(2);
@@ -38,6 +45,8 @@ pub struct Remote {
     slots: usize,
     /// How long a claim waits for a job.
     wait: Duration,
+    /// Small writes that are sent together; no answer to one that is to be sent alone.
+    writes: Groups<Arc<WriteBody>, Option<WriteAnswer>>,
     _heartbeat: AbortOnDropHandle<()>,
 }
 
@@ -59,6 +68,7 @@ impl Remote {
             host: host(),
             slots,
             wait,
+            writes: Groups::default(),
             _heartbeat: AbortOnDropHandle::new(heartbeat),
         }
     }
@@ -69,6 +79,20 @@ impl Remote {
         body: &impl Serialize,
     ) -> Result<T, EmployerError> {
         Ok(self.client.post(path, body).await?)
+    }
+
+    /// Sends a write, together with others that are sent at the same time if it is small.
+    async fn write(&self, write: WriteBody) -> Result<WriteAnswer, EmployerError> {
+        let write = Arc::new(write);
+        if write.update().is_small() {
+            let send = |group| send_together(self.client.clone(), group);
+            if let Some(Some(answer)) = self.writes.ask(Arc::clone(&write), send).await {
+                return Ok(answer);
+            }
+        }
+        let answers: [WriteAnswer; 1] = self.post(WRITES, &[&*write]).await?;
+        let [answer] = answers;
+        Ok(answer)
     }
 
     /// Sends files of an attempt, which count once a write names them.
@@ -129,13 +153,15 @@ impl Employer for Remote {
         length: Duration,
     ) -> Result<LeaseState, EmployerError> {
         self.put_files(lease, &update.files).await?;
-        let body = UpdateBody {
+        let write = WriteBody::Update(UpdateBody {
             lease,
             update: update.clone(),
             length,
-        };
-        let state = self.post("/v1/worker/updates", &body).await?;
-        Ok(self.answered(lease, state))
+        });
+        match self.write(write).await? {
+            WriteAnswer::Lease(state) => Ok(self.answered(lease, state)),
+            answer => Err(unexpected(answer)),
+        }
     }
 
     async fn restart(&self, lease: Lease, number: i64) -> Result<LeaseState, EmployerError> {
@@ -155,14 +181,18 @@ impl Employer for Remote {
             Err(EmployerError::Remote(error)) if error.is_of_type("/problems/lease-lost") => {}
             sent => sent?,
         }
-        let body = EndBody {
+        let write = WriteBody::End(EndBody {
             lease,
             update: update.clone(),
             end: end.clone(),
-        };
-        let status = self.post("/v1/worker/ends", &body).await?;
-        self.abandon(lease);
-        Ok(status)
+        });
+        match self.write(write).await? {
+            WriteAnswer::Status(status) => {
+                self.abandon(lease);
+                Ok(status)
+            }
+            answer => Err(unexpected(answer)),
+        }
     }
 
     fn abandon(&self, lease: Lease) {
@@ -182,6 +212,31 @@ impl Employer for Remote {
 
     async fn demand(&self) -> Result<Demand, EmployerError> {
         Ok(self.client.demand().await?)
+    }
+}
+
+/// Sends writes in one request. If it fails, each is sent alone.
+async fn send_together(client: Client, group: Vec<Pending<Arc<WriteBody>, Option<WriteAnswer>>>) {
+    let writes: Vec<&WriteBody> = group.iter().map(|pending| &*pending.request).collect();
+    let answers: Result<Vec<WriteAnswer>, _> = client.post(WRITES, &writes).await;
+    let mut answers = answers.unwrap_or_default().into_iter();
+    for pending in group {
+        pending.answer(answers.next());
+    }
+}
+
+/// The error of a write that was not done.
+fn unexpected(answer: WriteAnswer) -> EmployerError {
+    match answer {
+        WriteAnswer::Problem(problem) => ClientError::of(problem).into(),
+        other => ClientError::of(Problem {
+            kind: "about:blank".to_owned(),
+            title: format!("an answer to another write: {other:?}"),
+            status: 500,
+            detail: None,
+            faults: Vec::new(),
+        })
+        .into(),
     }
 }
 

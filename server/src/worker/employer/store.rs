@@ -109,26 +109,28 @@ async fn finish(
     update: &JobUpdate,
     end: &End,
 ) -> Result<Option<Status>, StoreError> {
-    let LeaseState::Held { cancel_requested } = store.lease_state(lease).await? else {
-        // It was lost, or this end is a repeated one.
-        return store.end(lease, update, end).await;
-    };
     let mut last = JobUpdate {
         number: update.number,
         progress: update.progress.clone(),
+        files: update.files.clone(),
+        block: update.block.clone(),
         ..JobUpdate::default()
     };
-    // A cancelled job must end although nothing more can be stored, so that it can be deleted and its space be freed. Its rows
-    // and snapshots are there, the documents of them are not.
-    let is_stored = end.transition != Transition::Cancel || !store.disk().is_full();
-    if update.block.is_some() {
-        (last.files, last.block) = (update.files.clone(), update.block.clone());
-    } else if is_stored
-        && store
-            .is_final(lease, end.transition, cancel_requested)
-            .await?
-    {
-        (last.files, last.block) = stored_documents(store, lease, end.summary.as_ref()).await?;
+    if last.block.is_none() {
+        let LeaseState::Held { cancel_requested } = store.lease_state(lease).await? else {
+            // It was lost, or this end is a repeated one.
+            return store.end(lease, update, end).await;
+        };
+        // A cancelled job must end although nothing more can be stored, so that it can be deleted and its space be freed. Its rows
+        // and snapshots are there, the documents of them are not.
+        let is_stored = end.transition != Transition::Cancel || !store.disk().is_full();
+        if is_stored
+            && store
+                .is_final(lease, end.transition, cancel_requested)
+                .await?
+        {
+            (last.files, last.block) = stored_documents(store, lease, end.summary.as_ref()).await?;
+        }
     }
     let status = store.end(lease, &last, end).await?;
     store.remove_unnamed_files(Some(lease)).await?;
