@@ -19,11 +19,10 @@ use crate::store::{Claim, ClaimRequest, StoreError};
 const CANDIDATES: usize = 64;
 /// Key of the lock of the process that claims: `frtc` in ASCII.
 const TURN: i64 = 0x6672_7463;
-/// Waits for the turn. A process that was paused in its turn loses it. Jobs are read in the order of their index and no further than they are
-/// asked for: by statistics of a time when few jobs waited, PostgreSQL would read and sort all of them for each claim.
-pub(in crate::store) const TAKE_TURN: &str = "SELECT pg_advisory_xact_lock($1), \
-    set_config('idle_in_transaction_session_timeout', '3s', true), \
-    set_config('enable_bitmapscan', 'off', true), set_config('enable_seqscan', 'off', true), set_config('enable_sort', 'off', true)";
+/// Lets, or does not let, PostgreSQL read and sort all jobs instead of the first in the order of an index: it would for each claim, by statistics of
+/// a time when few jobs waited.
+pub(in crate::store) const LET_SORT: &str = "SELECT set_config('enable_bitmapscan', $1, true), \
+    set_config('enable_seqscan', $1, true), set_config('enable_sort', $1, true)";
 /// The first queued jobs. They are not locked: most are not claimed.
 pub(in crate::store) const FIRST_QUEUED: &str = "SELECT id, memory_mb, queued_at, cpu_ms FROM jobs WHERE status = 'queued' \
     ORDER BY place, id LIMIT $1";
@@ -128,12 +127,14 @@ async fn claim_for(
     Ok((requests, claims, reasoned))
 }
 
-/// Waits until it is the turn of this transaction to claim, and returns the time.
+/// Waits until it is the turn of this transaction to claim, and returns the time. A process that was paused in its turn loses it.
 async fn turn(connection: &mut PgConnection) -> Result<Now, StoreError> {
-    sqlx::query(TAKE_TURN)
-        .bind(TURN)
-        .execute(&mut *connection)
-        .await?;
+    sqlx::query(
+        "SELECT pg_advisory_xact_lock($1), set_config('idle_in_transaction_session_timeout', '3s', true)",
+    )
+    .bind(TURN)
+    .execute(&mut *connection)
+    .await?;
     time_of(connection).await
 }
 
@@ -142,10 +143,13 @@ async fn candidates(
     connection: &mut PgConnection,
     limit: usize,
 ) -> Result<Vec<(Uuid, WaitingJob)>, StoreError> {
+    let let_sort = |is_let: &'static str| sqlx::query(LET_SORT).bind(is_let);
+    let_sort("off").execute(&mut *connection).await?;
     let rows: Vec<(Uuid, i64, i64, i64)> = sqlx::query_as(FIRST_QUEUED)
         .bind(integer(limit))
-        .fetch_all(connection)
+        .fetch_all(&mut *connection)
         .await?;
+    let_sort("on").execute(connection).await?;
     let candidate = |(id, memory_mb, since, cpu_ms)| {
         let job = WaitingJob {
             memory_mb,

@@ -3,7 +3,7 @@
 use sqlx::{Connection, Executor, PgConnection};
 
 use super::*;
-use crate::store::postgres::claims::{FIRST_QUEUED, TAKE_TURN};
+use crate::store::postgres::claims::{FIRST_QUEUED, LET_SORT};
 
 on_both_engines! { Fixture:
     the_oldest_job_is_claimed_first,
@@ -110,11 +110,11 @@ async fn a_claim_does_not_read_all_jobs_that_wait() {
     ] {
         connection.execute(statement).await.expect(statement);
     }
-    sqlx::query(TAKE_TURN)
-        .bind(0_i64)
+    sqlx::query(LET_SORT)
+        .bind("off")
         .execute(&mut connection)
         .await
-        .expect("a turn");
+        .expect("a setting");
     let explained = format!("EXPLAIN {}", FIRST_QUEUED.replace("$1", "80"));
     let plan: Vec<String> = sqlx::query_scalar(sqlx::AssertSqlSafe(explained))
         .fetch_all(&mut connection)
