@@ -34,6 +34,7 @@ mod updates;
 mod worker_tokens;
 mod workers;
 mod write;
+mod writer;
 mod writes;
 
 use std::time::{Duration, Instant};
@@ -48,7 +49,7 @@ use crate::groups::Groups;
 use crate::store::local::Local;
 use crate::store::postgres::claimed::Claimed;
 use crate::store::postgres::compared::Compared;
-use crate::store::postgres::writes::Writes;
+use crate::store::postgres::write::Writes;
 use crate::store::{ClaimRequest, StoreError};
 
 /// A store in a PostgreSQL database.

@@ -64,12 +64,23 @@ pub const MOST_WRITES: usize = 256;
 /// A write of a worker. Body of `POST writes` are some, answered with a [`WriteAnswer`] to each, in the same order; those of one job are done
 /// one after the other.
 #[derive(Debug, Clone, Serialize, Deserialize)]
+pub struct WriteBody {
+    /// The lease.
+    pub lease: Lease,
+    /// The update; its files were sent before.
+    pub update: JobUpdate,
+    /// What is done beside it.
+    pub kind: WriteKind,
+}
+
+/// What is done beside an update.
+#[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
-pub enum WriteBody {
-    /// An update.
-    Update(UpdateBody),
-    /// The end of an attempt.
-    End(EndBody),
+pub enum WriteKind {
+    /// The lease is renewed for a length.
+    Renew(Duration),
+    /// The job ends, or returns to the queue.
+    End(Box<End>),
 }
 
 /// Answer to a write.
@@ -84,35 +95,6 @@ pub enum WriteAnswer {
     Problem(Problem),
 }
 
-impl WriteBody {
-    /// The lease.
-    pub fn lease(&self) -> Lease {
-        match self {
-            Self::Update(body) => body.lease,
-            Self::End(body) => body.lease,
-        }
-    }
-
-    /// The update.
-    pub fn update(&self) -> &JobUpdate {
-        match self {
-            Self::Update(body) => &body.update,
-            Self::End(body) => &body.update,
-        }
-    }
-}
-
-/// An update of a job that is held.
-#[derive(Debug, Clone, Serialize, Deserialize)]
-pub struct UpdateBody {
-    /// The lease.
-    pub lease: Lease,
-    /// The update; its files were sent before.
-    pub update: JobUpdate,
-    /// For how long the lease is renewed.
-    pub length: Duration,
-}
-
 /// Body of `POST restarts`, answered with the state of the lease.
 #[derive(Debug, Clone, Copy, Serialize, Deserialize)]
 pub struct RestartBody {
@@ -120,15 +102,4 @@ pub struct RestartBody {
     pub lease: Lease,
     /// Number of the write.
     pub number: i64,
-}
-
-/// The end of an attempt.
-#[derive(Debug, Clone, Serialize, Deserialize)]
-pub struct EndBody {
-    /// The lease.
-    pub lease: Lease,
-    /// The last update.
-    pub update: JobUpdate,
-    /// The end.
-    pub end: End,
 }

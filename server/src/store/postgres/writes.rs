@@ -9,13 +9,10 @@ use std::sync::Arc;
 
 use tokio::time::timeout;
 
-use crate::groups::{Groups, Pending};
 use crate::store::StoreError;
-use crate::store::postgres::write::{Locked, Write, Writer, Written};
+use crate::store::postgres::write::{Waiting, Write, Written};
+use crate::store::postgres::writer::{Locked, Writer};
 use crate::store::postgres::{LONGEST_TURN, PostgresStore};
-
-/// Small writes that wait for a transaction; none of one that is to be written alone.
-pub(super) type Writes = Groups<Arc<Write>, Option<Written>>;
 
 impl PostgresStore {
     /// Writes together with others, or alone.
@@ -38,7 +35,7 @@ impl PostgresStore {
     }
 }
 
-async fn write_together(writer: Writer, mut group: Vec<Pending<Arc<Write>, Option<Written>>>) {
+async fn write_together(writer: Writer, mut group: Vec<Waiting>) {
     while !group.is_empty() {
         let (now, later) = first_of_each_job(group);
         let writes: Vec<&Write> = now.iter().map(|pending| &*pending.request).collect();
@@ -66,10 +63,8 @@ async fn write_together(writer: Writer, mut group: Vec<Pending<Arc<Write>, Optio
 }
 
 /// The first write of each job, and the others: a statement changes a row once.
-fn first_of_each_job<A>(
-    group: Vec<Pending<Arc<Write>, A>>,
-) -> (Vec<Pending<Arc<Write>, A>>, Vec<Pending<Arc<Write>, A>>) {
+fn first_of_each_job(group: Vec<Waiting>) -> (Vec<Waiting>, Vec<Waiting>) {
     let mut jobs = HashSet::new();
-    let is_first = |pending: &Pending<Arc<Write>, A>| jobs.insert(pending.request.lease.job);
+    let is_first = |pending: &Waiting| jobs.insert(pending.request.lease.job);
     group.into_iter().partition(is_first)
 }

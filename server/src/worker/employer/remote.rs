@@ -20,7 +20,7 @@ use crate::groups::{Groups, Pending};
 use crate::metrics::Busy;
 use crate::store::{Claim, ClaimRequest, End, JobUpdate, Lease, LeaseState, NewFile};
 use crate::worker::protocol::{
-    ClaimBody, EndBody, LeasesBody, PROGRAM, RestartBody, UpdateBody, WriteAnswer, WriteBody,
+    ClaimBody, LeasesBody, PROGRAM, RestartBody, WriteAnswer, WriteBody, WriteKind,
 };
 
 /// Where writes are sent.
@@ -84,7 +84,7 @@ impl Remote {
     /// Sends a write, together with others that are sent at the same time if it is small.
     async fn write(&self, write: WriteBody) -> Result<WriteAnswer, EmployerError> {
         let write = Arc::new(write);
-        if write.update().is_small() {
+        if write.update.is_small() {
             let send = |group| send_together(self.client.clone(), group);
             if let Some(Some(answer)) = self.writes.ask(Arc::clone(&write), send).await {
                 return Ok(answer);
@@ -153,11 +153,11 @@ impl Employer for Remote {
         length: Duration,
     ) -> Result<LeaseState, EmployerError> {
         self.put_files(lease, &update.files).await?;
-        let write = WriteBody::Update(UpdateBody {
+        let write = WriteBody {
             lease,
             update: update.clone(),
-            length,
-        });
+            kind: WriteKind::Renew(length),
+        };
         match self.write(write).await? {
             WriteAnswer::Lease(state) => Ok(self.answered(lease, state)),
             answer => Err(unexpected(answer)),
@@ -181,11 +181,11 @@ impl Employer for Remote {
             Err(EmployerError::Remote(error)) if error.is_of_type("/problems/lease-lost") => {}
             sent => sent?,
         }
-        let write = WriteBody::End(EndBody {
+        let write = WriteBody {
             lease,
             update: update.clone(),
-            end: end.clone(),
-        });
+            kind: WriteKind::End(Box::new(end.clone())),
+        };
         match self.write(write).await? {
             WriteAnswer::Status(status) => {
                 self.abandon(lease);

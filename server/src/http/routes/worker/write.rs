@@ -13,9 +13,7 @@ use crate::http::worker_body::WorkerBody;
 use crate::store::Store;
 use crate::store::block::EncodedBlock;
 use crate::worker::Employer;
-use crate::worker::protocol::{
-    EndBody, MOST_WRITES, UpdateBody, WriteAnswer, WriteBody, lease_length,
-};
+use crate::worker::protocol::{MOST_WRITES, WriteAnswer, WriteBody, WriteKind, lease_length};
 
 /// Records updates whose files were sent before, ends jobs or returns them to the queue. Each write has its own answer; those of one job are
 /// done one after the other.
@@ -29,7 +27,7 @@ pub(crate) async fn write(
     }
     let mut jobs: HashMap<Uuid, Vec<(usize, WriteBody)>> = HashMap::new();
     for (number, write) in writes.into_iter().enumerate() {
-        let job = jobs.entry(write.lease().job).or_default();
+        let job = jobs.entry(write.lease.job).or_default();
         job.push((number, write));
     }
     let of_jobs = jobs.into_values();
@@ -56,36 +54,37 @@ async fn one_after_the_other(
 }
 
 async fn one(store: &Store, write: WriteBody) -> Result<WriteAnswer, ProblemResponse> {
-    match write {
-        WriteBody::Update(UpdateBody {
-            lease,
-            update,
-            length,
-        }) => {
+    let WriteBody {
+        lease,
+        update,
+        kind,
+    } = write;
+    Ok(match kind {
+        WriteKind::Renew(length) => {
             let length = lease_length(length);
-            let state = Employer::record(store, lease, &update, length).await?;
-            Ok(WriteAnswer::Lease(state))
+            WriteAnswer::Lease(Employer::record(store, lease, &update, length).await?)
         }
-        WriteBody::End(EndBody { lease, update, end }) => {
+        WriteKind::End(end) => {
             if let Some(Err(cause)) = update.block.as_ref().map(EncodedBlock::check) {
                 let detail = format!("/update/block: {cause}");
                 return Err(ProblemType::UNREADABLE_BODY.with_detail(detail));
             }
-            let status = Employer::finish(store, lease, &update, &end).await?;
-            Ok(WriteAnswer::Status(status))
+            WriteAnswer::Status(Employer::finish(store, lease, &update, &end).await?)
         }
-    }
+    })
 }
 
 #[cfg(test)]
 mod tests {
+    use std::time::Duration;
+
     use serde_json::{Value, json};
 
     use crate::http::tests::Service;
     use crate::queue::Transition;
     use crate::store::tests::{end, update};
     use crate::store::{Claim, JobUpdate, Lease};
-    use crate::worker::protocol::{EndBody, MOST_WRITES, UpdateBody, WriteBody};
+    use crate::worker::protocol::{MOST_WRITES, WriteBody, WriteKind};
 
     const PATH: &str = "/v1/worker/writes";
 
@@ -102,19 +101,19 @@ mod tests {
     }
 
     fn update_of(lease: Lease, number: i64) -> WriteBody {
-        WriteBody::Update(UpdateBody {
+        WriteBody {
             lease,
             update: numbered(number),
-            length: std::time::Duration::from_secs(30),
-        })
+            kind: WriteKind::Renew(Duration::from_secs(30)),
+        }
     }
 
     fn end_of(lease: Lease, number: i64) -> WriteBody {
-        WriteBody::End(EndBody {
+        WriteBody {
             lease,
             update: numbered(number),
-            end: end(Transition::Succeed),
-        })
+            kind: WriteKind::End(Box::new(end(Transition::Succeed))),
+        }
     }
 
     async fn post(service: &Service, writes: &[WriteBody]) -> (u16, Value) {
