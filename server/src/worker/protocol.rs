@@ -73,6 +73,14 @@ pub struct WriteBody {
     pub kind: WriteKind,
 }
 
+impl WriteBody {
+    /// Whether it is sent together with others: it is small, and the service need not make the documents of a job for it.
+    pub(super) fn is_quick(&self) -> bool {
+        let is_made = matches!(self.kind, WriteKind::Renew(_)) || self.update.block.is_some();
+        is_made && self.update.is_small()
+    }
+}
+
 /// What is done beside an update.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]

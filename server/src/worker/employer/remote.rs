@@ -45,7 +45,7 @@ pub struct Remote {
     slots: usize,
     /// How long a claim waits for a job.
     wait: Duration,
-    /// Small writes that are sent together; no answer to one that is to be sent alone.
+    /// Quick writes that are sent together; no answer to one that is to be sent alone.
     writes: Groups<Arc<WriteBody>, Option<WriteAnswer>>,
     _heartbeat: AbortOnDropHandle<()>,
 }
@@ -81,10 +81,10 @@ impl Remote {
         Ok(self.client.post(path, body).await?)
     }
 
-    /// Sends a write, together with others that are sent at the same time if it is small.
+    /// Sends a write, together with others that are sent at the same time if it is quick.
     async fn write(&self, write: WriteBody) -> Result<WriteAnswer, EmployerError> {
         let write = Arc::new(write);
-        if write.update.is_small() {
+        if write.is_quick() {
             let send = |group| send_together(self.client.clone(), group);
             if let Some(Some(answer)) = self.writes.ask(Arc::clone(&write), send).await {
                 return Ok(answer);
