@@ -56,19 +56,20 @@ impl<Q: Send + 'static, A: Send + 'static> Groups<Q, A> {
         let (answer, mut answered) = oneshot::channel();
         self.pending().push(Pending { request, answer });
         loop {
-            let turn = Arc::clone(&self.turn).lock_owned().await;
-            match answered.try_recv() {
-                Ok(answer) => return Some(answer),
-                Err(oneshot::error::TryRecvError::Closed) => return None,
-                Err(oneshot::error::TryRecvError::Empty) => {}
-            }
+            // Who is answered in the turn of another needs none.
+            let turn = tokio::select! {
+                biased;
+                answer = &mut answered => return answer.ok(),
+                turn = Arc::clone(&self.turn).lock_owned() => turn,
+            };
             // In a task of its own, which keeps the turn: who goes away must not cancel the requests of others.
             let answering = answer_all(self.take());
             let answering = tokio::spawn(async move {
                 answering.await;
                 drop(turn);
             });
-            answering.await.ok()?;
+            // After a panic it has answered nobody, which each learns from its own answer.
+            let _ = answering.await;
         }
     }
 

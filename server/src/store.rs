@@ -97,6 +97,7 @@ pub use jobs::{
 };
 pub use leases::{
     Claim, ClaimRequest, End, EventName, JobUpdate, Lease, LeaseState, Reclaimed, RequestNumber,
+    Write, WriteKind,
 };
 pub use limits::Limits;
 pub use operations::{Store, shown_address};

@@ -98,8 +98,32 @@ pub struct JobUpdate {
     pub events: Vec<(EventName, String)>,
 }
 
+/// A write of a worker under its lease.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub struct Write {
+    /// The lease.
+    pub lease: Lease,
+    /// The update; its files were sent before.
+    pub update: JobUpdate,
+    /// What is done beside it.
+    pub kind: WriteKind,
+}
+
+/// What is done beside an update.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum WriteKind {
+    /// The lease is renewed for a length.
+    Renew(Duration),
+    /// The job ends, or returns to the queue.
+    End(Box<End>),
+}
+
 /// Largest block of a small update, bytes; bounds how long others that are written with it wait. Arbitrary.
 const SMALL_BLOCK: usize = 64 * 1024;
+
+/// Most rows of one, for the same reason. Arbitrary.
+const FEW_ROWS: usize = 64;
 
 impl JobUpdate {
     /// Whether it is written together with others: it has a few rows and events, and no more than a small block of results.
@@ -108,7 +132,7 @@ impl JobUpdate {
         let bytes = block.map_or(0, |block| block.entries.len() + block.content.len());
         let is_rest_small =
             self.snapshots.is_empty() && self.files.is_empty() && self.checkpoint.is_none();
-        is_rest_small && bytes <= SMALL_BLOCK
+        is_rest_small && bytes <= SMALL_BLOCK && self.rows.len() <= FEW_ROWS
     }
 }
 

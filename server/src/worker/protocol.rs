@@ -8,7 +8,7 @@ use api::problem::Problem;
 use serde::{Deserialize, Serialize};
 use uuid::Uuid;
 
-use crate::store::{ClaimRequest, End, JobUpdate, Lease, LeaseState};
+use crate::store::{ClaimRequest, Lease, LeaseState};
 
 /// Program of a worker or a service: version and commit. Another one need not give the same bits.
 pub const PROGRAM: &str = concat!(
@@ -61,37 +61,8 @@ pub struct LeasesBody {
 /// Largest number of writes in a request.
 pub const MOST_WRITES: usize = 256;
 
-/// A write of a worker. Body of `POST writes` are some, answered with a [`WriteAnswer`] to each, in the same order; those of one job are done
-/// one after the other.
-#[derive(Debug, Clone, Serialize, Deserialize)]
-pub struct WriteBody {
-    /// The lease.
-    pub lease: Lease,
-    /// The update; its files were sent before.
-    pub update: JobUpdate,
-    /// What is done beside it.
-    pub kind: WriteKind,
-}
-
-impl WriteBody {
-    /// Whether it is sent together with others: it is small, and the service need not make the documents of a job for it.
-    pub(super) fn is_quick(&self) -> bool {
-        let is_made = matches!(self.kind, WriteKind::Renew(_)) || self.update.block.is_some();
-        is_made && self.update.is_small()
-    }
-}
-
-/// What is done beside an update.
-#[derive(Debug, Clone, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum WriteKind {
-    /// The lease is renewed for a length.
-    Renew(Duration),
-    /// The job ends, or returns to the queue.
-    End(Box<End>),
-}
-
-/// Answer to a write.
+/// Answer to a write. Body of `POST writes` are some, answered with one to each, in the same order; those of one job are done one after the
+/// other.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum WriteAnswer {

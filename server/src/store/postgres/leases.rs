@@ -9,9 +9,9 @@ use sqlx::postgres::PgConnection;
 use crate::queue::Transition;
 use crate::store::ending::EndingJob;
 use crate::store::postgres::queries::insert_attempt_event;
-use crate::store::postgres::write::{Effect, Kind, Write};
+use crate::store::postgres::write::Effect;
 use crate::store::postgres::{PostgresStore, begin, checkpoints};
-use crate::store::{End, JobUpdate, Lease, LeaseState, StoreError};
+use crate::store::{End, JobUpdate, Lease, LeaseState, StoreError, Write, WriteKind};
 
 impl PostgresStore {
     pub(in crate::store) async fn record(
@@ -25,7 +25,7 @@ impl PostgresStore {
         let write = Write {
             lease,
             update: update.clone(),
-            kind: Kind::Renew(length),
+            kind: WriteKind::Renew(length),
         };
         let written = self.write(write).await?;
         let Effect::Held { cancel_requested } = written.effect else {
@@ -166,7 +166,7 @@ impl PostgresStore {
         let write = Write {
             lease,
             update: update.clone(),
-            kind: Kind::End(Box::new(end.clone())),
+            kind: WriteKind::End(Box::new(end.clone())),
         };
         let written = self.write(write).await?;
         let Effect::Ended(status) = written.effect else {

@@ -1,35 +1,17 @@
-//! Writes under a lease, and what they lead to.
+//! What writes under a lease lead to.
 
 use std::sync::Arc;
-use std::time::Duration;
 
 use api::job::Status;
 
 use crate::groups::{Groups, Pending};
-use crate::store::{End, JobUpdate, Lease};
+use crate::store::Write;
 
 /// Small writes that wait for a transaction; none of one that is to be written alone.
 pub(super) type Writes = Groups<Arc<Write>, Option<Written>>;
 
 /// One of them.
 pub(super) type Waiting = Pending<Arc<Write>, Option<Written>>;
-
-/// A write under a lease.
-#[derive(Debug)]
-pub(super) struct Write {
-    pub(super) lease: Lease,
-    pub(super) update: JobUpdate,
-    pub(super) kind: Kind,
-}
-
-/// What is done beside the update.
-#[derive(Debug)]
-pub(super) enum Kind {
-    /// The lease is renewed for a length.
-    Renew(Duration),
-    /// The job ends, or returns to the queue.
-    End(Box<End>),
-}
 
 /// What a write has led to, itself or an earlier one.
 #[derive(Debug, Clone, Copy)]

@@ -5,13 +5,13 @@ use sqlx::postgres::{PgConnection, PgPool};
 use uuid::Uuid;
 
 use crate::clock::Now;
-use crate::store::StoreError;
 use crate::store::ending::EndingJob;
 use crate::store::postgres::begin;
 use crate::store::postgres::blocks::{NewBlock, insert_blocks};
 use crate::store::postgres::transitions::{JobEnd, end_jobs};
 use crate::store::postgres::updates::{Renewal, insert_results, renew};
-use crate::store::postgres::write::{Effect, Kind, Write, Written};
+use crate::store::postgres::write::{Effect, Written};
+use crate::store::{StoreError, Write, WriteKind};
 
 /// What is done about a row that another transaction has locked.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -95,7 +95,7 @@ impl Writer {
             } = held.write;
             let cancel_requested = held.cancel_requested;
             effects.push(match kind {
-                Kind::Renew(length) => {
+                WriteKind::Renew(length) => {
                     renewals.push(Renewal {
                         job: lease.job,
                         update,
@@ -104,7 +104,7 @@ impl Writer {
                     });
                     Effect::Held { cancel_requested }
                 }
-                Kind::End(end) => {
+                WriteKind::End(end) => {
                     let job = EndingJob::running(
                         lease.job,
                         held.fruitless,
@@ -188,9 +188,11 @@ async fn effects_before(
         let index = usize::try_from(n - 1).ok()?;
         let status = Status::from_name(&status)?;
         let effect = match writes.get(index)?.kind {
-            Kind::Renew(_) if status == Status::Running => Effect::Held { cancel_requested },
-            Kind::End(_) if status != Status::Running && is_last => Effect::Ended(Some(status)),
-            Kind::Renew(_) | Kind::End(_) => return None,
+            WriteKind::Renew(_) if status == Status::Running => Effect::Held { cancel_requested },
+            WriteKind::End(_) if status != Status::Running && is_last => {
+                Effect::Ended(Some(status))
+            }
+            WriteKind::Renew(_) | WriteKind::End(_) => return None,
         };
         Some((index, effect))
     };

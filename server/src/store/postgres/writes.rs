@@ -9,10 +9,10 @@ use std::sync::Arc;
 
 use tokio::time::timeout;
 
-use crate::store::StoreError;
-use crate::store::postgres::write::{Waiting, Write, Written};
+use crate::store::postgres::write::{Waiting, Written};
 use crate::store::postgres::writer::{Locked, Writer};
 use crate::store::postgres::{LONGEST_TURN, PostgresStore};
+use crate::store::{StoreError, Write};
 
 impl PostgresStore {
     /// Writes together with others, or alone.

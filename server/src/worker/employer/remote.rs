@@ -18,10 +18,10 @@ use super::{Employer, EmployerError};
 use crate::client::{Client, ClientError};
 use crate::groups::{Groups, Pending};
 use crate::metrics::Busy;
-use crate::store::{Claim, ClaimRequest, End, JobUpdate, Lease, LeaseState, NewFile};
-use crate::worker::protocol::{
-    ClaimBody, LeasesBody, PROGRAM, RestartBody, WriteAnswer, WriteBody, WriteKind,
+use crate::store::{
+    Claim, ClaimRequest, End, JobUpdate, Lease, LeaseState, NewFile, Write, WriteKind,
 };
+use crate::worker::protocol::{ClaimBody, LeasesBody, PROGRAM, RestartBody, WriteAnswer};
 
 /// Where writes are sent.
 const WRITES: &str = "/v1/worker/writes";
@@ -46,7 +46,7 @@ pub struct Remote {
     /// How long a claim waits for a job.
     wait: Duration,
     /// Quick writes that are sent together; no answer to one that is to be sent alone.
-    writes: Groups<Arc<WriteBody>, Option<WriteAnswer>>,
+    writes: Groups<Arc<Write>, Option<WriteAnswer>>,
     _heartbeat: AbortOnDropHandle<()>,
 }
 
@@ -82,9 +82,9 @@ impl Remote {
     }
 
     /// Sends a write, together with others that are sent at the same time if it is quick.
-    async fn write(&self, write: WriteBody) -> Result<WriteAnswer, EmployerError> {
+    async fn write(&self, write: Write) -> Result<WriteAnswer, EmployerError> {
         let write = Arc::new(write);
-        if write.is_quick() {
+        if is_quick(&write) {
             let send = |group| send_together(self.client.clone(), group);
             if let Some(Some(answer)) = self.writes.ask(Arc::clone(&write), send).await {
                 return Ok(answer);
@@ -153,7 +153,7 @@ impl Employer for Remote {
         length: Duration,
     ) -> Result<LeaseState, EmployerError> {
         self.put_files(lease, &update.files).await?;
-        let write = WriteBody {
+        let write = Write {
             lease,
             update: update.clone(),
             kind: WriteKind::Renew(length),
@@ -181,7 +181,7 @@ impl Employer for Remote {
             Err(EmployerError::Remote(error)) if error.is_of_type("/problems/lease-lost") => {}
             sent => sent?,
         }
-        let write = WriteBody {
+        let write = Write {
             lease,
             update: update.clone(),
             kind: WriteKind::End(Box::new(end.clone())),
@@ -215,11 +215,20 @@ impl Employer for Remote {
     }
 }
 
+/// Whether a write is sent together with others: it is small, and the service need not make the documents of a job for it.
+fn is_quick(write: &Write) -> bool {
+    let is_made = matches!(write.kind, WriteKind::Renew(_)) || write.update.block.is_some();
+    is_made && write.update.is_small()
+}
+
 /// Sends writes in one request. If it fails, each is sent alone.
-async fn send_together(client: Client, group: Vec<Pending<Arc<WriteBody>, Option<WriteAnswer>>>) {
-    let writes: Vec<&WriteBody> = group.iter().map(|pending| &*pending.request).collect();
-    let answers: Result<Vec<WriteAnswer>, _> = client.post(WRITES, &writes).await;
-    let mut answers = answers.unwrap_or_default().into_iter();
+async fn send_together(client: Client, group: Vec<Pending<Arc<Write>, Option<WriteAnswer>>>) {
+    let writes: Vec<&Write> = group.iter().map(|pending| &*pending.request).collect();
+    let sent = client.post::<Vec<WriteAnswer>>(WRITES, &writes).await;
+    let sent = sent.inspect_err(|error| {
+        tracing::warn!(%error, writes = writes.len(), "writes were not sent together");
+    });
+    let mut answers = sent.unwrap_or_default().into_iter();
     for pending in group {
         pending.answer(answers.next());
     }

@@ -133,7 +133,10 @@ async fn finish(
         }
     }
     let status = store.end(lease, &last, end).await?;
-    store.remove_unnamed_files(Some(lease)).await?;
+    // The job has ended: an error here would make its worker end it again.
+    if let Err(error) = store.remove_unnamed_files(Some(lease)).await {
+        tracing::warn!(%error, job = %lease.job, "files that no manifest names were not removed");
+    }
     tracing::info!(
         job = %lease.job,
         lease = lease.number,

@@ -10,22 +10,22 @@ use uuid::Uuid;
 use crate::http::app::App;
 use crate::http::problem::{ProblemResponse, ProblemType};
 use crate::http::worker_body::WorkerBody;
-use crate::store::Store;
 use crate::store::block::EncodedBlock;
+use crate::store::{Store, Write, WriteKind};
 use crate::worker::Employer;
-use crate::worker::protocol::{MOST_WRITES, WriteAnswer, WriteBody, WriteKind, lease_length};
+use crate::worker::protocol::{MOST_WRITES, WriteAnswer, lease_length};
 
 /// Records updates whose files were sent before, ends jobs or returns them to the queue. Each write has its own answer; those of one job are
 /// done one after the other.
 pub(crate) async fn write(
     State(app): State<App>,
-    WorkerBody(writes): WorkerBody<Vec<WriteBody>>,
+    WorkerBody(writes): WorkerBody<Vec<Write>>,
 ) -> Result<Json<Vec<WriteAnswer>>, ProblemResponse> {
     if writes.len() > MOST_WRITES {
         let detail = format!("{} writes, {MOST_WRITES} at most", writes.len());
         return Err(ProblemType::UNREADABLE_BODY.with_detail(detail));
     }
-    let mut jobs: HashMap<Uuid, Vec<(usize, WriteBody)>> = HashMap::new();
+    let mut jobs: HashMap<Uuid, Vec<(usize, Write)>> = HashMap::new();
     for (number, write) in writes.into_iter().enumerate() {
         let job = jobs.entry(write.lease.job).or_default();
         job.push((number, write));
@@ -41,7 +41,7 @@ pub(crate) async fn write(
 /// Does the writes of a job.
 async fn one_after_the_other(
     store: &Store,
-    writes: Vec<(usize, WriteBody)>,
+    writes: Vec<(usize, Write)>,
 ) -> Vec<(usize, WriteAnswer)> {
     let mut answers = Vec::with_capacity(writes.len());
     for (number, write) in writes {
@@ -53,8 +53,8 @@ async fn one_after_the_other(
     answers
 }
 
-async fn one(store: &Store, write: WriteBody) -> Result<WriteAnswer, ProblemResponse> {
-    let WriteBody {
+async fn one(store: &Store, write: Write) -> Result<WriteAnswer, ProblemResponse> {
+    let Write {
         lease,
         update,
         kind,
@@ -83,8 +83,8 @@ mod tests {
     use crate::http::tests::Service;
     use crate::queue::Transition;
     use crate::store::tests::{end, update};
-    use crate::store::{Claim, JobUpdate, Lease};
-    use crate::worker::protocol::{MOST_WRITES, WriteBody, WriteKind};
+    use crate::store::{Claim, JobUpdate, Lease, Write, WriteKind};
+    use crate::worker::protocol::MOST_WRITES;
 
     const PATH: &str = "/v1/worker/writes";
 
@@ -100,23 +100,23 @@ mod tests {
         }
     }
 
-    fn update_of(lease: Lease, number: i64) -> WriteBody {
-        WriteBody {
+    fn update_of(lease: Lease, number: i64) -> Write {
+        Write {
             lease,
             update: numbered(number),
             kind: WriteKind::Renew(Duration::from_secs(30)),
         }
     }
 
-    fn end_of(lease: Lease, number: i64) -> WriteBody {
-        WriteBody {
+    fn end_of(lease: Lease, number: i64) -> Write {
+        Write {
             lease,
             update: numbered(number),
             kind: WriteKind::End(Box::new(end(Transition::Succeed))),
         }
     }
 
-    async fn post(service: &Service, writes: &[WriteBody]) -> (u16, Value) {
+    async fn post(service: &Service, writes: &[Write]) -> (u16, Value) {
         let body = serde_json::to_string(writes).expect("JSON");
         let (status, _, answers) = service.post(PATH, &body).await;
         (status.as_u16(), answers)
