@@ -305,11 +305,9 @@ impl LineIntegrator {
 
     /// Condenses sections again that have drifted from the geometry of their operators.
     fn follow_wear(&mut self) -> Result<(), StationError> {
-        let mut drifted = 0;
         for station in &mut self.line.stations {
-            drifted += u64::from(station.drifts(&self.plane.accuracy));
+            self.line.common.relocations += u64::from(station.drifts(&self.plane.accuracy));
         }
-        self.line.common.relocations += drifted;
         self.build()
     }
 
