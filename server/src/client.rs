@@ -136,7 +136,14 @@ impl Client {
     /// # Errors
     /// [`ClientError`].
     pub async fn demand(&self) -> Result<Demand, ClientError> {
-        let path = "/v1/worker/demand";
+        self.get_once("/v1/worker/demand").await
+    }
+
+    /// Gets a document; asks once.
+    ///
+    /// # Errors
+    /// [`ClientError`].
+    pub(crate) async fn get_once<T: DeserializeOwned>(&self, path: &str) -> Result<T, ClientError> {
         self.document(path, self.http.get(self.url(path))).await
     }
 

@@ -1,4 +1,4 @@
-//! Objects: results of ended jobs in a store of objects, a folder (`file:///PATH`) or a bucket (`s3://BUCKET/PREFIX`), by the crate
+//! Objects: results of ended jobs and checkpoints in a store of objects, a folder (`file:///PATH`) or a bucket (`s3://BUCKET/PREFIX`), by the crate
 //! `object_store`. An object is written once, whole or not at all, and never changed. Knows neither jobs nor SQL.
 
 mod part;
@@ -84,6 +84,8 @@ pub struct ObjectFile {
 pub struct Objects {
     store: Arc<dyn ObjectStore>,
     location: Arc<str>,
+    /// Where it is a folder.
+    folder: Option<PathBuf>,
 }
 
 impl fmt::Debug for Objects {
@@ -103,9 +105,9 @@ impl Objects {
             location: address.to_owned(),
             cause,
         };
-        let store: Arc<dyn ObjectStore> = if let Some(folder) = address.strip_prefix("file://")
-            && folder.starts_with('/')
-        {
+        let folder = address.strip_prefix("file://");
+        let folder = folder.filter(|folder| folder.starts_with('/'));
+        let store: Arc<dyn ObjectStore> = if let Some(folder) = folder {
             fs_err::create_dir_all(folder).map_err(|cause| failed(cause.into()))?;
             let local = LocalFileSystem::new_with_prefix(folder);
             let local = local.map_err(|cause| failed(cause.into()))?;
@@ -130,6 +132,7 @@ impl Objects {
         Ok(Self {
             store,
             location: address.trim_end_matches('/').into(),
+            folder: folder.map(PathBuf::from),
         })
     }
 
@@ -149,6 +152,9 @@ impl Objects {
         head: &[u8],
         files: &[ObjectFile],
     ) -> Result<(), ObjectsError> {
+        if !self.is_there() {
+            return Err(self.failed("the folder is not there".into()));
+        }
         let path = Path::from(key);
         let mut writer = BufWriter::with_capacity(Arc::clone(&self.store), path, PART_BYTES)
             .with_max_concurrency(PARTS);
@@ -218,15 +224,31 @@ impl Objects {
         Ok(bytes.map_err(|cause| self.failed_with(key, cause))?.into())
     }
 
+    /// Reads an object.
+    ///
+    /// # Errors
+    /// [`ObjectsError`].
+    pub async fn get_all(&self, key: &str) -> Result<Vec<u8>, ObjectsError> {
+        let read = async { self.store.get(&Path::from(key)).await?.bytes().await };
+        let bytes = read.await;
+        Ok(bytes.map_err(|cause| self.failed_with(key, cause))?.into())
+    }
+
     /// Removes an object; there may be none.
     ///
     /// # Errors
     /// [`ObjectsError`].
     pub async fn remove(&self, key: &str) -> Result<(), ObjectsError> {
-        match self.store.delete(&Path::from(key)).await {
-            Ok(()) | Err(object_store::Error::NotFound { .. }) => Ok(()),
-            Err(cause) => Err(self.failed_with(key, cause)),
+        let removed = self.store.delete(&Path::from(key)).await;
+        match removed.map_err(|cause| self.failed_with(key, cause)) {
+            Err(ObjectsError::Missing(_)) => Ok(()),
+            removed => removed,
         }
+    }
+
+    /// Whether the folder, if it is one, is there: in one that is not mounted nothing is known to be missing, and nothing is to be written.
+    fn is_there(&self) -> bool {
+        self.folder.as_ref().is_none_or(|folder| folder.is_dir())
     }
 
     fn failed(&self, cause: Box<dyn std::error::Error + Send + Sync>) -> ObjectsError {
@@ -238,7 +260,9 @@ impl Objects {
 
     fn failed_with(&self, key: &str, cause: object_store::Error) -> ObjectsError {
         match cause {
-            object_store::Error::NotFound { .. } => ObjectsError::Missing(key.to_owned()),
+            object_store::Error::NotFound { .. } if self.is_there() => {
+                ObjectsError::Missing(key.to_owned())
+            }
             cause => self.failed(cause.into()),
         }
     }

@@ -17,10 +17,11 @@
 //! | `submit_batch` | all jobs of the batch, or none; with an expansion, the first of them | no |
 //! | `extend_batch` | the next jobs of a batch; none if others have queued these, or the batch was cancelled | no |
 //! | `claim` | status, lease, attempt and its event; later rows deleted; reasons | no; each lease is new; repeated: the same jobs |
-//! | `record` | progress, rows, snapshots, files, checkpoint, events, renewed lease | yes; [`LeaseState::Lost`]; repeated: no effect |
+//! | `record` | progress, rows, snapshots, files, checkpoint or the name of its object, events, renewed lease | yes; [`LeaseState::Lost`]; repeated: no effect |
 //! | `heartbeat` | end of each lease, where it is due | yes; [`LeaseState::Lost`], not counted |
 //! | `renew` | end of the lease | yes; [`LeaseState::Lost`], not counted |
 //! | `lease_state` | reads only | yes; [`LeaseState::Lost`], not counted |
+//! | `checkpoint` | reads only | yes; `None` |
 //! | `restart` | rows, snapshots, files and checkpoint deleted, `attempt` event | yes; [`LeaseState::Lost`]; repeated: no effect |
 //! | `end` | rows, files, block (instead of rows and snapshots), status, summary, `done` event, checkpoint deleted | yes; `None`; repeated: the same status |
 //! | `move_results` | notes the objects; after they are written, their names in place of the results, for several jobs | no; only of succeeded jobs |
@@ -51,6 +52,7 @@ mod batch_rows;
 mod batches;
 pub mod block;
 mod changes;
+mod checkpoints;
 mod compression;
 mod database_errors;
 mod disk;
@@ -96,8 +98,8 @@ pub use jobs::{
     SubmitOptions, Submitted,
 };
 pub use leases::{
-    Claim, ClaimRequest, End, EventName, JobUpdate, Lease, LeaseState, Reclaimed, RequestNumber,
-    Write, WriteKind,
+    Claim, ClaimRequest, ClaimedCheckpoint, End, EventName, JobUpdate, Lease, LeaseState,
+    Reclaimed, RequestNumber, Write, WriteKind,
 };
 pub use limits::Limits;
 pub use operations::{Store, shown_address};

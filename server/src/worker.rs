@@ -8,6 +8,7 @@ mod end;
 mod manifest;
 mod process;
 pub mod protocol;
+mod resume;
 mod supervisor;
 mod update_buffer;
 

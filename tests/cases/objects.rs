@@ -2,10 +2,12 @@
 //! the database keeps less than 15 kB of a job. While the store of objects does not answer, jobs are solved and their results are read all the
 //! same.
 
+use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
+use nix::sys::signal::Signal;
 use serde_json::Value;
-use tests::{S3, Server, database, fretwear};
+use tests::{RemoteWorker, S3, Server, bits, database, fretwear, fuzz_button_with_jump};
 
 const SPEC: &str = r#"{
   "name": "kept elsewhere", "labels": {"lot": "7"},
@@ -195,6 +197,70 @@ async fn jobs_are_solved_and_read_while_the_bucket_does_not_answer() {
     let start = Instant::now();
     while bucket.objects().await > 0 {
         assert!(start.elapsed() < PATIENCE, "objects are removed");
+        tokio::time::sleep(Duration::from_millis(50)).await;
+    }
+}
+
+/// Objects with checkpoints.
+fn checkpoints(objects: &Path) -> Vec<PathBuf> {
+    let jobs = std::fs::read_dir(objects.join("checkpoints"));
+    let jobs = jobs.into_iter().flatten().flatten();
+    let of_jobs = jobs.flat_map(|job| std::fs::read_dir(job.path()));
+    of_jobs
+        .flatten()
+        .flatten()
+        .map(|entry| entry.path())
+        .collect()
+}
+
+#[tokio::test]
+async fn a_job_resumes_from_its_checkpoint_once_the_store_of_objects_answers() {
+    let folder = tempfile::tempdir().expect("a folder can be made");
+    let spec = fuzz_button_with_jump(4);
+    let own = Server::start(folder.path());
+    let expected = bits::of(&own, &solved(&own, &spec).await).await;
+    drop(own);
+
+    let folder = tempfile::tempdir().expect("a folder can be made");
+    let (objects, away) = (folder.path().join("objects"), folder.path().join("away"));
+    let address = format!("file://{}", objects.display());
+    let server = Server::without_workers(folder.path(), &["--objects", &address]);
+    let (status, job) = server.submit(spec).await;
+    assert_eq!(status, 202, "{job}");
+    let id = job["id"].as_str().expect("an id");
+    let options = ["--lease-s", "2", "--checkpoint-every-s", "0"];
+    let killed = RemoteWorker::start(folder.path(), &server.base, &options);
+    let is_under_way = |job: &Value| job["progress"]["cycle"].as_u64() > Some(20);
+    server.job_when(id, is_under_way).await;
+    killed.signal(Signal::SIGKILL);
+    killed.wait();
+    server.job_when(id, |job| job["status"] == "queued").await;
+    assert!(!checkpoints(&objects).is_empty());
+
+    std::fs::rename(&objects, &away).expect("renamed");
+    std::fs::write(&objects, "").expect("a file in its place");
+    let _other = RemoteWorker::start(folder.path(), &server.base, &options);
+    let waiting = server.job_when(id, |job| job["attempts"] == 2).await;
+    assert_eq!(waiting["status"], "running", "{waiting}");
+    std::fs::remove_file(&objects).expect("removed");
+    std::fs::rename(&away, &objects).expect("renamed back");
+    let job = server
+        .job_when(id, |job| job["finished_at"].is_string())
+        .await;
+    assert_eq!(
+        (&job["status"], &job["attempts"]),
+        (&"succeeded".into(), &2.into())
+    );
+    let attempts = bits::events(&server, id, "attempt").await;
+    let from: Vec<_> = attempts.iter().map(|event| &event["from_cycle"]).collect();
+    assert!(
+        from.len() == 2 && from[1].as_u64() > Some(0),
+        "{attempts:?}"
+    );
+    assert_eq!(bits::of(&server, id).await, expected);
+    let start = Instant::now();
+    while !checkpoints(&objects).is_empty() {
+        assert!(start.elapsed() < PATIENCE, "they are removed");
         tokio::time::sleep(Duration::from_millis(50)).await;
     }
 }

@@ -34,6 +34,10 @@ fn worker_routes() -> Router<App> {
         .route("/restarts", post(worker::restart::restart))
         .route("/demand", get(worker::show_demand::show_demand))
         .route(
+            "/checkpoints/{job}/{lease}",
+            get(worker::show_checkpoint::show_checkpoint),
+        )
+        .route(
             "/files/{job}/{lease}/{name}",
             put(worker::put_file::put_file),
         )

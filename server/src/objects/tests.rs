@@ -78,3 +78,26 @@ fn other_addresses_are_refused() {
         assert!(matches!(opened, Err(ObjectsError::Address(_))), "{address}");
     }
 }
+
+/// As that of a file system that is not mounted.
+#[tokio::test]
+async fn a_folder_that_is_not_there_has_no_missing_objects_and_takes_none() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let place = folder.path().join("objects");
+    let objects = Objects::open(&format!("file://{}", place.display()));
+    let objects = objects.expect("opened");
+    std::fs::remove_dir(&place).expect("removed");
+    let failed = [
+        objects.get_all("a").await.map(drop),
+        objects.get("a", 0..4).await.map(drop),
+        objects.put("a", b"head", &[]).await,
+        objects.remove("a").await,
+    ];
+    for failed in failed {
+        assert!(
+            matches!(failed, Err(ObjectsError::Store { .. })),
+            "{failed:?}"
+        );
+    }
+    assert!(!place.exists());
+}

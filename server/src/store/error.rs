@@ -164,8 +164,8 @@ pub enum StoreError {
     /// The database has not answered in time.
     #[error("the database has not answered within {0:?}")]
     NoAnswer(std::time::Duration),
-    /// A submission was interrupted before it was written.
-    #[error("the submission was interrupted before it was written")]
+    /// A request was interrupted before it was written.
+    #[error("the request was interrupted before it was written")]
     Unwritten,
     /// A document cannot be serialized.
     #[error("writing a document: {0}")]

@@ -73,7 +73,30 @@ pub struct Claim {
     /// Estimated processor time, ms; 0 where it is not known.
     pub cpu_ms: i64,
     /// Checkpoint to resume from.
-    pub checkpoint: Option<EncodedCheckpoint>,
+    pub checkpoint: Option<ClaimedCheckpoint>,
+}
+
+/// The checkpoint of a claimed job.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum ClaimedCheckpoint {
+    /// It comes with the claim.
+    Given(EncodedCheckpoint),
+    /// It is in the store of objects, and is to be asked for.
+    Stored {
+        /// Its cycle.
+        cycle: u64,
+    },
+}
+
+impl ClaimedCheckpoint {
+    /// Its cycle.
+    pub fn cycle(&self) -> u64 {
+        match self {
+            Self::Given(checkpoint) => checkpoint.cycle,
+            Self::Stored { cycle } => *cycle,
+        }
+    }
 }
 
 /// What a worker writes in one transaction.
@@ -94,6 +117,9 @@ pub struct JobUpdate {
     pub block: Option<EncodedBlock>,
     /// The newest checkpoint; all rows, snapshots and files up to its cycle are in this update or an earlier one.
     pub checkpoint: Option<EncodedCheckpoint>,
+    /// Key of the object that has the state of the checkpoint; the database has it otherwise.
+    #[serde(skip)]
+    pub checkpoint_object: Option<String>,
     /// New events: name and JSON document.
     pub events: Vec<(EventName, String)>,
 }
@@ -130,8 +156,8 @@ impl JobUpdate {
     pub(crate) fn is_small(&self) -> bool {
         let block = self.block.as_ref();
         let bytes = block.map_or(0, |block| block.entries.len() + block.content.len());
-        let is_rest_small =
-            self.snapshots.is_empty() && self.files.is_empty() && self.checkpoint.is_none();
+        let has_checkpoint = self.checkpoint.is_some() && self.checkpoint_object.is_none();
+        let is_rest_small = self.snapshots.is_empty() && self.files.is_empty() && !has_checkpoint;
         is_rest_small && bytes <= SMALL_BLOCK && self.rows.len() <= FEW_ROWS
     }
 }

@@ -5,7 +5,8 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use api::job::Status;
-use tokio::sync::{Notify, broadcast, mpsc};
+use tokio::sync::{Mutex, Notify, broadcast, mpsc};
+use tokio::time::Instant;
 use uuid::Uuid;
 
 use crate::clock::Clock;
@@ -35,8 +36,10 @@ pub(in crate::store) struct Local {
     /// To the processes that serve the same database.
     pub(in crate::store) others: Option<mpsc::UnboundedSender<Told>>,
     pub(in crate::store) folder: Folder,
-    /// Where results of succeeded jobs are moved to.
+    /// Where results of succeeded jobs are moved to, and checkpoints are written.
     pub(in crate::store) objects: Option<Objects>,
+    /// When they took no checkpoint the last time.
+    pub(in crate::store) objects_failed_at: Mutex<Option<Instant>>,
     /// The machine's calibration cache.
     pub(in crate::store) machine: PathBuf,
     pub(in crate::store) attempt_limit: u32,
@@ -66,6 +69,7 @@ impl Local {
             others: None,
             folder: Folder::beside(files),
             objects: None,
+            objects_failed_at: Mutex::default(),
             machine: beside(files, &format!("{own}.machine.json")),
             attempt_limit: limits.attempts,
             metrics: Arc::default(),

@@ -9,8 +9,7 @@ use serde::de::DeserializeOwned;
 use uuid::Uuid;
 
 use crate::clock::Now;
-use crate::solve::checkpoint::EncodedCheckpoint;
-use crate::store::{Claim, StoreError};
+use crate::store::{Claim, ClaimedCheckpoint, StoreError};
 
 /// A row of an engine, whose columns are read by name.
 pub(in crate::store) trait StoredRow {
@@ -143,7 +142,7 @@ pub(in crate::store) fn claim(
     id: Uuid,
     row: &impl StoredRow,
     now: Now,
-    checkpoint: Option<EncodedCheckpoint>,
+    checkpoint: Option<ClaimedCheckpoint>,
 ) -> Result<Claim, StoreError> {
     let deadline_at = row.optional_integer("deadline_at")?;
     Ok(Claim {

@@ -34,6 +34,7 @@ macro_rules! on_both_engines {
 }
 
 mod batches;
+mod checkpoint_objects;
 mod checkpoints;
 mod columns;
 mod files;

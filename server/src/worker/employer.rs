@@ -12,6 +12,7 @@ use api::service::Demand;
 
 use crate::client::ClientError;
 use crate::metrics::Busy;
+use crate::solve::checkpoint::EncodedCheckpoint;
 use crate::store::{Claim, ClaimRequest, End, JobUpdate, Lease, LeaseState, StoreError};
 
 pub use remote::Remote;
@@ -33,7 +34,12 @@ impl EmployerError {
         match self {
             Self::Store(error) => matches!(
                 error,
-                StoreError::Database { .. } | StoreError::Prepare { .. } | StoreError::DiskFull
+                StoreError::Database { .. }
+                    | StoreError::Prepare { .. }
+                    | StoreError::DiskFull
+                    | StoreError::NoAnswer(_)
+                    | StoreError::Unwritten
+                    | StoreError::Objects(_)
             ),
             // As the store's own errors: a finished solve waits for a service that fails.
             Self::Remote(error) => error.is_temporary() || error.is_of_type("/problems/internal"),
@@ -88,6 +94,12 @@ pub trait Employer: Send + Sync + 'static {
         &self,
         lease: Lease,
     ) -> impl Future<Output = Result<LeaseState, EmployerError>> + Send;
+
+    /// The checkpoint of a job that does not come with its claim; `None` if it is missing or damaged, or if the lease was lost.
+    fn checkpoint(
+        &self,
+        lease: Lease,
+    ) -> impl Future<Output = Result<Option<EncodedCheckpoint>, EmployerError>> + Send;
 
     /// Records an update and renews the lease. The files that the update names are in the folder of the attempt. A repeated one has
     /// no further effect.

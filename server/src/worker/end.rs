@@ -46,6 +46,22 @@ pub(super) fn end_by_exit(last: Option<Line>, exit: &Exit) -> End {
     }
 }
 
+/// Status reason of a job whose worker is asked to stop.
+pub(super) const STOPPED: &str = "the service was stopped";
+
+/// The end of a job that its user has cancelled.
+pub(super) fn cancelled() -> End {
+    End::without_result(Transition::Cancel, "cancelled while running")
+}
+
+/// The end of a job whose deadline has passed.
+pub(super) fn deadline_passed() -> End {
+    End {
+        outcome: Some(Outcome::DeadlineExceeded),
+        ..End::without_result(Transition::Expire, "its deadline passed while it ran")
+    }
+}
+
 /// Returns the end of a job that would fail again.
 pub(super) fn failed(outcome: Outcome, reason: impl Into<String>) -> End {
     End {

@@ -72,6 +72,8 @@ pub enum WriteAnswer {
     Status(Option<Status>),
     /// It was not done.
     Problem(Problem),
+    /// It is being done and would hold up the others; whether it was done is answered to a request with it alone.
+    Pending,
 }
 
 /// Body of `POST restarts`, answered with the state of the lease.

@@ -10,20 +10,19 @@ use tokio_util::sync::CancellationToken;
 
 use crate::queue::Transition;
 use crate::solve::Line;
+use crate::solve::checkpoint::EncodedCheckpoint;
 use crate::solve::process::{LineError, ReceivedLine, SolveCommand, SolveProcess};
 use crate::spec;
-use crate::store::{End, LeaseState};
+use crate::store::{ClaimedCheckpoint, End, LeaseState};
 use crate::worker::attempt::{Attempt, retry};
 use crate::worker::config::RETRY_PAUSE;
 use crate::worker::employer::{Employer, EmployerError};
-use crate::worker::end::{end_by_exit, failed};
+use crate::worker::end::{STOPPED, cancelled, deadline_passed, end_by_exit, failed};
+use crate::worker::resume::{Start, start_of};
 use crate::worker::update_buffer::UpdateBuffer;
 
 /// Longest wait for the end of the output after a malformed line.
 const MALFORMED_TIMEOUT: Duration = Duration::from_secs(1);
-
-/// Status reason of a job whose worker is asked to stop.
-const STOPPED: &str = "the service was stopped";
 
 /// Why reading the output of the process has ended.
 enum Stop {
@@ -77,16 +76,19 @@ async fn run<E: Employer>(
         Instant::now() + length
     });
     let cycles = serde_json::from_str::<Spec>(&claim.spec).map_or(0, |spec| spec::cycles(&spec));
-    let from_cycle = claim.checkpoint.as_ref().map_or(0, |found| found.cycle);
+    let from_cycle = claim
+        .checkpoint
+        .as_ref()
+        .map_or(0, ClaimedCheckpoint::cycle);
     tracing::info!(from_cycle, memory_mb = claim.memory_mb, "job claimed");
     let mut buffer = UpdateBuffer::new(cycles, from_cycle);
-    let started = if stopping.is_cancelled() {
-        Err(End::without_result(Transition::Release, STOPPED))
-    } else {
-        start(attempt).map_err(|cause| {
+    let started = match start_of(attempt, &mut buffer, (deadline, stopping)).await? {
+        Start::From(checkpoint) => start(attempt, checkpoint.as_deref()).map_err(|cause| {
             let reason = format!("its solving process could not be started: {cause}");
             End::without_result(Transition::WorkerLost, reason)
-        })
+        }),
+        Start::Never(end) => Err(*end),
+        Start::LeaseLost => return Ok(()),
     };
     let process = match started {
         Ok(process) => process,
@@ -117,7 +119,10 @@ async fn run<E: Employer>(
     attempt.finalize(&updates, number, (&end, computed)).await
 }
 
-fn start<E: Employer>(attempt: Attempt<'_, E>) -> std::io::Result<SolveProcess> {
+fn start<E: Employer>(
+    attempt: Attempt<'_, E>,
+    checkpoint: Option<&EncodedCheckpoint>,
+) -> std::io::Result<SolveProcess> {
     let Attempt {
         claim,
         config,
@@ -128,7 +133,7 @@ fn start<E: Employer>(attempt: Attempt<'_, E>) -> std::io::Result<SolveProcess> 
         program: &config.program,
         folder: &employer.folder(claim.into()),
         spec: &claim.spec,
-        checkpoint: claim.checkpoint.as_ref(),
+        checkpoint,
         checkpoint_every: config.checkpoint_every,
         threads,
         memory_limit_mb: Some(config.memory_limit_mb(claim.memory_mb)),
@@ -253,14 +258,8 @@ impl<E: Employer> Supervision<'_, E> {
                 Some(last) => return Some(end_by_exit(Some(last), &self.process.wait().await)),
                 None => Some(End::without_result(Transition::Release, "")),
             },
-            Stop::Cancelled => Some(End::without_result(
-                Transition::Cancel,
-                "cancelled while running",
-            )),
-            Stop::DeadlinePassed => Some(End {
-                outcome: Some(Outcome::DeadlineExceeded),
-                ..End::without_result(Transition::Expire, "its deadline passed while it ran")
-            }),
+            Stop::Cancelled => Some(cancelled()),
+            Stop::DeadlinePassed => Some(deadline_passed()),
             Stop::Unreadable(error) => Some(failed(Outcome::NotConverged, error.to_string())),
             Stop::LeaseLost => None,
         };

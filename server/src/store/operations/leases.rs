@@ -5,6 +5,7 @@ use std::time::Duration;
 use api::job::Status;
 
 use crate::queue::Transition;
+use crate::store::checkpoints::CheckpointObject;
 use crate::store::operations::operations;
 use crate::store::{Claim, ClaimRequest, End, JobUpdate, Lease, LeaseState, Reclaimed, StoreError};
 
@@ -16,11 +17,14 @@ operations! {
     /// [`StoreError`] if the database fails.
     pub async fn claim(&self, request: &ClaimRequest) -> Result<Vec<Claim>, StoreError>;
 
-    /// Writes an update and renews the lease.
-    ///
-    /// # Errors
-    /// [`StoreError`] if the database fails.
-    pub async fn record(&self, lease: impl Into<Lease>, update: &JobUpdate, length: Duration) -> Result<LeaseState, StoreError>;
+    /// Writes an update, whose checkpoint may be in an object that was noted, and renews the lease.
+    pub(in crate::store) async fn write_update(&self, lease: Lease, update: &JobUpdate, length: Duration) -> Result<LeaseState, StoreError>;
+
+    /// Notes the key of the object of a checkpoint that is about to be written.
+    pub(in crate::store) async fn note_checkpoint(&self, key: &str) -> Result<(), StoreError>;
+
+    /// The object with the checkpoint of a held job; `None` if it has none, or if the lease was lost.
+    pub(in crate::store) async fn checkpoint_object(&self, lease: Lease) -> Result<Option<CheckpointObject>, StoreError>;
 
     /// The states of the leases of a worker, renewed for a length where more than a third of it has passed: a heartbeat that comes
     /// often, for the sake of cancel requests, writes seldom.

@@ -6,24 +6,32 @@ use uuid::Uuid;
 
 use crate::clock::Now;
 use crate::solve::checkpoint::EncodedCheckpoint;
+use crate::store::checkpoints::CheckpointObject;
+use crate::store::postgres::PostgresStore;
 use crate::store::rows::integer;
-use crate::store::{Lease, StoreError, integrity};
+use crate::store::{ClaimedCheckpoint, Lease, StoreError, integrity};
 
 /// Returns the checkpoint of a job and deletes the results after its cycle. A checkpoint whose checksum differs is
 /// deleted with all results.
 pub(super) async fn restore(
     connection: &mut PgConnection,
     id: Uuid,
-) -> Result<Option<EncodedCheckpoint>, StoreError> {
-    let stored: Option<(i64, Vec<u8>, Vec<u8>)> =
-        sqlx::query_as("SELECT cycle, sha256, state FROM checkpoints WHERE job_id = $1")
-            .bind(id)
-            .fetch_optional(&mut *connection)
-            .await?;
-    let valid = stored.and_then(|(cycle, sha256, state)| {
-        integrity::checkpoint(id, cycle.try_into().unwrap_or_default(), &sha256, state)
+) -> Result<Option<ClaimedCheckpoint>, StoreError> {
+    let stored: Option<(i64, Vec<u8>, Vec<u8>, bool)> = sqlx::query_as(
+        "SELECT cycle, sha256, state, object IS NOT NULL FROM checkpoints WHERE job_id = $1",
+    )
+    .bind(id)
+    .fetch_optional(&mut *connection)
+    .await?;
+    let valid = stored.and_then(|(cycle, sha256, state, is_object)| {
+        let cycle = cycle.try_into().unwrap_or_default();
+        if is_object {
+            return Some(ClaimedCheckpoint::Stored { cycle });
+        }
+        integrity::checkpoint(id, cycle, &sha256, state).map(ClaimedCheckpoint::Given)
     });
-    delete_results_after(connection, id, valid.as_ref().map(|found| found.cycle)).await?;
+    let cycle = valid.as_ref().map(ClaimedCheckpoint::cycle);
+    delete_results_after(connection, id, cycle).await?;
     Ok(valid)
 }
 
@@ -48,25 +56,70 @@ pub(super) async fn delete_results_after(
     Ok(())
 }
 
-/// Replaces the checkpoint of a job, in a transaction that has checked the lease.
+/// Replaces the checkpoint of a job, in a transaction that has checked the lease. Its state is in an object, unless that is being removed
+/// already.
 pub(super) async fn write(
     connection: &mut PgConnection,
     lease: Lease,
-    checkpoint: &EncodedCheckpoint,
+    (checkpoint, object): (&EncodedCheckpoint, Option<&str>),
     now: Now,
 ) -> Result<(), StoreError> {
+    let named = match object {
+        Some(key) if name(connection, key).await? => Some(key),
+        _ => None,
+    };
+    let state = named.map_or(&checkpoint.state[..], |_| &[]);
     sqlx::query(
-        "INSERT INTO checkpoints (job_id, lease, cycle, written_at, sha256, state) VALUES ($1, $2, $3, $4, $5, $6) \
+        "INSERT INTO checkpoints (job_id, lease, cycle, written_at, sha256, state, object) VALUES ($1, $2, $3, $4, $5, $6, $7) \
          ON CONFLICT (job_id) DO UPDATE SET lease = excluded.lease, cycle = excluded.cycle, written_at = excluded.written_at, \
-         sha256 = excluded.sha256, state = excluded.state",
+         sha256 = excluded.sha256, state = excluded.state, object = excluded.object",
     )
     .bind(lease.job)
     .bind(lease.number)
     .bind(integer(checkpoint.cycle))
     .bind(now.system_ms)
     .bind(Sha256::digest(&checkpoint.state).as_slice())
-    .bind(&checkpoint.state)
+    .bind(state)
+    .bind(named)
     .execute(connection)
     .await?;
     Ok(())
+}
+
+/// Removes the note of an object that gets a name; false if it is being removed.
+async fn name(connection: &mut PgConnection, key: &str) -> Result<bool, StoreError> {
+    let noted = sqlx::query("DELETE FROM unnamed_objects WHERE key = $1 AND NOT is_removing")
+        .bind(key)
+        .execute(connection)
+        .await?;
+    Ok(noted.rows_affected() > 0)
+}
+
+impl PostgresStore {
+    pub(in crate::store) async fn note_checkpoint(&self, key: &str) -> Result<(), StoreError> {
+        sqlx::query("INSERT INTO unnamed_objects (key, noted_at) VALUES ($1, fretwear_now())")
+            .bind(key)
+            .execute(&self.pool)
+            .await?;
+        Ok(())
+    }
+
+    pub(in crate::store) async fn checkpoint_object(
+        &self,
+        lease: Lease,
+    ) -> Result<Option<CheckpointObject>, StoreError> {
+        let found: Option<(i64, Vec<u8>, String)> = sqlx::query_as(
+            "SELECT cycle, sha256, object FROM checkpoints JOIN jobs ON id = job_id \
+             WHERE id = $1 AND jobs.lease = $2 AND status = 'running' AND object IS NOT NULL",
+        )
+        .bind(lease.job)
+        .bind(lease.number)
+        .fetch_optional(&self.readers)
+        .await?;
+        Ok(found.map(|(cycle, sha256, key)| CheckpointObject {
+            cycle: cycle.try_into().unwrap_or_default(),
+            sha256,
+            key,
+        }))
+    }
 }

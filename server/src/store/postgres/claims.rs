@@ -13,7 +13,7 @@ use crate::queue::{WaitingJob, admit};
 use crate::store::postgres::claimed::Claimed;
 use crate::store::postgres::{LONGEST_TURN, PostgresStore, begin, checkpoints, time_of};
 use crate::store::rows::{StoredRow, attempt_event, claim, integer};
-use crate::store::{Claim, ClaimRequest, StoreError};
+use crate::store::{Claim, ClaimRequest, ClaimedCheckpoint, StoreError};
 
 /// Number of waiting jobs among which those that fit are searched, beside one for each slot.
 const CANDIDATES: usize = 64;
@@ -301,7 +301,7 @@ async fn claim_admitted(
             1 => None,
             _ => checkpoints::restore(connection, id).await?,
         };
-        let from_cycle = checkpoint.as_ref().map_or(0, |found| found.cycle);
+        let from_cycle = checkpoint.as_ref().map_or(0, ClaimedCheckpoint::cycle);
         let claim = claim(id, &row, now, checkpoint)?;
         ids.push(id);
         seqs.push(row.integer("last_event")?);

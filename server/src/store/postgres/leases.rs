@@ -14,14 +14,13 @@ use crate::store::postgres::{PostgresStore, begin, checkpoints};
 use crate::store::{End, JobUpdate, Lease, LeaseState, StoreError, Write, WriteKind};
 
 impl PostgresStore {
-    pub(in crate::store) async fn record(
+    pub(in crate::store) async fn write_update(
         &self,
-        lease: impl Into<Lease>,
+        lease: Lease,
         update: &JobUpdate,
         length: Duration,
     ) -> Result<LeaseState, StoreError> {
         self.local.disk.check()?;
-        let lease = lease.into();
         let write = Write {
             lease,
             update: update.clone(),

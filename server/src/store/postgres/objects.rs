@@ -6,6 +6,7 @@ use uuid::Uuid;
 
 use crate::objects::Objects;
 use crate::store::StoreError;
+use crate::store::checkpoints::REMOVED_AFTER_MS;
 use crate::store::postgres::job_rows::lock;
 use crate::store::postgres::open::refuse_standby;
 use crate::store::postgres::{PostgresStore, begin};
@@ -18,7 +19,7 @@ impl PostgresStore {
     pub(in crate::store) async fn address_of_objects(&self) -> Result<Option<String>, StoreError> {
         let stored = sqlx::query_scalar(
             "SELECT address FROM object_store WHERE EXISTS (SELECT 1 FROM result_blocks WHERE object IS NOT NULL) \
-             OR EXISTS (SELECT 1 FROM unnamed_objects)",
+             OR EXISTS (SELECT 1 FROM checkpoints WHERE object IS NOT NULL) OR EXISTS (SELECT 1 FROM unnamed_objects)",
         );
         Ok(stored.fetch_optional(&self.pool).await?)
     }
@@ -98,8 +99,10 @@ impl PostgresStore {
         most: i64,
     ) -> Result<Vec<String>, StoreError> {
         let keys = sqlx::query_scalar(
-            "UPDATE unnamed_objects SET is_removing = true WHERE key IN (SELECT key FROM unnamed_objects LIMIT $1) RETURNING key",
+            "UPDATE unnamed_objects SET is_removing = true WHERE key IN \
+             (SELECT key FROM unnamed_objects WHERE noted_at <= fretwear_now() - $1 LIMIT $2) RETURNING key",
         )
+        .bind(REMOVED_AFTER_MS)
         .bind(most);
         Ok(keys.fetch_all(&self.pool).await?)
     }

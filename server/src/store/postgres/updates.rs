@@ -47,7 +47,8 @@ pub(super) async fn insert_results(
         }
         insert_files(connection, *lease, &update.files).await?;
         if let Some(checkpoint) = &update.checkpoint {
-            checkpoints::write(connection, *lease, checkpoint, now).await?;
+            let object = update.checkpoint_object.as_deref();
+            checkpoints::write(connection, *lease, (checkpoint, object), now).await?;
         }
     }
     Ok(())

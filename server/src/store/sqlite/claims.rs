@@ -10,7 +10,7 @@ use crate::store::rows;
 use crate::store::rows::StoredRow;
 use crate::store::sqlite::queries::{BEGIN, insert_attempt_event};
 use crate::store::sqlite::{SqliteStore, checkpoints};
-use crate::store::{Claim, ClaimRequest, StoreError};
+use crate::store::{Claim, ClaimRequest, ClaimedCheckpoint, StoreError};
 
 /// Number of waiting jobs among which those that fit are searched, beside one for each slot.
 const CANDIDATES: usize = 64;
@@ -145,7 +145,7 @@ async fn claim(
     .fetch_one(&mut **transaction)
     .await?;
     let checkpoint = checkpoints::restore(transaction, id).await?;
-    let from_cycle = checkpoint.as_ref().map_or(0, |found| found.cycle);
+    let from_cycle = checkpoint.as_ref().map_or(0, ClaimedCheckpoint::cycle);
     let claim = rows::claim(id, &row, now, checkpoint)?;
     let event = row.integer("last_event")?;
     insert_attempt_event(transaction, id, event, claim.attempt, from_cycle).await?;

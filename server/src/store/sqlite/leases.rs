@@ -21,14 +21,13 @@ use crate::store::sqlite::transitions::end_job;
 use crate::store::{End, JobUpdate, Lease, LeaseState, StoreError};
 
 impl SqliteStore {
-    pub(in crate::store) async fn record(
+    pub(in crate::store) async fn write_update(
         &self,
-        lease: impl Into<Lease>,
+        lease: Lease,
         update: &JobUpdate,
         length: Duration,
     ) -> Result<LeaseState, StoreError> {
         self.local.disk.check()?;
-        let lease = lease.into();
         let mut transaction = self.writer.begin_with(BEGIN).await?;
         let events = integer(update.events.len());
         let held: Option<(i64, bool)> = sqlx::query_as(
@@ -50,7 +49,8 @@ impl SqliteStore {
         };
         write_results(&mut transaction, lease, update).await?;
         if let Some(checkpoint) = &update.checkpoint {
-            checkpoints::write(&mut transaction, lease, checkpoint).await?;
+            let object = update.checkpoint_object.as_deref();
+            checkpoints::write(&mut transaction, lease, checkpoint, object).await?;
             self.local.metrics.checkpoints.inc();
         }
         for (seq, (name, data)) in (last_event - events + 1..).zip(&update.events) {

@@ -5,7 +5,7 @@ use sqlx::migrate::Migrator;
 use crate::store::migrations::{file, migrator_of};
 
 /// All files of the folder; a name is the version and what it is about.
-const FILES: [(&str, &str); 28] = [
+const FILES: [(&str, &str); 29] = [
     file!("sqlite/0001_jobs.sql"),
     file!("sqlite/0002_labels.sql"),
     file!("sqlite/0003_events.sql"),
@@ -34,6 +34,7 @@ const FILES: [(&str, &str); 28] = [
     file!("sqlite/0064_queue_indexes.sql"),
     file!("sqlite/0065_expansions.sql"),
     file!("sqlite/0066_workers.sql"),
+    file!("sqlite/0067_checkpoint_objects.sql"),
 ];
 
 /// Applies the migrations that a database does not have; refuses a database with others.

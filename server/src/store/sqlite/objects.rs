@@ -4,7 +4,9 @@ use sqlx::{Sqlite, Transaction};
 use uuid::Uuid;
 use uuid::fmt::Hyphenated;
 
+use crate::clock::now_ms;
 use crate::store::StoreError;
+use crate::store::checkpoints::REMOVED_AFTER_MS;
 use crate::store::results_to_move::Moved;
 use crate::store::sqlite::SqliteStore;
 use crate::store::sqlite::queries::BEGIN;
@@ -19,7 +21,7 @@ impl SqliteStore {
     pub(in crate::store) async fn address_of_objects(&self) -> Result<Option<String>, StoreError> {
         let stored = sqlx::query_scalar(
             "SELECT address FROM object_store WHERE EXISTS (SELECT 1 FROM result_blocks WHERE object IS NOT NULL) \
-             OR EXISTS (SELECT 1 FROM unnamed_objects)",
+             OR EXISTS (SELECT 1 FROM checkpoints WHERE object IS NOT NULL) OR EXISTS (SELECT 1 FROM unnamed_objects)",
         );
         Ok(stored.fetch_optional(&self.writer).await?)
     }
@@ -78,7 +80,10 @@ impl SqliteStore {
         &self,
         most: i64,
     ) -> Result<Vec<String>, StoreError> {
-        let keys = sqlx::query_scalar("SELECT key FROM unnamed_objects LIMIT ?").bind(most);
+        let keys =
+            sqlx::query_scalar("SELECT key FROM unnamed_objects WHERE noted_at <= ? LIMIT ?")
+                .bind(now_ms() - REMOVED_AFTER_MS)
+                .bind(most);
         Ok(keys.fetch_all(&self.readers).await?)
     }
 

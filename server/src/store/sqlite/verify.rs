@@ -40,7 +40,7 @@ pub async fn verify(url: &str, objects: Option<&Objects>) -> Result<CopySummary,
         verify_block(&mut database, objects, job.into(), &mut verified).await?;
         let job = job.to_string();
         verify_files(&mut database, &folder, &job, &mut verified).await?;
-        verify_checkpoint(&mut database, &job, &mut verified).await?;
+        verify_checkpoint(&mut database, objects, &job, &mut verified).await?;
         verified.jobs += 1;
     }
     database.close().await?;
@@ -207,16 +207,31 @@ async fn named(
 /// A damaged checkpoint is not marked: its job would restart at cycle 0.
 async fn verify_checkpoint(
     database: &mut SqliteConnection,
+    objects: Option<&Objects>,
     job: &str,
     verified: &mut CopySummary,
 ) -> Result<(), BackupError> {
-    let checkpoint: Option<(Vec<u8>, Vec<u8>)> =
-        sqlx::query_as("SELECT sha256, state FROM checkpoints WHERE job_id = ?")
-            .bind(job)
-            .fetch_optional(database)
-            .await?;
-    let Some((named, state)) = checkpoint else {
+    let Some((named, state, object)) = checkpoint(database, job).await? else {
         return Ok(());
+    };
+    let state = match &object {
+        None => state,
+        Some(key) => {
+            let read = objects.ok_or(StoreError::NoObjects)?.get_all(key).await;
+            match read {
+                Ok(state) => state,
+                Err(cause @ ObjectsError::Missing(_)) => {
+                    // It may have been replaced meanwhile.
+                    let (.., now) = checkpoint(database, job).await?.unwrap_or_default();
+                    if now == object {
+                        let said = format!("checkpoint of job {job}: {cause}");
+                        verified.damaged.push(said);
+                    }
+                    return Ok(());
+                }
+                Err(cause) => return Err(StoreError::from(cause).into()),
+            }
+        }
     };
     let (found, named) = (sha256(&state), hexadecimal(&named));
     if found != named {
@@ -226,4 +241,13 @@ async fn verify_checkpoint(
             .push(format!("checkpoint of job {job}: {how}"));
     }
     Ok(())
+}
+
+/// SHA-256, state and object of the checkpoint of a job.
+async fn checkpoint(
+    database: &mut SqliteConnection,
+    job: &str,
+) -> Result<Option<(Vec<u8>, Vec<u8>, Option<String>)>, BackupError> {
+    let row = sqlx::query_as("SELECT sha256, state, object FROM checkpoints WHERE job_id = ?");
+    Ok(row.bind(job).fetch_optional(database).await?)
 }

@@ -29,11 +29,11 @@ async fn the_next_attempt_resumes_from_the_checkpoint_and_keeps_earlier_results(
     let late = fixture.recorded(&lost, &with_checkpoint(9), 10).await;
     assert_eq!(late, LeaseState::Lost);
     let claim = fixture.claimed(20).await;
-    let checkpoint = claim.checkpoint.clone().expect("a checkpoint");
-    assert_eq!(
-        (checkpoint.cycle, checkpoint.state),
-        (3, b"a state".to_vec())
-    );
+    let given = ClaimedCheckpoint::Given(EncodedCheckpoint {
+        cycle: 3,
+        state: b"a state".to_vec(),
+    });
+    assert_eq!(claim.checkpoint, Some(given));
     assert_eq!(fixture.cycles(id).await, [1, 2, 3]);
     let events = store.events(id, 0).await.expect("the store");
     let last = events.last().expect("an event");

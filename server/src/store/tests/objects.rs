@@ -22,20 +22,20 @@ on_both_engines! { WithObjects:
 }
 
 /// A database whose results are moved into a folder of objects.
-struct WithObjects {
-    place: Place,
-    store: Arc<Store>,
+pub(super) struct WithObjects {
+    pub(super) place: Place,
+    pub(super) store: Arc<Store>,
 }
 
 impl WithObjects {
-    async fn at(place: Place) -> Self {
+    pub(super) async fn at(place: Place) -> Self {
         let store = opened(&place, Some("objects")).await;
         let store = Arc::new(store.expect("a store"));
         Self { place, store }
     }
 
     /// Paths of all objects.
-    fn objects(&self) -> Vec<PathBuf> {
+    pub(super) fn objects(&self) -> Vec<PathBuf> {
         files_below(&self.place.folder.path().join("objects"))
     }
 
@@ -76,7 +76,7 @@ impl WithObjects {
     }
 
     /// Moves what can be moved; returns the jobs.
-    async fn moved(&self) -> Vec<Uuid> {
+    pub(super) async fn moved(&self) -> Vec<Uuid> {
         let (moved, ended) = self.store.move_results().await;
         ended.expect("the store of objects answers");
         self.store.remove_moved(&moved).await;
@@ -90,7 +90,7 @@ impl WithObjects {
     }
 }
 
-async fn opened(place: &Place, objects: Option<&str>) -> Result<Store, StoreError> {
+pub(super) async fn opened(place: &Place, objects: Option<&str>) -> Result<Store, StoreError> {
     let address = |name| format!("file://{}", place.folder.path().join(name).display());
     let objects = objects.map(|name| Objects::open(&address(name)).expect("opened"));
     let store = Store::open_with(&place.url, &place.files(), Limits::default()).await?;

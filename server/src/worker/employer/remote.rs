@@ -18,6 +18,7 @@ use super::{Employer, EmployerError};
 use crate::client::{Client, ClientError};
 use crate::groups::{Groups, Pending};
 use crate::metrics::Busy;
+use crate::solve::checkpoint::EncodedCheckpoint;
 use crate::store::{
     Claim, ClaimRequest, End, JobUpdate, Lease, LeaseState, NewFile, Write, WriteKind,
 };
@@ -32,6 +33,15 @@ const HEARTBEAT: Duration = Duration::from_secs(2);
 /// Leases of this worker, and their states by the last answers of the service.
 type Leases = Arc<Mutex<HashMap<Lease, LeaseState>>>;
 
+/// Why a write has no answer to a request of several.
+#[derive(Debug, Clone)]
+enum NotSent {
+    /// It is to be sent alone.
+    Alone,
+    /// The service was not reached, and would not be by a request with one of them.
+    Unreachable { url: String, cause: String },
+}
+
 /// A remote service.
 #[derive(Debug)]
 pub struct Remote {
@@ -45,8 +55,8 @@ pub struct Remote {
     slots: usize,
     /// How long a claim waits for a job.
     wait: Duration,
-    /// Quick writes that are sent together; no answer to one that is to be sent alone.
-    writes: Groups<Arc<Write>, Option<WriteAnswer>>,
+    /// Quick writes that are sent together.
+    writes: Groups<Arc<Write>, Result<WriteAnswer, NotSent>>,
     _heartbeat: AbortOnDropHandle<()>,
 }
 
@@ -86,8 +96,12 @@ impl Remote {
         let write = Arc::new(write);
         if is_quick(&write) {
             let send = |group| send_together(self.client.clone(), group);
-            if let Some(Some(answer)) = self.writes.ask(Arc::clone(&write), send).await {
-                return Ok(answer);
+            match self.writes.ask(Arc::clone(&write), send).await {
+                Some(Ok(answer)) => return Ok(answer),
+                Some(Err(NotSent::Unreachable { url, cause })) => {
+                    return Err(ClientError::Unreachable { url, cause }.into());
+                }
+                Some(Err(NotSent::Alone)) | None => {}
             }
         }
         let answers: [WriteAnswer; 1] = self.post(WRITES, &[&*write]).await?;
@@ -144,6 +158,12 @@ impl Employer for Remote {
     async fn lease_state(&self, lease: Lease) -> Result<LeaseState, EmployerError> {
         let state = held(&self.leases).get(&lease).copied();
         Ok(state.unwrap_or(LeaseState::Lost))
+    }
+
+    async fn checkpoint(&self, lease: Lease) -> Result<Option<EncodedCheckpoint>, EmployerError> {
+        let Lease { job, number } = lease;
+        let path = format!("/v1/worker/checkpoints/{job}/{number}");
+        Ok(self.client.get_once(&path).await?)
     }
 
     async fn record(
@@ -221,16 +241,30 @@ fn is_quick(write: &Write) -> bool {
     is_made && write.update.is_small()
 }
 
-/// Sends writes in one request. If it fails, each is sent alone.
-async fn send_together(client: Client, group: Vec<Pending<Arc<Write>, Option<WriteAnswer>>>) {
+/// Sends writes in one request. If the service refuses it, each is sent alone.
+async fn send_together(
+    client: Client,
+    group: Vec<Pending<Arc<Write>, Result<WriteAnswer, NotSent>>>,
+) {
     let writes: Vec<&Write> = group.iter().map(|pending| &*pending.request).collect();
     let sent = client.post::<Vec<WriteAnswer>>(WRITES, &writes).await;
-    let sent = sent.inspect_err(|error| {
-        tracing::warn!(%error, writes = writes.len(), "writes were not sent together");
-    });
-    let mut answers = sent.unwrap_or_default().into_iter();
+    let (answers, otherwise) = match sent {
+        Ok(answers) => (answers, NotSent::Alone),
+        Err(ClientError::Unreachable { url, cause }) => {
+            (Vec::new(), NotSent::Unreachable { url, cause })
+        }
+        Err(error) => {
+            tracing::warn!(%error, writes = writes.len(), "writes were not sent together");
+            (Vec::new(), NotSent::Alone)
+        }
+    };
+    let mut answers = answers.into_iter();
     for pending in group {
-        pending.answer(answers.next());
+        pending.answer(match answers.next() {
+            Some(WriteAnswer::Pending) => Err(NotSent::Alone),
+            Some(answer) => Ok(answer),
+            None => Err(otherwise.clone()),
+        });
     }
 }
 

@@ -11,6 +11,7 @@ use api::service::Demand;
 use super::{Employer, EmployerError};
 use crate::metrics::Busy;
 use crate::queue::Transition;
+use crate::solve::checkpoint::EncodedCheckpoint;
 use crate::store::{Claim, ClaimRequest, End, JobUpdate, Lease, LeaseState, Store, StoreError};
 use crate::worker::computed::Computed;
 use crate::worker::manifest::{Documents, make_documents};
@@ -40,6 +41,10 @@ impl Employer for Store {
 
     async fn lease_state(&self, lease: Lease) -> Result<LeaseState, EmployerError> {
         Ok(Store::lease_state(self, lease).await?)
+    }
+
+    async fn checkpoint(&self, lease: Lease) -> Result<Option<EncodedCheckpoint>, EmployerError> {
+        Ok(Store::checkpoint(self, lease).await?)
     }
 
     async fn record(

@@ -6,6 +6,7 @@ use api::service::Demand;
 
 use super::*;
 use crate::metrics::Busy;
+use crate::solve::checkpoint::EncodedCheckpoint;
 use crate::store::{Claim, ClaimRequest, End, Lease, LeaseState, StoreError};
 use crate::worker::Employer;
 
@@ -19,7 +20,7 @@ struct Failing {
 }
 
 fn failed() -> EmployerError {
-    EmployerError::Store(StoreError::Unwritten)
+    EmployerError::Store(StoreError::OnlySqlite)
 }
 
 impl Employer for Failing {
@@ -51,6 +52,10 @@ impl Employer for Failing {
     }
 
     async fn lease_state(&self, _lease: Lease) -> Result<LeaseState, EmployerError> {
+        Err(failed())
+    }
+
+    async fn checkpoint(&self, _lease: Lease) -> Result<Option<EncodedCheckpoint>, EmployerError> {
         Err(failed())
     }
 

@@ -5,7 +5,9 @@ use proptest::prelude::*;
 use proptest::test_runner::TestCaseResult;
 use server::queue::{Capacity, MemoryBudget, Transition};
 use server::solve::checkpoint::EncodedCheckpoint;
-use server::store::{ClaimRequest, End, EventName, JobUpdate, LeaseState, RequestNumber};
+use server::store::{
+    ClaimRequest, ClaimedCheckpoint, End, EventName, JobUpdate, LeaseState, RequestNumber,
+};
 use solver::record::CycleReport;
 
 use super::Pair;
@@ -56,7 +58,10 @@ impl Pair {
             job.rows = job.checkpoint;
             prop_assert_eq!((claim.id, claim.lease), (job.id, job.lease));
             prop_assert_eq!(claim.attempt, job.attempts);
-            let from = claim.checkpoint.as_ref().map_or(0, |found| found.cycle);
+            let from = claim
+                .checkpoint
+                .as_ref()
+                .map_or(0, ClaimedCheckpoint::cycle);
             prop_assert_eq!(from, job.checkpoint);
         }
         self.claims.extend(claims);

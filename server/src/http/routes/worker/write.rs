@@ -1,19 +1,26 @@
 //! `POST /v1/worker/writes`: updates and ends of attempts.
 
 use std::collections::HashMap;
+use std::sync::Arc;
+use std::time::Duration;
 
 use axum::Json;
 use axum::extract::State;
 use futures_util::future::join_all;
+use tokio::time::{Instant, timeout_at};
 use uuid::Uuid;
 
 use crate::http::app::App;
 use crate::http::problem::{ProblemResponse, ProblemType};
 use crate::http::worker_body::WorkerBody;
+use crate::queue::Transition;
 use crate::store::block::EncodedBlock;
 use crate::store::{Store, Write, WriteKind};
 use crate::worker::Employer;
 use crate::worker::protocol::{MOST_WRITES, WriteAnswer, lease_length};
+
+/// Longest time that the writes of several jobs wait for the slowest of them.
+const LONGEST: Duration = Duration::from_secs(5);
 
 /// Records updates whose files were sent before, ends jobs or returns them to the queue. Each write has its own answer; those of one job are
 /// done one after the other.
@@ -25,28 +32,58 @@ pub(crate) async fn write(
         let detail = format!("{} writes, {MOST_WRITES} at most", writes.len());
         return Err(ProblemType::UNREADABLE_BODY.with_detail(detail));
     }
+    Ok(Json(answers(&app.store, writes, LONGEST).await))
+}
+
+/// Does writes. Where there is more than one job, what takes longer is not waited for.
+async fn answers(store: &Arc<Store>, writes: Vec<Write>, longest: Duration) -> Vec<WriteAnswer> {
+    let count = writes.len();
     let mut jobs: HashMap<Uuid, Vec<(usize, Write)>> = HashMap::new();
     for (number, write) in writes.into_iter().enumerate() {
         let job = jobs.entry(write.lease.job).or_default();
         job.push((number, write));
     }
-    let of_jobs = jobs.into_values();
-    let done = join_all(of_jobs.map(|writes| one_after_the_other(&app.store, writes))).await;
-    let mut answers = done.concat();
-    answers.sort_by_key(|(number, _)| *number);
-    let answers = answers.into_iter().map(|(_, answer)| answer);
-    Ok(Json(answers.collect()))
+    let until = (jobs.len() > 1).then(|| Instant::now() + longest);
+    // Those of a panic, too.
+    let unanswered = match until {
+        Some(_) => WriteAnswer::Pending,
+        None => WriteAnswer::Problem(
+            ProblemType::INTERNAL
+                .with_detail("it was interrupted")
+                .document(),
+        ),
+    };
+    // In tasks of their own: who watches a job learns of a change also if the worker has gone meanwhile.
+    let tasks: Vec<_> = jobs
+        .into_values()
+        .map(|writes| tokio::spawn(one_after_the_other(Arc::clone(store), writes)))
+        .collect();
+    let done = tasks.into_iter().map(async |task| match until {
+        Some(until) => timeout_at(until, task).await.ok(),
+        None => Some(task.await),
+    });
+    let mut answers = vec![unanswered; count];
+    for (number, answer) in join_all(done)
+        .await
+        .into_iter()
+        .flatten()
+        .flatten()
+        .flatten()
+    {
+        answers[number] = answer;
+    }
+    answers
 }
 
 /// Does the writes of a job.
 async fn one_after_the_other(
-    store: &Store,
+    store: Arc<Store>,
     writes: Vec<(usize, Write)>,
 ) -> Vec<(usize, WriteAnswer)> {
     let mut answers = Vec::with_capacity(writes.len());
     for (number, write) in writes {
         // Summaries make it too large for the stack of a task.
-        let answer = Box::pin(one(store, write)).await;
+        let answer = Box::pin(one(&store, write)).await;
         let problem = |problem: ProblemResponse| WriteAnswer::Problem(problem.document());
         answers.push((number, answer.unwrap_or_else(problem)));
     }
@@ -65,6 +102,10 @@ async fn one(store: &Store, write: Write) -> Result<WriteAnswer, ProblemResponse
             WriteAnswer::Lease(Employer::record(store, lease, &update, length).await?)
         }
         WriteKind::End(end) => {
+            if matches!(end.transition, Transition::Claim | Transition::Retry) {
+                let detail = format!("/kind/end/transition: {:?} ends no attempt", end.transition);
+                return Err(ProblemType::UNREADABLE_BODY.with_detail(detail));
+            }
             if let Some(Err(cause)) = update.block.as_ref().map(EncodedBlock::check) {
                 let detail = format!("/update/block: {cause}");
                 return Err(ProblemType::UNREADABLE_BODY.with_detail(detail));
@@ -78,13 +119,15 @@ async fn one(store: &Store, write: Write) -> Result<WriteAnswer, ProblemResponse
 mod tests {
     use std::time::Duration;
 
+    use api::job::Status;
     use serde_json::{Value, json};
 
+    use super::answers;
     use crate::http::tests::Service;
     use crate::queue::Transition;
     use crate::store::tests::{end, update};
     use crate::store::{Claim, JobUpdate, Lease, Write, WriteKind};
-    use crate::worker::protocol::MOST_WRITES;
+    use crate::worker::protocol::{MOST_WRITES, WriteAnswer};
 
     const PATH: &str = "/v1/worker/writes";
 
@@ -114,6 +157,48 @@ mod tests {
             update: numbered(number),
             kind: WriteKind::End(Box::new(end(Transition::Succeed))),
         }
+    }
+
+    #[tokio::test]
+    async fn writes_that_take_long_are_answered_when_they_are_sent_alone() {
+        let service = Service::new().await;
+        let (first, second) = (claimed(&service).await, claimed(&service).await);
+        let (first, second) = (Lease::from(&first), Lease::from(&second));
+        let writes = [update_of(first, 1), end_of(second, 1), end_of(first, 2)];
+        let all = answers(&service.app.store, writes.to_vec(), Duration::ZERO).await;
+        assert_eq!(all, vec![WriteAnswer::Pending; 3]);
+        // They are done nevertheless, once.
+        let ended = WriteAnswer::Status(Some(Status::Succeeded));
+        for write in [end_of(second, 1), end_of(first, 2)] {
+            let job = write.lease.job;
+            let alone = answers(&service.app.store, vec![write], Duration::ZERO).await;
+            assert_eq!(alone, std::slice::from_ref(&ended));
+            let events = service.app.store.events(job, 0).await.expect("events");
+            let ends = events.iter().filter(|event| event.name == "done");
+            assert_eq!(ends.count(), 1, "{events:?}");
+        }
+    }
+
+    #[tokio::test]
+    async fn ends_that_are_none_are_refused() {
+        let service = Service::new().await;
+        let lease = Lease::from(&claimed(&service).await);
+        for transition in [Transition::Claim, Transition::Retry] {
+            let write = Write {
+                kind: WriteKind::End(Box::new(end(transition))),
+                ..end_of(lease, 1)
+            };
+            let (status, answers) = post(&service, &[write]).await;
+            let problem = &answers[0]["problem"];
+            assert_eq!((status, &problem["status"]), (200, &json!(400)));
+            let detail = problem["detail"].to_string();
+            assert!(detail.contains("ends no attempt"), "{problem}");
+        }
+        let held = (
+            200,
+            json!([{"lease": {"held": {"cancel_requested": false}}}]),
+        );
+        assert_eq!(post(&service, &[update_of(lease, 1)]).await, held);
     }
 
     async fn post(service: &Service, writes: &[Write]) -> (u16, Value) {

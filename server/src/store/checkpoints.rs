@@ -1,0 +1,115 @@
+//! Checkpoints in a store of objects, where there is one: they are large and often replaced, and no query needs them.
+//!
+//! The state of one is written to an object before the update that names it. Its key is noted first, and the note is removed in the transaction
+//! of the update, so no object is left without a name or without a note. While the store of objects does not answer, states are in
+//! the database, as those of small checkpoints always are.
+
+use std::time::Duration;
+
+use tokio::time::{Instant, timeout};
+use uuid::Uuid;
+
+use crate::objects::{Objects, ObjectsError};
+use crate::solve::checkpoint::EncodedCheckpoint;
+use crate::store::{JobUpdate, Lease, LeaseState, Store, StoreError, integrity};
+
+/// Smallest state in an object, bytes: below, a request to a bucket costs more than a row. Arbitrary.
+const SMALLEST: usize = 64 << 10;
+/// Longest time for an object: the worker waits for it.
+const LONGEST: Duration = Duration::from_secs(10);
+/// Time without a try after a failure.
+const PAUSE: Duration = Duration::from_mins(1);
+/// An object that no update has named for as long is removed, ms. Its update is refused before.
+pub(in crate::store) const REMOVED_AFTER_MS: i64 = 15 * 60 * 1000;
+/// Longest time between the note of an object and the update that names it, ms.
+pub(in crate::store) const NAMED_WITHIN_MS: i64 = 10 * 60 * 1000;
+
+/// A checkpoint in an object.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(in crate::store) struct CheckpointObject {
+    pub(in crate::store) cycle: u64,
+    pub(in crate::store) sha256: Vec<u8>,
+    pub(in crate::store) key: String,
+}
+
+impl Store {
+    /// Writes an update and renews the lease.
+    ///
+    /// # Errors
+    /// [`StoreError`] if the database fails.
+    pub async fn record(
+        &self,
+        lease: impl Into<Lease>,
+        update: &JobUpdate,
+        length: Duration,
+    ) -> Result<LeaseState, StoreError> {
+        let lease = lease.into();
+        if let Some(checkpoint) = &update.checkpoint
+            && let Some(objects) = &self.local().objects
+            && let Some(key) = self.put_checkpoint(objects, lease, checkpoint).await
+        {
+            let update = JobUpdate {
+                checkpoint_object: Some(key),
+                ..update.clone()
+            };
+            return self.write_update(lease, &update, length).await;
+        }
+        self.write_update(lease, update, length).await
+    }
+
+    /// Writes the state of a checkpoint to an object; its key, or `None` if the database is to have it.
+    async fn put_checkpoint(
+        &self,
+        objects: &Objects,
+        lease: Lease,
+        checkpoint: &EncodedCheckpoint,
+    ) -> Option<String> {
+        let failure = &self.local().objects_failed_at;
+        let failed_at = *failure.lock().await;
+        let is_paused = failed_at.is_some_and(|at| at.elapsed() < PAUSE);
+        if checkpoint.state.len() < SMALLEST || is_paused {
+            return None;
+        }
+        let key = format!("checkpoints/{}/{}", lease.job, Uuid::now_v7());
+        if let Err(error) = self.note_checkpoint(&key).await {
+            // The update will say the same.
+            tracing::warn!(%error, "a checkpoint was not written to an object");
+            return None;
+        }
+        let error = match timeout(LONGEST, objects.put(&key, &checkpoint.state, &[])).await {
+            Ok(Ok(())) => return Some(key),
+            Ok(Err(error)) => error.to_string(),
+            Err(_) => format!("no answer within {LONGEST:?}"),
+        };
+        tracing::warn!(
+            error,
+            "the store of objects took no checkpoint; the database has them for {PAUSE:?}"
+        );
+        *failure.lock().await = Some(Instant::now());
+        None
+    }
+
+    /// The checkpoint of a held job that is in an object; `None` if it is damaged or missing, or if the lease was lost.
+    ///
+    /// # Errors
+    /// [`StoreError`] if the database or the store of objects fails.
+    pub async fn checkpoint(
+        &self,
+        lease: impl Into<Lease>,
+    ) -> Result<Option<EncodedCheckpoint>, StoreError> {
+        let lease = lease.into();
+        let Some(CheckpointObject { cycle, sha256, key }) = self.checkpoint_object(lease).await?
+        else {
+            return Ok(None);
+        };
+        let objects = self.local().objects.as_ref().ok_or(StoreError::NoObjects)?;
+        match objects.get_all(&key).await {
+            Ok(state) => Ok(integrity::checkpoint(lease.job, cycle, &sha256, state)),
+            Err(error @ ObjectsError::Missing(_)) => {
+                tracing::error!(job = %lease.job, cycle, %error, "a checkpoint is missing");
+                Ok(None)
+            }
+            Err(error) => Err(error.into()),
+        }
+    }
+}

@@ -1,0 +1,216 @@
+//! Checkpoints in a store of objects.
+
+use super::objects::{WithObjects, opened};
+use super::*;
+use crate::objects::Objects;
+use crate::store::checkpoints::CheckpointObject;
+
+on_both_engines! { WithObjects:
+    a_large_checkpoint_is_an_object_which_the_next_attempt_asks_for,
+    the_object_of_a_checkpoint_is_removed_once_nothing_names_it,
+    a_checkpoint_is_in_the_database_while_the_store_of_objects_fails,
+    a_damaged_or_missing_checkpoint_is_none,
+    an_object_that_is_being_written_is_not_removed,
+    a_checkpoint_whose_object_may_be_removed_is_in_the_database,
+    a_database_with_a_checkpoint_elsewhere_is_not_opened_without_it,
+}
+
+/// A checkpoint large enough for an object.
+fn large(cycle: u64) -> EncodedCheckpoint {
+    EncodedCheckpoint {
+        cycle,
+        state: (0..100_000_u64).map(|n| (n % 251) as u8).collect(),
+    }
+}
+
+fn update_with(checkpoint: EncodedCheckpoint) -> JobUpdate {
+    JobUpdate {
+        checkpoint: Some(checkpoint),
+        ..update(1)
+    }
+}
+
+impl WithObjects {
+    /// A claimed job.
+    async fn running(&self) -> Claim {
+        self.queued().await;
+        self.store.claim_next(i64::MAX).await.expect("a job")
+    }
+
+    async fn queued(&self) -> Uuid {
+        let spec = spec::read(br#"{"system":{"kind":"dimm"}}"#).expect("accepted");
+        let plan = crate::estimate::Estimate::of(&spec).plan(&spec, None);
+        let job = NewJob {
+            spec: spec.spec,
+            plan,
+            options: SubmitOptions::default(),
+        };
+        self.store.queue(&job).await
+    }
+
+    /// A job whose worker has written a checkpoint and given it back, under its next lease.
+    async fn resumed(&self, checkpoint: EncodedCheckpoint) -> Claim {
+        let claim = self.running().await;
+        let update = update_with(checkpoint);
+        self.store.record_next(&claim, &update).await;
+        self.released(&claim).await
+    }
+
+    /// A job that was given back, under its next lease.
+    async fn released(&self, claim: &Claim) -> Claim {
+        let release = end(Transition::Release);
+        let last = JobUpdate::default();
+        let status = self.store.end_next(claim, &last, &release).await;
+        assert_eq!(status, Some(Status::Queued));
+        self.store.claim_next(i64::MAX).await.expect("a job")
+    }
+
+    fn folder(&self) -> std::path::PathBuf {
+        self.place.folder.path().join("objects")
+    }
+}
+
+async fn a_large_checkpoint_is_an_object_which_the_next_attempt_asks_for(database: WithObjects) {
+    let store = &database.store;
+    let claim = database.resumed(large(7)).await;
+    let stored = ClaimedCheckpoint::Stored { cycle: 7 };
+    assert_eq!(claim.checkpoint, Some(stored));
+    assert_eq!(database.objects().len(), 1);
+    let found = store.checkpoint(&claim).await.expect("the store");
+    assert_eq!(found, Some(large(7)));
+    let lost = Lease {
+        number: claim.lease - 1,
+        ..Lease::from(&claim)
+    };
+    assert_eq!(store.checkpoint(lost).await.expect("the store"), None);
+    // The next one is in its place, and small.
+    let small = EncodedCheckpoint {
+        cycle: 9,
+        state: vec![1, 2, 3],
+    };
+    let update = JobUpdate {
+        number: 2,
+        ..update_with(small.clone())
+    };
+    store.record_next(&claim, &update).await;
+    assert_eq!(store.checkpoint(&claim).await.expect("the store"), None);
+    let claim = database.released(&claim).await;
+    assert_eq!(claim.checkpoint, Some(ClaimedCheckpoint::Given(small)));
+}
+
+async fn the_object_of_a_checkpoint_is_removed_once_nothing_names_it(database: WithObjects) {
+    let store = &database.store;
+    let claim = database.running().await;
+    for cycle in 1..=3 {
+        let update = update_with(large(cycle));
+        store.record_next(&claim, &update).await;
+    }
+    database.moved().await;
+    assert_eq!(database.objects().len(), 1);
+    // An update that is repeated has no effect, and neither has one of a lost lease.
+    let repeated = JobUpdate {
+        number: 1,
+        ..update_with(large(4))
+    };
+    let length = Duration::from_hours(1);
+    let again = store.record(&claim, &repeated, length).await;
+    assert!(matches!(again, Ok(LeaseState::Held { .. })), "{again:?}");
+    let found = store.checkpoint(&claim).await.expect("the store");
+    assert_eq!(found, Some(large(3)));
+    let ended = store
+        .end_next(&claim, &update(5), &end(Transition::Fail))
+        .await;
+    assert_eq!(ended, Some(Status::Failed));
+    let deleted = store.delete(claim.id).await.expect("the store");
+    assert_eq!(deleted, Deleted::Done);
+    database.moved().await;
+    // That of the repeated update may still be written.
+    assert_eq!(database.objects().len(), 1);
+}
+
+async fn a_checkpoint_is_in_the_database_while_the_store_of_objects_fails(database: WithObjects) {
+    std::fs::remove_dir(database.folder()).expect("removed");
+    std::fs::write(database.folder(), "").expect("a file in its place");
+    let claim = database.resumed(large(7)).await;
+    assert_eq!(claim.checkpoint, Some(ClaimedCheckpoint::Given(large(7))));
+}
+
+async fn a_damaged_or_missing_checkpoint_is_none(database: WithObjects) {
+    let store = &database.store;
+    let claim = database.resumed(large(7)).await;
+    let object = database.objects().pop().expect("an object");
+    std::fs::write(&object, "damaged").expect("written");
+    assert_eq!(store.checkpoint(&claim).await.expect("the store"), None);
+    std::fs::remove_file(&object).expect("removed");
+    assert_eq!(store.checkpoint(&claim).await.expect("the store"), None);
+    // One that cannot be read may be readable later.
+    std::fs::remove_dir_all(database.folder()).expect("removed");
+    std::fs::write(database.folder(), "").expect("a file in its place");
+    let unread = store.checkpoint(&claim).await;
+    assert!(matches!(unread, Err(StoreError::Objects(_))), "{unread:?}");
+}
+
+async fn an_object_that_is_being_written_is_not_removed(database: WithObjects) {
+    let key = "checkpoints/new";
+    database.store.note_checkpoint(key).await.expect("noted");
+    let address = format!("file://{}", database.folder().display());
+    let objects = Objects::open(&address).expect("opened");
+    objects.put(key, b"a state", &[]).await.expect("written");
+    database.moved().await;
+    assert_eq!(database.objects().len(), 1);
+}
+
+async fn a_checkpoint_whose_object_may_be_removed_is_in_the_database(database: WithObjects) {
+    let claim = database.running().await;
+    let late = JobUpdate {
+        number: 1,
+        checkpoint_object: Some("checkpoints/removed".to_owned()),
+        ..update_with(large(7))
+    };
+    let length = Duration::from_hours(1);
+    let written = database.store.write_update((&claim).into(), &late, length);
+    written.await.expect("the store");
+    let found = database.store.checkpoint_object((&claim).into()).await;
+    assert_eq!(found.expect("the store"), None::<CheckpointObject>);
+    let claim = database.released(&claim).await;
+    assert_eq!(claim.checkpoint, Some(ClaimedCheckpoint::Given(large(7))));
+}
+
+async fn a_database_with_a_checkpoint_elsewhere_is_not_opened_without_it(database: WithObjects) {
+    database.resumed(large(7)).await;
+    database.store.close().await;
+    let WithObjects { place, store } = database;
+    drop(store);
+    let without = opened(&place, None).await;
+    assert!(matches!(without, Err(StoreError::NoObjects)), "{without:?}");
+    opened(&place, Some("objects")).await.expect("a store");
+}
+
+#[tokio::test]
+async fn a_missing_or_damaged_checkpoint_is_found() {
+    let database = WithObjects::at(Place::sqlite()).await;
+    let claim = database.resumed(large(7)).await;
+    let url = format!(
+        "sqlite://{}",
+        database.place.folder.path().join("test.db").display()
+    );
+    let objects = Objects::open(&format!("file://{}", database.folder().display()));
+    let objects = objects.expect("opened");
+    let damaged = async || {
+        let verified = verify(&url, Some(&objects)).await;
+        verified.expect("verified").damaged
+    };
+    assert_eq!(damaged().await, Vec::<String>::new());
+    assert!(verify(&url, None).await.is_err(), "it is not there");
+    let object = database.objects().pop().expect("an object");
+    std::fs::write(&object, "damaged").expect("written");
+    let said = format!("checkpoint of job {}: it has the SHA-256", claim.id);
+    let found = damaged().await;
+    assert!(found.len() == 1 && found[0].starts_with(&said), "{found:?}");
+    std::fs::remove_file(&object).expect("removed");
+    let found = damaged().await;
+    assert!(
+        found.len() == 1 && found[0].contains("does not exist"),
+        "{found:?}"
+    );
+}

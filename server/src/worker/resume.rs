@@ -1,0 +1,78 @@
+//! The checkpoint that an attempt starts from, which may have to be asked for.
+
+use std::borrow::Cow;
+use std::time::Instant;
+
+use tokio_util::sync::CancellationToken;
+
+use crate::queue::Transition;
+use crate::solve::checkpoint::EncodedCheckpoint;
+use crate::store::{ClaimedCheckpoint, End, LeaseState};
+use crate::worker::attempt::{Attempt, retry};
+use crate::worker::config::RETRY_PAUSE;
+use crate::worker::employer::{Employer, EmployerError};
+use crate::worker::end::{STOPPED, cancelled, deadline_passed};
+use crate::worker::update_buffer::UpdateBuffer;
+
+/// How an attempt starts.
+pub(super) enum Start<'a> {
+    /// From a checkpoint, or at cycle 0.
+    From(Option<Cow<'a, EncodedCheckpoint>>),
+    /// Not at all: it ends.
+    Never(Box<End>),
+    /// Not at all: another worker holds the job.
+    LeaseLost,
+}
+
+/// Gets the checkpoint of a job, and waits for a store of objects that does not answer. A run whose checkpoint is damaged starts at cycle 0.
+///
+/// # Errors
+/// [`EmployerError`] if the employer fails for good.
+pub(super) async fn start_of<'a, E: Employer>(
+    attempt: Attempt<'a, E>,
+    buffer: &mut UpdateBuffer,
+    (deadline, stopping): (Option<Instant>, &CancellationToken),
+) -> Result<Start<'a>, EmployerError> {
+    let (employer, lease) = (attempt.employer, attempt.lease());
+    loop {
+        if stopping.is_cancelled() {
+            let end = End::without_result(Transition::Release, STOPPED);
+            return Ok(Start::Never(Box::new(end)));
+        }
+        if deadline.is_some_and(|at| Instant::now() >= at) {
+            return Ok(Start::Never(Box::new(deadline_passed())));
+        }
+        match &attempt.claim.checkpoint {
+            None => return Ok(Start::From(None)),
+            Some(ClaimedCheckpoint::Given(checkpoint)) => {
+                return Ok(Start::From(Some(Cow::Borrowed(checkpoint))));
+            }
+            Some(ClaimedCheckpoint::Stored { .. }) => {}
+        }
+        match employer.checkpoint(lease).await {
+            Ok(Some(checkpoint)) => return Ok(Start::From(Some(Cow::Owned(checkpoint)))),
+            Ok(None) => break,
+            Err(error) if error.is_temporary() => {
+                tracing::warn!(%error, "its checkpoint cannot be read; retrying");
+            }
+            Err(error) => return Err(error),
+        }
+        match employer.lease_state(lease).await {
+            Ok(LeaseState::Held {
+                cancel_requested: true,
+            }) => return Ok(Start::Never(Box::new(cancelled()))),
+            Ok(LeaseState::Lost) => return Ok(Start::LeaseLost),
+            Ok(LeaseState::Held { .. }) | Err(_) => {}
+        }
+        tokio::select! {
+            () = stopping.cancelled() => {}
+            () = tokio::time::sleep(RETRY_PAUSE) => {}
+        }
+    }
+    tracing::warn!("its checkpoint is missing or damaged; the run starts at cycle 0");
+    let number = buffer.restart();
+    Ok(match retry(|| employer.restart(lease, number)).await? {
+        LeaseState::Held { .. } => Start::From(None),
+        LeaseState::Lost => Start::LeaseLost,
+    })
+}
