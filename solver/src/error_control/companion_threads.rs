@@ -60,13 +60,15 @@ impl<'scope, 'env> CompanionThreads<'scope, 'env> {
         first: (usize, Option<Checkpoint>),
     ) -> Self {
         let (sender, received) = channel();
+        // One with a checkpoint was waited for when the run was stopped, and is waited for next.
+        let awaited = first.1.as_ref().map_or(usize::MAX, |_| first.0);
         Self {
             scope,
             scene,
             plan,
             common: Arc::new(Common {
                 next: Mutex::new(first),
-                awaited: AtomicUsize::new(usize::MAX),
+                awaited: AtomicUsize::new(awaited),
                 stopped: AtomicBool::new(false),
             }),
             sender: Some(sender),
